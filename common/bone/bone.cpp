@@ -1,0 +1,114 @@
+#include "common/bone/bone.h"
+
+#include <xxhash.h>
+
+#include <algorithm>
+#include <array>
+#include <numeric>
+#include <stdexcept>
+#include <utility>
+
+namespace osteomill {
+
+namespace {
+
+void require_consistent(const BoneContent& content, std::size_t fraction_bricks) {
+    require_valid(content.grid);
+    const auto bricks =
+        static_cast<std::size_t>(content.size_bricks.x) * content.size_bricks.y * content.size_bricks.z;
+    const std::size_t slots = content.brick_of_slot.size();
+    if (content.size_bricks != size_in_bricks(content.grid) || content.slot_of_brick.size() != bricks)
+        throw std::invalid_argument("the bone's brick table does not fit its grid");
+    if (slots != fraction_bricks || (!content.stiffness.empty() && content.stiffness.size() != slots) ||
+        (!content.tissue.empty() && content.tissue.size() != slots))
+        throw std::invalid_argument("the bone's channels do not hold the same number of bricks");
+    for (std::size_t slot = 0; slot < slots; ++slot) {
+        const BrickIndex brick = content.brick_of_slot[slot];
+        if (brick >= bricks || content.slot_of_brick[brick] != static_cast<std::int32_t>(slot) ||
+            (slot > 0 && brick <= content.brick_of_slot[slot - 1]))
+            throw std::invalid_argument("the bone's brick table contradicts itself at slot " +
+                                        std::to_string(slot));
+    }
+}
+
+/// Slot that holds a voxel, or no_slot outside the grid and in bricks without bone.
+std::int32_t slot_of_voxel(const Bone& bone, const glm::ivec3& voxel) {
+    if (!contains(bone.grid(), voxel)) return BoneContent::no_slot;
+    return bone.slot(voxel / brick_edge_voxels);
+}
+
+}  // namespace
+
+Bone::Bone(std::shared_ptr<const BoneContent> content, std::vector<ByteBrick> fraction_by_slot)
+    : content_(std::move(content)), fraction_(std::move(fraction_by_slot)) {
+    if (!content_) throw std::invalid_argument("a bone needs content");
+    require_consistent(*content_, fraction_.size());
+}
+
+std::uint8_t Bone::fraction_at(const glm::ivec3& voxel) const {
+    const std::int32_t slot = slot_of_voxel(*this, voxel);
+    return slot == BoneContent::no_slot ? std::uint8_t{0} : fractions(slot)[offset_in_brick(voxel)];
+}
+
+double Bone::stiffness_at(const glm::ivec3& voxel) const {
+    const std::int32_t slot = slot_of_voxel(*this, voxel);
+    if (slot == BoneContent::no_slot) return 0.0;
+    if (content_->stiffness.empty()) return content_->homogeneous_stiffness;
+    return content_->stiffness_per_code *
+           content_->stiffness[static_cast<std::size_t>(slot)][offset_in_brick(voxel)];
+}
+
+std::uint8_t Bone::tissue_at(const glm::ivec3& voxel) const {
+    const std::int32_t slot = slot_of_voxel(*this, voxel);
+    if (slot == BoneContent::no_slot || content_->tissue.empty()) return 0;
+    return content_->tissue[static_cast<std::size_t>(slot)][offset_in_brick(voxel)];
+}
+
+double bone_volume_mm3(const Bone& bone) {
+    std::uint64_t codes = 0;
+    for (std::size_t slot = 0; slot < bone.stored_bricks(); ++slot) {
+        const auto fractions = bone.fractions(static_cast<std::int32_t>(slot));
+        codes = std::accumulate(fractions.begin(), fractions.end(), codes);
+    }
+    return static_cast<double>(codes) / 255.0 * voxel_volume_mm3(bone.grid());
+}
+
+std::vector<double> bone_volume_by_tissue_mm3(const Bone& bone) {
+    if (bone.content().tissue.empty()) return {bone_volume_mm3(bone)};
+    std::array<std::uint64_t, 256> codes{};
+    for (std::size_t slot = 0; slot < bone.stored_bricks(); ++slot) {
+        const auto fractions = bone.fractions(static_cast<std::int32_t>(slot));
+        const ByteBrick& labels = bone.content().tissue[slot];
+        for (std::size_t voxel = 0; voxel < brick_voxel_count; ++voxel)
+            codes[labels[voxel]] += fractions[voxel];
+    }
+    std::vector<double> volumes(codes.size());
+    std::transform(codes.begin(), codes.end(), volumes.begin(), [&](std::uint64_t code) {
+        return static_cast<double>(code) / 255.0 * voxel_volume_mm3(bone.grid());
+    });
+    return volumes;
+}
+
+std::uint64_t checksum_of_brick(BrickIndex brick,
+                                std::span<const std::uint8_t, brick_voxel_count> fractions) {
+    if (std::all_of(fractions.begin(), fractions.end(), [](std::uint8_t f) { return f == 0; })) return 0;
+    return XXH3_64bits_withSeed(fractions.data(), fractions.size(), brick);
+}
+
+std::uint64_t checksum(const Bone& bone) {
+    std::uint64_t sum = 0;
+    for (std::size_t slot = 0; slot < bone.stored_bricks(); ++slot)
+        sum += checksum_of_brick(bone.content().brick_of_slot[slot],
+                                 bone.fractions(static_cast<std::int32_t>(slot)));
+    return sum;
+}
+
+std::size_t memory_bytes(const Bone& bone) {
+    const BoneContent& content = bone.content();
+    return content.slot_of_brick.capacity() * sizeof(std::int32_t) +
+           content.brick_of_slot.capacity() * sizeof(BrickIndex) +
+           (content.stiffness.capacity() + content.tissue.capacity() + bone.stored_bricks()) *
+               sizeof(ByteBrick);
+}
+
+}  // namespace osteomill

@@ -1,0 +1,84 @@
+// The bone: which bricks hold bone, what the CT gave (stiffness, tissue; shared, immutable) and what milling
+// has left of each voxel (fraction; owned). Nothing is stored for a brick without bone, no stiffness for a
+// homogeneous scene, no tissue for an unlabelled one. No I/O, no threads.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "common/bone/brick.h"
+#include "common/bone/grid.h"
+
+namespace osteomill {
+
+/// What nothing changes after the bone has been built. Shared between copies of the bone (milling loop,
+/// streaming mirror), so it is stored once.
+struct BoneContent {
+    static constexpr std::int32_t no_slot = -1;
+
+    Grid grid;
+    glm::ivec3 size_bricks{0};
+    std::vector<std::int32_t> slot_of_brick;  ///< by BrickIndex; no_slot for a brick without bone
+    std::vector<BrickIndex> brick_of_slot;    ///< ascending
+    double homogeneous_stiffness = 1.0;       ///< relative stiffness of all bone where `stiffness` is empty
+    double stiffness_per_code = 0.02;         ///< relative stiffness = code * this
+    std::vector<ByteBrick> stiffness;         ///< codes by slot; empty in a homogeneous scene
+    std::vector<ByteBrick> tissue;            ///< labels by slot; empty in an unlabelled scene
+};
+
+/// A bone that can be milled. Copies share content and own their fractions.
+class Bone {
+  public:
+    /// Takes over content and initial fractions (one brick a slot). Throws std::invalid_argument where their
+    /// sizes do not agree.
+    Bone(std::shared_ptr<const BoneContent> content, std::vector<ByteBrick> fraction_by_slot);
+
+    const Grid& grid() const { return content_->grid; }
+    const BoneContent& content() const { return *content_; }
+    std::shared_ptr<const BoneContent> shared_content() const { return content_; }
+    std::size_t stored_bricks() const { return fraction_.size(); }
+
+    /// Slot of a brick, or BoneContent::no_slot. `brick` must lie within size_bricks.
+    std::int32_t slot(const glm::ivec3& brick) const {
+        return content_->slot_of_brick[brick_index(content_->size_bricks, brick)];
+    }
+
+    /// What is left of each voxel of a stored brick, 0 (none) to 255 (all).
+    std::span<const std::uint8_t, brick_voxel_count> fractions(std::int32_t slot) const {
+        return fraction_[static_cast<std::size_t>(slot)];
+    }
+    std::span<std::uint8_t, brick_voxel_count> fractions(std::int32_t slot) {
+        return fraction_[static_cast<std::size_t>(slot)];
+    }
+
+    /// Fraction of any voxel; 0 outside the grid and in bricks without bone.
+    std::uint8_t fraction_at(const glm::ivec3& voxel) const;
+    /// Relative stiffness of the bone of a voxel (1: the bone of the burr's K_t); 0 where no brick is stored.
+    double stiffness_at(const glm::ivec3& voxel) const;
+    /// Tissue label of a voxel; 0 (unlabelled) where no label is stored.
+    std::uint8_t tissue_at(const glm::ivec3& voxel) const;
+
+  private:
+    std::shared_ptr<const BoneContent> content_;
+    std::vector<ByteBrick> fraction_;
+};
+
+/// Volume of the bone that is left, mm^3: voxel volume times the sum of fractions / 255.
+double bone_volume_mm3(const Bone& bone);
+
+/// Volume left per tissue label, mm^3, index = label. One entry (label 0) for an unlabelled bone.
+std::vector<double> bone_volume_by_tissue_mm3(const Bone& bone);
+
+/// Checksum of what is left: the sum (mod 2^64) over bricks of XXH3-64 of the 4096 fractions, seeded with the
+/// brick's index; a brick that is all zero adds nothing. So it does not depend on which empty bricks are
+/// stored, and it can be kept up to date brick by brick: subtract a brick's old term, add its new one.
+std::uint64_t checksum(const Bone& bone);
+std::uint64_t checksum_of_brick(BrickIndex brick, std::span<const std::uint8_t, brick_voxel_count> fractions);
+
+/// Heap bytes that this bone holds: brick table, stiffness, tissue and fractions.
+std::size_t memory_bytes(const Bone& bone);
+
+}  // namespace osteomill

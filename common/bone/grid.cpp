@@ -1,0 +1,28 @@
+#include "common/bone/grid.h"
+
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+namespace osteomill {
+
+void require_valid(const Grid& grid) {
+    constexpr int largest = 65536;
+    for (int axis = 0; axis < 3; ++axis) {
+        if (grid.size_voxels[axis] < 1 || grid.size_voxels[axis] > largest)
+            throw std::invalid_argument("grid size along axis " + std::to_string(axis) + " is " +
+                                        std::to_string(grid.size_voxels[axis]) + ", not 1 to 65536 voxels");
+        if (!std::isfinite(grid.origin_mm[axis]))
+            throw std::invalid_argument("grid origin is not finite along axis " + std::to_string(axis));
+    }
+    if (!(std::isfinite(grid.spacing_mm) && grid.spacing_mm > 0.0))
+        throw std::invalid_argument("grid spacing is " + std::to_string(grid.spacing_mm) +
+                                    " mm, not above zero");
+    // A brick's index is 32 bits wide, and one table entry stands for each brick of the grid.
+    const double bricks = std::ceil(grid.size_voxels.x / 16.0) * std::ceil(grid.size_voxels.y / 16.0) *
+                          std::ceil(grid.size_voxels.z / 16.0);
+    if (bricks > 1U << 28U)
+        throw std::invalid_argument("grid has more than 2^28 bricks of 16^3 voxels; crop it or coarsen it");
+}
+
+}  // namespace osteomill

@@ -1,0 +1,26 @@
+// A spherical burr and its cutting coefficients, as the scene declares them.
+#pragma once
+
+#include <glm/vec3.hpp>
+#include <string>
+
+namespace osteomill {
+
+/// Which way the burr turns, seen from the handpiece (from the shank towards the tip).
+enum class SpindleSense { clockwise, counter_clockwise };
+
+struct Burr {
+    std::string name;
+    double diameter_mm = 5.0;
+    int edges = 6;
+    double spindle_rev_per_s = 10'000.0 / 60.0;
+    /// K_t, K_r, K_a for bone of relative stiffness 1.
+    glm::dvec3 cutting_coefficients_n_per_mm2{230.0, 40.0, 20.0};
+    SpindleSense sense = SpindleSense::clockwise;
+
+    double radius_mm() const { return 0.5 * diameter_mm; }
+    /// +1 when the burr turns towards +psi of the burr frame (+z from tip to shank), -1 for a clockwise burr.
+    double sigma() const { return sense == SpindleSense::clockwise ? -1.0 : 1.0; }
+};
+
+}  // namespace osteomill

@@ -1,0 +1,79 @@
+// A scene: what the simulation is a function of, besides the motion of the device. Plain data; read from TOML
+// by scene_file.h.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <glm/mat3x3.hpp>
+#include <glm/vec3.hpp>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "common/scene/burr.h"
+#include "common/scene/stiffness_relation.h"
+
+namespace osteomill {
+
+/// A bone made by code: "tooth" or "cube".
+struct PhantomSource {
+    std::string name = "tooth";
+};
+
+/// A bone from a file that bone_import wrote (HU on an isotropic, axis-aligned LPS grid).
+struct FileSource {
+    std::filesystem::path path;
+    double threshold_hu = 300.0;  ///< bone is at and above this
+};
+
+struct Tissue {
+    std::uint8_t label = 0;  ///< 1 to 255; 0 is "unlabelled"
+    std::string name;
+    std::array<std::uint8_t, 3> colour_rgb{};
+    bool is_protected = false;  ///< touching it with a turning burr raises a warning
+};
+
+/// Device space to patient space: p_patient = rotation * (scale * p_device) + offset.
+/// Forces go back by the transposed rotation, unscaled.
+struct DeviceMapping {
+    glm::dmat3 rotation{1.0};  ///< device axes to patient LPS; orthonormal
+    double scale = 1.0;        ///< patient mm per device mm
+    glm::dvec3 offset_mm{0.0};
+};
+
+/// Where the burr's centre is and how the spindle points (unit vector from tip to shank), patient LPS.
+struct ToolPose {
+    glm::dvec3 position_mm{0.0};
+    glm::dvec3 spindle_axis{0.0, 0.0, 1.0};
+};
+
+/// Motions that code makes. `polishing`: along the surface of a block to and fro, ever deeper. `cavity`:
+/// plunge along the spindle, then circle outwards and deeper to clear a round hole.
+enum class BuiltInTrajectory { hold, polishing, cavity };
+
+/// The target that a simulated hand follows. Lengths are in patient space.
+struct TrajectorySpec {
+    std::variant<BuiltInTrajectory, std::filesystem::path> source = BuiltInTrajectory::hold;
+    glm::dvec3 start_mm{
+        0.0};  ///< cavity: centre of the mouth of the hole; polishing: first point of the surface
+    glm::dvec3 travel_direction{1.0, 0.0, 0.0};  ///< polishing: along the slide
+    double speed_mm_per_s = 6.0;
+    double depth_mm = 3.5;  ///< of the burr's lowest point below start
+    double width_mm = 4.5;  ///< cavity: diameter of the hole; polishing: length of the slide
+};
+
+struct Scene {
+    std::string name;
+    std::variant<PhantomSource, FileSource> bone = PhantomSource{};
+    StiffnessRelation stiffness;
+    std::vector<Tissue> tissues;
+    std::vector<Burr> burrs;  ///< never empty
+    std::size_t start_burr = 0;
+    DeviceMapping device;
+    ToolPose start_pose;
+    TrajectorySpec trajectory;
+};
+
+}  // namespace osteomill

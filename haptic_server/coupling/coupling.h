@@ -1,0 +1,54 @@
+// What stands between the milling model and the hand: from model output and device state to the force of this
+// haptic tick, and to where the burr goes.
+#pragma once
+
+#include <glm/vec3.hpp>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "common/scene/scene.h"
+#include "haptic_server/device/haptic_device.h"
+#include "haptic_server/milling/milling_step.h"
+
+namespace osteomill {
+
+/// The device at this tick, in patient space.
+struct HandState {
+    double now_s = 0.0;
+    double tick_s = 0.001;
+    ToolPose pose;
+    glm::dvec3 velocity_mm_per_s{0.0};
+    bool spindle_on = false;
+    std::size_t burr = 0;
+};
+
+struct CouplingOutput {
+    glm::dvec3 force_n{0.0};  ///< on the hand, patient axes; not yet clamped
+    ToolPose burr_pose;       ///< where the milling loop shall take the burr next
+};
+
+class Coupling {
+  public:
+    virtual ~Coupling() = default;
+
+    /// One haptic tick. `latest` is the milling loop's newest result (step 0: none yet). Real-time safe.
+    virtual CouplingOutput tick(const HandState& hand, const MillingResult& latest) noexcept = 0;
+
+    /// Forgets everything, as after a fault or a jump of the device: the next tick starts from the hand's
+    /// pose.
+    virtual void reset() noexcept = 0;
+};
+
+struct CouplingOptions {
+    DeviceLimits device;
+    double milling_period_s = 0.001;
+};
+
+/// Names for --coupling, in the order of --help; the first is the default.
+std::vector<std::string> coupling_names();
+
+/// Throws std::invalid_argument for an unknown name, listing the known ones.
+std::unique_ptr<Coupling> make_coupling(const std::string& name, const CouplingOptions& options);
+
+}  // namespace osteomill

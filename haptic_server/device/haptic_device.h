@@ -1,0 +1,55 @@
+// The boundary to haptic hardware: a life cycle of a few calls, in device space. Simulated, client-driven,
+// faulty and real devices implement it alike.
+//
+//   constructed --start()--> running --stop()--> stopped
+//                               |
+//                               +-- lost: read() says connected = false; writes are ignored
+#pragma once
+
+#include <glm/mat3x3.hpp>
+#include <glm/vec3.hpp>
+#include <optional>
+#include <string>
+
+namespace osteomill {
+
+struct DeviceLimits {
+    double max_force_n = 3.3;
+    double max_stiffness_n_per_mm = 1.5;  ///< of a spring that it renders stably
+    double apparent_mass_kg = 0.045;
+};
+
+/// One reading, in device space.
+struct DeviceState {
+    glm::dvec3 position_mm{0.0};
+    glm::dvec3 velocity_mm_per_s{0.0};       ///< the driver's own estimate
+    glm::dvec3 spindle_axis{0.0, 0.0, 1.0};  ///< unit vector from tip to shank
+    bool pedal = false;                      ///< spindle on while true
+    std::optional<std::size_t> burr;         ///< asks for another burr of the scene's set
+    bool connected = true;
+};
+
+class HapticDevice {
+  public:
+    virtual ~HapticDevice() = default;
+
+    virtual std::string name() const = 0;
+    virtual DeviceLimits limits() const = 0;
+
+    /// Opens the device. Throws std::runtime_error with one line that says what is missing and what would
+    /// help.
+    virtual void start() = 0;
+
+    /// Newest state at session time `now_s` (seconds since the session began; never decreases). Real-time
+    /// safe. A simulated device integrates its motion up to `now_s` under the force last written.
+    virtual DeviceState read(double now_s) noexcept = 0;
+
+    /// Force on the hand from now on, device space. Real-time safe. The caller has clamped and slew-limited
+    /// it.
+    virtual void write(const glm::dvec3& force_n) noexcept = 0;
+
+    /// Force off, device closed. Safe in any state.
+    virtual void stop() noexcept = 0;
+};
+
+}  // namespace osteomill

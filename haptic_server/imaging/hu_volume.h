@@ -1,0 +1,28 @@
+// CT numbers on the bone's own grid, with an optional label per voxel: what importers and phantoms produce
+// and what the bone is built from. Dense and short-lived.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "common/bone/bone.h"
+#include "common/scene/stiffness_relation.h"
+
+namespace osteomill {
+
+struct HuVolume {
+    Grid grid;
+    std::vector<std::int16_t> hu;      ///< x fastest, then y, then z
+    std::vector<std::uint8_t> tissue;  ///< labels in the same order, or empty
+};
+
+/// Bone is where HU reaches the threshold. A voxel that the surface HU = threshold passes through is filled
+/// in part: fraction = clamp(1/2 + (HU - threshold) / (|grad HU| h), 0, 1), the same cover as the burr's, so
+/// that the surface is smooth and its volume right to a fraction of a voxel. Stiffness comes from the
+/// relation; a voxel on the surface, whose HU is a mixture with what lies outside, takes the stiffest of its
+/// six neighbours if that is stiffer. The bone is stored homogeneous (no stiffness channel) where every code
+/// is the same, and unlabelled where `tissue` is empty. Throws std::invalid_argument where sizes do not
+/// agree.
+Bone bone_from_hu(const HuVolume& volume, double threshold_hu, const StiffnessRelation& relation);
+
+}  // namespace osteomill

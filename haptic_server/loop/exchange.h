@@ -1,0 +1,37 @@
+// The values that the loops hand to one another. Plain data, no pointers.
+#pragma once
+
+#include <cstdint>
+
+#include "common/scene/scene.h"
+
+namespace osteomill {
+
+/// Why the force is off.
+enum class Fault : std::uint8_t { none, device_lost, model_stalled, not_a_number, overrun, device_jumped };
+
+/// One line for people; empty for Fault::none.
+const char* describe(Fault fault);
+
+/// Haptic loop to streaming loop: what a client is shown.
+struct ToolSnapshot {
+    double time_s = 0.0;
+    ToolPose burr_pose;  ///< of the burr in the bone
+    ToolPose hand_pose;  ///< of the device, patient space
+    std::size_t burr = 0;
+    bool spindle_on = false;
+    glm::dvec3 force_n{0.0};   ///< on the hand as written to the device, patient axes
+    double removed_mm3 = 0.0;  ///< since the start
+    bool touches_protected = false;
+    Fault fault = Fault::none;
+};
+
+/// Streaming loop to the device, with --device client: what the operator's mouse and keys say.
+struct OperatorInput {
+    ToolPose hand_target;  ///< patient space
+    bool pedal = false;
+    std::size_t burr = 0;
+    bool present = false;  ///< false while no operator is connected: the pedal counts as up
+};
+
+}  // namespace osteomill
