@@ -10,7 +10,7 @@ namespace osteomill {
 enum class SpindleSense { clockwise, counter_clockwise };
 
 struct Burr {
-    std::string name;
+    std::string name{};
     double diameter_mm = 5.0;
     int edges = 6;
     double spindle_rev_per_s = 10'000.0 / 60.0;

@@ -30,7 +30,7 @@ struct FileSource {
 
 struct Tissue {
     std::uint8_t label = 0;  ///< 1 to 255; 0 is "unlabelled"
-    std::string name;
+    std::string name{};
     std::array<std::uint8_t, 3> colour_rgb{};
     bool is_protected = false;  ///< touching it with a turning burr raises a warning
 };
@@ -65,7 +65,7 @@ struct TrajectorySpec {
 };
 
 struct Scene {
-    std::string name;
+    std::string name{};
     std::variant<PhantomSource, FileSource> bone = PhantomSource{};
     StiffnessRelation stiffness;
     std::vector<Tissue> tissues;
