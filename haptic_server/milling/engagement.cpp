@@ -90,6 +90,7 @@ void EngagementProbe::sample(const Bone& bone, const glm::dvec3& position_mm, co
     out.burr_position_mm = position_mm;
     out.count = 0;
     const double h = bone.grid().spacing_mm;
+    out.spacing_mm = h;
     const glm::dvec3 centre = to_voxel_coordinates(bone.grid(), position_mm);
     const double radius = radius_mm_ / h;
     if (!any_bone_near(bone, centre, radius + reach_voxels + 1.0)) return;

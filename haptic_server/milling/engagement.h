@@ -30,6 +30,7 @@ struct Engagement {
     static constexpr std::size_t max_patches = 1024;
 
     glm::dvec3 burr_position_mm{0.0};  ///< patient LPS; the position for which the gaps hold
+    double spacing_mm = 0.1;           ///< of the bone's voxels: gaps are good to about a tenth of it
     std::size_t count = 0;
     std::array<EngagedPatch, max_patches> patches;
 };
