@@ -20,9 +20,9 @@ void append_frame(const google::protobuf::MessageLite& message, std::string& str
         throw std::length_error("a message of " + std::to_string(size) +
                                 " bytes does not fit a frame of 1 to " + std::to_string(largest_frame_bytes));
     std::uint8_t prefix[longest_prefix_bytes];
-    const std::uint8_t* end = google::protobuf::io::CodedOutputStream::WriteVarint32ToArray(
+    std::uint8_t* const end = google::protobuf::io::CodedOutputStream::WriteVarint32ToArray(
         static_cast<std::uint32_t>(size), prefix);
-    stream.append(prefix, end);
+    stream.append(&prefix[0], end);
     message.AppendToString(&stream);
 }
 

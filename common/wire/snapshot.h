@@ -1,10 +1,8 @@
-// The bone in and out of messages: a snapshot in pieces that fit a frame, and the changed voxels of one
-// brick.
+// A snapshot of the bone in and out of messages, in pieces that fit a frame.
 //
 // Everything that arrives is checked before it is used; what does not fit is refused in one line.
 #pragma once
 
-#include <bitset>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -77,17 +75,5 @@ class SnapshotAssembler {
     std::int64_t last_brick_ = -1;
     std::vector<std::uint8_t> channels_;
 };
-
-/// Voxels of one brick, by offset.
-using VoxelMask = std::bitset<brick_voxel_count>;
-
-/// The fractions of the voxels in the mask, as runs that hold these voxels and no others.
-v1::BrickEdit brick_edit(BrickIndex brick, std::span<const std::uint8_t, brick_voxel_count> fractions,
-                         const VoxelMask& changed);
-
-/// Writes an edit into the bone. Refused, with the bone as it was: a brick that is not stored, runs that do
-/// not ascend or reach past the brick, fractions that do not fit the runs, and any that would raise what is
-/// left.
-std::optional<WireError> apply_brick_edit(const v1::BrickEdit& edit, Bone& bone);
 
 }  // namespace osteomill
