@@ -1,6 +1,7 @@
 #include "common/wire/frame.h"
 
 #include <google/protobuf/io/coded_stream.h>
+#include <google/protobuf/io/zero_copy_stream_impl_lite.h>
 #include <google/protobuf/message_lite.h>
 
 #include <stdexcept>
@@ -19,11 +20,10 @@ void append_frame(const google::protobuf::MessageLite& message, std::string& str
     if (size == 0 || size > largest_frame_bytes)
         throw std::length_error("a message of " + std::to_string(size) +
                                 " bytes does not fit a frame of 1 to " + std::to_string(largest_frame_bytes));
-    std::uint8_t prefix[longest_prefix_bytes];
-    std::uint8_t* const end = google::protobuf::io::CodedOutputStream::WriteVarint32ToArray(
-        static_cast<std::uint32_t>(size), prefix);
-    stream.append(&prefix[0], end);
-    message.AppendToString(&stream);
+    google::protobuf::io::StringOutputStream output(&stream);
+    google::protobuf::io::CodedOutputStream coded(&output);
+    coded.WriteVarint32(static_cast<std::uint32_t>(size));
+    message.SerializeToCodedStream(&coded);
 }
 
 void FrameDecoder::append(std::span<const std::uint8_t> bytes) {
