@@ -17,12 +17,14 @@ constexpr double residual_tolerance_n = 1e-7;
 void BurrProxy::place(const glm::dvec3& position_mm) noexcept {
     position_mm_ = position_mm;
     map_step_ = 0;
+    correction_.reset();
     cleared_mm_.fill(0.0);
 }
 
 void BurrProxy::take_over(const MillingResult& latest) noexcept {
     if (latest.step == map_step_) return;
     map_step_ = latest.step;
+    if (latest.spindle_on) correction_.compare(latest.force_n);
     const Engagement& engagement = latest.engagement;
     const glm::dvec3 moved = position_mm_ - engagement.burr_position_mm;
     const double contact_gap_mm = contact_gap_voxels * engagement.spacing_mm;
@@ -45,8 +47,8 @@ void BurrProxy::gather_contacts(const glm::dvec3& pull_mm, double tick_s, bool s
         const double along = glm::dot(patch.normal, moved);
         const double begins = (spindle_on ? cleared_mm_[i] : patch.gap_mm) - along;
         if (begins > longest_mm) continue;
-        const glm::dvec3 force =
-            spindle_on ? patch.cutting_n_s_per_mm / tick_s : -wall_n_per_mm3 * patch.area_mm2 * patch.normal;
+        const glm::dvec3 force = spindle_on ? patch.cutting_n_s_per_mm * (correction_.gain() / tick_s)
+                                            : -wall_n_per_mm3 * patch.area_mm2 * patch.normal;
         contacts_[contact_count_++] = {patch.normal, force, begins};
     }
 }
@@ -103,7 +105,11 @@ void BurrProxy::advance(const glm::dvec3& target_mm, double tick_s, bool spindle
     iterations_ = 0;
     position_mm_ = contact_count_ == 0 ? target_mm : position_mm_ + solve(pull);
 
-    if (!spindle_on) return;
+    if (!spindle_on) {
+        correction_.reset();
+        return;
+    }
+    correction_.add_prediction(spring_n_per_mm_ * (position_mm_ - target_mm), tick_s);
     const glm::dvec3 moved = position_mm_ - engagement.burr_position_mm;
     for (std::size_t i = 0; i < engagement.count; ++i)
         cleared_mm_[i] = std::max(cleared_mm_[i], glm::dot(engagement.patches[i].normal, moved));

@@ -19,6 +19,7 @@
 #include <cstdint>
 #include <glm/vec3.hpp>
 
+#include "haptic_server/coupling/force_correction.h"
 #include "haptic_server/milling/milling_step.h"
 
 namespace osteomill {
@@ -41,7 +42,7 @@ class BurrProxy {
 
     /// A patch whose gap is below this share of a voxel counts as in contact: gaps of freshly carved bone
     /// scatter by about a tenth of a voxel, more than a burr advances in a tick.
-    static constexpr double contact_gap_voxels = 0.3;
+    static constexpr double contact_gap_voxels = 0.2;
     /// Wall pressure per depth with the spindle off, N/mm^3: a 1 mm burr pressed with 3 N sinks in by 0.04
     /// mm.
     static constexpr double wall_n_per_mm3 = 1000.0;
@@ -61,6 +62,7 @@ class BurrProxy {
     double spring_n_per_mm_;
     glm::dvec3 position_mm_{0.0};
     std::uint64_t map_step_ = 0;
+    ForceCorrection correction_;
     int iterations_ = 0;
     std::array<double, Engagement::max_patches>
         cleared_mm_{};  // by patch: advance from p_map to which bone is cut

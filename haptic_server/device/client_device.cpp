@@ -12,7 +12,7 @@ ClientDevice::ClientDevice(TripleBuffer<OperatorInput>& input, const ToolPose& s
     : input_(input),
       mapping_(mapping),
       arm_(arm),
-      held_arm_(arm, hand, position_to_device(mapping, start_pose.position_mm)),
+      held_arm_(arm, hand, position_in_device_mm(mapping, start_pose.position_mm)),
       wanted_(start_pose),
       target_(start_pose) {}
 
@@ -48,10 +48,10 @@ DeviceState ClientDevice::read(double now_s) noexcept {
     // Two opposite axes have no direction between them; the old one stays until the operator turns on.
     if (glm::length(axis) > 1e-3) target_.spindle_axis = glm::normalize(axis);
 
-    held_arm_.advance(now_s, position_to_device(mapping_, target_.position_mm));
+    held_arm_.advance(now_s, position_in_device_mm(mapping_, target_.position_mm));
     return {.position_mm = held_arm_.sensor().position_mm(),
             .velocity_mm_per_s = held_arm_.sensor().velocity_mm_per_s(),
-            .spindle_axis = direction_to_device(mapping_, target_.spindle_axis),
+            .spindle_axis = direction_in_device(mapping_, target_.spindle_axis),
             .pedal = pedal_,
             .burr = burr_};
 }

@@ -22,12 +22,12 @@ HandState HapticLoop::hand_state(double now_s, double elapsed_s, const DeviceSta
     const DeviceMapping& mapping = options_.mapping;
     if (device.burr && *device.burr < options_.burr_count) burr_ = *device.burr;
     if (!device.pedal) pedal_must_rise_ = false;
-    hand_pose_ = {position_to_patient(mapping, device.position_mm),
-                  direction_to_patient(mapping, device.spindle_axis)};
+    hand_pose_ = {position_in_patient_mm(mapping, device.position_mm),
+                  direction_in_patient(mapping, device.spindle_axis)};
     return {.now_s = now_s,
             .tick_s = elapsed_s,
             .pose = hand_pose_,
-            .velocity_mm_per_s = velocity_to_patient(mapping, device.velocity_mm_per_s),
+            .velocity_mm_per_s = velocity_in_patient_mm_per_s(mapping, device.velocity_mm_per_s),
             .spindle_on = device.pedal && !pedal_must_rise_,
             .burr = burr_};
 }
@@ -67,7 +67,7 @@ void HapticLoop::tick(double now_s, std::uint64_t missed_periods) noexcept {
     }
     if (!was_engaged || !is_engaged) burr_pose_ = hand_pose_;
 
-    parts_.device.write(force_to_device(options_.mapping, force_n));
+    parts_.device.write(force_in_device_n(options_.mapping, force_n));
     peak_force_n_ = std::max(peak_force_n_, glm::length(force_n));
     if (latest.touches_protected) protected_until_s_ = now_s + protected_shown_s;
 
