@@ -17,6 +17,7 @@ namespace osteomill {
 struct HandTarget {
     glm::dvec3 position_mm{0.0};
     glm::dvec3 velocity_mm_per_s{0.0};
+    glm::dvec3 spindle_axis{0.0, 0.0, 1.0};  ///< unit
 };
 
 class ArmAndHand {

@@ -36,8 +36,8 @@ std::vector<Waypoint> cavity_waypoints(const TrajectorySpec& spec, const ToolPos
                                        const Burr& burr);
 /// Depth of a layer and distance between turns of the spiral, as shares of the burr's diameter. Turns half a
 /// radius apart leave no ridges between them.
-inline constexpr double cavity_layer_diameters = 0.2;
-inline constexpr double cavity_turn_diameters = 0.3;
+inline constexpr double cavity_layer_diameters = 0.4;
+inline constexpr double cavity_turn_diameters = 0.4;
 /// Speed of sinking in, as a share of the speed along the spiral: at its tip the burr hardly cuts.
 inline constexpr double cavity_plunge_share = 0.25;
 

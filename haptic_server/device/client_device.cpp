@@ -48,10 +48,11 @@ DeviceState ClientDevice::read(double now_s) noexcept {
     // Two opposite axes have no direction between them; the old one stays until the operator turns on.
     if (glm::length(axis) > 1e-3) target_.spindle_axis = glm::normalize(axis);
 
-    held_arm_.advance(now_s, position_in_device_mm(mapping_, target_.position_mm));
+    const glm::dvec3 axis_in_device = direction_in_device(mapping_, target_.spindle_axis);
+    held_arm_.advance(now_s, position_in_device_mm(mapping_, target_.position_mm), axis_in_device);
     return {.position_mm = held_arm_.sensor().position_mm(),
             .velocity_mm_per_s = held_arm_.sensor().velocity_mm_per_s(),
-            .spindle_axis = direction_in_device(mapping_, target_.spindle_axis),
+            .spindle_axis = axis_in_device,
             .pedal = pedal_,
             .burr = burr_};
 }

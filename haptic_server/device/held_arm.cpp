@@ -10,7 +10,7 @@ HeldArm::HeldArm(const ArmModel& arm, const HandModel& hand, const glm::dvec3& s
     sensor_.read(start_mm, 0.0);
 }
 
-void HeldArm::advance(double now_s, const glm::dvec3& target_mm) noexcept {
+void HeldArm::advance(double now_s, const glm::dvec3& target_mm, const glm::dvec3& spindle_axis) noexcept {
     const auto substeps_until_now = std::llround(now_s / ArmAndHand::substep_s);
     constexpr auto most = static_cast<long long>(longest_catch_up_s / ArmAndHand::substep_s);
     if (substeps_until_now - substeps_done_ > most) substeps_done_ = substeps_until_now - most;
@@ -22,7 +22,7 @@ void HeldArm::advance(double now_s, const glm::dvec3& target_mm) noexcept {
         for (long long i = 1; i <= count; ++i) {
             const glm::dvec3 position =
                 target_mm_ + (static_cast<double>(i) * ArmAndHand::substep_s) * velocity;
-            motion_.step({position, velocity}, motor_force_n_);
+            motion_.step({position, velocity, spindle_axis}, motor_force_n_);
         }
         substeps_done_ = substeps_until_now;
         target_mm_ = target_mm;

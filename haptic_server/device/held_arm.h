@@ -16,8 +16,8 @@ class HeldArm {
     HeldArm(const ArmModel& arm, const HandModel& hand, const glm::dvec3& start_mm);
 
     /// Integrates up to `now_s` (session time, from 0) while the hand's target moves on a straight line to
-    /// `target_mm`. Real-time safe.
-    void advance(double now_s, const glm::dvec3& target_mm) noexcept;
+    /// `target_mm`, with its spindle along `spindle_axis` (unit). Real-time safe.
+    void advance(double now_s, const glm::dvec3& target_mm, const glm::dvec3& spindle_axis) noexcept;
 
     /// Force of the motors from now on; more than they can give is cut off, what is not finite is none.
     /// Real-time safe.
