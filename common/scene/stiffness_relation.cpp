@@ -20,8 +20,9 @@ double yield_mpa(double density_g_per_cm3) {
 StiffnessRelation default_stiffness_relation() {
     StiffnessRelation relation;
     // Close enough that the straight pieces stay within 1 % of the power law above 300 HU.
-    for (const double hu : {150.0,  200.0,  250.0,  317.0,  400.0,  500.0,  600.0,  800.0,  1000.0, 1200.0,
-                            1400.0, 1600.0, 1800.0, 2000.0, 2250.0, 2500.0, 2750.0, 3000.0, 3500.0, 4000.0}) {
+    for (const double hu :
+         {150.0,  200.0,  250.0,  317.0,  400.0,  500.0,  600.0,  700.0,  800.0,  1000.0, 1200.0,
+          1400.0, 1600.0, 1800.0, 2000.0, 2250.0, 2500.0, 2750.0, 3000.0, 3500.0, 4000.0}) {
         const double strength = yield_mpa(hu / 1000.0) / yield_mpa(reference_bone_hu / 1000.0);
         relation.knots.push_back({hu, std::clamp(strength, stiffness_per_code, largest_relative_stiffness)});
     }
