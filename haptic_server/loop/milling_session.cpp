@@ -1,4 +1,4 @@
-#include "haptic_server/loop/session.h"
+#include "haptic_server/loop/milling_session.h"
 
 #include <sys/prctl.h>
 
@@ -17,7 +17,7 @@ constexpr std::uint64_t chore_ticks = 64;
 /// How long a session waits for whoever consumes its edits before it gives up on them.
 constexpr std::chrono::seconds longest_wait_for_consumer{10};
 
-const SessionOptions& validated(const SessionOptions& options) {
+const MillingSessionOptions& validated(const MillingSessionOptions& options) {
     if (!(options.milling_rate_hz >= least_milling_rate_hz &&
           options.milling_rate_hz <= most_milling_rate_hz)) {
         throw std::invalid_argument("milling rate " + std::to_string(options.milling_rate_hz) +
@@ -47,7 +47,7 @@ void wait_for_consumer(const std::atomic<bool>* stop, IsDone&& is_done) {
 
 }  // namespace
 
-Session::Session(const Scene& scene, Bone bone, HapticDevice& device, const SessionOptions& options,
+MillingSession::MillingSession(const Scene& scene, Bone bone, HapticDevice& device, const MillingSessionOptions& options,
                  ForceLog* log)
     : options_(validated(options)),
       device_(device),
@@ -70,7 +70,7 @@ Session::Session(const Scene& scene, Bone bone, HapticDevice& device, const Sess
                     .start_pose = scene.start_pose}),
       milling_loop_(model_, commands_, results_, edits_) {}
 
-void Session::run(const std::atomic<bool>& stop,
+void MillingSession::run(const std::atomic<bool>& stop,
                   const std::function<void(const ToolSnapshot&)>& on_progress) {
     device_.start();
     if (options_.clock == ClockKind::real) {
@@ -83,7 +83,7 @@ void Session::run(const std::atomic<bool>& stop,
     do_chores(on_progress);
 }
 
-void Session::run_in_threads(const std::atomic<bool>& stop,
+void MillingSession::run_in_threads(const std::atomic<bool>& stop,
                              const std::function<void(const ToolSnapshot&)>& on_progress) {
     std::atomic<bool> is_over{false};
     RealClock clock;
@@ -116,7 +116,7 @@ void Session::run_in_threads(const std::atomic<bool>& stop,
     milling.join();
 }
 
-void Session::run_in_lock_step(const std::atomic<bool>& stop,
+void MillingSession::run_in_lock_step(const std::atomic<bool>& stop,
                                const std::function<void(const ToolSnapshot&)>& on_progress) {
     RealClock stopwatch;  // measures how long the work takes; nothing depends on it
     const double period_s = 1.0 / options_.milling_rate_hz;
@@ -143,14 +143,14 @@ void Session::run_in_lock_step(const std::atomic<bool>& stop,
     }
 }
 
-void Session::do_chores(const std::function<void(const ToolSnapshot&)>& on_progress) {
+void MillingSession::do_chores(const std::function<void(const ToolSnapshot&)>& on_progress) {
     if (log_ != nullptr) log_->drain();
     if (!options_.edits_are_consumed) edits_.consume_all([](const EditRun&) {});
     status_.refresh();
     if (on_progress) on_progress(status_.front());
 }
 
-void Session::wait_for_room_in_queue(const std::atomic<bool>& stop) {
+void MillingSession::wait_for_room_in_queue(const std::atomic<bool>& stop) {
     if (!options_.edits_are_consumed) edits_.consume_all([](const EditRun&) {});
     wait_for_consumer(&stop, [this] {
         edits_.resend_overflowed(model_.bone());
@@ -158,7 +158,7 @@ void Session::wait_for_room_in_queue(const std::atomic<bool>& stop) {
     });
 }
 
-void Session::send_what_overflowed() {
+void MillingSession::send_what_overflowed() {
     wait_for_consumer(nullptr, [this] {
         if (!options_.edits_are_consumed) edits_.consume_all([](const EditRun&) {});
         edits_.resend_overflowed(model_.bone());
@@ -166,7 +166,7 @@ void Session::send_what_overflowed() {
     });
 }
 
-SessionReport Session::report() const {
+MillingSessionReport MillingSession::report() const {
     return {.duration_s = now_s_.load(std::memory_order_relaxed),
             .haptic = haptic_statistics_,
             .milling = milling_statistics_,

@@ -1,4 +1,4 @@
-// A session: device, coupling, haptic loop, milling loop and clock, from start to stop.
+// A milling session: device, coupling, haptic loop, milling loop and clock, from start to stop.
 //
 // On the real clock: a thread for the haptic loop at 1 kHz, one for the milling loop, and the caller's for
 // what need not be in time. On the virtual clock: everything on the caller's thread, as fast as it can, in
@@ -33,7 +33,7 @@ enum class ClockKind { real, virtual_time };
 inline constexpr double least_milling_rate_hz = 25.0;
 inline constexpr double most_milling_rate_hz = 1000.0;
 
-struct SessionOptions {
+struct MillingSessionOptions {
     ClockKind clock = ClockKind::real;
     double milling_rate_hz = 1000.0;
     std::string coupling = coupling_names().front();
@@ -43,7 +43,7 @@ struct SessionOptions {
     bool edits_are_consumed = false;
 };
 
-struct SessionReport {
+struct MillingSessionReport {
     double duration_s = 0.0;  ///< session time at the last haptic tick
     PeriodicStatistics haptic;
     PeriodicStatistics milling;
@@ -54,7 +54,7 @@ struct SessionReport {
     std::uint64_t bone_checksum = 0;
 };
 
-class Session {
+class MillingSession {
   public:
     static constexpr double tick_s = 0.001;
     /// Half a second of the heaviest carving (5 mm burr at 1 kHz).
@@ -62,7 +62,7 @@ class Session {
 
     /// `device` and `log` (may be null) outlive the session. Throws std::invalid_argument for a milling rate
     /// out of range, an unknown coupling, or a scene that the parts refuse.
-    Session(const Scene& scene, Bone bone, HapticDevice& device, const SessionOptions& options,
+    MillingSession(const Scene& scene, Bone bone, HapticDevice& device, const MillingSessionOptions& options,
             ForceLog* log = nullptr);
 
     /// For the streaming server: the tool's newest state, and the edits in order (each one reader).
@@ -75,7 +75,7 @@ class Session {
     void run(const std::atomic<bool>& stop, const std::function<void(const ToolSnapshot&)>& on_progress = {});
 
     /// After run().
-    SessionReport report() const;
+    MillingSessionReport report() const;
     const Bone& bone() const { return model_.bone(); }
 
   private:
@@ -87,7 +87,7 @@ class Session {
     void wait_for_room_in_queue(const std::atomic<bool>& stop);
     void send_what_overflowed();
 
-    SessionOptions options_;
+    MillingSessionOptions options_;
     HapticDevice& device_;
     ForceLog* log_;
     MillingModel model_;
