@@ -47,8 +47,8 @@ void wait_for_consumer(const std::atomic<bool>* stop, IsDone&& is_done) {
 
 }  // namespace
 
-MillingSession::MillingSession(const Scene& scene, Bone bone, HapticDevice& device, const MillingSessionOptions& options,
-                 ForceLog* log)
+MillingSession::MillingSession(const Scene& scene, Bone bone, HapticDevice& device,
+                               const MillingSessionOptions& options, ForceLog* log)
     : options_(validated(options)),
       device_(device),
       log_(log),
@@ -71,7 +71,7 @@ MillingSession::MillingSession(const Scene& scene, Bone bone, HapticDevice& devi
       milling_loop_(model_, commands_, results_, edits_) {}
 
 void MillingSession::run(const std::atomic<bool>& stop,
-                  const std::function<void(const ToolSnapshot&)>& on_progress) {
+                         const std::function<void(const ToolSnapshot&)>& on_progress) {
     device_.start();
     if (options_.clock == ClockKind::real) {
         run_in_threads(stop, on_progress);
@@ -84,7 +84,7 @@ void MillingSession::run(const std::atomic<bool>& stop,
 }
 
 void MillingSession::run_in_threads(const std::atomic<bool>& stop,
-                             const std::function<void(const ToolSnapshot&)>& on_progress) {
+                                    const std::function<void(const ToolSnapshot&)>& on_progress) {
     std::atomic<bool> is_over{false};
     RealClock clock;
     std::thread haptic([&] {
@@ -117,7 +117,7 @@ void MillingSession::run_in_threads(const std::atomic<bool>& stop,
 }
 
 void MillingSession::run_in_lock_step(const std::atomic<bool>& stop,
-                               const std::function<void(const ToolSnapshot&)>& on_progress) {
+                                      const std::function<void(const ToolSnapshot&)>& on_progress) {
     RealClock stopwatch;  // measures how long the work takes; nothing depends on it
     const double period_s = 1.0 / options_.milling_rate_hz;
     for (std::uint64_t tick = 0; !stop.load(std::memory_order_relaxed); ++tick) {

@@ -63,7 +63,7 @@ class MillingSession {
     /// `device` and `log` (may be null) outlive the session. Throws std::invalid_argument for a milling rate
     /// out of range, an unknown coupling, or a scene that the parts refuse.
     MillingSession(const Scene& scene, Bone bone, HapticDevice& device, const MillingSessionOptions& options,
-            ForceLog* log = nullptr);
+                   ForceLog* log = nullptr);
 
     /// For the streaming server: the tool's newest state, and the edits in order (each one reader).
     TripleBuffer<ToolSnapshot>& tool() { return tool_; }

@@ -19,13 +19,14 @@ ListenAddress parse_listen_address(const std::string& text) {
     if (result.address.size() > 2 && result.address.front() == '[' && result.address.back() == ']') {
         result.address = result.address.substr(1, result.address.size() - 2);
     } else if (result.address.find(':') != std::string::npos) {
-        throw std::invalid_argument(fmt::format("'{}': an IPv6 address needs brackets, [ADDRESS]:PORT", text));
+        throw std::invalid_argument(
+            fmt::format("'{}': an IPv6 address needs brackets, [ADDRESS]:PORT", text));
     }
     boost::system::error_code error;
     boost::asio::ip::make_address(result.address, error);
     if (error) {
-        throw std::invalid_argument(
-            fmt::format("'{}' is not a numeric address; expected for example 127.0.0.1:7010", result.address));
+        throw std::invalid_argument(fmt::format(
+            "'{}' is not a numeric address; expected for example 127.0.0.1:7010", result.address));
     }
     const char* const end = text.data() + text.size();
     const auto [parsed, failure] = std::from_chars(text.data() + colon + 1, end, result.port);

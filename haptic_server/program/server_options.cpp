@@ -52,7 +52,8 @@ void declare(CLI::App& app, Typed& typed) {
     app.add_option("--grip", typed.grip, "How the simulated hand holds the arm")
         ->check(one_of({"light", "firm"}))
         ->capture_default_str();
-    app.add_option("--trajectory", typed.trajectory, "What the simulated hand follows, instead of the scene's")
+    app.add_option("--trajectory", typed.trajectory,
+                   "What the simulated hand follows, instead of the scene's")
         ->type_name("FILE.csv");
     app.add_option("--coupling", typed.coupling, "What stands between the model and the hand")
         ->check(one_of(coupling_names()))
@@ -138,8 +139,9 @@ ServerOptions checked(const Typed& typed) {
 
 CommandLine parse_command_line(int argc, const char* const* argv, const std::string& version) {
     Typed typed;
-    CLI::App app("Owns the bone, mills it at up to 1 kHz, feeds forces to the hand and shows clients the rest.",
-                 "haptic_server");
+    CLI::App app(
+        "Owns the bone, mills it at up to 1 kHz, feeds forces to the hand and shows clients the rest.",
+        "haptic_server");
     app.set_version_flag("--version", fmt::format("haptic_server {}", version));
     declare(app, typed);
     try {
