@@ -1,4 +1,7 @@
 // The haptic server: parse, run, say in one line what went wrong.
+#include <spdlog/sinks/stdout_color_sinks.h>
+#include <spdlog/spdlog.h>
+
 #include <atomic>
 #include <csignal>
 #include <cstdio>
@@ -40,6 +43,8 @@ int main(int argc, char** argv) {
         return exit_success;
     }
     try {
+        // Standard output is for programs that wait for "listening on"; the log is for people.
+        spdlog::set_default_logger(spdlog::stderr_color_mt("haptic_server"));
         stop_on_signals();
         osteomill::run_server(*command_line.options, OSTEOMILL_VERSION, stop_requested);
         return exit_success;

@@ -18,7 +18,7 @@
 #include "haptic_server/imaging/phantom.h"
 #include "haptic_server/loop/force_log.h"
 #include "haptic_server/program/measurements.h"
-#include "haptic_server/program/progress.h"
+#include "haptic_server/program/status_line.h"
 #include "haptic_server/streaming/streaming_server.h"
 
 namespace osteomill {
@@ -122,13 +122,13 @@ void run_server(const ServerOptions& options, const std::string& version, const 
                                ? make_streaming(options, scene, *std::move(mirror), *session, device, version)
                                : nullptr;
 
-    Progress progress(stderr, isatty(STDERR_FILENO) == 1);
+    StatusLine status(stderr, isatty(STDERR_FILENO) == 1);
     std::atomic<bool> is_over{false};
     session->run(is_over, [&](const ToolSnapshot& tool) {
-        progress.show(tool, Progress::Clock::now());
+        status.show(tool, StatusLine::Clock::now());
         if (stop.load() || device.is_finished()) is_over.store(true);
     });
-    progress.finish();
+    status.finish();
     if (streaming) streaming->stop();
 
     const MillingSessionReport report = session->report();

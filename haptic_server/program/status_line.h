@@ -9,12 +9,12 @@
 
 namespace osteomill {
 
-class Progress {
+class StatusLine {
   public:
     using Clock = std::chrono::steady_clock;
 
     /// Writes to `out`; `is_terminal` decides between rewriting one line and adding lines.
-    Progress(std::FILE* out, bool is_terminal) : out_(out), is_terminal_(is_terminal) {}
+    StatusLine(std::FILE* out, bool is_terminal) : out_(out), is_terminal_(is_terminal) {}
 
     /// To be called often; `now` is the time of people, not of the session.
     void show(const ToolSnapshot& tool, Clock::time_point now);

@@ -1,4 +1,4 @@
-#include "haptic_server/program/progress.h"
+#include "haptic_server/program/status_line.h"
 
 #include <fmt/format.h>
 
@@ -6,7 +6,7 @@
 
 namespace osteomill {
 
-void Progress::show(const ToolSnapshot& tool, Clock::time_point now) {
+void StatusLine::show(const ToolSnapshot& tool, Clock::time_point now) {
     show_fault(tool);
     if (now < next_) return;
     next_ = now + (is_terminal_ ? std::chrono::seconds(1) : std::chrono::seconds(5));
@@ -23,7 +23,7 @@ void Progress::show(const ToolSnapshot& tool, Clock::time_point now) {
     is_line_open_ = is_terminal_;
 }
 
-void Progress::show_fault(const ToolSnapshot& tool) {
+void StatusLine::show_fault(const ToolSnapshot& tool) {
     if (tool.fault == fault_) return;
     finish();
     fault_ = tool.fault;
@@ -32,7 +32,7 @@ void Progress::show_fault(const ToolSnapshot& tool) {
     std::fflush(out_);
 }
 
-void Progress::finish() {
+void StatusLine::finish() {
     if (is_line_open_) fmt::print(out_, "\n");
     is_line_open_ = false;
 }
