@@ -15,8 +15,8 @@ struct ColourKnot {
     Srgb srgb;
 };
 
-// Relative stiffness 1 is the cortical bone of the burr's coefficients; trabecular bone lies around a tenth of
-// it, enamel above twice.
+// Relative stiffness 1 is the cortical bone of the burr's coefficients; trabecular bone lies around a tenth
+// of it, enamel above twice.
 constexpr std::array<ColourKnot, 5> stiffness_knots{{{0.0, {150, 84, 62}},
                                                      {0.15, {196, 134, 100}},
                                                      {0.5, {226, 197, 156}},
@@ -41,13 +41,15 @@ glm::vec3 linear_from_srgb(const Srgb& srgb) {
     glm::vec3 linear;
     for (int channel = 0; channel < 3; ++channel) {
         const double value = srgb[static_cast<std::size_t>(channel)] / 255.0;
-        linear[channel] = static_cast<float>(value <= 0.04045 ? value / 12.92
-                                                              : std::pow((value + 0.055) / 1.055, 2.4));
+        linear[channel] =
+            static_cast<float>(value <= 0.04045 ? value / 12.92 : std::pow((value + 0.055) / 1.055, 2.4));
     }
     return linear;
 }
 
-glm::vec3 plain_bone_colour() { return linear_from_srgb({236, 218, 184}); }
+glm::vec3 plain_bone_colour() {
+    return linear_from_srgb({236, 218, 184});
+}
 
 ColourTable colours_by_tissue(std::span<const TissueColour> tissues) {
     ColourTable table;

@@ -14,9 +14,9 @@ VoxelBox drawable_box(const Bone& bone) {
     if (box.count() == 0) throw std::runtime_error("the bone has no voxel to draw");
     const int limit = gl::max_texture3d_edge();
     if (glm::max(box.size.x, glm::max(box.size.y, box.size.z)) > limit)
-        throw std::runtime_error(
-            fmt::format("the bone spans {} x {} x {} voxels, this OpenGL driver draws at most {} along an axis",
-                        box.size.x, box.size.y, box.size.z, limit));
+        throw std::runtime_error(fmt::format(
+            "the bone spans {} x {} x {} voxels, this OpenGL driver draws at most {} along an axis",
+            box.size.x, box.size.y, box.size.z, limit));
     return box;
 }
 
@@ -63,8 +63,7 @@ BoneTextures::BoneTextures(const Bone& bone, std::span<const TissueColour> tissu
       box_(drawable_box(bone)),
       empty_space_(bone, box_),
       fraction_(upload_channel(bone, BoneChannel::fraction, box_, gl::VoxelFormat::interpolated_byte)),
-      distance_(
-          upload_map(empty_space_.distance(), empty_space_.size_blocks(), gl::VoxelFormat::byte_code)),
+      distance_(upload_map(empty_space_.distance(), empty_space_.size_blocks(), gl::VoxelFormat::byte_code)),
       mean_fraction_(upload_map(empty_space_.mean_fraction(), empty_space_.size_blocks(),
                                 gl::VoxelFormat::interpolated_byte)),
       colour_code_(upload_colour_code(bone, box_)),

@@ -16,7 +16,8 @@ namespace osteomill {
 class BoneTextures {
   public:
     /// Uploads all of it, cropped to the stored bricks. Tissue colours are used where the bone is labelled.
-    /// Throws std::runtime_error naming sizes where the bone exceeds the driver's 3D textures or has no brick.
+    /// Throws std::runtime_error naming sizes where the bone exceeds the driver's 3D textures or has no
+    /// brick.
     BoneTextures(const Bone& bone, std::span<const TissueColour> tissues);
 
     /// Uploads the fractions of these bricks and what follows from them: glTexSubImage3D, brick by brick.

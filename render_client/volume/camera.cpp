@@ -20,13 +20,21 @@ glm::dvec3 Camera::forward() const {
     return {-std::sin(azimuth_rad) * level, std::cos(azimuth_rad) * level, -std::sin(elevation_rad)};
 }
 
-glm::dvec3 Camera::eye_mm() const { return target_mm - distance_mm * forward(); }
+glm::dvec3 Camera::eye_mm() const {
+    return target_mm - distance_mm * forward();
+}
 
-glm::dvec3 Camera::right() const { return {std::cos(azimuth_rad), std::sin(azimuth_rad), 0.0}; }
+glm::dvec3 Camera::right() const {
+    return {std::cos(azimuth_rad), std::sin(azimuth_rad), 0.0};
+}
 
-glm::dvec3 Camera::up() const { return glm::cross(right(), forward()); }
+glm::dvec3 Camera::up() const {
+    return glm::cross(right(), forward());
+}
 
-glm::dmat4 Camera::view() const { return glm::lookAt(eye_mm(), target_mm, up()); }
+glm::dmat4 Camera::view() const {
+    return glm::lookAt(eye_mm(), target_mm, up());
+}
 
 glm::dmat4 Camera::projection(const glm::ivec2& size_px) const {
     const double aspect = static_cast<double>(size_px.x) / std::max(size_px.y, 1);

@@ -4,8 +4,8 @@
 
 namespace osteomill {
 
-/// GLSL: `vec3 lit(vec3 colour, vec3 normal, float openness)`, all linear RGB and patient axes, where openness
-/// (0 to 1) is how much of the ambient light gets there; and `vec3 display(vec3 linear)`, to sRGB.
+/// GLSL: `vec3 lit(vec3 colour, vec3 normal, float openness)`, all linear RGB and patient axes, where
+/// openness (0 to 1) is how much of the ambient light gets there; and `vec3 display(vec3 linear)`, to sRGB.
 inline constexpr const char* lighting_glsl = R"glsl(
 const vec3 key_direction = vec3(-0.4364, -0.5455, 0.7155);
 const vec3 fill_direction = vec3(0.8944, -0.2236, 0.3873);

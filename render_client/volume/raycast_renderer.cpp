@@ -28,7 +28,8 @@ glm::vec2 depth_terms(const Camera& camera, double spacing_mm, const glm::ivec2&
 
 }  // namespace
 
-RaycastRenderer::RaycastRenderer(EmptySpaceSkipping skipping) : program_(make_program()), skipping_(skipping) {
+RaycastRenderer::RaycastRenderer(EmptySpaceSkipping skipping)
+    : program_(make_program()), skipping_(skipping) {
     program_.use();
     program_.set("fraction", fraction_unit);
     program_.set("mean_fraction", mean_unit);

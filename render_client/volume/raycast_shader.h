@@ -41,7 +41,7 @@ float fraction_at(vec3 p) { return textureLod(fraction, p / size, 0.0).r; }
 // Points out of the bone. Eight corners of a cube: central differences smoothed across their axis, which hides
 // that a fraction rises from none to all within about one voxel.
 vec3 normal_at(vec3 p) {
-    const float reach = 1.1;
+    const float reach = 1.4;
     vec3 gradient = vec3(0.0);
     for (int corner = 0; corner < 8; ++corner) {
         vec3 side = vec3(corner & 1, (corner >> 1) & 1, (corner >> 2) & 1) * 2.0 - 1.0;

@@ -11,9 +11,12 @@ namespace {
 std::span<const std::uint8_t> channel_of_slot(const Bone& bone, BoneChannel channel, std::int32_t slot) {
     const auto index = static_cast<std::size_t>(slot);
     switch (channel) {
-        case BoneChannel::stiffness: return bone.content().stiffness[index];
-        case BoneChannel::tissue: return bone.content().tissue[index];
-        case BoneChannel::fraction: break;
+        case BoneChannel::stiffness:
+            return bone.content().stiffness[index];
+        case BoneChannel::tissue:
+            return bone.content().tissue[index];
+        case BoneChannel::fraction:
+            break;
     }
     return bone.fractions(slot);
 }

@@ -16,13 +16,14 @@ struct VoxelBox {
     std::size_t count() const { return static_cast<std::size_t>(size.x) * size.y * size.z; }
 };
 
-/// Whole bricks that enclose every stored brick, in voxels of the bone's grid; empty for a bone without bricks.
+/// Whole bricks that enclose every stored brick, in voxels of the bone's grid; empty for a bone without
+/// bricks.
 VoxelBox stored_box(const BoneContent& content);
 
 enum class BoneChannel { fraction, stiffness, tissue };
 
-/// Copies a channel within `box` (which may reach past the grid) into `voxels`, x fastest; zero where no brick
-/// is stored. The bone must have the channel.
+/// Copies a channel within `box` (which may reach past the grid) into `voxels`, x fastest; zero where no
+/// brick is stored. The bone must have the channel.
 void copy_channel(const Bone& bone, BoneChannel channel, const VoxelBox& box, std::span<std::uint8_t> voxels);
 
 }  // namespace osteomill

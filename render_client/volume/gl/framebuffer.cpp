@@ -47,7 +47,9 @@ Framebuffer& Framebuffer::operator=(Framebuffer&& other) noexcept {
     return *this;
 }
 
-Framebuffer::~Framebuffer() { release(); }
+Framebuffer::~Framebuffer() {
+    release();
+}
 
 void Framebuffer::release() {
     if (id_ != 0) glDeleteFramebuffers(1, &id_);

@@ -4,7 +4,9 @@
 
 namespace osteomill::gl {
 
-FullScreen::FullScreen() { glGenVertexArrays(1, &array_); }
+FullScreen::FullScreen() {
+    glGenVertexArrays(1, &array_);
+}
 
 FullScreen::FullScreen(FullScreen&& other) noexcept : array_(std::exchange(other.array_, 0)) {}
 

@@ -29,7 +29,9 @@ EGLDisplay surfaceless_display() {
 }
 
 EGLContext make_context(EGLDisplay display) {
-    constexpr std::array<EGLint, 3> config_wish{EGL_RENDERABLE_TYPE, EGL_OPENGL_BIT, EGL_NONE};
+    // Left out, the surface type would be a window's, which no surfaceless configuration has.
+    constexpr std::array<EGLint, 5> config_wish{EGL_SURFACE_TYPE, 0, EGL_RENDERABLE_TYPE, EGL_OPENGL_BIT,
+                                                EGL_NONE};
     constexpr std::array<EGLint, 7> context_wish{EGL_CONTEXT_MAJOR_VERSION,
                                                  3,
                                                  EGL_CONTEXT_MINOR_VERSION,

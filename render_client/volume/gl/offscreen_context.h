@@ -1,5 +1,5 @@
-// An OpenGL 3.3 core context without a window or a display server (EGL, surfaceless platform). Made current in
-// the constructor, on the calling thread; draw into a Framebuffer.
+// An OpenGL 3.3 core context without a window or a display server (EGL, surfaceless platform). Made current
+// in the constructor, on the calling thread; draw into a Framebuffer.
 #pragma once
 
 #include <stdexcept>

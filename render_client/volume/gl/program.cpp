@@ -64,8 +64,12 @@ Program::~Program() {
     if (id_ != 0) glDeleteProgram(id_);
 }
 
-void Program::use() const { glUseProgram(id_); }
-void Program::set(const char* name, int value) const { glUniform1i(glGetUniformLocation(id_, name), value); }
+void Program::use() const {
+    glUseProgram(id_);
+}
+void Program::set(const char* name, int value) const {
+    glUniform1i(glGetUniformLocation(id_, name), value);
+}
 void Program::set(const char* name, float value) const {
     glUniform1f(glGetUniformLocation(id_, name), value);
 }

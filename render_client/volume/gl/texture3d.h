@@ -17,8 +17,8 @@ enum class VoxelFormat {
 
 class Texture3D {
   public:
-    /// glTexImage3D: storage for `size` texels, contents undefined. Throws std::runtime_error where the driver
-    /// has no memory for it.
+    /// glTexImage3D: storage for `size` texels, contents undefined. Throws std::runtime_error where the
+    /// driver has no memory for it.
     Texture3D(VoxelFormat format, const glm::ivec3& size);
     Texture3D(Texture3D&& other) noexcept;
     Texture3D& operator=(Texture3D&& other) noexcept;
