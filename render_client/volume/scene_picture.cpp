@@ -37,12 +37,18 @@ void ScenePicture::mark_dirty(const BoneTextures& bone, std::span<const BrickInd
             {brick_position(size_bricks, brick) * brick_edge_voxels, glm::ivec3(brick_edge_voxels)});
 }
 
-const gl::Framebuffer& ScenePicture::draw(const BoneTextures& bone, const DrawnTool* tool,
+const gl::Framebuffer& ScenePicture::draw(const BoneTextures* bone, const DrawnTool* tool,
                                           const Camera& camera) {
-    draw_layer(bone, camera);
-    layer_.copy_to(picture_);
+    if (bone) {
+        draw_layer(*bone, camera);
+        layer_.copy_to(picture_);
+    }
     picture_.bind();
-    if (tool) tool_renderer_.draw(*tool, camera, size_px());
+    if (!bone) {
+        glClearColor(0.22f, 0.23f, 0.25f, 1.0f);
+        glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+    }
+    if (bone && tool) tool_renderer_.draw(*tool, camera, size_px());
     return picture_;
 }
 

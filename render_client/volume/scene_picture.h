@@ -22,8 +22,9 @@ class ScenePicture {
     /// These bricks changed since the last draw.
     void mark_dirty(const BoneTextures& bone, std::span<const BrickIndex> bricks);
 
-    /// Draws into its own framebuffer and leaves it bound, so that an overlay may follow.
-    const gl::Framebuffer& draw(const BoneTextures& bone, const DrawnTool* tool, const Camera& camera);
+    /// Draws into its own framebuffer and leaves it bound, so that an overlay may follow. Null: there is no
+    /// bone, or no tool, yet.
+    const gl::Framebuffer& draw(const BoneTextures* bone, const DrawnTool* tool, const Camera& camera);
 
     const glm::ivec2& size_px() const { return layer_.size_px(); }
 
