@@ -2,6 +2,8 @@
 // engagement. One thread at a time.
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <memory>
 #include <string>
 #include <vector>
@@ -9,37 +11,58 @@
 #include "common/bone/bone.h"
 #include "common/bone/edit.h"
 #include "common/scene/scene.h"
+#include "haptic_server/milling/chip_map.h"
 #include "haptic_server/milling/milling_step.h"
 
 namespace osteomill {
+
+/// How the force is summed over the bone that a step removed.
+enum class ForceSummation {
+    voxels,  ///< directly over voxels (cutting_force.h)
+    bins     ///< over bins [psi, z], as published (chip_map.h)
+};
+
+/// Names for --force-model, in the order of --help; the first is the default.
+std::vector<std::string> force_model_names();
+
+/// Throws std::invalid_argument for an unknown name, listing the known ones.
+ForceSummation force_summation(const std::string& name);
 
 class MillingModel {
   public:
     /// `burrs` and `tissues` as in the scene. Throws std::invalid_argument for an empty burr set or a burr
     /// whose values are not finite and positive.
-    MillingModel(Bone bone, std::vector<Burr> burrs, const std::vector<Tissue>& tissues);
+    MillingModel(Bone bone, std::vector<Burr> burrs, const std::vector<Tissue>& tissues,
+                 ForceSummation summation = ForceSummation::voxels);
 
     /// Moves the burr, carves what it passes through (only while the spindle is on), reports the edits and
-    /// overwrites `result`. The first step, one with a different burr and one after `lift()` start at the
-    /// command's pose without a sweep. A command that is not finite leaves bone and burr alone and yields
-    /// zero force. Real-time safe.
+    /// overwrites `result`. The first step, and the first with another burr, starts at the command's pose
+    /// without a sweep. A command that is not finite, of no duration or of an unknown burr leaves bone and
+    /// burr alone and makes the result invalid. Real-time safe.
     void step(const BurrCommand& command, double time_s, EditSink& edits, MillingResult& result) noexcept;
-
-    /// The burr is somewhere else next time: no sweep from here to there.
-    void lift() noexcept { has_pose_ = false; }
 
     const Bone& bone() const { return bone_; }
     const RemovedByTissue& removed_mm3() const { return removed_mm3_; }
 
   private:
+    template <typename Force>
+    void carve_and_sum(const BurrCommand& command, EditSink& edits, Force& force,
+                       MillingResult& result) noexcept;
+
     Bone bone_;
     std::vector<Burr> burrs_;
+    std::vector<EngagementProbe> probes_;  // by burr
+    ForceSummation summation_;
+    ChipMap chips_;
     std::array<bool, 256> protected_{};
     RemovedByTissue removed_mm3_{};
-    ToolPose pose_;
-    std::size_t burr_ = 0;
+    double total_removed_mm3_ = 0.0;
     std::uint64_t step_ = 0;
-    bool has_pose_ = false;
+
+    bool has_position_ = false;        // position_mm_ holds the last step's
+    bool carved_at_position_ = false;  // the burr_ carved at position_mm_
+    glm::dvec3 position_mm_{0.0};
+    std::size_t burr_ = 0;
 };
 
 }  // namespace osteomill

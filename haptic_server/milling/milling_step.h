@@ -13,7 +13,7 @@ namespace osteomill {
 
 /// Where the burr is to go during a step. It moves there on a straight line from where the last step left it.
 struct BurrCommand {
-    ToolPose pose;  ///< at the end of the step, patient LPS
+    ToolPose pose;  ///< at the end of the step, patient LPS; the axis is a unit vector
     bool spindle_on = false;
     std::size_t burr = 0;    ///< index into the scene's set
     double elapsed_s = 0.0;  ///< duration of the step, positive
@@ -29,9 +29,11 @@ struct MillingResult {
     ToolPose pose;           ///< where the burr now is
     std::size_t burr = 0;
     bool spindle_on = false;
-    glm::dvec3 force_n{0.0};         ///< of the bone on the burr, mean over the step, patient axes
-    double removed_mm3 = 0.0;        ///< by this step
-    bool touches_protected = false;  ///< a turning burr removed protected tissue in this step
+    glm::dvec3 force_n{0.0};   ///< milling force of the bone on the burr, mean over the step, patient axes
+    double removed_mm3 = 0.0;  ///< by this step
+    double total_removed_mm3 = 0.0;  ///< since the start
+    bool touches_protected = false;  ///< the step removed protected tissue
+    bool valid = true;               ///< false: the command was refused (not finite), force is zero
     Engagement engagement;           ///< the bone around the burr after the step
 };
 

@@ -1,0 +1,42 @@
+#!/usr/bin/env bash
+# Drills the carious lesion out of the built-in tooth: the server with a simulated hand and arm, the client in a window if
+# there is a display, else offscreen. Ends by itself; leaves everything in out/demo/.
+set -euo pipefail
+cd "$(dirname "$0")"
+source scripts/prepare.sh
+
+install_packages
+build release haptic_server render_client
+
+out=out/demo
+rm -rf "$out"
+mkdir -p "$out/frames"
+bin=build/release/bin
+
+say "drilling: forces at 1 kHz, the bone at 30 Hz"
+# Port 0: the system picks a free one and the server says which.
+"$bin/haptic_server" --listen 127.0.0.1:0 --log-csv "$out/forces.csv" --save-bone "$out/carved.nrrd" \
+    --json "$out/server.json" >"$out/server.log" 2>"$out/server.err" &
+server=$!
+trap 'kill "$server" 2>/dev/null || true' EXIT
+port=
+for _ in $(seq 200); do
+    port=$(sed -n 's/^listening on .*:\([0-9]*\)$/\1/p' "$out/server.log")
+    [ -n "$port" ] && break
+    kill -0 "$server" 2>/dev/null || { cat "$out/server.err" >&2; exit 1; }
+    sleep 0.1
+done
+[ -n "$port" ] || { echo "the server did not start listening within 20 s" >&2; exit 1; }
+
+view=(--offscreen --frames 100000 --screenshot-every 30)
+if [ -n "${DISPLAY:-}${WAYLAND_DISPLAY:-}" ]; then view=(--until-server-ends); fi
+"$bin/render_client" --connect "127.0.0.1:$port" "${view[@]}" --screenshots "$out/frames" --json "$out/client.json"
+wait "$server"
+trap - EXIT
+
+gnuplot -e "forces='$out/forces.csv'; plot_file='$out/forces.png'" scripts/plot_forces.gp
+printf '{"server": %s,\n"client": %s}\n' "$(cat "$out/server.json")" "$(cat "$out/client.json")" >"$out/summary.json"
+rm "$out/server.json" "$out/client.json"
+
+say "done: look into $out/"
+ls "$out"

@@ -1,0 +1,36 @@
+# Sourced by demo.sh and test.sh: installs what is missing, then configures and builds a preset. Works offline once the packages
+# are there.
+
+say() { printf '\n== %s\n' "$*"; }
+
+# Installs the packages of packages.txt that are not there yet; asks for root only then.
+install_packages() {
+    local wanted missing=() package
+    mapfile -t wanted < <(grep -v '^#' scripts/packages.txt)
+    for package in "${wanted[@]}"; do
+        dpkg-query -W -f '${Status}' "$package" 2>/dev/null | grep -q 'ok installed' || missing+=("$package")
+    done
+    [ ${#missing[@]} -eq 0 ] && return
+    local as_root=()
+    if [ "$(id -u)" -ne 0 ]; then
+        command -v sudo >/dev/null || {
+            echo "missing packages and neither root nor sudo; as root, run: apt-get install ${missing[*]}" >&2
+            exit 1
+        }
+        as_root=(sudo)
+    fi
+    say "installing ${#missing[@]} packages"
+    "${as_root[@]}" apt-get update -qq
+    "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends "${missing[@]}" \
+        >/dev/null
+}
+
+# build PRESET [TARGET...]
+build() {
+    local preset=$1
+    shift
+    say "building: $preset"
+    cmake --preset "$preset" >"build-$preset.log" 2>&1 || { cat "build-$preset.log"; rm "build-$preset.log"; exit 1; }
+    rm "build-$preset.log"
+    cmake --build --preset "$preset" ${1:+--target "$@"}
+}

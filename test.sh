@@ -1,0 +1,24 @@
+#!/usr/bin/env bash
+# Installs, builds and runs every test: optimised, then under AddressSanitizer and UBSan, then under ThreadSanitizer.
+#   ./test.sh             all three
+#   ./test.sh release     one (or several) of: release debug asan tsan
+set -euo pipefail
+cd "$(dirname "$0")"
+source scripts/prepare.sh
+
+presets=("$@")
+[ ${#presets[@]} -gt 0 ] || presets=(release asan tsan)
+for preset in "${presets[@]}"; do
+    case $preset in
+        release | debug | asan | tsan) ;;
+        *) echo "unknown preset '$preset'; choose from release debug asan tsan" >&2; exit 2 ;;
+    esac
+done
+
+install_packages
+export ASAN_OPTIONS=${ASAN_OPTIONS:-detect_leaks=1} TSAN_OPTIONS=${TSAN_OPTIONS:-halt_on_error=1}
+for preset in "${presets[@]}"; do
+    build "$preset"
+    say "testing: $preset"
+    ctest --preset "$preset" -j "$(nproc)"
+done

@@ -1,0 +1,84 @@
+#include "haptic_server/coupling/burr_proxy.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <memory>
+
+namespace osteomill {
+namespace {
+
+/// One patch facing +x that resists like a damper of `resistance` N s/mm.
+std::unique_ptr<MillingResult> damper_along_x(double resistance_n_s_per_mm, double gap_mm) {
+    auto result = std::make_unique<MillingResult>();
+    result->step = 1;
+    result->engagement.count = 1;
+    result->engagement.patches[0] = {.normal = {1.0, 0.0, 0.0},
+                                     .gap_mm = gap_mm,
+                                     .cutting_n_s_per_mm = {-resistance_n_s_per_mm, 0.0, 0.0},
+                                     .area_mm2 = 1.0};
+    return result;
+}
+
+TEST(BurrProxy, FollowsTheHandThroughAir) {
+    BurrProxy proxy(1.5);
+    proxy.place({1.0, 2.0, 3.0});
+    const auto air = std::make_unique<MillingResult>();
+    proxy.advance({4.0, 4.0, 4.0}, 0.001, true, *air);
+    EXPECT_EQ(proxy.position_mm(), glm::dvec3(4.0, 4.0, 4.0));
+    EXPECT_EQ(proxy.iterations(), 0) << "air costs nothing";
+}
+
+TEST(BurrProxy, SolvesTheOneDimensionalLaw) {
+    // p' = (B/dt p + K x) / (B/dt + K)
+    for (const double resistance : {1e-4, 0.1, 100.0}) {
+        BurrProxy proxy(1.5);
+        proxy.place(glm::dvec3(0.0));
+        const auto bone = damper_along_x(resistance, 0.0);
+        double expected = 0.0;
+        for (int i = 0; i < 5; ++i) {
+            proxy.advance({0.5, 0.0, 0.0}, 0.001, true, *bone);
+            const double b = resistance / 0.001;
+            expected = (b * expected + 1.5 * 0.5) / (b + 1.5);
+            EXPECT_NEAR(proxy.position_mm().x, expected, 1e-9);
+        }
+    }
+}
+
+TEST(BurrProxy, MeetsBoneOnlyBeyondTheGapAndNeverTwice) {
+    BurrProxy proxy(1.5);
+    proxy.place(glm::dvec3(0.0));
+    const auto bone = damper_along_x(1000.0, 0.1);
+    proxy.advance({0.3, 0.0, 0.0}, 0.001, true, *bone);
+    EXPECT_NEAR(proxy.position_mm().x, 0.1, 1e-3);
+    proxy.advance({-0.3, 0.0, 0.0}, 0.001, true, *bone);
+    EXPECT_NEAR(proxy.position_mm().x, -0.3, 1e-12) << "nothing holds it back";
+    proxy.advance({0.1, 0.0, 0.0}, 0.001, true, *bone);
+    EXPECT_NEAR(proxy.position_mm().x, 0.1, 1e-12) << "cut already";
+}
+
+TEST(BurrProxy, StopsAtAWallWithTheSpindleOff) {
+    BurrProxy proxy(1.5);
+    proxy.place(glm::dvec3(0.0));
+    const auto bone = damper_along_x(0.0, 0.1);
+    for (int i = 0; i < 1000; ++i) proxy.advance({2.0, 0.5, 0.0}, 0.001, false, *bone);
+    // K (x - p) = k A (p - gap): 1.5 (2 - p) = 1000 (p - 0.1)
+    EXPECT_NEAR(proxy.position_mm().x, (3.0 + 100.0) / 1001.5, 1e-9) << "and does not creep";
+    EXPECT_NEAR(proxy.position_mm().y, 0.5, 1e-9) << "without friction";
+}
+
+TEST(BurrProxy, SolvesASidewaysForceStrongerThanTheDirectOne) {
+    // A patch facing +x whose force is mostly along -y, as milling is.
+    BurrProxy proxy(1.5);
+    proxy.place(glm::dvec3(0.0));
+    auto bone = damper_along_x(0.05, 0.0);
+    bone->engagement.patches[0].cutting_n_s_per_mm = {-0.05, -0.4, 0.0};
+    proxy.advance({0.1, 0.0, 0.0}, 0.001, true, *bone);
+    const glm::dvec3 d = proxy.position_mm();
+    EXPECT_NEAR(1.5 * (0.1 - d.x), 0.05 * d.x / 0.001, 1e-6);
+    EXPECT_NEAR(1.5 * (0.0 - d.y), 0.4 * d.x / 0.001, 1e-6);
+}
+
+}  // namespace
+}  // namespace osteomill

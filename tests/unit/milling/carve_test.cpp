@@ -1,0 +1,139 @@
+#include "haptic_server/milling/carve.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+#include <vector>
+
+#include "tests/support/block.h"
+
+namespace osteomill {
+namespace {
+
+using testing::make_block;
+using testing::NoEdits;
+
+constexpr double spacing_mm = 0.1;
+constexpr double radius_mm = 1.0;
+
+Bone block() {
+    return make_block({-3.0, -3.0, -3.0}, {3.0, 3.0, 3.0}, spacing_mm);
+}
+
+Sweep in_voxels(const Bone& bone, const glm::dvec3& from_mm, const glm::dvec3& to_mm) {
+    return {to_voxel_coordinates(bone.grid(), from_mm), to_voxel_coordinates(bone.grid(), to_mm),
+            radius_mm / spacing_mm};
+}
+
+void carve_path(Bone& bone, const std::vector<glm::dvec3>& path_mm) {
+    NoEdits edits;
+    const auto ignore = [](const glm::ivec3&, std::size_t, std::size_t, int) {};
+    for (std::size_t i = 0; i + 1 < path_mm.size(); ++i)
+        carve(bone, in_voxels(bone, path_mm[i], path_mm[i + 1]),
+              i == 0 ? CarveHistory::none : CarveHistory::carved_at_from, edits, ignore);
+}
+
+std::vector<glm::dvec3> subdivided(const std::vector<glm::dvec3>& path, int parts) {
+    std::vector<glm::dvec3> fine{path.front()};
+    for (std::size_t i = 0; i + 1 < path.size(); ++i)
+        for (int part = 1; part <= parts; ++part)
+            fine.push_back(path[i] + (path[i + 1] - path[i]) * (static_cast<double>(part) / parts));
+    return fine;
+}
+
+const std::vector<glm::dvec3> zigzag{{-1.5, -1.0, 0.3}, {1.2, -0.4, 0.0}, {-0.6, 1.1, -0.8}, {0.9, 1.3, 1.1}};
+
+TEST(Carve, RemovesTheSweptVolumeWithinAHalfPercent) {
+    for (const glm::dvec3 to : {glm::dvec3(0.0), glm::dvec3(1.5, 0.0, 0.0), glm::dvec3(0.7, -1.1, 0.9)}) {
+        Bone bone = block();
+        const double before = bone_volume_mm3(bone);
+        NoEdits edits;
+        const glm::dvec3 from(-0.033, 0.021, 0.017);
+        carve(bone, in_voxels(bone, from, to), CarveHistory::none, edits, [](auto&&...) {});
+        const double swept = volume(Sweep{from, to, radius_mm});
+        EXPECT_NEAR((before - bone_volume_mm3(bone)) / swept, 1.0, 0.005);
+    }
+}
+
+TEST(Carve, DoesNotDependOnTheNumberOfSteps) {
+    Bone coarse = block();
+    carve_path(coarse, zigzag);
+    for (const int parts : {2, 10, 137}) {
+        Bone fine = block();
+        carve_path(fine, subdivided(zigzag, parts));
+        EXPECT_EQ(checksum(fine), checksum(coarse)) << parts << " steps for one";
+    }
+}
+
+TEST(Carve, DoesNotDependOnTheOrderOfSteps) {
+    Bone forward = block();
+    carve_path(forward, zigzag);
+    Bone backward = block();
+    carve_path(backward, {zigzag.rbegin(), zigzag.rend()});
+    EXPECT_EQ(checksum(forward), checksum(backward));
+}
+
+TEST(Carve, DoneTwiceRemovesNothingMore) {
+    Bone bone = block();
+    carve_path(bone, zigzag);
+    const std::uint64_t once = checksum(bone);
+    carve_path(bone, zigzag);
+    EXPECT_EQ(checksum(bone), once);
+}
+
+TEST(Carve, CrescentAloneEqualsTheFullSearch) {
+    std::mt19937 random(3);
+    std::uniform_real_distribution<double> step(-0.15, 0.15);
+    Bone crescent = block();
+    Bone full = block();
+    NoEdits edits;
+    const auto ignore = [](const glm::ivec3&, std::size_t, std::size_t, int) {};
+    glm::dvec3 from(0.0);
+    carve(crescent, in_voxels(crescent, from, from), CarveHistory::none, edits, ignore);
+    carve(full, in_voxels(full, from, from), CarveHistory::none, edits, ignore);
+    for (int i = 0; i < 400; ++i) {
+        const glm::dvec3 to =
+            glm::clamp(from + glm::dvec3(step(random), step(random), i % 3 ? step(random) : 0.0), -3.5, 3.5);
+        carve(crescent, in_voxels(crescent, from, to), CarveHistory::carved_at_from, edits, ignore);
+        carve(full, in_voxels(full, from, to), CarveHistory::none, edits, ignore);
+        from = to;
+    }
+    EXPECT_EQ(checksum(crescent), checksum(full));
+}
+
+TEST(Carve, EditsRebuildTheBoneInAnotherCopy) {
+    class Apply final : public EditSink {
+      public:
+        explicit Apply(Bone& copy) : copy_(copy) {}
+        void push(const EditRun& run) noexcept override {
+            refused_ += apply(run, copy_) != EditOutcome::applied;
+        }
+        int refused() const { return refused_; }
+
+      private:
+        Bone& copy_;
+        int refused_ = 0;
+    };
+    Bone bone = block();
+    Bone copy = bone;
+    Apply edits(copy);
+    const auto fine = subdivided(zigzag, 40);
+    int reported_codes = 0;
+    for (std::size_t i = 0; i + 1 < fine.size(); ++i)
+        carve(bone, in_voxels(bone, fine[i], fine[i + 1]), CarveHistory::carved_at_from, edits,
+              [&](const glm::ivec3&, std::size_t, std::size_t, int codes) { reported_codes += codes; });
+    EXPECT_EQ(edits.refused(), 0);
+    EXPECT_EQ(checksum(copy), checksum(bone));
+    const double removed = bone_volume_mm3(block()) - bone_volume_mm3(bone);
+    EXPECT_NEAR(reported_codes / 255.0 * voxel_volume_mm3(bone.grid()), removed, 1e-9);
+}
+
+TEST(Carve, OutsideTheGridDoesNothing) {
+    Bone bone = block();
+    const std::uint64_t before = checksum(bone);
+    carve_path(bone, {{50.0, 0.0, 0.0}, {60.0, 0.0, 0.0}, {1e12, -1e12, 4.2}});
+    EXPECT_EQ(checksum(bone), before);
+}
+
+}  // namespace
+}  // namespace osteomill
