@@ -33,8 +33,8 @@ bool wait_for_bone(SessionPicture& session, const std::function<bool()>& stop_as
         session.take_in();
         if (session.has_bone()) return true;
         if (!session.bone_problem().empty()) throw std::runtime_error(session.bone_problem());
-        const SessionPhase phase = session.link().phase;
-        if (phase == SessionPhase::refused || phase == SessionPhase::finished)
+        const LinkStatus status = session.link().status;
+        if (status == LinkStatus::refused || status == LinkStatus::finished)
             throw std::runtime_error("no bone to draw: " + session.link().status_line);
         if (seconds(Clock::now() - start) > longest_wait_for_bone_s)
             throw std::runtime_error(fmt::format("no bone after {:.0f} s: {}", longest_wait_for_bone_s,
@@ -67,15 +67,15 @@ RenderReport run_offscreen(const RenderOptions& options, SessionSource& source,
     for (int frame = 1; going_on; ++frame) {
         const Clock::time_point start = Clock::now();
         session.take_in();
-        const SessionPhase phase = session.link().phase;
+        const LinkStatus status = session.link().status;
         const gl::Framebuffer& framebuffer = session.draw(seconds(start - previous));
         previous = start;
         // Reading a pixel waits until the frame is finished, as showing it would.
         framebuffer.depth_at({0, 0});
         frame_times.add(1e3 * seconds(Clock::now() - start));
 
-        going_on = frame < options.frames && phase != SessionPhase::finished &&
-                   phase != SessionPhase::refused && !stop_asked();
+        going_on = frame < options.frames && status != LinkStatus::finished &&
+                   status != LinkStatus::refused && !stop_asked();
         if (writes && frame % screenshot_interval(options) == 0)
             write_png(framebuffer.read_back(), options.screenshots / fmt::format("frame_{:04}.png", frame));
         if (writes && !going_on) write_png(framebuffer.read_back(), options.screenshots / "final.png");

@@ -4,7 +4,7 @@
 // never makes it jump. No clock, no window: the caller says what moved.
 #pragma once
 
-#include "render_client/ui/session_view.h"
+#include "common/wire/tool_view.h"
 #include "render_client/volume/camera.h"
 
 namespace osteomill {
@@ -30,10 +30,10 @@ class OperatorHand {
     /// Lets go: pedal up, target back on the tool. For when the window loses focus or the server goes.
     void let_go();
 
-    const OperatorIntentView& intent() const { return intent_; }
+    const OperatorIntent& intent() const { return intent_; }
 
   private:
-    OperatorIntentView intent_;
+    OperatorIntent intent_;
     bool taken_up_ = false;
     bool burr_chosen_ = false;
 };

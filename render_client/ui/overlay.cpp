@@ -48,21 +48,23 @@ void coloured_text(ImU32 colour, const std::string& line) {
     ImGui::PopStyleColor();
 }
 
-bool has_problem(SessionPhase phase) {
-    return phase == SessionPhase::connecting || phase == SessionPhase::refused;
+bool has_problem(LinkStatus status) {
+    return status == LinkStatus::connecting || status == LinkStatus::lost || status == LinkStatus::refused;
 }
 
 void draw_session_panel(const OverlayContent& content, const glm::ivec2& size_px) {
     begin_panel("session", {0.0f, 0.0f}, size_px);
-    if (content.scene) text("scene   " + content.scene->name);
+    if (content.session) text("scene   " + content.session->scene_name);
     const std::string status = content.link.status_line;
-    if (has_problem(content.link.phase))
+    if (has_problem(content.link.status))
         coloured_text(vermillion, status);
     else
         text(status);
     text(fmt::format("picture {:5.1f} frames/s", content.render_frames_per_s));
     text(fmt::format("link    {:5.1f} frames/s {:7.1f} kB/s", content.link.frames_per_s,
-                     content.link.kilobytes_per_s));
+                     1e-3 * content.link.bytes_per_s));
+    if (const std::uint64_t bad = content.link.checksum_mismatches + content.link.rejected_frames; bad > 0)
+        coloured_text(vermillion, fmt::format("{} bad frames; the bone was fetched afresh", bad));
     if (!content.help_shown) ImGui::TextDisabled("F1 help");
     ImGui::End();
 }
@@ -70,10 +72,11 @@ void draw_session_panel(const OverlayContent& content, const glm::ivec2& size_px
 void draw_tool_panel(const OverlayContent& content, const glm::ivec2& size_px) {
     const ToolView& tool = *content.tool;
     begin_panel("tool", {1.0f, 0.0f}, size_px);
-    if (content.scene && tool.burr < content.scene->burrs.size()) {
-        const BurrView& burr = content.scene->burrs[tool.burr];
+    if (content.session && tool.burr < content.session->burrs.size()) {
+        const Burr& burr = content.session->burrs[tool.burr];
         text(fmt::format("burr    {:.1f} mm, {} edges", burr.diameter_mm, burr.edges));
-        const std::string spindle = tool.spindle_on ? fmt::format("{:.0f} rpm", burr.spindle_rpm) : "off";
+        const std::string spindle =
+            tool.spindle_on ? fmt::format("{:.0f} rpm", 60.0 * burr.spindle_rev_per_s) : "off";
         coloured_text(tool.spindle_on ? bluish_green : IM_COL32(190, 190, 190, 255), "spindle " + spindle);
     }
     text(fmt::format("removed {:.2f} mm3", tool.removed_mm3));
@@ -130,8 +133,6 @@ void draw_warnings(const OverlayContent& content, const glm::ivec2& size_px) {
     if (content.tool && !content.tool->fault.empty()) warnings.push_back("FAULT: " + content.tool->fault);
     if (content.tool && content.tool->touches_protected)
         warnings.emplace_back("PROTECTED TISSUE: the burr touches it");
-    if (content.link.checksum_mismatches > 0)
-        warnings.emplace_back("this bone differs from the server's (checksum); a new copy is needed");
     if (warnings.empty()) return;
     begin_panel("warnings", {0.5f, 0.0f}, size_px);
     for (const std::string& warning : warnings) coloured_text(vermillion, warning);
@@ -140,7 +141,7 @@ void draw_warnings(const OverlayContent& content, const glm::ivec2& size_px) {
 
 void draw_operator_panel(const OverlayContent& content, const glm::ivec2& size_px) {
     begin_panel("operator", {0.0f, 1.0f}, size_px);
-    const OperatorIntentView& intent = *content.operator_intent;
+    const OperatorIntent& intent = *content.operator_intent;
     coloured_text(intent.pedal ? bluish_green : IM_COL32(190, 190, 190, 255),
                   intent.pedal ? "pedal down" : "pedal up (SPACE)");
     ImGui::TextDisabled("left drag: hand   W/S: in/out   1-9 [ ]: burr");

@@ -6,20 +6,20 @@
 #include <optional>
 #include <string>
 
-#include "render_client/ui/session_view.h"
+#include "render_client/ui/session_source.h"
 #include "render_client/ui/tool_history.h"
 
 namespace osteomill {
 
 struct OverlayContent {
-    SessionUpdate link;
-    std::optional<SceneView> scene;
+    LinkUpdate link;
+    const SessionInfo* session = nullptr;
     std::optional<ToolView> tool;
     const ToolHistory* history = nullptr;
     double render_frames_per_s = 0.0;
     bool help_shown = false;
     /// What the operator asks for, where one drills from here.
-    std::optional<OperatorIntentView> operator_intent;
+    std::optional<OperatorIntent> operator_intent;
     /// Why there is no bone in the picture, where there is none for a reason.
     std::string bone_problem;
 };

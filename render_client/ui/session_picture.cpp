@@ -1,6 +1,5 @@
 #include "render_client/ui/session_picture.h"
 
-#include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <numbers>
@@ -18,6 +17,13 @@ glm::dvec3 middle_of(const Grid& grid, const VoxelBox& box) {
     return 0.5 * (centre_of_voxel_mm(grid, box.first) + centre_of_voxel_mm(grid, box.first + box.size - 1));
 }
 
+std::vector<TissueColour> tissue_colours(const SessionInfo* session) {
+    std::vector<TissueColour> colours;
+    if (!session) return colours;
+    for (const Tissue& tissue : session->tissues) colours.push_back({tissue.label, tissue.colour_rgb});
+    return colours;
+}
+
 }  // namespace
 
 SessionPicture::SessionPicture(SessionSource& source, Panels& panels, const glm::ivec2& size_px)
@@ -25,10 +31,10 @@ SessionPicture::SessionPicture(SessionSource& source, Panels& panels, const glm:
 
 void SessionPicture::take_in() {
     link_ = source_.poll();
-    checksum_mismatches_ = std::max(checksum_mismatches_, link_.checksum_mismatches);
-    scene_ = source_.scene();
-    tool_ = source_.tool();
-    if (tool_) history_.add(*tool_);
+    if (link_.tool) {
+        tool_ = link_.tool;
+        history_.add(*tool_);
+    }
     const Bone* bone = source_.bone();
     if (!bone) return;
     if (link_.bone_replaced || (!textures_ && bone_problem_.empty())) {
@@ -42,7 +48,7 @@ void SessionPicture::take_in() {
 
 void SessionPicture::replace_bone() {
     const bool first = !textures_;
-    const std::vector<TissueColour> tissues = scene_ ? scene_->tissues : std::vector<TissueColour>{};
+    const std::vector<TissueColour> tissues = tissue_colours(source_.session());
     bone_problem_.clear();
     picture_.forget_bone();
     // The old textures go first: both together might not fit.
@@ -75,7 +81,7 @@ const gl::Framebuffer& SessionPicture::draw(double elapsed_s) {
         picture_.draw(textures_ ? &*textures_ : nullptr, tool ? &*tool : nullptr, camera_);
     panels_.begin(size_px_, elapsed_s);
     draw_overlay({.link = link_,
-                  .scene = scene_,
+                  .session = source_.session(),
                   .tool = tool_,
                   .history = &history_,
                   .render_frames_per_s = frames_per_s_,
@@ -89,8 +95,9 @@ const gl::Framebuffer& SessionPicture::draw(double elapsed_s) {
 
 void SessionPicture::turn_burr(double elapsed_s) {
     if (!tool_ || !tool_->spindle_on) return;
-    const bool clockwise =
-        !scene_ || tool_->burr >= scene_->burrs.size() || scene_->burrs[tool_->burr].clockwise;
+    const SessionInfo* session = source_.session();
+    const bool clockwise = !session || tool_->burr >= session->burrs.size() ||
+                           session->burrs[tool_->burr].sense == SpindleSense::clockwise;
     // Clockwise seen from the shank is negative about the axis from tip to shank.
     const double change = (clockwise ? -1.0 : 1.0) * 2.0 * std::numbers::pi * shown_rev_per_s * elapsed_s;
     spin_rad_ = std::remainder(spin_rad_ + change, 2.0 * std::numbers::pi);
@@ -98,9 +105,10 @@ void SessionPicture::turn_burr(double elapsed_s) {
 
 DrawnTool SessionPicture::drawn_tool() const {
     DrawnTool drawn;
-    if (scene_ && tool_->burr < scene_->burrs.size()) {
-        const BurrView& burr = scene_->burrs[tool_->burr];
-        drawn.burr = {burr.diameter_mm, burr.edges, burr.clockwise};
+    const SessionInfo* session = source_.session();
+    if (session && tool_->burr < session->burrs.size()) {
+        const Burr& burr = session->burrs[tool_->burr];
+        drawn.burr = {burr.diameter_mm, burr.edges, burr.sense == SpindleSense::clockwise};
     }
     drawn.position_mm = tool_->burr_position_mm;
     drawn.spindle_axis = tool_->spindle_axis;
@@ -120,7 +128,7 @@ RenderReport SessionPicture::report() const {
     report.gl_renderer = gl::renderer_name();
     if (const Bone* bone = source_.bone()) report.bone_checksum = checksum(*bone);
     report.dirty_bricks_uploaded = dirty_bricks_uploaded_;
-    report.checksum_mismatches = checksum_mismatches_;
+    report.checksum_mismatches = link_.checksum_mismatches;
     report.link_status = link_.status_line;
     return report;
 }

@@ -7,7 +7,7 @@
 #include "render_client/ui/overlay.h"
 #include "render_client/ui/panels.h"
 #include "render_client/ui/report.h"
-#include "render_client/ui/session_view.h"
+#include "render_client/ui/session_source.h"
 #include "render_client/volume/gl/offscreen_context.h"
 #include "render_client/volume/raycast_renderer.h"
 #include "render_client/volume/scene_picture.h"
@@ -30,13 +30,14 @@ class SessionPicture {
     /// The first view of the bone again.
     void reset_camera();
     void toggle_help() { help_shown_ = !help_shown_; }
-    void show_operator(const std::optional<OperatorIntentView>& intent) { operator_intent_ = intent; }
+    void show_operator(const std::optional<OperatorIntent>& intent) { operator_intent_ = intent; }
 
     bool has_bone() const { return textures_.has_value(); }
     /// Why the bone that is there cannot be drawn; empty while it can.
     const std::string& bone_problem() const { return bone_problem_; }
-    const SessionUpdate& link() const { return link_; }
-    const std::optional<SceneView>& scene() const { return scene_; }
+    const LinkUpdate& link() const { return link_; }
+    /// Null until a server has said hello.
+    const SessionInfo* session() const { return source_.session(); }
     const std::optional<ToolView>& tool() const { return tool_; }
 
     /// What was measured so far, with the bone's checksum of now. Frame times are the caller's to add.
@@ -55,16 +56,14 @@ class SessionPicture {
     Camera camera_;
     std::optional<BoneTextures> textures_;
     std::string bone_problem_;
-    SessionUpdate link_;
-    std::optional<SceneView> scene_;
+    LinkUpdate link_;
     std::optional<ToolView> tool_;
     ToolHistory history_;
-    std::optional<OperatorIntentView> operator_intent_;
+    std::optional<OperatorIntent> operator_intent_;
     bool help_shown_ = false;
     double spin_rad_ = 0.0;
     double frames_per_s_ = 0.0;
     std::uint64_t dirty_bricks_uploaded_ = 0;
-    std::uint64_t checksum_mismatches_ = 0;
 };
 
 }  // namespace osteomill

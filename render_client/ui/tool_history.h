@@ -4,7 +4,7 @@
 #include <array>
 #include <deque>
 
-#include "render_client/ui/session_view.h"
+#include "common/wire/tool_view.h"
 
 namespace osteomill {
 

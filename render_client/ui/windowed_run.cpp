@@ -45,7 +45,7 @@ void move_camera(SessionPicture& session, bool left_turns) {
 
 void move_hand(OperatorHand& hand, const Window& window, SessionPicture& session, double elapsed_s) {
     const ImGuiIO& io = ImGui::GetIO();
-    hand.follow(*session.tool(), session.scene()->burrs.size());
+    hand.follow(*session.tool(), session.session()->burrs.size());
     if (!window.focused()) {
         hand.let_go();
         return;
@@ -60,7 +60,7 @@ void move_hand(OperatorHand& hand, const Window& window, SessionPicture& session
     if (pressed(GLFW_KEY_RIGHT_BRACKET)) hand.choose_next_burr();
     if (pressed(GLFW_KEY_LEFT_BRACKET)) hand.choose_previous_burr();
     hand.set_pedal(window.key_down(GLFW_KEY_SPACE));
-    hand.follow(*session.tool(), session.scene()->burrs.size());
+    hand.follow(*session.tool(), session.session()->burrs.size());
 }
 
 }  // namespace
@@ -83,9 +83,9 @@ RenderReport run_in_window(const RenderOptions& options, SessionSource& source,
         session.take_in();
 
         // Without a session of this kind there is nobody who could be sent an operator's wishes.
-        const bool drills = session.link().phase == SessionPhase::live && session.tool() && session.scene() &&
-                            session.scene()->accepts_operator;
-        if (drills) source.send(hand.intent());
+        const bool drills = session.link().status == LinkStatus::live && session.tool() &&
+                            session.session() && session.session()->accepts_operator;
+        if (drills) source.send_operator(hand.intent());
         session.show_operator(drills ? std::optional(hand.intent()) : std::nullopt);
         if (!drills) hand.let_go();
 

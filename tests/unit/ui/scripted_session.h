@@ -1,7 +1,7 @@
 // A session by script in place of a server: a ball of bone into which a burr sinks, a bit deeper every poll.
 #pragma once
 
-#include "render_client/ui/session_view.h"
+#include "render_client/ui/session_source.h"
 #include "tests/unit/volume/made_bone.h"
 
 namespace osteomill {
@@ -15,24 +15,24 @@ class ScriptedSession final : public SessionSource {
               {.size_voxels = {140, 120, 100}, .origin_mm = {-7.0, -6.0, -5.0}},
               [](const glm::dvec3& p) { return 4.6 - glm::length(p * glm::dvec3(0.75, 0.9, 1.0)); },
               [](const glm::dvec3& p) { return static_cast<std::uint8_t>(p.z > 2.2 ? 2 : 1); })) {
-        scene_.name = "scripted";
-        scene_.burrs = {{"1 mm", 1.0, 6, 20000.0, true}, {"3 mm", 3.0, 6, 10000.0, true}};
-        scene_.tissues = {{1, {224, 190, 140}}, {2, {245, 243, 235}}};
+        scene_.scene_name = "scripted";
+        scene_.burrs = {{.name = "1 mm", .diameter_mm = 1.0}, {.name = "3 mm", .diameter_mm = 3.0}};
+        scene_.tissues = {{1, "dentine", {224, 190, 140}, false}, {2, "enamel", {245, 243, 235}, false}};
         scene_.accepts_operator = accepts_operator;
     }
 
-    SessionUpdate poll() override {
-        SessionUpdate update;
+    LinkUpdate poll() override {
+        LinkUpdate update;
         update.status_line = "scripted session";
         update.bone_replaced = first_;
         first_ = false;
         if (polls_left_ <= 0) {
-            update.phase = SessionPhase::finished;
+            update.status = LinkStatus::finished;
             update.status_line = "session finished";
             return update;
         }
         --polls_left_;
-        update.phase = SessionPhase::live;
+        update.status = LinkStatus::live;
         update.frames_per_s = 30.0;
         time_s_ += 1.0 / 30.0;
         tool_.time_s = time_s_;
@@ -43,22 +43,22 @@ class ScriptedSession final : public SessionSource {
         tool_.spindle_axis = glm::normalize(glm::dvec3(0.2, -0.2, 1.0));
         tool_.force_n = {0.4 * std::sin(20.0 * time_s_), 0.2, 0.9};
         tool_.removed_mm3 = 0.5 * time_s_;
+        update.tool = tool_;
         update.dirty_bricks = carve_sphere(bone_, tool_.burr_position_mm, 1.5);
         return update;
     }
     const Bone* bone() const override { return &bone_; }
-    std::optional<SceneView> scene() const override { return scene_; }
-    std::optional<ToolView> tool() const override { return tool_; }
-    void send(const OperatorIntentView& intent) override { sent = intent; }
+    const SessionInfo* session() const override { return &scene_; }
+    void send_operator(const OperatorIntent& intent) override { sent = intent; }
 
-    std::optional<OperatorIntentView> sent;
+    std::optional<OperatorIntent> sent;
 
   private:
     int polls_left_;
     bool first_ = true;
     double time_s_ = 0.0;
     Bone bone_;
-    SceneView scene_;
+    SessionInfo scene_;
     ToolView tool_;
 };
 
