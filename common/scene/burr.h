@@ -3,6 +3,7 @@
 
 #include <glm/vec3.hpp>
 #include <string>
+#include <vector>
 
 namespace osteomill {
 
@@ -21,6 +22,11 @@ struct Burr {
     double radius_mm() const { return 0.5 * diameter_mm; }
     /// +1 when the burr turns towards +psi of the burr frame (+z from tip to shank), -1 for a clockwise burr.
     double sigma() const { return sense == SpindleSense::clockwise ? -1.0 : 1.0; }
+
+    bool operator==(const Burr&) const = default;
 };
+
+/// The usual set: 1, 1.5, 2, 3, 4 and 5 mm, six edges, the published coefficients, clockwise.
+std::vector<Burr> default_burr_set(double spindle_rev_per_s);
 
 }  // namespace osteomill

@@ -20,12 +20,16 @@ namespace osteomill {
 /// A bone made by code: "tooth" or "cube".
 struct PhantomSource {
     std::string name = "tooth";
+
+    bool operator==(const PhantomSource&) const = default;
 };
 
 /// A bone from a file that bone_import wrote (HU on an isotropic, axis-aligned LPS grid).
 struct FileSource {
     std::filesystem::path path;
-    double threshold_hu = 300.0;  ///< bone is at and above this
+    std::optional<double> threshold_hu{};  ///< bone is at and above this; absent: what the file itself says
+
+    bool operator==(const FileSource&) const = default;
 };
 
 struct Tissue {
@@ -33,6 +37,8 @@ struct Tissue {
     std::string name{};
     std::array<std::uint8_t, 3> colour_rgb{};
     bool is_protected = false;  ///< touching it with a turning burr raises a warning
+
+    bool operator==(const Tissue&) const = default;
 };
 
 /// Device space to patient space: p_patient = rotation * (scale * p_device) + offset.
@@ -41,12 +47,16 @@ struct DeviceMapping {
     glm::dmat3 rotation{1.0};  ///< device axes to patient LPS; orthonormal
     double scale = 1.0;        ///< patient mm per device mm
     glm::dvec3 offset_mm{0.0};
+
+    bool operator==(const DeviceMapping&) const = default;
 };
 
 /// Where the burr's centre is and how the spindle points (unit vector from tip to shank), patient LPS.
 struct ToolPose {
     glm::dvec3 position_mm{0.0};
     glm::dvec3 spindle_axis{0.0, 0.0, 1.0};
+
+    bool operator==(const ToolPose&) const = default;
 };
 
 /// Motions that code makes. `polishing`: along the surface of a block to and fro, ever deeper. `cavity`:
@@ -62,18 +72,22 @@ struct TrajectorySpec {
     double speed_mm_per_s = 6.0;
     double depth_mm = 3.5;  ///< of the burr's lowest point below start
     double width_mm = 4.5;  ///< cavity: diameter of the hole; polishing: length of the slide
+
+    bool operator==(const TrajectorySpec&) const = default;
 };
 
 struct Scene {
     std::string name{};
     std::variant<PhantomSource, FileSource> bone = PhantomSource{};
-    StiffnessRelation stiffness;
+    StiffnessRelation stiffness = default_stiffness_relation();
     std::vector<Tissue> tissues;
     std::vector<Burr> burrs;  ///< never empty
     std::size_t start_burr = 0;
     DeviceMapping device;
     ToolPose start_pose;
     TrajectorySpec trajectory;
+
+    bool operator==(const Scene&) const = default;
 };
 
 }  // namespace osteomill

@@ -1,0 +1,39 @@
+// Between the device's space and the patient's: p_patient = rotation * (scale * p_device) + offset.
+// Directions turn; forces turn back and are not scaled.
+#pragma once
+
+#include <glm/mat3x3.hpp>
+#include <glm/matrix.hpp>
+
+#include "common/scene/scene.h"
+
+namespace osteomill {
+
+inline glm::dvec3 position_in_patient_mm(const DeviceMapping& mapping,
+                                         const glm::dvec3& position_in_device_mm) {
+    return mapping.rotation * (mapping.scale * position_in_device_mm) + mapping.offset_mm;
+}
+
+inline glm::dvec3 position_in_device_mm(const DeviceMapping& mapping, const glm::dvec3& position_in_patient) {
+    return glm::transpose(mapping.rotation) * (position_in_patient - mapping.offset_mm) / mapping.scale;
+}
+
+/// A unit vector, such as the spindle's axis.
+inline glm::dvec3 direction_in_patient(const DeviceMapping& mapping, const glm::dvec3& direction_in_device) {
+    return mapping.rotation * direction_in_device;
+}
+
+inline glm::dvec3 direction_in_device(const DeviceMapping& mapping, const glm::dvec3& direction) {
+    return glm::transpose(mapping.rotation) * direction;
+}
+
+inline glm::dvec3 velocity_in_patient_mm_per_s(const DeviceMapping& mapping,
+                                               const glm::dvec3& velocity_in_device) {
+    return mapping.rotation * (mapping.scale * velocity_in_device);
+}
+
+inline glm::dvec3 force_in_device_n(const DeviceMapping& mapping, const glm::dvec3& force_in_patient_n) {
+    return glm::transpose(mapping.rotation) * force_in_patient_n;
+}
+
+}  // namespace osteomill

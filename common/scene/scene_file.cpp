@@ -1,0 +1,291 @@
+#include "common/scene/scene_file.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+#include <set>
+#include <sstream>
+
+#include "common/scene/toml_reader.h"
+
+namespace osteomill {
+
+namespace {
+
+constexpr double default_rpm = 10'000.0;
+constexpr double seconds_per_minute = 60.0;
+constexpr double far_mm = 10'000.0;  // no patient is larger than ten metres
+
+const std::vector<std::string> motion_names{"hold", "polishing", "cavity"};
+const std::vector<std::string> phantom_choices{"tooth", "cube"};
+const std::vector<std::string> sense_names{"clockwise", "counter-clockwise"};
+
+std::string from_key(const std::filesystem::path& path) {
+    return path.generic_string();
+}
+
+std::filesystem::path resolved(const std::string& path, const std::filesystem::path& folder) {
+    const std::filesystem::path given(path);
+    return given.is_absolute() || folder.empty() ? given : folder / given;
+}
+
+template <typename T>
+T required(const TomlReader& reader, std::string_view key, std::optional<T> value) {
+    if (!value) reader.fail(key, fmt::format("key '{}' is missing", key));
+    return *std::move(value);
+}
+
+glm::dvec3 unit_vector(TomlReader& reader, std::string_view key, const glm::dvec3& fallback) {
+    const std::optional<glm::dvec3> value = reader.vector(key);
+    if (!value) return fallback;
+    const double length = glm::length(*value);
+    if (length < 1e-6) reader.fail(key, fmt::format("'{}' has no length; give a direction", key));
+    // A direction that is of unit length already stays as it is, bit for bit.
+    return std::abs(length - 1.0) < 1e-12 ? *value : *value / length;
+}
+
+glm::dvec3 position(TomlReader& reader, std::string_view key, const glm::dvec3& fallback) {
+    const glm::dvec3 value = reader.vector(key).value_or(fallback);
+    if (glm::length(value) > far_mm)
+        reader.fail(key, fmt::format("'{}' lies more than {} mm from the origin", key, far_mm));
+    return value;
+}
+
+std::variant<PhantomSource, FileSource> read_bone(TomlReader reader, const std::filesystem::path& folder) {
+    const std::optional<std::size_t> phantom = reader.choice("phantom", phantom_choices);
+    const std::optional<std::string> file = reader.text("file");
+    const std::optional<double> threshold_hu = reader.number("threshold_hu", {-1024.0, 10'000.0});
+    reader.refuse_other_keys();
+    if (phantom.has_value() == file.has_value())
+        reader.fail("phantom",
+                    "[bone] takes either phantom = \"tooth\" or \"cube\", or file = \"bone.nrrd\"");
+    if (phantom && threshold_hu)
+        reader.fail("threshold_hu", "'threshold_hu' goes with file, not with phantom");
+    if (phantom) return PhantomSource{phantom_choices[*phantom]};
+    return FileSource{resolved(*file, folder), threshold_hu};
+}
+
+StiffnessRelation read_stiffness(TomlReader reader) {
+    StiffnessRelation relation;
+    for (const auto& row : required(reader, "knots", reader.rows("knots", 2)))
+        relation.knots.push_back({row[0], row[1]});
+    reader.refuse_other_keys();
+    try {
+        require_valid(relation);
+    } catch (const std::invalid_argument& error) {
+        reader.fail("knots", error.what());
+    }
+    return relation;
+}
+
+std::array<std::uint8_t, 3> read_colour(TomlReader& reader) {
+    const std::string text = required(reader, "colour", reader.text("colour"));
+    const bool good = text.size() == 7 && text[0] == '#' &&
+                      text.find_first_not_of("0123456789abcdefABCDEF", 1) == std::string::npos;
+    if (!good) reader.fail("colour", "'colour' must look like \"#f6f4ec\"");
+    const unsigned long rgb = std::stoul(text.substr(1), nullptr, 16);
+    return {static_cast<std::uint8_t>(rgb >> 16U), static_cast<std::uint8_t>(rgb >> 8U & 0xffU),
+            static_cast<std::uint8_t>(rgb & 0xffU)};
+}
+
+std::vector<Tissue> read_tissues(std::vector<TomlReader> readers) {
+    std::vector<Tissue> tissues;
+    std::set<int> labels;
+    for (TomlReader& reader : readers) {
+        Tissue tissue;
+        tissue.label =
+            static_cast<std::uint8_t>(required(reader, "label", reader.whole_number("label", 1, 255)));
+        tissue.name = required(reader, "name", reader.text("name"));
+        tissue.colour_rgb = read_colour(reader);
+        tissue.is_protected = reader.truth("protected").value_or(false);
+        reader.refuse_other_keys();
+        if (!labels.insert(tissue.label).second)
+            reader.fail("label", fmt::format("label {} stands for two tissues", tissue.label));
+        tissues.push_back(std::move(tissue));
+    }
+    return tissues;
+}
+
+Burr read_burr(TomlReader& reader) {
+    Burr burr;
+    burr.name = required(reader, "name", reader.text("name"));
+    burr.diameter_mm = required(reader, "diameter_mm", reader.number("diameter_mm", {0.2, 20.0}));
+    burr.edges = static_cast<int>(reader.whole_number("edges", 1, 64).value_or(burr.edges));
+    burr.spindle_rev_per_s =
+        reader.number("rpm", {100.0, 500'000.0}).value_or(default_rpm) / seconds_per_minute;
+    burr.cutting_coefficients_n_per_mm2 =
+        reader.vector("cutting_coefficients_n_per_mm2").value_or(burr.cutting_coefficients_n_per_mm2);
+    const glm::dvec3& k = burr.cutting_coefficients_n_per_mm2;
+    if (!(k.x > 0.0 && k.y >= 0.0 && k.z >= 0.0 && k.x < 1e5 && k.y < 1e5 && k.z < 1e5))
+        reader.fail("cutting_coefficients_n_per_mm2",
+                    "K_t must be above 0, K_r and K_a at least 0, all below 100000 N/mm^2");
+    burr.sense = reader.choice("turns", sense_names).value_or(0) == 0 ? SpindleSense::clockwise
+                                                                      : SpindleSense::counter_clockwise;
+    reader.refuse_other_keys();
+    return burr;
+}
+
+DeviceMapping read_device(TomlReader reader) {
+    DeviceMapping mapping;
+    if (const auto rows = reader.rows("rotation", 3)) {
+        if (rows->size() != 3) reader.fail("rotation", "'rotation' must have three rows");
+        for (int row = 0; row < 3; ++row)
+            for (int column = 0; column < 3; ++column)
+                mapping.rotation[column][row] =
+                    (*rows)[static_cast<std::size_t>(row)][static_cast<std::size_t>(column)];
+        const glm::dmat3 product = glm::transpose(mapping.rotation) * mapping.rotation;
+        double defect = std::abs(glm::determinant(mapping.rotation) - 1.0);
+        for (int i = 0; i < 3; ++i)
+            for (int j = 0; j < 3; ++j)
+                defect = std::max(defect, std::abs(product[i][j] - (i == j ? 1.0 : 0.0)));
+        if (defect > 1e-6)
+            reader.fail("rotation",
+                        "'rotation' must be orthonormal with determinant +1 (rows of a rotation matrix)");
+    }
+    mapping.scale = reader.number("scale", {0.01, 100.0}).value_or(mapping.scale);
+    mapping.offset_mm = position(reader, "offset_mm", mapping.offset_mm);
+    reader.refuse_other_keys();
+    return mapping;
+}
+
+ToolPose read_pose(TomlReader reader) {
+    ToolPose pose;
+    pose.position_mm = position(reader, "position_mm", pose.position_mm);
+    pose.spindle_axis = unit_vector(reader, "spindle_axis", pose.spindle_axis);
+    reader.refuse_other_keys();
+    return pose;
+}
+
+TrajectorySpec read_trajectory(TomlReader reader, const std::filesystem::path& folder) {
+    TrajectorySpec spec;
+    const std::optional<std::size_t> motion = reader.choice("motion", motion_names);
+    const std::optional<std::string> file = reader.text("file");
+    spec.start_mm = position(reader, "start_mm", spec.start_mm);
+    spec.travel_direction = unit_vector(reader, "travel_direction", spec.travel_direction);
+    spec.speed_mm_per_s = reader.number("speed_mm_per_s", {0.01, 500.0}).value_or(spec.speed_mm_per_s);
+    spec.depth_mm = reader.number("depth_mm", {0.0, 200.0}).value_or(spec.depth_mm);
+    spec.width_mm = reader.number("width_mm", {0.0, 500.0}).value_or(spec.width_mm);
+    reader.refuse_other_keys();
+    if (motion.has_value() == file.has_value())
+        reader.fail("motion",
+                    "[trajectory] takes either motion = \"hold\", \"polishing\" or \"cavity\", or file = "
+                    "\"path.csv\"");
+    if (motion)
+        spec.source = static_cast<BuiltInTrajectory>(*motion);
+    else
+        spec.source = resolved(*file, folder);
+    return spec;
+}
+
+Scene read_all(TomlReader reader, const std::filesystem::path& folder) {
+    Scene scene;
+    scene.name = required(reader, "name", reader.text("name"));
+    scene.bone = read_bone(required(reader, "bone", reader.table("bone")), folder);
+    if (auto table = reader.table("stiffness")) scene.stiffness = read_stiffness(*table);
+    scene.tissues = read_tissues(reader.tables("tissues"));
+    for (TomlReader& burr : reader.tables("burrs")) scene.burrs.push_back(read_burr(burr));
+    if (scene.burrs.empty()) scene.burrs = default_burr_set(default_rpm / seconds_per_minute);
+    std::vector<std::string> burr_names;
+    for (const Burr& burr : scene.burrs) {
+        if (std::find(burr_names.begin(), burr_names.end(), burr.name) != burr_names.end())
+            reader.fail("burrs", fmt::format("two burrs are called \"{}\"", burr.name));
+        burr_names.push_back(burr.name);
+    }
+    scene.start_burr = reader.choice("start_burr", burr_names).value_or(0);
+    if (auto table = reader.table("device")) scene.device = read_device(*table);
+    if (auto table = reader.table("start_pose")) scene.start_pose = read_pose(*table);
+    if (auto table = reader.table("trajectory")) scene.trajectory = read_trajectory(*table, folder);
+    reader.refuse_other_keys();
+    return scene;
+}
+
+toml::array list(const glm::dvec3& v) {
+    return toml::array{v.x, v.y, v.z};
+}
+
+toml::array rows_of(const glm::dmat3& m) {
+    const glm::dmat3 t = glm::transpose(m);
+    return toml::array{list(t[0]), list(t[1]), list(t[2])};
+}
+
+toml::table bone_table(const std::variant<PhantomSource, FileSource>& bone) {
+    if (const auto* phantom = std::get_if<PhantomSource>(&bone))
+        return toml::table{{"phantom", phantom->name}};
+    const auto& file = std::get<FileSource>(bone);
+    toml::table table{{"file", from_key(file.path)}};
+    if (file.threshold_hu) table.insert("threshold_hu", *file.threshold_hu);
+    return table;
+}
+
+}  // namespace
+
+Scene parse_scene(std::string_view text, const std::string& name_for_messages,
+                  const std::filesystem::path& folder) {
+    try {
+        const toml::table root = toml::parse(text, name_for_messages);
+        return read_all(TomlReader(root, name_for_messages, "the scene"), folder);
+    } catch (const toml::parse_error& error) {
+        throw SceneError(fmt::format("{}:{}: not TOML: {}", name_for_messages, error.source().begin.line,
+                                     error.description()));
+    }
+}
+
+Scene read_scene(const std::filesystem::path& path) {
+    std::ifstream file(path, std::ios::binary);
+    if (!file || std::filesystem::is_directory(path))
+        throw SceneError(fmt::format("{}: cannot read this scene file", path.string()));
+    std::ostringstream text;
+    text << file.rdbuf();
+    return parse_scene(text.str(), path.string(), path.parent_path());
+}
+
+std::string write_scene(const Scene& scene) {
+    toml::table root{{"name", scene.name}, {"start_burr", scene.burrs.at(scene.start_burr).name}};
+    root.insert("bone", bone_table(scene.bone));
+    toml::array knots;
+    for (const StiffnessKnot& knot : scene.stiffness.knots)
+        knots.push_back(toml::array{knot.hu, knot.relative_stiffness});
+    root.insert("stiffness", toml::table{{"knots", knots}});
+    toml::array tissues;
+    for (const Tissue& tissue : scene.tissues)
+        tissues.push_back(toml::table{{"label", static_cast<std::int64_t>(tissue.label)},
+                                      {"name", tissue.name},
+                                      {"colour", fmt::format("#{:02x}{:02x}{:02x}", tissue.colour_rgb[0],
+                                                             tissue.colour_rgb[1], tissue.colour_rgb[2])},
+                                      {"protected", tissue.is_protected}});
+    if (!tissues.empty()) root.insert("tissues", tissues);
+    toml::array burrs;
+    for (const Burr& burr : scene.burrs)
+        burrs.push_back(
+            toml::table{{"name", burr.name},
+                        {"diameter_mm", burr.diameter_mm},
+                        {"edges", static_cast<std::int64_t>(burr.edges)},
+                        {"rpm", burr.spindle_rev_per_s * seconds_per_minute},
+                        {"cutting_coefficients_n_per_mm2", list(burr.cutting_coefficients_n_per_mm2)},
+                        {"turns", sense_names[burr.sense == SpindleSense::clockwise ? 0 : 1]}});
+    root.insert("burrs", burrs);
+    root.insert("device", toml::table{{"rotation", rows_of(scene.device.rotation)},
+                                      {"scale", scene.device.scale},
+                                      {"offset_mm", list(scene.device.offset_mm)}});
+    root.insert("start_pose", toml::table{{"position_mm", list(scene.start_pose.position_mm)},
+                                          {"spindle_axis", list(scene.start_pose.spindle_axis)}});
+    toml::table trajectory{{"start_mm", list(scene.trajectory.start_mm)},
+                           {"travel_direction", list(scene.trajectory.travel_direction)},
+                           {"speed_mm_per_s", scene.trajectory.speed_mm_per_s},
+                           {"depth_mm", scene.trajectory.depth_mm},
+                           {"width_mm", scene.trajectory.width_mm}};
+    if (const auto* motion = std::get_if<BuiltInTrajectory>(&scene.trajectory.source))
+        trajectory.insert("motion", motion_names[static_cast<std::size_t>(*motion)]);
+    else
+        trajectory.insert("file", from_key(std::get<std::filesystem::path>(scene.trajectory.source)));
+    root.insert("trajectory", trajectory);
+    std::ostringstream out;
+    out << root << '\n';
+    return out.str();
+}
+
+}  // namespace osteomill

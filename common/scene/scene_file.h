@@ -1,0 +1,47 @@
+// Reads and writes scenes as TOML (scenes/*.toml are examples). Strict: an unknown, missing or ill-typed key
+// and a value out of range are errors with file, line and the valid choices; nothing is silently defaulted
+// that was written down.
+//
+//     name = "jaw"
+//     start_burr = "1.5 mm"
+//     [bone]           phantom = "tooth"   or   file = "jaw.nrrd", threshold_hu = 300.0     (paths relative
+//     to the scene file) [stiffness]      knots = [[150, 0.02], [1600, 1.0], ...] HU, relative stiffness
+//     [[tissues]]      label = 1, name = "enamel", colour = "#f6f4ec", protected = false
+//     [[burrs]]        name, diameter_mm, edges, rpm, cutting_coefficients_n_per_mm2 = [K_t, K_r, K_a],
+//                      turns = "clockwise"
+//     [device]         rotation = [[..], [..], [..]] (rows), scale, offset_mm
+//     [start_pose]     position_mm, spindle_axis
+//     [trajectory]     motion = "hold" | "polishing" | "cavity"   or   file = "path.csv";
+//                      start_mm, travel_direction, speed_mm_per_s, depth_mm, width_mm
+//
+// Only [bone] is required; what is left out takes the defaults of scene.h and the usual burr set at 10 000
+// rpm.
+#pragma once
+
+#include <filesystem>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+
+#include "common/scene/scene.h"
+
+namespace osteomill {
+
+/// One line: "file:line: what is wrong; what would be right".
+class SceneError : public std::runtime_error {
+  public:
+    using std::runtime_error::runtime_error;
+};
+
+/// Throws SceneError for an unreadable file or a bad scene.
+Scene read_scene(const std::filesystem::path& path);
+
+/// As read_scene, from text. `name_for_messages` stands in messages; relative paths are resolved against
+/// `folder`.
+Scene parse_scene(std::string_view text, const std::string& name_for_messages,
+                  const std::filesystem::path& folder = {});
+
+/// The scene as TOML, every key written out; parse_scene gives the same scene back.
+std::string write_scene(const Scene& scene);
+
+}  // namespace osteomill

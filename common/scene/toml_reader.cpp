@@ -1,0 +1,142 @@
+#include "common/scene/toml_reader.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "common/scene/scene_file.h"
+
+namespace osteomill {
+
+TomlReader::TomlReader(const toml::table& table, std::string file, std::string table_name)
+    : table_(&table), file_(std::move(file)), table_name_(std::move(table_name)) {}
+
+const toml::node* TomlReader::take(std::string_view key) {
+    known_keys_.emplace_back(key);
+    return table_->get(key);
+}
+
+void TomlReader::fail(std::string_view key, const std::string& message) const {
+    const toml::node* node = table_->get(key);
+    const auto line = (node ? node->source() : table_->source()).begin.line;
+    throw SceneError(fmt::format("{}:{}: {}", file_, line, message));
+}
+
+std::optional<double> TomlReader::finite_number(const toml::node& node) {
+    if (!node.is_number()) return std::nullopt;
+    const std::optional<double> value = node.value<double>();
+    return value && std::isfinite(*value) ? value : std::nullopt;
+}
+
+std::optional<double> TomlReader::number(std::string_view key, const AllowedRange& range) {
+    const toml::node* node = take(key);
+    if (!node) return std::nullopt;
+    const std::optional<double> value = finite_number(*node);
+    if (!value) fail(key, fmt::format("'{}' must be a finite number", key));
+    if (*value < range.low || *value > range.high)
+        fail(key, fmt::format("'{}' is {}; it must lie within {} to {}", key, *value, range.low, range.high));
+    return value;
+}
+
+std::optional<std::int64_t> TomlReader::whole_number(std::string_view key, std::int64_t low,
+                                                     std::int64_t high) {
+    const toml::node* node = take(key);
+    if (!node) return std::nullopt;
+    if (!node->is_integer()) fail(key, fmt::format("'{}' must be a whole number", key));
+    const std::int64_t value = **node->as_integer();
+    if (value < low || value > high)
+        fail(key, fmt::format("'{}' is {}; it must lie within {} to {}", key, value, low, high));
+    return value;
+}
+
+std::optional<std::string> TomlReader::text(std::string_view key) {
+    const toml::node* node = take(key);
+    if (!node) return std::nullopt;
+    if (!node->is_string()) fail(key, fmt::format("'{}' must be a text in quotes", key));
+    return **node->as_string();
+}
+
+std::optional<std::size_t> TomlReader::choice(std::string_view key, const std::vector<std::string>& choices) {
+    const std::optional<std::string> value = text(key);
+    if (!value) return std::nullopt;
+    const auto found = std::find(choices.begin(), choices.end(), *value);
+    if (found == choices.end())
+        fail(key, fmt::format("'{}' is \"{}\"; choose one of: {}", key, *value, fmt::join(choices, ", ")));
+    return static_cast<std::size_t>(found - choices.begin());
+}
+
+std::optional<bool> TomlReader::truth(std::string_view key) {
+    const toml::node* node = take(key);
+    if (!node) return std::nullopt;
+    if (!node->is_boolean()) fail(key, fmt::format("'{}' must be true or false", key));
+    return **node->as_boolean();
+}
+
+std::optional<glm::dvec3> TomlReader::vector(std::string_view key) {
+    const toml::node* node = take(key);
+    if (!node) return std::nullopt;
+    const toml::array* values = node->as_array();
+    glm::dvec3 result(0.0);
+    bool good = values && values->size() == 3;
+    for (int axis = 0; good && axis < 3; ++axis) {
+        const std::optional<double> value = finite_number((*values)[static_cast<std::size_t>(axis)]);
+        good = value.has_value();
+        if (good) result[axis] = *value;
+    }
+    if (!good) fail(key, fmt::format("'{}' must be three finite numbers, like [0.0, 0.0, 1.0]", key));
+    return result;
+}
+
+std::optional<std::vector<std::vector<double>>> TomlReader::rows(std::string_view key, std::size_t width) {
+    const toml::node* node = take(key);
+    if (!node) return std::nullopt;
+    const auto refuse = [&] {
+        fail(key, fmt::format("'{}' must be a list of lists of {} finite numbers each", key, width));
+    };
+    const toml::array* list = node->as_array();
+    if (!list) refuse();
+    std::vector<std::vector<double>> result;
+    for (const toml::node& entry : *list) {
+        const toml::array* row = entry.as_array();
+        if (!row || row->size() != width) refuse();
+        std::vector<double> values;
+        for (const toml::node& cell : *row) {
+            const std::optional<double> value = finite_number(cell);
+            if (!value) refuse();
+            values.push_back(*value);
+        }
+        result.push_back(std::move(values));
+    }
+    return result;
+}
+
+std::optional<TomlReader> TomlReader::table(std::string_view key) {
+    const toml::node* node = take(key);
+    if (!node) return std::nullopt;
+    if (!node->is_table()) fail(key, fmt::format("'{}' must be a table, written [{}]", key, key));
+    return TomlReader(*node->as_table(), file_, fmt::format("[{}]", key));
+}
+
+std::vector<TomlReader> TomlReader::tables(std::string_view key) {
+    const toml::node* node = take(key);
+    if (!node) return {};
+    if (!node->is_array_of_tables())
+        fail(key, fmt::format("'{}' must be a list of tables, each written [[{}]]", key, key));
+    std::vector<TomlReader> result;
+    for (const toml::node& entry : *node->as_array())
+        result.emplace_back(*entry.as_table(), file_, fmt::format("[[{}]]", key));
+    return result;
+}
+
+void TomlReader::refuse_other_keys() const {
+    for (const auto& [key, node] : *table_) {
+        if (std::find(known_keys_.begin(), known_keys_.end(), key.str()) != known_keys_.end()) continue;
+        throw SceneError(fmt::format("{}:{}: unknown key '{}' in {}; choose one of: {}", file_,
+                                     key.source().begin.line, key.str(), table_name_,
+                                     fmt::join(known_keys_, ", ")));
+    }
+}
+
+}  // namespace osteomill

@@ -1,0 +1,57 @@
+// Strict reading of one TOML table: every key asked for is checked for type and range, every other key is an
+// error. Messages carry file and line.
+#pragma once
+
+#include <toml++/toml.h>
+
+#include <glm/vec3.hpp>
+#include <limits>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace osteomill {
+
+/// Closed range that a number must lie in, with its unit for messages.
+struct AllowedRange {
+    double low = -std::numeric_limits<double>::max();
+    double high = std::numeric_limits<double>::max();
+};
+
+class TomlReader {
+  public:
+    /// `table_name` is how the table is called in messages, for instance "[burrs]". The table must outlive
+    /// the reader.
+    TomlReader(const toml::table& table, std::string file, std::string table_name);
+
+    /// Each takes a key: absent keys give nullopt; a wrong type or value throws SceneError.
+    std::optional<double> number(std::string_view key, const AllowedRange& range = {});
+    std::optional<std::int64_t> whole_number(std::string_view key, std::int64_t low, std::int64_t high);
+    std::optional<std::string> text(std::string_view key);
+    /// A text out of `choices`; gives its index.
+    std::optional<std::size_t> choice(std::string_view key, const std::vector<std::string>& choices);
+    std::optional<bool> truth(std::string_view key);
+    std::optional<glm::dvec3> vector(std::string_view key);
+    /// A list of lists of `width` numbers each.
+    std::optional<std::vector<std::vector<double>>> rows(std::string_view key, std::size_t width);
+    std::optional<TomlReader> table(std::string_view key);
+    std::vector<TomlReader> tables(std::string_view key);
+
+    /// Throws for the first key of the table that nothing asked for, naming those that were.
+    void refuse_other_keys() const;
+
+    /// Throws SceneError at the line of a key (or of the table, if it has no such key).
+    [[noreturn]] void fail(std::string_view key, const std::string& message) const;
+
+  private:
+    const toml::node* take(std::string_view key);
+    static std::optional<double> finite_number(const toml::node& node);
+
+    const toml::table* table_;
+    std::string file_;
+    std::string table_name_;
+    std::vector<std::string> known_keys_;
+};
+
+}  // namespace osteomill

@@ -1,0 +1,72 @@
+#include <stdexcept>
+
+#include "haptic_server/imaging/phantom.h"
+
+namespace osteomill {
+
+namespace {
+
+std::uint8_t label(ToothTissue tissue) {
+    return static_cast<std::uint8_t>(tissue);
+}
+
+Scene tooth_scene() {
+    Scene scene;
+    scene.name = "tooth";
+    scene.bone = PhantomSource{"tooth"};
+    scene.tissues = {{label(ToothTissue::cortical_bone), "cortical bone", {224, 214, 196}, false},
+                     {label(ToothTissue::trabecular_bone), "trabecular bone", {205, 170, 125}, false},
+                     {label(ToothTissue::dentine), "dentine", {236, 208, 140}, false},
+                     {label(ToothTissue::enamel), "enamel", {246, 244, 236}, false},
+                     {label(ToothTissue::pulp), "pulp", {204, 76, 70}, true},
+                     {label(ToothTissue::nerve_canal), "nerve canal", {240, 200, 40}, true},
+                     {label(ToothTissue::carious_lesion), "carious lesion", {110, 74, 48}, false}};
+    // 40 000 rpm, a slow dental handpiece: at the published 10 000 rpm enamel would push back with several
+    // newtons, more than the arm can render or a dentist would use (about 1 N).
+    scene.burrs = default_burr_set(40'000.0 / 60.0);
+    scene.start_burr = 1;
+    scene.start_pose = {{0.5, 0.2, 6.5}, {0.0, 0.0, 1.0}};
+    scene.trajectory = {.source = BuiltInTrajectory::cavity,
+                        .start_mm = {0.5, 0.2, 3.4},
+                        .travel_direction = {1.0, 0.0, 0.0},
+                        .speed_mm_per_s = 4.0,
+                        .depth_mm = 2.8,
+                        .width_mm = 4.5};
+    return scene;
+}
+
+Scene cube_scene() {
+    Scene scene;
+    scene.name = "cube";
+    scene.bone = PhantomSource{"cube"};
+    scene.burrs = default_burr_set(10'000.0 / 60.0);
+    scene.start_burr = 5;
+    scene.start_pose = {{-20.0, 0.0, 4.0}, {0.0, 0.0, 1.0}};
+    scene.trajectory = {.source = BuiltInTrajectory::polishing,
+                        .start_mm = {-20.0, 0.0, 0.0},
+                        .travel_direction = {1.0, 0.0, 0.0},
+                        .speed_mm_per_s = 6.0,
+                        .depth_mm = 3.5,
+                        .width_mm = 40.0};
+    return scene;
+}
+
+}  // namespace
+
+std::vector<std::string> phantom_names() {
+    return {"tooth", "cube"};
+}
+
+Scene phantom_scene(const std::string& name) {
+    if (name == "tooth") return tooth_scene();
+    if (name == "cube") return cube_scene();
+    throw std::invalid_argument("unknown phantom '" + name + "'; choose tooth or cube");
+}
+
+HuVolume make_phantom(const std::string& name) {
+    if (name == "tooth") return make_tooth_phantom();
+    if (name == "cube") return make_cube_phantom();
+    throw std::invalid_argument("unknown phantom '" + name + "'; choose tooth or cube");
+}
+
+}  // namespace osteomill

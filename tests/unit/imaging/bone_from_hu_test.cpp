@@ -1,0 +1,74 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <stdexcept>
+
+#include "haptic_server/imaging/hu_volume.h"
+
+namespace osteomill {
+namespace {
+
+constexpr double threshold_hu = 300.0;
+
+/// HU that falls linearly from bone to soft tissue over 4 voxels around a sphere, as a blurred scan would
+/// show it.
+HuVolume blurred_sphere(double radius_mm) {
+    const Grid grid{.size_voxels = {70, 66, 62}, .spacing_mm = 0.1, .origin_mm = {-3.51, -3.27, -3.1}};
+    HuVolume volume{.grid = grid, .hu = {}, .tissue = {}};
+    for (int z = 0; z < 62; ++z)
+        for (int y = 0; y < 66; ++y)
+            for (int x = 0; x < 70; ++x) {
+                const double depth = (radius_mm - glm::length(centre_of_voxel_mm(grid, {x, y, z}))) / 0.1;
+                volume.hu.push_back(static_cast<std::int16_t>(
+                    std::lround(threshold_hu + 300.0 * std::clamp(depth, -2.0, 2.0))));
+            }
+    return volume;
+}
+
+TEST(BoneFromHu, VolumeOfASphereIsRightToAFifthOfAPercent) {
+    for (const double radius_mm : {1.3, 2.5}) {
+        const Bone bone = bone_from_hu(blurred_sphere(radius_mm), threshold_hu, default_stiffness_relation());
+        const double exact = 4.0 / 3.0 * 3.14159265358979 * radius_mm * radius_mm * radius_mm;
+        EXPECT_NEAR(bone_volume_mm3(bone) / exact, 1.0, 0.002) << radius_mm;
+    }
+}
+
+TEST(BoneFromHu, ASharpStepGivesWholeVoxelsAndOneStiffnessForAll) {
+    const Grid grid{.size_voxels = {20, 20, 20}};
+    HuVolume volume{.grid = grid, .hu = std::vector<std::int16_t>(8000, -1000), .tissue = {}};
+    std::fill_n(volume.hu.begin(), 4000, std::int16_t{1600});
+    const Bone bone = bone_from_hu(volume, threshold_hu, default_stiffness_relation());
+    EXPECT_TRUE(bone.content().stiffness.empty()) << "homogeneous: no channel";
+    EXPECT_TRUE(bone.content().tissue.empty());
+    EXPECT_EQ(bone.fraction_at({10, 10, 9}), 255);
+    EXPECT_EQ(bone.fraction_at({10, 10, 10}), 0);
+    EXPECT_DOUBLE_EQ(bone.stiffness_at({0, 0, 0}), 1.0);
+    EXPECT_DOUBLE_EQ(bone_volume_mm3(bone), 4.0);
+}
+
+TEST(BoneFromHu, AMixedVoxelOnTheSurfaceIsAsStiffAsTheBoneBesideItAndBearsItsLabel) {
+    const Grid grid{.size_voxels = {16, 16, 16}};
+    HuVolume volume{.grid = grid,
+                    .hu = std::vector<std::int16_t>(4096, -1000),
+                    .tissue = std::vector<std::uint8_t>(4096, 0)};
+    std::fill_n(volume.hu.begin(), 256 * 8, std::int16_t{1600});
+    std::fill_n(volume.tissue.begin(), 256 * 8, std::uint8_t{3});
+    std::fill_n(volume.hu.begin() + 256 * 8, 256, std::int16_t{400});  // half air
+    const Bone bone = bone_from_hu(volume, threshold_hu, default_stiffness_relation());
+    EXPECT_GT(bone.fraction_at({8, 8, 8}), 0);
+    EXPECT_LT(bone.fraction_at({8, 8, 8}), 255);
+    EXPECT_DOUBLE_EQ(bone.stiffness_at({8, 8, 8}), 1.0);
+    EXPECT_EQ(bone.tissue_at({8, 8, 8}), 3);
+}
+
+TEST(BoneFromHu, RefusesChannelsThatDoNotFit) {
+    HuVolume volume{
+        .grid = Grid{.size_voxels = {16, 16, 16}}, .hu = std::vector<std::int16_t>(100), .tissue = {}};
+    EXPECT_THROW((void)bone_from_hu(volume, threshold_hu, default_stiffness_relation()),
+                 std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace osteomill

@@ -1,0 +1,151 @@
+#include "common/scene/scene_file.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+
+namespace osteomill {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+
+std::string error_of(const std::string& text) {
+    try {
+        (void)parse_scene(text, "my.toml");
+    } catch (const SceneError& error) {
+        return error.what();
+    }
+    return "no error";
+}
+
+const std::string smallest = "name = \"a\"\n[bone]\nphantom = \"tooth\"\n";
+
+TEST(SceneFile, NeedsOnlyANameAndABone) {
+    const Scene scene = parse_scene(smallest, "my.toml");
+    EXPECT_EQ(scene.name, "a");
+    EXPECT_EQ(std::get<PhantomSource>(scene.bone).name, "tooth");
+    EXPECT_EQ(scene.burrs.size(), 6U);
+    EXPECT_NEAR(scene.burrs[5].spindle_rev_per_s, 10'000.0 / 60.0, 1e-12);
+    EXPECT_EQ(scene.stiffness, default_stiffness_relation());
+}
+
+TEST(SceneFile, ReadsEveryKey) {
+    const Scene scene = parse_scene(R"(
+name = "jaw"
+start_burr = "round"
+[bone]
+file = "jaw.nrrd"
+threshold_hu = 250
+[stiffness]
+knots = [[100, 0.5], [2000, 2]]
+[[tissues]]
+label = 4
+name = "enamel"
+colour = "#0a0Bff"
+protected = true
+[[burrs]]
+name = "flame"
+diameter_mm = 1
+[[burrs]]
+name = "round"
+diameter_mm = 2.5
+edges = 8
+rpm = 60000
+cutting_coefficients_n_per_mm2 = [1, 2, 3]
+turns = "counter-clockwise"
+[device]
+rotation = [[0, -1, 0], [1, 0, 0], [0, 0, 1]]
+scale = 0.5
+offset_mm = [1, 2, 3]
+[start_pose]
+position_mm = [4, 5, 6]
+spindle_axis = [0, 3, 4]
+[trajectory]
+file = "path.csv"
+)",
+                                    "my.toml", "/scenes");
+    const auto& file = std::get<FileSource>(scene.bone);
+    EXPECT_EQ(file.path, "/scenes/jaw.nrrd");
+    EXPECT_EQ(file.threshold_hu, 250.0);
+    EXPECT_EQ(scene.stiffness.knots.size(), 2U);
+    EXPECT_EQ(scene.tissues[0].colour_rgb, (std::array<std::uint8_t, 3>{0x0a, 0x0b, 0xff}));
+    EXPECT_TRUE(scene.tissues[0].is_protected);
+    EXPECT_EQ(scene.start_burr, 1U);
+    EXPECT_DOUBLE_EQ(scene.burrs[1].spindle_rev_per_s, 1000.0);
+    EXPECT_EQ(scene.burrs[1].sigma(), 1.0);
+    EXPECT_EQ(scene.burrs[1].cutting_coefficients_n_per_mm2, glm::dvec3(1.0, 2.0, 3.0));
+    EXPECT_EQ(scene.device.rotation * glm::dvec3(1.0, 0.0, 0.0), glm::dvec3(0.0, 1.0, 0.0))
+        << "rows, not columns";
+    EXPECT_EQ(scene.start_pose.spindle_axis, glm::dvec3(0.0, 0.6, 0.8));
+    EXPECT_EQ(std::get<std::filesystem::path>(scene.trajectory.source), "/scenes/path.csv");
+    EXPECT_EQ(parse_scene(write_scene(scene), "again.toml"), scene);
+}
+
+TEST(SceneFile, ShippedScenesAreReadAndSurviveWriting) {
+    int scenes = 0;
+    for (const auto& entry : std::filesystem::directory_iterator(OSTEOMILL_SCENES)) {
+        const Scene scene = read_scene(entry.path());
+        EXPECT_EQ(parse_scene(write_scene(scene), "again.toml"), scene) << entry.path();
+        ++scenes;
+    }
+    EXPECT_GE(scenes, 2);
+}
+
+TEST(SceneFile, AnUnknownKeyIsRefusedWithItsLineAndTheChoices) {
+    EXPECT_THAT(
+        error_of(smallest + "[trajectory]\nmotion = \"hold\"\nspeed = 3\n"),
+        AllOf(HasSubstr("my.toml:6: unknown key 'speed' in [trajectory]"), HasSubstr("speed_mm_per_s")));
+    EXPECT_THAT(error_of("nmae = \"x\"\n" + smallest),
+                HasSubstr("my.toml:1: unknown key 'nmae' in the scene"));
+    EXPECT_THAT(error_of(smallest + "[[burrs]]\nname = \"b\"\ndiameter_mm = 1\nteeth = 6\n"),
+                HasSubstr("my.toml:7: unknown key 'teeth' in [[burrs]]"));
+}
+
+TEST(SceneFile, AMissingKeyIsNamed) {
+    EXPECT_THAT(error_of("[bone]\nphantom = \"tooth\"\n"), HasSubstr("key 'name' is missing"));
+    EXPECT_THAT(error_of("name = \"a\"\n"), HasSubstr("key 'bone' is missing"));
+    EXPECT_THAT(error_of(smallest + "[[burrs]]\nname = \"b\"\n"),
+                HasSubstr("my.toml:4: key 'diameter_mm' is missing"));
+}
+
+TEST(SceneFile, ValuesOutOfRangeOrOfTheWrongTypeAreRefused) {
+    EXPECT_THAT(error_of("name = 3\n[bone]\nphantom = \"tooth\"\n"),
+                HasSubstr("my.toml:1: 'name' must be a text"));
+    EXPECT_THAT(error_of("name = \"a\"\n[bone]\nphantom = \"skull\"\n"),
+                HasSubstr("my.toml:3: 'phantom' is \"skull\"; choose one of: tooth, cube"));
+    const std::string burr = smallest + "[[burrs]]\nname = \"b\"\ndiameter_mm = ";
+    EXPECT_THAT(error_of(burr + "0.0\n"), HasSubstr("my.toml:6: 'diameter_mm' is 0"));
+    EXPECT_THAT(error_of(burr + "nan\n"), HasSubstr("must be a finite number"));
+    EXPECT_THAT(error_of(burr + "1\nedges = 0\n"), HasSubstr("'edges' is 0; it must lie within 1 to 64"));
+    EXPECT_THAT(error_of(burr + "1\nrpm = -5\n"), HasSubstr("'rpm' is -5"));
+    EXPECT_THAT(error_of(burr + "1\ncutting_coefficients_n_per_mm2 = [0, 1, 1]\n"),
+                HasSubstr("K_t must be above 0"));
+    EXPECT_THAT(error_of(burr + "1\n[[burrs]]\nname = \"b\"\ndiameter_mm = 2\n"),
+                HasSubstr("two burrs are called"));
+    EXPECT_THAT(error_of(smallest + "[device]\nrotation = [[1,0,0],[0,1,0],[0,0,-1]]\n"),
+                HasSubstr("determinant +1"));
+    EXPECT_THAT(error_of(smallest + "[device]\nrotation = [[1,0],[0,1]]\n"), HasSubstr("lists of 3"));
+    EXPECT_THAT(error_of(smallest + "[start_pose]\nspindle_axis = [0,0,0]\n"), HasSubstr("has no length"));
+    EXPECT_THAT(error_of(smallest + "[start_pose]\nposition_mm = [0,0]\n"),
+                HasSubstr("three finite numbers"));
+    EXPECT_THAT(error_of("start_burr = \"9 mm\"\n" + smallest), HasSubstr("choose one of: 1 mm, 1.5 mm"));
+    EXPECT_THAT(error_of(smallest + "[[tissues]]\nlabel = 1\nname = \"x\"\ncolour = \"red\"\n"),
+                HasSubstr("#f6f4ec"));
+    EXPECT_THAT(error_of(smallest + "[stiffness]\nknots = [[100, 9]]\n"), HasSubstr("outside 0.02 to 5.1"));
+    EXPECT_THAT(error_of("name = \"a\"\n[bone]\nphantom = \"tooth\"\nfile = \"x\"\n"),
+                HasSubstr("takes either"));
+    EXPECT_THAT(error_of("name = \"a\"\nbone = 3\n"), HasSubstr("must be a table"));
+    EXPECT_THAT(error_of(smallest + "[trajectory]\nspeed_mm_per_s = 3\n"), HasSubstr("takes either motion"));
+}
+
+TEST(SceneFile, WhatIsNotTomlOrNotThereIsRefusedInOneLine) {
+    EXPECT_THAT(error_of("name = \"a\"\n[bone\n"), HasSubstr("my.toml:2: not TOML"));
+    EXPECT_THROW((void)read_scene("/no/such/scene.toml"), SceneError);
+    EXPECT_THROW((void)read_scene("/"), SceneError);
+}
+
+}  // namespace
+}  // namespace osteomill
