@@ -1,0 +1,63 @@
+#include "common/wire/brick_edit.h"
+
+#include <string>
+
+namespace osteomill {
+
+namespace {
+
+WireError refused(BrickIndex brick, const std::string& what) {
+    return {"edit of brick " + std::to_string(brick) + " refused: " + what};
+}
+
+}  // namespace
+
+v1::BrickEdit brick_edit(BrickIndex brick, std::span<const std::uint8_t, brick_voxel_count> fractions,
+                         const VoxelMask& changed) {
+    v1::BrickEdit edit;
+    edit.set_brick(brick);
+    edit.mutable_fraction()->reserve(changed.count());
+    for (std::size_t voxel = changed._Find_first(); voxel < brick_voxel_count;) {
+        const std::size_t first = voxel;
+        for (; voxel < brick_voxel_count && changed[voxel]; ++voxel)
+            edit.mutable_fraction()->push_back(static_cast<char>(fractions[voxel]));
+        edit.add_changed(static_cast<std::uint32_t>(first));
+        edit.add_changed(static_cast<std::uint32_t>(voxel - first));
+        while (voxel < brick_voxel_count && !changed[voxel]) ++voxel;
+    }
+    return edit;
+}
+
+std::optional<WireError> apply_brick_edit(const v1::BrickEdit& edit, Bone& bone) {
+    const BrickIndex brick = edit.brick();
+    const BoneContent& content = bone.content();
+    if (brick >= content.slot_of_brick.size() || content.slot_of_brick[brick] == BoneContent::no_slot)
+        return refused(brick, "no bone is stored there");
+    if (edit.changed_size() % 2 != 0) return refused(brick, "a run lacks its length");
+
+    const auto fractions = bone.fractions(content.slot_of_brick[brick]);
+    std::size_t taken = 0;
+    std::size_t end_of_last = 0;
+    for (int i = 0; i < edit.changed_size(); i += 2) {
+        const std::size_t first = edit.changed(i);
+        const std::size_t length = edit.changed(i + 1);
+        if (length == 0 || first < end_of_last) return refused(brick, "its runs are empty or do not ascend");
+        if (first + length > brick_voxel_count)
+            return refused(brick, "a run ends at voxel " + std::to_string(first + length) + " of " +
+                                      std::to_string(brick_voxel_count));
+        if (length > edit.fraction().size() - taken) return refused(brick, "it has too few fractions");
+        for (std::size_t voxel = first; voxel < first + length; ++voxel)
+            if (static_cast<std::uint8_t>(edit.fraction()[taken++]) > fractions[voxel])
+                return refused(brick, "it raises what is left of voxel " + std::to_string(voxel));
+        end_of_last = first + length;
+    }
+    if (taken != edit.fraction().size()) return refused(brick, "it has more fractions than its runs");
+
+    std::size_t next = 0;
+    for (int i = 0; i < edit.changed_size(); i += 2)
+        for (std::size_t voxel = edit.changed(i); voxel < edit.changed(i) + edit.changed(i + 1); ++voxel)
+            fractions[voxel] = static_cast<std::uint8_t>(edit.fraction()[next++]);
+    return std::nullopt;
+}
+
+}  // namespace osteomill

@@ -1,0 +1,26 @@
+// What milling changed in one brick, in and out of a message.
+#pragma once
+
+#include <bitset>
+#include <optional>
+#include <span>
+
+#include "common/bone/bone.h"
+#include "common/wire/wire_error.h"
+#include "osteomill/v1/bone.pb.h"
+
+namespace osteomill {
+
+/// Voxels of one brick, by offset.
+using VoxelMask = std::bitset<brick_voxel_count>;
+
+/// The fractions of the voxels in the mask, as runs that hold these voxels and no others.
+v1::BrickEdit brick_edit(BrickIndex brick, std::span<const std::uint8_t, brick_voxel_count> fractions,
+                         const VoxelMask& changed);
+
+/// Writes an edit into the bone. Refused, with the bone as it was: a brick that is not stored, runs that do
+/// not ascend or reach past the brick, fractions that do not fit the runs, and any that would raise what is
+/// left.
+std::optional<WireError> apply_brick_edit(const v1::BrickEdit& edit, Bone& bone);
+
+}  // namespace osteomill

@@ -1,0 +1,17 @@
+#include "common/wire/running_checksum.h"
+
+namespace osteomill {
+
+RunningChecksum::RunningChecksum(const Bone& bone) : term_by_slot_(bone.stored_bricks(), 0) {
+    for (std::size_t slot = 0; slot < bone.stored_bricks(); ++slot)
+        update(bone, static_cast<std::int32_t>(slot));
+}
+
+void RunningChecksum::update(const Bone& bone, std::int32_t slot) {
+    const auto index = static_cast<std::size_t>(slot);
+    const std::uint64_t term = checksum_of_brick(bone.content().brick_of_slot[index], bone.fractions(slot));
+    sum_ += term - term_by_slot_[index];
+    term_by_slot_[index] = term;
+}
+
+}  // namespace osteomill

@@ -1,0 +1,148 @@
+#include "common/wire/scene_messages.h"
+
+#include <cmath>
+#include <glm/geometric.hpp>
+
+namespace osteomill {
+
+namespace {
+
+void write(const glm::dvec3& from, v1::Vec3& to) {
+    to.set_x(from.x);
+    to.set_y(from.y);
+    to.set_z(from.z);
+}
+
+glm::dvec3 read(const v1::Vec3& from) {
+    return {from.x(), from.y(), from.z()};
+}
+
+bool is_finite(const glm::dvec3& v) {
+    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+}
+
+bool is_positive(double value) {
+    return std::isfinite(value) && value > 0.0;
+}
+
+WireError unknown_burr(std::uint32_t burr, std::size_t burr_count) {
+    return {"burr " + std::to_string(burr) + " is not one of the scene's " + std::to_string(burr_count)};
+}
+
+}  // namespace
+
+v1::BurrDescription to_message(const Burr& burr) {
+    v1::BurrDescription message;
+    message.set_name(burr.name);
+    message.set_diameter_mm(burr.diameter_mm);
+    message.set_edges(static_cast<std::uint32_t>(burr.edges));
+    message.set_spindle_rpm(burr.spindle_rev_per_s * 60.0);
+    message.set_clockwise(burr.sense == SpindleSense::clockwise);
+    return message;
+}
+
+v1::TissueDescription to_message(const Tissue& tissue) {
+    v1::TissueDescription message;
+    message.set_label(tissue.label);
+    message.set_name(tissue.name);
+    message.set_colour_rgb(static_cast<std::uint32_t>(tissue.colour_rgb[0]) << 16U |
+                           static_cast<std::uint32_t>(tissue.colour_rgb[1]) << 8U | tissue.colour_rgb[2]);
+    message.set_is_protected(tissue.is_protected);
+    return message;
+}
+
+v1::ToolState to_message(const ToolView& tool) {
+    v1::ToolState message;
+    message.set_time_s(tool.time_s);
+    write(tool.burr_position_mm, *message.mutable_burr_position_mm());
+    write(tool.spindle_axis, *message.mutable_spindle_axis());
+    write(tool.hand_position_mm, *message.mutable_hand_position_mm());
+    message.set_burr(static_cast<std::uint32_t>(tool.burr));
+    message.set_spindle_on(tool.spindle_on);
+    write(tool.force_n, *message.mutable_force_n());
+    message.set_removed_mm3(tool.removed_mm3);
+    message.set_touches_protected(tool.touches_protected);
+    message.set_fault(tool.fault);
+    return message;
+}
+
+v1::OperatorInput to_message(const OperatorIntent& intent) {
+    v1::OperatorInput message;
+    write(intent.hand_target_mm, *message.mutable_hand_target_mm());
+    write(intent.spindle_axis, *message.mutable_spindle_axis());
+    message.set_pedal(intent.pedal);
+    message.set_burr(static_cast<std::uint32_t>(intent.burr));
+    return message;
+}
+
+std::variant<std::vector<Burr>, WireError> burrs_from(
+    const google::protobuf::RepeatedPtrField<v1::BurrDescription>& messages) {
+    if (messages.empty()) return WireError{"the scene has no burr"};
+    std::vector<Burr> burrs;
+    for (const v1::BurrDescription& message : messages) {
+        if (!is_positive(message.diameter_mm()) || !is_positive(message.spindle_rpm()) ||
+            message.edges() > 1000)
+            return WireError{"burr \"" + message.name() + "\" has an impossible size, speed or edge count"};
+        burrs.push_back(
+            {.name = message.name(),
+             .diameter_mm = message.diameter_mm(),
+             .edges = static_cast<int>(message.edges()),
+             .spindle_rev_per_s = message.spindle_rpm() / 60.0,
+             .cutting_coefficients_n_per_mm2 = glm::dvec3(0.0),
+             .sense = message.clockwise() ? SpindleSense::clockwise : SpindleSense::counter_clockwise});
+    }
+    return burrs;
+}
+
+std::variant<std::vector<Tissue>, WireError> tissues_from(
+    const google::protobuf::RepeatedPtrField<v1::TissueDescription>& messages) {
+    std::vector<Tissue> tissues;
+    for (const v1::TissueDescription& message : messages) {
+        const std::uint32_t rgb = message.colour_rgb();
+        if (message.label() < 1 || message.label() > 255 || rgb > 0xFFFFFF)
+            return WireError{"tissue \"" + message.name() + "\" has an impossible label or colour"};
+        tissues.push_back({.label = static_cast<std::uint8_t>(message.label()),
+                           .name = message.name(),
+                           .colour_rgb = {static_cast<std::uint8_t>(rgb >> 16U),
+                                          static_cast<std::uint8_t>(rgb >> 8U & 0xFFU),
+                                          static_cast<std::uint8_t>(rgb & 0xFFU)},
+                           .is_protected = message.is_protected()});
+    }
+    return tissues;
+}
+
+std::variant<ToolView, WireError> tool_from(const v1::ToolState& message, std::size_t burr_count) {
+    ToolView tool{.time_s = message.time_s(),
+                  .burr_position_mm = read(message.burr_position_mm()),
+                  .spindle_axis = read(message.spindle_axis()),
+                  .hand_position_mm = read(message.hand_position_mm()),
+                  .force_n = read(message.force_n()),
+                  .burr = message.burr(),
+                  .spindle_on = message.spindle_on(),
+                  .removed_mm3 = message.removed_mm3(),
+                  .touches_protected = message.touches_protected(),
+                  .fault = message.fault()};
+    if (!std::isfinite(tool.time_s) || !std::isfinite(tool.removed_mm3) ||
+        !is_finite(tool.burr_position_mm) || !is_finite(tool.spindle_axis) ||
+        !is_finite(tool.hand_position_mm) || !is_finite(tool.force_n))
+        return WireError{"the tool state holds a number that is not finite"};
+    if (tool.burr >= burr_count) return unknown_burr(message.burr(), burr_count);
+    return tool;
+}
+
+std::variant<OperatorIntent, WireError> intent_from(const v1::OperatorInput& message,
+                                                    std::size_t burr_count) {
+    OperatorIntent intent{.hand_target_mm = read(message.hand_target_mm()),
+                          .spindle_axis = read(message.spindle_axis()),
+                          .pedal = message.pedal(),
+                          .burr = message.burr()};
+    const double length = glm::length(intent.spindle_axis);
+    if (!is_finite(intent.hand_target_mm) || !std::isfinite(length))
+        return WireError{"the operator input holds a number that is not finite"};
+    if (length < 1e-6) return WireError{"the operator input's spindle axis has no length"};
+    if (intent.burr >= burr_count) return unknown_burr(message.burr(), burr_count);
+    intent.spindle_axis /= length;
+    return intent;
+}
+
+}  // namespace osteomill

@@ -1,0 +1,37 @@
+// What a scene and its tool look like to a client, in and out of messages.
+#pragma once
+
+#include <optional>
+#include <variant>
+#include <vector>
+
+#include "common/scene/scene.h"
+#include "common/wire/tool_view.h"
+#include "common/wire/wire_error.h"
+#include "osteomill/v1/session.pb.h"
+#include "osteomill/v1/tool.pb.h"
+
+namespace osteomill {
+
+v1::BurrDescription to_message(const Burr& burr);
+v1::TissueDescription to_message(const Tissue& tissue);
+v1::ToolState to_message(const ToolView& tool);
+v1::OperatorInput to_message(const OperatorIntent& intent);
+
+/// Burrs as a client knows them: the cutting coefficients are not sent, and zero here. Refuses a list without
+/// burrs and a size or speed that is not finite and above zero.
+std::variant<std::vector<Burr>, WireError> burrs_from(
+    const google::protobuf::RepeatedPtrField<v1::BurrDescription>& messages);
+
+/// Refuses a label that is not 1 to 255 and a colour past 0xFFFFFF.
+std::variant<std::vector<Tissue>, WireError> tissues_from(
+    const google::protobuf::RepeatedPtrField<v1::TissueDescription>& messages);
+
+/// Refuses numbers that are not finite and a burr that is not one of `burr_count`.
+std::variant<ToolView, WireError> tool_from(const v1::ToolState& message, std::size_t burr_count);
+
+/// Refuses numbers that are not finite, an axis of no length (any other is made a unit vector), and a burr
+/// that is not one of `burr_count`.
+std::variant<OperatorIntent, WireError> intent_from(const v1::OperatorInput& message, std::size_t burr_count);
+
+}  // namespace osteomill

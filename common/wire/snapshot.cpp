@@ -1,0 +1,198 @@
+#include "common/wire/snapshot.h"
+
+#include <zstd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <new>
+#include <stdexcept>
+#include <utility>
+
+namespace osteomill {
+
+namespace {
+
+/// Fast enough to pack a bone while 30 frames a second go on beside it; higher levels gain little on bone.
+constexpr int compression_level = 1;
+
+std::size_t channel_count(bool heterogeneous, bool labelled) {
+    return std::size_t{1} + (heterogeneous ? 1 : 0) + (labelled ? 1 : 0);
+}
+
+std::size_t most_bricks_of_piece(std::size_t channels) {
+    return largest_snapshot_piece_bytes / (channels * brick_voxel_count);
+}
+
+std::size_t brick_count(const Grid& grid) {
+    const glm::ivec3 size = size_in_bricks(grid);
+    return static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y) *
+           static_cast<std::size_t>(size.z);
+}
+
+ByteBrick brick_at(std::span<const std::uint8_t> channels, std::size_t position) {
+    ByteBrick brick;
+    std::copy_n(channels.begin() + static_cast<std::ptrdiff_t>(position * brick_voxel_count),
+                brick_voxel_count, brick.begin());
+    return brick;
+}
+
+WireError refused(std::string what) {
+    return {"snapshot refused: " + std::move(what)};
+}
+
+std::variant<Grid, WireError> grid_from(const v1::Grid& message) {
+    constexpr auto largest = static_cast<std::uint32_t>(std::numeric_limits<int>::max());
+    if (std::max({message.size_x(), message.size_y(), message.size_z()}) > largest)
+        return refused("the grid has more than 65536 voxels along an axis");
+    const Grid grid{.size_voxels = {static_cast<int>(message.size_x()), static_cast<int>(message.size_y()),
+                                    static_cast<int>(message.size_z())},
+                    .spacing_mm = message.spacing_mm(),
+                    .origin_mm = {message.origin_mm().x(), message.origin_mm().y(), message.origin_mm().z()}};
+    try {
+        require_valid(grid);
+        require_sendable(grid);
+    } catch (const std::invalid_argument& error) {
+        return refused(error.what());
+    }
+    return grid;
+}
+
+}  // namespace
+
+void require_sendable(const Grid& grid) {
+    if (brick_count(grid) > most_bricks_of_grid)
+        throw std::invalid_argument("the grid has " + std::to_string(brick_count(grid)) +
+                                    " bricks of 16^3 voxels, more than the " +
+                                    std::to_string(most_bricks_of_grid) + " that are sent; crop it");
+}
+
+v1::SnapshotBegin snapshot_begin(const Bone& bone) {
+    const BoneContent& content = bone.content();
+    v1::SnapshotBegin message;
+    v1::Grid& grid = *message.mutable_grid();
+    grid.set_size_x(static_cast<std::uint32_t>(content.grid.size_voxels.x));
+    grid.set_size_y(static_cast<std::uint32_t>(content.grid.size_voxels.y));
+    grid.set_size_z(static_cast<std::uint32_t>(content.grid.size_voxels.z));
+    grid.set_spacing_mm(content.grid.spacing_mm);
+    grid.mutable_origin_mm()->set_x(content.grid.origin_mm.x);
+    grid.mutable_origin_mm()->set_y(content.grid.origin_mm.y);
+    grid.mutable_origin_mm()->set_z(content.grid.origin_mm.z);
+    message.set_heterogeneous(!content.stiffness.empty());
+    message.set_labelled(!content.tissue.empty());
+    message.set_homogeneous_stiffness(content.homogeneous_stiffness);
+    message.set_stiffness_per_code(content.stiffness_per_code);
+    message.set_brick_count(static_cast<std::uint32_t>(bone.stored_bricks()));
+    return message;
+}
+
+void SnapshotPacker::Free::operator()(ZSTD_CCtx_s* context) const {
+    ZSTD_freeCCtx(context);
+}
+
+SnapshotPacker::SnapshotPacker()
+    : context_(ZSTD_createCCtx()), compressed_(ZSTD_compressBound(largest_snapshot_piece_bytes)) {
+    if (!context_) throw std::bad_alloc();
+    channels_.reserve(largest_snapshot_piece_bytes);
+}
+
+v1::SnapshotBricks SnapshotPacker::pack(const Bone& bone, std::size_t first_slot) {
+    const BoneContent& content = bone.content();
+    const std::size_t most =
+        most_bricks_of_piece(channel_count(!content.stiffness.empty(), !content.tissue.empty()));
+    const std::size_t end = std::min(bone.stored_bricks(), first_slot + most);
+
+    v1::SnapshotBricks message;
+    channels_.clear();
+    for (std::size_t slot = first_slot; slot < end; ++slot) {
+        message.add_brick(content.brick_of_slot[slot]);
+        const auto fractions = bone.fractions(static_cast<std::int32_t>(slot));
+        channels_.insert(channels_.end(), fractions.begin(), fractions.end());
+        for (const auto* channel : {&content.stiffness, &content.tissue})
+            if (!channel->empty())
+                channels_.insert(channels_.end(), (*channel)[slot].begin(), (*channel)[slot].end());
+    }
+    const std::size_t size = ZSTD_compressCCtx(context_.get(), compressed_.data(), compressed_.size(),
+                                               channels_.data(), channels_.size(), compression_level);
+    if (ZSTD_isError(size)) throw std::runtime_error(ZSTD_getErrorName(size));
+    message.set_zstd_channels(compressed_.data(), size);
+    return message;
+}
+
+SnapshotAssembler::SnapshotAssembler(BoneBuilder builder, const v1::SnapshotBegin& message,
+                                     const glm::ivec3& size_bricks)
+    : builder_(std::move(builder)),
+      size_bricks_(size_bricks),
+      heterogeneous_(message.heterogeneous()),
+      labelled_(message.labelled()),
+      announced_(message.brick_count()) {}
+
+std::variant<SnapshotAssembler, WireError> SnapshotAssembler::begin(const v1::SnapshotBegin& message) {
+    const std::variant<Grid, WireError> parsed = grid_from(message.grid());
+    if (const auto* error = std::get_if<WireError>(&parsed)) return *error;
+    const Grid& grid = std::get<Grid>(parsed);
+    if (message.brick_count() > brick_count(grid))
+        return refused(std::to_string(message.brick_count()) + " bricks are announced for a grid of " +
+                       std::to_string(brick_count(grid)));
+    try {
+        auto builder =
+            message.heterogeneous()
+                ? BoneBuilder::heterogeneous(grid, message.stiffness_per_code(), message.labelled())
+                : BoneBuilder::homogeneous(grid, message.homogeneous_stiffness(), message.labelled());
+        return SnapshotAssembler(std::move(builder), message, size_in_bricks(grid));
+    } catch (const std::invalid_argument& error) {
+        return refused(error.what());
+    }
+}
+
+std::optional<WireError> SnapshotAssembler::add(const v1::SnapshotBricks& message) {
+    const std::size_t channels = channel_count(heterogeneous_, labelled_);
+    const auto bricks = static_cast<std::size_t>(message.brick_size());
+    if (bricks == 0 || bricks > most_bricks_of_piece(channels))
+        return refused("a piece holds " + std::to_string(bricks) + " bricks, not 1 to " +
+                       std::to_string(most_bricks_of_piece(channels)));
+    if (bricks > announced_ - received_)
+        return refused("more bricks came than the " + std::to_string(announced_) + " announced");
+
+    channels_.resize(bricks * channels * brick_voxel_count);
+    const std::size_t size = ZSTD_decompress(channels_.data(), channels_.size(),
+                                             message.zstd_channels().data(), message.zstd_channels().size());
+    if (ZSTD_isError(size)) return refused(std::string("a piece is corrupt: ") + ZSTD_getErrorName(size));
+    if (size != channels_.size())
+        return refused("a piece holds " + std::to_string(size) + " bytes, not " +
+                       std::to_string(channels_.size()));
+
+    const glm::uvec3 table(size_bricks_);
+    for (std::size_t i = 0; i < bricks; ++i) {
+        const BrickIndex brick = message.brick(static_cast<int>(i));
+        if (static_cast<std::int64_t>(brick) <= last_brick_)
+            return refused("brick " + std::to_string(brick) + " comes after " + std::to_string(last_brick_));
+        if (brick >= static_cast<std::uint64_t>(table.x) * table.y * table.z)
+            return refused("brick " + std::to_string(brick) + " lies outside the grid");
+        last_brick_ = brick;
+
+        std::size_t next = i * channels;
+        const ByteBrick fraction = brick_at(channels_, next++);
+        const ByteBrick stiffness = heterogeneous_ ? brick_at(channels_, next++) : ByteBrick{};
+        const ByteBrick tissue = labelled_ ? brick_at(channels_, next) : ByteBrick{};
+        try {
+            builder_.add_brick(brick_position(size_bricks_, brick), fraction,
+                               heterogeneous_ ? &stiffness : nullptr, labelled_ ? &tissue : nullptr);
+        } catch (const std::invalid_argument& error) {
+            return refused(error.what());
+        }
+    }
+    received_ += static_cast<std::uint32_t>(bricks);
+    return std::nullopt;
+}
+
+std::variant<Bone, WireError> SnapshotAssembler::finish(const v1::SnapshotEnd& message) && {
+    if (received_ != announced_)
+        return refused(std::to_string(received_) + " bricks came of the " + std::to_string(announced_) +
+                       " announced");
+    Bone bone = std::move(builder_).build();
+    if (checksum(bone) != message.checksum()) return refused("its checksum does not hold");
+    return bone;
+}
+
+}  // namespace osteomill

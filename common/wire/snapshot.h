@@ -1,0 +1,79 @@
+// A snapshot of the bone in and out of messages, in pieces that fit a frame.
+//
+// Everything that arrives is checked before it is used; what does not fit is refused in one line.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <variant>
+#include <vector>
+
+#include "common/bone/bone.h"
+#include "common/bone/bone_builder.h"
+#include "common/wire/wire_error.h"
+#include "osteomill/v1/bone.pb.h"
+
+struct ZSTD_CCtx_s;
+
+namespace osteomill {
+
+/// The largest grid that is sent, in bricks: its brick table, which a client makes before any brick has come,
+/// takes 64 MiB. At 0.1 mm that is a cube of 400 mm.
+inline constexpr std::size_t most_bricks_of_grid = std::size_t{1} << 24U;
+
+/// Uncompressed channels in one SnapshotBricks. Compressed they fit a frame even where nothing compresses.
+inline constexpr std::size_t largest_snapshot_piece_bytes = 120 * 1024;
+
+/// Throws std::invalid_argument where the bone's grid has more bricks than are sent.
+void require_sendable(const Grid& grid);
+
+v1::SnapshotBegin snapshot_begin(const Bone& bone);
+
+/// Packs bricks for a snapshot, piece by piece, so that a snapshot can be taken from a bone that changes
+/// meanwhile: see the streaming session.
+class SnapshotPacker {
+  public:
+    SnapshotPacker();
+
+    /// The bricks from `first_slot` on, as many as fit; at least one. `first_slot` must be a stored brick's.
+    v1::SnapshotBricks pack(const Bone& bone, std::size_t first_slot);
+
+  private:
+    struct Free {
+        void operator()(ZSTD_CCtx_s* context) const;
+    };
+    std::unique_ptr<ZSTD_CCtx_s, Free> context_;
+    std::vector<std::uint8_t> channels_;
+    std::vector<std::uint8_t> compressed_;
+};
+
+/// Puts a bone together from the messages of a snapshot.
+class SnapshotAssembler {
+  public:
+    /// Begins a snapshot, or says why that grid cannot be had.
+    static std::variant<SnapshotAssembler, WireError> begin(const v1::SnapshotBegin& message);
+
+    /// Adds bricks. After an error the assembler is of no further use.
+    std::optional<WireError> add(const v1::SnapshotBricks& message);
+
+    /// The bone, if every announced brick has come and the checksum holds. The assembler is spent.
+    std::variant<Bone, WireError> finish(const v1::SnapshotEnd& message) &&;
+
+    std::uint32_t bricks_received() const { return received_; }
+    std::uint32_t bricks_announced() const { return announced_; }
+
+  private:
+    SnapshotAssembler(BoneBuilder builder, const v1::SnapshotBegin& message, const glm::ivec3& size_bricks);
+
+    BoneBuilder builder_;
+    glm::ivec3 size_bricks_;
+    bool heterogeneous_;
+    bool labelled_;
+    std::uint32_t announced_;
+    std::uint32_t received_ = 0;
+    std::int64_t last_brick_ = -1;
+    std::vector<std::uint8_t> channels_;
+};
+
+}  // namespace osteomill

@@ -1,0 +1,34 @@
+// The tool as a viewer needs it, and what an operator without an arm asks for. Plain data.
+#pragma once
+
+#include <cstddef>
+#include <glm/vec3.hpp>
+#include <string>
+
+#include "common/scene/scene.h"
+
+namespace osteomill {
+
+/// What a state frame says about the tool. Positions and forces in patient LPS.
+struct ToolView {
+    double time_s = 0.0;                 ///< session time
+    glm::dvec3 burr_position_mm{0.0};    ///< centre of the burr's sphere
+    glm::dvec3 spindle_axis{0, 0, 1.0};  ///< unit, from tip to shank
+    glm::dvec3 hand_position_mm{0.0};    ///< where the device is; leads the burr by what the coupling yields
+    glm::dvec3 force_n{0.0};             ///< on the hand
+    std::size_t burr = 0;                ///< index into the session's burrs
+    bool spindle_on = false;
+    double removed_mm3 = 0.0;  ///< since the server began
+    bool touches_protected = false;
+    std::string fault{};  ///< one line; empty while all is well
+};
+
+/// What the operator's mouse and keys say, for a server that runs with --device client.
+struct OperatorIntent {
+    glm::dvec3 hand_target_mm{0.0};      ///< patient LPS
+    glm::dvec3 spindle_axis{0, 0, 1.0};  ///< from tip to shank; any length above zero
+    bool pedal = false;                  ///< spindle on while true
+    std::size_t burr = 0;                ///< index into the session's burrs
+};
+
+}  // namespace osteomill

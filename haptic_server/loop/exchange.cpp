@@ -1,0 +1,23 @@
+#include "haptic_server/loop/exchange.h"
+
+namespace osteomill {
+
+const char* describe(Fault fault) {
+    switch (fault) {
+        case Fault::none:
+            return "";
+        case Fault::device_lost:
+            return "the haptic device does not answer: force off";
+        case Fault::model_stalled:
+            return "the milling model is late: force off";
+        case Fault::not_a_number:
+            return "the force is not a number: force off";
+        case Fault::overrun:
+            return "the haptic loop misses its deadlines: force off";
+        case Fault::device_jumped:
+            return "the device jumped: force off";
+    }
+    return "unknown fault: force off";
+}
+
+}  // namespace osteomill

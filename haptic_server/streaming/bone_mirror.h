@@ -1,0 +1,36 @@
+// The streaming loop's own copy of the bone: edits go in, what changed and the checksum come out.
+#pragma once
+
+#include <map>
+
+#include "common/bone/bone.h"
+#include "common/bone/edit.h"
+#include "common/wire/brick_edit.h"
+#include "common/wire/running_checksum.h"
+
+namespace osteomill {
+
+/// Voxels that edits have covered, brick by brick. At most 512 bytes and a node for each stored brick.
+using ChangedVoxels = std::map<BrickIndex, VoxelMask>;
+
+class BoneMirror {
+  public:
+    explicit BoneMirror(Bone bone);
+
+    /// Takes over a run. False if it does not fit the bone, which then stays as it was.
+    bool apply(const EditRun& run);
+
+    /// What has changed since the last call; brings the checksum up to date.
+    ChangedVoxels take_changes();
+
+    const Bone& bone() const { return bone_; }
+    /// As of the last take_changes().
+    std::uint64_t checksum() const { return checksum_.value(); }
+
+  private:
+    Bone bone_;
+    RunningChecksum checksum_;
+    ChangedVoxels changed_;
+};
+
+}  // namespace osteomill

@@ -1,0 +1,98 @@
+#include "haptic_server/streaming/client_feed.h"
+
+#include <utility>
+
+#include "common/wire/frame.h"
+#include "common/wire/scene_messages.h"
+
+namespace osteomill {
+
+ClientFeed::ClientFeed(v1::Hello hello, const BoneMirror& mirror, SnapshotPacker& packer)
+    : hello_(std::move(hello)), mirror_(mirror), packer_(packer) {}
+
+void ClientFeed::note(const ChangedVoxels& changes) {
+    const auto& slot_of_brick = mirror_.bone().content().slot_of_brick;
+    for (const auto& [brick, mask] : changes)
+        if (static_cast<std::size_t>(slot_of_brick[brick]) < next_slot_) untold_[brick] |= mask;
+}
+
+void ClientFeed::request_state(const ToolView& tool, bool with_checksum) {
+    tool_ = tool;
+    wants_state_ = true;
+    wants_checksum_ = wants_checksum_ || with_checksum;
+}
+
+void ClientFeed::finish(std::string reason) {
+    if (goodbye_) return;
+    goodbye_ = std::move(reason);
+    wants_state_ = true;
+    wants_checksum_ = true;
+}
+
+std::optional<std::string> ClientFeed::next() {
+    v1::ServerFrame frame;
+    frame.set_sequence(sequence_ + 1);
+    switch (stage_) {
+        case Stage::hello:
+            *frame.mutable_hello() = hello_;
+            stage_ = Stage::snapshot_begin;
+            break;
+        case Stage::snapshot_begin:
+            *frame.mutable_snapshot_begin() = snapshot_begin(mirror_.bone());
+            stage_ = mirror_.bone().stored_bricks() > 0 ? Stage::snapshot_bricks : Stage::snapshot_end;
+            break;
+        case Stage::snapshot_bricks:
+            fill_snapshot_bricks(*frame.mutable_snapshot_bricks());
+            if (next_slot_ == mirror_.bone().stored_bricks()) stage_ = Stage::snapshot_end;
+            break;
+        case Stage::snapshot_end:
+            frame.mutable_snapshot_end()->set_checksum(snapshot_checksum_);
+            stage_ = Stage::live;
+            break;
+        case Stage::live:
+            if (wants_state_) {
+                fill_state(frame);
+            } else if (goodbye_) {
+                frame.mutable_goodbye()->set_reason(*goodbye_);
+                stage_ = Stage::finished;
+            } else {
+                return std::nullopt;
+            }
+            break;
+        case Stage::finished:
+            return std::nullopt;
+    }
+    ++sequence_;
+    std::string bytes;
+    append_frame(frame, bytes);
+    return bytes;
+}
+
+void ClientFeed::fill_snapshot_bricks(v1::SnapshotBricks& message) {
+    const Bone& bone = mirror_.bone();
+    message = packer_.pack(bone, next_slot_);
+    for (const BrickIndex brick : message.brick())
+        snapshot_checksum_ +=
+            checksum_of_brick(brick, bone.fractions(static_cast<std::int32_t>(next_slot_++)));
+}
+
+void ClientFeed::fill_state(v1::ServerFrame& frame) {
+    constexpr std::size_t room_for_tags_and_checksum = 64;
+    v1::StateFrame& state = *frame.mutable_state();
+    *state.mutable_tool() = to_message(tool_);
+    std::size_t bytes = frame.ByteSizeLong() + room_for_tags_and_checksum;
+    while (!untold_.empty()) {
+        const auto& [brick, mask] = *untold_.begin();
+        const std::int32_t slot = mirror_.bone().content().slot_of_brick[brick];
+        v1::BrickEdit edit = brick_edit(brick, mirror_.bone().fractions(slot), mask);
+        constexpr std::size_t tag_and_length = 4;
+        bytes += edit.ByteSizeLong() + tag_and_length;
+        if (bytes > largest_frame_bytes) return;  // the rest goes into the next frame
+        *state.add_edits() = std::move(edit);
+        untold_.erase(untold_.begin());
+    }
+    wants_state_ = false;
+    if (std::exchange(wants_checksum_, false)) state.set_bone_checksum(mirror_.checksum());
+}
+
+}  // namespace osteomill

@@ -1,0 +1,64 @@
+// What one client is sent, frame by frame: hello, a snapshot, state frames, goodbye. No sockets, no clock.
+//
+// The snapshot is taken from the mirror piece by piece, only as fast as the client reads, while milling goes
+// on. A change to a brick that has not been sent yet needs no mention: it will be sent as it then is. A
+// change to one that has been sent is remembered until a state frame tells of it. So a client ends up equal
+// to the mirror however slow it is, and costs no more than one mask of changed voxels for each brick.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "common/wire/snapshot.h"
+#include "common/wire/tool_view.h"
+#include "haptic_server/streaming/bone_mirror.h"
+#include "osteomill/v1/session.pb.h"
+
+namespace osteomill {
+
+class ClientFeed {
+  public:
+    /// `mirror` and `packer` outlive the feed; `hello` is what the client is greeted with.
+    ClientFeed(v1::Hello hello, const BoneMirror& mirror, SnapshotPacker& packer);
+
+    /// To be told of every change of the mirror, before the next frame is asked for.
+    void note(const ChangedVoxels& changes);
+
+    /// Asks for a state frame as soon as one can be sent. One that has not been sent yet is replaced: what it
+    /// would have told of the bone, the next one tells. A checksum once asked for is stated by the next frame
+    /// after which the client knows all.
+    void request_state(const ToolView& tool, bool with_checksum);
+
+    /// Asks for the end: what is left to say, a last state with a checksum, then goodbye.
+    void finish(std::string reason);
+
+    /// The next frame, as bytes for the stream; nothing while there is nothing to say. Edits that do not fit
+    /// one frame follow in the next.
+    std::optional<std::string> next();
+
+    /// Whether goodbye has been said.
+    bool is_finished() const { return stage_ == Stage::finished; }
+
+  private:
+    enum class Stage { hello, snapshot_begin, snapshot_bricks, snapshot_end, live, finished };
+
+    void fill_snapshot_bricks(v1::SnapshotBricks& message);
+    void fill_state(v1::ServerFrame& frame);
+
+    v1::Hello hello_;
+    const BoneMirror& mirror_;
+    SnapshotPacker& packer_;
+    Stage stage_ = Stage::hello;
+    std::uint64_t sequence_ = 0;
+
+    std::size_t next_slot_ = 0;  // bricks of lower slots have been sent
+    std::uint64_t snapshot_checksum_ = 0;
+
+    ChangedVoxels untold_;
+    ToolView tool_;
+    bool wants_state_ = false;
+    bool wants_checksum_ = false;
+    std::optional<std::string> goodbye_;
+};
+
+}  // namespace osteomill

@@ -1,0 +1,36 @@
+#include "haptic_server/streaming/operator_seat.h"
+
+namespace osteomill {
+
+bool OperatorSeat::take_input(ClientId client, const OperatorIntent& intent, Time now) {
+    if (holder_ && *holder_ != client) return false;
+    holder_ = client;
+    last_heard_ = now;
+    input_ = {.hand_target = {.position_mm = intent.hand_target_mm, .spindle_axis = intent.spindle_axis},
+              .pedal = intent.pedal,
+              .burr = intent.burr};
+    publish(true);
+    return true;
+}
+
+void OperatorSeat::leave(ClientId client) {
+    if (holder_ == client) vacate();
+}
+
+void OperatorSeat::vacate() {
+    holder_.reset();
+    publish(false);
+}
+
+void OperatorSeat::check_silence(Time now) {
+    if (input_.present && now - last_heard_ > longest_silence) publish(false);
+}
+
+void OperatorSeat::publish(bool present) {
+    input_.present = present;
+    if (!present) input_.pedal = false;
+    output_.back() = input_;
+    output_.publish();
+}
+
+}  // namespace osteomill

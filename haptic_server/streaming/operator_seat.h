@@ -1,0 +1,44 @@
+// Which client drives the device, and what it wants: the first that sends input, until it leaves.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <optional>
+
+#include "common/wire/tool_view.h"
+#include "haptic_server/loop/exchange.h"
+#include "haptic_server/loop/triple_buffer.h"
+
+namespace osteomill {
+
+class OperatorSeat {
+  public:
+    using Time = std::chrono::steady_clock::time_point;
+    using ClientId = std::uint64_t;
+
+    /// An operator silent for this long counts as gone, pedal up, until heard again: a turning burr must not
+    /// outlive a pulled cable. Long enough for a slow picture of a loaded machine.
+    static constexpr std::chrono::milliseconds longest_silence{500};
+
+    /// The seat is the one writer of `output`.
+    explicit OperatorSeat(TripleBuffer<OperatorInput>& output) : output_(output) {}
+
+    /// Input from a client, already checked. Ignored unless the seat is free or its own; false if ignored.
+    bool take_input(ClientId client, const OperatorIntent& intent, Time now);
+    /// A client has gone; the seat is free if it was that client's.
+    void leave(ClientId client);
+    /// Nobody drives any more.
+    void vacate();
+    /// To be called regularly.
+    void check_silence(Time now);
+
+  private:
+    void publish(bool present);
+
+    TripleBuffer<OperatorInput>& output_;
+    std::optional<ClientId> holder_;
+    Time last_heard_{};
+    OperatorInput input_;
+};
+
+}  // namespace osteomill

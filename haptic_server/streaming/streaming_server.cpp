@@ -1,0 +1,285 @@
+#include "haptic_server/streaming/streaming_server.h"
+
+#include <spdlog/spdlog.h>
+
+#include <boost/asio/io_context.hpp>
+#include <boost/asio/ip/tcp.hpp>
+#include <boost/asio/post.hpp>
+#include <boost/asio/steady_timer.hpp>
+#include <chrono>
+#include <cmath>
+#include <map>
+#include <optional>
+#include <stdexcept>
+#include <thread>
+#include <utility>
+
+#include "common/wire/protocol_version.h"
+#include "common/wire/scene_messages.h"
+#include "haptic_server/streaming/bone_mirror.h"
+#include "haptic_server/streaming/client_feed.h"
+#include "haptic_server/streaming/operator_seat.h"
+#include "haptic_server/streaming/session.h"
+
+namespace osteomill {
+
+namespace asio = boost::asio;
+using asio::ip::tcp;
+using boost::system::error_code;
+using Clock = std::chrono::steady_clock;
+
+namespace {
+
+/// Bounds what strangers can make the server hold; a class of students looks on through far fewer.
+constexpr std::size_t most_clients = 32;
+
+/// How long stop() waits for clients that are slow to read the end.
+constexpr std::chrono::seconds longest_goodbye{2};
+
+v1::Hello make_hello(const Scene& scene, bool accepts_operator, double force_limit_n,
+                     std::string program_version) {
+    v1::Hello hello;
+    hello.set_protocol_major(protocol_major);
+    hello.set_protocol_minor(protocol_minor);
+    hello.set_program_version(std::move(program_version));
+    hello.set_scene_name(scene.name);
+    for (const Burr& burr : scene.burrs) *hello.add_burrs() = to_message(burr);
+    for (const Tissue& tissue : scene.tissues) *hello.add_tissues() = to_message(tissue);
+    hello.set_accepts_operator(accepts_operator);
+    hello.set_force_limit_n(force_limit_n);
+    return hello;
+}
+
+ToolView view_of(const ToolSnapshot& tool) {
+    return {.time_s = tool.time_s,
+            .burr_position_mm = tool.burr_pose.position_mm,
+            .spindle_axis = tool.burr_pose.spindle_axis,
+            .hand_position_mm = tool.hand_pose.position_mm,
+            .force_n = tool.force_n,
+            .burr = tool.burr,
+            .spindle_on = tool.spindle_on,
+            .removed_mm3 = tool.removed_mm3,
+            .touches_protected = tool.touches_protected,
+            .fault = describe(tool.fault)};
+}
+
+tcp::acceptor listen(asio::io_context& io, const StreamingOptions& options) {
+    const std::string where = options.address + ":" + std::to_string(options.port);
+    error_code error;
+    const asio::ip::address address = asio::ip::make_address(options.address, error);
+    if (error)
+        throw std::runtime_error("cannot listen on " + where + ": \"" + options.address +
+                                 "\" is no IP address; 127.0.0.1 or ::1 would be");
+    if (!address.is_loopback())
+        throw std::runtime_error("cannot listen on " + where +
+                                 ": without TLS only this machine is served; use 127.0.0.1 or ::1");
+    tcp::acceptor acceptor(io);
+    const tcp::endpoint endpoint(address, options.port);
+    acceptor.open(endpoint.protocol(), error);
+    if (!error) acceptor.set_option(tcp::acceptor::reuse_address(true), error);
+    if (!error) acceptor.bind(endpoint, error);
+    if (!error) acceptor.listen(asio::socket_base::max_listen_connections, error);
+    if (error) throw std::runtime_error("cannot listen on " + where + ": " + error.message());
+    return acceptor;
+}
+
+}  // namespace
+
+class StreamingServer::Impl {
+  public:
+    Impl(StreamingOptions options, const Scene& scene, Bone mirror, TripleBuffer<ToolSnapshot>& tool,
+         EditQueue& edits, TripleBuffer<OperatorInput>* operator_input, double force_limit_n,
+         std::string program_version)
+        : options_(std::move(options)),
+          hello_(make_hello(scene, operator_input != nullptr, force_limit_n, std::move(program_version))),
+          burr_count_(scene.burrs.size()),
+          mirror_(std::move(mirror)),
+          tool_(tool),
+          edits_(edits) {
+        if (!(std::isfinite(options_.frame_rate_hz) && options_.frame_rate_hz > 0.0))
+            throw std::invalid_argument("the frame rate is " + std::to_string(options_.frame_rate_hz) +
+                                        " Hz, not above zero");
+        require_sendable(mirror_.bone().grid());
+        if (operator_input != nullptr) seat_.emplace(*operator_input);
+        period_ = std::chrono::duration_cast<Clock::duration>(
+            std::chrono::duration<double>(1.0 / options_.frame_rate_hz));
+    }
+
+    ~Impl() { stop(); }
+
+    void start() {
+        acceptor_.emplace(listen(io_, options_));
+        port_ = acceptor_->local_endpoint().port();
+        spdlog::info("listening on {}:{}", options_.address, port_);
+        next_frame_ = Clock::now();
+        next_checksum_ = next_frame_;
+        accept();
+        wait_for_next_frame();
+        thread_ = std::thread([this] { run(); });
+    }
+
+    void stop() {
+        if (!thread_.joinable()) return;
+        asio::post(io_, [this] { finish(); });
+        thread_.join();
+    }
+
+    std::uint16_t port() const { return port_; }
+    std::uint64_t mirror_checksum() const { return mirror_.checksum(); }
+
+  private:
+    void run() {
+        try {
+            io_.run();
+        } catch (const std::exception& error) {
+            // Haptics go on without spectators.
+            spdlog::error("streaming has stopped: {}", error.what());
+            for (const auto& [id, session] : std::map(sessions_)) session->close("was cut off", false);
+            if (seat_) seat_->vacate();
+        }
+    }
+
+    void wait_for_next_frame() {
+        // After a pause of the machine, go on from now rather than catch up on frames that nobody needs.
+        next_frame_ = std::max(next_frame_ + period_, Clock::now());
+        timer_.expires_at(next_frame_);
+        timer_.async_wait([this](error_code error) {
+            if (error || is_finishing_) return;
+            send_frame();
+            wait_for_next_frame();
+        });
+    }
+
+    void send_frame() {
+        const auto now = Clock::now();
+        take_over_edits();
+        if (seat_) seat_->check_silence(now);
+        tool_.refresh();
+        const bool with_checksum = now >= next_checksum_;
+        if (with_checksum) next_checksum_ = now + std::chrono::seconds(1);
+        const ToolView view = view_of(tool_.front());
+        for (const auto& [id, session] : std::map(sessions_)) {  // a session may close and leave the map
+            session->feed().request_state(view, with_checksum);
+            session->pump();
+        }
+        if (!is_accepting_) accept();
+    }
+
+    void take_over_edits() {
+        std::size_t refused = 0;
+        edits_.consume_all([&](const EditRun& run) { refused += mirror_.apply(run) ? 0 : 1; });
+        if (refused > 0) spdlog::error("{} edits do not fit the bone that clients are shown", refused);
+        const ChangedVoxels changes = mirror_.take_changes();
+        for (const auto& [id, session] : sessions_) session->feed().note(changes);
+    }
+
+    void accept() {
+        is_accepting_ = true;
+        acceptor_->async_accept([this](error_code error, tcp::socket socket) {
+            is_accepting_ = false;
+            if (is_finishing_) return;
+            if (error) {  // such as too many open files; the next frame tries again
+                spdlog::warn("a client could not be accepted: {}", error.message());
+                return;
+            }
+            admit(std::move(socket));
+            accept();
+        });
+    }
+
+    void admit(tcp::socket socket) {
+        if (sessions_.size() >= most_clients) {
+            spdlog::warn("a client was turned away: {} are connected already", sessions_.size());
+            return;
+        }
+        const OperatorSeat::ClientId id = ++last_client_;
+        auto session = std::make_shared<Session>(std::move(socket), ClientFeed(hello_, mirror_, packer_));
+        sessions_.emplace(id, session);
+        spdlog::info("client {} joined", session->peer());
+        session->start({.on_message = [this, id](const v1::ClientFrame& frame) { return take(id, frame); },
+                        .on_closed =
+                            [this, id, peer = session->peer()](const std::string& line, bool is_fault) {
+                                spdlog::log(is_fault ? spdlog::level::warn : spdlog::level::info,
+                                            "client {} {}", peer, line);
+                                sessions_.erase(id);
+                                if (seat_) seat_->leave(id);
+                                if (is_finishing_ && sessions_.empty()) deadline_.cancel();
+                            }});
+    }
+
+    std::optional<WireError> take(OperatorSeat::ClientId id, const v1::ClientFrame& frame) {
+        if (!frame.has_operator_input()) return WireError{"it sent a frame without a body that is known"};
+        const auto intent = intent_from(frame.operator_input(), burr_count_);
+        if (const auto* error = std::get_if<WireError>(&intent)) return *error;
+        if (seat_ && !is_finishing_) seat_->take_input(id, std::get<OperatorIntent>(intent), Clock::now());
+        return std::nullopt;
+    }
+
+    void finish() {
+        is_finishing_ = true;
+        timer_.cancel();
+        acceptor_->close();
+        if (seat_) seat_->vacate();
+        take_over_edits();
+        tool_.refresh();
+        const ToolView view = view_of(tool_.front());
+        for (const auto& [id, session] : std::map(sessions_)) {
+            session->feed().request_state(view, true);
+            session->feed().finish("the session has ended");
+            session->pump();
+        }
+        if (sessions_.empty()) return;
+        deadline_.expires_after(longest_goodbye);
+        deadline_.async_wait([this](error_code error) {
+            if (error) return;
+            for (const auto& [id, session] : std::map(sessions_))
+                session->close("was cut off: it did not read the end in time", false);
+        });
+    }
+
+    const StreamingOptions options_;
+    const v1::Hello hello_;
+    const std::size_t burr_count_;
+    BoneMirror mirror_;
+    SnapshotPacker packer_;
+    TripleBuffer<ToolSnapshot>& tool_;
+    EditQueue& edits_;
+    std::optional<OperatorSeat> seat_;
+    Clock::duration period_{};
+
+    asio::io_context io_{1};
+    std::optional<tcp::acceptor> acceptor_;
+    asio::steady_timer timer_{io_};
+    asio::steady_timer deadline_{io_};
+    std::map<OperatorSeat::ClientId, std::shared_ptr<Session>> sessions_;
+    OperatorSeat::ClientId last_client_ = 0;
+    Clock::time_point next_frame_{};
+    Clock::time_point next_checksum_{};
+    bool is_accepting_ = false;
+    bool is_finishing_ = false;
+    std::uint16_t port_ = 0;
+    std::thread thread_;
+};
+
+StreamingServer::StreamingServer(StreamingOptions options, const Scene& scene, Bone mirror,
+                                 TripleBuffer<ToolSnapshot>& tool, EditQueue& edits,
+                                 TripleBuffer<OperatorInput>* operator_input, double force_limit_n,
+                                 std::string program_version)
+    : impl_(std::make_unique<Impl>(std::move(options), scene, std::move(mirror), tool, edits, operator_input,
+                                   force_limit_n, std::move(program_version))) {}
+
+StreamingServer::~StreamingServer() = default;
+void StreamingServer::start() {
+    impl_->start();
+}
+void StreamingServer::stop() {
+    impl_->stop();
+}
+std::uint16_t StreamingServer::port() const {
+    return impl_->port();
+}
+std::uint64_t StreamingServer::mirror_checksum() const {
+    return impl_->mirror_checksum();
+}
+
+}  // namespace osteomill

@@ -1,0 +1,90 @@
+// The connection to the haptic server, for the UI thread: keeps a copy of the bone equal to the server's.
+//
+// A thread of its own receives frames; poll() applies them, so the bone changes only inside poll(). Losing
+// the server is a status, never an exception: the link tries again after 0.2 s, then ever less often up to 2
+// s. Every checksum that the server states is checked. A mismatch, a gap in the sequence or a frame that
+// makes no sense is counted, shown, and answered by connecting afresh, which brings a fresh snapshot.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "common/bone/bone.h"
+#include "common/scene/scene.h"
+#include "common/wire/tool_view.h"
+
+namespace osteomill {
+
+enum class LinkStatus {
+    connecting,          ///< has not reached a server yet
+    receiving_snapshot,  ///< connected; bone() is still the one before, if any
+    live,                ///< bone() follows the server's
+    lost,                ///< the connection broke; trying again
+    finished,            ///< the server said goodbye; bone() is what it left; trying again quietly
+    refused,             ///< the server speaks another major version of the protocol
+};
+
+/// What the server says of itself when a client joins.
+struct SessionInfo {
+    std::string scene_name{};
+    std::string server_version{};
+    std::vector<Burr> burrs{};  ///< name, diameter, edges, spindle speed and sense; no cutting coefficients
+    std::vector<Tissue> tissues{};
+    bool accepts_operator = false;  ///< the server runs with --device client
+    double force_limit_n = 0.0;
+};
+
+/// What happened since the last poll, and where the link stands.
+struct LinkUpdate {
+    LinkStatus status = LinkStatus::connecting;
+    std::string status_line{};             ///< for people
+    bool bone_replaced = false;            ///< bone() is another bone: upload all of it
+    std::vector<BrickIndex> dirty_bricks;  ///< ascending, each once: edited since; empty if bone_replaced
+    std::optional<ToolView> tool;          ///< the newest since the last poll, if any came
+
+    std::uint32_t snapshot_bricks = 0;        ///< received so far, while receiving_snapshot
+    std::uint32_t snapshot_bricks_total = 0;  ///< announced, while receiving_snapshot
+
+    // Since the link was made.
+    std::uint64_t frames = 0;               ///< state frames applied
+    std::uint64_t checksums_verified = 0;   ///< stated by the server and found equal
+    std::uint64_t checksum_mismatches = 0;  ///< stated by the server and found different
+    std::uint64_t rejected_frames = 0;      ///< gaps in the sequence, frames that made no sense
+    std::uint64_t connections = 0;          ///< sessions joined
+
+    // Over about the last second.
+    double frames_per_s = 0.0;
+    double bytes_per_s = 0.0;
+};
+
+class BoneLink {
+  public:
+    /// Starts to connect; returns at once, also if there is no such server.
+    BoneLink(std::string host, std::uint16_t port);
+    ~BoneLink();
+    BoneLink(const BoneLink&) = delete;
+    BoneLink& operator=(const BoneLink&) = delete;
+
+    /// UI thread, once a frame. Applies what has come, up to about one second's worth of state frames.
+    LinkUpdate poll();
+
+    /// UI thread. Null until the first snapshot is complete; valid until the next poll(). A lost server
+    /// leaves the last bone.
+    const Bone* bone() const;
+    /// UI thread. Null until a server has said hello.
+    const SessionInfo* session() const;
+
+    /// UI thread. Sends what the operator wants; dropped while not connected, and while an earlier one is
+    /// still under way only the newest is kept. Call it every frame while the operator is at the controls:
+    /// the server takes half a second of silence for an operator who has gone, and lifts the pedal.
+    void send_operator(const OperatorIntent& intent);
+
+  private:
+    class Impl;
+    std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace osteomill

@@ -1,0 +1,110 @@
+#include "common/wire/scene_messages.h"
+
+#include <gmock/gmock.h>
+
+#include <limits>
+
+namespace osteomill {
+namespace {
+
+using ::testing::HasSubstr;
+constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
+
+template <typename T>
+std::string error_of(const std::variant<T, WireError>& result) {
+    const auto* error = std::get_if<WireError>(&result);
+    return error == nullptr ? "" : error->line;
+}
+
+TEST(SceneMessages, BringBackBurrsWithoutTheirCoefficients) {
+    const Burr burr{.name = "round 1.5",
+                    .diameter_mm = 1.5,
+                    .edges = 8,
+                    .spindle_rev_per_s = 500.0,
+                    .sense = SpindleSense::counter_clockwise};
+    v1::Hello hello;
+    *hello.add_burrs() = to_message(burr);
+    const auto burrs = burrs_from(hello.burrs());
+    ASSERT_EQ(error_of(burrs), "");
+    const Burr& back = std::get<0>(burrs).at(0);
+    EXPECT_EQ(back.name, burr.name);
+    EXPECT_DOUBLE_EQ(back.diameter_mm, 1.5);
+    EXPECT_EQ(back.edges, 8);
+    EXPECT_DOUBLE_EQ(back.spindle_rev_per_s, 500.0);
+    EXPECT_EQ(back.sense, burr.sense);
+    EXPECT_EQ(back.cutting_coefficients_n_per_mm2, glm::dvec3(0.0));
+}
+
+TEST(SceneMessages, RefuseImpossibleBurrsAndTissues) {
+    v1::Hello hello;
+    EXPECT_THAT(error_of(burrs_from(hello.burrs())), HasSubstr("no burr"));
+    *hello.add_burrs() = to_message(Burr{.name = "b"});
+    hello.mutable_burrs(0)->set_diameter_mm(not_a_number);
+    EXPECT_THAT(error_of(burrs_from(hello.burrs())), HasSubstr("\"b\""));
+    *hello.add_tissues() = to_message(Tissue{.label = 3, .name = "pulp"});
+    EXPECT_EQ(error_of(tissues_from(hello.tissues())), "");
+    hello.mutable_tissues(0)->set_label(256);
+    EXPECT_THAT(error_of(tissues_from(hello.tissues())), HasSubstr("\"pulp\""));
+}
+
+TEST(SceneMessages, BringBackTissues) {
+    v1::Hello hello;
+    *hello.add_tissues() = to_message(
+        Tissue{.label = 255, .name = "nerve canal", .colour_rgb = {250, 200, 7}, .is_protected = true});
+    const auto tissues = std::get<0>(tissues_from(hello.tissues()));
+    ASSERT_EQ(tissues.size(), 1U);
+    EXPECT_EQ(tissues[0].label, 255);
+    EXPECT_EQ(tissues[0].name, "nerve canal");
+    EXPECT_THAT(tissues[0].colour_rgb, ::testing::ElementsAre(250, 200, 7));
+    EXPECT_TRUE(tissues[0].is_protected);
+}
+
+TEST(SceneMessages, BringBackTheTool) {
+    const ToolView tool{.time_s = 12.5,
+                        .burr_position_mm = {1, 2, 3},
+                        .spindle_axis = {0, 1, 0},
+                        .hand_position_mm = {4, 5, 6},
+                        .force_n = {0.1, -0.2, 0.3},
+                        .burr = 1,
+                        .spindle_on = true,
+                        .removed_mm3 = 7.25,
+                        .touches_protected = true,
+                        .fault = "the device is lost"};
+    const auto result = tool_from(to_message(tool), 2);
+    ASSERT_EQ(error_of(result), "");
+    const ToolView& back = std::get<0>(result);
+    EXPECT_EQ(back.time_s, tool.time_s);
+    EXPECT_EQ(back.burr_position_mm, tool.burr_position_mm);
+    EXPECT_EQ(back.spindle_axis, tool.spindle_axis);
+    EXPECT_EQ(back.hand_position_mm, tool.hand_position_mm);
+    EXPECT_EQ(back.force_n, tool.force_n);
+    EXPECT_EQ(back.burr, 1U);
+    EXPECT_TRUE(back.spindle_on);
+    EXPECT_EQ(back.removed_mm3, 7.25);
+    EXPECT_TRUE(back.touches_protected);
+    EXPECT_EQ(back.fault, tool.fault);
+    EXPECT_THAT(error_of(tool_from(to_message(tool), 1)), HasSubstr("burr 1 is not one of the scene's 1"));
+    EXPECT_THAT(error_of(tool_from(to_message(ToolView{.force_n = {0, not_a_number, 0}}), 1)),
+                HasSubstr("not finite"));
+}
+
+TEST(SceneMessages, MakeTheOperatorsAxisAUnitVector) {
+    const auto intent = std::get<0>(intent_from(
+        to_message(OperatorIntent{.hand_target_mm = {1, 2, 3}, .spindle_axis = {0, 0, 5}, .pedal = true}),
+        1));
+    EXPECT_EQ(intent.spindle_axis, glm::dvec3(0, 0, 1));
+    EXPECT_EQ(intent.hand_target_mm, glm::dvec3(1, 2, 3));
+    EXPECT_TRUE(intent.pedal);
+}
+
+TEST(SceneMessages, RefuseAnOperatorWhoAsksTheImpossible) {
+    EXPECT_THAT(error_of(intent_from(to_message(OperatorIntent{.hand_target_mm = {not_a_number, 0, 0}}), 1)),
+                HasSubstr("not finite"));
+    EXPECT_THAT(error_of(intent_from(to_message(OperatorIntent{.spindle_axis = {0, 0, 0}}), 1)),
+                HasSubstr("no length"));
+    EXPECT_THAT(error_of(intent_from(v1::OperatorInput(), 1)), HasSubstr("no length"));
+    EXPECT_THAT(error_of(intent_from(to_message(OperatorIntent{.burr = 4}), 4)), HasSubstr("burr 4"));
+}
+
+}  // namespace
+}  // namespace osteomill
