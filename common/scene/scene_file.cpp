@@ -35,7 +35,7 @@ std::filesystem::path resolved(const std::string& path, const std::filesystem::p
 
 template <typename T>
 T required(const TomlReader& reader, std::string_view key, std::optional<T> value) {
-    if (!value) reader.fail(key, fmt::format("key '{}' is missing", key));
+    if (!value) reader.fail_missing(key);
     return *std::move(value);
 }
 
@@ -56,10 +56,10 @@ glm::dvec3 position(TomlReader& reader, std::string_view key, const glm::dvec3& 
 }
 
 std::variant<PhantomSource, FileSource> read_bone(TomlReader reader, const std::filesystem::path& folder) {
-    reader.only_keys({"phantom", "file", "threshold_hu"});
     const std::optional<std::size_t> phantom = reader.choice("phantom", phantom_choices);
     const std::optional<std::string> file = reader.text("file");
     const std::optional<double> threshold_hu = reader.number("threshold_hu", {-1024.0, 10'000.0});
+    reader.refuse_other_keys();
     if (phantom.has_value() == file.has_value())
         reader.fail("phantom",
                     "[bone] takes either phantom = \"tooth\" or \"cube\", or file = \"bone.nrrd\"");
@@ -70,10 +70,10 @@ std::variant<PhantomSource, FileSource> read_bone(TomlReader reader, const std::
 }
 
 StiffnessRelation read_stiffness(TomlReader reader) {
-    reader.only_keys({"knots"});
     StiffnessRelation relation;
     for (const auto& row : required(reader, "knots", reader.rows("knots", 2)))
         relation.knots.push_back({row[0], row[1]});
+    reader.refuse_other_keys();
     try {
         require_valid(relation);
     } catch (const std::invalid_argument& error) {
@@ -96,13 +96,13 @@ std::vector<Tissue> read_tissues(std::vector<TomlReader> readers) {
     std::vector<Tissue> tissues;
     std::set<int> labels;
     for (TomlReader& reader : readers) {
-        reader.only_keys({"label", "name", "colour", "protected"});
         Tissue tissue;
         tissue.label =
             static_cast<std::uint8_t>(required(reader, "label", reader.whole_number("label", 1, 255)));
         tissue.name = required(reader, "name", reader.text("name"));
         tissue.colour_rgb = read_colour(reader);
         tissue.is_protected = reader.truth("protected").value_or(false);
+        reader.refuse_other_keys();
         if (!labels.insert(tissue.label).second)
             reader.fail("label", fmt::format("label {} stands for two tissues", tissue.label));
         tissues.push_back(std::move(tissue));
@@ -111,7 +111,6 @@ std::vector<Tissue> read_tissues(std::vector<TomlReader> readers) {
 }
 
 Burr read_burr(TomlReader& reader) {
-    reader.only_keys({"name", "diameter_mm", "edges", "rpm", "cutting_coefficients_n_per_mm2", "turns"});
     Burr burr;
     burr.name = required(reader, "name", reader.text("name"));
     burr.diameter_mm = required(reader, "diameter_mm", reader.number("diameter_mm", {0.2, 20.0}));
@@ -126,11 +125,11 @@ Burr read_burr(TomlReader& reader) {
                     "K_t must be above 0, K_r and K_a at least 0, all below 100000 N/mm^2");
     burr.sense = reader.choice("turns", sense_names).value_or(0) == 0 ? SpindleSense::clockwise
                                                                       : SpindleSense::counter_clockwise;
+    reader.refuse_other_keys();
     return burr;
 }
 
 DeviceMapping read_device(TomlReader reader) {
-    reader.only_keys({"rotation", "scale", "offset_mm"});
     DeviceMapping mapping;
     if (const auto rows = reader.rows("rotation", 3)) {
         if (rows->size() != 3) reader.fail("rotation", "'rotation' must have three rows");
@@ -149,28 +148,28 @@ DeviceMapping read_device(TomlReader reader) {
     }
     mapping.scale = reader.number("scale", {0.01, 100.0}).value_or(mapping.scale);
     mapping.offset_mm = position(reader, "offset_mm", mapping.offset_mm);
+    reader.refuse_other_keys();
     return mapping;
 }
 
 ToolPose read_pose(TomlReader reader) {
-    reader.only_keys({"position_mm", "spindle_axis"});
     ToolPose pose;
     pose.position_mm = position(reader, "position_mm", pose.position_mm);
     pose.spindle_axis = unit_vector(reader, "spindle_axis", pose.spindle_axis);
+    reader.refuse_other_keys();
     return pose;
 }
 
-TrajectorySpec read_trajectory(TomlReader reader, const std::filesystem::path& folder) {
-    reader.only_keys(
-        {"motion", "file", "start_mm", "travel_direction", "speed_mm_per_s", "depth_mm", "width_mm"});
+TrajectorySpec read_trajectory(TomlReader reader, const std::filesystem::path& folder, const Burr& burr) {
     TrajectorySpec spec;
     const std::optional<std::size_t> motion = reader.choice("motion", motion_names);
     const std::optional<std::string> file = reader.text("file");
     spec.start_mm = position(reader, "start_mm", spec.start_mm);
     spec.travel_direction = unit_vector(reader, "travel_direction", spec.travel_direction);
     spec.speed_mm_per_s = reader.number("speed_mm_per_s", {0.01, 500.0}).value_or(spec.speed_mm_per_s);
-    spec.depth_mm = reader.number("depth_mm", {0.0, 200.0}).value_or(spec.depth_mm);
-    spec.width_mm = reader.number("width_mm", {0.0, 500.0}).value_or(spec.width_mm);
+    spec.depth_mm = reader.number("depth_mm", {0.01, 200.0}).value_or(spec.depth_mm);
+    spec.width_mm = reader.number("width_mm", {0.01, 500.0}).value_or(spec.width_mm);
+    reader.refuse_other_keys();
     if (motion.has_value() == file.has_value())
         reader.fail("motion",
                     "[trajectory] takes either motion = \"hold\", \"polishing\" or \"cavity\", or file = "
@@ -179,12 +178,14 @@ TrajectorySpec read_trajectory(TomlReader reader, const std::filesystem::path& f
         spec.source = static_cast<BuiltInTrajectory>(*motion);
     else
         spec.source = resolved(*file, folder);
+    if (spec.source == decltype(spec.source)(BuiltInTrajectory::cavity) && spec.width_mm < burr.diameter_mm)
+        reader.fail("width_mm",
+                    fmt::format("a hole of 'width_mm' = {} is too narrow for the start burr \"{}\" of {} mm",
+                                spec.width_mm, burr.name, burr.diameter_mm));
     return spec;
 }
 
 Scene read_all(TomlReader reader, const std::filesystem::path& folder) {
-    reader.only_keys({"name", "start_burr", "bone", "stiffness", "tissues", "burrs", "device", "start_pose",
-                      "trajectory"});
     Scene scene;
     scene.name = required(reader, "name", reader.text("name"));
     scene.bone = read_bone(required(reader, "bone", reader.table("bone")), folder);
@@ -201,8 +202,18 @@ Scene read_all(TomlReader reader, const std::filesystem::path& folder) {
     scene.start_burr = reader.choice("start_burr", burr_names).value_or(0);
     if (auto table = reader.table("device")) scene.device = read_device(*table);
     if (auto table = reader.table("start_pose")) scene.start_pose = read_pose(*table);
-    if (auto table = reader.table("trajectory")) scene.trajectory = read_trajectory(*table, folder);
+    if (auto table = reader.table("trajectory"))
+        scene.trajectory = read_trajectory(*table, folder, scene.burrs[scene.start_burr]);
+    reader.refuse_other_keys();
     return scene;
+}
+
+/// The rpm that reads back as this speed, bit for bit: rounding may put the plain product one step beside it.
+double rpm_of(double rev_per_s) {
+    const double product = rev_per_s * seconds_per_minute;
+    for (const double rpm : {product, std::nextafter(product, 0.0), std::nextafter(product, HUGE_VAL)})
+        if (rpm / seconds_per_minute == rev_per_s) return rpm;
+    return product;
 }
 
 toml::array list(const glm::dvec3& v) {
@@ -223,7 +234,17 @@ toml::table bone_table(const std::variant<PhantomSource, FileSource>& bone) {
     return table;
 }
 
+std::string on_one_line(std::string message) {
+    const auto is_control = [](char letter) {
+        return static_cast<unsigned char>(letter) < 0x20 || letter == 0x7f;
+    };
+    std::replace_if(message.begin(), message.end(), is_control, ' ');
+    return message;
+}
+
 }  // namespace
+
+SceneError::SceneError(const std::string& message) : std::runtime_error(on_one_line(message)) {}
 
 Scene parse_scene(std::string_view text, const std::string& name_for_messages,
                   const std::filesystem::path& folder) {
@@ -266,7 +287,7 @@ std::string write_scene(const Scene& scene) {
             toml::table{{"name", burr.name},
                         {"diameter_mm", burr.diameter_mm},
                         {"edges", static_cast<std::int64_t>(burr.edges)},
-                        {"rpm", burr.spindle_rev_per_s * seconds_per_minute},
+                        {"rpm", rpm_of(burr.spindle_rev_per_s)},
                         {"cutting_coefficients_n_per_mm2", list(burr.cutting_coefficients_n_per_mm2)},
                         {"turns", sense_names[burr.sense == SpindleSense::clockwise ? 0 : 1]}});
     root.insert("burrs", burrs);

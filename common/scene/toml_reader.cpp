@@ -6,12 +6,18 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/scene/nearest_name.h"
 #include "common/scene/scene_file.h"
 
 namespace osteomill {
 
 TomlReader::TomlReader(const toml::table& table, std::string file, std::string table_name)
     : table_(&table), file_(std::move(file)), table_name_(std::move(table_name)) {}
+
+const toml::node* TomlReader::take(std::string_view key) {
+    known_keys_.emplace_back(key);
+    return table_->get(key);
+}
 
 void TomlReader::fail(std::string_view key, const std::string& message) const {
     const toml::node* node = table_->get(key);
@@ -26,7 +32,7 @@ std::optional<double> TomlReader::finite_number(const toml::node& node) {
 }
 
 std::optional<double> TomlReader::number(std::string_view key, const AllowedRange& range) {
-    const toml::node* node = table_->get(key);
+    const toml::node* node = take(key);
     if (!node) return std::nullopt;
     const std::optional<double> value = finite_number(*node);
     if (!value) fail(key, fmt::format("'{}' must be a finite number", key));
@@ -37,7 +43,7 @@ std::optional<double> TomlReader::number(std::string_view key, const AllowedRang
 
 std::optional<std::int64_t> TomlReader::whole_number(std::string_view key, std::int64_t low,
                                                      std::int64_t high) {
-    const toml::node* node = table_->get(key);
+    const toml::node* node = take(key);
     if (!node) return std::nullopt;
     if (!node->is_integer()) fail(key, fmt::format("'{}' must be a whole number", key));
     const std::int64_t value = **node->as_integer();
@@ -47,7 +53,7 @@ std::optional<std::int64_t> TomlReader::whole_number(std::string_view key, std::
 }
 
 std::optional<std::string> TomlReader::text(std::string_view key) {
-    const toml::node* node = table_->get(key);
+    const toml::node* node = take(key);
     if (!node) return std::nullopt;
     if (!node->is_string()) fail(key, fmt::format("'{}' must be a text in quotes", key));
     return **node->as_string();
@@ -63,14 +69,14 @@ std::optional<std::size_t> TomlReader::choice(std::string_view key, const std::v
 }
 
 std::optional<bool> TomlReader::truth(std::string_view key) {
-    const toml::node* node = table_->get(key);
+    const toml::node* node = take(key);
     if (!node) return std::nullopt;
     if (!node->is_boolean()) fail(key, fmt::format("'{}' must be true or false", key));
     return **node->as_boolean();
 }
 
 std::optional<glm::dvec3> TomlReader::vector(std::string_view key) {
-    const toml::node* node = table_->get(key);
+    const toml::node* node = take(key);
     if (!node) return std::nullopt;
     const toml::array* values = node->as_array();
     glm::dvec3 result(0.0);
@@ -85,7 +91,7 @@ std::optional<glm::dvec3> TomlReader::vector(std::string_view key) {
 }
 
 std::optional<std::vector<std::vector<double>>> TomlReader::rows(std::string_view key, std::size_t width) {
-    const toml::node* node = table_->get(key);
+    const toml::node* node = take(key);
     if (!node) return std::nullopt;
     const auto refuse = [&] {
         fail(key, fmt::format("'{}' must be a list of lists of {} finite numbers each", key, width));
@@ -108,14 +114,14 @@ std::optional<std::vector<std::vector<double>>> TomlReader::rows(std::string_vie
 }
 
 std::optional<TomlReader> TomlReader::table(std::string_view key) {
-    const toml::node* node = table_->get(key);
+    const toml::node* node = take(key);
     if (!node) return std::nullopt;
     if (!node->is_table()) fail(key, fmt::format("'{}' must be a table, written [{}]", key, key));
     return TomlReader(*node->as_table(), file_, fmt::format("[{}]", key));
 }
 
 std::vector<TomlReader> TomlReader::tables(std::string_view key) {
-    const toml::node* node = table_->get(key);
+    const toml::node* node = take(key);
     if (!node) return {};
     if (!node->is_array_of_tables())
         fail(key, fmt::format("'{}' must be a list of tables, each written [[{}]]", key, key));
@@ -125,11 +131,26 @@ std::vector<TomlReader> TomlReader::tables(std::string_view key) {
     return result;
 }
 
-void TomlReader::only_keys(const std::vector<std::string_view>& keys) const {
+void TomlReader::fail_missing(std::string_view key) const {
+    std::vector<std::string> unread;
+    for (const auto& [other, node] : *table_)
+        if (std::find(known_keys_.begin(), known_keys_.end(), other.str()) == known_keys_.end())
+            unread.emplace_back(other.str());
+    const std::optional<std::string> misspelt = nearest_name(key, unread);
+    if (misspelt)
+        fail(*misspelt,
+             fmt::format("key '{}' is missing in {}; '{}' looks like it", key, table_name_, *misspelt));
+    fail(key, fmt::format("key '{}' is missing in {}", key, table_name_));
+}
+
+void TomlReader::refuse_other_keys() const {
     for (const auto& [key, node] : *table_) {
-        if (std::find(keys.begin(), keys.end(), key.str()) != keys.end()) continue;
-        throw SceneError(fmt::format("{}:{}: unknown key '{}' in {}; choose one of: {}", file_,
-                                     key.source().begin.line, key.str(), table_name_, fmt::join(keys, ", ")));
+        if (std::find(known_keys_.begin(), known_keys_.end(), key.str()) != known_keys_.end()) continue;
+        const std::optional<std::string> meant = nearest_name(key.str(), known_keys_);
+        const std::string guess = meant ? fmt::format("did you mean '{}'? ", *meant) : "";
+        throw SceneError(fmt::format("{}:{}: unknown key '{}' in {}; {}choose one of: {}", file_,
+                                     key.source().begin.line, key.str(), table_name_, guess,
+                                     fmt::join(known_keys_, ", ")));
     }
 }
 

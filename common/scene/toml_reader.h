@@ -38,19 +38,24 @@ class TomlReader {
     std::optional<TomlReader> table(std::string_view key);
     std::vector<TomlReader> tables(std::string_view key);
 
-    /// Throws for the first key of the table that is not among `keys`, naming those. Call it before anything
-    /// else, so that a misspelt key is reported as such and not as missing.
-    void only_keys(const std::vector<std::string_view>& keys) const;
+    /// Throws for the first key of the table that nothing asked for, naming those that were.
+    void refuse_other_keys() const;
 
     /// Throws SceneError at the line of a key (or of the table, if it has no such key).
     [[noreturn]] void fail(std::string_view key, const std::string& message) const;
 
+    /// Throws SceneError for a required key that is absent: at the line of a key that may be its misspelling,
+    /// else at the line of the table.
+    [[noreturn]] void fail_missing(std::string_view key) const;
+
   private:
+    const toml::node* take(std::string_view key);
     static std::optional<double> finite_number(const toml::node& node);
 
     const toml::table* table_;
     std::string file_;
     std::string table_name_;
+    std::vector<std::string> known_keys_;
 };
 
 }  // namespace osteomill
