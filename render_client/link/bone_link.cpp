@@ -1,0 +1,140 @@
+#include "render_client/link/bone_link.h"
+
+#include <algorithm>
+#include <chrono>
+#include <utility>
+
+#include "common/wire/brick_edit.h"
+#include "common/wire/running_checksum.h"
+#include "common/wire/scene_messages.h"
+#include "render_client/link/rate_meter.h"
+#include "render_client/link/server_connection.h"
+
+namespace osteomill {
+
+class BoneLink::Impl {
+  public:
+    Impl(std::string host, std::uint16_t port) : connection_(std::move(host), port) {}
+
+    LinkUpdate poll() {
+        LinkUpdate update;
+        std::size_t taken = 0;
+        for (; taken < LinkQueue::capacity; ++taken) {
+            std::optional<LinkEvent> event = connection_.events().pop();
+            if (!event) break;
+            std::visit([&](auto& what) { take(std::move(what), update); }, *event);
+        }
+        if (taken > 0) connection_.resume();
+        complete(update);
+        return update;
+    }
+
+    const Bone* bone() const { return bone_ ? &*bone_ : nullptr; }
+    const SessionInfo* session() const { return session_ ? &*session_ : nullptr; }
+
+    void send(const OperatorIntent& intent) {
+        if (!session_ || !session_->accepts_operator) return;
+        const auto checked = intent_from(to_message(intent), session_->burrs.size());
+        if (const auto* good = std::get_if<OperatorIntent>(&checked)) connection_.send(*good);
+    }
+
+  private:
+    void take(SessionBegan began, LinkUpdate&) { session_ = std::move(began.info); }
+
+    void take(BoneArrived arrived, LinkUpdate& update) {
+        bone_ = std::move(arrived.bone);
+        checksum_.emplace(*bone_);
+        update.bone_replaced = true;
+        update.dirty_bricks.clear();
+    }
+
+    void take(StatusChanged changed, LinkUpdate&) {
+        status_ = changed.status;
+        line_ = std::move(changed.line);
+    }
+
+    void take(StateArrived arrived, LinkUpdate& update) {
+        if (const auto error = apply(arrived.frame, update)) {
+            status_ = LinkStatus::lost;
+            line_ = error->line + "; asking for the bone afresh";
+            connection_.events().disown();
+            connection_.reconnect();
+        }
+    }
+
+    std::optional<WireError> apply(const v1::StateFrame& frame, LinkUpdate& update) {
+        auto tool = tool_from(frame.tool(), session_->burrs.size());
+        if (auto* error = std::get_if<WireError>(&tool)) return reject(std::move(*error));
+        for (const v1::BrickEdit& edit : frame.edits()) {
+            if (auto error = apply_brick_edit(edit, *bone_)) return reject(std::move(*error));
+            checksum_->update(*bone_, bone_->content().slot_of_brick[edit.brick()]);
+            if (!update.bone_replaced) update.dirty_bricks.push_back(edit.brick());
+        }
+        update.tool = std::get<ToolView>(std::move(tool));
+        ++frames_;
+        if (frame.bone_checksum() == 0) return std::nullopt;
+        if (frame.bone_checksum() != checksum_->value()) {
+            ++mismatches_;
+            return WireError{"the bone differs from the server's"};
+        }
+        ++verified_;
+        return std::nullopt;
+    }
+
+    WireError reject(WireError error) {
+        ++rejected_;
+        return error;
+    }
+
+    void complete(LinkUpdate& update) {
+        const LinkCounters& counters = connection_.counters();
+        std::ranges::sort(update.dirty_bricks);
+        const auto repeated = std::ranges::unique(update.dirty_bricks);
+        update.dirty_bricks.erase(repeated.begin(), repeated.end());
+        update.status = status_;
+        update.status_line = line_;
+        if (status_ == LinkStatus::receiving_snapshot) {
+            update.snapshot_bricks = counters.snapshot_bricks;
+            update.snapshot_bricks_total = counters.snapshot_bricks_total;
+        }
+        update.frames = frames_;
+        update.checksums_verified = verified_;
+        update.checksum_mismatches = mismatches_;
+        update.rejected_frames = rejected_ + counters.rejected_frames;
+        update.connections = counters.connections;
+        const auto now = std::chrono::steady_clock::now();
+        update.frames_per_s = frame_rate_.update(frames_, now);
+        update.bytes_per_s = byte_rate_.update(counters.bytes, now);
+    }
+
+    ServerConnection connection_;
+    LinkStatus status_ = LinkStatus::connecting;
+    std::string line_;
+    std::optional<SessionInfo> session_;
+    std::optional<Bone> bone_;
+    std::optional<RunningChecksum> checksum_;
+    std::uint64_t frames_ = 0;
+    std::uint64_t verified_ = 0;
+    std::uint64_t mismatches_ = 0;
+    std::uint64_t rejected_ = 0;
+    RateMeter frame_rate_;
+    RateMeter byte_rate_;
+};
+
+BoneLink::BoneLink(std::string host, std::uint16_t port)
+    : impl_(std::make_unique<Impl>(std::move(host), port)) {}
+BoneLink::~BoneLink() = default;
+LinkUpdate BoneLink::poll() {
+    return impl_->poll();
+}
+const Bone* BoneLink::bone() const {
+    return impl_->bone();
+}
+const SessionInfo* BoneLink::session() const {
+    return impl_->session();
+}
+void BoneLink::send_operator(const OperatorIntent& intent) {
+    impl_->send(intent);
+}
+
+}  // namespace osteomill

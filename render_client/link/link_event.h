@@ -1,0 +1,36 @@
+// What the receiving thread hands to the UI thread, in the order in which it came.
+#pragma once
+
+#include <string>
+#include <variant>
+
+#include "common/bone/bone.h"
+#include "osteomill/v1/session.pb.h"
+#include "render_client/link/bone_link.h"
+
+namespace osteomill {
+
+/// A server said hello: what came from the one before is history.
+struct SessionBegan {
+    SessionInfo info;
+};
+
+/// A snapshot is complete.
+struct BoneArrived {
+    Bone bone;
+};
+
+/// A state frame, as it came; checked when it is applied.
+struct StateArrived {
+    v1::StateFrame frame;
+};
+
+/// The link stands otherwise than before.
+struct StatusChanged {
+    LinkStatus status = LinkStatus::connecting;
+    std::string line{};
+};
+
+using LinkEvent = std::variant<SessionBegan, BoneArrived, StateArrived, StatusChanged>;
+
+}  // namespace osteomill

@@ -1,0 +1,273 @@
+#include "render_client/link/server_connection.h"
+
+#include <algorithm>
+#include <boost/asio/buffer.hpp>
+#include <boost/asio/connect.hpp>
+#include <boost/asio/post.hpp>
+#include <boost/asio/write.hpp>
+
+#include "common/wire/protocol_version.h"
+#include "common/wire/scene_messages.h"
+
+namespace osteomill {
+
+namespace asio = boost::asio;
+using boost::system::error_code;
+using std::chrono::milliseconds;
+
+namespace {
+
+constexpr milliseconds first_backoff{200};
+constexpr milliseconds longest_backoff{2000};
+
+/// A server speaks 30 times a second; a cable that is pulled says nothing at all.
+constexpr std::chrono::seconds longest_silence{5};
+
+}  // namespace
+
+ServerConnection::ServerConnection(std::string host, std::uint16_t port)
+    : host_(std::move(host)), port_(port), where_(host_ + ":" + std::to_string(port_)) {
+    announce(LinkStatus::connecting, "connecting to " + where_);
+    asio::post(io_, [this] { connect(); });
+    thread_ = std::thread([this] { run(); });
+}
+
+ServerConnection::~ServerConnection() {
+    io_.stop();
+    thread_.join();
+}
+
+void ServerConnection::send(const OperatorIntent& intent) {
+    asio::post(io_, [this, intent] {
+        if (!accepts_operator_) return;
+        newest_intent_ = intent;
+        write_newest_intent();
+    });
+}
+
+void ServerConnection::resume() {
+    asio::post(io_, [this] {
+        if (std::exchange(is_paused_, false)) read();
+    });
+}
+
+void ServerConnection::reconnect() {
+    asio::post(io_, [this] {
+        disconnect();
+        events_.own();
+        announced_ = LinkStatus::lost;
+        retry_later();
+    });
+}
+
+void ServerConnection::run() {
+    while (!io_.stopped()) {
+        try {
+            io_.run();
+        } catch (const std::exception& error) {  // such as no memory for a bone
+            lose(error.what());
+        }
+    }
+}
+
+void ServerConnection::connect() {
+    disconnect();
+    watch_silence();
+    const auto generation = generation_;
+    resolver_.async_resolve(
+        host_, std::to_string(port_), [this, generation](error_code error, const auto& endpoints) {
+            if (generation != generation_) return;
+            if (error) return lose("cannot find " + host_ + ": " + error.message());
+            asio::async_connect(socket_, endpoints, [this, generation](error_code failure, const auto&) {
+                if (generation != generation_) return;
+                if (failure) return lose("cannot reach " + where_ + ": " + failure.message());
+                error_code ignored;  // a socket without it still works
+                socket_.set_option(tcp::no_delay(true), ignored);
+                read();
+            });
+        });
+}
+
+void ServerConnection::disconnect() {
+    ++generation_;
+    error_code ignored;
+    resolver_.cancel();
+    socket_.close(ignored);
+    silence_.cancel();
+    retry_.cancel();
+    stage_ = Stage::hello;
+    decoder_ = {};
+    assembler_.reset();
+    last_sequence_ = 0;
+    is_paused_ = false;
+    accepts_operator_ = false;
+    newest_intent_.reset();
+    sent_sequence_ = 0;
+    is_writing_ = false;
+}
+
+void ServerConnection::watch_silence() {
+    silence_.expires_after(longest_silence);
+    silence_.async_wait([this, generation = generation_](error_code error) {
+        if (!error && generation == generation_) lose(where_ + " is silent");
+    });
+}
+
+void ServerConnection::read() {
+    if (events_.is_full()) {
+        is_paused_ = true;
+        silence_.cancel();
+        return;
+    }
+    watch_silence();
+    socket_.async_read_some(asio::buffer(arrived_),
+                            [this, generation = generation_](error_code error, std::size_t bytes) {
+                                if (generation != generation_) return;
+                                if (error) return lose("lost " + where_ + ": " + error.message());
+                                counters_.bytes += bytes;
+                                decoder_.append(std::span(arrived_).first(bytes));
+                                take_frames();
+                                if (generation == generation_) read();
+                            });
+}
+
+void ServerConnection::take_frames() {
+    const auto generation = generation_;
+    while (const auto message = decoder_.next()) {
+        v1::ServerFrame frame;
+        std::optional<WireError> error;
+        if (!frame.ParseFromArray(message->data(), static_cast<int>(message->size())))
+            error = WireError{"a frame is no message"};
+        else
+            error = take(frame);
+        if (error) return reject(error->line);
+        if (generation != generation_) return;
+    }
+    if (!decoder_.error().empty()) reject(decoder_.error());
+}
+
+std::optional<WireError> ServerConnection::take(const v1::ServerFrame& frame) {
+    if (stage_ != Stage::hello && frame.sequence() != last_sequence_ + 1)
+        return WireError{"frame " + std::to_string(frame.sequence()) + " came after " +
+                         std::to_string(last_sequence_)};
+    last_sequence_ = frame.sequence();
+
+    if (stage_ == Stage::hello && frame.has_hello()) return take_hello(frame.hello());
+    if (stage_ == Stage::snapshot_begin && frame.has_snapshot_begin())
+        return take_snapshot_begin(frame.snapshot_begin());
+    if (stage_ == Stage::snapshot && frame.has_snapshot_bricks()) {
+        auto error = assembler_->add(frame.snapshot_bricks());
+        counters_.snapshot_bricks = assembler_->bricks_received();
+        return error;
+    }
+    if (stage_ == Stage::snapshot && frame.has_snapshot_end()) return take_snapshot_end(frame.snapshot_end());
+    if (stage_ == Stage::live && frame.has_state()) {
+        events_.push(StateArrived{frame.state()});
+        return std::nullopt;
+    }
+    if (stage_ != Stage::hello && frame.has_goodbye()) {
+        disconnect();
+        announce(LinkStatus::finished, where_ + ": " + frame.goodbye().reason());
+        retry_later();
+        return std::nullopt;
+    }
+    return WireError{"frame " + std::to_string(frame.sequence()) + " is not what should come there"};
+}
+
+std::optional<WireError> ServerConnection::take_hello(const v1::Hello& hello) {
+    if (hello.protocol_major() != protocol_major) {
+        disconnect();
+        announce(LinkStatus::refused, where_ + " speaks protocol " + std::to_string(hello.protocol_major()) +
+                                          ", this program " + std::to_string(protocol_major) +
+                                          ": update the older of the two");
+        backoff_ = longest_backoff;
+        retry_later();
+        return std::nullopt;
+    }
+    auto burrs = burrs_from(hello.burrs());
+    if (auto* error = std::get_if<WireError>(&burrs)) return *error;
+    auto tissues = tissues_from(hello.tissues());
+    if (auto* error = std::get_if<WireError>(&tissues)) return *error;
+    accepts_operator_ = hello.accepts_operator();
+    ++counters_.connections;
+    counters_.snapshot_bricks = 0;
+    counters_.snapshot_bricks_total = 0;
+    events_.push(SessionBegan{{.scene_name = hello.scene_name(),
+                               .server_version = hello.program_version(),
+                               .burrs = std::get<0>(std::move(burrs)),
+                               .tissues = std::get<0>(std::move(tissues)),
+                               .accepts_operator = hello.accepts_operator(),
+                               .force_limit_n = hello.force_limit_n()}});
+    announce(LinkStatus::receiving_snapshot, "receiving the bone from " + where_);
+    stage_ = Stage::snapshot_begin;
+    return std::nullopt;
+}
+
+std::optional<WireError> ServerConnection::take_snapshot_begin(const v1::SnapshotBegin& message) {
+    auto begun = SnapshotAssembler::begin(message);
+    if (auto* error = std::get_if<WireError>(&begun)) return *error;
+    assembler_.emplace(std::get<SnapshotAssembler>(std::move(begun)));
+    counters_.snapshot_bricks = 0;
+    counters_.snapshot_bricks_total = message.brick_count();
+    stage_ = Stage::snapshot;
+    return std::nullopt;
+}
+
+std::optional<WireError> ServerConnection::take_snapshot_end(const v1::SnapshotEnd& message) {
+    auto finished = std::move(*assembler_).finish(message);
+    assembler_.reset();
+    if (auto* error = std::get_if<WireError>(&finished)) return *error;
+    events_.push(BoneArrived{std::get<Bone>(std::move(finished))});
+    announce(LinkStatus::live, "connected to " + where_);
+    backoff_ = milliseconds(0);
+    stage_ = Stage::live;
+    return std::nullopt;
+}
+
+void ServerConnection::write_newest_intent() {
+    if (is_writing_ || !newest_intent_) return;
+    v1::ClientFrame frame;
+    frame.set_sequence(++sent_sequence_);
+    *frame.mutable_operator_input() = to_message(*newest_intent_);
+    newest_intent_.reset();
+    under_way_ = std::make_shared<std::string>();
+    append_frame(frame, *under_way_);
+    is_writing_ = true;
+    // The bytes are shared: a handler of a connection that was given up may outlive it.
+    asio::async_write(socket_, asio::buffer(*under_way_),
+                      [this, bytes = under_way_, generation = generation_](error_code error, std::size_t) {
+                          if (generation != generation_) return;
+                          is_writing_ = false;
+                          if (!error) write_newest_intent();  // an error shows in reading, too
+                      });
+}
+
+void ServerConnection::reject(const std::string& line) {
+    ++counters_.rejected_frames;
+    announced_ = LinkStatus::lost;  // not to be passed over in silence, whatever came before
+    lose(where_ + " makes no sense: " + line);
+}
+
+void ServerConnection::lose(const std::string& line) {
+    disconnect();
+    // After a goodbye or a refusal that no one answers is no news.
+    if (announced_ != LinkStatus::finished && announced_ != LinkStatus::refused)
+        announce(counters_.connections > 0 ? LinkStatus::lost : LinkStatus::connecting,
+                 line + "; trying again");
+    retry_later();
+}
+
+void ServerConnection::retry_later() {
+    backoff_ = std::clamp(2 * backoff_, first_backoff, longest_backoff);
+    retry_.expires_after(backoff_);
+    retry_.async_wait([this, generation = generation_](error_code error) {
+        if (!error && generation == generation_) connect();
+    });
+}
+
+void ServerConnection::announce(LinkStatus status, std::string line) {
+    announced_ = status;
+    events_.push(StatusChanged{status, std::move(line)});
+}
+
+}  // namespace osteomill

@@ -1,0 +1,104 @@
+// The receiving side of the link: connects, reads, decodes, and tries again, on a thread of its own.
+#pragma once
+
+#include <array>
+#include <atomic>
+#include <boost/asio/executor_work_guard.hpp>
+#include <boost/asio/io_context.hpp>
+#include <boost/asio/ip/tcp.hpp>
+#include <boost/asio/steady_timer.hpp>
+#include <chrono>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <thread>
+#include <utility>
+
+#include "common/wire/frame.h"
+#include "common/wire/snapshot.h"
+#include "render_client/link/link_queue.h"
+
+namespace osteomill {
+
+/// Counters that the receiving thread keeps and any thread may read.
+struct LinkCounters {
+    std::atomic<std::uint64_t> bytes{0};
+    std::atomic<std::uint64_t> connections{0};
+    std::atomic<std::uint64_t> rejected_frames{0};
+    std::atomic<std::uint32_t> snapshot_bricks{0};
+    std::atomic<std::uint32_t> snapshot_bricks_total{0};
+};
+
+class ServerConnection {
+  public:
+    ServerConnection(std::string host, std::uint16_t port);
+    ~ServerConnection();
+    ServerConnection(const ServerConnection&) = delete;
+    ServerConnection& operator=(const ServerConnection&) = delete;
+
+    LinkQueue& events() { return events_; }
+    const LinkCounters& counters() const { return counters_; }
+
+    // Any thread.
+    void send(const OperatorIntent& intent);
+    /// There is room in the queue again.
+    void resume();
+    /// Drops what has come of this connection and begins another.
+    void reconnect();
+
+  private:
+    using tcp = boost::asio::ip::tcp;
+
+    void run();
+    void connect();
+    void disconnect();
+    void watch_silence();
+    void read();
+    void take_frames();
+    std::optional<WireError> take(const v1::ServerFrame& frame);
+    std::optional<WireError> take_hello(const v1::Hello& hello);
+    std::optional<WireError> take_snapshot_begin(const v1::SnapshotBegin& message);
+    std::optional<WireError> take_snapshot_end(const v1::SnapshotEnd& message);
+    void write_newest_intent();
+    void reject(const std::string& line);
+    void lose(const std::string& line);
+    void retry_later();
+    void announce(LinkStatus status, std::string line);
+
+    const std::string host_;
+    const std::uint16_t port_;
+    const std::string where_;
+    LinkQueue events_;
+    LinkCounters counters_;
+
+    boost::asio::io_context io_{1};
+    // While reading is paused nothing else keeps the thread there.
+    boost::asio::executor_work_guard<boost::asio::io_context::executor_type> work_{io_.get_executor()};
+    tcp::resolver resolver_{io_};
+    tcp::socket socket_{io_};
+    boost::asio::steady_timer retry_{io_};
+    boost::asio::steady_timer silence_{io_};
+    std::chrono::milliseconds backoff_{0};
+
+    // Of the current connection; `generation_` tells its handlers from those of the ones before.
+    enum class Stage { hello, snapshot_begin, snapshot, live };
+    std::uint64_t generation_ = 0;
+    Stage stage_ = Stage::hello;
+    FrameDecoder decoder_;
+    std::uint64_t last_sequence_ = 0;
+    std::optional<SnapshotAssembler> assembler_;
+    bool is_paused_ = false;
+    bool accepts_operator_ = false;
+    std::array<std::uint8_t, 64 * 1024> arrived_{};
+
+    std::optional<OperatorIntent> newest_intent_;
+    std::uint64_t sent_sequence_ = 0;
+    std::shared_ptr<std::string> under_way_;
+    bool is_writing_ = false;
+
+    LinkStatus announced_ = LinkStatus::connecting;
+    std::thread thread_;
+};
+
+}  // namespace osteomill

@@ -1,0 +1,90 @@
+#include "render_client/ui/offscreen_run.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <stdexcept>
+#include <thread>
+
+#include "render_client/ui/session_picture.h"
+#include "render_client/volume/gl/offscreen_context.h"
+#include "render_client/volume/png_file.h"
+
+namespace osteomill {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr auto frame_period =
+    std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(1.0 / 30.0));
+constexpr glm::ivec2 default_size_px(960, 600);
+constexpr int wanted_screenshots = 30;
+
+double seconds(Clock::duration duration) {
+    return std::chrono::duration<double>(duration).count();
+}
+
+/// Polls until the first bone is there. False where the run was asked to stop before.
+bool wait_for_bone(SessionPicture& session, const std::function<bool()>& stop_asked) {
+    const Clock::time_point start = Clock::now();
+    while (!stop_asked()) {
+        session.take_in();
+        if (session.has_bone()) return true;
+        if (!session.bone_problem().empty()) throw std::runtime_error(session.bone_problem());
+        const LinkStatus status = session.link().status;
+        if (status == LinkStatus::refused || status == LinkStatus::finished)
+            throw std::runtime_error("no bone to draw: " + session.link().status_line);
+        if (seconds(Clock::now() - start) > longest_wait_for_bone_s)
+            throw std::runtime_error(fmt::format("no bone after {:.0f} s: {}", longest_wait_for_bone_s,
+                                                 session.link().status_line));
+        std::this_thread::sleep_for(frame_period);
+    }
+    return false;
+}
+
+}  // namespace
+
+int screenshot_interval(const RenderOptions& options) {
+    if (options.screenshot_every > 0) return options.screenshot_every;
+    return std::max(1, (options.frames + wanted_screenshots - 1) / wanted_screenshots);
+}
+
+RenderReport run_offscreen(const RenderOptions& options, SessionSource& source,
+                           const std::function<bool()>& stop_asked) {
+    const bool writes = !options.screenshots.empty();
+    if (writes) std::filesystem::create_directories(options.screenshots);
+    gl::OffscreenContext context;
+    gl::require_opengl_3_3();
+    Panels panels;
+    SessionPicture session(source, panels, options.window_size_px.value_or(default_size_px));
+    FrameTimes frame_times;
+
+    bool going_on = wait_for_bone(session, stop_asked);
+    Clock::time_point previous = Clock::now() - frame_period;
+    Clock::time_point due = Clock::now();
+    for (int frame = 1; going_on; ++frame) {
+        const Clock::time_point start = Clock::now();
+        session.take_in();
+        const LinkStatus status = session.link().status;
+        const gl::Framebuffer& framebuffer = session.draw(seconds(start - previous));
+        previous = start;
+        // Reading a pixel waits until the frame is finished, as showing it would.
+        framebuffer.depth_at({0, 0});
+        frame_times.add(1e3 * seconds(Clock::now() - start));
+
+        going_on = frame < options.frames && status != LinkStatus::finished &&
+                   status != LinkStatus::refused && !stop_asked();
+        if (writes && frame % screenshot_interval(options) == 0)
+            write_png(framebuffer.read_back(), options.screenshots / fmt::format("frame_{:04}.png", frame));
+        if (writes && !going_on) write_png(framebuffer.read_back(), options.screenshots / "final.png");
+        due = std::max(due + frame_period, Clock::now());
+        if (going_on) std::this_thread::sleep_until(due);
+    }
+    RenderReport report = session.report();
+    report.frame_times = std::move(frame_times);
+    return report;
+}
+
+}  // namespace osteomill

@@ -1,0 +1,26 @@
+// A run without a display: draws frames at up to 30 a second while the session lives, writes some as PNG.
+#pragma once
+
+#include <functional>
+
+#include "render_client/ui/options.h"
+#include "render_client/ui/report.h"
+#include "render_client/ui/session_source.h"
+
+namespace osteomill {
+
+/// How long a run without a display waits for its first bone. A window waits for ever: there a person sees
+/// what it waits for.
+inline constexpr double longest_wait_for_bone_s = 60.0;
+
+/// Frames are counted from the first that shows bone. Ends after options.frames of them, when the session is
+/// finished and its last state drawn, or when `stop_asked` says so; final.png is then written. Throws
+/// std::runtime_error where no bone comes, the server is refused or a picture cannot be written, and
+/// gl::NoOpenGl.
+RenderReport run_offscreen(const RenderOptions& options, SessionSource& source,
+                           const std::function<bool()>& stop_asked);
+
+/// Every how many frames a picture is written.
+int screenshot_interval(const RenderOptions& options);
+
+}  // namespace osteomill

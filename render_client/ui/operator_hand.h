@@ -1,0 +1,41 @@
+// A hand without an arm: turns what the mouse and the keys do into where the hand wants the burr to be.
+//
+// The hand holds still until it is taken up; until then its target follows the tool, so that taking it up
+// never makes it jump. No clock, no window: the caller says what moved.
+#pragma once
+
+#include "common/wire/tool_view.h"
+#include "render_client/volume/camera.h"
+
+namespace osteomill {
+
+/// How far the target may be from the burr. Beyond it a hand could not feel where it is any more; the spring
+/// of the coupling is long saturated.
+inline constexpr double longest_reach_mm = 6.0;
+
+class OperatorHand {
+  public:
+    /// Call every frame: before the hand is taken up it rests on the tool; afterwards the target is kept
+    /// within reach of the burr, and a burr index beyond `burr_count` is lowered to the last.
+    void follow(const ToolView& tool, std::size_t burr_count);
+
+    /// Moves the target in the plane that faces the camera by what the pointer moved (pixels, y down).
+    void move_in_picture(const glm::dvec2& moved_px, const Camera& camera, const glm::ivec2& size_px);
+    /// Moves the target along the spindle; positive is towards the tip, into the bone.
+    void advance(double distance_mm);
+    void set_pedal(bool down) { intent_.pedal = down; }
+    void choose_burr(std::size_t burr);
+    void choose_next_burr() { choose_burr(intent_.burr + 1); }
+    void choose_previous_burr() { choose_burr(intent_.burr > 0 ? intent_.burr - 1 : 0); }
+    /// Lets go: pedal up, target back on the tool. For when the window loses focus or the server goes.
+    void let_go();
+
+    const OperatorIntent& intent() const { return intent_; }
+
+  private:
+    OperatorIntent intent_;
+    bool taken_up_ = false;
+    bool burr_chosen_ = false;
+};
+
+}  // namespace osteomill

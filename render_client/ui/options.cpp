@@ -1,0 +1,114 @@
+#include "render_client/ui/options.h"
+
+#include <CLI/CLI.hpp>
+#include <charconv>
+
+namespace osteomill {
+
+namespace {
+
+constexpr int largest_window_px = 16384;
+
+std::optional<int> whole_number(std::string_view text, int low, int high) {
+    int value = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (error != std::errc() || end != text.data() + text.size() || value < low || value > high)
+        return std::nullopt;
+    return value;
+}
+
+/// Splits "HOST:PORT"; an IPv6 address stands in brackets. Returns what is wrong, or nothing.
+std::string take_address(const std::string& text, RenderOptions& options) {
+    const std::size_t colon = text.rfind(':');
+    if (colon != std::string::npos && colon > 0) {
+        std::string host = text.substr(0, colon);
+        if (host.size() > 2 && host.front() == '[' && host.back() == ']')
+            host = host.substr(1, host.size() - 2);
+        if (const auto port = whole_number(std::string_view(text).substr(colon + 1), 1, 65535)) {
+            options.host = host;
+            options.port = static_cast<std::uint16_t>(*port);
+            return {};
+        }
+    }
+    return "is '" + text + "', not HOST:PORT with a port from 1 to 65535, such as 127.0.0.1:7010";
+}
+
+NoRun wrong_usage(const std::string& what) {
+    return {2, "render_client: " + what};
+}
+
+/// What the options together get wrong; empty where they agree.
+std::string contradiction(const RenderOptions& options) {
+    if (!options.offscreen && !options.screenshots.empty())
+        return "--screenshots needs --offscreen; in a window nothing is written";
+    if (options.screenshot_every > 0 && options.screenshots.empty())
+        return "--screenshot-every needs --screenshots DIR";
+    return {};
+}
+
+}  // namespace
+
+std::optional<glm::ivec2> parse_size(const std::string& text) {
+    const std::size_t cross = text.find('x');
+    if (cross == std::string::npos) return std::nullopt;
+    const auto width = whole_number(std::string_view(text).substr(0, cross), 1, largest_window_px);
+    const auto height = whole_number(std::string_view(text).substr(cross + 1), 1, largest_window_px);
+    if (!width || !height) return std::nullopt;
+    return glm::ivec2(*width, *height);
+}
+
+ParsedOptions parse_options(int argument_count, const char* const* arguments, const std::string& version) {
+    ParsedOptions parsed;
+    RenderOptions& options = parsed.options;
+    CLI::App app("Shows what is left of the bone that haptic_server mills.", "render_client");
+    app.set_version_flag("--version", "render_client " + version);
+
+    app.add_option_function<std::string>(
+           "--connect",
+           [&](const std::string& text) {
+               if (const std::string wrong = take_address(text, options); !wrong.empty())
+                   throw CLI::ValidationError("--connect", wrong);
+           },
+           "The server's HOST:PORT (127.0.0.1:7010)")
+        ->type_name("HOST:PORT");
+    app.add_option_function<std::string>(
+           "--window-size",
+           [&](const std::string& text) {
+               options.window_size_px = parse_size(text);
+               if (!options.window_size_px)
+                   throw CLI::ValidationError(
+                       "--window-size", "is '" + text + "', not WIDTHxHEIGHT in pixels, each 1 to 16384");
+           },
+           "Size of the picture (1280x800; 960x600 offscreen)")
+        ->type_name("WxH");
+    app.add_flag("--offscreen", options.offscreen, "Draw without a display; write pictures instead");
+    auto* frames = app.add_option("--frames", options.frames,
+                                  "Offscreen: end after so many frames (300), or sooner with the session")
+                       ->check(CLI::Range(1, 1'000'000));
+    app.add_option("--screenshots", options.screenshots,
+                   "Offscreen: folder for frame_0001.png ... and final.png")
+        ->type_name("DIR");
+    app.add_option("--screenshot-every", options.screenshot_every,
+                   "Offscreen: write every so many frames (spreads about 30 over --frames)")
+        ->check(CLI::Range(1, 1'000'000));
+    app.add_option("--json", options.json, "Write what was measured to this file")->type_name("FILE");
+
+    try {
+        app.parse(argument_count, arguments);
+    } catch (const CLI::CallForHelp&) {
+        parsed.no_run = NoRun{0, app.help()};
+        return parsed;
+    } catch (const CLI::CallForVersion&) {
+        parsed.no_run = NoRun{0, app.version() + "\n"};
+        return parsed;
+    } catch (const CLI::ParseError& error) {
+        parsed.no_run = wrong_usage(std::string(error.what()) + " (see --help)");
+        return parsed;
+    }
+    std::string wrong = contradiction(options);
+    if (wrong.empty() && frames->count() > 0 && !options.offscreen) wrong = "--frames needs --offscreen";
+    if (!wrong.empty()) parsed.no_run = wrong_usage(wrong);
+    return parsed;
+}
+
+}  // namespace osteomill

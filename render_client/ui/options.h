@@ -1,0 +1,40 @@
+// The command line of render_client.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <glm/vec2.hpp>
+#include <optional>
+#include <string>
+
+namespace osteomill {
+
+struct RenderOptions {
+    std::string host = "127.0.0.1";
+    std::uint16_t port = 7010;
+    bool offscreen = false;
+    int frames = 300;                   ///< offscreen: ends after so many
+    std::filesystem::path screenshots;  ///< offscreen: empty writes none
+    int screenshot_every = 0;           ///< offscreen: 0 spreads about 30 over `frames`
+    std::optional<glm::ivec2> window_size_px;
+    std::filesystem::path json;  ///< empty writes none
+};
+
+/// The command line asks for something other than a run: usage error (2), or help or version (0).
+struct NoRun {
+    int exit_code = 0;
+    std::string message;  ///< for standard output where the code is 0, else one line for standard error
+};
+
+/// Either options or why there is no run.
+struct ParsedOptions {
+    RenderOptions options;
+    std::optional<NoRun> no_run;
+};
+
+ParsedOptions parse_options(int argument_count, const char* const* arguments, const std::string& version);
+
+/// "1280x800" as a size; none unless both are whole numbers from 1 to 16384.
+std::optional<glm::ivec2> parse_size(const std::string& text);
+
+}  // namespace osteomill

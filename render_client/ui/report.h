@@ -1,0 +1,28 @@
+// What a run measured, as the JSON file that --json asks for.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+
+#include "render_client/ui/frame_times.h"
+
+namespace osteomill {
+
+struct RenderReport {
+    FrameTimes frame_times;
+    std::string gl_renderer;
+    std::uint64_t bone_checksum = 0;  ///< of the bone as it was last drawn
+    std::uint64_t dirty_bricks_uploaded = 0;
+    std::uint64_t checksum_mismatches = 0;
+    std::string link_status;
+};
+
+/// Keys: frames, frame_ms {p50, p99, max}, gl_renderer, bone_checksum (16 hex digits), dirty_bricks_uploaded,
+/// checksum_mismatches, link_status.
+std::string to_json(const RenderReport& report);
+
+/// Throws std::runtime_error naming the file where it cannot be written.
+void write_report(const RenderReport& report, const std::filesystem::path& file);
+
+}  // namespace osteomill

@@ -1,0 +1,136 @@
+#include "render_client/ui/session_picture.h"
+
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <numbers>
+#include <stdexcept>
+
+namespace osteomill {
+
+namespace {
+
+/// A real burr's 10,000 rpm would flicker at 30 frames a second; a turn a second shows that it turns and
+/// which way.
+constexpr double shown_rev_per_s = 0.8;
+
+glm::dvec3 middle_of(const Grid& grid, const VoxelBox& box) {
+    return 0.5 * (centre_of_voxel_mm(grid, box.first) + centre_of_voxel_mm(grid, box.first + box.size - 1));
+}
+
+std::vector<TissueColour> tissue_colours(const SessionInfo* session) {
+    std::vector<TissueColour> colours;
+    if (!session) return colours;
+    for (const Tissue& tissue : session->tissues) colours.push_back({tissue.label, tissue.colour_rgb});
+    return colours;
+}
+
+}  // namespace
+
+SessionPicture::SessionPicture(SessionSource& source, Panels& panels, const glm::ivec2& size_px)
+    : source_(source), panels_(panels), picture_(renderer_, size_px), size_px_(picture_.size_px()) {}
+
+void SessionPicture::take_in() {
+    link_ = source_.poll();
+    if (link_.tool) {
+        tool_ = link_.tool;
+        history_.add(*tool_);
+    }
+    const Bone* bone = source_.bone();
+    if (!bone) return;
+    if (link_.bone_replaced || (!textures_ && bone_problem_.empty())) {
+        replace_bone();
+    } else if (textures_ && !link_.dirty_bricks.empty()) {
+        textures_->update(*bone, link_.dirty_bricks);
+        picture_.mark_dirty(*textures_, link_.dirty_bricks);
+        dirty_bricks_uploaded_ += link_.dirty_bricks.size();
+    }
+}
+
+void SessionPicture::replace_bone() {
+    const bool first = !textures_;
+    const std::vector<TissueColour> tissues = tissue_colours(source_.session());
+    bone_problem_.clear();
+    picture_.forget_bone();
+    // The old textures go first: both together might not fit.
+    textures_.reset();
+    try {
+        textures_.emplace(*source_.bone(), tissues);
+    } catch (const std::runtime_error& error) {
+        bone_problem_ = error.what();
+        return;
+    }
+    // After a reconnection the view stays where the user left it.
+    if (first) reset_camera();
+}
+
+void SessionPicture::reset_camera() {
+    if (!textures_) return;
+    const glm::dvec3 size_mm = textures_->grid().spacing_mm * glm::dvec3(textures_->box().size);
+    camera_ = camera_on(middle_of(textures_->grid(), textures_->box()), 0.5 * glm::length(size_mm));
+}
+
+const gl::Framebuffer& SessionPicture::draw(double elapsed_s) {
+    turn_burr(elapsed_s);
+    if (elapsed_s > 0.0) {
+        const double now_per_s = 1.0 / elapsed_s;
+        frames_per_s_ = frames_per_s_ > 0.0 ? 0.9 * frames_per_s_ + 0.1 * now_per_s : now_per_s;
+    }
+    std::optional<DrawnTool> tool;
+    if (tool_) tool = drawn_tool();
+    const gl::Framebuffer& picture =
+        picture_.draw(textures_ ? &*textures_ : nullptr, tool ? &*tool : nullptr, camera_);
+    panels_.begin(size_px_, elapsed_s);
+    draw_overlay({.link = link_,
+                  .session = source_.session(),
+                  .tool = tool_,
+                  .history = &history_,
+                  .render_frames_per_s = frames_per_s_,
+                  .help_shown = help_shown_,
+                  .operator_intent = operator_intent_,
+                  .bone_problem = bone_problem_},
+                 size_px_);
+    panels_.end();
+    return picture;
+}
+
+void SessionPicture::turn_burr(double elapsed_s) {
+    if (!tool_ || !tool_->spindle_on) return;
+    const SessionInfo* session = source_.session();
+    const bool clockwise = !session || tool_->burr >= session->burrs.size() ||
+                           session->burrs[tool_->burr].sense == SpindleSense::clockwise;
+    // Clockwise seen from the shank is negative about the axis from tip to shank.
+    const double change = (clockwise ? -1.0 : 1.0) * 2.0 * std::numbers::pi * shown_rev_per_s * elapsed_s;
+    spin_rad_ = std::remainder(spin_rad_ + change, 2.0 * std::numbers::pi);
+}
+
+DrawnTool SessionPicture::drawn_tool() const {
+    DrawnTool drawn;
+    const SessionInfo* session = source_.session();
+    if (session && tool_->burr < session->burrs.size()) {
+        const Burr& burr = session->burrs[tool_->burr];
+        drawn.burr = {burr.diameter_mm, burr.edges, burr.sense == SpindleSense::clockwise};
+    }
+    drawn.position_mm = tool_->burr_position_mm;
+    drawn.spindle_axis = tool_->spindle_axis;
+    drawn.spin_rad = spin_rad_;
+    drawn.force_n = tool_->force_n;
+    if (operator_intent_) drawn.hand_target_mm = operator_intent_->hand_target_mm;
+    return drawn;
+}
+
+void SessionPicture::resize(const glm::ivec2& size_px) {
+    picture_.resize(size_px);
+    size_px_ = picture_.size_px();
+}
+
+RenderReport SessionPicture::report() const {
+    RenderReport report;
+    report.gl_renderer = gl::renderer_name();
+    if (const Bone* bone = source_.bone()) report.bone_checksum = checksum(*bone);
+    report.dirty_bricks_uploaded = dirty_bricks_uploaded_;
+    report.checksum_mismatches = link_.checksum_mismatches;
+    report.link_status = link_.status_line;
+    return report;
+}
+
+}  // namespace osteomill

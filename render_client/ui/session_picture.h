@@ -1,0 +1,69 @@
+// A session made visible: takes in what a source brings, keeps textures and camera, draws picture and panels.
+// What a window and an offscreen run have in common.
+#pragma once
+
+#include <optional>
+
+#include "render_client/ui/overlay.h"
+#include "render_client/ui/panels.h"
+#include "render_client/ui/report.h"
+#include "render_client/ui/session_source.h"
+#include "render_client/volume/gl/offscreen_context.h"
+#include "render_client/volume/raycast_renderer.h"
+#include "render_client/volume/scene_picture.h"
+
+namespace osteomill {
+
+class SessionPicture {
+  public:
+    SessionPicture(SessionSource& source, Panels& panels, const glm::ivec2& size_px);
+
+    /// Polls the source and brings the textures up to date.
+    void take_in();
+    /// Draws bone, tool and panels; leaves the framebuffer bound. `elapsed_s`: since the last frame.
+    const gl::Framebuffer& draw(double elapsed_s);
+
+    void resize(const glm::ivec2& size_px);
+    const glm::ivec2& size_px() const { return size_px_; }
+
+    Camera& camera() { return camera_; }
+    /// The first view of the bone again.
+    void reset_camera();
+    void toggle_help() { help_shown_ = !help_shown_; }
+    void show_operator(const std::optional<OperatorIntent>& intent) { operator_intent_ = intent; }
+
+    bool has_bone() const { return textures_.has_value(); }
+    /// Why the bone that is there cannot be drawn; empty while it can.
+    const std::string& bone_problem() const { return bone_problem_; }
+    const LinkUpdate& link() const { return link_; }
+    /// Null until a server has said hello.
+    const SessionInfo* session() const { return source_.session(); }
+    const std::optional<ToolView>& tool() const { return tool_; }
+
+    /// What was measured so far, with the bone's checksum of now. Frame times are the caller's to add.
+    RenderReport report() const;
+
+  private:
+    void replace_bone();
+    DrawnTool drawn_tool() const;
+    void turn_burr(double elapsed_s);
+
+    SessionSource& source_;
+    Panels& panels_;
+    RaycastRenderer renderer_;
+    ScenePicture picture_;
+    glm::ivec2 size_px_;
+    Camera camera_;
+    std::optional<BoneTextures> textures_;
+    std::string bone_problem_;
+    LinkUpdate link_;
+    std::optional<ToolView> tool_;
+    ToolHistory history_;
+    std::optional<OperatorIntent> operator_intent_;
+    bool help_shown_ = false;
+    double spin_rad_ = 0.0;
+    double frames_per_s_ = 0.0;
+    std::uint64_t dirty_bricks_uploaded_ = 0;
+};
+
+}  // namespace osteomill

@@ -1,0 +1,31 @@
+// Where sessions come from: a server (BoneLink), or a script in its place.
+#pragma once
+
+#include "render_client/link/bone_link.h"
+
+namespace osteomill {
+
+/// What a BoneLink does; see there. All calls on one thread, none of them waits.
+class SessionSource {
+  public:
+    virtual ~SessionSource() = default;
+    virtual LinkUpdate poll() = 0;
+    virtual const Bone* bone() const = 0;            ///< null until one has arrived
+    virtual const SessionInfo* session() const = 0;  ///< null until a server has said hello
+    virtual void send_operator(const OperatorIntent& intent) = 0;
+};
+
+/// A server's session.
+class LinkedSession final : public SessionSource {
+  public:
+    LinkedSession(std::string host, std::uint16_t port) : link_(std::move(host), port) {}
+    LinkUpdate poll() override { return link_.poll(); }
+    const Bone* bone() const override { return link_.bone(); }
+    const SessionInfo* session() const override { return link_.session(); }
+    void send_operator(const OperatorIntent& intent) override { link_.send_operator(intent); }
+
+  private:
+    BoneLink link_;
+};
+
+}  // namespace osteomill

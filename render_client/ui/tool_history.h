@@ -1,0 +1,29 @@
+// The last seconds of forces, for the live plot.
+#pragma once
+
+#include <array>
+#include <deque>
+
+#include "common/wire/tool_view.h"
+
+namespace osteomill {
+
+/// Forces of the newest frames, oldest first. A frame whose time is not later than the one before is left
+/// out; one that is earlier starts a new session and forgets what was there.
+class ToolHistory {
+  public:
+    static constexpr double kept_s = 10.0;
+
+    struct Sample {
+        double time_s = 0.0;
+        glm::dvec3 force_n{0.0};
+    };
+
+    void add(const ToolView& tool);
+    const std::deque<Sample>& samples() const { return samples_; }
+
+  private:
+    std::deque<Sample> samples_;
+};
+
+}  // namespace osteomill

@@ -1,0 +1,114 @@
+#include "render_client/ui/windowed_run.h"
+
+#include <epoxy/gl.h>
+// GLFW comes after libepoxy, which brings OpenGL's declarations.
+#include <GLFW/glfw3.h>
+#include <imgui.h>
+
+#include <chrono>
+#include <cmath>
+#include <thread>
+
+#include "render_client/ui/operator_hand.h"
+#include "render_client/ui/session_picture.h"
+#include "render_client/ui/window.h"
+
+namespace osteomill {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr glm::ivec2 default_size_px(1280, 800);
+constexpr double orbit_rad_per_px = 0.008;
+constexpr double zoom_per_notch = 0.88;
+constexpr double advance_mm_per_s = 2.0;
+constexpr double advance_mm_per_notch = 0.1;
+/// A display without vertical synchronisation must not make one core spin.
+constexpr std::chrono::milliseconds shortest_frame(8);
+
+bool pressed(int glfw_key) {
+    return ImGui::IsKeyPressed(glfw_key, false);
+}
+
+void move_camera(SessionPicture& session, bool left_turns) {
+    const ImGuiIO& io = ImGui::GetIO();
+    const glm::dvec2 moved_px(io.MouseDelta.x, io.MouseDelta.y);
+    const bool right = io.MouseDown[ImGuiMouseButton_Right];
+    if (io.MouseDown[ImGuiMouseButton_Middle] || (right && io.KeyShift))
+        pan(session.camera(), moved_px, session.size_px());
+    else if (right || (left_turns && io.MouseDown[ImGuiMouseButton_Left]))
+        orbit(session.camera(), -orbit_rad_per_px * moved_px.x, orbit_rad_per_px * moved_px.y);
+    if (io.MouseWheel != 0.0f && !io.KeyCtrl) zoom(session.camera(), std::pow(zoom_per_notch, io.MouseWheel));
+    if (pressed(GLFW_KEY_HOME)) session.reset_camera();
+}
+
+void move_hand(OperatorHand& hand, const Window& window, SessionPicture& session, double elapsed_s) {
+    const ImGuiIO& io = ImGui::GetIO();
+    hand.follow(*session.tool(), session.session()->burrs.size());
+    if (!window.focused()) {
+        hand.let_go();
+        return;
+    }
+    if (io.MouseDown[ImGuiMouseButton_Left] && (io.MouseDelta.x != 0.0f || io.MouseDelta.y != 0.0f))
+        hand.move_in_picture({io.MouseDelta.x, io.MouseDelta.y}, session.camera(), session.size_px());
+    if (io.KeyCtrl && io.MouseWheel != 0.0f) hand.advance(advance_mm_per_notch * io.MouseWheel);
+    if (window.key_down(GLFW_KEY_W)) hand.advance(advance_mm_per_s * elapsed_s);
+    if (window.key_down(GLFW_KEY_S)) hand.advance(-advance_mm_per_s * elapsed_s);
+    for (int digit = 0; digit < 9; ++digit)
+        if (pressed(GLFW_KEY_1 + digit)) hand.choose_burr(static_cast<std::size_t>(digit));
+    if (pressed(GLFW_KEY_RIGHT_BRACKET)) hand.choose_next_burr();
+    if (pressed(GLFW_KEY_LEFT_BRACKET)) hand.choose_previous_burr();
+    hand.set_pedal(window.key_down(GLFW_KEY_SPACE));
+    hand.follow(*session.tool(), session.session()->burrs.size());
+}
+
+}  // namespace
+
+RenderReport run_in_window(const RenderOptions& options, SessionSource& source,
+                           const std::function<bool()>& stop_asked) {
+    Window window(options.window_size_px.value_or(default_size_px), "Osteomill");
+    gl::require_opengl_3_3();
+    Panels panels(window.handle());
+    SessionPicture session(source, panels, window.framebuffer_size_px());
+    OperatorHand hand;
+    FrameTimes frame_times;
+
+    Clock::time_point previous = Clock::now();
+    while (!window.close_asked() && !stop_asked() && !window.key_down(GLFW_KEY_ESCAPE)) {
+        const Clock::time_point start = Clock::now();
+        const double elapsed_s = std::chrono::duration<double>(start - previous).count();
+        previous = start;
+        glfwPollEvents();
+        session.take_in();
+
+        // Without a session of this kind there is nobody who could be sent an operator's wishes.
+        const bool drills = session.link().status == LinkStatus::live && session.tool() &&
+                            session.session() && session.session()->accepts_operator;
+        if (drills) source.send_operator(hand.intent());
+        session.show_operator(drills ? std::optional(hand.intent()) : std::nullopt);
+        if (!drills) hand.let_go();
+
+        if (window.minimised()) {
+            if (drills) hand.let_go();
+            std::this_thread::sleep_for(shortest_frame);
+            continue;
+        }
+        session.resize(window.framebuffer_size_px());
+        const gl::Framebuffer& framebuffer = session.draw(elapsed_s);
+        // ImGui took the input in while the panels were drawn; it takes effect in the next frame.
+        move_camera(session, !drills);
+        if (drills) move_hand(hand, window, session, elapsed_s);
+        if (pressed(GLFW_KEY_F1)) session.toggle_help();
+
+        framebuffer.copy_colour_to_window();
+        window.show_frame();
+        frame_times.add(std::chrono::duration<double, std::milli>(Clock::now() - start).count());
+        std::this_thread::sleep_until(start + shortest_frame);
+    }
+    RenderReport report = session.report();
+    report.frame_times = std::move(frame_times);
+    return report;
+}
+
+}  // namespace osteomill

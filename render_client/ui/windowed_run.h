@@ -1,0 +1,17 @@
+// A run in a window, until it is closed.
+#pragma once
+
+#include <functional>
+
+#include "render_client/ui/options.h"
+#include "render_client/ui/report.h"
+#include "render_client/ui/session_source.h"
+
+namespace osteomill {
+
+/// Draws until the window is closed, ESC is pressed or `stop_asked` says so. Throws gl::NoOpenGl where there
+/// is no display or no OpenGL 3.3.
+RenderReport run_in_window(const RenderOptions& options, SessionSource& source,
+                           const std::function<bool()>& stop_asked);
+
+}  // namespace osteomill

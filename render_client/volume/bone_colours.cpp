@@ -1,0 +1,68 @@
+#include "render_client/volume/bone_colours.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
+
+namespace osteomill {
+
+namespace {
+
+using Srgb = std::array<std::uint8_t, 3>;
+
+struct ColourKnot {
+    double relative_stiffness;
+    Srgb srgb;
+};
+
+// Relative stiffness 1 is the cortical bone of the burr's coefficients; trabecular bone lies around a tenth
+// of it, enamel above twice.
+constexpr std::array<ColourKnot, 5> stiffness_knots{{{0.0, {150, 84, 62}},
+                                                     {0.15, {196, 134, 100}},
+                                                     {0.5, {226, 197, 156}},
+                                                     {1.0, {238, 222, 190}},
+                                                     {2.5, {248, 246, 238}}}};
+
+glm::vec3 colour_of_stiffness(double relative_stiffness) {
+    for (std::size_t knot = 1; knot < stiffness_knots.size(); ++knot) {
+        const ColourKnot& low = stiffness_knots[knot - 1];
+        const ColourKnot& high = stiffness_knots[knot];
+        if (relative_stiffness > high.relative_stiffness) continue;
+        const double part = (relative_stiffness - low.relative_stiffness) /
+                            (high.relative_stiffness - low.relative_stiffness);
+        return glm::mix(linear_from_srgb(low.srgb), linear_from_srgb(high.srgb), static_cast<float>(part));
+    }
+    return linear_from_srgb(stiffness_knots.back().srgb);
+}
+
+}  // namespace
+
+glm::vec3 linear_from_srgb(const Srgb& srgb) {
+    glm::vec3 linear;
+    for (int channel = 0; channel < 3; ++channel) {
+        const double value = srgb[static_cast<std::size_t>(channel)] / 255.0;
+        linear[channel] =
+            static_cast<float>(value <= 0.04045 ? value / 12.92 : std::pow((value + 0.055) / 1.055, 2.4));
+    }
+    return linear;
+}
+
+glm::vec3 plain_bone_colour() {
+    return linear_from_srgb({236, 218, 184});
+}
+
+ColourTable colours_by_tissue(std::span<const TissueColour> tissues) {
+    ColourTable table;
+    table.fill(plain_bone_colour());
+    for (const TissueColour& tissue : tissues) table[tissue.label] = linear_from_srgb(tissue.srgb);
+    return table;
+}
+
+ColourTable colours_by_stiffness(double stiffness_per_code) {
+    ColourTable table;
+    for (std::size_t code = 0; code < table.size(); ++code)
+        table[code] = colour_of_stiffness(static_cast<double>(code) * stiffness_per_code);
+    return table;
+}
+
+}  // namespace osteomill

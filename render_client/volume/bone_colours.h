@@ -1,0 +1,31 @@
+// What bone looks like: a colour for each tissue label or, where the scene labels none, for each stiffness.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <span>
+
+namespace osteomill {
+
+/// Linear RGB by byte code.
+using ColourTable = std::array<glm::vec3, 256>;
+
+struct TissueColour {
+    std::uint8_t label = 0;
+    std::array<std::uint8_t, 3> srgb{};
+};
+
+/// sRGB (IEC 61966-2-1) to linear light.
+glm::vec3 linear_from_srgb(const std::array<std::uint8_t, 3>& srgb);
+
+/// Colour of bone of which nothing else is known: a warm ivory.
+glm::vec3 plain_bone_colour();
+
+/// Colours by label; labels without a colour look like plain bone.
+ColourTable colours_by_tissue(std::span<const TissueColour> tissues);
+
+/// Colours by stiffness code: spongy bone reddish brown, dentine and cortical bone ivory, enamel near white.
+ColourTable colours_by_stiffness(double stiffness_per_code);
+
+}  // namespace osteomill

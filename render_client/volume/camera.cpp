@@ -1,0 +1,83 @@
+#include "render_client/volume/camera.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/ext/matrix_clip_space.hpp>
+#include <glm/ext/matrix_transform.hpp>
+#include <glm/geometric.hpp>
+#include <numbers>
+
+namespace osteomill {
+
+namespace {
+
+constexpr double steepest_rad = 89.0 * std::numbers::pi / 180.0;
+
+}  // namespace
+
+glm::dvec3 Camera::forward() const {
+    const double level = std::cos(elevation_rad);
+    return {-std::sin(azimuth_rad) * level, std::cos(azimuth_rad) * level, -std::sin(elevation_rad)};
+}
+
+glm::dvec3 Camera::eye_mm() const {
+    return target_mm - distance_mm * forward();
+}
+
+glm::dvec3 Camera::right() const {
+    return {std::cos(azimuth_rad), std::sin(azimuth_rad), 0.0};
+}
+
+glm::dvec3 Camera::up() const {
+    return glm::cross(right(), forward());
+}
+
+glm::dmat4 Camera::view() const {
+    return glm::lookAt(eye_mm(), target_mm, up());
+}
+
+glm::dmat4 Camera::projection(const glm::ivec2& size_px) const {
+    const double aspect = static_cast<double>(size_px.x) / std::max(size_px.y, 1);
+    return glm::perspective(field_of_view_rad, aspect, near_mm, far_mm);
+}
+
+Camera camera_on(const glm::dvec3& centre_mm, double radius_mm) {
+    Camera camera;
+    camera.target_mm = centre_mm;
+    camera.distance_mm = 0.85 * radius_mm / std::sin(0.5 * camera.field_of_view_rad);
+    camera.azimuth_rad = 0.35;
+    camera.elevation_rad = 0.75;
+    camera.near_mm = 0.01 * radius_mm;
+    camera.far_mm = 20.0 * radius_mm;
+    return camera;
+}
+
+void orbit(Camera& camera, double azimuth_change_rad, double elevation_change_rad) {
+    camera.azimuth_rad = std::remainder(camera.azimuth_rad + azimuth_change_rad, 2.0 * std::numbers::pi);
+    camera.elevation_rad =
+        std::clamp(camera.elevation_rad + elevation_change_rad, -steepest_rad, steepest_rad);
+}
+
+void pan(Camera& camera, const glm::dvec2& moved_px, const glm::ivec2& size_px) {
+    const double mm_per_px = mm_per_px_at(camera, camera.target_mm, size_px);
+    camera.target_mm += mm_per_px * (moved_px.y * camera.up() - moved_px.x * camera.right());
+}
+
+void zoom(Camera& camera, double distance_factor) {
+    camera.distance_mm =
+        std::clamp(camera.distance_mm * distance_factor, 5.0 * camera.near_mm, 0.75 * camera.far_mm);
+}
+
+double mm_per_px_at(const Camera& camera, const glm::dvec3& position_mm, const glm::ivec2& size_px) {
+    const double depth_mm = glm::dot(position_mm - camera.eye_mm(), camera.forward());
+    return 2.0 * depth_mm * std::tan(0.5 * camera.field_of_view_rad) / std::max(size_px.y, 1);
+}
+
+glm::dvec2 pixel_of(const Camera& camera, const glm::dvec3& position_mm, const glm::ivec2& size_px) {
+    const double mm_per_px = mm_per_px_at(camera, position_mm, size_px);
+    const glm::dvec3 from_eye = position_mm - camera.eye_mm();
+    return {0.5 * size_px.x + glm::dot(from_eye, camera.right()) / mm_per_px,
+            0.5 * size_px.y - glm::dot(from_eye, camera.up()) / mm_per_px};
+}
+
+}  // namespace osteomill

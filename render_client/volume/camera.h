@@ -1,0 +1,50 @@
+// The camera: orbits a target, always upright (patient z is up in the picture), perspective.
+#pragma once
+
+#include <glm/mat4x4.hpp>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+
+#include "render_client/volume/voxel_box.h"
+
+namespace osteomill {
+
+/// Where the camera looks, patient LPS. At azimuth 0 it stands in front of the patient (towards -y), at
+/// positive elevation above.
+struct Camera {
+    glm::dvec3 target_mm{0.0};
+    double distance_mm = 100.0;
+    double azimuth_rad = 0.0;
+    double elevation_rad = 0.6;
+    double field_of_view_rad = 0.6;  ///< vertical
+    double near_mm = 1.0;
+    double far_mm = 1000.0;
+
+    bool operator==(const Camera&) const = default;
+
+    glm::dvec3 eye_mm() const;
+    glm::dvec3 forward() const;  ///< unit; right and up complete it to the axes of the picture
+    glm::dvec3 right() const;
+    glm::dvec3 up() const;
+    glm::dmat4 view() const;
+    /// OpenGL's clip space; `size_px` is the picture's.
+    glm::dmat4 projection(const glm::ivec2& size_px) const;
+};
+
+/// A camera from the front and above that sees the whole box.
+Camera camera_on(const glm::dvec3& centre_mm, double radius_mm);
+
+/// Turns round the target; elevation stays within a degree of straight up and down.
+void orbit(Camera& camera, double azimuth_change_rad, double elevation_change_rad);
+/// Moves target and eye so that what is at the target's depth follows the pointer (pixels, y down).
+void pan(Camera& camera, const glm::dvec2& moved_px, const glm::ivec2& size_px);
+/// Multiplies the distance, within the limits that keep the bone between near and far.
+void zoom(Camera& camera, double distance_factor);
+
+/// mm that a pixel spans at a point's depth.
+double mm_per_px_at(const Camera& camera, const glm::dvec3& position_mm, const glm::ivec2& size_px);
+
+/// Pixel (y down, from the picture's upper left corner) at which a point is seen; the point must be in front.
+glm::dvec2 pixel_of(const Camera& camera, const glm::dvec3& position_mm, const glm::ivec2& size_px);
+
+}  // namespace osteomill

@@ -1,0 +1,101 @@
+#include "render_client/volume/gl/framebuffer.h"
+
+#include <algorithm>
+#include <stdexcept>
+#include <utility>
+
+namespace osteomill::gl {
+
+namespace {
+
+GLuint make_attachment(const glm::ivec2& size_px, GLint internal_format, GLenum format, GLenum type) {
+    GLuint id = 0;
+    glGenTextures(1, &id);
+    glBindTexture(GL_TEXTURE_2D, id);
+    glTexImage2D(GL_TEXTURE_2D, 0, internal_format, size_px.x, size_px.y, 0, format, type, nullptr);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+    return id;
+}
+
+}  // namespace
+
+Framebuffer::Framebuffer(const glm::ivec2& size_px) : size_px_(size_px) {
+    colour_ = make_attachment(size_px, GL_RGBA8, GL_RGBA, GL_UNSIGNED_BYTE);
+    depth_ = make_attachment(size_px, GL_DEPTH_COMPONENT32F, GL_DEPTH_COMPONENT, GL_FLOAT);
+    glGenFramebuffers(1, &id_);
+    glBindFramebuffer(GL_FRAMEBUFFER, id_);
+    glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, colour_, 0);
+    glFramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_TEXTURE_2D, depth_, 0);
+    if (glCheckFramebufferStatus(GL_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE) return;
+    release();
+    throw std::runtime_error("the OpenGL driver cannot draw into a picture of " + std::to_string(size_px.x) +
+                             " x " + std::to_string(size_px.y) + " pixels");
+}
+
+Framebuffer::Framebuffer(Framebuffer&& other) noexcept
+    : size_px_(other.size_px_),
+      id_(std::exchange(other.id_, 0)),
+      colour_(std::exchange(other.colour_, 0)),
+      depth_(std::exchange(other.depth_, 0)) {}
+
+Framebuffer& Framebuffer::operator=(Framebuffer&& other) noexcept {
+    std::swap(size_px_, other.size_px_);
+    std::swap(id_, other.id_);
+    std::swap(colour_, other.colour_);
+    std::swap(depth_, other.depth_);
+    return *this;
+}
+
+Framebuffer::~Framebuffer() {
+    release();
+}
+
+void Framebuffer::release() {
+    if (id_ != 0) glDeleteFramebuffers(1, &id_);
+    if (colour_ != 0) glDeleteTextures(1, &colour_);
+    if (depth_ != 0) glDeleteTextures(1, &depth_);
+    id_ = colour_ = depth_ = 0;
+}
+
+void Framebuffer::bind() const {
+    glBindFramebuffer(GL_FRAMEBUFFER, id_);
+    glViewport(0, 0, size_px_.x, size_px_.y);
+}
+
+void Framebuffer::copy_to(const Framebuffer& target) const {
+    glBindFramebuffer(GL_READ_FRAMEBUFFER, id_);
+    glBindFramebuffer(GL_DRAW_FRAMEBUFFER, target.id_);
+    glBlitFramebuffer(0, 0, size_px_.x, size_px_.y, 0, 0, size_px_.x, size_px_.y,
+                      GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT, GL_NEAREST);
+}
+
+void Framebuffer::copy_colour_to_window() const {
+    glBindFramebuffer(GL_READ_FRAMEBUFFER, id_);
+    glBindFramebuffer(GL_DRAW_FRAMEBUFFER, 0);
+    glBlitFramebuffer(0, 0, size_px_.x, size_px_.y, 0, 0, size_px_.x, size_px_.y, GL_COLOR_BUFFER_BIT,
+                      GL_NEAREST);
+    glBindFramebuffer(GL_FRAMEBUFFER, 0);
+}
+
+Picture Framebuffer::read_back() const {
+    Picture picture(size_px_);
+    const auto row_bytes = static_cast<std::size_t>(size_px_.x) * 3;
+    std::vector<std::uint8_t> bottom_up(picture.rgb.size());
+    glBindFramebuffer(GL_READ_FRAMEBUFFER, id_);
+    glPixelStorei(GL_PACK_ALIGNMENT, 1);
+    glReadPixels(0, 0, size_px_.x, size_px_.y, GL_RGB, GL_UNSIGNED_BYTE, bottom_up.data());
+    for (std::size_t row = 0; row < static_cast<std::size_t>(size_px_.y); ++row)
+        std::copy_n(bottom_up.end() - static_cast<std::ptrdiff_t>((row + 1) * row_bytes), row_bytes,
+                    picture.rgb.begin() + static_cast<std::ptrdiff_t>(row * row_bytes));
+    return picture;
+}
+
+float Framebuffer::depth_at(const glm::ivec2& pixel) const {
+    float depth = 1.0f;
+    glBindFramebuffer(GL_READ_FRAMEBUFFER, id_);
+    glReadPixels(pixel.x, pixel.y, 1, 1, GL_DEPTH_COMPONENT, GL_FLOAT, &depth);
+    return depth;
+}
+
+}  // namespace osteomill::gl

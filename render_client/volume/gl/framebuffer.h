@@ -1,0 +1,42 @@
+// A picture to draw into: RGBA8 colour and 32-bit float depth, with a texture each. A move-only value.
+#pragma once
+
+#include <epoxy/gl.h>
+
+#include <glm/vec2.hpp>
+
+#include "render_client/volume/picture.h"
+
+namespace osteomill::gl {
+
+class Framebuffer {
+  public:
+    /// Throws std::runtime_error where the driver cannot draw into such a picture.
+    explicit Framebuffer(const glm::ivec2& size_px);
+    Framebuffer(Framebuffer&& other) noexcept;
+    Framebuffer& operator=(Framebuffer&& other) noexcept;
+    ~Framebuffer();
+
+    /// Draw calls that follow land here; the viewport becomes the whole picture.
+    void bind() const;
+    /// glBlitFramebuffer of colour and depth; sizes must be equal.
+    void copy_to(const Framebuffer& target) const;
+    /// glBlitFramebuffer of colour to the window's framebuffer, lower left corners together.
+    void copy_colour_to_window() const;
+    /// glReadPixels of the colour; the first row is the top one.
+    Picture read_back() const;
+    /// Depth (0 near to 1 far) of a pixel counted from the lower left corner.
+    float depth_at(const glm::ivec2& pixel) const;
+
+    const glm::ivec2& size_px() const { return size_px_; }
+
+  private:
+    void release();
+
+    glm::ivec2 size_px_;
+    GLuint id_ = 0;
+    GLuint colour_ = 0;
+    GLuint depth_ = 0;
+};
+
+}  // namespace osteomill::gl

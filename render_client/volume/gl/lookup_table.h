@@ -1,0 +1,25 @@
+// A table of 256 colours in a texture of 256 x 1 texels: what a byte code looks like. A move-only value.
+#pragma once
+
+#include <epoxy/gl.h>
+
+#include <array>
+#include <glm/vec3.hpp>
+
+namespace osteomill::gl {
+
+class LookupTable {
+  public:
+    /// Linear RGB by code, stored as GL_RGB32F; read by texelFetch(sampler2D, ivec2(code, 0), 0).
+    explicit LookupTable(const std::array<glm::vec3, 256>& linear_rgb_by_code);
+    LookupTable(LookupTable&& other) noexcept;
+    LookupTable& operator=(LookupTable&& other) noexcept;
+    ~LookupTable();
+
+    void bind(int unit) const;
+
+  private:
+    GLuint id_ = 0;
+};
+
+}  // namespace osteomill::gl

@@ -1,0 +1,27 @@
+// Triangles on the graphics card: a vertex array with its buffers, a move-only value.
+#pragma once
+
+#include <epoxy/gl.h>
+
+#include "render_client/volume/triangles.h"
+
+namespace osteomill::gl {
+
+class Mesh {
+  public:
+    /// Attributes: 0 position, 1 normal, 2 colour (linear RGB).
+    explicit Mesh(const Triangles& triangles);
+    Mesh(Mesh&& other) noexcept;
+    Mesh& operator=(Mesh&& other) noexcept;
+    ~Mesh();
+
+    void draw() const;
+
+  private:
+    GLuint array_ = 0;
+    GLuint vertices_ = 0;
+    GLuint indices_ = 0;
+    GLsizei index_count_ = 0;
+};
+
+}  // namespace osteomill::gl

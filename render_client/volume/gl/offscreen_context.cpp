@@ -1,0 +1,88 @@
+#include "render_client/volume/gl/offscreen_context.h"
+
+#include <epoxy/egl.h>
+#include <epoxy/gl.h>
+#include <fmt/format.h>
+
+#include <array>
+
+namespace osteomill::gl {
+
+namespace {
+
+constexpr const char* what_to_install =
+    "install a graphics driver, or Mesa's software one: apt-get install libgl1-mesa-dri libegl1";
+
+[[noreturn]] void fail(const std::string& found) {
+    throw NoOpenGl(fmt::format("no OpenGL 3.3 without a display: {}; {}", found, what_to_install));
+}
+
+EGLDisplay surfaceless_display() {
+    if (!epoxy_has_egl_extension(EGL_NO_DISPLAY, "EGL_MESA_platform_surfaceless"))
+        fail("EGL here has no surfaceless platform");
+    // Not eglGetPlatformDisplay: libepoxy aborts on it where EGL is older than 1.5.
+    EGLDisplay display =
+        eglGetPlatformDisplayEXT(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr);
+    if (display == EGL_NO_DISPLAY || !eglInitialize(display, nullptr, nullptr))
+        fail("EGL's surfaceless platform does not start");
+    return display;
+}
+
+EGLContext make_context(EGLDisplay display) {
+    // Left out, the surface type would be a window's, which no surfaceless configuration has.
+    constexpr std::array<EGLint, 5> config_wish{EGL_SURFACE_TYPE, 0, EGL_RENDERABLE_TYPE, EGL_OPENGL_BIT,
+                                                EGL_NONE};
+    constexpr std::array<EGLint, 7> context_wish{EGL_CONTEXT_MAJOR_VERSION,
+                                                 3,
+                                                 EGL_CONTEXT_MINOR_VERSION,
+                                                 3,
+                                                 EGL_CONTEXT_OPENGL_PROFILE_MASK,
+                                                 EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT,
+                                                 EGL_NONE};
+    EGLConfig config = nullptr;
+    EGLint configs = 0;
+    if (!eglBindAPI(EGL_OPENGL_API)) return EGL_NO_CONTEXT;
+    if (!eglChooseConfig(display, config_wish.data(), &config, 1, &configs) || configs < 1)
+        return EGL_NO_CONTEXT;
+    return eglCreateContext(display, config, EGL_NO_CONTEXT, context_wish.data());
+}
+
+}  // namespace
+
+OffscreenContext::OffscreenContext() {
+    if (!epoxy_has_egl()) fail("libEGL.so.1 is missing");
+    display_ = surfaceless_display();
+    context_ = make_context(display_);
+    if (context_ == EGL_NO_CONTEXT) {
+        eglTerminate(display_);
+        fail("EGL makes no OpenGL 3.3 core context");
+    }
+    if (!eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, context_)) {
+        eglDestroyContext(display_, context_);
+        eglTerminate(display_);
+        fail("EGL's context cannot be used without a surface");
+    }
+}
+
+OffscreenContext::~OffscreenContext() {
+    eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
+    eglDestroyContext(display_, context_);
+    eglTerminate(display_);
+}
+
+std::string renderer_name() {
+    const auto text = [](GLenum name) {
+        const GLubyte* value = glGetString(name);
+        return value ? std::string(reinterpret_cast<const char*>(value)) : std::string("unknown");
+    };
+    return text(GL_RENDERER) + ", OpenGL " + text(GL_VERSION);
+}
+
+void require_opengl_3_3() {
+    const int version = epoxy_gl_version();
+    if (version >= 33) return;
+    throw NoOpenGl(fmt::format("OpenGL 3.3 is needed, the driver offers {}.{}; {}", version / 10,
+                               version % 10, what_to_install));
+}
+
+}  // namespace osteomill::gl

@@ -1,0 +1,38 @@
+// A linked shader program: a move-only value.
+#pragma once
+
+#include <epoxy/gl.h>
+
+#include <glm/mat3x3.hpp>
+#include <glm/mat4x4.hpp>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+#include <string>
+
+namespace osteomill::gl {
+
+class Program {
+  public:
+    /// Compiles and links GLSL 3.30. Throws std::runtime_error with the compiler's log.
+    Program(const std::string& vertex_source, const std::string& fragment_source);
+    Program(Program&& other) noexcept;
+    Program& operator=(Program&& other) noexcept;
+    ~Program();
+
+    /// glUseProgram; the setters below need it.
+    void use() const;
+    /// glUniform*. A name that the linker removed as unused is ignored, as OpenGL does.
+    void set(const char* name, int value) const;
+    void set(const char* name, float value) const;
+    void set(const char* name, const glm::vec2& value) const;
+    void set(const char* name, const glm::vec3& value) const;
+    void set(const char* name, const glm::vec4& value) const;
+    void set(const char* name, const glm::mat3& value) const;
+    void set(const char* name, const glm::mat4& value) const;
+
+  private:
+    GLuint id_ = 0;
+};
+
+}  // namespace osteomill::gl

@@ -1,0 +1,78 @@
+#include "render_client/volume/gl/texture3d.h"
+
+#include <stdexcept>
+#include <utility>
+
+#include "render_client/volume/gl/gl_error.h"
+
+namespace osteomill::gl {
+
+Texture3D::Texture3D(VoxelFormat format, const glm::ivec3& size) : format_(format), size_(size) {
+    const bool interpolated = format == VoxelFormat::interpolated_byte;
+    glGenTextures(1, &id_);
+    glBindTexture(GL_TEXTURE_3D, id_);
+    glTexImage3D(GL_TEXTURE_3D, 0, interpolated ? GL_R8 : GL_R8UI, size.x, size.y, size.z, 0,
+                 transfer_format(), GL_UNSIGNED_BYTE, nullptr);
+    const GLint filter = interpolated ? GL_LINEAR : GL_NEAREST;
+    glTexParameteri(GL_TEXTURE_3D, GL_TEXTURE_MIN_FILTER, filter);
+    glTexParameteri(GL_TEXTURE_3D, GL_TEXTURE_MAG_FILTER, filter);
+    glTexParameteri(GL_TEXTURE_3D, GL_TEXTURE_MAX_LEVEL, 0);
+    for (const GLenum axis : {GL_TEXTURE_WRAP_S, GL_TEXTURE_WRAP_T, GL_TEXTURE_WRAP_R})
+        glTexParameteri(GL_TEXTURE_3D, axis, GL_CLAMP_TO_BORDER);
+    try {
+        require_no_gl_error("making a 3D texture of " + std::to_string(size.x) + " x " +
+                            std::to_string(size.y) + " x " + std::to_string(size.z) + " bytes");
+    } catch (...) {
+        glDeleteTextures(1, &id_);
+        throw;
+    }
+}
+
+Texture3D::Texture3D(Texture3D&& other) noexcept
+    : id_(std::exchange(other.id_, 0)), format_(other.format_), size_(other.size_) {}
+
+Texture3D& Texture3D::operator=(Texture3D&& other) noexcept {
+    std::swap(id_, other.id_);
+    std::swap(format_, other.format_);
+    std::swap(size_, other.size_);
+    return *this;
+}
+
+Texture3D::~Texture3D() {
+    if (id_ != 0) glDeleteTextures(1, &id_);
+}
+
+void Texture3D::upload(const glm::ivec3& first, const glm::ivec3& size,
+                       std::span<const std::uint8_t> texels) {
+    const auto needed = static_cast<std::size_t>(size.x) * size.y * size.z;
+    if (texels.size() != needed) throw std::invalid_argument("a texture upload of the wrong length");
+    glBindTexture(GL_TEXTURE_3D, id_);
+    glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
+    glTexSubImage3D(GL_TEXTURE_3D, 0, first.x, first.y, first.z, size.x, size.y, size.z, transfer_format(),
+                    GL_UNSIGNED_BYTE, texels.data());
+}
+
+void Texture3D::read_back(std::span<std::uint8_t> texels) const {
+    if (texels.size() != static_cast<std::size_t>(size_.x) * size_.y * size_.z)
+        throw std::invalid_argument("a texture read-back of the wrong length");
+    glBindTexture(GL_TEXTURE_3D, id_);
+    glPixelStorei(GL_PACK_ALIGNMENT, 1);
+    glGetTexImage(GL_TEXTURE_3D, 0, transfer_format(), GL_UNSIGNED_BYTE, texels.data());
+}
+
+void Texture3D::bind(int unit) const {
+    glActiveTexture(GL_TEXTURE0 + static_cast<GLenum>(unit));
+    glBindTexture(GL_TEXTURE_3D, id_);
+}
+
+GLenum Texture3D::transfer_format() const {
+    return format_ == VoxelFormat::interpolated_byte ? GL_RED : GL_RED_INTEGER;
+}
+
+int max_texture3d_edge() {
+    GLint edge = 0;
+    glGetIntegerv(GL_MAX_3D_TEXTURE_SIZE, &edge);
+    return edge;
+}
+
+}  // namespace osteomill::gl

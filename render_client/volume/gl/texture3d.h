@@ -1,0 +1,47 @@
+// A 3D texture: a move-only value. Every call needs the OpenGL context in which it was made to be current.
+#pragma once
+
+#include <epoxy/gl.h>
+
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <span>
+
+namespace osteomill::gl {
+
+/// How a texel is stored and how it is read between texels. Outside the texture every read gives zero.
+enum class VoxelFormat {
+    interpolated_byte,  ///< GL_R8, read as 0 to 1, trilinear
+    byte_code           ///< GL_R8UI, read as a whole number by texelFetch
+};
+
+class Texture3D {
+  public:
+    /// glTexImage3D: storage for `size` texels, contents undefined. Throws std::runtime_error where the
+    /// driver has no memory for it.
+    Texture3D(VoxelFormat format, const glm::ivec3& size);
+    Texture3D(Texture3D&& other) noexcept;
+    Texture3D& operator=(Texture3D&& other) noexcept;
+    ~Texture3D();
+
+    /// glTexSubImage3D: one byte a texel, x fastest. The box must lie within the texture.
+    void upload(const glm::ivec3& first, const glm::ivec3& size, std::span<const std::uint8_t> texels);
+    /// glGetTexImage: the whole texture, one byte a texel, x fastest.
+    void read_back(std::span<std::uint8_t> texels) const;
+    /// Binds to GL_TEXTURE0 + unit.
+    void bind(int unit) const;
+
+    const glm::ivec3& size() const { return size_; }
+
+  private:
+    GLenum transfer_format() const;
+
+    GLuint id_ = 0;
+    VoxelFormat format_;
+    glm::ivec3 size_;
+};
+
+/// GL_MAX_3D_TEXTURE_SIZE of the current context.
+int max_texture3d_edge();
+
+}  // namespace osteomill::gl

@@ -1,0 +1,43 @@
+#include "render_client/volume/png_file.h"
+
+#include <png.h>
+
+#include <cstring>
+#include <stdexcept>
+
+namespace osteomill {
+
+namespace {
+
+png_image rgb_image() {
+    png_image image;
+    std::memset(&image, 0, sizeof image);
+    image.version = PNG_IMAGE_VERSION;
+    image.format = PNG_FORMAT_RGB;
+    return image;
+}
+
+}  // namespace
+
+void write_png(const Picture& picture, const std::filesystem::path& file) {
+    png_image image = rgb_image();
+    image.width = static_cast<png_uint_32>(picture.size_px.x);
+    image.height = static_cast<png_uint_32>(picture.size_px.y);
+    // A frame is written between two drawn ones: speed counts for more than size.
+    image.flags = PNG_IMAGE_FLAG_FAST;
+    if (!png_image_write_to_file(&image, file.c_str(), 0, picture.rgb.data(), 0, nullptr))
+        throw std::runtime_error("cannot write the picture " + file.string() + ": " + image.message);
+}
+
+Picture read_png(const std::filesystem::path& file) {
+    png_image image = rgb_image();
+    if (!png_image_begin_read_from_file(&image, file.c_str()))
+        throw std::runtime_error("cannot read the picture " + file.string() + ": " + image.message);
+    image.format = PNG_FORMAT_RGB;
+    Picture picture({static_cast<int>(image.width), static_cast<int>(image.height)});
+    if (!png_image_finish_read(&image, nullptr, picture.rgb.data(), 0, nullptr))
+        throw std::runtime_error("cannot read the picture " + file.string() + ": " + image.message);
+    return picture;
+}
+
+}  // namespace osteomill

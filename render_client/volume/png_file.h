@@ -1,0 +1,16 @@
+// Pictures as PNG files (libpng, 8-bit RGB).
+#pragma once
+
+#include <filesystem>
+
+#include "render_client/volume/picture.h"
+
+namespace osteomill {
+
+/// Throws std::runtime_error naming the file where it cannot be written.
+void write_png(const Picture& picture, const std::filesystem::path& file);
+
+/// Throws std::runtime_error naming the file where it cannot be read.
+Picture read_png(const std::filesystem::path& file);
+
+}  // namespace osteomill

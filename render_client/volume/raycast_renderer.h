@@ -1,0 +1,26 @@
+// Ray casting: every pixel's ray goes front to back to where the trilinear fraction reaches one half, leaps
+// over empty blocks, ends there, and is shaded by the gradient of the fraction.
+#pragma once
+
+#include "render_client/volume/bone_renderer.h"
+#include "render_client/volume/gl/full_screen.h"
+#include "render_client/volume/gl/program.h"
+
+namespace osteomill {
+
+/// `none` visits every sample from where a ray enters the bone's box; it exists to show that `distance_map`
+/// changes no pixel.
+enum class EmptySpaceSkipping { distance_map, none };
+
+class RaycastRenderer final : public BoneRenderer {
+  public:
+    explicit RaycastRenderer(EmptySpaceSkipping skipping = EmptySpaceSkipping::distance_map);
+    void draw(const BoneTextures& bone, const Camera& camera, const glm::ivec2& size_px) override;
+
+  private:
+    gl::Program program_;
+    gl::FullScreen full_screen_;
+    EmptySpaceSkipping skipping_;
+};
+
+}  // namespace osteomill

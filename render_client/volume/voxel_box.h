@@ -1,0 +1,29 @@
+// A box of voxels, and dense copies of one channel of the bone within it.
+#pragma once
+
+#include <glm/vec3.hpp>
+#include <span>
+
+#include "common/bone/bone.h"
+
+namespace osteomill {
+
+struct VoxelBox {
+    glm::ivec3 first{0};
+    glm::ivec3 size{0};
+
+    bool operator==(const VoxelBox&) const = default;
+    std::size_t count() const { return static_cast<std::size_t>(size.x) * size.y * size.z; }
+};
+
+/// Whole bricks that enclose every stored brick, in voxels of the bone's grid; empty for a bone without
+/// bricks.
+VoxelBox stored_box(const BoneContent& content);
+
+enum class BoneChannel { fraction, stiffness, tissue };
+
+/// Copies a channel within `box` (which may reach past the grid) into `voxels`, x fastest; zero where no
+/// brick is stored. The bone must have the channel.
+void copy_channel(const Bone& bone, BoneChannel channel, const VoxelBox& box, std::span<std::uint8_t> voxels);
+
+}  // namespace osteomill

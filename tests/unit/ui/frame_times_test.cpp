@@ -1,0 +1,21 @@
+#include "render_client/ui/frame_times.h"
+
+#include <gtest/gtest.h>
+
+namespace osteomill {
+namespace {
+
+TEST(FrameTimes, GivesTheNearestRank) {
+    FrameTimes times;
+    for (int ms = 100; ms >= 1; --ms) times.add(ms);
+    EXPECT_EQ(times.percentile_ms(0.5), 50.0);
+    EXPECT_EQ(times.percentile_ms(0.99), 99.0);
+    EXPECT_EQ(times.percentile_ms(1.0), 100.0);
+}
+
+TEST(FrameTimes, IsZeroWithoutFrames) {
+    EXPECT_EQ(FrameTimes().percentile_ms(0.5), 0.0);
+}
+
+}  // namespace
+}  // namespace osteomill

@@ -1,0 +1,79 @@
+#include "render_client/ui/operator_hand.h"
+
+#include <gtest/gtest.h>
+
+#include <glm/geometric.hpp>
+
+namespace osteomill {
+namespace {
+
+const glm::ivec2 size_px(800, 600);
+
+ToolView tool_at(const glm::dvec3& position_mm) {
+    ToolView tool;
+    tool.burr_position_mm = position_mm;
+    tool.hand_position_mm = position_mm;
+    return tool;
+}
+
+TEST(OperatorHand, RestsOnTheToolUntilItIsTakenUp) {
+    OperatorHand hand;
+    hand.follow(tool_at({1.0, 2.0, 3.0}), 6);
+    hand.follow(tool_at({2.0, 2.0, 3.0}), 6);
+    EXPECT_EQ(hand.intent().hand_target_mm, glm::dvec3(2.0, 2.0, 3.0));
+    EXPECT_FALSE(hand.intent().pedal);
+}
+
+TEST(OperatorHand, MovesTheTargetByThePixelsThatThePointerMoved) {
+    OperatorHand hand;
+    const Camera camera = camera_on({1.0, 2.0, 3.0}, 20.0);
+    hand.follow(tool_at({1.0, 2.0, 3.0}), 6);
+    const glm::dvec2 before = pixel_of(camera, hand.intent().hand_target_mm, size_px);
+    hand.move_in_picture({30.0, 12.0}, camera, size_px);
+    const glm::dvec2 after = pixel_of(camera, hand.intent().hand_target_mm, size_px);
+    EXPECT_NEAR(glm::distance(after - before, glm::dvec2(30.0, 12.0)), 0.0, 1e-6);
+}
+
+TEST(OperatorHand, AdvancesTowardsTheTip) {
+    OperatorHand hand;
+    hand.follow(tool_at({0.0, 0.0, 5.0}), 6);
+    hand.advance(0.5);
+    EXPECT_EQ(hand.intent().hand_target_mm, glm::dvec3(0.0, 0.0, 4.5));
+}
+
+TEST(OperatorHand, KeepsTheTargetWithinReachOfTheBurr) {
+    OperatorHand hand;
+    hand.follow(tool_at({0.0, 0.0, 5.0}), 6);
+    hand.advance(100.0);
+    hand.follow(tool_at({0.0, 0.0, 5.0}), 6);
+    EXPECT_NEAR(glm::distance(hand.intent().hand_target_mm, glm::dvec3(0.0, 0.0, 5.0)), longest_reach_mm,
+                1e-9);
+}
+
+TEST(OperatorHand, ChoosesOnlyBurrsThatThereAre) {
+    OperatorHand hand;
+    ToolView tool = tool_at({});
+    tool.burr = 2;
+    hand.follow(tool, 6);
+    EXPECT_EQ(hand.intent().burr, 2u);
+    hand.choose_burr(8);
+    hand.follow(tool, 6);
+    EXPECT_EQ(hand.intent().burr, 5u);
+    hand.choose_burr(0);
+    hand.choose_previous_burr();
+    EXPECT_EQ(hand.intent().burr, 0u);
+}
+
+TEST(OperatorHand, LetsGoOfPedalAndTarget) {
+    OperatorHand hand;
+    hand.follow(tool_at({0.0, 0.0, 5.0}), 6);
+    hand.set_pedal(true);
+    hand.advance(1.0);
+    hand.let_go();
+    hand.follow(tool_at({0.0, 0.0, 5.0}), 6);
+    EXPECT_FALSE(hand.intent().pedal);
+    EXPECT_EQ(hand.intent().hand_target_mm, glm::dvec3(0.0, 0.0, 5.0));
+}
+
+}  // namespace
+}  // namespace osteomill

@@ -1,0 +1,64 @@
+#include "render_client/ui/options.h"
+
+#include <gtest/gtest.h>
+
+#include <vector>
+
+namespace osteomill {
+namespace {
+
+ParsedOptions parsed(std::vector<const char*> arguments) {
+    arguments.insert(arguments.begin(), "render_client");
+    return parse_options(static_cast<int>(arguments.size()), arguments.data(), "1.2.3");
+}
+
+void expect_refused(const std::vector<const char*>& arguments, const std::string& named) {
+    const ParsedOptions result = parsed(arguments);
+    ASSERT_TRUE(result.no_run.has_value()) << named;
+    EXPECT_EQ(result.no_run->exit_code, 2);
+    EXPECT_NE(result.no_run->message.find(named), std::string::npos) << result.no_run->message;
+    EXPECT_EQ(result.no_run->message.find('\n'), std::string::npos) << result.no_run->message;
+}
+
+TEST(Options, WorkWithAServerOnThisMachineByDefault) {
+    const ParsedOptions result = parsed({});
+    EXPECT_FALSE(result.no_run.has_value());
+    EXPECT_EQ(result.options.host, "127.0.0.1");
+    EXPECT_EQ(result.options.port, 7010);
+    EXPECT_FALSE(result.options.offscreen);
+}
+
+TEST(Options, TakeEverythingOfAnOffscreenRun) {
+    const ParsedOptions result =
+        parsed({"--connect", "[::1]:7011", "--offscreen", "--frames", "12", "--screenshots", "shots",
+                "--screenshot-every", "3", "--window-size", "320x200", "--json", "out.json"});
+    ASSERT_FALSE(result.no_run.has_value()) << result.no_run->message;
+    EXPECT_EQ(result.options.host, "::1");
+    EXPECT_EQ(result.options.port, 7011);
+    EXPECT_EQ(result.options.frames, 12);
+    EXPECT_EQ(result.options.screenshots, "shots");
+    EXPECT_EQ(result.options.screenshot_every, 3);
+    EXPECT_EQ(result.options.window_size_px, glm::ivec2(320, 200));
+    EXPECT_EQ(result.options.json, "out.json");
+}
+
+TEST(Options, RefuseInOneLineThatNamesWhatIsWrong) {
+    expect_refused({"--connect", "somewhere"}, "somewhere");
+    expect_refused({"--connect", "host:70000"}, "host:70000");
+    expect_refused({"--window-size", "12"}, "--window-size");
+    expect_refused({"--window-size", "0x10"}, "--window-size");
+    expect_refused({"--offscreen", "--frames", "0"}, "--frames");
+    expect_refused({"--frames", "5"}, "--offscreen");
+    expect_refused({"--screenshots", "shots"}, "--offscreen");
+    expect_refused({"--offscreen", "--screenshot-every", "2"}, "--screenshots");
+    expect_refused({"--no-such-option"}, "--no-such-option");
+}
+
+TEST(Options, ShowHelpAndVersionWithoutARun) {
+    ASSERT_TRUE(parsed({"--help"}).no_run.has_value());
+    EXPECT_EQ(parsed({"--help"}).no_run->exit_code, 0);
+    EXPECT_EQ(parsed({"--version"}).no_run->message, "render_client 1.2.3\n");
+}
+
+}  // namespace
+}  // namespace osteomill

@@ -1,0 +1,40 @@
+#include "render_client/ui/report.h"
+
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+namespace osteomill {
+namespace {
+
+TEST(Report, HasTheKeysThatOthersReadByName) {
+    RenderReport report;
+    for (const double ms : {4.0, 8.0, 6.0}) report.frame_times.add(ms);
+    report.gl_renderer = "llvmpipe";
+    report.bone_checksum = 0xabcdef;
+    const auto json = nlohmann::json::parse(to_json(report));
+    EXPECT_EQ(json.at("frames"), 3);
+    EXPECT_EQ(json.at("frame_ms").at("p50"), 6.0);
+    EXPECT_EQ(json.at("frame_ms").at("p99"), 8.0);
+    EXPECT_EQ(json.at("frame_ms").at("max"), 8.0);
+    EXPECT_EQ(json.at("gl_renderer"), "llvmpipe");
+    EXPECT_EQ(json.at("bone_checksum"), "0000000000abcdef");
+}
+
+TEST(Report, SurvivesAStatusThatIsNoText) {
+    RenderReport report;
+    report.link_status = "bad \xff byte";
+    EXPECT_NO_THROW(nlohmann::json::parse(to_json(report)));
+}
+
+TEST(Report, NamesTheFileThatItCannotWrite) {
+    try {
+        write_report({}, "/no/such/folder/report.json");
+        FAIL() << "wrote into a folder that is not there";
+    } catch (const std::runtime_error& error) {
+        EXPECT_NE(std::string(error.what()).find("/no/such/folder/report.json"), std::string::npos);
+    }
+}
+
+}  // namespace
+}  // namespace osteomill

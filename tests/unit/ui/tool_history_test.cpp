@@ -1,0 +1,32 @@
+#include "render_client/ui/tool_history.h"
+
+#include <gtest/gtest.h>
+
+namespace osteomill {
+namespace {
+
+ToolView at_time(double time_s) {
+    ToolView tool;
+    tool.time_s = time_s;
+    return tool;
+}
+
+TEST(ToolHistory, KeepsTheLastSecondsAndNoFrameTwice) {
+    ToolHistory history;
+    for (double time_s = 0.0; time_s <= 30.0; time_s += 0.5) {
+        history.add(at_time(time_s));
+        history.add(at_time(time_s));
+    }
+    EXPECT_EQ(history.samples().size(), 21u);
+    EXPECT_EQ(history.samples().front().time_s, 20.0);
+}
+
+TEST(ToolHistory, StartsAnewWithANewSession) {
+    ToolHistory history;
+    history.add(at_time(5.0));
+    history.add(at_time(0.1));
+    EXPECT_EQ(history.samples().size(), 1u);
+}
+
+}  // namespace
+}  // namespace osteomill

@@ -1,0 +1,64 @@
+// Bones for the tests of the renderer: a shape given as a signed distance, voxels filled as far as the
+// surface covers them.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <glm/geometric.hpp>
+
+#include "common/bone/bone_builder.h"
+
+namespace osteomill {
+
+/// mm inside the shape (negative outside) at a patient-space point.
+using Depth = std::function<double(const glm::dvec3& position_mm)>;
+using Label = std::function<std::uint8_t(const glm::dvec3& position_mm)>;
+
+inline std::uint8_t fraction_of_depth(double depth_mm, double spacing_mm) {
+    return static_cast<std::uint8_t>(std::clamp(255.0 * (0.5 + depth_mm / spacing_mm), 0.0, 255.0));
+}
+
+/// A bone labelled by `label`, or homogeneous without labels where it is empty.
+inline Bone made_bone(const Grid& grid, const Depth& depth, const Label& label = {}) {
+    BoneBuilder builder = BoneBuilder::homogeneous(grid, 1.0, static_cast<bool>(label));
+    const glm::ivec3 size = size_in_bricks(grid);
+    for (int index = 0; index < size.x * size.y * size.z; ++index) {
+        const glm::ivec3 brick = brick_position(size, static_cast<BrickIndex>(index));
+        ByteBrick fraction{}, tissue{};
+        for (int offset = 0; offset < 4096; ++offset) {
+            const glm::ivec3 voxel = brick * 16 + glm::ivec3(offset % 16, offset / 16 % 16, offset / 256);
+            if (!contains(grid, voxel)) continue;
+            const glm::dvec3 place = centre_of_voxel_mm(grid, voxel);
+            const auto at = static_cast<std::size_t>(offset);
+            fraction[at] = fraction_of_depth(depth(place), grid.spacing_mm);
+            if (label) tissue[at] = label(place);
+        }
+        builder.add_brick(brick, fraction, nullptr, label ? &tissue : nullptr);
+    }
+    return std::move(builder).build();
+}
+
+/// Lowers the bone to what lies outside a sphere; returns the bricks that changed.
+inline std::vector<BrickIndex> carve_sphere(Bone& bone, const glm::dvec3& centre_mm, double radius_mm) {
+    std::vector<BrickIndex> changed;
+    const BoneContent& content = bone.content();
+    for (std::size_t slot = 0; slot < bone.stored_bricks(); ++slot) {
+        const glm::ivec3 brick = brick_position(content.size_bricks, content.brick_of_slot[slot]);
+        const auto fractions = bone.fractions(static_cast<std::int32_t>(slot));
+        bool changes = false;
+        for (int offset = 0; offset < 4096; ++offset) {
+            const glm::ivec3 voxel = brick * 16 + glm::ivec3(offset % 16, offset / 16 % 16, offset / 256);
+            const double outside_mm =
+                glm::length(centre_of_voxel_mm(bone.grid(), voxel) - centre_mm) - radius_mm;
+            const std::uint8_t most = fraction_of_depth(outside_mm, bone.grid().spacing_mm);
+            std::uint8_t& fraction = fractions[static_cast<std::size_t>(offset)];
+            changes = changes || most < fraction;
+            fraction = std::min(fraction, most);
+        }
+        if (changes) changed.push_back(content.brick_of_slot[slot]);
+    }
+    return changed;
+}
+
+}  // namespace osteomill

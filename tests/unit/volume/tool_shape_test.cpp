@@ -1,0 +1,35 @@
+#include "render_client/volume/tool_shape.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <glm/geometric.hpp>
+
+namespace osteomill {
+namespace {
+
+TEST(ToolShape, HasTheBurrsRadiusAndAShankTowardsPlusZ) {
+    const Triangles tool = burr_and_shank({.diameter_mm = 3.0, .edges = 6, .clockwise = true});
+    float lowest = 0.0f, highest = 0.0f, widest_of_burr = 0.0f;
+    for (const Vertex& vertex : tool.vertices) {
+        lowest = std::min(lowest, vertex.position.z);
+        highest = std::max(highest, vertex.position.z);
+        if (vertex.position.z < 0.0f) widest_of_burr = std::max(widest_of_burr, glm::length(vertex.position));
+    }
+    EXPECT_NEAR(lowest, -1.5f, 1e-5f);
+    EXPECT_NEAR(widest_of_burr, 1.5f, 1e-5f);
+    EXPECT_GT(highest, 15.0f);
+}
+
+TEST(ToolShape, TurnsEveryTriangleOutwards) {
+    const Triangles sphere = unit_sphere({1.0f, 1.0f, 1.0f});
+    for (std::size_t first = 0; first < sphere.indices.size(); first += 3) {
+        const glm::vec3 a = sphere.vertices[sphere.indices[first]].position;
+        const glm::vec3 b = sphere.vertices[sphere.indices[first + 1]].position;
+        const glm::vec3 c = sphere.vertices[sphere.indices[first + 2]].position;
+        EXPECT_GE(glm::dot(glm::cross(b - a, c - a), a + b + c), -1e-6f);
+    }
+}
+
+}  // namespace
+}  // namespace osteomill
