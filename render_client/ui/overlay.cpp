@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <limits>
 #include <vector>
 
 namespace osteomill {
@@ -53,6 +54,11 @@ bool has_problem(LinkStatus status) {
 }
 
 void draw_session_panel(const OverlayContent& content, const glm::ivec2& size_px) {
+    // The status may grow from one frame to the next, a panel that fits itself follows a frame later.
+    const float status_px = ImGui::CalcTextSize(content.link.status_line.c_str()).x;
+    ImGui::SetNextWindowSizeConstraints(
+        {status_px + 2.0f * ImGui::GetStyle().WindowPadding.x, 0.0f},
+        {std::numeric_limits<float>::max(), std::numeric_limits<float>::max()});
     begin_panel("session", {0.0f, 0.0f}, size_px);
     if (content.session) text("scene   " + content.session->scene_name);
     const std::string status = content.link.status_line;
@@ -84,11 +90,11 @@ void draw_tool_panel(const OverlayContent& content, const glm::ivec2& size_px) {
     ImGui::End();
 }
 
-/// Three lines through the last seconds; the scale is symmetric and never finer than 1 N.
+/// Three lines through the last seconds; the scale is symmetric and never finer than half a newton.
 void plot_forces(const ToolHistory& history, const ImVec2& size) {
     const ImVec2 corner = ImGui::GetCursorScreenPos();
     ImDrawList& canvas = *ImGui::GetWindowDrawList();
-    double largest_n = 1.0;
+    double largest_n = 0.5;
     for (const auto& sample : history.samples())
         for (int axis = 0; axis < 3; ++axis) largest_n = std::max(largest_n, std::abs(sample.force_n[axis]));
     const auto height_of = [&](double force_n) {

@@ -1,6 +1,8 @@
 #include "render_client/ui/session_picture.h"
 
+#include <algorithm>
 #include <cmath>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <numbers>
 #include <stdexcept>
@@ -12,6 +14,11 @@ namespace {
 /// A real burr's 10,000 rpm would flicker at 30 frames a second; a turn a second shows that it turns and
 /// which way.
 constexpr double shown_rev_per_s = 0.8;
+
+/// Radius round the tool that the first view shows of a bone larger than that, and the part of the bone's
+/// radius that it shows at least, so that one still sees where in the bone one is.
+constexpr double closest_first_view_mm = 10.0;
+constexpr double tool_part_of_first_view = 0.45;
 
 glm::dvec3 middle_of(const Grid& grid, const VoxelBox& box) {
     return 0.5 * (centre_of_voxel_mm(grid, box.first) + centre_of_voxel_mm(grid, box.first + box.size - 1));
@@ -31,6 +38,7 @@ SessionPicture::SessionPicture(SessionSource& source, Panels& panels, const glm:
 
 void SessionPicture::take_in() {
     link_ = source_.poll();
+    const bool first_of_tool = link_.tool && !tool_;
     if (link_.tool) {
         tool_ = link_.tool;
         history_.add(*tool_);
@@ -44,6 +52,7 @@ void SessionPicture::take_in() {
         picture_.mark_dirty(*textures_, link_.dirty_bricks);
         dirty_bricks_uploaded_ += link_.dirty_bricks.size();
     }
+    if (first_of_tool && camera_ == first_view_) reset_camera();
 }
 
 void SessionPicture::replace_bone() {
@@ -65,8 +74,15 @@ void SessionPicture::replace_bone() {
 
 void SessionPicture::reset_camera() {
     if (!textures_) return;
-    const glm::dvec3 size_mm = textures_->grid().spacing_mm * glm::dvec3(textures_->box().size);
-    camera_ = camera_on(middle_of(textures_->grid(), textures_->box()), 0.5 * glm::length(size_mm));
+    const glm::dvec3 half_mm = 0.5 * textures_->grid().spacing_mm * glm::dvec3(textures_->box().size);
+    const glm::dvec3 middle_mm = middle_of(textures_->grid(), textures_->box());
+    first_view_ = camera_on(middle_mm, glm::length(half_mm));
+    if (tool_ && glm::length(half_mm) > closest_first_view_mm) {
+        // All of a jaw would leave the drilled spot a few pixels wide.
+        first_view_.target_mm = glm::clamp(tool_->burr_position_mm, middle_mm - half_mm, middle_mm + half_mm);
+        zoom(first_view_, std::max(closest_first_view_mm / glm::length(half_mm), tool_part_of_first_view));
+    }
+    camera_ = first_view_;
 }
 
 const gl::Framebuffer& SessionPicture::draw(double elapsed_s) {

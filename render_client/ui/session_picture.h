@@ -27,7 +27,7 @@ class SessionPicture {
     const glm::ivec2& size_px() const { return size_px_; }
 
     Camera& camera() { return camera_; }
-    /// The first view of the bone again.
+    /// The first view again: of the tool's surroundings, or of all the bone while there is no tool.
     void reset_camera();
     void toggle_help() { help_shown_ = !help_shown_; }
     void show_operator(const std::optional<OperatorIntent>& intent) { operator_intent_ = intent; }
@@ -54,6 +54,7 @@ class SessionPicture {
     ScenePicture picture_;
     glm::ivec2 size_px_;
     Camera camera_;
+    Camera first_view_;
     std::optional<BoneTextures> textures_;
     std::string bone_problem_;
     LinkUpdate link_;
