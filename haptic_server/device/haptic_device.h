@@ -25,7 +25,7 @@ struct DeviceState {
     glm::dvec3 velocity_mm_per_s{0.0};       ///< the driver's own estimate
     glm::dvec3 spindle_axis{0.0, 0.0, 1.0};  ///< unit vector from tip to shank
     bool pedal = false;                      ///< spindle on while true
-    std::optional<std::size_t> burr;         ///< asks for another burr of the scene's set
+    std::optional<std::size_t> burr{};       ///< asks for another burr of the scene's set
     bool connected = true;
 };
 

@@ -11,9 +11,9 @@ namespace osteomill {
 
 struct Waypoint {
     double time_s = 0.0;
-    ToolPose pose;                    ///< of the burr's centre, patient LPS
-    bool pedal = false;               ///< from this waypoint on
-    std::optional<std::size_t> burr;  ///< from this waypoint on; nullopt: as before
+    ToolPose pose;                      ///< of the burr's centre, patient LPS
+    bool pedal = false;                 ///< from this waypoint on
+    std::optional<std::size_t> burr{};  ///< from this waypoint on; nullopt: as before
 };
 
 struct TrajectorySample {

@@ -40,11 +40,11 @@ struct HapticLoopParts {
 
 struct HapticLoopOptions {
     double tick_s = 0.001;
-    DeviceMapping mapping;
+    DeviceMapping mapping{};
     std::size_t burr_count = 1;  ///< of the scene's set
     std::size_t start_burr = 0;
     /// What the hand did before the first tick.
-    ToolPose start_pose;
+    ToolPose start_pose{};
 };
 
 class HapticLoop {

@@ -23,7 +23,6 @@ static_assert(std::atomic<bool>::is_always_lock_free);
 void stop_on_signals() {
     struct sigaction action {};
     action.sa_handler = [](int) { stop_requested.store(true); };
-    action.sa_flags = static_cast<int>(SA_RESETHAND);  // a second Ctrl-C ends the program at once
     sigaction(SIGINT, &action, nullptr);
     sigaction(SIGTERM, &action, nullptr);
 }

@@ -15,8 +15,10 @@
 #include "common/scene/scene_file.h"
 #include "haptic_server/device/client_device.h"
 #include "haptic_server/device/simulated_device.h"
+#include "haptic_server/imaging/carved_bone.h"
 #include "haptic_server/imaging/phantom.h"
 #include "haptic_server/loop/force_log.h"
+#include "haptic_server/program/bone_source.h"
 #include "haptic_server/program/measurements.h"
 #include "haptic_server/program/status_line.h"
 #include "haptic_server/streaming/streaming_server.h"
@@ -29,14 +31,16 @@ Scene load_scene(const ServerOptions& options) {
     const std::vector<std::string> phantoms = phantom_names();
     const bool is_phantom = std::find(phantoms.begin(), phantoms.end(), options.scene) != phantoms.end();
     Scene scene = is_phantom ? phantom_scene(options.scene) : read_scene(options.scene);
+    if (options.bone) scene.bone = FileSource{.path = *options.bone};
     if (options.trajectory) scene.trajectory.source = *options.trajectory;
     return scene;
 }
 
-Bone load_bone(const Scene& scene) {
-    const auto* phantom = std::get_if<PhantomSource>(&scene.bone);
-    if (phantom == nullptr) throw std::runtime_error("bones from files are not read yet");
-    return bone_from_hu(make_phantom(phantom->name), phantom_threshold_hu, scene.stiffness);
+/// Before an hour of work rather than after it.
+void require_folder_of(const std::optional<std::filesystem::path>& file) {
+    if (!file || !file->has_parent_path() || std::filesystem::is_directory(file->parent_path())) return;
+    throw std::runtime_error(
+        fmt::format("{}: there is no folder {}", file->string(), file->parent_path().string()));
 }
 
 /// The device that the options ask for, and what it is driven by.
@@ -106,8 +110,14 @@ class Leftovers {
 }  // namespace
 
 void run_server(const ServerOptions& options, const std::string& version, const std::atomic<bool>& stop) {
+    for (const auto& file : {options.save_bone, options.json, options.log_csv}) require_folder_of(file);
     const Scene scene = load_scene(options);
-    Bone bone = load_bone(scene);
+    LoadedBone loaded = load_bone(scene);
+    // Saving needs what the bone was built from; nothing else does.
+    std::optional<BoneSource> source;
+    if (options.save_bone) source = std::move(loaded.source);
+    Bone bone = std::move(loaded.bone);
+    loaded.source = {};
     const DeviceParts device = make_device(options, scene);
     std::optional<ForceLog> log;
     if (options.log_csv) log.emplace(*options.log_csv);
@@ -144,6 +154,10 @@ void run_server(const ServerOptions& options, const std::string& version, const 
     });
     leftovers.write([&] {
         if (options.json) write_json(measurements(report, scene, options), *options.json);
+    });
+    leftovers.write([&] {
+        if (!options.save_bone) return;
+        save_carved_bone(*options.save_bone, source->volume, source->threshold_hu, session->bone());
     });
     leftovers.write([&] {
         if (streaming && streaming->mirror_checksum() != report.bone_checksum) {

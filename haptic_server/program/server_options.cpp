@@ -130,6 +130,9 @@ ServerOptions checked(const Typed& typed) {
         throw std::invalid_argument("--device client: the operator connects over --listen, which is none");
     }
     options.save_bone = path_if_given(typed.save_bone);
+    if (options.save_bone && options.save_bone->extension() != ".nrrd") {
+        throw std::invalid_argument(fmt::format("--save-bone: '{}' must end in .nrrd", typed.save_bone));
+    }
     options.json = path_if_given(typed.json);
     options.log_csv = path_if_given(typed.log_csv);
     return options;

@@ -1,0 +1,26 @@
+#include "haptic_server/program/bone_source.h"
+
+#include <utility>
+#include <variant>
+
+#include "haptic_server/imaging/carved_bone.h"
+#include "haptic_server/imaging/hu_file.h"
+#include "haptic_server/imaging/phantom.h"
+
+namespace osteomill {
+
+LoadedBone load_bone(const Scene& scene) {
+    if (const auto* phantom = std::get_if<PhantomSource>(&scene.bone)) {
+        HuVolume volume = make_phantom(phantom->name);
+        Bone bone = bone_from_hu(volume, phantom_threshold_hu, scene.stiffness);
+        return {std::move(bone), {std::move(volume), phantom_threshold_hu}};
+    }
+    const auto& source = std::get<FileSource>(scene.bone);
+    HuFile file = read_hu_file(source.path);
+    const double threshold_hu =
+        source.threshold_hu.value_or(file.threshold_hu().value_or(default_threshold_hu));
+    Bone bone = bone_from_file(source.path, file, threshold_hu, scene.stiffness);
+    return {std::move(bone), {std::move(file.volume), threshold_hu}};
+}
+
+}  // namespace osteomill

@@ -1,0 +1,156 @@
+// The server as its users start it: what it prints, writes and returns.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <string>
+
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::StartsWith;
+
+struct Outcome {
+    int exit_code = -1;
+    std::string out;
+    std::string err;
+};
+
+class HapticServerProgram : public ::testing::Test {
+  protected:
+    HapticServerProgram() {
+        folder_ = std::filesystem::path(::testing::TempDir()) /
+                  ::testing::UnitTest::GetInstance()->current_test_info()->name();
+        std::filesystem::remove_all(folder_);
+        std::filesystem::create_directories(folder_);
+    }
+    ~HapticServerProgram() override { std::filesystem::remove_all(folder_); }
+
+    std::string file(const std::string& name) const { return (folder_ / name).string(); }
+
+    static std::string text_of(const std::string& path) {
+        std::ostringstream text;
+        text << std::ifstream(path).rdbuf();
+        return text.str();
+    }
+
+    Outcome run(const std::string& arguments, const std::string& before = "") const {
+        const std::string command = before + " " HAPTIC_SERVER " " + arguments + " >" + file("out") + " 2>" +
+                                    file("err") + " </dev/null";
+        const int status = std::system(command.c_str());
+        return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, text_of(file("out")), text_of(file("err"))};
+    }
+
+    nlohmann::json measured(const std::string& name) const {
+        return nlohmann::json::parse(text_of(file(name)));
+    }
+
+  private:
+    std::filesystem::path folder_;
+};
+
+TEST_F(HapticServerProgram, MillsOnTheVirtualClockAndWritesWhatItMeasured) {
+    const Outcome outcome =
+        run("--clock virtual --duration-s 3 --json " + file("a.json") + " --log-csv " + file("forces.csv"));
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+    const nlohmann::json json = measured("a.json");
+    EXPECT_EQ(json.at("ticks"), 3001);
+    EXPECT_EQ(json.at("missed_deadlines"), 0);
+    for (const char* key : {"p50", "p99", "p999", "max"}) {
+        EXPECT_TRUE(json.at("wakeup_latency_us").contains(key));
+        EXPECT_GT(json.at("milling_step_us").at(key).get<double>(), 0.0);
+    }
+    EXPECT_GT(json.at("removed_mm3").at("total").get<double>(), 0.0);
+    EXPECT_TRUE(json.at("removed_mm3").contains("carious lesion"));
+    EXPECT_GT(json.at("peak_force_n").get<double>(), 0.0);
+    EXPECT_EQ(json.at("bone_checksum").get<std::string>().size(), 16u);
+
+    std::istringstream lines(text_of(file("forces.csv")));
+    long count = 0;
+    for (std::string line; std::getline(lines, line);) ++count;
+    EXPECT_EQ(count, 1 + 3001);
+}
+
+TEST_F(HapticServerProgram, IsRepeatableToTheBit) {
+    ASSERT_EQ(run("--clock virtual --duration-s 3 --json " + file("a.json")).exit_code, 0);
+    ASSERT_EQ(run("--clock virtual --duration-s 3 --listen 127.0.0.1:0 --json " + file("b.json")).exit_code,
+              0);
+    EXPECT_EQ(measured("a.json").at("bone_checksum"), measured("b.json").at("bone_checksum"));
+    EXPECT_EQ(measured("a.json").at("peak_force_n"), measured("b.json").at("peak_force_n"));
+}
+
+TEST_F(HapticServerProgram, TakesUpACarvedBoneWhereItWasLeft) {
+    const Outcome first = run("--scene tooth --clock virtual --duration-s 3 --save-bone " +
+                              file("carved.nrrd") + " --json " + file("a.json"));
+    ASSERT_EQ(first.exit_code, 0) << first.err;
+    std::ofstream(file("rest.csv")) << "t_s,x_mm,y_mm,z_mm,axis_x,axis_y,axis_z,pedal\n0,0,0,20,0,0,1,0\n";
+    const Outcome second = run("--bone " + file("carved.nrrd") + " --trajectory " + file("rest.csv") +
+                               " --clock virtual --duration-s 0.1 --json " + file("b.json"));
+    ASSERT_EQ(second.exit_code, 0) << second.err;
+    EXPECT_EQ(measured("b.json").at("bone_checksum"), measured("a.json").at("bone_checksum"));
+    EXPECT_EQ(measured("b.json").at("removed_mm3").at("total"), 0.0);
+}
+
+TEST_F(HapticServerProgram, EndsWithTheTrajectory) {
+    std::ofstream(file("short.csv")) << "t_s,x_mm,y_mm,z_mm,axis_x,axis_y,axis_z,pedal\n"
+                                        "0,0,0,20,0,0,1,0\n0.4,1,0,20,0,0,1,0\n";
+    ASSERT_EQ(
+        run("--clock virtual --trajectory " + file("short.csv") + " --json " + file("a.json")).exit_code, 0);
+    EXPECT_NEAR(measured("a.json").at("duration_s").get<double>(), 0.4, 0.1);
+}
+
+TEST_F(HapticServerProgram, SaysWhereItListensAndStopsCleanlyOnSigint) {
+    const Outcome outcome =
+        run("--listen 127.0.0.1:0 --json " + file("a.json"), "timeout --preserve-status -s INT 2");
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    EXPECT_THAT(outcome.out, StartsWith("listening on 127.0.0.1:"));
+    EXPECT_GT(measured("a.json").at("ticks").get<int>(), 0);
+}
+
+TEST_F(HapticServerProgram, ReturnsTwoForWrongUsageAndOneForAFailureWithOneLine) {
+    const auto expect_one_line = [](const std::string& text) {
+        EXPECT_THAT(text, StartsWith("haptic_server: "));
+        EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 1) << text;
+    };
+    const Outcome usage = run("--coupling magic");
+    EXPECT_EQ(usage.exit_code, 2);
+    expect_one_line(usage.err);
+
+    const Outcome no_scene = run("--scene /nowhere/scene.toml");
+    EXPECT_EQ(no_scene.exit_code, 1);
+    expect_one_line(no_scene.err);
+    EXPECT_THAT(no_scene.err, HasSubstr("/nowhere/scene.toml"));
+
+    const Outcome no_folder = run("--clock virtual --duration-s 1 --json /nowhere/a.json");
+    EXPECT_EQ(no_folder.exit_code, 1);
+    expect_one_line(no_folder.err);
+
+    std::ofstream(file("endless.csv")) << "t_s,x_mm,y_mm,z_mm,axis_x,axis_y,axis_z,pedal\n0,0,0,20,0,0,1,0\n";
+    const Outcome for_ever = run("--clock virtual --trajectory " + file("endless.csv"));
+    EXPECT_EQ(for_ever.exit_code, 1);
+    EXPECT_THAT(for_ever.err, HasSubstr("--duration-s"));
+}
+
+TEST_F(HapticServerProgram, ReportsAFullDiskInOneLineAndStillWritesTheRest) {
+    if (!std::filesystem::exists("/dev/full")) GTEST_SKIP() << "there is no /dev/full here";
+    const Outcome outcome =
+        run("--clock virtual --duration-s 1 --log-csv /dev/full --json " + file("a.json"));
+    EXPECT_EQ(outcome.exit_code, 1);
+    EXPECT_THAT(outcome.err, HasSubstr("haptic_server: /dev/full: "));
+    EXPECT_EQ(measured("a.json").at("ticks"), 1001);
+}
+
+TEST_F(HapticServerProgram, PrintsVersionAndHelp) {
+    EXPECT_THAT(run("--version").out, StartsWith("haptic_server "));
+    const Outcome help = run("--help");
+    EXPECT_EQ(help.exit_code, 0);
+    EXPECT_THAT(help.out, HasSubstr("--trajectory"));
+}
+
+}  // namespace

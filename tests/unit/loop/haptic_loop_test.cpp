@@ -1,0 +1,243 @@
+#include "haptic_server/loop/haptic_loop.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <memory>
+
+#include "tests/unit/loop/scripted_parts.h"
+
+namespace osteomill {
+namespace {
+
+constexpr double tick_s = 0.001;
+
+/// A haptic loop between a scripted device, a scripted coupling and a milling loop that the test plays.
+class Bench {
+  public:
+    testing::ScriptedDevice device;
+    testing::ScriptedCoupling coupling;
+    std::unique_ptr<TripleBuffer<MillingResult>> results = std::make_unique<TripleBuffer<MillingResult>>();
+    TripleBuffer<BurrCommand> commands;
+    TripleBuffer<ToolSnapshot> tool;
+    TripleBuffer<ToolSnapshot> status;
+    HapticLoopOptions options{.burr_count = 3, .start_burr = 1};
+    MillingResult next;  // what the milling loop says from now on
+    bool model_runs = true;
+    std::uint64_t tick_number = 0;
+
+    /// Runs ticks; returns the last force written, device space.
+    glm::dvec3 run(int ticks, std::uint64_t missed = 0) {
+        if (!loop_) {
+            loop_ = std::make_unique<HapticLoop>(
+                HapticLoopParts{device, coupling, *results, commands, tool, status}, options);
+        }
+        for (int i = 0; i < ticks; ++i) {
+            if (model_runs) {
+                ++next.step;
+                results->back() = next;
+                results->publish();
+            }
+            tick_number += missed;
+            loop_->tick(tick_s * static_cast<double>(tick_number++), missed);
+            commands.refresh();
+            tool.refresh();
+        }
+        return device.written_n.back();
+    }
+    const BurrCommand& command() const { return commands.front(); }
+    const ToolSnapshot& shown() const { return tool.front(); }
+    const HapticLoop& loop() const { return *loop_; }
+
+    /// A pedal that is down, a hand at rest, a steady 2 N.
+    void mill() {
+        device.script = [](double) { return DeviceState{.pedal = true}; };
+        coupling.force = [](const HandState&) { return glm::dvec3(2.0, 0.0, 0.0); };
+        run(20);
+    }
+
+  private:
+    std::unique_ptr<HapticLoop> loop_;
+};
+
+int ticks_to_fade() {
+    return static_cast<int>(ForceGuard::fade_out_s / tick_s) + 2;
+}
+
+TEST(HapticLoop, WritesWhatTheCouplingWantsAndTellsTheOthers) {
+    Bench bench;
+    bench.next.total_removed_mm3 = 1.25;
+    bench.mill();
+    EXPECT_EQ(bench.run(1), glm::dvec3(2.0, 0.0, 0.0));
+    EXPECT_EQ(bench.shown().force_n, glm::dvec3(2.0, 0.0, 0.0));
+    EXPECT_EQ(bench.shown().removed_mm3, 1.25);
+    EXPECT_TRUE(bench.shown().spindle_on);
+    EXPECT_EQ(bench.shown().fault, Fault::none);
+    EXPECT_TRUE(bench.command().spindle_on);
+    EXPECT_EQ(bench.command().burr, 1u);
+    EXPECT_EQ(bench.loop().peak_force_n(), 2.0);
+}
+
+TEST(HapticLoop, MapsTheHandToThePatientAndTheForceBack) {
+    Bench bench;
+    bench.options.mapping = {
+        .rotation = glm::dmat3({0, 1, 0}, {-1, 0, 0}, {0, 0, 1}), .scale = 2.0, .offset_mm = {1.0, 0.0, 0.0}};
+    bench.device.script = [](double) {
+        return DeviceState{
+            .position_mm = {3, 0, 0}, .velocity_mm_per_s = {5, 0, 0}, .spindle_axis = {1, 0, 0}};
+    };
+    bench.coupling.force = [](const HandState&) { return glm::dvec3(0.0, 0.5, 0.0); };
+    const glm::dvec3 written = bench.run(1);
+    const HandState& hand = bench.coupling.hands.back();
+    EXPECT_EQ(hand.pose.position_mm, glm::dvec3(1.0, 6.0, 0.0));
+    EXPECT_EQ(hand.velocity_mm_per_s, glm::dvec3(0.0, 10.0, 0.0));
+    EXPECT_EQ(hand.pose.spindle_axis, glm::dvec3(0.0, 1.0, 0.0));
+    EXPECT_EQ(written, glm::dvec3(0.5, 0.0, 0.0)) << "turned back, not scaled";
+    EXPECT_EQ(bench.shown().force_n, glm::dvec3(0.0, 0.5, 0.0));
+}
+
+TEST(HapticLoop, TellsTheCouplingHowLongTheTickReallyWas) {
+    Bench bench;
+    bench.run(1);
+    bench.run(1, 3);
+    EXPECT_DOUBLE_EQ(bench.coupling.hands.back().tick_s, 0.004);
+}
+
+TEST(HapticLoop, ChangesTheBurrToOneOfTheSetOnly) {
+    Bench bench;
+    bench.device.script = [](double) { return DeviceState{.burr = 2}; };
+    bench.run(1);
+    EXPECT_EQ(bench.command().burr, 2u);
+    bench.device.script = [](double) { return DeviceState{.burr = 3}; };
+    bench.run(1);
+    EXPECT_EQ(bench.command().burr, 2u);
+}
+
+TEST(HapticLoop, KeepsTheSpindleOffWithoutThePedal) {
+    Bench bench;
+    bench.run(5);
+    EXPECT_FALSE(bench.command().spindle_on);
+}
+
+TEST(HapticLoop, FadesOutAndStopsTheSpindleWhenTheModelStalls) {
+    Bench bench;
+    bench.mill();
+    bench.model_runs = false;
+    bench.run(50);
+    EXPECT_EQ(bench.shown().fault, Fault::none);
+    bench.run(ticks_to_fade());
+    EXPECT_EQ(bench.shown().force_n, glm::dvec3(0.0));
+    EXPECT_EQ(bench.shown().fault, Fault::model_stalled);
+    EXPECT_FALSE(bench.command().spindle_on);
+    EXPECT_EQ(bench.coupling.resets, 1);
+    EXPECT_EQ(bench.loop().fault_counts()[static_cast<std::size_t>(Fault::model_stalled)], 1u);
+}
+
+TEST(HapticLoop, ComesBackByItselfWhenTheModelRunsAgain) {
+    Bench bench;
+    bench.mill();
+    bench.model_runs = false;
+    bench.run(100);
+    bench.model_runs = true;
+    glm::dvec3 before = bench.run(1);
+    for (int i = 0; i < 500; ++i) {
+        const glm::dvec3 now = bench.run(1);
+        ASSERT_LE(glm::distance(now, before), 0.3);
+        before = now;
+    }
+    EXPECT_EQ(before, glm::dvec3(2.0, 0.0, 0.0));
+    EXPECT_TRUE(bench.command().spindle_on) << "the tool never left its place";
+}
+
+TEST(HapticLoop, DoesNotLetACouplingsNanReachTheHand) {
+    Bench bench;
+    bench.mill();
+    bench.coupling.force = [](const HandState&) { return glm::dvec3(NAN, 0.0, 0.0); };
+    for (int i = 0; i < 1000; ++i) {
+        ASSERT_TRUE(std::isfinite(glm::length(bench.run(1))));
+        ASSERT_TRUE(std::isfinite(bench.command().pose.position_mm.x));
+    }
+    EXPECT_GE(bench.loop().fault_counts()[static_cast<std::size_t>(Fault::not_a_number)], 1u);
+}
+
+TEST(HapticLoop, KeepsTheSpindleOffAfterAJumpUntilThePedalHasBeenUp) {
+    Bench bench;
+    bench.mill();
+    bool pedal = true;
+    bench.device.script = [&](double) { return DeviceState{.position_mm = {40, 0, 0}, .pedal = pedal}; };
+    bench.run(1);
+    EXPECT_EQ(bench.shown().fault, Fault::device_jumped);
+    EXPECT_FALSE(bench.command().spindle_on) << "no channel is cut to where the device jumped";
+    bench.run(1000);
+    EXPECT_EQ(bench.shown().fault, Fault::none);
+    EXPECT_FALSE(bench.command().spindle_on);
+    pedal = false;
+    bench.run(1);
+    pedal = true;
+    bench.run(1);
+    EXPECT_TRUE(bench.command().spindle_on);
+}
+
+TEST(HapticLoop, LeavesTheToolWhereItWasWhileTheDeviceIsLost) {
+    Bench bench;
+    bench.mill();
+    bench.device.script = [](double) {
+        return DeviceState{.position_mm = {NAN, 0, 0}, .pedal = true, .connected = false};
+    };
+    bench.run(ticks_to_fade());
+    EXPECT_EQ(bench.shown().fault, Fault::device_lost);
+    EXPECT_EQ(bench.shown().hand_pose.position_mm, glm::dvec3(0.0));
+    EXPECT_FALSE(bench.command().spindle_on);
+    EXPECT_EQ(bench.shown().force_n, glm::dvec3(0.0));
+}
+
+TEST(HapticLoop, FadesOutOnAStreakOfMissedDeadlines) {
+    Bench bench;
+    bench.mill();
+    bench.run(15, 2);
+    EXPECT_EQ(bench.shown().fault, Fault::overrun);
+    EXPECT_EQ(bench.loop().fault_counts()[static_cast<std::size_t>(Fault::overrun)], 1u);
+}
+
+TEST(HapticLoop, ShowsThatProtectedTissueWasTouchedLongEnoughToBeSeen) {
+    Bench bench;
+    bench.run(1);
+    bench.next.touches_protected = true;
+    bench.run(1);
+    bench.next.touches_protected = false;
+    bench.run(100);
+    EXPECT_TRUE(bench.shown().touches_protected);
+    bench.run(200);
+    EXPECT_FALSE(bench.shown().touches_protected);
+}
+
+TEST(HapticLoop, MeasuresDepthFromWhereTheBurrFirstMetBone) {
+    Bench bench;
+    const auto file = std::filesystem::path(::testing::TempDir()) / "depth.csv";
+    ForceLog log(file);
+    testing::ScriptedDevice device;
+    testing::ScriptedCoupling coupling;
+    HapticLoop loop({device, coupling, *bench.results, bench.commands, bench.tool, bench.status, &log}, {});
+    const auto tick_at = [&](double z_mm, double force_n) {
+        device.script = [z_mm](double) { return DeviceState{.position_mm = {0, 0, z_mm}}; };
+        coupling.force = [force_n](const HandState&) { return glm::dvec3(0, 0, force_n); };
+        loop.tick(tick_s * static_cast<double>(bench.tick_number++), 0);
+    };
+    tick_at(5.0, 0.0);
+    tick_at(4.0, 0.1);  // contact
+    tick_at(3.5, 0.2);
+    log.close();
+    std::FILE* in = std::fopen(file.c_str(), "r");
+    ASSERT_NE(in, nullptr);
+    std::array<char, 512> line{};
+    for (const char* expected : {"depth_mm", ",0.0000,", ",0.0000,", ",0.5000,"}) {
+        ASSERT_NE(std::fgets(line.data(), static_cast<int>(line.size()), in), nullptr);
+        EXPECT_NE(std::string(line.data()).find(expected), std::string::npos) << line.data();
+    }
+    std::fclose(in);
+    std::filesystem::remove(file);
+}
+
+}  // namespace
+}  // namespace osteomill

@@ -1,0 +1,176 @@
+#include "haptic_server/loop/milling_session.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <memory>
+#include <stdexcept>
+#include <thread>
+
+#include "haptic_server/device/simulated_device.h"
+#include "tests/support/block.h"
+#include "tests/unit/loop/scripted_parts.h"
+
+namespace osteomill {
+namespace {
+
+/// A block 8 mm wide whose top face is z = 0, and a 2 mm burr above it.
+Bone block() {
+    return testing::make_block({-4.0, -4.0, -3.2}, {4.0, 4.0, 0.0}, 0.1);
+}
+
+Scene block_scene() {
+    Scene scene;
+    scene.name = "block";
+    scene.burrs = {{.name = "2 mm", .diameter_mm = 2.0, .spindle_rev_per_s = 500.0}};
+    scene.start_pose = {{0.0, 0.0, 2.5}, {0.0, 0.0, 1.0}};
+    scene.trajectory = {
+        .source = BuiltInTrajectory::cavity, .speed_mm_per_s = 8.0, .depth_mm = 0.8, .width_mm = 3.0};
+    return scene;
+}
+
+SimulatedDevice simulated(const Scene& scene) {
+    return SimulatedDevice(make_trajectory(scene.trajectory, scene.start_pose, scene.burrs, 0), scene.device,
+                           ArmModel{}, hand_model(Grip::firm));
+}
+
+MillingSessionOptions virtual_options(double duration_s) {
+    return {.clock = ClockKind::virtual_time, .duration_s = duration_s};
+}
+
+MillingSessionReport run(const MillingSessionOptions& options) {
+    const Scene scene = block_scene();
+    SimulatedDevice device = simulated(scene);
+    const auto session = std::make_unique<MillingSession>(scene, block(), device, options);
+    const std::atomic<bool> never{false};
+    session->run(never);
+    return session->report();
+}
+
+TEST(MillingSession, MillsOnTheVirtualClock) {
+    const MillingSessionReport report = run(virtual_options(4.0));
+    EXPECT_EQ(report.haptic.ticks, 4001u);
+    EXPECT_EQ(report.milling.ticks, 4001u);
+    EXPECT_GT(report.removed_mm3[0], 0.5);
+    EXPECT_GT(report.peak_force_n, 0.05);
+    EXPECT_LE(report.peak_force_n, 3.3);
+    EXPECT_NE(report.bone_checksum, checksum(block()));
+    for (const std::uint64_t count : report.fault_counts) EXPECT_EQ(count, 0u);
+}
+
+TEST(MillingSession, IsTheSameToTheBitEachTime) {
+    const MillingSessionReport first = run(virtual_options(3.0));
+    const MillingSessionReport second = run(virtual_options(3.0));
+    EXPECT_EQ(first.bone_checksum, second.bone_checksum);
+    EXPECT_EQ(first.removed_mm3, second.removed_mm3);
+    EXPECT_EQ(first.peak_force_n, second.peak_force_n);
+}
+
+TEST(MillingSession, StepsTheModelAtItsRateEvenWhereThatDoesNotDivideTheTicks) {
+    for (const double rate_hz : {100.0, 300.0, 770.0, 1000.0}) {
+        MillingSessionOptions options = virtual_options(1.0);
+        options.milling_rate_hz = rate_hz;
+        EXPECT_EQ(run(options).milling.ticks, static_cast<std::uint64_t>(rate_hz) + 1) << rate_hz << " Hz";
+    }
+}
+
+TEST(MillingSession, TellsWhoeverCopiesTheBoneEveryEdit) {
+    const Scene scene = block_scene();
+    SimulatedDevice device = simulated(scene);
+    MillingSessionOptions options = virtual_options(3.0);
+    options.edits_are_consumed = true;
+    const auto session = std::make_unique<MillingSession>(scene, block(), device, options);
+    Bone copy = block();
+    std::atomic<bool> done{false};
+    std::thread consumer([&] {
+        for (bool last_round = false; !last_round;) {
+            last_round = done.load();
+            session->edits().consume_all([&](const EditRun& run) { apply(run, copy); });
+            std::this_thread::yield();
+        }
+    });
+    const std::atomic<bool> never{false};
+    session->run(never);
+    done.store(true);
+    consumer.join();
+    EXPECT_EQ(checksum(copy), session->report().bone_checksum);
+}
+
+TEST(MillingSession, RunsInThreadsOnTheRealClockAndStopsWhenTold) {
+    const Scene scene = block_scene();
+    SimulatedDevice device = simulated(scene);
+    MillingSessionOptions options;
+    options.edits_are_consumed = true;
+    const auto session = std::make_unique<MillingSession>(scene, block(), device, options);
+    Bone copy = block();
+    std::atomic<bool> done{false};
+    std::uint64_t shown = 0;
+    std::thread streaming([&] {  // what the streaming loop would do
+        for (bool last_round = false; !last_round;) {
+            last_round = done.load();
+            session->edits().consume_all([&](const EditRun& run) { apply(run, copy); });
+            shown += session->tool().refresh() ? 1 : 0;
+            std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        }
+    });
+    std::atomic<bool> stop{false};
+    session->run(stop, [&](const ToolSnapshot& tool) {
+        if (tool.removed_mm3 > 0.01) stop.store(true);
+    });
+    done.store(true);
+    streaming.join();
+    const MillingSessionReport report = session->report();
+    EXPECT_GT(report.haptic.ticks, 100u);
+    EXPECT_GT(report.milling.ticks, 100u);
+    EXPECT_EQ(report.haptic.wakeup_latency.count(), report.haptic.ticks);
+    EXPECT_GT(shown, 0u);
+    EXPECT_EQ(checksum(copy), report.bone_checksum);
+}
+
+TEST(MillingSession, StartsAndStopsItsDeviceOnce) {
+    testing::ScriptedDevice device;
+    const auto session =
+        std::make_unique<MillingSession>(block_scene(), block(), device, virtual_options(0.05));
+    const std::atomic<bool> never{false};
+    session->run(never);
+    EXPECT_EQ(device.started, 1);
+    EXPECT_EQ(device.stopped, 1);
+    EXPECT_EQ(device.written_n.size(), 51u);
+}
+
+TEST(MillingSession, DoesNotCutWithThePedalUp) {
+    testing::ScriptedDevice device;  // in the middle of the block from the first tick on
+    device.script = [](double t_s) { return DeviceState{.position_mm = {t_s, 0.0, -0.5}}; };
+    const auto session =
+        std::make_unique<MillingSession>(block_scene(), block(), device, virtual_options(0.5));
+    const std::atomic<bool> never{false};
+    session->run(never);
+    EXPECT_EQ(session->report().bone_checksum, checksum(block()));
+}
+
+TEST(MillingSession, CutsNoChannelToWhereADeviceJumped) {
+    testing::ScriptedDevice device;
+    device.script = [](double t_s) {
+        return DeviceState{.position_mm = {t_s < 0.1 ? -3.0 : 3.0, 0.0, 0.5}, .pedal = true};
+    };
+    const auto session =
+        std::make_unique<MillingSession>(block_scene(), block(), device, virtual_options(1.0));
+    const std::atomic<bool> never{false};
+    session->run(never);
+    const Bone& bone = session->bone();
+    const auto middle = glm::ivec3(to_voxel_coordinates(bone.grid(), {0.0, 0.0, -0.05}) + 0.5);
+    EXPECT_EQ(bone.fraction_at(middle), 255);
+    EXPECT_EQ(session->report().fault_counts[static_cast<std::size_t>(Fault::device_jumped)], 1u);
+}
+
+TEST(MillingSession, RefusesMillingRatesThatItsWatchdogWouldNotBear) {
+    testing::ScriptedDevice device;
+    for (const double rate_hz : {0.0, 10.0, 1001.0, static_cast<double>(NAN)}) {
+        MillingSessionOptions options = virtual_options(1.0);
+        options.milling_rate_hz = rate_hz;
+        EXPECT_THROW(MillingSession(block_scene(), block(), device, options), std::invalid_argument);
+    }
+}
+
+}  // namespace
+}  // namespace osteomill

@@ -1,0 +1,45 @@
+// A device and a coupling that do what a test says, tick by tick.
+#pragma once
+
+#include <functional>
+#include <glm/vec3.hpp>
+#include <vector>
+
+#include "haptic_server/coupling/coupling.h"
+#include "haptic_server/device/haptic_device.h"
+
+namespace osteomill::testing {
+
+/// Reads what `script` says of the session time; remembers what was written.
+class ScriptedDevice final : public HapticDevice {
+  public:
+    std::function<DeviceState(double)> script = [](double) { return DeviceState{}; };
+    std::vector<glm::dvec3> written_n;
+    int started = 0;
+    int stopped = 0;
+
+    ScriptedDevice() { written_n.reserve(100'000); }
+
+    std::string name() const override { return "scripted"; }
+    DeviceLimits limits() const override { return {}; }
+    void start() override { ++started; }
+    DeviceState read(double now_s) noexcept override { return script(now_s); }
+    void write(const glm::dvec3& force_n) noexcept override { written_n.push_back(force_n); }
+    void stop() noexcept override { ++stopped; }
+};
+
+/// Wants what `force` says; the burr is rigidly the hand.
+class ScriptedCoupling final : public Coupling {
+  public:
+    std::function<glm::dvec3(const HandState&)> force = [](const HandState&) { return glm::dvec3(0.0); };
+    std::vector<HandState> hands;
+    int resets = 0;
+
+    CouplingOutput tick(const HandState& hand, const MillingResult&) noexcept override {
+        hands.push_back(hand);
+        return {.force_n = force(hand), .burr_pose = hand.pose};
+    }
+    void reset() noexcept override { ++resets; }
+};
+
+}  // namespace osteomill::testing

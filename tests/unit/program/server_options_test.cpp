@@ -1,0 +1,94 @@
+#include "haptic_server/program/server_options.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <stdexcept>
+#include <vector>
+
+namespace osteomill {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+CommandLine parse(std::vector<const char*> arguments) {
+    arguments.insert(arguments.begin(), "haptic_server");
+    return parse_command_line(static_cast<int>(arguments.size()), arguments.data(), "1.2.3");
+}
+
+std::string error_of(const std::vector<const char*>& arguments) {
+    try {
+        parse(arguments);
+    } catch (const std::invalid_argument& error) {
+        return error.what();
+    }
+    return "no error";
+}
+
+TEST(ServerOptions, NeedNoneToServeTheToothOnThisMachine) {
+    const ServerOptions options = *parse({}).options;
+    EXPECT_EQ(options.scene, "tooth");
+    EXPECT_EQ(options.device, DeviceKind::simulated);
+    EXPECT_EQ(options.session.clock, ClockKind::real);
+    EXPECT_EQ(options.session.coupling, "implicit");
+    EXPECT_TRUE(std::isinf(options.session.duration_s));
+    ASSERT_TRUE(options.listen.has_value());
+    EXPECT_EQ(options.listen->address, "127.0.0.1");
+    EXPECT_EQ(options.listen->port, 7010);
+    EXPECT_FALSE(options.json || options.log_csv || options.save_bone || options.bone);
+}
+
+TEST(ServerOptions, MillAtThePublishedRateWithThePublishedCoupling) {
+    EXPECT_EQ(parse({}).options->session.milling_rate_hz, 1000.0);
+    EXPECT_EQ(parse({"--coupling", "interpolate"}).options->session.milling_rate_hz, 100.0);
+    EXPECT_EQ(parse({"--coupling=interpolate", "--milling-rate-hz=500"}).options->session.milling_rate_hz,
+              500.0);
+}
+
+TEST(ServerOptions, ServeNobodyOnTheVirtualClockUnlessAsked) {
+    EXPECT_FALSE(parse({"--clock", "virtual"}).options->listen.has_value());
+    EXPECT_TRUE(parse({"--clock", "virtual", "--listen", "127.0.0.1:0"}).options->listen.has_value());
+    EXPECT_FALSE(parse({"--listen", "none"}).options->listen.has_value());
+}
+
+TEST(ServerOptions, RefuseToListenToOtherMachinesWithoutTls) {
+    EXPECT_THAT(error_of({"--listen", "0.0.0.0:7010"}), AllOf(HasSubstr("--listen"), HasSubstr("TLS")));
+}
+
+TEST(ServerOptions, NameTheOptionAndTheChoicesInOneLine) {
+    EXPECT_THAT(error_of({"--coupling", "magic"}),
+                AllOf(HasSubstr("--coupling"), HasSubstr("'magic'"), HasSubstr("implicit, interpolate")));
+    EXPECT_THAT(error_of({"--force-model", "x"}), AllOf(HasSubstr("--force-model"), HasSubstr("milling")));
+    EXPECT_THAT(error_of({"--clock", "sun"}), HasSubstr("real, virtual"));
+    EXPECT_THAT(error_of({"--device", "hid7"}), HasSubstr("simulated, client"));
+    EXPECT_THAT(error_of({"--grip", "iron"}), HasSubstr("light, firm"));
+    EXPECT_THAT(error_of({"--nonsense"}), HasSubstr("--nonsense"));
+    EXPECT_THAT(error_of({"--milling-rate-hz", "5"}), HasSubstr("--milling-rate-hz"));
+    EXPECT_THAT(error_of({"--milling-rate-hz", "fast"}), HasSubstr("--milling-rate-hz"));
+    EXPECT_THAT(error_of({"--duration-s", "-1"}), HasSubstr("--duration-s"));
+    EXPECT_THAT(error_of({"--save-bone", "bone.stl"}), AllOf(HasSubstr("--save-bone"), HasSubstr(".nrrd")));
+    EXPECT_THAT(error_of({"--listen", "here"}), Not(HasSubstr("\n")));
+}
+
+TEST(ServerOptions, RefuseCombinationsThatMakeNoSense) {
+    EXPECT_THAT(error_of({"--device", "client", "--clock", "virtual"}), HasSubstr("--device client"));
+    EXPECT_THAT(error_of({"--device", "client", "--listen", "none"}), HasSubstr("--listen"));
+    EXPECT_THAT(error_of({"--device", "client", "--trajectory", "x.csv"}), HasSubstr("--trajectory"));
+}
+
+TEST(ServerOptions, PrintHelpAndVersionAndAreDone) {
+    const CommandLine help = parse({"--help"});
+    EXPECT_FALSE(help.options.has_value());
+    for (const char* option :
+         {"--scene", "--bone", "--device", "--listen", "--coupling", "--force-model", "--milling-rate-hz",
+          "--clock", "--duration-s", "--trajectory", "--save-bone", "--json", "--log-csv"}) {
+        EXPECT_THAT(help.text, HasSubstr(option));
+    }
+    EXPECT_EQ(parse({"--version"}).text, "haptic_server 1.2.3\n");
+}
+
+}  // namespace
+}  // namespace osteomill
