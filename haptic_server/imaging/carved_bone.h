@@ -18,7 +18,7 @@
 namespace osteomill {
 
 /// HU of a voxel of which nothing is left.
-inline constexpr std::int16_t air_hu = -1000;
+inline constexpr std::int16_t milled_away_hu = -1000;
 
 /// Writes the files. `source` is the volume that `bone` was built from; its key-values go with it (the
 /// threshold among them). Throws std::invalid_argument where the grids differ, ImagingError where a file

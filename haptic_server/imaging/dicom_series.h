@@ -1,0 +1,53 @@
+// Which DICOM series a folder holds, and which one to take.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "haptic_server/imaging/slice_geometry.h"
+
+namespace osteomill {
+
+/// One slice's place, and where its pixels are.
+struct DicomSlice {
+    SlicePlacement placement;
+    std::filesystem::path file;
+    unsigned frame = 0;  ///< within the file
+};
+
+/// One file of a series, as far as its header tells.
+struct DicomFile {
+    std::filesystem::path path;
+    std::string series_uid;
+    std::string series_description;
+    unsigned frames = 1;
+};
+
+struct DicomSeries {
+    std::string uid;
+    std::string description;
+    std::vector<std::filesystem::path> files;  ///< sorted by name
+    std::size_t slices = 0;                    ///< frames of all files
+};
+
+/// The series of a folder (not of the folders in it), largest first, then by UID. Files that are not DICOM,
+/// and DICOM without an image's size (reports, a DICOMDIR), are passed over. Throws ImagingError for a folder
+/// that is empty or holds no DICOM image, and for a DICOM file that is cut off.
+std::vector<DicomSeries> find_series(const std::filesystem::path& folder);
+
+/// The series asked for, or else the largest. `others` gets one line about each series passed over. Throws
+/// ImagingError, listing the UIDs there are, where there is none of that UID.
+const DicomSeries& choose_series(const std::filesystem::path& folder, const std::vector<DicomSeries>& series,
+                                 const std::optional<std::string>& uid, std::vector<std::string>& others);
+
+/// Whether a file begins as DICOM files do, or can be parsed as one.
+bool looks_like_dicom(const std::filesystem::path& file);
+
+/// Reads where every slice of the series lies: of multi-frame files from their functional groups. Throws
+/// ImagingError for a file without pixel data, pixel spacing or position, with several samples a pixel
+/// (RGB), or whose frames cannot be placed.
+std::vector<DicomSlice> read_slices(const DicomSeries& series);
+
+}  // namespace osteomill

@@ -1,0 +1,40 @@
+// Where the slices of a DICOM series lie, and whether together they make a volume. Pure functions of what the
+// headers say: no files, no ITK.
+#pragma once
+
+#include <glm/mat3x3.hpp>
+#include <glm/vec3.hpp>
+#include <string>
+#include <vector>
+
+namespace osteomill {
+
+/// One slice as its header places it. Patient LPS, mm.
+struct SlicePlacement {
+    std::string name;                        ///< file, and frame where there are several; for messages
+    glm::dvec3 position_mm{0.0};             ///< centre of the first pixel (Image Position)
+    glm::dvec3 along_row{1.0, 0.0, 0.0};     ///< unit vector in which the column number grows
+    glm::dvec3 along_column{0.0, 1.0, 0.0};  ///< unit vector in which the row number grows
+    double column_pitch_mm = 0.0;            ///< between neighbours in a row
+    double row_pitch_mm = 0.0;               ///< between rows
+    int columns = 0;
+    int rows = 0;
+};
+
+/// Slices in their order along the normal, evenly spaced.
+struct SliceStack {
+    std::vector<std::size_t> order;  ///< indices into the placements
+    glm::dvec3 origin_mm{0.0};       ///< centre of the first voxel
+    glm::dvec3 spacing_mm{1.0};      ///< along columns' count, rows' count, slices
+    glm::dmat3 direction{1.0};       ///< columns: unit vectors of those three axes
+};
+
+/// Stacks the slices along their common normal (row x column). Throws std::invalid_argument, in words that
+/// name the slices, for: fewer than two slices; sizes, orientations or pixel spacings that differ; a spacing
+/// or a direction that is not a number; row and column not perpendicular; two slices at one position; slices
+/// that shift sideways by more than half a pixel over the stack (gantry tilt, its angle in the message);
+/// missing slices; uneven spacing (a gap further from the median gap than 2 % and 0.02 mm, which is the
+/// rounding that scanners print).
+SliceStack stack_slices(const std::vector<SlicePlacement>& slices);
+
+}  // namespace osteomill
