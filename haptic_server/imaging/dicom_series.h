@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "haptic_server/imaging/slice_geometry.h"
+#include "haptic_server/imaging/dicom_header.h"
 
 namespace osteomill {
 
@@ -17,19 +17,16 @@ struct DicomSlice {
     unsigned frame = 0;  ///< within the file
 };
 
-/// One file of a series, as far as its header tells.
 struct DicomFile {
     std::filesystem::path path;
-    std::string series_uid;
-    std::string series_description;
-    unsigned frames = 1;
+    DicomHeader header;
 };
 
 struct DicomSeries {
     std::string uid;
     std::string description;
-    std::vector<std::filesystem::path> files;  ///< sorted by name
-    std::size_t slices = 0;                    ///< frames of all files
+    std::vector<DicomFile> files;  ///< sorted by name
+    std::size_t slices = 0;        ///< frames of all files
 };
 
 /// The series of a folder (not of the folders in it), largest first, then by UID. Files that are not DICOM,
@@ -42,12 +39,12 @@ std::vector<DicomSeries> find_series(const std::filesystem::path& folder);
 const DicomSeries& choose_series(const std::filesystem::path& folder, const std::vector<DicomSeries>& series,
                                  const std::optional<std::string>& uid, std::vector<std::string>& others);
 
-/// Whether a file begins as DICOM files do, or can be parsed as one.
-bool looks_like_dicom(const std::filesystem::path& file);
+/// A single DICOM file as a series of its own. Throws ImagingError where it is not DICOM or has no image.
+DicomSeries series_of_file(const std::filesystem::path& path);
 
-/// Reads where every slice of the series lies: of multi-frame files from their functional groups. Throws
+/// Where every slice of the series lies: of multi-frame files from their functional groups. Throws
 /// ImagingError for a file without pixel data, pixel spacing or position, with several samples a pixel
 /// (RGB), or whose frames cannot be placed.
-std::vector<DicomSlice> read_slices(const DicomSeries& series);
+std::vector<DicomSlice> slices_of(const DicomSeries& series);
 
 }  // namespace osteomill
