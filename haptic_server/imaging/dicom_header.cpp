@@ -34,6 +34,9 @@ const Tag shared_groups_tag(0x5200, 0x9229);
 const Tag per_frame_groups_tag(0x5200, 0x9230);
 const Tag plane_position_tag(0x0020, 0x9113);
 const Tag plane_orientation_tag(0x0020, 0x9116);
+const Tag rescale_group_tag(0x0028, 0x9145);
+const Tag intercept_tag(0x0028, 0x1052);
+const Tag slope_tag(0x0028, 0x1053);
 const Tag pixel_measures_tag(0x0028, 0x9110);
 
 /// An element's bytes as text, without padding; empty where absent.
@@ -100,7 +103,7 @@ std::optional<SlicePlacement> placement_of(const Places& places, const DicomHead
     if (!orientation && missing.empty()) missing = "Image Orientation (0020,0037)";
     const auto position = places.find<3>(plane_position_tag, position_tag);
     if (!position && missing.empty()) missing = "Image Position (0020,0032)";
-    if (!spacing || !orientation || !position) return std::nullopt;
+    if (!missing.empty()) return std::nullopt;
     return SlicePlacement{.name = {},
                           .position_mm = {(*position)[0], (*position)[1], (*position)[2]},
                           .along_row = {(*orientation)[0], (*orientation)[1], (*orientation)[2]},
@@ -116,10 +119,11 @@ void place_frames(const DataSet& data, std::size_t count, DicomHeader& header) {
     const auto shared = sequence_of(data, shared_groups_tag);
     const auto per_frame = sequence_of(data, per_frame_groups_tag);
     if (count > 1 && (!per_frame || per_frame->GetNumberOfItems() != count)) {
-        header.missing = "a place for each of its frames";
+        header.fault = "is multi-frame and does not say where each frame lies (5200,9230)";
         header.frames.assign(count, std::nullopt);
         return;
     }
+    std::pair<std::optional<std::array<double, 1>>, std::optional<std::array<double, 1>>> first_rescale;
     for (std::size_t frame = 0; frame < count; ++frame) {
         Places places;
         if (per_frame && per_frame->GetNumberOfItems() == count)
@@ -127,7 +131,16 @@ void place_frames(const DataSet& data, std::size_t count, DicomHeader& header) {
         if (shared && shared->GetNumberOfItems() > 0)
             places.in.push_back(&shared->GetItem(1).GetNestedDataSet());
         places.in.push_back(&data);
-        header.frames.push_back(placement_of(places, header, header.missing));
+        std::string missing;
+        header.frames.push_back(placement_of(places, header, missing));
+        if (!missing.empty()) header.fault = "does not say how it lies in the patient: no " + missing;
+        const auto slope = places.find<1>(rescale_group_tag, slope_tag);
+        const auto intercept = places.find<1>(rescale_group_tag, intercept_tag);
+        if (frame == 0) first_rescale = {slope, intercept};
+        // GDCM applies one rescale to a whole file.
+        if (first_rescale != std::pair(slope, intercept))
+            header.fault =
+                "is multi-frame with a rescale slope or intercept that changes from frame to frame";
     }
 }
 

@@ -18,9 +18,9 @@ struct DicomHeader {
     int columns = 0;
     int samples_per_pixel = 1;
     bool has_pixel_data = false;
-    /// Where each frame lies; std::nullopt of a frame that the header does not place, see `missing`.
+    /// Where each frame lies; std::nullopt of a frame that the header does not place, see `fault`.
     std::vector<std::optional<SlicePlacement>> frames;
-    std::string missing;  ///< what a frame lacks that is not placed, such as "Pixel Spacing (0028,0030)"
+    std::string fault;  ///< why the frames make no volume, in words; empty where they may
 };
 
 /// std::nullopt where the file is not DICOM at all. Throws ImagingError where it begins as DICOM and then

@@ -29,11 +29,7 @@ void require_usable(const DicomFile& file) {
     if (header.samples_per_pixel != 1)
         throw ImagingError(
             file.path, fmt::format("has {} samples a pixel (colour); CT has one", header.samples_per_pixel));
-    if (!header.missing.empty()) {
-        const bool several = header.frames.size() > 1;
-        throw ImagingError(file.path, fmt::format("does not say how it lies in the patient: {} is missing{}",
-                                                  header.missing, several ? " (multi-frame)" : ""));
-    }
+    if (!header.fault.empty()) throw ImagingError(file.path, header.fault);
 }
 
 }  // namespace
