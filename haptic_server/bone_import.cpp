@@ -1,0 +1,92 @@
+// bone_import: a scan in, a bone file out.
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <exception>
+#include <fstream>
+#include <iostream>
+
+#include "haptic_server/imaging/import_bone.h"
+#include "haptic_server/imaging/memory_estimate.h"
+
+namespace {
+
+constexpr int exit_failure = 1;
+constexpr int exit_usage = 2;
+
+/// Option texts that have a form of their own; std::invalid_argument says what is wrong with one.
+struct Texts {
+    std::string region;
+    std::string rescale;
+    std::string intensity_window;
+    std::string series;
+    double threshold_hu = 0.0;
+};
+
+void add_options(CLI::App& app, osteomill::ImportOptions& options, Texts& texts) {
+    app.add_option("INPUT", options.input, "DICOM folder, or a NRRD, NIfTI or MetaImage file")->required();
+    app.add_option("OUTPUT.nrrd", options.output, "bone file to write (int16 HU, patient LPS, gzip)")
+        ->required();
+    app.add_option("--spacing-mm", options.spacing_mm, "edge of a voxel of the result")
+        ->capture_default_str()
+        ->check(CLI::Range(0.01, 10.0));
+    app.add_option("--threshold-hu", texts.threshold_hu,
+                   "bone is at and above this: kept in the file for haptic_server; HU further than 2 voxels "
+                   "from bone "
+                   "become -1000")
+        ->check(CLI::Range(-1024.0, 10000.0));
+    app.add_option("--region", texts.region, "x0,y0,z0,x1,y1,z1 in mm of patient LPS: import only this box");
+    app.add_option("--series", texts.series, "UID of the DICOM series to take (default: the largest)");
+    auto* rescale =
+        app.add_option("--rescale", texts.rescale,
+                       "SLOPE,INTERCEPT: HU = SLOPE * value + INTERCEPT, for files that carry none (after "
+                       "the file's own, if it has one)");
+    app.add_option(
+           "--intensity-window", texts.intensity_window,
+           "LOW,HIGH, for images without HU (MRI, 8-bit): LOW becomes 0 HU, HIGH 2000 HU, linear between, "
+           "clamped outside")
+        ->excludes(rescale);
+}
+
+void parse_texts(const CLI::App& app, const Texts& texts, osteomill::ImportOptions& options) {
+    if (app.count("--threshold-hu") > 0) options.threshold_hu = texts.threshold_hu;
+    if (app.count("--region") > 0) options.region = osteomill::parse_region(texts.region);
+    if (app.count("--series") > 0) options.series_uid = texts.series;
+    if (app.count("--rescale") > 0) options.to_hu = osteomill::parse_rescale(texts.rescale);
+    if (app.count("--intensity-window") > 0)
+        options.to_hu = osteomill::parse_intensity_window(texts.intensity_window);
+    if (options.output.extension() != ".nrrd")
+        throw std::invalid_argument("OUTPUT '" + options.output.string() + "': its name must end in .nrrd");
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    CLI::App app("Makes a bone file of a CT scan: isotropic, in patient LPS, in HU.", "bone_import");
+    app.set_version_flag("--version", OSTEOMILL_VERSION);
+    osteomill::ImportOptions options;
+    Texts texts;
+    add_options(app, options, texts);
+    try {
+        app.parse(argc, argv);
+        parse_texts(app, texts, options);
+    } catch (const CLI::ParseError& error) {
+        if (error.get_exit_code() == 0) return app.exit(error);
+        std::cerr << "bone_import: " << error.what() << " (see --help)\n";
+        return exit_usage;
+    } catch (const std::invalid_argument& error) {
+        std::cerr << "bone_import: " << error.what() << '\n';
+        return exit_usage;
+    }
+    try {
+        std::ifstream meminfo("/proc/meminfo");
+        osteomill::import_bone(options,
+                               {.messages = std::cerr,
+                                .is_terminal = ::isatty(STDERR_FILENO) != 0,
+                                .available_memory_bytes = osteomill::available_memory_bytes(meminfo)});
+        return 0;
+    } catch (const std::exception& error) {
+        std::cerr << "bone_import: " << error.what() << '\n';
+        return exit_failure;
+    }
+}
