@@ -2,161 +2,185 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdlib>
-#include <functional>
+#include <stdexcept>
+#include <vector>
 
 #include "common/bone/bone_builder.h"
 #include "haptic_server/imaging/imaging_error.h"
+#include "haptic_server/imaging/nrrd_volume.h"
 
 namespace osteomill {
 
 namespace {
 
-constexpr std::int16_t air_hu = -1000;
+constexpr const char* fraction_key = "osteomill_fraction_file";
+constexpr const char* stiffness_key = "osteomill_stiffness_file";
+constexpr const char* tissue_key = "osteomill_tissue_file";
 constexpr const char* checksum_key = "osteomill_bone_checksum";
-constexpr const char* channels_key = "osteomill_channels";
-constexpr const char* homogeneous_key = "osteomill_homogeneous_stiffness";
-constexpr const char* per_code_key = "osteomill_stiffness_per_code";
+constexpr const char* stiffness_per_code_key = "osteomill_stiffness_per_code";
+constexpr const char* homogeneous_stiffness_key = "osteomill_homogeneous_stiffness";
 
-std::filesystem::path channel_path(const std::filesystem::path& path, const char* channel) {
-    std::filesystem::path result = path;
-    result.replace_extension(fmt::format(".{}.nrrd", channel));
-    return result;
+using KeyValues = std::map<std::string, std::string>;
+using Bytes = std::vector<std::uint8_t>;
+
+std::filesystem::path companion(const std::filesystem::path& path, const char* channel) {
+    std::filesystem::path name = path;
+    return name.replace_extension(fmt::format(".{}.nrrd", channel));
 }
 
-/// Calls `visit(voxel, index in the dense grid, slot, offset in the brick)` for every voxel of every stored
-/// brick.
+std::string checksum_text(const Bone& bone) {
+    return fmt::format("{:016x}", checksum(bone));
+}
+
+/// Calls visit(offset in the dense volume, offset in the brick) for the voxels of a brick that lie in the
+/// grid.
 template <typename Visit>
-void for_each_stored_voxel(const Bone& bone, Visit&& visit) {
+void for_voxels_of_brick(const Grid& grid, const glm::ivec3& brick, const Visit& visit) {
+    const glm::ivec3 first = brick * brick_edge_voxels;
+    const auto nx = static_cast<std::size_t>(grid.size_voxels.x);
+    const auto ny = static_cast<std::size_t>(grid.size_voxels.y);
+    for (int z = first.z; z < std::min(first.z + brick_edge_voxels, grid.size_voxels.z); ++z)
+        for (int y = first.y; y < std::min(first.y + brick_edge_voxels, grid.size_voxels.y); ++y)
+            for (int x = first.x; x < std::min(first.x + brick_edge_voxels, grid.size_voxels.x); ++x)
+                visit(static_cast<std::size_t>(x) +
+                          nx * (static_cast<std::size_t>(y) + ny * static_cast<std::size_t>(z)),
+                      offset_in_brick({x, y, z}));
+}
+
+/// A channel as a dense volume; 0 where no brick is stored.
+template <typename BrickOfSlot>
+Bytes dense(const Bone& bone, const BrickOfSlot& brick_of_slot) {
     const glm::ivec3 size = bone.grid().size_voxels;
+    Bytes voxels(static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y) *
+                 static_cast<std::size_t>(size.z));
+    const BoneContent& content = bone.content();
     for (std::size_t slot = 0; slot < bone.stored_bricks(); ++slot) {
-        const glm::ivec3 first =
-            brick_position(bone.content().size_bricks, bone.content().brick_of_slot[slot]) *
-            brick_edge_voxels;
-        for (std::size_t offset = 0; offset < brick_voxel_count; ++offset) {
-            const auto o = static_cast<int>(offset);
-            const glm::ivec3 voxel = first + glm::ivec3(o % 16, o / 16 % 16, o / 256);
-            if (!contains(bone.grid(), voxel)) continue;
-            const auto index =
-                static_cast<std::size_t>(voxel.x) +
-                static_cast<std::size_t>(size.x) *
-                    (static_cast<std::size_t>(voxel.y) + static_cast<std::size_t>(size.y) * voxel.z);
-            visit(index, slot, offset);
-        }
+        const auto& bytes = brick_of_slot(slot);
+        for_voxels_of_brick(bone.grid(), brick_position(content.size_bricks, content.brick_of_slot[slot]),
+                            [&](std::size_t voxel, std::size_t offset) { voxels[voxel] = bytes[offset]; });
     }
+    return voxels;
 }
 
-std::size_t voxel_count(const Grid& grid) {
-    return static_cast<std::size_t>(grid.size_voxels.x) * grid.size_voxels.y * grid.size_voxels.z;
+const std::string& value_of(const std::filesystem::path& path, const KeyValues& key_values, const char* key) {
+    const auto found = key_values.find(key);
+    if (found == key_values.end())
+        throw ImagingError(path, fmt::format("key {} is missing, which a carved bone must have", key));
+    return found->second;
 }
 
-void write_channel(const std::filesystem::path& path, const char* channel, const Bone& bone,
-                   const std::function<std::uint8_t(std::size_t slot, std::size_t offset)>& value) {
-    std::vector<std::uint8_t> dense(voxel_count(bone.grid()), 0);
-    for_each_stored_voxel(bone, [&](std::size_t index, std::size_t slot, std::size_t offset) {
-        dense[index] = value(slot, offset);
-    });
-    write_byte_file(channel_path(path, channel), bone.grid(), dense, {});
+double number_of(const std::filesystem::path& path, const KeyValues& key_values, const char* key) {
+    const std::string& text = value_of(path, key_values, key);
+    char* end = nullptr;
+    const double number = std::strtod(text.c_str(), &end);
+    if (text.empty() || *end != '\0' || !(number > 0.0))
+        throw ImagingError(path, fmt::format("{}:={} is not a number above 0", key, text));
+    return number;
 }
 
-double number_of_key(const std::filesystem::path& path, const HeaderKeys& keys, const char* key) {
-    const auto found = keys.find(key);
-    const double value = found == keys.end() ? 0.0 : std::strtod(found->second.c_str(), nullptr);
-    if (!(value > 0.0 && value < 1e6))
-        throw ImagingError(
-            fmt::format("{}: header key {} is missing or no number above zero", path.string(), key));
-    return value;
+/// A companion file that `key` names; empty where the key is absent.
+Bytes channel_of(const std::filesystem::path& path, const BoneFile& file, const char* key) {
+    const auto found = file.key_values.find(key);
+    if (found == file.key_values.end()) return {};
+    const std::filesystem::path beside = path.parent_path() / found->second;
+    if (!std::filesystem::exists(beside))
+        throw ImagingError(path,
+                           fmt::format("the carved bone's file {} is missing beside it", found->second));
+    NrrdVolume<std::uint8_t> channel = read_nrrd_volume<std::uint8_t>(beside);
+    if (channel.grid != file.volume.grid)
+        throw ImagingError(beside,
+                           fmt::format("its grid is not that of {}, to which it belongs", path.string()));
+    return std::move(channel.voxels);
 }
 
-ByteBrick brick_of(const std::vector<std::uint8_t>& dense, const Grid& grid, const glm::ivec3& brick) {
-    ByteBrick result{};
-    const glm::ivec3 size = grid.size_voxels;
-    for (std::size_t offset = 0; offset < brick_voxel_count; ++offset) {
-        const auto o = static_cast<int>(offset);
-        const glm::ivec3 voxel = brick * brick_edge_voxels + glm::ivec3(o % 16, o / 16 % 16, o / 256);
-        if (contains(grid, voxel))
-            result[offset] =
-                dense[static_cast<std::size_t>(voxel.x) +
-                      static_cast<std::size_t>(size.x) *
-                          (static_cast<std::size_t>(voxel.y) + static_cast<std::size_t>(size.y) * voxel.z)];
-    }
-    return result;
-}
-
-Bone bone_from_channels(const std::filesystem::path& path, const HuFile& file) {
-    const Grid& grid = file.volume.grid;
-    const std::string& channels = file.keys.at(channels_key);
-    const bool heterogeneous = channels.find("stiffness") != std::string::npos;
-    const bool labelled = channels.find("tissue") != std::string::npos;
-    const std::vector<std::uint8_t> fraction = read_byte_file(channel_path(path, "fraction"), grid);
-    std::vector<std::uint8_t> stiffness;
-    std::vector<std::uint8_t> tissue;
-    if (heterogeneous) stiffness = read_byte_file(channel_path(path, "stiffness"), grid);
-    if (labelled) tissue = read_byte_file(channel_path(path, "tissue"), grid);
-
-    BoneBuilder builder =
-        heterogeneous
-            ? BoneBuilder::heterogeneous(grid, number_of_key(path, file.keys, per_code_key), labelled)
-            : BoneBuilder::homogeneous(grid, number_of_key(path, file.keys, homogeneous_key), labelled);
-    const glm::ivec3 bricks = size_in_bricks(grid);
-    for (int z = 0; z < bricks.z; ++z)
-        for (int y = 0; y < bricks.y; ++y)
-            for (int x = 0; x < bricks.x; ++x) {
-                const glm::ivec3 brick(x, y, z);
-                const ByteBrick codes = heterogeneous ? brick_of(stiffness, grid, brick) : ByteBrick{};
-                const ByteBrick labels = labelled ? brick_of(tissue, grid, brick) : ByteBrick{};
-                builder.add_brick(brick, brick_of(fraction, grid, brick), &codes, &labels);
-            }
-    Bone bone = std::move(builder).build();
-    const auto stated = file.keys.find(checksum_key);
-    if (stated == file.keys.end() || stated->second != fmt::format("{:016x}", checksum(bone)))
-        throw ImagingError(fmt::format("{}: its fraction file {} belongs to another bone (checksums differ)",
-                                       path.string(), channel_path(path, "fraction").filename().string()));
-    return bone;
+ByteBrick brick_of(const Grid& grid, const glm::ivec3& brick, const Bytes& voxels) {
+    ByteBrick bytes{};
+    if (!voxels.empty())
+        for_voxels_of_brick(grid, brick,
+                            [&](std::size_t voxel, std::size_t offset) { bytes[offset] = voxels[voxel]; });
+    return bytes;
 }
 
 }  // namespace
 
-void save_carved_bone(const std::filesystem::path& path, const HuVolume& source, double threshold_hu,
-                      const Bone& bone) {
-    if (path.extension() != ".nrrd")
-        throw ImagingError(fmt::format("{}: the name must end in .nrrd", path.string()));
-    if (source.grid.size_voxels != bone.grid().size_voxels)
-        throw ImagingError(fmt::format("{}: the bone is of another size than its source", path.string()));
-    HuVolume left{.grid = bone.grid(), .hu = source.hu, .tissue = {}};
-    for_each_stored_voxel(bone, [&](std::size_t index, std::size_t slot, std::size_t offset) {
-        const bool gone = bone.fractions(static_cast<std::int32_t>(slot))[offset] == 0;
-        if (gone && left.hu[index] >= threshold_hu) left.hu[index] = air_hu;
-    });
-
+void save_carved_bone(const std::filesystem::path& path, const HuVolume& source, const Bone& bone,
+                      const KeyValues& source_key_values) {
+    if (source.grid != bone.grid())
+        throw std::invalid_argument(
+            "the carved bone does not lie on the grid of the volume it was built from");
     const BoneContent& content = bone.content();
-    std::string channels = "fraction";
-    HeaderKeys keys{{threshold_key, fmt::format("{}", threshold_hu)},
-                    {checksum_key, fmt::format("{:016x}", checksum(bone))}};
-    write_channel(path, "fraction", bone, [&](std::size_t slot, std::size_t offset) {
-        return bone.fractions(static_cast<std::int32_t>(slot))[offset];
-    });
+    KeyValues key_values = source_key_values;
+    key_values[checksum_key] = checksum_text(bone);
+    key_values[fraction_key] = companion(path, "fraction").filename().string();
+
+    // Only bone can have been milled away: air and soft tissue have no fraction to lose, and what is stored
+    // with fraction 0 outside bone is told from it by the stiffness code that only bone has.
+    HuVolume carved{.grid = source.grid, .hu = source.hu, .tissue = {}};
+    for (std::size_t slot = 0; slot < bone.stored_bricks(); ++slot) {
+        const auto left = bone.fractions(static_cast<std::int32_t>(slot));
+        for_voxels_of_brick(bone.grid(), brick_position(content.size_bricks, content.brick_of_slot[slot]),
+                            [&](std::size_t voxel, std::size_t offset) {
+                                const bool was_bone =
+                                    content.stiffness.empty() || content.stiffness[slot][offset] != 0;
+                                if (left[offset] == 0 && was_bone) carved.hu[voxel] = milled_away_hu;
+                            });
+    }
+
+    write_nrrd_volume(
+        companion(path, "fraction"), bone.grid(),
+        dense(bone, [&](std::size_t slot) { return bone.fractions(static_cast<std::int32_t>(slot)); }), {});
     if (content.stiffness.empty()) {
-        keys[homogeneous_key] = fmt::format("{}", content.homogeneous_stiffness);
+        key_values[homogeneous_stiffness_key] = fmt::format("{}", content.homogeneous_stiffness);
     } else {
-        channels += " stiffness";
-        keys[per_code_key] = fmt::format("{}", content.stiffness_per_code);
-        write_channel(path, "stiffness", bone,
-                      [&](std::size_t slot, std::size_t offset) { return content.stiffness[slot][offset]; });
+        key_values[stiffness_key] = companion(path, "stiffness").filename().string();
+        key_values[stiffness_per_code_key] = fmt::format("{}", content.stiffness_per_code);
+        write_nrrd_volume(companion(path, "stiffness"), bone.grid(),
+                          dense(bone, [&](std::size_t slot) { return content.stiffness[slot]; }), {});
     }
     if (!content.tissue.empty()) {
-        channels += " tissue";
-        write_channel(path, "tissue", bone,
-                      [&](std::size_t slot, std::size_t offset) { return content.tissue[slot][offset]; });
+        key_values[tissue_key] = companion(path, "tissue").filename().string();
+        write_nrrd_volume(companion(path, "tissue"), bone.grid(),
+                          dense(bone, [&](std::size_t slot) { return content.tissue[slot]; }), {});
     }
-    keys[channels_key] = channels;
-    write_hu_file(path, left, keys);
+    // Last, so that a file of this name always has its companions.
+    write_hu_nrrd(path, carved, key_values);
 }
 
-Bone bone_from_file(const std::filesystem::path& path, const HuFile& file, double threshold_hu,
-                    const StiffnessRelation& relation) {
-    if (file.keys.contains(channels_key)) return bone_from_channels(path, file);
-    return bone_from_hu(file.volume, threshold_hu, relation);
+bool is_carved(const BoneFile& file) {
+    return file.key_values.contains(fraction_key);
+}
+
+Bone restore_carved_bone(const std::filesystem::path& path, const BoneFile& file) {
+    const Grid& grid = file.volume.grid;
+    value_of(path, file.key_values, fraction_key);
+    const std::string& expected = value_of(path, file.key_values, checksum_key);
+    const Bytes fraction = channel_of(path, file, fraction_key);
+    const Bytes stiffness = channel_of(path, file, stiffness_key);
+    const Bytes tissue = channel_of(path, file, tissue_key);
+
+    BoneBuilder builder =
+        stiffness.empty()
+            ? BoneBuilder::homogeneous(grid, number_of(path, file.key_values, homogeneous_stiffness_key),
+                                       !tissue.empty())
+            : BoneBuilder::heterogeneous(grid, number_of(path, file.key_values, stiffness_per_code_key),
+                                         !tissue.empty());
+    const glm::ivec3 size_bricks = size_in_bricks(grid);
+    for (int z = 0; z < size_bricks.z; ++z)
+        for (int y = 0; y < size_bricks.y; ++y)
+            for (int x = 0; x < size_bricks.x; ++x) {
+                const ByteBrick codes = brick_of(grid, {x, y, z}, stiffness);
+                const ByteBrick labels = brick_of(grid, {x, y, z}, tissue);
+                builder.add_brick({x, y, z}, brick_of(grid, {x, y, z}, fraction), &codes, &labels);
+            }
+    Bone bone = std::move(builder).build();
+    if (checksum_text(bone) != expected)
+        throw ImagingError(
+            path, fmt::format("its fractions have checksum {}, not the {} that was saved: {} is "
+                              "of another carving",
+                              checksum_text(bone), expected, file.key_values.find(fraction_key)->second));
+    return bone;
 }
 
 }  // namespace osteomill

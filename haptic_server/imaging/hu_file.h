@@ -1,41 +1,34 @@
-// Bones in files: NRRD of 16-bit HU on an isotropic, axis-aligned LPS grid, gzip-compressed, with what later
-// readers need as key-value pairs of the header. 3D Slicer opens them in the right place.
+// A bone file: CT numbers on the bone's own grid, as bone_import writes and haptic_server loads.
 #pragma once
 
-#include <cstdint>
 #include <filesystem>
 #include <map>
 #include <optional>
-#include <span>
 #include <string>
 
 #include "haptic_server/imaging/hu_volume.h"
 
 namespace osteomill {
 
-using HeaderKeys = std::map<std::string, std::string>;
-
-/// The key under which bone_import notes the HU at and above which the file's voxels are bone.
+/// Key under which a bone file says from which HU on there is bone.
 inline constexpr const char* threshold_key = "osteomill_threshold_hu";
 
-struct HuFile {
-    HuVolume volume;
-    HeaderKeys keys;  ///< those that begin with "osteomill_"
-
-    /// The threshold that the file states; absent where it states none or not a number.
-    std::optional<double> threshold_hu() const;
+struct BoneFile {
+    HuVolume volume;                                ///< tissue is empty
+    std::optional<double> threshold_hu;             ///< of threshold_key; absent where the file has none
+    std::map<std::string, std::string> key_values;  ///< all of the header's, threshold_key among them
 };
 
-/// Reads a bone that bone_import wrote, or any scalar volume on such a grid. Throws ImagingError naming the
-/// file; one that is not isotropic or not axis-aligned is refused with the advice to run bone_import.
-HuFile read_hu_file(const std::filesystem::path& path);
+/// Reads an int16 NRRD on an isotropic, axis-aligned LPS grid. Throws ImagingError in one line for anything
+/// else; where the image is merely of another form the line says to run bone_import.
+BoneFile read_bone_file(const std::filesystem::path& path);
 
-/// Writes HU. Throws ImagingError where the file cannot be written (whole).
-void write_hu_file(const std::filesystem::path& path, const HuVolume& volume, const HeaderKeys& keys);
+/// Writes volume.hu (not its labels) as a gzip NRRD, in patient LPS, with the given key-values.
+/// Throws as write_nrrd_volume does.
+void write_hu_nrrd(const std::filesystem::path& path, const HuVolume& volume,
+                   const std::map<std::string, std::string>& key_values = {});
 
-/// The same for one byte a voxel (fractions, labels), x fastest.
-void write_byte_file(const std::filesystem::path& path, const Grid& grid,
-                     std::span<const std::uint8_t> values, const HeaderKeys& keys);
-std::vector<std::uint8_t> read_byte_file(const std::filesystem::path& path, const Grid& expected_grid);
+/// "300" for 300.0: how a threshold is written under threshold_key.
+std::string threshold_text(double threshold_hu);
 
 }  // namespace osteomill

@@ -1,27 +1,65 @@
 #include "haptic_server/imaging/intensity.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
-#include <span>
+#include <cmath>
+#include <cstdlib>
+#include <stdexcept>
+#include <utility>
 
 namespace osteomill {
 
 namespace {
 
-std::span<float> values_of(ScanImage& scan) {
-    return {scan.GetBufferPointer(), scan.GetBufferedRegion().GetNumberOfPixels()};
+constexpr float air = -1000.0F;
+
+std::pair<double, double> two_numbers(const char* option, const char* form, const std::string& text) {
+    const auto refuse = [&] {
+        throw std::invalid_argument(fmt::format("{} '{}': it is {}, two numbers", option, text, form));
+    };
+    char* end = nullptr;
+    const double first = std::strtod(text.c_str(), &end);
+    if (end == text.c_str() || *end != ',') refuse();
+    const char* rest = end + 1;
+    const double second = std::strtod(rest, &end);
+    if (end == rest || *end != '\0' || !std::isfinite(first) || !std::isfinite(second)) refuse();
+    return {first, second};
 }
 
 }  // namespace
 
-void rescale(ScanImage& scan, double slope, double intercept) {
-    for (float& value : values_of(scan)) value = static_cast<float>(slope * value + intercept);
+Rescale parse_rescale(const std::string& text) {
+    const auto [slope, intercept] = two_numbers("--rescale", "SLOPE,INTERCEPT", text);
+    if (slope == 0.0) throw std::invalid_argument("--rescale '" + text + "': the slope may not be 0");
+    return {.slope = slope, .intercept = intercept};
 }
 
-void map_intensity_window(ScanImage& scan, double low, double high) {
-    constexpr double high_hu = 2000.0;
-    const double slope = high_hu / (high - low);
-    for (float& value : values_of(scan))
-        value = static_cast<float>(std::clamp(slope * (value - low), -1000.0, 3000.0));
+IntensityWindow parse_intensity_window(const std::string& text) {
+    const auto [low, high] = two_numbers("--intensity-window", "LOW,HIGH", text);
+    if (!(low < high))
+        throw std::invalid_argument("--intensity-window '" + text + "': LOW must be below HIGH");
+    return {.low = low, .high = high};
+}
+
+void rescale_values(const Rescale& rescale, std::span<float> values) {
+    for (float& value : values) value = static_cast<float>(rescale.slope * value + rescale.intercept);
+}
+
+void window_values(const IntensityWindow& window, std::span<float> values) {
+    const double hu_per_step = window_top_hu / (window.high - window.low);
+    for (float& value : values)
+        value = static_cast<float>(std::clamp((value - window.low) * hu_per_step, 0.0, window_top_hu));
+}
+
+std::size_t replace_not_finite(std::span<float> values) {
+    std::size_t replaced = 0;
+    for (float& value : values) {
+        if (std::isfinite(value)) continue;
+        value = air;
+        ++replaced;
+    }
+    return replaced;
 }
 
 }  // namespace osteomill

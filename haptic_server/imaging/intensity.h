@@ -1,15 +1,35 @@
-// From stored grey values to HU, for files that do not say how.
+// From the numbers of a file to HU, where the file itself does not say.
 #pragma once
 
-#include "haptic_server/imaging/itk_image.h"
+#include <span>
+#include <string>
 
 namespace osteomill {
 
-/// HU = slope * value + intercept, in place.
-void rescale(ScanImage& scan, double slope, double intercept);
+/// HU = slope * value + intercept.
+struct Rescale {
+    double slope = 1.0;
+    double intercept = 0.0;
+};
 
-/// For data without HU (MRI, 8-bit scans): `low` becomes 0 HU, `high` 2000 HU (between dentine and enamel),
-/// straight in between and clamped to -1000 to 3000 HU beyond. low < high.
-void map_intensity_window(ScanImage& scan, double low, double high);
+/// For images without HU (MRI, 8-bit scans): `low` becomes 0 HU (soft tissue), `high` 2000 HU (dense bone),
+/// linear between, clamped outside.
+struct IntensityWindow {
+    double low = 0.0;
+    double high = 0.0;
+};
+
+inline constexpr double window_top_hu = 2000.0;
+
+/// "SLOPE,INTERCEPT" and "LOW,HIGH". Throw std::invalid_argument unless two finite numbers; slope may not be
+/// 0, LOW must be below HIGH.
+Rescale parse_rescale(const std::string& text);
+IntensityWindow parse_intensity_window(const std::string& text);
+
+void rescale_values(const Rescale& rescale, std::span<float> values);
+void window_values(const IntensityWindow& window, std::span<float> values);
+
+/// Sets what is not a finite number to air (-1000 HU); returns how many there were.
+std::size_t replace_not_finite(std::span<float> values);
 
 }  // namespace osteomill

@@ -1,16 +1,34 @@
-// Progress of long work, for people: a bar on a terminal, a line every tenth otherwise.
+// How far a long piece of work has come, on standard error: a bar on a terminal, else a line every 10 %.
 #pragma once
 
 #include <functional>
-#include <iosfwd>
+#include <ostream>
 #include <string>
 
 namespace osteomill {
 
-/// Called with the share of the work that is done, 0 to 1.
-using Progress = std::function<void(double)>;
+/// Called with how much is done, 0 to 1, ascending, from one thread.
+using ReportProgress = std::function<void(double done)>;
 
-/// Writes progress of `what` to `out`.
-Progress progress_on(std::ostream& out, bool is_terminal, std::string what);
+class ProgressLine {
+  public:
+    /// `out` must outlive the line. `title` names the work ("refining").
+    ProgressLine(std::ostream& out, bool is_terminal, std::string title);
+    /// Ends the bar's line if it was begun.
+    ~ProgressLine();
+    ProgressLine(const ProgressLine&) = delete;
+    ProgressLine& operator=(const ProgressLine&) = delete;
+
+    void report(double done);
+    ReportProgress reporter() {
+        return [this](double done) { report(done); };
+    }
+
+  private:
+    std::ostream& out_;
+    bool is_terminal_;
+    std::string title_;
+    int shown_percent_ = -1;
+};
 
 }  // namespace osteomill

@@ -1,196 +1,171 @@
 #include "haptic_server/imaging/refine.h"
 
-#include <itkBSplineInterpolateImageFunction.h>
-#include <itkExtractImageFilter.h>
-#include <itkIdentityTransform.h>
-#include <itkMinimumMaximumImageCalculator.h>
-#include <itkRecursiveGaussianImageFilter.h>
-#include <itkResampleImageFilter.h>
-
 #include <algorithm>
-#include <array>
+#include <atomic>
 #include <cmath>
 #include <glm/common.hpp>
+#include <glm/vector_relational.hpp>
+#include <limits>
+#include <thread>
+
+#include "haptic_server/imaging/cubic_spline.h"
+#include "haptic_server/imaging/image_part.h"
 
 namespace osteomill {
 
 namespace {
 
-constexpr double air_hu = -1000.0;
-constexpr double coarsening_that_needs_smoothing = 1.5;
-/// Voxels of the scan around a region that its spline needs.
-constexpr long spline_margin = 6;
+constexpr std::int16_t air = -1000;
 
-ScanImage::PointType point(const glm::dvec3& p) {
-    const std::array<double, 3> values{p.x, p.y, p.z};
-    return ScanImage::PointType(values.data());
+struct HuRange {
+    float low = 0.0F;
+    float high = 0.0F;
+    std::int16_t whole(float value) const {
+        return static_cast<std::int16_t>(std::lround(std::clamp(value, low, high)));
+    }
+};
+
+HuRange range_of(const std::vector<float>& values) {
+    constexpr float lowest = std::numeric_limits<std::int16_t>::min();
+    constexpr float highest = std::numeric_limits<std::int16_t>::max();
+    const auto [low, high] = std::minmax_element(values.begin(), values.end());
+    return {.low = std::clamp(*low, lowest, highest), .high = std::clamp(*high, lowest, highest)};
 }
 
-/// The part of the scan that a grid needs, with a margin for the spline.
-ScanImage::Pointer cropped(const ScanImage& scan, const Grid& grid) {
-    const auto whole = scan.GetLargestPossibleRegion();
-    std::array<double, 3> low{};
-    std::array<double, 3> high{};
-    low.fill(1e300);
-    high.fill(-1e300);
-    const glm::dvec3 first = grid.origin_mm;
-    const glm::dvec3 last = centre_of_voxel_mm(grid, grid.size_voxels - 1);
-    for (int corner = 0; corner < 8; ++corner) {
-        const glm::dvec3 p((corner & 1) ? last.x : first.x, (corner & 2) ? last.y : first.y,
-                           (corner & 4) ? last.z : first.z);
-        const auto index = scan.TransformPhysicalPointToContinuousIndex<double>(point(p));
-        for (unsigned axis = 0; axis < 3; ++axis) {
-            low[axis] = std::min(low[axis], index[axis]);
-            high[axis] = std::max(high[axis], index[axis]);
+std::size_t voxels_of_slice(const Grid& grid) {
+    return static_cast<std::size_t>(grid.size_voxels.x) * static_cast<std::size_t>(grid.size_voxels.y);
+}
+
+float blend(const SplineTaps& taps, const float* values, std::size_t step) {
+    float sum = 0.0F;
+    for (std::size_t i = 0; i < 4; ++i)
+        sum += taps.weight[i] * values[static_cast<std::size_t>(taps.index[i]) * step];
+    return sum;
+}
+
+/// out[i] = sum of weight * rows[index][i]; rows of `length` floats follow each other.
+void blend_rows(const SplineTaps& taps, const float* rows, std::size_t length, std::vector<float>& out) {
+    const float* row[4];
+    for (std::size_t i = 0; i < 4; ++i) row[i] = rows + static_cast<std::size_t>(taps.index[i]) * length;
+    for (std::size_t i = 0; i < length; ++i)
+        out[i] = taps.weight[0] * row[0][i] + taps.weight[1] * row[1][i] + taps.weight[2] * row[2][i] +
+                 taps.weight[3] * row[3][i];
+}
+
+std::vector<SplineTaps> taps_along(const SourceImage& part, const Grid& grid, int axis) {
+    std::vector<SplineTaps> taps;
+    for (int i = 0; i < grid.size_voxels[axis]; ++i) {
+        const double at =
+            (grid.origin_mm[axis] + grid.spacing_mm * i - part.origin_mm[axis]) / part.spacing_mm[axis];
+        taps.push_back(
+            spline_taps(std::clamp(at, -1.0, double(part.size_voxels[axis])), part.size_voxels[axis]));
+    }
+    return taps;
+}
+
+/// Axes of scan and grid agree, so the spline separates: a slice costs three passes of four taps.
+class AlignedSampler {
+  public:
+    AlignedSampler(const SourceImage& part, const Grid& grid, HuRange range)
+        : part_(part),
+          range_(range),
+          x_(taps_along(part, grid, 0)),
+          y_(taps_along(part, grid, 1)),
+          z_(taps_along(part, grid, 2)) {}
+
+    void slice(int z, std::int16_t* out) const {
+        const auto row_length = static_cast<std::size_t>(part_.size_voxels.x);
+        const std::size_t slice_length = row_length * static_cast<std::size_t>(part_.size_voxels.y);
+        std::vector<float> plane(slice_length);
+        std::vector<float> row(row_length);
+        blend_rows(z_[static_cast<std::size_t>(z)], part_.values.data(), slice_length, plane);
+        for (const SplineTaps& y : y_) {
+            blend_rows(y, plane.data(), row_length, row);
+            for (const SplineTaps& x : x_) *out++ = range_.whole(blend(x, row.data(), 1));
         }
     }
-    ScanImage::RegionType wanted;
-    for (unsigned axis = 0; axis < 3; ++axis) {
-        const long begin = static_cast<long>(std::floor(low[axis])) - spline_margin;
-        const long end = static_cast<long>(std::ceil(high[axis])) + spline_margin + 1;
-        wanted.SetIndex(axis, begin);
-        wanted.SetSize(axis, static_cast<itk::SizeValueType>(end - begin));
-    }
-    wanted.Crop(whole);
-    const auto extract = itk::ExtractImageFilter<ScanImage, ScanImage>::New();
-    extract->SetInput(&scan);
-    extract->SetExtractionRegion(wanted);
-    extract->SetDirectionCollapseToIdentity();
-    extract->Update();
-    return extract->GetOutput();
-}
 
-ScanImage::Pointer smoothed_for(ScanImage::Pointer scan, double spacing_mm) {
-    for (unsigned axis = 0; axis < 3; ++axis) {
-        if (spacing_mm <= coarsening_that_needs_smoothing * scan->GetSpacing()[axis]) continue;
-        if (scan->GetLargestPossibleRegion().GetSize()[axis] < 4)
-            continue;  // too thin for the recursive filter
-        const auto filter = itk::RecursiveGaussianImageFilter<ScanImage, ScanImage>::New();
-        filter->SetInput(scan);
-        filter->SetDirection(axis);
-        filter->SetSigma(0.5 * spacing_mm);
-        filter->Update();
-        scan = filter->GetOutput();
+  private:
+    const SourceImage& part_;
+    HuRange range_;
+    std::vector<SplineTaps> x_, y_, z_;
+};
+
+/// A turned scan: 64 taps a voxel.
+class ObliqueSampler {
+  public:
+    ObliqueSampler(const SourceImage& part, const Grid& grid, HuRange range)
+        : part_(part), grid_(grid), range_(range) {}
+
+    void slice(int z, std::int16_t* out) const {
+        for (int y = 0; y < grid_.size_voxels.y; ++y)
+            for (int x = 0; x < grid_.size_voxels.x; ++x) {
+                const glm::dvec3 at = voxel_at(part_, centre_of_voxel_mm(grid_, {x, y, z}));
+                *out++ = within(at) ? range_.whole(value(at)) : air;
+            }
     }
-    return scan;
+
+  private:
+    bool within(const glm::dvec3& at) const {
+        return glm::all(glm::greaterThanEqual(at, glm::dvec3(-0.5))) &&
+               glm::all(glm::lessThanEqual(at, glm::dvec3(part_.size_voxels) - 0.5));
+    }
+    float value(const glm::dvec3& at) const {
+        const SplineTaps x = spline_taps(at.x, part_.size_voxels.x);
+        const SplineTaps y = spline_taps(at.y, part_.size_voxels.y);
+        const SplineTaps z = spline_taps(at.z, part_.size_voxels.z);
+        const auto row = static_cast<std::size_t>(part_.size_voxels.x);
+        const std::size_t slice = row * static_cast<std::size_t>(part_.size_voxels.y);
+        float sum = 0.0F;
+        for (std::size_t k = 0; k < 4; ++k)
+            for (std::size_t j = 0; j < 4; ++j)
+                sum += z.weight[k] * y.weight[j] *
+                       blend(x,
+                             &part_.values[static_cast<std::size_t>(z.index[k]) * slice +
+                                           static_cast<std::size_t>(y.index[j]) * row],
+                             1);
+        return sum;
+    }
+
+    const SourceImage& part_;
+    const Grid& grid_;
+    HuRange range_;
+};
+
+/// Every thread takes the next slice that is left; the calling thread reports.
+template <typename Sampler>
+void sample_slices(const Sampler& sampler, HuVolume& volume, const ReportProgress& report) {
+    const int slices = volume.grid.size_voxels.z;
+    const std::size_t length = voxels_of_slice(volume.grid);
+    std::atomic<int> next{0};
+    const auto work = [&](bool reports) {
+        for (int z = next++; z < slices; z = next++) {
+            sampler.slice(z, volume.hu.data() + static_cast<std::size_t>(z) * length);
+            if (reports) report(static_cast<double>(z) / slices);
+        }
+    };
+    {
+        std::vector<std::jthread> helpers;
+        for (unsigned i = 1; i < std::thread::hardware_concurrency(); ++i) helpers.emplace_back(work, false);
+        work(true);
+    }
+    report(1.0);
 }
 
 }  // namespace
 
-Region extent_of(const ScanImage& scan) {
-    const auto whole = scan.GetLargestPossibleRegion();
-    Region extent{glm::dvec3(1e300), glm::dvec3(-1e300)};
-    for (int corner = 0; corner < 8; ++corner) {
-        ScanImage::IndexType index = whole.GetIndex();
-        for (unsigned axis = 0; axis < 3; ++axis)
-            if (corner >> axis & 1) index[axis] += static_cast<long>(whole.GetSize()[axis]) - 1;
-        ScanImage::PointType p;
-        scan.TransformIndexToPhysicalPoint(index, p);
-        extent.low_mm = glm::min(extent.low_mm, glm::dvec3(p[0], p[1], p[2]));
-        extent.high_mm = glm::max(extent.high_mm, glm::dvec3(p[0], p[1], p[2]));
-    }
-    return extent;
-}
-
-std::optional<Region> intersection(const Region& a, const Region& b) {
-    const Region shared{glm::max(a.low_mm, b.low_mm), glm::min(a.high_mm, b.high_mm)};
-    for (int axis = 0; axis < 3; ++axis)
-        if (!(shared.low_mm[axis] < shared.high_mm[axis])) return std::nullopt;
-    return shared;
-}
-
-Grid grid_of(const Region& region, double spacing_mm) {
-    // A last voxel that misses the region's edge by rounding alone still counts.
-    const glm::dvec3 cells = glm::floor((region.high_mm - region.low_mm) / spacing_mm + 1e-6);
-    return {.size_voxels = glm::ivec3(glm::min(cells, glm::dvec3(1e9))) + 1,
-            .spacing_mm = spacing_mm,
-            .origin_mm = region.low_mm};
-}
-
-double refine_memory_bytes(const ScanImage& scan, const Region& region, double spacing_mm) {
-    const glm::dvec3 cells = (region.high_mm - region.low_mm) / spacing_mm + 1.0;
-    double scan_share = static_cast<double>(scan.GetLargestPossibleRegion().GetNumberOfPixels());
-    const Region extent = extent_of(scan);
-    for (int axis = 0; axis < 3; ++axis)
-        scan_share *= std::min(1.0, (region.high_mm[axis] - region.low_mm[axis] + 1.0) /
-                                        std::max(1e-6, extent.high_mm[axis] - extent.low_mm[axis]));
-    // The volume in 16 bits, its deflated copy on the way to the file, one slab in floats, the part of the
-    // scan as floats and as spline coefficients in doubles.
-    return cells.x * cells.y * (cells.z * 4.0 + 16.0 * 4.0) + scan_share * 16.0;
-}
-
-HuVolume refine(const ScanImage& scan, const Grid& grid, const Progress& progress) {
+HuVolume refine(SourceImage part, const Grid& grid, const ReportProgress& report) {
     require_valid(grid);
-    const ScanImage::Pointer part = smoothed_for(cropped(scan, grid), grid.spacing_mm);
-    const auto range = itk::MinimumMaximumImageCalculator<ScanImage>::New();
-    range->SetImage(part);
-    range->Compute();
-    const auto lowest = static_cast<double>(range->GetMinimum());
-    const auto highest = static_cast<double>(range->GetMaximum());
-
-    const auto spline = itk::BSplineInterpolateImageFunction<ScanImage, double, double>::New();
-    spline->SetSplineOrder(3);
-    const auto resample = itk::ResampleImageFilter<ScanImage, ScanImage>::New();
-    resample->SetInput(part);
-    resample->SetInterpolator(spline);
-    resample->SetTransform(itk::IdentityTransform<double, 3>::New());
-    resample->SetDefaultPixelValue(static_cast<float>(air_hu));
-    const std::array<double, 3> spacing{grid.spacing_mm, grid.spacing_mm, grid.spacing_mm};
-    resample->SetOutputSpacing(spacing.data());
-
+    const HuRange range = range_of(part.values);
+    smooth_for_spacing(part, grid.spacing_mm);
+    values_to_coefficients(part);
     HuVolume volume{.grid = grid, .hu = {}, .tissue = {}};
-    const glm::ivec3 size = grid.size_voxels;
-    volume.hu.reserve(static_cast<std::size_t>(size.x) * size.y * size.z);
-    constexpr int slab = 16;
-    for (int z = 0; z < size.z; z += slab) {
-        const int slices = std::min(slab, size.z - z);
-        resample->SetOutputOrigin(point(centre_of_voxel_mm(grid, {0, 0, z})));
-        ScanImage::SizeType slab_size;
-        slab_size[0] = static_cast<itk::SizeValueType>(size.x);
-        slab_size[1] = static_cast<itk::SizeValueType>(size.y);
-        slab_size[2] = static_cast<itk::SizeValueType>(slices);
-        resample->SetSize(slab_size);
-        resample->UpdateLargestPossibleRegion();
-        const float* values = resample->GetOutput()->GetBufferPointer();
-        const std::size_t count = slab_size[0] * slab_size[1] * slab_size[2];
-        for (std::size_t i = 0; i < count; ++i) {
-            const double hu = values[i] == static_cast<float>(air_hu)
-                                  ? air_hu
-                                  : std::clamp(static_cast<double>(values[i]), lowest, highest);
-            volume.hu.push_back(static_cast<std::int16_t>(std::lround(std::clamp(hu, -32768.0, 32767.0))));
-        }
-        progress(static_cast<double>(z + slices) / size.z);
-    }
+    volume.hu.resize(voxels_of_slice(grid) * static_cast<std::size_t>(grid.size_voxels.z));
+    if (part.direction == glm::dmat3(1.0))
+        sample_slices(AlignedSampler(part, grid, range), volume, report);
+    else
+        sample_slices(ObliqueSampler(part, grid, range), volume, report);
     return volume;
-}
-
-void clear_far_from_bone(HuVolume& volume, double threshold_hu) {
-    const glm::ivec3 size = volume.grid.size_voxels;
-    constexpr int reach = 2;
-    const auto voxels = static_cast<std::size_t>(size.x) * size.y * size.z;
-    std::vector<std::uint8_t> near(voxels);
-    for (std::size_t i = 0; i < voxels; ++i) near[i] = volume.hu[i] >= threshold_hu;
-    // A box grows axis by axis.
-    const std::array<std::size_t, 3> stride{1, static_cast<std::size_t>(size.x),
-                                            static_cast<std::size_t>(size.x) * size.y};
-    std::vector<std::uint8_t> line;
-    for (int axis = 0; axis < 3; ++axis) {
-        const auto a = static_cast<std::size_t>(axis);
-        const std::size_t length = static_cast<std::size_t>(size[axis]);
-        line.resize(length);
-        for (std::size_t start = 0; start < voxels; ++start) {
-            if (start / stride[a] % length != 0) continue;
-            for (std::size_t i = 0; i < length; ++i) line[i] = near[start + i * stride[a]];
-            for (std::size_t i = 0; i < length; ++i) {
-                if (line[i] == 0) continue;
-                const std::size_t first = i < reach ? 0 : i - reach;
-                const std::size_t last = std::min(length - 1, i + reach);
-                for (std::size_t j = first; j <= last; ++j) near[start + j * stride[a]] = 1;
-            }
-        }
-    }
-    for (std::size_t i = 0; i < voxels; ++i)
-        if (near[i] == 0) volume.hu[i] = static_cast<std::int16_t>(air_hu);
 }
 
 }  // namespace osteomill

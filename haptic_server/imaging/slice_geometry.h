@@ -1,37 +1,40 @@
-// Whether the slices of a series make up a volume: same size, orientation and pixel spacing, evenly spaced
-// along their common normal, none missing, none twice, no gantry tilt. Pure geometry, no ITK.
+// Where the slices of a DICOM series lie, and whether together they make a volume. Pure functions of what the
+// headers say: no files, no ITK.
 #pragma once
 
-#include <glm/vec2.hpp>
+#include <glm/mat3x3.hpp>
 #include <glm/vec3.hpp>
 #include <string>
 #include <vector>
 
 namespace osteomill {
 
-/// Where one slice lies, as its DICOM header says. Patient LPS, mm.
+/// One slice as its header places it. Patient LPS, mm.
 struct SlicePlacement {
-    std::string file;
-    glm::dvec3 position_mm{0.0};       ///< centre of the first pixel, (0020,0032)
-    glm::dvec3 row_direction{0.0};     ///< along a row, (0020,0037), unit
-    glm::dvec3 column_direction{0.0};  ///< down a column
-    glm::dvec2 pixel_spacing_mm{0.0};  ///< between columns, between rows
-    glm::ivec2 size_pixels{0};         ///< columns, rows
+    std::string name;                        ///< file, and frame where there are several; for messages
+    glm::dvec3 position_mm{0.0};             ///< centre of the first pixel (Image Position)
+    glm::dvec3 along_row{1.0, 0.0, 0.0};     ///< unit vector in which the column number grows
+    glm::dvec3 along_column{0.0, 1.0, 0.0};  ///< unit vector in which the row number grows
+    double column_pitch_mm = 0.0;            ///< between neighbours in a row
+    double row_pitch_mm = 0.0;               ///< between rows
+    int columns = 0;
+    int rows = 0;
 };
 
+/// Slices in their order along the normal, evenly spaced.
 struct SliceStack {
-    std::vector<SlicePlacement> slices;  ///< in order along the normal
-    double spacing_mm = 0.0;
+    std::vector<std::size_t> order;  ///< indices into the placements
+    glm::dvec3 origin_mm{0.0};       ///< centre of the first voxel
+    glm::dvec3 spacing_mm{1.0};      ///< along columns' count, rows' count, slices
+    glm::dmat3 direction{1.0};       ///< columns: unit vectors of those three axes
 };
 
-/// Slices may deviate from even spacing by this share of the spacing: headers are rounded.
-inline constexpr double spacing_tolerance = 0.02;
-/// A stack that leans by more than this is tilted.
-inline constexpr double tilt_tolerance_deg = 0.2;
-
-/// Orders the slices along their normal. Throws ImagingError naming the offending file and the reason: fewer
-/// than two slices, mixed sizes, orientations or pixel spacings, two slices at one place, missing or uneven
-/// slices, gantry tilt.
-SliceStack stack_slices(std::vector<SlicePlacement> slices);
+/// Stacks the slices along their common normal (row x column). Throws std::invalid_argument, in words that
+/// name the slices, for: fewer than two slices; sizes, orientations or pixel spacings that differ; a spacing
+/// or a direction that is not a number; row and column not perpendicular; two slices at one position; slices
+/// that shift sideways by more than half a pixel over the stack (gantry tilt, its angle in the message);
+/// missing slices; uneven spacing (a gap further from the median gap than 2 % and 0.02 mm, which is the
+/// rounding that scanners print).
+SliceStack stack_slices(const std::vector<SlicePlacement>& slices);
 
 }  // namespace osteomill

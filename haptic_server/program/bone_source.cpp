@@ -16,10 +16,11 @@ LoadedBone load_bone(const Scene& scene) {
         return {std::move(bone), {std::move(volume), phantom_threshold_hu}};
     }
     const auto& source = std::get<FileSource>(scene.bone);
-    HuFile file = read_hu_file(source.path);
+    BoneFile file = read_bone_file(source.path);
     const double threshold_hu =
-        source.threshold_hu.value_or(file.threshold_hu().value_or(default_threshold_hu));
-    Bone bone = bone_from_file(source.path, file, threshold_hu, scene.stiffness);
+        source.threshold_hu.value_or(file.threshold_hu.value_or(default_threshold_hu));
+    Bone bone = is_carved(file) ? restore_carved_bone(source.path, file)
+                                : bone_from_hu(file.volume, threshold_hu, scene.stiffness);
     return {std::move(bone), {std::move(file.volume), threshold_hu}};
 }
 

@@ -157,7 +157,8 @@ void run_server(const ServerOptions& options, const std::string& version, const 
     });
     leftovers.write([&] {
         if (!options.save_bone) return;
-        save_carved_bone(*options.save_bone, source->volume, source->threshold_hu, session->bone());
+        save_carved_bone(*options.save_bone, source->volume, session->bone(),
+                         {{threshold_key, threshold_text(source->threshold_hu)}});
     });
     leftovers.write([&] {
         if (streaming && streaming->mirror_checksum() != report.bone_checksum) {

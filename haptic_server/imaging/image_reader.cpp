@@ -1,0 +1,166 @@
+#include "haptic_server/imaging/image_reader.h"
+
+#include <fmt/format.h>
+#include <itkImageFileReader.h>
+#include <itkMetaImageIO.h>
+#include <itkNiftiImageIO.h>
+#include <itkNrrdImageIO.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <glm/geometric.hpp>
+
+#include "haptic_server/imaging/dicom_image.h"
+#include "haptic_server/imaging/imaging_error.h"
+#include "haptic_server/imaging/nrrd_header.h"
+#include "haptic_server/imaging/quiet_libraries.h"
+
+namespace osteomill {
+
+namespace {
+
+/// Cosine between two axes above which an image counts as sheared; 1e-3 is 0.06 degrees.
+constexpr double perpendicular_tolerance = 1e-3;
+
+bool ends_with_any(const std::string& name, std::initializer_list<const char*> endings) {
+    return std::any_of(endings.begin(), endings.end(),
+                       [&](const char* ending) { return name.ends_with(ending); });
+}
+
+/// The reader for a file's name; null where it tells none.
+itk::ImageIOBase::Pointer io_for(const std::filesystem::path& path) {
+    std::string name = path.filename().string();
+    std::transform(name.begin(), name.end(), name.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    if (ends_with_any(name, {".nrrd", ".nhdr"})) return itk::NrrdImageIO::New().GetPointer();
+    if (ends_with_any(name, {".nii", ".nii.gz", ".hdr", ".img", ".img.gz"}))
+        return itk::NiftiImageIO::New().GetPointer();
+    if (ends_with_any(name, {".mha", ".mhd"})) return itk::MetaImageIO::New().GetPointer();
+    return nullptr;
+}
+
+void require_volume(const std::filesystem::path& path, const itk::ImageIOBase& io) {
+    if (io.GetNumberOfComponents() != 1)
+        throw ImagingError(path, fmt::format("has {} values a voxel (colour or vectors); CT has one",
+                                             io.GetNumberOfComponents()));
+    unsigned dimensions = io.GetNumberOfDimensions();
+    while (dimensions > 3 && io.GetDimensions(dimensions - 1) == 1) --dimensions;
+    if (dimensions != 3)
+        throw ImagingError(path, fmt::format("has {} dimensions; a volume has 3", dimensions));
+    for (unsigned axis = 0; axis < 3; ++axis)
+        if (io.GetDimensions(axis) < 2)
+            throw ImagingError(path,
+                               fmt::format("is a single slice ({} x {} x {} voxels), which is no volume",
+                                           io.GetDimensions(0), io.GetDimensions(1), io.GetDimensions(2)));
+}
+
+SourceImage geometry_of(const std::filesystem::path& path, const itk::ImageIOBase& io) {
+    SourceImage image;
+    for (unsigned axis = 0; axis < 3; ++axis) {
+        const int i = static_cast<int>(axis);
+        image.size_voxels[i] = static_cast<int>(io.GetDimensions(axis));
+        image.spacing_mm[i] = io.GetSpacing(axis);
+        image.origin_mm[i] = io.GetOrigin(axis);
+        for (int row = 0; row < 3; ++row)
+            image.direction[i][row] = io.GetDirection(axis)[static_cast<std::size_t>(row)];
+        if (!(image.spacing_mm[i] > 0.0) || !std::isfinite(image.spacing_mm[i]))
+            throw ImagingError(path, fmt::format("spacing {} mm of axis {}: it must be a number above 0",
+                                                 image.spacing_mm[i], axis));
+        if (!std::isfinite(image.origin_mm[i])) throw ImagingError(path, "its origin is not a number");
+    }
+    for (int a = 0; a < 3; ++a)
+        for (int b = 0; b < 3; ++b)
+            if (!(std::abs(glm::dot(image.direction[a], image.direction[b]) - (a == b ? 1.0 : 0.0)) <
+                  perpendicular_tolerance))
+                throw ImagingError(
+                    path, "its axes are not perpendicular (a gantry tilt?); reformat it upright first");
+    return image;
+}
+
+/// What a NRRD leaves open is taken as LPS, and said.
+void note_nrrd_orientation(const std::filesystem::path& path, SourceImage& image) {
+    const std::map<std::string, std::string> header = read_nrrd_header(path);
+    require_spacing(path, header);
+    const auto space = header.find("space");
+    const std::string name = space == header.end() ? "" : space->second;
+    constexpr std::array anatomical{"left-posterior-superior", "lps", "right-anterior-superior", "ras",
+                                    "left-anterior-superior",  "las"};
+    if (std::find(anatomical.begin(), anatomical.end(), name) != anatomical.end()) return;
+    image.notes.push_back(
+        fmt::format("{}: its header {}; taken as left-posterior-superior (LPS)", path.string(),
+                    name.empty() ? "says nothing of orientation" : "says only 'space: " + name + "'"));
+    if (!header.contains("spacings") && !header.contains("space directions"))
+        image.notes.push_back(path.string() + ": its header has no spacing; taken as 1 mm");
+}
+
+std::vector<float> read_file_values(const std::filesystem::path& path, const SourceImage& geometry,
+                                    const ReportProgress& report) {
+    using FloatImage = itk::Image<float, 3>;
+    try {
+        const QuietLibraries quiet;
+        const auto reader = itk::ImageFileReader<FloatImage>::New();
+        reader->SetImageIO(io_for(path));
+        reader->SetFileName(path.string());
+        reader->Update();
+        const FloatImage* image = reader->GetOutput();
+        if (image->GetBufferedRegion().GetNumberOfPixels() != voxel_count(geometry))
+            throw ImagingError(path, "changed while it was read");
+        std::vector<float> values(image->GetBufferPointer(),
+                                  image->GetBufferPointer() + voxel_count(geometry));
+        report(1.0);
+        return values;
+    } catch (const itk::ExceptionObject&) {
+        throw ImagingError(path, "its voxels cannot be read: cut off or damaged, or their file is missing");
+    }
+}
+
+OpenedImage open_file(const std::filesystem::path& path, itk::ImageIOBase& io) {
+    OpenedImage opened;
+    try {
+        const QuietLibraries quiet;
+        io.SetFileName(path.string());
+        io.ReadImageInformation();
+    } catch (const itk::ExceptionObject&) {
+        throw ImagingError(
+            path, fmt::format("cannot be read as {}: cut off or damaged",
+                              std::string(io.GetNameOfClass()).substr(0, 4) == "Nrrd"   ? "NRRD"
+                              : std::string(io.GetNameOfClass()).substr(0, 4) == "Nift" ? "NIfTI"
+                                                                                        : "MetaImage"));
+    }
+    require_volume(path, io);
+    opened.image = geometry_of(path, io);
+    if (dynamic_cast<const itk::NrrdImageIO*>(&io) != nullptr) note_nrrd_orientation(path, opened.image);
+    opened.read_values = [path, geometry = opened.image](const ReportProgress& report) {
+        return read_file_values(path, geometry, report);
+    };
+    return opened;
+}
+
+OpenedImage open_folder(const std::filesystem::path& folder, const std::optional<std::string>& series_uid) {
+    const std::vector<DicomSeries> series = find_series(folder);
+    std::vector<std::string> others;
+    OpenedImage opened = open_series(folder, choose_series(folder, series, series_uid, others));
+    for (const std::string& other : others)
+        opened.image.notes.push_back(
+            fmt::format("{}: passed over series {}; --series picks one", folder.string(), other));
+    return opened;
+}
+
+}  // namespace
+
+OpenedImage open_image(const std::filesystem::path& path, const std::optional<std::string>& series_uid) {
+    std::error_code failed;
+    const std::filesystem::file_status status = std::filesystem::status(path, failed);
+    if (!std::filesystem::exists(status)) throw ImagingError(path, "does not exist");
+    if (std::filesystem::is_directory(status)) return open_folder(path, series_uid);
+    if (!std::filesystem::is_regular_file(status)) throw ImagingError(path, "is neither a file nor a folder");
+    if (std::filesystem::file_size(path, failed) == 0) throw ImagingError(path, "is empty");
+    if (const itk::ImageIOBase::Pointer io = io_for(path)) return open_file(path, *io);
+    if (read_dicom_header(path)) return open_series(path, series_of_file(path));
+    throw ImagingError(path,
+                       "is no DICOM folder or file, NRRD (.nrrd, .nhdr), NIfTI (.nii, .nii.gz) or MetaImage "
+                       "(.mha, .mhd)");
+}
+
+}  // namespace osteomill

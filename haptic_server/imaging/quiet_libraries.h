@@ -1,0 +1,21 @@
+// Keeps image libraries from writing to standard error while they work: what they find wrong comes back as
+// one line of ours.
+#pragma once
+
+namespace osteomill {
+
+/// While it lives, ITK and GDCM warn nobody and file descriptor 2 leads nowhere (libjpeg, MetaIO and the
+/// NIfTI library print on their own). Standard error belongs to the whole process, so keep it brief, on one
+/// thread.
+class QuietLibraries {
+  public:
+    QuietLibraries();
+    ~QuietLibraries();
+    QuietLibraries(const QuietLibraries&) = delete;
+    QuietLibraries& operator=(const QuietLibraries&) = delete;
+
+  private:
+    int standard_error_ = -1;
+};
+
+}  // namespace osteomill
