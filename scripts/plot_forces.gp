@@ -7,7 +7,7 @@ set key autotitle columnhead top left horizontal
 set grid lc rgb '#dddddd'
 set border 3
 set tics nomirror
-set multiplot layout 2,1 margins 0.08,0.97,0.09,0.95 spacing 0.05,0.08
+set multiplot layout 2,1 margins 0.08,0.92,0.09,0.95 spacing 0.05,0.08
 set title 'Force on the hand' offset 0,-0.5
 set ylabel 'N'
 # Okabe-Ito colours: safe for colour-blind readers.

@@ -35,7 +35,7 @@ std::filesystem::path resolved(const std::string& path, const std::filesystem::p
 
 template <typename T>
 T required(const TomlReader& reader, std::string_view key, std::optional<T> value) {
-    if (!value) reader.fail(key, fmt::format("key '{}' is missing", key));
+    if (!value) reader.fail_missing(key);
     return *std::move(value);
 }
 
@@ -160,15 +160,15 @@ ToolPose read_pose(TomlReader reader) {
     return pose;
 }
 
-TrajectorySpec read_trajectory(TomlReader reader, const std::filesystem::path& folder) {
+TrajectorySpec read_trajectory(TomlReader reader, const std::filesystem::path& folder, const Burr& burr) {
     TrajectorySpec spec;
     const std::optional<std::size_t> motion = reader.choice("motion", motion_names);
     const std::optional<std::string> file = reader.text("file");
     spec.start_mm = position(reader, "start_mm", spec.start_mm);
     spec.travel_direction = unit_vector(reader, "travel_direction", spec.travel_direction);
     spec.speed_mm_per_s = reader.number("speed_mm_per_s", {0.01, 500.0}).value_or(spec.speed_mm_per_s);
-    spec.depth_mm = reader.number("depth_mm", {0.0, 200.0}).value_or(spec.depth_mm);
-    spec.width_mm = reader.number("width_mm", {0.0, 500.0}).value_or(spec.width_mm);
+    spec.depth_mm = reader.number("depth_mm", {0.01, 200.0}).value_or(spec.depth_mm);
+    spec.width_mm = reader.number("width_mm", {0.01, 500.0}).value_or(spec.width_mm);
     reader.refuse_other_keys();
     if (motion.has_value() == file.has_value())
         reader.fail("motion",
@@ -178,6 +178,10 @@ TrajectorySpec read_trajectory(TomlReader reader, const std::filesystem::path& f
         spec.source = static_cast<BuiltInTrajectory>(*motion);
     else
         spec.source = resolved(*file, folder);
+    if (spec.source == decltype(spec.source)(BuiltInTrajectory::cavity) && spec.width_mm < burr.diameter_mm)
+        reader.fail("width_mm",
+                    fmt::format("a hole of 'width_mm' = {} is too narrow for the start burr \"{}\" of {} mm",
+                                spec.width_mm, burr.name, burr.diameter_mm));
     return spec;
 }
 
@@ -198,9 +202,18 @@ Scene read_all(TomlReader reader, const std::filesystem::path& folder) {
     scene.start_burr = reader.choice("start_burr", burr_names).value_or(0);
     if (auto table = reader.table("device")) scene.device = read_device(*table);
     if (auto table = reader.table("start_pose")) scene.start_pose = read_pose(*table);
-    if (auto table = reader.table("trajectory")) scene.trajectory = read_trajectory(*table, folder);
+    if (auto table = reader.table("trajectory"))
+        scene.trajectory = read_trajectory(*table, folder, scene.burrs[scene.start_burr]);
     reader.refuse_other_keys();
     return scene;
+}
+
+/// The rpm that reads back as this speed, bit for bit: rounding may put the plain product one step beside it.
+double rpm_of(double rev_per_s) {
+    const double product = rev_per_s * seconds_per_minute;
+    for (const double rpm : {product, std::nextafter(product, 0.0), std::nextafter(product, HUGE_VAL)})
+        if (rpm / seconds_per_minute == rev_per_s) return rpm;
+    return product;
 }
 
 toml::array list(const glm::dvec3& v) {
@@ -221,7 +234,17 @@ toml::table bone_table(const std::variant<PhantomSource, FileSource>& bone) {
     return table;
 }
 
+std::string on_one_line(std::string message) {
+    const auto is_control = [](char letter) {
+        return static_cast<unsigned char>(letter) < 0x20 || letter == 0x7f;
+    };
+    std::replace_if(message.begin(), message.end(), is_control, ' ');
+    return message;
+}
+
 }  // namespace
+
+SceneError::SceneError(const std::string& message) : std::runtime_error(on_one_line(message)) {}
 
 Scene parse_scene(std::string_view text, const std::string& name_for_messages,
                   const std::filesystem::path& folder) {
@@ -264,7 +287,7 @@ std::string write_scene(const Scene& scene) {
             toml::table{{"name", burr.name},
                         {"diameter_mm", burr.diameter_mm},
                         {"edges", static_cast<std::int64_t>(burr.edges)},
-                        {"rpm", burr.spindle_rev_per_s * seconds_per_minute},
+                        {"rpm", rpm_of(burr.spindle_rev_per_s)},
                         {"cutting_coefficients_n_per_mm2", list(burr.cutting_coefficients_n_per_mm2)},
                         {"turns", sense_names[burr.sense == SpindleSense::clockwise ? 0 : 1]}});
     root.insert("burrs", burrs);

@@ -4,8 +4,8 @@
 //
 //     name = "jaw"
 //     start_burr = "1.5 mm"
-//     [bone]           phantom = "tooth"   or   file = "jaw.nrrd", threshold_hu = 300.0     (paths relative
-//     to the scene file) [stiffness]      knots = [[150, 0.02], [1600, 1.0], ...] HU, relative stiffness
+//     [bone]           phantom = "tooth"   or   file = "jaw.nrrd", threshold_hu = 300.0
+//     [stiffness]      knots = [[150, 0.02], [1600, 1.0], ...]: HU, relative stiffness
 //     [[tissues]]      label = 1, name = "enamel", colour = "#f6f4ec", protected = false
 //     [[burrs]]        name, diameter_mm, edges, rpm, cutting_coefficients_n_per_mm2 = [K_t, K_r, K_a],
 //                      turns = "clockwise"
@@ -14,8 +14,8 @@
 //     [trajectory]     motion = "hold" | "polishing" | "cavity"   or   file = "path.csv";
 //                      start_mm, travel_direction, speed_mm_per_s, depth_mm, width_mm
 //
-// Only [bone] is required; what is left out takes the defaults of scene.h and the usual burr set at 10 000
-// rpm.
+// Paths are relative to the scene file. Only name and [bone] are required; what is left out takes the
+// defaults of scene.h and the usual burr set at 10 000 rpm.
 #pragma once
 
 #include <filesystem>
@@ -27,10 +27,11 @@
 
 namespace osteomill {
 
-/// One line: "file:line: what is wrong; what would be right".
+/// One line: "file:line: what is wrong; what would be right". Control characters, which quoted parts of a bad
+/// file may hold, become spaces.
 class SceneError : public std::runtime_error {
   public:
-    using std::runtime_error::runtime_error;
+    explicit SceneError(const std::string& message);
 };
 
 /// Throws SceneError for an unreadable file or a bad scene.

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/scene/nearest_name.h"
 #include "common/scene/scene_file.h"
 
 namespace osteomill {
@@ -130,11 +131,25 @@ std::vector<TomlReader> TomlReader::tables(std::string_view key) {
     return result;
 }
 
+void TomlReader::fail_missing(std::string_view key) const {
+    std::vector<std::string> unread;
+    for (const auto& [other, node] : *table_)
+        if (std::find(known_keys_.begin(), known_keys_.end(), other.str()) == known_keys_.end())
+            unread.emplace_back(other.str());
+    const std::optional<std::string> misspelt = nearest_name(key, unread);
+    if (misspelt)
+        fail(*misspelt,
+             fmt::format("key '{}' is missing in {}; '{}' looks like it", key, table_name_, *misspelt));
+    fail(key, fmt::format("key '{}' is missing in {}", key, table_name_));
+}
+
 void TomlReader::refuse_other_keys() const {
     for (const auto& [key, node] : *table_) {
         if (std::find(known_keys_.begin(), known_keys_.end(), key.str()) != known_keys_.end()) continue;
-        throw SceneError(fmt::format("{}:{}: unknown key '{}' in {}; choose one of: {}", file_,
-                                     key.source().begin.line, key.str(), table_name_,
+        const std::optional<std::string> meant = nearest_name(key.str(), known_keys_);
+        const std::string guess = meant ? fmt::format("did you mean '{}'? ", *meant) : "";
+        throw SceneError(fmt::format("{}:{}: unknown key '{}' in {}; {}choose one of: {}", file_,
+                                     key.source().begin.line, key.str(), table_name_, guess,
                                      fmt::join(known_keys_, ", ")));
     }
 }

@@ -44,6 +44,10 @@ class TomlReader {
     /// Throws SceneError at the line of a key (or of the table, if it has no such key).
     [[noreturn]] void fail(std::string_view key, const std::string& message) const;
 
+    /// Throws SceneError for a required key that is absent: at the line of a key that may be its misspelling,
+    /// else at the line of the table.
+    [[noreturn]] void fail_missing(std::string_view key) const;
+
   private:
     const toml::node* take(std::string_view key);
     static std::optional<double> finite_number(const toml::node& node);

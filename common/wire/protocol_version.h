@@ -1,5 +1,5 @@
-// The version of the protocol in proto/osteomill/v1. Another major version cannot be understood; a higher minor
-// one says more than an older reader knows of.
+// The version of the protocol in proto/osteomill/v1. Another major version cannot be understood; a higher
+// minor one says more than an older reader knows of.
 #pragma once
 
 #include <cstdint>

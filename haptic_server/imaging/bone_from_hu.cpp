@@ -147,6 +147,7 @@ std::optional<std::uint8_t> common_code(const std::vector<BrickChannels>& bricks
 Bone bone_from_hu(const HuVolume& volume, double threshold_hu, const StiffnessRelation& relation) {
     require_valid(volume.grid);
     require_valid(relation);
+    if (!std::isfinite(threshold_hu)) throw std::invalid_argument("the bone threshold is not a finite HU");
     const glm::ivec3 size = volume.grid.size_voxels;
     const std::size_t voxels = static_cast<std::size_t>(size.x) * size.y * size.z;
     const bool labelled = !volume.tissue.empty();

@@ -10,7 +10,7 @@
 
 namespace osteomill {
 
-/// Voxels that have changed, brick by brick. At most 512 bytes and a node for each stored brick.
+/// Voxels that edits have covered, brick by brick. At most 512 bytes and a node for each stored brick.
 using ChangedVoxels = std::map<BrickIndex, VoxelMask>;
 
 class BoneMirror {

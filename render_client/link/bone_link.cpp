@@ -43,7 +43,7 @@ class BoneLink::Impl {
 
     void take(BoneArrived arrived, LinkUpdate& update) {
         bone_ = std::move(arrived.bone);
-        checksum_.emplace(*bone_);
+        checksum_ = std::move(arrived.checksum);
         update.bone_replaced = true;
         update.dirty_bricks.clear();
     }

@@ -5,6 +5,7 @@
 #include <variant>
 
 #include "common/bone/bone.h"
+#include "common/wire/running_checksum.h"
 #include "osteomill/v1/session.pb.h"
 #include "render_client/link/bone_link.h"
 
@@ -15,9 +16,10 @@ struct SessionBegan {
     SessionInfo info;
 };
 
-/// A snapshot is complete.
+/// A snapshot is complete. Its checksum terms come with it, so that the UI thread need not hash all of it.
 struct BoneArrived {
     Bone bone;
+    RunningChecksum checksum;
 };
 
 /// A state frame, as it came; checked when it is applied.

@@ -217,7 +217,9 @@ std::optional<WireError> ServerConnection::take_snapshot_end(const v1::SnapshotE
     auto finished = std::move(*assembler_).finish(message);
     assembler_.reset();
     if (auto* error = std::get_if<WireError>(&finished)) return *error;
-    events_.push(BoneArrived{std::get<Bone>(std::move(finished))});
+    Bone& bone = std::get<Bone>(finished);
+    RunningChecksum terms(bone);
+    events_.push(BoneArrived{std::move(bone), std::move(terms)});
     announce(LinkStatus::live, "connected to " + where_);
     backoff_ = milliseconds(0);
     stage_ = Stage::live;

@@ -1,5 +1,5 @@
-// A coupling and the milling model in lock step, as the virtual clock runs them: haptic ticks at 1 kHz, a milling step after
-// every n-th, its result available from the next tick on.
+// A coupling and the milling model in lock step, as the virtual clock runs them: haptic ticks at 1 kHz, a
+// milling step after every n-th, its result available from the next tick on.
 #pragma once
 
 #include <memory>

@@ -61,12 +61,22 @@ TEST(ToothPhantom, LesionOpensAtTheTopAndLiesWithinTheHoleThatTheSceneDrills) {
     EXPECT_TRUE(opens);
 }
 
+TEST(ToothPhantom, StoresOnlyTheBricksThatHoldBone) {
+    const Bone bone = tooth_bone();
+    constexpr std::size_t channels = 3;  // fraction, stiffness, tissue
+    EXPECT_LT(bone.stored_bricks(), 32U * 32U * 8U / 5U) << "most of the grid is air";
+    EXPECT_LT(memory_bytes(bone), (channels * bone.stored_bricks() + 16U) * sizeof(ByteBrick));
+    EXPECT_LT(static_cast<double>(memory_bytes(bone)) / bone_volume_mm3(bone), 5000.0)
+        << "bytes per mm^3, of which 1000 voxels in three channels are 3000";
+}
+
 TEST(CubePhantom, IsHomogeneousWithItsTopAtZero) {
     const Bone bone = bone_from_hu(make_cube_phantom(), phantom_threshold_hu, default_stiffness_relation());
     EXPECT_NEAR(bone_volume_mm3(bone), 50.0 * 50.0 * 12.0, 1e-6);
     EXPECT_TRUE(bone.content().stiffness.empty());
     EXPECT_TRUE(bone.content().tissue.empty());
     EXPECT_DOUBLE_EQ(bone.content().homogeneous_stiffness, 1.0);
+    EXPECT_LT(memory_bytes(bone), 1.02 * 8192.0 * sizeof(ByteBrick)) << "one channel";
     const auto at = [&](double z) {
         return bone.fraction_at(glm::ivec3(to_voxel_coordinates(bone.grid(), {0.0, 0.0, z}) + 0.5));
     };

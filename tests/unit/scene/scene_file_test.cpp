@@ -91,7 +91,7 @@ TEST(SceneFile, ShippedScenesAreReadAndSurviveWriting) {
         EXPECT_EQ(parse_scene(write_scene(scene), "again.toml"), scene) << entry.path();
         ++scenes;
     }
-    EXPECT_GE(scenes, 2);
+    EXPECT_GE(scenes, 3);
 }
 
 TEST(SceneFile, AnUnknownKeyIsRefusedWithItsLineAndTheChoices) {
@@ -102,6 +102,54 @@ TEST(SceneFile, AnUnknownKeyIsRefusedWithItsLineAndTheChoices) {
                 HasSubstr("my.toml:1: unknown key 'nmae' in the scene"));
     EXPECT_THAT(error_of(smallest + "[[burrs]]\nname = \"b\"\ndiameter_mm = 1\nteeth = 6\n"),
                 HasSubstr("my.toml:7: unknown key 'teeth' in [[burrs]]"));
+}
+
+TEST(SceneFile, AMisspeltKeyGetsTheNearestOne) {
+    EXPECT_THAT(error_of(smallest + "[trajectory]\nmotion = \"hold\"\nspeed = 3\n"),
+                AllOf(HasSubstr("did you mean 'speed_mm_per_s'?"), HasSubstr("choose one of: motion, file")));
+    EXPECT_EQ(error_of(smallest + "[[burrs]]\nname = \"b\"\ndiameter = 2\n"),
+              "my.toml:6: key 'diameter_mm' is missing in [[burrs]]; 'diameter' looks like it");
+    EXPECT_EQ(error_of("name = \"a\"\n[bnoe]\nphantom = \"tooth\"\n"),
+              "my.toml:2: key 'bone' is missing in the scene; 'bnoe' looks like it");
+}
+
+TEST(SceneFile, AMotionThatCannotBeIsRefused) {
+    EXPECT_THAT(error_of("start_burr = \"3 mm\"\n" + smallest +
+                         "[trajectory]\nmotion = \"cavity\"\nwidth_mm = 2.5\n"),
+                HasSubstr("my.toml:7: a hole of 'width_mm' = 2.5 is too narrow for the start burr \"3 mm\""));
+    EXPECT_THAT(error_of(smallest + "[trajectory]\nmotion = \"polishing\"\ndepth_mm = 0\n"),
+                HasSubstr("my.toml:6: 'depth_mm' is 0"));
+    EXPECT_THAT(error_of(smallest + "[trajectory]\nmotion = \"polishing\"\nspeed_mm_per_s = 0\n"),
+                HasSubstr("my.toml:6: 'speed_mm_per_s' is 0"));
+}
+
+TEST(SceneFile, AnySpindleSpeedSurvivesWriting) {
+    for (double rpm = 100.0; rpm < 400'000.0; rpm *= 1.0137) {
+        Scene scene = parse_scene(smallest, "my.toml");
+        scene.burrs[0].spindle_rev_per_s = rpm / 60.0;
+        ASSERT_EQ(parse_scene(write_scene(scene), "again.toml"), scene) << rpm;
+    }
+}
+
+TEST(SceneFile, AFileCutOffOrDamagedAnywhereIsASceneOrAnErrorWithItsName) {
+    const std::string whole = write_scene(read_scene(OSTEOMILL_SCENES "/tooth.toml"));
+    const auto reads_or_refuses = [](const std::string& text) {
+        try {
+            (void)parse_scene(text, "my.toml");
+            return true;
+        } catch (const SceneError& error) {
+            return std::string_view(error.what()).starts_with("my.toml:") &&
+                   std::string_view(error.what()).find('\n') == std::string_view::npos;
+        }
+    };
+    for (std::size_t size = 0; size < whole.size(); size += 7)
+        ASSERT_TRUE(reads_or_refuses(whole.substr(0, size))) << "cut off after " << size;
+    for (std::size_t place = 0; place < whole.size(); place += 5)
+        for (const char damage : {'\0', '\xff', '\n', '"', '[', '9', '-'}) {
+            std::string damaged = whole;
+            damaged[place] = damage;
+            ASSERT_TRUE(reads_or_refuses(damaged)) << static_cast<int>(damage) << " at " << place;
+        }
 }
 
 TEST(SceneFile, AMissingKeyIsNamed) {
@@ -143,6 +191,8 @@ TEST(SceneFile, ValuesOutOfRangeOrOfTheWrongTypeAreRefused) {
 
 TEST(SceneFile, WhatIsNotTomlOrNotThereIsRefusedInOneLine) {
     EXPECT_THAT(error_of("name = \"a\"\n[bone\n"), HasSubstr("my.toml:2: not TOML"));
+    EXPECT_THAT(error_of("name = \"a\"\n[bone]\nphantom = \"x\\ny\"\n"),
+                HasSubstr("'phantom' is \"x y\"; choose"));
     EXPECT_THROW((void)read_scene("/no/such/scene.toml"), SceneError);
     EXPECT_THROW((void)read_scene("/"), SceneError);
 }

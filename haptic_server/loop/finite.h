@@ -1,0 +1,13 @@
+// Whether a vector holds numbers.
+#pragma once
+
+#include <cmath>
+#include <glm/vec3.hpp>
+
+namespace osteomill {
+
+inline bool is_finite(const glm::dvec3& v) noexcept {
+    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+}
+
+}  // namespace osteomill

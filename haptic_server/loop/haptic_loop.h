@@ -1,0 +1,88 @@
+// One tick of the haptic loop: read the device, couple, guard, write the force, and tell everybody else. Its
+// pace is somebody else's business (periodic.h), physics is the coupling's.
+//
+//   device --pose--> watchdog --fault--+
+//      |                               v
+//      +--pose--> coupling --force--> guard --force--> device
+//                    |                  |
+//                    +--burr pose-------+--> milling loop (spindle off while the guard is not engaged)
+//
+// While a fault lasts the tool is out of the bone: no spindle, no force, and the coupling starts afresh from
+// the hand when the guard engages again. After the device was lost or jumped, the spindle stays off until the
+// pedal has been up: the tool may have come back in the middle of the bone.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "common/scene/scene.h"
+#include "haptic_server/coupling/coupling.h"
+#include "haptic_server/device/haptic_device.h"
+#include "haptic_server/loop/exchange.h"
+#include "haptic_server/loop/force_guard.h"
+#include "haptic_server/loop/force_log.h"
+#include "haptic_server/loop/triple_buffer.h"
+#include "haptic_server/loop/watchdog.h"
+#include "haptic_server/milling/milling_step.h"
+
+namespace osteomill {
+
+/// What the haptic loop works with; all of it outlives the loop.
+struct HapticLoopParts {
+    HapticDevice& device;
+    Coupling& coupling;
+    TripleBuffer<MillingResult>& results;  ///< read
+    TripleBuffer<BurrCommand>& commands;   ///< written
+    TripleBuffer<ToolSnapshot>& tool;      ///< written, for the streaming loop
+    TripleBuffer<ToolSnapshot>& status;    ///< written, for whoever shows progress
+    ForceLog* log = nullptr;               ///< written; null: no log
+};
+
+struct HapticLoopOptions {
+    double tick_s = 0.001;
+    DeviceMapping mapping;
+    std::size_t burr_count = 1;  ///< of the scene's set
+    std::size_t start_burr = 0;
+    /// What the hand did before the first tick.
+    ToolPose start_pose;
+};
+
+class HapticLoop {
+  public:
+    static constexpr std::size_t fault_kinds = 6;
+    /// Touching protected tissue is told for this long, so that no streamed frame misses it.
+    static constexpr double protected_shown_s = 0.2;
+
+    HapticLoop(const HapticLoopParts& parts, const HapticLoopOptions& options);
+
+    /// The tick of session time `now_s`, after `missed_periods` deadlines that nobody served. Real-time safe.
+    void tick(double now_s, std::uint64_t missed_periods) noexcept;
+
+    double peak_force_n() const { return peak_force_n_; }
+    /// How often each Fault turned the force off.
+    const std::array<std::uint64_t, fault_kinds>& fault_counts() const { return fault_counts_; }
+
+  private:
+    HandState hand_state(double now_s, double elapsed_s, const DeviceState& device) noexcept;
+    void publish(const BurrCommand& command, const ToolSnapshot& snapshot) noexcept;
+    void log(const ToolSnapshot& snapshot, bool in_contact) noexcept;
+
+    HapticLoopParts parts_;
+    HapticLoopOptions options_;
+    Watchdog watchdog_;
+    ForceGuard guard_;
+
+    ToolPose hand_pose_;  // patient LPS; the last that was read
+    ToolPose burr_pose_;
+    std::size_t burr_;
+    bool pedal_must_rise_ = false;
+    double protected_until_s_ = 0.0;
+
+    bool has_met_bone_ = false;
+    ToolPose first_contact_;
+
+    double peak_force_n_ = 0.0;
+    std::array<std::uint64_t, fault_kinds> fault_counts_{};
+};
+
+}  // namespace osteomill

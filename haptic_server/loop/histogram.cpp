@@ -1,0 +1,32 @@
+#include "haptic_server/loop/histogram.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace osteomill {
+
+void Histogram::add(double seconds) noexcept {
+    const double duration_s = seconds > 0.0 ? seconds : 0.0;
+    const double position =
+        duration_s > smallest_s ? buckets_per_octave * std::log2(duration_s / smallest_s) : 0.0;
+    const auto last = static_cast<double>(buckets_.size() - 1);
+    ++buckets_[static_cast<std::size_t>(std::min(position, last))];
+    ++count_;
+    max_s_ = std::max(max_s_, duration_s);
+}
+
+double Histogram::quantile_s(double share) const {
+    const double wanted = std::ceil(std::clamp(share, 0.0, 1.0) * static_cast<double>(count_));
+    std::uint64_t seen = 0;
+    for (std::size_t bucket = 0; bucket < buckets_.size(); ++bucket) {
+        seen += buckets_[bucket];
+        if (seen > 0 && static_cast<double>(seen) >= wanted) {
+            const double edge_s =
+                smallest_s * std::exp2(static_cast<double>(bucket + 1) / buckets_per_octave);
+            return bucket + 1 == buckets_.size() ? max_s_ : std::min(edge_s, max_s_);
+        }
+    }
+    return max_s_;
+}
+
+}  // namespace osteomill

@@ -1,0 +1,180 @@
+#include "haptic_server/loop/milling_session.h"
+
+#include <sys/prctl.h>
+
+#include <chrono>
+#include <cmath>
+#include <stdexcept>
+#include <thread>
+#include <utility>
+
+namespace osteomill {
+
+namespace {
+
+constexpr double chore_period_s = 0.02;
+constexpr std::uint64_t chore_ticks = 64;
+/// How long a session waits for whoever consumes its edits before it gives up on them.
+constexpr std::chrono::seconds longest_wait_for_consumer{10};
+
+const MillingSessionOptions& validated(const MillingSessionOptions& options) {
+    if (!(options.milling_rate_hz >= least_milling_rate_hz &&
+          options.milling_rate_hz <= most_milling_rate_hz)) {
+        throw std::invalid_argument("milling rate " + std::to_string(options.milling_rate_hz) +
+                                    " Hz is out of range; choose 25 to 1000 Hz");
+    }
+    return options;
+}
+
+std::size_t brick_count(const Bone& bone) {
+    return bone.content().slot_of_brick.size();
+}
+
+/// Lets this thread's sleeps end when asked, not up to 50 us later to save wake-ups (Linux's default).
+void ask_for_prompt_wakeups() {
+    prctl(PR_SET_TIMERSLACK, 1UL);
+}
+
+/// Polls until `is_done`, a stop or the longest wait.
+template <typename IsDone>
+void wait_for_consumer(const std::atomic<bool>* stop, IsDone&& is_done) {
+    const auto give_up = std::chrono::steady_clock::now() + longest_wait_for_consumer;
+    while (!is_done() && std::chrono::steady_clock::now() < give_up) {
+        if (stop != nullptr && stop->load(std::memory_order_relaxed)) return;
+        std::this_thread::sleep_for(std::chrono::microseconds(200));
+    }
+}
+
+}  // namespace
+
+MillingSession::MillingSession(const Scene& scene, Bone bone, HapticDevice& device,
+                               const MillingSessionOptions& options, ForceLog* log)
+    : options_(validated(options)),
+      device_(device),
+      log_(log),
+      model_(std::move(bone), scene.burrs, scene.tissues, options.force_model),
+      coupling_(make_coupling(
+          options.coupling, {.device = device.limits(), .milling_period_s = 1.0 / options.milling_rate_hz})),
+      edits_(edit_queue_runs, brick_count(model_.bone())),
+      haptic_loop_({.device = device,
+                    .coupling = *coupling_,
+                    .results = results_,
+                    .commands = commands_,
+                    .tool = tool_,
+                    .status = status_,
+                    .log = log},
+                   {.tick_s = tick_s,
+                    .mapping = scene.device,
+                    .burr_count = scene.burrs.size(),
+                    .start_burr = scene.start_burr,
+                    .start_pose = scene.start_pose}),
+      milling_loop_(model_, commands_, results_, edits_) {}
+
+void MillingSession::run(const std::atomic<bool>& stop,
+                         const std::function<void(const ToolSnapshot&)>& on_progress) {
+    device_.start();
+    if (options_.clock == ClockKind::real) {
+        run_in_threads(stop, on_progress);
+    } else {
+        run_in_lock_step(stop, on_progress);
+    }
+    device_.stop();
+    send_what_overflowed();
+    do_chores(on_progress);
+}
+
+void MillingSession::run_in_threads(const std::atomic<bool>& stop,
+                                    const std::function<void(const ToolSnapshot&)>& on_progress) {
+    std::atomic<bool> is_over{false};
+    RealClock clock;
+    std::thread haptic([&] {
+        ask_for_prompt_wakeups();
+        run_periodically(clock, tick_s, 0.0, is_over, haptic_statistics_,
+                         [this](double time_s, std::uint64_t missed) {
+                             haptic_loop_.tick(time_s, missed);
+                             now_s_.store(time_s, std::memory_order_relaxed);
+                             return true;
+                         });
+    });
+    const double period_s = 1.0 / options_.milling_rate_hz;
+    std::thread milling([&] {
+        ask_for_prompt_wakeups();
+        // Half a tick after the haptic loop: it finds a fresh command and is done before the next tick.
+        run_periodically(clock, period_s, 0.5 * tick_s, is_over, milling_statistics_,
+                         [&](double time_s, std::uint64_t missed) {
+                             milling_loop_.step(time_s, period_s * static_cast<double>(1 + missed));
+                             return true;
+                         });
+    });
+
+    while (!stop.load(std::memory_order_relaxed) && clock.now_s() < options_.duration_s) {
+        do_chores(on_progress);
+        clock.sleep_until(std::min(clock.now_s() + chore_period_s, options_.duration_s));
+    }
+    is_over.store(true, std::memory_order_relaxed);
+    haptic.join();
+    milling.join();
+}
+
+void MillingSession::run_in_lock_step(const std::atomic<bool>& stop,
+                                      const std::function<void(const ToolSnapshot&)>& on_progress) {
+    RealClock stopwatch;  // measures how long the work takes; nothing depends on it
+    const double period_s = 1.0 / options_.milling_rate_hz;
+    for (std::uint64_t tick = 0; !stop.load(std::memory_order_relaxed); ++tick) {
+        const double time_s = static_cast<double>(tick) * tick_s;
+        if (time_s > options_.duration_s) break;
+
+        const double tick_began_s = stopwatch.now_s();
+        haptic_loop_.tick(time_s, 0);
+        haptic_statistics_.duration.add(stopwatch.now_s() - tick_began_s);
+        ++haptic_statistics_.ticks;
+        now_s_.store(time_s, std::memory_order_relaxed);
+
+        // A tenth of a microsecond for the rounding of k * period against tick * tick_s.
+        while (static_cast<double>(milling_statistics_.ticks) * period_s <= time_s + 1e-7) {
+            const double step_s = static_cast<double>(milling_statistics_.ticks) * period_s;
+            const double step_began_s = stopwatch.now_s();
+            milling_loop_.step(step_s, period_s);
+            milling_statistics_.duration.add(stopwatch.now_s() - step_began_s);
+            ++milling_statistics_.ticks;
+            if (edits_.has_overflowed()) wait_for_room_in_queue(stop);
+        }
+        if (tick % chore_ticks == 0) do_chores(on_progress);
+    }
+}
+
+void MillingSession::do_chores(const std::function<void(const ToolSnapshot&)>& on_progress) {
+    if (log_ != nullptr) log_->drain();
+    if (!options_.edits_are_consumed) edits_.consume_all([](const EditRun&) {});
+    status_.refresh();
+    if (on_progress) on_progress(status_.front());
+}
+
+void MillingSession::wait_for_room_in_queue(const std::atomic<bool>& stop) {
+    if (!options_.edits_are_consumed) edits_.consume_all([](const EditRun&) {});
+    wait_for_consumer(&stop, [this] {
+        edits_.resend_overflowed(model_.bone());
+        return !edits_.has_overflowed();
+    });
+}
+
+void MillingSession::send_what_overflowed() {
+    wait_for_consumer(nullptr, [this] {
+        if (!options_.edits_are_consumed) edits_.consume_all([](const EditRun&) {});
+        edits_.resend_overflowed(model_.bone());
+        return !edits_.has_overflowed();
+    });
+}
+
+MillingSessionReport MillingSession::report() const {
+    return {.duration_s = now_s_.load(std::memory_order_relaxed),
+            .haptic = haptic_statistics_,
+            .milling = milling_statistics_,
+            .removed_mm3 = model_.removed_mm3(),
+            .peak_force_n = haptic_loop_.peak_force_n(),
+            .fault_counts = haptic_loop_.fault_counts(),
+            .edit_overflows = edits_.overflow_count(),
+            .bone_checksum = checksum(model_.bone())};
+}
+
+}  // namespace osteomill

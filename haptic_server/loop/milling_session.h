@@ -1,0 +1,107 @@
+// A milling session: device, coupling, haptic loop, milling loop and clock, from start to stop.
+//
+// On the real clock: a thread for the haptic loop at 1 kHz, one for the milling loop, and the caller's for
+// what need not be in time. On the virtual clock: everything on the caller's thread, as fast as it can, in
+// lock-step. After each haptic tick run the milling steps that are due by then; the next tick sees their
+// result. So the session is a pure function of scene, bone and device: same in, bit-equal out.
+#pragma once
+
+#include <atomic>
+#include <functional>
+#include <limits>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "common/bone/bone.h"
+#include "common/scene/scene.h"
+#include "haptic_server/coupling/coupling.h"
+#include "haptic_server/device/haptic_device.h"
+#include "haptic_server/loop/edit_queue.h"
+#include "haptic_server/loop/force_log.h"
+#include "haptic_server/loop/haptic_loop.h"
+#include "haptic_server/loop/milling_loop.h"
+#include "haptic_server/loop/periodic.h"
+#include "haptic_server/milling/milling_model.h"
+
+namespace osteomill {
+
+enum class ClockKind { real, virtual_time };
+
+/// Milling rates that a session takes. Below the least, the watchdog's 50 ms without a fresh result could
+/// pass between two steps; beyond the most, the haptic loop would not see every result.
+inline constexpr double least_milling_rate_hz = 25.0;
+inline constexpr double most_milling_rate_hz = 1000.0;
+
+struct MillingSessionOptions {
+    ClockKind clock = ClockKind::real;
+    double milling_rate_hz = 1000.0;
+    std::string coupling = coupling_names().front();
+    ForceSummation force_model = ForceSummation::voxels;
+    double duration_s = std::numeric_limits<double>::infinity();
+    /// Somebody consumes edits() while the session runs. If not, the session empties the queue itself.
+    bool edits_are_consumed = false;
+};
+
+struct MillingSessionReport {
+    double duration_s = 0.0;  ///< session time at the last haptic tick
+    PeriodicStatistics haptic;
+    PeriodicStatistics milling;
+    RemovedByTissue removed_mm3{};
+    double peak_force_n = 0.0;
+    std::array<std::uint64_t, HapticLoop::fault_kinds> fault_counts{};  ///< index = Fault
+    std::uint64_t edit_overflows = 0;
+    std::uint64_t bone_checksum = 0;
+};
+
+class MillingSession {
+  public:
+    static constexpr double tick_s = 0.001;
+    /// Half a second of the heaviest carving (5 mm burr at 1 kHz).
+    static constexpr std::size_t edit_queue_runs = 1u << 18;
+
+    /// `device` and `log` (may be null) outlive the session. Throws std::invalid_argument for a milling rate
+    /// out of range, an unknown coupling, or a scene that the parts refuse.
+    MillingSession(const Scene& scene, Bone bone, HapticDevice& device, const MillingSessionOptions& options,
+                   ForceLog* log = nullptr);
+
+    /// For the streaming server: the tool's newest state, and the edits in order (each one reader).
+    TripleBuffer<ToolSnapshot>& tool() { return tool_; }
+    EditQueue& edits() { return edits_; }
+
+    /// Starts the device, runs until the duration has passed or `stop` is set, stops the device. Calls
+    /// `on_progress`, if given, about every 20 ms on the caller's thread. Throws what device.start() throws.
+    /// Runs once.
+    void run(const std::atomic<bool>& stop, const std::function<void(const ToolSnapshot&)>& on_progress = {});
+
+    /// After run().
+    MillingSessionReport report() const;
+    const Bone& bone() const { return model_.bone(); }
+
+  private:
+    void run_in_threads(const std::atomic<bool>& stop,
+                        const std::function<void(const ToolSnapshot&)>& on_progress);
+    void run_in_lock_step(const std::atomic<bool>& stop,
+                          const std::function<void(const ToolSnapshot&)>& on_progress);
+    void do_chores(const std::function<void(const ToolSnapshot&)>& on_progress);
+    void wait_for_room_in_queue(const std::atomic<bool>& stop);
+    void send_what_overflowed();
+
+    MillingSessionOptions options_;
+    HapticDevice& device_;
+    ForceLog* log_;
+    MillingModel model_;
+    std::unique_ptr<Coupling> coupling_;
+    EditQueue edits_;
+    TripleBuffer<MillingResult> results_;
+    TripleBuffer<BurrCommand> commands_;
+    TripleBuffer<ToolSnapshot> tool_;
+    TripleBuffer<ToolSnapshot> status_;
+    HapticLoop haptic_loop_;
+    MillingLoop milling_loop_;
+    PeriodicStatistics haptic_statistics_;
+    PeriodicStatistics milling_statistics_;
+    std::atomic<double> now_s_{0.0};
+};
+
+}  // namespace osteomill

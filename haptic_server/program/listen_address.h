@@ -1,0 +1,21 @@
+// Where a server listens, as typed on the command line.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+namespace osteomill {
+
+struct ListenAddress {
+    std::string address = "127.0.0.1";
+    std::uint16_t port = 7010;  ///< 0: the system picks a free one
+};
+
+/// Reads ADDRESS:PORT: a numeric address, with an IPv6 one in brackets, or "localhost". Throws
+/// std::invalid_argument with one line that says what would be right.
+ListenAddress parse_listen_address(const std::string& text);
+
+/// Whether only this machine can reach it.
+bool is_loopback(const ListenAddress& where);
+
+}  // namespace osteomill

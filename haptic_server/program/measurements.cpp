@@ -1,0 +1,75 @@
+#include "haptic_server/program/measurements.h"
+
+#include <fmt/format.h>
+
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <numeric>
+#include <stdexcept>
+
+namespace osteomill {
+
+namespace {
+
+nlohmann::ordered_json percentiles_us(const Histogram& histogram) {
+    constexpr double us_per_s = 1e6;
+    return {{"p50", us_per_s * histogram.quantile_s(0.5)},
+            {"p99", us_per_s * histogram.quantile_s(0.99)},
+            {"p999", us_per_s * histogram.quantile_s(0.999)},
+            {"max", us_per_s * histogram.max_s()}};
+}
+
+nlohmann::ordered_json removed_by_name(const RemovedByTissue& removed_mm3, const Scene& scene) {
+    nlohmann::ordered_json json;
+    json["total"] = std::accumulate(removed_mm3.begin(), removed_mm3.end(), 0.0);
+    for (const Tissue& tissue : scene.tissues) json[tissue.name] = removed_mm3[tissue.label];
+    if (!scene.tissues.empty() && removed_mm3[0] > 0.0) json["unlabelled"] = removed_mm3[0];
+    return json;
+}
+
+nlohmann::ordered_json faults(const MillingSessionReport& report) {
+    const auto count = [&](Fault fault) { return report.fault_counts[static_cast<std::size_t>(fault)]; };
+    return {{"device_lost", count(Fault::device_lost)},
+            {"model_stalled", count(Fault::model_stalled)},
+            {"not_a_number", count(Fault::not_a_number)},
+            {"overrun", count(Fault::overrun)},
+            {"device_jumped", count(Fault::device_jumped)}};
+}
+
+}  // namespace
+
+nlohmann::ordered_json measurements(const MillingSessionReport& report, const Scene& scene,
+                                    const ServerOptions& options) {
+    nlohmann::ordered_json json;
+    json["scene"] = scene.name;
+    json["clock"] = options.session.clock == ClockKind::real ? "real" : "virtual";
+    json["coupling"] = options.session.coupling;
+    json["milling_rate_hz"] = options.session.milling_rate_hz;
+    json["duration_s"] = report.duration_s;
+    json["ticks"] = report.haptic.ticks;
+    json["missed_deadlines"] = report.haptic.missed;
+    json["wakeup_latency_us"] = percentiles_us(report.haptic.wakeup_latency);
+    json["haptic_tick_us"] = percentiles_us(report.haptic.duration);
+    json["milling_steps"] = report.milling.ticks;
+    json["missed_milling_steps"] = report.milling.missed;
+    json["milling_step_us"] = percentiles_us(report.milling.duration);
+    json["removed_mm3"] = removed_by_name(report.removed_mm3, scene);
+    json["peak_force_n"] = report.peak_force_n;
+    json["faults"] = faults(report);
+    json["edit_overflows"] = report.edit_overflows;
+    json["bone_checksum"] = fmt::format("{:016x}", report.bone_checksum);
+    return json;
+}
+
+void write_json(const nlohmann::ordered_json& json, const std::filesystem::path& file) {
+    std::ofstream out(file);
+    out << json.dump(2) << '\n';
+    out.close();
+    if (!out) {
+        throw std::runtime_error(
+            fmt::format("{}: cannot write the measurements: {}", file.string(), std::strerror(errno)));
+    }
+}
+
+}  // namespace osteomill

@@ -1,0 +1,158 @@
+#include "haptic_server/program/server.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <memory>
+#include <optional>
+#include <stdexcept>
+#include <utility>
+
+#include "common/scene/scene_file.h"
+#include "haptic_server/device/client_device.h"
+#include "haptic_server/device/simulated_device.h"
+#include "haptic_server/imaging/phantom.h"
+#include "haptic_server/loop/force_log.h"
+#include "haptic_server/program/measurements.h"
+#include "haptic_server/program/status_line.h"
+#include "haptic_server/streaming/streaming_server.h"
+
+namespace osteomill {
+
+namespace {
+
+Scene load_scene(const ServerOptions& options) {
+    const std::vector<std::string> phantoms = phantom_names();
+    const bool is_phantom = std::find(phantoms.begin(), phantoms.end(), options.scene) != phantoms.end();
+    Scene scene = is_phantom ? phantom_scene(options.scene) : read_scene(options.scene);
+    if (options.trajectory) scene.trajectory.source = *options.trajectory;
+    return scene;
+}
+
+Bone load_bone(const Scene& scene) {
+    const auto* phantom = std::get_if<PhantomSource>(&scene.bone);
+    if (phantom == nullptr) throw std::runtime_error("bones from files are not read yet");
+    return bone_from_hu(make_phantom(phantom->name), phantom_threshold_hu, scene.stiffness);
+}
+
+/// The device that the options ask for, and what it is driven by.
+struct DeviceParts {
+    std::unique_ptr<TripleBuffer<OperatorInput>> operator_input;  // null: nobody may drive
+    std::unique_ptr<HapticDevice> device;
+    const SimulatedDevice* simulated = nullptr;  // `device`, if it is one
+
+    bool is_finished() const { return simulated != nullptr && simulated->is_finished(); }
+};
+
+DeviceParts make_device(const ServerOptions& options, const Scene& scene) {
+    const HandModel hand = hand_model(options.grip);
+    DeviceParts parts;
+    if (options.device == DeviceKind::client) {
+        parts.operator_input = std::make_unique<TripleBuffer<OperatorInput>>();
+        parts.device = std::make_unique<ClientDevice>(*parts.operator_input, scene.start_pose, scene.device,
+                                                      ArmModel{}, hand);
+        return parts;
+    }
+    Trajectory trajectory =
+        make_trajectory(scene.trajectory, scene.start_pose, scene.burrs, scene.start_burr);
+    const bool would_never_end =
+        std::isinf(trajectory.duration_s()) && std::isinf(options.session.duration_s);
+    if (options.session.clock == ClockKind::virtual_time && would_never_end) {
+        throw std::runtime_error("--clock virtual: the trajectory never ends; give --duration-s");
+    }
+    auto simulated = std::make_unique<SimulatedDevice>(std::move(trajectory), scene.device, ArmModel{}, hand);
+    parts.simulated = simulated.get();
+    parts.device = std::move(simulated);
+    return parts;
+}
+
+std::unique_ptr<StreamingServer> make_streaming(const ServerOptions& options, const Scene& scene, Bone mirror,
+                                                MillingSession& session, const DeviceParts& device,
+                                                const std::string& version) {
+    if (!options.listen) return nullptr;
+    auto streaming = std::make_unique<StreamingServer>(
+        StreamingOptions{.address = options.listen->address, .port = options.listen->port}, scene,
+        std::move(mirror), session.tool(), session.edits(), device.operator_input.get(),
+        device.device->limits().max_force_n, version);
+    streaming->start();
+    fmt::print("listening on {}:{}\n", options.listen->address, streaming->port());
+    std::fflush(stdout);
+    return streaming;
+}
+
+/// Everything that a run leaves behind, written although one of them fails; the first failure is thrown.
+class Leftovers {
+  public:
+    template <typename Write>
+    void write(Write&& write_one) {
+        try {
+            write_one();
+        } catch (const std::exception& error) {
+            if (error_.empty()) error_ = error.what();
+        }
+    }
+    void require_complete() const {
+        if (!error_.empty()) throw std::runtime_error(error_);
+    }
+
+  private:
+    std::string error_;
+};
+
+}  // namespace
+
+void run_server(const ServerOptions& options, const std::string& version, const std::atomic<bool>& stop) {
+    const Scene scene = load_scene(options);
+    Bone bone = load_bone(scene);
+    const DeviceParts device = make_device(options, scene);
+    std::optional<ForceLog> log;
+    if (options.log_csv) log.emplace(*options.log_csv);
+
+    MillingSessionOptions session_options = options.session;
+    session_options.edits_are_consumed = options.listen.has_value();
+    std::optional<Bone> mirror;
+    if (options.listen) mirror = bone;
+    const auto session = std::make_unique<MillingSession>(scene, std::move(bone), *device.device,
+                                                          session_options, log ? &*log : nullptr);
+    const auto streaming = options.listen
+                               ? make_streaming(options, scene, *std::move(mirror), *session, device, version)
+                               : nullptr;
+
+    StatusLine status(stderr, isatty(STDERR_FILENO) == 1);
+    std::atomic<bool> is_over{false};
+    session->run(is_over, [&](const ToolSnapshot& tool) {
+        status.show(tool, StatusLine::Clock::now());
+        if (stop.load() || device.is_finished()) is_over.store(true);
+    });
+    status.finish();
+    if (streaming) streaming->stop();
+
+    const MillingSessionReport report = session->report();
+    Leftovers leftovers;
+    leftovers.write([&] {
+        if (!log) return;
+        log->close();
+        if (!log->error().empty()) throw std::runtime_error(log->error());
+        if (log->dropped() > 0) {
+            throw std::runtime_error(fmt::format("{}: {} lines are missing: the disk could not keep up",
+                                                 options.log_csv->string(), log->dropped()));
+        }
+    });
+    leftovers.write([&] {
+        if (options.json) write_json(measurements(report, scene, options), *options.json);
+    });
+    leftovers.write([&] {
+        if (streaming && streaming->mirror_checksum() != report.bone_checksum) {
+            throw std::runtime_error(
+                fmt::format("the bone that clients were shown ({:016x}) is not the one milled ({:016x})",
+                            streaming->mirror_checksum(), report.bone_checksum));
+        }
+    });
+    leftovers.require_complete();
+}
+
+}  // namespace osteomill

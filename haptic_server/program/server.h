@@ -1,0 +1,17 @@
+// haptic_server without its main: builds the parts that the options ask for and runs them to the end.
+#pragma once
+
+#include <atomic>
+#include <string>
+
+#include "haptic_server/program/server_options.h"
+
+namespace osteomill {
+
+/// Runs until the duration or the trajectory ends, or `stop` is set from anywhere (a signal handler may).
+/// Prints "listening on ADDRESS:PORT" on standard output once clients can connect, and progress on standard
+/// error. Throws std::exception with one line for whatever stands in the way; a log or measurement that could
+/// not be written is one of these, after the session.
+void run_server(const ServerOptions& options, const std::string& version, const std::atomic<bool>& stop);
+
+}  // namespace osteomill

@@ -1,0 +1,159 @@
+#include "haptic_server/program/server_options.h"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <map>
+#include <stdexcept>
+
+#include "haptic_server/imaging/phantom.h"
+
+namespace osteomill {
+
+namespace {
+
+/// As typed, before it is checked against each other.
+struct Typed {
+    std::string scene = phantom_names().front();
+    std::string bone;
+    std::string device = "simulated";
+    std::string grip = "firm";
+    std::string trajectory;
+    std::string coupling = coupling_names().front();
+    std::string force_model = force_model_names().front();
+    double milling_rate_hz = 0.0;
+    std::string clock = "real";
+    double duration_s = std::numeric_limits<double>::infinity();
+    std::string listen;
+    std::string save_bone;
+    std::string json;
+    std::string log_csv;
+};
+
+/// CLI11's own message for a choice prints C++ containers; this one reads like the rest of the program.
+CLI::Validator one_of(const std::vector<std::string>& names) {
+    return CLI::Validator(
+        [names](std::string& value) {
+            if (std::find(names.begin(), names.end(), value) != names.end()) return std::string();
+            return fmt::format("'{}' is not one of {}", value, fmt::join(names, ", "));
+        },
+        fmt::format("{}", fmt::join(names, "|")));
+}
+
+void declare(CLI::App& app, Typed& typed) {
+    app.add_option("--scene", typed.scene, "Scene: a TOML file, or a phantom: tooth, cube")
+        ->capture_default_str();
+    app.add_option("--bone", typed.bone, "Bone from a file that bone_import wrote, instead of the scene's")
+        ->type_name("FILE.nrrd");
+    app.add_option("--device", typed.device, "Who moves the tool: a simulated hand, or a client's mouse")
+        ->check(one_of({"simulated", "client"}))
+        ->capture_default_str();
+    app.add_option("--grip", typed.grip, "How the simulated hand holds the arm")
+        ->check(one_of({"light", "firm"}))
+        ->capture_default_str();
+    app.add_option("--trajectory", typed.trajectory,
+                   "What the simulated hand follows, instead of the scene's")
+        ->type_name("FILE.csv");
+    app.add_option("--coupling", typed.coupling, "What stands between the model and the hand")
+        ->check(one_of(coupling_names()))
+        ->capture_default_str();
+    app.add_option("--force-model", typed.force_model, "How the milling force is summed")
+        ->check(one_of(force_model_names()))
+        ->capture_default_str();
+    app.add_option("--milling-rate-hz", typed.milling_rate_hz,
+                   fmt::format("Steps of the milling loop per second, {:.0f} to {:.0f} (1000; 100 with "
+                               "--coupling interpolate, as published)",
+                               least_milling_rate_hz, most_milling_rate_hz))
+        ->check(CLI::Range(least_milling_rate_hz, most_milling_rate_hz));
+    app.add_option("--clock", typed.clock, "real, or virtual: as fast as it can, repeatable to the bit")
+        ->check(one_of({"real", "virtual"}))
+        ->capture_default_str();
+    app.add_option("--duration-s", typed.duration_s, "Stop after this long (or at the trajectory's end)")
+        ->check(CLI::PositiveNumber);
+    app.add_option("--listen", typed.listen,
+                   "Where clients connect, port 0: any free one; \"none\": nobody does (127.0.0.1:7010; none "
+                   "with --clock virtual)")
+        ->type_name("ADDRESS:PORT");
+    app.add_option("--save-bone", typed.save_bone, "Write what is left of the bone")->type_name("FILE.nrrd");
+    app.add_option("--json", typed.json, "Write what was measured")->type_name("FILE");
+    app.add_option("--log-csv", typed.log_csv, "Write force and depth, a line a millisecond")
+        ->type_name("FILE");
+}
+
+std::optional<std::filesystem::path> path_if_given(const std::string& text) {
+    if (text.empty()) return std::nullopt;
+    return text;
+}
+
+std::optional<ListenAddress> listen_address(const Typed& typed) {
+    if (typed.listen == "none" || (typed.listen.empty() && typed.clock == "virtual")) return std::nullopt;
+    if (typed.listen.empty()) return ListenAddress{};
+    const ListenAddress where = parse_listen_address(typed.listen);
+    if (!is_loopback(where)) {
+        throw std::invalid_argument(fmt::format(
+            "'{}' can be reached from other machines; without TLS only this one may connect, for example "
+            "127.0.0.1:{}",
+            typed.listen, where.port));
+    }
+    return where;
+}
+
+ServerOptions checked(const Typed& typed) {
+    const bool is_virtual = typed.clock == "virtual";
+    const bool is_client = typed.device == "client";
+    if (is_client && is_virtual) {
+        throw std::invalid_argument("--device client: an operator needs --clock real");
+    }
+    if (is_client && !typed.trajectory.empty()) {
+        throw std::invalid_argument("--trajectory: only --device simulated follows one");
+    }
+    ServerOptions options;
+    options.scene = typed.scene;
+    options.bone = path_if_given(typed.bone);
+    options.device = is_client ? DeviceKind::client : DeviceKind::simulated;
+    options.grip = typed.grip == "light" ? Grip::light : Grip::firm;
+    options.trajectory = path_if_given(typed.trajectory);
+    options.session.clock = is_virtual ? ClockKind::virtual_time : ClockKind::real;
+    options.session.coupling = typed.coupling;
+    options.session.force_model = force_summation(typed.force_model);
+    options.session.duration_s = typed.duration_s;
+    const double published_rate_hz = 100.0;
+    const double default_rate_hz = typed.coupling == "interpolate" ? published_rate_hz : most_milling_rate_hz;
+    options.session.milling_rate_hz = typed.milling_rate_hz > 0.0 ? typed.milling_rate_hz : default_rate_hz;
+    try {
+        options.listen = listen_address(typed);
+    } catch (const std::invalid_argument& error) {
+        throw std::invalid_argument(fmt::format("--listen: {}", error.what()));
+    }
+    if (is_client && !options.listen) {
+        throw std::invalid_argument("--device client: the operator connects over --listen, which is none");
+    }
+    options.save_bone = path_if_given(typed.save_bone);
+    options.json = path_if_given(typed.json);
+    options.log_csv = path_if_given(typed.log_csv);
+    return options;
+}
+
+}  // namespace
+
+CommandLine parse_command_line(int argc, const char* const* argv, const std::string& version) {
+    Typed typed;
+    CLI::App app(
+        "Owns the bone, mills it at up to 1 kHz, feeds forces to the hand and shows clients the rest.",
+        "haptic_server");
+    app.set_version_flag("--version", fmt::format("haptic_server {}", version));
+    declare(app, typed);
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::CallForHelp&) {
+        return {std::nullopt, app.help()};
+    } catch (const CLI::CallForVersion&) {
+        return {std::nullopt, app.version() + "\n"};
+    } catch (const CLI::ParseError& error) {
+        throw std::invalid_argument(fmt::format("{}; see --help", error.what()));
+    }
+    return {checked(typed), {}};
+}
+
+}  // namespace osteomill

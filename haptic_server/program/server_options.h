@@ -1,0 +1,39 @@
+// The command line of haptic_server.
+#pragma once
+
+#include <filesystem>
+#include <limits>
+#include <optional>
+#include <string>
+
+#include "haptic_server/device/hand_model.h"
+#include "haptic_server/loop/milling_session.h"
+#include "haptic_server/program/listen_address.h"
+
+namespace osteomill {
+
+enum class DeviceKind { simulated, client };
+
+struct ServerOptions {
+    std::string scene;  ///< a phantom's name or a TOML file
+    std::optional<std::filesystem::path> bone;
+    DeviceKind device = DeviceKind::simulated;
+    Grip grip = Grip::firm;
+    std::optional<std::filesystem::path> trajectory;
+    MillingSessionOptions session;
+    std::optional<ListenAddress> listen;  ///< nullopt: nobody is served
+    std::optional<std::filesystem::path> save_bone;
+    std::optional<std::filesystem::path> json;
+    std::optional<std::filesystem::path> log_csv;
+};
+
+/// What the command line asks for: options to run with, or a text (help, version) to print and be done.
+struct CommandLine {
+    std::optional<ServerOptions> options;
+    std::string text;
+};
+
+/// Throws std::invalid_argument with one line for wrong usage.
+CommandLine parse_command_line(int argc, const char* const* argv, const std::string& version);
+
+}  // namespace osteomill

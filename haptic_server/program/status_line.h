@@ -1,0 +1,34 @@
+// Tells people how it goes: a status line a second on a terminal, a line every five seconds elsewhere, and a
+// line of its own whenever the force goes off or comes back.
+#pragma once
+
+#include <chrono>
+#include <cstdio>
+
+#include "haptic_server/loop/exchange.h"
+
+namespace osteomill {
+
+class StatusLine {
+  public:
+    using Clock = std::chrono::steady_clock;
+
+    /// Writes to `out`; `is_terminal` decides between rewriting one line and adding lines.
+    StatusLine(std::FILE* out, bool is_terminal) : out_(out), is_terminal_(is_terminal) {}
+
+    /// To be called often; `now` is the time of people, not of the session.
+    void show(const ToolSnapshot& tool, Clock::time_point now);
+    /// Ends the status line.
+    void finish();
+
+  private:
+    void show_fault(const ToolSnapshot& tool);
+
+    std::FILE* out_;
+    bool is_terminal_;
+    bool is_line_open_ = false;
+    Fault fault_ = Fault::none;
+    Clock::time_point next_{};
+};
+
+}  // namespace osteomill

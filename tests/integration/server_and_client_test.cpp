@@ -1,0 +1,199 @@
+// haptic_server and render_client as a lab runs them: two processes, joined by TCP over loopback.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <csignal>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "tests/support/child_process.h"
+
+namespace osteomill::testing {
+namespace {
+
+using namespace std::chrono_literals;
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+
+nlohmann::json json_of(const std::filesystem::path& path) {
+    std::ifstream file(path);
+    return nlohmann::json::parse(file);
+}
+
+class Programs : public ::testing::Test {
+  protected:
+    void SetUp() override { std::filesystem::create_directories(folder_); }
+    void TearDown() override { std::filesystem::remove_all(folder_); }
+
+    std::string in_folder(const std::string& name) const { return (folder_ / name).string(); }
+
+    /// A motion that drills the tooth at once: down into the crown, across, out again.
+    std::string short_drilling() const {
+        const std::string path = in_folder("drilling.csv");
+        std::ofstream(path) << "t_s,x_mm,y_mm,z_mm,axis_x,axis_y,axis_z,pedal\n"
+                               "0.0,0.5,0.2,5.5,0,0,1,0\n"
+                               "0.4,0.5,0.2,4.5,0,0,1,1\n"
+                               "2.0,0.5,0.2,2.5,0,0,1,1\n"
+                               "3.0,2.0,0.2,2.5,0,0,1,1\n"
+                               "3.4,2.0,0.2,5.5,0,0,1,0\n";
+        return path;
+    }
+
+    std::vector<std::string> client(const std::string& address, const std::string& json) const {
+        return {RENDER_CLIENT,
+                "--connect",
+                address,
+                "--offscreen",
+                "--window-size",
+                "160x120",
+                "--frames",
+                "100000",
+                "--screenshots",
+                in_folder("frames-" + json),
+                "--screenshot-every",
+                "1000",
+                "--json",
+                in_folder(json)};
+    }
+
+    std::filesystem::path folder_ =
+        std::filesystem::temp_directory_path() / ("osteomill-programs-" + std::to_string(::getpid()));
+};
+
+TEST_F(Programs, AfterASessionTheClientsBoneIsTheServersBitForBit) {
+    ChildProcess server({HAPTIC_SERVER, "--listen", "127.0.0.1:0", "--trajectory", short_drilling(), "--json",
+                         in_folder("server.json"), "--log-csv", in_folder("forces.csv")});
+    const auto address = server.line_after("listening on ", 60s);
+    ASSERT_TRUE(address) << server.err();
+    ChildProcess early(client(*address, "early.json"));
+    ChildProcess late(client(*address, "late.json"));  // joins while the first is drawing
+    ASSERT_EQ(server.wait(180s), 0) << server.err();
+    ASSERT_EQ(early.wait(60s), 0) << early.err();
+    ASSERT_EQ(late.wait(60s), 0) << late.err();
+
+    const auto served = json_of(in_folder("server.json"));
+    for (const char* name : {"early.json", "late.json"}) {
+        const auto seen = json_of(in_folder(name));
+        EXPECT_EQ(seen.at("bone_checksum"), served.at("bone_checksum")) << name;
+        EXPECT_EQ(seen.at("checksum_mismatches"), 0) << name;
+        EXPECT_GT(seen.at("frames"), 0) << name;
+    }
+    EXPECT_GT(served.at("removed_mm3").at("total"), 1.0);
+    EXPECT_GT(served.at("removed_mm3").at("carious lesion"), 0.5);
+    EXPECT_GT(served.at("peak_force_n"), 0.01);
+    EXPECT_LE(served.at("peak_force_n"), 3.3);
+    EXPECT_GE(served.at("ticks"), 1000);
+    for (const char* key : {"p50", "p99", "p999", "max"}) {
+        EXPECT_TRUE(served.at("wakeup_latency_us").contains(key));
+        EXPECT_TRUE(served.at("milling_step_us").contains(key));
+    }
+    EXPECT_TRUE(std::filesystem::exists(in_folder("frames-early.json") + "/final.png"));
+    std::ifstream log(in_folder("forces.csv"));
+    std::string header;
+    std::getline(log, header);
+    EXPECT_THAT(header, HasSubstr("force_x_n"));
+}
+
+TEST_F(Programs, AClientThatIsKilledDisturbsNobody) {
+    ChildProcess server({HAPTIC_SERVER, "--listen", "127.0.0.1:0", "--trajectory", short_drilling(), "--json",
+                         in_folder("server.json")});
+    const auto address = server.line_after("listening on ", 60s);
+    ASSERT_TRUE(address) << server.err();
+    ChildProcess steady(client(*address, "steady.json"));
+    {
+        ChildProcess killed(client(*address, "killed.json"));
+        EXPECT_EQ(killed.wait(1s), std::nullopt);
+    }
+    ASSERT_EQ(server.wait(180s), 0) << server.err();
+    ASSERT_EQ(steady.wait(60s), 0) << steady.err();
+    EXPECT_EQ(json_of(in_folder("steady.json")).at("bone_checksum"),
+              json_of(in_folder("server.json")).at("bone_checksum"));
+}
+
+TEST_F(Programs, StopOnSigintCleanlyAndStillReport) {
+    ChildProcess server({HAPTIC_SERVER, "--listen", "127.0.0.1:0", "--json", in_folder("server.json")});
+    const auto address = server.line_after("listening on ", 60s);
+    ASSERT_TRUE(address) << server.err();
+    ChildProcess viewer(client(*address, "client.json"));
+    EXPECT_EQ(viewer.wait(2s), std::nullopt);
+    viewer.send_signal(SIGINT);
+    EXPECT_EQ(viewer.wait(60s), 0) << viewer.err();
+    server.send_signal(SIGINT);
+    EXPECT_EQ(server.wait(60s), 0) << server.err();
+    EXPECT_TRUE(json_of(in_folder("server.json")).contains("bone_checksum"));
+    EXPECT_TRUE(json_of(in_folder("client.json")).contains("gl_renderer"));
+}
+
+TEST_F(Programs, OnTheVirtualClockARunIsRepeatableToTheBit) {
+    const auto run = [&](const std::string& json) {
+        const Finished server = run_program({HAPTIC_SERVER, "--clock", "virtual", "--trajectory",
+                                             short_drilling(), "--json", in_folder(json)});
+        EXPECT_EQ(server.status, 0) << server.err;
+        const auto report = json_of(in_folder(json));
+        return std::pair(report.at("bone_checksum"), report.at("peak_force_n"));
+    };
+    EXPECT_EQ(run("first.json"), run("second.json"));
+}
+
+TEST_F(Programs, ACarvedBoneIsSavedAndTakenUpAgain) {
+    const std::string carved = in_folder("carved.nrrd");
+    const Finished first = run_program({HAPTIC_SERVER, "--clock", "virtual", "--trajectory", short_drilling(),
+                                        "--json", in_folder("first.json"), "--save-bone", carved});
+    ASSERT_EQ(first.status, 0) << first.err;
+    std::ofstream(in_folder("rest.csv")) << "t_s,x_mm,y_mm,z_mm,axis_x,axis_y,axis_z,pedal\n"
+                                            "0,0,0,20,0,0,1,0\n0.2,0,0,20,0,0,1,0\n";
+    const Finished second =
+        run_program({HAPTIC_SERVER, "--clock", "virtual", "--bone", carved, "--trajectory",
+                     in_folder("rest.csv"), "--json", in_folder("second.json")});
+    ASSERT_EQ(second.status, 0) << second.err;
+    EXPECT_EQ(json_of(in_folder("second.json")).at("bone_checksum"),
+              json_of(in_folder("first.json")).at("bone_checksum"));
+}
+
+TEST_F(Programs, WrongUsageIsRefusedInOneLineWithStatus2) {
+    for (const std::vector<std::string>& command :
+         {std::vector<std::string>{HAPTIC_SERVER, "--coupling", "glue"},
+          {HAPTIC_SERVER, "--milling-rate-hz", "0"},
+          {HAPTIC_SERVER, "--listen", "127.0.0.1:70000"},
+          {HAPTIC_SERVER, "--no-such-option"},
+          {RENDER_CLIENT, "--connect", "nowhere"},
+          {RENDER_CLIENT, "--frames", "-3"}}) {
+        const Finished run = run_program(command);
+        EXPECT_EQ(run.status, 2) << command[1];
+        EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << run.err;
+    }
+    EXPECT_THAT(run_program({HAPTIC_SERVER, "--coupling", "glue"}).err, HasSubstr("implicit"));
+}
+
+TEST_F(Programs, FailuresAreOneLineWithStatus1) {
+    std::ofstream(in_folder("bad.toml")) << "name = \"x\"\nbome = 3\n";
+    for (const std::vector<std::string>& command :
+         {std::vector<std::string>{HAPTIC_SERVER, "--scene", in_folder("none.toml")},
+          {HAPTIC_SERVER, "--scene", in_folder("bad.toml")},
+          {HAPTIC_SERVER, "--bone", in_folder("none.nrrd")},
+          {HAPTIC_SERVER, "--trajectory", in_folder("none.csv")},
+          {HAPTIC_SERVER, "--listen", "192.0.2.1:7010"}}) {
+        const Finished run = run_program(command);
+        EXPECT_THAT(run.status, AllOf(::testing::Ge(1), ::testing::Le(2))) << command[2];
+        EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << run.err;
+    }
+    EXPECT_THAT(run_program({HAPTIC_SERVER, "--scene", in_folder("bad.toml")}).err,
+                AllOf(HasSubstr("bad.toml:2"), HasSubstr("bome")));
+}
+
+TEST_F(Programs, SayWhatTheyAre) {
+    for (const char* program : {HAPTIC_SERVER, RENDER_CLIENT}) {
+        EXPECT_EQ(run_program({program, "--help"}).status, 0);
+        const Finished version = run_program({program, "--version"});
+        EXPECT_EQ(version.status, 0);
+        EXPECT_THAT(version.out, HasSubstr("0.1.0"));
+    }
+}
+
+}  // namespace
+}  // namespace osteomill::testing

@@ -1,0 +1,56 @@
+// Runs a real program for an integration test: its standard output and error are collected, and waiting has a
+// deadline, so a test fails instead of hanging.
+#pragma once
+
+#include <sys/types.h>
+
+#include <chrono>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace osteomill::testing {
+
+class ChildProcess {
+  public:
+    /// Starts a program (absolute path first, then arguments). Throws std::system_error if it cannot.
+    explicit ChildProcess(const std::vector<std::string>& command);
+    ~ChildProcess();  ///< kills what still runs
+    ChildProcess(const ChildProcess&) = delete;
+    ChildProcess& operator=(const ChildProcess&) = delete;
+
+    /// Reads output until a line begins with `prefix`; gives the rest of that line, or nullopt at the
+    /// deadline or the program's end.
+    std::optional<std::string> line_after(const std::string& prefix, std::chrono::seconds deadline);
+
+    /// Waits for the end; the exit status, 128 + the signal that ended it, or nullopt at the deadline.
+    std::optional<int> wait(std::chrono::seconds deadline);
+
+    void send_signal(int signal) const;
+
+    /// What it has written to standard output and standard error so far.
+    const std::string& out() const { return streams_[0].text; }
+    const std::string& err() const { return streams_[1].text; }
+
+  private:
+    struct Stream {
+        int descriptor = -1;
+        std::string text;
+    };
+    bool pump(std::chrono::milliseconds at_most);  // false once both streams are closed
+
+    pid_t pid_ = -1;
+    Stream streams_[2];
+    std::optional<int> status_;
+};
+
+/// Runs a program to its end.
+struct Finished {
+    int status = -1;
+    std::string out;
+    std::string err;
+};
+Finished run_program(const std::vector<std::string>& command,
+                     std::chrono::seconds deadline = std::chrono::seconds(120));
+
+}  // namespace osteomill::testing

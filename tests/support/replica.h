@@ -1,0 +1,75 @@
+// A client without a network: takes a server's frames in order and keeps the bone that they describe.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "common/wire/brick_edit.h"
+#include "common/wire/frame.h"
+#include "common/wire/snapshot.h"
+#include "osteomill/v1/session.pb.h"
+
+namespace osteomill::testing {
+
+class Replica {
+  public:
+    /// Takes the bytes of one frame, and expects it to make sense.
+    void take(const std::string& bytes) {
+        decoder_.append({reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()});
+        const auto message = decoder_.next();
+        ASSERT_TRUE(message) << decoder_.error();
+        v1::ServerFrame frame;
+        ASSERT_TRUE(frame.ParseFromArray(message->data(), static_cast<int>(message->size())));
+        ASSERT_EQ(frame.sequence(), ++sequence_);
+        take(frame);
+    }
+
+    const std::optional<Bone>& bone() const { return bone_; }
+    std::size_t states() const { return states_; }
+    std::size_t edits_of_last_state() const { return edits_of_last_state_; }
+    std::size_t checksums() const { return checksums_; }
+    bool has_goodbye() const { return has_goodbye_; }
+
+  private:
+    void take(const v1::ServerFrame& frame) {
+        ASSERT_FALSE(has_goodbye_);
+        if (frame.has_snapshot_begin()) {
+            assembler_.emplace(std::get<SnapshotAssembler>(SnapshotAssembler::begin(frame.snapshot_begin())));
+        } else if (frame.has_snapshot_bricks()) {
+            const auto error = assembler_->add(frame.snapshot_bricks());
+            ASSERT_FALSE(error) << error->line;
+        } else if (frame.has_snapshot_end()) {
+            auto result = std::move(*assembler_).finish(frame.snapshot_end());
+            ASSERT_TRUE(std::holds_alternative<Bone>(result)) << std::get<WireError>(result).line;
+            bone_ = std::get<Bone>(std::move(result));
+        } else if (frame.has_state()) {
+            ASSERT_TRUE(bone_);
+            ++states_;
+            edits_of_last_state_ = static_cast<std::size_t>(frame.state().edits_size());
+            for (const v1::BrickEdit& edit : frame.state().edits()) {
+                const auto error = apply_brick_edit(edit, *bone_);
+                ASSERT_FALSE(error) << error->line;
+            }
+            if (frame.state().bone_checksum() != 0) {
+                ++checksums_;
+                EXPECT_EQ(checksum(*bone_), frame.state().bone_checksum());
+            }
+        } else if (frame.has_goodbye()) {
+            has_goodbye_ = true;
+        }
+    }
+
+    FrameDecoder decoder_;
+    std::uint64_t sequence_ = 0;
+    std::optional<SnapshotAssembler> assembler_;
+    std::optional<Bone> bone_;
+    std::size_t states_ = 0;
+    std::size_t edits_of_last_state_ = 0;
+    std::size_t checksums_ = 0;
+    bool has_goodbye_ = false;
+};
+
+}  // namespace osteomill::testing

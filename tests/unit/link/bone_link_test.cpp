@@ -1,0 +1,191 @@
+#include "render_client/link/bone_link.h"
+
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <optional>
+#include <thread>
+
+#include "tests/support/served_bone.h"
+
+namespace osteomill {
+namespace {
+
+using testing::eventually;
+using testing::ServedBone;
+
+bool reaches(BoneLink& link, LinkStatus status) {
+    return eventually([&] { return link.poll().status == status; });
+}
+
+bool verifies(BoneLink& link, std::uint64_t checksums) {
+    return eventually([&] { return link.poll().checksums_verified >= checksums; });
+}
+
+/// Ends the session and expects every link to hold the bone that the server leaves, bit for bit.
+void expect_equal_at_the_end(ServedBone& served, std::initializer_list<BoneLink*> links) {
+    std::thread stopping([&] { served.stop(); });
+    EXPECT_TRUE(eventually([&] {
+        return std::ranges::count_if(links, [](BoneLink* link) {
+                   return link->poll().status == LinkStatus::finished;
+               }) == static_cast<std::ptrdiff_t>(links.size());
+    }));
+    stopping.join();
+    EXPECT_EQ(served.mirror_checksum(), checksum(served.bone()));
+    for (BoneLink* link : links) {
+        EXPECT_EQ(checksum(*link->bone()), served.mirror_checksum());
+        EXPECT_EQ(link->poll().checksum_mismatches, 0U);
+        EXPECT_EQ(link->poll().rejected_frames, 0U);
+    }
+}
+
+TEST(BoneLink, KeepsTheBoneEqualWhileItIsCarved) {
+    ServedBone served;
+    BoneLink link("127.0.0.1", served.port());
+    ASSERT_TRUE(reaches(link, LinkStatus::live));
+    served.start_carving();
+    EXPECT_TRUE(verifies(link, 3));
+    expect_equal_at_the_end(served, {&link});
+}
+
+TEST(BoneLink, SaysWhoTheServerIs) {
+    ServedBone served(0, true);
+    BoneLink link("127.0.0.1", served.port());
+    EXPECT_EQ(link.session(), nullptr);
+    EXPECT_EQ(link.bone(), nullptr);
+    ASSERT_TRUE(reaches(link, LinkStatus::live));
+    ASSERT_NE(link.session(), nullptr);
+    EXPECT_EQ(link.session()->scene_name, "test scene");
+    EXPECT_EQ(link.session()->server_version, "0.0.test");
+    ASSERT_EQ(link.session()->burrs.size(), 2U);
+    EXPECT_EQ(link.session()->burrs[0].diameter_mm, 1.5);
+    ASSERT_EQ(link.session()->tissues.size(), 1U);
+    EXPECT_TRUE(link.session()->tissues[0].is_protected);
+    EXPECT_TRUE(link.session()->accepts_operator);
+    EXPECT_EQ(link.session()->force_limit_n, 3.3);
+}
+
+TEST(BoneLink, NamesTheBricksThatChangedAndTheNewestTool) {
+    ServedBone served;
+    BoneLink link("127.0.0.1", served.port());
+    bool was_replaced = false;
+    ASSERT_TRUE(eventually([&] {
+        const LinkUpdate update = link.poll();
+        was_replaced = was_replaced || update.bone_replaced;
+        return update.status == LinkStatus::live;
+    }));
+    EXPECT_TRUE(was_replaced);
+
+    Bone shown = *link.bone();
+    std::optional<ToolView> tool;
+    served.start_carving();
+    const auto follow = [&] {
+        const LinkUpdate update = link.poll();
+        EXPECT_FALSE(update.bone_replaced);
+        EXPECT_TRUE(std::ranges::is_sorted(update.dirty_bricks));
+        for (const BrickIndex brick : update.dirty_bricks) {
+            const std::int32_t slot = shown.content().slot_of_brick[brick];
+            std::ranges::copy(link.bone()->fractions(slot), shown.fractions(slot).begin());
+        }
+        if (update.tool) tool = update.tool;
+        return update;
+    };
+    EXPECT_TRUE(eventually([&] { return follow().checksums_verified >= 2; }));
+    served.stop();
+    EXPECT_TRUE(eventually([&] { return follow().status == LinkStatus::finished; }));
+    EXPECT_EQ(checksum(shown), checksum(*link.bone())) << "a brick changed that was not named";
+    ASSERT_TRUE(tool);
+    EXPECT_GT(tool->time_s, 0.0);
+    EXPECT_EQ(tool->force_n, glm::dvec3(0.5, 0, 0));
+}
+
+TEST(BoneLink, MayJoinLateAndWithOthers) {
+    ServedBone served;
+    served.start_carving();
+    BoneLink early("127.0.0.1", served.port());
+    ASSERT_TRUE(verifies(early, 2));
+    BoneLink late("127.0.0.1", served.port());
+    ASSERT_TRUE(verifies(late, 2));
+    {
+        BoneLink passing("127.0.0.1", served.port());
+        ASSERT_TRUE(verifies(passing, 1));
+    }
+    expect_equal_at_the_end(served, {&early, &late});
+}
+
+TEST(BoneLink, CatchesUpAfterTheWindowStoodStill) {
+    ServedBone served;
+    BoneLink link("127.0.0.1", served.port());
+    BoneLink watch("127.0.0.1", served.port());
+    ASSERT_TRUE(reaches(link, LinkStatus::live));
+    served.start_carving();
+    ASSERT_TRUE(eventually([&] { return watch.poll().frames > 100; }));  // more than the queue holds
+    expect_equal_at_the_end(served, {&link, &watch});
+}
+
+TEST(BoneLink, WaitsForAServerThatIsNotThereYetAndReturnsAfterARestart) {
+    std::uint16_t port = 0;
+    {
+        ServedBone first;
+        port = first.port();
+    }
+    BoneLink link("127.0.0.1", port);
+    EXPECT_TRUE(
+        eventually([&] { return link.poll().status_line.find("trying again") != std::string::npos; }));
+    EXPECT_EQ(link.poll().status, LinkStatus::connecting);
+    {
+        ServedBone second(port);
+        second.start_carving();
+        ASSERT_TRUE(verifies(link, 1));
+        expect_equal_at_the_end(second, {&link});
+    }
+    EXPECT_NE(link.bone(), nullptr) << "a finished session leaves its bone";
+
+    ServedBone third(port, false, 99);
+    ASSERT_TRUE(reaches(link, LinkStatus::live));
+    third.start_carving();
+    ASSERT_TRUE(verifies(link, 2));
+    expect_equal_at_the_end(third, {&link});
+    EXPECT_EQ(link.poll().connections, 2U);
+}
+
+TEST(BoneLink, CarriesTheOperatorsWishes) {
+    ServedBone served(0, true);
+    auto link = std::make_unique<BoneLink>("127.0.0.1", served.port());
+    ASSERT_TRUE(reaches(*link, LinkStatus::live));
+    const OperatorIntent intent{
+        .hand_target_mm = {1, 2, 3}, .spindle_axis = {0, 0, 2}, .pedal = true, .burr = 1};
+    EXPECT_TRUE(eventually([&] {
+        link->poll();
+        link->send_operator(intent);
+        return served.operator_input().present;
+    }));
+    EXPECT_EQ(served.operator_input().hand_target.position_mm, glm::dvec3(1, 2, 3));
+    EXPECT_EQ(served.operator_input().hand_target.spindle_axis, glm::dvec3(0, 0, 1));
+
+    link->send_operator({.burr = 7});  // not sent: it would cost the connection
+    BoneLink second("127.0.0.1", served.port());
+    ASSERT_TRUE(reaches(second, LinkStatus::live));
+    for (int i = 0; i < 10; ++i) second.send_operator({.burr = 0});
+    ASSERT_TRUE(verifies(second, 2));
+    EXPECT_EQ(served.operator_input().burr, 1U) << "the first holds the seat";
+    EXPECT_EQ(link->poll().connections, 1U);
+
+    link.reset();
+    EXPECT_TRUE(eventually([&] { return !served.operator_input().present; }));
+    EXPECT_FALSE(served.operator_input().pedal);
+    EXPECT_TRUE(eventually([&] {
+        second.send_operator({.burr = 0});
+        return served.operator_input().present;
+    })) << "the seat is free again";
+}
+
+TEST(BoneLink, SaysThatAHostCannotBeFound) {
+    BoneLink link("no-such-host.invalid", 7010);
+    EXPECT_TRUE(eventually([&] {
+        return link.poll().status_line.find("cannot find no-such-host.invalid") != std::string::npos;
+    }));
+}
+
+}  // namespace
+}  // namespace osteomill

@@ -1,0 +1,53 @@
+#include "haptic_server/streaming/bone_mirror.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/support/block.h"
+#include "tests/support/random_carving.h"
+
+namespace osteomill {
+namespace {
+
+class MirrorSink final : public EditSink {
+  public:
+    explicit MirrorSink(BoneMirror& mirror) : mirror_(mirror) {}
+    void push(const EditRun& run) noexcept override { EXPECT_TRUE(mirror_.apply(run)); }
+
+  private:
+    BoneMirror& mirror_;
+};
+
+TEST(BoneMirror, FollowsTheBoneAndKnowsItsChecksum) {
+    Bone bone = testing::make_block({0, 0, 0}, {4, 4, 4}, 0.1);
+    BoneMirror mirror(bone);
+    MirrorSink sink(mirror);
+    std::mt19937 random(1);
+    for (int round = 0; round < 20; ++round) {
+        for (int i = 0; i < 100; ++i) testing::carve_somewhere(bone, random, sink);
+        mirror.take_changes();
+        ASSERT_EQ(mirror.checksum(), checksum(bone));
+    }
+}
+
+TEST(BoneMirror, TellsOfChangesOnce) {
+    BoneMirror mirror(testing::make_block({0, 0, 0}, {4, 4, 4}, 0.1));
+    EXPECT_TRUE(mirror.apply({.brick = 1, .first_voxel = 20, .count = 2, .fraction = {9, 8}}));
+    EXPECT_TRUE(mirror.apply({.brick = 1, .first_voxel = 40, .count = 1, .fraction = {7}}));
+    const ChangedVoxels changes = mirror.take_changes();
+    ASSERT_EQ(changes.size(), 1U);
+    VoxelMask expected;
+    expected.set(20).set(21).set(40);
+    EXPECT_TRUE(changes.at(1) == expected);
+    EXPECT_TRUE(mirror.take_changes().empty());
+}
+
+TEST(BoneMirror, RefusesARunThatDoesNotFit) {
+    BoneMirror mirror(testing::make_block({0, 0, 0}, {4, 4, 4}, 0.1));
+    const std::uint64_t before = mirror.checksum();
+    EXPECT_FALSE(mirror.apply({.brick = 1000, .first_voxel = 0, .count = 1}));
+    EXPECT_TRUE(mirror.take_changes().empty());
+    EXPECT_EQ(mirror.checksum(), before);
+}
+
+}  // namespace
+}  // namespace osteomill

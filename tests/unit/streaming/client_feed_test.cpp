@@ -1,0 +1,129 @@
+#include "haptic_server/streaming/client_feed.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/support/block.h"
+#include "tests/support/random_carving.h"
+#include "tests/support/replica.h"
+#include "tests/support/speckled_bone.h"
+
+namespace osteomill {
+namespace {
+
+/// Carves the mirror and tells a feed, as the server does at every frame.
+class Carver final : public EditSink {
+  public:
+    Carver(BoneMirror& mirror, ClientFeed& feed) : bone_(mirror.bone()), mirror_(mirror), feed_(feed) {}
+    void push(const EditRun& run) noexcept override { ASSERT_TRUE(mirror_.apply(run)); }
+    void carve(int runs) {
+        for (int i = 0; i < runs; ++i) testing::carve_somewhere(bone_, random_, *this);
+        feed_.note(mirror_.take_changes());
+    }
+
+  private:
+    Bone bone_;
+    BoneMirror& mirror_;
+    ClientFeed& feed_;
+    std::mt19937 random_{5};
+};
+
+class ClientFeedTest : public ::testing::Test {
+  protected:
+    ClientFeedTest() {
+        std::mt19937 random(2);
+        mirror_.emplace(testing::make_speckled_bone(random, {.grid = {.size_voxels = {128, 128, 64}}}));
+        feed_.emplace(v1::Hello(), *mirror_, packer_);
+        carver_.emplace(*mirror_, *feed_);
+    }
+    /// Lets the client take all there is; says how many frames that were.
+    int drain() {
+        int frames = 0;
+        while (auto frame = feed_->next()) {
+            replica_.take(*frame);
+            ++frames;
+        }
+        return frames;
+    }
+    void expect_equal() { EXPECT_EQ(checksum(*replica_.bone()), mirror_->checksum()); }
+
+    SnapshotPacker packer_;
+    std::optional<BoneMirror> mirror_;
+    std::optional<ClientFeed> feed_;
+    std::optional<Carver> carver_;
+    testing::Replica replica_;
+};
+
+TEST_F(ClientFeedTest, BringsAClientThatJoinsWhileCarvingGoesOnLevelWithTheMirror) {
+    int frames = 0;
+    while (auto frame = feed_->next()) {
+        replica_.take(*frame);
+        carver_->carve(200);  // between any two frames of the snapshot
+        ++frames;
+    }
+    EXPECT_GT(frames, 10);
+    feed_->request_state({}, true);
+    drain();
+    EXPECT_EQ(replica_.checksums(), 1U);
+    expect_equal();
+}
+
+TEST_F(ClientFeedTest, TellsASlowClientLaterWhatItMissed) {
+    drain();
+    for (int i = 0; i < 100; ++i) {
+        carver_->carve(10);
+        feed_->request_state({.time_s = 0.1 * i}, i == 50);
+    }
+    EXPECT_EQ(drain(), 1) << "frames that could not be sent are skipped";
+    EXPECT_EQ(replica_.checksums(), 1U) << "a checksum once asked for is stated";
+    expect_equal();
+}
+
+TEST_F(ClientFeedTest, SplitsEditsThatDoNotFitAFrame) {
+    drain();
+    carver_->carve(60'000);
+    feed_->request_state({}, true);
+    EXPECT_GT(drain(), 2);
+    EXPECT_EQ(replica_.checksums(), 1U) << "only the last part states a checksum";
+    expect_equal();
+}
+
+TEST_F(ClientFeedTest, SaysNothingBetweenStates) {
+    drain();
+    carver_->carve(10);
+    EXPECT_FALSE(feed_->next());
+    feed_->request_state({}, false);
+    EXPECT_EQ(drain(), 1);
+    EXPECT_EQ(replica_.checksums(), 0U);
+    feed_->request_state({}, false);
+    drain();
+    EXPECT_EQ(replica_.edits_of_last_state(), 0U) << "told once";
+}
+
+TEST_F(ClientFeedTest, EndsWithTheFinalChecksumAndGoodbyeEvenInTheMiddleOfASnapshot) {
+    replica_.take(*feed_->next());
+    replica_.take(*feed_->next());
+    replica_.take(*feed_->next());
+    carver_->carve(1000);
+    feed_->finish("the end");
+    EXPECT_FALSE(feed_->is_finished());
+    drain();
+    EXPECT_TRUE(feed_->is_finished());
+    EXPECT_TRUE(replica_.has_goodbye());
+    EXPECT_EQ(replica_.checksums(), 1U);
+    expect_equal();
+}
+
+TEST(ClientFeed, ServesABoneWithoutBricks) {
+    const BoneMirror mirror(BoneBuilder::homogeneous({.size_voxels = {20, 20, 20}}, 1.0, false).build());
+    SnapshotPacker packer;
+    ClientFeed feed({}, mirror, packer);
+    feed.request_state({}, true);
+    feed.finish("the end");
+    testing::Replica replica;
+    while (auto frame = feed.next()) replica.take(*frame);
+    EXPECT_TRUE(replica.has_goodbye());
+    EXPECT_EQ(replica.bone()->stored_bricks(), 0U);
+}
+
+}  // namespace
+}  // namespace osteomill

@@ -1,0 +1,58 @@
+#include "haptic_server/streaming/operator_seat.h"
+
+#include <gtest/gtest.h>
+
+namespace osteomill {
+namespace {
+
+using std::chrono::milliseconds;
+
+class OperatorSeatTest : public ::testing::Test {
+  protected:
+    const OperatorInput& newest() {
+        output_.refresh();
+        return output_.front();
+    }
+
+    TripleBuffer<OperatorInput> output_;
+    OperatorSeat seat_{output_};
+    const OperatorSeat::Time start_{};
+    const OperatorIntent pressed_{.hand_target_mm = {1, 2, 3}, .pedal = true, .burr = 2};
+};
+
+TEST_F(OperatorSeatTest, PublishesWhatTheOperatorWants) {
+    EXPECT_FALSE(newest().present);
+    EXPECT_TRUE(seat_.take_input(1, pressed_, start_));
+    EXPECT_TRUE(newest().present);
+    EXPECT_TRUE(newest().pedal);
+    EXPECT_EQ(newest().burr, 2U);
+    EXPECT_EQ(newest().hand_target.position_mm, glm::dvec3(1, 2, 3));
+}
+
+TEST_F(OperatorSeatTest, BelongsToTheFirstUntilItLeaves) {
+    EXPECT_TRUE(seat_.take_input(1, pressed_, start_));
+    EXPECT_FALSE(seat_.take_input(2, {.burr = 0}, start_));
+    EXPECT_EQ(newest().burr, 2U);
+    seat_.leave(2);
+    EXPECT_TRUE(newest().present);
+    seat_.leave(1);
+    EXPECT_FALSE(newest().present);
+    EXPECT_FALSE(newest().pedal);
+    EXPECT_TRUE(seat_.take_input(2, {.burr = 1}, start_));
+    EXPECT_EQ(newest().burr, 1U);
+}
+
+TEST_F(OperatorSeatTest, LiftsThePedalOfASilentOperatorUntilHeardAgain) {
+    seat_.take_input(1, pressed_, start_);
+    seat_.check_silence(start_ + OperatorSeat::longest_silence);
+    EXPECT_TRUE(newest().present);
+    seat_.check_silence(start_ + OperatorSeat::longest_silence + milliseconds(1));
+    EXPECT_FALSE(newest().present);
+    EXPECT_FALSE(newest().pedal);
+    EXPECT_FALSE(seat_.take_input(2, pressed_, start_ + milliseconds(900))) << "the seat is not free";
+    seat_.take_input(1, pressed_, start_ + milliseconds(1000));
+    EXPECT_TRUE(newest().pedal);
+}
+
+}  // namespace
+}  // namespace osteomill

@@ -1,0 +1,169 @@
+#include "haptic_server/streaming/streaming_server.h"
+
+#include <gmock/gmock.h>
+
+#include <boost/asio/buffer.hpp>
+#include <boost/asio/io_context.hpp>
+#include <boost/asio/ip/tcp.hpp>
+#include <boost/asio/write.hpp>
+#include <utility>
+
+#include "common/wire/frame.h"
+#include "common/wire/scene_messages.h"
+#include "render_client/link/bone_link.h"
+#include "tests/support/served_bone.h"
+
+namespace osteomill {
+namespace {
+
+using boost::asio::ip::tcp;
+using testing::eventually;
+using testing::ServedBone;
+
+/// A client that does only what it is told.
+class RawClient {
+  public:
+    explicit RawClient(std::uint16_t port) {
+        socket_.connect({boost::asio::ip::address_v4::loopback(), port});
+        socket_.non_blocking(true);
+    }
+    void send(const std::string& bytes) {
+        boost::system::error_code ignored;  // the server may have hung up already
+        boost::asio::write(socket_, boost::asio::buffer(bytes), ignored);
+    }
+    void send(const v1::ClientFrame& frame) {
+        std::string bytes;
+        append_frame(frame, bytes);
+        send(bytes);
+    }
+    /// Reads until the server hangs up.
+    bool is_dropped() {
+        return eventually([this] {
+            std::array<char, 65536> bytes;
+            boost::system::error_code error;
+            while (socket_.read_some(boost::asio::buffer(bytes), error) > 0) {
+            }
+            return error && error != boost::asio::error::would_block;
+        });
+    }
+
+  private:
+    boost::asio::io_context io_;
+    tcp::socket socket_{io_};
+};
+
+v1::ClientFrame input_frame(std::uint64_t sequence, const OperatorIntent& intent) {
+    v1::ClientFrame frame;
+    frame.set_sequence(sequence);
+    *frame.mutable_operator_input() = to_message(intent);
+    return frame;
+}
+
+/// Polls until the link has this status.
+bool reaches(BoneLink& link, LinkStatus status) {
+    return eventually([&] { return link.poll().status == status; });
+}
+
+std::string failure_of(const StreamingOptions& options) {
+    const Bone bone = BoneBuilder::homogeneous({.size_voxels = {16, 16, 16}}, 1.0, false).build();
+    EditQueue edits(16, 1);
+    TripleBuffer<ToolSnapshot> tool;
+    Scene scene;
+    scene.burrs = {Burr{}};
+    try {
+        StreamingServer server(options, scene, bone, tool, edits, nullptr, 3.3, "0.0.test");
+        server.start();
+    } catch (const std::exception& error) {
+        return error.what();
+    }
+    return "";
+}
+
+TEST(StreamingServer, SaysInOneLineWhyItCannotListen) {
+    EXPECT_THAT(failure_of({.address = "pluto", .port = 0}),
+                ::testing::HasSubstr("\"pluto\" is no IP address"));
+    EXPECT_THAT(failure_of({.address = "0.0.0.0", .port = 0}), ::testing::HasSubstr("without TLS"));
+    ServedBone other;
+    EXPECT_THAT(failure_of({.port = other.port()}), ::testing::HasSubstr("in use"));
+    EXPECT_THAT(failure_of({.frame_rate_hz = 0.0}), ::testing::HasSubstr("frame rate"));
+    EXPECT_EQ(failure_of({.port = 0}), "");
+}
+
+TEST(StreamingServer, StopsAtOnceWithoutClientsAndMayBeStoppedTwice) {
+    ServedBone served;
+    served.start_carving();
+    served.stop_carving();
+    served.stop();
+    served.stop();
+    EXPECT_EQ(served.mirror_checksum(), checksum(served.bone()));
+}
+
+TEST(StreamingServer, DropsClientsThatTalkNonsenseWhileOthersNoticeNothing) {
+    ServedBone served(0, true);
+    served.start_carving();
+    BoneLink link("127.0.0.1", served.port());
+    ASSERT_TRUE(reaches(link, LinkStatus::live));
+
+    v1::ClientFrame no_body;
+    no_body.set_sequence(1);
+    const double not_a_number = std::numeric_limits<double>::quiet_NaN();
+    {
+        RawClient http(served.port()), oversize(served.port()), bodiless(served.port()), late(served.port()),
+            nowhere(served.port()), burr(served.port());
+        http.send("GET / HTTP/1.1\r\nHost: osteomill.example\r\nAccept: text/html, any/any\r\n\r\n" +
+                  std::string(200, 'x'));
+        oversize.send("\xff\xff\xff\xff\xff\xff");
+        bodiless.send(no_body);
+        late.send(input_frame(7, {}));
+        nowhere.send(input_frame(1, {.hand_target_mm = {0, not_a_number, 0}}));
+        burr.send(input_frame(1, {.burr = 2}));
+        for (RawClient* client : {&http, &oversize, &bodiless, &late, &nowhere, &burr})
+            EXPECT_TRUE(client->is_dropped());
+    }
+    EXPECT_FALSE(served.operator_input().present);
+
+    const std::uint64_t verified = link.poll().checksums_verified;
+    EXPECT_TRUE(eventually([&] { return link.poll().checksums_verified > verified; }));
+    const LinkUpdate update = link.poll();
+    EXPECT_EQ(update.status, LinkStatus::live);
+    EXPECT_EQ(update.connections, 1U);
+    EXPECT_EQ(update.checksum_mismatches, 0U);
+}
+
+TEST(StreamingServer, IsNotHeldUpByAClientThatNeverReads) {
+    ServedBone served;
+    served.start_carving();
+    RawClient deaf(served.port());
+    BoneLink link("127.0.0.1", served.port());
+    EXPECT_TRUE(eventually([&] { return link.poll().checksums_verified >= 2; }));
+    served.stop();  // cuts the deaf one off
+    EXPECT_TRUE(reaches(link, LinkStatus::finished));
+    EXPECT_EQ(checksum(*link.bone()), served.mirror_checksum());
+    EXPECT_EQ(served.mirror_checksum(), checksum(served.bone()));
+}
+
+TEST(StreamingServer, TurnsAwayClientsBeyondItsLimit) {
+    ServedBone served;
+    std::vector<std::unique_ptr<RawClient>> clients;
+    for (int i = 0; i < 32; ++i) clients.push_back(std::make_unique<RawClient>(served.port()));
+    RawClient one_more(served.port());
+    EXPECT_TRUE(one_more.is_dropped());
+    clients.clear();
+    BoneLink link("127.0.0.1", served.port());
+    EXPECT_TRUE(reaches(link, LinkStatus::live)) << "there is room again";
+}
+
+TEST(StreamingServer, IgnoresOperatorsWhenItHasNoUseForThem) {
+    ServedBone served;
+    RawClient eager(served.port());
+    eager.send(input_frame(1, {.pedal = true}));
+    BoneLink link("127.0.0.1", served.port());
+    ASSERT_TRUE(reaches(link, LinkStatus::live));
+    EXPECT_FALSE(link.session()->accepts_operator);
+    std::thread stopping([&] { served.stop(); });
+    EXPECT_TRUE(eager.is_dropped()) << "only at the end";
+    stopping.join();
+}
+
+}  // namespace
+}  // namespace osteomill
