@@ -4,6 +4,7 @@
 // GLFW comes after libepoxy, which brings OpenGL's declarations.
 #include <GLFW/glfw3.h>
 
+#include <algorithm>
 #include <cstdlib>
 
 #include "render_client/volume/gl/offscreen_context.h"
@@ -38,6 +39,12 @@ Window::Window(const glm::ivec2& size_px, const std::string& title) {
     }
     glfwMakeContextCurrent(window_);
     glfwSwapInterval(1);
+    glfwSetWindowUserPointer(window_, this);
+    // Asking for a key's state once a frame would miss a press shorter than a frame.
+    glfwSetKeyCallback(window_, [](GLFWwindow* window, int key, int, int action, int) {
+        if (action == GLFW_PRESS)
+            static_cast<Window*>(glfwGetWindowUserPointer(window))->presses_.push_back(key);
+    });
 }
 
 Window::~Window() {
@@ -57,6 +64,10 @@ bool Window::minimised() const {
 }
 bool Window::key_down(int glfw_key) const {
     return glfwGetKey(window_, glfw_key) == GLFW_PRESS;
+}
+
+bool Window::was_pressed(int glfw_key) const {
+    return std::find(presses_.begin(), presses_.end(), glfw_key) != presses_.end();
 }
 
 glm::ivec2 Window::framebuffer_size_px() const {

@@ -3,6 +3,7 @@
 
 #include <glm/vec2.hpp>
 #include <string>
+#include <vector>
 
 struct GLFWwindow;
 
@@ -20,6 +21,9 @@ class Window {
     bool focused() const;
     bool minimised() const;
     bool key_down(int glfw_key) const;
+    /// Whether a key went down since the last clear_presses(), even if it is up again by now.
+    bool was_pressed(int glfw_key) const;
+    void clear_presses() { presses_.clear(); }
     /// Of the picture, which on dense displays has more pixels than the window has units.
     glm::ivec2 framebuffer_size_px() const;
     void show_frame();
@@ -27,6 +31,7 @@ class Window {
 
   private:
     GLFWwindow* window_ = nullptr;
+    std::vector<int> presses_;
 };
 
 }  // namespace osteomill

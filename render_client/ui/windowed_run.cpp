@@ -24,14 +24,11 @@ constexpr double orbit_rad_per_px = 0.008;
 constexpr double zoom_per_notch = 0.88;
 constexpr double advance_mm_per_s = 2.0;
 constexpr double advance_mm_per_notch = 0.1;
-/// A display without vertical synchronisation must not make one core spin.
-constexpr std::chrono::milliseconds shortest_frame(8);
+/// A display without vertical synchronisation must not take the cores from a server beside it: twice the
+/// rate of its frames is smooth.
+constexpr std::chrono::milliseconds shortest_frame(16);
 
-bool pressed(int glfw_key) {
-    return ImGui::IsKeyPressed(glfw_key, false);
-}
-
-void move_camera(SessionPicture& session, bool left_turns) {
+void move_camera(SessionPicture& session, const Window& window, bool left_turns) {
     const ImGuiIO& io = ImGui::GetIO();
     const glm::dvec2 moved_px(io.MouseDelta.x, io.MouseDelta.y);
     const bool right = io.MouseDown[ImGuiMouseButton_Right];
@@ -40,7 +37,7 @@ void move_camera(SessionPicture& session, bool left_turns) {
     else if (right || (left_turns && io.MouseDown[ImGuiMouseButton_Left]))
         orbit(session.camera(), -orbit_rad_per_px * moved_px.x, orbit_rad_per_px * moved_px.y);
     if (io.MouseWheel != 0.0f && !io.KeyCtrl) zoom(session.camera(), std::pow(zoom_per_notch, io.MouseWheel));
-    if (pressed(GLFW_KEY_HOME)) session.reset_camera();
+    if (window.was_pressed(GLFW_KEY_HOME)) session.reset_camera();
 }
 
 void move_hand(OperatorHand& hand, const Window& window, SessionPicture& session, double elapsed_s) {
@@ -56,9 +53,9 @@ void move_hand(OperatorHand& hand, const Window& window, SessionPicture& session
     if (window.key_down(GLFW_KEY_W)) hand.advance(advance_mm_per_s * elapsed_s);
     if (window.key_down(GLFW_KEY_S)) hand.advance(-advance_mm_per_s * elapsed_s);
     for (int digit = 0; digit < 9; ++digit)
-        if (pressed(GLFW_KEY_1 + digit)) hand.choose_burr(static_cast<std::size_t>(digit));
-    if (pressed(GLFW_KEY_RIGHT_BRACKET)) hand.choose_next_burr();
-    if (pressed(GLFW_KEY_LEFT_BRACKET)) hand.choose_previous_burr();
+        if (window.was_pressed(GLFW_KEY_1 + digit)) hand.choose_burr(static_cast<std::size_t>(digit));
+    if (window.was_pressed(GLFW_KEY_RIGHT_BRACKET)) hand.choose_next_burr();
+    if (window.was_pressed(GLFW_KEY_LEFT_BRACKET)) hand.choose_previous_burr();
     hand.set_pedal(window.key_down(GLFW_KEY_SPACE));
     hand.follow(*session.tool(), session.session()->burrs.size());
 }
@@ -75,10 +72,11 @@ RenderReport run_in_window(const RenderOptions& options, SessionSource& source,
     FrameTimes frame_times;
 
     Clock::time_point previous = Clock::now();
-    while (!window.close_asked() && !stop_asked() && !window.key_down(GLFW_KEY_ESCAPE)) {
+    while (!window.close_asked() && !stop_asked() && !window.was_pressed(GLFW_KEY_ESCAPE)) {
         const Clock::time_point start = Clock::now();
         const double elapsed_s = std::chrono::duration<double>(start - previous).count();
         previous = start;
+        window.clear_presses();
         glfwPollEvents();
         session.take_in();
 
@@ -97,9 +95,9 @@ RenderReport run_in_window(const RenderOptions& options, SessionSource& source,
         session.resize(window.framebuffer_size_px());
         const gl::Framebuffer& framebuffer = session.draw(elapsed_s);
         // ImGui took the input in while the panels were drawn; it takes effect in the next frame.
-        move_camera(session, !drills);
+        move_camera(session, window, !drills);
         if (drills) move_hand(hand, window, session, elapsed_s);
-        if (pressed(GLFW_KEY_F1)) session.toggle_help();
+        if (window.was_pressed(GLFW_KEY_F1)) session.toggle_help();
 
         framebuffer.copy_colour_to_window();
         window.show_frame();
