@@ -1,12 +1,12 @@
 #include "haptic_server/loop/milling_session.h"
 
-#include <sys/prctl.h>
-
 #include <chrono>
 #include <cmath>
 #include <stdexcept>
 #include <thread>
 #include <utility>
+
+#include "haptic_server/loop/thread_priority.h"
 
 namespace osteomill {
 
@@ -28,11 +28,6 @@ const MillingSessionOptions& validated(const MillingSessionOptions& options) {
 
 std::size_t brick_count(const Bone& bone) {
     return bone.content().slot_of_brick.size();
-}
-
-/// Lets this thread's sleeps end when asked, not up to 50 us later to save wake-ups (Linux's default).
-void ask_for_prompt_wakeups() {
-    prctl(PR_SET_TIMERSLACK, 1UL);
 }
 
 /// Polls until `is_done`, a stop or the longest wait.
@@ -88,7 +83,7 @@ void MillingSession::run_in_threads(const std::atomic<bool>& stop,
     std::atomic<bool> is_over{false};
     RealClock clock;
     std::thread haptic([&] {
-        ask_for_prompt_wakeups();
+        has_real_time_priority_.store(ask_for_real_time(haptic_priority));
         run_periodically(clock, tick_s, 0.0, is_over, haptic_statistics_,
                          [this](double time_s, std::uint64_t missed) {
                              haptic_loop_.tick(time_s, missed);
@@ -98,7 +93,7 @@ void MillingSession::run_in_threads(const std::atomic<bool>& stop,
     });
     const double period_s = 1.0 / options_.milling_rate_hz;
     std::thread milling([&] {
-        ask_for_prompt_wakeups();
+        ask_for_real_time(milling_priority);
         // Half a tick after the haptic loop: it finds a fresh command and is done before the next tick.
         run_periodically(clock, period_s, 0.5 * tick_s, is_over, milling_statistics_,
                          [&](double time_s, std::uint64_t missed) {
@@ -174,7 +169,8 @@ MillingSessionReport MillingSession::report() const {
             .peak_force_n = haptic_loop_.peak_force_n(),
             .fault_counts = haptic_loop_.fault_counts(),
             .edit_overflows = edits_.overflow_count(),
-            .bone_checksum = checksum(model_.bone())};
+            .bone_checksum = checksum(model_.bone()),
+            .real_time_priority = has_real_time_priority_.load()};
 }
 
 }  // namespace osteomill

@@ -52,6 +52,7 @@ struct MillingSessionReport {
     std::array<std::uint64_t, HapticLoop::fault_kinds> fault_counts{};  ///< index = Fault
     std::uint64_t edit_overflows = 0;
     std::uint64_t bone_checksum = 0;
+    bool real_time_priority = false;  ///< the haptic loop ran under SCHED_FIFO
 };
 
 class MillingSession {
@@ -102,6 +103,7 @@ class MillingSession {
     PeriodicStatistics haptic_statistics_;
     PeriodicStatistics milling_statistics_;
     std::atomic<double> now_s_{0.0};
+    std::atomic<bool> has_real_time_priority_{false};
 };
 
 }  // namespace osteomill

@@ -48,6 +48,7 @@ nlohmann::ordered_json measurements(const MillingSessionReport& report, const Sc
     json["milling_rate_hz"] = options.session.milling_rate_hz;
     json["duration_s"] = report.duration_s;
     json["ticks"] = report.haptic.ticks;
+    json["real_time_priority"] = report.real_time_priority;
     json["missed_deadlines"] = report.haptic.missed;
     json["wakeup_latency_us"] = percentiles_us(report.haptic.wakeup_latency);
     json["haptic_tick_us"] = percentiles_us(report.haptic.duration);

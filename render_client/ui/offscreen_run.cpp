@@ -7,9 +7,9 @@
 #include <stdexcept>
 #include <thread>
 
+#include "render_client/ui/screenshots.h"
 #include "render_client/ui/session_picture.h"
 #include "render_client/volume/gl/offscreen_context.h"
-#include "render_client/volume/png_file.h"
 
 namespace osteomill {
 
@@ -20,7 +20,6 @@ using Clock = std::chrono::steady_clock;
 constexpr auto frame_period =
     std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(1.0 / 30.0));
 constexpr glm::ivec2 default_size_px(960, 600);
-constexpr int wanted_screenshots = 30;
 
 double seconds(Clock::duration duration) {
     return std::chrono::duration<double>(duration).count();
@@ -46,15 +45,9 @@ bool wait_for_bone(SessionPicture& session, const std::function<bool()>& stop_as
 
 }  // namespace
 
-int screenshot_interval(const RenderOptions& options) {
-    if (options.screenshot_every > 0) return options.screenshot_every;
-    return std::max(1, (options.frames + wanted_screenshots - 1) / wanted_screenshots);
-}
-
 RenderReport run_offscreen(const RenderOptions& options, SessionSource& source,
                            const std::function<bool()>& stop_asked) {
-    const bool writes = !options.screenshots.empty();
-    if (writes) std::filesystem::create_directories(options.screenshots);
+    Screenshots screenshots(options.screenshots, screenshot_interval(options));
     gl::OffscreenContext context;
     gl::require_opengl_3_3();
     Panels panels;
@@ -76,9 +69,8 @@ RenderReport run_offscreen(const RenderOptions& options, SessionSource& source,
 
         going_on = frame < options.frames && status != LinkStatus::finished &&
                    status != LinkStatus::refused && !stop_asked();
-        if (writes && frame % screenshot_interval(options) == 0)
-            write_png(framebuffer.read_back(), options.screenshots / fmt::format("frame_{:04}.png", frame));
-        if (writes && !going_on) write_png(framebuffer.read_back(), options.screenshots / "final.png");
+        screenshots.after_frame(framebuffer);
+        if (!going_on) screenshots.after_last_frame(framebuffer);
         due = std::max(due + frame_period, Clock::now());
         if (going_on) std::this_thread::sleep_until(due);
     }

@@ -20,7 +20,4 @@ inline constexpr double longest_wait_for_bone_s = 60.0;
 RenderReport run_offscreen(const RenderOptions& options, SessionSource& source,
                            const std::function<bool()>& stop_asked);
 
-/// Every how many frames a picture is written.
-int screenshot_interval(const RenderOptions& options);
-
 }  // namespace osteomill

@@ -1,6 +1,7 @@
 #include "render_client/ui/options.h"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <charconv>
 
 namespace osteomill {
@@ -8,6 +9,7 @@ namespace osteomill {
 namespace {
 
 constexpr int largest_window_px = 16384;
+constexpr int wanted_screenshots = 30;
 
 std::optional<int> whole_number(std::string_view text, int low, int high) {
     int value = 0;
@@ -39,8 +41,8 @@ NoRun wrong_usage(const std::string& what) {
 
 /// What the options together get wrong; empty where they agree.
 std::string contradiction(const RenderOptions& options) {
-    if (!options.offscreen && !options.screenshots.empty())
-        return "--screenshots needs --offscreen; in a window nothing is written";
+    if (options.offscreen && options.until_server_ends)
+        return "--until-server-ends is for a window; an offscreen run always ends with its session";
     if (options.screenshot_every > 0 && options.screenshots.empty())
         return "--screenshot-every needs --screenshots DIR";
     return {};
@@ -55,6 +57,11 @@ std::optional<glm::ivec2> parse_size(const std::string& text) {
     const auto height = whole_number(std::string_view(text).substr(cross + 1), 1, largest_window_px);
     if (!width || !height) return std::nullopt;
     return glm::ivec2(*width, *height);
+}
+
+int screenshot_interval(const RenderOptions& options) {
+    if (options.screenshot_every > 0) return options.screenshot_every;
+    return std::max(1, (options.frames + wanted_screenshots - 1) / wanted_screenshots);
 }
 
 ParsedOptions parse_options(int argument_count, const char* const* arguments, const std::string& version) {
@@ -85,11 +92,13 @@ ParsedOptions parse_options(int argument_count, const char* const* arguments, co
     auto* frames = app.add_option("--frames", options.frames,
                                   "Offscreen: end after so many frames (300), or sooner with the session")
                        ->check(CLI::Range(1, 1'000'000));
+    app.add_flag("--until-server-ends", options.until_server_ends,
+                 "Close the window when the session is over");
     app.add_option("--screenshots", options.screenshots,
-                   "Offscreen: folder for frame_0001.png ... and final.png")
+                   "Folder for pictures of the run: frame_0001.png ... and final.png")
         ->type_name("DIR");
     app.add_option("--screenshot-every", options.screenshot_every,
-                   "Offscreen: write every so many frames (spreads about 30 over --frames)")
+                   "Write a picture every so many frames (spreads about 30 over --frames)")
         ->check(CLI::Range(1, 1'000'000));
     app.add_option("--json", options.json, "Write what was measured to this file")->type_name("FILE");
 

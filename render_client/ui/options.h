@@ -14,8 +14,9 @@ struct RenderOptions {
     std::uint16_t port = 7010;
     bool offscreen = false;
     int frames = 300;                   ///< offscreen: ends after so many
-    std::filesystem::path screenshots;  ///< offscreen: empty writes none
-    int screenshot_every = 0;           ///< offscreen: 0 spreads about 30 over `frames`
+    bool until_server_ends = false;     ///< in a window: close it when the session is over
+    std::filesystem::path screenshots;  ///< empty writes none
+    int screenshot_every = 0;           ///< 0 spreads about 30 over `frames`
     std::optional<glm::ivec2> window_size_px;
     std::filesystem::path json;  ///< empty writes none
 };
@@ -31,6 +32,9 @@ struct ParsedOptions {
     RenderOptions options;
     std::optional<NoRun> no_run;
 };
+
+/// Every how many frames a picture is written.
+int screenshot_interval(const RenderOptions& options);
 
 ParsedOptions parse_options(int argument_count, const char* const* arguments, const std::string& version);
 

@@ -10,6 +10,7 @@
 #include <thread>
 
 #include "render_client/ui/operator_hand.h"
+#include "render_client/ui/screenshots.h"
 #include "render_client/ui/session_picture.h"
 #include "render_client/ui/window.h"
 
@@ -70,15 +71,18 @@ RenderReport run_in_window(const RenderOptions& options, SessionSource& source,
     SessionPicture session(source, panels, window.framebuffer_size_px());
     OperatorHand hand;
     FrameTimes frame_times;
+    Screenshots screenshots(options.screenshots, screenshot_interval(options));
 
     Clock::time_point previous = Clock::now();
-    while (!window.close_asked() && !stop_asked() && !window.was_pressed(GLFW_KEY_ESCAPE)) {
+    bool session_over = false;
+    while (!window.close_asked() && !stop_asked() && !window.was_pressed(GLFW_KEY_ESCAPE) && !session_over) {
         const Clock::time_point start = Clock::now();
         const double elapsed_s = std::chrono::duration<double>(start - previous).count();
         previous = start;
         window.clear_presses();
         glfwPollEvents();
         session.take_in();
+        session_over = options.until_server_ends && session.link().status == LinkStatus::finished;
 
         // Without a session of this kind there is nobody who could be sent an operator's wishes.
         const bool drills = session.link().status == LinkStatus::live && session.tool() &&
@@ -99,6 +103,8 @@ RenderReport run_in_window(const RenderOptions& options, SessionSource& source,
         if (drills) move_hand(hand, window, session, elapsed_s);
         if (window.was_pressed(GLFW_KEY_F1)) session.toggle_help();
 
+        if (session.has_bone()) screenshots.after_frame(framebuffer);
+        if (session_over) screenshots.after_last_frame(framebuffer);
         framebuffer.copy_colour_to_window();
         window.show_frame();
         frame_times.add(std::chrono::duration<double, std::milli>(Clock::now() - start).count());

@@ -1,0 +1,27 @@
+// Pictures of a run, written as it goes: every so many frames one, and the last.
+#pragma once
+
+#include <filesystem>
+
+#include "render_client/volume/gl/framebuffer.h"
+
+namespace osteomill {
+
+class Screenshots {
+  public:
+    /// Creates the folder; an empty one means that nothing is written. Throws
+    /// std::filesystem::filesystem_error.
+    Screenshots(std::filesystem::path folder, int every_frames);
+
+    /// Writes frame_0001.png and so on where this frame is due.
+    void after_frame(const gl::Framebuffer& picture);
+    /// Writes final.png.
+    void after_last_frame(const gl::Framebuffer& picture) const;
+
+  private:
+    std::filesystem::path folder_;
+    int every_frames_;
+    int frame_ = 0;
+};
+
+}  // namespace osteomill
