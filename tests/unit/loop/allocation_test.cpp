@@ -1,46 +1,14 @@
 // Real-time code does not allocate: this program counts every call of operator new.
 #include <gtest/gtest.h>
 
-#include <atomic>
-#include <cstdlib>
 #include <memory>
-#include <new>
 
 #include "haptic_server/device/client_device.h"
 #include "haptic_server/device/simulated_device.h"
 #include "haptic_server/loop/haptic_loop.h"
 #include "haptic_server/loop/milling_loop.h"
 #include "tests/support/block.h"
-
-namespace {
-
-std::atomic<std::size_t> allocations{0};
-
-}  // namespace
-
-void* operator new(std::size_t size) {
-    allocations.fetch_add(1, std::memory_order_relaxed);
-    if (void* memory = std::malloc(size)) return memory;
-    throw std::bad_alloc();
-}
-void* operator new(std::size_t size, std::align_val_t alignment) {
-    allocations.fetch_add(1, std::memory_order_relaxed);
-    const auto align = static_cast<std::size_t>(alignment);
-    if (void* memory = std::aligned_alloc(align, (size + align - 1) / align * align)) return memory;
-    throw std::bad_alloc();
-}
-void operator delete(void* memory) noexcept {
-    std::free(memory);
-}
-void operator delete(void* memory, std::size_t) noexcept {
-    std::free(memory);
-}
-void operator delete(void* memory, std::align_val_t) noexcept {
-    std::free(memory);
-}
-void operator delete(void* memory, std::size_t, std::align_val_t) noexcept {
-    std::free(memory);
-}
+#include "tests/unit/loop/counting_new.h"
 
 namespace osteomill {
 namespace {
@@ -56,7 +24,7 @@ struct Rig {
 
     std::filesystem::path file = std::filesystem::path(::testing::TempDir()) / "allocation_test.csv";
     ForceLog log{file};
-    MillingModel model{osteomill::testing::make_block({-4.0, -4.0, -3.2}, {4.0, 4.0, 0.0}, 0.1), {burr}, {}};
+    MillingModel model{testing::make_block({-4.0, -4.0, -3.2}, {4.0, 4.0, 0.0}, 0.1), {burr}, {}};
     std::unique_ptr<TripleBuffer<MillingResult>> results = std::make_unique<TripleBuffer<MillingResult>>();
     TripleBuffer<BurrCommand> commands;
     TripleBuffer<ToolSnapshot> tool;
@@ -69,13 +37,13 @@ struct Rig {
 
 void expect_no_allocation(const std::string& coupling_name, HapticDevice& device) {
     const auto rig = std::make_unique<Rig>(coupling_name, device);
-    const std::size_t before = allocations.load();
+    const std::size_t before = testing::allocation_count();
     for (int tick = 0; tick < 2000; ++tick) {
         const double time_s = 0.001 * tick;
         rig->haptic.tick(time_s, tick % 500 == 499 ? 30 : 0);  // faults are no excuse
         rig->milling.step(time_s, 0.001);
     }
-    EXPECT_EQ(allocations.load() - before, 0u) << coupling_name;
+    EXPECT_EQ(testing::allocation_count() - before, 0u) << coupling_name;
     EXPECT_GT(rig->model.removed_mm3()[0], 0.1) << "there was something to do";
     EXPECT_GT(rig->edits.overflow_count(), 0u);
     std::filesystem::remove(rig->file);
@@ -99,9 +67,9 @@ TEST(RealTimeCode, AllocatesNothingWithAnOperator) {
 }
 
 TEST(RealTimeCode, WouldBeCaughtAllocating) {
-    const std::size_t before = allocations.load();
+    const std::size_t before = testing::allocation_count();
     const auto something = std::make_unique<int>(1);
-    EXPECT_GT(allocations.load(), before);
+    EXPECT_GT(testing::allocation_count(), before);
     EXPECT_EQ(*something, 1);
 }
 
