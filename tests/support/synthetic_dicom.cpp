@@ -68,7 +68,8 @@ void write_slice(const std::filesystem::path& file, const SyntheticSlice& slice)
     data.text(0x0028, 0x1052, gdcm::VR::DS, fmt::format("{}", slice.intercept));
     data.text(0x0028, 0x1053, gdcm::VR::DS, fmt::format("{}", slice.slope));
     std::vector<std::int16_t> stored = slice.stored;
-    stored.resize(static_cast<std::size_t>(slice.rows) * slice.columns * slice.samples_per_pixel);
+    stored.resize(static_cast<std::size_t>(slice.rows) * slice.columns * slice.samples_per_pixel *
+                  (slice.frames.empty() ? 1u : std::stoul(slice.frames)));
     if (slice.with_pixel_data)
         data.bytes(0x7fe0, 0x0010, gdcm::VR::OW, reinterpret_cast<const char*>(stored.data()),
                    2 * stored.size());
