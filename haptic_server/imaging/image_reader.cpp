@@ -14,6 +14,7 @@
 #include "haptic_server/imaging/dicom_image.h"
 #include "haptic_server/imaging/imaging_error.h"
 #include "haptic_server/imaging/meta_image_header.h"
+#include "haptic_server/imaging/nifti_header.h"
 #include "haptic_server/imaging/nrrd_header.h"
 #include "haptic_server/imaging/quiet_libraries.h"
 
@@ -120,6 +121,8 @@ OpenedImage open_file(const std::filesystem::path& path, itk::ImageIOBase& io) {
     const bool is_meta_image = dynamic_cast<const itk::MetaImageIO*>(&io) != nullptr;
     if (is_nrrd) require_spacing(path, read_nrrd_header(path));
     if (is_meta_image) require_meta_image_spacing(path);
+    const bool is_nifti = !is_nrrd && !is_meta_image;
+    if (is_nifti) require_nifti_spacing(path);
     OpenedImage opened;
     try {
         const QuietLibraries quiet;
@@ -131,9 +134,10 @@ OpenedImage open_file(const std::filesystem::path& path, itk::ImageIOBase& io) {
     }
     require_volume(path, io);
     opened.image = geometry_of(path, io);
-    if (is_meta_image)
-        require_whole_meta_image(
-            path, voxel_count(opened.image) * static_cast<std::uint64_t>(io.GetComponentSize()));
+    const std::uint64_t voxel_bytes =
+        voxel_count(opened.image) * static_cast<std::uint64_t>(io.GetComponentSize());
+    if (is_meta_image) require_whole_meta_image(path, voxel_bytes);
+    if (is_nifti) require_whole_nifti(path, voxel_bytes);
     if (is_nrrd) note_nrrd_orientation(path, opened.image);
     opened.read_values = [path, geometry = opened.image](const ReportProgress& report) {
         return read_file_values(path, geometry, report);

@@ -3,6 +3,9 @@
 #include <gmock/gmock.h>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstring>
 #include <fstream>
 #include <glm/geometric.hpp>
 
@@ -168,6 +171,34 @@ TEST_F(ImageReader, ReadsMetaImageAndRefusesItsFaults) {
     EXPECT_EQ(position_mm(good.image, {0.0, 0.0, 1.0}), glm::dvec3(1.0, 2.0, 5.0));
     EXPECT_THAT(refusal_of_text("zero.mha", raw_mha("1 0 1")), HasSubstr("above 0"));
     EXPECT_THAT(refusal_of_text("nan.mha", raw_mha("1 nan 1")), HasSubstr("above 0"));
+}
+
+/// A NIfTI-1 file of 3 x 4 x 5 int16 zeros.
+std::string raw_nifti(float middle_spacing_mm, std::size_t bytes = 3 * 4 * 5 * 2) {
+    std::string file(352 + bytes, '\0');
+    const auto put = [&](std::size_t offset, auto value) {
+        std::memcpy(file.data() + offset, &value, sizeof value);
+    };
+    put(0, std::int32_t{348});
+    constexpr std::array<std::int16_t, 8> size{3, 3, 4, 5, 1, 1, 1, 1};
+    put(40, size);
+    put(70, std::int16_t{4});   // int16
+    put(72, std::int16_t{16});  // bits
+    put(76, std::array{1.0F, 2.0F, middle_spacing_mm, 2.0F});
+    put(108, 352.0F);
+    put(254, std::int16_t{1});  // orientation from the rows below, RAS
+    put(280, std::array{2.0F, 0.0F, 0.0F, 10.0F, 0.0F, 2.0F, 0.0F, 20.0F, 0.0F, 0.0F, 2.0F, 30.0F});
+    put(344, std::array{'n', '+', '1', '\0'});
+    return file;
+}
+
+TEST_F(ImageReader, ReadsNiftiInLpsAndRefusesItsFaults) {
+    write_text(folder_ / "good.nii", raw_nifti(2.0F));
+    const OpenedImage good = open_image(folder_ / "good.nii", std::nullopt);
+    EXPECT_LT(glm::distance(position_mm(good.image, {1.0, 1.0, 1.0}), glm::dvec3(-12.0, -22.0, 32.0)), 1e-5);
+    EXPECT_THAT(refusal_of_text("zero.nii", raw_nifti(0.0F)), HasSubstr("above 0"));
+    EXPECT_THAT(refusal_of_text("nan.nii", raw_nifti(NAN)), HasSubstr("above 0"));
+    EXPECT_THAT(refusal_of_text("half.nii", raw_nifti(2.0F, 50)), HasSubstr("is cut off"));
 }
 
 TEST_F(ImageReader, RefusesColourFourDimensionsAndSingleSlices) {
