@@ -24,6 +24,7 @@ const Tag rows_tag(0x0028, 0x0010);
 const Tag columns_tag(0x0028, 0x0011);
 const Tag samples_tag(0x0028, 0x0002);
 const Tag frames_tag(0x0028, 0x0008);
+const Tag bits_allocated_tag(0x0028, 0x0100);
 const Tag spacing_tag(0x0028, 0x0030);
 const Tag position_tag(0x0020, 0x0032);
 const Tag orientation_tag(0x0020, 0x0037);
@@ -144,6 +145,34 @@ void place_frames(const DataSet& data, std::size_t count, DicomHeader& header) {
     }
 }
 
+/// Where the value of the pixel data begins in the file; GDCM stops before it.
+std::uint64_t pixel_data_position(const std::filesystem::path& path) {
+    gdcm::Reader reader;
+    reader.SetFileName(path.c_str());
+    if (!reader.ReadUpToTag(pixel_data_tag, {pixel_data_tag})) return 0;
+    return reader.GetStreamCurrentPosition();
+}
+
+/// GDCM fills up pixel data that are shorter than the image, as a cut file leaves them.
+void require_whole(const std::filesystem::path& path, const DataSet& data, const DicomHeader& header,
+                   const gdcm::TransferSyntax& syntax, std::uint64_t frames) {
+    if (!header.has_pixel_data) return;
+    // Compressed pixels come in fragments, whose decoder sees whether they are whole; a deflated file's
+    // positions are not those of its data.
+    const gdcm::ByteValue* pixels = data.GetDataElement(pixel_data_tag).GetByteValue();
+    if (pixels == nullptr || syntax == gdcm::TransferSyntax::DeflatedExplicitVRLittleEndian) return;
+    const std::uint64_t expected = frames * static_cast<std::uint64_t>(header.rows) *
+                                   static_cast<std::uint64_t>(header.columns) *
+                                   static_cast<std::uint64_t>(header.samples_per_pixel) *
+                                   static_cast<std::uint64_t>(number_of(data, bits_allocated_tag, 16)) / 8;
+    const std::uint64_t size = std::filesystem::file_size(path);
+    const std::uint64_t after_header = size - std::min(size, pixel_data_position(path));
+    const std::uint64_t there = std::min<std::uint64_t>(pixels->GetLength(), after_header);
+    if (there < expected)
+        throw ImagingError(path, "is cut off: " + std::to_string(there) + " of " + std::to_string(expected) +
+                                     " bytes of pixel data are there");
+}
+
 bool begins_as_dicom(const std::filesystem::path& path) {
     std::ifstream file(path, std::ios::binary);
     std::array<char, 132> start{};
@@ -182,6 +211,7 @@ std::optional<DicomHeader> read_dicom_header(const std::filesystem::path& path) 
     const long count = frames.empty() ? 1 : std::strtol(frames.c_str(), nullptr, 10);
     if (count < 1 || count > 65536)
         throw ImagingError(path, "Number of Frames (0028,0008) is '" + frames + "'");
+    require_whole(path, data, header, syntax, static_cast<std::uint64_t>(count));
     place_frames(data, static_cast<std::size_t>(count), header);
     return header;
 }

@@ -77,7 +77,8 @@ const DicomSeries& choose_series(const std::filesystem::path& folder, const std:
 DicomSeries series_of_file(const std::filesystem::path& path) {
     std::optional<DicomHeader> header = read_dicom_header(path);
     if (!header) throw ImagingError(path, "is not DICOM");
-    if (header->rows == 0 || header->columns == 0) throw ImagingError(path, "is DICOM without an image");
+    if (header->rows == 0 || header->columns == 0)
+        throw ImagingError(path, "has no pixel data (it is DICOM, but no image)");
     DicomSeries series;
     add(series, {path, std::move(*header)});
     return series;

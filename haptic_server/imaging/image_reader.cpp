@@ -13,6 +13,8 @@
 
 #include "haptic_server/imaging/dicom_image.h"
 #include "haptic_server/imaging/imaging_error.h"
+#include "haptic_server/imaging/meta_image_header.h"
+#include "haptic_server/imaging/nifti_header.h"
 #include "haptic_server/imaging/nrrd_header.h"
 #include "haptic_server/imaging/quiet_libraries.h"
 
@@ -81,7 +83,6 @@ SourceImage geometry_of(const std::filesystem::path& path, const itk::ImageIOBas
 /// What a NRRD leaves open is taken as LPS, and said.
 void note_nrrd_orientation(const std::filesystem::path& path, SourceImage& image) {
     const std::map<std::string, std::string> header = read_nrrd_header(path);
-    require_spacing(path, header);
     const auto space = header.find("space");
     const std::string name = space == header.end() ? "" : space->second;
     constexpr std::array anatomical{"left-posterior-superior", "lps", "right-anterior-superior", "ras",
@@ -116,21 +117,28 @@ std::vector<float> read_file_values(const std::filesystem::path& path, const Sou
 }
 
 OpenedImage open_file(const std::filesystem::path& path, itk::ImageIOBase& io) {
+    const bool is_nrrd = dynamic_cast<const itk::NrrdImageIO*>(&io) != nullptr;
+    const bool is_meta_image = dynamic_cast<const itk::MetaImageIO*>(&io) != nullptr;
+    if (is_nrrd) require_spacing(path, read_nrrd_header(path));
+    if (is_meta_image) require_meta_image_spacing(path);
+    const bool is_nifti = !is_nrrd && !is_meta_image;
+    if (is_nifti) require_nifti_spacing(path);
     OpenedImage opened;
     try {
         const QuietLibraries quiet;
         io.SetFileName(path.string());
         io.ReadImageInformation();
     } catch (const itk::ExceptionObject&) {
-        throw ImagingError(
-            path, fmt::format("cannot be read as {}: cut off or damaged",
-                              std::string(io.GetNameOfClass()).substr(0, 4) == "Nrrd"   ? "NRRD"
-                              : std::string(io.GetNameOfClass()).substr(0, 4) == "Nift" ? "NIfTI"
-                                                                                        : "MetaImage"));
+        const char* kind = is_nrrd ? "NRRD" : is_meta_image ? "MetaImage" : "NIfTI";
+        throw ImagingError(path, fmt::format("cannot be read as {}: cut off or damaged", kind));
     }
     require_volume(path, io);
     opened.image = geometry_of(path, io);
-    if (dynamic_cast<const itk::NrrdImageIO*>(&io) != nullptr) note_nrrd_orientation(path, opened.image);
+    const std::uint64_t voxel_bytes =
+        voxel_count(opened.image) * static_cast<std::uint64_t>(io.GetComponentSize());
+    if (is_meta_image) require_whole_meta_image(path, voxel_bytes);
+    if (is_nifti) require_whole_nifti(path, voxel_bytes);
+    if (is_nrrd) note_nrrd_orientation(path, opened.image);
     opened.read_values = [path, geometry = opened.image](const ReportProgress& report) {
         return read_file_values(path, geometry, report);
     };

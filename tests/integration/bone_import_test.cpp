@@ -1,0 +1,151 @@
+// The real program, as a user calls it: what it writes, what it says, how it exits.
+#include <gmock/gmock.h>
+#include <sys/wait.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <fstream>
+#include <sstream>
+
+#include "haptic_server/imaging/hu_file.h"
+#include "tests/support/synthetic_dicom.h"
+#include "tests/support/temporary_folder.h"
+
+namespace osteomill {
+namespace {
+
+using ::testing::HasSubstr;
+
+struct Outcome {
+    int exit_status = -1;
+    std::vector<std::string> lines;  ///< of standard output and error together
+    std::string last() const { return lines.empty() ? "" : lines.back(); }
+};
+
+class BoneImport : public ::testing::Test {
+  protected:
+    Outcome import(const std::filesystem::path& input, const std::string& options = "") {
+        const std::string said = (folder_ / "said").string();
+        const std::string command = std::string(BONE_IMPORT) + " '" + input.string() + "' '" +
+                                    output_.string() + "' " + options + " > '" + said + "' 2>&1";
+        const int status = std::system(command.c_str());
+        Outcome outcome{.exit_status = WIFEXITED(status) ? WEXITSTATUS(status) : 128, .lines = {}};
+        std::ifstream file(said);
+        for (std::string line; std::getline(file, line);) outcome.lines.push_back(line);
+        return outcome;
+    }
+    /// Exit 1 and nothing said but one line that names the input.
+    void expect_refused(const std::filesystem::path& input, const std::string& reason,
+                        const std::string& options = "") {
+        const Outcome outcome = import(input, options);
+        EXPECT_EQ(outcome.exit_status, 1) << input << ": " << outcome.last();
+        EXPECT_EQ(outcome.lines.size(), 1u) << input << ": " << outcome.last();
+        EXPECT_THAT(outcome.last(), HasSubstr("bone_import: " + input.string()));
+        EXPECT_THAT(outcome.last(), HasSubstr(reason));
+        EXPECT_FALSE(std::filesystem::exists(output_)) << input;
+    }
+    testing::TemporaryFolder folder_;
+    std::filesystem::path output_ = folder_ / "bone.nrrd";
+};
+
+TEST_F(BoneImport, MakesABoneFileOfADicomSeries) {
+    testing::write_series(folder_ / "series", testing::synthetic_series(5));
+    const Outcome outcome = import(folder_ / "series", "--spacing-mm 0.5 --threshold-hu 250");
+    ASSERT_EQ(outcome.exit_status, 0) << outcome.last();
+    EXPECT_THAT(outcome.lines.front(), HasSubstr("GiB of memory")) << "the estimate comes first";
+    EXPECT_THAT(outcome.lines, ::testing::Contains("refining 100 %"));
+    const BoneFile file = read_bone_file(output_);
+    EXPECT_EQ(file.threshold_hu, 250.0);
+    EXPECT_EQ(file.volume.grid,
+              (Grid{.size_voxels = {23, 19, 17}, .spacing_mm = 0.5, .origin_mm = {-5.0, -4.0, 0.0}}));
+    EXPECT_EQ(file.volume.hu.front(), -1000) << "far from bone";
+    EXPECT_EQ(file.volume.hu.back(), 400);
+}
+
+TEST_F(BoneImport, ClipsARegionAndSaysSo) {
+    testing::write_series(folder_ / "series", testing::synthetic_series(5));
+    const Outcome outcome = import(folder_ / "series", "--spacing-mm 0.5 --region -3,-2,1,50,0,4");
+    ASSERT_EQ(outcome.exit_status, 0) << outcome.last();
+    EXPECT_THAT(outcome.lines.front(), HasSubstr("clipped to -3.0,-2.0,1.0,6.0,0.0,4.0"));
+    EXPECT_EQ(read_bone_file(output_).volume.grid.origin_mm, glm::dvec3(-3.0, -2.0, 1.0));
+}
+
+TEST_F(BoneImport, RefusesInOneLine) {
+    testing::write_series(folder_ / "series", testing::synthetic_series(5));
+    expect_refused(folder_ / "nowhere", "does not exist");
+    expect_refused(folder_ / "series", "which covers -5.0,-4.0,0.0,6.0,5.0,8.0", "--region 20,0,0,30,5,5");
+    std::filesystem::remove(folder_ / "series/02.dcm");
+    expect_refused(folder_ / "series", "1 missing slice");
+}
+
+TEST_F(BoneImport, RefusesAnImportThatDoesNotFitInMemory) {
+    std::vector<testing::SyntheticSlice> slices = testing::synthetic_series(3);
+    for (std::size_t i = 0; i < slices.size(); ++i) {
+        slices[i].pixel_spacing_mm = {50.0, 50.0};
+        slices[i].position_mm.z = 300.0 * static_cast<double>(i);
+    }
+    testing::write_series(folder_ / "series", slices);
+    const Outcome outcome = import(folder_ / "series", "--spacing-mm 0.02");
+    EXPECT_EQ(outcome.exit_status, 1);
+    EXPECT_THAT(outcome.last(), HasSubstr("--spacing-mm"));
+}
+
+TEST_F(BoneImport, ExitsWithTwoOnWrongUsage) {
+    for (const char* options : {"--region 1,2,3", "--spacing-mm 0", "--rescale 1", "--intensity-window 5,1",
+                                "--rescale 1,2 --intensity-window 1,2", "--nonsense"}) {
+        const Outcome outcome = import(folder_.path(), options);
+        EXPECT_EQ(outcome.exit_status, 2) << options;
+        EXPECT_EQ(outcome.lines.size(), 1u) << options;
+    }
+}
+
+class BoneImportOfRealScans : public BoneImport {
+  protected:
+    void SetUp() override {
+        const char* folder = std::getenv("OSTEOMILL_SCANS");
+        if (folder == nullptr) GTEST_SKIP() << "OSTEOMILL_SCANS does not name the folder of trial scans";
+        scans_ = folder;
+    }
+    std::filesystem::path scans_;
+};
+
+TEST_F(BoneImportOfRealScans, RefusesATiltedGantry) {
+    expect_refused(scans_ / "gantry_tilt_ct", "gantry tilt of 18.5");
+}
+
+TEST_F(BoneImportOfRealScans, RefinesARegionOfTheHead) {
+    const Outcome whole = import(scans_ / "head_ct", "--spacing-mm 0.4 --region -60,10,730,-20,50,770");
+    ASSERT_EQ(whole.exit_status, 0) << whole.last();
+    const std::vector<std::int16_t> hu = read_bone_file(output_).volume.hu;
+    EXPECT_GT(*std::max_element(hu.begin(), hu.end()), 700);
+    EXPECT_LT(*std::min_element(hu.begin(), hu.end()), -900);
+}
+
+TEST_F(BoneImportOfRealScans, ImportsOrRefusesEveryBadDicomSeries) {
+    int refused = 0;
+    int imported = 0;
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(scans_ / "bad_dicom")) {
+        const bool of_files =
+            entry.is_directory() && entry.path().string().find("cornerstone") == std::string::npos &&
+            std::any_of(std::filesystem::directory_iterator(entry.path()), {},
+                        [](const auto& inner) { return inner.path().extension() == ".dcm"; });
+        const bool single = entry.is_regular_file() && entry.path().parent_path().filename() == "cornerstone";
+        if (!of_files && !single) continue;
+        std::filesystem::remove(output_);
+        const Outcome outcome = import(entry.path(), "--spacing-mm 2");
+        if (outcome.exit_status == 0) {
+            ++imported;
+            EXPECT_FALSE(read_bone_file(output_).volume.hu.empty()) << entry.path();
+        } else {
+            ++refused;
+            EXPECT_EQ(outcome.exit_status, 1) << entry.path();
+            EXPECT_EQ(outcome.lines.size(), 1u) << entry.path();
+            EXPECT_THAT(outcome.last(), HasSubstr(entry.path().string()));
+        }
+    }
+    EXPECT_GE(refused, 20);
+    EXPECT_GE(imported, 7) << "the compressed, the multi-frame and the anisotropic series are sound";
+}
+
+}  // namespace
+}  // namespace osteomill
