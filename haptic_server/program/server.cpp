@@ -20,6 +20,7 @@
 #include "haptic_server/loop/force_log.h"
 #include "haptic_server/program/bone_source.h"
 #include "haptic_server/program/measurements.h"
+#include "haptic_server/program/scene_on_bone.h"
 #include "haptic_server/program/status_line.h"
 #include "haptic_server/streaming/streaming_server.h"
 
@@ -27,11 +28,18 @@ namespace osteomill {
 
 namespace {
 
+/// The scene that the options name; where they name only a bone, one without a place for the tool yet.
 Scene load_scene(const ServerOptions& options) {
-    const std::vector<std::string> phantoms = phantom_names();
-    const bool is_phantom = std::find(phantoms.begin(), phantoms.end(), options.scene) != phantoms.end();
-    Scene scene = is_phantom ? phantom_scene(options.scene) : read_scene(options.scene);
-    if (options.bone) scene.bone = FileSource{.path = *options.bone};
+    Scene scene;
+    if (options.bone && !options.scene) {
+        scene = scene_of_bone_file(*options.bone);
+    } else {
+        const std::vector<std::string> phantoms = phantom_names();
+        const std::string name = options.scene.value_or(phantoms.front());
+        const bool is_phantom = std::find(phantoms.begin(), phantoms.end(), name) != phantoms.end();
+        scene = is_phantom ? phantom_scene(name) : read_scene(name);
+        if (options.bone) scene.bone = FileSource{.path = *options.bone};
+    }
     if (options.trajectory) scene.trajectory.source = *options.trajectory;
     return scene;
 }
@@ -111,8 +119,9 @@ class Leftovers {
 
 void run_server(const ServerOptions& options, const std::string& version, const std::atomic<bool>& stop) {
     for (const auto& file : {options.save_bone, options.json, options.log_csv}) require_folder_of(file);
-    const Scene scene = load_scene(options);
+    Scene scene = load_scene(options);
     LoadedBone loaded = load_bone(scene);
+    if (options.bone && !options.scene) place_on_bone(scene, loaded.bone);
     // Saving needs what the bone was built from; nothing else does.
     std::optional<BoneSource> source;
     if (options.save_bone) source = std::move(loaded.source);

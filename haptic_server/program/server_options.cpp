@@ -15,7 +15,7 @@ namespace {
 
 /// As typed, before it is checked against each other.
 struct Typed {
-    std::string scene = phantom_names().front();
+    std::string scene;
     std::string bone;
     std::string device = "simulated";
     std::string grip = "firm";
@@ -42,7 +42,10 @@ CLI::Validator one_of(const std::vector<std::string>& names) {
 }
 
 void declare(CLI::App& app, Typed& typed) {
-    app.add_option("--scene", typed.scene, "Scene: a TOML file, or a phantom: tooth, cube")
+    app.add_option(
+           "--scene", typed.scene,
+           "Scene: a TOML file, or a phantom: tooth, cube (tooth; with --bone alone: a cavity on top of "
+           "that bone)")
         ->capture_default_str();
     app.add_option("--bone", typed.bone, "Bone from a file that bone_import wrote, instead of the scene's")
         ->type_name("FILE.nrrd");
@@ -109,7 +112,7 @@ ServerOptions checked(const Typed& typed) {
         throw std::invalid_argument("--trajectory: only --device simulated follows one");
     }
     ServerOptions options;
-    options.scene = typed.scene;
+    if (!typed.scene.empty()) options.scene = typed.scene;
     options.bone = path_if_given(typed.bone);
     options.device = is_client ? DeviceKind::client : DeviceKind::simulated;
     options.grip = typed.grip == "light" ? Grip::light : Grip::firm;

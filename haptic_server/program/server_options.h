@@ -15,7 +15,8 @@ namespace osteomill {
 enum class DeviceKind { simulated, client };
 
 struct ServerOptions {
-    std::string scene;  ///< a phantom's name or a TOML file
+    std::optional<std::string>
+        scene;  ///< a phantom's name or a TOML file; absent: the bone's own, or the tooth
     std::optional<std::filesystem::path> bone;
     DeviceKind device = DeviceKind::simulated;
     Grip grip = Grip::firm;

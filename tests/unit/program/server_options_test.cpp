@@ -30,7 +30,7 @@ std::string error_of(const std::vector<const char*>& arguments) {
 
 TEST(ServerOptions, NeedNoneToServeTheToothOnThisMachine) {
     const ServerOptions options = *parse({}).options;
-    EXPECT_EQ(options.scene, "tooth");
+    EXPECT_FALSE(options.scene);
     EXPECT_EQ(options.device, DeviceKind::simulated);
     EXPECT_EQ(options.session.clock, ClockKind::real);
     EXPECT_EQ(options.session.coupling, "implicit");
