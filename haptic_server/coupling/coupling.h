@@ -43,6 +43,7 @@ class Coupling {
 struct CouplingOptions {
     DeviceLimits device;
     double milling_period_s = 0.001;
+    double position_resolution_mm = 0.0;  ///< of the device's encoders, in patient space; 0: not to speak of
 };
 
 /// Names for --coupling, in the order of --help; the first is the default.

@@ -4,6 +4,7 @@ namespace osteomill {
 
 ImplicitCoupling::ImplicitCoupling(const CouplingOptions& options)
     : spring_n_per_mm_(options.device.max_stiffness_n_per_mm),
+      hand_(options.position_resolution_mm),
       proxy_(options.device.max_stiffness_n_per_mm) {}
 
 CouplingOutput ImplicitCoupling::tick(const HandState& hand, const MillingResult& latest) noexcept {
@@ -11,11 +12,13 @@ CouplingOutput ImplicitCoupling::tick(const HandState& hand, const MillingResult
         proxy_.place(hand.pose.position_mm);
         lag_mm_ = glm::dvec3(0.0);
         lag_rate_mm_per_s_ = glm::dvec3(0.0);
+        hand_.reset();
         placed_ = true;
     }
-    proxy_.advance(hand.pose.position_mm, hand.tick_s, hand.spindle_on, latest);
+    const glm::dvec3 position_mm = hand_.update(hand.pose.position_mm, hand.tick_s);
+    proxy_.advance(position_mm, hand.tick_s, hand.spindle_on, latest);
 
-    const glm::dvec3 lag_mm = hand.pose.position_mm - proxy_.position_mm();
+    const glm::dvec3 lag_mm = position_mm - proxy_.position_mm();
     const double share = hand.tick_s / (damping_filter_s + hand.tick_s);
     lag_rate_mm_per_s_ += share * ((lag_mm - lag_mm_) / hand.tick_s - lag_rate_mm_per_s_);
     lag_mm_ = lag_mm;

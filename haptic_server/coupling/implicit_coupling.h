@@ -9,6 +9,7 @@
 
 #include "haptic_server/coupling/burr_proxy.h"
 #include "haptic_server/coupling/coupling.h"
+#include "haptic_server/coupling/position_observer.h"
 
 namespace osteomill {
 
@@ -26,6 +27,7 @@ class ImplicitCoupling final : public Coupling {
 
   private:
     double spring_n_per_mm_;
+    PositionObserver hand_;
     BurrProxy proxy_;
     bool placed_ = false;
     glm::dvec3 lag_mm_{0.0};

@@ -22,7 +22,8 @@ struct ArmModel {
 inline DeviceLimits limits_of(const ArmModel& arm) {
     return {.max_force_n = arm.max_force_n,
             .max_stiffness_n_per_mm = arm.max_stiffness_n_per_mm,
-            .apparent_mass_kg = arm.mass_kg};
+            .apparent_mass_kg = arm.mass_kg,
+            .position_resolution_mm = arm.resolution_mm};
 }
 
 }  // namespace osteomill

@@ -49,7 +49,10 @@ MillingSession::MillingSession(const Scene& scene, Bone bone, HapticDevice& devi
       log_(log),
       model_(std::move(bone), scene.burrs, scene.tissues, options.force_model),
       coupling_(make_coupling(
-          options.coupling, {.device = device.limits(), .milling_period_s = 1.0 / options.milling_rate_hz})),
+          options.coupling,
+          {.device = device.limits(),
+           .milling_period_s = 1.0 / options.milling_rate_hz,
+           .position_resolution_mm = device.limits().position_resolution_mm * scene.device.scale})),
       edits_(edit_queue_runs, brick_count(model_.bone())),
       haptic_loop_({.device = device,
                     .coupling = *coupling_,

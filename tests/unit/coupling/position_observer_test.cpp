@@ -1,0 +1,55 @@
+#include "haptic_server/coupling/position_observer.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace osteomill {
+namespace {
+
+constexpr double step_mm = 0.055;
+constexpr double tick_s = 0.001;
+
+double quantised(double x) {
+    return step_mm * std::round(x / step_mm);
+}
+
+TEST(PositionObserver, GlidesWhereTheEncoderSteps) {
+    PositionObserver observer(step_mm);
+    double largest_step = 0.0;
+    double before = 0.0;
+    for (int tick = 0; tick < 2000; ++tick) {
+        const double true_mm = 4.0 * tick_s * tick;  // 4 mm/s: a step of the encoder every 14 ticks
+        const double estimate = observer.update({quantised(true_mm), 0.0, 0.0}, tick_s).x;
+        EXPECT_LE(std::abs(estimate - quantised(true_mm)), 0.5 * step_mm + 1e-12) << "never leaves the cell";
+        if (tick > 200) largest_step = std::max(largest_step, std::abs(estimate - before));
+        before = estimate;
+    }
+    EXPECT_LT(largest_step, 0.25 * step_mm);
+}
+
+TEST(PositionObserver, ComesToRestWithTheHand) {
+    PositionObserver observer(step_mm);
+    for (int tick = 0; tick < 500; ++tick) observer.update({quantised(0.004 * tick), 0.0, 0.0}, tick_s);
+    double before = 0.0;
+    for (int tick = 0; tick < 500; ++tick) before = observer.update({quantised(2.0), 0.0, 0.0}, tick_s).x;
+    EXPECT_NEAR(observer.update({quantised(2.0), 0.0, 0.0}, tick_s).x, before, 1e-4);
+    EXPECT_NEAR(before, quantised(2.0), 0.5 * step_mm + 1e-12);
+}
+
+TEST(PositionObserver, WithoutQuantisationIsTheReading) {
+    PositionObserver observer(0.0);
+    for (const double x : {0.0, 1.0, -3.5, 100.0})
+        EXPECT_EQ(observer.update({x, 2.0 * x, 0.0}, tick_s), glm::dvec3(x, 2.0 * x, 0.0));
+}
+
+TEST(PositionObserver, StartsAnewAfterAReset) {
+    PositionObserver observer(step_mm);
+    for (int tick = 0; tick < 100; ++tick) observer.update({0.055 * tick, 0.0, 0.0}, tick_s);
+    observer.reset();
+    EXPECT_EQ(observer.update({-8.0, 1.0, 2.0}, tick_s), glm::dvec3(-8.0, 1.0, 2.0));
+}
+
+}  // namespace
+}  // namespace osteomill
