@@ -82,7 +82,8 @@ std::variant<std::vector<Burr>, WireError> burrs_from(
     for (const v1::BurrDescription& message : messages) {
         if (!is_positive(message.diameter_mm()) || !is_positive(message.spindle_rpm()) ||
             message.edges() > 1000)
-            return WireError{"burr \"" + message.name() + "\" has an impossible size, speed or edge count"};
+            return WireError{"burr \"" + one_line(message.name()) +
+                             "\" has an impossible size, speed or edge count"};
         burrs.push_back(
             {.name = message.name(),
              .diameter_mm = message.diameter_mm(),
@@ -100,7 +101,7 @@ std::variant<std::vector<Tissue>, WireError> tissues_from(
     for (const v1::TissueDescription& message : messages) {
         const std::uint32_t rgb = message.colour_rgb();
         if (message.label() < 1 || message.label() > 255 || rgb > 0xFFFFFF)
-            return WireError{"tissue \"" + message.name() + "\" has an impossible label or colour"};
+            return WireError{"tissue \"" + one_line(message.name()) + "\" has an impossible label or colour"};
         tissues.push_back({.label = static_cast<std::uint8_t>(message.label()),
                            .name = message.name(),
                            .colour_rgb = {static_cast<std::uint8_t>(rgb >> 16U),
@@ -121,7 +122,7 @@ std::variant<ToolView, WireError> tool_from(const v1::ToolState& message, std::s
                   .spindle_on = message.spindle_on(),
                   .removed_mm3 = message.removed_mm3(),
                   .touches_protected = message.touches_protected(),
-                  .fault = message.fault()};
+                  .fault = one_line(message.fault())};
     if (!std::isfinite(tool.time_s) || !std::isfinite(tool.removed_mm3) ||
         !is_finite(tool.burr_position_mm) || !is_finite(tool.spindle_axis) ||
         !is_finite(tool.hand_position_mm) || !is_finite(tool.force_n))

@@ -30,6 +30,18 @@ std::size_t brick_count(const Grid& grid) {
            static_cast<std::size_t>(size.z);
 }
 
+void require_within_limits(const Grid& grid, std::size_t stored_bricks, std::size_t channels) {
+    if (brick_count(grid) > most_bricks_of_grid)
+        throw std::invalid_argument("the grid has " + std::to_string(brick_count(grid)) +
+                                    " bricks of 16^3 voxels, more than the " +
+                                    std::to_string(most_bricks_of_grid) + " that are sent; crop it");
+    const std::size_t bytes = stored_bricks * channels * brick_voxel_count;
+    if (bytes > most_bytes_of_bone)
+        throw std::invalid_argument("the bone takes " + std::to_string(bytes >> 20U) +
+                                    " MiB, more than the " + std::to_string(most_bytes_of_bone >> 20U) +
+                                    " MiB that are sent; crop or coarsen it");
+}
+
 ByteBrick brick_at(std::span<const std::uint8_t> channels, std::size_t position) {
     ByteBrick brick;
     std::copy_n(channels.begin() + static_cast<std::ptrdiff_t>(position * brick_voxel_count),
@@ -51,7 +63,6 @@ std::variant<Grid, WireError> grid_from(const v1::Grid& message) {
                     .origin_mm = {message.origin_mm().x(), message.origin_mm().y(), message.origin_mm().z()}};
     try {
         require_valid(grid);
-        require_sendable(grid);
     } catch (const std::invalid_argument& error) {
         return refused(error.what());
     }
@@ -60,11 +71,10 @@ std::variant<Grid, WireError> grid_from(const v1::Grid& message) {
 
 }  // namespace
 
-void require_sendable(const Grid& grid) {
-    if (brick_count(grid) > most_bricks_of_grid)
-        throw std::invalid_argument("the grid has " + std::to_string(brick_count(grid)) +
-                                    " bricks of 16^3 voxels, more than the " +
-                                    std::to_string(most_bricks_of_grid) + " that are sent; crop it");
+void require_sendable(const Bone& bone) {
+    const BoneContent& content = bone.content();
+    require_within_limits(content.grid, bone.stored_bricks(),
+                          channel_count(!content.stiffness.empty(), !content.tissue.empty()));
 }
 
 v1::SnapshotBegin snapshot_begin(const Bone& bone) {
@@ -135,6 +145,8 @@ std::variant<SnapshotAssembler, WireError> SnapshotAssembler::begin(const v1::Sn
         return refused(std::to_string(message.brick_count()) + " bricks are announced for a grid of " +
                        std::to_string(brick_count(grid)));
     try {
+        require_within_limits(grid, message.brick_count(),
+                              channel_count(message.heterogeneous(), message.labelled()));
         auto builder =
             message.heterogeneous()
                 ? BoneBuilder::heterogeneous(grid, message.stiffness_per_code(), message.labelled())

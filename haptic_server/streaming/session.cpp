@@ -11,6 +11,11 @@ using boost::system::error_code;
 
 namespace {
 
+/// What the system may hold for one client on top of the frame under way. By default it grows to megabytes,
+/// seconds of frames: a slow client would see old news and the feed would never learn that it is slow. Enough
+/// for 60 MB/s at a round trip of 4 ms.
+constexpr int send_buffer_bytes = 256 * 1024;
+
 std::string describe_peer(const asio::ip::tcp::socket& socket) {
     error_code error;
     const auto endpoint = socket.remote_endpoint(error);
@@ -30,6 +35,7 @@ void Session::start(Callbacks callbacks) {
     error_code ignored;  // a socket without these still works
     socket_.set_option(asio::ip::tcp::no_delay(true), ignored);
     socket_.set_option(asio::socket_base::keep_alive(true), ignored);
+    socket_.set_option(asio::socket_base::send_buffer_size(send_buffer_bytes), ignored);
     read();
     pump();
 }

@@ -14,6 +14,7 @@
 #include <thread>
 #include <utility>
 
+#include "common/wire/frame.h"
 #include "common/wire/protocol_version.h"
 #include "common/wire/scene_messages.h"
 #include "haptic_server/streaming/bone_mirror.h"
@@ -48,6 +49,17 @@ v1::Hello make_hello(const Scene& scene, bool accepts_operator, double force_lim
     hello.set_accepts_operator(accepts_operator);
     hello.set_force_limit_n(force_limit_n);
     return hello;
+}
+
+/// A hello too long for a frame would fail only when a client joins.
+void require_fits_frame(const v1::Hello& hello) {
+    v1::ServerFrame frame;
+    frame.set_sequence(~std::uint64_t{0});
+    *frame.mutable_hello() = hello;
+    if (frame.ByteSizeLong() > largest_frame_bytes)
+        throw std::invalid_argument("the scene's names take " + std::to_string(frame.ByteSizeLong()) +
+                                    " bytes, more than the " + std::to_string(largest_frame_bytes) +
+                                    " of a frame; shorten its burrs' and tissues' names");
 }
 
 ToolView view_of(const ToolSnapshot& tool) {
@@ -99,7 +111,8 @@ class StreamingServer::Impl {
         if (!(std::isfinite(options_.frame_rate_hz) && options_.frame_rate_hz > 0.0))
             throw std::invalid_argument("the frame rate is " + std::to_string(options_.frame_rate_hz) +
                                         " Hz, not above zero");
-        require_sendable(mirror_.bone().grid());
+        require_sendable(mirror_.bone());
+        require_fits_frame(hello_);
         if (operator_input != nullptr) seat_.emplace(*operator_input);
         period_ = std::chrono::duration_cast<Clock::duration>(
             std::chrono::duration<double>(1.0 / options_.frame_rate_hz));

@@ -29,7 +29,7 @@ class StreamingServer {
     /// `mirror` equals the milling loop's bone before the first edit. The server is the one consumer of
     /// `edits`, the one reader of `tool`, and the one writer of `operator_input`, which is null unless the
     /// device is driven by a client; all three outlive it. Throws std::invalid_argument for a frame rate that
-    /// is not above zero or a bone too large to send.
+    /// is not above zero, a bone too large to send, or a scene whose names do not fit a frame.
     StreamingServer(StreamingOptions options, const Scene& scene, Bone mirror,
                     TripleBuffer<ToolSnapshot>& tool, EditQueue& edits,
                     TripleBuffer<OperatorInput>* operator_input, double force_limit_n,

@@ -5,6 +5,7 @@
 #include <boost/asio/connect.hpp>
 #include <boost/asio/post.hpp>
 #include <boost/asio/write.hpp>
+#include <cmath>
 
 #include "common/wire/protocol_version.h"
 #include "common/wire/scene_messages.h"
@@ -167,7 +168,7 @@ std::optional<WireError> ServerConnection::take(const v1::ServerFrame& frame) {
     }
     if (stage_ != Stage::hello && frame.has_goodbye()) {
         disconnect();
-        announce(LinkStatus::finished, where_ + ": " + frame.goodbye().reason());
+        announce(LinkStatus::finished, where_ + ": " + one_line(frame.goodbye().reason()));
         retry_later();
         return std::nullopt;
     }
@@ -188,6 +189,8 @@ std::optional<WireError> ServerConnection::take_hello(const v1::Hello& hello) {
     if (auto* error = std::get_if<WireError>(&burrs)) return *error;
     auto tissues = tissues_from(hello.tissues());
     if (auto* error = std::get_if<WireError>(&tissues)) return *error;
+    if (!std::isfinite(hello.force_limit_n()) || hello.force_limit_n() < 0.0)
+        return WireError{"the force limit is not a finite number of newtons"};
     accepts_operator_ = hello.accepts_operator();
     ++counters_.connections;
     counters_.snapshot_bricks = 0;

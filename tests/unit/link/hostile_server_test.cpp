@@ -5,6 +5,7 @@
 #include <boost/asio/io_context.hpp>
 #include <boost/asio/ip/tcp.hpp>
 #include <boost/asio/write.hpp>
+#include <limits>
 #include <utility>
 
 #include "common/wire/frame.h"
@@ -150,6 +151,26 @@ TEST_F(HostileServer, IsAskedAfreshIfItVanishesInTheMiddleOfAFrame) {
     send(bytes.substr(0, bytes.size() / 2));
     socket_.close();
     expect_loss("trying again");
+}
+
+TEST_F(HostileServer, IsRejectedIfItsForceLimitIsNoNumber) {
+    accept();
+    v1::ServerFrame frame = hello();
+    frame.mutable_hello()->set_force_limit_n(std::numeric_limits<double>::quiet_NaN());
+    send(frame);
+    EXPECT_TRUE(eventually([this] { return poll().rejected_frames == 1; }));
+    EXPECT_THAT(last_.status_line, HasSubstr("force limit"));
+    EXPECT_EQ(link_.session(), nullptr);
+}
+
+TEST_F(HostileServer, CannotBreakTheStatusLine) {
+    greet_until_live();
+    v1::ServerFrame frame;
+    frame.mutable_goodbye()->set_reason("over\n\x1b[2Jand out" + std::string(5000, '!'));
+    send(frame);
+    EXPECT_TRUE(eventually([this] { return poll().status == LinkStatus::finished; }));
+    EXPECT_THAT(last_.status_line, HasSubstr("over??[2Jand out!"));
+    EXPECT_LT(last_.status_line.size(), 300U);
 }
 
 TEST_F(HostileServer, NeverGivesABoneThatIsNotWhole) {

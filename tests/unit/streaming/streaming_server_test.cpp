@@ -11,6 +11,7 @@
 #include "common/wire/frame.h"
 #include "common/wire/scene_messages.h"
 #include "render_client/link/bone_link.h"
+#include "tests/support/replica.h"
 #include "tests/support/served_bone.h"
 
 namespace osteomill {
@@ -36,6 +37,21 @@ class RawClient {
         append_frame(frame, bytes);
         send(bytes);
     }
+    /// Hands what has come to the replica, frame by frame.
+    void read_into(testing::Replica& replica) {
+        std::array<std::uint8_t, 65536> bytes;
+        boost::system::error_code error;
+        while (const std::size_t count = socket_.read_some(boost::asio::buffer(bytes), error)) {
+            decoder_.append(std::span(bytes).first(count));
+            while (const auto message = decoder_.next()) {
+                v1::ServerFrame frame;
+                ASSERT_TRUE(frame.ParseFromArray(message->data(), static_cast<int>(message->size())));
+                std::string one_frame;
+                append_frame(frame, one_frame);
+                replica.take(one_frame);
+            }
+        }
+    }
     /// Reads until the server hangs up.
     bool is_dropped() {
         return eventually([this] {
@@ -50,6 +66,7 @@ class RawClient {
   private:
     boost::asio::io_context io_;
     tcp::socket socket_{io_};
+    FrameDecoder decoder_;
 };
 
 v1::ClientFrame input_frame(std::uint64_t sequence, const OperatorIntent& intent) {
@@ -64,12 +81,12 @@ bool reaches(BoneLink& link, LinkStatus status) {
     return eventually([&] { return link.poll().status == status; });
 }
 
-std::string failure_of(const StreamingOptions& options) {
+std::string failure_of(const StreamingOptions& options, const std::string& burr_name = "round") {
     const Bone bone = BoneBuilder::homogeneous({.size_voxels = {16, 16, 16}}, 1.0, false).build();
     EditQueue edits(16, 1);
     TripleBuffer<ToolSnapshot> tool;
     Scene scene;
-    scene.burrs = {Burr{}};
+    scene.burrs = {Burr{.name = burr_name}};
     try {
         StreamingServer server(options, scene, bone, tool, edits, nullptr, 3.3, "0.0.test");
         server.start();
@@ -86,6 +103,8 @@ TEST(StreamingServer, SaysInOneLineWhyItCannotListen) {
     ServedBone other;
     EXPECT_THAT(failure_of({.port = other.port()}), ::testing::HasSubstr("in use"));
     EXPECT_THAT(failure_of({.frame_rate_hz = 0.0}), ::testing::HasSubstr("frame rate"));
+    EXPECT_THAT(failure_of({.port = 0}, std::string(200'000, 'x')),
+                ::testing::HasSubstr("the scene's names take"));
     EXPECT_EQ(failure_of({.port = 0}), "");
 }
 
@@ -140,6 +159,21 @@ TEST(StreamingServer, IsNotHeldUpByAClientThatNeverReads) {
     EXPECT_TRUE(reaches(link, LinkStatus::finished));
     EXPECT_EQ(checksum(*link.bone()), served.mirror_checksum());
     EXPECT_EQ(served.mirror_checksum(), checksum(served.bone()));
+}
+
+TEST(StreamingServer, KeepsNoBacklogForAClientThatReadsLate) {
+    ServedBone served;
+    served.start_carving();
+    RawClient late(served.port());
+    BoneLink link("127.0.0.1", served.port());
+    ASSERT_TRUE(eventually([&] { return link.poll().frames >= 90; }));
+
+    testing::Replica replica;
+    EXPECT_TRUE(eventually([&] {
+        late.read_into(replica);
+        return replica.checksums() > 0;
+    }));
+    EXPECT_LT(replica.states(), 45U) << "what it missed comes as it now is, not frame by frame";
 }
 
 TEST(StreamingServer, TurnsAwayClientsBeyondItsLimit) {

@@ -41,6 +41,8 @@ TEST(SceneMessages, RefuseImpossibleBurrsAndTissues) {
     *hello.add_burrs() = to_message(Burr{.name = "b"});
     hello.mutable_burrs(0)->set_diameter_mm(not_a_number);
     EXPECT_THAT(error_of(burrs_from(hello.burrs())), HasSubstr("\"b\""));
+    hello.mutable_burrs(0)->set_name("two\nlines");
+    EXPECT_THAT(error_of(burrs_from(hello.burrs())), HasSubstr("\"two?lines\""));
     *hello.add_tissues() = to_message(Tissue{.label = 3, .name = "pulp"});
     EXPECT_EQ(error_of(tissues_from(hello.tissues())), "");
     hello.mutable_tissues(0)->set_label(256);

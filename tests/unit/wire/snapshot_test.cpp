@@ -119,6 +119,18 @@ TEST(Snapshot, RefusesAGridThatCannotBeHad) {
     EXPECT_THAT(error_of(messages), HasSubstr("9 bricks are announced for a grid of 8"));
 }
 
+TEST(Snapshot, RefusesABoneThatWouldFillTheMemoryHoweverItCompresses) {
+    v1::SnapshotBegin begin = of_a_small_block().begin;
+    for (const auto set_size : {&v1::Grid::set_size_x, &v1::Grid::set_size_y, &v1::Grid::set_size_z})
+        (begin.mutable_grid()->*set_size)(4000);
+    begin.set_brick_count((1U << 20U) + 1);  // of 4 KiB
+    EXPECT_THAT(error_of({.begin = begin, .pieces = {}, .end = {}}), HasSubstr("4096 MiB"));
+    begin.set_brick_count(1U << 20U);
+    EXPECT_THAT(error_of({.begin = begin, .pieces = {}, .end = {}}), HasSubstr("0 bricks came"));
+    begin.set_labelled(true);
+    EXPECT_THAT(error_of({.begin = begin, .pieces = {}, .end = {}}), HasSubstr("4096 MiB"));
+}
+
 TEST(Snapshot, RefusesPiecesThatDoNotAddUp) {
     Messages messages = of_a_small_block();
     messages.pieces[0].set_brick(3, 2);
