@@ -16,7 +16,6 @@ for preset in "${presets[@]}"; do
 done
 
 install_packages
-export ASAN_OPTIONS=${ASAN_OPTIONS:-detect_leaks=1} TSAN_OPTIONS=${TSAN_OPTIONS:-halt_on_error=1}
 for preset in "${presets[@]}"; do
     build "$preset"
     say "testing: $preset"

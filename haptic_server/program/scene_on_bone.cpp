@@ -34,6 +34,7 @@ std::optional<glm::ivec3> highest_in_the_middle(const Bone& bone) {
         low = glm::min(low, voxel);
         high = glm::max(high, voxel);
     });
+    if (high.x < low.x) return std::nullopt;
     const glm::dvec3 middle = 0.5 * glm::dvec3(low + high);
     const glm::dvec3 quarter = 0.25 * glm::dvec3(high - low) + 0.5;
     std::optional<glm::ivec3> highest;

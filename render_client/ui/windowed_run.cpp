@@ -43,7 +43,6 @@ void move_camera(SessionPicture& session, const Window& window, bool left_turns)
 
 void move_hand(OperatorHand& hand, const Window& window, SessionPicture& session, double elapsed_s) {
     const ImGuiIO& io = ImGui::GetIO();
-    hand.follow(*session.tool(), session.session()->burrs.size());
     if (!window.focused()) {
         hand.let_go();
         return;
@@ -87,7 +86,12 @@ RenderReport run_in_window(const RenderOptions& options, SessionSource& source,
         // Without a session of this kind there is nobody who could be sent an operator's wishes.
         const bool drills = session.link().status == LinkStatus::live && session.tool() &&
                             session.session() && session.session()->accepts_operator;
-        if (drills) source.send_operator(hand.intent());
+        if (drills) {
+            // What the hand wants is only known once it rests on the tool: an intent of its own making would
+            // drag the tool away.
+            hand.follow(*session.tool(), session.session()->burrs.size());
+            source.send_operator(hand.intent());
+        }
         session.show_operator(drills ? std::optional(hand.intent()) : std::nullopt);
         if (!drills) hand.let_go();
 
