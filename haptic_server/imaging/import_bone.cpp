@@ -74,7 +74,8 @@ void make_hu(const ImportOptions& options, SourceImage& image, std::ostream& mes
         messages << fmt::format("{}: {} voxels are not numbers; taken as air\n", options.input.string(),
                                 replaced);
     if (const auto* rescale = std::get_if<Rescale>(&options.to_hu)) rescale_values(*rescale, image.values);
-    if (const auto* window = std::get_if<IntensityWindow>(&options.to_hu)) window_values(*window, image.values);
+    if (const auto* window = std::get_if<IntensityWindow>(&options.to_hu))
+        window_values(*window, image.values);
 }
 
 /// The region's part in HU. The rest of the scan is let go.
