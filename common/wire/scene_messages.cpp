@@ -3,6 +3,8 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "common/bone/finite.h"
+
 namespace osteomill {
 
 namespace {
@@ -15,10 +17,6 @@ void write(const glm::dvec3& from, v1::Vec3& to) {
 
 glm::dvec3 read(const v1::Vec3& from) {
     return {from.x(), from.y(), from.z()};
-}
-
-bool is_finite(const glm::dvec3& v) {
-    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
 }
 
 bool is_positive(double value) {

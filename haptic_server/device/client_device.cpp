@@ -2,8 +2,8 @@
 
 #include <glm/geometric.hpp>
 
+#include "common/bone/finite.h"
 #include "common/scene/device_mapping.h"
-#include "haptic_server/loop/finite.h"
 
 namespace osteomill {
 

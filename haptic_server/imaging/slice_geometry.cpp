@@ -9,6 +9,8 @@
 #include <numeric>
 #include <stdexcept>
 
+#include "common/bone/finite.h"
+
 namespace osteomill {
 
 namespace {
@@ -21,10 +23,6 @@ constexpr double gap_tolerance_mm = 0.02;
 
 [[noreturn]] void refuse(const std::string& reason) {
     throw std::invalid_argument(reason);
-}
-
-bool is_finite(const glm::dvec3& v) {
-    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
 }
 
 void require_sound(const SlicePlacement& slice) {

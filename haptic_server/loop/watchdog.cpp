@@ -3,7 +3,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "haptic_server/loop/finite.h"
+#include "common/bone/finite.h"
 
 namespace osteomill {
 

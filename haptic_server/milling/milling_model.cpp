@@ -5,16 +5,13 @@
 #include <stdexcept>
 #include <utility>
 
+#include "common/bone/finite.h"
 #include "haptic_server/milling/carve.h"
 #include "haptic_server/milling/cutting_force.h"
 
 namespace osteomill {
 
 namespace {
-
-bool is_finite(const glm::dvec3& v) {
-    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
-}
 
 void require_valid(const Burr& burr) {
     const glm::dvec3& k = burr.cutting_coefficients_n_per_mm2;
