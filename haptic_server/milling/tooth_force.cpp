@@ -54,7 +54,7 @@ void ToothForce::add(const RemovedVoxels& removed, std::span<const float> weight
         const double psi = sigma_ * std::atan2(y, x);
         const double bin_of_centre = (psi - pitch_rad_ * std::floor(psi / pitch_rad_)) * bins_per_rad;
         // A voxel is as wide as it is, seen from the spindle: it cuts in each bin that it reaches into.
-        const double width = bins_per_rad / std::max(std::hypot(x, y), smallest_vector_radius_voxels);
+        const double width = bins_per_rad / std::max(std::hypot(x, y), disc_radius_voxels);
         const glm::dvec3 impulse =
             to_impulse * glm::dvec3(forces_.force_x[i], forces_.force_y[i], forces_.force_z[i]);
         spread(impulse, bin_of_centre - 0.5 * width, std::min(width, static_cast<double>(instants_)));
