@@ -3,7 +3,7 @@
 
 #include "haptic_server/loop/edit_queue.h"
 #include "haptic_server/loop/triple_buffer.h"
-#include "haptic_server/milling/milling_model.h"
+#include "haptic_server/milling/contact_model.h"
 #include "haptic_server/milling/milling_step.h"
 
 namespace osteomill {
@@ -11,7 +11,7 @@ namespace osteomill {
 class MillingLoop {
   public:
     /// All of it outlives the loop.
-    MillingLoop(MillingModel& model, TripleBuffer<BurrCommand>& commands,
+    MillingLoop(ContactModel& model, TripleBuffer<BurrCommand>& commands,
                 TripleBuffer<MillingResult>& results, EditQueue& edits)
         : model_(model), commands_(commands), results_(results), edits_(edits) {}
 
@@ -28,7 +28,7 @@ class MillingLoop {
     }
 
   private:
-    MillingModel& model_;
+    ContactModel& model_;
     TripleBuffer<BurrCommand>& commands_;
     TripleBuffer<MillingResult>& results_;
     EditQueue& edits_;

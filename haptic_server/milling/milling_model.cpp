@@ -32,16 +32,6 @@ bool is_usable(const BurrCommand& command, std::size_t burr_count) {
 
 }  // namespace
 
-std::vector<std::string> force_model_names() {
-    return {"milling", "milling-bins"};
-}
-
-ForceSummation force_summation(const std::string& name) {
-    if (name == "milling") return ForceSummation::voxels;
-    if (name == "milling-bins") return ForceSummation::bins;
-    throw std::invalid_argument("unknown force model '" + name + "'; choose milling or milling-bins");
-}
-
 MillingModel::MillingModel(Bone bone, std::vector<Burr> burrs, const std::vector<Tissue>& tissues,
                            ForceSummation summation)
     : bone_(std::move(bone)), burrs_(std::move(burrs)), summation_(summation), chips_(ChipBins{}) {

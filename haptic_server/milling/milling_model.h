@@ -12,6 +12,7 @@
 #include "common/bone/edit.h"
 #include "common/scene/scene.h"
 #include "haptic_server/milling/chip_map.h"
+#include "haptic_server/milling/contact_model.h"
 #include "haptic_server/milling/milling_step.h"
 
 namespace osteomill {
@@ -22,13 +23,7 @@ enum class ForceSummation {
     bins     ///< over bins [psi, z], as published (chip_map.h)
 };
 
-/// Names for --force-model, in the order of --help; the first is the default.
-std::vector<std::string> force_model_names();
-
-/// Throws std::invalid_argument for an unknown name, listing the known ones.
-ForceSummation force_summation(const std::string& name);
-
-class MillingModel {
+class MillingModel final : public ContactModel {
   public:
     /// `burrs` and `tissues` as in the scene. Throws std::invalid_argument for an empty burr set or a burr
     /// whose values are not finite and positive.
@@ -39,10 +34,11 @@ class MillingModel {
     /// overwrites `result`. The first step, and the first with another burr, starts at the command's pose
     /// without a sweep. A command that is not finite, of no duration or of an unknown burr leaves bone and
     /// burr alone and makes the result invalid. Real-time safe.
-    void step(const BurrCommand& command, double time_s, EditSink& edits, MillingResult& result) noexcept;
+    void step(const BurrCommand& command, double time_s, EditSink& edits,
+              MillingResult& result) noexcept override;
 
-    const Bone& bone() const { return bone_; }
-    const RemovedByTissue& removed_mm3() const { return removed_mm3_; }
+    const Bone& bone() const override { return bone_; }
+    const RemovedByTissue& removed_mm3() const override { return removed_mm3_; }
 
   private:
     template <typename Force>

@@ -119,7 +119,7 @@ ServerOptions checked(const Typed& typed) {
     options.trajectory = path_if_given(typed.trajectory);
     options.session.clock = is_virtual ? ClockKind::virtual_time : ClockKind::real;
     options.session.coupling = typed.coupling;
-    options.session.force_model = force_summation(typed.force_model);
+    options.session.force_model = typed.force_model;
     options.session.duration_s = typed.duration_s;
     const double published_rate_hz = 100.0;
     const double default_rate_hz = typed.coupling == "interpolate" ? published_rate_hz : most_milling_rate_hz;
