@@ -11,24 +11,20 @@
 #include "common/bone/bone.h"
 #include "common/bone/edit.h"
 #include "common/scene/scene.h"
-#include "haptic_server/milling/chip_map.h"
 #include "haptic_server/milling/contact_model.h"
+#include "haptic_server/milling/milling_settings.h"
 #include "haptic_server/milling/milling_step.h"
+#include "haptic_server/milling/tooth_force.h"
 
 namespace osteomill {
 
-/// How the force is summed over the bone that a step removed.
-enum class ForceSummation {
-    voxels,  ///< directly over voxels (cutting_force.h)
-    bins     ///< over bins [psi, z], as published (chip_map.h)
-};
-
 class MillingModel final : public ContactModel {
   public:
-    /// `burrs` and `tissues` as in the scene. Throws std::invalid_argument for an empty burr set or a burr
-    /// whose values are not finite and positive.
+    /// `burrs` and `tissues` as in the scene. Throws std::invalid_argument for an empty burr set, a burr
+    /// whose values are not finite and positive or that is more than 500 voxels across, and settings out of
+    /// range.
     MillingModel(Bone bone, std::vector<Burr> burrs, const std::vector<Tissue>& tissues,
-                 ForceSummation summation = ForceSummation::voxels);
+                 const MillingSettings& settings = {});
 
     /// Moves the burr, carves what it passes through (only while the spindle is on), reports the edits and
     /// overwrites `result`. The first step, and the first with another burr, starts at the command's pose
@@ -48,8 +44,9 @@ class MillingModel final : public ContactModel {
     Bone bone_;
     std::vector<Burr> burrs_;
     std::vector<EngagementProbe> probes_;  // by burr
-    ForceSummation summation_;
+    MillingSettings settings_;
     ChipMap chips_;
+    ToothForce tooth_;
     std::array<bool, 256> protected_{};
     RemovedByTissue removed_mm3_{};
     double total_removed_mm3_ = 0.0;
