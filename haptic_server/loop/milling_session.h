@@ -38,7 +38,8 @@ struct MillingSessionOptions {
     ClockKind clock = ClockKind::real;
     double milling_rate_hz = 1000.0;
     std::string coupling = coupling_names().front();
-    std::string force_model = force_model_names().front();
+    std::string force_model =
+        force_model_names().front();  ///< one without a cutting law: not with "implicit"
     double duration_s = std::numeric_limits<double>::infinity();
     /// Somebody consumes edits() while the session runs. If not, the session empties the queue itself.
     bool edits_are_consumed = false;
@@ -63,7 +64,8 @@ class MillingSession {
     static constexpr std::size_t edit_queue_runs = 1u << 18;
 
     /// `device` and `log` (may be null) outlive the session. Throws std::invalid_argument for a milling rate
-    /// out of range, an unknown coupling or force model, or a scene that the parts refuse.
+    /// out of range, an unknown coupling or force model, a coupling that the force model has no law for, or a
+    /// scene that the parts refuse.
     MillingSession(const Scene& scene, Bone bone, HapticDevice& device, const MillingSessionOptions& options,
                    ForceLog* log = nullptr);
 
