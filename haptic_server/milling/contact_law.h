@@ -2,6 +2,7 @@
 // the overlap alone, and a rate at which bone wears off. eroding_model.h makes a contact model of it.
 #pragma once
 
+#include <algorithm>
 #include <glm/vec3.hpp>
 
 #include "common/bone/bone.h"
@@ -34,6 +35,14 @@ struct ContactReaction {
     glm::dvec3 force_n{0.0};     ///< of the bone on the burr, patient axes
     double erosion_per_s = 0.0;  ///< erosion.h; counts only while the spindle is on
 };
+
+/// What is left of a sum of vectors, of total length `total`, that nearly cancel as the burr is swallowed by
+/// bone: below a fiftieth it points where the lattice happens to be uneven, and the force fades out with it.
+/// The burr is then within bone but for a fiftieth of it.
+inline double trust_in_direction(double resultant, double total) {
+    constexpr double least_trusted_share = 0.02;
+    return total > 0.0 ? std::min(1.0, resultant / (least_trusted_share * total)) : 0.0;
+}
 
 class ContactLaw {
   public:

@@ -9,6 +9,8 @@ namespace osteomill {
 namespace {
 
 constexpr double steps_per_code = 65536.0;
+/// What every voxel starts with, so that codes are rounded to the nearest rather than down.
+constexpr std::uint16_t half_a_code = 32768;
 
 int edge_around(double radius_voxels) {
     return static_cast<int>(std::bit_ceil(static_cast<unsigned>(std::ceil(2.0 * radius_voxels)) + 2u));
@@ -18,7 +20,7 @@ int edge_around(double radius_voxels) {
 
 Erosion::Erosion(double largest_radius_voxels)
     : edge_(edge_around(largest_radius_voxels)),
-      remainders_(static_cast<std::size_t>(edge_) * edge_ * edge_, 0) {}
+      remainders_(static_cast<std::size_t>(edge_) * edge_ * edge_, half_a_code) {}
 
 void Erosion::erode(Bone& bone, const Ball& ball, double dose, EditSink& edits,
                     ErosionSink& removed) noexcept {

@@ -58,14 +58,14 @@ HertzContact::HertzContact(const HertzSettings& settings) : settings_(settings) 
 ContactReaction HertzContact::react(const BurrContact& contact) noexcept {
     const Moments moments = moments_of(contact.bone, {contact.centre_voxels, contact.radius_voxels});
     const double off_centre = glm::length(moments.first);
-    // Rounding alone leaves less than this of a moment that vanishes.
-    if (off_centre <= 1e-9 * moments.volume * contact.radius_voxels) return {};
+    if (off_centre == 0.0) return {};
 
     const glm::dvec3 normal = -moments.first / off_centre;
     const double radius_mm = contact.burr.radius_mm();
     const double depth_mm = contact.spacing_mm() * cap_height(moments.volume, contact.radius_voxels);
     const double stiffness = moments.weighted_by_stiffness / moments.volume;
-    const double elastic_n = stiffness * settings_.elasticity_n_per_mm2 * radius_mm * radius_mm *
+    const double trust = trust_in_direction(off_centre, moments.volume * contact.radius_voxels);
+    const double elastic_n = trust * stiffness * settings_.elasticity_n_per_mm2 * radius_mm * radius_mm *
                              std::pow(depth_mm / radius_mm, 1.5);
     if (!contact.spindle_on) return {.force_n = elastic_n * normal};
 

@@ -20,10 +20,10 @@ ContactReaction VoxelTool::react(const BurrContact& contact) noexcept {
     visit_immersed(contact.bone, {contact.centre_voxels, contact.radius_voxels}, add);
 
     const double strength = glm::length(sum);
-    // Rounding alone leaves less than this of a sum that vanishes.
-    if (strength <= 1e-9 * volume_voxels) return reaction;
+    if (strength == 0.0) return reaction;
     const double volume_mm3 = volume_voxels * voxel_volume_mm3(contact.bone.grid());
-    reaction.force_n = settings_.stiffness_n_per_mm3 * volume_mm3 / strength * sum;
+    reaction.force_n = settings_.stiffness_n_per_mm3 * volume_mm3 *
+                       trust_in_direction(strength, volume_voxels) / strength * sum;
     return reaction;
 }
 

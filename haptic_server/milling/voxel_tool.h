@@ -9,7 +9,7 @@
 // here with the burr's voxels on the bone's lattice, w_i = cover of voxel i by the burr times the fraction of
 // it that is bone (1 or 0 in the paper), and V for the number of voxels, so that the force depends on no
 // voxel size. In flat bone V is the spherical cap pi d^2 (R - d/3). Hard and soft bone push alike; with the
-// burr wholly within bone the vectors cancel and there is no force.
+// burr wholly within bone the vectors cancel, and the force has faded out (trust_in_direction()).
 #pragma once
 
 #include "haptic_server/milling/contact_law.h"
