@@ -44,7 +44,7 @@ EngagementProbe::EngagementProbe(const Burr& burr, double spacing_mm)
         const glm::dvec3 normal(std::cos(psi) * sin_kappa, std::sin(psi) * sin_kappa, z);
         const glm::dvec3 e_psi(-std::sin(psi), std::cos(psi), 0.0);
         const glm::dvec3 e_kappa(std::cos(psi) * -z, std::sin(psi) * -z, sin_kappa);
-        const double r_mm = std::max(radius_mm_ * sin_kappa, smallest_radius_voxels * spacing_mm);
+        const double r_mm = std::max(radius_mm_ * sin_kappa, 0.5 * disc_radius_voxels * spacing_mm);
         const glm::dvec3 cutting = -(burr.sigma() * k.x * e_psi + k.y * normal + k.z * e_kappa) *
                                    patch_area_mm2_ / (2.0 * std::numbers::pi * r_mm * burr.spindle_rev_per_s);
         patches_.push_back({normal, cutting});

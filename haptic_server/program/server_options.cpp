@@ -29,6 +29,7 @@ struct Typed {
     std::string save_bone;
     std::string json;
     std::string log_csv;
+    std::string log_milling_csv;
 };
 
 /// CLI11's own message for a choice prints C++ containers; this one reads like the rest of the program.
@@ -97,6 +98,11 @@ void declare(CLI::App& app, Typed& typed) {
     app.add_option("--json", typed.json, "Write what was measured")->type_name("FILE");
     app.add_option("--log-csv", typed.log_csv, "Write force and depth, a line a millisecond")
         ->type_name("FILE");
+    app.add_option(
+           "--log-milling-csv", typed.log_milling_csv,
+           "Write the milling force of every milling step; with --force-model milling-instants at 10 kHz, "
+           "the force within the tooth period")
+        ->type_name("FILE");
 }
 
 std::optional<std::filesystem::path> path_if_given(const std::string& text) {
@@ -135,7 +141,7 @@ double default_milling_rate_hz(const MillingSessionOptions& session) {
     const double published_rate_hz = 100.0;
     const bool is_as_published =
         session.coupling == "interpolate" && force_model(session.force_model).has_cutting_law;
-    return is_as_published ? published_rate_hz : 1000.0;
+    return is_as_published ? published_rate_hz : 1.0 / MillingSession::tick_s;
 }
 
 ServerOptions checked(const Typed& typed) {
@@ -173,6 +179,7 @@ ServerOptions checked(const Typed& typed) {
     }
     options.json = path_if_given(typed.json);
     options.log_csv = path_if_given(typed.log_csv);
+    options.log_milling_csv = path_if_given(typed.log_milling_csv);
     return options;
 }
 
@@ -181,7 +188,7 @@ ServerOptions checked(const Typed& typed) {
 CommandLine parse_command_line(int argc, const char* const* argv, const std::string& version) {
     Typed typed;
     CLI::App app(
-        "Owns the bone, mills it at up to 1 kHz, feeds forces to the hand and shows clients the rest.",
+        "Owns the bone, mills it at up to 10 kHz, feeds forces to the hand and shows clients the rest.",
         "haptic_server");
     app.set_version_flag("--version", fmt::format("haptic_server {}", version));
     declare(app, typed);
