@@ -130,13 +130,14 @@ void fill_voxel(const HuField& field, const std::vector<std::uint8_t>& codes, bo
 BrickChannels channels_of(const HuField& field, const std::vector<std::uint8_t>& codes, bool labelled,
                           const Grid& grid, double threshold_hu, const Candidate& candidate) {
     BrickChannels channels;
+    const bool is_all_bone = candidate.is_all_bone;
     const glm::ivec3 first = candidate.brick * brick_edge_voxels;
     const glm::ivec3 end = glm::min(first + brick_edge_voxels, grid.size_voxels);
     for (int z = first.z; z < end.z; ++z)
         for (int y = first.y; y < end.y; ++y)
             for (int x = first.x; x < end.x; ++x) {
                 const glm::ivec3 voxel(x, y, z);
-                const double covered = candidate.is_all_bone ? 1.0 : cover(field, voxel, threshold_hu);
+                const double covered = is_all_bone ? 1.0 : cover(field, voxel, threshold_hu);
                 if (covered * 255.0 >= 0.5) fill_voxel(field, codes, labelled, voxel, covered, channels);
             }
     return channels;

@@ -1,8 +1,8 @@
 // One step of the milling loop: the newest command in, the model's step, result and edits out.
 #pragma once
 
+#include "haptic_server/exchange/triple_buffer.h"
 #include "haptic_server/loop/edit_queue.h"
-#include "haptic_server/loop/triple_buffer.h"
 #include "haptic_server/milling/milling_model.h"
 #include "haptic_server/milling/milling_step.h"
 
