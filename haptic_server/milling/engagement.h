@@ -10,6 +10,7 @@
 
 #include "common/bone/bone.h"
 #include "common/scene/burr.h"
+#include "haptic_server/milling/brick_neighbourhood.h"
 
 namespace osteomill {
 
@@ -19,7 +20,7 @@ struct EngagedPatch {
     double gap_mm = 0.0;  ///< from the burr's surface outward to the bone's; negative where bone lies inside
     /// Milling force on the burr for each mm/s at which the patch advances into bone along its normal, N
     /// s/mm, patient axes:
-    /// -(sigma K_t e_psi + K_r n + K_a e_kappa) s dA / (2 pi r n_rev), the law of cutting_force.h for a patch
+    /// -(sigma K_t e_psi + K_r n + K_a e_kappa) s dA / (2 pi r n_rev), the law of chip_force.h for a patch
     /// that removes dA times its advance.
     glm::dvec3 cutting_n_s_per_mm{0.0};
     double area_mm2 = 0.0;
@@ -48,7 +49,7 @@ class EngagementProbe {
     /// Fills `out` for a burr at `position_mm` with its spindle along `spindle_axis` (unit). The surface of
     /// the bone is where the trilinear fraction crosses one half. Real-time safe.
     void sample(const Bone& bone, const glm::dvec3& position_mm, const glm::dvec3& spindle_axis,
-                Engagement& out) const;
+                Engagement& out) noexcept;
 
   private:
     struct Patch {
@@ -59,6 +60,7 @@ class EngagementProbe {
     double radius_mm_;
     double patch_area_mm2_;
     std::vector<Patch> patches_;
+    BrickNeighbourhood bricks_;
 };
 
 }  // namespace osteomill

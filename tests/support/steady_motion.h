@@ -18,7 +18,7 @@ struct SteadyResult {
 
 /// The burr enters the block, then travels `travel_mm` in steps of `step_s`; means over that travel.
 inline SteadyResult run_steady(const ReferenceCase& c, double spacing_mm, double step_s, double travel_mm,
-                               ForceSummation summation = ForceSummation::voxels) {
+                               const MillingSettings& settings = {}) {
     const double r = c.burr.radius_mm();
     const double margin = r + 5.0 * spacing_mm;
     const glm::dvec3 direction = glm::normalize(c.velocity_mm_per_s);
@@ -37,7 +37,7 @@ inline SteadyResult run_steady(const ReferenceCase& c, double spacing_mm, double
     }
     high.z = 0.0;
 
-    MillingModel model(make_block(low, high, spacing_mm), {c.burr}, {}, summation);
+    MillingModel model(make_block(low, high, spacing_mm), {c.burr}, {}, settings);
     NoEdits edits;
     MillingResult result;
     const auto go = [&](const glm::dvec3& to, bool spindle_on) {
