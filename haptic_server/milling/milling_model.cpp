@@ -1,5 +1,6 @@
 #include "haptic_server/milling/milling_model.h"
 
+#include <algorithm>
 #include <glm/geometric.hpp>
 #include <stdexcept>
 #include <utility>
