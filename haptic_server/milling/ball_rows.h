@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
@@ -58,8 +59,8 @@ void visit_rows(const Bone& bone, const Ball& ball, Visit&& visit) {
                 for (int z = first.z; z <= last.z; ++z)
                     for (int y = first.y; y <= last.y; ++y) {
                         const std::size_t row_offset = offset_in_brick({0, y, z});
-                        std::uint64_t halves[2];
-                        std::memcpy(halves, fractions.data() + row_offset, sizeof halves);
+                        std::array<std::uint64_t, 2> halves;
+                        std::memcpy(halves.data(), fractions.data() + row_offset, sizeof halves);
                         if ((halves[0] | halves[1]) == 0) continue;
                         const Interval hit = line_through_ball(ball.centre, reach, y, z);
                         if (hit.empty()) continue;

@@ -47,11 +47,11 @@ std::string default_coupling(bool has_cutting_law) {
     return has_cutting_law ? "implicit" : "interpolate";
 }
 
-/// A line for each, in the column of CLI11's descriptions.
+/// A line for each.
 std::string force_model_help() {
     std::string text = "How bone pushes back:";
     for (const ForceModel& model : force_models())
-        text += fmt::format("\n{:32}{}: {}", "", model.name, model.description);
+        text += fmt::format("\n  {}: {}", model.name, model.description);
     return text;
 }
 

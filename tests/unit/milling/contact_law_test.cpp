@@ -7,6 +7,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <memory>
+#include <ostream>
 
 #include "haptic_server/milling/hertz_contact.h"
 #include "haptic_server/milling/petersik_probe.h"
@@ -26,6 +27,10 @@ struct NamedLaw {
     std::unique_ptr<ContactLaw> (*make)();
     bool has_many_points;
 };
+
+void PrintTo(const NamedLaw& law, std::ostream* out) {
+    *out << law.name;
+}
 
 const NamedLaw laws[]{
     {"PointSpring", [] { return std::unique_ptr<ContactLaw>(std::make_unique<PointSpring>()); }, false},
