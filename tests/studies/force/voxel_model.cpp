@@ -1,0 +1,39 @@
+#include <utility>
+
+#include "tests/studies/force/studied_model.h"
+
+namespace osteomill::study {
+
+namespace {
+
+class NoEdits final : public EditSink {
+  public:
+    void push(const EditRun&) noexcept override {}
+};
+
+class VoxelModel final : public StudiedModel {
+  public:
+    VoxelModel(Bone bone, const Burr& burr, ForceSummation summation)
+        : model_(std::move(bone), {burr}, {}, summation) {}
+
+    StepOutcome step(const BurrCommand& command) override {
+        model_.step(command, 0.0, edits_, *result_);
+        return {result_->force_n, result_->removed_mm3};
+    }
+    const Bone& bone() const override { return model_.bone(); }
+
+  private:
+    MillingModel model_;
+    NoEdits edits_;
+    std::unique_ptr<MillingResult> result_ = std::make_unique<MillingResult>();  // too large for a stack
+};
+
+}  // namespace
+
+MakeModel voxel_model(ForceSummation summation) {
+    return [summation](Bone bone, const Burr& burr) {
+        return std::make_unique<VoxelModel>(std::move(bone), burr, summation);
+    };
+}
+
+}  // namespace osteomill::study
