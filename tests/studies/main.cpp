@@ -10,6 +10,7 @@
 
 #include "haptic_server/imaging/progress.h"
 #include "tests/studies/force/case_report.h"
+#include "tests/studies/force/force_study.h"
 
 namespace {
 
@@ -20,6 +21,7 @@ struct ForceOptions {
     std::filesystem::path out = "study/force";
     std::filesystem::path cases{};
     osteomill::study::SteadyRun run{};
+    bool quick = false;
 };
 
 void add_force(CLI::App& app, ForceOptions& options) {
@@ -27,21 +29,23 @@ void add_force(CLI::App& app, ForceOptions& options) {
         app.add_subcommand("force", "the milling force: voxel model against analytical reference");
     force->add_option("--out", options.out, "folder for what the study writes; made if it is not there")
         ->capture_default_str();
-    force
-        ->add_option(
-            "--cases", options.cases,
-            "run the steady motions of this JSON file (the schema of tests/data/milling_forces.json) and "
-            "write OUT/cases.json")
-        ->required();
+    CLI::Option* cases = force->add_option(
+        "--cases", options.cases,
+        "run the steady motions of this JSON file (the schema of tests/data/milling_forces.json) and "
+        "write OUT/cases.json; nothing else is run");
+    force->add_flag("--quick", options.quick, "fewer points, shorter runs: under a minute")->excludes(cases);
     force->add_option("--voxel-mm", options.run.voxel_mm, "edge of a voxel")
+        ->needs(cases)
         ->capture_default_str()
         ->check(CLI::Range(0.01, 1.0));
     force->add_option("--milling-rate-hz", options.run.milling_rate_hz, "steps of the voxel model a second")
+        ->needs(cases)
         ->capture_default_str()
         ->check(CLI::Range(1.0, 100'000.0));
     force
         ->add_option("--travel-mm", options.run.travel_mm,
                      "way over which force is averaged, for motions along the surface (20 steps at least)")
+        ->needs(cases)
         ->capture_default_str()
         ->check(CLI::Range(0.01, 100.0));
 }
@@ -49,7 +53,6 @@ void add_force(CLI::App& app, ForceOptions& options) {
 void run_cases(const ForceOptions& options) {
     using namespace osteomill;
     const auto cases = study::read_steady_cases(options.cases);
-    study::make_folder(options.out);
     const std::filesystem::path file = options.out / "cases.json";
     {
         ProgressLine line(std::cerr, ::isatty(STDERR_FILENO) != 0, "cases");
@@ -74,7 +77,13 @@ int main(int argc, char** argv) {
         return exit_usage;
     }
     try {
-        run_cases(force);
+        osteomill::study::make_folder(force.out);
+        if (!force.cases.empty())
+            run_cases(force);
+        else
+            osteomill::study::run_force_study(
+                {.out = force.out, .quick = force.quick},
+                {.said = std::cout, .progress = std::cerr, .is_terminal = ::isatty(STDERR_FILENO) != 0});
         return 0;
     } catch (const std::exception& error) {
         std::cerr << "osteomill_study: " << error.what() << '\n';
