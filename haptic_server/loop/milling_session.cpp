@@ -47,7 +47,7 @@ MillingSession::MillingSession(const Scene& scene, Bone bone, HapticDevice& devi
     : options_(validated(options)),
       device_(device),
       log_(log),
-      model_(std::move(bone), scene.burrs, scene.tissues, options.force_model),
+      model_(std::move(bone), scene.burrs, scene.tissues, {.summation = options.force_model}),
       coupling_(make_coupling(
           options.coupling,
           {.device = device.limits(),

@@ -8,7 +8,7 @@
 #include <numbers>
 
 #include "haptic_server/milling/burr_frame.h"
-#include "haptic_server/milling/cutting_force.h"
+#include "haptic_server/milling/chip_force.h"
 
 namespace osteomill {
 

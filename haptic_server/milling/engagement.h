@@ -19,7 +19,7 @@ struct EngagedPatch {
     double gap_mm = 0.0;  ///< from the burr's surface outward to the bone's; negative where bone lies inside
     /// Milling force on the burr for each mm/s at which the patch advances into bone along its normal, N
     /// s/mm, patient axes:
-    /// -(sigma K_t e_psi + K_r n + K_a e_kappa) s dA / (2 pi r n_rev), the law of cutting_force.h for a patch
+    /// -(sigma K_t e_psi + K_r n + K_a e_kappa) s dA / (2 pi r n_rev), the law of chip_force.h for a patch
     /// that removes dA times its advance.
     glm::dvec3 cutting_n_s_per_mm{0.0};
     double area_mm2 = 0.0;

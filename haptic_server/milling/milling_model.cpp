@@ -7,13 +7,14 @@
 
 #include "common/bone/finite.h"
 #include "haptic_server/milling/carve.h"
+#include "haptic_server/milling/crescent_rows.h"
 #include "haptic_server/milling/cutting_force.h"
 
 namespace osteomill {
 
 namespace {
 
-void require_valid(const Burr& burr) {
+void require_valid(const Burr& burr, double spacing_mm) {
     const glm::dvec3& k = burr.cutting_coefficients_n_per_mm2;
     const bool good = std::isfinite(burr.diameter_mm) && burr.diameter_mm > 0.0 && burr.edges > 0 &&
                       std::isfinite(burr.spindle_rev_per_s) && burr.spindle_rev_per_s > 0.0 && is_finite(k) &&
@@ -22,6 +23,9 @@ void require_valid(const Burr& burr) {
         throw std::invalid_argument("burr '" + burr.name +
                                     "' needs a diameter, edges and a spindle speed above zero and finite "
                                     "cutting coefficients that are not negative");
+    if (burr.radius_mm() / spacing_mm > CrescentRows::largest_radius_voxels)
+        throw std::invalid_argument("burr '" + burr.name + "' is more than 500 voxels of " +
+                                    std::to_string(spacing_mm) + " mm across; take coarser bone");
 }
 
 bool is_usable(const BurrCommand& command, std::size_t burr_count) {
@@ -30,25 +34,95 @@ bool is_usable(const BurrCommand& command, std::size_t burr_count) {
            std::isfinite(command.elapsed_s) && command.elapsed_s > 0.0 && command.burr < burr_count;
 }
 
+/// Weighs each removed voxel by its stiffness, counts it by tissue and hands it to the force.
+template <typename Force>
+class RemovalTally final : public RemovalSink {
+  public:
+    RemovalTally(const BoneContent& content, const std::array<bool, 256>& is_protected, double mm3_per_code,
+                 RemovedByTissue& removed_mm3, Force& force) noexcept
+        : content_(content),
+          is_protected_(is_protected),
+          mm3_per_code_(mm3_per_code),
+          removed_mm3_(removed_mm3),
+          force_(force) {}
+
+    void take(const RemovedVoxels& removed) noexcept override {
+        weigh(removed);
+        count(removed);
+        force_.add(removed, {weights_.data(), removed.padded_count()});
+    }
+
+    double total_mm3() const { return total_codes_ * mm3_per_code_; }
+    bool touches_protected() const { return touches_protected_; }
+
+  private:
+    void weigh(const RemovedVoxels& removed) noexcept {
+        if (content_.stiffness.empty()) {
+            const auto per_code = static_cast<float>(content_.homogeneous_stiffness / 255.0);
+            for (std::size_t i = 0; i < removed.padded_count(); ++i)
+                weights_[i] = per_code * removed.codes[i];
+            return;
+        }
+        const auto per_code = static_cast<float>(content_.stiffness_per_code / 255.0);
+        for (std::size_t i = 0; i < removed.count; ++i) {
+            const ByteBrick& stiffness = content_.stiffness[static_cast<std::size_t>(removed.slot[i])];
+            weights_[i] = per_code * static_cast<float>(stiffness[removed.offset[i]]) * removed.codes[i];
+        }
+        for (std::size_t i = removed.count; i < removed.padded_count(); ++i) weights_[i] = 0.0f;
+    }
+
+    void count(const RemovedVoxels& removed) noexcept {
+        double codes = 0.0;
+        for (std::size_t i = 0; i < removed.count; ++i) codes += static_cast<double>(removed.codes[i]);
+        total_codes_ += codes;
+        if (content_.tissue.empty()) {
+            removed_mm3_[0] += codes * mm3_per_code_;
+            touches_protected_ |= is_protected_[0];
+            return;
+        }
+        for (std::size_t i = 0; i < removed.count; ++i) {
+            const std::uint8_t label =
+                content_.tissue[static_cast<std::size_t>(removed.slot[i])][removed.offset[i]];
+            removed_mm3_[label] += static_cast<double>(removed.codes[i]) * mm3_per_code_;
+            touches_protected_ |= is_protected_[label];
+        }
+    }
+
+    const BoneContent& content_;
+    const std::array<bool, 256>& is_protected_;
+    double mm3_per_code_;
+    RemovedByTissue& removed_mm3_;
+    Force& force_;
+    double total_codes_ = 0.0;
+    bool touches_protected_ = false;
+    alignas(64) std::array<float, RemovedVoxels::capacity> weights_;
+};
+
 }  // namespace
 
 std::vector<std::string> force_model_names() {
-    return {"milling", "milling-bins"};
+    return {"milling", "milling-bins", "milling-instants"};
 }
 
 ForceSummation force_summation(const std::string& name) {
     if (name == "milling") return ForceSummation::voxels;
     if (name == "milling-bins") return ForceSummation::bins;
-    throw std::invalid_argument("unknown force model '" + name + "'; choose milling or milling-bins");
+    if (name == "milling-instants") return ForceSummation::instants;
+    throw std::invalid_argument("unknown force model '" + name +
+                                "'; choose milling, milling-bins or milling-instants");
 }
 
 MillingModel::MillingModel(Bone bone, std::vector<Burr> burrs, const std::vector<Tissue>& tissues,
-                           ForceSummation summation)
-    : bone_(std::move(bone)), burrs_(std::move(burrs)), summation_(summation), chips_(ChipBins{}) {
+                           const MillingSettings& settings)
+    : bone_(std::move(bone)),
+      burrs_(std::move(burrs)),
+      settings_(settings),
+      chips_(settings.bins),
+      tooth_(settings.instants_per_tooth, settings.instructions) {
     if (burrs_.empty()) throw std::invalid_argument("the milling model needs at least one burr");
     probes_.reserve(burrs_.size());
     for (const Burr& burr : burrs_) {
-        require_valid(burr);
+        require_valid(burr, bone_.grid().spacing_mm);
         probes_.emplace_back(burr, bone_.grid().spacing_mm);
     }
     for (const Tissue& tissue : tissues) protected_[tissue.label] = tissue.is_protected;
@@ -58,27 +132,15 @@ template <typename Force>
 void MillingModel::carve_and_sum(const BurrCommand& command, EditSink& edits, Force& force,
                                  MillingResult& result) noexcept {
     const Grid& grid = bone_.grid();
-    const BoneContent& content = bone_.content();
     const Sweep sweep{to_voxel_coordinates(grid, position_mm_),
                       to_voxel_coordinates(grid, command.pose.position_mm),
                       burrs_[command.burr].radius_mm() / grid.spacing_mm};
-    const double homogeneous = content.homogeneous_stiffness / 255.0;
-    const double per_code = content.stiffness_per_code / 255.0;
-    const double mm3_per_code = voxel_volume_mm3(grid) / 255.0;
-    std::int64_t removed_codes = 0;
-    carve(bone_, sweep, carved_at_position_ ? CarveHistory::carved_at_from : CarveHistory::none, edits,
-          [&](const glm::ivec3& voxel, std::size_t slot, std::size_t offset, int codes) {
-              const double stiffness =
-                  content.stiffness.empty() ? homogeneous : per_code * content.stiffness[slot][offset];
-              force.add(glm::dvec3(voxel), stiffness * codes);
-              removed_codes += codes;
-              const std::uint8_t label =
-                  content.tissue.empty() ? std::uint8_t{0} : content.tissue[slot][offset];
-              removed_mm3_[label] += codes * mm3_per_code;
-              result.touches_protected |= protected_[label];
-          });
+    RemovalTally tally(bone_.content(), protected_, voxel_volume_mm3(grid) / 255.0, removed_mm3_, force);
+    carve(bone_, sweep, carved_at_position_ ? CarveHistory::carved_at_from : CarveHistory::none,
+          {.edges = settings_.edges, .instructions = settings_.instructions}, edits, tally);
     result.force_n = force.force_n();
-    result.removed_mm3 = static_cast<double>(removed_codes) * mm3_per_code;
+    result.removed_mm3 = tally.total_mm3();
+    result.touches_protected = tally.touches_protected();
 }
 
 void MillingModel::step(const BurrCommand& command, double time_s, EditSink& edits,
@@ -105,12 +167,17 @@ void MillingModel::step(const BurrCommand& command, double time_s, EditSink& edi
         const Burr& burr = burrs_[burr_];
         const Grid& grid = bone_.grid();
         const glm::dvec3 middle = to_voxel_coordinates(grid, 0.5 * (position_mm_ + command.pose.position_mm));
-        if (summation_ == ForceSummation::voxels) {
-            CuttingForce force(burr, command.pose.spindle_axis, middle, grid.spacing_mm, command.elapsed_s);
+        const CuttingStep cutting(burr, command.pose.spindle_axis, middle, grid.spacing_mm,
+                                  command.elapsed_s);
+        if (settings_.summation == ForceSummation::voxels) {
+            CuttingForce force(cutting, settings_.instructions);
             carve_and_sum(command, edits, force, result);
-        } else {
-            chips_.begin_step(burr, command.pose.spindle_axis, middle, grid.spacing_mm, command.elapsed_s);
+        } else if (settings_.summation == ForceSummation::bins) {
+            chips_.begin_step(burr, cutting);
             carve_and_sum(command, edits, chips_, result);
+        } else {
+            tooth_.begin_step(burr, cutting);
+            carve_and_sum(command, edits, tooth_, result);
         }
     }
     carved_at_position_ = command.spindle_on;
@@ -121,7 +188,10 @@ void MillingModel::step(const BurrCommand& command, double time_s, EditSink& edi
     result.pose = command.pose;
     result.burr = burr_;
     result.spindle_on = command.spindle_on;
-    probes_[burr_].sample(bone_, position_mm_, command.pose.spindle_axis, result.engagement);
+    if (command.wants_engagement)
+        probes_[burr_].sample(bone_, position_mm_, command.pose.spindle_axis, result.engagement);
+    else
+        result.engagement.count = 0;
 }
 
 }  // namespace osteomill

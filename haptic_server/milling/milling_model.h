@@ -11,16 +11,11 @@
 #include "common/bone/bone.h"
 #include "common/bone/edit.h"
 #include "common/scene/scene.h"
-#include "haptic_server/milling/chip_map.h"
+#include "haptic_server/milling/milling_settings.h"
 #include "haptic_server/milling/milling_step.h"
+#include "haptic_server/milling/tooth_force.h"
 
 namespace osteomill {
-
-/// How the force is summed over the bone that a step removed.
-enum class ForceSummation {
-    voxels,  ///< directly over voxels (cutting_force.h)
-    bins     ///< over bins [psi, z], as published (chip_map.h)
-};
 
 /// Names for --force-model, in the order of --help; the first is the default.
 std::vector<std::string> force_model_names();
@@ -30,10 +25,11 @@ ForceSummation force_summation(const std::string& name);
 
 class MillingModel {
   public:
-    /// `burrs` and `tissues` as in the scene. Throws std::invalid_argument for an empty burr set or a burr
-    /// whose values are not finite and positive.
+    /// `burrs` and `tissues` as in the scene. Throws std::invalid_argument for an empty burr set, a burr
+    /// whose values are not finite and positive or that is more than 500 voxels across, and settings out of
+    /// range.
     MillingModel(Bone bone, std::vector<Burr> burrs, const std::vector<Tissue>& tissues,
-                 ForceSummation summation = ForceSummation::voxels);
+                 const MillingSettings& settings = {});
 
     /// Moves the burr, carves what it passes through (only while the spindle is on), reports the edits and
     /// overwrites `result`. The first step, and the first with another burr, starts at the command's pose
@@ -52,8 +48,9 @@ class MillingModel {
     Bone bone_;
     std::vector<Burr> burrs_;
     std::vector<EngagementProbe> probes_;  // by burr
-    ForceSummation summation_;
+    MillingSettings settings_;
     ChipMap chips_;
+    ToothForce tooth_;
     std::array<bool, 256> protected_{};
     RemovedByTissue removed_mm3_{};
     double total_removed_mm3_ = 0.0;

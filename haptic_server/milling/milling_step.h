@@ -15,8 +15,9 @@ namespace osteomill {
 struct BurrCommand {
     ToolPose pose;  ///< at the end of the step, patient LPS; the axis is a unit vector
     bool spindle_on = false;
-    std::size_t burr = 0;    ///< index into the scene's set
-    double elapsed_s = 0.0;  ///< duration of the step, positive
+    std::size_t burr = 0;          ///< index into the scene's set
+    double elapsed_s = 0.0;        ///< duration of the step, positive
+    bool wants_engagement = true;  ///< false: nobody will look at the result's engagement, save its time
 };
 
 /// Removed bone per tissue label, mm^3; index = label.

@@ -16,10 +16,10 @@ struct SteadyResult {
 
 /// The burr enters the block, then travels `travel_mm` in steps of `step_s`; means over that travel.
 inline SteadyResult run_steady(const ReferenceCase& c, double spacing_mm, double step_s, double travel_mm,
-                               ForceSummation summation = ForceSummation::voxels) {
+                               const MillingSettings& settings = {}) {
     const study::ForceSeries series = study::run_steady(
         c, {.voxel_mm = spacing_mm, .milling_rate_hz = 1.0 / step_s, .travel_mm = travel_mm},
-        study::voxel_model(summation));
+        study::voxel_model(settings));
     return {study::mean_force_n(series), study::removal_mm3_per_s(series)};
 }
 

@@ -27,7 +27,8 @@ class StudiedModel {
 /// Gives a model its bone and its only burr.
 using MakeModel = std::function<std::unique_ptr<StudiedModel>(Bone bone, const Burr& burr)>;
 
-/// The program's own model; by default as haptic_server uses it.
-MakeModel voxel_model(ForceSummation summation = ForceSummation::voxels);
+/// The program's own model; by default as haptic_server uses it, but without the engagement that a coupling
+/// may ask for beside the force: a step's time is that of the force.
+MakeModel voxel_model(const MillingSettings& settings = {});
 
 }  // namespace osteomill::study

@@ -13,11 +13,13 @@ class NoEdits final : public EditSink {
 
 class VoxelModel final : public StudiedModel {
   public:
-    VoxelModel(Bone bone, const Burr& burr, ForceSummation summation)
-        : model_(std::move(bone), {burr}, {}, summation) {}
+    VoxelModel(Bone bone, const Burr& burr, const MillingSettings& settings)
+        : model_(std::move(bone), {burr}, {}, settings) {}
 
     StepOutcome step(const BurrCommand& command) override {
-        model_.step(command, 0.0, edits_, *result_);
+        BurrCommand force_only = command;
+        force_only.wants_engagement = false;
+        model_.step(force_only, 0.0, edits_, *result_);
         return {result_->force_n, result_->removed_mm3};
     }
     const Bone& bone() const override { return model_.bone(); }
@@ -30,9 +32,9 @@ class VoxelModel final : public StudiedModel {
 
 }  // namespace
 
-MakeModel voxel_model(ForceSummation summation) {
-    return [summation](Bone bone, const Burr& burr) {
-        return std::make_unique<VoxelModel>(std::move(bone), burr, summation);
+MakeModel voxel_model(const MillingSettings& settings) {
+    return [settings](Bone bone, const Burr& burr) {
+        return std::make_unique<VoxelModel>(std::move(bone), burr, settings);
     };
 }
 

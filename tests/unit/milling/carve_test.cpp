@@ -25,12 +25,21 @@ Sweep in_voxels(const Bone& bone, const glm::dvec3& from_mm, const glm::dvec3& t
             radius_mm / spacing_mm};
 }
 
+/// Forgets what was removed, but counts its codes.
+class Count final : public RemovalSink {
+  public:
+    void take(const RemovedVoxels& removed) noexcept override {
+        for (std::size_t i = 0; i < removed.count; ++i) codes += static_cast<int>(removed.codes[i]);
+    }
+    int codes = 0;
+};
+
 void carve_path(Bone& bone, const std::vector<glm::dvec3>& path_mm) {
     NoEdits edits;
-    const auto ignore = [](const glm::ivec3&, std::size_t, std::size_t, int) {};
+    Count removed;
     for (std::size_t i = 0; i + 1 < path_mm.size(); ++i)
         carve(bone, in_voxels(bone, path_mm[i], path_mm[i + 1]),
-              i == 0 ? CarveHistory::none : CarveHistory::carved_at_from, edits, ignore);
+              i == 0 ? CarveHistory::none : CarveHistory::carved_at_from, {}, edits, removed);
 }
 
 std::vector<glm::dvec3> subdivided(const std::vector<glm::dvec3>& path, int parts) {
@@ -48,8 +57,9 @@ TEST(Carve, RemovesTheSweptVolumeWithinAHalfPercent) {
         Bone bone = block();
         const double before = bone_volume_mm3(bone);
         NoEdits edits;
+        Count removed;
         const glm::dvec3 from(-0.033, 0.021, 0.017);
-        carve(bone, in_voxels(bone, from, to), CarveHistory::none, edits, [](auto&&...) {});
+        carve(bone, in_voxels(bone, from, to), CarveHistory::none, {}, edits, removed);
         const double swept = volume(Sweep{from, to, radius_mm});
         EXPECT_NEAR((before - bone_volume_mm3(bone)) / swept, 1.0, 0.005);
     }
@@ -87,15 +97,15 @@ TEST(Carve, CrescentAloneEqualsTheFullSearch) {
     Bone crescent = block();
     Bone full = block();
     NoEdits edits;
-    const auto ignore = [](const glm::ivec3&, std::size_t, std::size_t, int) {};
+    Count removed;
     glm::dvec3 from(0.0);
-    carve(crescent, in_voxels(crescent, from, from), CarveHistory::none, edits, ignore);
-    carve(full, in_voxels(full, from, from), CarveHistory::none, edits, ignore);
+    carve(crescent, in_voxels(crescent, from, from), CarveHistory::none, {}, edits, removed);
+    carve(full, in_voxels(full, from, from), CarveHistory::none, {}, edits, removed);
     for (int i = 0; i < 400; ++i) {
         const glm::dvec3 to =
             glm::clamp(from + glm::dvec3(step(random), step(random), i % 3 ? step(random) : 0.0), -3.5, 3.5);
-        carve(crescent, in_voxels(crescent, from, to), CarveHistory::carved_at_from, edits, ignore);
-        carve(full, in_voxels(full, from, to), CarveHistory::none, edits, ignore);
+        carve(crescent, in_voxels(crescent, from, to), CarveHistory::carved_at_from, {}, edits, removed);
+        carve(full, in_voxels(full, from, to), CarveHistory::none, {}, edits, removed);
         from = to;
     }
     EXPECT_EQ(checksum(crescent), checksum(full));
@@ -118,14 +128,14 @@ TEST(Carve, EditsRebuildTheBoneInAnotherCopy) {
     Bone copy = bone;
     Apply edits(copy);
     const auto fine = subdivided(zigzag, 40);
-    int reported_codes = 0;
+    Count removed_codes;
     for (std::size_t i = 0; i + 1 < fine.size(); ++i)
-        carve(bone, in_voxels(bone, fine[i], fine[i + 1]), CarveHistory::carved_at_from, edits,
-              [&](const glm::ivec3&, std::size_t, std::size_t, int codes) { reported_codes += codes; });
+        carve(bone, in_voxels(bone, fine[i], fine[i + 1]), CarveHistory::carved_at_from, {}, edits,
+              removed_codes);
     EXPECT_EQ(edits.refused(), 0);
     EXPECT_EQ(checksum(copy), checksum(bone));
     const double removed = bone_volume_mm3(block()) - bone_volume_mm3(bone);
-    EXPECT_NEAR(reported_codes / 255.0 * voxel_volume_mm3(bone.grid()), removed, 1e-9);
+    EXPECT_NEAR(removed_codes.codes / 255.0 * voxel_volume_mm3(bone.grid()), removed, 1e-9);
 }
 
 TEST(Carve, OutsideTheGridDoesNothing) {

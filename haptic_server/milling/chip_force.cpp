@@ -1,0 +1,126 @@
+#include "haptic_server/milling/chip_force.h"
+
+#include <cmath>
+#include <numbers>
+
+#include "haptic_server/milling/burr_frame.h"
+
+namespace osteomill {
+
+namespace {
+
+/// Inputs of the loop as plain floats: nothing in it may alias.
+struct Constants {
+    float xx, xy, xz, yx, yy, yz, zx, zy, zz;  // rows of the rotation into burr axes
+    float middle_x, middle_y, middle_z;        // counted from the batch's base
+    float per_radius;
+    float tangential, radial, axial;
+};
+
+Constants constants(const CuttingStep& step, const glm::ivec3& base) {
+    const glm::vec3 x(step.frame[0]);
+    const glm::vec3 y(step.frame[1]);
+    const glm::vec3 z(step.frame[2]);
+    const glm::vec3 middle(step.middle_voxels - glm::dvec3(base));
+    return {x.x,
+            x.y,
+            x.z,
+            y.x,
+            y.y,
+            y.z,
+            z.x,
+            z.y,
+            z.z,
+            middle.x,
+            middle.y,
+            middle.z,
+            static_cast<float>(1.0 / step.radius_voxels),
+            step.coefficients.x,
+            step.coefficients.y,
+            step.coefficients.z};
+}
+
+[[gnu::always_inline]] inline void forces_of(const Constants& in, std::size_t count, const float* vx,
+                                             const float* vy, const float* vz, const float* weights,
+                                             ChipForces& out) {
+    const Constants c = in;
+    constexpr auto least_r = static_cast<float>(smallest_radius_voxels);
+    constexpr auto least_vector_r_squared =
+        static_cast<float>(smallest_vector_radius_voxels * smallest_vector_radius_voxels);
+    for (std::size_t i = 0; i < count; ++i) {
+        const float wx = vx[i] - c.middle_x;
+        const float wy = vy[i] - c.middle_y;
+        const float wz = vz[i] - c.middle_z;
+        const float x = c.xx * wx + c.xy * wy + c.xz * wz;
+        const float y = c.yx * wx + c.yy * wy + c.yz * wz;
+        const float z = c.zx * wx + c.zy * wy + c.zz * wz;
+        float cos_kappa = -z * c.per_radius;
+        cos_kappa = cos_kappa < -1.0f ? -1.0f : cos_kappa;
+        cos_kappa = cos_kappa > 1.0f ? 1.0f : cos_kappa;
+        const float sin_kappa = std::sqrt(1.0f - cos_kappa * cos_kappa);
+        const float r_squared = x * x + y * y;
+        const float r = std::sqrt(r_squared);
+        const float per_r_squared =
+            weights[i] / (r_squared < least_vector_r_squared ? least_vector_r_squared : r_squared);
+        const float per_r = weights[i] / (r < least_r ? least_r : r);
+        const float outward = c.radial * sin_kappa + c.axial * cos_kappa;
+        out.x[i] = x;
+        out.y[i] = y;
+        out.z[i] = z;
+        out.force_x[i] = -per_r_squared * (outward * x - c.tangential * y);
+        out.force_y[i] = -per_r_squared * (outward * y + c.tangential * x);
+        out.force_z[i] = -per_r * (c.axial * sin_kappa - c.radial * cos_kappa);
+    }
+}
+
+#if defined(__x86_64__)
+[[gnu::target("avx2")]] void forces_of_avx2(const Constants& c, std::size_t count, const float* x,
+                                            const float* y, const float* z, const float* weights,
+                                            ChipForces& out) {
+    forces_of(c, count, x, y, z, weights, out);
+}
+#endif
+
+}  // namespace
+
+CuttingStep::CuttingStep(const Burr& burr, const glm::dvec3& spindle_axis, const glm::dvec3& middle,
+                         double spacing, double elapsed)
+    : frame(burr_frame(spindle_axis)),
+      middle_voxels(middle),
+      radius_voxels(burr.radius_mm() / spacing),
+      spacing_mm(spacing),
+      coefficients(glm::dvec3(burr.sigma(), 1.0, 1.0) * burr.cutting_coefficients_n_per_mm2),
+      elapsed_s(elapsed),
+      // V / r in units of the spacing: h^3 / (r h) = h^2 / r.
+      newton_per_unit(spacing * spacing / (2.0 * std::numbers::pi * burr.spindle_rev_per_s * elapsed)) {}
+
+void chip_forces(const CuttingStep& step, const RemovedVoxels& removed, std::span<const float> weights,
+                 [[maybe_unused]] InstructionSet instructions, ChipForces& out) noexcept {
+    const Constants c = constants(step, removed.base);
+    const std::size_t count = removed.padded_count();
+#if defined(__x86_64__)
+    if (instructions == InstructionSet::avx2) {
+        forces_of_avx2(c, count, removed.x.data(), removed.y.data(), removed.z.data(), weights.data(), out);
+        return;
+    }
+#endif
+    forces_of(c, count, removed.x.data(), removed.y.data(), removed.z.data(), weights.data(), out);
+}
+
+glm::dvec3 sum_of(const ChipForces& forces, std::size_t padded_count) noexcept {
+    constexpr std::size_t lanes = RemovedVoxels::lanes;
+    std::array<float, lanes> x{};
+    std::array<float, lanes> y{};
+    std::array<float, lanes> z{};
+    for (std::size_t first = 0; first < padded_count; first += lanes)
+        for (std::size_t lane = 0; lane < lanes; ++lane) {
+            x[lane] += forces.force_x[first + lane];
+            y[lane] += forces.force_y[first + lane];
+            z[lane] += forces.force_z[first + lane];
+        }
+    glm::dvec3 sum(0.0);
+    for (std::size_t lane = 0; lane < lanes; ++lane) sum += glm::dvec3(x[lane], y[lane], z[lane]);
+    return sum;
+}
+
+}  // namespace osteomill

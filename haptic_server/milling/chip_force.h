@@ -1,0 +1,72 @@
+// The force of each bit of bone that a step removed, without bins:
+//
+//     f = s V (-sigma K_t e_psi - K_r n - K_a e_kappa) / (2 pi r n_rev dt)
+//
+// Summed over the removed voxels this is equation (2) of the published method, F = (1/N_theta) sum_j sum_i
+// sum_k T(i,j,k) [K_t K_r K_a]^T t(i,j,k) dz, in the limit of fine bins: the bone removed at (psi, z) is the
+// chip t that the M = N_phi n_rev dt teeth passing that angle cut, t = s V / (M r dpsi dz). So the mean does
+// not depend on the number of edges at a given feed and spindle speed. Geometry as in Lee and Altintas 1996:
+// burr frame, kappa = 0 at the tip,
+//     n = (cos psi sin kappa, sin psi sin kappa, -cos kappa)
+//     e_psi = (-sin psi, cos psi, 0)
+//     e_kappa = (cos psi cos kappa, sin psi cos kappa, sin kappa).
+#pragma once
+
+#include <array>
+#include <glm/mat3x3.hpp>
+#include <glm/vec3.hpp>
+#include <span>
+
+#include "common/scene/burr.h"
+#include "haptic_server/milling/instruction_set.h"
+#include "haptic_server/milling/removed_voxels.h"
+
+namespace osteomill {
+
+/// Floor of r in 1/r, in voxels: the mean of 1/r over a voxel that sits on the spindle's axis.
+inline constexpr double smallest_radius_voxels = 0.284;
+
+/// Floor of r in the vectors e_psi / r and e_r / r, in voxels: the radius of a disc of a voxel's
+/// cross-section, 1/sqrt(pi). Their components are harmonic, so their mean over a disc is the value at its
+/// centre while the axis lies outside it, and (x, y) / radius^2 once it lies within. So a burr that plunges
+/// off the lattice feels no sideways force.
+inline constexpr double smallest_vector_radius_voxels = 0.5642;
+
+/// A step, as the force sees it.
+struct CuttingStep {
+    /// `middle_voxels` is the burr's centre half-way through the step, in voxel coordinates: directions taken
+    /// from the step's end would leave a bias that no refinement removes. `elapsed_s` > 0; `spindle_axis` is
+    /// a unit vector.
+    CuttingStep(const Burr& burr, const glm::dvec3& spindle_axis, const glm::dvec3& middle_voxels,
+                double spacing_mm, double elapsed_s);
+
+    glm::dmat3 frame;  ///< burr axes in patient axes
+    glm::dvec3 middle_voxels;
+    double radius_voxels;
+    double spacing_mm;
+    glm::vec3 coefficients;  ///< sigma K_t, K_r, K_a
+    double elapsed_s;
+    /// Force in N = this * the sums over `ChipForces`.
+    double newton_per_unit;
+};
+
+/// Force of each voxel of a batch, and where the voxel lies; burr axes, voxels. Scratch: set by chip_forces
+/// up to the batch's padded count.
+struct ChipForces {
+    alignas(64) std::array<float, RemovedVoxels::capacity> force_x;
+    alignas(64) std::array<float, RemovedVoxels::capacity> force_y;
+    alignas(64) std::array<float, RemovedVoxels::capacity> force_z;
+    alignas(64) std::array<float, RemovedVoxels::capacity> x;
+    alignas(64) std::array<float, RemovedVoxels::capacity> y;
+    alignas(64) std::array<float, RemovedVoxels::capacity> z;
+};
+
+/// `weights` are relative stiffness times the fraction removed, zero for padding. Real-time safe.
+void chip_forces(const CuttingStep& step, const RemovedVoxels& removed, std::span<const float> weights,
+                 InstructionSet instructions, ChipForces& out) noexcept;
+
+/// Sum of the forces of the first `padded_count` voxels (a multiple of RemovedVoxels::lanes); burr axes, in
+/// units of CuttingStep::newton_per_unit. Real-time safe.
+glm::dvec3 sum_of(const ChipForces& forces, std::size_t padded_count) noexcept;
+
+}  // namespace osteomill

@@ -1,0 +1,42 @@
+// Voxels that a carve has just lowered, handed on in batches so that what sums over them can do so several at
+// a time.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <glm/vec3.hpp>
+
+namespace osteomill {
+
+/// Structure of arrays, scratch of a carve: entries beyond the count are not set, except that pad() fills the
+/// last group of `lanes`.
+struct RemovedVoxels {
+    static constexpr std::size_t capacity = 512;
+    static constexpr std::size_t lanes = 8;
+
+    glm::ivec3 base{0};  ///< voxel that x, y, z are counted from
+    std::size_t count = 0;
+    alignas(64) std::array<float, capacity> x;  ///< whole numbers of 0 to a few hundred
+    alignas(64) std::array<float, capacity> y;
+    alignas(64) std::array<float, capacity> z;
+    alignas(64) std::array<float, capacity> codes;  ///< how many of its 255 steps each voxel lost, 1 to 255
+    std::array<std::int32_t, capacity> slot;        ///< brick that holds the voxel
+    std::array<std::uint16_t, capacity> offset;     ///< of the voxel in its brick
+
+    std::size_t padded_count() const { return (count + lanes - 1) / lanes * lanes; }
+
+    /// Fills up to padded_count() with voxels at the base that lost nothing.
+    void pad() {
+        for (std::size_t i = count; i < padded_count(); ++i) x[i] = y[i] = z[i] = codes[i] = 0.0f;
+    }
+};
+
+/// Takes what a carve removed. Called in the middle of a step: real-time safe.
+class RemovalSink {
+  public:
+    virtual ~RemovalSink() = default;
+    virtual void take(const RemovedVoxels& removed) noexcept = 0;
+};
+
+}  // namespace osteomill
