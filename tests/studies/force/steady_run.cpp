@@ -1,12 +1,14 @@
 #include "tests/studies/force/steady_run.h"
 
 #include <algorithm>
-#include <chrono>
+#include <array>
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <vector>
 
 #include "tests/studies/force/bone_block.h"
+#include "tests/studies/force/path_run.h"
 
 namespace osteomill::study {
 
@@ -14,12 +16,6 @@ namespace {
 
 /// Off the lattice by an odd share of a voxel, as a hand is.
 constexpr glm::dvec3 off_the_lattice_mm(0.031, 0.017, 0.023);
-
-double microseconds_of(const auto& work) {
-    const auto before = std::chrono::steady_clock::now();
-    work();
-    return std::chrono::duration<double, std::micro>(std::chrono::steady_clock::now() - before).count();
-}
 
 }  // namespace
 
@@ -52,28 +48,17 @@ ForceSeries run_steady(const SteadyCase& c, const SteadyRun& run, const MakeMode
                           .high_mm = glm::max(path.start_mm, path.end_mm) + margin,
                           .up = c.up};
     const auto model = make_model(voxelised(block, run.voxel_mm), c.burr);
-    const auto go = [&](const glm::dvec3& to, bool spindle_on) {
-        return model->step(
-            {.pose = {to, c.spindle_axis}, .spindle_on = spindle_on, .burr = 0, .elapsed_s = path.step_s});
-    };
     if (c.previous_groove_mm_higher) {
         const glm::dvec3 higher = *c.previous_groove_mm_higher * c.up;
-        go(path.start_mm + higher - margin * direction, false);
-        go(path.end_mm + higher + margin * direction, true);
+        const std::array groove{path.start_mm + higher - margin * direction,
+                                path.end_mm + higher + margin * direction};
+        run_path(*model, c.spindle_axis, path.step_s, groove);
     }
-    go(path.start_mm, false);
-    go(path.start_mm, true);
-
-    ForceSeries series{.step_s = path.step_s};
-    for (int i = 1; i <= path.steps; ++i) {
-        const glm::dvec3 to =
-            path.start_mm + (path.end_mm - path.start_mm) * (static_cast<double>(i) / path.steps);
-        StepOutcome outcome;
-        series.step_us.push_back(microseconds_of([&] { outcome = go(to, true); }));
-        series.force_n.push_back(outcome.force_n);
-        series.removed_mm3.push_back(outcome.removed_mm3);
-    }
-    return series;
+    std::vector<glm::dvec3> positions{path.start_mm};
+    for (int i = 1; i <= path.steps; ++i)
+        positions.push_back(path.start_mm +
+                            (path.end_mm - path.start_mm) * (static_cast<double>(i) / path.steps));
+    return run_path(*model, c.spindle_axis, path.step_s, positions);
 }
 
 }  // namespace osteomill::study
