@@ -1,9 +1,7 @@
 #include "tests/studies/force/case_report.h"
 
 #include <cmath>
-#include <fstream>
 #include <glm/geometric.hpp>
-#include <stdexcept>
 
 namespace osteomill::study {
 
@@ -60,19 +58,6 @@ ordered_json report_of(const std::vector<SteadyCase>& cases, const SteadyRun& ru
         progress(static_cast<double>(reports.size()) / static_cast<double>(cases.size()));
     }
     return reports;
-}
-
-void make_folder(const std::filesystem::path& folder) {
-    std::error_code error;
-    std::filesystem::create_directories(folder, error);
-    if (error) throw std::runtime_error(folder.string() + ": cannot be made a folder: " + error.message());
-}
-
-void write_json(const ordered_json& json, const std::filesystem::path& file) {
-    std::ofstream out(file);
-    out << json.dump(1) << '\n';
-    out.close();
-    if (!out) throw std::runtime_error(file.string() + ": cannot be written");
 }
 
 }  // namespace osteomill::study

@@ -1,17 +1,13 @@
 // The voxel model beside the reference, case by case, as JSON.
 #pragma once
 
-#include <filesystem>
-#include <functional>
 #include <nlohmann/json.hpp>
 #include <vector>
 
+#include "tests/studies/force/progress.h"
 #include "tests/studies/force/steady_run.h"
 
 namespace osteomill::study {
-
-/// Called with how much is done, 0 to 1.
-using Progress = std::function<void(double done)>;
 
 /// One case: "voxel_model", "reference" (the analytical reference of reference_force.h) and "file" (what the
 /// case file says), each with mean_force_N and removal_mm3_s; error_percent (vector error over vector norm,
@@ -23,9 +19,5 @@ nlohmann::ordered_json report_of(const SteadyCase& c, const SteadyRun& run, cons
 /// report_of() of every case, an array.
 nlohmann::ordered_json report_of(const std::vector<SteadyCase>& cases, const SteadyRun& run,
                                  const MakeModel& make_model, const Progress& progress);
-
-/// Both throw std::runtime_error in one line naming the path that cannot be written.
-void make_folder(const std::filesystem::path& folder);
-void write_json(const nlohmann::ordered_json& json, const std::filesystem::path& file);
 
 }  // namespace osteomill::study

@@ -31,4 +31,7 @@ using MakeModel = std::function<std::unique_ptr<StudiedModel>(Bone bone, const B
 /// may ask for beside the force: a step's time is that of the force.
 MakeModel voxel_model(const MillingSettings& settings = {});
 
+/// The same with the engagement, as the implicit coupling wants it.
+MakeModel voxel_model_with_engagement();
+
 }  // namespace osteomill::study

@@ -4,10 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <glm/geometric.hpp>
 #include <map>
-#include <stdexcept>
 
 namespace osteomill::study {
 
@@ -65,17 +63,17 @@ SurveyResult measure(const SurveyPoint& point, const MakeModel& make_model) {
     return result;
 }
 
-void write_csv(const std::vector<SurveyResult>& results, const std::filesystem::path& file) {
-    std::ofstream out(file);
-    out << "group,name,diameter_mm,depth_mm,spindle_tilt_deg,spindle_azimuth_deg,up_x,up_y,up_z,feed_x_mm_s,"
-           "feed_y_mm_s,"
-           "feed_z_mm_s,rpm,edges,groove_mm_higher,milling_rate_hz,reference_x_n,reference_y_n,reference_z_n,"
-           "force_x_n,"
-           "force_y_n,force_z_n,error_percent,error_target_percent,removal_error_percent,ripple_percent,"
-           "ripple_target_percent,step_us\n";
+std::string csv_of(const std::vector<SurveyResult>& results) {
+    std::string csv =
+        "group,name,diameter_mm,depth_mm,spindle_tilt_deg,spindle_azimuth_deg,up_x,up_y,up_z,feed_x_mm_s,"
+        "feed_y_mm_s,"
+        "feed_z_mm_s,rpm,edges,groove_mm_higher,milling_rate_hz,reference_x_n,reference_y_n,reference_z_n,"
+        "force_x_n,"
+        "force_y_n,force_z_n,error_percent,error_target_percent,removal_error_percent,ripple_percent,"
+        "ripple_target_percent,step_us\n";
     for (const SurveyResult& r : results) {
         const SteadyCase& c = r.point.motion;
-        out << fmt::format(
+        csv += fmt::format(
             "{},\"{}\",{},{:.4f},{:.2f},{:.2f},{:.5f},{:.5f},{:.5f},{:.5f},{:.5f},{:.5f},{:.0f},{},{},{:.0f},"
             "{:.6f},{:.6f},"
             "{:.6f},{:.6f},{:.6f},{:.6f},{:.4f},{},{:.4f},{:.4f},{},{:.2f}\n",
@@ -88,8 +86,7 @@ void write_csv(const std::vector<SurveyResult>& results, const std::filesystem::
             100.0 * r.ripple, r.point.most_ripple ? fmt::format("{}", 100.0 * *r.point.most_ripple) : "",
             r.step_us);
     }
-    out.close();
-    if (!out) throw std::runtime_error(file.string() + ": cannot be written");
+    return csv;
 }
 
 ordered_json summary_of(const std::vector<SurveyResult>& results) {

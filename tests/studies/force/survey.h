@@ -2,8 +2,6 @@
 // the analytical reference and its target.
 #pragma once
 
-#include <filesystem>
-#include <functional>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
@@ -43,8 +41,8 @@ struct SurveyResult {
 
 SurveyResult measure(const SurveyPoint& point, const MakeModel& make_model);
 
-/// One line a point, with a header. Throws std::runtime_error naming the file.
-void write_csv(const std::vector<SurveyResult>& results, const std::filesystem::path& file);
+/// Table with a header, a line a point.
+std::string csv_of(const std::vector<SurveyResult>& results);
 
 /// For each group: points, how many miss their target of error and of ripple, median and largest of both; and
 /// the points farthest over target, by name.

@@ -13,19 +13,20 @@ class NoEdits final : public EditSink {
 
 class VoxelModel final : public StudiedModel {
   public:
-    VoxelModel(Bone bone, const Burr& burr, const MillingSettings& settings)
-        : model_(std::move(bone), {burr}, {}, settings) {}
+    VoxelModel(Bone bone, const Burr& burr, const MillingSettings& settings, bool wants_engagement)
+        : model_(std::move(bone), {burr}, {}, settings), wants_engagement_(wants_engagement) {}
 
     StepOutcome step(const BurrCommand& command) override {
-        BurrCommand force_only = command;
-        force_only.wants_engagement = false;
-        model_.step(force_only, 0.0, edits_, *result_);
+        BurrCommand wanted = command;
+        wanted.wants_engagement = wants_engagement_;
+        model_.step(wanted, 0.0, edits_, *result_);
         return {result_->force_n, result_->removed_mm3};
     }
     const Bone& bone() const override { return model_.bone(); }
 
   private:
     MillingModel model_;
+    bool wants_engagement_;
     NoEdits edits_;
     std::unique_ptr<MillingResult> result_ = std::make_unique<MillingResult>();  // too large for a stack
 };
@@ -34,7 +35,13 @@ class VoxelModel final : public StudiedModel {
 
 MakeModel voxel_model(const MillingSettings& settings) {
     return [settings](Bone bone, const Burr& burr) {
-        return std::make_unique<VoxelModel>(std::move(bone), burr, settings);
+        return std::make_unique<VoxelModel>(std::move(bone), burr, settings, false);
+    };
+}
+
+MakeModel voxel_model_with_engagement() {
+    return [](Bone bone, const Burr& burr) {
+        return std::make_unique<VoxelModel>(std::move(bone), burr, MillingSettings{}, true);
     };
 }
 
