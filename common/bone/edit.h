@@ -16,7 +16,7 @@ struct EditRun {
     BrickIndex brick = 0;
     std::uint16_t first_voxel = 0;  ///< offset in the brick
     std::uint8_t count = 0;         ///< the run stays within its row: (first_voxel % 16) + count <= 16
-    std::array<std::uint8_t, 16> fraction{};
+    std::array<std::uint8_t, 16> fraction{};  ///< beyond `count`: anything
 };
 
 /// Where a milling step reports its edits. Real-time safe: never blocks, allocates or throws.

@@ -1,38 +1,54 @@
 // One step of the milling loop: the newest command in, the model's step, result and edits out.
+//
+// The haptic loop sends a command every tick. Up to its rate, each step goes all the way to the newest one.
+// Beyond it (the time-resolved force wants 10 kHz) the steps of a tick share the way there, and the haptic
+// loop is told their mean once a tick: it could not feel more.
 #pragma once
 
+#include <algorithm>
+
 #include "haptic_server/loop/edit_queue.h"
+#include "haptic_server/loop/milling_log.h"
 #include "haptic_server/loop/triple_buffer.h"
 #include "haptic_server/milling/milling_model.h"
 #include "haptic_server/milling/milling_step.h"
 
 namespace osteomill {
 
+struct MillingLoopParts {
+    MillingModel& model;
+    TripleBuffer<BurrCommand>& commands;   ///< read
+    TripleBuffer<MillingResult>& results;  ///< written
+    EditQueue& edits;                      ///< written
+    MillingLog* log = nullptr;             ///< written; null: no log
+};
+
 class MillingLoop {
   public:
-    /// All of it outlives the loop.
-    MillingLoop(MillingModel& model, TripleBuffer<BurrCommand>& commands,
-                TripleBuffer<MillingResult>& results, EditQueue& edits)
-        : model_(model), commands_(commands), results_(results), edits_(edits) {}
+    /// All parts outlive the loop. Commands come every `command_period_s`.
+    MillingLoop(const MillingLoopParts& parts, double command_period_s)
+        : parts_(parts), command_period_s_(command_period_s) {}
 
     /// The step that ends at session time `time_s` and lasted `elapsed_s` since the last. Before the first
     /// command there is nothing to do. Real-time safe.
-    void step(double time_s, double elapsed_s) noexcept {
-        has_command_ |= commands_.refresh();
-        if (!has_command_) return;
-        BurrCommand command = commands_.front();
-        command.elapsed_s = elapsed_s;
-        model_.step(command, time_s, edits_, results_.back());
-        results_.publish();
-        edits_.resend_overflowed(model_.bone());
-    }
+    void step(double time_s, double elapsed_s) noexcept;
 
   private:
-    MillingModel& model_;
-    TripleBuffer<BurrCommand>& commands_;
-    TripleBuffer<MillingResult>& results_;
-    EditQueue& edits_;
+    /// Where the burr shall be at the end of this step.
+    ToolPose pose_on_the_way(double elapsed_s) noexcept;
+
+    MillingLoopParts parts_;
+    double command_period_s_;
     bool has_command_ = false;
+    ToolPose start_;           // where the burr was when the newest command came
+    ToolPose pose_;            // where it is
+    double underway_s_ = 0.0;  // since then
+
+    // Since the last result was published.
+    double elapsed_s_ = 0.0;
+    glm::dvec3 impulse_n_s_{0.0};
+    double removed_mm3_ = 0.0;
+    bool touches_protected_ = false;
 };
 
 }  // namespace osteomill

@@ -21,7 +21,7 @@ const MillingSessionOptions& validated(const MillingSessionOptions& options) {
     if (!(options.milling_rate_hz >= least_milling_rate_hz &&
           options.milling_rate_hz <= most_milling_rate_hz)) {
         throw std::invalid_argument("milling rate " + std::to_string(options.milling_rate_hz) +
-                                    " Hz is out of range; choose 25 to 1000 Hz");
+                                    " Hz is out of range; choose 25 to 10000 Hz");
     }
     return options;
 }
@@ -43,15 +43,16 @@ void wait_for_consumer(const std::atomic<bool>* stop, IsDone&& is_done) {
 }  // namespace
 
 MillingSession::MillingSession(const Scene& scene, Bone bone, HapticDevice& device,
-                               const MillingSessionOptions& options, ForceLog* log)
+                               const MillingSessionOptions& options, ForceLog* log, MillingLog* milling_log)
     : options_(validated(options)),
       device_(device),
       log_(log),
+      milling_log_(milling_log),
       model_(std::move(bone), scene.burrs, scene.tissues, {.summation = options.force_model}),
       coupling_(make_coupling(
           options.coupling,
           {.device = device.limits(),
-           .milling_period_s = 1.0 / options.milling_rate_hz,
+           .milling_period_s = std::max(tick_s, 1.0 / options.milling_rate_hz),
            .position_resolution_mm = device.limits().position_resolution_mm * scene.device.scale})),
       edits_(edit_queue_runs, brick_count(model_.bone())),
       haptic_loop_({.device = device,
@@ -66,7 +67,9 @@ MillingSession::MillingSession(const Scene& scene, Bone bone, HapticDevice& devi
                     .burr_count = scene.burrs.size(),
                     .start_burr = scene.start_burr,
                     .start_pose = scene.start_pose}),
-      milling_loop_(model_, commands_, results_, edits_) {}
+      milling_loop_(
+          {.model = model_, .commands = commands_, .results = results_, .edits = edits_, .log = milling_log},
+          tick_s) {}
 
 void MillingSession::run(const std::atomic<bool>& stop,
                          const std::function<void(const ToolSnapshot&)>& on_progress) {
@@ -143,6 +146,7 @@ void MillingSession::run_in_lock_step(const std::atomic<bool>& stop,
 
 void MillingSession::do_chores(const std::function<void(const ToolSnapshot&)>& on_progress) {
     if (log_ != nullptr) log_->drain();
+    if (milling_log_ != nullptr) milling_log_->drain();
     if (!options_.edits_are_consumed) edits_.consume_all([](const EditRun&) {});
     status_.refresh();
     if (on_progress) on_progress(status_.front());

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
+#include <cstring>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
@@ -12,16 +14,41 @@ namespace osteomill {
 
 namespace {
 
-/// Voxels of one row of one brick that may change: where their fractions are and which candidates are theirs.
-struct Chunk {
-    std::uint8_t* row;  // its 16 fractions
-    std::int32_t slot;
-    std::uint16_t row_offset;  // of the row in its brick
-    std::uint16_t first_candidate;
-    std::uint16_t end_candidate;
+/// The 16 fractions of a row of a brick as two words, to see which of them differ.
+struct RowBytes {
+    RowBytes() = default;
+    explicit RowBytes(const std::uint8_t* row) { std::memcpy(words.data(), row, sizeof words); }
+
+    std::array<std::uint64_t, 2> words;
 };
 
-/// Candidates of a short sweep, gathered row by row, then judged and lowered a batch at a time.
+/// First and last of 16 voxels that differ; `last` < 0 where none does. Byte 0 is the lowest of a word.
+struct Difference {
+    static_assert(std::endian::native == std::endian::little);
+
+    Difference(const RowBytes& a, const RowBytes& b) {
+        const std::uint64_t low = a.words[0] ^ b.words[0];
+        const std::uint64_t high = a.words[1] ^ b.words[1];
+        if ((low | high) == 0) return;
+        first = low != 0 ? std::countr_zero(low) / 8 : 8 + std::countr_zero(high) / 8;
+        last = high != 0 ? 15 - std::countl_zero(high) / 8 : 7 - std::countl_zero(low) / 8;
+    }
+
+    int first = 0;
+    int last = -1;
+};
+
+/// Voxels of one row of one brick that may change.
+struct Chunk {
+    std::uint8_t* row;
+    RowBytes before;
+    std::int32_t slot;
+    std::uint16_t row_offset;  // of the row in its brick
+};
+
+/// Candidates of a short sweep, gathered row by row, then judged and lowered a batch at a time. Rows of the
+/// crescent are a few voxels long, so nobody can predict where their loops end: what is done for each voxel
+/// runs over the whole batch instead, without a branch.
 class Batch {
   public:
     Batch(Bone& bone, const glm::ivec3& base, const Sweep& ball, const CarveSettings& settings,
@@ -31,78 +58,70 @@ class Batch {
           instructions_(settings.instructions),
           edits_(edits),
           sink_(sink) {
-        removed_.base = base;
+        voxels_.base = base;
     }
 
     /// Voxels first <= x < end of row (y, z), counted from the base, all in the brick at `slot`.
     void add(int first, int end, int y, int z, std::int32_t slot) noexcept {
-        if (count_ + 16 > capacity || chunk_count_ == chunks_.size()) flush();
-        const glm::ivec3 voxel = removed_.base + glm::ivec3(first, y, z);
+        if (voxels_.count + brick_edge_voxels + group > capacity || chunk_count_ == most_chunks) flush();
+        const glm::ivec3 voxel = voxels_.base + glm::ivec3(first, y, z);
         const std::size_t row_offset = offset_in_brick({0, voxel.y, voxel.z});
         std::uint8_t* const row = bone_.fractions(slot).data() + row_offset;
-        Chunk chunk{.row = row,
-                    .slot = slot,
-                    .row_offset = static_cast<std::uint16_t>(row_offset),
-                    .first_candidate = static_cast<std::uint16_t>(count_),
-                    .end_candidate = 0};
-
-        for (int x = first; x < end; ++x) {
-            const int i = (removed_.base.x + x) & 15;
-            if (row[i] == 0) continue;
-            x_[count_] = static_cast<float>(x);
-            y_[count_] = static_cast<float>(y);
-            z_[count_] = static_cast<float>(z);
-            place_[count_] = static_cast<std::uint8_t>(i);
-            ++count_;
-        }
-        if (count_ == chunk.first_candidate) return;
-        chunk.end_candidate = static_cast<std::uint16_t>(count_);
-        chunks_[chunk_count_++] = chunk;
+        chunks_[chunk_count_++] = {.row = row,
+                                   .before = RowBytes(row),
+                                   .slot = slot,
+                                   .row_offset = static_cast<std::uint16_t>(row_offset)};
+        const int place = voxel.x & 15;
+        const int length = end - first;
+        // Whole groups; those beyond `length` are overwritten by the next row or left behind.
+        for (int done = 0; done < length; done += group)
+            for (int i = done; i < done + group; ++i) {
+                const std::size_t candidate = voxels_.count + static_cast<std::size_t>(i);
+                voxels_.x[candidate] = static_cast<float>(first + i);
+                voxels_.y[candidate] = static_cast<float>(y);
+                voxels_.z[candidate] = static_cast<float>(z);
+                voxels_.slot[candidate] = slot;
+                const int at = std::min(place + i, brick_edge_voxels - 1);
+                voxels_.offset[candidate] = static_cast<std::uint16_t>(static_cast<int>(row_offset) + at);
+                fraction_[candidate] = row + at;
+            }
+        voxels_.count += static_cast<std::size_t>(length);
     }
 
     void flush() noexcept {
-        if (count_ == 0) return;
-        const std::size_t padded = (count_ + cover_lanes - 1) / cover_lanes * cover_lanes;
-        for (std::size_t i = count_; i < padded; ++i) x_[i] = y_[i] = z_[i] = 0.0f;
-        fractions_left(sweep_, {x_.data(), padded}, {y_.data(), padded}, {z_.data(), padded},
-                       {left_.data(), padded}, instructions_);
-        removed_.count = 0;
-        for (std::size_t i = 0; i < chunk_count_; ++i) lower(chunks_[i]);
-        if (removed_.count > 0) {
-            removed_.pad();
-            sink_.take(removed_);
+        voxels_.pad();
+        const std::size_t padded = voxels_.padded_count();
+        fractions_left(sweep_, {voxels_.x.data(), padded}, {voxels_.y.data(), padded},
+                       {voxels_.z.data(), padded}, {left_.data(), padded}, instructions_);
+        for (std::size_t i = 0; i < voxels_.count; ++i) {
+            const int old = *fraction_[i];
+            const int left = std::min(left_[i], old);
+            *fraction_[i] = static_cast<std::uint8_t>(left);
+            voxels_.codes[i] = static_cast<float>(old - left);
         }
-        count_ = 0;
+        for (std::size_t i = 0; i < chunk_count_; ++i) report(chunks_[i]);
+        if (voxels_.count > 0) sink_.take(voxels_);
+        voxels_.count = 0;
         chunk_count_ = 0;
     }
 
   private:
     static constexpr std::size_t capacity = RemovedVoxels::capacity;
+    static constexpr std::size_t most_chunks = capacity;
+    static constexpr int group = 4;
 
-    void lower(const Chunk& chunk) noexcept {
-        int changed_first = 16;
-        int changed_last = -1;
-        for (std::size_t candidate = chunk.first_candidate; candidate < chunk.end_candidate; ++candidate) {
-            const int i = place_[candidate];
-            const int old = chunk.row[i];
-            const int left = left_[candidate];
-            if (left >= old) continue;
-            chunk.row[i] = static_cast<std::uint8_t>(left);
-            changed_first = std::min(changed_first, i);
-            changed_last = i;
-            const std::size_t n = removed_.count++;
-            removed_.x[n] = x_[candidate];
-            removed_.y[n] = y_[candidate];
-            removed_.z[n] = z_[candidate];
-            removed_.codes[n] = static_cast<float>(old - left);
-            removed_.slot[n] = chunk.slot;
-            removed_.offset[n] = static_cast<std::uint16_t>(chunk.row_offset + i);
-        }
-        if (changed_last < 0) return;
+    void report(const Chunk& chunk) noexcept {
+        const Difference changed(chunk.before, RowBytes(chunk.row));
+        if (changed.last < 0) return;
+        const auto first_voxel = static_cast<std::size_t>(chunk.row_offset + changed.first);
         EditRun run{.brick = bone_.content().brick_of_slot[static_cast<std::size_t>(chunk.slot)],
-                    .first_voxel = static_cast<std::uint16_t>(chunk.row_offset + changed_first),
-                    .count = static_cast<std::uint8_t>(changed_last - changed_first + 1)};
-        std::copy_n(chunk.row + changed_first, run.count, run.fraction.begin());
+                    .first_voxel = static_cast<std::uint16_t>(first_voxel),
+                    .count = static_cast<std::uint8_t>(changed.last - changed.first + 1)};
+        // A copy of fixed length is the quickest; it must not leave the brick.
+        if (first_voxel + run.fraction.size() <= brick_voxel_count)
+            std::copy_n(chunk.row + changed.first, run.fraction.size(), run.fraction.begin());
+        else
+            std::copy_n(chunk.row + changed.first, run.count, run.fraction.begin());
         edits_.push(run);
     }
 
@@ -111,16 +130,12 @@ class Batch {
     InstructionSet instructions_;
     EditSink& edits_;
     RemovalSink& sink_;
-    std::size_t count_ = 0;
     std::size_t chunk_count_ = 0;
     // Scratch, not cleared: a step starts with nothing to do.
-    alignas(64) std::array<float, capacity> x_;
-    alignas(64) std::array<float, capacity> y_;
-    alignas(64) std::array<float, capacity> z_;
+    RemovedVoxels voxels_;
+    std::array<std::uint8_t*, capacity> fraction_;  // of each voxel, in the bone
     alignas(64) std::array<std::int32_t, capacity> left_;
-    std::array<std::uint8_t, capacity> place_;  // in the row of its brick
-    std::array<Chunk, capacity> chunks_;
-    RemovedVoxels removed_;
+    std::array<Chunk, most_chunks> chunks_;
 };
 
 /// Slots of the bricks that one layer of a short sweep can change, looked up once for all of their rows.
@@ -167,11 +182,6 @@ class BrickLayer {
     std::array<std::int32_t, most * most> slots_;
 };
 
-/// A range counted from `base`, cut to the grid's voxels 0 to size - 1.
-VoxelRange within_grid(const VoxelRange& range, int base, int size) {
-    return {std::max(range.first, -base), std::min(range.end, size - base)};
-}
-
 /// A sweep of at most CrescentRows::longest_step_voxels.
 void carve_short(Bone& bone, const Sweep& ball, bool crescent_only, const CarveSettings& settings,
                  EditSink& edits, RemovalSink& sink) noexcept {
@@ -179,10 +189,11 @@ void carve_short(Bone& bone, const Sweep& ball, bool crescent_only, const CarveS
     const auto reach = static_cast<int>(std::ceil(ball.radius)) + 3;
     const glm::ivec3 base = glm::ivec3(glm::floor(0.5 * (ball.from + ball.to))) - reach;
     const glm::dvec3 origin(base);
-    CrescentRows rows({ball.from - origin, ball.to - origin, ball.radius}, crescent_only);
-    const VoxelRange all_x = within_grid({0, 2 * reach + 1}, base.x, size.x);
-    const VoxelRange all_y = within_grid(rows.rows(), base.y, size.y);
-    const VoxelRange all_z = within_grid(rows.slices(), base.z, size.z);
+    CrescentRows rows({ball.from - origin, ball.to - origin, ball.radius}, crescent_only,
+                      glm::max(-base, glm::ivec3(0)), size - base);
+    const VoxelRange all_x = rows.columns();
+    const VoxelRange all_y = rows.rows();
+    const VoxelRange all_z = rows.slices();
     if (all_x.empty() || all_y.empty() || all_z.empty()) return;
 
     Batch batch(bone, base, ball, settings, edits, sink);
@@ -191,23 +202,24 @@ void carve_short(Bone& bone, const Sweep& ball, bool crescent_only, const CarveS
         const int layer_end = std::min(all_z.end, 16 * (brick_z + 1) - base.z);
         const BrickLayer layer(bone, base, rows, all_x, all_y, brick_z);
         for (int z = layer_first; layer.holds_any() && z < layer_end; ++z) {
-            rows.begin_slice(z);
-            for (int y = all_y.first; y < all_y.end; ++y) {
+            const VoxelRange slice_rows = rows.begin_slice(z, settings.instructions);
+            for (int y = slice_rows.first; y < slice_rows.end; ++y) {
                 const int brick_y = (base.y + y) >> 4;
                 if (!layer.row_holds_any(brick_y)) {
-                    y = std::min(all_y.end, 16 * (brick_y + 1) - base.y) - 1;
+                    y = std::min(slice_rows.end, 16 * (brick_y + 1) - base.y) - 1;
                     continue;
                 }
-                for (const VoxelRange& part : rows.ranges(y)) {
-                    const VoxelRange range = within_grid(part, base.x, size.x);
-                    for (int x = range.first; x < range.end;) {
+                const auto add_part = [&](const VoxelRange& part) {
+                    for (int x = part.first; x < part.end;) {
                         const int brick_x = (base.x + x) >> 4;
-                        const int end = std::min(range.end, 16 * (brick_x + 1) - base.x);
+                        const int end = std::min(part.end, 16 * (brick_x + 1) - base.x);
                         const std::int32_t slot = layer.slot(brick_x, brick_y);
                         if (slot != BoneContent::no_slot) batch.add(x, end, y, z, slot);
                         x = end;
                     }
-                }
+                };
+                add_part(rows.left(y));
+                add_part(rows.right(y));
             }
         }
         layer_first = layer_end;

@@ -44,9 +44,7 @@ Constants constants(const CuttingStep& step, const glm::ivec3& base) {
                                              const float* vy, const float* vz, const float* weights,
                                              ChipForces& out) {
     const Constants c = in;
-    constexpr auto least_r = static_cast<float>(smallest_radius_voxels);
-    constexpr auto least_vector_r_squared =
-        static_cast<float>(smallest_vector_radius_voxels * smallest_vector_radius_voxels);
+    constexpr auto disc_squared = static_cast<float>(disc_radius_voxels * disc_radius_voxels);
     for (std::size_t i = 0; i < count; ++i) {
         const float wx = vx[i] - c.middle_x;
         const float wy = vy[i] - c.middle_y;
@@ -54,22 +52,26 @@ Constants constants(const CuttingStep& step, const glm::ivec3& base) {
         const float x = c.xx * wx + c.xy * wy + c.xz * wz;
         const float y = c.yx * wx + c.yy * wy + c.yz * wz;
         const float z = c.zx * wx + c.zy * wy + c.zz * wz;
-        float cos_kappa = -z * c.per_radius;
-        cos_kappa = cos_kappa < -1.0f ? -1.0f : cos_kappa;
-        cos_kappa = cos_kappa > 1.0f ? 1.0f : cos_kappa;
-        const float sin_kappa = std::sqrt(1.0f - cos_kappa * cos_kappa);
         const float r_squared = x * x + y * y;
-        const float r = std::sqrt(r_squared);
-        const float per_r_squared =
-            weights[i] / (r_squared < least_vector_r_squared ? least_vector_r_squared : r_squared);
-        const float per_r = weights[i] / (r < least_r ? least_r : r);
-        const float outward = c.radial * sin_kappa + c.axial * cos_kappa;
+        const float distance_squared = r_squared + z * z;
+        // No voxel of a crescent is that near the centre; padding may be.
+        const float distance = std::sqrt(distance_squared < 0.25f ? 0.25f : distance_squared);
+        const float per_distance = 1.0f / distance;
+        const float to_surface = distance * c.per_radius;  // 1 / r there = this / r here
+        const float cos_kappa = -z * per_distance;
+        const float disc_r_squared = r_squared < disc_squared ? disc_squared : r_squared;
+        const float per_disc_r = 1.0f / std::sqrt(disc_r_squared);
+        const float mean_per_r = mean_inverse_distance(r_squared, per_disc_r);
+
+        const float weight = weights[i];
+        const float swirl = weight * to_surface * per_disc_r * per_disc_r;  // e / r, where e = (x, y) / r
+        const float outward = c.axial * cos_kappa * swirl + c.radial * c.per_radius * weight * per_disc_r;
         out.x[i] = x;
         out.y[i] = y;
         out.z[i] = z;
-        out.force_x[i] = -per_r_squared * (outward * x - c.tangential * y);
-        out.force_y[i] = -per_r_squared * (outward * y + c.tangential * x);
-        out.force_z[i] = -per_r * (c.axial * sin_kappa - c.radial * cos_kappa);
+        out.force_x[i] = c.tangential * swirl * y - outward * x;
+        out.force_y[i] = -c.tangential * swirl * x - outward * y;
+        out.force_z[i] = weight * (c.radial * cos_kappa * to_surface * mean_per_r - c.axial * c.per_radius);
     }
 }
 

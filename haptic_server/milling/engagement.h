@@ -10,6 +10,7 @@
 
 #include "common/bone/bone.h"
 #include "common/scene/burr.h"
+#include "haptic_server/milling/brick_neighbourhood.h"
 
 namespace osteomill {
 
@@ -48,7 +49,7 @@ class EngagementProbe {
     /// Fills `out` for a burr at `position_mm` with its spindle along `spindle_axis` (unit). The surface of
     /// the bone is where the trilinear fraction crosses one half. Real-time safe.
     void sample(const Bone& bone, const glm::dvec3& position_mm, const glm::dvec3& spindle_axis,
-                Engagement& out) const;
+                Engagement& out) noexcept;
 
   private:
     struct Patch {
@@ -59,6 +60,7 @@ class EngagementProbe {
     double radius_mm_;
     double patch_area_mm2_;
     std::vector<Patch> patches_;
+    BrickNeighbourhood bricks_;
 };
 
 }  // namespace osteomill

@@ -14,6 +14,12 @@ namespace osteomill {
 
 namespace {
 
+/// Directions are taken from the middle of a stretch of the way: the force of a stretch as long as the burr's
+/// radius would be 10 % off, that of a fifth of it 0.5 %.
+constexpr double longest_stretch_radii = 0.2;
+/// Nobody feels the direction of a step that crosses the whole bone.
+constexpr double most_stretches = 64.0;
+
 void require_valid(const Burr& burr, double spacing_mm) {
     const glm::dvec3& k = burr.cutting_coefficients_n_per_mm2;
     const bool good = std::isfinite(burr.diameter_mm) && burr.diameter_mm > 0.0 && burr.edges > 0 &&
@@ -129,18 +135,37 @@ MillingModel::MillingModel(Bone bone, std::vector<Burr> burrs, const std::vector
 }
 
 template <typename Force>
-void MillingModel::carve_and_sum(const BurrCommand& command, EditSink& edits, Force& force,
+void MillingModel::carve_and_sum(const Sweep& sweep, double share, EditSink& edits, Force& force,
                                  MillingResult& result) noexcept {
-    const Grid& grid = bone_.grid();
-    const Sweep sweep{to_voxel_coordinates(grid, position_mm_),
-                      to_voxel_coordinates(grid, command.pose.position_mm),
-                      burrs_[command.burr].radius_mm() / grid.spacing_mm};
-    RemovalTally tally(bone_.content(), protected_, voxel_volume_mm3(grid) / 255.0, removed_mm3_, force);
+    RemovalTally tally(bone_.content(), protected_, voxel_volume_mm3(bone_.grid()) / 255.0, removed_mm3_,
+                       force);
     carve(bone_, sweep, carved_at_position_ ? CarveHistory::carved_at_from : CarveHistory::none,
           {.edges = settings_.edges, .instructions = settings_.instructions}, edits, tally);
-    result.force_n = force.force_n();
-    result.removed_mm3 = tally.total_mm3();
-    result.touches_protected = tally.touches_protected();
+    result.force_n += share * force.force_n();
+    result.removed_mm3 += tally.total_mm3();
+    result.touches_protected |= tally.touches_protected();
+}
+
+void MillingModel::cut(const BurrCommand& command, const glm::dvec3& to_mm, double share, EditSink& edits,
+                       MillingResult& result) noexcept {
+    const Burr& burr = burrs_[burr_];
+    const Grid& grid = bone_.grid();
+    const Sweep sweep{to_voxel_coordinates(grid, position_mm_), to_voxel_coordinates(grid, to_mm),
+                      burr.radius_mm() / grid.spacing_mm};
+    const CuttingStep cutting(burr, command.pose.spindle_axis, 0.5 * (sweep.from + sweep.to), grid.spacing_mm,
+                              share * command.elapsed_s);
+    if (settings_.summation == ForceSummation::voxels) {
+        CuttingForce force(cutting, settings_.instructions);
+        carve_and_sum(sweep, share, edits, force, result);
+    } else if (settings_.summation == ForceSummation::bins) {
+        chips_.begin_step(burr, cutting);
+        carve_and_sum(sweep, share, edits, chips_, result);
+    } else {
+        tooth_.begin_step(burr, cutting);
+        carve_and_sum(sweep, share, edits, tooth_, result);
+    }
+    carved_at_position_ = true;
+    position_mm_ = to_mm;
 }
 
 void MillingModel::step(const BurrCommand& command, double time_s, EditSink& edits,
@@ -164,20 +189,14 @@ void MillingModel::step(const BurrCommand& command, double time_s, EditSink& edi
         carved_at_position_ = false;
     }
     if (command.spindle_on) {
-        const Burr& burr = burrs_[burr_];
-        const Grid& grid = bone_.grid();
-        const glm::dvec3 middle = to_voxel_coordinates(grid, 0.5 * (position_mm_ + command.pose.position_mm));
-        const CuttingStep cutting(burr, command.pose.spindle_axis, middle, grid.spacing_mm,
-                                  command.elapsed_s);
-        if (settings_.summation == ForceSummation::voxels) {
-            CuttingForce force(cutting, settings_.instructions);
-            carve_and_sum(command, edits, force, result);
-        } else if (settings_.summation == ForceSummation::bins) {
-            chips_.begin_step(burr, cutting);
-            carve_and_sum(command, edits, chips_, result);
-        } else {
-            tooth_.begin_step(burr, cutting);
-            carve_and_sum(command, edits, tooth_, result);
+        const glm::dvec3 from_mm = position_mm_;
+        const glm::dvec3 way_mm = command.pose.position_mm - from_mm;
+        const double longest_mm = longest_stretch_radii * burrs_[burr_].radius_mm();
+        const double stretches = std::clamp(std::ceil(glm::length(way_mm) / longest_mm), 1.0, most_stretches);
+        for (double i = 1.0; i <= stretches; i += 1.0) {
+            const bool is_last = i == stretches;
+            cut(command, is_last ? command.pose.position_mm : from_mm + way_mm * (i / stretches),
+                1.0 / stretches, edits, result);
         }
     }
     carved_at_position_ = command.spindle_on;

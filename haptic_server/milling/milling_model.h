@@ -41,8 +41,12 @@ class MillingModel {
     const RemovedByTissue& removed_mm3() const { return removed_mm3_; }
 
   private:
+    /// One stretch of a step, from position_mm_ to `to_mm`, which becomes position_mm_; adds to `result`,
+    /// force weighed by `share` of the step.
+    void cut(const BurrCommand& command, const glm::dvec3& to_mm, double share, EditSink& edits,
+             MillingResult& result) noexcept;
     template <typename Force>
-    void carve_and_sum(const BurrCommand& command, EditSink& edits, Force& force,
+    void carve_and_sum(const Sweep& sweep, double share, EditSink& edits, Force& force,
                        MillingResult& result) noexcept;
 
     Bone bone_;

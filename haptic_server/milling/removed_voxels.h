@@ -1,5 +1,5 @@
-// Voxels that a carve has just lowered, handed on in batches so that what sums over them can do so several at
-// a time.
+// Voxels that a carve has just looked at and mostly lowered, handed on in batches so that what sums over them
+// can do so several at a time.
 #pragma once
 
 #include <array>
@@ -20,7 +20,7 @@ struct RemovedVoxels {
     alignas(64) std::array<float, capacity> x;  ///< whole numbers of 0 to a few hundred
     alignas(64) std::array<float, capacity> y;
     alignas(64) std::array<float, capacity> z;
-    alignas(64) std::array<float, capacity> codes;  ///< how many of its 255 steps each voxel lost, 1 to 255
+    alignas(64) std::array<float, capacity> codes;  ///< how many of its 255 steps each voxel lost; 0: none
     std::array<std::int32_t, capacity> slot;        ///< brick that holds the voxel
     std::array<std::uint16_t, capacity> offset;     ///< of the voxel in its brick
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/common.hpp>
 #include <numbers>
 #include <stdexcept>
 
@@ -48,12 +49,24 @@ void ToothForce::add(const RemovedVoxels& removed, std::span<const float> weight
     const double to_impulse = step_.newton_per_unit * step_.elapsed_s;
     const double bins_per_rad = instants_ / pitch_rad_;
     for (std::size_t i = 0; i < removed.count; ++i) {
-        const double psi =
-            sigma_ * std::atan2(static_cast<double>(forces_.y[i]), static_cast<double>(forces_.x[i]));
-        const double phase = psi - pitch_rad_ * std::floor(psi / pitch_rad_);
-        const auto bin =
-            static_cast<std::size_t>(std::min(static_cast<int>(phase * bins_per_rad), instants_ - 1));
-        impulse_[bin] += to_impulse * glm::dvec3(forces_.force_x[i], forces_.force_y[i], forces_.force_z[i]);
+        const double x = static_cast<double>(forces_.x[i]);
+        const double y = static_cast<double>(forces_.y[i]);
+        const double psi = sigma_ * std::atan2(y, x);
+        const double bin_of_centre = (psi - pitch_rad_ * std::floor(psi / pitch_rad_)) * bins_per_rad;
+        // A voxel is as wide as it is, seen from the spindle: it cuts in each bin that it reaches into.
+        const double width = bins_per_rad / std::max(std::hypot(x, y), disc_radius_voxels);
+        const glm::dvec3 impulse =
+            to_impulse * glm::dvec3(forces_.force_x[i], forces_.force_y[i], forces_.force_z[i]);
+        spread(impulse, bin_of_centre - 0.5 * width, std::min(width, static_cast<double>(instants_)));
+    }
+}
+
+void ToothForce::spread(const glm::dvec3& impulse, double first, double width) noexcept {
+    const double last = first + width;
+    for (double bin = std::floor(first); bin < last; bin += 1.0) {
+        const double share = (std::min(last, bin + 1.0) - std::max(first, bin)) / width;
+        const auto wrapped = static_cast<int>(bin) % instants_;
+        impulse_[static_cast<std::size_t>(wrapped < 0 ? wrapped + instants_ : wrapped)] += share * impulse;
     }
 }
 
@@ -65,18 +78,19 @@ glm::dvec3 ToothForce::force_at_instant_n(int instant) const noexcept {
 glm::dvec3 ToothForce::force_n() const noexcept {
     if (step_angle_rad_ >= pitch_rad_ * (1.0 - 1e-9))
         return step_.frame * (step_.newton_per_unit * step_sum_);
-    // The step passed the phases from `first` to `turned_rad_`; where they wrap, in two parts.
-    const double bin_rad = pitch_rad_ / instants_;
-    const double first_rad = turned_rad_ - step_angle_rad_;
+    // Between the middles of the bins the force is taken to vary linearly, which leaves its mean as it is.
+    const double bins_passed = step_angle_rad_ / pitch_rad_ * instants_;
+    const int samples = static_cast<int>(std::ceil(4.0 * bins_passed));
+    const double last = turned_rad_ / pitch_rad_ * instants_;
     glm::dvec3 impulse(0.0);
-    for (int i = 0; i < instants_; ++i) {
-        const auto overlap = [&](double shift_rad) {
-            return std::max(0.0, std::min(turned_rad_ + shift_rad, (i + 1) * bin_rad) -
-                                     std::max(first_rad + shift_rad, i * bin_rad));
-        };
-        impulse += (overlap(0.0) + overlap(pitch_rad_)) * impulse_[static_cast<std::size_t>(i)];
+    for (int i = 0; i < samples; ++i) {
+        const double place = last - bins_passed * (i + 0.5) / samples - 0.5 + 2 * instants_;
+        const auto bin = static_cast<std::size_t>(place);
+        const double share = place - static_cast<double>(bin);
+        const auto count = static_cast<std::size_t>(instants_);
+        impulse += glm::mix(impulse_[bin % count], impulse_[(bin + 1) % count], share);
     }
-    return step_.frame * (impulse * (instants_ / (window_s_ * step_angle_rad_)));
+    return step_.frame * (impulse * (instants_ / (window_s_ * samples)));
 }
 
 }  // namespace osteomill

@@ -43,6 +43,9 @@ class ToothForce {
     double turned_rad() const { return turned_rad_; }
 
   private:
+    /// Over the bins from `first` on, `width` of them; both in bins, wrapped around the pitch.
+    void spread(const glm::dvec3& impulse, double first, double width) noexcept;
+
     int instants_;
     InstructionSet instructions_;
     CuttingStep step_;

@@ -115,10 +115,22 @@ class Leftovers {
     std::string error_;
 };
 
+template <typename Log>
+void close_log(std::optional<Log>& log) {
+    if (!log) return;
+    log->close();
+    if (!log->error().empty()) throw std::runtime_error(log->error());
+    if (log->dropped() > 0) {
+        throw std::runtime_error(fmt::format("{}: {} lines are missing: the disk could not keep up",
+                                             log->path().string(), log->dropped()));
+    }
+}
+
 }  // namespace
 
 void run_server(const ServerOptions& options, const std::string& version, const std::atomic<bool>& stop) {
-    for (const auto& file : {options.save_bone, options.json, options.log_csv}) require_folder_of(file);
+    for (const auto& file : {options.save_bone, options.json, options.log_csv, options.log_milling_csv})
+        require_folder_of(file);
     Scene scene = load_scene(options);
     LoadedBone loaded = load_bone(scene);
     if (options.bone && !options.scene) place_on_bone(scene, loaded.bone);
@@ -130,13 +142,16 @@ void run_server(const ServerOptions& options, const std::string& version, const 
     const DeviceParts device = make_device(options, scene);
     std::optional<ForceLog> log;
     if (options.log_csv) log.emplace(*options.log_csv);
+    std::optional<MillingLog> milling_log;
+    if (options.log_milling_csv) milling_log.emplace(*options.log_milling_csv);
 
     MillingSessionOptions session_options = options.session;
     session_options.edits_are_consumed = options.listen.has_value();
     std::optional<Bone> mirror;
     if (options.listen) mirror = bone;
-    const auto session = std::make_unique<MillingSession>(scene, std::move(bone), *device.device,
-                                                          session_options, log ? &*log : nullptr);
+    const auto session =
+        std::make_unique<MillingSession>(scene, std::move(bone), *device.device, session_options,
+                                         log ? &*log : nullptr, milling_log ? &*milling_log : nullptr);
     const auto streaming = options.listen
                                ? make_streaming(options, scene, *std::move(mirror), *session, device, version)
                                : nullptr;
@@ -152,15 +167,8 @@ void run_server(const ServerOptions& options, const std::string& version, const 
 
     const MillingSessionReport report = session->report();
     Leftovers leftovers;
-    leftovers.write([&] {
-        if (!log) return;
-        log->close();
-        if (!log->error().empty()) throw std::runtime_error(log->error());
-        if (log->dropped() > 0) {
-            throw std::runtime_error(fmt::format("{}: {} lines are missing: the disk could not keep up",
-                                                 options.log_csv->string(), log->dropped()));
-        }
-    });
+    leftovers.write([&] { close_log(log); });
+    leftovers.write([&] { close_log(milling_log); });
     leftovers.write([&] {
         if (options.json) write_json(measurements(report, scene, options), *options.json);
     });

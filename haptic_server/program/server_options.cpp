@@ -29,6 +29,7 @@ struct Typed {
     std::string save_bone;
     std::string json;
     std::string log_csv;
+    std::string log_milling_csv;
 };
 
 /// CLI11's own message for a choice prints C++ containers; this one reads like the rest of the program.
@@ -82,6 +83,11 @@ void declare(CLI::App& app, Typed& typed) {
     app.add_option("--json", typed.json, "Write what was measured")->type_name("FILE");
     app.add_option("--log-csv", typed.log_csv, "Write force and depth, a line a millisecond")
         ->type_name("FILE");
+    app.add_option(
+           "--log-milling-csv", typed.log_milling_csv,
+           "Write the milling force of every milling step; with --force-model milling-instants at 10 kHz, "
+           "the force within the tooth period")
+        ->type_name("FILE");
 }
 
 std::optional<std::filesystem::path> path_if_given(const std::string& text) {
@@ -122,7 +128,8 @@ ServerOptions checked(const Typed& typed) {
     options.session.force_model = force_summation(typed.force_model);
     options.session.duration_s = typed.duration_s;
     const double published_rate_hz = 100.0;
-    const double default_rate_hz = typed.coupling == "interpolate" ? published_rate_hz : most_milling_rate_hz;
+    const double haptic_rate_hz = 1.0 / MillingSession::tick_s;
+    const double default_rate_hz = typed.coupling == "interpolate" ? published_rate_hz : haptic_rate_hz;
     options.session.milling_rate_hz = typed.milling_rate_hz > 0.0 ? typed.milling_rate_hz : default_rate_hz;
     try {
         options.listen = listen_address(typed);
@@ -138,6 +145,7 @@ ServerOptions checked(const Typed& typed) {
     }
     options.json = path_if_given(typed.json);
     options.log_csv = path_if_given(typed.log_csv);
+    options.log_milling_csv = path_if_given(typed.log_milling_csv);
     return options;
 }
 
@@ -146,7 +154,7 @@ ServerOptions checked(const Typed& typed) {
 CommandLine parse_command_line(int argc, const char* const* argv, const std::string& version) {
     Typed typed;
     CLI::App app(
-        "Owns the bone, mills it at up to 1 kHz, feeds forces to the hand and shows clients the rest.",
+        "Owns the bone, mills it at up to 10 kHz, feeds forces to the hand and shows clients the rest.",
         "haptic_server");
     app.set_version_flag("--version", fmt::format("haptic_server {}", version));
     declare(app, typed);

@@ -26,6 +26,7 @@ struct ServerOptions {
     std::optional<std::filesystem::path> save_bone;
     std::optional<std::filesystem::path> json;
     std::optional<std::filesystem::path> log_csv;
+    std::optional<std::filesystem::path> log_milling_csv;
 };
 
 /// What the command line asks for: options to run with, or a text (help, version) to print and be done.

@@ -12,11 +12,12 @@ namespace osteomill::study {
 
 /// A way to mill.
 struct ParetoSetting {
-    std::string family{};  ///< what it belongs to in the chart: "crescent, partial voxels" ...
+    std::string family{};  ///< what it belongs to in the chart: "crescent of partial voxels" ...
     std::string label{};   ///< what tells it from the others of its family: "0.1 mm" ...
     MakeModel make{};
     double voxel_mm = 0.1;
     double milling_rate_hz = 100.0;
+    double run_in_s = 0.0;    ///< of Discretisation
     bool is_default = false;  ///< what haptic_server does unless told otherwise
 };
 

@@ -5,6 +5,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <numbers>
+#include <span>
 
 #include "haptic_server/milling/reference_force.h"
 #include "tests/studies/force/path_run.h"
@@ -98,7 +99,8 @@ ForceSeries run_motion(const StudiedMotion& motion, const Discretisation& discre
     std::vector<glm::dvec3> positions;
     glm::dvec3 low(1e300);
     glm::dvec3 high(-1e300);
-    for (int i = 0; i <= steps; ++i) {
+    const auto run_in_steps = static_cast<std::size_t>(std::lround(discretisation.run_in_s / step_s));
+    for (int i = -static_cast<int>(run_in_steps); i <= steps; ++i) {
         positions.push_back(motion.position_mm(i * step_s) + discretisation.lattice_shift_mm);
         low = glm::min(low, positions.back());
         high = glm::max(high, positions.back());
@@ -106,7 +108,9 @@ ForceSeries run_motion(const StudiedMotion& motion, const Discretisation& discre
     const double margin = motion.burr.radius_mm() + 5.0 * discretisation.voxel_mm;
     const BoneBlock block{.low_mm = low - margin, .high_mm = high + margin, .layer = motion.layer};
     const auto model = make_model(voxelised(block, discretisation.voxel_mm), motion.burr);
-    return run_path(*model, motion.spindle_axis, step_s, positions);
+    const std::span<const glm::dvec3> all(positions);
+    if (run_in_steps > 0) run_path(*model, motion.spindle_axis, step_s, all.first(run_in_steps + 1));
+    return run_path(*model, motion.spindle_axis, step_s, all.subspan(run_in_steps));
 }
 
 }  // namespace osteomill::study

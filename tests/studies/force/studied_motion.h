@@ -33,6 +33,9 @@ struct Discretisation {
     double milling_rate_hz = 100.0;
     /// Where the lattice lies relative to the motion: means over several tell more than one.
     glm::dvec3 lattice_shift_mm{0.031, 0.017, 0.0};
+    /// How long the burr moves before it is measured: a model that remembers must forget how it was put into
+    /// the bone.
+    double run_in_s = 0.0;
 };
 
 ForceSeries run_motion(const StudiedMotion& motion, const Discretisation& discretisation,

@@ -24,6 +24,9 @@ struct Rig {
 
     std::filesystem::path file = std::filesystem::path(::testing::TempDir()) / "allocation_test.csv";
     ForceLog log{file};
+    std::filesystem::path milling_file =
+        std::filesystem::path(::testing::TempDir()) / "allocation_test_milling.csv";
+    MillingLog milling_log{milling_file};
     MillingModel model{testing::make_block({-4.0, -4.0, -3.2}, {4.0, 4.0, 0.0}, 0.1), {burr}, {}};
     std::unique_ptr<TripleBuffer<MillingResult>> results = std::make_unique<TripleBuffer<MillingResult>>();
     TripleBuffer<BurrCommand> commands;
@@ -32,7 +35,7 @@ struct Rig {
     EditQueue edits{512, model.bone().content().slot_of_brick.size()};  // small: it overflows, too
     std::unique_ptr<Coupling> coupling;
     HapticLoop haptic;
-    MillingLoop milling{model, commands, *results, edits};
+    MillingLoop milling{{model, commands, *results, edits, &milling_log}, 0.001};
 };
 
 void expect_no_allocation(const std::string& coupling_name, HapticDevice& device) {
@@ -47,6 +50,7 @@ void expect_no_allocation(const std::string& coupling_name, HapticDevice& device
     EXPECT_GT(rig->model.removed_mm3()[0], 0.1) << "there was something to do";
     EXPECT_GT(rig->edits.overflow_count(), 0u);
     std::filesystem::remove(rig->file);
+    std::filesystem::remove(rig->milling_file);
 }
 
 TEST(RealTimeCode, AllocatesNothingWithASimulatedHand) {

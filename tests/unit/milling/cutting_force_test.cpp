@@ -41,11 +41,12 @@ ReferenceCase slot_1_mm_deep() {
 }
 
 TEST(CuttingForce, TangentialPowerIsKtTimesRemovalRate) {
-    // One voxel's worth of bone: power = F . e_psi * 2 pi r n_rev = K_t V / dt, wherever it lay.
+    // One voxel's worth of bone on the burr's surface: power = F . e_psi * 2 pi r n_rev = K_t V / dt,
+    // wherever it lay.
     Burr burr;
     burr.sense = SpindleSense::counter_clockwise;
     burr.cutting_coefficients_n_per_mm2 = {230.0, 0.0, 0.0};
-    for (const glm::ivec3 voxel : {glm::ivec3(20, 0, -10), glm::ivec3(-3, 7, -23), glm::ivec3(1, -24, 2)}) {
+    for (const glm::ivec3 voxel : {glm::ivec3(20, 0, -15), glm::ivec3(0, 7, -24), glm::ivec3(12, -9, 20)}) {
         CuttingForce force(CuttingStep(burr, {0.0, 0.0, 1.0}, {0.0, 0.0, 0.0}, 0.1, 0.01),
                            InstructionSet::plain);
         testing::add_voxel(force, voxel, 1.0);
@@ -53,7 +54,7 @@ TEST(CuttingForce, TangentialPowerIsKtTimesRemovalRate) {
         const glm::dvec3 e_psi = glm::normalize(glm::dvec3(-voxel.y, voxel.x, 0.0));
         const double power_mj_per_s =
             -glm::dot(force.force_n(), e_psi) * 2.0 * 3.14159265358979 * r_mm * burr.spindle_rev_per_s;
-        EXPECT_NEAR(power_mj_per_s, 230.0 * 0.001 / 0.01, 1e-5);
+        EXPECT_NEAR(power_mj_per_s, 230.0 * 0.001 / 0.01, 1e-4);
     }
 }
 

@@ -20,7 +20,7 @@ Bone flat_block() {
 
 TEST(Engagement, IsEmptyInFreeAir) {
     const Bone bone = flat_block();
-    const EngagementProbe probe(Burr{.diameter_mm = 2.0}, 0.1);
+    EngagementProbe probe(Burr{.diameter_mm = 2.0}, 0.1);
     auto engagement = std::make_unique<Engagement>();
     for (const glm::dvec3 place : {glm::dvec3(0, 0, 1.5), glm::dvec3(0, 0, 100), glm::dvec3(-1e9, 0, 0)}) {
         probe.sample(bone, place, up, *engagement);
@@ -31,7 +31,7 @@ TEST(Engagement, IsEmptyInFreeAir) {
 TEST(Engagement, GapIsTheDistanceToAFlatSurface) {
     const Bone bone = flat_block();
     const Burr burr{.diameter_mm = 5.0};
-    const EngagementProbe probe(burr, 0.1);
+    EngagementProbe probe(burr, 0.1);
     auto engagement = std::make_unique<Engagement>();
     for (const double height : {0.08, 0.02, -0.06}) {
         probe.sample(bone, {0.0, 0.0, 2.5 + height}, up, *engagement);

@@ -9,7 +9,7 @@ set logscale xy
 set format y '%g'
 set xtics (0.05, 0.075, 0.1, 0.15, 0.2, 0.3, 0.4)
 set xrange [0.043:0.47]
-set key top left
+set key top left Left reverse spacing 1.2
 # The slope between the ends of each fitted line.
 stats table using (log10($1)) name 'X' nooutput
 stats table using (log10($4)) name 'P' nooutput
@@ -19,4 +19,4 @@ plot table using 1:5 with lines lw 1.5 dt 2 lc rgb red title sprintf('slope %.2f
      '' using 1:3 with points pt 5 ps 1.1 lc rgb red title 'binary voxels', \
      '' using 1:4 with lines lw 1.5 dt 2 lc rgb blue title sprintf('slope %.2f', slope(P_max, P_min)), \
      '' using 1:2 with points pt 7 ps 1.1 lc rgb blue title 'partial voxels', \
-     '' using 1:($1 == 0.1 ? $2 : NaN) with points pt 6 ps 3 lw 2.5 lc rgb black title 'the default'
+     '' using 1:($1 == 0.1 ? $2 : NaN) with points pt 6 ps 2 lw 2.5 lc rgb black title 'the default'

@@ -5,7 +5,7 @@ set title 'Memory follows the bone, not the box around it (0.1 mm voxels)'
 set xlabel 'bone, mm^3'
 set ylabel 'memory, MiB'
 set logscale xy
-set format x '%g'
+set format x '%.0f'
 set format y '%g'
 set key bottom right
 set xrange [20:1e6]
@@ -20,4 +20,4 @@ plot folder.'/memory_bone.csv' using 'bone_mm3':'mebibytes' with linespoints pt 
      folder.'/memory_scenes.csv' using 'bone_mm3':'mebibytes' with points pt 9 ps 1.3 lc rgb green \
          title 'scenes', \
      '' using 'bone_mm3':'mebibytes':(sprintf('%s: %.0f B/mm^3, %.1f s', strcol('name'), column('bytes_per_mm3'), column('start_s'))) \
-         with labels right offset -1.2,0.5 font ',12' tc rgb green notitle
+         with labels right offset -1.2,0.6 font ',12' tc rgb green notitle

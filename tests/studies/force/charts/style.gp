@@ -2,7 +2,7 @@
 set datafile separator ','
 set encoding utf8
 set terminal svg size 1000,680 dynamic font 'DejaVu Sans,15' background 'white'
-set grid lc rgb '#dddddd'
+set grid lc rgb '#cccccc'
 set border 3 lc rgb '#444444'
 set tics nomirror
 black = '#000000'

@@ -1,0 +1,71 @@
+#include "haptic_server/loop/milling_loop.h"
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+namespace osteomill {
+
+namespace {
+
+/// For the rounding of sums of periods, s.
+constexpr double time_tolerance_s = 1e-7;
+
+}  // namespace
+
+ToolPose MillingLoop::pose_on_the_way(double elapsed_s) noexcept {
+    const ToolPose& target = parts_.commands.front().pose;
+    const double left_s = command_period_s_ - underway_s_;
+    underway_s_ += elapsed_s;
+    if (elapsed_s >= left_s - time_tolerance_s) return target;
+    const double share = underway_s_ / command_period_s_;
+    const glm::dvec3 axis = glm::mix(start_.spindle_axis, target.spindle_axis, share);
+    const double length = glm::length(axis);
+    return {glm::mix(start_.position_mm, target.position_mm, share),
+            length > 0.5 ? axis / length : target.spindle_axis};
+}
+
+void MillingLoop::step(double time_s, double elapsed_s) noexcept {
+    if (parts_.commands.refresh()) {
+        if (!has_command_) pose_ = parts_.commands.front().pose;
+        has_command_ = true;
+        start_ = pose_;
+        underway_s_ = 0.0;
+    }
+    if (!has_command_) return;
+    const bool was_underway = underway_s_ < command_period_s_ - time_tolerance_s;
+    BurrCommand command = parts_.commands.front();
+    command.pose = pose_ = pose_on_the_way(elapsed_s);
+    command.elapsed_s = elapsed_s;
+    elapsed_s_ += elapsed_s;
+    // A result when the burr has arrived; and where commands stay away, still one for each of theirs.
+    const bool has_arrived = was_underway && underway_s_ >= command_period_s_ - time_tolerance_s;
+    const bool publishes = has_arrived || elapsed_s_ >= 1.5 * command_period_s_ ||
+                           elapsed_s >= command_period_s_ - time_tolerance_s;
+    command.wants_engagement = publishes;
+
+    MillingResult& result = parts_.results.back();
+    parts_.model.step(command, time_s, parts_.edits, result);
+    parts_.edits.resend_overflowed(parts_.model.bone());
+    if (parts_.log != nullptr)
+        parts_.log->push({.time_s = time_s,
+                          .burr_mm = command.pose.position_mm,
+                          .force_n = result.force_n,
+                          .removed_mm3 = result.removed_mm3,
+                          .spindle_on = result.spindle_on});
+
+    impulse_n_s_ += result.force_n * elapsed_s;
+    removed_mm3_ += result.removed_mm3;
+    touches_protected_ |= result.touches_protected;
+    if (!publishes && result.valid) return;
+    if (elapsed_s_ > elapsed_s) {
+        result.force_n = impulse_n_s_ / elapsed_s_;
+        result.removed_mm3 = removed_mm3_;
+        result.touches_protected = touches_protected_;
+    }
+    parts_.results.publish();
+    elapsed_s_ = removed_mm3_ = 0.0;
+    impulse_n_s_ = glm::dvec3(0.0);
+    touches_protected_ = false;
+}
+
+}  // namespace osteomill

@@ -1,0 +1,114 @@
+#include "haptic_server/loop/milling_loop.h"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <memory>
+#include <string>
+
+#include "tests/support/block.h"
+
+namespace osteomill {
+namespace {
+
+const Burr burr{.name = "2 mm", .diameter_mm = 2.0, .edges = 2};
+const glm::dvec3 up(0.0, 0.0, 1.0);
+
+/// A burr that the haptic loop's commands lead through a block at 6 mm/s, half a millimetre deep.
+struct Rig {
+    explicit Rig(const MillingSettings& settings = {})
+        : model(testing::make_block({-3.0, -3.0, -2.0}, {3.0, 3.0, 0.0}, 0.1), {burr}, {}, settings) {}
+
+    void command(double x_mm) {
+        commands.back() = {.pose = {{x_mm, 0.03, 0.5}, up}, .spindle_on = true};
+        commands.publish();
+    }
+
+    /// One command a millisecond, `steps_per_tick` steps for each.
+    void run(int ticks, int steps_per_tick) {
+        const double step_s = 0.001 / steps_per_tick;
+        for (int tick = 0; tick < ticks; ++tick) {
+            command(-2.0 + 0.006 * tick);
+            for (int step = 0; step < steps_per_tick; ++step) {
+                loop.step(0.001 * tick + step * step_s, step_s);
+                if (!results->refresh()) continue;
+                ++published;
+                impulse_n_s += results->front().force_n * 0.001;
+                removed_mm3 += results->front().removed_mm3;
+                if (tick > 100) {
+                    EXPECT_GT(results->front().engagement.count, 0u);
+                }
+            }
+        }
+    }
+
+    MillingModel model;
+    TripleBuffer<BurrCommand> commands;
+    std::unique_ptr<TripleBuffer<MillingResult>> results = std::make_unique<TripleBuffer<MillingResult>>();
+    EditQueue edits{1 << 16, model.bone().content().slot_of_brick.size()};
+    MillingLoop loop{{model, commands, *results, edits}, 0.001};
+    int published = 0;
+    glm::dvec3 impulse_n_s{0.0};
+    double removed_mm3 = 0.0;
+};
+
+TEST(MillingLoop, BeyondTheHapticRateMillsTheSameAndReportsTheMeanOnceATick) {
+    const auto once = std::make_unique<Rig>();
+    once->run(400, 1);
+    const auto tenfold = std::make_unique<Rig>();
+    tenfold->run(400, 10);
+    EXPECT_EQ(once->published, 400);
+    EXPECT_EQ(tenfold->published, 400);
+    EXPECT_EQ(checksum(tenfold->model.bone()), checksum(once->model.bone()));
+    EXPECT_NEAR(tenfold->removed_mm3, once->removed_mm3, 1e-9);
+    EXPECT_GT(glm::length(once->impulse_n_s), 0.01);
+    EXPECT_LT(glm::length(tenfold->impulse_n_s - once->impulse_n_s), 0.01 * glm::length(once->impulse_n_s));
+}
+
+TEST(MillingLoop, StillReportsWhereCommandsStayAway) {
+    const auto rig = std::make_unique<Rig>();
+    rig->command(0.0);
+    int published = 0;
+    for (int step = 0; step < 1000; ++step) {
+        rig->loop.step(0.0001 * step, 0.0001);
+        published += rig->results->refresh() ? 1 : 0;
+    }
+    EXPECT_GT(published, 50);
+}
+
+TEST(MillingLoop, ShowsTheToothPeriodInItsLog) {
+    const std::filesystem::path file = std::filesystem::path(::testing::TempDir()) / "milling_loop_test.csv";
+    const auto rig = std::make_unique<Rig>(MillingSettings{.summation = ForceSummation::instants});
+    {
+        MillingLog log(file);
+        MillingLoop loop({rig->model, rig->commands, *rig->results, rig->edits, &log}, 0.001);
+        for (int tick = 0; tick < 300; ++tick) {
+            rig->command(-2.0 + 0.006 * tick);
+            for (int step = 0; step < 10; ++step) loop.step(0.001 * tick + 0.0001 * step, 0.0001);
+        }
+        log.close();
+        EXPECT_EQ(log.dropped(), 0u);
+    }
+    // 10 000 rpm and two edges: a tooth period is thirty steps, and the force repeats with it.
+    std::ifstream lines(file);
+    std::string line;
+    std::getline(lines, line);
+    std::vector<double> force_y_n;
+    while (std::getline(lines, line)) {
+        std::size_t at = 0;
+        for (int comma = 0; comma < 5; ++comma) at = line.find(',', at) + 1;
+        force_y_n.push_back(std::stod(line.substr(at)));
+    }
+    ASSERT_EQ(force_y_n.size(), 3000u);
+    double swing = 0.0;
+    double change = 0.0;
+    for (std::size_t i = 2800; i < 2970; ++i) {
+        swing = std::max(swing, std::abs(force_y_n[i + 15] - force_y_n[i]));
+        change = std::max(change, std::abs(force_y_n[i + 30] - force_y_n[i]));
+    }
+    EXPECT_GT(swing, 5.0 * change);
+    std::filesystem::remove(file);
+}
+
+}  // namespace
+}  // namespace osteomill
