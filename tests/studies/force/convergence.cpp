@@ -54,8 +54,11 @@ Columns columns_of(const std::vector<ConvergenceRow>& rows) {
 
 Convergence measure_convergence(const std::vector<StudiedMotion>& motions, bool quick,
                                 const Progress& progress) {
+    // They divide the 0.8 mm of the layer of "two layers": this is about how voxels are cut, not about where
+    // a voxel's one stiffness puts the border of a layer.
     const std::vector<double> sizes_mm =
-        quick ? std::vector{0.4, 0.2, 0.1} : std::vector{0.4, 0.3, 0.2, 0.15, 0.1, 0.075, 0.05};
+        quick ? std::vector{0.4, 0.2, 0.1}
+              : std::vector{0.4, 0.8 / 3.0, 0.2, 0.16, 0.8 / 6.0, 0.1, 0.08, 0.05};
     const int places = quick ? 2 : 4;
     Convergence convergence;
     for (const double voxel_mm : sizes_mm) {
@@ -77,7 +80,7 @@ std::string csv_of(const Convergence& convergence) {
         "voxel_mm,partial_error_percent,binary_error_percent,partial_fit_percent,binary_fit_percent\n";
     for (const ConvergenceRow& row : convergence.rows)
         csv += fmt::format(
-            "{},{:.5f},{:.5f},{:.5f},{:.5f}\n", row.voxel_mm, 100.0 * row.partial_error,
+            "{:.4f},{:.5f},{:.5f},{:.5f},{:.5f}\n", row.voxel_mm, 100.0 * row.partial_error,
             100.0 * row.binary_error,
             100.0 * fitted(columns.voxel_mm, columns.partial, convergence.partial_slope, row.voxel_mm),
             100.0 * fitted(columns.voxel_mm, columns.binary, convergence.binary_slope, row.voxel_mm));

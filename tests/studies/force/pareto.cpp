@@ -57,13 +57,13 @@ std::vector<ParetoSetting> pareto_settings(bool quick) {
                             .label = fmt::format("{} x {}", bins.psi, bins.z),
                             .make = voxel_model({.summation = ForceSummation::bins, .bins = bins})});
     for (const double rate_hz : {1000.0, 10'000.0})
-        settings.push_back({.family = "crescent in a faster loop",
+        settings.push_back({.family = "crescent at 1 and 10 kHz",
                             .label = fmt::format("{:.0f} kHz", rate_hz / 1000.0),
                             .make = voxel_model(),
                             .milling_rate_hz = rate_hz});
     for (const int instants : {5, 20, 60})
         settings.push_back(
-            {.family = "crescent at 10 kHz with N instants a tooth",
+            {.family = "crescent at 10 kHz with 5 20 and 60 instants a tooth",
              .label = fmt::format("N = {}", instants),
              .make = voxel_model({.summation = ForceSummation::instants, .instants_per_tooth = instants}),
              .milling_rate_hz = 10'000.0,

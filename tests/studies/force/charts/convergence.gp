@@ -7,7 +7,7 @@ set xlabel 'edge of a voxel, mm'
 set ylabel 'error, %'
 set logscale xy
 set format y '%g'
-set xtics (0.05, 0.075, 0.1, 0.15, 0.2, 0.3, 0.4)
+set xtics (0.05, 0.08, 0.1, '0.13' 0.8/6, 0.16, 0.2, '0.27' 0.8/3, 0.4)
 set xrange [0.043:0.47]
 set key top left Left reverse spacing 1.2
 # The slope between the ends of each fitted line.
