@@ -178,9 +178,10 @@ class ForceStudy {
     }
 
     ordered_json memory() const {
-        const auto folder = scans();
-        const auto scenes =
-            with_progress("memory", [&](const Progress& progress) { return weigh_scenes(folder, progress); });
+        const auto trial_scans = scans();
+        const auto scenes = with_progress("memory", [&](const Progress& progress) {
+            return weigh_scenes(trial_scans, options_.out, progress);
+        });
         write(csv_of(scenes), "memory_scenes.csv");
         write(csv_of(weigh_growing_bone()), "memory_bone.csv");
         write(csv_of(weigh_growing_box()), "memory_box.csv");

@@ -10,10 +10,10 @@
 #include <utility>
 
 #include "common/bone/bone_builder.h"
-#include "haptic_server/imaging/hu_file.h"
 #include "haptic_server/imaging/import_bone.h"
 #include "haptic_server/imaging/memory_estimate.h"
 #include "haptic_server/imaging/phantom.h"
+#include "haptic_server/program/bone_source.h"
 
 namespace osteomill::study {
 
@@ -21,15 +21,9 @@ namespace {
 
 constexpr double voxel_mm = 0.1;
 
-Bone bone_of_phantom(const std::string& name) {
-    return bone_from_hu(make_phantom(name), phantom_threshold_hu, phantom_scene(name).stiffness);
-}
-
 /// A part of the trial scan with bone in it, made by the importer and loaded as the server would.
-MemoryRow weigh_head(const std::filesystem::path& scans) {
-    const std::filesystem::path file =
-        std::filesystem::temp_directory_path() /
-        fmt::format("osteomill_study_{}.nrrd", std::hash<std::string>{}(scans.string()));
+MemoryRow weigh_head(const std::filesystem::path& scans, const std::filesystem::path& folder) {
+    const std::filesystem::path file = folder / "skull.nrrd";
     std::ostringstream unheard;
     std::ifstream meminfo("/proc/meminfo");
     import_bone({.input = scans / "head_ct",
@@ -38,10 +32,9 @@ MemoryRow weigh_head(const std::filesystem::path& scans) {
                  .threshold_hu = 300.0,
                  .region = parse_region("-60,10,730,-20,50,770")},
                 {.messages = unheard, .available_memory_bytes = available_memory_bytes(meminfo)});
-    MemoryRow row = weigh("CT of a skull, 40 mm", [&] {
-        const BoneFile read = read_bone_file(file);
-        return bone_from_hu(read.volume, *read.threshold_hu, default_stiffness_relation());
-    });
+    Scene scene;
+    scene.bone = FileSource{.path = file};
+    MemoryRow row = weigh("CT of a skull (40 mm)", [&] { return load_bone(scene).bone; });
     std::filesystem::remove(file);
     return row;
 }
@@ -78,15 +71,15 @@ MemoryRow weigh(const std::string& name, const std::function<Bone()>& make) {
 }
 
 std::vector<MemoryRow> weigh_scenes(const std::optional<std::filesystem::path>& scans,
-                                    const Progress& progress) {
+                                    const std::filesystem::path& folder, const Progress& progress) {
     std::vector<MemoryRow> rows;
     const std::vector<std::string> phantoms = phantom_names();
     const double all = static_cast<double>(phantoms.size() + (scans ? 1 : 0));
     for (const std::string& name : phantoms) {
-        rows.push_back(weigh(name + " phantom", [&] { return bone_of_phantom(name); }));
+        rows.push_back(weigh(name + " phantom", [&] { return load_bone(phantom_scene(name)).bone; }));
         progress(static_cast<double>(rows.size()) / all);
     }
-    if (scans) rows.push_back(weigh_head(*scans));
+    if (scans) rows.push_back(weigh_head(*scans, folder));
     progress(1.0);
     return rows;
 }

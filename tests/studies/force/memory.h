@@ -25,9 +25,10 @@ struct MemoryRow {
 MemoryRow weigh(const std::string& name, const std::function<Bone()>& make);
 
 /// The bones that haptic_server starts with, and a region of 40 mm of `head_ct` where `scans` names the
-/// folder of trial scans: imported to 0.1 mm first, then loaded as haptic_server loads it.
+/// folder of trial scans: imported to 0.1 mm first, then loaded as haptic_server loads it. `folder` holds the
+/// imported file meanwhile.
 std::vector<MemoryRow> weigh_scenes(const std::optional<std::filesystem::path>& scans,
-                                    const Progress& progress);
+                                    const std::filesystem::path& folder, const Progress& progress);
 
 /// Solid cubes in boxes that fit, of 3.2 to 51.2 mm an edge.
 std::vector<MemoryRow> weigh_growing_bone();

@@ -9,6 +9,7 @@ set format x '%.0f'
 set format y '%g'
 set key bottom right
 set xrange [20:1e6]
+set rmargin 5
 set yrange [0.02:3000]
 bytes_per_mm3 = 1000.0
 plot folder.'/memory_bone.csv' using 'bone_mm3':'mebibytes' with linespoints pt 7 lw 1.5 lc rgb blue \
@@ -19,5 +20,6 @@ plot folder.'/memory_bone.csv' using 'bone_mm3':'mebibytes' with linespoints pt 
          title 'what those boxes would take', \
      folder.'/memory_scenes.csv' using 'bone_mm3':'mebibytes' with points pt 9 ps 1.3 lc rgb green \
          title 'scenes', \
-     '' using 'bone_mm3':'mebibytes':(sprintf('%s: %.0f B/mm^3, %.1f s', strcol('name'), column('bytes_per_mm3'), column('start_s'))) \
-         with labels right offset -1.2,0.6 font ',12' tc rgb green notitle
+     for [i=0:1] '' using 'bone_mm3':'mebibytes':(int(column(0)) % 2 == i ? \
+         sprintf('%s: %.0f B/mm^3, %.1f s', strcol('name'), column('bytes_per_mm3'), column('start_s')) : '') \
+         with labels right offset -1.2,(i == 0 ? 0.6 : -0.6) font ',12' tc rgb green notitle
