@@ -95,6 +95,24 @@ TEST_F(StudyProgram, CutsAsItIsTold) {
     EXPECT_NEAR(report.at("travel_mm"), 0.6, 1e-9);
 }
 
+TEST_F(StudyProgram, DrawsItsChartsQuickly) {
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+    GTEST_SKIP() << "what it runs is run by the unit tests; under a sanitizer it takes minutes";
+#endif
+    const Outcome outcome = run("force --quick --out " + out_);
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+    EXPECT_THAT(outcome.out, HasSubstr(out_)) << "says where the files are";
+    EXPECT_THAT(outcome.err, HasSubstr("survey 100 %\n"));
+    const auto found = nlohmann::json::parse(text_of(out_ + "/force.json"));
+    EXPECT_LT(found.at("survey").at("all").at("error_percent").at("p50"), 1.0);
+    EXPECT_GE(found.at("convergence").at("partial_slope"), 1.0) << "at least linear";
+    for (const auto& row : found.at("cost").at("by_diameter"))
+        EXPECT_GT(row.at("times_faster").at("100_hz"), 0.0);
+    EXPECT_EQ(found.at("memory").at(0).at("name"), "tooth phantom");
+    for (const char* chart : {"pareto", "curves", "convergence", "scaling", "memory"})
+        EXPECT_THAT(text_of(out_ + "/" + chart + ".svg"), HasSubstr("</svg>")) << chart;
+}
+
 TEST_F(StudyProgram, SaysInOneLineWhatIsWrong) {
     expect_refused("force --cases nowhere.json --out " + out_, 1, "nowhere.json: cannot be read");
     std::ofstream(folder_ / "bad.json") << "[{\"name\": \"half a case\"}]";
