@@ -44,12 +44,16 @@ struct CouplingOptions {
     DeviceLimits device;
     double milling_period_s = 0.001;
     double position_resolution_mm = 0.0;  ///< of the device's encoders, in patient space; 0: not to speak of
+    /// The model's force is the wall, too, and it has no cutting law: with the spindle off a coupling renders
+    /// that force, makes no wall of its own and leaves the burr where the hand is.
+    bool model_holds_wall = false;
 };
 
 /// Names for --coupling, in the order of --help; the first is the default.
 std::vector<std::string> coupling_names();
 
-/// Throws std::invalid_argument for an unknown name, listing the known ones.
+/// Throws std::invalid_argument for an unknown name, listing the known ones, and for a coupling that solves
+/// the cutting law with a model that has none.
 std::unique_ptr<Coupling> make_coupling(const std::string& name, const CouplingOptions& options);
 
 }  // namespace osteomill

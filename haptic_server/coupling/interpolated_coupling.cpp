@@ -7,6 +7,7 @@ namespace osteomill {
 InterpolatedCoupling::InterpolatedCoupling(const CouplingOptions& options)
     : spring_n_per_mm_(options.device.max_stiffness_n_per_mm),
       milling_period_s_(options.milling_period_s),
+      model_holds_wall_(options.model_holds_wall),
       wall_(options.device.max_stiffness_n_per_mm) {}
 
 void InterpolatedCoupling::reset() noexcept {
@@ -16,7 +17,7 @@ void InterpolatedCoupling::reset() noexcept {
 }
 
 CouplingOutput InterpolatedCoupling::tick(const HandState& hand, const MillingResult& latest) noexcept {
-    if (!hand.spindle_on) {
+    if (!hand.spindle_on && !model_holds_wall_) {
         if (!wall_placed_) wall_.place(hand.pose.position_mm);
         wall_placed_ = true;
         wall_.advance(hand.pose.position_mm, hand.tick_s, false, latest);

@@ -6,7 +6,9 @@
 //
 // At the published coefficients this cannot hold a light grip (reference: a sampled damper on a mass m is
 // stable only below about 2 m / T); it is here to be compared. With the spindle off bone is the same wall as
-// in every coupling: the proxy of burr_proxy.h on a spring that the device can render.
+// in every coupling: the proxy of burr_proxy.h on a spring that the device can render. Where the model holds
+// the wall itself (CouplingOptions::model_holds_wall) its force is rendered alike with the spindle on and
+// off.
 #pragma once
 
 #include <cstdint>
@@ -26,6 +28,7 @@ class InterpolatedCoupling final : public Coupling {
   private:
     double spring_n_per_mm_;
     double milling_period_s_;
+    bool model_holds_wall_;
     BurrProxy wall_;
     bool wall_placed_ = false;
     std::uint64_t step_ = 0;    // of the newest force

@@ -10,13 +10,13 @@
 #include "haptic_server/loop/edit_queue.h"
 #include "haptic_server/loop/milling_log.h"
 #include "haptic_server/loop/triple_buffer.h"
-#include "haptic_server/milling/milling_model.h"
+#include "haptic_server/milling/contact_model.h"
 #include "haptic_server/milling/milling_step.h"
 
 namespace osteomill {
 
 struct MillingLoopParts {
-    MillingModel& model;
+    ContactModel& model;
     TripleBuffer<BurrCommand>& commands;   ///< read
     TripleBuffer<MillingResult>& results;  ///< written
     EditQueue& edits;                      ///< written

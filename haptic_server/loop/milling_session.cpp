@@ -48,13 +48,14 @@ MillingSession::MillingSession(const Scene& scene, Bone bone, HapticDevice& devi
       device_(device),
       log_(log),
       milling_log_(milling_log),
-      model_(std::move(bone), scene.burrs, scene.tissues, {.summation = options.force_model}),
+      model_(make_contact_model(options.force_model, std::move(bone), scene.burrs, scene.tissues)),
       coupling_(make_coupling(
           options.coupling,
           {.device = device.limits(),
            .milling_period_s = std::max(tick_s, 1.0 / options.milling_rate_hz),
-           .position_resolution_mm = device.limits().position_resolution_mm * scene.device.scale})),
-      edits_(edit_queue_runs, brick_count(model_.bone())),
+           .position_resolution_mm = device.limits().position_resolution_mm * scene.device.scale,
+           .model_holds_wall = !force_model(options.force_model).has_cutting_law})),
+      edits_(edit_queue_runs, brick_count(model_->bone())),
       haptic_loop_({.device = device,
                     .coupling = *coupling_,
                     .results = results_,
@@ -68,7 +69,7 @@ MillingSession::MillingSession(const Scene& scene, Bone bone, HapticDevice& devi
                     .start_burr = scene.start_burr,
                     .start_pose = scene.start_pose}),
       milling_loop_(
-          {.model = model_, .commands = commands_, .results = results_, .edits = edits_, .log = milling_log},
+          {.model = *model_, .commands = commands_, .results = results_, .edits = edits_, .log = milling_log},
           tick_s) {}
 
 void MillingSession::run(const std::atomic<bool>& stop,
@@ -155,7 +156,7 @@ void MillingSession::do_chores(const std::function<void(const ToolSnapshot&)>& o
 void MillingSession::wait_for_room_in_queue(const std::atomic<bool>& stop) {
     if (!options_.edits_are_consumed) edits_.consume_all([](const EditRun&) {});
     wait_for_consumer(&stop, [this] {
-        edits_.resend_overflowed(model_.bone());
+        edits_.resend_overflowed(model_->bone());
         return !edits_.has_overflowed();
     });
 }
@@ -163,7 +164,7 @@ void MillingSession::wait_for_room_in_queue(const std::atomic<bool>& stop) {
 void MillingSession::send_what_overflowed() {
     wait_for_consumer(nullptr, [this] {
         if (!options_.edits_are_consumed) edits_.consume_all([](const EditRun&) {});
-        edits_.resend_overflowed(model_.bone());
+        edits_.resend_overflowed(model_->bone());
         return !edits_.has_overflowed();
     });
 }
@@ -172,11 +173,11 @@ MillingSessionReport MillingSession::report() const {
     return {.duration_s = now_s_.load(std::memory_order_relaxed),
             .haptic = haptic_statistics_,
             .milling = milling_statistics_,
-            .removed_mm3 = model_.removed_mm3(),
+            .removed_mm3 = model_->removed_mm3(),
             .peak_force_n = haptic_loop_.peak_force_n(),
             .fault_counts = haptic_loop_.fault_counts(),
             .edit_overflows = edits_.overflow_count(),
-            .bone_checksum = checksum(model_.bone()),
+            .bone_checksum = checksum(model_->bone()),
             .real_time_priority = has_real_time_priority_.load()};
 }
 

@@ -22,7 +22,8 @@
 #include "haptic_server/loop/haptic_loop.h"
 #include "haptic_server/loop/milling_loop.h"
 #include "haptic_server/loop/periodic.h"
-#include "haptic_server/milling/milling_model.h"
+#include "haptic_server/milling/contact_model.h"
+#include "haptic_server/milling/force_models.h"
 
 namespace osteomill {
 
@@ -37,7 +38,8 @@ struct MillingSessionOptions {
     ClockKind clock = ClockKind::real;
     double milling_rate_hz = 1000.0;
     std::string coupling = coupling_names().front();
-    ForceSummation force_model = ForceSummation::voxels;
+    std::string force_model =
+        force_model_names().front();  ///< one without a cutting law: not with "implicit"
     double duration_s = std::numeric_limits<double>::infinity();
     /// Somebody consumes edits() while the session runs. If not, the session empties the queue itself.
     bool edits_are_consumed = false;
@@ -62,7 +64,8 @@ class MillingSession {
     static constexpr std::size_t edit_queue_runs = 1u << 18;
 
     /// `device` and the logs (may be null) outlive the session. Throws std::invalid_argument for a milling
-    /// rate out of range, an unknown coupling, or a scene that the parts refuse.
+    /// rate out of range, an unknown coupling or force model, a coupling that the force model has no law for,
+    /// or a scene that the parts refuse.
     MillingSession(const Scene& scene, Bone bone, HapticDevice& device, const MillingSessionOptions& options,
                    ForceLog* log = nullptr, MillingLog* milling_log = nullptr);
 
@@ -77,7 +80,7 @@ class MillingSession {
 
     /// After run().
     MillingSessionReport report() const;
-    const Bone& bone() const { return model_.bone(); }
+    const Bone& bone() const { return model_->bone(); }
 
   private:
     void run_in_threads(const std::atomic<bool>& stop,
@@ -92,7 +95,7 @@ class MillingSession {
     HapticDevice& device_;
     ForceLog* log_;
     MillingLog* milling_log_;
-    MillingModel model_;
+    std::unique_ptr<ContactModel> model_;
     std::unique_ptr<Coupling> coupling_;
     EditQueue edits_;
     TripleBuffer<MillingResult> results_;

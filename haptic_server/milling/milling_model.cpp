@@ -1,16 +1,17 @@
 #include "haptic_server/milling/milling_model.h"
 
-#include <cmath>
 #include <glm/geometric.hpp>
 #include <stdexcept>
 #include <utility>
 
-#include "common/bone/finite.h"
 #include "haptic_server/milling/carve.h"
 #include "haptic_server/milling/crescent_rows.h"
 #include "haptic_server/milling/cutting_force.h"
+#include "haptic_server/milling/usable_burr.h"
 
 namespace osteomill {
+
+static_assert(most_voxels_across_burr <= 2.0 * CrescentRows::largest_radius_voxels);
 
 namespace {
 
@@ -19,26 +20,6 @@ namespace {
 constexpr double longest_stretch_radii = 0.2;
 /// Nobody feels the direction of a step that crosses the whole bone.
 constexpr double most_stretches = 64.0;
-
-void require_valid(const Burr& burr, double spacing_mm) {
-    const glm::dvec3& k = burr.cutting_coefficients_n_per_mm2;
-    const bool good = std::isfinite(burr.diameter_mm) && burr.diameter_mm > 0.0 && burr.edges > 0 &&
-                      std::isfinite(burr.spindle_rev_per_s) && burr.spindle_rev_per_s > 0.0 && is_finite(k) &&
-                      k.x >= 0.0 && k.y >= 0.0 && k.z >= 0.0;
-    if (!good)
-        throw std::invalid_argument("burr '" + burr.name +
-                                    "' needs a diameter, edges and a spindle speed above zero and finite "
-                                    "cutting coefficients that are not negative");
-    if (burr.radius_mm() / spacing_mm > CrescentRows::largest_radius_voxels)
-        throw std::invalid_argument("burr '" + burr.name + "' is more than 500 voxels of " +
-                                    std::to_string(spacing_mm) + " mm across; take coarser bone");
-}
-
-bool is_usable(const BurrCommand& command, std::size_t burr_count) {
-    return is_finite(command.pose.position_mm) && is_finite(command.pose.spindle_axis) &&
-           std::abs(glm::length(command.pose.spindle_axis) - 1.0) < 1e-6 &&
-           std::isfinite(command.elapsed_s) && command.elapsed_s > 0.0 && command.burr < burr_count;
-}
 
 /// Weighs each removed voxel by its stiffness, counts it by tissue and hands it to the force.
 template <typename Force>
@@ -105,18 +86,6 @@ class RemovalTally final : public RemovalSink {
 };
 
 }  // namespace
-
-std::vector<std::string> force_model_names() {
-    return {"milling", "milling-bins", "milling-instants"};
-}
-
-ForceSummation force_summation(const std::string& name) {
-    if (name == "milling") return ForceSummation::voxels;
-    if (name == "milling-bins") return ForceSummation::bins;
-    if (name == "milling-instants") return ForceSummation::instants;
-    throw std::invalid_argument("unknown force model '" + name +
-                                "'; choose milling, milling-bins or milling-instants");
-}
 
 MillingModel::MillingModel(Bone bone, std::vector<Burr> burrs, const std::vector<Tissue>& tissues,
                            const MillingSettings& settings)

@@ -11,19 +11,14 @@
 #include "common/bone/bone.h"
 #include "common/bone/edit.h"
 #include "common/scene/scene.h"
+#include "haptic_server/milling/contact_model.h"
 #include "haptic_server/milling/milling_settings.h"
 #include "haptic_server/milling/milling_step.h"
 #include "haptic_server/milling/tooth_force.h"
 
 namespace osteomill {
 
-/// Names for --force-model, in the order of --help; the first is the default.
-std::vector<std::string> force_model_names();
-
-/// Throws std::invalid_argument for an unknown name, listing the known ones.
-ForceSummation force_summation(const std::string& name);
-
-class MillingModel {
+class MillingModel final : public ContactModel {
   public:
     /// `burrs` and `tissues` as in the scene. Throws std::invalid_argument for an empty burr set, a burr
     /// whose values are not finite and positive or that is more than 500 voxels across, and settings out of
@@ -35,10 +30,11 @@ class MillingModel {
     /// overwrites `result`. The first step, and the first with another burr, starts at the command's pose
     /// without a sweep. A command that is not finite, of no duration or of an unknown burr leaves bone and
     /// burr alone and makes the result invalid. Real-time safe.
-    void step(const BurrCommand& command, double time_s, EditSink& edits, MillingResult& result) noexcept;
+    void step(const BurrCommand& command, double time_s, EditSink& edits,
+              MillingResult& result) noexcept override;
 
-    const Bone& bone() const { return bone_; }
-    const RemovedByTissue& removed_mm3() const { return removed_mm3_; }
+    const Bone& bone() const override { return bone_; }
+    const RemovedByTissue& removed_mm3() const override { return removed_mm3_; }
 
   private:
     /// One stretch of a step, from position_mm_ to `to_mm`, which becomes position_mm_; adds to `result`,

@@ -20,7 +20,7 @@ struct Typed {
     std::string device = "simulated";
     std::string grip = "firm";
     std::string trajectory;
-    std::string coupling = coupling_names().front();
+    std::string coupling;
     std::string force_model = force_model_names().front();
     double milling_rate_hz = 0.0;
     std::string clock = "real";
@@ -42,6 +42,19 @@ CLI::Validator one_of(const std::vector<std::string>& names) {
         fmt::format("{}", fmt::join(names, "|")));
 }
 
+/// The implicit coupling solves the cutting law; what has none is interpolated.
+std::string default_coupling(bool has_cutting_law) {
+    return has_cutting_law ? "implicit" : "interpolate";
+}
+
+/// A line for each, in the column of CLI11's descriptions.
+std::string force_model_help() {
+    std::string text = "How bone pushes back:";
+    for (const ForceModel& model : force_models())
+        text += fmt::format("\n{:32}{}: {}", "", model.name, model.description);
+    return text;
+}
+
 void declare(CLI::App& app, Typed& typed) {
     app.add_option(
            "--scene", typed.scene,
@@ -59,15 +72,17 @@ void declare(CLI::App& app, Typed& typed) {
     app.add_option("--trajectory", typed.trajectory,
                    "What the simulated hand follows, instead of the scene's")
         ->type_name("FILE.csv");
-    app.add_option("--coupling", typed.coupling, "What stands between the model and the hand")
-        ->check(one_of(coupling_names()))
-        ->capture_default_str();
-    app.add_option("--force-model", typed.force_model, "How the milling force is summed")
+    app.add_option("--coupling", typed.coupling,
+                   fmt::format("What stands between the model and the hand ({}; {} with a force model that "
+                               "has no cutting law)",
+                               default_coupling(true), default_coupling(false)))
+        ->check(one_of(coupling_names()));
+    app.add_option("--force-model", typed.force_model, force_model_help())
         ->check(one_of(force_model_names()))
         ->capture_default_str();
     app.add_option("--milling-rate-hz", typed.milling_rate_hz,
-                   fmt::format("Steps of the milling loop per second, {:.0f} to {:.0f} (1000; 100 with "
-                               "--coupling interpolate, as published)",
+                   fmt::format("Steps of the milling loop per second, {:.0f} to {:.0f} (1000; 100 where the "
+                               "milling force is interpolated, as published)",
                                least_milling_rate_hz, most_milling_rate_hz))
         ->check(CLI::Range(least_milling_rate_hz, most_milling_rate_hz));
     app.add_option("--clock", typed.clock, "real, or virtual: as fast as it can, repeatable to the bit")
@@ -108,6 +123,27 @@ std::optional<ListenAddress> listen_address(const Typed& typed) {
     return where;
 }
 
+std::string checked_coupling(const Typed& typed) {
+    const bool has_cutting_law = force_model(typed.force_model).has_cutting_law;
+    if (typed.coupling.empty()) return default_coupling(has_cutting_law);
+    if (typed.coupling == "implicit" && !has_cutting_law) {
+        throw std::invalid_argument(
+            fmt::format("--coupling implicit: solves the cutting law, and --force-model {} has none; take "
+                        "--coupling interpolate",
+                        typed.force_model));
+    }
+    return typed.coupling;
+}
+
+/// What is published is 100 Hz for the milling force. A force that is a wall, too, needs all that there is:
+/// an arm in a light hand holds 0.2 N/mm at 100 Hz, 1.4 N/mm at 1 kHz.
+double default_milling_rate_hz(const MillingSessionOptions& session) {
+    const double published_rate_hz = 100.0;
+    const bool is_as_published =
+        session.coupling == "interpolate" && force_model(session.force_model).has_cutting_law;
+    return is_as_published ? published_rate_hz : 1.0 / MillingSession::tick_s;
+}
+
 ServerOptions checked(const Typed& typed) {
     const bool is_virtual = typed.clock == "virtual";
     const bool is_client = typed.device == "client";
@@ -124,13 +160,11 @@ ServerOptions checked(const Typed& typed) {
     options.grip = typed.grip == "light" ? Grip::light : Grip::firm;
     options.trajectory = path_if_given(typed.trajectory);
     options.session.clock = is_virtual ? ClockKind::virtual_time : ClockKind::real;
-    options.session.coupling = typed.coupling;
-    options.session.force_model = force_summation(typed.force_model);
+    options.session.coupling = checked_coupling(typed);
+    options.session.force_model = typed.force_model;
     options.session.duration_s = typed.duration_s;
-    const double published_rate_hz = 100.0;
-    const double haptic_rate_hz = 1.0 / MillingSession::tick_s;
-    const double default_rate_hz = typed.coupling == "interpolate" ? published_rate_hz : haptic_rate_hz;
-    options.session.milling_rate_hz = typed.milling_rate_hz > 0.0 ? typed.milling_rate_hz : default_rate_hz;
+    options.session.milling_rate_hz =
+        typed.milling_rate_hz > 0.0 ? typed.milling_rate_hz : default_milling_rate_hz(options.session);
     try {
         options.listen = listen_address(typed);
     } catch (const std::invalid_argument& error) {

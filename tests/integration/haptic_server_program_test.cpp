@@ -85,6 +85,21 @@ TEST_F(HapticServerProgram, IsRepeatableToTheBit) {
     EXPECT_EQ(measured("a.json").at("peak_force_n"), measured("b.json").at("peak_force_n"));
 }
 
+TEST_F(HapticServerProgram, MillsWithEachOfTheOlderContactModels) {
+    for (const std::string model : {"point-spring", "petersik", "morris", "agus"}) {
+        const Outcome outcome = run("--scene cube --clock virtual --duration-s 2 --force-model " + model +
+                                    " --json " + file(model + ".json"));
+        ASSERT_EQ(outcome.exit_code, 0) << model << ": " << outcome.err;
+        EXPECT_GT(measured(model + ".json").at("removed_mm3").at("total").get<double>(), 1.0) << model;
+        EXPECT_GT(measured(model + ".json").at("peak_force_n").get<double>(), 0.05) << model;
+
+        const Outcome refused = run("--clock virtual --coupling implicit --force-model " + model);
+        EXPECT_EQ(refused.exit_code, 2) << model;
+        EXPECT_EQ(std::count(refused.err.begin(), refused.err.end(), '\n'), 1) << refused.err;
+        EXPECT_THAT(refused.err, HasSubstr("--coupling implicit"));
+    }
+}
+
 TEST_F(HapticServerProgram, TakesUpACarvedBoneWhereItWasLeft) {
     const Outcome first = run("--scene tooth --clock virtual --duration-s 3 --save-bone " +
                               file("carved.nrrd") + " --json " + file("a.json"));

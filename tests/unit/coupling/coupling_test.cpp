@@ -22,5 +22,11 @@ TEST(Coupling, AnUnknownNameIsRefusedWithTheChoices) {
     }
 }
 
+TEST(Coupling, ThatSolvesTheCuttingLawIsRefusedWhereThereIsNone) {
+    EXPECT_THROW((void)make_coupling("implicit", {.device = {}, .model_holds_wall = true}),
+                 std::invalid_argument);
+    EXPECT_NE(make_coupling("interpolate", {.device = {}, .model_holds_wall = true}), nullptr);
+}
+
 }  // namespace
 }  // namespace osteomill

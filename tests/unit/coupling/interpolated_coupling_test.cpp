@@ -41,5 +41,19 @@ TEST(InterpolatedCoupling, ANewForceStartsFromWhatIsRenderedNow) {
     EXPECT_NEAR(coupling.tick(cutting_at(0.004), *result).force_n.x, before, 1e-12);
 }
 
+TEST(InterpolatedCoupling, RendersAModelThatHoldsTheWallWithTheSpindleOff) {
+    InterpolatedCoupling coupling({.device = {}, .milling_period_s = 0.01, .model_holds_wall = true});
+    auto result = std::make_unique<MillingResult>();
+    result->step = 1;
+    result->force_n = {0.0, 0.0, 2.0};
+    for (int tick = 0; tick <= 20; ++tick) {
+        HandState hand = cutting_at(0.001 * tick);
+        hand.spindle_on = tick > 10;
+        const CouplingOutput out = coupling.tick(hand, *result);
+        EXPECT_NEAR(out.force_n.z, 2.0 * std::min(1.0, tick / 10.0), 1e-12) << "tick " << tick;
+        EXPECT_EQ(out.burr_pose.position_mm, hand.pose.position_mm) << "the burr is the device";
+    }
+}
+
 }  // namespace
 }  // namespace osteomill

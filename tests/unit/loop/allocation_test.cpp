@@ -7,6 +7,7 @@
 #include "haptic_server/device/simulated_device.h"
 #include "haptic_server/loop/haptic_loop.h"
 #include "haptic_server/loop/milling_loop.h"
+#include "haptic_server/milling/force_models.h"
 #include "tests/support/block.h"
 #include "tests/unit/loop/counting_new.h"
 
@@ -18,8 +19,13 @@ const ToolPose start{{-3.0, 0.0, 0.5}, {0.0, 0.0, 1.0}};
 
 /// Slides through a block with the spindle on: the loops are in the middle of their work.
 struct Rig {
-    explicit Rig(const std::string& coupling_name, HapticDevice& device)
-        : coupling(make_coupling(coupling_name, {.device = device.limits(), .milling_period_s = 0.001})),
+    Rig(const std::string& force_model, const std::string& coupling_name, HapticDevice& device)
+        : model(make_contact_model(force_model, testing::make_block({-4.0, -4.0, -3.2}, {4.0, 4.0, 0.0}, 0.1),
+                                   {burr}, {})),
+          coupling(make_coupling(coupling_name,
+                                 {.device = device.limits(),
+                                  .milling_period_s = 0.001,
+                                  .model_holds_wall = !osteomill::force_model(force_model).has_cutting_law})),
           haptic({device, *coupling, *results, commands, tool, status, &log}, {.start_pose = start}) {}
 
     std::filesystem::path file = std::filesystem::path(::testing::TempDir()) / "allocation_test.csv";
@@ -27,39 +33,43 @@ struct Rig {
     std::filesystem::path milling_file =
         std::filesystem::path(::testing::TempDir()) / "allocation_test_milling.csv";
     MillingLog milling_log{milling_file};
-    MillingModel model{testing::make_block({-4.0, -4.0, -3.2}, {4.0, 4.0, 0.0}, 0.1), {burr}, {}};
+    std::unique_ptr<ContactModel> model;
     std::unique_ptr<TripleBuffer<MillingResult>> results = std::make_unique<TripleBuffer<MillingResult>>();
     TripleBuffer<BurrCommand> commands;
     TripleBuffer<ToolSnapshot> tool;
     TripleBuffer<ToolSnapshot> status;
-    EditQueue edits{512, model.bone().content().slot_of_brick.size()};  // small: it overflows, too
+    EditQueue edits{512, model->bone().content().slot_of_brick.size()};  // small: it overflows, too
     std::unique_ptr<Coupling> coupling;
     HapticLoop haptic;
-    MillingLoop milling{{model, commands, *results, edits, &milling_log}, 0.001};
+    MillingLoop milling{{*model, commands, *results, edits, &milling_log}, 0.001};
 };
 
-void expect_no_allocation(const std::string& coupling_name, HapticDevice& device) {
-    const auto rig = std::make_unique<Rig>(coupling_name, device);
+void expect_no_allocation(const std::string& force_model, const std::string& coupling_name,
+                          HapticDevice& device) {
+    const auto rig = std::make_unique<Rig>(force_model, coupling_name, device);
     const std::size_t before = testing::allocation_count();
     for (int tick = 0; tick < 2000; ++tick) {
         const double time_s = 0.001 * tick;
         rig->haptic.tick(time_s, tick % 500 == 499 ? 30 : 0);  // faults are no excuse
         rig->milling.step(time_s, 0.001);
     }
-    EXPECT_EQ(testing::allocation_count() - before, 0u) << coupling_name;
-    EXPECT_GT(rig->model.removed_mm3()[0], 0.1) << "there was something to do";
+    EXPECT_EQ(testing::allocation_count() - before, 0u) << force_model << ", " << coupling_name;
+    EXPECT_GT(rig->model->removed_mm3()[0], 0.1) << "there was something to do";
     EXPECT_GT(rig->edits.overflow_count(), 0u);
     std::filesystem::remove(rig->file);
     std::filesystem::remove(rig->milling_file);
 }
 
 TEST(RealTimeCode, AllocatesNothingWithASimulatedHand) {
-    for (const std::string& name : coupling_names()) {
-        SimulatedDevice device(Trajectory({{0.0, start, true, std::nullopt},
-                                           {2.0, {{3.0, 0.0, 0.2}, {0.0, 0.0, 1.0}}, false, std::nullopt}}),
-                               DeviceMapping{}, ArmModel{}, hand_model(Grip::firm));
-        expect_no_allocation(name, device);
-    }
+    for (const ForceModel& model : force_models())
+        for (const std::string& coupling : coupling_names()) {
+            if (coupling == "implicit" && !model.has_cutting_law) continue;
+            SimulatedDevice device(
+                Trajectory({{0.0, start, true, std::nullopt},
+                            {2.0, {{3.0, 0.0, 0.2}, {0.0, 0.0, 1.0}}, false, std::nullopt}}),
+                DeviceMapping{}, ArmModel{}, hand_model(Grip::firm));
+            expect_no_allocation(model.name, coupling, device);
+        }
 }
 
 TEST(RealTimeCode, AllocatesNothingWithAnOperator) {
@@ -67,7 +77,7 @@ TEST(RealTimeCode, AllocatesNothingWithAnOperator) {
     input.back() = {.hand_target = {{3.0, 0.0, 0.2}, {0.0, 0.0, 1.0}}, .pedal = true, .present = true};
     input.publish();
     ClientDevice device(input, start, DeviceMapping{}, ArmModel{}, hand_model(Grip::firm));
-    expect_no_allocation(coupling_names().front(), device);
+    expect_no_allocation(force_model_names().front(), coupling_names().front(), device);
 }
 
 TEST(RealTimeCode, WouldBeCaughtAllocating) {

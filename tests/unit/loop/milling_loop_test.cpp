@@ -6,6 +6,7 @@
 #include <memory>
 #include <string>
 
+#include "haptic_server/milling/milling_model.h"
 #include "tests/support/block.h"
 
 namespace osteomill {

@@ -8,6 +8,7 @@
 #include <thread>
 
 #include "haptic_server/device/simulated_device.h"
+#include "haptic_server/milling/force_models.h"
 #include "tests/support/block.h"
 #include "tests/unit/loop/scripted_parts.h"
 
@@ -56,6 +57,45 @@ TEST(MillingSession, MillsOnTheVirtualClock) {
     EXPECT_LE(report.peak_force_n, 3.3);
     EXPECT_NE(report.bone_checksum, checksum(block()));
     for (const std::uint64_t count : report.fault_counts) EXPECT_EQ(count, 0u);
+}
+
+TEST(MillingSession, MillsWithEveryForceModel) {
+    for (const ForceModel& model : force_models()) {
+        MillingSessionOptions options = virtual_options(3.0);
+        options.force_model = model.name;
+        if (!model.has_cutting_law) options.coupling = "interpolate";
+        const MillingSessionReport report = run(options);
+        EXPECT_GT(report.removed_mm3[0], 0.3) << model.name;
+        EXPECT_GT(report.peak_force_n, 0.02) << model.name;
+        EXPECT_LE(report.peak_force_n, 3.3) << model.name;
+        for (const std::uint64_t count : report.fault_counts) EXPECT_EQ(count, 0u) << model.name;
+    }
+}
+
+TEST(MillingSession, IsPushedOutOfBoneByEveryModelThatHoldsTheWall) {
+    for (const ForceModel& model : force_models()) {
+        if (model.has_cutting_law) continue;
+        testing::ScriptedDevice device;  // presses into the top face, the pedal up
+        device.script = [](double t_s) {
+            return DeviceState{.position_mm = {0.0, 0.0, 1.0 - std::min(0.3, t_s)}};
+        };
+        MillingSessionOptions options = virtual_options(0.5);
+        options.force_model = model.name;
+        options.coupling = "interpolate";
+        const auto session = std::make_unique<MillingSession>(block_scene(), block(), device, options);
+        const std::atomic<bool> never{false};
+        session->run(never);
+        EXPECT_GT(device.written_n.back().z, 0.1) << model.name;
+        EXPECT_EQ(session->report().bone_checksum, checksum(block())) << model.name;
+    }
+}
+
+TEST(MillingSession, RefusesToSolveACuttingLawThatAForceModelHasNot) {
+    testing::ScriptedDevice device;
+    MillingSessionOptions options = virtual_options(1.0);
+    options.force_model = "agus";
+    options.coupling = "implicit";
+    EXPECT_THROW(MillingSession(block_scene(), block(), device, options), std::invalid_argument);
 }
 
 TEST(MillingSession, IsTheSameToTheBitEachTime) {

@@ -127,10 +127,5 @@ TEST_F(MillingModelTest, RefusesABurrThatCannotCut) {
     EXPECT_THROW(MillingModel(block(), {Burr{.spindle_rev_per_s = -1.0}}, {}), std::invalid_argument);
 }
 
-TEST(ForceModelNames, AreThoseThatItTakes) {
-    for (const std::string& name : force_model_names()) EXPECT_NO_THROW(force_summation(name));
-    EXPECT_THROW(force_summation("wishful"), std::invalid_argument);
-}
-
 }  // namespace
 }  // namespace osteomill

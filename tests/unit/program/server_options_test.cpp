@@ -7,6 +7,8 @@
 #include <stdexcept>
 #include <vector>
 
+#include "haptic_server/milling/force_models.h"
+
 namespace osteomill {
 namespace {
 
@@ -48,6 +50,21 @@ TEST(ServerOptions, MillAtThePublishedRateWithThePublishedCoupling) {
               500.0);
 }
 
+TEST(ServerOptions, CoupleAForceModelThatHasNoCuttingLawByInterpolatingAtTheHapticRate) {
+    for (const char* model : {"point-spring", "petersik", "morris", "agus"}) {
+        const MillingSessionOptions session = parse({"--force-model", model}).options->session;
+        EXPECT_EQ(session.force_model, model);
+        EXPECT_EQ(session.coupling, "interpolate") << model;
+        EXPECT_EQ(session.milling_rate_hz, 1000.0) << "a wall needs what there is";
+        EXPECT_EQ(parse({"--force-model", model, "--coupling", "interpolate"}).options->session.coupling,
+                  "interpolate");
+        EXPECT_THAT(error_of({"--force-model", model, "--coupling", "implicit"}),
+                    AllOf(HasSubstr("--coupling implicit"), HasSubstr(model), HasSubstr("interpolate"),
+                          Not(HasSubstr("\n"))));
+    }
+    EXPECT_EQ(parse({"--force-model", "milling-bins"}).options->session.coupling, "implicit");
+}
+
 TEST(ServerOptions, ServeNobodyOnTheVirtualClockUnlessAsked) {
     EXPECT_FALSE(parse({"--clock", "virtual"}).options->listen.has_value());
     EXPECT_TRUE(parse({"--clock", "virtual", "--listen", "127.0.0.1:0"}).options->listen.has_value());
@@ -87,6 +104,8 @@ TEST(ServerOptions, PrintHelpAndVersionAndAreDone) {
           "--clock", "--duration-s", "--trajectory", "--save-bone", "--json", "--log-csv"}) {
         EXPECT_THAT(help.text, HasSubstr(option));
     }
+    for (const ForceModel& model : force_models())
+        EXPECT_THAT(help.text, AllOf(HasSubstr(model.name), HasSubstr(model.description)));
     EXPECT_EQ(parse({"--version"}).text, "haptic_server 1.2.3\n");
 }
 
