@@ -109,7 +109,7 @@ TEST_F(StudyProgram, DrawsItsChartsQuickly) {
     for (const auto& row : found.at("cost").at("by_diameter"))
         EXPECT_GT(row.at("times_faster").at("100_hz"), 0.0);
     EXPECT_EQ(found.at("memory").at(0).at("name"), "tooth phantom");
-    for (const char* chart : {"pareto", "curves", "convergence", "scaling", "memory"})
+    for (const char* chart : {"pareto", "curves", "contact", "convergence", "scaling", "memory"})
         EXPECT_THAT(text_of(out_ + "/" + chart + ".svg"), HasSubstr("</svg>")) << chart;
 }
 

@@ -11,6 +11,7 @@
 #include "haptic_server/imaging/memory_estimate.h"
 #include "haptic_server/imaging/progress.h"
 #include "tests/studies/force/chart.h"
+#include "tests/studies/force/contact_curves.h"
 #include "tests/studies/force/convergence.h"
 #include "tests/studies/force/force_curves.h"
 #include "tests/studies/force/memory.h"
@@ -37,6 +38,7 @@ class ForceStudy {
         found["pareto"] = pareto();
         found["convergence"] = convergence();
         curves();
+        found["contact"] = contact();
         found["cost"] = cost();
         found["memory"] = memory();
         write_json(found, options_.out / "force.json");
@@ -127,6 +129,16 @@ class ForceStudy {
         write(csv_of(found.rpm, "thousand_rpm"), "curve_rpm.csv");
     }
 
+    ordered_json contact() const {
+        const ContactCurves found = with_progress(
+            "contact", [&](const Progress& progress) { return measure_contact(options_.quick, progress); });
+        write(csv_of(found), "contact.csv");
+        ordered_json json = ordered_json::array();
+        for (std::size_t i = 0; i < found.models.size(); ++i)
+            json.push_back({{"model", found.models[i]}, {"step_us_p50", found.step_us[i]}});
+        return json;
+    }
+
     /// 1024^3 voxels take 1 GiB, and as much again while they are copied.
     int largest_volume_voxels() const {
         if (options_.quick) return 512;
@@ -201,7 +213,7 @@ class ForceStudy {
 
     void draw() const {
         const std::filesystem::path scripts = chart_scripts();
-        for (const char* chart : {"pareto", "curves", "convergence", "scaling", "memory"})
+        for (const char* chart : {"pareto", "curves", "contact", "convergence", "scaling", "memory"})
             draw_chart(scripts, chart, options_.out);
     }
 
