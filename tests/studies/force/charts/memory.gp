@@ -1,4 +1,4 @@
-# Memory against bone: memory_bone.csv, memory_box.csv, memory_scenes.csv.
+# Memory against bone, scenes with what they cost and how long they take to start: memory_bone.csv, memory_box.csv, memory_scenes.csv.
 load ARG0[1:strlen(ARG0)-strlen('memory.gp')].'style.gp'
 set output folder.'/memory.svg'
 set title 'Memory follows the bone, not the box around it (0.1 mm voxels)'
@@ -20,6 +20,5 @@ plot folder.'/memory_bone.csv' using 'bone_mm3':'mebibytes' with linespoints pt 
          title 'what those boxes would take', \
      folder.'/memory_scenes.csv' using 'bone_mm3':'mebibytes' with points pt 9 ps 1.3 lc rgb green \
          title 'scenes', \
-     for [i=0:1] '' using 'bone_mm3':'mebibytes':(int(column(0)) % 2 == i ? \
-         sprintf('%s: %.0f B/mm^3, %.1f s', strcol('name'), column('bytes_per_mm3'), column('start_s')) : '') \
-         with labels right offset -1.2,(i == 0 ? 0.6 : -0.6) font ',12' tc rgb green notitle
+     '' using 'bone_mm3':'mebibytes':(sprintf('%s: %.0f B/mm^3, %.1f s', strcol('name'), column('bytes_per_mm3'), \
+         column('start_s'))) with labels left rotate by 32 offset 0.3,0.9 font ',12' tc rgb green notitle
