@@ -1,5 +1,6 @@
 #include "haptic_server/milling/chip_force.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -15,6 +16,7 @@ struct Constants {
     float middle_x, middle_y, middle_z;        // counted from the batch's base
     float per_radius;
     float tangential, radial, axial;
+    float disc_radius;  // of what a point stands for, voxels
 };
 
 Constants constants(const CuttingStep& step, const glm::ivec3& base) {
@@ -37,14 +39,15 @@ Constants constants(const CuttingStep& step, const glm::ivec3& base) {
             static_cast<float>(1.0 / step.radius_voxels),
             step.coefficients.x,
             step.coefficients.y,
-            step.coefficients.z};
+            step.coefficients.z,
+            static_cast<float>(disc_radius_voxels)};
 }
 
-[[gnu::always_inline]] inline void forces_of(const Constants& in, std::size_t count, const float* vx,
+[[gnu::always_inline]] inline void loop_over(const Constants& in, std::size_t count, const float* vx,
                                              const float* vy, const float* vz, const float* weights,
                                              ChipForces& out) {
     const Constants c = in;
-    constexpr auto disc_squared = static_cast<float>(disc_radius_voxels * disc_radius_voxels);
+    const float disc_squared = c.disc_radius * c.disc_radius;
     for (std::size_t i = 0; i < count; ++i) {
         const float wx = vx[i] - c.middle_x;
         const float wy = vy[i] - c.middle_y;
@@ -61,7 +64,7 @@ Constants constants(const CuttingStep& step, const glm::ivec3& base) {
         const float cos_kappa = -z * per_distance;
         const float disc_r_squared = r_squared < disc_squared ? disc_squared : r_squared;
         const float per_disc_r = 1.0f / std::sqrt(disc_r_squared);
-        const float mean_per_r = mean_inverse_distance(r_squared, per_disc_r);
+        const float mean_per_r = mean_inverse_distance(r_squared, per_disc_r, c.disc_radius);
 
         const float weight = weights[i];
         const float swirl = weight * to_surface * per_disc_r * per_disc_r;  // e / r, where e = (x, y) / r
@@ -76,12 +79,63 @@ Constants constants(const CuttingStep& step, const glm::ivec3& base) {
 }
 
 #if defined(__x86_64__)
-[[gnu::target("avx2")]] void forces_of_avx2(const Constants& c, std::size_t count, const float* x,
+[[gnu::target("avx2")]] void loop_over_avx2(const Constants& c, std::size_t count, const float* x,
                                             const float* y, const float* z, const float* weights,
                                             ChipForces& out) {
-    forces_of(c, count, x, y, z, weights, out);
+    loop_over(c, count, x, y, z, weights, out);
 }
 #endif
+
+void forces_of(const Constants& c, std::size_t count, const float* x, const float* y, const float* z,
+               const float* weights, [[maybe_unused]] InstructionSet instructions, ChipForces& out) {
+#if defined(__x86_64__)
+    if (instructions == InstructionSet::avx2) {
+        loop_over_avx2(c, count, x, y, z, weights, out);
+        return;
+    }
+#endif
+    loop_over(c, count, x, y, z, weights, out);
+}
+
+/// Voxels whose middle lies nearer to the axis than two voxels are taken apart.
+constexpr float refined_r_squared = 4.0f;
+
+float smallest_r_squared(const ChipForces& forces, std::size_t padded_count) {
+    constexpr std::size_t lanes = RemovedVoxels::lanes;
+    std::array<float, lanes> smallest;
+    smallest.fill(refined_r_squared);
+    for (std::size_t first = 0; first < padded_count; first += lanes)
+        for (std::size_t lane = 0; lane < lanes; ++lane) {
+            const float x = forces.x[first + lane];
+            const float y = forces.y[first + lane];
+            const float r_squared = x * x + y * y;
+            smallest[lane] = r_squared < smallest[lane] ? r_squared : smallest[lane];
+        }
+    return *std::min_element(smallest.begin(), smallest.end());
+}
+
+/// Force of a voxel taken apart into 4^3 equal parts. `scratch` is overwritten.
+glm::vec3 force_of_parts(const Constants& c, const glm::vec3& voxel, float weight,
+                         InstructionSet instructions, ChipForces& scratch) {
+    constexpr int edge = 4;
+    constexpr std::size_t count = edge * edge * edge;
+    Constants fine = c;
+    fine.disc_radius = c.disc_radius / edge;
+    std::array<float, count> x;
+    std::array<float, count> y;
+    std::array<float, count> z;
+    std::array<float, count> weights;
+    weights.fill(weight / count);
+    for (std::size_t i = 0; i < count; ++i) {
+        const glm::ivec3 part(i % edge, i / edge % edge, i / edge / edge);
+        const glm::vec3 place = voxel + (glm::vec3(part) + 0.5f) / static_cast<float>(edge) - 0.5f;
+        x[i] = place.x;
+        y[i] = place.y;
+        z[i] = place.z;
+    }
+    forces_of(fine, count, x.data(), y.data(), z.data(), weights.data(), instructions, scratch);
+    return glm::vec3(sum_of(scratch, count));
+}
 
 }  // namespace
 
@@ -97,16 +151,21 @@ CuttingStep::CuttingStep(const Burr& burr, const glm::dvec3& spindle_axis, const
       newton_per_unit(spacing * spacing / (2.0 * std::numbers::pi * burr.spindle_rev_per_s * elapsed)) {}
 
 void chip_forces(const CuttingStep& step, const RemovedVoxels& removed, std::span<const float> weights,
-                 [[maybe_unused]] InstructionSet instructions, ChipForces& out) noexcept {
+                 InstructionSet instructions, ChipForces& out) noexcept {
     const Constants c = constants(step, removed.base);
     const std::size_t count = removed.padded_count();
-#if defined(__x86_64__)
-    if (instructions == InstructionSet::avx2) {
-        forces_of_avx2(c, count, removed.x.data(), removed.y.data(), removed.z.data(), weights.data(), out);
-        return;
+    forces_of(c, count, removed.x.data(), removed.y.data(), removed.z.data(), weights.data(), instructions,
+              out);
+    if (smallest_r_squared(out, count) >= refined_r_squared) return;
+    ChipForces parts;
+    for (std::size_t i = 0; i < removed.count; ++i) {
+        if (out.x[i] * out.x[i] + out.y[i] * out.y[i] >= refined_r_squared) continue;
+        const glm::vec3 voxel(removed.x[i], removed.y[i], removed.z[i]);
+        const glm::vec3 force = force_of_parts(c, voxel, weights[i], instructions, parts);
+        out.force_x[i] = force.x;
+        out.force_y[i] = force.y;
+        out.force_z[i] = force.z;
     }
-#endif
-    forces_of(c, count, removed.x.data(), removed.y.data(), removed.z.data(), weights.data(), out);
 }
 
 glm::dvec3 sum_of(const ChipForces& forces, std::size_t padded_count) noexcept {

@@ -13,9 +13,11 @@
 //
 // A voxel of the crescent is up to half a voxel off the burr's surface, so it is first moved there along the
 // direction n from the burr's centre: r = R sin kappa. With K_r n + K_a e_kappa written out, sin kappa / r =
-// 1 / R leaves only e_psi / r, e_r / r and 1 / r that grow toward the spindle's axis; they are averaged over
-// a disc of a voxel's cross-section (mean_inverse_distance and disc_radius_voxels below), or a voxel at the
-// tip would count for far too much or too little.
+// 1 / R leaves only e_psi / r, e_r / r and 1 / r that grow toward the spindle's axis. They are averaged over
+// a disc of the voxel's cross-section, or a voxel at the tip would count for far too much or too little: 1/r
+// by mean_inverse_distance, and the vectors, whose components are harmonic, by their value at the disc's
+// middle while the axis lies outside it and (x, y) / a^2 once it lies within. The few voxels nearest to the
+// axis, where a disc is no cube, are summed over 4^3 parts of theirs.
 #pragma once
 
 #include <array>
@@ -32,20 +34,20 @@ namespace osteomill {
 /// Radius of a disc of a voxel's cross-section, 1/sqrt(pi).
 inline constexpr double disc_radius_voxels = 0.56418958354775628695;
 
-/// Mean of 1/|p| over such a disc whose middle lies at a distance whose square is given, in voxels: 2/a at
-/// the axis, near 1/r away from it. From the complete elliptic integral that it is: the first terms of its
-/// series inside the disc, 4 E(r/a) / (pi a), and outside, 1/r + a^2/(8 r^3) + 3 a^4/(64 r^5); within 4 % at
-/// the disc's edge, 0.5 % beyond 0.8 voxels.
+/// Mean of 1/|p| over a disc of radius `a` whose middle lies at a distance r, given as its square and, where
+/// it is at least `a`, its inverse: 2/a at the axis, near 1/r away from it. From the complete elliptic
+/// integral that it is: the first terms of its series inside the disc, 4 E(r/a) / (pi a), and outside, 1/r +
+/// a^2/(8 r^3) + 3 a^4/(64 r^5); within 4 % at the disc's edge, 0.5 % beyond 1.5 a.
 template <typename Real>
-[[gnu::always_inline]] inline Real mean_inverse_distance(Real r_squared, Real per_r) {
-    constexpr auto a_squared = static_cast<Real>(disc_radius_voxels * disc_radius_voxels);
-    const Real k = r_squared * (1 / a_squared);
-    const Real q = a_squared * per_r * per_r;
-    const Real inside = static_cast<Real>(2.0 / disc_radius_voxels) *
+[[gnu::always_inline]] inline Real mean_inverse_distance(Real r_squared, Real per_r, Real a) {
+    const Real per_a = 1 / a;
+    const Real k = r_squared * per_a * per_a;
+    const Real q = a * a * per_r * per_r;
+    const Real inside = 2 * per_a *
                         (1 - k * (static_cast<Real>(1.0 / 4.0) +
                                   k * (static_cast<Real>(3.0 / 64.0) + k * static_cast<Real>(10.0 / 256.0))));
     const Real outside = per_r * (1 + q * (static_cast<Real>(1.0 / 8.0) + q * static_cast<Real>(3.0 / 64.0)));
-    return r_squared < a_squared ? inside : outside;
+    return k < 1 ? inside : outside;
 }
 
 /// A step, as the force sees it.
