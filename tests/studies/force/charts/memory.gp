@@ -10,7 +10,7 @@ set format y '%g'
 set key bottom right
 set xrange [20:1e6]
 set rmargin 5
-set yrange [0.02:3000]
+set yrange [0.02:30000]
 bytes_per_mm3 = 1000.0
 plot folder.'/memory_bone.csv' using 'bone_mm3':'mebibytes' with linespoints pt 7 lw 1.5 lc rgb blue \
          title 'solid cubes of 3 to 51 mm', \
@@ -21,4 +21,4 @@ plot folder.'/memory_bone.csv' using 'bone_mm3':'mebibytes' with linespoints pt 
      folder.'/memory_scenes.csv' using 'bone_mm3':'mebibytes' with points pt 9 ps 1.3 lc rgb green \
          title 'scenes', \
      '' using 'bone_mm3':'mebibytes':(sprintf('%s: %.0f B/mm^3, %.1f s', strcol('name'), column('bytes_per_mm3'), \
-         column('start_s'))) with labels left rotate by 32 offset 0.3,0.9 font ',12' tc rgb green notitle
+         column('start_s'))) with labels left rotate by 55 offset 0.3,0.9 font ',12' tc rgb green notitle
