@@ -22,7 +22,7 @@ struct ParetoSetting {
 };
 
 /// Voxel sizes, bins, instants, binary and partial voxels, crescent and full scan, milling rates. The scan of
-/// 0.05 mm voxels, half a million of them, only where not `quick`.
+/// 0.05 mm voxels, half a million of them, and some instants only where not `quick`.
 std::vector<ParetoSetting> pareto_settings(bool quick);
 
 struct ParetoPoint {
