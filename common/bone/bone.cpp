@@ -14,17 +14,16 @@ namespace {
 
 void require_consistent(const BoneContent& content, std::size_t fraction_bricks) {
     require_valid(content.grid);
-    const auto bricks =
-        static_cast<std::size_t>(content.size_bricks.x) * content.size_bricks.y * content.size_bricks.z;
     const std::size_t slots = content.brick_of_slot.size();
-    if (content.size_bricks != size_in_bricks(content.grid) || content.slot_of_brick.size() != bricks)
+    if (content.size_bricks != size_in_bricks(content.grid))
         throw std::invalid_argument("the bone's brick table does not fit its grid");
     if (slots != fraction_bricks || (!content.stiffness.empty() && content.stiffness.size() != slots) ||
         (!content.tissue.empty() && content.tissue.size() != slots))
         throw std::invalid_argument("the bone's channels do not hold the same number of bricks");
     for (std::size_t slot = 0; slot < slots; ++slot) {
         const BrickIndex brick = content.brick_of_slot[slot];
-        if (brick >= bricks || content.slot_of_brick[brick] != static_cast<std::int32_t>(slot) ||
+        if (brick_position(content.size_bricks, brick).z >= content.size_bricks.z ||
+            content.slot_of_brick.find(brick) != static_cast<std::int32_t>(slot) ||
             (slot > 0 && brick <= content.brick_of_slot[slot - 1]))
             throw std::invalid_argument("the bone's brick table contradicts itself at slot " +
                                         std::to_string(slot));
@@ -105,10 +104,8 @@ std::uint64_t checksum(const Bone& bone) {
 
 std::size_t memory_bytes(const Bone& bone) {
     const BoneContent& content = bone.content();
-    return content.slot_of_brick.capacity() * sizeof(std::int32_t) +
-           content.brick_of_slot.capacity() * sizeof(BrickIndex) +
-           (content.stiffness.capacity() + content.tissue.capacity() + bone.stored_bricks()) *
-               sizeof(ByteBrick);
+    return content.slot_of_brick.memory_bytes() + content.brick_of_slot.size() * sizeof(BrickIndex) +
+           (content.stiffness.size() + content.tissue.size() + bone.stored_bricks()) * sizeof(ByteBrick);
 }
 
 }  // namespace osteomill

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "common/bone/brick.h"
+#include "common/bone/brick_table.h"
 #include "common/bone/grid.h"
 
 namespace osteomill {
@@ -17,16 +18,16 @@ namespace osteomill {
 /// What nothing changes after the bone has been built. Shared between copies of the bone (milling loop,
 /// streaming mirror), so it is stored once.
 struct BoneContent {
-    static constexpr std::int32_t no_slot = -1;
+    static constexpr std::int32_t no_slot = BrickTable::no_slot;
 
     Grid grid;
     glm::ivec3 size_bricks{0};
-    std::vector<std::int32_t> slot_of_brick;  ///< by BrickIndex; no_slot for a brick without bone
-    std::vector<BrickIndex> brick_of_slot;    ///< ascending
-    double homogeneous_stiffness = 1.0;       ///< relative stiffness of all bone where `stiffness` is empty
-    double stiffness_per_code = 0.02;         ///< relative stiffness = code * this
-    std::vector<ByteBrick> stiffness;         ///< codes by slot; empty in a homogeneous scene
-    std::vector<ByteBrick> tissue;            ///< labels by slot; empty in an unlabelled scene
+    BrickTable slot_of_brick;
+    std::vector<BrickIndex> brick_of_slot;  ///< ascending
+    double homogeneous_stiffness = 1.0;     ///< relative stiffness of all bone where `stiffness` is empty
+    double stiffness_per_code = 0.02;       ///< relative stiffness = code * this
+    std::vector<ByteBrick> stiffness;       ///< codes by slot; empty in a homogeneous scene
+    std::vector<ByteBrick> tissue;          ///< labels by slot; empty in an unlabelled scene
 };
 
 /// A bone that can be milled. Copies share content and own their fractions.
@@ -43,8 +44,10 @@ class Bone {
 
     /// Slot of a brick, or BoneContent::no_slot. `brick` must lie within size_bricks.
     std::int32_t slot(const glm::ivec3& brick) const {
-        return content_->slot_of_brick[brick_index(content_->size_bricks, brick)];
+        return slot(brick_index(content_->size_bricks, brick));
     }
+    /// Likewise; any number that is no stored brick's has no_slot.
+    std::int32_t slot(BrickIndex brick) const { return content_->slot_of_brick.find(brick); }
 
     /// What is left of each voxel of a stored brick, 0 (none) to 255 (all).
     std::span<const std::uint8_t, brick_voxel_count> fractions(std::int32_t slot) const {
@@ -78,7 +81,9 @@ std::vector<double> bone_volume_by_tissue_mm3(const Bone& bone);
 std::uint64_t checksum(const Bone& bone);
 std::uint64_t checksum_of_brick(BrickIndex brick, std::span<const std::uint8_t, brick_voxel_count> fractions);
 
-/// Heap bytes that this bone holds: brick table, stiffness, tissue and fractions.
+/// Bytes that this bone holds: brick table, stiffness, tissue and fractions. They follow the bricks that hold
+/// bone; the grid round them costs nothing. Room that a builder reserved and did not need is not counted: at
+/// a page a brick, the system never backs it.
 std::size_t memory_bytes(const Bone& bone);
 
 }  // namespace osteomill

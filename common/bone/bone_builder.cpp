@@ -15,24 +15,39 @@ void require_positive(double value, const char* what) {
         throw std::invalid_argument(std::string(what) + " is " + std::to_string(value) + ", not above zero");
 }
 
-/// Moves `bricks` into the order that `order` gives by old position.
-std::vector<ByteBrick> reordered(std::vector<ByteBrick> bricks, const std::vector<std::size_t>& order) {
-    if (std::is_sorted(order.begin(), order.end())) return bricks;
-    std::vector<ByteBrick> sorted;
-    sorted.reserve(bricks.size());
-    if (bricks.empty()) return sorted;
-    for (const std::size_t old : order) sorted.push_back(bricks[old]);
-    return sorted;
+/// Positions of `bricks` in ascending order of the bricks there.
+std::vector<std::size_t> ascending(const std::vector<BrickIndex>& bricks) {
+    std::vector<std::size_t> order(bricks.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::sort(order.begin(), order.end(),
+              [&](std::size_t a, std::size_t b) { return bricks[a] < bricks[b]; });
+    return order;
+}
+
+/// Brings a channel, if there is one, into the order that `order` gives by old position: cycle by cycle, so
+/// that no second channel is needed.
+template <typename Value>
+void reorder(std::vector<Value>& channel, const std::vector<std::size_t>& order) {
+    if (channel.empty()) return;
+    std::vector<bool> is_done(order.size(), false);
+    for (std::size_t start = 0; start < order.size(); ++start) {
+        if (is_done[start]) continue;
+        const Value first = channel[start];
+        std::size_t place = start;
+        for (; order[place] != start; place = order[place]) {
+            channel[place] = channel[order[place]];
+            is_done[place] = true;
+        }
+        channel[place] = first;
+        is_done[place] = true;
+    }
 }
 
 bool reaches_past_grid(const Grid& grid, const glm::ivec3& brick, const ByteBrick& fraction) {
     const glm::ivec3 first = brick * brick_edge_voxels;
     if (contains(grid, first + (brick_edge_voxels - 1))) return false;
-    for (std::size_t voxel = 0; voxel < brick_voxel_count; ++voxel) {
-        const auto offset = static_cast<int>(voxel);
-        const glm::ivec3 place = first + glm::ivec3(offset % 16, offset / 16 % 16, offset / 256);
-        if (fraction[voxel] != 0 && !contains(grid, place)) return true;
-    }
+    for (std::size_t voxel = 0; voxel < brick_voxel_count; ++voxel)
+        if (fraction[voxel] != 0 && !contains(grid, first + voxel_in_brick(voxel))) return true;
     return false;
 }
 
@@ -42,9 +57,6 @@ BoneBuilder::BoneBuilder(const Grid& grid) {
     require_valid(grid);
     content_.grid = grid;
     content_.size_bricks = size_in_bricks(grid);
-    const auto bricks =
-        static_cast<std::size_t>(content_.size_bricks.x) * content_.size_bricks.y * content_.size_bricks.z;
-    content_.slot_of_brick.assign(bricks, BoneContent::no_slot);
 }
 
 BoneBuilder BoneBuilder::homogeneous(const Grid& grid, double relative_stiffness, bool labelled) {
@@ -64,6 +76,13 @@ BoneBuilder BoneBuilder::heterogeneous(const Grid& grid, double stiffness_per_co
     return builder;
 }
 
+void BoneBuilder::reserve_bricks(std::size_t count) {
+    content_.brick_of_slot.reserve(count);
+    fraction_.reserve(count);
+    if (heterogeneous_) content_.stiffness.reserve(count);
+    if (labelled_) content_.tissue.reserve(count);
+}
+
 void BoneBuilder::add_brick(const glm::ivec3& brick, const ByteBrick& fraction, const ByteBrick* stiffness,
                             const ByteBrick* tissue) {
     for (int axis = 0; axis < 3; ++axis)
@@ -77,32 +96,21 @@ void BoneBuilder::add_brick(const glm::ivec3& brick, const ByteBrick& fraction, 
     if (reaches_past_grid(content_.grid, brick, fraction))
         throw std::invalid_argument("a brick at the grid's edge holds bone past it");
 
-    const BrickIndex index = brick_index(content_.size_bricks, brick);
-    if (content_.slot_of_brick[index] != BoneContent::no_slot)
-        throw std::invalid_argument("brick " + std::to_string(index) + " was added twice");
-    content_.slot_of_brick[index] = static_cast<std::int32_t>(fraction_.size());
-    content_.brick_of_slot.push_back(index);
+    content_.brick_of_slot.push_back(brick_index(content_.size_bricks, brick));
     fraction_.push_back(fraction);
     if (heterogeneous_) content_.stiffness.push_back(*stiffness);
     if (labelled_) content_.tissue.push_back(*tissue);
 }
 
 Bone BoneBuilder::build() && {
-    std::vector<std::size_t> order(content_.brick_of_slot.size());
-    std::iota(order.begin(), order.end(), std::size_t{0});
-    std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-        return content_.brick_of_slot[a] < content_.brick_of_slot[b];
-    });
-    fraction_ = reordered(std::move(fraction_), order);
-    content_.stiffness = reordered(std::move(content_.stiffness), order);
-    content_.tissue = reordered(std::move(content_.tissue), order);
-    std::sort(content_.brick_of_slot.begin(), content_.brick_of_slot.end());
-    for (std::size_t slot = 0; slot < content_.brick_of_slot.size(); ++slot)
-        content_.slot_of_brick[content_.brick_of_slot[slot]] = static_cast<std::int32_t>(slot);
-    fraction_.shrink_to_fit();
-    content_.brick_of_slot.shrink_to_fit();
-    content_.stiffness.shrink_to_fit();
-    content_.tissue.shrink_to_fit();
+    if (!std::is_sorted(content_.brick_of_slot.begin(), content_.brick_of_slot.end())) {
+        const std::vector<std::size_t> order = ascending(content_.brick_of_slot);
+        reorder(fraction_, order);
+        reorder(content_.stiffness, order);
+        reorder(content_.tissue, order);
+        reorder(content_.brick_of_slot, order);
+    }
+    content_.slot_of_brick = BrickTable(content_.brick_of_slot);
     return Bone(std::make_shared<const BoneContent>(std::move(content_)), std::move(fraction_));
 }
 

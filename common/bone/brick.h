@@ -44,4 +44,10 @@ inline std::size_t offset_in_brick(const glm::ivec3& voxel) {
     return static_cast<std::size_t>((voxel.x & 15) + 16 * ((voxel.y & 15) + 16 * (voxel.z & 15)));
 }
 
+/// The reverse: place of a voxel, counted from its brick's first; `offset` is below brick_voxel_count.
+inline glm::ivec3 voxel_in_brick(std::size_t offset) {
+    return {static_cast<int>(offset & 15U), static_cast<int>(offset >> 4U & 15U),
+            static_cast<int>(offset >> 8U)};
+}
+
 }  // namespace osteomill

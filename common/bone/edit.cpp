@@ -5,9 +5,7 @@
 namespace osteomill {
 
 EditOutcome apply(const EditRun& run, Bone& bone) {
-    const BoneContent& content = bone.content();
-    if (run.brick >= content.slot_of_brick.size()) return EditOutcome::no_such_brick;
-    const std::int32_t slot = content.slot_of_brick[run.brick];
+    const std::int32_t slot = bone.slot(run.brick);
     if (slot == BoneContent::no_slot) return EditOutcome::no_such_brick;
     if (run.count == 0 || run.first_voxel >= brick_voxel_count ||
         run.first_voxel % brick_edge_voxels + run.count > brick_edge_voxels)

@@ -18,11 +18,11 @@ void require_valid(const Grid& grid) {
     if (!(std::isfinite(grid.spacing_mm) && grid.spacing_mm > 0.0))
         throw std::invalid_argument("grid spacing is " + std::to_string(grid.spacing_mm) +
                                     " mm, not above zero");
-    // A brick's index is 32 bits wide, and one table entry stands for each brick of the grid.
+    // A brick's index is 32 bits wide.
     const double bricks = std::ceil(grid.size_voxels.x / 16.0) * std::ceil(grid.size_voxels.y / 16.0) *
                           std::ceil(grid.size_voxels.z / 16.0);
-    if (bricks > 1U << 28U)
-        throw std::invalid_argument("grid has more than 2^28 bricks of 16^3 voxels; crop it or coarsen it");
+    if (bricks > 0x1p32)
+        throw std::invalid_argument("grid has more than 2^32 bricks of 16^3 voxels; crop it or coarsen it");
 }
 
 }  // namespace osteomill

@@ -37,7 +37,7 @@ inline bool contains(const Grid& grid, const glm::ivec3& voxel) {
 }
 
 /// Throws std::invalid_argument, naming the value, unless every size is 1 to 65536 voxels, the spacing is
-/// finite and positive and the origin is finite.
+/// finite and positive, the origin is finite, and a 32-bit index can number the grid's bricks of 16^3 voxels.
 void require_valid(const Grid& grid);
 
 }  // namespace osteomill

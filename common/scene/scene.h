@@ -17,7 +17,7 @@
 
 namespace osteomill {
 
-/// A bone made by code: "tooth" or "cube".
+/// A bone made by code: "tooth", "cube" or "head".
 struct PhantomSource {
     std::string name = "tooth";
 

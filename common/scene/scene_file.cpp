@@ -21,7 +21,7 @@ constexpr double seconds_per_minute = 60.0;
 constexpr double far_mm = 10'000.0;  // no patient is larger than ten metres
 
 const std::vector<std::string> motion_names{"hold", "polishing", "cavity"};
-const std::vector<std::string> phantom_choices{"tooth", "cube"};
+const std::vector<std::string> phantom_choices{"tooth", "cube", "head"};
 const std::vector<std::string> sense_names{"clockwise", "counter-clockwise"};
 
 std::string from_key(const std::filesystem::path& path) {
@@ -62,7 +62,7 @@ std::variant<PhantomSource, FileSource> read_bone(TomlReader reader, const std::
     reader.refuse_other_keys();
     if (phantom.has_value() == file.has_value())
         reader.fail("phantom",
-                    "[bone] takes either phantom = \"tooth\" or \"cube\", or file = \"bone.nrrd\"");
+                    "[bone] takes either phantom = \"tooth\", \"cube\" or \"head\", or file = \"bone.nrrd\"");
     if (phantom && threshold_hu)
         reader.fail("threshold_hu", "'threshold_hu' goes with file, not with phantom");
     if (phantom) return PhantomSource{phantom_choices[*phantom]};

@@ -30,12 +30,11 @@ v1::BrickEdit brick_edit(BrickIndex brick, std::span<const std::uint8_t, brick_v
 
 std::optional<WireError> apply_brick_edit(const v1::BrickEdit& edit, Bone& bone) {
     const BrickIndex brick = edit.brick();
-    const BoneContent& content = bone.content();
-    if (brick >= content.slot_of_brick.size() || content.slot_of_brick[brick] == BoneContent::no_slot)
-        return refused(brick, "no bone is stored there");
+    const std::int32_t slot = bone.slot(brick);
+    if (slot == BoneContent::no_slot) return refused(brick, "no bone is stored there");
     if (edit.changed_size() % 2 != 0) return refused(brick, "a run lacks its length");
 
-    const auto fractions = bone.fractions(content.slot_of_brick[brick]);
+    const auto fractions = bone.fractions(slot);
     std::size_t taken = 0;
     std::size_t end_of_last = 0;
     for (int i = 0; i < edit.changed_size(); i += 2) {

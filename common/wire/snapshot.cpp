@@ -30,11 +30,7 @@ std::size_t brick_count(const Grid& grid) {
            static_cast<std::size_t>(size.z);
 }
 
-void require_within_limits(const Grid& grid, std::size_t stored_bricks, std::size_t channels) {
-    if (brick_count(grid) > most_bricks_of_grid)
-        throw std::invalid_argument("the grid has " + std::to_string(brick_count(grid)) +
-                                    " bricks of 16^3 voxels, more than the " +
-                                    std::to_string(most_bricks_of_grid) + " that are sent; crop it");
+void require_within_limits(std::size_t stored_bricks, std::size_t channels) {
     const std::size_t bytes = stored_bricks * channels * brick_voxel_count;
     if (bytes > most_bytes_of_bone)
         throw std::invalid_argument("the bone takes " + std::to_string(bytes >> 20U) +
@@ -73,7 +69,7 @@ std::variant<Grid, WireError> grid_from(const v1::Grid& message) {
 
 void require_sendable(const Bone& bone) {
     const BoneContent& content = bone.content();
-    require_within_limits(content.grid, bone.stored_bricks(),
+    require_within_limits(bone.stored_bricks(),
                           channel_count(!content.stiffness.empty(), !content.tissue.empty()));
 }
 
@@ -145,15 +141,20 @@ std::variant<SnapshotAssembler, WireError> SnapshotAssembler::begin(const v1::Sn
         return refused(std::to_string(message.brick_count()) + " bricks are announced for a grid of " +
                        std::to_string(brick_count(grid)));
     try {
-        require_within_limits(grid, message.brick_count(),
+        require_within_limits(message.brick_count(),
                               channel_count(message.heterogeneous(), message.labelled()));
         auto builder =
             message.heterogeneous()
                 ? BoneBuilder::heterogeneous(grid, message.stiffness_per_code(), message.labelled())
                 : BoneBuilder::homogeneous(grid, message.homogeneous_stiffness(), message.labelled());
+        // What is announced and does not come costs addresses, not memory.
+        builder.reserve_bricks(message.brick_count());
         return SnapshotAssembler(std::move(builder), message, size_in_bricks(grid));
     } catch (const std::invalid_argument& error) {
         return refused(error.what());
+    } catch (const std::bad_alloc&) {
+        return refused("there is no room for the " + std::to_string(message.brick_count()) +
+                       " bricks announced");
     }
 }
 

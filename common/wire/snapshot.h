@@ -18,19 +18,15 @@ struct ZSTD_CCtx_s;
 
 namespace osteomill {
 
-/// The largest grid that is sent, in bricks: its brick table, which a client makes before any brick has come,
-/// takes 64 MiB. At 0.1 mm that is a cube of 400 mm.
-inline constexpr std::size_t most_bricks_of_grid = std::size_t{1} << 24U;
-
-/// The largest bone that is sent, all channels together. Bone compresses a thousandfold where it is uniform,
-/// so a snapshot's own size bounds nothing. At 0.1 mm and with three channels it is 1400 cm^3 of bone, twice
-/// a skull.
+/// The largest bone that is sent, all channels together; the grid round it costs nothing. Bone compresses a
+/// thousandfold where it is uniform, so a snapshot's own size bounds nothing. At 0.1 mm and with three
+/// channels it is 1400 cm^3 of bone, twice a skull.
 inline constexpr std::size_t most_bytes_of_bone = std::size_t{4} << 30U;
 
 /// Uncompressed channels in one SnapshotBricks. Compressed they fit a frame even where nothing compresses.
 inline constexpr std::size_t largest_snapshot_piece_bytes = 120 * 1024;
 
-/// Throws std::invalid_argument where the bone is larger than those limits.
+/// Throws std::invalid_argument where the bone is larger than that.
 void require_sendable(const Bone& bone);
 
 v1::SnapshotBegin snapshot_begin(const Bone& bone);

@@ -5,8 +5,8 @@
 #include "common/scene/scene.h"
 #include "haptic_server/device/haptic_device.h"
 #include "haptic_server/device/held_arm.h"
-#include "haptic_server/loop/exchange.h"
-#include "haptic_server/loop/triple_buffer.h"
+#include "haptic_server/exchange/operator_input.h"
+#include "haptic_server/exchange/triple_buffer.h"
 
 namespace osteomill {
 

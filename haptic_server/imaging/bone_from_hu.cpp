@@ -84,8 +84,25 @@ std::vector<std::uint8_t> code_table(const StiffnessRelation& relation) {
     return codes;
 }
 
-struct BrickChannels {
+/// A brick that may hold bone.
+struct Candidate {
     glm::ivec3 brick;
+    bool is_all_bone = false;  ///< of its voxels and those around it
+};
+
+std::vector<Candidate> candidates(const HuField& field, const Grid& grid, double threshold_hu) {
+    const glm::ivec3 size_bricks = size_in_bricks(grid);
+    std::vector<Candidate> found;
+    for (int z = 0; z < size_bricks.z; ++z)
+        for (int y = 0; y < size_bricks.y; ++y)
+            for (int x = 0; x < size_bricks.x; ++x) {
+                const auto [lowest, highest] = field.range_around_brick({x, y, z});
+                if (highest >= threshold_hu) found.push_back({{x, y, z}, lowest >= threshold_hu});
+            }
+    return found;
+}
+
+struct BrickChannels {
     ByteBrick fraction{};
     ByteBrick stiffness{};
     ByteBrick tissue{};
@@ -110,36 +127,56 @@ void fill_voxel(const HuField& field, const std::vector<std::uint8_t>& codes, bo
     }
 }
 
-bool fill_brick(const HuField& field, const std::vector<std::uint8_t>& codes, bool labelled, const Grid& grid,
-                double threshold_hu, BrickChannels& out) {
-    const auto [lowest, highest] = field.range_around_brick(out.brick);
-    if (highest < threshold_hu) return false;
-    const bool all_bone = lowest >= threshold_hu;
-    const glm::ivec3 first = out.brick * brick_edge_voxels;
+BrickChannels channels_of(const HuField& field, const std::vector<std::uint8_t>& codes, bool labelled,
+                          const Grid& grid, double threshold_hu, const Candidate& candidate) {
+    BrickChannels channels;
+    const bool is_all_bone = candidate.is_all_bone;
+    const glm::ivec3 first = candidate.brick * brick_edge_voxels;
     const glm::ivec3 end = glm::min(first + brick_edge_voxels, grid.size_voxels);
-    bool any = false;
     for (int z = first.z; z < end.z; ++z)
         for (int y = first.y; y < end.y; ++y)
             for (int x = first.x; x < end.x; ++x) {
                 const glm::ivec3 voxel(x, y, z);
-                const double covered = all_bone ? 1.0 : cover(field, voxel, threshold_hu);
-                if (covered * 255.0 < 0.5) continue;
-                fill_voxel(field, codes, labelled, voxel, covered, out);
-                any = true;
+                const double covered = is_all_bone ? 1.0 : cover(field, voxel, threshold_hu);
+                if (covered * 255.0 >= 0.5) fill_voxel(field, codes, labelled, voxel, covered, channels);
             }
-    return any;
+    return channels;
 }
 
-/// The one code of all voxels with bone, if there is only one.
-std::optional<std::uint8_t> common_code(const std::vector<BrickChannels>& bricks) {
+/// The bone, if all its voxels have one code; gives up at the first that has another, which in CT is soon.
+template <typename ChannelsOf>
+std::optional<Bone> homogeneous_bone(const Grid& grid, bool labelled, const std::vector<Candidate>& bricks,
+                                     const ChannelsOf& channels) {
     std::optional<std::uint8_t> common;
-    for (const BrickChannels& brick : bricks)
+    std::optional<BoneBuilder> builder;
+    for (const Candidate& brick : bricks) {
+        const BrickChannels filled = channels(brick);
         for (std::size_t voxel = 0; voxel < brick_voxel_count; ++voxel) {
-            if (brick.fraction[voxel] == 0) continue;
-            if (common && *common != brick.stiffness[voxel]) return std::nullopt;
-            common = brick.stiffness[voxel];
+            if (filled.fraction[voxel] == 0) continue;
+            if (common && *common != filled.stiffness[voxel]) return std::nullopt;
+            common = filled.stiffness[voxel];
         }
-    return common;
+        if (!common) continue;
+        if (!builder) {
+            builder = BoneBuilder::homogeneous(grid, *common * stiffness_per_code, labelled);
+            builder->reserve_bricks(bricks.size());
+        }
+        builder->add_brick(brick.brick, filled.fraction, nullptr, &filled.tissue);
+    }
+    if (!builder) return std::nullopt;
+    return std::move(*builder).build();
+}
+
+template <typename ChannelsOf>
+Bone heterogeneous_bone(const Grid& grid, bool labelled, const std::vector<Candidate>& bricks,
+                        const ChannelsOf& channels) {
+    BoneBuilder builder = BoneBuilder::heterogeneous(grid, stiffness_per_code, labelled);
+    builder.reserve_bricks(bricks.size());
+    for (const Candidate& brick : bricks) {
+        const BrickChannels filled = channels(brick);
+        builder.add_brick(brick.brick, filled.fraction, &filled.stiffness, &filled.tissue);
+    }
+    return std::move(builder).build();
 }
 
 }  // namespace
@@ -156,23 +193,13 @@ Bone bone_from_hu(const HuVolume& volume, double threshold_hu, const StiffnessRe
 
     const HuField field(volume);
     const std::vector<std::uint8_t> codes = code_table(relation);
-    const glm::ivec3 size_bricks = size_in_bricks(volume.grid);
-    std::vector<BrickChannels> bricks;
-    for (int z = 0; z < size_bricks.z; ++z)
-        for (int y = 0; y < size_bricks.y; ++y)
-            for (int x = 0; x < size_bricks.x; ++x) {
-                BrickChannels channels{.brick = {x, y, z}};
-                if (fill_brick(field, codes, labelled, volume.grid, threshold_hu, channels))
-                    bricks.push_back(channels);
-            }
+    const std::vector<Candidate> bricks = candidates(field, volume.grid, threshold_hu);
+    const auto channels = [&](const Candidate& brick) {
+        return channels_of(field, codes, labelled, volume.grid, threshold_hu, brick);
+    };
 
-    const std::optional<std::uint8_t> one_code = common_code(bricks);
-    BoneBuilder builder =
-        one_code ? BoneBuilder::homogeneous(volume.grid, *one_code * stiffness_per_code, labelled)
-                 : BoneBuilder::heterogeneous(volume.grid, stiffness_per_code, labelled);
-    for (const BrickChannels& channels : bricks)
-        builder.add_brick(channels.brick, channels.fraction, &channels.stiffness, &channels.tissue);
-    return std::move(builder).build();
+    if (auto bone = homogeneous_bone(volume.grid, labelled, bricks, channels)) return *std::move(bone);
+    return heterogeneous_bone(volume.grid, labelled, bricks, channels);
 }
 
 }  // namespace osteomill

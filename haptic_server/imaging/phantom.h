@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "common/scene/scene.h"
@@ -39,9 +40,12 @@ std::vector<std::string> phantom_names();
 
 /// The scene that goes with a phantom: tissues, six burrs (1, 1.5, 2, 3, 4, 5 mm), start pose and trajectory.
 /// The tooth's trajectory is the cavity that drills out the lesion with the 1.5 mm burr to a hole of 4.5 mm;
-/// the cube's is the polishing slide with the 5 mm burr. Throws std::invalid_argument for an unknown name,
-/// listing the known ones.
+/// the cube's is the polishing slide with the 5 mm burr; the head's (see head_phantom.h) thins the vault at
+/// its top with the 3 mm burr. Throws std::invalid_argument for an unknown name, listing the known ones.
 Scene phantom_scene(const std::string& name);
-HuVolume make_phantom(const std::string& name);
+
+/// A phantom: CT numbers to make bone from, or, where they would not fit in memory, the bone itself. Throws
+/// like phantom_scene.
+std::variant<HuVolume, Bone> make_phantom(const std::string& name);
 
 }  // namespace osteomill

@@ -4,6 +4,7 @@
 #include <atomic>
 #include <boost/lockfree/spsc_queue.hpp>
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "common/bone/edit.h"
@@ -15,10 +16,10 @@ namespace osteomill {
 /// overflow is counted.
 class EditQueue final : public EditSink {
   public:
-    /// Room for `capacity` runs; `brick_count` is the number of bricks of the bone's grid.
-    EditQueue(std::size_t capacity, std::size_t brick_count);
+    /// Room for `capacity` runs of edits to the bone of this content.
+    EditQueue(std::size_t capacity, std::shared_ptr<const BoneContent> content);
 
-    /// Producer only. Real-time safe.
+    /// Producer only. The run's brick must be stored. Real-time safe.
     void push(const EditRun& run) noexcept override;
     /// Producer only, after each step. Sends bricks that overflowed before, as far as there is room.
     /// Real-time safe.
@@ -36,9 +37,14 @@ class EditQueue final : public EditSink {
     std::uint64_t overflow_count() const noexcept { return overflow_count_.load(std::memory_order_relaxed); }
 
   private:
+    std::size_t slot_of(const EditRun& run) const noexcept {
+        return static_cast<std::size_t>(content_->slot_of_brick.find(run.brick));
+    }
+
     boost::lockfree::spsc_queue<EditRun> queue_;
-    std::vector<BrickIndex> overflowed_;  // producer only; reserved for every brick
-    std::vector<bool> is_overflowed_;     // producer only; by BrickIndex
+    std::shared_ptr<const BoneContent> content_;
+    std::vector<std::size_t> overflowed_;  // producer only; slots; reserved for every one
+    std::vector<bool> is_overflowed_;      // producer only; by slot
     std::atomic<std::uint64_t> overflow_count_{0};
 };
 

@@ -26,12 +26,4 @@ struct ToolSnapshot {
     Fault fault = Fault::none;
 };
 
-/// Streaming loop to the device, with --device client: what the operator's mouse and keys say.
-struct OperatorInput {
-    ToolPose hand_target;  ///< patient space
-    bool pedal = false;
-    std::size_t burr = 0;
-    bool present = false;  ///< false while no operator is connected: the pedal counts as up
-};
-
 }  // namespace osteomill

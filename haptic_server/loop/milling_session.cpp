@@ -26,10 +26,6 @@ const MillingSessionOptions& validated(const MillingSessionOptions& options) {
     return options;
 }
 
-std::size_t brick_count(const Bone& bone) {
-    return bone.content().slot_of_brick.size();
-}
-
 /// Polls until `is_done`, a stop or the longest wait.
 template <typename IsDone>
 void wait_for_consumer(const std::atomic<bool>* stop, IsDone&& is_done) {
@@ -55,7 +51,7 @@ MillingSession::MillingSession(const Scene& scene, Bone bone, HapticDevice& devi
            .milling_period_s = std::max(tick_s, 1.0 / options.milling_rate_hz),
            .position_resolution_mm = device.limits().position_resolution_mm * scene.device.scale,
            .model_holds_wall = !force_model(options.force_model).has_cutting_law})),
-      edits_(edit_queue_runs, brick_count(model_->bone())),
+      edits_(edit_queue_runs, model_->bone().shared_content()),
       haptic_loop_({.device = device,
                     .coupling = *coupling_,
                     .results = results_,

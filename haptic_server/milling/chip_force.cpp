@@ -59,11 +59,11 @@ Constants constants(const CuttingStep& step, const glm::ivec3& base) {
         const float distance_squared = r_squared + z * z;
         // No voxel of a crescent is that near the centre; padding may be.
         const float distance = std::sqrt(distance_squared < 0.25f ? 0.25f : distance_squared);
-        const float per_distance = 1.0f / distance;
+        const float disc_r = std::sqrt(r_squared < disc_squared ? disc_squared : r_squared);
+        const float per_both = 1.0f / (distance * disc_r);  // one division for two
+        const float per_disc_r = per_both * distance;
+        const float cos_kappa = -z * (per_both * disc_r);
         const float to_surface = distance * c.per_radius;  // 1 / r there = this / r here
-        const float cos_kappa = -z * per_distance;
-        const float disc_r_squared = r_squared < disc_squared ? disc_squared : r_squared;
-        const float per_disc_r = 1.0f / std::sqrt(disc_r_squared);
         const float mean_per_r = mean_inverse_distance(r_squared, per_disc_r, c.disc_radius);
 
         const float weight = weights[i];
@@ -97,8 +97,8 @@ void forces_of(const Constants& c, std::size_t count, const float* x, const floa
     loop_over(c, count, x, y, z, weights, out);
 }
 
-/// Voxels whose middle lies nearer to the axis than two voxels are taken apart.
-constexpr float refined_r_squared = 4.0f;
+/// Voxels whose middle lies nearer to the axis than 1.4 voxels are taken apart.
+constexpr float refined_r_squared = 2.0f;
 
 float smallest_r_squared(const ChipForces& forces, std::size_t padded_count) {
     constexpr std::size_t lanes = RemovedVoxels::lanes;
@@ -114,27 +114,34 @@ float smallest_r_squared(const ChipForces& forces, std::size_t padded_count) {
     return *std::min_element(smallest.begin(), smallest.end());
 }
 
-/// Force of a voxel taken apart into 4^3 equal parts. `scratch` is overwritten.
+/// Middles of the parts of a voxel taken apart into 4^3, along one axis: `run` parts in a row share a place.
+constexpr std::size_t part_count = 64;
+constexpr std::array<float, part_count> part_places(std::size_t run) {
+    std::array<float, part_count> places{};
+    for (std::size_t i = 0; i < part_count; ++i) places[i] = 0.25f * static_cast<float>(i / run % 4) - 0.375f;
+    return places;
+}
+
+/// Force of such a voxel. `scratch` is overwritten.
 glm::vec3 force_of_parts(const Constants& c, const glm::vec3& voxel, float weight,
                          InstructionSet instructions, ChipForces& scratch) {
-    constexpr int edge = 4;
-    constexpr std::size_t count = edge * edge * edge;
+    static constexpr auto part_x = part_places(1);
+    static constexpr auto part_y = part_places(4);
+    static constexpr auto part_z = part_places(16);
     Constants fine = c;
-    fine.disc_radius = c.disc_radius / edge;
-    std::array<float, count> x;
-    std::array<float, count> y;
-    std::array<float, count> z;
-    std::array<float, count> weights;
-    weights.fill(weight / count);
-    for (std::size_t i = 0; i < count; ++i) {
-        const glm::ivec3 part(i % edge, i / edge % edge, i / edge / edge);
-        const glm::vec3 place = voxel + (glm::vec3(part) + 0.5f) / static_cast<float>(edge) - 0.5f;
-        x[i] = place.x;
-        y[i] = place.y;
-        z[i] = place.z;
+    fine.disc_radius = 0.25f * c.disc_radius;
+    std::array<float, part_count> x;
+    std::array<float, part_count> y;
+    std::array<float, part_count> z;
+    std::array<float, part_count> weights;
+    for (std::size_t i = 0; i < part_count; ++i) {
+        x[i] = voxel.x + part_x[i];
+        y[i] = voxel.y + part_y[i];
+        z[i] = voxel.z + part_z[i];
+        weights[i] = weight / part_count;
     }
-    forces_of(fine, count, x.data(), y.data(), z.data(), weights.data(), instructions, scratch);
-    return glm::vec3(sum_of(scratch, count));
+    forces_of(fine, part_count, x.data(), y.data(), z.data(), weights.data(), instructions, scratch);
+    return glm::vec3(sum_of(scratch, part_count));
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 
 #include "common/scene/scene.h"
 #include "haptic_server/imaging/hu_volume.h"
@@ -16,7 +17,7 @@ struct BoneSource {
 
 struct LoadedBone {
     Bone bone;
-    BoneSource source;
+    std::optional<BoneSource> source;  ///< none for a bone that no CT numbers were made for
 };
 
 /// Makes the phantom or reads the file. For a file the threshold is the scene's, or the file's own, or the

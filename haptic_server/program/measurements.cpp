@@ -37,9 +37,18 @@ nlohmann::ordered_json faults(const MillingSessionReport& report) {
             {"device_jumped", count(Fault::device_jumped)}};
 }
 
+nlohmann::ordered_json cost(const BoneCost& bone, std::uint64_t peak_resident_bytes) {
+    nlohmann::ordered_json json{{"memory_bytes", bone.memory_bytes}, {"bone_mm3", bone.bone_mm3}};
+    if (bone.bone_mm3 > 0.0) json["bytes_per_mm3"] = static_cast<double>(bone.memory_bytes) / bone.bone_mm3;
+    json["startup_s"] = bone.startup_s;
+    json["peak_resident_bytes"] = peak_resident_bytes;
+    return json;
+}
+
 }  // namespace
 
-nlohmann::ordered_json measurements(const MillingSessionReport& report, const Scene& scene,
+nlohmann::ordered_json measurements(const MillingSessionReport& report, const BoneCost& bone,
+                                    std::uint64_t peak_resident_bytes, const Scene& scene,
                                     const ServerOptions& options) {
     nlohmann::ordered_json json;
     json["scene"] = scene.name;
@@ -59,6 +68,7 @@ nlohmann::ordered_json measurements(const MillingSessionReport& report, const Sc
     json["peak_force_n"] = report.peak_force_n;
     json["faults"] = faults(report);
     json["edit_overflows"] = report.edit_overflows;
+    json["bone"] = cost(bone, peak_resident_bytes);
     json["bone_checksum"] = fmt::format("{:016x}", report.bone_checksum);
     return json;
 }

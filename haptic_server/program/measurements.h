@@ -10,7 +10,16 @@
 
 namespace osteomill {
 
-nlohmann::ordered_json measurements(const MillingSessionReport& report, const Scene& scene,
+/// What the bone cost before the first tick.
+struct BoneCost {
+    std::size_t memory_bytes = 0;  ///< of the milling loop's bone: see memory_bytes()
+    double bone_mm3 = 0.0;
+    double startup_s = 0.0;  ///< from the program's start until the session could begin and clients connect
+};
+
+/// `peak_resident_bytes`: of the whole program, the streaming loop's copy of the bone with it.
+nlohmann::ordered_json measurements(const MillingSessionReport& report, const BoneCost& bone,
+                                    std::uint64_t peak_resident_bytes, const Scene& scene,
                                     const ServerOptions& options);
 
 /// Throws std::runtime_error with one line naming the file.

@@ -21,8 +21,7 @@ void for_each_solid_voxel(const Bone& bone, Visit&& visit) {
             brick_edge_voxels;
         for (std::size_t offset = 0; offset < brick_voxel_count; ++offset) {
             if (fractions[offset] < 128) continue;
-            const auto o = static_cast<int>(offset);
-            visit(first + glm::ivec3(o % 16, o / 16 % 16, o / 256));
+            visit(first + voxel_in_brick(offset));
         }
     }
 }

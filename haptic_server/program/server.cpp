@@ -7,6 +7,7 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
+#include <fstream>
 #include <memory>
 #include <optional>
 #include <stdexcept>
@@ -20,6 +21,7 @@
 #include "haptic_server/loop/force_log.h"
 #include "haptic_server/program/bone_source.h"
 #include "haptic_server/program/measurements.h"
+#include "haptic_server/program/resident_memory.h"
 #include "haptic_server/program/scene_on_bone.h"
 #include "haptic_server/program/status_line.h"
 #include "haptic_server/streaming/streaming_server.h"
@@ -129,16 +131,21 @@ void close_log(std::optional<Log>& log) {
 }  // namespace
 
 void run_server(const ServerOptions& options, const std::string& version, const std::atomic<bool>& stop) {
+    const auto began = std::chrono::steady_clock::now();
     for (const auto& file : {options.save_bone, options.json, options.log_csv, options.log_milling_csv})
         require_folder_of(file);
     Scene scene = load_scene(options);
     LoadedBone loaded = load_bone(scene);
     if (options.bone && !options.scene) place_on_bone(scene, loaded.bone);
     // Saving needs what the bone was built from; nothing else does.
-    std::optional<BoneSource> source;
-    if (options.save_bone) source = std::move(loaded.source);
+    if (!options.save_bone) loaded.source.reset();
+    if (options.save_bone && !loaded.source)
+        throw std::runtime_error(fmt::format(
+            "--save-bone: the scene '{}' has a bone without CT numbers, too large to write them all",
+            scene.name));
+    const std::optional<BoneSource> source = std::move(loaded.source);
     Bone bone = std::move(loaded.bone);
-    loaded.source = {};
+    BoneCost cost{.memory_bytes = memory_bytes(bone), .bone_mm3 = bone_volume_mm3(bone)};
     const DeviceParts device = make_device(options, scene);
     std::optional<ForceLog> log;
     if (options.log_csv) log.emplace(*options.log_csv);
@@ -156,6 +163,8 @@ void run_server(const ServerOptions& options, const std::string& version, const 
                                ? make_streaming(options, scene, *std::move(mirror), *session, device, version)
                                : nullptr;
 
+    cost.startup_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
+
     StatusLine status(stderr, isatty(STDERR_FILENO) == 1);
     std::atomic<bool> is_over{false};
     session->run(is_over, [&](const ToolSnapshot& tool) {
@@ -170,7 +179,10 @@ void run_server(const ServerOptions& options, const std::string& version, const 
     leftovers.write([&] { close_log(log); });
     leftovers.write([&] { close_log(milling_log); });
     leftovers.write([&] {
-        if (options.json) write_json(measurements(report, scene, options), *options.json);
+        if (!options.json) return;
+        std::ifstream process("/proc/self/status");
+        const std::uint64_t peak = peak_resident_bytes(process).value_or(0);
+        write_json(measurements(report, cost, peak, scene, options), *options.json);
     });
     leftovers.write([&] {
         if (!options.save_bone) return;

@@ -58,8 +58,8 @@ std::string force_model_help() {
 void declare(CLI::App& app, Typed& typed) {
     app.add_option(
            "--scene", typed.scene,
-           "Scene: a TOML file, or a phantom: tooth, cube (tooth; with --bone alone: a cavity on top of "
-           "that bone)")
+           "Scene: a TOML file, or a phantom: tooth, cube, head (tooth; with --bone alone: a cavity on top "
+           "of that bone)")
         ->capture_default_str();
     app.add_option("--bone", typed.bone, "Bone from a file that bone_import wrote, instead of the scene's")
         ->type_name("FILE.nrrd");

@@ -14,7 +14,7 @@ bool BoneMirror::apply(const EditRun& run) {
 }
 
 ChangedVoxels BoneMirror::take_changes() {
-    for (const auto& [brick, mask] : changed_) checksum_.update(bone_, bone_.content().slot_of_brick[brick]);
+    for (const auto& [brick, mask] : changed_) checksum_.update(bone_, bone_.slot(brick));
     return std::exchange(changed_, {});
 }
 

@@ -11,9 +11,8 @@ ClientFeed::ClientFeed(v1::Hello hello, const BoneMirror& mirror, SnapshotPacker
     : hello_(std::move(hello)), mirror_(mirror), packer_(packer) {}
 
 void ClientFeed::note(const ChangedVoxels& changes) {
-    const auto& slot_of_brick = mirror_.bone().content().slot_of_brick;
     for (const auto& [brick, mask] : changes)
-        if (static_cast<std::size_t>(slot_of_brick[brick]) < next_slot_) untold_[brick] |= mask;
+        if (static_cast<std::size_t>(mirror_.bone().slot(brick)) < next_slot_) untold_[brick] |= mask;
 }
 
 void ClientFeed::request_state(const ToolView& tool, bool with_checksum) {
@@ -83,7 +82,7 @@ void ClientFeed::fill_state(v1::ServerFrame& frame) {
     std::size_t bytes = frame.ByteSizeLong() + room_for_tags_and_checksum;
     while (!untold_.empty()) {
         const auto& [brick, mask] = *untold_.begin();
-        const std::int32_t slot = mirror_.bone().content().slot_of_brick[brick];
+        const std::int32_t slot = mirror_.bone().slot(brick);
         v1::BrickEdit edit = brick_edit(brick, mirror_.bone().fractions(slot), mask);
         constexpr std::size_t tag_and_length = 4;
         bytes += edit.ByteSizeLong() + tag_and_length;

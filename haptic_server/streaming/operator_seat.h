@@ -6,8 +6,8 @@
 #include <optional>
 
 #include "common/wire/tool_view.h"
-#include "haptic_server/loop/exchange.h"
-#include "haptic_server/loop/triple_buffer.h"
+#include "haptic_server/exchange/operator_input.h"
+#include "haptic_server/exchange/triple_buffer.h"
 
 namespace osteomill {
 

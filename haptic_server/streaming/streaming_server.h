@@ -12,9 +12,10 @@
 
 #include "common/bone/bone.h"
 #include "common/scene/scene.h"
+#include "haptic_server/exchange/operator_input.h"
+#include "haptic_server/exchange/triple_buffer.h"
 #include "haptic_server/loop/edit_queue.h"
 #include "haptic_server/loop/exchange.h"
-#include "haptic_server/loop/triple_buffer.h"
 
 namespace osteomill {
 

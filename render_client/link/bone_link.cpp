@@ -67,7 +67,7 @@ class BoneLink::Impl {
         if (auto* error = std::get_if<WireError>(&tool)) return reject(std::move(*error));
         for (const v1::BrickEdit& edit : frame.edits()) {
             if (auto error = apply_brick_edit(edit, *bone_)) return reject(std::move(*error));
-            checksum_->update(*bone_, bone_->content().slot_of_brick[edit.brick()]);
+            checksum_->update(*bone_, bone_->slot(edit.brick()));
             if (!update.bone_replaced) update.dirty_bricks.push_back(edit.brick());
         }
         update.tool = std::get<ToolView>(std::move(tool));

@@ -16,6 +16,8 @@ namespace {
 using ::testing::HasSubstr;
 using ::testing::StartsWith;
 
+constexpr bool is_optimised = IS_OPTIMISED;
+
 struct Outcome {
     int exit_code = -1;
     std::string out;
@@ -110,6 +112,32 @@ TEST_F(HapticServerProgram, TakesUpACarvedBoneWhereItWasLeft) {
     ASSERT_EQ(second.exit_code, 0) << second.err;
     EXPECT_EQ(measured("b.json").at("bone_checksum"), measured("a.json").at("bone_checksum"));
     EXPECT_EQ(measured("b.json").at("removed_mm3").at("total"), 0.0);
+}
+
+TEST_F(HapticServerProgram, SavesNoBoneThatHasNoCtNumbers) {
+    if (!is_optimised) GTEST_SKIP() << "the head takes its time unless optimised";
+    const Outcome outcome = run("--scene head --save-bone " + file("head.nrrd"));
+    EXPECT_EQ(outcome.exit_code, 1);
+    EXPECT_THAT(outcome.err, StartsWith("haptic_server: --save-bone: "));
+}
+
+TEST_F(HapticServerProgram, MillsAHeadInMemoryThatFollowsItsBone) {
+    if (!is_optimised) GTEST_SKIP() << "the head takes its time unless optimised";
+    constexpr double gibibyte = 1024.0 * 1024.0 * 1024.0;
+    const std::string session = "--scene head --clock virtual --duration-s 4 --json ";
+    const Outcome alone = run(session + file("alone.json"));
+    ASSERT_EQ(alone.exit_code, 0) << alone.err;
+    const nlohmann::json bone = measured("alone.json").at("bone");
+    EXPECT_NEAR(bone.at("bone_mm3").get<double>(), 0.02 * 204.8 * 204.8 * 204.8, 5000.0);
+    EXPECT_LT(bone.at("peak_resident_bytes").get<double>(), 1.3 * bone.at("memory_bytes").get<double>())
+        << "nothing is copied while it is built";
+    EXPECT_GT(measured("alone.json").at("removed_mm3").at("total").get<double>(), 1.0);
+
+    const Outcome shown = run(session + file("shown.json") + " --listen 127.0.0.1:0");
+    ASSERT_EQ(shown.exit_code, 0) << shown.err;
+    EXPECT_LT(measured("shown.json").at("bone").at("peak_resident_bytes").get<double>(), gibibyte)
+        << "with the copy for clients";
+    EXPECT_EQ(measured("shown.json").at("bone_checksum"), measured("alone.json").at("bone_checksum"));
 }
 
 TEST_F(HapticServerProgram, EndsWithTheTrajectory) {

@@ -17,7 +17,7 @@ class ServedBone {
     explicit ServedBone(std::uint16_t port = 0, bool takes_operator = false, std::uint32_t seed = 8)
         : random_(seed),
           bone_(make_speckled_bone(random_, {.grid = {.size_voxels = {160, 128, 64}}})),
-          edits_(1 << 14, bone_.content().slot_of_brick.size()) {
+          edits_(1 << 14, bone_.shared_content()) {
         Scene scene;
         scene.name = "test scene";
         scene.burrs = {Burr{.name = "round 1.5", .diameter_mm = 1.5}, Burr{.name = "round 5"}};

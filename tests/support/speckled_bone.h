@@ -34,11 +34,9 @@ inline Bone make_speckled_bone(std::mt19937& random, const SpeckledBoneOptions& 
             for (int x = 0; x < bricks.x; ++x) {
                 if (!is_filled(random)) continue;
                 ByteBrick fraction = random_brick(random, 1);
-                for (int voxel = 0; voxel < static_cast<int>(brick_voxel_count); ++voxel) {
-                    const glm::ivec3 offset(voxel % 16, voxel / 16 % 16, voxel / 256);
-                    if (!contains(options.grid, 16 * glm::ivec3(x, y, z) + offset))
-                        fraction[static_cast<std::size_t>(voxel)] = 0;
-                }
+                for (std::size_t voxel = 0; voxel < brick_voxel_count; ++voxel)
+                    if (!contains(options.grid, 16 * glm::ivec3(x, y, z) + voxel_in_brick(voxel)))
+                        fraction[voxel] = 0;
                 const ByteBrick stiffness = random_brick(random, 0);
                 const ByteBrick tissue = random_brick(random, 0);
                 builder.add_brick({x, y, z}, fraction, &stiffness, &tissue);

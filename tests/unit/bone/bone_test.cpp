@@ -83,12 +83,26 @@ TEST(Bone, ChecksumTellsPlacesApart) {
     EXPECT_NE(checksum(build(0)), checksum(build(1)));
 }
 
+TEST(Bone, TakesNoMoreMemoryInALargerGrid) {
+    const auto bytes = [](const glm::ivec3& size_voxels) {
+        auto builder = BoneBuilder::heterogeneous(Grid{.size_voxels = size_voxels}, 0.02, true);
+        const ByteBrick some = filled(100);
+        for (int i = 0; i < 4; ++i) builder.add_brick({i, 1, i}, filled(255), &some, &some);
+        return memory_bytes(std::move(builder).build());
+    };
+    const std::size_t small = bytes({64, 64, 64});
+    EXPECT_GE(small, 4 * 3 * sizeof(ByteBrick));
+    EXPECT_LE(small, 4 * (3 * sizeof(ByteBrick) + 64));
+    EXPECT_EQ(bytes({256, 128, 128}), small);
+    EXPECT_EQ(bytes({65536, 65536, 4096}), small);
+}
+
 TEST(Bone, RefusesChannelsThatDoNotAgree) {
     auto content = std::make_shared<BoneContent>();
     content->grid = grid_of_two_bricks;
     content->size_bricks = size_in_bricks(content->grid);
-    content->slot_of_brick = {0, BoneContent::no_slot};
     content->brick_of_slot = {0};
+    content->slot_of_brick = BrickTable(content->brick_of_slot);
     EXPECT_THROW(Bone(content, {}), std::invalid_argument);
     content->brick_of_slot = {1};
     EXPECT_THROW(Bone(content, std::vector<ByteBrick>(1)), std::invalid_argument);

@@ -31,6 +31,15 @@ TEST(Brick, OffsetRunsAlongXFirst) {
     EXPECT_EQ(offset_in_brick({15, 15, 31}), 4095U);
 }
 
+TEST(Brick, VoxelOfAnOffsetIsTheReverseOfTheOffsetOfAVoxel) {
+    EXPECT_EQ(voxel_in_brick(1), glm::ivec3(1, 0, 0));
+    EXPECT_EQ(voxel_in_brick(32), glm::ivec3(0, 2, 0));
+    for (std::size_t offset = 0; offset < brick_voxel_count; ++offset) {
+        EXPECT_EQ(offset_in_brick(voxel_in_brick(offset)), offset);
+        EXPECT_TRUE(contains(Grid{.size_voxels = glm::ivec3(brick_edge_voxels)}, voxel_in_brick(offset)));
+    }
+}
+
 TEST(Grid, VoxelCentresAndCoordinatesAreInverse) {
     const Grid grid{.size_voxels = {8, 8, 8}, .spacing_mm = 0.25, .origin_mm = {-3.0, 5.0, 0.5}};
     const glm::ivec3 voxel(7, 2, 4);
@@ -47,6 +56,15 @@ TEST(Grid, RefusesWhatIsNoGrid) {
                                     .origin_mm = {0, 0, std::numeric_limits<double>::quiet_NaN()}}),
                  std::invalid_argument);
     EXPECT_NO_THROW(require_valid(Grid{.size_voxels = {8, 8, 8}}));
+}
+
+TEST(Grid, HoldsNoMoreBricksThanAnIndexCanNumber) {
+    EXPECT_THROW(require_valid(Grid{.size_voxels = {65536, 65536, 4097}}), std::invalid_argument);
+    const Grid largest{.size_voxels = {65536, 65536, 4096}};
+    EXPECT_NO_THROW(require_valid(largest));
+    const glm::ivec3 bricks = size_in_bricks(largest);
+    EXPECT_EQ(brick_index(bricks, bricks - 1), std::numeric_limits<BrickIndex>::max());
+    EXPECT_EQ(brick_position(bricks, std::numeric_limits<BrickIndex>::max()), bricks - 1);
 }
 
 }  // namespace

@@ -38,7 +38,7 @@ Bone carved(const HuVolume& volume) {
             brick_position(bone.content().size_bricks, bone.content().brick_of_slot[slot]);
         const auto left = bone.fractions(static_cast<std::int32_t>(slot));
         for (std::size_t i = 0; i < left.size(); ++i) {
-            const int x = 16 * brick.x + static_cast<int>(i % 16);
+            const int x = brick_edge_voxels * brick.x + voxel_in_brick(i).x;
             if (x > 20) left[i] = 0;
             if (x == 20) left[i] = std::min<std::uint8_t>(left[i], 77);
         }

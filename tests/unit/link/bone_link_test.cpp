@@ -84,7 +84,7 @@ TEST(BoneLink, NamesTheBricksThatChangedAndTheNewestTool) {
         EXPECT_FALSE(update.bone_replaced);
         EXPECT_TRUE(std::ranges::is_sorted(update.dirty_bricks));
         for (const BrickIndex brick : update.dirty_bricks) {
-            const std::int32_t slot = shown.content().slot_of_brick[brick];
+            const std::int32_t slot = shown.slot(brick);
             std::ranges::copy(link.bone()->fractions(slot), shown.fractions(slot).begin());
         }
         if (update.tool) tool = update.tool;

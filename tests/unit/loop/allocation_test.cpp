@@ -38,7 +38,7 @@ struct Rig {
     TripleBuffer<BurrCommand> commands;
     TripleBuffer<ToolSnapshot> tool;
     TripleBuffer<ToolSnapshot> status;
-    EditQueue edits{512, model->bone().content().slot_of_brick.size()};  // small: it overflows, too
+    EditQueue edits{512, model->bone().shared_content()};  // small: it overflows, too
     std::unique_ptr<Coupling> coupling;
     HapticLoop haptic;
     MillingLoop milling{{*model, commands, *results, edits, &milling_log}, 0.001};

@@ -16,12 +16,12 @@ Bone small_block() {
 
 /// Lowers one voxel and tells the queue.
 void carve(Bone& bone, EditQueue& queue, BrickIndex brick, std::uint16_t voxel, std::uint8_t left) {
-    bone.fractions(bone.content().slot_of_brick[brick])[voxel] = left;
+    bone.fractions(bone.slot(brick))[voxel] = left;
     queue.push({.brick = brick, .first_voxel = voxel, .count = 1, .fraction = {left}});
 }
 
 TEST(EditQueue, HandsOverRunsInOrder) {
-    EditQueue queue(16, 8);
+    EditQueue queue(16, small_block().shared_content());
     for (std::uint16_t i = 0; i < 5; ++i) queue.push({.brick = 1, .first_voxel = i, .count = 1});
     std::uint16_t next = 0;
     EXPECT_EQ(queue.consume_all([&](const EditRun& run) { EXPECT_EQ(run.first_voxel, next++); }), 5u);
@@ -31,7 +31,7 @@ TEST(EditQueue, HandsOverRunsInOrder) {
 TEST(EditQueue, LosesNoBoneWhenItOverflows) {
     Bone bone = small_block();
     Bone copy = bone;
-    EditQueue queue(300, 8);  // one brick is 256 rows
+    EditQueue queue(300, bone.shared_content());  // one brick is 256 rows
     for (std::uint16_t voxel = 0; voxel < 4096; ++voxel) {
         for (BrickIndex brick = 0; brick < 8; ++brick) carve(bone, queue, brick, voxel, 7);
     }
@@ -53,7 +53,7 @@ TEST(EditQueue, LosesNoBoneWhenItOverflows) {
 TEST(EditQueue, KeepsACopyOnAnotherThreadEqualHoweverSlowItIs) {
     Bone bone = small_block();
     Bone copy = bone;
-    EditQueue queue(512, 8);
+    EditQueue queue(512, bone.shared_content());
     std::atomic<bool> done{false};
     std::thread consumer([&] {
         bool last_round = false;

@@ -46,7 +46,7 @@ struct Rig {
     MillingModel model;
     TripleBuffer<BurrCommand> commands;
     std::unique_ptr<TripleBuffer<MillingResult>> results = std::make_unique<TripleBuffer<MillingResult>>();
-    EditQueue edits{1 << 16, model.bone().content().slot_of_brick.size()};
+    EditQueue edits{1 << 16, model.bone().shared_content()};
     MillingLoop loop{{model, commands, *results, edits}, 0.001};
     int published = 0;
     glm::dvec3 impulse_n_s{0.0};

@@ -30,7 +30,7 @@ Scene labelled_scene() {
 }
 
 TEST(Measurements, HaveTheKeysThatAreFixed) {
-    const auto json = measurements(*some_report(), labelled_scene(), {});
+    const auto json = measurements(*some_report(), {}, 0, labelled_scene(), {});
     EXPECT_EQ(json.at("ticks"), 1000);
     EXPECT_EQ(json.at("missed_deadlines"), 3);
     EXPECT_NEAR(json.at("wakeup_latency_us").at("p50").get<double>(), 50.0, 2.0);
@@ -44,7 +44,7 @@ TEST(Measurements, HaveTheKeysThatAreFixed) {
 }
 
 TEST(Measurements, NameEveryTissueOfTheSceneAndWhatHasNoLabel) {
-    const auto removed = measurements(*some_report(), labelled_scene(), {}).at("removed_mm3");
+    const auto removed = measurements(*some_report(), {}, 0, labelled_scene(), {}).at("removed_mm3");
     EXPECT_EQ(removed.at("total"), 1.75);
     EXPECT_EQ(removed.at("dentine"), 1.5);
     EXPECT_EQ(removed.at("enamel"), 0.0);
@@ -52,8 +52,23 @@ TEST(Measurements, NameEveryTissueOfTheSceneAndWhatHasNoLabel) {
 }
 
 TEST(Measurements, NameNoTissueWhereTheSceneHasNone) {
-    const auto removed = measurements(*some_report(), Scene{}, {}).at("removed_mm3");
+    const auto removed = measurements(*some_report(), {}, 0, Scene{}, {}).at("removed_mm3");
     EXPECT_EQ(removed.size(), 1u);
+}
+
+TEST(Measurements, SayWhatTheBoneCost) {
+    const BoneCost cost{.memory_bytes = 3000, .bone_mm3 = 1.5, .startup_s = 0.25};
+    const auto bone = measurements(*some_report(), cost, 4096, Scene{}, {}).at("bone");
+    EXPECT_EQ(bone.at("memory_bytes"), 3000);
+    EXPECT_EQ(bone.at("bone_mm3"), 1.5);
+    EXPECT_EQ(bone.at("bytes_per_mm3"), 2000.0);
+    EXPECT_EQ(bone.at("startup_s"), 0.25);
+    EXPECT_EQ(bone.at("peak_resident_bytes"), 4096);
+}
+
+TEST(Measurements, SayNoBytesPerVolumeWhereThereIsNoBone) {
+    const auto bone = measurements(*some_report(), {}, 4096, Scene{}, {}).at("bone");
+    EXPECT_FALSE(bone.contains("bytes_per_mm3"));
 }
 
 TEST(Measurements, SayWhichFileCannotBeWritten) {

@@ -163,7 +163,7 @@ TEST(SceneFile, ValuesOutOfRangeOrOfTheWrongTypeAreRefused) {
     EXPECT_THAT(error_of("name = 3\n[bone]\nphantom = \"tooth\"\n"),
                 HasSubstr("my.toml:1: 'name' must be a text"));
     EXPECT_THAT(error_of("name = \"a\"\n[bone]\nphantom = \"skull\"\n"),
-                HasSubstr("my.toml:3: 'phantom' is \"skull\"; choose one of: tooth, cube"));
+                HasSubstr("my.toml:3: 'phantom' is \"skull\"; choose one of: tooth, cube, head"));
     const std::string burr = smallest + "[[burrs]]\nname = \"b\"\ndiameter_mm = ";
     EXPECT_THAT(error_of(burr + "0.0\n"), HasSubstr("my.toml:6: 'diameter_mm' is 0"));
     EXPECT_THAT(error_of(burr + "nan\n"), HasSubstr("must be a finite number"));

@@ -26,13 +26,12 @@ inline Bone made_bone(const Grid& grid, const Depth& depth, const Label& label =
     for (int index = 0; index < size.x * size.y * size.z; ++index) {
         const glm::ivec3 brick = brick_position(size, static_cast<BrickIndex>(index));
         ByteBrick fraction{}, tissue{};
-        for (int offset = 0; offset < 4096; ++offset) {
-            const glm::ivec3 voxel = brick * 16 + glm::ivec3(offset % 16, offset / 16 % 16, offset / 256);
+        for (std::size_t offset = 0; offset < brick_voxel_count; ++offset) {
+            const glm::ivec3 voxel = brick * brick_edge_voxels + voxel_in_brick(offset);
             if (!contains(grid, voxel)) continue;
             const glm::dvec3 place = centre_of_voxel_mm(grid, voxel);
-            const auto at = static_cast<std::size_t>(offset);
-            fraction[at] = fraction_of_depth(depth(place), grid.spacing_mm);
-            if (label) tissue[at] = label(place);
+            fraction[offset] = fraction_of_depth(depth(place), grid.spacing_mm);
+            if (label) tissue[offset] = label(place);
         }
         builder.add_brick(brick, fraction, nullptr, label ? &tissue : nullptr);
     }
@@ -47,12 +46,12 @@ inline std::vector<BrickIndex> carve_sphere(Bone& bone, const glm::dvec3& centre
         const glm::ivec3 brick = brick_position(content.size_bricks, content.brick_of_slot[slot]);
         const auto fractions = bone.fractions(static_cast<std::int32_t>(slot));
         bool changes = false;
-        for (int offset = 0; offset < 4096; ++offset) {
-            const glm::ivec3 voxel = brick * 16 + glm::ivec3(offset % 16, offset / 16 % 16, offset / 256);
+        for (std::size_t offset = 0; offset < brick_voxel_count; ++offset) {
+            const glm::ivec3 voxel = brick * brick_edge_voxels + voxel_in_brick(offset);
             const double outside_mm =
                 glm::length(centre_of_voxel_mm(bone.grid(), voxel) - centre_mm) - radius_mm;
             const std::uint8_t most = fraction_of_depth(outside_mm, bone.grid().spacing_mm);
-            std::uint8_t& fraction = fractions[static_cast<std::size_t>(offset)];
+            std::uint8_t& fraction = fractions[offset];
             changes = changes || most < fraction;
             fraction = std::min(fraction, most);
         }

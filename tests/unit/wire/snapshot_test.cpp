@@ -107,6 +107,7 @@ TEST(Snapshot, RefusesAGridThatCannotBeHad) {
     EXPECT_THAT(error_of(messages), HasSubstr("65536"));
     messages.begin.mutable_grid()->set_size_x(65536);
     messages.begin.mutable_grid()->set_size_y(65536);
+    messages.begin.mutable_grid()->set_size_z(65536);
     EXPECT_THAT(error_of(messages), HasSubstr("bricks"));
     messages = of_a_small_block();
     messages.begin.mutable_grid()->set_spacing_mm(std::numeric_limits<double>::quiet_NaN());

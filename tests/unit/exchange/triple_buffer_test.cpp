@@ -1,4 +1,4 @@
-#include "haptic_server/loop/triple_buffer.h"
+#include "haptic_server/exchange/triple_buffer.h"
 
 #include <gtest/gtest.h>
 
