@@ -1,5 +1,7 @@
 #include "haptic_server/milling/milling_model.h"
 
+#include <algorithm>
+#include <cmath>
 #include <glm/geometric.hpp>
 #include <stdexcept>
 #include <utility>
