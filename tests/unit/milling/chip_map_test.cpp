@@ -33,7 +33,7 @@ TEST(ChipMap, PublishedSumOverBinsComesNearTheReference) {
     for (const ReferenceCase& c : testing::reference_cases()) {
         // Bins are too coarse for a shallow cap, a thin shaving or the tip; the sum over voxels is not.
         if (c.depth_mm < 1.0 || c.previous_groove_mm_higher || c.velocity_mm_per_s.z != 0.0) continue;
-        const auto binned = run_steady(c, 0.1, 0.01, 2.0, {.summation = ForceSummation::bins});
+        const auto binned = testing::run_steady(c, 0.1, 0.01, 2.0, {.summation = ForceSummation::bins});
         EXPECT_LT(testing::relative_error(binned.mean_force_n, c.mean_force_n), 0.03) << c.name;
     }
 }

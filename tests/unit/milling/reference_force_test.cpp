@@ -11,20 +11,9 @@
 namespace osteomill {
 namespace {
 
+using study::bone_of;
+using study::motion_of;
 using testing::ReferenceCase;
-
-SteadyMotion motion_of(const ReferenceCase& c) {
-    return {.burr = c.burr,
-            .position_mm = {0.0, 0.0, c.burr.radius_mm() - c.depth_mm},
-            .spindle_axis = c.spindle_axis,
-            .velocity_mm_per_s = c.velocity_mm_per_s};
-}
-
-BoneFunction bone_of(const ReferenceCase& c) {
-    if (!c.previous_groove_mm_higher) return flat_bone();
-    const glm::dvec3 groove = motion_of(c).position_mm + glm::dvec3(0.0, 0.0, *c.previous_groove_mm_higher);
-    return flat_bone_with_groove(groove, glm::normalize(c.velocity_mm_per_s), c.burr.radius_mm());
-}
 
 class AgainstTable : public ::testing::TestWithParam<ReferenceCase> {};
 

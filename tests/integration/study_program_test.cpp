@@ -1,0 +1,139 @@
+// The real study program, as a user calls it: what it writes, what it says, how it exits.
+#include <gmock/gmock.h>
+#include <sys/wait.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <string>
+
+#include "tests/support/temporary_folder.h"
+
+namespace osteomill {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::StartsWith;
+
+constexpr const char* case_file = OSTEOMILL_TEST_DATA "/milling_forces.json";
+
+struct Outcome {
+    int exit_code = -1;
+    std::string out;
+    std::string err;
+};
+
+std::string text_of(const std::filesystem::path& file) {
+    std::ostringstream text;
+    text << std::ifstream(file).rdbuf();
+    return text.str();
+}
+
+class StudyProgram : public ::testing::Test {
+  protected:
+    Outcome run(const std::string& arguments) const {
+        const std::string command = STUDY " " + arguments + " >'" + (folder_ / "said").string() + "' 2>'" +
+                                    (folder_ / "errors").string() + "' </dev/null";
+        const int status = std::system(command.c_str());
+        return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, text_of(folder_ / "said"),
+                text_of(folder_ / "errors")};
+    }
+
+    /// Exit status and one line on standard error.
+    void expect_refused(const std::string& arguments, int exit_code, const std::string& reason) const {
+        const Outcome outcome = run(arguments);
+        EXPECT_EQ(outcome.exit_code, exit_code) << arguments;
+        EXPECT_THAT(outcome.err, StartsWith("osteomill_study: ")) << arguments;
+        EXPECT_THAT(outcome.err, HasSubstr(reason)) << arguments;
+        EXPECT_EQ(outcome.err.find('\n'), outcome.err.size() - 1) << outcome.err;
+    }
+
+    testing::TemporaryFolder folder_;
+    std::string out_ = (folder_ / "out").string();
+};
+
+TEST_F(StudyProgram, RunsTheReferenceCasesWithinTheirBars) {
+    const Outcome outcome = run(std::string("force --cases ") + case_file + " --out " + out_);
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+    EXPECT_THAT(outcome.out, HasSubstr(out_ + "/cases.json"));
+    const auto reports = nlohmann::json::parse(text_of(out_ + "/cases.json"));
+    const auto cases = nlohmann::json::parse(text_of(case_file));
+    ASSERT_EQ(reports.size(), cases.size());
+    for (std::size_t i = 0; i < cases.size(); ++i) {
+        const auto& report = reports[i];
+        const std::string name = report.at("name");
+        EXPECT_EQ(name, cases[i].at("name"));
+        EXPECT_EQ(report.at("file").at("mean_force_N"), cases[i].at("mean_force_N"));
+        // The bars of an upright 5 mm burr deeper than three voxels, and of any other motion.
+        const bool easy = cases[i].at("radius_mm") == 2.5 && cases[i].at("depth_mm") > 0.3 &&
+                          cases[i].at("spindle_axis").at(2) == 1.0 &&
+                          cases[i].at("previous_groove_mm_higher").is_null() &&
+                          cases[i].at("velocity_mm_s").at(2) == 0;
+        EXPECT_LT(report.at("error_percent"), easy ? 1.0 : 2.0) << name;
+        EXPECT_LT(report.at("file_error_percent"), easy ? 1.0 : 2.0) << name;
+        EXPECT_LT(report.at("removal_error_percent"), 2.0) << name;
+        EXPECT_GE(report.at("step_us").at("p99"), report.at("step_us").at("p50")) << name;
+        EXPECT_GT(report.at("step_us").at("p50"), 0.0) << name;
+        if (easy) {
+            EXPECT_LT(report.at("ripple_percent"), 2.0) << name;
+        }
+    }
+}
+
+TEST_F(StudyProgram, CutsAsItIsTold) {
+    const auto cases = nlohmann::json::parse(text_of(case_file));
+    std::ofstream(folder_ / "one.json") << nlohmann::json::array({cases.at(2)});
+    const Outcome outcome = run("force --cases " + (folder_ / "one.json").string() + " --out " + out_ +
+                                " --voxel-mm 0.2 --milling-rate-hz 1000 --travel-mm 0.6");
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+    const auto report = nlohmann::json::parse(text_of(out_ + "/cases.json")).at(0);
+    EXPECT_EQ(report.at("voxel_mm"), 0.2);
+    EXPECT_EQ(report.at("milling_rate_hz"), 1000.0);
+    EXPECT_EQ(report.at("steps"), 100);
+    EXPECT_NEAR(report.at("travel_mm"), 0.6, 1e-9);
+}
+
+TEST_F(StudyProgram, DrawsItsChartsQuickly) {
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+    GTEST_SKIP() << "what it runs is run by the unit tests; under a sanitizer it takes minutes";
+#endif
+    const Outcome outcome = run("force --quick --out " + out_);
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+    EXPECT_THAT(outcome.out, HasSubstr(out_)) << "says where the files are";
+    EXPECT_THAT(outcome.err, HasSubstr("survey 100 %\n"));
+    const auto found = nlohmann::json::parse(text_of(out_ + "/force.json"));
+    EXPECT_LT(found.at("survey").at("all").at("error_percent").at("p50"), 1.0);
+    EXPECT_GE(found.at("convergence").at("partial_slope"), 1.0) << "at least linear";
+    for (const auto& row : found.at("cost").at("by_diameter"))
+        EXPECT_GT(row.at("times_faster").at("100_hz"), 0.0);
+    EXPECT_EQ(found.at("memory").at(0).at("name"), "tooth phantom");
+    for (const char* chart : {"pareto", "curves", "contact", "convergence", "scaling", "memory"})
+        EXPECT_THAT(text_of(out_ + "/" + chart + ".svg"), HasSubstr("</svg>")) << chart;
+}
+
+TEST_F(StudyProgram, SaysInOneLineWhatIsWrong) {
+    expect_refused("force --cases nowhere.json --out " + out_, 1, "nowhere.json: cannot be read");
+    std::ofstream(folder_ / "bad.json") << "[{\"name\": \"half a case\"}]";
+    expect_refused("force --cases " + (folder_ / "bad.json").string() + " --out " + out_, 1,
+                   "case 1 'half a case': 'radius_mm' is missing");
+    std::ofstream(folder_ / "file") << "in the way";
+    expect_refused(std::string("force --cases ") + case_file + " --out " + (folder_ / "file/out").string(), 1,
+                   "file/out: cannot be made a folder");
+    expect_refused("", 2, "a study to run: force");
+    expect_refused("farce", 2, "farce");
+    expect_refused(std::string("force --cases ") + case_file + " --voxel-mm 0", 2, "--voxel-mm");
+    expect_refused("force --case x.json", 2, "--case");
+}
+
+TEST_F(StudyProgram, HasHelpAndAVersion) {
+    const Outcome help = run("force --help");
+    EXPECT_EQ(help.exit_code, 0);
+    EXPECT_THAT(help.out, HasSubstr("--voxel-mm"));
+    EXPECT_THAT(help.out, HasSubstr("=0.1"));
+    EXPECT_EQ(run("--version").exit_code, 0);
+}
+
+}  // namespace
+}  // namespace osteomill

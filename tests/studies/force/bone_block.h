@@ -1,0 +1,33 @@
+// Blocks of bone below a plane that may point anywhere, voxelised as a CT would: each voxel holds the part of
+// it that lies in bone.
+#pragma once
+
+#include <glm/vec3.hpp>
+#include <optional>
+
+#include "common/bone/bone.h"
+
+namespace osteomill::study {
+
+/// A softer or stiffer layer at the surface.
+struct TopLayer {
+    double thickness_mm = 0.0;
+    double stiffness =
+        1.0;  ///< relative, a multiple of 0.02 (the code of a voxel) up to 5; 1 below the layer
+};
+
+/// Bone {p . up <= 0} within a box; patient axes, mm.
+struct BoneBlock {
+    glm::dvec3 low_mm{0.0};
+    glm::dvec3 high_mm{0.0};
+    glm::dvec3 up{0.0, 0.0, 1.0};  ///< unit
+    std::optional<TopLayer> layer{};
+};
+
+/// Voxelises a block. The box grows outward to whole multiples of `spacing_mm`, so that the faces of voxels
+/// lie at multiples of it from the patient's origin and a plane through the origin along an axis is met
+/// exactly. A voxel that the plane cuts is measured at 8 x 8 x 8 points; its stiffness is that of its centre.
+/// Throws std::invalid_argument for a bad grid.
+Bone voxelised(const BoneBlock& block, double spacing_mm);
+
+}  // namespace osteomill::study

@@ -1,0 +1,36 @@
+// What a run leaves behind, step by step, and the few numbers that say how good it was.
+#pragma once
+
+#include <glm/vec3.hpp>
+#include <span>
+#include <vector>
+
+namespace osteomill::study {
+
+/// One entry a step.
+struct ForceSeries {
+    double step_s = 0.0;
+    std::vector<glm::dvec3> force_n{};
+    std::vector<double> removed_mm3{};
+    std::vector<double> step_us{};  ///< time that the step took
+};
+
+/// Zero for an empty series.
+glm::dvec3 mean_force_n(const ForceSeries& series);
+double removal_mm3_per_s(const ForceSeries& series);
+
+/// |value - reference| / |reference|; infinite where only the reference is zero, 0 where both are.
+double relative_error(const glm::dvec3& value, const glm::dvec3& reference);
+
+/// Root mean square of |F - mean| over |mean|, F being the mean force of each whole `window_s` (of each step
+/// where a step is longer): what a hand that follows no faster than that feels. 0 for a mean of zero.
+double ripple(const ForceSeries& series, double window_s = 0.01);
+
+/// The value below which the share `quantile` (0 to 1) of the values lies (nearest rank); 0 for no values.
+double percentile(std::span<const double> values, double quantile);
+
+/// Least-squares slope of log y against log x: the order of convergence. Values must be positive; throws
+/// std::invalid_argument for fewer than two, or where x does not vary.
+double log_log_slope(std::span<const double> x, std::span<const double> y);
+
+}  // namespace osteomill::study

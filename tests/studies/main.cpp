@@ -1,0 +1,93 @@
+// osteomill_study: what the simulator's choices cost and what they are worth. Parses, runs a study, says
+// where its files are.
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <exception>
+#include <filesystem>
+#include <iostream>
+#include <string>
+
+#include "haptic_server/imaging/progress.h"
+#include "tests/studies/force/case_report.h"
+#include "tests/studies/force/force_study.h"
+#include "tests/studies/force/output_files.h"
+
+namespace {
+
+constexpr int exit_failure = 1;
+constexpr int exit_usage = 2;
+
+struct ForceOptions {
+    std::filesystem::path out = "study/force";
+    std::filesystem::path cases{};
+    osteomill::study::SteadyRun run{};
+    bool quick = false;
+};
+
+void add_force(CLI::App& app, ForceOptions& options) {
+    CLI::App* force =
+        app.add_subcommand("force", "the milling force: voxel model against analytical reference");
+    force->add_option("--out", options.out, "folder for what the study writes; made if it is not there")
+        ->capture_default_str();
+    CLI::Option* cases = force->add_option(
+        "--cases", options.cases,
+        "run the steady motions of this JSON file (the schema of tests/data/milling_forces.json) and "
+        "write OUT/cases.json; nothing else is run");
+    force->add_flag("--quick", options.quick, "fewer points, shorter runs: under a minute")->excludes(cases);
+    force->add_option("--voxel-mm", options.run.voxel_mm, "edge of a voxel")
+        ->needs(cases)
+        ->capture_default_str()
+        ->check(CLI::Range(0.01, 1.0));
+    force->add_option("--milling-rate-hz", options.run.milling_rate_hz, "steps of the voxel model a second")
+        ->needs(cases)
+        ->capture_default_str()
+        ->check(CLI::Range(1.0, 100'000.0));
+    force
+        ->add_option("--travel-mm", options.run.travel_mm,
+                     "way over which force is averaged, for motions along the surface (20 steps at least)")
+        ->needs(cases)
+        ->capture_default_str()
+        ->check(CLI::Range(0.01, 100.0));
+}
+
+void run_cases(const ForceOptions& options) {
+    using namespace osteomill;
+    const auto cases = study::read_steady_cases(options.cases);
+    const std::filesystem::path file = options.out / "cases.json";
+    {
+        ProgressLine line(std::cerr, ::isatty(STDERR_FILENO) != 0, "cases");
+        study::write_json(study::report_of(cases, options.run, study::voxel_model(), line.reporter()), file);
+    }
+    std::cout << cases.size() << " cases in " << file.string() << '\n';
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    CLI::App app("Studies of the simulator: numbers and charts.", "osteomill_study");
+    app.set_version_flag("--version", OSTEOMILL_VERSION);
+    ForceOptions force;
+    add_force(app, force);
+    try {
+        app.parse(argc, argv);
+        if (app.get_subcommands().empty()) throw CLI::RequiredError("a study to run: force");
+    } catch (const CLI::ParseError& error) {
+        if (error.get_exit_code() == 0) return app.exit(error);
+        std::cerr << "osteomill_study: " << error.what() << " (see --help)\n";
+        return exit_usage;
+    }
+    try {
+        osteomill::study::make_folder(force.out);
+        if (!force.cases.empty())
+            run_cases(force);
+        else
+            osteomill::study::run_force_study(
+                {.out = force.out, .quick = force.quick},
+                {.said = std::cout, .progress = std::cerr, .is_terminal = ::isatty(STDERR_FILENO) != 0});
+        return 0;
+    } catch (const std::exception& error) {
+        std::cerr << "osteomill_study: " << error.what() << '\n';
+        return exit_failure;
+    }
+}

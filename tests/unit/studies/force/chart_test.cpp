@@ -1,0 +1,48 @@
+#include "tests/studies/force/chart.h"
+
+#include <gmock/gmock.h>
+
+#include <fstream>
+#include <sstream>
+#include <stdexcept>
+
+#include "tests/support/temporary_folder.h"
+
+namespace osteomill::study {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+
+TEST(Chart, IsDrawnByItsScriptWithTheFolder) {
+    const testing::TemporaryFolder folder;
+    std::ofstream(folder / "dots.gp") << "set terminal svg\nset output folder.'/dots.svg'\n"
+                                         "plot folder.'/dots.csv' using 1:2\n";
+    std::ofstream(folder / "dots.csv") << "1 2\n3 4\n";
+    draw_chart(folder.path(), "dots", folder.path());
+    std::ostringstream svg;
+    svg << std::ifstream(folder / "dots.svg").rdbuf();
+    EXPECT_THAT(svg.str(), HasSubstr("</svg>"));
+}
+
+TEST(Chart, SaysInOneLineWhyThereIsNone) {
+    const testing::TemporaryFolder folder;
+    const auto refusal = [&](const std::string& name) -> std::string {
+        try {
+            draw_chart(folder.path(), name, folder.path());
+        } catch (const std::runtime_error& error) {
+            return error.what();
+        }
+        return "drawn";
+    };
+    EXPECT_THAT(refusal("missing"), HasSubstr("missing.gp: is not there"));
+    std::ofstream(folder / "bad.gp") << "plot 1 +\n";
+    EXPECT_THAT(refusal("bad"), AllOf(HasSubstr("bad.gp: gnuplot failed"), HasSubstr("line 1")));
+}
+
+TEST(Chart, HasScriptsOfItsOwn) {
+    EXPECT_TRUE(std::filesystem::exists(chart_scripts() / "pareto.gp"));
+}
+
+}  // namespace
+}  // namespace osteomill::study

@@ -1,0 +1,66 @@
+#include "tests/studies/force/force_series.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+namespace osteomill::study {
+namespace {
+
+TEST(RelativeError, IsTheVectorErrorOverTheVectorNorm) {
+    EXPECT_DOUBLE_EQ(relative_error({3.0, 4.0, 0.5}, {3.0, 4.0, 0.0}), 0.1);
+    EXPECT_EQ(relative_error(glm::dvec3(0.0), glm::dvec3(0.0)), 0.0);
+    EXPECT_EQ(relative_error({1.0, 0.0, 0.0}, glm::dvec3(0.0)), std::numeric_limits<double>::infinity());
+}
+
+TEST(ForceSeriesMeans, AreOverStepsAndOverTime) {
+    const ForceSeries series{.step_s = 0.5, .force_n = {{1, 0, 0}, {3, 2, 0}}, .removed_mm3 = {2.0, 4.0}};
+    EXPECT_EQ(mean_force_n(series), glm::dvec3(2.0, 1.0, 0.0));
+    EXPECT_DOUBLE_EQ(removal_mm3_per_s(series), 6.0);
+    EXPECT_EQ(mean_force_n(ForceSeries{}), glm::dvec3(0.0));
+}
+
+TEST(Ripple, IsTheRootMeanSquareAboutTheMean) {
+    // Swings by 0.3 across a mean of 3: one tenth, whatever the axis.
+    const ForceSeries series{.step_s = 0.01,
+                             .force_n = {{3, 0.3, 0}, {3, -0.3, 0}, {3, 0, 0.3}, {3, 0, -0.3}}};
+    EXPECT_DOUBLE_EQ(ripple(series), 0.1);
+    EXPECT_EQ(ripple(ForceSeries{.step_s = 0.01, .force_n = {{0, 0, 0}, {0, 0, 0}}}), 0.0);
+}
+
+TEST(Ripple, DoesNotSeeWhatAveragesOutWithinTenMilliseconds) {
+    ForceSeries series{.step_s = 0.001};
+    for (int i = 0; i < 40; ++i) series.force_n.emplace_back(i % 2 == 0 ? 1.0 : 3.0, 0.0, 0.0);
+    EXPECT_NEAR(ripple(series), 0.0, 1e-15);
+    EXPECT_DOUBLE_EQ(ripple(series, 0.001), 0.5);
+}
+
+TEST(Percentile, IsTheNearestRank) {
+    const std::vector<double> values{5.0, 1.0, 4.0, 2.0, 3.0};
+    EXPECT_EQ(percentile(values, 0.5), 3.0);
+    EXPECT_EQ(percentile(values, 0.99), 5.0);
+    EXPECT_EQ(percentile(values, 0.0), 1.0);
+    EXPECT_EQ(percentile({}, 0.5), 0.0);
+}
+
+TEST(LogLogSlope, IsTheOrderOfAPowerLaw) {
+    const std::vector<double> h{0.4, 0.2, 0.1, 0.05};
+    std::vector<double> error;
+    for (const double x : h) error.push_back(7.0 * std::pow(x, 1.5));
+    EXPECT_NEAR(log_log_slope(h, error), 1.5, 1e-12);
+}
+
+TEST(LogLogSlope, RefusesWhatHasNone) {
+    const std::vector<double> one{1.0};
+    const std::vector<double> same{0.1, 0.1};
+    const std::vector<double> fine{1.0, 2.0};
+    const std::vector<double> zero{0.0, 1.0};
+    EXPECT_THROW(log_log_slope(one, one), std::invalid_argument);
+    EXPECT_THROW(log_log_slope(same, fine), std::invalid_argument);
+    EXPECT_THROW(log_log_slope(fine, zero), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace osteomill::study
