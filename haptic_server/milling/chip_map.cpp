@@ -19,10 +19,12 @@ void ChipMap::begin_step(const Burr& burr, const CuttingStep& step) noexcept {
     radius_mm_ = burr.radius_mm();
     edges_ = burr.edges;
     teeth_ = burr.edges * burr.spindle_rev_per_s * step.elapsed_s;
-    std::fill(weighted_volume_mm3_.begin(), weighted_volume_mm3_.end(), 0.0);
+    if (holds_any_) std::fill(weighted_volume_mm3_.begin(), weighted_volume_mm3_.end(), 0.0);
+    holds_any_ = false;
 }
 
 void ChipMap::add(const RemovedVoxels& removed, std::span<const float> weights) noexcept {
+    holds_any_ |= removed.count > 0;
     const double h = step_.spacing_mm;
     const glm::dvec3 middle = step_.middle_voxels - glm::dvec3(removed.base);
     for (std::size_t i = 0; i < removed.count; ++i) {
@@ -51,6 +53,7 @@ double ChipMap::chip_thickness_mm(int psi, int z) const noexcept {
 glm::dvec3 ChipMap::force_n() const noexcept {
     const glm::dvec3 k(step_.coefficients);
     glm::dvec3 force{0.0};
+    if (!holds_any_) return force;
     for (int z = 0; z < bins_.z; ++z) {
         const double cos_kappa = -(-radius_mm_ + (z + 0.5) * slice_height_mm()) / radius_mm_;
         const double sin_kappa = std::sqrt(1.0 - cos_kappa * cos_kappa);

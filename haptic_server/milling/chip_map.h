@@ -48,6 +48,7 @@ class ChipMap {
     double radius_mm_ = 1.0;
     double edges_ = 1.0;
     double teeth_ = 1.0;                       // that passed each angle during the step
+    bool holds_any_ = false;                   // or all bins are empty
     std::vector<double> weighted_volume_mm3_;  // [z][psi]
 };
 

@@ -135,6 +135,8 @@ void MillingModel::cut(const BurrCommand& command, const glm::dvec3& to_mm, doub
         tooth_.begin_step(burr, cutting);
         carve_and_sum(sweep, share, edits, tooth_, result);
     }
+    // A spindle that starts within bone clears a whole ball at once, which no tooth does again.
+    if (!carved_at_position_) tooth_.forget();
     carved_at_position_ = true;
     position_mm_ = to_mm;
 }

@@ -26,8 +26,7 @@ void ToothForce::begin_step(const Burr& burr, const CuttingStep& step) noexcept 
     const double pitch_rad = two_pi / burr.edges;
     const double tooth_period_s = 1.0 / (burr.edges * burr.spindle_rev_per_s);
     if (burr.edges != edges_ || burr.sigma() != sigma_) {
-        impulse_.fill(glm::dvec3(0.0));
-        window_s_ = 0.0;
+        forget();
         turned_rad_ = 0.0;
     }
     edges_ = burr.edges;
@@ -41,6 +40,11 @@ void ToothForce::begin_step(const Burr& burr, const CuttingStep& step) noexcept 
     const double kept = std::exp(-step.elapsed_s / tooth_period_s);
     window_s_ = kept * window_s_ + step.elapsed_s;
     for (int i = 0; i < instants_; ++i) impulse_[static_cast<std::size_t>(i)] *= kept;
+}
+
+void ToothForce::forget() noexcept {
+    impulse_.fill(glm::dvec3(0.0));
+    window_s_ = 0.0;
 }
 
 void ToothForce::add(const RemovedVoxels& removed, std::span<const float> weights) noexcept {
@@ -78,6 +82,7 @@ glm::dvec3 ToothForce::force_at_instant_n(int instant) const noexcept {
 glm::dvec3 ToothForce::force_n() const noexcept {
     if (step_angle_rad_ >= pitch_rad_ * (1.0 - 1e-9))
         return step_.frame * (step_.newton_per_unit * step_sum_);
+    if (window_s_ <= 0.0) return glm::dvec3(0.0);
     // Between the middles of the bins the force is taken to vary linearly, which leaves its mean as it is.
     const double bins_passed = step_angle_rad_ / pitch_rad_ * instants_;
     const int samples = static_cast<int>(std::ceil(4.0 * bins_passed));

@@ -31,6 +31,9 @@ class ToothForce {
     /// As CuttingForce::add.
     void add(const RemovedVoxels& removed, std::span<const float> weights) noexcept;
 
+    /// Empties the bins: what was cut so far says nothing of the teeth to come.
+    void forget() noexcept;
+
     /// Mean of F(j) over the angles that the edges passed during the step, N, patient axes. A step of a tooth
     /// period or longer gives the mean force of the step.
     glm::dvec3 force_n() const noexcept;

@@ -1,9 +1,9 @@
 #include "tests/studies/force/bone_block.h"
 
+#include <algorithm>
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
-#include <numbers>
 #include <utility>
 
 #include "common/bone/bone_builder.h"
@@ -12,21 +12,24 @@ namespace osteomill::study {
 
 namespace {
 
-/// Part of the voxel that lies below the plane, 0 to 255.
+/// Volume of the part of a unit cube about the origin that lies below the plane {p . n = height}, n a unit
+/// vector: a cube cut by a plane is a corner tetrahedron less those that stick out of it.
+double volume_below(double height, const glm::dvec3& n) {
+    // A plane along an edge would divide by zero; this much off the cube's volume changes by less.
+    constexpr double least = 1e-4;
+    const glm::dvec3 a = glm::max(glm::abs(n), glm::dvec3(least));
+    const double span = a.x + a.y + a.z;
+    const double top = std::clamp(height + 0.5 * span, 0.0, span);
+    const auto cubed = [](double t) { return t > 0.0 ? t * t * t : 0.0; };
+    const double sum = cubed(top) - cubed(top - a.x) - cubed(top - a.y) - cubed(top - a.z) +
+                       cubed(top - a.x - a.y) + cubed(top - a.y - a.z) + cubed(top - a.z - a.x);
+    return std::clamp(sum / (6.0 * a.x * a.y * a.z), 0.0, 1.0);
+}
+
+/// Part of the voxel that lies below the plane through the origin, 0 to 255.
 std::uint8_t fraction_below(const glm::dvec3& centre_mm, const glm::dvec3& up, double spacing_mm) {
-    const double height_voxels = glm::dot(centre_mm, up) / spacing_mm;
-    constexpr double half_diagonal_voxels = std::numbers::sqrt3 / 2.0;
-    if (height_voxels <= -half_diagonal_voxels) return 255;
-    if (height_voxels >= half_diagonal_voxels) return 0;
-    constexpr int points = 8;
-    int below = 0;
-    for (int k = 0; k < points; ++k)
-        for (int j = 0; j < points; ++j)
-            for (int i = 0; i < points; ++i) {
-                const glm::dvec3 offset = (glm::dvec3(i, j, k) + 0.5) / static_cast<double>(points) - 0.5;
-                below += height_voxels + glm::dot(offset, up) <= 0.0 ? 1 : 0;
-            }
-    return static_cast<std::uint8_t>(std::lround(255.0 * below / (points * points * points)));
+    return static_cast<std::uint8_t>(
+        std::lround(255.0 * volume_below(-glm::dot(centre_mm, up) / spacing_mm, up)));
 }
 
 }  // namespace

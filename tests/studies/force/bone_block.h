@@ -26,7 +26,7 @@ struct BoneBlock {
 
 /// Voxelises a block. The box grows outward to whole multiples of `spacing_mm`, so that the faces of voxels
 /// lie at multiples of it from the patient's origin and a plane through the origin along an axis is met
-/// exactly. A voxel that the plane cuts is measured at 8 x 8 x 8 points; its stiffness is that of its centre.
+/// exactly. A voxel that the plane cuts holds the exact part of it; its stiffness is that of its centre.
 /// Throws std::invalid_argument for a bad grid.
 Bone voxelised(const BoneBlock& block, double spacing_mm);
 

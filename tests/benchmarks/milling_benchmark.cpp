@@ -1,0 +1,163 @@
+// What a milling step costs, beside the published full scan on the same bone in the same run.
+//
+// Scene: 512 x 512 x 128 voxels of 0.1 mm, 5 mm burr, upright, feed 6 mm/s. Each iteration times one step of
+// the crescent and one of the scan, which sums over bins as published, in turn; both bones must come out
+// equal. Counters: medians and 99th percentiles in microseconds; times_faster is the ratio of the medians.
+#include <benchmark/benchmark.h>
+
+#include <algorithm>
+#include <chrono>
+#include <memory>
+#include <vector>
+
+#include "haptic_server/loop/milling_loop.h"
+#include "tests/studies/force/bone_block.h"
+#include "tests/studies/force/full_scan.h"
+#include "tests/studies/force/studied_model.h"
+
+namespace osteomill {
+namespace {
+
+constexpr double feed_mm_per_s = 6.0;
+constexpr double top_mm = 12.8;
+const glm::dvec3 up(0.0, 0.0, 1.0);
+
+Bone volume() {
+    // The plane z = 0 is the top of the box: all of it is bone.
+    return study::voxelised({.low_mm = {0.0, 0.0, -top_mm}, .high_mm = {51.2, 51.2, 0.0}, .up = up}, 0.1);
+}
+
+class Times {
+  public:
+    template <typename Work>
+    void time(Work&& work) {
+        const auto began = std::chrono::steady_clock::now();
+        work();
+        us_.push_back(
+            std::chrono::duration<double, std::micro>(std::chrono::steady_clock::now() - began).count());
+    }
+    double last_us() const { return us_.back(); }
+    double percentile_us(double share) {
+        const auto place = static_cast<std::size_t>(share * static_cast<double>(us_.size() - 1));
+        std::nth_element(us_.begin(), us_.begin() + static_cast<std::ptrdiff_t>(place), us_.end());
+        return us_[place];
+    }
+
+  private:
+    std::vector<double> us_;
+};
+
+/// A burr on its way along x, `depth_mm` deep.
+class Way {
+  public:
+    Way(double depth_mm, double rate_hz) : depth_mm_(depth_mm), step_s_(1.0 / rate_hz) {}
+
+    BurrCommand next() {
+        const BurrCommand command{
+            .pose = {{5.0 + x_mm_, 25.617, 2.5 - depth_mm_}, up}, .spindle_on = true, .elapsed_s = step_s_};
+        x_mm_ += feed_mm_per_s * step_s_;
+        return command;
+    }
+
+  private:
+    double depth_mm_;
+    double step_s_;
+    double x_mm_ = 0.0;
+};
+
+/// Arguments: depth in tenths of a millimetre, steps a second.
+void CrescentAgainstFullScan(benchmark::State& state) {
+    const Burr burr;
+    const auto crescent = study::voxel_model()(volume(), burr);
+    const auto scan = study::full_scan_model({.summation = ForceSummation::bins})(volume(), burr);
+    Way way(0.1 * static_cast<double>(state.range(0)), static_cast<double>(state.range(1)));
+    const BurrCommand first = way.next();
+    crescent->step(first);
+    scan->step(first);
+    Times crescent_times;
+    Times scan_times;
+    for ([[maybe_unused]] auto _ : state) {
+        const BurrCommand command = way.next();
+        crescent_times.time([&] { benchmark::DoNotOptimize(crescent->step(command)); });
+        scan_times.time([&] { benchmark::DoNotOptimize(scan->step(command)); });
+        state.SetIterationTime(1e-6 * crescent_times.last_us());
+    }
+    if (checksum(crescent->bone()) != checksum(scan->bone())) state.SkipWithError("the bones differ");
+    state.counters["p50_us"] = crescent_times.percentile_us(0.5);
+    state.counters["p99_us"] = crescent_times.percentile_us(0.99);
+    state.counters["scan_p50_us"] = scan_times.percentile_us(0.5);
+    state.counters["times_faster"] = scan_times.percentile_us(0.5) / crescent_times.percentile_us(0.5);
+}
+BENCHMARK(CrescentAgainstFullScan)
+    ->ArgNames({"depth_0.1mm", "hz"})
+    ->ArgsProduct({{5, 10, 25}, {100, 1000}})
+    ->Iterations(500)
+    ->UseManualTime()
+    ->Unit(benchmark::kMicrosecond);
+
+/// A whole step as the implicit coupling wants it, with the engagement map. Argument: depth.
+void StepWithEngagement(benchmark::State& state) {
+    const auto model = study::voxel_model_with_engagement()(volume(), Burr{});
+    Way way(0.1 * static_cast<double>(state.range(0)), 1000.0);
+    model->step(way.next());
+    Times times;
+    for ([[maybe_unused]] auto _ : state) {
+        const BurrCommand command = way.next();
+        times.time([&] { benchmark::DoNotOptimize(model->step(command)); });
+        state.SetIterationTime(1e-6 * times.last_us());
+    }
+    state.counters["p50_us"] = times.percentile_us(0.5);
+    state.counters["p99_us"] = times.percentile_us(0.99);
+}
+BENCHMARK(StepWithEngagement)
+    ->ArgName("depth_0.1mm")
+    ->Arg(5)
+    ->Arg(10)
+    ->Arg(25)
+    ->Iterations(3000)
+    ->UseManualTime()
+    ->Unit(benchmark::kMicrosecond);
+
+/// The milling loop as the server runs it at 10 kHz: ten steps for each of the haptic loop's commands, an
+/// engagement map once. One iteration is 10 ms of the session; share_of_a_core is CPU time over that.
+void LoopAtTenKilohertz(benchmark::State& state) {
+    MillingModel model(volume(), {Burr{}}, {});
+    TripleBuffer<BurrCommand> commands;
+    const auto results = std::make_unique<TripleBuffer<MillingResult>>();
+    EditQueue edits(1u << 18, model.bone().shared_content());
+    MillingLoop loop({.model = model, .commands = commands, .results = *results, .edits = edits}, 0.001);
+    Way way(0.1 * static_cast<double>(state.range(0)), 1000.0);
+    double time_s = 0.0;
+    const auto tick = [&] {
+        commands.back() = way.next();
+        commands.publish();
+        for (int step = 0; step < 10; ++step) loop.step(time_s += 1e-4, 1e-4);
+        edits.consume_all([](const EditRun&) {});
+    };
+    tick();
+    for ([[maybe_unused]] auto _ : state)
+        for (int i = 0; i < 10; ++i) tick();
+    state.counters["share_of_a_core"] =
+        benchmark::Counter(0.01 * static_cast<double>(state.iterations()),
+                           benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
+}
+BENCHMARK(LoopAtTenKilohertz)
+    ->ArgName("depth_0.1mm")
+    ->Arg(5)
+    ->Arg(10)
+    ->Arg(25)
+    ->Iterations(100)
+    ->Unit(benchmark::kMillisecond);
+
+/// Nothing near: above the bone, and in the empty corner of a big grid.
+void FreeAir(benchmark::State& state) {
+    const auto model = study::voxel_model_with_engagement()(volume(), Burr{});
+    Way way(-5.0, 1000.0);
+    for ([[maybe_unused]] auto _ : state) benchmark::DoNotOptimize(model->step(way.next()));
+}
+BENCHMARK(FreeAir)->Iterations(5000)->Unit(benchmark::kNanosecond);
+
+}  // namespace
+}  // namespace osteomill
+
+BENCHMARK_MAIN();
