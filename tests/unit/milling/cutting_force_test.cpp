@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/studies/force/studied_motion.h"
 #include "tests/support/removed_voxel.h"
 #include "tests/support/steady_motion.h"
 
@@ -21,9 +22,11 @@ TEST_P(AgainstReference, MeanForceAndRemovalAgree) {
     const SteadyResult voxels = run_steady(c, 0.1, 0.01, 2.0);
     const double force_error = relative_error(voxels.mean_force_n, c.mean_force_n);
     RecordProperty("force_error_percent", std::to_string(100.0 * force_error));
-    EXPECT_LT(force_error, 0.03) << "force " << voxels.mean_force_n.x << ' ' << voxels.mean_force_n.y << ' '
-                                 << voxels.mean_force_n.z;
-    EXPECT_NEAR(voxels.removal_mm3_per_s / c.removal_mm3_per_s, 1.0, 0.03);
+    const bool upright_and_deep = c.burr.diameter_mm == 5.0 && c.spindle_axis.z == 1.0 && c.depth_mm > 0.3 &&
+                                  c.velocity_mm_per_s.z == 0.0 && !c.previous_groove_mm_higher;
+    EXPECT_LT(force_error, upright_and_deep ? 0.01 : 0.02)
+        << "force " << voxels.mean_force_n.x << ' ' << voxels.mean_force_n.y << ' ' << voxels.mean_force_n.z;
+    EXPECT_NEAR(voxels.removal_mm3_per_s / c.removal_mm3_per_s, 1.0, 0.02);
 }
 
 INSTANTIATE_TEST_SUITE_P(SteadyMotions, AgainstReference, ::testing::ValuesIn(testing::reference_cases()),
@@ -79,6 +82,37 @@ TEST(CuttingForce, MeanAndRemovalDoNotDependOnTheTickRateNorOnTheNumberOfEdges) 
     }
     c.burr.edges = 12;
     EXPECT_LT(relative_error(run_steady(c, 0.1, 0.01, 2.0).mean_force_n, at_100_hz.mean_force_n), 1e-12);
+}
+
+TEST(CuttingForce, TakesEachLayersShareAndFollowsACurvedPath) {
+    // Polishing, tilted, plunging, an arc, and a block whose upper 0.8 mm are softer.
+    for (const study::StudiedMotion& motion : study::studied_motions(true)) {
+        const auto series = study::run_motion(motion, {}, study::voxel_model());
+        EXPECT_LT(relative_error(study::mean_force_n(series), motion.reference_n), 0.01) << motion.name;
+    }
+}
+
+TEST(CuttingForce, ErrsLessTheFinerTheVoxels) {
+    double coarser = 1.0;
+    for (const double voxel_mm : {0.4, 0.2, 0.1}) {
+        double error = 0.0;
+        for (const study::StudiedMotion& motion : study::studied_motions(true)) {
+            const auto series = study::run_motion(motion, {.voxel_mm = voxel_mm}, study::voxel_model());
+            error += relative_error(study::mean_force_n(series), motion.reference_n);
+        }
+        EXPECT_LT(error, 0.6 * coarser) << voxel_mm << " mm";
+        coarser = error;
+    }
+}
+
+TEST(CuttingForce, OfASlotIsSteadyFromStepToStep) {
+    // Ripple: rms about the mean of steps of 10 ms.
+    for (const ReferenceCase& c : testing::reference_cases()) {
+        if (c.burr.diameter_mm != 5.0 || c.velocity_mm_per_s.z != 0.0 || c.previous_groove_mm_higher)
+            continue;
+        const auto series = study::run_steady(c, {}, study::voxel_model());
+        EXPECT_LT(study::ripple(series), 0.02) << c.name;
+    }
 }
 
 }  // namespace
