@@ -67,12 +67,13 @@ class Batch {
         const glm::ivec3 voxel = voxels_.base + glm::ivec3(first, y, z);
         const std::size_t row_offset = offset_in_brick({0, voxel.y, voxel.z});
         std::uint8_t* const row = bone_.fractions(slot).data() + row_offset;
+        const int place = voxel.x & 15;
+        const int length = end - first;
+        if (length <= group && holds_nothing(row + std::min(place, brick_edge_voxels - group))) return;
         chunks_[chunk_count_++] = {.row = row,
                                    .before = RowBytes(row),
                                    .slot = slot,
                                    .row_offset = static_cast<std::uint16_t>(row_offset)};
-        const int place = voxel.x & 15;
-        const int length = end - first;
         // Whole groups; those beyond `length` are overwritten by the next row or left behind.
         for (int done = 0; done < length; done += group)
             for (int i = done; i < done + group; ++i) {
@@ -106,6 +107,14 @@ class Batch {
     }
 
   private:
+    /// Whether a group of fractions is all zero: most of what a burr in its own groove meets.
+    static bool holds_nothing(const std::uint8_t* fractions) {
+        static_assert(group == sizeof(std::uint32_t));
+        std::uint32_t bytes;
+        std::memcpy(&bytes, fractions, sizeof bytes);
+        return bytes == 0;
+    }
+
     static constexpr std::size_t capacity = RemovedVoxels::capacity;
     static constexpr std::size_t most_chunks = capacity;
     static constexpr int group = 4;
