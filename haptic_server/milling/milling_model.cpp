@@ -20,6 +20,11 @@ namespace {
 /// Directions are taken from the middle of a stretch of the way: the force of a stretch as long as the burr's
 /// radius would be 10 % off, that of a fifth of it 0.5 %.
 constexpr double longest_stretch_radii = 0.2;
+/// At 10 kHz a burr moves by less than one of a voxel's 255 steps at a time. Below five of them, and for no
+/// longer than a haptic tick, milling waits: the bone comes out the same and so does the mean force.
+constexpr double shortest_way_voxels = 0.02;
+constexpr double longest_wait_s = 0.001 - 1e-7;
+
 /// Nobody feels the direction of a step that crosses the whole bone.
 constexpr double most_stretches = 64.0;
 
@@ -124,7 +129,7 @@ void MillingModel::cut(const BurrCommand& command, const glm::dvec3& to_mm, doub
     const Sweep sweep{to_voxel_coordinates(grid, position_mm_), to_voxel_coordinates(grid, to_mm),
                       burr.radius_mm() / grid.spacing_mm};
     const CuttingStep cutting(burr, command.pose.spindle_axis, 0.5 * (sweep.from + sweep.to), grid.spacing_mm,
-                              share * command.elapsed_s);
+                              share * since_milled_s_);
     if (settings_.summation == ForceSummation::voxels) {
         CuttingForce force(cutting, settings_.instructions);
         carve_and_sum(sweep, share, edits, force, result);
@@ -132,13 +137,44 @@ void MillingModel::cut(const BurrCommand& command, const glm::dvec3& to_mm, doub
         chips_.begin_step(burr, cutting);
         carve_and_sum(sweep, share, edits, chips_, result);
     } else {
-        tooth_.begin_step(burr, cutting);
+        tooth_.turn(burr, share * command.elapsed_s);
+        tooth_.begin_step(cutting);
         carve_and_sum(sweep, share, edits, tooth_, result);
     }
-    // A spindle that starts within bone clears a whole ball at once, which no tooth does again.
-    if (!carved_at_position_) tooth_.forget();
     carved_at_position_ = true;
     position_mm_ = to_mm;
+}
+
+bool MillingModel::can_wait(const BurrCommand& command) const noexcept {
+    const double way_voxels = glm::length(command.pose.position_mm - position_mm_) / bone_.grid().spacing_mm;
+    return carved_at_position_ && !command.wants_engagement && since_milled_s_ < longest_wait_s &&
+           way_voxels < shortest_way_voxels;
+}
+
+void MillingModel::mill(const BurrCommand& command, EditSink& edits, MillingResult& result) noexcept {
+    since_milled_s_ += command.elapsed_s;
+    if (can_wait(command)) {
+        result.force_n = milled_force_n_;
+        if (settings_.summation == ForceSummation::instants) {
+            tooth_.turn(burrs_[burr_], command.elapsed_s);
+            result.force_n = tooth_.force_n();
+        }
+        return;
+    }
+    const bool is_first = !carved_at_position_;
+    const glm::dvec3 from_mm = position_mm_;
+    const glm::dvec3 way_mm = command.pose.position_mm - from_mm;
+    const double longest_mm = longest_stretch_radii * burrs_[burr_].radius_mm();
+    const double stretches = std::clamp(std::ceil(glm::length(way_mm) / longest_mm), 1.0, most_stretches);
+    for (double i = 1.0; i <= stretches; i += 1.0) {
+        const bool is_last = i == stretches;
+        cut(command, is_last ? command.pose.position_mm : from_mm + way_mm * (i / stretches), 1.0 / stretches,
+            edits, result);
+    }
+    // A spindle that starts within bone clears a whole ball at once, which no later step does again.
+    if (is_first) tooth_.forget();
+    milled_force_n_ = is_first ? glm::dvec3(0.0) : result.force_n;
+    since_milled_s_ = 0.0;
 }
 
 void MillingModel::step(const BurrCommand& command, double time_s, EditSink& edits,
@@ -160,20 +196,15 @@ void MillingModel::step(const BurrCommand& command, double time_s, EditSink& edi
         burr_ = command.burr;
         has_position_ = true;
         carved_at_position_ = false;
+        since_milled_s_ = 0.0;
     }
     if (command.spindle_on) {
-        const glm::dvec3 from_mm = position_mm_;
-        const glm::dvec3 way_mm = command.pose.position_mm - from_mm;
-        const double longest_mm = longest_stretch_radii * burrs_[burr_].radius_mm();
-        const double stretches = std::clamp(std::ceil(glm::length(way_mm) / longest_mm), 1.0, most_stretches);
-        for (double i = 1.0; i <= stretches; i += 1.0) {
-            const bool is_last = i == stretches;
-            cut(command, is_last ? command.pose.position_mm : from_mm + way_mm * (i / stretches),
-                1.0 / stretches, edits, result);
-        }
+        mill(command, edits, result);
+    } else {
+        carved_at_position_ = false;
+        position_mm_ = command.pose.position_mm;
+        since_milled_s_ = 0.0;
     }
-    carved_at_position_ = command.spindle_on;
-    position_mm_ = command.pose.position_mm;
     total_removed_mm3_ += result.removed_mm3;
 
     result.total_removed_mm3 = total_removed_mm3_;
@@ -181,7 +212,7 @@ void MillingModel::step(const BurrCommand& command, double time_s, EditSink& edi
     result.burr = burr_;
     result.spindle_on = command.spindle_on;
     if (command.wants_engagement)
-        probes_[burr_].sample(bone_, position_mm_, command.pose.spindle_axis, result.engagement);
+        probes_[burr_].sample(bone_, command.pose.position_mm, command.pose.spindle_axis, result.engagement);
     else
         result.engagement.count = 0;
 }

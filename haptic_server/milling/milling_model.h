@@ -37,8 +37,13 @@ class MillingModel final : public ContactModel {
     const RemovedByTissue& removed_mm3() const override { return removed_mm3_; }
 
   private:
-    /// One stretch of a step, from position_mm_ to `to_mm`, which becomes position_mm_; adds to `result`,
-    /// force weighed by `share` of the step.
+    /// Whether so little lies between position_mm_ and the command's place that it can wait for the next
+    /// step.
+    bool can_wait(const BurrCommand& command) const noexcept;
+    /// From position_mm_ to the command's place, in stretches.
+    void mill(const BurrCommand& command, EditSink& edits, MillingResult& result) noexcept;
+    /// One stretch, from position_mm_ to `to_mm`, which becomes position_mm_; adds to `result`, force weighed
+    /// by `share` of the way.
     void cut(const BurrCommand& command, const glm::dvec3& to_mm, double share, EditSink& edits,
              MillingResult& result) noexcept;
     template <typename Force>
@@ -56,10 +61,12 @@ class MillingModel final : public ContactModel {
     double total_removed_mm3_ = 0.0;
     std::uint64_t step_ = 0;
 
-    bool has_position_ = false;        // position_mm_ holds the last step's
+    bool has_position_ = false;        // position_mm_ holds where the burr last milled, or was
     bool carved_at_position_ = false;  // the burr_ carved at position_mm_
     glm::dvec3 position_mm_{0.0};
     std::size_t burr_ = 0;
+    double since_milled_s_ = 0.0;
+    glm::dvec3 milled_force_n_{0.0};  // of the way that was last milled
 };
 
 }  // namespace osteomill

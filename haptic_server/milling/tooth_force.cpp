@@ -22,28 +22,31 @@ ToothForce::ToothForce(int instants, InstructionSet instructions)
         throw std::invalid_argument("a tooth period has 1 to 64 instants, not " + std::to_string(instants));
 }
 
-void ToothForce::begin_step(const Burr& burr, const CuttingStep& step) noexcept {
-    const double pitch_rad = two_pi / burr.edges;
-    const double tooth_period_s = 1.0 / (burr.edges * burr.spindle_rev_per_s);
+void ToothForce::turn(const Burr& burr, double elapsed_s) noexcept {
     if (burr.edges != edges_ || burr.sigma() != sigma_) {
         forget();
         turned_rad_ = 0.0;
     }
     edges_ = burr.edges;
     sigma_ = burr.sigma();
-    pitch_rad_ = pitch_rad;
+    pitch_rad_ = two_pi / burr.edges;
+    turn_rad_ = two_pi * burr.spindle_rev_per_s * elapsed_s;
+    turned_rad_ = std::fmod(turned_rad_ + turn_rad_, pitch_rad_);
+
+    const double tooth_period_s = 1.0 / (burr.edges * burr.spindle_rev_per_s);
+    const double kept = std::exp(-elapsed_s / tooth_period_s);
+    window_s_ = kept * window_s_ + elapsed_s;
+    for (int i = 0; i < instants_; ++i) impulse_[static_cast<std::size_t>(i)] *= kept;
+}
+
+void ToothForce::begin_step(const CuttingStep& step) noexcept {
     step_ = step;
     step_sum_ = glm::dvec3(0.0);
-    step_angle_rad_ = two_pi * burr.spindle_rev_per_s * step.elapsed_s;
-    turned_rad_ = std::fmod(turned_rad_ + step_angle_rad_, pitch_rad_);
-
-    const double kept = std::exp(-step.elapsed_s / tooth_period_s);
-    window_s_ = kept * window_s_ + step.elapsed_s;
-    for (int i = 0; i < instants_; ++i) impulse_[static_cast<std::size_t>(i)] *= kept;
 }
 
 void ToothForce::forget() noexcept {
     impulse_.fill(glm::dvec3(0.0));
+    step_sum_ = glm::dvec3(0.0);
     window_s_ = 0.0;
 }
 
@@ -80,11 +83,10 @@ glm::dvec3 ToothForce::force_at_instant_n(int instant) const noexcept {
 }
 
 glm::dvec3 ToothForce::force_n() const noexcept {
-    if (step_angle_rad_ >= pitch_rad_ * (1.0 - 1e-9))
-        return step_.frame * (step_.newton_per_unit * step_sum_);
+    if (turn_rad_ >= pitch_rad_ * (1.0 - 1e-9)) return step_.frame * (step_.newton_per_unit * step_sum_);
     if (window_s_ <= 0.0) return glm::dvec3(0.0);
     // Between the middles of the bins the force is taken to vary linearly, which leaves its mean as it is.
-    const double bins_passed = step_angle_rad_ / pitch_rad_ * instants_;
+    const double bins_passed = turn_rad_ / pitch_rad_ * instants_;
     const int samples = static_cast<int>(std::ceil(4.0 * bins_passed));
     const double last = turned_rad_ / pitch_rad_ * instants_;
     glm::dvec3 impulse(0.0);

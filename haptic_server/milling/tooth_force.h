@@ -24,9 +24,12 @@ class ToothForce {
     /// Throws std::invalid_argument unless 1 <= instants <= most_instants.
     ToothForce(int instants, InstructionSet instructions);
 
-    /// Starts a step: the edges turn on by 2 pi n_rev `elapsed_s`. Another burr starts with empty bins.
+    /// The edges turn on for `elapsed_s`, and the bins forget with time. Another burr starts with empty bins.
     /// Everything from here on is real-time safe.
-    void begin_step(const Burr& burr, const CuttingStep& step) noexcept;
+    void turn(const Burr& burr, double elapsed_s) noexcept;
+
+    /// What add() takes from now on was cut in `step`, which may have lasted for several turns.
+    void begin_step(const CuttingStep& step) noexcept;
 
     /// As CuttingForce::add.
     void add(const RemovedVoxels& removed, std::span<const float> weights) noexcept;
@@ -34,8 +37,8 @@ class ToothForce {
     /// Empties the bins: what was cut so far says nothing of the teeth to come.
     void forget() noexcept;
 
-    /// Mean of F(j) over the angles that the edges passed during the step, N, patient axes. A step of a tooth
-    /// period or longer gives the mean force of the step.
+    /// Mean of F(j) over the angles that the edges passed in the last turn, N, patient axes. A turn of a
+    /// tooth period or longer gives the mean force of the last step.
     glm::dvec3 force_n() const noexcept;
 
     /// F(j) for the middle of phase bin `instant`, N, patient axes.
@@ -55,10 +58,10 @@ class ToothForce {
     int edges_ = 0;
     double sigma_ = 1.0;
     double pitch_rad_ = 1.0;
-    double step_angle_rad_ = 0.0;
+    double turn_rad_ = 0.0;  // the last
     double turned_rad_ = 0.0;
     double window_s_ = 0.0;
-    glm::dvec3 step_sum_{0.0};                         // of this step alone, units of the step
+    glm::dvec3 step_sum_{0.0};                         // of the last step alone, units of the step
     std::array<glm::dvec3, most_instants> impulse_{};  // N s, burr axes, over the window
     ChipForces forces_;
 };

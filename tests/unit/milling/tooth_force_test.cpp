@@ -100,7 +100,8 @@ TEST(ToothForce, PutsBoneWhereItsEdgeIs) {
     Burr burr;
     burr.sense = SpindleSense::counter_clockwise;
     ToothForce force(5, InstructionSet::plain);
-    force.begin_step(burr, CuttingStep(burr, up, glm::dvec3(0.0), 0.1, 1e-4));
+    force.turn(burr, 1e-4);
+    force.begin_step(CuttingStep(burr, up, glm::dvec3(0.0), 0.1, 1e-4));
     testing::add_voxel(force, {4, 23, 0}, 1.0);
     for (int i = 0; i < force.instants(); ++i)
         EXPECT_EQ(glm::length(force.force_at_instant_n(i)) > 0.0, i == 1) << i;
