@@ -2,11 +2,18 @@
 
 #include <algorithm>
 #include <numeric>
+#include <utility>
 
 namespace osteomill::study {
 
-SampledForce::SampledForce(const ModelForce& model, const DelayedHold& hold, double tick_s)
-    : model_(model),
+Resistance resistance_of(const ModelForce& model) {
+    return [model, previous_m = 0.0](double position_m, double period_s) mutable {
+        return model.resistance_n(position_m, std::exchange(previous_m, position_m), period_s);
+    };
+}
+
+SampledForce::SampledForce(Resistance resistance, const DelayedHold& hold, double tick_s)
+    : resistance_(std::move(resistance)),
       hold_(hold),
       period_s_(tick_s * static_cast<double>(hold.ticks_per_sample())),
       resistances_n_(hold.forces_remembered(), 0.0) {}
@@ -14,8 +21,7 @@ SampledForce::SampledForce(const ModelForce& model, const DelayedHold& hold, dou
 double SampledForce::operator()(double sensed_position_m) {
     if (tick_ == 0) {
         std::shift_right(resistances_n_.begin(), resistances_n_.end(), 1);
-        resistances_n_.front() = model_.resistance_n(sensed_position_m, previous_sample_m_, period_s_);
-        previous_sample_m_ = sensed_position_m;
+        resistances_n_.front() = resistance_(sensed_position_m, period_s_);
     }
     const std::vector<double>& weights = hold_.weights[tick_];
     tick_ = (tick_ + 1) % hold_.ticks_per_sample();

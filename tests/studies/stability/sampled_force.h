@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <vector>
 
 #include "tests/studies/stability/delayed_hold.h"
@@ -9,21 +10,28 @@
 
 namespace osteomill::study {
 
+/// What a model resists with, newtons, at a sample `period_s` after the one before. May remember.
+using Resistance = std::function<double(double position_m, double period_s)>;
+
+/// At rest at the origin before the first sample.
+Resistance resistance_of(const ModelForce& model);
+
 class SampledForce {
   public:
-    /// At rest at the origin until the first tick.
-    SampledForce(const ModelForce& model, const DelayedHold& hold, double tick_s);
+    /// Nothing resists before the first sample.
+    SampledForce(Resistance resistance, const DelayedHold& hold, double tick_s);
+    SampledForce(const ModelForce& model, const DelayedHold& hold, double tick_s)
+        : SampledForce(resistance_of(model), hold, tick_s) {}
 
     /// The force on the device from this tick to the next. The model samples at the first tick and then every
     /// `ticks_per_sample`.
     double operator()(double sensed_position_m);
 
   private:
-    ModelForce model_;
+    Resistance resistance_;
     DelayedHold hold_;
     double period_s_;
-    std::size_t tick_ = 0;  ///< since the model's sample
-    double previous_sample_m_ = 0.0;
+    std::size_t tick_ = 0;               ///< since the model's sample
     std::vector<double> resistances_n_;  ///< by age
 };
 
