@@ -19,6 +19,7 @@ DelayedHold estimate(const DelayedHold& now, const DelayedHold& before) {
 }  // namespace
 
 DelayedHold held(const std::vector<double>& weights_by_age, std::size_t ticks_per_sample) {
+    if (weights_by_age.empty()) throw std::invalid_argument("hold: at least one weight");
     if (ticks_per_sample == 0) throw std::invalid_argument("hold: at least one tick per sample");
     return {std::vector<std::vector<double>>(ticks_per_sample, weights_by_age)};
 }

@@ -20,7 +20,7 @@ struct DelayedHold {
     std::size_t forces_remembered() const { return weights.front().size(); }
 };
 
-/// The same weights throughout the model's period.
+/// The same weights throughout the model's period. Throws std::invalid_argument without a weight or a tick.
 DelayedHold held(const std::vector<double>& weights_by_age, std::size_t ticks_per_sample = 1);
 
 /// Zero-order hold: F_n.

@@ -2,8 +2,7 @@
 //
 // Between ticks the hand moves straight and evenly: of all motions through the same positions that is the one
 // that loses the least in the device's damper (b d^2 / T per tick), hence the one that shows whether the rest
-// gives energy. It is the worst case in which Colgate's condition is sharp; a sinusoid between the ticks is
-// not.
+// gives energy. In this worst case Colgate's condition is sharp; for a sinusoid between the ticks it is not.
 #pragma once
 
 #include <span>
@@ -19,8 +18,8 @@ struct GuidedWork {
     double by_hand_j() const { return lost_in_damper_j + taken_by_force_j; }
 };
 
-/// One position a haptic tick, from rest at the origin. The device's mass
-/// does not matter where the motion comes back to rest.
+/// One position a haptic tick, from rest at the origin. The device's mass does not matter where the motion
+/// comes back to rest.
 GuidedWork guided_work(std::span<const double> positions_m, double damping_n_s_per_m, const ModelForce& model,
                        const DelayedHold& hold, double tick_s);
 

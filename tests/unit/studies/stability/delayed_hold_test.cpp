@@ -67,7 +67,8 @@ TEST(DelayedHold, GainsHalfAPeriodByAnEstimateAtTheModelsRateAndHalfATickAfterIn
     EXPECT_EQ(then_estimated(zero_order_hold()).weights, sample_estimate_hold().weights);
 }
 
-TEST(DelayedHold, NeedsATickPerSample) {
+TEST(DelayedHold, NeedsAWeightAndATick) {
+    EXPECT_THROW(held({}), std::invalid_argument);
     EXPECT_THROW(zero_order_hold(0), std::invalid_argument);
 }
 
