@@ -6,7 +6,7 @@
 namespace osteomill::study {
 
 GuidedWork guided_work(std::span<const double> positions_m, double damping_n_s_per_m, const ModelForce& model,
-                       const DelayedHold& hold, double tick_s) {
+                       const LinearHold& hold, double tick_s) {
     SampledForce force(model, hold, tick_s);
     EnergyLedger ledger;
     GuidedWork work;

@@ -7,7 +7,7 @@
 
 #include <span>
 
-#include "tests/studies/stability/delayed_hold.h"
+#include "tests/studies/stability/linear_hold.h"
 #include "tests/studies/stability/model_force.h"
 
 namespace osteomill::study {
@@ -21,6 +21,6 @@ struct GuidedWork {
 /// One position a haptic tick, from rest at the origin. The device's mass does not matter where the motion
 /// comes back to rest.
 GuidedWork guided_work(std::span<const double> positions_m, double damping_n_s_per_m, const ModelForce& model,
-                       const DelayedHold& hold, double tick_s);
+                       const LinearHold& hold, double tick_s);
 
 }  // namespace osteomill::study

@@ -19,7 +19,7 @@ Eigen::RowVectorXd sample(Eigen::Index age, Eigen::Index size) {
 
 }  // namespace
 
-Eigen::MatrixXd lifted_system(const HeldBody& body, const ModelForce& model, const DelayedHold& hold,
+Eigen::MatrixXd lifted_system(const HeldBody& body, const ModelForce& model, const LinearHold& hold,
                               double tick_s) {
     const ExactMotion tick = exact_motion(body, tick_s);
     const double period_s = tick_s * static_cast<double>(hold.ticks_per_sample());
@@ -51,7 +51,7 @@ double spectral_radius(const Eigen::MatrixXd& step) {
     return Eigen::EigenSolver<Eigen::MatrixXd>(step, false).eigenvalues().cwiseAbs().maxCoeff();
 }
 
-bool is_stable(const HeldBody& body, const ModelForce& model, const DelayedHold& hold, double tick_s) {
+bool is_stable(const HeldBody& body, const ModelForce& model, const LinearHold& hold, double tick_s) {
     return spectral_radius(lifted_system(body, model, hold, tick_s)) < 1.0 - rounding;
 }
 

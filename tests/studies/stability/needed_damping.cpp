@@ -8,7 +8,7 @@
 
 namespace osteomill::study {
 
-double needed_damping_n_s_per_m(const ModelForce& model, const DelayedHold& hold, double tick_s,
+double needed_damping_n_s_per_m(const ModelForce& model, const LinearHold& hold, double tick_s,
                                 double angle) {
     if (hold.ticks_per_sample() != 1)
         throw std::invalid_argument("needed damping: the model must sample at every tick");
@@ -24,7 +24,7 @@ double needed_damping_n_s_per_m(const ModelForce& model, const DelayedHold& hold
     return 0.5 * tick_s / (1.0 - std::cos(angle)) * ((1.0 - one_tick_ago) * resistance).real();
 }
 
-WorstFrequency worst_frequency(const ModelForce& model, const DelayedHold& hold, double tick_s) {
+WorstFrequency worst_frequency(const ModelForce& model, const LinearHold& hold, double tick_s) {
     constexpr int frequencies = 1000;
     WorstFrequency worst{.needed_damping_n_s_per_m = -std::numeric_limits<double>::infinity()};
     for (int i = 1; i <= frequencies; ++i) {

@@ -7,15 +7,14 @@
 // negative B is worst slowly and a positive one at the Nyquist frequency.
 #pragma once
 
-#include "tests/studies/stability/delayed_hold.h"
+#include "tests/studies/stability/linear_hold.h"
 #include "tests/studies/stability/model_force.h"
 
 namespace osteomill::study {
 
 /// At one frequency, given as the angle w T from one tick to the next, 0 < angle <= pi. Throws
 /// std::invalid_argument for a hold of more than one tick, to which this does not apply.
-double needed_damping_n_s_per_m(const ModelForce& model, const DelayedHold& hold, double tick_s,
-                                double angle);
+double needed_damping_n_s_per_m(const ModelForce& model, const LinearHold& hold, double tick_s, double angle);
 
 struct WorstFrequency {
     double angle = 0.0;
@@ -23,6 +22,6 @@ struct WorstFrequency {
 };
 
 /// Over frequencies from pi/1000 per tick to Nyquist.
-WorstFrequency worst_frequency(const ModelForce& model, const DelayedHold& hold, double tick_s);
+WorstFrequency worst_frequency(const ModelForce& model, const LinearHold& hold, double tick_s);
 
 }  // namespace osteomill::study

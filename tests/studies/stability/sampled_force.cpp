@@ -12,7 +12,7 @@ Resistance resistance_of(const ModelForce& model) {
     };
 }
 
-SampledForce::SampledForce(Resistance resistance, const DelayedHold& hold, double tick_s)
+SampledForce::SampledForce(Resistance resistance, const LinearHold& hold, double tick_s)
     : resistance_(std::move(resistance)),
       hold_(hold),
       period_s_(tick_s * static_cast<double>(hold.ticks_per_sample())),

@@ -5,7 +5,7 @@
 #include <functional>
 #include <vector>
 
-#include "tests/studies/stability/delayed_hold.h"
+#include "tests/studies/stability/linear_hold.h"
 #include "tests/studies/stability/model_force.h"
 
 namespace osteomill::study {
@@ -19,8 +19,8 @@ Resistance resistance_of(const ModelForce& model);
 class SampledForce {
   public:
     /// Nothing resists before the first sample.
-    SampledForce(Resistance resistance, const DelayedHold& hold, double tick_s);
-    SampledForce(const ModelForce& model, const DelayedHold& hold, double tick_s)
+    SampledForce(Resistance resistance, const LinearHold& hold, double tick_s);
+    SampledForce(const ModelForce& model, const LinearHold& hold, double tick_s)
         : SampledForce(resistance_of(model), hold, tick_s) {}
 
     /// The force on the device from this tick to the next. The model samples at the first tick and then every
@@ -29,7 +29,7 @@ class SampledForce {
 
   private:
     Resistance resistance_;
-    DelayedHold hold_;
+    LinearHold hold_;
     double period_s_;
     std::size_t tick_ = 0;               ///< since the model's sample
     std::vector<double> resistances_n_;  ///< by age

@@ -15,7 +15,7 @@ constexpr double tick_s = 1e-3;
 
 struct Case {
     ModelForce model;
-    DelayedHold hold;
+    LinearHold hold;
 };
 
 const std::vector<Case> cases{{wall(1000.0), zero_order_hold()},

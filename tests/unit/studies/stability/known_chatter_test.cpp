@@ -23,7 +23,7 @@ struct SteadyForce {
 };
 
 /// From the fourth second to the eighth. The run's positions are measured from where the hand means to be.
-SteadyForce steady_force(double cutting_n_s_per_m, const DelayedHold& hold) {
+SteadyForce steady_force(double cutting_n_s_per_m, const LinearHold& hold) {
     const Bench bench{.body = {.mass_kg = 0.045, .damping_n_s_per_m = 2.0, .hand_stiffness_n_per_m = 300.0},
                       .max_force_n = 3.3};
     SampledForce force(BoneFront(cutting_n_s_per_m), hold, tick_s);
@@ -46,7 +46,7 @@ SteadyForce steady_force(double cutting_n_s_per_m, const DelayedHold& hold) {
 }
 
 TEST(KnownChatter, OfACuttingForceHeldAt100Hz) {
-    const DelayedHold hold = zero_order_hold(10);
+    const LinearHold hold = zero_order_hold(10);
     EXPECT_NEAR(steady_force(20.0, hold).rms_about_mean_n, 0.25, 0.015);
     EXPECT_NEAR(steady_force(60.0, hold).rms_about_mean_n, 0.81, 0.025);
     for (const double cutting : {110.0, 300.0, 680.0})
@@ -54,7 +54,7 @@ TEST(KnownChatter, OfACuttingForceHeldAt100Hz) {
 }
 
 TEST(KnownChatter, OfACuttingForceHeldAt1000HzBeginsBetween60And110) {
-    const DelayedHold hold = zero_order_hold();
+    const LinearHold hold = zero_order_hold();
     for (const double cutting : {20.0, 60.0}) {
         const SteadyForce force = steady_force(cutting, hold);
         EXPECT_NEAR(force.mean_n, cutting * feed_m_per_s, 1e-6);

@@ -17,17 +17,17 @@ namespace {
 constexpr double tick_s = 1e-3;
 constexpr double tolerance = 0.03;
 
-bool swing_grows(const HeldBody& body, const ModelForce& model, const DelayedHold& hold) {
+bool swing_grows(const HeldBody& body, const ModelForce& model, const LinearHold& hold) {
     constexpr std::size_t ticks = 3000;  // 3 s: the slowest here grows by 3 % from third to third
     return growth_per_s(run_bench({.body = body}, SampledForce(model, hold, tick_s), push, ticks), tick_s,
                         ticks) > 0.0;
 }
 
-double largest_stiffness_n_per_m(const HeldBody& body, const DelayedHold& hold) {
+double largest_stiffness_n_per_m(const HeldBody& body, const LinearHold& hold) {
     return largest_stable([&](double gain) { return is_stable(body, wall(gain), hold, tick_s); });
 }
 
-void expect_edge(const HeldBody& body, const DelayedHold& hold, double known_n_per_m) {
+void expect_edge(const HeldBody& body, const LinearHold& hold, double known_n_per_m) {
     EXPECT_NEAR(largest_stiffness_n_per_m(body, hold), known_n_per_m, tolerance * known_n_per_m);
     EXPECT_FALSE(swing_grows(body, wall(known_n_per_m * (1.0 - tolerance)), hold)) << known_n_per_m;
     EXPECT_TRUE(swing_grows(body, wall(known_n_per_m * (1.0 + tolerance)), hold)) << known_n_per_m;
@@ -35,7 +35,7 @@ void expect_edge(const HeldBody& body, const DelayedHold& hold, double known_n_p
 
 struct KnownEdge {
     std::string method;
-    DelayedHold hold;
+    LinearHold hold;
     HeldBody body;
     double largest_stiffness_n_per_m;
 };
@@ -50,11 +50,11 @@ TEST_P(KnownEdges, AreReproducedByEigenvaluesAndByRuns) {
 std::vector<KnownEdge> table() {
     const HeldBody light = arm_in_hand(Grip::light);
     const HeldBody firm = arm_in_hand(Grip::firm);
-    const DelayedHold hold = zero_order_hold();
-    const DelayedHold late = one_sample_late();
-    const DelayedHold estimate = sample_estimate_hold();
-    const DelayedHold straight = interpolated(10);
-    const DelayedHold slow_estimate = sample_estimate_hold(10);
+    const LinearHold hold = zero_order_hold();
+    const LinearHold late = one_sample_late();
+    const LinearHold estimate = sample_estimate_hold();
+    const LinearHold straight = interpolated(10);
+    const LinearHold slow_estimate = sample_estimate_hold(10);
     return {{"hold", hold, bare_arm(0.1), 200.0},
             {"hold", hold, bare_arm(0.5), 1002.0},
             {"hold", hold, bare_arm(1.0), 2007.0},
@@ -127,7 +127,7 @@ TEST(EdgeRules, ASampledDamperIsStableUpToTwiceTheMassOverThePeriod) {
     // A spring of next to nothing keeps the body at a place, so that all eigenvalues can be inside.
     const HeldBody body{.mass_kg = 0.045, .damping_n_s_per_m = 0.0, .hand_stiffness_n_per_m = 1.0};
     for (const std::size_t ticks_per_sample : {1, 10}) {
-        const DelayedHold hold = zero_order_hold(ticks_per_sample);
+        const LinearHold hold = zero_order_hold(ticks_per_sample);
         const double known = 2.0 * 0.045 / (static_cast<double>(ticks_per_sample) * tick_s);
         const double edge =
             largest_stable([&](double gain) { return is_stable(body, damper(gain), hold, tick_s); });

@@ -16,7 +16,7 @@ constexpr double tick_s = 1e-3;
 TEST(LiftedSystem, StepsAsTheForceDoesTickByTick) {
     const HeldBody body = arm_in_hand(Grip::light);
     const ModelForce model{.stiffness_n_per_m = 900.0, .damping_n_s_per_m = 3.0};
-    for (const DelayedHold& hold :
+    for (const LinearHold& hold :
          {interpolated(10), late_sample_estimate_hold(4), late_by_ticks(interpolated(10), 13)}) {
         const Eigen::MatrixXd step = lifted_system(body, model, hold, tick_s);
         Eigen::VectorXd lifted = Eigen::VectorXd::Zero(step.rows());
@@ -43,7 +43,7 @@ TEST(SpectralRadius, IsTheLargestMagnitudeOfAComplexPair) {
 TEST(LiftedSystem, GrowsAtTheRateAtWhichTheBenchSwings) {
     const HeldBody body = bare_arm(0.1);
     const std::size_t ticks = 3000;
-    const auto expect_same_growth = [&](const DelayedHold& hold, double stiffness_n_per_m) {
+    const auto expect_same_growth = [&](const LinearHold& hold, double stiffness_n_per_m) {
         const ModelForce model = wall(stiffness_n_per_m);
         const double period_s = tick_s * static_cast<double>(hold.ticks_per_sample());
         const double expected =

@@ -35,7 +35,7 @@ TEST(NeededDamping, IsThreeTimesAsMuchForAHoldThatIsASampleLate) {
 }
 
 TEST(NeededDamping, OfSampleEstimateHoldIsNothingSlowlyButTwiceTheHoldsAtNyquist) {
-    const DelayedHold hold = sample_estimate_hold();
+    const LinearHold hold = sample_estimate_hold();
     EXPECT_NEAR(needed_damping_n_s_per_m(wall(1000.0), hold, tick_s, 0.01), 0.0, 1e-4);
     EXPECT_NEAR(needed_damping_n_s_per_m(wall(1000.0), hold, tick_s, nyquist), 1000.0 * tick_s, 1e-12);
     EXPECT_DOUBLE_EQ(worst_frequency(wall(1000.0), hold, tick_s).angle, nyquist);

@@ -12,7 +12,7 @@
 
 namespace osteomill::study {
 
-struct DelayedHold {
+struct LinearHold {
     /// By tick after the model's sample, then by age of the force in model periods. Rows of one length.
     std::vector<std::vector<double>> weights;
 
@@ -21,36 +21,36 @@ struct DelayedHold {
 };
 
 /// The same weights throughout the model's period. Throws std::invalid_argument without a weight or a tick.
-DelayedHold held(const std::vector<double>& weights_by_age, std::size_t ticks_per_sample = 1);
+LinearHold held(const std::vector<double>& weights_by_age, std::size_t ticks_per_sample = 1);
 
 /// Zero-order hold: F_n.
-DelayedHold zero_order_hold(std::size_t ticks_per_sample = 1);
+LinearHold zero_order_hold(std::size_t ticks_per_sample = 1);
 
 /// F_{n-1}: the model takes a period to compute.
-DelayedHold one_sample_late(std::size_t ticks_per_sample = 1);
+LinearHold one_sample_late(std::size_t ticks_per_sample = 1);
 
 /// Straight from F_{n-1} to F_n over the period that follows sample n. The tick at which F_n arrives already
 /// takes the first of the N strides, the last tick of the period gives F_n.
-DelayedHold interpolated(std::size_t ticks_per_sample);
+LinearHold interpolated(std::size_t ticks_per_sample);
 
 /// Ellis, Sarkar, Jenkins (J. Dyn. Sys. Meas. Control 119:768, 1997), derived from the energy-exact trapezoid
 /// and F_{n+1} = 2 F_n - F_{n-1}: 1.5 F_n - 0.5 F_{n-1}.
-DelayedHold sample_estimate_hold(std::size_t ticks_per_sample = 1);
+LinearHold sample_estimate_hold(std::size_t ticks_per_sample = 1);
 
 /// The same, with what the previous estimate got wrong given back: 2 F_n - 1.5 F_{n-1} + 0.5 F_{n-2}.
-DelayedHold corrected_sample_estimate_hold(std::size_t ticks_per_sample = 1);
+LinearHold corrected_sample_estimate_hold(std::size_t ticks_per_sample = 1);
 
 /// The same estimate when the newest force is one sample old: 2.5 F_{n-1} - 1.5 F_{n-2}.
-DelayedHold late_sample_estimate_hold(std::size_t ticks_per_sample = 1);
+LinearHold late_sample_estimate_hold(std::size_t ticks_per_sample = 1);
 
 /// `hold` of forces that have each been estimated first: 1.5 F_n - 0.5 F_{n-1} at the model's rate.
-DelayedHold of_estimates(const DelayedHold& hold);
+LinearHold of_estimates(const LinearHold& hold);
 
 /// The estimate taken from what `hold` gives, at the haptic rate: 1.5 times this tick's force, less half the
 /// last's.
-DelayedHold then_estimated(const DelayedHold& hold);
+LinearHold then_estimated(const LinearHold& hold);
 
 /// What `hold` gives, so many haptic ticks later.
-DelayedHold late_by_ticks(const DelayedHold& hold, std::size_t ticks);
+LinearHold late_by_ticks(const LinearHold& hold, std::size_t ticks);
 
 }  // namespace osteomill::study
