@@ -1,0 +1,11 @@
+// Where a body in one dimension is and how fast it moves.
+#pragma once
+
+namespace osteomill::study {
+
+struct MotionState {
+    double position_m = 0.0;
+    double velocity_m_per_s = 0.0;
+};
+
+}  // namespace osteomill::study
