@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# Installs, builds and runs every test: optimised, then under AddressSanitizer and UBSan, then under ThreadSanitizer.
+# Installs, builds and runs every test: optimised, then under AddressSanitizer and UBSan; those of code with threads under
+# ThreadSanitizer, too.
 #   ./test.sh             all three
 #   ./test.sh release     one (or several) of: release debug asan tsan
 set -euo pipefail
