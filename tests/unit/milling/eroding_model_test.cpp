@@ -10,6 +10,7 @@
 #include "haptic_server/milling/force_models.h"
 #include "haptic_server/milling/voxel_tool.h"
 #include "tests/support/block.h"
+#include "tests/support/bone_variants.h"
 
 namespace osteomill {
 namespace {
@@ -102,18 +103,7 @@ TEST_P(EveryErodingModel, RemovesTheSameAtEveryRateOfSteps) {
 }
 
 TEST_P(EveryErodingModel, SaysWhenProtectedTissueGoes) {
-    const Grid grid{.size_voxels = {16, 16, 32}};
-    auto builder = BoneBuilder::homogeneous(grid, 1.0, true);
-    ByteBrick full;
-    full.fill(255);
-    ByteBrick label;
-    label.fill(1);
-    builder.add_brick({0, 0, 1}, full, nullptr, &label);
-    label.fill(2);
-    builder.add_brick({0, 0, 0}, full, nullptr, &label);
-    const auto model =
-        make(std::move(builder).build(),
-             {{.label = 1, .name = "bone"}, {.label = 2, .name = "nerve", .is_protected = true}});
+    const auto model = make(testing::bone_over_nerve(), testing::bone_and_nerve());
     step(*model, at({0.75, 0.75, 3.9}, true, 0.02));
     EXPECT_FALSE(result->touches_protected);
     EXPECT_GT(model->removed_mm3()[1], 0.0);

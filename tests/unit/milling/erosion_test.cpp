@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <memory>
 
 #include "tests/support/block.h"
+#include "tests/support/bone_variants.h"
 
 namespace osteomill {
 namespace {
@@ -16,14 +16,7 @@ using testing::make_block;
 using testing::NoEdits;
 
 Bone block(double stiffness = 1.0) {
-    const Bone bone = make_block({0.0, 0.0, 0.0}, {3.2, 3.2, 3.2}, 0.1);
-    auto content = std::make_shared<BoneContent>(bone.content());
-    content->homogeneous_stiffness = stiffness;
-    std::vector<ByteBrick> fraction(bone.stored_bricks());
-    for (std::size_t i = 0; i < fraction.size(); ++i)
-        std::copy_n(bone.fractions(static_cast<std::int32_t>(i)).begin(), brick_voxel_count,
-                    fraction[i].begin());
-    return Bone(content, fraction);
+    return testing::with_stiffness(make_block({0.0, 0.0, 0.0}, {3.2, 3.2, 3.2}, 0.1), stiffness);
 }
 
 class Count final : public ErosionSink {

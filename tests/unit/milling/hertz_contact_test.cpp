@@ -6,6 +6,7 @@
 #include <glm/geometric.hpp>
 #include <numbers>
 
+#include "tests/support/bone_variants.h"
 #include "tests/unit/milling/contact_bench.h"
 
 namespace osteomill {
@@ -82,14 +83,7 @@ TEST(HertzContact, RubsAcrossATiltedSpindle) {
 TEST(HertzContact, PushesAsHardAsTheBoneInContact) {
     HertzContact law;
     const auto push_n = [&](double stiffness) {
-        const Bone bone = wide_block();
-        auto content = std::make_shared<BoneContent>(bone.content());
-        content->homogeneous_stiffness = stiffness;
-        std::vector<ByteBrick> fraction(bone.stored_bricks());
-        for (std::size_t i = 0; i < fraction.size(); ++i)
-            std::copy_n(bone.fractions(static_cast<std::int32_t>(i)).begin(), brick_voxel_count,
-                        fraction[i].begin());
-        ContactBench bench(Bone(content, fraction));
+        ContactBench bench(testing::with_stiffness(wide_block(), stiffness));
         return bench.pressed(law, 0.5).force_n.z;
     };
     EXPECT_NEAR(push_n(0.4), 0.4 * push_n(1.0), 1e-9);

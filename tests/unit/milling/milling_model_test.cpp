@@ -7,6 +7,7 @@
 
 #include "haptic_server/milling/sweep.h"
 #include "tests/support/block.h"
+#include "tests/support/bone_variants.h"
 
 namespace osteomill {
 namespace {
@@ -62,17 +63,7 @@ TEST_F(MillingModelTest, CountsNoBoneOfTheWayToANewBurr) {
 }
 
 TEST_F(MillingModelTest, SaysWhenProtectedTissueIsRemoved) {
-    const Grid grid{.size_voxels = {16, 16, 32}};
-    auto builder = BoneBuilder::homogeneous(grid, 1.0, true);
-    ByteBrick full;
-    full.fill(255);
-    ByteBrick label;
-    label.fill(1);
-    builder.add_brick({0, 0, 1}, full, nullptr, &label);
-    label.fill(2);
-    builder.add_brick({0, 0, 0}, full, nullptr, &label);
-    MillingModel model(std::move(builder).build(), {Burr{.diameter_mm = 1.0}},
-                       {{.label = 1, .name = "bone"}, {.label = 2, .name = "nerve", .is_protected = true}});
+    MillingModel model(testing::bone_over_nerve(), {Burr{.diameter_mm = 1.0}}, testing::bone_and_nerve());
     model.step(at({0.75, 0.75, 2.6}, true), 0.0, edits, *result);
     EXPECT_FALSE(result->touches_protected);
     EXPECT_GT(model.removed_mm3()[1], 0.0);
@@ -83,14 +74,7 @@ TEST_F(MillingModelTest, SaysWhenProtectedTissueIsRemoved) {
 
 TEST_F(MillingModelTest, StifferBoneNeedsProportionallyMoreForce) {
     const auto force_in = [&](double stiffness) {
-        const Bone soft = block();
-        auto content = std::make_shared<BoneContent>(soft.content());
-        content->homogeneous_stiffness = stiffness;
-        std::vector<ByteBrick> fraction(soft.stored_bricks());
-        for (std::size_t i = 0; i < fraction.size(); ++i)
-            std::copy_n(soft.fractions(static_cast<std::int32_t>(i)).begin(), brick_voxel_count,
-                        fraction[i].begin());
-        MillingModel model(Bone(content, fraction), {burr}, {});
+        MillingModel model(testing::with_stiffness(block(), stiffness), {burr}, {});
         model.step(at({-1.0, 0.0, 0.5}, true), 0.0, edits, *result);
         model.step(at({-0.94, 0.0, 0.5}, true), 0.01, edits, *result);
         return result->force_n;
