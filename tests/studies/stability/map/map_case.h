@@ -1,0 +1,37 @@
+// A point of the stability map: a scene, a hand, and the coupling between them. Plain values; what running
+// one gives is a MapOutcome (map_outcome.h).
+#pragma once
+
+#include <string>
+
+namespace osteomill::study {
+
+enum class MapScene {
+    cutting,  ///< a 5 mm burr at the end of the slot that it has cut, fed on along it
+    wall      ///< the spindle is off and the burr is pressed on the bone
+};
+
+/// What holds the arm, from nothing to a firm hand.
+enum class MapGrip {
+    bare_arm,  ///< 0.5 N s/m and a steady push, no hand
+    light,     ///< hand_model.h
+    firm       ///< hand_model.h
+};
+
+struct MapCase {
+    std::string method;  ///< as of --coupling
+    MapScene scene = MapScene::cutting;
+    MapGrip grip = MapGrip::light;
+    double milling_rate_hz = 1000.0;
+    int delay_ticks = 0;  ///< haptic ticks from a reading of the device to its force, beyond the loop's own
+    bool is_ideal_device = true;  ///< no encoder steps and no Coulomb friction: they hide limit cycles
+
+    double spindle_rpm = 10'000.0;    ///< cutting
+    double depth_mm = 1.0;            ///< cutting: of the burr's lowest point, up to its diameter
+    double relative_stiffness = 1.0;  ///< cutting: of the bone, 1 = that of K_t = 230 N/mm^2
+    double wall_n_per_mm = 1.5;       ///< wall: stiffest spring that the device claims to render
+
+    bool operator==(const MapCase&) const = default;
+};
+
+}  // namespace osteomill::study

@@ -1,0 +1,23 @@
+// What a run of a MapCase showed, beside the continuous-time truth of the same scene and hand.
+#pragma once
+
+namespace osteomill::study {
+
+struct MapOutcome {
+    double resistance_n_s_per_m = 0.0;  ///< cutting: |F| / feed of the steady slot; wall: 0
+    double truth_mean_n = 0.0;          ///< |mean force| of the truth in the window that is judged
+
+    bool is_stable = false;       ///< verdict.h
+    double limit_cycle_n = 0.0;   ///< rms of the force's fast part, beyond the truth's
+    double injected_mj = 0.0;     ///< energy that the hand got beyond what it had put in
+    double rms_error_n = 0.0;     ///< of the force about the truth's, tick by tick
+    double mean_error_n = 0.0;    ///< |mean force - truth's mean force|
+    double peak_n = 0.0;          ///< largest force on the hand
+    double largest_jump_n = 0.0;  ///< between two ticks
+    double depth_error_mm = 0.0;  ///< of the burr across the surface, rms, against the truth's
+    double removed_mm3 = 0.0;     ///< bone that was cut in the window
+
+    bool operator==(const MapOutcome&) const = default;
+};
+
+}  // namespace osteomill::study
