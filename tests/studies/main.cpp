@@ -11,7 +11,7 @@
 #include "haptic_server/imaging/progress.h"
 #include "tests/studies/force/case_report.h"
 #include "tests/studies/force/force_study.h"
-#include "tests/studies/force/output_files.h"
+#include "tests/studies/report/output_files.h"
 
 namespace {
 

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "tests/studies/force/progress.h"
 #include "tests/studies/force/steady_run.h"
+#include "tests/studies/report/progress.h"
 
 namespace osteomill::study {
 

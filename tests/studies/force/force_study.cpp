@@ -10,15 +10,15 @@
 
 #include "haptic_server/imaging/memory_estimate.h"
 #include "haptic_server/imaging/progress.h"
-#include "tests/studies/force/chart.h"
 #include "tests/studies/force/contact_curves.h"
 #include "tests/studies/force/convergence.h"
 #include "tests/studies/force/force_curves.h"
 #include "tests/studies/force/memory.h"
-#include "tests/studies/force/output_files.h"
 #include "tests/studies/force/pareto.h"
 #include "tests/studies/force/scaling.h"
 #include "tests/studies/force/survey.h"
+#include "tests/studies/report/chart.h"
+#include "tests/studies/report/output_files.h"
 
 namespace osteomill::study {
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "common/bone/bone.h"
-#include "tests/studies/force/progress.h"
+#include "tests/studies/report/progress.h"
 
 namespace osteomill::study {
 

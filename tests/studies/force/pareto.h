@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "tests/studies/force/progress.h"
 #include "tests/studies/force/studied_motion.h"
+#include "tests/studies/report/progress.h"
 
 namespace osteomill::study {
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "tests/studies/force/progress.h"
+#include "tests/studies/report/progress.h"
 
 namespace osteomill::study {
 

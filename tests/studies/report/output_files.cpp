@@ -1,4 +1,4 @@
-#include "tests/studies/force/output_files.h"
+#include "tests/studies/report/output_files.h"
 
 #include <fstream>
 #include <stdexcept>

@@ -1,4 +1,4 @@
-#include "tests/studies/force/chart.h"
+#include "tests/studies/report/chart.h"
 
 #include <sys/wait.h>
 
