@@ -4,6 +4,7 @@
 #include <functional>
 #include <ostream>
 #include <string>
+#include <string_view>
 
 namespace osteomill {
 
@@ -19,7 +20,8 @@ class ProgressLine {
     ProgressLine(const ProgressLine&) = delete;
     ProgressLine& operator=(const ProgressLine&) = delete;
 
-    void report(double done);
+    /// `note` stands behind the percentage ("2 min left"); a new one alone draws the bar anew.
+    void report(double done, std::string_view note = {});
     ReportProgress reporter() {
         return [this](double done) { report(done); };
     }
@@ -29,6 +31,7 @@ class ProgressLine {
     bool is_terminal_;
     std::string title_;
     int shown_percent_ = -1;
+    std::string note_{};
 };
 
 }  // namespace osteomill

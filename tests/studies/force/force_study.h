@@ -2,19 +2,14 @@
 #pragma once
 
 #include <filesystem>
-#include <iosfwd>
+
+#include "tests/studies/report/surroundings.h"
 
 namespace osteomill::study {
 
 struct ForceStudyOptions {
     std::filesystem::path out;
     bool quick = false;  ///< fewer points and shorter runs: a minute at most
-};
-
-struct StudySurroundings {
-    std::ostream& said;      ///< what was found and where the files are
-    std::ostream& progress;  ///< how far it has come
-    bool is_terminal = false;
 };
 
 /// Writes force.json, the tables (CSV) and the charts (SVG) into `options.out`, a folder that is there.

@@ -1,0 +1,33 @@
+# Error of the force against resistance, a panel a grip: errors.csv.
+scripts = ARG0[1:strlen(ARG0)-strlen('map_errors.gp')]
+load scripts.'style.gp'
+load scripts.'map_style.gp'
+table = folder.'/errors.csv'
+eval names(table)
+set terminal svg size 1300,640 dynamic font 'DejaVu Sans,14' background 'white'
+set output folder.'/map_errors.svg'
+set multiplot layout 1,3 title 'Error of the force in cutting, milling at 1000 Hz, no delay: each line ends where its method stops being stable' \
+    font ',17' margins 0.06,0.985,0.32,0.86 spacing 0.03,0.1
+set logscale xy
+set format y '%g'
+set xrange [3:6000]
+set xtics (5, 20, 100, 500, 3000)
+set xlabel 'resistance of the bone, N s/m'
+stats table using (column('stable') == 1 ? log10(column('rms_error_percent')) : NaN) name 'Error' nooutput
+set yrange [10**(Error_min - 0.1) : 10**(Error_max + 0.1)]
+of(i, grip) = column('number') == i && strcol('grip') eq grip && column('stable') == 1 ? column('rms_error_percent') : NaN
+curves(grip) = "plot for [i=1:11] table using 'resistance_n_s_per_m':(of(i, '".grip."')) with linespoints " \
+    . "pt Point[i] ps 0.9 lw 1.6 dt Dash[i] lc rgb Colour[i] title Name[i]"
+unset key
+set ylabel 'rms error, % of the mean force' offset 1,0
+set title 'bare arm'
+eval curves('bare-arm')
+unset ylabel
+set format y ''
+set title 'light grip'
+set key at screen 0.5,0.2 center top maxrows 4 Left reverse samplen 4
+eval curves('light')
+unset key
+set title 'firm grip'
+eval curves('firm')
+unset multiplot
