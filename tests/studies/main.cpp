@@ -11,6 +11,7 @@
 #include "haptic_server/imaging/progress.h"
 #include "tests/studies/force/case_report.h"
 #include "tests/studies/force/force_study.h"
+#include "tests/studies/polishing/polishing_options.h"
 #include "tests/studies/report/output_files.h"
 
 namespace {
@@ -69,15 +70,24 @@ int main(int argc, char** argv) {
     app.set_version_flag("--version", OSTEOMILL_VERSION);
     ForceOptions force;
     add_force(app, force);
+    osteomill::study::PolishingStudyOptions polishing;
+    const CLI::App* const is_polishing = osteomill::study::add_polishing(app, polishing);
     try {
         app.parse(argc, argv);
-        if (app.get_subcommands().empty()) throw CLI::RequiredError("a study to run: force");
+        if (app.get_subcommands().empty()) throw CLI::RequiredError("a study to run: force, polishing");
     } catch (const CLI::ParseError& error) {
         if (error.get_exit_code() == 0) return app.exit(error);
         std::cerr << "osteomill_study: " << error.what() << " (see --help)\n";
         return exit_usage;
     }
     try {
+        if (is_polishing->parsed()) {
+            osteomill::study::make_folder(polishing.out);
+            osteomill::study::run_polishing_study(
+                polishing,
+                {.said = std::cout, .progress = std::cerr, .is_terminal = ::isatty(STDERR_FILENO) != 0});
+            return 0;
+        }
         osteomill::study::make_folder(force.out);
         if (!force.cases.empty())
             run_cases(force);
