@@ -53,7 +53,7 @@ std::vector<Claim> rising_claims(const std::string& where, const ForceRecord& re
 Claim proportion_claim(const std::string& where, const ForceRecord& record) {
     return {.claim = "components are not proportional to each other",
             .where = where,
-            .measure = "share of the force's power off one line",
+            .measure = "share of their power off one line",
             .measured = share_off_line(record),
             .bar = off_line_bar};
 }

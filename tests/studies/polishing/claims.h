@@ -26,10 +26,10 @@ struct Claim {
 std::vector<Claim> rising_claims(const std::string& where, const ForceRecord& record);
 inline constexpr double rising_bar = 0.7;
 
-/// The components are not proportional: share of the force's power off the best line through the origin; at
-/// least `off_line_bar`, a tenth of the force.
+/// The components are not proportional: their power off one line (share_off_line()) is at least
+/// `off_line_bar`. Two thirds is the most that it can be.
 Claim proportion_claim(const std::string& where, const ForceRecord& record);
-inline constexpr double off_line_bar = 0.01;
+inline constexpr double off_line_bar = 0.05;
 
 /// Without sample-estimate-hold the contact is nearly unstable, with it it is not: the limit cycle's rms
 /// reaches chatter_n, or stays below it.

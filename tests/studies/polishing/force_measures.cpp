@@ -132,6 +132,13 @@ double share_off_line(const ForceRecord& record) {
         const Eigen::Vector3d force(sample.force_n.x, sample.force_n.y, sample.force_n.z);
         power += force * force.transpose();
     }
+    const Eigen::Vector3d squares = power.diagonal();
+    for (int i = 0; i < 3; ++i) {
+        for (int k = 0; k < 3; ++k) {
+            const double scale = std::sqrt(squares(i) * squares(k));
+            power(i, k) = scale > 0.0 ? power(i, k) / scale : 0.0;
+        }
+    }
     const double whole = power.trace();
     if (whole <= 0.0) return 0.0;
     const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(power, Eigen::EigenvaluesOnly);

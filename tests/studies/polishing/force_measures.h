@@ -47,8 +47,10 @@ double mean_force_n(const ForceRecord& record);
 /// values share their mean rank. 0 for fewer than two values or where one side does not vary.
 double rank_correlation(const std::vector<double>& x, const std::vector<double>& y);
 
-/// Share of the force's power, sum |F|^2, off the one line through the origin that takes most of it: 0 where
-/// the components are proportional to each other, 2/3 where the force has no preferred direction.
+/// How far the components are from being proportional to each other: each is divided by its rms, and of the
+/// power that they then have, what lies off the one line through the origin that takes most of it. 0 where
+/// they are proportional, 2/3 where each goes its own way. A component that is 0 throughout counts for
+/// nothing.
 double share_off_line(const ForceRecord& record);
 
 /// How far the force peaks within a tooth period: the 99th percentile of |F(t)| over its mean within

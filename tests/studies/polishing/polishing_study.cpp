@@ -47,34 +47,33 @@ class PolishingStudy {
 
     void run() {
         const auto setups = chapter("set-ups", &survey_setups);
-        const auto figures = chapter("figures 6, 7 and 8", &run_figures);
-        const auto by_edges = chapter("edges", &vary_edges);
-        const auto by_speed = chapter("spindle speeds", &vary_speed);
-        const auto swept = chapter("speeds and grips", &sweep_speed_and_grip);
-
         write(csv_of(setups), "setups.csv");
+        const auto figures = chapter("figures 6, 7 and 8", &run_figures);
         write(csv_of(figures), "figures.csv");
         for (const FigureRun& figure : figures)
-            write(series_csv(figure),
+            write(series_csv(figure.run.record),
                   fmt::format("{}_{}.csv", figure.setup.force_model, figure.setup.coupling));
+        const auto by_edges = chapter("edges", &vary_edges);
         write(csv_of(by_edges), "edges.csv");
+        for (const ToothPeriodForce& force : by_edges)
+            write(clip_csv(force), fmt::format("tooth_period_{}.csv", force.setup.edges));
+        const auto by_speed = chapter("spindle speeds", &vary_speed);
         write(csv_of(by_speed), "speeds.csv");
-        write(csv_of(swept), "speed_and_grip.csv");
 
-        std::vector<Claim> claims = claims_of_shape(figures);
-        add(claims, claims_of_contact(figures));
-        add(claims, edges_claims(by_edges));
-        add(claims, speed_claims(by_speed, setups));
+        const std::vector<Claim> claims = claims_of(figures, by_edges, by_speed, setups);
         write(csv_of(claims), "claims.csv");
         write_json(json_of(claims), options_.out / "claims.json");
+        surroundings_.said << table_of(claims) << std::endl;
+
+        const auto swept = chapter("speeds and grips", &sweep_speed_and_grip);
+        write(csv_of(swept), "speed_and_grip.csv");
+        surroundings_.said << "limit cycle, N rms, by grip and spindle speed; * chatters\n"
+                           << table_of(swept);
+
         for (const char* chart : {"polishing_depth", "polishing_milling", "polishing_point_spring",
                                   "polishing_stability", "polishing_edges"})
             draw_chart(chart_scripts(), chart, options_.out);
-
-        surroundings_.said << table_of(claims) << '\n'
-                           << "limit cycle, N rms, by grip and spindle speed; * chatters\n"
-                           << table_of(swept) << '\n'
-                           << fmt::format("claims.json, tables (CSV) and charts (SVG) are in {}\n",
+        surroundings_.said << fmt::format("\nclaims.json, tables (CSV) and charts (SVG) are in {}\n",
                                           options_.out.string());
     }
 
@@ -95,13 +94,26 @@ class PolishingStudy {
         for (Claim& claim : more) claims.push_back(std::move(claim));
     }
 
+    std::vector<Claim> claims_of(const std::vector<FigureRun>& figures,
+                                 const std::vector<ToothPeriodForce>& by_edges,
+                                 const std::vector<ToothPeriodForce>& by_speed,
+                                 const std::vector<SurveyedSetup>& setups) const {
+        std::vector<Claim> claims = claims_of_shape(figures);
+        add(claims, claims_of_contact(figures));
+        add(claims, edges_claims(by_edges));
+        add(claims, speed_claims(by_speed, setups));
+        return claims;
+    }
+
     /// Which of the paper's claims hold depends on how the slide lies on the bone: asked of strokes to and
     /// fro and of a single one, of the model alone and of what the hand feels.
     std::vector<Claim> claims_of_shape(const std::vector<FigureRun>& figures) const {
         const PolishingSetup one_stroke{.stroke_mm = single_stroke_mm};
         const FigureRun& implicit = figure_of(figures, "milling", "implicit");
+        const ForceRecord on_rails = run_on_rails(cube_, {}, logs_ / "rails.csv").record;
+        write(series_csv(on_rails), "as_meant.csv");
         const std::vector<std::pair<std::string, ForceRecord>> records{
-            {"milling, on rails", run_on_rails(cube_, {}, logs_ / "rails.csv").record},
+            {"milling, on rails", on_rails},
             {"milling, on rails, one stroke",
              run_on_rails(cube_, one_stroke, logs_ / "slot_rails.csv").record},
             {implicit.name(), implicit.run.record},

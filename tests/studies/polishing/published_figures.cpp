@@ -18,14 +18,13 @@ std::vector<PolishingSetup> setups_of_figures(bool quick) {
         return PolishingSetup{
             .force_model = force_model, .coupling = coupling, .milling_rate_hz = published_milling_rate_hz};
     };
-    std::vector<PolishingSetup> setups{published("milling", "interpolate"),
-                                       published("milling", "sample-estimate-interpolate"), PolishingSetup{},
-                                       published("point-spring", "interpolate"),
-                                       published("point-spring", "sample-estimate-interpolate")};
-    if (quick) return setups;
-    for (const char* model : {"milling", "point-spring"})
-        for (const char* coupling : {"hold", "sample-estimate-hold"})
+    std::vector<PolishingSetup> setups;
+    for (const char* model : {"milling", "point-spring"}) {
+        for (const char* coupling : {"interpolate", "sample-estimate-interpolate", "sample-estimate-hold"})
             setups.push_back(published(model, coupling));
+        if (!quick) setups.push_back(published(model, "hold"));
+    }
+    setups.push_back({});
     return setups;
 }
 
@@ -52,9 +51,8 @@ std::vector<FigureRun> run_figures(const Bone& cube, bool quick, const std::file
     return figures;
 }
 
-std::string series_csv(const FigureRun& figure) {
+std::string series_csv(const ForceRecord& record) {
     std::string csv = "t_s,depth_mm,force_x_n,force_y_n,force_z_n\n";
-    const ForceRecord& record = figure.run.record;
     for (std::size_t i = 0; i < record.size(); i += ticks_a_line) {
         const RecordedForce& sample = record[i];
         csv += fmt::format("{:.3f},{:.4f},{:.4f},{:.4f},{:.4f}\n", sample.time_s - record.front().time_s,

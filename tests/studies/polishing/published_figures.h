@@ -30,12 +30,12 @@ struct FigureRun {
 FigureRun judged(PolishingSetup setup, PolishingRun run);
 
 /// Runs of the simulated hand: the milling model through the published couplings at 100 Hz and through
-/// `implicit` at 1 kHz, and the point spring through the published ones. `quick` leaves couplings out.
+/// `implicit` at 1 kHz, and the point spring through the published ones. `quick` leaves `hold` out.
 std::vector<FigureRun> run_figures(const Bone& cube, bool quick, const std::filesystem::path& folder,
                                    const Progress& progress);
 
-/// Time from first contact, depth and force of one run, a line every few milliseconds.
-std::string series_csv(const FigureRun& figure);
+/// Time from first contact, depth and force, a line every few milliseconds of a record of one a millisecond.
+std::string series_csv(const ForceRecord& record);
 /// A line a run: slide, depth, stray, force, limit cycle, faults.
 std::string csv_of(const std::vector<FigureRun>& figures);
 

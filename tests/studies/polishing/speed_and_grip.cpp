@@ -27,19 +27,16 @@ struct StudiedCoupling {
     double milling_rate_hz;
 };
 
-std::vector<StudiedCoupling> studied_couplings(bool quick) {
-    std::vector<StudiedCoupling> couplings{{"interpolate", published_milling_rate_hz},
-                                           {"sample-estimate-interpolate", published_milling_rate_hz}};
-    if (!quick) {
-        couplings.push_back({"sample-estimate-hold", published_milling_rate_hz});
-        couplings.push_back({"implicit", 1000.0});
-    }
-    return couplings;
+std::vector<StudiedCoupling> studied_couplings() {
+    return {{"interpolate", published_milling_rate_hz},
+            {"sample-estimate-interpolate", published_milling_rate_hz},
+            {"sample-estimate-hold", published_milling_rate_hz},
+            {"implicit", 1000.0}};
 }
 
 /// From the published speed to that of an air turbine.
 std::vector<double> studied_speeds_rpm(bool quick) {
-    if (quick) return {10'000.0, 80'000.0, 320'000.0};
+    if (quick) return {20'000.0, 320'000.0};
     return {10'000.0, 20'000.0, 40'000.0, 80'000.0, 160'000.0, 320'000.0};
 }
 
@@ -70,7 +67,7 @@ std::vector<SpeedAndGrip> sweep_speed_and_grip(const Bone& cube, bool quick,
                                                const std::filesystem::path& folder,
                                                const Progress& progress) {
     std::vector<SpeedAndGrip> planned;
-    for (const StudiedCoupling& coupling : studied_couplings(quick))
+    for (const StudiedCoupling& coupling : studied_couplings())
         for (const bool is_ideal_arm : quick ? std::vector{false} : std::vector{false, true})
             for (const NamedGrip& grip : studied_grips(quick))
                 for (const double rpm : studied_speeds_rpm(quick))

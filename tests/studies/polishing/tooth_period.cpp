@@ -31,6 +31,16 @@ double mean_of_averaged_n(const ForceRecord& record, double around_s) {
     return count > 0 ? sum / static_cast<double>(count) : 0.0;
 }
 
+/// Two revolutions from the record's middle on.
+ForceRecord clip_of(const ForceRecord& record) {
+    const auto middle = record.begin() + static_cast<std::ptrdiff_t>(record.size() / 2);
+    ForceRecord clip;
+    for (auto sample = middle; sample != record.end() && sample->time_s <= middle->time_s + two_revolutions_s;
+         ++sample)
+        clip.push_back(*sample);
+    return clip;
+}
+
 ToothPeriodForce measure(const Bone& cube, const PolishingSetup& setup, const std::filesystem::path& log) {
     const PolishingRun run = run_on_rails(cube, setup, log);
     const double mean_n = mean_of_averaged_n(run.record, two_revolutions_s);
@@ -38,6 +48,7 @@ ToothPeriodForce measure(const Bone& cube, const PolishingSetup& setup, const st
             .mean_n = mean_n,
             .one_tooth_n = mean_n / setup.edges,
             .peak_over_mean = peak_over_mean(run.record, two_revolutions_s),
+            .clip = clip_of(run.record),
             .chip_um = 1000.0 * feed_mm_per_s / (setup.edges * setup.spindle_rpm / 60.0)};
 }
 
@@ -45,14 +56,14 @@ ToothPeriodForce measure(const Bone& cube, const PolishingSetup& setup, const st
 
 std::vector<ToothPeriodForce> vary_edges(const Bone& cube, bool quick, const std::filesystem::path& folder,
                                          const Progress& progress) {
-    const std::vector<int> edges = quick ? std::vector{3, 6} : std::vector{1, 2, 3, 4, 6, 8, 12};
+    const std::vector<int> edges = quick ? std::vector{3, 6, 12} : std::vector{1, 2, 3, 4, 6, 8, 12};
     std::vector<ToothPeriodForce> forces;
     for (const int count : edges) {
         PolishingSetup setup{.force_model = "milling-instants",
                              .milling_rate_hz = 10'000.0,
                              .spindle_rpm = 10'000.0,
                              .edges = count};
-        if (quick) setup.longest_s = 3.0;
+        if (quick) setup.longest_s = 2.5;
         forces.push_back(measure(cube, setup, folder / fmt::format("edges_{}.csv", count)));
         progress(static_cast<double>(forces.size()) / static_cast<double>(edges.size()));
     }
@@ -79,6 +90,14 @@ std::string csv_of(const std::vector<ToothPeriodForce>& forces) {
         csv +=
             fmt::format("{:.0f},{},{:.0f},{:.4f},{:.4f},{:.3f},{:.3f}\n", f.setup.spindle_rpm, f.setup.edges,
                         f.setup.milling_rate_hz, f.mean_n, f.one_tooth_n, f.peak_over_mean, f.chip_um);
+    return csv;
+}
+
+std::string clip_csv(const ToothPeriodForce& force) {
+    std::string csv = "t_s,force_n\n";
+    for (const RecordedForce& sample : force.clip)
+        csv += fmt::format("{:.5f},{:.4f}\n", sample.time_s - force.clip.front().time_s,
+                           glm::length(sample.force_n));
     return csv;
 }
 

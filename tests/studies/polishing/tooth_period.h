@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "common/bone/bone.h"
+#include "tests/studies/polishing/force_record.h"
 #include "tests/studies/polishing/polishing_setup.h"
 #include "tests/studies/report/progress.h"
 
@@ -18,6 +19,7 @@ struct ToothPeriodForce {
     double mean_n = 0.0;          ///< equation (2): of |F| averaged over tooth periods
     double one_tooth_n = 0.0;     ///< of one tooth, averaged over its revolution: mean_n / edges
     double peak_over_mean = 1.0;  ///< equation (1): force_measures.h
+    ForceRecord clip{};           ///< some tooth periods, halfway through the slide
     double chip_um = 0.0;         ///< a tooth's feed, |v| / (edges n): the thickest chip it can cut
 };
 
@@ -30,5 +32,7 @@ std::vector<ToothPeriodForce> vary_speed(const Bone& cube, bool quick, const std
                                          const Progress& progress);
 
 std::string csv_of(const std::vector<ToothPeriodForce>& forces);
+/// The clip: time from its beginning and length of the force.
+std::string clip_csv(const ToothPeriodForce& force);
 
 }  // namespace osteomill::study
