@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <sys/wait.h>
 
+#include <cmath>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -111,6 +112,31 @@ TEST_F(StudyProgram, DrawsItsChartsQuickly) {
     EXPECT_EQ(found.at("memory").at(0).at("name"), "tooth phantom");
     for (const char* chart : {"pareto", "curves", "contact", "convergence", "scaling", "memory"})
         EXPECT_THAT(text_of(out_ + "/" + chart + ".svg"), HasSubstr("</svg>")) << chart;
+}
+
+TEST_F(StudyProgram, PolishesQuickly) {
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+    GTEST_SKIP() << "sessions are run by the unit tests; under a sanitizer these take minutes";
+#endif
+    const Outcome outcome = run("polishing --quick --out " + out_);
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+    EXPECT_THAT(outcome.out, HasSubstr(out_)) << "says where the files are";
+    EXPECT_THAT(outcome.err, HasSubstr("speeds and grips 100 %\n"));
+    const auto claims = nlohmann::json::parse(text_of(out_ + "/claims.json"));
+    const auto measured = [&](const std::string& claim, const std::string& where) {
+        for (const auto& c : claims)
+            if (c.at("claim") == claim && std::string(c.at("where")).starts_with(where))
+                return c.at("measured").get<double>();
+        ADD_FAILURE() << claim << " is not asked of " << where;
+        return std::nan("");
+    };
+    EXPECT_GT(measured("F_y rises with depth", "milling, on rails, one stroke"), 0.9);
+    EXPECT_NEAR(measured("more edges lower the mean force, equation (2)", "on rails"), 1.0, 0.03);
+    EXPECT_NEAR(measured("a faster spindle lowers the force", "milling, on rails"), 0.25, 0.005)
+        << "four times as fast";
+    EXPECT_LT(measured("implicit is steady (not in the paper)", "milling, implicit"), 0.2);
+    for (const char* chart : {"depth", "milling", "point_spring", "stability", "edges"})
+        EXPECT_THAT(text_of(out_ + "/polishing_" + chart + ".svg"), HasSubstr("</svg>")) << chart;
 }
 
 TEST_F(StudyProgram, SaysInOneLineWhatIsWrong) {

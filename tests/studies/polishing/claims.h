@@ -24,7 +24,7 @@ struct Claim {
 /// Forces rise with depth: rank correlation of the size of each component's slow part, in windows of 0.4 s,
 /// with depth; at least `rising_bar`. Three claims, F_x to F_z, for a record of some windows.
 std::vector<Claim> rising_claims(const std::string& where, const ForceRecord& record);
-inline constexpr double rising_bar = 0.7;
+inline constexpr double rising_bar = 0.5;
 
 /// The components are not proportional: their power off one line (share_off_line()) is at least
 /// `off_line_bar`. Two thirds is the most that it can be.

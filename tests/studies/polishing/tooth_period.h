@@ -23,7 +23,7 @@ struct ToothPeriodForce {
     double chip_um = 0.0;         ///< a tooth's feed, |v| / (edges n): the thickest chip it can cut
 };
 
-/// Edges at 10 000 rpm, milled at 10 kHz: time-resolved.
+/// Edges of a slow burr, milled at 10 kHz: time-resolved.
 std::vector<ToothPeriodForce> vary_edges(const Bone& cube, bool quick, const std::filesystem::path& folder,
                                          const Progress& progress);
 
