@@ -22,7 +22,10 @@ struct Claim {
 };
 
 /// Forces rise with depth: rank correlation of the size of each component's slow part, in windows of 0.4 s,
-/// with depth; at least `rising_bar`. Three claims, F_x to F_z, for a record of some windows.
+/// with depth; at least `rising_bar`, which twenty windows reach by chance once in eighty times. Three
+/// claims, F_x to F_z, for a record of some windows. Of a fresh slot the published equations themselves say
+/// that F_z is greatest where tan kappa_d = K_r / K_a, at 1.4 mm with a 5 mm burr, and pulls the burr in
+/// below 2.9 mm.
 std::vector<Claim> rising_claims(const std::string& where, const ForceRecord& record);
 inline constexpr double rising_bar = 0.5;
 

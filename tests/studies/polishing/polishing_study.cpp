@@ -40,7 +40,7 @@ const FigureRun& figure_of(const std::vector<FigureRun>& figures, const std::str
 /// One run of the study: what was asked, where it goes.
 class PolishingStudy {
   public:
-    PolishingStudy(const PolishingStudyOptions& options, const PolishingSurroundings& surroundings)
+    PolishingStudy(const PolishingStudyOptions& options, const StudySurroundings& surroundings)
         : options_(options), surroundings_(surroundings), logs_(options.out / "runs"), cube_(bone_of_cube()) {
         make_folder(logs_);
     }
@@ -155,14 +155,14 @@ class PolishingStudy {
     }
 
     const PolishingStudyOptions& options_;
-    const PolishingSurroundings& surroundings_;
+    const StudySurroundings& surroundings_;
     std::filesystem::path logs_;
     Bone cube_;
 };
 
 }  // namespace
 
-void run_polishing_study(const PolishingStudyOptions& options, const PolishingSurroundings& surroundings) {
+void run_polishing_study(const PolishingStudyOptions& options, const StudySurroundings& surroundings) {
     PolishingStudy(options, surroundings).run();
 }
 

@@ -2,7 +2,8 @@
 #pragma once
 
 #include <filesystem>
-#include <iosfwd>
+
+#include "tests/studies/report/surroundings.h"
 
 namespace osteomill::study {
 
@@ -11,16 +12,9 @@ struct PolishingStudyOptions {
     bool quick = false;  ///< fewer runs: half a minute at most
 };
 
-/// Where a study talks to.
-struct PolishingSurroundings {
-    std::ostream& said;      ///< what was found and where the files are
-    std::ostream& progress;  ///< how far it has come
-    bool is_terminal = false;
-};
-
 /// Writes claims.json, tables (CSV) and charts (SVG) into `options.out`, a folder that is there, and the logs
 /// of the sessions into its folder `runs`. Throws std::runtime_error in one line naming what cannot be
 /// written.
-void run_polishing_study(const PolishingStudyOptions& options, const PolishingSurroundings& surroundings);
+void run_polishing_study(const PolishingStudyOptions& options, const StudySurroundings& surroundings);
 
 }  // namespace osteomill::study

@@ -59,7 +59,7 @@ bool are_one_block(const SpeedAndGrip& a, const SpeedAndGrip& b) {
 std::vector<NamedGrip> studied_grips(bool quick) {
     const HandModel light = hand_model(Grip::light);
     const HandModel firm = hand_model(Grip::firm);
-    if (quick) return {{"light", light}, {"firm", firm}};
+    if (quick) return {{"firm", firm}};
     return {{"light", light}, {"medium", between(light, firm)}, {"firm", firm}, {"braced", twice(firm)}};
 }
 

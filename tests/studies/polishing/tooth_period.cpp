@@ -59,7 +59,7 @@ ToothPeriodForce measure(const Bone& cube, const PolishingSetup& setup, const st
 
 std::vector<ToothPeriodForce> vary_edges(const Bone& cube, bool quick, const std::filesystem::path& folder,
                                          const Progress& progress) {
-    const std::vector<int> edges = quick ? std::vector{3, 6, 12} : std::vector{1, 2, 3, 4, 6, 8, 12};
+    const std::vector<int> edges = quick ? std::vector{1, 3, 6} : std::vector{1, 2, 3, 4, 6, 8, 12};
     std::vector<ToothPeriodForce> forces;
     for (const int count : edges) {
         PolishingSetup setup{.force_model = "milling-instants",

@@ -8,7 +8,7 @@ series(model, coupling) = sprintf('%s/%s_%s.csv', folder, model, coupling)
 set xlabel 'time since first contact, s'
 set ylabel "depth of the burr's lowest point, mm" offset 0.5,0
 set xrange [0:*]
-set yrange [-1:5]
+set yrange [-0.5:4.5]
 set key at screen 0.5,0.13 center top maxrows 2 Left reverse samplen 2.5 font ',13'
 set title 'milling, 80 000 rpm' font ',15'
 plot series('milling', 'interpolate') using 't_s':'depth_mm' with lines lw 1 lc rgb red title 'interpolate, 100 Hz', \

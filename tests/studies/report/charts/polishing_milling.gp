@@ -18,7 +18,7 @@ do for [c=1:4] {
         set title (i == 1 ? Name[c] : '') font ',14'
         set xlabel (i == 3 ? 'time since first contact, s' : '')
         set format x (i == 3 ? '%g' : '')
-        set ylabel (c == 1 ? 'F_{'.Component[i].'} '.Direction[i].', N' : '') offset 1,0
+        set ylabel (c == 1 ? Direction[i].', F_{'.Component[i].'}, N' : '') offset 1,0
         set yrange [-Largest[c]:Largest[c]]
         plot sprintf('%s/milling_%s.csv', folder, Coupling[c]) using 't_s':(column('force_'.Component[i].'_n')) \
             with lines lw 1 lc rgb Colour[c] notitle

@@ -5,7 +5,7 @@ set terminal svg size 1300,860 dynamic font 'DejaVu Sans,13' background 'white'
 array Coupling[3] = ['interpolate', 'sample-estimate-interpolate', 'sample-estimate-hold']
 array Name[3] = ['interpolate, 100 Hz (without s.-e.-h.)', 'sample-estimate-interpolate, 100 Hz', \
                  'sample-estimate-hold, 100 Hz']
-array Largest[3] = [3.5, 3.5, 3.5]
+array Largest[3] = [1.2, 1.2, 1.2]
 array Colour[3] = [red, amber, sky]
 array Component[3] = ['x', 'y', 'z']
 array Direction[3] = ['along the strokes', 'across', 'out of the bone']
@@ -18,7 +18,7 @@ do for [c=1:3] {
         set title (i == 1 ? Name[c] : '') font ',14'
         set xlabel (i == 3 ? 'time since first contact, s' : '')
         set format x (i == 3 ? '%g' : '')
-        set ylabel (c == 1 ? 'F_{'.Component[i].'} '.Direction[i].', N' : '') offset 1,0
+        set ylabel (c == 1 ? Direction[i].', F_{'.Component[i].'}, N' : '') offset 1,0
         set yrange [-Largest[c]:Largest[c]]
         plot sprintf('%s/point-spring_%s.csv', folder, Coupling[c]) using 't_s':(column('force_'.Component[i].'_n')) \
             with lines lw 1 lc rgb Colour[c] notitle
