@@ -131,7 +131,8 @@ TEST_F(StudyProgram, PolishesQuickly) {
         return std::nan("");
     };
     EXPECT_GT(measured("F_y rises with depth", "milling, on rails, one stroke"), 0.9);
-    // A single edge is seen once a revolution: its last one is still missing from a mean over so short a slide.
+    // A single edge is seen once a revolution: its last one is still missing from a mean over so short a
+    // slide.
     EXPECT_NEAR(measured("more edges lower the mean force, equation (2)", "on rails"), 1.0, 0.05);
     EXPECT_NEAR(measured("a faster spindle lowers the force", "milling, on rails"), 0.25, 0.005)
         << "four times as fast";

@@ -4,11 +4,11 @@
 // down to 3.5 mm below the surface, forces of 0.3 to 0.7 N. Not published: spindle speed, tilt, and how the
 // slide lies on the bone. In one stroke it is a fresh slot, whose end costs 7.2 N at 10 000 rpm, more than
 // twice what the arm renders; the simulated hand, which waits for a tool that is held back, then takes half a
-// minute, and even at 80 000 rpm 8.5 s. Strokes of a few millimetres to and fro, each a pass some tenths of a
+// minute, and even at 80 000 rpm 8.6 s. Strokes of a few millimetres to and fro, each a pass some tenths of a
 // millimetre deeper than the one before, cost less, and the shorter the less; but under the shortest ones
 // force follows the strokes rather than the depth (setups.csv).
 //
-// The default is five strokes of 8 mm at 80 000 rpm: seven seconds and a half, 3.5 mm, up to 0.7 N. Shapes
+// The default is five strokes of 8 mm at 80 000 rpm: seven seconds and a half, 3.5 mm, up to 0.6 N. Shapes
 // can be compared with the published figures, values cannot.
 #pragma once
 

@@ -10,8 +10,8 @@ namespace {
 
 /// Of the windows that chatter is looked for in: a few of its cycles, a small part of a stroke.
 constexpr double window_s = 0.1;
-/// Of the charts' tables: ten points in a cycle of 20 Hz.
-constexpr std::size_t ticks_a_line = 5;
+/// Of the charts' tables: six points in a cycle of 20 Hz.
+constexpr std::size_t ticks_a_line = 8;
 
 std::vector<PolishingSetup> setups_of_figures(bool quick) {
     const auto published = [](const char* force_model, const char* coupling) {

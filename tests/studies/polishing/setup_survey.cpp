@@ -31,7 +31,7 @@ std::vector<SurveyedSetup> survey_setups(const Bone& cube, bool quick, const std
                                          const Progress& progress) {
     const std::vector<double> strokes_mm = quick ? std::vector{8.0} : std::vector{2.0, 5.0, 8.0, 20.0, 40.0};
     const std::vector<double> speeds_rpm =
-        quick ? std::vector{10'000.0, 80'000.0} : std::vector{10'000.0, 20'000.0, 40'000.0, 80'000.0};
+        quick ? std::vector{40'000.0, 80'000.0} : std::vector{10'000.0, 20'000.0, 40'000.0, 80'000.0};
     std::vector<SurveyedSetup> surveyed;
     const auto count = static_cast<double>(strokes_mm.size() * speeds_rpm.size());
     for (const double stroke_mm : strokes_mm) {
