@@ -21,8 +21,8 @@
 // With encoder steps the damping is as good as the speed that they let one see (position_observer.h). With
 // the arm's friction (0.26 N) it comes to rest on the wall in each case of the first two columns; without
 // friction, which no arm is, it hunts about the steps: 0.1 to 0.15 N rms, 0.28 N one tick late on the bare
-// arm. An observer that believes a turn sooner halves that, but half as much again of the encoder's grain is
-// then felt in every cut.
+// arm. An observer that believes a turn sooner halves that, but more of the encoder's grain is then felt in
+// every cut.
 //
 // On a wall the burr has no speed, and the table does not know tau_p.
 #pragma once
