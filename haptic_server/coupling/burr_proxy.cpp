@@ -24,7 +24,7 @@ void BurrProxy::place(const glm::dvec3& position_mm) noexcept {
 void BurrProxy::take_over(const MillingResult& latest) noexcept {
     if (latest.step == map_step_) return;
     map_step_ = latest.step;
-    if (latest.spindle_on) correction_.compare(latest.force_n);
+    if (latest.spindle_on) correction_.compare(latest.force_n, latest.time_s, latest.pose.spindle_axis);
     const Engagement& engagement = latest.engagement;
     const glm::dvec3 moved = position_mm_ - engagement.burr_position_mm;
     const double contact_gap_mm = contact_gap_voxels * engagement.spacing_mm;
@@ -47,7 +47,7 @@ void BurrProxy::gather_contacts(const glm::dvec3& pull_mm, double tick_s, bool s
         const double along = glm::dot(patch.normal, moved);
         const double begins = (spindle_on ? cleared_mm_[i] : patch.gap_mm) - along;
         if (begins > longest_mm) continue;
-        const glm::dvec3 force = spindle_on ? patch.cutting_n_s_per_mm * (correction_.gain() / tick_s)
+        const glm::dvec3 force = spindle_on ? correction_.gain() * patch.cutting_n_s_per_mm / tick_s
                                             : -wall_n_per_mm3 * patch.area_mm2 * patch.normal;
         contacts_[contact_count_++] = {patch.normal, force, begins};
     }

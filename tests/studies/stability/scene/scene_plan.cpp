@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <glm/geometric.hpp>
 
+#include "haptic_server/coupling/coupling_spring.h"
 #include "haptic_server/device/arm_model.h"
 #include "haptic_server/milling/reference_force.h"
 
@@ -11,9 +12,6 @@ namespace {
 
 /// Off the lattice by an odd share of a voxel.
 constexpr glm::dvec2 off_the_lattice_mm(0.031, 0.017);
-
-/// Damping across the spring of the compliant truth: what the implicit coupling renders.
-constexpr double mount_damping_n_s_per_mm = 0.002;
 
 void plan_cutting(const MapCase& c, ScenePlan& plan) {
     plan.burr.spindle_rev_per_s = c.spindle_rpm / 60.0;
@@ -55,7 +53,7 @@ Mount mount_of(const MapCase& c) {
     if (!has_spring) return {};
     return {
         .stiffness_n_per_mm = c.scene == MapScene::wall ? c.wall_n_per_mm : ArmModel{}.max_stiffness_n_per_mm,
-        .damping_n_s_per_mm = mount_damping_n_s_per_mm};
+        .damping_n_s_per_mm = CouplingSpring::damping_n_s_per_mm};
 }
 
 ScenePlan plan_of(const MapCase& c) {

@@ -1,0 +1,62 @@
+#include "haptic_server/coupling/force_correction.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace osteomill {
+namespace {
+
+const glm::dvec3 axis = glm::normalize(glm::dvec3(0.3, -0.2, 0.9));
+constexpr double tick_s = 0.001;
+
+/// What a prediction becomes once the correction has followed a model that `model` makes of it, for steps of
+/// so many ticks.
+template <typename Model>
+glm::dvec3 corrected(const glm::dvec3& predicted_n, Model&& model, int ticks_per_step,
+                     double model_step_s = 0.0) {
+    ForceCorrection correction;
+    double time_s = 0.0;
+    for (int step = 0; step < 2000 / ticks_per_step; ++step) {
+        for (int tick = 0; tick < ticks_per_step; ++tick)
+            correction.add_prediction(correction.gain() * predicted_n, tick_s);
+        time_s += model_step_s > 0.0 ? model_step_s : ticks_per_step * tick_s;
+        correction.compare(model(predicted_n), time_s, axis);
+    }
+    return correction.gain() * predicted_n;
+}
+
+TEST(ForceCorrection, FindsAStretchAndATurnAboutTheSpindleAndAnotherStretchAlongIt) {
+    const auto model = [](const glm::dvec3& p) {
+        const glm::dvec3 along = glm::dot(p, axis) * axis;
+        return 0.95 * (p - along) + 0.03 * glm::cross(axis, p) + 1.2 * along;
+    };
+    const glm::dvec3 predicted_n(0.4, -1.1, 0.7);
+    const glm::dvec3 found_n = corrected(predicted_n, model, 1);
+    EXPECT_LT(glm::distance(found_n, model(predicted_n)), 1e-3 * glm::length(predicted_n));
+}
+
+TEST(ForceCorrection, ComparesImpulsesWhereTicksAndStepsDoNotDivide) {
+    // Three ticks of prediction, a model force over 3.333 ms that removed the same bone.
+    const auto model = [](const glm::dvec3& p) { return p * (3.0 / (10.0 / 3.0)); };
+    const glm::dvec3 predicted_n(0.0, 1.0, 0.2);
+    const glm::dvec3 found_n = corrected(predicted_n, model, 3, 0.01 / 3.0);
+    EXPECT_LT(glm::distance(found_n, predicted_n), 1e-3);
+}
+
+TEST(ForceCorrection, LeavesAForceAloneThatIsTooSmallToJudge) {
+    const glm::dvec3 predicted_n(0.0, 1e-4, 0.0);
+    const glm::dvec3 found_n = corrected(
+        predicted_n, [](const glm::dvec3& p) { return 3.0 * p; }, 1);
+    EXPECT_NEAR(glm::length(found_n), 1e-4, 1e-6);
+}
+
+TEST(ForceCorrection, StaysWithinItsBoundsWhateverTheModelSays) {
+    const glm::dvec3 predicted_n(0.0, 1.0, 0.0);
+    const glm::dvec3 found_n = corrected(
+        predicted_n, [](const glm::dvec3& p) { return -20.0 * p; }, 1);
+    EXPECT_NEAR(glm::dot(found_n, predicted_n), 0.5, 0.05);
+}
+
+}  // namespace
+}  // namespace osteomill
