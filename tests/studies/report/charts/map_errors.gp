@@ -10,6 +10,7 @@ set multiplot layout 1,3 title 'Error of the force in cutting, milling at 1000 H
     font ',17' margins 0.06,0.985,0.32,0.86 spacing 0.03,0.1
 set logscale xy
 set format y '%g'
+set ytics (0.1, 0.2, 0.5, 1, 2, 5, 10, 20, 50, 100, 200, 500, 1000)
 set xrange [3:6000]
 set xtics (5, 20, 100, 500, 3000)
 set xlabel 'resistance of the bone, N s/m'

@@ -1,0 +1,102 @@
+#include "tests/studies/stability/map/method_score.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "tests/studies/report/label_places.h"
+#include "tests/studies/stability/map/map_view.h"
+
+namespace osteomill::study {
+
+namespace {
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+/// Errors below this share are drawn at it: a logarithmic axis has no zero.
+constexpr double smallest_drawn_percent = 0.01;
+
+/// Of the finite values; NaN of none.
+double median(std::vector<double> values) {
+    std::erase_if(values, [](double value) { return !std::isfinite(value); });
+    if (values.empty()) return nan;
+    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+    std::nth_element(values.begin(), middle, values.end());
+    return *middle;
+}
+
+MethodScore score_of(const std::string& method, MapScene scene, const std::vector<MapResult>& results) {
+    MethodScore score{.method = method, .scene = scene, .cases = results.size()};
+    std::vector<double> rms_errors;
+    std::vector<double> mean_errors;
+    for (const MapResult& result : results) {
+        if (!result.outcome.is_stable) continue;
+        ++score.stable;
+        rms_errors.push_back(rms_error(result.outcome));
+        mean_errors.push_back(mean_error(result.outcome));
+    }
+    score.median_rms_error = median(rms_errors);
+    score.median_mean_error = median(mean_errors);
+    score.worst_rms_error = nan;
+    for (const double error : rms_errors) score.worst_rms_error = std::fmax(score.worst_rms_error, error);
+    return score;
+}
+
+double drawn_percent(const MethodScore& score) {
+    return std::max(100.0 * score.median_rms_error, smallest_drawn_percent);
+}
+
+/// Places of the labels, as far apart as they need on an axis that shows all of them and all points.
+std::vector<double> spread_labels(const std::vector<double>& decades) {
+    constexpr double lines_an_axis = 20.0;
+    constexpr double margins_decades = 0.2;
+    std::vector<double> places = decades;
+    if (decades.empty()) return places;
+    // Labels that spread make the axis longer, which is what spreads them: this has settled after a few
+    // rounds.
+    for (int round = 0; round < 10; ++round) {
+        const auto points = std::minmax_element(decades.begin(), decades.end());
+        const auto labels = std::minmax_element(places.begin(), places.end());
+        const double axis = std::max(*points.second, *labels.second) - std::min(*points.first, *labels.first);
+        places = label_places(decades, (axis + margins_decades) / lines_an_axis);
+    }
+    return places;
+}
+
+}  // namespace
+
+std::vector<MethodScore> method_scores(const WholeMap& map, MapPart part, MapScene scene) {
+    std::vector<MethodScore> scores;
+    for (const std::string& method : map_methods()) {
+        const auto results = results_where(map, [&](const MapPoint& point) {
+            return point.part == part && point.run.scene == scene && point.run.method == method;
+        });
+        if (!results.empty()) scores.push_back(score_of(method, scene, results));
+    }
+    return scores;
+}
+
+std::string pareto_csv_of(const std::vector<MethodScore>& scores) {
+    std::vector<double> decades;
+    for (const MethodScore& score : scores)
+        if (std::isfinite(score.median_rms_error)) decades.push_back(std::log10(drawn_percent(score)));
+    const std::vector<double> labels = spread_labels(decades);
+    std::string csv = "number,method,stable_percent,rms_error_percent,label_decades\n";
+    auto label = labels.begin();
+    for (const MethodScore& score : scores) {
+        csv += fmt::format("{},{},{:.2f},", number_of(score.method), score.method, 100.0 * score.share());
+        csv += std::isfinite(score.median_rms_error)
+                   ? fmt::format("{:.4f},{:.4f}\n", drawn_percent(score), *label++)
+                   : ",\n";
+    }
+    return csv;
+}
+
+std::size_t number_of(const std::string& method) {
+    const auto& methods = map_methods();
+    return static_cast<std::size_t>(std::find(methods.begin(), methods.end(), method) - methods.begin()) + 1;
+}
+
+}  // namespace osteomill::study
