@@ -1,0 +1,72 @@
+// Bone without voxels around one burr, in continuous time: what the truth of the cutting scene mills.
+//
+// The burr's surface is split into patches of equal area, rings of constant height times equal angles. A
+// patch resists in proportion to the rate at which it cuts new bone along its normal n, by the law of
+// engagement.h,
+//
+//     F = sum over patches of C max(0, n . w - gap / h)         w the velocity over a substep of h
+//
+// and has no bone before it until it has closed its gap. What has been cut is the union of the spheres along
+// the path so far, the slot included: refresh() measures each patch's gap against it (the ray along the
+// normal, up to where it leaves the last sphere); in between gaps follow the motion linearly. So a burr that
+// draws back, sways or returns meets only bone that is still there. The bone's flat surface {z = 0} cuts the
+// rings: each counts with the share of its height that lies below.
+//
+// The spindle points along +z. Patches reach `headroom_mm` higher than the burr is deep; a burr that sinks
+// farther feels too little. mm, s, N.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <glm/mat3x3.hpp>
+#include <glm/vec3.hpp>
+#include <vector>
+
+#include "common/scene/burr.h"
+
+namespace osteomill::study {
+
+class SweptBone {
+  public:
+    static constexpr double headroom_mm = 1.0;
+
+    /// The burr stands at `start_mm` at the end of a slot that it has cut along +x.
+    SweptBone(const Burr& burr, double relative_stiffness, const glm::dvec3& start_mm);
+
+    /// The velocity w that the burr has over the next substep where its motion is held back by `resistance`
+    /// and driven by `drive_n`:  resistance w = drive + F(w).  Newton on the set of cutting patches.
+    glm::dvec3 solve(double resistance_n_s_per_mm, const glm::dvec3& drive_n, double substep_s);
+
+    /// Moves the burr by a step and cuts.
+    void advance(const glm::dvec3& step_mm);
+
+    /// Measures all gaps anew. To be called every millisecond or so.
+    void refresh();
+
+    const glm::dvec3& burr_mm() const { return burr_mm_; }
+
+  private:
+    void make_patches(double stiffness);
+    /// Whether the set of patches that cut at velocity w differs from the one at hand, which it becomes.
+    bool engage(const glm::dvec3& velocity_mm_per_s, double substep_s);
+    void set_engaged(std::size_t patch, bool engaged);
+
+    Burr burr_;
+    glm::dvec3 burr_mm_;
+
+    // By patch. Single precision: a gap is good to 1e-8 mm, a substep moves by 1e-5.
+    std::vector<float> normal_x_, normal_y_, normal_z_, gap_mm_;
+    std::vector<std::uint8_t> engaged_, engaged_next_;
+    std::vector<glm::dvec3> whole_n_s_per_mm_;  // law of a patch that is wholly in bone
+    std::vector<double> share_in_bone_;
+    double patch_area_mm2_ = 0.0;
+    double ring_height_mm_ = 0.0;
+    std::size_t patches_per_ring_ = 0;
+
+    glm::dmat3 force_per_velocity_{0.0};  // of the engaged patches
+    glm::dvec3 force_per_gap_rate_{0.0};
+    glm::dvec3 last_velocity_{0.0};
+    std::vector<glm::dvec3> path_mm_;
+};
+
+}  // namespace osteomill::study
