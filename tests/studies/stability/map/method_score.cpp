@@ -48,21 +48,32 @@ double drawn_percent(const MethodScore& score) {
     return std::max(100.0 * score.median_rms_error, smallest_drawn_percent);
 }
 
+struct LabelColumn {
+    std::vector<double> places;
+    double axis_low = -1.0;  ///< decades; what is left of an axis without a point
+    double axis_high = 2.0;
+};
+
 /// Places of the labels, as far apart as they need on an axis that shows all of them and all points.
-std::vector<double> spread_labels(const std::vector<double>& decades) {
+LabelColumn label_column(const std::vector<double>& decades) {
     constexpr double lines_an_axis = 20.0;
-    constexpr double margins_decades = 0.2;
-    std::vector<double> places = decades;
-    if (decades.empty()) return places;
+    constexpr double margin_decades = 0.1;
+    constexpr double shortest_axis_decades = 1.2;
+    LabelColumn column{.places = decades};
+    if (decades.empty()) return column;
     // Labels that spread make the axis longer, which is what spreads them: this has settled after a few
     // rounds.
     for (int round = 0; round < 10; ++round) {
-        const auto points = std::minmax_element(decades.begin(), decades.end());
-        const auto labels = std::minmax_element(places.begin(), places.end());
-        const double axis = std::max(*points.second, *labels.second) - std::min(*points.first, *labels.first);
-        places = label_places(decades, (axis + margins_decades) / lines_an_axis);
+        const auto [lowest_point, highest_point] = std::minmax_element(decades.begin(), decades.end());
+        const auto [lowest, highest] = std::minmax_element(column.places.begin(), column.places.end());
+        column.axis_low = std::min(*lowest_point, *lowest) - margin_decades;
+        column.axis_high = std::max(*highest_point, *highest) + margin_decades;
+        const double missing = std::max(0.0, shortest_axis_decades - (column.axis_high - column.axis_low));
+        column.axis_low -= 0.5 * missing;
+        column.axis_high += 0.5 * missing;
+        column.places = label_places(decades, (column.axis_high - column.axis_low) / lines_an_axis);
     }
-    return places;
+    return column;
 }
 
 }  // namespace
@@ -82,11 +93,13 @@ std::string pareto_csv_of(const std::vector<MethodScore>& scores) {
     std::vector<double> decades;
     for (const MethodScore& score : scores)
         if (std::isfinite(score.median_rms_error)) decades.push_back(std::log10(drawn_percent(score)));
-    const std::vector<double> labels = spread_labels(decades);
-    std::string csv = "number,method,stable_percent,rms_error_percent,label_decades\n";
-    auto label = labels.begin();
+    const LabelColumn labels = label_column(decades);
+    std::string csv =
+        "number,method,axis_low_decades,axis_high_decades,stable_percent,rms_error_percent,label_decades\n";
+    auto label = labels.places.begin();
     for (const MethodScore& score : scores) {
-        csv += fmt::format("{},{},{:.2f},", number_of(score.method), score.method, 100.0 * score.share());
+        csv += fmt::format("{},{},{:.4f},{:.4f},{:.2f},", number_of(score.method), score.method,
+                           labels.axis_low, labels.axis_high, 100.0 * score.share());
         csv += std::isfinite(score.median_rms_error)
                    ? fmt::format("{:.4f},{:.4f}\n", drawn_percent(score), *label++)
                    : ",\n";

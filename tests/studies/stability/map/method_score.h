@@ -25,8 +25,9 @@ struct MethodScore {
 /// scene.
 std::vector<MethodScore> method_scores(const WholeMap& map, MapPart part, MapScene scene);
 
-/// The table of the Pareto chart: share and median error in percent, and the height of each method's label in
-/// decades of the error. Methods that are stable nowhere have an empty error and label.
+/// The table of the Pareto chart: the ends of its axis in decades of the error, in each line the same; share
+/// and median error in percent; the height of the method's label in decades. Error and label are empty where
+/// a method is stable nowhere.
 std::string pareto_csv_of(const std::vector<MethodScore>& scores);
 
 /// 1 for the first of map_methods(): what a chart's script picks colour and point by.
