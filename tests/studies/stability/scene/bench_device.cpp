@@ -34,9 +34,9 @@ void BenchDevice::move_to_next_tick() {
     DeviceTick& tick = record_.back();
     const double began_s = tick_s * static_cast<double>(record_.size() - 1);
     constexpr double substep_s = tick_s / substeps;
+    const glm::dvec3 moving_n = plan_.is_on_rail ? glm::dvec3(0.0, 0.0, motor_force_n_.z) : motor_force_n_;
     for (int i = 0; i < substeps; ++i)
-        motion_ =
-            fine_step(plan_.tool, plan_.intent, motion_, began_s + i * substep_s, motor_force_n_, substep_s);
+        motion_ = fine_step(plan_.tool, plan_.intent, motion_, began_s + i * substep_s, moving_n, substep_s);
     // The ledger counts along one axis: along the force, which is held.
     const double force_n = glm::length(motor_force_n_);
     if (force_n > 0.0)

@@ -40,6 +40,7 @@ void plan_cutting(const MapCase& c, ScenePlan& plan) {
 void plan_wall(const MapCase& c, ScenePlan& plan) {
     plan.wall_n_per_mm = c.wall_n_per_mm;
     plan.timing.settling = 500;
+    plan.is_on_rail = c.grip == MapGrip::bare_arm;
     plan.burr_at_release_mm = {off_the_lattice_mm.x, off_the_lattice_mm.y, plan.burr.radius_mm()};
     const glm::dvec3 pushed_in_mm(0.0, 0.0, -wall_push_n / plan.wall_n_per_mm);
     plan.intent = steady_intent(plan.tool, {plan.burr_at_release_mm + pushed_in_mm, glm::dvec3(0.0)},

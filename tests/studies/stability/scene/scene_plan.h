@@ -60,6 +60,8 @@ struct ScenePlan {
     double wall_n_per_mm = 0.0;       ///< wall
     HeldTool tool{};
     Mount mount{};
+    /// Wall, bare arm: nothing holds it sideways, so it runs on a rail across the wall.
+    bool is_on_rail = false;
     SceneTiming timing{};
 
     glm::dvec3 burr_at_release_mm{0.0};
