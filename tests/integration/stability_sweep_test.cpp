@@ -36,6 +36,12 @@ std::size_t lines_in(const std::filesystem::path& file) {
 
 class StabilitySweep : public ::testing::Test {
   protected:
+    void SetUp() override {
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+        GTEST_SKIP() << "what it runs is run by the unit tests; under a sanitizer it takes minutes";
+#endif
+    }
+
     /// A corner of the map: nine cases of a twentieth of a second.
     std::vector<std::string> command(const std::vector<std::string>& more) const {
         std::vector<std::string> all{STUDY,         "stability", "--quick", "--methods",
@@ -51,7 +57,9 @@ class StabilitySweep : public ::testing::Test {
         return testing::run_program(all, patience);
     }
 
-    std::string folder(const std::string& name) const { return (folder_ / name).string(); }
+    std::string folder(const std::string& name) const {
+        return (folder_ / name).string();
+    }
 
     void expect_same_results(const std::string& one, const std::string& other) const {
         for (const char* name :

@@ -14,7 +14,8 @@ const Bone& SceneCache::bone(const MapCase& c, const ScenePlan& plan) {
 }
 
 const std::vector<TruthTick>& SceneCache::truth(const MapCase& c, const ScenePlan& plan) {
-    const TruthKey key{c.grip, plan.mount.is_rigid(), plan.wall_n_per_mm, bone_key(c)};
+    const TruthKey key{c.grip, plan.tool.coulomb_friction_n, plan.mount.is_rigid(), plan.wall_n_per_mm,
+                       bone_key(c)};
     return truths_.get(key, [&] { return truth_of(plan); });
 }
 

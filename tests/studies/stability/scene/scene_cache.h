@@ -57,8 +57,9 @@ class SceneCache {
   private:
     /// rpm, depth, stiffness; all zero for the wall.
     using BoneKey = std::tuple<double, double, double>;
-    /// Grip, whether the mount is rigid, the wall's stiffness (0: cutting), and the bone's.
-    using TruthKey = std::tuple<MapGrip, bool, double, BoneKey>;
+    /// Grip, the arm's friction, whether the mount is rigid, the wall's stiffness (0: cutting), and the
+    /// bone's.
+    using TruthKey = std::tuple<MapGrip, double, bool, double, BoneKey>;
 
     static BoneKey bone_key(const MapCase& c);
 

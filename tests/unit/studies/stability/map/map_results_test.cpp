@@ -49,7 +49,8 @@ TEST(MapResults, AMethodThatIsStableNowhereHasNoErrorToDraw) {
         unstable.is_stable = false;
         return unstable;
     });
-    EXPECT_THAT(pareto_csv_of(method_scores(map, MapPart::map, MapScene::wall)), HasSubstr(",hold,0.00,,\n"));
+    EXPECT_THAT(pareto_csv_of(method_scores(map, MapPart::map, MapScene::wall)),
+                HasSubstr(",hold,-1.0000,2.0000,0.00,,\n"));
 }
 
 TEST(MapResults, BarsAreHeldAgainstTheWorst) {
