@@ -17,9 +17,13 @@ constexpr std::size_t angle_count = 24;
 constexpr double path_spacing_mm = 0.01;
 constexpr std::size_t fine_points = 12;
 constexpr std::size_t coarse_stride = 4;
-/// Spheres of the past farther off than this leave no gap near the burr that a nearer one does not.
-constexpr double memory_mm = 1.2;
-/// Gaps are not followed beyond this; a burr closes it in no less than ten refreshes.
+/// Spheres of the past within this distance are looked at in each refresh; they are all that matters where
+/// the burr goes on. The others, which it meets again where it returns or goes deeper, in one of five.
+constexpr double near_mm = 1.2;
+constexpr int refreshes_per_far_look = 5;
+/// Of the slot that the burr begins in.
+constexpr double slot_mm = 3.0;
+/// Gaps are not followed beyond this: it takes 20 mm/s to close it between two looks at what is far.
 constexpr float most_gap_mm = 0.1f;
 
 constexpr int most_iterations = 30;
@@ -30,8 +34,7 @@ constexpr int plain_iterations = 12;
 SweptBone::SweptBone(const Burr& burr, double relative_stiffness, const glm::dvec3& start_mm)
     : burr_(burr), burr_mm_(start_mm) {
     make_patches(relative_stiffness);
-    for (double behind_mm = memory_mm; behind_mm > 0.5 * path_spacing_mm;
-         behind_mm -= path_spacing_mm * static_cast<double>(coarse_stride))
+    for (double behind_mm = slot_mm; behind_mm > 0.5 * path_spacing_mm; behind_mm -= path_spacing_mm)
         path_mm_.push_back(start_mm - glm::dvec3(behind_mm, 0.0, 0.0));
     path_mm_.push_back(start_mm);
     last_velocity_ = {1.0, 0.0, 0.0};
@@ -64,6 +67,7 @@ void SweptBone::make_patches(double stiffness) {
         }
     }
     gap_mm_.assign(normal_x_.size(), 0.0f);
+    far_gap_mm_.assign(normal_x_.size(), 0.0f);
     share_in_bone_.assign(normal_x_.size(), 0.0);
     engaged_.assign(normal_x_.size(), 0);
     engaged_next_.assign(normal_x_.size(), 0);
@@ -92,7 +96,8 @@ bool SweptBone::engage(const glm::dvec3& velocity_mm_per_s, double substep_s) {
 
 glm::dvec3 SweptBone::solve(double resistance_n_s_per_mm, const glm::dvec3& drive_n, double substep_s) {
     glm::dvec3 w = last_velocity_;
-    engage(w, substep_s);
+    if (!has_engaged_) engage(w, substep_s);
+    has_engaged_ = true;
     for (int i = 0; i < most_iterations; ++i) {
         const glm::dmat3 resists = glm::dmat3(resistance_n_s_per_mm) - force_per_velocity_;
         const glm::dvec3 solved = glm::inverse(resists) * (drive_n - force_per_gap_rate_ / substep_s);
@@ -115,30 +120,50 @@ void SweptBone::advance(const glm::dvec3& step_mm) {
     path_mm_.push_back(burr_mm_);
 }
 
-void SweptBone::refresh() {
+void SweptBone::look_at_path(bool far, std::vector<float>& gap_mm) const {
     const auto radius = static_cast<float>(burr_.radius_mm());
-    const std::size_t count = gap_mm_.size();
-    std::fill(gap_mm_.begin(), gap_mm_.end(), 0.0f);
+    const double least_squared = far ? near_mm * near_mm : -1.0;
+    const double most_squared = far ? burr_.diameter_mm * burr_.diameter_mm : near_mm * near_mm;
     for (std::size_t k = 0; k < path_mm_.size(); ++k) {
         const std::size_t age = path_mm_.size() - 1 - k;
         if (age > fine_points && k % coarse_stride != 0) continue;
         const glm::dvec3 from_burr = path_mm_[k] - burr_mm_;
         const double squared = glm::dot(from_burr, from_burr);
-        if (squared > memory_mm * memory_mm) continue;
+        if (squared <= least_squared || squared > most_squared) continue;
+        // A ray along n is in the sphere around q from n.q - root to n.q + root.
         const glm::vec3 q(from_burr);
         const float rest = radius * radius - static_cast<float>(squared);
-        for (std::size_t i = 0; i < count; ++i) {
+        for (std::size_t i = 0; i < gap_mm.size(); ++i) {
             const float along = normal_x_[i] * q.x + normal_y_[i] * q.y + normal_z_[i] * q.z;
-            gap_mm_[i] = std::max(gap_mm_[i], along + std::sqrt(rest + along * along) - radius);
+            const float root = std::sqrt(std::max(0.0f, rest + along * along));
+            const float gap = along + root - radius;
+            gap_mm[i] = std::max(gap_mm[i], along - root < radius ? gap : 0.0f);
         }
     }
-    for (std::size_t i = 0; i < count; ++i) gap_mm_[i] = std::min(gap_mm_[i], most_gap_mm);
+    for (float& gap : gap_mm) gap = std::min(gap, most_gap_mm);
+}
+
+void SweptBone::refresh() {
+    const std::size_t count = gap_mm_.size();
+    std::fill(gap_mm_.begin(), gap_mm_.end(), 0.0f);
+    look_at_path(false, gap_mm_);
+    if (refreshes_++ % refreshes_per_far_look == 0) {
+        std::fill(far_gap_mm_.begin(), far_gap_mm_.end(), 0.0f);
+        look_at_path(true, far_gap_mm_);
+        looked_far_from_mm_ = burr_mm_;
+    }
+    const glm::vec3 moved(burr_mm_ - looked_far_from_mm_);
+    for (std::size_t i = 0; i < count; ++i) {
+        const float along = normal_x_[i] * moved.x + normal_y_[i] * moved.y + normal_z_[i] * moved.z;
+        gap_mm_[i] = std::max(gap_mm_[i], far_gap_mm_[i] - along);
+    }
 
     for (std::size_t i = 0; i < count; ++i) {
         const double low =
             burr_mm_.z - burr_.radius_mm() + static_cast<double>(i / patches_per_ring_) * ring_height_mm_;
         share_in_bone_[i] = std::clamp(-low / ring_height_mm_, 0.0, 1.0);
     }
+    has_engaged_ = false;
     std::fill(engaged_.begin(), engaged_.end(), std::uint8_t{0});
     force_per_velocity_ = glm::dmat3(0.0);
     force_per_gap_rate_ = glm::dvec3(0.0);

@@ -49,13 +49,15 @@ class SweptBone {
     void make_patches(double stiffness);
     /// Whether the set of patches that cut at velocity w differs from the one at hand, which it becomes.
     bool engage(const glm::dvec3& velocity_mm_per_s, double substep_s);
+    /// Raises gaps to what spheres of the path, near ones or far ones, have cleared.
+    void look_at_path(bool far, std::vector<float>& gap_mm) const;
     void set_engaged(std::size_t patch, bool engaged);
 
     Burr burr_;
     glm::dvec3 burr_mm_;
 
     // By patch. Single precision: a gap is good to 1e-8 mm, a substep moves by 1e-5.
-    std::vector<float> normal_x_, normal_y_, normal_z_, gap_mm_;
+    std::vector<float> normal_x_, normal_y_, normal_z_, gap_mm_, far_gap_mm_;
     std::vector<std::uint8_t> engaged_, engaged_next_;
     std::vector<glm::dvec3> whole_n_s_per_mm_;  // law of a patch that is wholly in bone
     std::vector<double> share_in_bone_;
@@ -63,10 +65,13 @@ class SweptBone {
     double ring_height_mm_ = 0.0;
     std::size_t patches_per_ring_ = 0;
 
+    bool has_engaged_ = false;            // since the last refresh
     glm::dmat3 force_per_velocity_{0.0};  // of the engaged patches
     glm::dvec3 force_per_gap_rate_{0.0};
     glm::dvec3 last_velocity_{0.0};
     std::vector<glm::dvec3> path_mm_;
+    glm::dvec3 looked_far_from_mm_{0.0};  // where far_gap_mm_ was measured
+    int refreshes_ = 0;
 };
 
 }  // namespace osteomill::study

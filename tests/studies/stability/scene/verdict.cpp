@@ -38,51 +38,67 @@ double mean_length(std::span<const glm::dvec3> signal) {
     return glm::length(sum) / static_cast<double>(signal.size());
 }
 
-/// Fast forces in the judged window, rms beyond the truth's.
-struct FastForce {
-    double all_n = 0.0;
-    double first_half_n = 0.0;
-    double second_half_n = 0.0;
-    double limit_n = 0.0;
+/// Fast forces of run and truth, entry i at tick i + fit_reach_ticks.
+class FastForce {
+  public:
+    explicit FastForce(const JudgedRun& run)
+        : run_n_(fast_part(run.force_n)), truth_n_(fast_part(run.truth_force_n.first(run.force_n.size()))) {}
 
-    bool is_dying() const { return second_half_n < dying_factor * first_half_n; }
-    bool is_growing() const {
-        return second_half_n > limit_n / 3.0 && second_half_n > growing_factor * first_half_n;
+    /// Rms of the run's beyond the truth's, over entries [begin, end).
+    double beyond_n(std::size_t begin, std::size_t end) const {
+        const double run_n = rms(std::span(run_n_).subspan(begin, end - begin));
+        const double truth_n = rms(std::span(truth_n_).subspan(begin, end - begin));
+        return std::sqrt(std::max(0.0, run_n * run_n - truth_n * truth_n));
     }
-    bool is_stable() const { return !is_growing() && (all_n < limit_n || is_dying()); }
+    std::size_t size() const { return run_n_.size(); }
+
+  private:
+    std::vector<glm::dvec3> run_n_;
+    std::vector<glm::dvec3> truth_n_;
 };
 
-/// Both of one length, with the fit's reach at either end.
-FastForce fast_force(std::span<const glm::dvec3> force_n, std::span<const glm::dvec3> truth_force_n) {
-    const std::vector<glm::dvec3> fast_n = fast_part(force_n);
-    const std::vector<glm::dvec3> truth_fast_n = fast_part(truth_force_n);
-    const auto beyond = [&](std::size_t begin, std::size_t count) {
-        const double run_n = rms(std::span(fast_n).subspan(begin, count));
-        const double truth_n = rms(std::span(truth_fast_n).subspan(begin, count));
-        return std::sqrt(std::max(0.0, run_n * run_n - truth_n * truth_n));
-    };
-    const std::size_t half = fast_n.size() / 2;
-    return {.all_n = beyond(0, fast_n.size()),
-            .first_half_n = beyond(0, half),
-            .second_half_n = beyond(half, fast_n.size() - half),
-            .limit_n = std::max(least_limit_cycle_n, limit_cycle_share * mean_length(truth_force_n))};
+bool has_been_dying(const FastForce& fast, std::size_t end, double limit_n) {
+    constexpr std::size_t parts = 4;
+    if (fast.beyond_n(0, end / parts) < limit_n) return false;  // there was none
+    for (std::size_t part = 1; part < parts; ++part) {
+        const double before_n = fast.beyond_n((part - 1) * end / parts, part * end / parts);
+        const double after_n = fast.beyond_n(part * end / parts, (part + 1) * end / parts);
+        if (after_n > dying_factor * before_n) return false;
+    }
+    return true;
+}
+
+double deviation_n(std::span<const glm::dvec3> force_n, std::span<const glm::dvec3> truth_force_n) {
+    std::vector<glm::dvec3> deviation;
+    for (std::size_t i = force_n.size() / 2; i < force_n.size(); ++i)
+        deviation.push_back(force_n[i] - truth_force_n[i]);
+    return rms(deviation);
 }
 
 }  // namespace
 
 Verdict verdict_on(const JudgedRun& run) {
     Verdict verdict{.injected_mj = injected_mj(run)};
-    const std::size_t end = std::min(run.window_ends + fit_reach_ticks, run.force_n.size());
-    const std::size_t begin =
-        std::min(run.window_begins - std::min(fit_reach_ticks, run.window_begins), end / 2);
-    if (end - begin <= 2 * fit_reach_ticks) return verdict;  // astray before it could be judged
+    const FastForce fast(run);
+    if (fast.size() == 0) {
+        verdict.limit_cycle_n = deviation_n(run.force_n, run.truth_force_n);
+        return verdict;  // a run ends that early only astray
+    }
+    const std::size_t end = std::min(run.window_ends - fit_reach_ticks, fast.size());
+    const std::size_t begin = std::min(run.window_begins - fit_reach_ticks, end / 2);
+    const std::size_t middle = (begin + end) / 2;
+    verdict.limit_cycle_n = fast.beyond_n(begin, end);
 
-    const FastForce fast =
-        fast_force(run.force_n.subspan(begin, end - begin), run.truth_force_n.subspan(begin, end - begin));
-    verdict.limit_cycle_n = fast.all_n;
-    const double taken_mj = run.taken_mj.empty() ? 0.0 : run.taken_mj.back();
-    verdict.is_stable = !run.is_astray && fast.is_stable() &&
-                        verdict.injected_mj < std::max(least_injection_mj, injection_share * taken_mj);
+    const double limit_n = std::max(
+        least_limit_cycle_n,
+        limit_cycle_share *
+            mean_length(run.truth_force_n.subspan(run.window_begins, run.window_ends - run.window_begins)));
+    const double after_n = fast.beyond_n(middle, end);
+    const bool is_growing =
+        after_n > limit_n / 3.0 && after_n > growing_factor * fast.beyond_n(begin, middle);
+    const double most_injected_mj = std::max(least_injection_mj, injection_share * run.taken_mj.back());
+    const bool is_small = verdict.limit_cycle_n < limit_n && verdict.injected_mj < most_injected_mj;
+    verdict.is_stable = !run.is_astray && !is_growing && (is_small || has_been_dying(fast, end, limit_n));
     return verdict;
 }
 

@@ -1,19 +1,22 @@
-// Is a run stable? It is where
+// Is a run stable? It is where it did not go astray, the fast part of its force (fast_part.h) beyond the
+// truth's does not grow, and either is small or dies. In numbers:
 //
-//   - it did not go astray,
-//   - the fast part of its force (fast_part.h), beyond the truth's, stays below max(0.03 N, 5 % of the mean)
-//     rms over the judged window, or is dying: a quarter less in the window's second half than in its first,
-//   - that fast part does not grow: half as large again in the second half, and above a third of the limit,
-//   - the force gave back no more energy than it may have stored: the largest drawdown of the energy that it
-//     took (EnergyLedger's rule), less that of the truth and less F^2 / 2K of the largest force on the
-//     spring that the method renders, stays below 0.25 mJ or a tenth of what the run took, if that is more.
+//   - grows: rms in the window's second half more than 1.5 times that in its first, and above a third of
+//     what is small,
+//   - small: rms over the window below max(0.03 N, 5 % of the mean), and the force gave back no more energy
+//     than it may have stored: the largest drawdown of the energy that it took (EnergyLedger's rule), less
+//     that of the truth and less F^2 / 2K of the largest force on the spring that the method renders, is
+//     below 0.25 mJ or a tenth of what the run took, if that is more,
+//   - dies: of four equal parts of the run, from the release on, the first is not small, and each other shows
+//     at most 0.85 of the one before.
 //
 // The numbers. 0.03 N on top of about 1 N is at the edge of what fingers on a stylus tell apart, and an
-// eighth of the smallest limit cycle in the project's table of chatter. A ring that dies is not a limit
-// cycle: a wall that a hold renders at 0.9 of its edge rings for seconds, and dies; at 1.1 of it the ring
-// grows. 0.25 mJ is 1 N over a quarter of a millimetre, about a hand's tremor; chatter at the motors' limit
-// gives back several millijoules in half a second. Slow sway and the hand's own swing are in the truth, and
-// too slow for the fast part; a slow swing that a method drives fails by its energy.
+// eighth of the smallest limit cycle in the project's table of chatter. A ring that dies is no limit cycle:
+// on a wall whose stiffness nears the edge of a hold it lasts for seconds. Chatter that grew first and is
+// less by chance now has not been dying all along. 0.25 mJ is 1 N over a quarter of a millimetre, about a
+// hand's tremor; chatter at the motors' limit gives back several millijoules in half a second. Slow sway and
+// the hand's own swing are in the truth, and too slow for the fast part; a slow swing that a method drives
+// fails by its energy. A ring that dies may have got energy from the force, only less than the hand took.
 #pragma once
 
 #include <cstddef>
@@ -28,7 +31,8 @@ struct JudgedRun {
     std::span<const double> taken_mj;     ///< by the force, from the release to the next tick
     std::span<const glm::dvec3> truth_force_n;
     std::span<const double> truth_taken_mj;
-    /// Judged are ticks [begins, ends); of a run that ended before, what there is of its second half.
+    /// Judged are ticks [begins, ends), both at least fit_reach_ticks after the release and before the end;
+    /// of a run that went astray, what there is of its second half.
     std::size_t window_begins = 0;
     std::size_t window_ends = 0;
     double spring_n_per_mm = 0.0;  ///< that the method renders; 0: none
@@ -37,7 +41,9 @@ struct JudgedRun {
 
 struct Verdict {
     bool is_stable = false;
-    double limit_cycle_n = 0.0;  ///< root of the difference of the mean squares of both fast parts
+    /// Root of the difference of the mean squares of both fast parts; of a run too short for the fit, rms of
+    /// its force about the truth's.
+    double limit_cycle_n = 0.0;
     double injected_mj = 0.0;
 };
 
@@ -45,7 +51,7 @@ Verdict verdict_on(const JudgedRun& run);
 
 inline constexpr double least_limit_cycle_n = 0.03;
 inline constexpr double limit_cycle_share = 0.05;
-inline constexpr double dying_factor = 0.75;
+inline constexpr double dying_factor = 0.85;
 inline constexpr double growing_factor = 1.5;
 inline constexpr double least_injection_mj = 0.25;
 inline constexpr double injection_share = 0.1;
