@@ -5,8 +5,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <set>
 
 #include "tests/studies/report/label_places.h"
+#include "tests/studies/stability/map/map_text.h"
 #include "tests/studies/stability/map/map_view.h"
 
 namespace osteomill::study {
@@ -27,8 +29,25 @@ double median(std::vector<double> values) {
     return *middle;
 }
 
-MethodScore score_of(const std::string& method, MapScene scene, const std::vector<MapResult>& results) {
+/// A case as all methods have it.
+std::string without_method(const MapCase& c) {
+    MapCase any = c;
+    any.method.clear();
+    return text_of(any);
+}
+
+/// Cases that one method or another does not hold.
+std::set<std::string> unstable_somewhere(const std::vector<MapResult>& results) {
+    std::set<std::string> unstable;
+    for (const MapResult& result : results)
+        if (!result.outcome.is_stable) unstable.insert(without_method(result.point.run));
+    return unstable;
+}
+
+MethodScore score_of(const std::string& method, MapScene scene, const std::vector<MapResult>& results,
+                     const std::set<std::string>& unstable) {
     MethodScore score{.method = method, .scene = scene, .cases = results.size()};
+    std::vector<double> common_errors;
     std::vector<double> rms_errors;
     std::vector<double> mean_errors;
     for (const MapResult& result : results) {
@@ -36,9 +55,11 @@ MethodScore score_of(const std::string& method, MapScene scene, const std::vecto
         ++score.stable;
         rms_errors.push_back(rms_error(result.outcome));
         mean_errors.push_back(mean_error(result.outcome));
+        if (!unstable.contains(without_method(result.point.run))) common_errors.push_back(rms_errors.back());
     }
     score.median_rms_error = median(rms_errors);
     score.median_mean_error = median(mean_errors);
+    score.common_rms_error = median(common_errors);
     score.worst_rms_error = nan;
     for (const double error : rms_errors) score.worst_rms_error = std::fmax(score.worst_rms_error, error);
     return score;
@@ -79,12 +100,15 @@ LabelColumn label_column(const std::vector<double>& decades) {
 }  // namespace
 
 std::vector<MethodScore> method_scores(const WholeMap& map, MapPart part, MapScene scene) {
+    const auto in_scene = [&](const MapPoint& point) {
+        return point.part == part && point.run.scene == scene;
+    };
+    const std::set<std::string> unstable = unstable_somewhere(results_where(map, in_scene));
     std::vector<MethodScore> scores;
     for (const std::string& method : map_methods()) {
-        const auto results = results_where(map, [&](const MapPoint& point) {
-            return point.part == part && point.run.scene == scene && point.run.method == method;
-        });
-        if (!results.empty()) scores.push_back(score_of(method, scene, results));
+        const auto results = results_where(
+            map, [&](const MapPoint& point) { return in_scene(point) && point.run.method == method; });
+        if (!results.empty()) scores.push_back(score_of(method, scene, results, unstable));
     }
     return scores;
 }

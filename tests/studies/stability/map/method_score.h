@@ -17,6 +17,8 @@ struct MethodScore {
     double median_rms_error = 0.0;
     double worst_rms_error = 0.0;
     double median_mean_error = 0.0;
+    /// Over the cases that are stable with every method of the map: the others' easy cases do not flatter it.
+    double common_rms_error = 0.0;
 
     double share() const { return static_cast<double>(stable) / static_cast<double>(cases); }
 };

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <vector>
 
 #include "tests/studies/stability/map/map_view.h"
 #include "tests/studies/stability/map/method_score.h"
@@ -15,11 +17,36 @@ namespace {
 constexpr double gap_between_rates = 0.5;
 constexpr double strip_distance = 0.3;
 
-/// Of the row in which a rate and a delay are drawn: the fastest rate on top, delays downward.
-double row_y(std::size_t rate, std::size_t delay) {
-    const double delays = static_cast<double>(map_delays_ticks().size());
-    return static_cast<double>(rate) * (delays + gap_between_rates) + delays - static_cast<double>(delay);
-}
+/// The rates and delays that a map has, and where they are drawn: the fastest rate on top, delays downward.
+class Rows {
+  public:
+    explicit Rows(const WholeMap& map) {
+        for (const double rate_hz : map_milling_rates_hz())
+            if (has(map, [&](const MapCase& c) { return c.milling_rate_hz == rate_hz; }))
+                rates_hz_.push_back(rate_hz);
+        for (const int delay_ticks : map_delays_ticks())
+            if (has(map, [&](const MapCase& c) { return c.delay_ticks == delay_ticks; }))
+                delays_ticks_.push_back(delay_ticks);
+    }
+
+    const std::vector<double>& rates_hz() const { return rates_hz_; }
+    const std::vector<int>& delays_ticks() const { return delays_ticks_; }
+
+    double y(std::size_t rate, std::size_t delay) const {
+        const double delays = static_cast<double>(delays_ticks_.size());
+        return static_cast<double>(rate) * (delays + gap_between_rates) + delays - static_cast<double>(delay);
+    }
+
+  private:
+    static bool has(const WholeMap& map, const std::function<bool(const MapCase&)>& is_wanted) {
+        return std::any_of(map.points.begin(), map.points.end(), [&](const MapPoint& point) {
+            return point.part == MapPart::map && is_wanted(point.run);
+        });
+    }
+
+    std::vector<double> rates_hz_;
+    std::vector<int> delays_ticks_;
+};
 
 double x_of(const MapResult& result) {
     return result.point.run.scene == MapScene::cutting ? result.outcome.resistance_n_s_per_m
@@ -75,21 +102,6 @@ std::vector<Run> runs_of(const std::vector<MapResult>& results, const std::vecto
     return runs;
 }
 
-/// The place of a line of a panel: all cases that differ in x alone.
-struct Strip {
-    const std::string& method;
-    std::size_t grip;
-    std::size_t rate;
-    std::size_t delay;
-
-    bool has(const MapCase& c) const {
-        return c.method == method && c.grip == map_grips()[grip] &&
-               c.milling_rate_hz == map_milling_rates_hz()[rate] &&
-               c.delay_ticks == map_delays_ticks()[delay];
-    }
-    double y() const { return row_y(rate, delay) + strip_distance * (1.0 - static_cast<double>(grip)); }
-};
-
 }  // namespace
 
 std::string region_csv_of(const WholeMap& map, MapScene scene) {
@@ -100,27 +112,35 @@ std::string region_csv_of(const WholeMap& map, MapScene scene) {
     const std::vector<double> columns = columns_of(results_where(map, in_scene));
     if (columns.empty()) return csv;
     const std::vector<double> edges = edges_between(columns);
+    const Rows rows(map);
+    const auto add_strip = [&](const std::string& method, std::size_t grip, std::size_t rate,
+                               std::size_t delay) {
+        const auto strip = results_where(map, [&](const MapPoint& point) {
+            const MapCase& c = point.run;
+            return in_scene(point) && c.method == method && c.grip == map_grips()[grip] &&
+                   c.milling_rate_hz == rows.rates_hz()[rate] && c.delay_ticks == rows.delays_ticks()[delay];
+        });
+        const double y = rows.y(rate, delay) + strip_distance * (1.0 - static_cast<double>(grip));
+        for (const Run& run : runs_of(strip, edges))
+            csv += fmt::format("{},{},{},{:.5g},{:.5g},{:.2f},{}\n", number_of(method), method, grip + 1,
+                               run.low, run.high, y, run.is_stable ? 1 : 0);
+    };
     for (const std::string& method : map_methods())
         for (std::size_t grip = 0; grip < map_grips().size(); ++grip)
-            for (std::size_t rate = 0; rate < map_milling_rates_hz().size(); ++rate)
-                for (std::size_t delay = 0; delay < map_delays_ticks().size(); ++delay) {
-                    const Strip strip{method, grip, rate, delay};
-                    const auto results = results_where(
-                        map, [&](const MapPoint& point) { return in_scene(point) && strip.has(point.run); });
-                    for (const Run& run : runs_of(results, edges))
-                        csv += fmt::format("{},{},{},{:.5g},{:.5g},{:.2f},{}\n", number_of(method), method,
-                                           grip + 1, run.low, run.high, strip.y(), run.is_stable ? 1 : 0);
-                }
+            for (std::size_t rate = 0; rate < rows.rates_hz().size(); ++rate)
+                for (std::size_t delay = 0; delay < rows.delays_ticks().size(); ++delay)
+                    add_strip(method, grip, rate, delay);
     return csv;
 }
 
-std::string region_rows_csv() {
+std::string region_rows_csv(const WholeMap& map) {
+    const Rows rows(map);
     std::string csv = "y,label\n";
-    for (std::size_t rate = 0; rate < map_milling_rates_hz().size(); ++rate)
-        for (std::size_t delay = 0; delay < map_delays_ticks().size(); ++delay)
-            csv += delay == 0 ? fmt::format("{},{:.0f} Hz  {}\n", row_y(rate, delay),
-                                            map_milling_rates_hz()[rate], map_delays_ticks()[delay])
-                              : fmt::format("{},{}\n", row_y(rate, delay), map_delays_ticks()[delay]);
+    for (std::size_t rate = 0; rate < rows.rates_hz().size(); ++rate)
+        for (std::size_t delay = 0; delay < rows.delays_ticks().size(); ++delay) {
+            const std::string rate_name = delay == 0 ? fmt::format("{:.0f} Hz  ", rows.rates_hz()[rate]) : "";
+            csv += fmt::format("{},{}{}\n", rows.y(rate, delay), rate_name, rows.delays_ticks()[delay]);
+        }
     return csv;
 }
 

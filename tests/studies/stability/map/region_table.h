@@ -14,6 +14,6 @@ namespace osteomill::study {
 std::string region_csv_of(const WholeMap& map, MapScene scene);
 
 /// y,label: of the rows above.
-std::string region_rows_csv();
+std::string region_rows_csv(const WholeMap& map);
 
 }  // namespace osteomill::study

@@ -27,7 +27,7 @@ void write_results(const WholeMap& map, const std::filesystem::path& out,
     write_json(summary_of(map), out / "map.json");
     write_text(region_csv_of(map, MapScene::cutting), out / "regions_cutting.csv");
     write_text(region_csv_of(map, MapScene::wall), out / "regions_wall.csv");
-    write_text(region_rows_csv(), out / "region_rows.csv");
+    write_text(region_rows_csv(map), out / "region_rows.csv");
     write_text(pareto_csv_of(method_scores(map, MapPart::map, MapScene::cutting)),
                out / "pareto_cutting.csv");
     write_text(pareto_csv_of(method_scores(map, MapPart::map, MapScene::wall)), out / "pareto_wall.csv");

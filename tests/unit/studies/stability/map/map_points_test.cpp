@@ -32,8 +32,8 @@ TEST(MapPoints, SpanTheResistanceThatASurgeonMeetsInEvenSteps) {
     EXPECT_LT(resistances.front(), 6.0);
     EXPECT_GT(resistances.back(), 3400.0);
     for (std::size_t i = 1; i < resistances.size(); ++i) {
-        EXPECT_GT(resistances[i] / resistances[i - 1], 1.4) << i;
-        EXPECT_LT(resistances[i] / resistances[i - 1], 2.2) << i;
+        EXPECT_GT(resistances[i] / resistances[i - 1], 1.2) << i;
+        EXPECT_LT(resistances[i] / resistances[i - 1], 1.5) << i;
     }
 }
 

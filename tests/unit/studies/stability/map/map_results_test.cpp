@@ -34,13 +34,13 @@ TEST(MapResults, ScoreCountsTheStableAndTakesTheirMedianError) {
     const auto scores = method_scores(map, MapPart::map, MapScene::cutting);
     ASSERT_EQ(scores.size(), 2U);
     EXPECT_EQ(scores[0].method, "hold");
-    EXPECT_DOUBLE_EQ(scores[0].share(), 0.5) << "two of four depths";
+    EXPECT_DOUBLE_EQ(scores[0].share(), 1.0 / 3.0) << "two of six slots";
     EXPECT_DOUBLE_EQ(scores[0].median_rms_error, 0.1);
     EXPECT_DOUBLE_EQ(scores[0].worst_rms_error, 0.2);
     const auto summary = summary_of(map);
-    EXPECT_EQ(summary["methods"]["hold"]["cutting"]["stable_share"], 0.5);
+    EXPECT_EQ(summary["methods"]["hold"]["cutting"]["stable_share"], 1.0 / 3.0);
     EXPECT_EQ(summary["methods"]["hold"]["wall"]["stable_up_to_n_per_mm"]["firm"], 0.1);
-    EXPECT_EQ(summary["methods"]["hold"]["cutting"]["stable_up_to_n_s_per_m"]["firm"], 40.0);
+    EXPECT_EQ(summary["methods"]["hold"]["cutting"]["stable_up_to_n_s_per_m"]["firm"], 20.0);
 }
 
 TEST(MapResults, AMethodThatIsStableNowhereHasNoErrorToDraw) {
@@ -70,11 +70,11 @@ TEST(MapResults, RegionsJoinNeighboursThatAreAlike) {
     const WholeMap map = whole_map(
         {.methods = {"hold"}, .grips = {MapGrip::light}, .milling_rates_hz = {1000.0}, .delays_ticks = {0}},
         outcome);
-    // Boxes meet at sqrt(0.4 * 0.8), the lowest begins at 0.1 / sqrt(2).
+    // Boxes meet at sqrt(0.32 * 0.47), the lowest begins at 0.1 / sqrt(1.5).
     EXPECT_EQ(region_csv_of(map, MapScene::wall),
               "number,method,grip,x_low,x_high,y,stable\n"
-              "3,hold,2,0.070711,0.56569,13.00,1\n"
-              "3,hold,2,0.56569,2.054,13.00,0\n");
+              "3,hold,2,0.08165,0.38781,1.00,1\n"
+              "3,hold,2,0.38781,1.8371,1.00,0\n");
 }
 
 TEST(MapResults, TablesHaveALineACase) {
