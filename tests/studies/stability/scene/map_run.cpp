@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "haptic_server/device/arm_model.h"
 #include "haptic_server/loop/milling_session.h"
 #include "tests/studies/stability/energy_ledger.h"
 #include "tests/studies/stability/scene/bench_device.h"
@@ -126,7 +127,7 @@ void measure_window(const RunRecord& run, const std::vector<TruthTick>& truth, c
 
 MapOutcome run_map_case(const MapCase& c, SceneCache& cache) {
     const ScenePlan plan = plan_of(c);
-    const std::vector<TruthTick>& truth = cache.truth(c, plan);
+    const std::vector<TruthTick>& truth = cache.truth(c);
     const RunRecord run = run_session(c, plan, cache.bone(c, plan), truth);
 
     MapOutcome outcome;
@@ -146,6 +147,7 @@ MapOutcome run_map_case(const MapCase& c, SceneCache& cache) {
                                         .window_begins = plan.timing.settling,
                                         .window_ends = plan.timing.settling + plan.timing.window,
                                         .spring_n_per_mm = rendered_spring_n_per_mm(plan),
+                                        .encoder_step_mm = c.is_ideal_device ? 0.0 : ArmModel{}.resolution_mm,
                                         .is_astray = run.is_astray});
     outcome.is_stable = verdict.is_stable;
     outcome.limit_cycle_n = verdict.limit_cycle_n;

@@ -13,10 +13,12 @@ const Bone& SceneCache::bone(const MapCase& c, const ScenePlan& plan) {
     return bones_.get(bone_key(c), [&] { return scene_bone(plan); });
 }
 
-const std::vector<TruthTick>& SceneCache::truth(const MapCase& c, const ScenePlan& plan) {
-    const TruthKey key{c.grip, plan.tool.coulomb_friction_n, plan.mount.is_rigid(), plan.wall_n_per_mm,
-                       bone_key(c)};
-    return truths_.get(key, [&] { return truth_of(plan); });
+const std::vector<TruthTick>& SceneCache::truth(const MapCase& c) {
+    MapCase ideal = c;
+    ideal.is_ideal_device = true;
+    const double wall_n_per_mm = c.scene == MapScene::wall ? c.wall_n_per_mm : 0.0;
+    const TruthKey key{c.grip, mount_of(c).is_rigid(), wall_n_per_mm, bone_key(c)};
+    return truths_.get(key, [&] { return truth_of(plan_of(ideal)); });
 }
 
 }  // namespace osteomill::study

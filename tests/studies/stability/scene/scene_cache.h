@@ -50,16 +50,16 @@ class MadeOnce {
 
 class SceneCache {
   public:
-    /// `plan` is plan_of(c). The references hold as long as the cache.
+    /// The references hold as long as the cache. `plan` is plan_of(c).
     const Bone& bone(const MapCase& c, const ScenePlan& plan);
-    const std::vector<TruthTick>& truth(const MapCase& c, const ScenePlan& plan);
+    /// On an ideal device, whatever the case's: friction and encoders are not of the scene.
+    const std::vector<TruthTick>& truth(const MapCase& c);
 
   private:
     /// rpm, depth, stiffness; all zero for the wall.
     using BoneKey = std::tuple<double, double, double>;
-    /// Grip, the arm's friction, whether the mount is rigid, the wall's stiffness (0: cutting), and the
-    /// bone's.
-    using TruthKey = std::tuple<MapGrip, double, bool, double, BoneKey>;
+    /// Grip, whether the mount is rigid, the wall's stiffness (0: cutting), and the bone's.
+    using TruthKey = std::tuple<MapGrip, bool, double, BoneKey>;
 
     static BoneKey bone_key(const MapCase& c);
 

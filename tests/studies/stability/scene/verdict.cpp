@@ -68,6 +68,13 @@ bool has_been_dying(const FastForce& fast, std::size_t end, double limit_n) {
     return true;
 }
 
+/// Of the fast force's rms.
+double most_small_n(const JudgedRun& run) {
+    const auto window = run.truth_force_n.subspan(run.window_begins, run.window_ends - run.window_begins);
+    return std::max(least_limit_cycle_n, limit_cycle_share * mean_length(window)) +
+           0.5 * run.spring_n_per_mm * run.encoder_step_mm;
+}
+
 double deviation_n(std::span<const glm::dvec3> force_n, std::span<const glm::dvec3> truth_force_n) {
     std::vector<glm::dvec3> deviation;
     for (std::size_t i = force_n.size() / 2; i < force_n.size(); ++i)
@@ -89,10 +96,7 @@ Verdict verdict_on(const JudgedRun& run) {
     const std::size_t middle = (begin + end) / 2;
     verdict.limit_cycle_n = fast.beyond_n(begin, end);
 
-    const double limit_n = std::max(
-        least_limit_cycle_n,
-        limit_cycle_share *
-            mean_length(run.truth_force_n.subspan(run.window_begins, run.window_ends - run.window_begins)));
+    const double limit_n = most_small_n(run);
     const double after_n = fast.beyond_n(middle, end);
     const bool is_growing =
         after_n > limit_n / 3.0 && after_n > growing_factor * fast.beyond_n(begin, middle);

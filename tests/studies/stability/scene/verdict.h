@@ -3,10 +3,11 @@
 //
 //   - grows: rms in the window's second half more than 1.5 times that in its first, and above a third of
 //     what is small,
-//   - small: rms over the window below max(0.03 N, 5 % of the mean), and the force gave back no more energy
-//     than it may have stored: the largest drawdown of the energy that it took (EnergyLedger's rule), less
-//     that of the truth and less F^2 / 2K of the largest force on the spring that the method renders, is
-//     below 0.25 mJ or a tenth of what the run took, if that is more,
+//   - small: rms over the window below max(0.03 N, 5 % of the mean), and half an encoder step of the rendered
+//     spring on top of that, where there are any: a staircase is no limit cycle; and the force gave back no
+//     more energy than it may have stored: the largest drawdown of the energy that it took (EnergyLedger's
+//     rule), less that of the truth and less F^2 / 2K of the largest force on the spring that the method
+//     renders, is below 0.25 mJ or a tenth of what the run took, if that is more,
 //   - dies: of four equal parts of the run, from the release on, the first is not small, and each other shows
 //     at most 0.85 of the one before.
 //
@@ -36,6 +37,7 @@ struct JudgedRun {
     std::size_t window_begins = 0;
     std::size_t window_ends = 0;
     double spring_n_per_mm = 0.0;  ///< that the method renders; 0: none
+    double encoder_step_mm = 0.0;  ///< 0: the device's position is read exactly
     bool is_astray = false;
 };
 
