@@ -3,22 +3,17 @@
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
-#include <algorithm>
 #include <chrono>
 #include <exception>
 #include <filesystem>
 #include <iostream>
-#include <stdexcept>
 #include <string>
-#include <thread>
-#include <vector>
 
 #include "haptic_server/imaging/progress.h"
 #include "tests/studies/force/case_report.h"
 #include "tests/studies/force/force_study.h"
 #include "tests/studies/report/output_files.h"
-#include "tests/studies/stability/map/map_text.h"
-#include "tests/studies/stability/map/stability_study.h"
+#include "tests/studies/stability/map/stability_options.h"
 #include "tests/studies/stability/scene/map_run.h"
 
 namespace {
@@ -59,63 +54,6 @@ void add_force(CLI::App& app, ForceOptions& options) {
         ->check(CLI::Range(0.01, 100.0));
 }
 
-struct StabilityOptions {
-    std::filesystem::path out = "study/stability";
-    std::vector<std::filesystem::path> merge{};
-    osteomill::study::MapSelection selection{};
-    std::vector<std::string> grips{};
-    osteomill::study::Shard shard{};
-    int jobs = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
-};
-
-void add_stability(CLI::App& app, StabilityOptions& options) {
-    using namespace osteomill;
-    CLI::App* stability = app.add_subcommand(
-        "stability", "the stability map: which coupling holds where, and how true it is there");
-    stability
-        ->add_option("--out", options.out,
-                     "folder for what the study writes; made if it is not there. Cases that an earlier run "
-                     "left there are not run again")
-        ->capture_default_str();
-    CLI::Option* const merge = stability->add_option(
-        "--merge", options.merge,
-        "join parts that ran apart, files of cases or folders that hold them, and write the results");
-    merge->expected(1, -1);
-    // What is run is known from the parts when they are joined.
-    const auto of_a_run = [&](CLI::Option* option) { return option->excludes(merge); };
-    of_a_run(stability->add_flag("--quick", options.selection.quick, "a coarser map: a minute on two cores"));
-    of_a_run(stability->add_option("--jobs", options.jobs, "cases that run at a time"))
-        ->capture_default_str()
-        ->check(CLI::Range(1, 1024));
-    of_a_run(stability->add_option_function<std::string>(
-        "--shard",
-        [&](const std::string& text) {
-            try {
-                options.shard = study::shard_named(text);
-            } catch (const std::invalid_argument& error) {
-                throw CLI::ValidationError("--shard", error.what());
-            }
-        },
-        "run part I of N only: I/N"));
-    std::vector<std::string> grips;
-    for (const study::MapGrip grip : study::map_grips()) grips.push_back(study::name_of(grip));
-    of_a_run(stability->add_option("--methods", options.selection.methods,
-                                   "only these couplings of the map, with commas between"))
-        ->delimiter(',')
-        ->check(CLI::IsMember(study::map_methods()));
-    of_a_run(stability->add_option("--grips", options.grips, "only these grips"))
-        ->delimiter(',')
-        ->check(CLI::IsMember(grips));
-    of_a_run(stability->add_option("--milling-rates-hz", options.selection.milling_rates_hz,
-                                   "only these rates of the milling loop"))
-        ->delimiter(',')
-        ->check(CLI::IsMember(study::map_milling_rates_hz()));
-    of_a_run(stability->add_option("--delays", options.selection.delays_ticks,
-                                   "only these delays, in haptic ticks"))
-        ->delimiter(',')
-        ->check(CLI::IsMember(study::map_delays_ticks()));
-}
-
 osteomill::study::StudySurroundings surroundings() {
     return {.said = std::cout, .progress = std::cerr, .is_terminal = ::isatty(STDERR_FILENO) != 0};
 }
@@ -139,22 +77,20 @@ void run(const ForceOptions& options) {
         osteomill::study::run_force_study({.out = options.out, .quick = options.quick}, surroundings());
 }
 
-void run(const StabilityOptions& options) {
+void run(const osteomill::study::StabilityCommand& command) {
     using namespace osteomill;
-    study::make_folder(options.out);
-    if (!options.merge.empty()) {
-        study::merge_stability_study(options.merge, options.out, surroundings());
+    study::make_folder(command.run.out);
+    if (!command.merge.empty()) {
+        study::merge_stability_study(command.merge, command.run.out, surroundings());
         return;
     }
-    study::MapSelection selection = options.selection;
-    for (const std::string& grip : options.grips) selection.grips.push_back(study::grip_named(grip));
     const auto now_s = [] {
         return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
     };
     study::SceneCache cache;
     study::run_stability_study(
-        {.out = options.out, .selection = selection, .shard = options.shard, .jobs = options.jobs},
-        [&](const study::MapCase& c) { return study::run_map_case(c, cache); }, now_s, surroundings());
+        command.run, [&](const study::MapCase& c) { return study::run_map_case(c, cache); }, now_s,
+        surroundings());
 }
 
 }  // namespace
@@ -164,8 +100,8 @@ int main(int argc, char** argv) {
     app.set_version_flag("--version", OSTEOMILL_VERSION);
     ForceOptions force;
     add_force(app, force);
-    StabilityOptions stability;
-    add_stability(app, stability);
+    osteomill::study::StabilityCommand stability;
+    const CLI::App* const is_stability = osteomill::study::add_stability(app, stability);
     try {
         app.parse(argc, argv);
         if (app.get_subcommands().empty()) throw CLI::RequiredError("a study to run: force, stability");
@@ -175,7 +111,7 @@ int main(int argc, char** argv) {
         return exit_usage;
     }
     try {
-        if (app.got_subcommand("stability"))
+        if (is_stability->parsed())
             run(stability);
         else
             run(force);

@@ -13,9 +13,9 @@
 namespace osteomill::study {
 
 struct StabilityStudyOptions {
-    std::filesystem::path out;
-    MapSelection selection;
-    Shard shard;
+    std::filesystem::path out = "study/stability";
+    MapSelection selection{};
+    Shard shard{};
     int jobs = 1;  ///< cases at a time
 };
 
