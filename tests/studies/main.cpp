@@ -3,6 +3,7 @@
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
+#include <chrono>
 #include <exception>
 #include <filesystem>
 #include <iostream>
@@ -13,6 +14,8 @@
 #include "tests/studies/force/force_study.h"
 #include "tests/studies/polishing/polishing_options.h"
 #include "tests/studies/report/output_files.h"
+#include "tests/studies/stability/map/stability_options.h"
+#include "tests/studies/stability/scene/map_run.h"
 
 namespace {
 
@@ -52,6 +55,10 @@ void add_force(CLI::App& app, ForceOptions& options) {
         ->check(CLI::Range(0.01, 100.0));
 }
 
+osteomill::study::StudySurroundings surroundings() {
+    return {.said = std::cout, .progress = std::cerr, .is_terminal = ::isatty(STDERR_FILENO) != 0};
+}
+
 void run_cases(const ForceOptions& options) {
     using namespace osteomill;
     const auto cases = study::read_steady_cases(options.cases);
@@ -63,6 +70,35 @@ void run_cases(const ForceOptions& options) {
     std::cout << cases.size() << " cases in " << file.string() << '\n';
 }
 
+void run(const ForceOptions& options) {
+    osteomill::study::make_folder(options.out);
+    if (!options.cases.empty())
+        run_cases(options);
+    else
+        osteomill::study::run_force_study({.out = options.out, .quick = options.quick}, surroundings());
+}
+
+void run(const osteomill::study::StabilityCommand& command) {
+    using namespace osteomill;
+    study::make_folder(command.run.out);
+    if (!command.merge.empty()) {
+        study::merge_stability_study(command.merge, command.run.out, surroundings());
+        return;
+    }
+    const auto now_s = [] {
+        return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+    };
+    study::SceneCache cache;
+    study::run_stability_study(
+        command.run, [&](const study::MapCase& c) { return study::run_map_case(c, cache); }, now_s,
+        surroundings());
+}
+
+void run(const osteomill::study::PolishingStudyOptions& options) {
+    osteomill::study::make_folder(options.out);
+    osteomill::study::run_polishing_study(options, surroundings());
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -70,31 +106,26 @@ int main(int argc, char** argv) {
     app.set_version_flag("--version", OSTEOMILL_VERSION);
     ForceOptions force;
     add_force(app, force);
+    osteomill::study::StabilityCommand stability;
+    const CLI::App* const is_stability = osteomill::study::add_stability(app, stability);
     osteomill::study::PolishingStudyOptions polishing;
     const CLI::App* const is_polishing = osteomill::study::add_polishing(app, polishing);
     try {
         app.parse(argc, argv);
-        if (app.get_subcommands().empty()) throw CLI::RequiredError("a study to run: force, polishing");
+        if (app.get_subcommands().empty())
+            throw CLI::RequiredError("a study to run: force, stability or polishing");
     } catch (const CLI::ParseError& error) {
         if (error.get_exit_code() == 0) return app.exit(error);
         std::cerr << "osteomill_study: " << error.what() << " (see --help)\n";
         return exit_usage;
     }
     try {
-        if (is_polishing->parsed()) {
-            osteomill::study::make_folder(polishing.out);
-            osteomill::study::run_polishing_study(
-                polishing,
-                {.said = std::cout, .progress = std::cerr, .is_terminal = ::isatty(STDERR_FILENO) != 0});
-            return 0;
-        }
-        osteomill::study::make_folder(force.out);
-        if (!force.cases.empty())
-            run_cases(force);
+        if (is_stability->parsed())
+            run(stability);
+        else if (is_polishing->parsed())
+            run(polishing);
         else
-            osteomill::study::run_force_study(
-                {.out = force.out, .quick = force.quick},
-                {.said = std::cout, .progress = std::cerr, .is_terminal = ::isatty(STDERR_FILENO) != 0});
+            run(force);
         return 0;
     } catch (const std::exception& error) {
         std::cerr << "osteomill_study: " << error.what() << '\n';

@@ -38,8 +38,9 @@ TEST(Progress, SaysWhatStandsBehindThePercentageAndClearsIt) {
     line.report(0.501, "12 s left");
     line.report(0.502, "12 s left");
     line.report(0.503, "9 s left");
-    EXPECT_EQ(std::count(bar.str().begin(), bar.str().end(), '\r'), 2);
-    EXPECT_THAT(bar.str(), ::testing::EndsWith(" 50 %, 9 s left "));
+    const std::string text = bar.str();
+    EXPECT_EQ(std::count(text.begin(), text.end(), '\r'), 2);
+    EXPECT_THAT(text, ::testing::EndsWith(" 50 %, 9 s left "));
     std::ostringstream log;
     ProgressLine(log, false, "cases").report(0.5, "12 s left");
     EXPECT_EQ(log.str(), "cases 50 %, 12 s left\n");

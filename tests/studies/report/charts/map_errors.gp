@@ -10,13 +10,18 @@ set multiplot layout 1,3 title 'Error of the force in cutting, milling at 1000 H
     font ',17' margins 0.06,0.985,0.32,0.86 spacing 0.03,0.1
 set logscale xy
 set format y '%g'
+set ytics (0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1, 2, 5, 10, 20, 50, 100, 200, 500, 1000)
 set xrange [3:6000]
 set xtics (5, 20, 100, 500, 3000)
 set xlabel 'resistance of the bone, N s/m'
-stats table using (column('stable') == 1 ? log10(column('rms_error_percent')) : NaN) name 'Error' nooutput
+# A logarithmic axis has no zero.
+drawn(percent) = percent > 0.01 ? percent : 0.01
+stats table using (column('stable') == 1 ? log10(drawn(column('rms_error_percent'))) : NaN) name 'Error' nooutput
+# Where nothing is stable there is nothing to draw but the axes.
+if (!exists('Error_min')) { Error_min = 0; Error_max = 1 }
 set yrange [10**(Error_min - 0.1) : 10**(Error_max + 0.1)]
-of(i, grip) = column('number') == i && strcol('grip') eq grip && column('stable') == 1 ? column('rms_error_percent') : NaN
-curves(grip) = "plot for [i=1:11] table using 'resistance_n_s_per_m':(of(i, '".grip."')) with linespoints " \
+of(i, grip) = column('number') == i && strcol('grip') eq grip && column('stable') == 1 ? drawn(column('rms_error_percent')) : NaN
+curves(grip) = "plot 1e-12 notitle, for [i=1:11] table using 'resistance_n_s_per_m':(of(i, '".grip."')) with linespoints " \
     . "pt Point[i] ps 0.9 lw 1.6 dt Dash[i] lc rgb Colour[i] title Name[i]"
 unset key
 set ylabel 'rms error, % of the mean force' offset 1,0

@@ -9,21 +9,27 @@ set multiplot layout 1,2 title 'How much of the range each coupling holds, and h
     font ',18' margins 0.06,0.995,0.13,0.86 spacing 0.07,0.1
 set logscale y
 set format y '%g'
+set ytics (0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1, 2, 5, 10, 20, 50, 100, 200, 500, 1000)
 # Labels stand in a column to the right of the range, each joined to its point.
 label_x = 107
 set xrange [-2:175]
 set xtics 0,20,100
 set xlabel 'stable share of the range, %' offset screen -0.09,0
-set offsets 0, 0, graph 0.06, graph 0.06
 unset key
 set border 2
 set arrow 1 from graph 0, graph 0 to first 100, graph 0 nohead lc rgb '#444444'
-is(i, what) = column('number') == i ? column(what) : NaN
-is_drawn(i) = column('number') == i && strlen(strcol('rms_error_percent')) > 0
-pareto(name) = "table = folder.'/".name.".csv'; plot " \
-    . "for [i=1:11] table using (is_drawn(i) ? column('stable_percent') : NaN):'rms_error_percent':(label_x - 2 - column('stable_percent')):(10**column('label_decades') - column('rms_error_percent')) with vectors nohead lw 1 lc rgb '#bbbbbb', " \
-    . "for [i=1:11] table using (is_drawn(i) ? column('stable_percent') : NaN):'rms_error_percent' with points pt Point[i] ps 1.4 lc rgb Colour[i], " \
-    . "for [i=1:11] table using (is_drawn(i) ? label_x : NaN):(10**column('label_decades')):(strcol('method')) with labels left font ',13' tc rgb Colour[i]"
+# What is stable nowhere has no error and stays outside the axes.
+is_drawn(x) = strlen(strcol('rms_error_percent')) > 0 ? x : -1000
+error(x) = strlen(strcol('rms_error_percent')) > 0 ? column('rms_error_percent') : 1
+label(x) = strlen(strcol('rms_error_percent')) > 0 ? 10**column('label_decades') : 1
+# gnuplot tries an expression on the header, too, where a number is none.
+number(x) = column('number') >= 1 ? int(column('number')) : 1
+pareto(name) = "table = folder.'/".name.".csv'; " \
+    . "stats table using (low = column('axis_low_decades'), high = column('axis_high_decades'), 0) nooutput; " \
+    . "set yrange [10**low : 10**high]; plot " \
+    . "table using (is_drawn(column('stable_percent'))):(error(0)):(label_x - 2 - column('stable_percent')):(label(0) - error(0)) with vectors nohead lw 1 lc rgb '#bbbbbb', " \
+    . "table using (is_drawn(column('stable_percent'))):(error(0)):(Point[number(0)]):(Rgb[number(0)]) with points pt variable ps 1.4 lc rgb variable, " \
+    . "table using (is_drawn(label_x)):(label(0)):(strcol('method')):(Rgb[number(0)]) with labels left font ',13' tc rgb variable"
 set ylabel 'rms error of the force where stable (median), % of its mean'
 set title 'cutting'
 eval pareto('pareto_cutting')

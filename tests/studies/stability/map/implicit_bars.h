@@ -1,0 +1,27 @@
+// What `implicit` promises over the range that a surgeon reaches, and the worst that the map has found of
+// each.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "tests/studies/stability/map/merge.h"
+
+namespace osteomill::study {
+
+struct Bar {
+    std::string what;     ///< with its unit
+    double bar = 0.0;     ///< what must not be exceeded
+    double worst = 0.0;   ///< NaN: nothing was measured
+    std::string where{};  ///< the case that was worst; empty where all are alike
+
+    bool is_met() const { return worst <= bar; }
+};
+
+/// Over the part MapPart::bars; empty where the map has none of it. Share of cases that are unstable; over
+/// those that are stable, rms and mean error of the force; over all, the largest force and jump; and over
+/// pairs of cases that differ in the milling rate alone, 100 and 1000 Hz, by how much what was carved
+/// differs.
+std::vector<Bar> implicit_bars(const WholeMap& map);
+
+}  // namespace osteomill::study
