@@ -51,16 +51,12 @@ std::uint8_t Bone::fraction_at(const glm::ivec3& voxel) const {
 
 double Bone::stiffness_at(const glm::ivec3& voxel) const {
     const std::int32_t slot = slot_of_voxel(*this, voxel);
-    if (slot == BoneContent::no_slot) return 0.0;
-    if (content_->stiffness.empty()) return content_->homogeneous_stiffness;
-    return content_->stiffness_per_code *
-           content_->stiffness[static_cast<std::size_t>(slot)][offset_in_brick(voxel)];
+    return slot == BoneContent::no_slot ? 0.0 : content_->stiffness_in(slot, offset_in_brick(voxel));
 }
 
 std::uint8_t Bone::tissue_at(const glm::ivec3& voxel) const {
     const std::int32_t slot = slot_of_voxel(*this, voxel);
-    if (slot == BoneContent::no_slot || content_->tissue.empty()) return 0;
-    return content_->tissue[static_cast<std::size_t>(slot)][offset_in_brick(voxel)];
+    return slot == BoneContent::no_slot ? std::uint8_t{0} : content_->tissue_in(slot, offset_in_brick(voxel));
 }
 
 double bone_volume_mm3(const Bone& bone) {

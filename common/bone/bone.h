@@ -28,6 +28,16 @@ struct BoneContent {
     double stiffness_per_code = 0.02;       ///< relative stiffness = code * this
     std::vector<ByteBrick> stiffness;       ///< codes by slot; empty in a homogeneous scene
     std::vector<ByteBrick> tissue;          ///< labels by slot; empty in an unlabelled scene
+
+    /// Relative stiffness of the bone of a voxel in a stored brick (1: the bone of the burr's K_t).
+    double stiffness_in(std::int32_t slot, std::size_t offset) const {
+        if (stiffness.empty()) return homogeneous_stiffness;
+        return stiffness_per_code * stiffness[static_cast<std::size_t>(slot)][offset];
+    }
+    /// Tissue label of a voxel in a stored brick; 0 (unlabelled) in an unlabelled scene.
+    std::uint8_t tissue_in(std::int32_t slot, std::size_t offset) const {
+        return tissue.empty() ? std::uint8_t{0} : tissue[static_cast<std::size_t>(slot)][offset];
+    }
 };
 
 /// A bone that can be milled. Copies share content and own their fractions.
@@ -59,7 +69,7 @@ class Bone {
 
     /// Fraction of any voxel; 0 outside the grid and in bricks without bone.
     std::uint8_t fraction_at(const glm::ivec3& voxel) const;
-    /// Relative stiffness of the bone of a voxel (1: the bone of the burr's K_t); 0 where no brick is stored.
+    /// Relative stiffness of the bone of a voxel; 0 where no brick is stored.
     double stiffness_at(const glm::ivec3& voxel) const;
     /// Tissue label of a voxel; 0 (unlabelled) where no label is stored.
     std::uint8_t tissue_at(const glm::ivec3& voxel) const;

@@ -49,11 +49,26 @@ struct CouplingOptions {
     bool model_holds_wall = false;
 };
 
-/// Names for --coupling, in the order of --help; the first is the default.
+struct CouplingMethod {
+    std::string name;
+    std::string description;         ///< a few words for --help
+    bool needs_cutting_law = false;  ///< it solves one: not with a force model that has none
+    bool is_interpolated = false;    ///< a line between two model forces, as the published method has it
+};
+
+/// In the order of --help; the first is the default.
+std::vector<CouplingMethod> coupling_methods();
 std::vector<std::string> coupling_names();
 
-/// Throws std::invalid_argument for an unknown name, listing the known ones, and for a coupling that solves
-/// the cutting law with a model that has none.
+/// What --coupling takes, in one line: the names, and how those of direct_coupling.h are combined with a
+/// virtual damper (BASE+damper) or passivity control (BASE+passivity).
+std::string coupling_choices();
+
+/// Of a name or a combination. Throws std::invalid_argument with the choices for what is neither.
+CouplingMethod coupling_method(const std::string& name);
+
+/// Throws as coupling_method does, and std::invalid_argument for a coupling that needs a cutting law with a
+/// model that has none.
 std::unique_ptr<Coupling> make_coupling(const std::string& name, const CouplingOptions& options);
 
 }  // namespace osteomill

@@ -93,10 +93,4 @@ void visit_immersed(const Bone& bone, const Ball& ball, Visit&& visit) {
     });
 }
 
-/// Relative stiffness of the bone of a voxel in a stored brick.
-inline double stiffness_of(const BoneContent& content, std::int32_t slot, std::size_t offset) {
-    if (content.stiffness.empty()) return content.homogeneous_stiffness;
-    return content.stiffness_per_code * content.stiffness[static_cast<std::size_t>(slot)][offset];
-}
-
 }  // namespace osteomill

@@ -43,11 +43,7 @@ bool BrickNeighbourhood::gather(const Bone& bone, const glm::dvec3& centre_voxel
 double BrickNeighbourhood::stiffness(const glm::vec3& place) const {
     const glm::ivec3 nearest(place + 0.5f);
     const std::int32_t at = slot(nearest);
-    if (at == BoneContent::no_slot) return 0.0;
-    const BoneContent& content = bone_->content();
-    if (content.stiffness.empty()) return content.homogeneous_stiffness;
-    return content.stiffness_per_code *
-           content.stiffness[static_cast<std::size_t>(at)][offset_in_brick(nearest)];
+    return at == BoneContent::no_slot ? 0.0 : bone_->content().stiffness_in(at, offset_in_brick(nearest));
 }
 
 float BrickNeighbourhood::fraction_across_bricks(const glm::ivec3& first, const glm::vec3& w) const {

@@ -8,8 +8,6 @@
 // at a time.
 #pragma once
 
-#include <array>
-#include <cstdint>
 #include <memory>
 #include <vector>
 
@@ -18,6 +16,7 @@
 #include "haptic_server/milling/contact_law.h"
 #include "haptic_server/milling/contact_model.h"
 #include "haptic_server/milling/erosion.h"
+#include "haptic_server/milling/removal_account.h"
 
 namespace osteomill {
 
@@ -32,20 +31,17 @@ class ErodingModel final : public ContactModel {
               MillingResult& result) noexcept override;
 
     const Bone& bone() const override { return bone_; }
-    const RemovedByTissue& removed_mm3() const override { return removed_mm3_; }
+    const RemovedByTissue& removed_mm3() const override { return account_.removed_mm3(); }
 
   private:
-    void erode(const glm::dvec3& position_mm, double dose, EditSink& edits, MillingResult& result) noexcept;
+    void erode(const glm::dvec3& position_mm, double dose, EditSink& edits) noexcept;
 
     Bone bone_;
     std::vector<Burr> burrs_;
     std::unique_ptr<ContactLaw> law_;
     BrickNeighbourhood bricks_;
     Erosion erosion_;
-    std::array<bool, 256> protected_{};
-    RemovedByTissue removed_mm3_{};
-    double total_removed_mm3_ = 0.0;
-    std::uint64_t step_ = 0;
+    RemovalAccount account_;
 
     bool has_position_ = false;  // position_mm_ and burr_ hold the last step's
     glm::dvec3 position_mm_{0.0};

@@ -41,7 +41,7 @@ void Erosion::erode(Bone& bone, const Ball& ball, double dose, EditSink& edits,
             const double cover = cover_of(ball, x * x + across_squared);
             if (cover <= 0.0) continue;
             const std::size_t offset = row.row_offset + static_cast<std::size_t>(place);
-            const double stiffness = std::max(stiffness_of(content, row.slot, offset), least_stiffness);
+            const double stiffness = std::max(content.stiffness_in(row.slot, offset), least_stiffness);
             std::uint16_t& left_over = remainder(row.first + glm::ivec3(i, 0, 0));
             const std::uint64_t lost = left_over + static_cast<std::uint64_t>(steps * cover / stiffness);
             left_over = static_cast<std::uint16_t>(lost & 0xffffu);

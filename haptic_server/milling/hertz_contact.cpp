@@ -28,7 +28,7 @@ Moments moments_of(const Bone& bone, const Ball& ball) noexcept {
                        const double weight = cover * fraction;
                        moments.volume += weight;
                        moments.first += weight * from_centre;
-                       moments.weighted_by_stiffness += weight * stiffness_of(bone.content(), slot, offset);
+                       moments.weighted_by_stiffness += weight * bone.content().stiffness_in(slot, offset);
                        moments.covered += cover;
                    });
     return moments;

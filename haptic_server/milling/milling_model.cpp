@@ -28,26 +28,18 @@ constexpr double longest_wait_s = 0.001 - 1e-7;
 /// Nobody feels the direction of a step that crosses the whole bone.
 constexpr double most_stretches = 64.0;
 
-/// Weighs each removed voxel by its stiffness, counts it by tissue and hands it to the force.
+/// Weighs each removed voxel by its stiffness, enters it into the account and hands it to the force.
 template <typename Force>
-class RemovalTally final : public RemovalSink {
+class ForceOfRemoved final : public RemovalSink {
   public:
-    RemovalTally(const BoneContent& content, const std::array<bool, 256>& is_protected, double mm3_per_code,
-                 RemovedByTissue& removed_mm3, Force& force) noexcept
-        : content_(content),
-          is_protected_(is_protected),
-          mm3_per_code_(mm3_per_code),
-          removed_mm3_(removed_mm3),
-          force_(force) {}
+    ForceOfRemoved(const BoneContent& content, RemovalAccount& account, Force& force) noexcept
+        : content_(content), account_(account), force_(force) {}
 
     void take(const RemovedVoxels& removed) noexcept override {
         weigh(removed);
-        count(removed);
+        enter(removed);
         force_.add(removed, {weights_.data(), removed.padded_count()});
     }
-
-    double total_mm3() const { return total_codes_ * mm3_per_code_; }
-    bool touches_protected() const { return touches_protected_; }
 
   private:
     void weigh(const RemovedVoxels& removed) noexcept {
@@ -65,30 +57,21 @@ class RemovalTally final : public RemovalSink {
         for (std::size_t i = removed.count; i < removed.padded_count(); ++i) weights_[i] = 0.0f;
     }
 
-    void count(const RemovedVoxels& removed) noexcept {
-        double codes = 0.0;
-        for (std::size_t i = 0; i < removed.count; ++i) codes += static_cast<double>(removed.codes[i]);
-        total_codes_ += codes;
+    void enter(const RemovedVoxels& removed) noexcept {
         if (content_.tissue.empty()) {
-            removed_mm3_[0] += codes * mm3_per_code_;
-            touches_protected_ |= is_protected_[0];
+            double codes = 0.0;
+            for (std::size_t i = 0; i < removed.count; ++i) codes += static_cast<double>(removed.codes[i]);
+            account_.take(0, codes);
             return;
         }
-        for (std::size_t i = 0; i < removed.count; ++i) {
-            const std::uint8_t label =
-                content_.tissue[static_cast<std::size_t>(removed.slot[i])][removed.offset[i]];
-            removed_mm3_[label] += static_cast<double>(removed.codes[i]) * mm3_per_code_;
-            touches_protected_ |= is_protected_[label];
-        }
+        for (std::size_t i = 0; i < removed.count; ++i)
+            account_.take(content_.tissue_in(removed.slot[i], removed.offset[i]),
+                          static_cast<double>(removed.codes[i]));
     }
 
     const BoneContent& content_;
-    const std::array<bool, 256>& is_protected_;
-    double mm3_per_code_;
-    RemovedByTissue& removed_mm3_;
+    RemovalAccount& account_;
     Force& force_;
-    double total_codes_ = 0.0;
-    bool touches_protected_ = false;
     alignas(64) std::array<float, RemovedVoxels::capacity> weights_;
 };
 
@@ -100,26 +83,23 @@ MillingModel::MillingModel(Bone bone, std::vector<Burr> burrs, const std::vector
       burrs_(std::move(burrs)),
       settings_(settings),
       chips_(settings.bins),
-      tooth_(settings.instants_per_tooth, settings.instructions) {
+      tooth_(settings.instants_per_tooth, settings.instructions),
+      account_(bone_.grid(), tissues) {
     if (burrs_.empty()) throw std::invalid_argument("the milling model needs at least one burr");
     probes_.reserve(burrs_.size());
     for (const Burr& burr : burrs_) {
         require_valid(burr, bone_.grid().spacing_mm);
         probes_.emplace_back(burr, bone_.grid().spacing_mm);
     }
-    for (const Tissue& tissue : tissues) protected_[tissue.label] = tissue.is_protected;
 }
 
 template <typename Force>
 void MillingModel::carve_and_sum(const Sweep& sweep, double share, EditSink& edits, Force& force,
                                  MillingResult& result) noexcept {
-    RemovalTally tally(bone_.content(), protected_, voxel_volume_mm3(bone_.grid()) / 255.0, removed_mm3_,
-                       force);
+    ForceOfRemoved removed(bone_.content(), account_, force);
     carve(bone_, sweep, carved_at_position_ ? CarveHistory::carved_at_from : CarveHistory::none,
-          {.edges = settings_.edges, .instructions = settings_.instructions}, edits, tally);
+          {.edges = settings_.edges, .instructions = settings_.instructions}, edits, removed);
     result.force_n += share * force.force_n();
-    result.removed_mm3 += tally.total_mm3();
-    result.touches_protected |= tally.touches_protected();
 }
 
 void MillingModel::cut(const BurrCommand& command, const glm::dvec3& to_mm, double share, EditSink& edits,
@@ -179,17 +159,9 @@ void MillingModel::mill(const BurrCommand& command, EditSink& edits, MillingResu
 
 void MillingModel::step(const BurrCommand& command, double time_s, EditSink& edits,
                         MillingResult& result) noexcept {
-    result.step = ++step_;
-    result.time_s = time_s;
-    result.force_n = glm::dvec3(0.0);
-    result.removed_mm3 = 0.0;
-    result.total_removed_mm3 = total_removed_mm3_;
-    result.touches_protected = false;
+    account_.begin_step(time_s, result);
     result.valid = is_usable(command, burrs_.size());
-    if (!result.valid) {
-        result.engagement.count = 0;
-        return;
-    }
+    if (!result.valid) return;
 
     if (!has_position_ || command.burr != burr_) {
         position_mm_ = command.pose.position_mm;
@@ -205,16 +177,9 @@ void MillingModel::step(const BurrCommand& command, double time_s, EditSink& edi
         position_mm_ = command.pose.position_mm;
         since_milled_s_ = 0.0;
     }
-    total_removed_mm3_ += result.removed_mm3;
-
-    result.total_removed_mm3 = total_removed_mm3_;
-    result.pose = command.pose;
-    result.burr = burr_;
-    result.spindle_on = command.spindle_on;
+    account_.end_step(command, result);
     if (command.wants_engagement)
         probes_[burr_].sample(bone_, command.pose.position_mm, command.pose.spindle_axis, result.engagement);
-    else
-        result.engagement.count = 0;
 }
 
 }  // namespace osteomill

@@ -2,8 +2,6 @@
 // engagement. One thread at a time.
 #pragma once
 
-#include <array>
-#include <cstdint>
 #include <memory>
 #include <string>
 #include <vector>
@@ -14,6 +12,7 @@
 #include "haptic_server/milling/contact_model.h"
 #include "haptic_server/milling/milling_settings.h"
 #include "haptic_server/milling/milling_step.h"
+#include "haptic_server/milling/removal_account.h"
 #include "haptic_server/milling/tooth_force.h"
 
 namespace osteomill {
@@ -34,7 +33,7 @@ class MillingModel final : public ContactModel {
               MillingResult& result) noexcept override;
 
     const Bone& bone() const override { return bone_; }
-    const RemovedByTissue& removed_mm3() const override { return removed_mm3_; }
+    const RemovedByTissue& removed_mm3() const override { return account_.removed_mm3(); }
 
   private:
     /// Whether so little lies between position_mm_ and the command's place that it can wait for the next
@@ -56,10 +55,7 @@ class MillingModel final : public ContactModel {
     MillingSettings settings_;
     ChipMap chips_;
     ToothForce tooth_;
-    std::array<bool, 256> protected_{};
-    RemovedByTissue removed_mm3_{};
-    double total_removed_mm3_ = 0.0;
-    std::uint64_t step_ = 0;
+    RemovalAccount account_;
 
     bool has_position_ = false;        // position_mm_ holds where the burr last milled, or was
     bool carved_at_position_ = false;  // the burr_ carved at position_mm_

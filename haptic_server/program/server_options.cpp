@@ -42,9 +42,22 @@ CLI::Validator one_of(const std::vector<std::string>& names) {
         fmt::format("{}", fmt::join(names, "|")));
 }
 
-/// The implicit coupling solves the cutting law; what has none is interpolated.
+CLI::Validator a_coupling() {
+    return CLI::Validator(
+        [](std::string& value) {
+            try {
+                (void)coupling_method(value);
+                return std::string();
+            } catch (const std::invalid_argument& error) {
+                return std::string(error.what());
+            }
+        },
+        "");
+}
+
+/// The default coupling solves the cutting law; what has none is interpolated.
 std::string default_coupling(bool has_cutting_law) {
-    return has_cutting_law ? "implicit" : "interpolate";
+    return has_cutting_law ? coupling_names().front() : "interpolate";
 }
 
 /// A line for each.
@@ -53,6 +66,16 @@ std::string force_model_help() {
     for (const ForceModel& model : force_models())
         text += fmt::format("\n  {}: {}", model.name, model.description);
     return text;
+}
+
+std::string coupling_help() {
+    std::string text = fmt::format(
+        "What stands between the model and the hand ({}; {} with a force model that has no cutting law):",
+        default_coupling(true), default_coupling(false));
+    for (const CouplingMethod& method : coupling_methods())
+        text += fmt::format("\n  {}: {}", method.name, method.description);
+    return text +
+           "\n  BASE+damper, BASE+passivity: the same with another BASE of those that hold or interpolate";
 }
 
 void declare(CLI::App& app, Typed& typed) {
@@ -72,11 +95,7 @@ void declare(CLI::App& app, Typed& typed) {
     app.add_option("--trajectory", typed.trajectory,
                    "What the simulated hand follows, instead of the scene's")
         ->type_name("FILE.csv");
-    app.add_option("--coupling", typed.coupling,
-                   fmt::format("What stands between the model and the hand ({}; {} with a force model that "
-                               "has no cutting law)",
-                               default_coupling(true), default_coupling(false)))
-        ->check(one_of(coupling_names()));
+    app.add_option("--coupling", typed.coupling, coupling_help())->check(a_coupling())->type_name("NAME");
     app.add_option("--force-model", typed.force_model, force_model_help())
         ->check(one_of(force_model_names()))
         ->capture_default_str();
@@ -126,11 +145,11 @@ std::optional<ListenAddress> listen_address(const Typed& typed) {
 std::string checked_coupling(const Typed& typed) {
     const bool has_cutting_law = force_model(typed.force_model).has_cutting_law;
     if (typed.coupling.empty()) return default_coupling(has_cutting_law);
-    if (typed.coupling == "implicit" && !has_cutting_law) {
+    if (coupling_method(typed.coupling).needs_cutting_law && !has_cutting_law) {
         throw std::invalid_argument(
-            fmt::format("--coupling implicit: solves the cutting law, and --force-model {} has none; take "
-                        "--coupling interpolate",
-                        typed.force_model));
+            fmt::format("--coupling {}: solves the cutting law, and --force-model {} has none; take "
+                        "--coupling {}",
+                        typed.coupling, typed.force_model, default_coupling(has_cutting_law)));
     }
     return typed.coupling;
 }
@@ -140,7 +159,7 @@ std::string checked_coupling(const Typed& typed) {
 double default_milling_rate_hz(const MillingSessionOptions& session) {
     const double published_rate_hz = 100.0;
     const bool is_as_published =
-        session.coupling == "interpolate" && force_model(session.force_model).has_cutting_law;
+        coupling_method(session.coupling).is_interpolated && force_model(session.force_model).has_cutting_law;
     return is_as_published ? published_rate_hz : 1.0 / MillingSession::tick_s;
 }
 

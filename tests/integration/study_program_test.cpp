@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <sys/wait.h>
 
+#include <cmath>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -113,6 +114,33 @@ TEST_F(StudyProgram, DrawsItsChartsQuickly) {
         EXPECT_THAT(text_of(out_ + "/" + chart + ".svg"), HasSubstr("</svg>")) << chart;
 }
 
+TEST_F(StudyProgram, PolishesQuickly) {
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+    GTEST_SKIP() << "sessions are run by the unit tests; under a sanitizer these take minutes";
+#endif
+    const Outcome outcome = run("polishing --quick --out " + out_);
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+    EXPECT_THAT(outcome.out, HasSubstr(out_)) << "says where the files are";
+    EXPECT_THAT(outcome.err, HasSubstr("speeds and grips 100 %\n"));
+    const auto claims = nlohmann::json::parse(text_of(out_ + "/claims.json"));
+    const auto measured = [&](const std::string& claim, const std::string& where) {
+        for (const auto& c : claims)
+            if (c.at("claim") == claim && std::string(c.at("where")).starts_with(where))
+                return c.at("measured").get<double>();
+        ADD_FAILURE() << claim << " is not asked of " << where;
+        return std::nan("");
+    };
+    EXPECT_GT(measured("F_y rises with depth", "milling, on rails, one stroke"), 0.9);
+    // A single edge is seen once a revolution: its last one is still missing from a mean over so short a
+    // slide.
+    EXPECT_NEAR(measured("more edges lower the mean force, equation (2)", "on rails"), 1.0, 0.05);
+    EXPECT_NEAR(measured("a faster spindle lowers the force", "milling, on rails"), 0.25, 0.005)
+        << "four times as fast";
+    EXPECT_LT(measured("implicit is steady (not in the paper)", "milling, implicit"), 0.2);
+    for (const char* chart : {"depth", "milling", "point_spring", "stability", "edges"})
+        EXPECT_THAT(text_of(out_ + "/polishing_" + chart + ".svg"), HasSubstr("</svg>")) << chart;
+}
+
 TEST_F(StudyProgram, SaysInOneLineWhatIsWrong) {
     expect_refused("force --cases nowhere.json --out " + out_, 1, "nowhere.json: cannot be read");
     std::ofstream(folder_ / "bad.json") << "[{\"name\": \"half a case\"}]";
@@ -121,7 +149,7 @@ TEST_F(StudyProgram, SaysInOneLineWhatIsWrong) {
     std::ofstream(folder_ / "file") << "in the way";
     expect_refused(std::string("force --cases ") + case_file + " --out " + (folder_ / "file/out").string(), 1,
                    "file/out: cannot be made a folder");
-    expect_refused("", 2, "a study to run: force, stability");
+    expect_refused("", 2, "a study to run: force, stability, polishing");
     expect_refused("farce", 2, "farce");
     expect_refused(std::string("force --cases ") + case_file + " --voxel-mm 0", 2, "--voxel-mm");
     expect_refused("force --case x.json", 2, "--case");

@@ -12,6 +12,7 @@
 #include "haptic_server/imaging/progress.h"
 #include "tests/studies/force/case_report.h"
 #include "tests/studies/force/force_study.h"
+#include "tests/studies/polishing/polishing_options.h"
 #include "tests/studies/report/output_files.h"
 #include "tests/studies/stability/map/stability_options.h"
 #include "tests/studies/stability/scene/map_run.h"
@@ -77,6 +78,11 @@ void run(const ForceOptions& options) {
         osteomill::study::run_force_study({.out = options.out, .quick = options.quick}, surroundings());
 }
 
+void run(const osteomill::study::PolishingStudyOptions& options) {
+    osteomill::study::make_folder(options.out);
+    osteomill::study::run_polishing_study(options, surroundings());
+}
+
 void run(const osteomill::study::StabilityCommand& command) {
     using namespace osteomill;
     study::make_folder(command.run.out);
@@ -102,9 +108,12 @@ int main(int argc, char** argv) {
     add_force(app, force);
     osteomill::study::StabilityCommand stability;
     const CLI::App* const is_stability = osteomill::study::add_stability(app, stability);
+    osteomill::study::PolishingStudyOptions polishing;
+    const CLI::App* const is_polishing = osteomill::study::add_polishing(app, polishing);
     try {
         app.parse(argc, argv);
-        if (app.get_subcommands().empty()) throw CLI::RequiredError("a study to run: force, stability");
+        if (app.get_subcommands().empty())
+            throw CLI::RequiredError("a study to run: force, stability, polishing");
     } catch (const CLI::ParseError& error) {
         if (error.get_exit_code() == 0) return app.exit(error);
         std::cerr << "osteomill_study: " << error.what() << " (see --help)\n";
@@ -113,6 +122,8 @@ int main(int argc, char** argv) {
     try {
         if (is_stability->parsed())
             run(stability);
+        else if (is_polishing->parsed())
+            run(polishing);
         else
             run(force);
         return 0;

@@ -38,6 +38,17 @@ TEST(PositionObserver, ComesToRestWithTheHand) {
     EXPECT_NEAR(before, quantised(2.0), 0.5 * step_mm + 1e-12);
 }
 
+TEST(PositionObserver, IsDrawnIntoTheCell) {
+    PositionObserver observer(step_mm);
+    observer.update({0.0, 0.0, 0.0}, tick_s);
+    const double reading_mm = 0.6 * step_mm;  // a tenth of a step outside
+    EXPECT_NEAR(observer.update({reading_mm, 0.0, 0.0}, tick_s).x, 0.1 * step_mm, 0.04 * step_mm)
+        << "enters at the edge";
+    double estimate = 0.0;
+    for (int tick = 0; tick < 400; ++tick) estimate = observer.update({reading_mm, 0.0, 0.0}, tick_s).x;
+    EXPECT_NEAR(estimate, reading_mm, 0.1 * step_mm) << "v tau = 0.05 x 0.1 q / T x 20 T";
+}
+
 TEST(PositionObserver, WithoutQuantisationIsTheReading) {
     PositionObserver observer(0.0);
     for (const double x : {0.0, 1.0, -3.5, 100.0})

@@ -2,6 +2,9 @@
 #include <gtest/gtest.h>
 
 #include <memory>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "haptic_server/device/client_device.h"
 #include "haptic_server/device/simulated_device.h"
@@ -61,15 +64,19 @@ void expect_no_allocation(const std::string& force_model, const std::string& cou
 }
 
 TEST(RealTimeCode, AllocatesNothingWithASimulatedHand) {
+    // Every model under the default coupling or what stands in for it, every coupling on the default model.
+    std::vector<std::pair<std::string, std::string>> pairs;
     for (const ForceModel& model : force_models())
-        for (const std::string& coupling : coupling_names()) {
-            if (coupling == "implicit" && !model.has_cutting_law) continue;
-            SimulatedDevice device(
-                Trajectory({{0.0, start, true, std::nullopt},
-                            {2.0, {{3.0, 0.0, 0.2}, {0.0, 0.0, 1.0}}, false, std::nullopt}}),
-                DeviceMapping{}, ArmModel{}, hand_model(Grip::firm));
-            expect_no_allocation(model.name, coupling, device);
-        }
+        pairs.emplace_back(model.name, model.has_cutting_law ? coupling_names().front() : "interpolate");
+    for (const std::string& coupling : coupling_names())
+        pairs.emplace_back(force_model_names().front(), coupling);
+    for (const auto& [model, coupling] : pairs) {
+        SimulatedDevice device(Trajectory({{0.0, start, true, std::nullopt},
+                                           {1.5, {{1.5, 0.0, 0.25}, {0.0, 0.0, 1.0}}, false, std::nullopt},
+                                           {2.0, {{3.0, 0.0, 0.2}, {0.0, 0.0, 1.0}}, false, std::nullopt}}),
+                               DeviceMapping{}, ArmModel{}, hand_model(Grip::firm));
+        expect_no_allocation(model, coupling, device);
+    }
 }
 
 TEST(RealTimeCode, AllocatesNothingWithAnOperator) {

@@ -46,6 +46,8 @@ TEST(ServerOptions, NeedNoneToServeTheToothOnThisMachine) {
 TEST(ServerOptions, MillAtThePublishedRateWithThePublishedCoupling) {
     EXPECT_EQ(parse({}).options->session.milling_rate_hz, 1000.0);
     EXPECT_EQ(parse({"--coupling", "interpolate"}).options->session.milling_rate_hz, 100.0);
+    EXPECT_EQ(parse({"--coupling", "sample-estimate-interpolate"}).options->session.milling_rate_hz, 100.0);
+    EXPECT_EQ(parse({"--coupling", "hold"}).options->session.milling_rate_hz, 1000.0);
     EXPECT_EQ(parse({"--coupling=interpolate", "--milling-rate-hz=500"}).options->session.milling_rate_hz,
               500.0);
 }
@@ -65,6 +67,11 @@ TEST(ServerOptions, CoupleAForceModelThatHasNoCuttingLawByInterpolatingAtTheHapt
     EXPECT_EQ(parse({"--force-model", "milling-bins"}).options->session.coupling, "implicit");
 }
 
+TEST(ServerOptions, TakeACouplingWithADamper) {
+    EXPECT_EQ(parse({"--coupling", "interpolate+damper"}).options->session.coupling, "interpolate+damper");
+    EXPECT_THAT(error_of({"--coupling", "implicit+damper"}), HasSubstr("+damper or +passivity"));
+}
+
 TEST(ServerOptions, ServeNobodyOnTheVirtualClockUnlessAsked) {
     EXPECT_FALSE(parse({"--clock", "virtual"}).options->listen.has_value());
     EXPECT_TRUE(parse({"--clock", "virtual", "--listen", "127.0.0.1:0"}).options->listen.has_value());
@@ -76,8 +83,8 @@ TEST(ServerOptions, RefuseToListenToOtherMachinesWithoutTls) {
 }
 
 TEST(ServerOptions, NameTheOptionAndTheChoicesInOneLine) {
-    EXPECT_THAT(error_of({"--coupling", "magic"}),
-                AllOf(HasSubstr("--coupling"), HasSubstr("'magic'"), HasSubstr("implicit, interpolate")));
+    EXPECT_THAT(error_of({"--coupling", "magic"}), AllOf(HasSubstr("--coupling"), HasSubstr("'magic'"),
+                                                         HasSubstr("implicit, hold, interpolate")));
     EXPECT_THAT(error_of({"--force-model", "x"}), AllOf(HasSubstr("--force-model"), HasSubstr("milling")));
     EXPECT_THAT(error_of({"--clock", "sun"}), HasSubstr("real, virtual"));
     EXPECT_THAT(error_of({"--device", "hid7"}), HasSubstr("simulated, client"));

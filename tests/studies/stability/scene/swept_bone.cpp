@@ -120,19 +120,17 @@ void SweptBone::advance(const glm::dvec3& step_mm) {
     path_mm_.push_back(burr_mm_);
 }
 
-void SweptBone::look_at_path(bool far, std::vector<float>& gap_mm) const {
+void SweptBone::look_at_path(double beyond_mm, double within_mm, std::vector<float>& gap_mm) const {
     const auto radius = static_cast<float>(burr_.radius_mm());
-    const double least_squared = far ? near_mm * near_mm : -1.0;
-    const double most_squared = far ? burr_.diameter_mm * burr_.diameter_mm : near_mm * near_mm;
     for (std::size_t k = 0; k < path_mm_.size(); ++k) {
         const std::size_t age = path_mm_.size() - 1 - k;
         if (age > fine_points && k % coarse_stride != 0) continue;
         const glm::dvec3 from_burr = path_mm_[k] - burr_mm_;
-        const double squared = glm::dot(from_burr, from_burr);
-        if (squared <= least_squared || squared > most_squared) continue;
+        const double distance = glm::length(from_burr);
+        if (distance <= beyond_mm || distance > within_mm) continue;
         // A ray along n is in the sphere around q from n.q - root to n.q + root.
         const glm::vec3 q(from_burr);
-        const float rest = radius * radius - static_cast<float>(squared);
+        const float rest = radius * radius - static_cast<float>(distance * distance);
         for (std::size_t i = 0; i < gap_mm.size(); ++i) {
             const float along = normal_x_[i] * q.x + normal_y_[i] * q.y + normal_z_[i] * q.z;
             const float root = std::sqrt(std::max(0.0f, rest + along * along));
@@ -146,10 +144,10 @@ void SweptBone::look_at_path(bool far, std::vector<float>& gap_mm) const {
 void SweptBone::refresh() {
     const std::size_t count = gap_mm_.size();
     std::fill(gap_mm_.begin(), gap_mm_.end(), 0.0f);
-    look_at_path(false, gap_mm_);
+    look_at_path(-1.0, near_mm, gap_mm_);
     if (refreshes_++ % refreshes_per_far_look == 0) {
         std::fill(far_gap_mm_.begin(), far_gap_mm_.end(), 0.0f);
-        look_at_path(true, far_gap_mm_);
+        look_at_path(near_mm, burr_.diameter_mm, far_gap_mm_);
         looked_far_from_mm_ = burr_mm_;
     }
     const glm::vec3 moved(burr_mm_ - looked_far_from_mm_);

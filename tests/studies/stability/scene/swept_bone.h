@@ -49,8 +49,8 @@ class SweptBone {
     void make_patches(double stiffness);
     /// Whether the set of patches that cut at velocity w differs from the one at hand, which it becomes.
     bool engage(const glm::dvec3& velocity_mm_per_s, double substep_s);
-    /// Raises gaps to what spheres of the path, near ones or far ones, have cleared.
-    void look_at_path(bool far, std::vector<float>& gap_mm) const;
+    /// Raises gaps to what the spheres of the path have cleared whose distance is in (beyond, within].
+    void look_at_path(double beyond_mm, double within_mm, std::vector<float>& gap_mm) const;
     void set_engaged(std::size_t patch, bool engaged);
 
     Burr burr_;

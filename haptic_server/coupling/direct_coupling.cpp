@@ -1,0 +1,41 @@
+#include "haptic_server/coupling/direct_coupling.h"
+
+namespace osteomill {
+
+DirectCoupling::DirectCoupling(ForceEstimate estimate, ForceShape shape, const CouplingOptions& options)
+    : wall_n_per_mm_(options.device.max_stiffness_n_per_mm),
+      model_holds_wall_(options.model_holds_wall),
+      force_(estimate, shape, options.milling_period_s),
+      wall_(options.device.max_stiffness_n_per_mm) {}
+
+void DirectCoupling::reset() noexcept {
+    force_.reset();
+    step_ = 0;
+    is_wall_placed_ = false;
+}
+
+const glm::dvec3& DirectCoupling::follow_wall(const HandState& hand, const MillingResult& latest) noexcept {
+    if (!is_wall_placed_) wall_.place(hand.pose.position_mm);
+    is_wall_placed_ = true;
+    wall_.advance(hand.pose.position_mm, hand.tick_s, false, latest);
+    return wall_.position_mm();
+}
+
+CouplingOutput DirectCoupling::tick(const HandState& hand, const MillingResult& latest) noexcept {
+    const bool is_wall = !hand.spindle_on && !model_holds_wall_;
+    ToolPose burr = hand.pose;
+    if (is_wall) {
+        burr.position_mm = follow_wall(hand, latest);
+    } else {
+        is_wall_placed_ = false;
+    }
+    if (latest.step != step_) {
+        step_ = latest.step;
+        const glm::dvec3 sample_n =
+            is_wall ? wall_n_per_mm_ * (burr.position_mm - hand.pose.position_mm) : latest.force_n;
+        force_.add(sample_n, hand.now_s);
+    }
+    return {.force_n = force_.over_tick(hand.now_s, hand.tick_s), .burr_pose = burr};
+}
+
+}  // namespace osteomill

@@ -1,0 +1,24 @@
+// A coupling that says what a test wants, for what is built around one.
+#pragma once
+
+#include "haptic_server/coupling/coupling.h"
+
+namespace osteomill::testing {
+
+struct Script {
+    CouplingOutput says;
+    int resets = 0;
+};
+
+class ScriptedCoupling final : public Coupling {
+  public:
+    explicit ScriptedCoupling(Script& script) : script_(script) {}
+
+    CouplingOutput tick(const HandState&, const MillingResult&) noexcept override { return script_.says; }
+    void reset() noexcept override { ++script_.resets; }
+
+  private:
+    Script& script_;
+};
+
+}  // namespace osteomill::testing

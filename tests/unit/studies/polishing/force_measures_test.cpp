@@ -1,0 +1,110 @@
+#include "tests/studies/polishing/force_measures.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <numbers>
+
+namespace osteomill::study {
+namespace {
+
+constexpr double tick_s = 0.001;
+
+/// A record of `duration_s` whose force and depth are functions of time.
+template <typename Force, typename Depth>
+ForceRecord record_of(double duration_s, Force&& force, Depth&& depth) {
+    ForceRecord record;
+    for (int i = 0; i * tick_s < duration_s; ++i)
+        record.push_back({.time_s = i * tick_s, .force_n = force(i * tick_s), .depth_mm = depth(i * tick_s)});
+    return record;
+}
+
+double half_a_millimetre_a_second(double t_s) {
+    return 0.5 * t_s;
+}
+
+/// Of amplitude 1 N.
+double sine(double hz, double t_s) {
+    return std::sin(2.0 * std::numbers::pi * hz * t_s);
+}
+
+TEST(ForceMeasures, TellALimitCycleFromASlowForce) {
+    const auto record = record_of(
+        4.0, [](double t_s) { return glm::dvec3(0.3 * sine(20.0, t_s), 2.0 + t_s, sine(0.2, t_s)); },
+        half_a_millimetre_a_second);
+    const auto windows = windows_of(record, 0.1);
+    ASSERT_EQ(windows.size(), 40u);
+    // 20 Hz has whole periods in the slow part's tenth of a second: none of it is left there.
+    EXPECT_NEAR(limit_cycle_n(windows), 0.3 / std::numbers::sqrt2, 0.005);
+    const ForceWindow& middle = windows[20];
+    EXPECT_NEAR(middle.slow_rms_n.x, 0.0, 0.005);
+    EXPECT_NEAR(middle.slow_rms_n.y, 2.0 + middle.time_s, 0.005);
+    EXPECT_NEAR(middle.depth_mm, 0.5 * middle.time_s, 1e-9);
+}
+
+TEST(ForceMeasures, SayWhereChatterBegins) {
+    const auto force_from = [](double onset_s, double end_s) {
+        return [=](double t_s) {
+            const bool chatters = t_s >= onset_s && t_s < end_s;
+            return glm::dvec3(1.0, 0.0, chatters ? 0.5 * sine(30.0, t_s) : 0.0);
+        };
+    };
+    const auto onset_of = [&](double onset_s, double end_s) {
+        const auto record = record_of(4.0, force_from(onset_s, end_s), half_a_millimetre_a_second);
+        return onset_of_chatter_mm(windows_of(record, 0.1));
+    };
+    ASSERT_TRUE(onset_of(2.0, 4.0).has_value());
+    EXPECT_NEAR(*onset_of(2.0, 4.0), 1.0, 0.03);
+    EXPECT_FALSE(onset_of(2.0, 2.1).has_value()) << "one window is a stroke that turns round";
+    EXPECT_FALSE(onset_of(5.0, 6.0).has_value());
+}
+
+TEST(ForceMeasures, LeaveOutATenthOfTheWindowsWhereForceRightlyChangesFast) {
+    std::vector<ForceWindow> windows(100, ForceWindow{.fast_rms_n = 0.05});
+    for (std::size_t i = 0; i < 9; ++i) windows[10 * i].fast_rms_n = 1.0;
+    EXPECT_DOUBLE_EQ(limit_cycle_n(windows), 0.05);
+    for (std::size_t i = 0; i < 9; ++i) windows[10 * i + 5].fast_rms_n = 1.0;
+    EXPECT_DOUBLE_EQ(limit_cycle_n(windows), 1.0);
+    EXPECT_EQ(limit_cycle_n({}), 0.0);
+}
+
+TEST(ForceMeasures, CorrelateRanks) {
+    const std::vector<double> depth{1.0, 2.0, 3.0, 4.0, 5.0};
+    EXPECT_DOUBLE_EQ(rank_correlation(depth, {1.0, 10.0, 11.0, 500.0, 501.0}), 1.0);
+    EXPECT_DOUBLE_EQ(rank_correlation(depth, {5.0, 4.0, 3.0, 2.0, -9.0}), -1.0);
+    // 1 - 6 sum d^2 / (n (n^2 - 1)) with d = 1, 1, 0, 1, 1
+    EXPECT_NEAR(rank_correlation(depth, {2.0, 1.0, 3.0, 5.0, 4.0}), 1.0 - 6.0 * 4.0 / 120.0, 1e-12);
+    // Ties: ranks 0.5 0.5 2 3.5 3.5 against 0 to 4.
+    EXPECT_NEAR(rank_correlation(depth, {1.0, 1.0, 2.0, 3.0, 3.0}), 9.0 / std::sqrt(10.0 * 9.0), 1e-12);
+    EXPECT_EQ(rank_correlation(depth, {2.0, 2.0, 2.0, 2.0, 2.0}), 0.0);
+}
+
+TEST(ForceMeasures, KnowProportionalComponents) {
+    const auto off_line = [](auto&& force) {
+        return share_off_line(record_of(1.0, force, half_a_millimetre_a_second));
+    };
+    EXPECT_NEAR(off_line([](double t_s) { return sine(1.0, t_s) * glm::dvec3(1.0, -2.0, 0.01); }), 0.0,
+                1e-12);
+    EXPECT_NEAR(off_line([](double t_s) {
+                    return glm::dvec3(sine(1.0, t_s), 5.0 * sine(2.0, t_s), 0.01 * sine(3.0, t_s));
+                }),
+                2.0 / 3.0, 1e-3);
+    // Two components at right angles in phase, none in the third: half of their power lies off any line.
+    EXPECT_NEAR(off_line([](double t_s) { return glm::dvec3(sine(1.0, t_s), sine(1.0, t_s + 0.25), 0.0); }),
+                0.5, 1e-3);
+}
+
+TEST(ForceMeasures, FindThePeakWithinAToothPeriod) {
+    const auto steady = record_of(
+        1.0, [](double) { return glm::dvec3(0.0, 3.0, 4.0); }, [](double) { return 1.0; });
+    EXPECT_NEAR(peak_over_mean(steady, 0.05), 1.0, 1e-12);
+    EXPECT_NEAR(mean_force_n(steady), 5.0, 1e-12);
+    const auto rippled = record_of(
+        1.0, [](double t_s) { return glm::dvec3(2.0 + sine(20.0, t_s), 0.0, 0.0); },
+        [](double) { return 1.0; });
+    EXPECT_NEAR(peak_over_mean(rippled, 0.05), 1.5, 0.03);
+}
+
+}  // namespace
+}  // namespace osteomill::study
