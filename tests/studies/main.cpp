@@ -78,11 +78,6 @@ void run(const ForceOptions& options) {
         osteomill::study::run_force_study({.out = options.out, .quick = options.quick}, surroundings());
 }
 
-void run(const osteomill::study::PolishingStudyOptions& options) {
-    osteomill::study::make_folder(options.out);
-    osteomill::study::run_polishing_study(options, surroundings());
-}
-
 void run(const osteomill::study::StabilityCommand& command) {
     using namespace osteomill;
     study::make_folder(command.run.out);
