@@ -68,7 +68,7 @@ class ForceCorrection {
 
     static constexpr double memory_s = 0.1;
     /// Below about the square root of this force the gain means nothing and tends to 1.
-    static constexpr double quiet_n2 = 1e-5;
+    static constexpr double quiet_n2 = 1e-6;
     static constexpr double most_turn = 0.3;
     /// Longer than any step of the milling loop: there was a pause.
     static constexpr double longest_step_s = 0.1;

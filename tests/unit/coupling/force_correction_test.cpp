@@ -45,10 +45,10 @@ TEST(ForceCorrection, ComparesImpulsesWhereTicksAndStepsDoNotDivide) {
 }
 
 TEST(ForceCorrection, LeavesAForceAloneThatIsTooSmallToJudge) {
-    const glm::dvec3 predicted_n(0.0, 1e-4, 0.0);
+    const glm::dvec3 predicted_n(0.0, 1e-5, 0.0);
     const glm::dvec3 found_n = corrected(
         predicted_n, [](const glm::dvec3& p) { return 3.0 * p; }, 1);
-    EXPECT_NEAR(glm::length(found_n), 1e-4, 1e-6);
+    EXPECT_NEAR(glm::length(found_n), 1e-5, 1e-7);
 }
 
 TEST(ForceCorrection, StaysWithinItsBoundsWhateverTheModelSays) {

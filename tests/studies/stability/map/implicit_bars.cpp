@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "haptic_server/device/haptic_device.h"
+#include "tests/studies/stability/map/map_points.h"
 #include "tests/studies/stability/map/map_text.h"
 #include "tests/studies/stability/map/map_view.h"
 
@@ -31,6 +32,16 @@ Bar worst_of(const std::string& what, double bar, const std::vector<MapResult>& 
     return found;
 }
 
+/// NaN where there are none.
+Bar unstable_among(const std::string& what, const std::vector<MapResult>& results) {
+    Bar unstable = worst_of(what, most_unstable_percent, results,
+                            [](const MapResult& r) { return r.outcome.is_stable ? 0.0 : 1.0; });
+    if (results.empty()) return unstable;
+    if (unstable.worst == 0.0) unstable.where.clear();
+    unstable.worst = 100.0 * (1.0 - stable_share(results));
+    return unstable;
+}
+
 /// By how much the bone carved at 100 Hz differs from that at 1000 Hz; NaN for a result that is not at 100
 /// Hz.
 double rate_dependence_percent(const MapResult& slow, const std::vector<MapResult>& results) {
@@ -46,15 +57,19 @@ double rate_dependence_percent(const MapResult& slow, const std::vector<MapResul
 }  // namespace
 
 std::vector<Bar> implicit_bars(const WholeMap& map) {
-    const auto all = results_where(map, [](const MapPoint& point) { return point.part == MapPart::bars; });
-    if (all.empty()) return {};
+    const auto within = [&](MapScene scene, bool is_ideal_device) {
+        return results_where(map, [=](const MapPoint& point) {
+            return point.run.method == map_methods().front() && point.run.scene == scene &&
+                   point.run.is_ideal_device == is_ideal_device &&
+                   point.run.delay_ticks <= most_promised_delay_ticks;
+        });
+    };
+    if (results_where(map, [](const MapPoint& point) { return point.part == MapPart::bars; }).empty())
+        return {};
+    const auto all = within(MapScene::cutting, true);
     const double only_stable = std::numeric_limits<double>::quiet_NaN();
-    Bar unstable = worst_of("cases that are unstable, %", most_unstable_percent, all,
-                            [](const MapResult& r) { return r.outcome.is_stable ? 0.0 : 1.0; });
-    if (unstable.worst == 0.0) unstable.where.clear();
-    unstable.worst = 100.0 * (1.0 - stable_share(all));
     return {
-        unstable,
+        unstable_among("cutting that is unstable, %", all),
         worst_of("rms error of the force, % of its mean", most_rms_error_percent, all,
                  [&](const MapResult& r) {
                      return r.outcome.is_stable ? 100.0 * rms_error(r.outcome) : only_stable;
@@ -69,6 +84,10 @@ std::vector<Bar> implicit_bars(const WholeMap& map) {
                  [](const MapResult& r) { return r.outcome.largest_jump_n; }),
         worst_of("bone carved, 100 Hz against 1000 Hz, %", most_rate_dependence_percent, all,
                  [&](const MapResult& r) { return rate_dependence_percent(r, all); }),
+        unstable_among("walls that are unstable, %", within(MapScene::wall, true)),
+        worst_of("largest jump between ticks, cutting on a real device, N", most_jump_n,
+                 within(MapScene::cutting, false),
+                 [](const MapResult& r) { return r.outcome.largest_jump_n; }),
     };
 }
 

@@ -18,10 +18,15 @@ struct Bar {
     bool is_met() const { return worst <= bar; }
 };
 
-/// Over the part MapPart::bars; empty where the map has none of it. Share of cases that are unstable; over
-/// those that are stable, rms and mean error of the force; over all, the largest force and jump; and over
-/// pairs of cases that differ in the milling rate alone, 100 and 1000 Hz, by how much what was carved
-/// differs.
+/// A device answers at once or a tick late: beyond that the map shows where `implicit` ends, and promises
+/// nothing.
+inline constexpr int most_promised_delay_ticks = 1;
+
+/// Over all cases of `implicit` within that delay; empty where the map has none of MapPart::bars. Of cutting
+/// on an ideal device: the share that is unstable; over what is stable, rms and mean error of the force; the
+/// largest force and jump; and over pairs of cases that differ in the milling rate alone, 100 and 1000 Hz, by
+/// how much what was carved differs. Then the share of walls that is unstable, and the largest jump on a real
+/// device.
 std::vector<Bar> implicit_bars(const WholeMap& map);
 
 }  // namespace osteomill::study

@@ -13,7 +13,7 @@ enum class MapScene {
 
 /// What holds the arm, from nothing to a firm hand.
 enum class MapGrip {
-    bare_arm,  ///< 0.5 N s/m and a steady push, no hand
+    bare_arm,  ///< 0.5 N s/m and a steady push, no hand; cutting, it slides on a plane
     light,     ///< hand_model.h
     firm       ///< hand_model.h
 };

@@ -10,6 +10,8 @@ namespace osteomill::study {
 namespace {
 
 constexpr double mm_per_m = 1000.0;
+/// A millionfold what an arm has in a substep.
+constexpr double guided_inertia_n_s_per_mm = 1e6;
 
 /// Of the hand on the tool but for what depends on the tool's velocity, half a substep ahead.
 glm::dvec3 hand_force_n(const HeldTool& tool, const HandIntent& intent, const ToolMotion& motion,
@@ -66,15 +68,21 @@ ToolMotion fine_step(const HeldTool& tool, const HandIntent& intent, const ToolM
         const double friction_mm_per_s = 2.0 * tool.coulomb_friction_n / inertia;
         after = speed <= friction_mm_per_s ? glm::dvec3(0.0) : after * (1.0 - friction_mm_per_s / speed);
     }
+    if (tool.is_guided_in_height) after.z = before.z;
     return {motion.position_mm + 0.5 * substep_s * (before + after), after};
 }
 
 OpenStep open_step(const HeldTool& tool, const HandIntent& intent, const ToolMotion& motion, double time_s,
                    double substep_s) {
     const double inertia = tool.mass_kg / (mm_per_m * substep_s);
-    return {.inertia_n_s_per_mm = inertia + damping_n_s_per_mm(tool),
-            .drive_n =
-                inertia * motion.velocity_mm_per_s + hand_force_n(tool, intent, motion, time_s, substep_s)};
+    OpenStep step{.inertia_n_s_per_mm = glm::dvec3(inertia + damping_n_s_per_mm(tool)),
+                  .drive_n = inertia * motion.velocity_mm_per_s +
+                             hand_force_n(tool, intent, motion, time_s, substep_s)};
+    if (tool.is_guided_in_height) {
+        step.inertia_n_s_per_mm.z = guided_inertia_n_s_per_mm;
+        step.drive_n.z = guided_inertia_n_s_per_mm * motion.velocity_mm_per_s.z;
+    }
+    return step;
 }
 
 }  // namespace osteomill::study

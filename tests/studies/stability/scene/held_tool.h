@@ -25,6 +25,8 @@ struct HeldTool {
     double hand_damping_n_s_per_mm = 0.0;
     double max_push_n = 0.0;          ///< of the hand's spring
     double coulomb_friction_n = 0.0;  ///< 0: none
+    /// It slides on a plane across z: its height stays, whatever pushes.
+    bool is_guided_in_height = false;
 };
 
 /// The arm of arm_model.h, without its Coulomb friction, in that grip. A bare arm has 0.5 N s/m and no hand.
@@ -47,10 +49,11 @@ HandIntent steady_intent(const HeldTool& tool, const ToolMotion& motion, const g
 ToolMotion fine_step(const HeldTool& tool, const HandIntent& intent, const ToolMotion& motion, double time_s,
                      const glm::dvec3& motor_force_n, double substep_s);
 
-/// A substep whose force is yet to be found: inertia * v(end) = drive + force(end). Backward Euler, which
-/// stays exact in the limit of a damper that stops the tool within the substep. Without Coulomb friction.
+/// A substep whose force is yet to be found: inertia * v(end) = drive + force(end), axis by axis. Backward
+/// Euler, which stays exact in the limit of a damper that stops the tool within the substep. Without Coulomb
+/// friction; a guide is an inertia that nothing moves.
 struct OpenStep {
-    double inertia_n_s_per_mm = 0.0;
+    glm::dvec3 inertia_n_s_per_mm{0.0};
     glm::dvec3 drive_n{0.0};
 };
 OpenStep open_step(const HeldTool& tool, const HandIntent& intent, const ToolMotion& motion, double time_s,

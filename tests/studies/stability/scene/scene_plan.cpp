@@ -60,6 +60,9 @@ ScenePlan plan_of(const MapCase& c) {
     ScenePlan plan{.scene = c.scene, .tool = held_tool(c.grip), .mount = mount_of(c)};
     if (!c.is_ideal_device) plan.tool.coulomb_friction_n = ArmModel{}.coulomb_friction_n;
     if (c.scene == MapScene::cutting) {
+        // Nothing but a hand holds a burr at its depth: under a steady push it would climb out of a shallow
+        // slot by itself. So a bare arm slides on a plane.
+        plan.tool.is_guided_in_height = c.grip == MapGrip::bare_arm;
         plan_cutting(c, plan);
     } else {
         plan_wall(c, plan);

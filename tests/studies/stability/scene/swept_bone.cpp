@@ -94,12 +94,15 @@ bool SweptBone::engage(const glm::dvec3& velocity_mm_per_s, double substep_s) {
     return true;
 }
 
-glm::dvec3 SweptBone::solve(double resistance_n_s_per_mm, const glm::dvec3& drive_n, double substep_s) {
+glm::dvec3 SweptBone::solve(const glm::dvec3& resistance_n_s_per_mm, const glm::dvec3& drive_n,
+                            double substep_s) {
+    const glm::dvec3& r = resistance_n_s_per_mm;
+    const glm::dmat3 of_tool(r.x, 0.0, 0.0, 0.0, r.y, 0.0, 0.0, 0.0, r.z);
     glm::dvec3 w = last_velocity_;
     if (!has_engaged_) engage(w, substep_s);
     has_engaged_ = true;
     for (int i = 0; i < most_iterations; ++i) {
-        const glm::dmat3 resists = glm::dmat3(resistance_n_s_per_mm) - force_per_velocity_;
+        const glm::dmat3 resists = of_tool - force_per_velocity_;
         const glm::dvec3 solved = glm::inverse(resists) * (drive_n - force_per_gap_rate_ / substep_s);
         // Two sets that lead to one another would be visited in turn for ever.
         w = i < plain_iterations ? solved : 0.5 * (w + solved);

@@ -35,7 +35,7 @@ class SweptBone {
 
     /// The velocity w that the burr has over the next substep where its motion is held back by `resistance`
     /// and driven by `drive_n`:  resistance w = drive + F(w).  Newton on the set of cutting patches.
-    glm::dvec3 solve(double resistance_n_s_per_mm, const glm::dvec3& drive_n, double substep_s);
+    glm::dvec3 solve(const glm::dvec3& resistance_n_s_per_mm, const glm::dvec3& drive_n, double substep_s);
 
     /// Moves the burr by a step and cuts.
     void advance(const glm::dvec3& step_mm);

@@ -72,13 +72,13 @@ class CompliantCutting final : public Cutting {
 
     void substep(double time_s, double substep_s) override {
         const OpenStep step = open(time_s, substep_s);
-        const double inertia = step.inertia_n_s_per_mm;
+        const glm::dvec3 inertia = step.inertia_n_s_per_mm;
         const Mount& mount = plan_.mount;
         const double mount_k = mount.stiffness_n_per_mm * substep_s + mount.damping_n_s_per_mm;
-        const double share = 1.0 / (1.0 + mount_k / inertia);
+        const glm::dvec3 share = 1.0 / (1.0 + mount_k / inertia);
         const glm::dvec3 a = share * (mount.stiffness_n_per_mm * (tool_.position_mm - burr_mm_) +
                                       mount_k / inertia * step.drive_n);
-        const double b = share * mount_k;
+        const glm::dvec3 b = share * mount_k;
         const glm::dvec3 burr_velocity = bone_.solve(b, a, substep_s);
         force_n_ = b * burr_velocity - a;
         move_burr(burr_velocity, substep_s);
@@ -99,7 +99,7 @@ class Wall final : public Truth {
         const double height_mm = tool_.position_mm.z - radius_mm;
 
         // Off the plane nothing pushes: K (q' - x') + B ((q' - q) / h - v) = 0.
-        double velocity = step.drive_n.z / step.inertia_n_s_per_mm;
+        double velocity = step.drive_n.z / step.inertia_n_s_per_mm.z;
         double touching_mm =
             (k * (height_mm + substep_s * velocity) + b * (touching_mm_ / substep_s + velocity)) /
             (k + b / substep_s);
@@ -108,8 +108,8 @@ class Wall final : public Truth {
             // On it: f = K (q' - x') + B ((q' - q) / h - v) with q' = 0, M v = drive + f.
             touching_mm = 0.0;
             velocity = (step.drive_n.z - k * height_mm - b * touching_mm_ / substep_s) /
-                       (step.inertia_n_s_per_mm + k * substep_s + b);
-            force_n = step.inertia_n_s_per_mm * velocity - step.drive_n.z;
+                       (step.inertia_n_s_per_mm.z + k * substep_s + b);
+            force_n = step.inertia_n_s_per_mm.z * velocity - step.drive_n.z;
         }
         touching_mm_ = touching_mm;
         force_n_ = {0.0, 0.0, force_n};

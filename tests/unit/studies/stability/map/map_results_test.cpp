@@ -56,10 +56,18 @@ TEST(MapResults, AMethodThatIsStableNowhereHasNoErrorToDraw) {
 TEST(MapResults, BarsAreHeldAgainstTheWorst) {
     const WholeMap map = whole_map({.quick = true, .methods = {"implicit"}}, outcome);
     const auto bars = implicit_bars(map);
-    ASSERT_EQ(bars.size(), 6U);
-    EXPECT_DOUBLE_EQ(bars[0].worst, 50.0);
-    EXPECT_THAT(bars[0].where, HasSubstr("cutting 5 mm deep"));
+    ASSERT_EQ(bars.size(), 8U);
+    const auto in_range = [](const MapPoint& p) {
+        return p.run.scene == MapScene::cutting && p.run.is_ideal_device && p.run.delay_ticks <= 1;
+    };
+    const auto fails = [&](const MapPoint& p) { return in_range(p) && !outcome(p.run).is_stable; };
+    const auto& points = map.points;
+    EXPECT_DOUBLE_EQ(bars[0].worst,
+                     100.0 * static_cast<double>(std::count_if(points.begin(), points.end(), fails)) /
+                         static_cast<double>(std::count_if(points.begin(), points.end(), in_range)));
+    EXPECT_THAT(bars[0].where, HasSubstr("mm deep"));
     EXPECT_FALSE(bars[0].is_met());
+    EXPECT_FALSE(bars[6].is_met()) << "walls of more than 0.4 N/mm";
     EXPECT_DOUBLE_EQ(bars[1].worst, 20.0) << "rms error";
     EXPECT_DOUBLE_EQ(bars[3].worst, 6.0) << "force";
     EXPECT_NEAR(bars[5].worst, 1.0, 1e-9) << "bone carved at either rate";

@@ -72,5 +72,17 @@ TEST(HeldTool, OpenStepAgreesWithTheFineStep) {
     EXPECT_LT(glm::distance(open, fine), 1e-4 * glm::length(fine));
 }
 
+TEST(HeldTool, KeepsItsHeightOnAGuideWhateverPushes) {
+    HeldTool tool = held_tool(MapGrip::bare_arm);
+    tool.is_guided_in_height = true;
+    const HandIntent intent{.push_n = {0.5, 0.0, -2.0}};
+    const glm::dvec3 force_n(0.0, 0.1, 1.0);
+    const ToolMotion fine = fine_step(tool, intent, {}, 0.0, force_n, 1e-5);
+    EXPECT_EQ(fine.position_mm.z, 0.0);
+    EXPECT_GT(fine.velocity_mm_per_s.x, 0.0);
+    const OpenStep open = open_step(tool, intent, {}, 0.0, 1e-5);
+    EXPECT_LT(std::abs((open.drive_n.z + force_n.z) / open.inertia_n_s_per_mm.z), 1e-5);
+}
+
 }  // namespace
 }  // namespace osteomill::study

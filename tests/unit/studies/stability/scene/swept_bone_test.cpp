@@ -18,8 +18,8 @@ glm::dvec3 force_when_moved(SweptBone& bone, const glm::dvec3& velocity_mm_per_s
     for (int tick = 0; tick < ticks; ++tick) {
         bone.refresh();
         for (int i = 0; i < 100; ++i) {
-            const glm::dvec3 w =
-                bone.solve(unyielding_n_s_per_mm, unyielding_n_s_per_mm * velocity_mm_per_s, substep_s);
+            const glm::dvec3 w = bone.solve(glm::dvec3(unyielding_n_s_per_mm),
+                                            unyielding_n_s_per_mm * velocity_mm_per_s, substep_s);
             force_n = unyielding_n_s_per_mm * (w - velocity_mm_per_s);
             bone.advance(substep_s * velocity_mm_per_s);
         }
