@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "common/bone/bone.h"
-#include "common/scene/scene.h"
+#include "common/wire/session_info.h"
 #include "common/wire/tool_view.h"
 
 namespace osteomill {
@@ -25,16 +25,6 @@ enum class LinkStatus {
     lost,                ///< the connection broke; trying again
     finished,            ///< the server said goodbye; bone() is what it left; trying again quietly
     refused,             ///< the server speaks another major version of the protocol
-};
-
-/// What the server says of itself when a client joins.
-struct SessionInfo {
-    std::string scene_name{};
-    std::string server_version{};
-    std::vector<Burr> burrs{};  ///< name, diameter, edges, spindle speed and sense; no cutting coefficients
-    std::vector<Tissue> tissues{};
-    bool accepts_operator = false;  ///< the server runs with --device client
-    double force_limit_n = 0.0;
 };
 
 /// What happened since the last poll, and where the link stands.

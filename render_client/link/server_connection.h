@@ -11,12 +11,13 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <thread>
 #include <utility>
 
 #include "common/wire/frame.h"
-#include "common/wire/snapshot.h"
+#include "common/wire/session_receiver.h"
 #include "render_client/link/link_queue.h"
 
 namespace osteomill {
@@ -56,10 +57,13 @@ class ServerConnection {
     void watch_silence();
     void read();
     void take_frames();
-    std::optional<WireError> take(const v1::ServerFrame& frame);
-    std::optional<WireError> take_hello(const v1::Hello& hello);
-    std::optional<WireError> take_snapshot_begin(const v1::SnapshotBegin& message);
-    std::optional<WireError> take_snapshot_end(const v1::SnapshotEnd& message);
+    std::optional<WireError> take(std::span<const std::uint8_t> message);
+    void take_event(SnapshotGoesOn);
+    void take_event(SessionInfo session);
+    void take_event(BoneArrived arrived);
+    void take_event(StateArrived arrived);
+    void take_event(const SaidGoodbye& goodbye);
+    void take_event(const SpeaksOtherProtocol& other);
     void write_newest_intent();
     void reject(const std::string& line);
     void lose(const std::string& line);
@@ -82,12 +86,9 @@ class ServerConnection {
     std::chrono::milliseconds backoff_{0};
 
     // Of the current connection; `generation_` tells its handlers from those of the ones before.
-    enum class Stage { hello, snapshot_begin, snapshot, live };
     std::uint64_t generation_ = 0;
-    Stage stage_ = Stage::hello;
     FrameDecoder decoder_;
-    std::uint64_t last_sequence_ = 0;
-    std::optional<SnapshotAssembler> assembler_;
+    SessionReceiver receiver_;
     bool is_paused_ = false;
     bool accepts_operator_ = false;
     std::array<std::uint8_t, 64 * 1024> arrived_{};
