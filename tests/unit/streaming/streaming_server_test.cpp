@@ -88,7 +88,8 @@ std::string failure_of(const StreamingOptions& options, const std::string& burr_
     Scene scene;
     scene.burrs = {Burr{.name = burr_name}};
     try {
-        StreamingServer server(options, scene, bone, tool, edits, nullptr, 3.3, "0.0.test");
+        LiveSession shown(tool, edits);
+        StreamingServer server(options, session_info(scene, false, 3.3, "0.0.test"), bone, shown);
         server.start();
     } catch (const std::exception& error) {
         return error.what();
