@@ -8,7 +8,7 @@
 
 #include "haptic_server/device/hand_model.h"
 #include "haptic_server/loop/milling_session.h"
-#include "haptic_server/program/listen_address.h"
+#include "haptic_server/streaming/listen_address.h"
 
 namespace osteomill {
 
