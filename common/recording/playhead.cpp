@@ -1,19 +1,11 @@
 #include "common/recording/playhead.h"
 
-#include <algorithm>
-#include <chrono>
 #include <limits>
 #include <utility>
 
+#include "common/wire/sealed_frame.h"
+
 namespace osteomill {
-
-namespace {
-
-double seconds_between(Stamp first, Stamp then) {
-    return std::chrono::duration<double>(then - first).count();
-}
-
-}  // namespace
 
 Playhead::Playhead(std::filesystem::path file) : reader_(file) {
     read_ahead();
@@ -39,7 +31,7 @@ Playhead::Step Playhead::step(double until_s) {
 
 std::optional<double> Playhead::next_time_s() const {
     if (!next_) return std::nullopt;
-    return std::max(time_s_, seconds_between(*first_, next_->stamp));
+    return time_.last_s();
 }
 
 const v1::StateFrame* Playhead::next_frame() const {
@@ -54,6 +46,7 @@ bool Playhead::next_begins_session() const {
 
 void Playhead::go_back_to(const Mark& mark) {
     reader_.go_back_to(mark.place);
+    time_ = mark.time;
     time_s_ = mark.time_s;
     tool_ = mark.tool;
     read_ahead();
@@ -61,8 +54,9 @@ void Playhead::go_back_to(const Mark& mark) {
 
 void Playhead::read_ahead() {
     before_next_ = reader_.mark();
+    before_next_time_ = time_;
     next_ = reader_.next();
-    if (next_ && !first_) first_ = next_->stamp;
+    if (next_) time_.next_s(next_->stamp, next_begins_session());
 }
 
 Playhead::Step Playhead::take(RecordedEvent event) {
@@ -94,13 +88,17 @@ Playhead::Step Playhead::take(RecordedEvent event) {
 
 double recording_duration_s(const std::filesystem::path& file) {
     PacketReader packets(file);
-    std::optional<Stamp> first;
-    Stamp last;
-    while (const auto packet = packets.next()) {
-        if (!first) first = last = packet->stamp;
-        last = std::max(last, packet->stamp);
+    RecordedTime time;
+    try {
+        while (const auto packet = packets.next()) {
+            const auto frame = open_frame(packet->message, Seal::required);
+            if (std::holds_alternative<WireError>(frame)) break;
+            time.next_s(packet->stamp, std::get<v1::ServerFrame>(frame).has_hello());
+        }
+    } catch (const RecordingError&) {
+        // Who reads it comes upon this, too, and says it then.
     }
-    return first ? seconds_between(*first, last) : 0.0;
+    return time.last_s();
 }
 
 }  // namespace osteomill

@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "common/recording/recorded_time.h"
 #include "common/recording/recording_reader.h"
 #include "common/wire/bone_follower.h"
 
@@ -52,10 +53,11 @@ class Playhead {
     /// A place to come back to, as long as the session is the same.
     struct Mark {
         RecordingReader::Mark place;
+        RecordedTime time;
         double time_s = 0.0;
         std::optional<ToolView> tool;
     };
-    Mark mark() const { return {before_next_, time_s_, tool_}; }
+    Mark mark() const { return {before_next_, before_next_time_, time_s_, tool_}; }
     /// The bone is the caller's to put back, with set_fractions().
     void go_back_to(const Mark& mark);
     void set_fractions(BrickIndex brick, std::span<const std::uint8_t, brick_voxel_count> fractions) {
@@ -69,8 +71,9 @@ class Playhead {
     RecordingReader reader_;
     RecordingReader::Mark before_next_;
     std::optional<RecordedEvent> next_;
-    std::optional<Stamp> first_;
-    double time_s_ = 0.0;
+    RecordedTime before_next_time_;
+    RecordedTime time_;    // of next_
+    double time_s_ = 0.0;  // of the frame before
 
     SessionInfo announced_;  // becomes session_ when its bone has come
     SessionInfo session_;
@@ -85,7 +88,7 @@ class Playhead {
     std::uint64_t checksums_verified_ = 0;
 };
 
-/// From the first packet to the last that is whole.
+/// From the first packet to the last that can be read. Throws RecordingError for a file that is no recording.
 double recording_duration_s(const std::filesystem::path& file);
 
 }  // namespace osteomill

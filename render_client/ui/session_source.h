@@ -1,7 +1,12 @@
-// Where sessions come from: a server (BoneLink), or a script in its place.
+// Where sessions come from: a server (BoneLink), a recording of one, or a script in its place.
 #pragma once
 
+#include <filesystem>
+#include <string>
+#include <utility>
+
 #include "render_client/link/bone_link.h"
+#include "render_client/link/recording_player.h"
 
 namespace osteomill {
 
@@ -13,6 +18,8 @@ class SessionSource {
     virtual const Bone* bone() const = 0;            ///< null until one has arrived
     virtual const SessionInfo* session() const = 0;  ///< null until a server has said hello
     virtual void send_operator(const OperatorIntent& intent) = 0;
+    /// What plays the session, where it is a recording; null where it is not.
+    virtual RecordingPlayer* player() { return nullptr; }
 };
 
 /// A server's session.
@@ -26,6 +33,20 @@ class LinkedSession final : public SessionSource {
 
   private:
     BoneLink link_;
+};
+
+/// A recorded session. Nobody can drive it.
+class ReplayedSession final : public SessionSource {
+  public:
+    ReplayedSession(std::filesystem::path file, double speed) : player_(std::move(file), speed) {}
+    LinkUpdate poll() override { return player_.poll(std::chrono::steady_clock::now()); }
+    const Bone* bone() const override { return player_.bone(); }
+    const SessionInfo* session() const override { return player_.session(); }
+    void send_operator(const OperatorIntent&) override {}
+    RecordingPlayer* player() override { return &player_; }
+
+  private:
+    RecordingPlayer player_;
 };
 
 }  // namespace osteomill
