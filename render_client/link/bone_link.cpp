@@ -13,7 +13,8 @@ namespace osteomill {
 
 class BoneLink::Impl {
   public:
-    Impl(std::string host, std::uint16_t port) : connection_(std::move(host), port) {}
+    Impl(std::string host, std::uint16_t port, const std::optional<std::filesystem::path>& record)
+        : connection_(std::move(host), port, record) {}
 
     LinkUpdate poll() {
         LinkUpdate update;
@@ -35,6 +36,11 @@ class BoneLink::Impl {
         if (!session_ || !session_->accepts_operator) return;
         const auto checked = intent_from(to_message(intent), session_->burrs.size());
         if (const auto* good = std::get_if<OperatorIntent>(&checked)) connection_.send(*good);
+    }
+
+    std::string finish_recording() {
+        connection_.finish_recording();
+        return connection_.recording_error();
     }
 
   private:
@@ -85,6 +91,7 @@ class BoneLink::Impl {
         update.dirty_bricks.erase(repeated.begin(), repeated.end());
         update.status = status_;
         update.status_line = line_;
+        update.recording_error = connection_.recording_error();
         if (status_ == LinkStatus::receiving_snapshot) {
             update.snapshot_bricks = counters.snapshot_bricks;
             update.snapshot_bricks_total = counters.snapshot_bricks_total;
@@ -112,8 +119,8 @@ class BoneLink::Impl {
     RateMeter byte_rate_;
 };
 
-BoneLink::BoneLink(std::string host, std::uint16_t port)
-    : impl_(std::make_unique<Impl>(std::move(host), port)) {}
+BoneLink::BoneLink(std::string host, std::uint16_t port, const std::optional<std::filesystem::path>& record)
+    : impl_(std::make_unique<Impl>(std::move(host), port, record)) {}
 BoneLink::~BoneLink() = default;
 LinkUpdate BoneLink::poll() {
     return impl_->poll();
@@ -126,6 +133,9 @@ const SessionInfo* BoneLink::session() const {
 }
 void BoneLink::send_operator(const OperatorIntent& intent) {
     impl_->send(intent);
+}
+std::string BoneLink::finish_recording() {
+    return impl_->finish_recording();
 }
 
 }  // namespace osteomill

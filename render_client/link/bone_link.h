@@ -7,6 +7,7 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
@@ -38,6 +39,9 @@ struct LinkUpdate {
     std::uint32_t snapshot_bricks = 0;        ///< received so far, while receiving_snapshot
     std::uint32_t snapshot_bricks_total = 0;  ///< announced, while receiving_snapshot
 
+    /// Why nothing more is recorded; empty while all is well, and where nothing is to be.
+    std::string recording_error{};
+
     // Since the link was made.
     std::uint64_t frames = 0;               ///< state frames applied
     std::uint64_t checksums_verified = 0;   ///< stated by the server and found equal
@@ -52,8 +56,11 @@ struct LinkUpdate {
 
 class BoneLink {
   public:
-    /// Starts to connect; returns at once, also if there is no such server.
-    BoneLink(std::string host, std::uint16_t port);
+    /// Starts to connect; returns at once, also if there is no such server. What is received goes into
+    /// `record`, too, if that is given: a disk that is slow makes the server gather what it has to tell, one
+    /// that fails ends the recording. Throws RecordingError where it cannot begin.
+    BoneLink(std::string host, std::uint16_t port,
+             const std::optional<std::filesystem::path>& record = std::nullopt);
     ~BoneLink();
     BoneLink(const BoneLink&) = delete;
     BoneLink& operator=(const BoneLink&) = delete;
@@ -71,6 +78,10 @@ class BoneLink {
     /// still under way only the newest is kept. Call it every frame while the operator is at the controls:
     /// the server takes half a second of silence for an operator who has gone, and lifts the pedal.
     void send_operator(const OperatorIntent& intent);
+
+    /// UI thread. Ends the recording and waits until it is written; one line where some of it is not, else
+    /// nothing.
+    std::string finish_recording();
 
   private:
     class Impl;

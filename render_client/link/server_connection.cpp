@@ -24,10 +24,15 @@ constexpr milliseconds longest_backoff{2000};
 /// A server speaks 30 times a second; a cable that is pulled says nothing at all.
 constexpr std::chrono::seconds longest_silence{5};
 
+/// How often to look whether a slow disk has made room. The server meanwhile gathers what it cannot send.
+constexpr milliseconds recorder_check{20};
+
 }  // namespace
 
-ServerConnection::ServerConnection(std::string host, std::uint16_t port)
+ServerConnection::ServerConnection(std::string host, std::uint16_t port,
+                                   const std::optional<std::filesystem::path>& record)
     : host_(std::move(host)), port_(port), where_(host_ + ":" + std::to_string(port_)) {
+    if (record) recorder_.emplace(*record, nullptr);
     announce(LinkStatus::connecting, "connecting to " + where_);
     asio::post(io_, [this] { connect(); });
     thread_ = std::thread([this] { run(); });
@@ -50,6 +55,14 @@ void ServerConnection::resume() {
     asio::post(io_, [this] {
         if (std::exchange(is_paused_, false)) read();
     });
+}
+
+std::string ServerConnection::recording_error() const {
+    return recorder_ ? recorder_->report().error : std::string();
+}
+
+void ServerConnection::finish_recording() {
+    if (recorder_) recorder_->close();
 }
 
 void ServerConnection::reconnect() {
@@ -96,6 +109,7 @@ void ServerConnection::disconnect() {
     socket_.close(ignored);
     silence_.cancel();
     retry_.cancel();
+    recorder_room_.cancel();
     decoder_ = {};
     receiver_ = {};
     is_paused_ = false;
@@ -118,6 +132,7 @@ void ServerConnection::read() {
         silence_.cancel();
         return;
     }
+    if (recorder_ && !recorder_->has_room()) return read_when_recorded();
     watch_silence();
     socket_.async_read_some(asio::buffer(arrived_),
                             [this, generation = generation_](error_code error, std::size_t bytes) {
@@ -130,6 +145,14 @@ void ServerConnection::read() {
                             });
 }
 
+void ServerConnection::read_when_recorded() {
+    silence_.cancel();
+    recorder_room_.expires_after(recorder_check);
+    recorder_room_.async_wait([this, generation = generation_](error_code error) {
+        if (!error && generation == generation_) read();
+    });
+}
+
 void ServerConnection::take_frames() {
     const auto generation = generation_;
     while (const auto message = decoder_.next()) {
@@ -140,10 +163,12 @@ void ServerConnection::take_frames() {
 }
 
 std::optional<WireError> ServerConnection::take(std::span<const std::uint8_t> message) {
-    auto frame = open_frame(message, Seal::optional);
+    // A recording holds only frames that can be checked in years.
+    auto frame = open_frame(message, recorder_ ? Seal::required : Seal::optional);
     if (auto* error = std::get_if<WireError>(&frame)) return std::move(*error);
     auto event = receiver_.take(std::get<v1::ServerFrame>(std::move(frame)));
     if (auto* error = std::get_if<WireError>(&event)) return std::move(*error);
+    if (recorder_) recorder_->push(std::chrono::system_clock::now(), {message.begin(), message.end()});
     std::visit([this](auto&& what) { take_event(std::forward<decltype(what)>(what)); },
                std::get<SessionEvent>(std::move(event)));
     return std::nullopt;

@@ -9,6 +9,7 @@
 #include <boost/asio/steady_timer.hpp>
 #include <chrono>
 #include <cstdint>
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <span>
@@ -16,6 +17,7 @@
 #include <thread>
 #include <utility>
 
+#include "common/recording/recording_writer.h"
 #include "common/wire/frame.h"
 #include "common/wire/session_receiver.h"
 #include "render_client/link/link_queue.h"
@@ -33,7 +35,10 @@ struct LinkCounters {
 
 class ServerConnection {
   public:
-    ServerConnection(std::string host, std::uint16_t port);
+    /// Writes what it receives into `record`, too, if that is given; throws RecordingError if it cannot
+    /// begin.
+    ServerConnection(std::string host, std::uint16_t port,
+                     const std::optional<std::filesystem::path>& record = std::nullopt);
     ~ServerConnection();
     ServerConnection(const ServerConnection&) = delete;
     ServerConnection& operator=(const ServerConnection&) = delete;
@@ -45,6 +50,10 @@ class ServerConnection {
     void send(const OperatorIntent& intent);
     /// There is room in the queue again.
     void resume();
+    /// Why nothing more is recorded; empty while all is well, and where nothing is to be.
+    std::string recording_error() const;
+    /// Writes what still waits; what comes later is not recorded.
+    void finish_recording();
     /// Drops what has come of this connection and begins another.
     void reconnect();
 
@@ -56,6 +65,7 @@ class ServerConnection {
     void disconnect();
     void watch_silence();
     void read();
+    void read_when_recorded();
     void take_frames();
     std::optional<WireError> take(std::span<const std::uint8_t> message);
     void take_event(SnapshotGoesOn);
@@ -75,6 +85,7 @@ class ServerConnection {
     const std::string where_;
     LinkQueue events_;
     LinkCounters counters_;
+    std::optional<RecordingWriter> recorder_;
 
     boost::asio::io_context io_{1};
     // While reading is paused nothing else keeps the thread there.
@@ -83,6 +94,7 @@ class ServerConnection {
     tcp::socket socket_{io_};
     boost::asio::steady_timer retry_{io_};
     boost::asio::steady_timer silence_{io_};
+    boost::asio::steady_timer recorder_room_{io_};
     std::chrono::milliseconds backoff_{0};
 
     // Of the current connection; `generation_` tells its handlers from those of the ones before.

@@ -80,9 +80,13 @@ ParsedOptions parse_options(int argument_count, const char* const* arguments, co
                            },
                            "The server's HOST:PORT (127.0.0.1:7010)")
                         ->type_name("HOST:PORT");
-    app.add_option("--replay", options.replay, "Show a recording of haptic_server --record instead")
+    auto* record = app.add_option("--record", options.record,
+                                  "Write what the server sends, for --replay and packet_replay; a pcap file")
+                       ->type_name("FILE");
+    app.add_option("--replay", options.replay, "Show a recording instead")
         ->type_name("FILE")
-        ->excludes(connect);
+        ->excludes(connect)
+        ->excludes(record);
     auto* speed = app.add_option("--speed", options.speed, "Recorded seconds a second, with --replay (1)")
                       ->check(CLI::Range(RecordingPlayer::slowest, RecordingPlayer::fastest));
     app.add_option_function<std::string>(

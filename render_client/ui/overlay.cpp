@@ -138,6 +138,7 @@ void draw_force_panel(const OverlayContent& content, const glm::ivec2& size_px) 
 void draw_warnings(const OverlayContent& content, const glm::ivec2& size_px) {
     std::vector<std::string> warnings;
     if (!content.bone_problem.empty()) warnings.push_back(content.bone_problem);
+    if (!content.link.recording_error.empty()) warnings.push_back(content.link.recording_error);
     if (content.tool && !content.tool->fault.empty()) warnings.push_back("FAULT: " + content.tool->fault);
     if (content.tool && content.tool->touches_protected)
         warnings.emplace_back("PROTECTED TISSUE: the burr touches it");

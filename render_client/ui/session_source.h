@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -20,16 +21,20 @@ class SessionSource {
     virtual void send_operator(const OperatorIntent& intent) = 0;
     /// What plays the session, where it is a recording; null where it is not.
     virtual RecordingPlayer* player() { return nullptr; }
+    /// Once, after the last poll: what the run failed at although it went on, in one line; mostly nothing.
+    virtual std::string finish() { return {}; }
 };
 
 /// A server's session.
 class LinkedSession final : public SessionSource {
   public:
-    LinkedSession(std::string host, std::uint16_t port) : link_(std::move(host), port) {}
+    LinkedSession(std::string host, std::uint16_t port, const std::optional<std::filesystem::path>& record)
+        : link_(std::move(host), port, record) {}
     LinkUpdate poll() override { return link_.poll(); }
     const Bone* bone() const override { return link_.bone(); }
     const SessionInfo* session() const override { return link_.session(); }
     void send_operator(const OperatorIntent& intent) override { link_.send_operator(intent); }
+    std::string finish() override { return link_.finish_recording(); }
 
   private:
     BoneLink link_;
@@ -44,6 +49,7 @@ class ReplayedSession final : public SessionSource {
     const SessionInfo* session() const override { return player_.session(); }
     void send_operator(const OperatorIntent&) override {}
     RecordingPlayer* player() override { return &player_; }
+    std::string finish() override { return player_.error(); }
 
   private:
     RecordingPlayer player_;
