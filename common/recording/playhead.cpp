@@ -76,6 +76,7 @@ Playhead::Step Playhead::take(RecordedEvent event) {
             throw reader_.error_at(event.place, "the bone differs from the one recorded");
         auto& applied = std::get<BoneFollower::Applied>(outcome);
         ++states_;
+        state_bytes_ += event.bytes;
         if (applied.is_verified) ++checksums_verified_;
         tool_ = std::move(applied.tool);
         frame_ = std::move(state->frame);

@@ -46,6 +46,7 @@ class Playhead {
     std::uint64_t frames() const { return frames_; }
     std::uint64_t bytes() const { return bytes_; }
     std::uint64_t states() const { return states_; }
+    std::uint64_t state_bytes() const { return state_bytes_; }
     std::uint64_t checksums_verified() const { return checksums_verified_; }
     /// At the end: whether the file ends within a packet.
     bool is_torn() const { return reader_.is_torn(); }
@@ -85,6 +86,7 @@ class Playhead {
     std::uint64_t frames_ = 0;
     std::uint64_t bytes_ = 0;
     std::uint64_t states_ = 0;
+    std::uint64_t state_bytes_ = 0;
     std::uint64_t checksums_verified_ = 0;
 };
 

@@ -82,6 +82,7 @@ RecordingSummary summarise(const std::filesystem::path& file,
     summary.frames = playhead.frames();
     summary.states = playhead.states();
     summary.bytes = playhead.bytes();
+    summary.state_bytes = playhead.state_bytes();
     summary.checksums_verified = playhead.checksums_verified();
     summary.bone_checksum = playhead.bone_checksum();
     summary.is_torn = playhead.is_torn();
@@ -112,7 +113,8 @@ nlohmann::ordered_json to_json(const RecordingSummary& summary) {
             {"state_frames", summary.states},
             {"frames_per_s", per_s(summary.states, summary.duration_s)},
             {"bytes", summary.bytes},
-            {"bytes_per_s", per_s(summary.bytes, summary.duration_s)},
+            {"state_bytes", summary.state_bytes},
+            {"bytes_per_s", per_s(summary.state_bytes, summary.duration_s)},
             {"checksums_verified", summary.checksums_verified},
             {"grid", {{"size_voxels", {size.x, size.y, size.z}}, {"spacing_mm", summary.grid.spacing_mm}}},
             {"burrs", burrs},
@@ -132,9 +134,10 @@ std::string to_text(const RecordingSummary& summary) {
                                     protocol(summary.session)));
     line("duration", fmt::format("{:.3f} s{}", summary.duration_s,
                                  summary.sessions > 1 ? fmt::format(", {} sessions", summary.sessions) : ""));
-    line("frames", fmt::format("{}, {} of them states: {:.1f} a second, {:.1f} kB/s", summary.frames,
-                               summary.states, per_s(summary.states, summary.duration_s),
-                               1e-3 * per_s(summary.bytes, summary.duration_s)));
+    line("frames", fmt::format("{} in {:.0f} kB, {} of them states: {:.1f} a second, {:.1f} kB/s",
+                               summary.frames, 1e-3 * static_cast<double>(summary.bytes), summary.states,
+                               per_s(summary.states, summary.duration_s),
+                               1e-3 * per_s(summary.state_bytes, summary.duration_s)));
     for (const auto& [name, milled_s] : summary.milled_s)
         line("burr", fmt::format("{}, spindle on for {:.1f} s", one_line(name), milled_s));
     line("removed", fmt::format("{:.3f} mm^3", summary.removed_mm3));

@@ -21,6 +21,7 @@ struct RecordingSummary {
     std::uint64_t frames = 0;  ///< of all kinds: packets
     std::uint64_t states = 0;
     std::uint64_t bytes = 0;
+    std::uint64_t state_bytes = 0;  ///< of these, the state frames; nearly all others are the snapshot's
     std::uint64_t checksums_verified = 0;
     std::map<std::string, double> milled_s{};       ///< by burr: how long it turned
     double removed_mm3 = 0.0;                       ///< since the recording began
