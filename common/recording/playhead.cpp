@@ -26,6 +26,7 @@ Playhead::Step Playhead::step(double until_s) {
         read_ahead();
         if (step != Step::nothing_due) return step;
     }
+    if (what_comes_next_is_wrong_) throw RecordingError(*what_comes_next_is_wrong_);
     return Step::end;
 }
 
@@ -55,7 +56,13 @@ void Playhead::go_back_to(const Mark& mark) {
 void Playhead::read_ahead() {
     before_next_ = reader_.mark();
     before_next_time_ = time_;
-    next_ = reader_.next();
+    what_comes_next_is_wrong_.reset();
+    try {
+        next_ = reader_.next();
+    } catch (const RecordingError& error) {
+        next_.reset();
+        what_comes_next_is_wrong_ = error;
+    }
     if (next_) time_.next_s(next_->stamp, next_begins_session());
 }
 

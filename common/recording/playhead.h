@@ -29,7 +29,7 @@ class Playhead {
 
     /// Of the last frame, since the first; never goes back within a recording.
     double time_s() const { return time_s_; }
-    /// Of the frame that step() would take; nothing at the end.
+    /// Of the frame that step() would take; nothing at the end, and where that cannot be read.
     std::optional<double> next_time_s() const;
     const SessionInfo& session() const { return session_; }
     const Bone& bone() const { return follower_->bone(); }
@@ -72,6 +72,7 @@ class Playhead {
     RecordingReader reader_;
     RecordingReader::Mark before_next_;
     std::optional<RecordedEvent> next_;
+    std::optional<RecordingError> what_comes_next_is_wrong_;  // said when it is its turn
     RecordedTime before_next_time_;
     RecordedTime time_;    // of next_
     double time_s_ = 0.0;  // of the frame before

@@ -76,6 +76,7 @@ RecordingSummary summarise(const std::filesystem::path& file,
         read_through(summary, playhead, removal, on_state);
     } catch (const RecordingError& error) {
         summary.error = error.what();
+        removal.after(playhead.bone());  // the frame may have been applied in part
     }
     add_removed(summary, removal);
     summary.duration_s = playhead.time_s();

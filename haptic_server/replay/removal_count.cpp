@@ -24,6 +24,7 @@ void RemovalCount::before(const Bone& bone, const v1::StateFrame& next) {
 
 void RemovalCount::after(const Bone& bone) {
     for (const std::int32_t slot : slots_) add_brick(bone, slot, -1, codes_);
+    slots_.clear();
 }
 
 std::array<double, 256> RemovalCount::removed_mm3(const Grid& grid) const {

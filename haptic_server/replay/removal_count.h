@@ -16,6 +16,7 @@ class RemovalCount {
   public:
     /// Frames that make no sense are counted as far as they name stored bricks.
     void before(const Bone& bone, const v1::StateFrame& next);
+    /// A second time it does nothing.
     void after(const Bone& bone);
 
     /// Index: tissue label; 0 holds what has none.

@@ -22,12 +22,13 @@ std::string without_length(const std::string& frame) {
 
 SessionRecorder::SessionRecorder(const std::filesystem::path& file, Stamp began, v1::Hello hello,
                                  const BoneMirror& mirror, SnapshotPacker& packer)
-    : began_(began),
-      feed_(std::move(hello), mirror, packer),
-      writer_(file, [](const std::string& error) { spdlog::error("{}; the session goes on", error); }) {
+    : began_(began), feed_(std::move(hello), mirror, packer), writer_(file, [this](const std::string& error) {
+          if (is_under_way_) spdlog::error("{}; the session goes on", error);
+      }) {
     hand_over(true);
     writer_.wait_until_written();
     if (writer_.has_failed()) throw RecordingError(writer_.report().error);
+    is_under_way_ = true;
 }
 
 void SessionRecorder::record(const ToolView& tool, bool with_checksum, bool may_wait) {

@@ -4,6 +4,7 @@
 // streaming thread never waits. A disk that fails ends the recording, not the session.
 #pragma once
 
+#include <atomic>
 #include <filesystem>
 #include <string>
 
@@ -32,6 +33,7 @@ class SessionRecorder {
     void hand_over(bool may_wait);
 
     const Stamp began_;
+    std::atomic<bool> is_under_way_{false};
     ClientFeed feed_;
     RecordingWriter writer_;
     double time_s_ = 0.0;

@@ -144,6 +144,11 @@ TEST_F(Recording, EndsWithAFullDiskAndTheSessionGoesOn) {
     EXPECT_EQ(info("a.pcap").at("frames"), full.at("recording").at("frames"));
     EXPECT_FALSE(info("a.pcap").at("ends_with_goodbye"));
 
+    const Finished too_little =
+        run_program({"/bin/bash", "-c",
+                     "ulimit -f 100; exec " HAPTIC_SERVER " --clock virtual --record " + file("b.pcap")});
+    EXPECT_EQ(too_little.status, 1);
+    EXPECT_EQ(std::count(too_little.err.begin(), too_little.err.end(), '\n'), 1) << too_little.err;
     const Finished no_room = run_program({HAPTIC_SERVER, "--clock", "virtual", "--record", "/dev/full"});
     EXPECT_EQ(no_room.status, 1);
     EXPECT_EQ(no_room.err, "haptic_server: /dev/full: cannot write the recording: No space left on device\n");

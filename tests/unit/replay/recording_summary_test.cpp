@@ -65,12 +65,19 @@ TEST(RecordingSummary, AddsUpTheSessionsOfAJoinedRecording) {
 
 TEST(RecordingSummary, HoldsWhatCameBeforeWhatCannotBeRead) {
     const testing::TemporaryFolder folder;
-    testing::make_recording(folder / "a.pcap");
+    const MadeRecording made = testing::make_recording(folder / "a.pcap");
     testing::spoil(folder / "a.pcap", 20);
-    const RecordingSummary summary = summarise(folder / "a.pcap", [](const Playhead&) {});
+    double last_s = 0.0;
+    const RecordingSummary summary =
+        summarise(folder / "a.pcap", [&](const Playhead& playhead) { last_s = playhead.time_s(); });
     EXPECT_THAT(summary.error, HasSubstr("a.pcap, packet "));
-    EXPECT_GT(summary.states, 150U);
-    EXPECT_GT(summary.removed_mm3, 0.1);
+    EXPECT_EQ(summary.states, 181U) << "the last 19 and the end are lost";
+    EXPECT_EQ(summary.bone_checksum, made.checksum_after_state[180]);
+    EXPECT_NEAR(last_s, 180 * MadeRecording::period_s, 1e-6);
+    Playhead playhead(folder / "a.pcap");
+    while (playhead.step(last_s) == Playhead::Step::state && playhead.states() < summary.states) {
+    }
+    EXPECT_NEAR(summary.removed_mm3, bone_volume_mm3(made.before) - bone_volume_mm3(playhead.bone()), 1e-9);
 }
 
 TEST(RecordingCsv, HasALineForEachStateUnderItsHeader) {
