@@ -16,14 +16,17 @@ static_assert(largest_frame_bytes < (std::size_t{1} << (7 * longest_prefix_bytes
 }  // namespace
 
 void append_frame(const google::protobuf::MessageLite& message, std::string& stream) {
-    const std::size_t size = message.ByteSizeLong();
-    if (size == 0 || size > largest_frame_bytes)
-        throw std::length_error("a message of " + std::to_string(size) +
+    append_frame(message.SerializeAsString(), stream);
+}
+
+void append_frame(std::string_view message, std::string& stream) {
+    if (message.empty() || message.size() > largest_frame_bytes)
+        throw std::length_error("a message of " + std::to_string(message.size()) +
                                 " bytes does not fit a frame of 1 to " + std::to_string(largest_frame_bytes));
     google::protobuf::io::StringOutputStream output(&stream);
     google::protobuf::io::CodedOutputStream coded(&output);
-    coded.WriteVarint32(static_cast<std::uint32_t>(size));
-    message.SerializeToCodedStream(&coded);
+    coded.WriteVarint32(static_cast<std::uint32_t>(message.size()));
+    coded.WriteRaw(message.data(), static_cast<int>(message.size()));
 }
 
 void FrameDecoder::append(std::span<const std::uint8_t> bytes) {

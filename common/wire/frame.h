@@ -7,6 +7,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace google::protobuf {
@@ -21,6 +22,8 @@ inline constexpr std::size_t largest_frame_bytes = 128 * 1024;
 
 /// Appends one frame. Throws std::length_error for a message over the limit: the sender is to cut it first.
 void append_frame(const google::protobuf::MessageLite& message, std::string& stream);
+/// Likewise, of a message that has been serialised.
+void append_frame(std::string_view message, std::string& stream);
 
 /// Finds the frames in a stream that arrives in pieces of any size. It holds what has arrived and not yet
 /// been taken, and never makes room because a peer says so.

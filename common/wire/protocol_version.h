@@ -7,6 +7,6 @@
 namespace osteomill {
 
 inline constexpr std::uint32_t protocol_major = 1;
-inline constexpr std::uint32_t protocol_minor = 0;
+inline constexpr std::uint32_t protocol_minor = 1;  // 1: each frame of a server carries its checksum
 
 }  // namespace osteomill

@@ -64,6 +64,19 @@ v1::ToolState to_message(const ToolView& tool) {
     return message;
 }
 
+v1::Hello to_message(const SessionInfo& session) {
+    v1::Hello hello;
+    hello.set_protocol_major(session.protocol_major);
+    hello.set_protocol_minor(session.protocol_minor);
+    hello.set_program_version(session.server_version);
+    hello.set_scene_name(session.scene_name);
+    for (const Burr& burr : session.burrs) *hello.add_burrs() = to_message(burr);
+    for (const Tissue& tissue : session.tissues) *hello.add_tissues() = to_message(tissue);
+    hello.set_accepts_operator(session.accepts_operator);
+    hello.set_force_limit_n(session.force_limit_n);
+    return hello;
+}
+
 v1::OperatorInput to_message(const OperatorIntent& intent) {
     v1::OperatorInput message;
     write(intent.hand_target_mm, *message.mutable_hand_target_mm());
@@ -108,6 +121,23 @@ std::variant<std::vector<Tissue>, WireError> tissues_from(
                            .is_protected = message.is_protected()});
     }
     return tissues;
+}
+
+std::variant<SessionInfo, WireError> session_info_from(const v1::Hello& hello) {
+    auto burrs = burrs_from(hello.burrs());
+    if (auto* error = std::get_if<WireError>(&burrs)) return *error;
+    auto tissues = tissues_from(hello.tissues());
+    if (auto* error = std::get_if<WireError>(&tissues)) return *error;
+    if (!std::isfinite(hello.force_limit_n()) || hello.force_limit_n() < 0.0)
+        return WireError{"the force limit is not a finite number of newtons"};
+    return SessionInfo{.protocol_major = hello.protocol_major(),
+                       .protocol_minor = hello.protocol_minor(),
+                       .scene_name = hello.scene_name(),
+                       .server_version = hello.program_version(),
+                       .burrs = std::get<0>(std::move(burrs)),
+                       .tissues = std::get<0>(std::move(tissues)),
+                       .accepts_operator = hello.accepts_operator(),
+                       .force_limit_n = hello.force_limit_n()};
 }
 
 std::variant<ToolView, WireError> tool_from(const v1::ToolState& message, std::size_t burr_count) {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "common/scene/scene.h"
+#include "common/wire/session_info.h"
 #include "common/wire/tool_view.h"
 #include "common/wire/wire_error.h"
 #include "osteomill/v1/session.pb.h"
@@ -16,6 +17,7 @@ namespace osteomill {
 v1::BurrDescription to_message(const Burr& burr);
 v1::TissueDescription to_message(const Tissue& tissue);
 v1::ToolState to_message(const ToolView& tool);
+v1::Hello to_message(const SessionInfo& session);
 v1::OperatorInput to_message(const OperatorIntent& intent);
 
 /// Burrs as a client knows them: the cutting coefficients are not sent, and zero here. Refuses a list without
@@ -26,6 +28,10 @@ std::variant<std::vector<Burr>, WireError> burrs_from(
 /// Refuses a label that is not 1 to 255 and a colour past 0xFFFFFF.
 std::variant<std::vector<Tissue>, WireError> tissues_from(
     const google::protobuf::RepeatedPtrField<v1::TissueDescription>& messages);
+
+/// Refuses what the above refuse, and a force limit that is no finite number of newtons. The protocol's
+/// version is taken as it is.
+std::variant<SessionInfo, WireError> session_info_from(const v1::Hello& hello);
 
 /// Refuses numbers that are not finite and a burr that is not one of `burr_count`.
 std::variant<ToolView, WireError> tool_from(const v1::ToolState& message, std::size_t burr_count);

@@ -13,7 +13,7 @@ namespace osteomill {
 namespace {
 
 constexpr double chore_period_s = 0.02;
-constexpr std::uint64_t chore_ticks = 64;
+constexpr std::uint64_t chore_ticks = 33;  // the rate of a streaming server's frames: 30 Hz
 /// How long a session waits for whoever consumes its edits before it gives up on them.
 constexpr std::chrono::seconds longest_wait_for_consumer{10};
 
@@ -77,6 +77,7 @@ void MillingSession::run(const std::atomic<bool>& stop,
         run_in_lock_step(stop, on_progress);
     }
     device_.stop();
+    if (options_.clock == ClockKind::virtual_time) do_chores(on_progress);
     send_what_overflowed();
     do_chores(on_progress);
 }
@@ -135,7 +136,7 @@ void MillingSession::run_in_lock_step(const std::atomic<bool>& stop,
             milling_loop_.step(step_s, period_s);
             milling_statistics_.duration.add(stopwatch.now_s() - step_began_s);
             ++milling_statistics_.ticks;
-            if (edits_.has_overflowed()) wait_for_room_in_queue(stop);
+            if (edits_.has_overflowed()) wait_for_room_in_queue(stop, on_progress);
         }
         if (tick % chore_ticks == 0) do_chores(on_progress);
     }
@@ -149,8 +150,9 @@ void MillingSession::do_chores(const std::function<void(const ToolSnapshot&)>& o
     if (on_progress) on_progress(status_.front());
 }
 
-void MillingSession::wait_for_room_in_queue(const std::atomic<bool>& stop) {
-    if (!options_.edits_are_consumed) edits_.consume_all([](const EditRun&) {});
+void MillingSession::wait_for_room_in_queue(const std::atomic<bool>& stop,
+                                            const std::function<void(const ToolSnapshot&)>& on_progress) {
+    do_chores(on_progress);
     wait_for_consumer(&stop, [this] {
         edits_.resend_overflowed(model_->bone());
         return !edits_.has_overflowed();

@@ -74,8 +74,8 @@ class MillingSession {
     EditQueue& edits() { return edits_; }
 
     /// Starts the device, runs until the duration has passed or `stop` is set, stops the device. Calls
-    /// `on_progress`, if given, about every 20 ms on the caller's thread. Throws what device.start() throws.
-    /// Runs once.
+    /// `on_progress`, if given, on the caller's thread: about every 20 ms, on the virtual clock every 33 ms
+    /// of the session, where it may consume the edits. Throws what device.start() throws. Runs once.
     void run(const std::atomic<bool>& stop, const std::function<void(const ToolSnapshot&)>& on_progress = {});
 
     /// After run().
@@ -88,7 +88,8 @@ class MillingSession {
     void run_in_lock_step(const std::atomic<bool>& stop,
                           const std::function<void(const ToolSnapshot&)>& on_progress);
     void do_chores(const std::function<void(const ToolSnapshot&)>& on_progress);
-    void wait_for_room_in_queue(const std::atomic<bool>& stop);
+    void wait_for_room_in_queue(const std::atomic<bool>& stop,
+                                const std::function<void(const ToolSnapshot&)>& on_progress);
     void send_what_overflowed();
 
     MillingSessionOptions options_;

@@ -25,6 +25,8 @@ void stop_on_signals() {
     action.sa_handler = [](int) { stop_requested.store(true); };
     sigaction(SIGINT, &action, nullptr);
     sigaction(SIGTERM, &action, nullptr);
+    // A file over the limit of `ulimit -f` is to fail like one on a full disk, not to end the program.
+    std::signal(SIGXFSZ, SIG_IGN);
 }
 
 }  // namespace

@@ -73,6 +73,14 @@ nlohmann::ordered_json measurements(const MillingSessionReport& report, const Bo
     return json;
 }
 
+nlohmann::ordered_json recorded(const RecordingReport& recording) {
+    nlohmann::ordered_json json{
+        {"file", recording.file.string()}, {"frames", recording.frames}, {"bytes", recording.bytes}};
+    json["error"] = nullptr;
+    if (!recording.error.empty()) json["error"] = recording.error;
+    return json;
+}
+
 void write_json(const nlohmann::ordered_json& json, const std::filesystem::path& file) {
     std::ofstream out(file);
     out << json.dump(2) << '\n';

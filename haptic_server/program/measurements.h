@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "common/recording/recording_writer.h"
 #include "common/scene/scene.h"
 #include "haptic_server/loop/milling_session.h"
 #include "haptic_server/program/server_options.h"
@@ -21,6 +22,9 @@ struct BoneCost {
 nlohmann::ordered_json measurements(const MillingSessionReport& report, const BoneCost& bone,
                                     std::uint64_t peak_resident_bytes, const Scene& scene,
                                     const ServerOptions& options);
+
+/// What became of a recording, under "recording": file, frames, bytes, error (null where there is none).
+nlohmann::ordered_json recorded(const RecordingReport& recording);
 
 /// Throws std::runtime_error with one line naming the file.
 void write_json(const nlohmann::ordered_json& json, const std::filesystem::path& file);

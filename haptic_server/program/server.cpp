@@ -24,6 +24,7 @@
 #include "haptic_server/program/resident_memory.h"
 #include "haptic_server/program/scene_on_bone.h"
 #include "haptic_server/program/status_line.h"
+#include "haptic_server/streaming/live_session.h"
 #include "haptic_server/streaming/streaming_server.h"
 
 namespace osteomill {
@@ -84,17 +85,35 @@ DeviceParts make_device(const ServerOptions& options, const Scene& scene) {
     return parts;
 }
 
-std::unique_ptr<StreamingServer> make_streaming(const ServerOptions& options, const Scene& scene, Bone mirror,
-                                                MillingSession& session, const DeviceParts& device,
-                                                const std::string& version) {
-    if (!options.listen) return nullptr;
-    auto streaming = std::make_unique<StreamingServer>(
-        StreamingOptions{.address = options.listen->address, .port = options.listen->port}, scene,
-        std::move(mirror), session.tool(), session.edits(), device.operator_input.get(),
-        device.device->limits().max_force_n, version);
-    streaming->start();
-    fmt::print("listening on {}:{}\n", options.listen->address, streaming->port());
-    std::fflush(stdout);
+/// What shows the session to clients, and records it.
+struct Streaming {
+    std::unique_ptr<LiveSession> shown;
+    std::unique_ptr<StreamingServer> server;  // null: nobody looks on
+
+    explicit operator bool() const { return server != nullptr; }
+};
+
+Streaming make_streaming(const ServerOptions& options, const Scene& scene, Bone mirror,
+                         MillingSession& session, const DeviceParts& device, const std::string& version) {
+    StreamingOptions wanted{.listens = options.listen.has_value(),
+                            .paced_by_session = options.session.clock == ClockKind::virtual_time};
+    if (options.listen) {
+        wanted.address = options.listen->address;
+        wanted.port = options.listen->port;
+    }
+    if (options.record)
+        wanted.record = RecordTo{.file = *options.record, .began = std::chrono::system_clock::now()};
+    Streaming streaming;
+    streaming.shown = std::make_unique<LiveSession>(session.tool(), session.edits());
+    streaming.server = std::make_unique<StreamingServer>(
+        std::move(wanted),
+        session_info(scene, device.operator_input != nullptr, device.device->limits().max_force_n, version),
+        std::move(mirror), *streaming.shown, device.operator_input.get());
+    streaming.server->start();
+    if (options.listen) {
+        fmt::print("listening on {}:{}\n", options.listen->address, streaming.server->port());
+        std::fflush(stdout);
+    }
     return streaming;
 }
 
@@ -132,7 +151,8 @@ void close_log(std::optional<Log>& log) {
 
 void run_server(const ServerOptions& options, const std::string& version, const std::atomic<bool>& stop) {
     const auto began = std::chrono::steady_clock::now();
-    for (const auto& file : {options.save_bone, options.json, options.log_csv, options.log_milling_csv})
+    for (const auto& file :
+         {options.save_bone, options.json, options.log_csv, options.log_milling_csv, options.record})
         require_folder_of(file);
     Scene scene = load_scene(options);
     LoadedBone loaded = load_bone(scene);
@@ -153,15 +173,16 @@ void run_server(const ServerOptions& options, const std::string& version, const 
     if (options.log_milling_csv) milling_log.emplace(*options.log_milling_csv);
 
     MillingSessionOptions session_options = options.session;
-    session_options.edits_are_consumed = options.listen.has_value();
+    const bool is_shown = options.listen || options.record;
+    session_options.edits_are_consumed = is_shown;
     std::optional<Bone> mirror;
-    if (options.listen) mirror = bone;
+    if (is_shown) mirror = bone;
     const auto session =
         std::make_unique<MillingSession>(scene, std::move(bone), *device.device, session_options,
                                          log ? &*log : nullptr, milling_log ? &*milling_log : nullptr);
-    const auto streaming = options.listen
-                               ? make_streaming(options, scene, *std::move(mirror), *session, device, version)
-                               : nullptr;
+    const Streaming streaming =
+        is_shown ? make_streaming(options, scene, *std::move(mirror), *session, device, version)
+                 : Streaming{};
 
     cost.startup_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
 
@@ -169,10 +190,12 @@ void run_server(const ServerOptions& options, const std::string& version, const 
     std::atomic<bool> is_over{false};
     session->run(is_over, [&](const ToolSnapshot& tool) {
         status.show(tool, StatusLine::Clock::now());
+        if (streaming && options.session.clock == ClockKind::virtual_time) streaming.server->show_frame();
         if (stop.load() || device.is_finished()) is_over.store(true);
     });
     status.finish();
-    if (streaming) streaming->stop();
+    if (streaming) streaming.server->stop();
+    const auto recording = streaming ? streaming.server->recording() : std::nullopt;
 
     const MillingSessionReport report = session->report();
     Leftovers leftovers;
@@ -182,7 +205,9 @@ void run_server(const ServerOptions& options, const std::string& version, const 
         if (!options.json) return;
         std::ifstream process("/proc/self/status");
         const std::uint64_t peak = peak_resident_bytes(process).value_or(0);
-        write_json(measurements(report, cost, peak, scene, options), *options.json);
+        auto json = measurements(report, cost, peak, scene, options);
+        if (recording) json["recording"] = recorded(*recording);
+        write_json(json, *options.json);
     });
     leftovers.write([&] {
         if (!options.save_bone) return;
@@ -190,11 +215,14 @@ void run_server(const ServerOptions& options, const std::string& version, const 
                          {{threshold_key, threshold_text(source->threshold_hu)}});
     });
     leftovers.write([&] {
-        if (streaming && streaming->mirror_checksum() != report.bone_checksum) {
+        if (streaming && streaming.server->mirror_checksum() != report.bone_checksum) {
             throw std::runtime_error(
                 fmt::format("the bone that clients were shown ({:016x}) is not the one milled ({:016x})",
-                            streaming->mirror_checksum(), report.bone_checksum));
+                            streaming.server->mirror_checksum(), report.bone_checksum));
         }
+    });
+    leftovers.write([&] {
+        if (recording && !recording->error.empty()) throw std::runtime_error(recording->error);
     });
     leftovers.require_complete();
 }

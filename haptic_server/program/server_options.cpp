@@ -26,6 +26,7 @@ struct Typed {
     std::string clock = "real";
     double duration_s = std::numeric_limits<double>::infinity();
     std::string listen;
+    std::string record;
     std::string save_bone;
     std::string json;
     std::string log_csv;
@@ -113,6 +114,9 @@ void declare(CLI::App& app, Typed& typed) {
                    "Where clients connect, port 0: any free one; \"none\": nobody does (127.0.0.1:7010; none "
                    "with --clock virtual)")
         ->type_name("ADDRESS:PORT");
+    app.add_option("--record", typed.record,
+                   "Write what a client is sent, for packet_replay and render_client --replay; a pcap file")
+        ->type_name("FILE");
     app.add_option("--save-bone", typed.save_bone, "Write what is left of the bone")->type_name("FILE.nrrd");
     app.add_option("--json", typed.json, "Write what was measured")->type_name("FILE");
     app.add_option("--log-csv", typed.log_csv, "Write force and depth, a line a millisecond")
@@ -192,6 +196,7 @@ ServerOptions checked(const Typed& typed) {
     if (is_client && !options.listen) {
         throw std::invalid_argument("--device client: the operator connects over --listen, which is none");
     }
+    options.record = path_if_given(typed.record);
     options.save_bone = path_if_given(typed.save_bone);
     if (options.save_bone && options.save_bone->extension() != ".nrrd") {
         throw std::invalid_argument(fmt::format("--save-bone: '{}' must end in .nrrd", typed.save_bone));

@@ -13,6 +13,14 @@ bool BoneMirror::apply(const EditRun& run) {
     return true;
 }
 
+std::optional<WireError> BoneMirror::apply(const v1::BrickEdit& edit) {
+    if (auto error = apply_brick_edit(edit, bone_)) return error;
+    VoxelMask& mask = changed_[edit.brick()];
+    for (int i = 0; i + 1 < edit.changed_size(); i += 2)
+        for (std::size_t k = 0; k < edit.changed(i + 1); ++k) mask.set(edit.changed(i) + k);
+    return std::nullopt;
+}
+
 ChangedVoxels BoneMirror::take_changes() {
     for (const auto& [brick, mask] : changed_) checksum_.update(bone_, bone_.slot(brick));
     return std::exchange(changed_, {});

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <map>
+#include <optional>
 
 #include "common/bone/bone.h"
 #include "common/bone/edit.h"
@@ -19,6 +20,9 @@ class BoneMirror {
 
     /// Takes over a run. False if it does not fit the bone, which then stays as it was.
     bool apply(const EditRun& run);
+
+    /// Likewise an edit as it came over the wire or out of a recording; says why not.
+    std::optional<WireError> apply(const v1::BrickEdit& edit);
 
     /// What has changed since the last call; brings the checksum up to date.
     ChangedVoxels take_changes();

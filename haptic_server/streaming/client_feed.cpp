@@ -4,6 +4,7 @@
 
 #include "common/wire/frame.h"
 #include "common/wire/scene_messages.h"
+#include "common/wire/sealed_frame.h"
 
 namespace osteomill {
 
@@ -63,7 +64,7 @@ std::optional<std::string> ClientFeed::next() {
     }
     ++sequence_;
     std::string bytes;
-    append_frame(frame, bytes);
+    append_sealed_frame(frame, bytes);
     return bytes;
 }
 
@@ -76,10 +77,10 @@ void ClientFeed::fill_snapshot_bricks(v1::SnapshotBricks& message) {
 }
 
 void ClientFeed::fill_state(v1::ServerFrame& frame) {
-    constexpr std::size_t room_for_tags_and_checksum = 64;
+    constexpr std::size_t room_for_tags_and_checksums = 64;
     v1::StateFrame& state = *frame.mutable_state();
     *state.mutable_tool() = to_message(tool_);
-    std::size_t bytes = frame.ByteSizeLong() + room_for_tags_and_checksum;
+    std::size_t bytes = frame.ByteSizeLong() + room_for_tags_and_checksums;
     while (!untold_.empty()) {
         const auto& [brick, mask] = *untold_.begin();
         const std::int32_t slot = mirror_.bone().slot(brick);

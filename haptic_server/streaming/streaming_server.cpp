@@ -2,12 +2,15 @@
 
 #include <spdlog/spdlog.h>
 
+#include <atomic>
+#include <boost/asio/executor_work_guard.hpp>
 #include <boost/asio/io_context.hpp>
 #include <boost/asio/ip/tcp.hpp>
 #include <boost/asio/post.hpp>
 #include <boost/asio/steady_timer.hpp>
 #include <chrono>
 #include <cmath>
+#include <future>
 #include <map>
 #include <optional>
 #include <stdexcept>
@@ -15,12 +18,12 @@
 #include <utility>
 
 #include "common/wire/frame.h"
-#include "common/wire/protocol_version.h"
 #include "common/wire/scene_messages.h"
 #include "haptic_server/streaming/bone_mirror.h"
 #include "haptic_server/streaming/client_feed.h"
 #include "haptic_server/streaming/operator_seat.h"
 #include "haptic_server/streaming/session.h"
+#include "haptic_server/streaming/session_recorder.h"
 
 namespace osteomill {
 
@@ -37,42 +40,18 @@ constexpr std::size_t most_clients = 32;
 /// How long stop() waits for clients that are slow to read the end.
 constexpr std::chrono::seconds longest_goodbye{2};
 
-v1::Hello make_hello(const Scene& scene, bool accepts_operator, double force_limit_n,
-                     std::string program_version) {
-    v1::Hello hello;
-    hello.set_protocol_major(protocol_major);
-    hello.set_protocol_minor(protocol_minor);
-    hello.set_program_version(std::move(program_version));
-    hello.set_scene_name(scene.name);
-    for (const Burr& burr : scene.burrs) *hello.add_burrs() = to_message(burr);
-    for (const Tissue& tissue : scene.tissues) *hello.add_tissues() = to_message(tissue);
-    hello.set_accepts_operator(accepts_operator);
-    hello.set_force_limit_n(force_limit_n);
-    return hello;
-}
+constexpr const char* end_of_session = "the session has ended";
 
 /// A hello too long for a frame would fail only when a client joins.
 void require_fits_frame(const v1::Hello& hello) {
     v1::ServerFrame frame;
     frame.set_sequence(~std::uint64_t{0});
     *frame.mutable_hello() = hello;
+    frame.set_frame_checksum(0);
     if (frame.ByteSizeLong() > largest_frame_bytes)
         throw std::invalid_argument("the scene's names take " + std::to_string(frame.ByteSizeLong()) +
                                     " bytes, more than the " + std::to_string(largest_frame_bytes) +
                                     " of a frame; shorten its burrs' and tissues' names");
-}
-
-ToolView view_of(const ToolSnapshot& tool) {
-    return {.time_s = tool.time_s,
-            .burr_position_mm = tool.burr_pose.position_mm,
-            .spindle_axis = tool.burr_pose.spindle_axis,
-            .hand_position_mm = tool.hand_pose.position_mm,
-            .force_n = tool.force_n,
-            .burr = tool.burr,
-            .spindle_on = tool.spindle_on,
-            .removed_mm3 = tool.removed_mm3,
-            .touches_protected = tool.touches_protected,
-            .fault = describe(tool.fault)};
 }
 
 tcp::acceptor listen(asio::io_context& io, const StreamingOptions& options) {
@@ -99,15 +78,13 @@ tcp::acceptor listen(asio::io_context& io, const StreamingOptions& options) {
 
 class StreamingServer::Impl {
   public:
-    Impl(StreamingOptions options, const Scene& scene, Bone mirror, TripleBuffer<ToolSnapshot>& tool,
-         EditQueue& edits, TripleBuffer<OperatorInput>* operator_input, double force_limit_n,
-         std::string program_version)
+    Impl(StreamingOptions options, SessionInfo session, Bone mirror, ShownSession& shown,
+         TripleBuffer<OperatorInput>* operator_input)
         : options_(std::move(options)),
-          hello_(make_hello(scene, operator_input != nullptr, force_limit_n, std::move(program_version))),
-          burr_count_(scene.burrs.size()),
+          hello_(to_message(session)),
+          burr_count_(session.burrs.size()),
           mirror_(std::move(mirror)),
-          tool_(tool),
-          edits_(edits) {
+          shown_(shown) {
         if (!(std::isfinite(options_.frame_rate_hz) && options_.frame_rate_hz > 0.0))
             throw std::invalid_argument("the frame rate is " + std::to_string(options_.frame_rate_hz) +
                                         " Hz, not above zero");
@@ -116,29 +93,49 @@ class StreamingServer::Impl {
         if (operator_input != nullptr) seat_.emplace(*operator_input);
         period_ = std::chrono::duration_cast<Clock::duration>(
             std::chrono::duration<double>(1.0 / options_.frame_rate_hz));
+        frames_per_checksum_ = static_cast<std::uint64_t>(std::ceil(options_.frame_rate_hz));
     }
 
     ~Impl() { stop(); }
 
     void start() {
-        acceptor_.emplace(listen(io_, options_));
-        port_ = acceptor_->local_endpoint().port();
-        spdlog::info("listening on {}:{}", options_.address, port_);
+        if (options_.listens) acceptor_.emplace(listen(io_, options_));
+        // Only now: a server that cannot listen must not have overwritten an earlier recording.
+        if (options_.record)
+            recorder_.emplace(options_.record->file, options_.record->began, hello_, mirror_, packer_);
+        if (acceptor_) {
+            port_ = acceptor_->local_endpoint().port();
+            spdlog::info("listening on {}:{}", options_.address, port_);
+            accept();
+        }
         next_frame_ = Clock::now();
-        next_checksum_ = next_frame_;
-        accept();
-        wait_for_next_frame();
+        if (!options_.paced_by_session) wait_for_next_frame();
         thread_ = std::thread([this] { run(); });
+    }
+
+    void show_frame() {
+        const auto done = std::make_shared<std::promise<void>>();
+        asio::post(io_, [this, done] {
+            if (!is_finishing_) send_frame();
+            done->set_value();
+        });
+        const auto shown = done->get_future();
+        while (shown.wait_for(std::chrono::milliseconds(100)) != std::future_status::ready && !has_failed_) {
+        }
     }
 
     void stop() {
         if (!thread_.joinable()) return;
         asio::post(io_, [this] { finish(); });
         thread_.join();
+        if (recorder_) recorder_->finish(last_view_, end_of_session);
     }
 
     std::uint16_t port() const { return port_; }
     std::uint64_t mirror_checksum() const { return mirror_.checksum(); }
+    std::optional<RecordingReport> recording() const {
+        return recorder_ ? std::optional(recorder_->report()) : std::nullopt;
+    }
 
   private:
     void run() {
@@ -146,6 +143,7 @@ class StreamingServer::Impl {
             io_.run();
         } catch (const std::exception& error) {
             // Haptics go on without spectators.
+            has_failed_ = true;
             spdlog::error("streaming has stopped: {}", error.what());
             for (const auto& [id, session] : std::map(sessions_)) session->close("was cut off", false);
             if (seat_) seat_->vacate();
@@ -164,25 +162,21 @@ class StreamingServer::Impl {
     }
 
     void send_frame() {
-        const auto now = Clock::now();
-        take_over_edits();
-        if (seat_) seat_->check_silence(now);
-        tool_.refresh();
-        const bool with_checksum = now >= next_checksum_;
-        if (with_checksum) next_checksum_ = now + std::chrono::seconds(1);
-        const ToolView view = view_of(tool_.front());
+        if (seat_) seat_->check_silence(Clock::now());
+        update();
+        const bool with_checksum = frames_++ % frames_per_checksum_ == 0;
+        if (recorder_) recorder_->record(last_view_, with_checksum, options_.paced_by_session);
         for (const auto& [id, session] : std::map(sessions_)) {  // a session may close and leave the map
-            session->feed().request_state(view, with_checksum);
+            session->feed().request_state(last_view_, with_checksum);
             session->pump();
         }
-        if (!is_accepting_) accept();
+        if (options_.listens && !is_accepting_) accept();
     }
 
-    void take_over_edits() {
-        std::size_t refused = 0;
-        edits_.consume_all([&](const EditRun& run) { refused += mirror_.apply(run) ? 0 : 1; });
-        if (refused > 0) spdlog::error("{} edits do not fit the bone that clients are shown", refused);
+    void update() {
+        last_view_ = shown_.update(mirror_, sessions_.size());
         const ChangedVoxels changes = mirror_.take_changes();
+        if (recorder_) recorder_->note(changes);
         for (const auto& [id, session] : sessions_) session->feed().note(changes);
     }
 
@@ -231,14 +225,13 @@ class StreamingServer::Impl {
     void finish() {
         is_finishing_ = true;
         timer_.cancel();
-        acceptor_->close();
+        if (acceptor_) acceptor_->close();
+        work_.reset();
         if (seat_) seat_->vacate();
-        take_over_edits();
-        tool_.refresh();
-        const ToolView view = view_of(tool_.front());
+        update();
         for (const auto& [id, session] : std::map(sessions_)) {
-            session->feed().request_state(view, true);
-            session->feed().finish("the session has ended");
+            session->feed().request_state(last_view_, true);
+            session->feed().finish(end_of_session);
             session->pump();
         }
         if (sessions_.empty()) return;
@@ -255,35 +248,41 @@ class StreamingServer::Impl {
     const std::size_t burr_count_;
     BoneMirror mirror_;
     SnapshotPacker packer_;
-    TripleBuffer<ToolSnapshot>& tool_;
-    EditQueue& edits_;
+    ShownSession& shown_;
+    ToolView last_view_;
+    std::optional<SessionRecorder> recorder_;
     std::optional<OperatorSeat> seat_;
     Clock::duration period_{};
 
     asio::io_context io_{1};
+    // Without clients and a timer nothing else keeps the thread there.
+    asio::executor_work_guard<asio::io_context::executor_type> work_{io_.get_executor()};
     std::optional<tcp::acceptor> acceptor_;
     asio::steady_timer timer_{io_};
     asio::steady_timer deadline_{io_};
     std::map<OperatorSeat::ClientId, std::shared_ptr<Session>> sessions_;
     OperatorSeat::ClientId last_client_ = 0;
     Clock::time_point next_frame_{};
-    Clock::time_point next_checksum_{};
+    std::uint64_t frames_ = 0;
+    std::uint64_t frames_per_checksum_ = 1;
     bool is_accepting_ = false;
     bool is_finishing_ = false;
+    std::atomic<bool> has_failed_{false};
     std::uint16_t port_ = 0;
     std::thread thread_;
 };
 
-StreamingServer::StreamingServer(StreamingOptions options, const Scene& scene, Bone mirror,
-                                 TripleBuffer<ToolSnapshot>& tool, EditQueue& edits,
-                                 TripleBuffer<OperatorInput>* operator_input, double force_limit_n,
-                                 std::string program_version)
-    : impl_(std::make_unique<Impl>(std::move(options), scene, std::move(mirror), tool, edits, operator_input,
-                                   force_limit_n, std::move(program_version))) {}
+StreamingServer::StreamingServer(StreamingOptions options, SessionInfo session, Bone mirror,
+                                 ShownSession& shown, TripleBuffer<OperatorInput>* operator_input)
+    : impl_(std::make_unique<Impl>(std::move(options), std::move(session), std::move(mirror), shown,
+                                   operator_input)) {}
 
 StreamingServer::~StreamingServer() = default;
 void StreamingServer::start() {
     impl_->start();
+}
+void StreamingServer::show_frame() {
+    impl_->show_frame();
 }
 void StreamingServer::stop() {
     impl_->stop();
@@ -293,6 +292,9 @@ std::uint16_t StreamingServer::port() const {
 }
 std::uint64_t StreamingServer::mirror_checksum() const {
     return impl_->mirror_checksum();
+}
+std::optional<RecordingReport> StreamingServer::recording() const {
+    return impl_->recording();
 }
 
 }  // namespace osteomill

@@ -1,47 +1,62 @@
 // Shows the bone and the tool to every client that connects: a snapshot, then state frames at 30 Hz.
 //
 // One thread of its own. It keeps its own copy of the bone (the mirror), so it never touches the milling
-// loop's, and takes edits from the queue at every frame whether or not anybody watches. Memory is bounded:
+// loop's, and takes over what has changed at every frame whether or not anybody watches. Memory is bounded:
 // for each client there is one frame under way and a set of voxels that it has yet to be told of. A slow
 // client gets fewer frames and misses nothing; one that sends nonsense is dropped with one log line.
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "common/bone/bone.h"
-#include "common/scene/scene.h"
+#include "common/recording/recording_writer.h"
+#include "common/wire/session_info.h"
 #include "haptic_server/exchange/operator_input.h"
 #include "haptic_server/exchange/triple_buffer.h"
-#include "haptic_server/loop/edit_queue.h"
-#include "haptic_server/loop/exchange.h"
+#include "haptic_server/streaming/shown_session.h"
 
 namespace osteomill {
 
+/// A recording that is made of what is shown.
+struct RecordTo {
+    std::filesystem::path file;
+    Stamp began;  ///< when the session's time is zero
+};
+
 struct StreamingOptions {
+    bool listens = true;  ///< false: nobody is served, there is only a recording
     std::string address = "127.0.0.1";
     std::uint16_t port = 7010;  ///< 0 lets the system choose; see StreamingServer::port
     double frame_rate_hz = 30.0;
+    /// Frames go out when show_frame() is called instead, and a recording waits for its disk: for sessions
+    /// that run on a clock of their own.
+    bool paced_by_session = false;
+    std::optional<RecordTo> record{};
 };
 
 class StreamingServer {
   public:
-    /// `mirror` equals the milling loop's bone before the first edit. The server is the one consumer of
-    /// `edits`, the one reader of `tool`, and the one writer of `operator_input`, which is null unless the
-    /// device is driven by a client; all three outlive it. Throws std::invalid_argument for a frame rate that
-    /// is not above zero, a bone too large to send, or a scene whose names do not fit a frame.
-    StreamingServer(StreamingOptions options, const Scene& scene, Bone mirror,
-                    TripleBuffer<ToolSnapshot>& tool, EditQueue& edits,
-                    TripleBuffer<OperatorInput>* operator_input, double force_limit_n,
-                    std::string program_version);
+    /// `mirror` equals the bone of `shown` before the first update(). The server is the one writer of
+    /// `operator_input`, which is null unless the device is driven by a client; both outlive it. Throws
+    /// std::invalid_argument for a frame rate that is not above zero, a bone too large to send, or a scene
+    /// whose names do not fit a frame.
+    StreamingServer(StreamingOptions options, SessionInfo session, Bone mirror, ShownSession& shown,
+                    TripleBuffer<OperatorInput>* operator_input = nullptr);
     /// Stops first, if need be.
     ~StreamingServer();
     StreamingServer(const StreamingServer&) = delete;
     StreamingServer& operator=(const StreamingServer&) = delete;
 
-    /// Binds and begins to serve. Throws std::runtime_error, in one line, if the address cannot be had.
+    /// Binds, begins the recording and to serve. Throws std::runtime_error, in one line, if the address
+    /// cannot be had or nothing can be recorded.
     void start();
+
+    /// Sends a frame of what is shown, and returns when that is done: with paced_by_session.
+    void show_frame();
 
     /// Call after the milling loop has ended: takes over the last edits, sends every client the final state
     /// with its checksum and a goodbye, waits up to about 2 s for slow ones, closes, joins. A second call
@@ -52,6 +67,8 @@ class StreamingServer {
     std::uint16_t port() const;
     /// Checksum of the mirror, after stop().
     std::uint64_t mirror_checksum() const;
+    /// What became of the recording, after stop(); nothing where none was asked for.
+    std::optional<RecordingReport> recording() const;
 
   private:
     class Impl;

@@ -4,8 +4,7 @@
 #include <chrono>
 #include <utility>
 
-#include "common/wire/brick_edit.h"
-#include "common/wire/running_checksum.h"
+#include "common/wire/bone_follower.h"
 #include "common/wire/scene_messages.h"
 #include "render_client/link/rate_meter.h"
 #include "render_client/link/server_connection.h"
@@ -14,7 +13,8 @@ namespace osteomill {
 
 class BoneLink::Impl {
   public:
-    Impl(std::string host, std::uint16_t port) : connection_(std::move(host), port) {}
+    Impl(std::string host, std::uint16_t port, const std::optional<std::filesystem::path>& record)
+        : connection_(std::move(host), port, record) {}
 
     LinkUpdate poll() {
         LinkUpdate update;
@@ -29,7 +29,7 @@ class BoneLink::Impl {
         return update;
     }
 
-    const Bone* bone() const { return bone_ ? &*bone_ : nullptr; }
+    const Bone* bone() const { return follower_ ? &follower_->bone() : nullptr; }
     const SessionInfo* session() const { return session_ ? &*session_ : nullptr; }
 
     void send(const OperatorIntent& intent) {
@@ -38,12 +38,16 @@ class BoneLink::Impl {
         if (const auto* good = std::get_if<OperatorIntent>(&checked)) connection_.send(*good);
     }
 
+    std::string finish_recording() {
+        connection_.finish_recording();
+        return connection_.recording_error();
+    }
+
   private:
     void take(SessionBegan began, LinkUpdate&) { session_ = std::move(began.info); }
 
     void take(BoneArrived arrived, LinkUpdate& update) {
-        bone_ = std::move(arrived.bone);
-        checksum_ = std::move(arrived.checksum);
+        follower_.emplace(std::move(arrived), session_->burrs.size());
         update.bone_replaced = true;
         update.dirty_bricks.clear();
     }
@@ -63,27 +67,21 @@ class BoneLink::Impl {
     }
 
     std::optional<WireError> apply(const v1::StateFrame& frame, LinkUpdate& update) {
-        auto tool = tool_from(frame.tool(), session_->burrs.size());
-        if (auto* error = std::get_if<WireError>(&tool)) return reject(std::move(*error));
-        for (const v1::BrickEdit& edit : frame.edits()) {
-            if (auto error = apply_brick_edit(edit, *bone_)) return reject(std::move(*error));
-            checksum_->update(*bone_, bone_->slot(edit.brick()));
-            if (!update.bone_replaced) update.dirty_bricks.push_back(edit.brick());
+        auto outcome = follower_->apply(frame, update.dirty_bricks);
+        if (update.bone_replaced) update.dirty_bricks.clear();
+        if (auto* error = std::get_if<WireError>(&outcome)) {
+            ++rejected_;
+            return std::move(*error);
         }
-        update.tool = std::get<ToolView>(std::move(tool));
         ++frames_;
-        if (frame.bone_checksum() == 0) return std::nullopt;
-        if (frame.bone_checksum() != checksum_->value()) {
+        if (std::holds_alternative<BoneDiffers>(outcome)) {
             ++mismatches_;
             return WireError{"the bone differs from the server's"};
         }
-        ++verified_;
+        auto& applied = std::get<BoneFollower::Applied>(outcome);
+        if (applied.is_verified) ++verified_;
+        update.tool = std::move(applied.tool);
         return std::nullopt;
-    }
-
-    WireError reject(WireError error) {
-        ++rejected_;
-        return error;
     }
 
     void complete(LinkUpdate& update) {
@@ -93,6 +91,7 @@ class BoneLink::Impl {
         update.dirty_bricks.erase(repeated.begin(), repeated.end());
         update.status = status_;
         update.status_line = line_;
+        update.recording_error = connection_.recording_error();
         if (status_ == LinkStatus::receiving_snapshot) {
             update.snapshot_bricks = counters.snapshot_bricks;
             update.snapshot_bricks_total = counters.snapshot_bricks_total;
@@ -111,8 +110,7 @@ class BoneLink::Impl {
     LinkStatus status_ = LinkStatus::connecting;
     std::string line_;
     std::optional<SessionInfo> session_;
-    std::optional<Bone> bone_;
-    std::optional<RunningChecksum> checksum_;
+    std::optional<BoneFollower> follower_;
     std::uint64_t frames_ = 0;
     std::uint64_t verified_ = 0;
     std::uint64_t mismatches_ = 0;
@@ -121,8 +119,8 @@ class BoneLink::Impl {
     RateMeter byte_rate_;
 };
 
-BoneLink::BoneLink(std::string host, std::uint16_t port)
-    : impl_(std::make_unique<Impl>(std::move(host), port)) {}
+BoneLink::BoneLink(std::string host, std::uint16_t port, const std::optional<std::filesystem::path>& record)
+    : impl_(std::make_unique<Impl>(std::move(host), port, record)) {}
 BoneLink::~BoneLink() = default;
 LinkUpdate BoneLink::poll() {
     return impl_->poll();
@@ -135,6 +133,9 @@ const SessionInfo* BoneLink::session() const {
 }
 void BoneLink::send_operator(const OperatorIntent& intent) {
     impl_->send(intent);
+}
+std::string BoneLink::finish_recording() {
+    return impl_->finish_recording();
 }
 
 }  // namespace osteomill

@@ -7,13 +7,14 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "common/bone/bone.h"
-#include "common/scene/scene.h"
+#include "common/wire/session_info.h"
 #include "common/wire/tool_view.h"
 
 namespace osteomill {
@@ -27,16 +28,6 @@ enum class LinkStatus {
     refused,             ///< the server speaks another major version of the protocol
 };
 
-/// What the server says of itself when a client joins.
-struct SessionInfo {
-    std::string scene_name{};
-    std::string server_version{};
-    std::vector<Burr> burrs{};  ///< name, diameter, edges, spindle speed and sense; no cutting coefficients
-    std::vector<Tissue> tissues{};
-    bool accepts_operator = false;  ///< the server runs with --device client
-    double force_limit_n = 0.0;
-};
-
 /// What happened since the last poll, and where the link stands.
 struct LinkUpdate {
     LinkStatus status = LinkStatus::connecting;
@@ -47,6 +38,9 @@ struct LinkUpdate {
 
     std::uint32_t snapshot_bricks = 0;        ///< received so far, while receiving_snapshot
     std::uint32_t snapshot_bricks_total = 0;  ///< announced, while receiving_snapshot
+
+    /// Why nothing more is recorded; empty while all is well, and where nothing is to be.
+    std::string recording_error{};
 
     // Since the link was made.
     std::uint64_t frames = 0;               ///< state frames applied
@@ -62,8 +56,11 @@ struct LinkUpdate {
 
 class BoneLink {
   public:
-    /// Starts to connect; returns at once, also if there is no such server.
-    BoneLink(std::string host, std::uint16_t port);
+    /// Starts to connect; returns at once, also if there is no such server. What is received goes into
+    /// `record`, too, if that is given: a disk that is slow makes the server gather what it has to tell, one
+    /// that fails ends the recording. Throws RecordingError where it cannot begin.
+    BoneLink(std::string host, std::uint16_t port,
+             const std::optional<std::filesystem::path>& record = std::nullopt);
     ~BoneLink();
     BoneLink(const BoneLink&) = delete;
     BoneLink& operator=(const BoneLink&) = delete;
@@ -81,6 +78,10 @@ class BoneLink {
     /// still under way only the newest is kept. Call it every frame while the operator is at the controls:
     /// the server takes half a second of silence for an operator who has gone, and lifts the pedal.
     void send_operator(const OperatorIntent& intent);
+
+    /// UI thread. Ends the recording and waits until it is written; one line where some of it is not, else
+    /// nothing.
+    std::string finish_recording();
 
   private:
     class Impl;

@@ -5,10 +5,10 @@
 #include <boost/asio/connect.hpp>
 #include <boost/asio/post.hpp>
 #include <boost/asio/write.hpp>
-#include <cmath>
+#include <utility>
 
-#include "common/wire/protocol_version.h"
 #include "common/wire/scene_messages.h"
+#include "common/wire/sealed_frame.h"
 
 namespace osteomill {
 
@@ -24,10 +24,15 @@ constexpr milliseconds longest_backoff{2000};
 /// A server speaks 30 times a second; a cable that is pulled says nothing at all.
 constexpr std::chrono::seconds longest_silence{5};
 
+/// How often to look whether a slow disk has made room. The server meanwhile gathers what it cannot send.
+constexpr milliseconds recorder_check{20};
+
 }  // namespace
 
-ServerConnection::ServerConnection(std::string host, std::uint16_t port)
+ServerConnection::ServerConnection(std::string host, std::uint16_t port,
+                                   const std::optional<std::filesystem::path>& record)
     : host_(std::move(host)), port_(port), where_(host_ + ":" + std::to_string(port_)) {
+    if (record) recorder_.emplace(*record, nullptr);
     announce(LinkStatus::connecting, "connecting to " + where_);
     asio::post(io_, [this] { connect(); });
     thread_ = std::thread([this] { run(); });
@@ -50,6 +55,14 @@ void ServerConnection::resume() {
     asio::post(io_, [this] {
         if (std::exchange(is_paused_, false)) read();
     });
+}
+
+std::string ServerConnection::recording_error() const {
+    return recorder_ ? recorder_->report().error : std::string();
+}
+
+void ServerConnection::finish_recording() {
+    if (recorder_) recorder_->close();
 }
 
 void ServerConnection::reconnect() {
@@ -96,10 +109,9 @@ void ServerConnection::disconnect() {
     socket_.close(ignored);
     silence_.cancel();
     retry_.cancel();
-    stage_ = Stage::hello;
+    recorder_room_.cancel();
     decoder_ = {};
-    assembler_.reset();
-    last_sequence_ = 0;
+    receiver_ = {};
     is_paused_ = false;
     accepts_operator_ = false;
     newest_intent_.reset();
@@ -120,6 +132,7 @@ void ServerConnection::read() {
         silence_.cancel();
         return;
     }
+    if (recorder_ && !recorder_->has_room()) return read_when_recorded();
     watch_silence();
     socket_.async_read_some(asio::buffer(arrived_),
                             [this, generation = generation_](error_code error, std::size_t bytes) {
@@ -132,101 +145,72 @@ void ServerConnection::read() {
                             });
 }
 
+void ServerConnection::read_when_recorded() {
+    silence_.cancel();
+    recorder_room_.expires_after(recorder_check);
+    recorder_room_.async_wait([this, generation = generation_](error_code error) {
+        if (!error && generation == generation_) read();
+    });
+}
+
 void ServerConnection::take_frames() {
     const auto generation = generation_;
     while (const auto message = decoder_.next()) {
-        v1::ServerFrame frame;
-        std::optional<WireError> error;
-        if (!frame.ParseFromArray(message->data(), static_cast<int>(message->size())))
-            error = WireError{"a frame is no message"};
-        else
-            error = take(frame);
-        if (error) return reject(error->line);
+        if (const auto error = take(*message)) return reject(error->line);
         if (generation != generation_) return;
     }
     if (!decoder_.error().empty()) reject(decoder_.error());
 }
 
-std::optional<WireError> ServerConnection::take(const v1::ServerFrame& frame) {
-    if (stage_ != Stage::hello && frame.sequence() != last_sequence_ + 1)
-        return WireError{"frame " + std::to_string(frame.sequence()) + " came after " +
-                         std::to_string(last_sequence_)};
-    last_sequence_ = frame.sequence();
-
-    if (stage_ == Stage::hello && frame.has_hello()) return take_hello(frame.hello());
-    if (stage_ == Stage::snapshot_begin && frame.has_snapshot_begin())
-        return take_snapshot_begin(frame.snapshot_begin());
-    if (stage_ == Stage::snapshot && frame.has_snapshot_bricks()) {
-        auto error = assembler_->add(frame.snapshot_bricks());
-        counters_.snapshot_bricks = assembler_->bricks_received();
-        return error;
-    }
-    if (stage_ == Stage::snapshot && frame.has_snapshot_end()) return take_snapshot_end(frame.snapshot_end());
-    if (stage_ == Stage::live && frame.has_state()) {
-        events_.push(StateArrived{frame.state()});
-        return std::nullopt;
-    }
-    if (stage_ != Stage::hello && frame.has_goodbye()) {
-        disconnect();
-        announce(LinkStatus::finished, where_ + ": " + one_line(frame.goodbye().reason()));
-        retry_later();
-        return std::nullopt;
-    }
-    return WireError{"frame " + std::to_string(frame.sequence()) + " is not what should come there"};
+std::optional<WireError> ServerConnection::take(std::span<const std::uint8_t> message) {
+    // A recording holds only frames that can be checked in years.
+    auto frame = open_frame(message, recorder_ ? Seal::required : Seal::optional);
+    if (auto* error = std::get_if<WireError>(&frame)) return std::move(*error);
+    auto event = receiver_.take(std::get<v1::ServerFrame>(std::move(frame)));
+    if (auto* error = std::get_if<WireError>(&event)) return std::move(*error);
+    if (recorder_) recorder_->push(std::chrono::system_clock::now(), {message.begin(), message.end()});
+    std::visit([this](auto&& what) { take_event(std::forward<decltype(what)>(what)); },
+               std::get<SessionEvent>(std::move(event)));
+    return std::nullopt;
 }
 
-std::optional<WireError> ServerConnection::take_hello(const v1::Hello& hello) {
-    if (hello.protocol_major() != protocol_major) {
-        disconnect();
-        announce(LinkStatus::refused, where_ + " speaks protocol " + std::to_string(hello.protocol_major()) +
-                                          ", this program " + std::to_string(protocol_major) +
-                                          ": update the older of the two");
-        backoff_ = longest_backoff;
-        retry_later();
-        return std::nullopt;
-    }
-    auto burrs = burrs_from(hello.burrs());
-    if (auto* error = std::get_if<WireError>(&burrs)) return *error;
-    auto tissues = tissues_from(hello.tissues());
-    if (auto* error = std::get_if<WireError>(&tissues)) return *error;
-    if (!std::isfinite(hello.force_limit_n()) || hello.force_limit_n() < 0.0)
-        return WireError{"the force limit is not a finite number of newtons"};
-    accepts_operator_ = hello.accepts_operator();
+void ServerConnection::take_event(SnapshotGoesOn) {
+    counters_.snapshot_bricks = receiver_.bricks_received();
+    counters_.snapshot_bricks_total = receiver_.bricks_announced();
+}
+
+void ServerConnection::take_event(SessionInfo session) {
+    accepts_operator_ = session.accepts_operator;
     ++counters_.connections;
     counters_.snapshot_bricks = 0;
     counters_.snapshot_bricks_total = 0;
-    events_.push(SessionBegan{{.scene_name = hello.scene_name(),
-                               .server_version = hello.program_version(),
-                               .burrs = std::get<0>(std::move(burrs)),
-                               .tissues = std::get<0>(std::move(tissues)),
-                               .accepts_operator = hello.accepts_operator(),
-                               .force_limit_n = hello.force_limit_n()}});
+    events_.push(SessionBegan{std::move(session)});
     announce(LinkStatus::receiving_snapshot, "receiving the bone from " + where_);
-    stage_ = Stage::snapshot_begin;
-    return std::nullopt;
 }
 
-std::optional<WireError> ServerConnection::take_snapshot_begin(const v1::SnapshotBegin& message) {
-    auto begun = SnapshotAssembler::begin(message);
-    if (auto* error = std::get_if<WireError>(&begun)) return *error;
-    assembler_.emplace(std::get<SnapshotAssembler>(std::move(begun)));
-    counters_.snapshot_bricks = 0;
-    counters_.snapshot_bricks_total = message.brick_count();
-    stage_ = Stage::snapshot;
-    return std::nullopt;
-}
-
-std::optional<WireError> ServerConnection::take_snapshot_end(const v1::SnapshotEnd& message) {
-    auto finished = std::move(*assembler_).finish(message);
-    assembler_.reset();
-    if (auto* error = std::get_if<WireError>(&finished)) return *error;
-    Bone& bone = std::get<Bone>(finished);
-    RunningChecksum terms(bone);
-    events_.push(BoneArrived{std::move(bone), std::move(terms)});
+void ServerConnection::take_event(BoneArrived arrived) {
+    events_.push(std::move(arrived));
     announce(LinkStatus::live, "connected to " + where_);
     backoff_ = milliseconds(0);
-    stage_ = Stage::live;
-    return std::nullopt;
+}
+
+void ServerConnection::take_event(StateArrived arrived) {
+    events_.push(std::move(arrived));
+}
+
+void ServerConnection::take_event(const SaidGoodbye& goodbye) {
+    disconnect();
+    announce(LinkStatus::finished, where_ + ": " + one_line(goodbye.reason));
+    retry_later();
+}
+
+void ServerConnection::take_event(const SpeaksOtherProtocol& other) {
+    disconnect();
+    announce(LinkStatus::refused, where_ + " speaks protocol " + std::to_string(other.major) +
+                                      ", this program " + std::to_string(protocol_major) +
+                                      ": update the older of the two");
+    backoff_ = longest_backoff;
+    retry_later();
 }
 
 void ServerConnection::write_newest_intent() {

@@ -9,14 +9,17 @@
 #include <boost/asio/steady_timer.hpp>
 #include <chrono>
 #include <cstdint>
+#include <filesystem>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <thread>
 #include <utility>
 
+#include "common/recording/recording_writer.h"
 #include "common/wire/frame.h"
-#include "common/wire/snapshot.h"
+#include "common/wire/session_receiver.h"
 #include "render_client/link/link_queue.h"
 
 namespace osteomill {
@@ -32,7 +35,10 @@ struct LinkCounters {
 
 class ServerConnection {
   public:
-    ServerConnection(std::string host, std::uint16_t port);
+    /// Writes what it receives into `record`, too, if that is given; throws RecordingError if it cannot
+    /// begin.
+    ServerConnection(std::string host, std::uint16_t port,
+                     const std::optional<std::filesystem::path>& record = std::nullopt);
     ~ServerConnection();
     ServerConnection(const ServerConnection&) = delete;
     ServerConnection& operator=(const ServerConnection&) = delete;
@@ -44,6 +50,10 @@ class ServerConnection {
     void send(const OperatorIntent& intent);
     /// There is room in the queue again.
     void resume();
+    /// Why nothing more is recorded; empty while all is well, and where nothing is to be.
+    std::string recording_error() const;
+    /// Writes what still waits; what comes later is not recorded.
+    void finish_recording();
     /// Drops what has come of this connection and begins another.
     void reconnect();
 
@@ -55,11 +65,15 @@ class ServerConnection {
     void disconnect();
     void watch_silence();
     void read();
+    void read_when_recorded();
     void take_frames();
-    std::optional<WireError> take(const v1::ServerFrame& frame);
-    std::optional<WireError> take_hello(const v1::Hello& hello);
-    std::optional<WireError> take_snapshot_begin(const v1::SnapshotBegin& message);
-    std::optional<WireError> take_snapshot_end(const v1::SnapshotEnd& message);
+    std::optional<WireError> take(std::span<const std::uint8_t> message);
+    void take_event(SnapshotGoesOn);
+    void take_event(SessionInfo session);
+    void take_event(BoneArrived arrived);
+    void take_event(StateArrived arrived);
+    void take_event(const SaidGoodbye& goodbye);
+    void take_event(const SpeaksOtherProtocol& other);
     void write_newest_intent();
     void reject(const std::string& line);
     void lose(const std::string& line);
@@ -71,6 +85,7 @@ class ServerConnection {
     const std::string where_;
     LinkQueue events_;
     LinkCounters counters_;
+    std::optional<RecordingWriter> recorder_;
 
     boost::asio::io_context io_{1};
     // While reading is paused nothing else keeps the thread there.
@@ -79,15 +94,13 @@ class ServerConnection {
     tcp::socket socket_{io_};
     boost::asio::steady_timer retry_{io_};
     boost::asio::steady_timer silence_{io_};
+    boost::asio::steady_timer recorder_room_{io_};
     std::chrono::milliseconds backoff_{0};
 
     // Of the current connection; `generation_` tells its handlers from those of the ones before.
-    enum class Stage { hello, snapshot_begin, snapshot, live };
     std::uint64_t generation_ = 0;
-    Stage stage_ = Stage::hello;
     FrameDecoder decoder_;
-    std::uint64_t last_sequence_ = 0;
-    std::optional<SnapshotAssembler> assembler_;
+    SessionReceiver receiver_;
     bool is_paused_ = false;
     bool accepts_operator_ = false;
     std::array<std::uint8_t, 64 * 1024> arrived_{};

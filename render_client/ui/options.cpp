@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <charconv>
 
+#include "render_client/link/recording_player.h"
+
 namespace osteomill {
 
 namespace {
@@ -67,17 +69,26 @@ int screenshot_interval(const RenderOptions& options) {
 ParsedOptions parse_options(int argument_count, const char* const* arguments, const std::string& version) {
     ParsedOptions parsed;
     RenderOptions& options = parsed.options;
-    CLI::App app("Shows what is left of the bone that haptic_server mills.", "render_client");
+    CLI::App app("Shows what is left of the bone that haptic_server mills, or milled.", "render_client");
     app.set_version_flag("--version", "render_client " + version);
 
-    app.add_option_function<std::string>(
-           "--connect",
-           [&](const std::string& text) {
-               if (const std::string wrong = take_address(text, options); !wrong.empty())
-                   throw CLI::ValidationError("--connect", wrong);
-           },
-           "The server's HOST:PORT (127.0.0.1:7010)")
-        ->type_name("HOST:PORT");
+    auto* connect = app.add_option_function<std::string>(
+                           "--connect",
+                           [&](const std::string& text) {
+                               if (const std::string wrong = take_address(text, options); !wrong.empty())
+                                   throw CLI::ValidationError("--connect", wrong);
+                           },
+                           "The server's HOST:PORT (127.0.0.1:7010)")
+                        ->type_name("HOST:PORT");
+    auto* record = app.add_option("--record", options.record,
+                                  "Write what the server sends, for --replay and packet_replay; a pcap file")
+                       ->type_name("FILE");
+    app.add_option("--replay", options.replay, "Show a recording instead")
+        ->type_name("FILE")
+        ->excludes(connect)
+        ->excludes(record);
+    auto* speed = app.add_option("--speed", options.speed, "Recorded seconds a second, with --replay (1)")
+                      ->check(CLI::Range(RecordingPlayer::slowest, RecordingPlayer::fastest));
     app.add_option_function<std::string>(
            "--window-size",
            [&](const std::string& text) {
@@ -116,6 +127,7 @@ ParsedOptions parse_options(int argument_count, const char* const* arguments, co
     }
     std::string wrong = contradiction(options);
     if (wrong.empty() && frames->count() > 0 && !options.offscreen) wrong = "--frames needs --offscreen";
+    if (wrong.empty() && speed->count() > 0 && !options.replay) wrong = "--speed needs --replay FILE";
     if (!wrong.empty()) parsed.no_run = wrong_usage(wrong);
     return parsed;
 }

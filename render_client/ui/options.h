@@ -12,6 +12,9 @@ namespace osteomill {
 struct RenderOptions {
     std::string host = "127.0.0.1";
     std::uint16_t port = 7010;
+    std::optional<std::filesystem::path> record;  ///< what is received goes there, too
+    std::optional<std::filesystem::path> replay;  ///< a recording in place of a server
+    double speed = 1.0;                           ///< of the recording: recorded seconds a second
     bool offscreen = false;
     int frames = 300;                   ///< offscreen: ends after so many
     bool until_server_ends = false;     ///< in a window: close it when the session is over

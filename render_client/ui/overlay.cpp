@@ -10,6 +10,8 @@
 #include <limits>
 #include <vector>
 
+#include "render_client/ui/playback_panel.h"
+
 namespace osteomill {
 
 namespace {
@@ -67,8 +69,8 @@ void draw_session_panel(const OverlayContent& content, const glm::ivec2& size_px
     else
         text(status);
     text(fmt::format("picture {:5.1f} frames/s", content.render_frames_per_s));
-    text(fmt::format("link    {:5.1f} frames/s {:7.1f} kB/s", content.link.frames_per_s,
-                     1e-3 * content.link.bytes_per_s));
+    text(fmt::format("{} {:5.1f} frames/s {:7.1f} kB/s", content.player ? "file   " : "link   ",
+                     content.link.frames_per_s, 1e-3 * content.link.bytes_per_s));
     if (const std::uint64_t bad = content.link.checksum_mismatches + content.link.rejected_frames; bad > 0)
         coloured_text(vermillion, fmt::format("{} bad frames; the bone was fetched afresh", bad));
     if (!content.help_shown) ImGui::TextDisabled("F1 help");
@@ -136,6 +138,7 @@ void draw_force_panel(const OverlayContent& content, const glm::ivec2& size_px) 
 void draw_warnings(const OverlayContent& content, const glm::ivec2& size_px) {
     std::vector<std::string> warnings;
     if (!content.bone_problem.empty()) warnings.push_back(content.bone_problem);
+    if (!content.link.recording_error.empty()) warnings.push_back(content.link.recording_error);
     if (content.tool && !content.tool->fault.empty()) warnings.push_back("FAULT: " + content.tool->fault);
     if (content.tool && content.tool->touches_protected)
         warnings.emplace_back("PROTECTED TISSUE: the burr touches it");
@@ -172,6 +175,10 @@ void draw_help(const OverlayContent& content, const glm::ivec2& size_px) {
         text("1 to 9, [ and ]     choose the burr");
         text("orange arrow        the force that an arm would give to the hand");
         text("blue sphere         where the hand wants the burr");
+    } else if (content.player != nullptr) {
+        text("left drag           turn the view");
+        text("SPACE               play, pause");
+        text("LEFT, RIGHT         5 s back, on");
     } else {
         text("left drag           turn the view");
         text("This server has its own device: to drill with the mouse, start");
@@ -190,6 +197,7 @@ void draw_overlay(const OverlayContent& content, const glm::ivec2& size_px) {
     }
     draw_warnings(content, size_px);
     if (content.operator_intent) draw_operator_panel(content, size_px);
+    if (content.player != nullptr) draw_playback_panel(*content.player, size_px);
     if (content.help_shown) draw_help(content, size_px);
 }
 

@@ -20,6 +20,8 @@ struct OverlayContent {
     bool help_shown = false;
     /// What the operator asks for, where one drills from here.
     std::optional<OperatorIntent> operator_intent;
+    /// Where a recording is shown: the panel that plays it takes input.
+    RecordingPlayer* player = nullptr;
     /// Why there is no bone in the picture, where there is none for a reason.
     std::string bone_problem;
 };

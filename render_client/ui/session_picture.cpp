@@ -103,6 +103,7 @@ const gl::Framebuffer& SessionPicture::draw(double elapsed_s) {
                   .render_frames_per_s = frames_per_s_,
                   .help_shown = help_shown_,
                   .operator_intent = operator_intent_,
+                  .player = source_.player(),
                   .bone_problem = bone_problem_},
                  size_px_);
     panels_.end();

@@ -1,7 +1,13 @@
-// Where sessions come from: a server (BoneLink), or a script in its place.
+// Where sessions come from: a server (BoneLink), a recording of one, or a script in its place.
 #pragma once
 
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <utility>
+
 #include "render_client/link/bone_link.h"
+#include "render_client/link/recording_player.h"
 
 namespace osteomill {
 
@@ -13,19 +19,40 @@ class SessionSource {
     virtual const Bone* bone() const = 0;            ///< null until one has arrived
     virtual const SessionInfo* session() const = 0;  ///< null until a server has said hello
     virtual void send_operator(const OperatorIntent& intent) = 0;
+    /// What plays the session, where it is a recording; null where it is not.
+    virtual RecordingPlayer* player() { return nullptr; }
+    /// Once, after the last poll: what the run failed at although it went on, in one line; mostly nothing.
+    virtual std::string finish() { return {}; }
 };
 
 /// A server's session.
 class LinkedSession final : public SessionSource {
   public:
-    LinkedSession(std::string host, std::uint16_t port) : link_(std::move(host), port) {}
+    LinkedSession(std::string host, std::uint16_t port, const std::optional<std::filesystem::path>& record)
+        : link_(std::move(host), port, record) {}
     LinkUpdate poll() override { return link_.poll(); }
     const Bone* bone() const override { return link_.bone(); }
     const SessionInfo* session() const override { return link_.session(); }
     void send_operator(const OperatorIntent& intent) override { link_.send_operator(intent); }
+    std::string finish() override { return link_.finish_recording(); }
 
   private:
     BoneLink link_;
+};
+
+/// A recorded session. Nobody can drive it.
+class ReplayedSession final : public SessionSource {
+  public:
+    ReplayedSession(std::filesystem::path file, double speed) : player_(std::move(file), speed) {}
+    LinkUpdate poll() override { return player_.poll(std::chrono::steady_clock::now()); }
+    const Bone* bone() const override { return player_.bone(); }
+    const SessionInfo* session() const override { return player_.session(); }
+    void send_operator(const OperatorIntent&) override {}
+    RecordingPlayer* player() override { return &player_; }
+    std::string finish() override { return player_.error(); }
+
+  private:
+    RecordingPlayer player_;
 };
 
 }  // namespace osteomill

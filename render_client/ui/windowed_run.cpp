@@ -25,12 +25,15 @@ constexpr double orbit_rad_per_px = 0.008;
 constexpr double zoom_per_notch = 0.88;
 constexpr double advance_mm_per_s = 2.0;
 constexpr double advance_mm_per_notch = 0.1;
+constexpr double seek_s = 5.0;
 /// A display without vertical synchronisation must not take the cores from a server beside it: twice the
 /// rate of its frames is smooth.
 constexpr std::chrono::milliseconds shortest_frame(16);
 
 void move_camera(SessionPicture& session, const Window& window, bool left_turns) {
     const ImGuiIO& io = ImGui::GetIO();
+    if (window.was_pressed(GLFW_KEY_HOME)) session.reset_camera();
+    if (io.WantCaptureMouse) return;  // a panel has it
     const glm::dvec2 moved_px(io.MouseDelta.x, io.MouseDelta.y);
     const bool right = io.MouseDown[ImGuiMouseButton_Right];
     if (io.MouseDown[ImGuiMouseButton_Middle] || (right && io.KeyShift))
@@ -38,7 +41,6 @@ void move_camera(SessionPicture& session, const Window& window, bool left_turns)
     else if (right || (left_turns && io.MouseDown[ImGuiMouseButton_Left]))
         orbit(session.camera(), -orbit_rad_per_px * moved_px.x, orbit_rad_per_px * moved_px.y);
     if (io.MouseWheel != 0.0f && !io.KeyCtrl) zoom(session.camera(), std::pow(zoom_per_notch, io.MouseWheel));
-    if (window.was_pressed(GLFW_KEY_HOME)) session.reset_camera();
 }
 
 void move_hand(OperatorHand& hand, const Window& window, SessionPicture& session, double elapsed_s) {
@@ -58,6 +60,12 @@ void move_hand(OperatorHand& hand, const Window& window, SessionPicture& session
     if (window.was_pressed(GLFW_KEY_LEFT_BRACKET)) hand.choose_previous_burr();
     hand.set_pedal(window.key_down(GLFW_KEY_SPACE));
     hand.follow(*session.tool(), session.session()->burrs.size());
+}
+
+void move_player(RecordingPlayer& player, const Window& window) {
+    if (window.was_pressed(GLFW_KEY_SPACE)) player.is_playing() ? player.pause() : player.play();
+    if (window.was_pressed(GLFW_KEY_LEFT)) player.seek(player.time_s() - seek_s);
+    if (window.was_pressed(GLFW_KEY_RIGHT)) player.seek(player.time_s() + seek_s);
 }
 
 }  // namespace
@@ -105,6 +113,7 @@ RenderReport run_in_window(const RenderOptions& options, SessionSource& source,
         // ImGui took the input in while the panels were drawn; it takes effect in the next frame.
         move_camera(session, window, !drills);
         if (drills) move_hand(hand, window, session, elapsed_s);
+        if (source.player() != nullptr) move_player(*source.player(), window);
         if (window.was_pressed(GLFW_KEY_F1)) session.toggle_help();
 
         if (session.has_bone()) screenshots.after_frame(framebuffer);

@@ -5,6 +5,7 @@
 #include <memory>
 #include <thread>
 
+#include "haptic_server/streaming/live_session.h"
 #include "haptic_server/streaming/streaming_server.h"
 #include "tests/support/eventually.h"
 #include "tests/support/random_carving.h"
@@ -14,7 +15,8 @@ namespace osteomill::testing {
 
 class ServedBone {
   public:
-    explicit ServedBone(std::uint16_t port = 0, bool takes_operator = false, std::uint32_t seed = 8)
+    explicit ServedBone(std::uint16_t port = 0, bool takes_operator = false, std::uint32_t seed = 8,
+                        std::optional<RecordTo> record = std::nullopt)
         : random_(seed),
           bone_(make_speckled_bone(random_, {.grid = {.size_voxels = {160, 128, 64}}})),
           edits_(1 << 14, bone_.shared_content()) {
@@ -23,8 +25,9 @@ class ServedBone {
         scene.burrs = {Burr{.name = "round 1.5", .diameter_mm = 1.5}, Burr{.name = "round 5"}};
         scene.tissues = {Tissue{.label = 2, .name = "nerve", .is_protected = true}};
         server_ =
-            std::make_unique<StreamingServer>(StreamingOptions{.port = port}, scene, bone_, tool_, edits_,
-                                              takes_operator ? &operator_ : nullptr, 3.3, "0.0.test");
+            std::make_unique<StreamingServer>(StreamingOptions{.port = port, .record = std::move(record)},
+                                              session_info(scene, takes_operator, 3.3, "0.0.test"), bone_,
+                                              shown_, takes_operator ? &operator_ : nullptr);
         server_->start();
     }
     ~ServedBone() { stop(); }
@@ -83,6 +86,7 @@ class ServedBone {
     Bone bone_;
     EditQueue edits_;
     TripleBuffer<ToolSnapshot> tool_;
+    LiveSession shown_{tool_, edits_};
     TripleBuffer<OperatorInput> operator_;
     double time_s_ = 0.0;
     std::unique_ptr<StreamingServer> server_;

@@ -3,10 +3,15 @@
 #include <gmock/gmock.h>
 
 #include <algorithm>
+#include <limits>
+#include <memory>
 #include <optional>
 #include <thread>
 
+#include "common/recording/playhead.h"
+#include "tests/support/file_size_limit.h"
 #include "tests/support/served_bone.h"
+#include "tests/support/temporary_folder.h"
 
 namespace osteomill {
 namespace {
@@ -178,6 +183,54 @@ TEST(BoneLink, CarriesTheOperatorsWishes) {
         second.send_operator({.burr = 0});
         return served.operator_input().present;
     })) << "the seat is free again";
+}
+
+/// Reads a recording to its end, every checksum with it.
+Playhead at_its_end(const std::filesystem::path& file) {
+    Playhead playhead(file);
+    while (playhead.step(std::numeric_limits<double>::infinity()) != Playhead::Step::end) {
+    }
+    return playhead;
+}
+
+TEST(BoneLink, RecordsWhatItReceivesOverSeveralSessions) {
+    const testing::TemporaryFolder folder;
+    std::uint64_t left = 0;
+    std::uint16_t port = 0;
+    {
+        auto first = std::make_unique<ServedBone>();
+        port = first->port();
+        BoneLink link("127.0.0.1", port, folder / "a.pcap");
+        first->start_carving();
+        ASSERT_TRUE(verifies(link, 2));
+        expect_equal_at_the_end(*first, {&link});
+        first.reset();
+        ServedBone second(port, false, 99);
+        ASSERT_TRUE(reaches(link, LinkStatus::live));
+        second.start_carving();
+        ASSERT_TRUE(verifies(link, 4));
+        expect_equal_at_the_end(second, {&link});
+        left = second.mirror_checksum();
+        EXPECT_EQ(link.finish_recording(), "");
+    }
+    const Playhead end = at_its_end(folder / "a.pcap");
+    EXPECT_EQ(end.bone_checksum(), left);
+    EXPECT_GE(end.checksums_verified(), 4U);
+}
+
+TEST(BoneLink, SaysThatItsRecordingEndedAndGoesOnWithoutIt) {
+    const testing::TemporaryFolder folder;
+    ServedBone served;
+    served.start_carving();
+    std::optional<BoneLink> link;
+    {
+        const testing::FileSizeLimit disk(500'000);
+        link.emplace("127.0.0.1", served.port(), folder / "a.pcap");
+        EXPECT_TRUE(eventually([&] { return !link->poll().recording_error.empty(); }));
+    }
+    EXPECT_TRUE(verifies(*link, 2));
+    EXPECT_THAT(link->finish_recording(), ::testing::HasSubstr("a.pcap: the recording ends after "));
+    EXPECT_THROW(BoneLink("127.0.0.1", served.port(), "/nowhere/a.pcap"), RecordingError);
 }
 
 TEST(BoneLink, SaysThatAHostCannotBeFound) {

@@ -6,13 +6,16 @@
 #include <boost/asio/io_context.hpp>
 #include <boost/asio/ip/tcp.hpp>
 #include <boost/asio/write.hpp>
+#include <limits>
 #include <utility>
 
+#include "common/recording/playhead.h"
 #include "common/wire/frame.h"
 #include "common/wire/scene_messages.h"
 #include "render_client/link/bone_link.h"
 #include "tests/support/replica.h"
 #include "tests/support/served_bone.h"
+#include "tests/support/temporary_folder.h"
 
 namespace osteomill {
 namespace {
@@ -88,7 +91,8 @@ std::string failure_of(const StreamingOptions& options, const std::string& burr_
     Scene scene;
     scene.burrs = {Burr{.name = burr_name}};
     try {
-        StreamingServer server(options, scene, bone, tool, edits, nullptr, 3.3, "0.0.test");
+        LiveSession shown(tool, edits);
+        StreamingServer server(options, session_info(scene, false, 3.3, "0.0.test"), bone, shown);
         server.start();
     } catch (const std::exception& error) {
         return error.what();
@@ -185,6 +189,56 @@ TEST(StreamingServer, TurnsAwayClientsBeyondItsLimit) {
     clients.clear();
     BoneLink link("127.0.0.1", served.port());
     EXPECT_TRUE(reaches(link, LinkStatus::live)) << "there is room again";
+}
+
+TEST(StreamingServer, RecordsAsIfForOneMoreClient) {
+    const testing::TemporaryFolder folder;
+    const Stamp began{std::chrono::seconds(1'700'000'000)};
+    ServedBone served(0, false, 8, RecordTo{folder / "a.pcap", began});
+    const std::uint64_t before = checksum(served.bone());
+    {
+        Playhead playhead(folder / "a.pcap");
+        EXPECT_EQ(playhead.bone_checksum(), before) << "the snapshot is there before anything is carved";
+    }
+    served.start_carving();
+    BoneLink link("127.0.0.1", served.port());
+    EXPECT_TRUE(eventually([&] { return link.poll().checksums_verified >= 2; }));
+    served.stop();
+
+    Playhead playhead(folder / "a.pcap");
+    bool has_goodbye = false;
+    for (auto step = Playhead::Step::state; step != Playhead::Step::end;) {
+        step = playhead.step(std::numeric_limits<double>::infinity());
+        has_goodbye = has_goodbye || step == Playhead::Step::goodbye;
+    }
+    EXPECT_TRUE(has_goodbye);
+    EXPECT_EQ(playhead.bone_checksum(), served.mirror_checksum());
+    EXPECT_GE(playhead.checksums_verified(), 3U);
+    EXPECT_THAT(playhead.time_s(), ::testing::DoubleNear(playhead.tool()->time_s, 1e-6));
+}
+
+TEST(StreamingServer, ShowsFramesWhenItIsToldToWhereTheSessionKeepsTheTime) {
+    const testing::TemporaryFolder folder;
+    const Bone bone = BoneBuilder::homogeneous({.size_voxels = {16, 16, 16}}, 1.0, false).build();
+    EditQueue edits(16, bone.shared_content());
+    TripleBuffer<ToolSnapshot> tool;
+    LiveSession shown(tool, edits);
+    Scene scene;
+    scene.burrs = {Burr{}};
+    StreamingServer server(
+        {.listens = false, .paced_by_session = true, .record = RecordTo{folder / "a.pcap", Stamp{}}},
+        session_info(scene, false, 3.3, "0.0.test"), bone, shown);
+    server.start();
+    for (int i = 0; i < 10; ++i) {
+        tool.back().time_s = i;
+        tool.publish();
+        server.show_frame();
+    }
+    server.stop();
+    ASSERT_TRUE(server.recording());
+    EXPECT_EQ(server.recording()->frames, 3U + 10 + 2) << "hello, snapshot without bricks; the end";
+    EXPECT_EQ(server.recording()->error, "");
+    EXPECT_EQ(recording_duration_s(folder / "a.pcap"), 9.0);
 }
 
 TEST(StreamingServer, IgnoresOperatorsWhenItHasNoUseForThem) {

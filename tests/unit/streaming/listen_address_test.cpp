@@ -1,4 +1,4 @@
-#include "haptic_server/program/listen_address.h"
+#include "haptic_server/streaming/listen_address.h"
 
 #include <gtest/gtest.h>
 

@@ -1,0 +1,35 @@
+// A packet of a recording: one frame of a session, and when it was sent.
+//
+// A recording is a pcap file: nanosecond time stamps, link type USER0 (147), in each packet the bytes of one
+// protobuf message osteomill.v1.ServerFrame with its seal (see sealed_frame.h) and without the length that
+// goes before it on the wire. tcpdump, editcap, mergecap and Wireshark open, cut and join it.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <span>
+#include <stdexcept>
+
+namespace osteomill {
+
+/// When a frame was sent, UTC. In a server's recording: when the session began, plus the session's time.
+using Stamp = std::chrono::sys_time<std::chrono::nanoseconds>;
+
+/// Where a packet lies in its file.
+struct PacketPlace {
+    std::uint64_t number = 1;        ///< as Wireshark counts
+    std::uint64_t offset_bytes = 0;  ///< of its header
+};
+
+struct Packet {
+    PacketPlace place;
+    Stamp stamp;
+    std::span<const std::uint8_t> message;  ///< until the next packet is read
+};
+
+/// A recording cannot be written or read: one line with the file, and where in it.
+struct RecordingError : std::runtime_error {
+    using std::runtime_error::runtime_error;
+};
+
+}  // namespace osteomill

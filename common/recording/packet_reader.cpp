@@ -1,0 +1,91 @@
+#include "common/recording/packet_reader.h"
+
+#include <pcap/pcap.h>
+
+#include <array>
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <system_error>
+#include <utility>
+
+#include "common/wire/frame.h"
+
+namespace osteomill {
+
+namespace {
+
+constexpr std::int64_t latest_s = 7'258'118'400;  // nanoseconds since 1970 in 64 bits end in 2262
+
+}  // namespace
+
+void PacketReader::Close::operator()(pcap* file) const {
+    pcap_close(file);
+}
+
+PacketReader::PacketReader(std::filesystem::path file) : file_(std::move(file)) {
+    const auto refuse = [&](const std::string& why) -> RecordingError {
+        return RecordingError(file_.string() + ": " + why);
+    };
+    std::error_code error;
+    if (!std::filesystem::is_regular_file(file_, error))
+        throw refuse(error ? error.message() : "is no file; a recording is one, made with --record");
+    file_bytes_ = std::filesystem::file_size(file_, error);
+    std::FILE* stream = std::fopen(file_.c_str(), "rbe");
+    if (stream == nullptr) throw refuse(std::strerror(errno));
+    std::array<char, PCAP_ERRBUF_SIZE> why{};
+    input_.reset(pcap_fopen_offline_with_tstamp_precision(stream, PCAP_TSTAMP_PRECISION_NANO, why.data()));
+    if (!input_) {
+        std::fclose(stream);
+        throw refuse(std::string("is no recording, which is a pcap file: ") + why.data());
+    }
+    if (const int link_type = pcap_datalink(input_.get()); link_type != DLT_USER0)
+        throw refuse("is a capture of link type " + std::to_string(link_type) +
+                     ", not a recording, which has 147 (USER0)");
+}
+
+std::optional<Packet> PacketReader::next() {
+    const PacketPlace here = place();
+    pcap_pkthdr* header = nullptr;
+    const u_char* bytes = nullptr;
+    const int outcome = pcap_next_ex(input_.get(), &header, &bytes);
+    if (outcome == PCAP_ERROR_BREAK) return std::nullopt;
+    if (outcome != 1) {
+        if (std::feof(pcap_file(input_.get())) != 0) {
+            is_torn_ = true;
+            return std::nullopt;
+        }
+        throw RecordingError(where(here) + pcap_geterr(input_.get()));
+    }
+    ++next_number_;
+    if (header->caplen != header->len)
+        throw RecordingError(where(here) + "only " + std::to_string(header->caplen) + " of its " +
+                             std::to_string(header->len) + " bytes were kept; a recording holds them all");
+    if (header->len == 0 || header->len > largest_frame_bytes)
+        throw RecordingError(where(here) + "it has " + std::to_string(header->len) + " bytes, not 1 to " +
+                             std::to_string(largest_frame_bytes));
+    if (header->ts.tv_sec < 0 || header->ts.tv_sec > latest_s || header->ts.tv_usec < 0 ||
+        header->ts.tv_usec >= 1'000'000'000)
+        throw RecordingError(where(here) + "its time stamp is no time before the year 2200");
+    const Stamp stamp{std::chrono::seconds(header->ts.tv_sec) + std::chrono::nanoseconds(header->ts.tv_usec)};
+    return Packet{here, stamp, {bytes, header->caplen}};
+}
+
+PacketPlace PacketReader::place() const {
+    const auto offset = ::ftello(pcap_file(input_.get()));
+    return {next_number_, offset < 0 ? file_bytes_ : static_cast<std::uint64_t>(offset)};
+}
+
+void PacketReader::seek(const PacketPlace& place) {
+    if (::fseeko(pcap_file(input_.get()), static_cast<off_t>(place.offset_bytes), SEEK_SET) != 0)
+        throw RecordingError(where(place) + std::strerror(errno));
+    next_number_ = place.number;
+    is_torn_ = false;
+}
+
+std::string PacketReader::where(const PacketPlace& place) const {
+    return file_.string() + ", packet " + std::to_string(place.number) + " at byte " +
+           std::to_string(place.offset_bytes) + ": ";
+}
+
+}  // namespace osteomill

@@ -1,0 +1,112 @@
+#include "common/recording/playhead.h"
+
+#include <limits>
+#include <utility>
+
+#include "common/wire/sealed_frame.h"
+
+namespace osteomill {
+
+Playhead::Playhead(std::filesystem::path file) : reader_(file) {
+    read_ahead();
+    while (!follower_)
+        if (step(std::numeric_limits<double>::infinity()) == Step::end)
+            throw RecordingError(file.string() + ": ends before the bone is complete");
+}
+
+Playhead::Step Playhead::step(double until_s) {
+    // A snapshot is taken whole: half a bone is nothing to show.
+    for (bool is_inside_snapshot = false; next_; is_inside_snapshot = true) {
+        if (!is_inside_snapshot && *next_time_s() > until_s) return Step::nothing_due;
+        time_s_ = *next_time_s();
+        ++frames_;
+        bytes_ += next_->bytes;
+        RecordedEvent event = *std::exchange(next_, std::nullopt);
+        const Step step = take(std::move(event));
+        read_ahead();
+        if (step != Step::nothing_due) return step;
+    }
+    if (what_comes_next_is_wrong_) throw RecordingError(*what_comes_next_is_wrong_);
+    return Step::end;
+}
+
+std::optional<double> Playhead::next_time_s() const {
+    if (!next_) return std::nullopt;
+    return time_.last_s();
+}
+
+const v1::StateFrame* Playhead::next_frame() const {
+    if (!next_) return nullptr;
+    const auto* state = std::get_if<StateArrived>(&next_->event);
+    return state != nullptr ? &state->frame : nullptr;
+}
+
+bool Playhead::next_begins_session() const {
+    return next_ && std::holds_alternative<SessionInfo>(next_->event);
+}
+
+void Playhead::go_back_to(const Mark& mark) {
+    reader_.go_back_to(mark.place);
+    time_ = mark.time;
+    time_s_ = mark.time_s;
+    tool_ = mark.tool;
+    read_ahead();
+}
+
+void Playhead::read_ahead() {
+    before_next_ = reader_.mark();
+    before_next_time_ = time_;
+    what_comes_next_is_wrong_.reset();
+    try {
+        next_ = reader_.next();
+    } catch (const RecordingError& error) {
+        next_.reset();
+        what_comes_next_is_wrong_ = error;
+    }
+    if (next_) time_.next_s(next_->stamp, next_begins_session());
+}
+
+Playhead::Step Playhead::take(RecordedEvent event) {
+    if (auto* info = std::get_if<SessionInfo>(&event.event)) {
+        announced_ = std::move(*info);
+    } else if (auto* arrived = std::get_if<BoneArrived>(&event.event)) {
+        session_ = announced_;
+        follower_.emplace(std::move(*arrived), session_.burrs.size());
+        tool_.reset();
+        return Step::new_bone;
+    } else if (auto* state = std::get_if<StateArrived>(&event.event)) {
+        dirty_.clear();
+        auto outcome = follower_->apply(state->frame, dirty_);
+        if (const auto* error = std::get_if<WireError>(&outcome))
+            throw reader_.error_at(event.place, error->line);
+        if (std::holds_alternative<BoneDiffers>(outcome))
+            throw reader_.error_at(event.place, "the bone differs from the one recorded");
+        auto& applied = std::get<BoneFollower::Applied>(outcome);
+        ++states_;
+        state_bytes_ += event.bytes;
+        if (applied.is_verified) ++checksums_verified_;
+        tool_ = std::move(applied.tool);
+        frame_ = std::move(state->frame);
+        return Step::state;
+    } else if (std::holds_alternative<SaidGoodbye>(event.event)) {
+        return Step::goodbye;
+    }
+    return Step::nothing_due;
+}
+
+double recording_duration_s(const std::filesystem::path& file) {
+    PacketReader packets(file);
+    RecordedTime time;
+    try {
+        while (const auto packet = packets.next()) {
+            const auto frame = open_frame(packet->message, Seal::required);
+            if (std::holds_alternative<WireError>(frame)) break;
+            time.next_s(packet->stamp, std::get<v1::ServerFrame>(frame).has_hello());
+        }
+    } catch (const RecordingError&) {
+        // Who reads it comes upon this, too, and says it then.
+    }
+    return time.last_s();
+}
+
+}  // namespace osteomill

@@ -1,0 +1,97 @@
+// A place in a recording and the session as it was there: its bone, its tool. Moves forward frame by frame.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <vector>
+
+#include "common/recording/recorded_time.h"
+#include "common/recording/recording_reader.h"
+#include "common/wire/bone_follower.h"
+
+namespace osteomill {
+
+class Playhead {
+  public:
+    /// Goes to the first bone. Throws RecordingError where there is none.
+    explicit Playhead(std::filesystem::path file);
+
+    enum class Step {
+        nothing_due,  ///< the next frame is later
+        state,        ///< a state frame was applied: see frame()
+        new_bone,     ///< another session began
+        goodbye,      ///< the session ended; another may begin, in a recording that was joined
+        end,
+    };
+    /// Takes the next frame (a snapshot whole) unless it is later than `until_s`. Every checksum that is
+    /// stated is verified. Throws RecordingError, with packet and byte, for what cannot be right.
+    Step step(double until_s);
+
+    /// Of the last frame, since the first; never goes back within a recording.
+    double time_s() const { return time_s_; }
+    /// Of the frame that step() would take; nothing at the end, and where that cannot be read.
+    std::optional<double> next_time_s() const;
+    const SessionInfo& session() const { return session_; }
+    const Bone& bone() const { return follower_->bone(); }
+    std::uint64_t bone_checksum() const { return follower_->checksum(); }
+    /// Nothing before the session's first state frame.
+    const std::optional<ToolView>& tool() const { return tool_; }
+    /// The state frame that was applied last; the one that would come next, if one would.
+    const v1::StateFrame& frame() const { return frame_; }
+    const v1::StateFrame* next_frame() const;
+    /// Whether step() would leave this session for another.
+    bool next_begins_session() const;
+
+    // Since the recording was opened.
+    std::uint64_t frames() const { return frames_; }
+    std::uint64_t bytes() const { return bytes_; }
+    std::uint64_t states() const { return states_; }
+    std::uint64_t state_bytes() const { return state_bytes_; }
+    std::uint64_t checksums_verified() const { return checksums_verified_; }
+    /// At the end: whether the file ends within a packet.
+    bool is_torn() const { return reader_.is_torn(); }
+
+    /// A place to come back to, as long as the session is the same.
+    struct Mark {
+        RecordingReader::Mark place;
+        RecordedTime time;
+        double time_s = 0.0;
+        std::optional<ToolView> tool;
+    };
+    Mark mark() const { return {before_next_, before_next_time_, time_s_, tool_}; }
+    /// The bone is the caller's to put back, with set_fractions().
+    void go_back_to(const Mark& mark);
+    void set_fractions(BrickIndex brick, std::span<const std::uint8_t, brick_voxel_count> fractions) {
+        follower_->set_fractions(brick, fractions);
+    }
+
+  private:
+    void read_ahead();
+    Step take(RecordedEvent event);
+
+    RecordingReader reader_;
+    RecordingReader::Mark before_next_;
+    std::optional<RecordedEvent> next_;
+    std::optional<RecordingError> what_comes_next_is_wrong_;  // said when it is its turn
+    RecordedTime before_next_time_;
+    RecordedTime time_;    // of next_
+    double time_s_ = 0.0;  // of the frame before
+
+    SessionInfo announced_;  // becomes session_ when its bone has come
+    SessionInfo session_;
+    std::optional<BoneFollower> follower_;
+    std::optional<ToolView> tool_;
+    v1::StateFrame frame_;
+    std::vector<BrickIndex> dirty_;
+
+    std::uint64_t frames_ = 0;
+    std::uint64_t bytes_ = 0;
+    std::uint64_t states_ = 0;
+    std::uint64_t state_bytes_ = 0;
+    std::uint64_t checksums_verified_ = 0;
+};
+
+/// From the first packet to the last that can be read. Throws RecordingError for a file that is no recording.
+double recording_duration_s(const std::filesystem::path& file);
+
+}  // namespace osteomill

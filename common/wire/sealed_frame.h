@@ -1,0 +1,34 @@
+// A server's frame with a checksum of its own, so that it can be trusted wherever it was kept.
+//
+// The checksum is the frame's last field, over the bytes before it: a reader hashes what it has and need not
+// serialise anything again, and any protobuf tool still reads the frame as the message that it is.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <variant>
+
+#include "common/wire/wire_error.h"
+#include "osteomill/v1/session.pb.h"
+
+namespace osteomill {
+
+/// What a seal adds to a message: a tag of one byte, and 32 bits.
+inline constexpr std::size_t seal_bytes = 5;
+
+/// Appends the frame, which is not sealed yet, with its seal, behind its length. Throws std::length_error for
+/// one that does not fit: see append_frame.
+void append_sealed_frame(const v1::ServerFrame& frame, std::string& stream);
+
+enum class Seal {
+    required,  ///< in a recording
+    optional,  ///< on the wire, where a server of protocol 1.0 may speak
+};
+
+/// The frame of a message's bytes. Refused: bytes that are no message, a seal that does not hold or is not
+/// the last field, and a required one that is missing.
+std::variant<v1::ServerFrame, WireError> open_frame(std::span<const std::uint8_t> message, Seal seal);
+
+}  // namespace osteomill

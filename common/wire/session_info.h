@@ -1,0 +1,24 @@
+// What a server says of itself and its scene when a client joins. Plain data.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "common/scene/scene.h"
+#include "common/wire/protocol_version.h"
+
+namespace osteomill {
+
+struct SessionInfo {
+    std::uint32_t protocol_major = osteomill::protocol_major;
+    std::uint32_t protocol_minor = osteomill::protocol_minor;
+    std::string scene_name{};
+    std::string server_version{};
+    std::vector<Burr> burrs{};  ///< name, diameter, edges, spindle speed and sense; no cutting coefficients
+    std::vector<Tissue> tissues{};
+    bool accepts_operator = false;  ///< the server runs with --device client
+    double force_limit_n = 0.0;
+};
+
+}  // namespace osteomill

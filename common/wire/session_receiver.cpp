@@ -1,0 +1,72 @@
+#include "common/wire/session_receiver.h"
+
+#include <utility>
+
+#include "common/wire/scene_messages.h"
+
+namespace osteomill {
+
+std::variant<SessionEvent, WireError> SessionReceiver::take(v1::ServerFrame frame) {
+    if (stage_ != Stage::hello && frame.sequence() != last_sequence_ + 1)
+        return WireError{"frame " + std::to_string(frame.sequence()) + " came after " +
+                         std::to_string(last_sequence_)};
+    last_sequence_ = frame.sequence();
+
+    if (stage_ == Stage::hello && frame.has_hello()) return take_hello(frame.hello());
+    if (stage_ == Stage::snapshot_begin && frame.has_snapshot_begin())
+        return take_snapshot_begin(frame.snapshot_begin());
+    if (stage_ == Stage::snapshot && frame.has_snapshot_bricks())
+        return take_snapshot_bricks(frame.snapshot_bricks());
+    if (stage_ == Stage::snapshot && frame.has_snapshot_end()) return take_snapshot_end(frame.snapshot_end());
+    if (stage_ == Stage::live && frame.has_state())
+        return SessionEvent(StateArrived{std::move(*frame.mutable_state())});
+    if (stage_ != Stage::hello && stage_ != Stage::over && frame.has_goodbye()) {
+        stage_ = Stage::over;
+        return SessionEvent(SaidGoodbye{frame.goodbye().reason()});
+    }
+    return WireError{"frame " + std::to_string(frame.sequence()) + " is not what should come there"};
+}
+
+void SessionReceiver::go_on_behind(std::uint64_t sequence) {
+    stage_ = Stage::live;
+    last_sequence_ = sequence;
+}
+
+SessionReceiver::Outcome SessionReceiver::take_hello(const v1::Hello& hello) {
+    if (hello.protocol_major() != protocol_major) {
+        stage_ = Stage::over;
+        return SessionEvent(SpeaksOtherProtocol{hello.protocol_major()});
+    }
+    auto info = session_info_from(hello);
+    if (auto* error = std::get_if<WireError>(&info)) return *error;
+    stage_ = Stage::snapshot_begin;
+    return SessionEvent(std::get<SessionInfo>(std::move(info)));
+}
+
+SessionReceiver::Outcome SessionReceiver::take_snapshot_begin(const v1::SnapshotBegin& message) {
+    auto begun = SnapshotAssembler::begin(message);
+    if (auto* error = std::get_if<WireError>(&begun)) return *error;
+    assembler_.emplace(std::get<SnapshotAssembler>(std::move(begun)));
+    bricks_received_ = 0;
+    bricks_announced_ = message.brick_count();
+    stage_ = Stage::snapshot;
+    return SessionEvent(SnapshotGoesOn{});
+}
+
+SessionReceiver::Outcome SessionReceiver::take_snapshot_bricks(const v1::SnapshotBricks& message) {
+    if (auto error = assembler_->add(message)) return *error;
+    bricks_received_ = assembler_->bricks_received();
+    return SessionEvent(SnapshotGoesOn{});
+}
+
+SessionReceiver::Outcome SessionReceiver::take_snapshot_end(const v1::SnapshotEnd& message) {
+    auto finished = std::move(*assembler_).finish(message);
+    assembler_.reset();
+    if (auto* error = std::get_if<WireError>(&finished)) return *error;
+    Bone& bone = std::get<Bone>(finished);
+    RunningChecksum terms(bone);
+    stage_ = Stage::live;
+    return SessionEvent(BoneArrived{std::move(bone), std::move(terms)});
+}
+
+}  // namespace osteomill

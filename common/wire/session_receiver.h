@@ -1,0 +1,79 @@
+// The receiving side of a session, frame by frame: what may come when, checked, and what it means. No
+// sockets, no clock: the same for a connection and for a recording.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <variant>
+
+#include "common/bone/bone.h"
+#include "common/wire/running_checksum.h"
+#include "common/wire/session_info.h"
+#include "common/wire/snapshot.h"
+#include "common/wire/wire_error.h"
+#include "osteomill/v1/session.pb.h"
+
+namespace osteomill {
+
+/// A piece of a snapshot: there will be more.
+struct SnapshotGoesOn {};
+
+/// A snapshot is complete. Its checksum terms come with it, so that who shows it need not hash all of it.
+struct BoneArrived {
+    Bone bone;
+    RunningChecksum checksum;
+};
+
+/// A state frame, as it came; checked when it is applied: see BoneFollower.
+struct StateArrived {
+    v1::StateFrame frame;
+};
+
+/// The session is over.
+struct SaidGoodbye {
+    std::string reason;  ///< as the server wrote it
+};
+
+/// The server speaks another major version; nothing after this can be understood.
+struct SpeaksOtherProtocol {
+    std::uint32_t major = 0;
+};
+
+using SessionEvent =
+    std::variant<SnapshotGoesOn, SessionInfo, BoneArrived, StateArrived, SaidGoodbye, SpeaksOtherProtocol>;
+
+class SessionReceiver {
+  public:
+    /// The next frame of the session. An error says what is wrong with it; the receiver is then of no further
+    /// use.
+    std::variant<SessionEvent, WireError> take(v1::ServerFrame frame);
+
+    /// Whether a bone has come: state frames may follow.
+    bool is_live() const { return stage_ == Stage::live; }
+    std::uint64_t last_sequence() const { return last_sequence_; }
+    /// Goes on behind an earlier state frame of this session, or a later one, as in a recording that is wound
+    /// to another place. The receiver must be live or the session over.
+    void go_on_behind(std::uint64_t sequence);
+
+    /// Of the snapshot that is coming or came last.
+    std::uint32_t bricks_received() const { return bricks_received_; }
+    std::uint32_t bricks_announced() const { return bricks_announced_; }
+
+  private:
+    using Outcome = std::variant<SessionEvent, WireError>;
+    enum class Stage { hello, snapshot_begin, snapshot, live, over };
+
+    Outcome take_hello(const v1::Hello& hello);
+    Outcome take_snapshot_begin(const v1::SnapshotBegin& message);
+    Outcome take_snapshot_bricks(const v1::SnapshotBricks& message);
+    Outcome take_snapshot_end(const v1::SnapshotEnd& message);
+
+    Stage stage_ = Stage::hello;
+    std::uint64_t last_sequence_ = 0;
+    std::optional<SnapshotAssembler> assembler_;
+    std::uint32_t bricks_received_ = 0;
+    std::uint32_t bricks_announced_ = 0;
+};
+
+}  // namespace osteomill

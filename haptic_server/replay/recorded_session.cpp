@@ -1,0 +1,42 @@
+#include "haptic_server/replay/recorded_session.h"
+
+namespace osteomill {
+
+ToolView RecordedSession::update(BoneMirror& mirror, std::size_t viewers) {
+    if (!began_ && viewers > 0) began_ = now_();
+    if (began_ && !is_over_) {
+        const std::chrono::duration<double> elapsed = now_() - *began_;
+        try {
+            show(mirror, begins_s_ + speed_ * elapsed.count());
+        } catch (const RecordingError& error) {
+            error_ = error.what();
+            is_over_ = true;
+        }
+    }
+    return playhead_.tool().value_or(ToolView{});
+}
+
+void RecordedSession::show(BoneMirror& mirror, double until_s) {
+    for (;;) {
+        // The next session's bone is another server's to show.
+        if (playhead_.next_begins_session()) {
+            is_over_ = true;
+            return;
+        }
+        switch (playhead_.step(until_s)) {
+            case Playhead::Step::state:
+                for (const v1::BrickEdit& edit : playhead_.frame().edits())
+                    if (const auto error = mirror.apply(edit)) throw RecordingError(error->line);
+                break;
+            case Playhead::Step::nothing_due:
+                return;
+            case Playhead::Step::goodbye:
+            case Playhead::Step::new_bone:
+            case Playhead::Step::end:
+                is_over_ = true;
+                return;
+        }
+    }
+}
+
+}  // namespace osteomill

@@ -1,0 +1,28 @@
+// The tool of a recording as a table: time, pose, force, burr, spindle, removed bone.
+#pragma once
+
+#include <filesystem>
+#include <fstream>
+
+#include "common/recording/playhead.h"
+
+namespace osteomill {
+
+/// A line a state frame. Columns: time_s (since the recording began), session_time_s, burr_x_mm, burr_y_mm,
+/// burr_z_mm, axis_x, axis_y, axis_z (unit, tip to shank), hand_x_mm, hand_y_mm, hand_z_mm, force_x_n,
+/// force_y_n, force_z_n (on the hand), burr (its name, quoted), spindle (1: on), removed_mm3 (as the server
+/// counted). Patient LPS.
+class RecordingCsv {
+  public:
+    /// Throws std::runtime_error where the file cannot be written.
+    explicit RecordingCsv(std::filesystem::path file);
+    void add(const Playhead& playhead);
+    /// Throws std::runtime_error where a line could not be written.
+    void close();
+
+  private:
+    std::filesystem::path file_;
+    std::ofstream out_;
+};
+
+}  // namespace osteomill

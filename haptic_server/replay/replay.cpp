@@ -1,0 +1,88 @@
+#include "haptic_server/replay/replay.h"
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <cstdio>
+#include <fstream>
+#include <limits>
+#include <stdexcept>
+#include <thread>
+
+#include "haptic_server/replay/recorded_session.h"
+#include "haptic_server/replay/recording_csv.h"
+#include "haptic_server/replay/recording_summary.h"
+#include "haptic_server/streaming/streaming_server.h"
+
+namespace osteomill {
+
+namespace {
+
+void write_json(const RecordingSummary& summary, const std::filesystem::path& file) {
+    std::ofstream out(file);
+    // Names may be what a hostile file holds: bytes that are no UTF-8 must not cost the whole report.
+    out << to_json(summary).dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) << '\n';
+    out.close();
+    if (!out) throw std::runtime_error(fmt::format("{}: cannot write", file.string()));
+}
+
+void read(const ReplayOptions& options) {
+    std::optional<RecordingCsv> csv;
+    if (options.csv) csv.emplace(*options.csv);
+    const RecordingSummary summary = summarise(options.recording, [&](const Playhead& playhead) {
+        if (csv) csv->add(playhead);
+    });
+    if (csv) csv->close();
+    if (options.json) write_json(summary, *options.json);
+    if (options.info) fmt::print("{}", to_text(summary));
+    if (!summary.error.empty()) throw std::runtime_error(summary.error);
+}
+
+/// Shows the playhead's session to its end. `where`: a port 0 becomes the one that was found.
+void show_session(Playhead& playhead, double speed, ListenAddress& where, const std::atomic<bool>& stop) {
+    SessionInfo session = playhead.session();
+    session.protocol_major = protocol_major;
+    session.protocol_minor = protocol_minor;
+    session.accepts_operator = false;
+    RecordedSession shown(playhead, speed, [] { return RecordedSession::Clock::now(); });
+    StreamingServer server({.address = where.address, .port = where.port}, std::move(session),
+                           playhead.bone(), shown);
+    server.start();
+    where.port = server.port();
+    fmt::print("listening on {}:{}\n", where.address, where.port);
+    std::fflush(stdout);
+    while (!shown.is_over() && !stop.load()) std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    server.stop();
+    if (!shown.error().empty()) throw std::runtime_error(shown.error());
+}
+
+void go_to(Playhead& playhead, double from_s) {
+    Playhead::Step step = Playhead::Step::state;
+    while (step != Playhead::Step::nothing_due && step != Playhead::Step::end) step = playhead.step(from_s);
+    if (step == Playhead::Step::end)
+        throw std::runtime_error(
+            fmt::format("--from-s {}: the recording lasts {:.3f} s", from_s, playhead.time_s()));
+}
+
+/// False where there is none.
+bool go_to_next_session(Playhead& playhead) {
+    for (;;) {
+        const Playhead::Step step = playhead.step(std::numeric_limits<double>::infinity());
+        if (step == Playhead::Step::new_bone) return true;
+        if (step == Playhead::Step::end) return false;
+    }
+}
+
+}  // namespace
+
+void run_replay(const ReplayOptions& options, const std::atomic<bool>& stop) {
+    if (options.only_reads()) return read(options);
+    Playhead playhead(options.recording);
+    if (options.from_s > 0.0) go_to(playhead, options.from_s);
+    ListenAddress where = options.listen;
+    do {
+        show_session(playhead, options.speed, where, stop);
+    } while (!stop.load() && go_to_next_session(playhead));
+}
+
+}  // namespace osteomill

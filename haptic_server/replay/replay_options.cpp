@@ -1,0 +1,69 @@
+#include "haptic_server/replay/replay_options.h"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <stdexcept>
+
+namespace osteomill {
+
+namespace {
+
+constexpr double slowest = 0.01;
+constexpr double fastest = 1000.0;
+
+}  // namespace
+
+ReplayCommandLine parse_replay_command_line(int argc, const char* const* argv, const std::string& version) {
+    ReplayOptions options;
+    std::string listen = "127.0.0.1:7010";
+    std::string json;
+    std::string csv;
+    CLI::App app(
+        "Shows a recording of haptic_server --record to render clients, from the moment that the first one "
+        "joins; or says what is in it.",
+        "packet_replay");
+    app.set_version_flag("--version", fmt::format("packet_replay {}", version));
+    app.add_option("FILE", options.recording, "The recording")->required();
+    auto* where = app.add_option("--listen", listen, "Where clients connect, port 0: any free one")
+                      ->type_name("ADDRESS:PORT")
+                      ->capture_default_str();
+    auto* speed = app.add_option("--speed", options.speed, "Recorded seconds a second")
+                      ->check(CLI::Range(slowest, fastest))
+                      ->capture_default_str();
+    auto* from = app.add_option("--from-s", options.from_s, "Begin so long after the recording's beginning")
+                     ->check(CLI::NonNegativeNumber);
+    app.add_flag("--info", options.info,
+                 "Print duration, rates, burrs, removed volume by tissue, checksum; serve nobody");
+    app.add_option("--json", json, "Write the same to this file; serve nobody")->type_name("FILE");
+    app.add_option("--csv", csv,
+                   "Write time, pose, force, burr, spindle and removed volume, a line a frame; serve nobody")
+        ->type_name("FILE");
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::CallForHelp&) {
+        return {std::nullopt, app.help()};
+    } catch (const CLI::CallForVersion&) {
+        return {std::nullopt, app.version() + "\n"};
+    } catch (const CLI::ParseError& error) {
+        throw std::invalid_argument(fmt::format("{}; see --help", error.what()));
+    }
+    if (!json.empty()) options.json = json;
+    if (!csv.empty()) options.csv = csv;
+    for (const CLI::Option* serving : {where, speed, from})
+        if (options.only_reads() && serving->count() > 0)
+            throw std::invalid_argument(
+                fmt::format("{} is for showing a recording; --info, --json and --csv read all of it",
+                            serving->get_name()));
+    try {
+        options.listen = parse_listen_address(listen);
+        if (!is_loopback(options.listen))
+            throw std::invalid_argument(fmt::format(
+                "'{}' can be reached from other machines; without TLS only this one may connect", listen));
+    } catch (const std::invalid_argument& error) {
+        throw std::invalid_argument(fmt::format("--listen: {}", error.what()));
+    }
+    return {options, {}};
+}
+
+}  // namespace osteomill

@@ -1,0 +1,34 @@
+// The command line of packet_replay.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "haptic_server/streaming/listen_address.h"
+
+namespace osteomill {
+
+struct ReplayOptions {
+    std::filesystem::path recording;
+    ListenAddress listen;
+    double speed = 1.0;
+    double from_s = 0.0;
+    bool info = false;  ///< print what is in the recording
+    std::optional<std::filesystem::path> json;
+    std::optional<std::filesystem::path> csv;
+
+    /// Whether it is only looked into, and shown to nobody.
+    bool only_reads() const { return info || json || csv; }
+};
+
+/// What the command line asks for: options to run with, or a text (help, version) to print and be done.
+struct ReplayCommandLine {
+    std::optional<ReplayOptions> options;
+    std::string text;
+};
+
+/// Throws std::invalid_argument with one line for wrong usage.
+ReplayCommandLine parse_replay_command_line(int argc, const char* const* argv, const std::string& version);
+
+}  // namespace osteomill

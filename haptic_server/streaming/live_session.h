@@ -1,0 +1,27 @@
+// The session of the haptic and milling loops, for a streaming server to show.
+#pragma once
+
+#include "common/wire/session_info.h"
+#include "haptic_server/exchange/triple_buffer.h"
+#include "haptic_server/loop/edit_queue.h"
+#include "haptic_server/loop/exchange.h"
+#include "haptic_server/streaming/shown_session.h"
+
+namespace osteomill {
+
+/// What clients are told of a scene.
+SessionInfo session_info(const Scene& scene, bool accepts_operator, double force_limit_n,
+                         std::string program_version);
+
+/// The one reader of `tool` and the one consumer of `edits`; both outlive it. Never waits for the loops.
+class LiveSession final : public ShownSession {
+  public:
+    LiveSession(TripleBuffer<ToolSnapshot>& tool, EditQueue& edits) : tool_(tool), edits_(edits) {}
+    ToolView update(BoneMirror& mirror, std::size_t viewers) override;
+
+  private:
+    TripleBuffer<ToolSnapshot>& tool_;
+    EditQueue& edits_;
+};
+
+}  // namespace osteomill

@@ -1,0 +1,60 @@
+#include "haptic_server/streaming/session_recorder.h"
+
+#include <spdlog/spdlog.h>
+
+#include <utility>
+
+#include "common/wire/frame.h"
+
+namespace osteomill {
+
+namespace {
+
+/// A recording's packets know their length; the one before a frame on the wire is left out.
+std::string without_length(const std::string& frame) {
+    FrameDecoder decoder;
+    decoder.append({reinterpret_cast<const std::uint8_t*>(frame.data()), frame.size()});
+    const auto message = decoder.next();
+    return {message->begin(), message->end()};
+}
+
+}  // namespace
+
+SessionRecorder::SessionRecorder(const std::filesystem::path& file, Stamp began, v1::Hello hello,
+                                 const BoneMirror& mirror, SnapshotPacker& packer)
+    : began_(began), feed_(std::move(hello), mirror, packer), writer_(file, [this](const std::string& error) {
+          if (is_under_way_) spdlog::error("{}; the session goes on", error);
+      }) {
+    hand_over(true);
+    writer_.wait_until_written();
+    if (writer_.has_failed()) throw RecordingError(writer_.report().error);
+    is_under_way_ = true;
+}
+
+void SessionRecorder::record(const ToolView& tool, bool with_checksum, bool may_wait) {
+    time_s_ = tool.time_s;
+    feed_.request_state(tool, with_checksum);
+    hand_over(may_wait);
+}
+
+void SessionRecorder::finish(const ToolView& tool, const std::string& reason) {
+    time_s_ = tool.time_s;
+    feed_.request_state(tool, true);
+    feed_.finish(reason);
+    hand_over(true);
+    writer_.close();
+}
+
+void SessionRecorder::hand_over(bool may_wait) {
+    const Stamp stamp =
+        began_ + std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::duration<double>(time_s_));
+    while (!writer_.has_failed()) {
+        if (may_wait) writer_.wait_for_room();
+        if (!writer_.has_room()) return;
+        const std::optional<std::string> frame = feed_.next();
+        if (!frame) return;
+        writer_.push(stamp, without_length(*frame));
+    }
+}
+
+}  // namespace osteomill

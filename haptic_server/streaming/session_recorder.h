@@ -1,0 +1,42 @@
+// Records a session as one more client sees it: the very frames that it would be sent, into a file.
+//
+// Its feed is that of any client, so what the disk is too slow for collapses into what is told later, and the
+// streaming thread never waits. A disk that fails ends the recording, not the session.
+#pragma once
+
+#include <atomic>
+#include <filesystem>
+#include <string>
+
+#include "common/recording/recording_writer.h"
+#include "haptic_server/streaming/client_feed.h"
+
+namespace osteomill {
+
+class SessionRecorder {
+  public:
+    /// Writes hello and snapshot before it returns, and throws RecordingError where that much cannot be
+    /// written. `began`: when the session's time is zero. `mirror` and `packer` outlive the recorder.
+    SessionRecorder(const std::filesystem::path& file, Stamp began, v1::Hello hello, const BoneMirror& mirror,
+                    SnapshotPacker& packer);
+
+    /// As for a client: see ClientFeed.
+    void note(const ChangedVoxels& changes) { feed_.note(changes); }
+    /// Hands over a state frame; without waiting, unless `may_wait`.
+    void record(const ToolView& tool, bool with_checksum, bool may_wait);
+    /// Hands over the end and waits until all is written.
+    void finish(const ToolView& tool, const std::string& reason);
+
+    RecordingReport report() const { return writer_.report(); }
+
+  private:
+    void hand_over(bool may_wait);
+
+    const Stamp began_;
+    std::atomic<bool> is_under_way_{false};
+    ClientFeed feed_;
+    RecordingWriter writer_;
+    double time_s_ = 0.0;
+};
+
+}  // namespace osteomill

@@ -1,0 +1,20 @@
+// What a streaming server shows: a session that is going on, or a recording of one.
+#pragma once
+
+#include <cstddef>
+
+#include "common/wire/tool_view.h"
+#include "haptic_server/streaming/bone_mirror.h"
+
+namespace osteomill {
+
+class ShownSession {
+  public:
+    virtual ~ShownSession() = default;
+
+    /// Once a frame, on the streaming server's thread: writes into the mirror what has changed since the last
+    /// call, and says where the tool is now. `viewers`: clients that look on.
+    virtual ToolView update(BoneMirror& mirror, std::size_t viewers) = 0;
+};
+
+}  // namespace osteomill

@@ -1,0 +1,77 @@
+#include "render_client/link/key_frames.h"
+
+#include <zstd.h>
+
+#include <algorithm>
+#include <new>
+#include <stdexcept>
+#include <utility>
+
+namespace osteomill {
+
+namespace {
+
+constexpr int compression_level = 1;
+
+}  // namespace
+
+void KeyFrames::Free::operator()(ZSTD_CCtx_s* context) const {
+    ZSTD_freeCCtx(context);
+}
+
+KeyFrames::KeyFrames(Playhead::Mark start) : marks_{std::move(start)}, context_(ZSTD_createCCtx()) {
+    if (!context_) throw std::bad_alloc();
+}
+
+void KeyFrames::before_step(const Playhead& playhead) {
+    const v1::StateFrame* next = playhead.next_frame();
+    if (next == nullptr) return;
+    const bool is_news = *playhead.next_time_s() >= marks_.back().time_s;
+    for (const v1::BrickEdit& edit : next->edits()) {
+        const std::int32_t slot = playhead.bone().slot(edit.brick());
+        if (slot == BoneContent::no_slot) continue;  // the playhead will refuse it
+        if (is_news) changed_.insert(edit.brick());
+        // Until now it was as it first came.
+        if (!versions_.contains(edit.brick())) keep(edit.brick(), playhead.bone().fractions(slot), 0);
+    }
+}
+
+void KeyFrames::after_step(const Playhead& playhead) {
+    if (playhead.time_s() < marks_.back().time_s + interval_s) return;
+    marks_.push_back(playhead.mark());
+    for (const BrickIndex brick : changed_)
+        keep(brick, playhead.bone().fractions(playhead.bone().slot(brick)), marks_.size() - 1);
+    changed_.clear();
+}
+
+std::vector<BrickIndex> KeyFrames::wind_back(Playhead& playhead, double time_s) const {
+    const auto later = std::ranges::upper_bound(marks_, time_s, {}, &Playhead::Mark::time_s);
+    const auto key = static_cast<std::size_t>(std::max<std::ptrdiff_t>(later - marks_.begin(), 1) - 1);
+    std::vector<BrickIndex> touched;
+    ByteBrick fractions;
+    for (const auto& [brick, versions] : versions_) {
+        const auto newer = std::ranges::upper_bound(versions, key, {}, &Version::key);
+        const std::vector<std::uint8_t>& compressed = std::prev(newer)->compressed;
+        const std::size_t size =
+            ZSTD_decompress(fractions.data(), fractions.size(), compressed.data(), compressed.size());
+        if (size != fractions.size()) throw std::logic_error("a key frame cannot be unpacked");
+        playhead.set_fractions(brick, fractions);
+        touched.push_back(brick);
+    }
+    playhead.go_back_to(marks_[key]);
+    return touched;
+}
+
+void KeyFrames::keep(BrickIndex brick, std::span<const std::uint8_t, brick_voxel_count> fractions,
+                     std::size_t key) {
+    std::vector<std::uint8_t> compressed(ZSTD_compressBound(fractions.size()));
+    const std::size_t size = ZSTD_compressCCtx(context_.get(), compressed.data(), compressed.size(),
+                                               fractions.data(), fractions.size(), compression_level);
+    if (ZSTD_isError(size)) throw std::runtime_error(ZSTD_getErrorName(size));
+    compressed.resize(size);
+    compressed.shrink_to_fit();
+    memory_bytes_ += size + sizeof(Version);
+    versions_[brick].push_back({key, std::move(compressed)});
+}
+
+}  // namespace osteomill

@@ -1,0 +1,127 @@
+#include "render_client/link/recording_player.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+namespace osteomill {
+
+namespace {
+
+/// Frames taken in one poll. A frame takes some ten microseconds to apply: a poll stays below a picture's
+/// time, and an hour is crossed in a second or two.
+constexpr int most_frames_a_poll = 1000;
+
+}  // namespace
+
+RecordingPlayer::RecordingPlayer(std::filesystem::path file, double speed)
+    : file_(std::move(file)),
+      speed_(std::clamp(speed, slowest, fastest)),
+      duration_s_(recording_duration_s(file_)) {
+    open();
+}
+
+void RecordingPlayer::open() {
+    playhead_.emplace(file_);
+    keys_.emplace(playhead_->mark());
+    begins_s_ = session_begins_s_ = playhead_->time_s();
+    target_s_ = std::max(target_s_, begins_s_);
+    is_fresh_ = true;
+    is_at_end_ = false;
+    frame_rate_ = {};
+    byte_rate_ = {};
+}
+
+LinkUpdate RecordingPlayer::poll(Time now) {
+    LinkUpdate update;
+    const std::chrono::duration<double> elapsed = now - last_poll_.value_or(now);
+    last_poll_ = now;
+    if (is_playing_) target_s_ = std::min(target_s_ + speed_ * elapsed.count(), duration_s_);
+    try {
+        go_towards_target(update);
+    } catch (const RecordingError& error) {
+        error_ = error.what();
+        duration_s_ = target_s_ = playhead_->time_s();
+    }
+    std::ranges::sort(update.dirty_bricks);
+    const auto repeated = std::ranges::unique(update.dirty_bricks);
+    update.dirty_bricks.erase(repeated.begin(), repeated.end());
+    if (std::exchange(tool_is_news_, false)) update.tool = playhead_->tool();
+
+    const bool has_ended = is_at_end_ && target_s_ >= duration_s_;
+    if (has_ended || !error_.empty()) is_playing_ = false;
+    update.status = !error_.empty() ? LinkStatus::refused
+                    : has_ended     ? LinkStatus::finished
+                                    : LinkStatus::live;
+    update.status_line = status_line();
+    update.frames = playhead_->states();
+    update.checksums_verified = playhead_->checksums_verified();
+    update.connections = 1;
+    update.frames_per_s = frame_rate_.update(playhead_->states(), now);
+    update.bytes_per_s = byte_rate_.update(playhead_->bytes(), now);
+    return update;
+}
+
+void RecordingPlayer::play() {
+    if (!error_.empty()) return;
+    if (is_at_end_ && target_s_ >= duration_s_) seek(begins_s_);
+    is_playing_ = true;
+}
+
+void RecordingPlayer::set_speed(double speed) {
+    speed_ = std::clamp(speed, slowest, fastest);
+}
+
+void RecordingPlayer::seek(double time_s) {
+    target_s_ = std::clamp(time_s, begins_s_, std::max(begins_s_, duration_s_));
+}
+
+void RecordingPlayer::go_towards_target(LinkUpdate& update) {
+    if (target_s_ < playhead_->time_s()) wind_back(update);
+    if (std::exchange(is_fresh_, false)) {
+        // As it first was: textures are made for the most bone that there will be.
+        update.bone_replaced = true;
+        return;
+    }
+    if (!error_.empty()) return;
+    for (int frames = 0; frames < most_frames_a_poll; ++frames) {
+        keys_->before_step(*playhead_);
+        switch (playhead_->step(target_s_)) {
+            case Playhead::Step::state:
+                for (const v1::BrickEdit& edit : playhead_->frame().edits())
+                    update.dirty_bricks.push_back(edit.brick());
+                keys_->after_step(*playhead_);
+                tool_is_news_ = true;
+                break;
+            case Playhead::Step::new_bone:
+                keys_.emplace(playhead_->mark());
+                session_begins_s_ = playhead_->time_s();
+                is_fresh_ = true;
+                return;
+            case Playhead::Step::goodbye:
+                break;
+            case Playhead::Step::nothing_due:
+                return;
+            case Playhead::Step::end:
+                is_at_end_ = true;
+                return;
+        }
+    }
+}
+
+void RecordingPlayer::wind_back(LinkUpdate& update) {
+    is_at_end_ = false;
+    error_.clear();
+    if (target_s_ < session_begins_s_) return open();
+    update.dirty_bricks = keys_->wind_back(*playhead_, target_s_);
+    tool_is_news_ = playhead_->tool().has_value();
+}
+
+std::string RecordingPlayer::status_line() const {
+    if (!error_.empty()) return error_;
+    const std::string torn = is_at_end_ && playhead_->is_torn() ? ", which ends within a frame" : "";
+    return fmt::format("recording {}{}", file_.filename().string(), torn);
+}
+
+}  // namespace osteomill

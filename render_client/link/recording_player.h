@@ -1,0 +1,77 @@
+// A recording in place of a server, for the UI thread: plays, pauses, goes to any time, back as well.
+//
+// Going forward applies the recorded frames; going back takes up the last key frame before (see KeyFrames)
+// and goes forward from there. A long way takes several polls, so that a window never stands still.
+#pragma once
+
+#include <chrono>
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "common/recording/playhead.h"
+#include "render_client/link/bone_link.h"
+#include "render_client/link/key_frames.h"
+#include "render_client/link/rate_meter.h"
+
+namespace osteomill {
+
+class RecordingPlayer {
+  public:
+    using Time = std::chrono::steady_clock::time_point;
+
+    static constexpr double slowest = 0.1;
+    static constexpr double fastest = 100.0;
+
+    /// Reads the first bone. Throws RecordingError. `speed`: recorded seconds a second.
+    explicit RecordingPlayer(std::filesystem::path file, double speed = 1.0);
+
+    /// Once a frame: goes on to where it should be by now. The first poll brings the bone as it first was.
+    /// What cannot be read ends the recording there, as LinkStatus::refused with the reason.
+    LinkUpdate poll(Time now);
+
+    const Bone* bone() const { return &playhead_->bone(); }
+    const SessionInfo* session() const { return &playhead_->session(); }
+
+    bool is_playing() const { return is_playing_; }
+    /// At the end, from the beginning.
+    void play();
+    void pause() { is_playing_ = false; }
+    double speed() const { return speed_; }
+    void set_speed(double speed);
+    /// Anywhere from the first bone to duration_s(); what is beyond is its nearest end.
+    void seek(double time_s);
+
+    /// Where it is or, while it seeks, where it is going.
+    double time_s() const { return target_s_; }
+    double duration_s() const { return duration_s_; }
+    /// Why it is not read further; empty while all is well.
+    const std::string& error() const { return error_; }
+    std::size_t key_frame_bytes() const { return keys_->memory_bytes(); }
+
+  private:
+    void open();
+    void go_towards_target(LinkUpdate& update);
+    void wind_back(LinkUpdate& update);
+    std::string status_line() const;
+
+    const std::filesystem::path file_;
+    double speed_;
+    double duration_s_;
+    double target_s_ = 0.0;
+    bool is_playing_ = true;
+    std::optional<Time> last_poll_;
+    std::optional<Playhead> playhead_;
+    std::optional<KeyFrames> keys_;
+    double begins_s_ = 0.0;  // of the first bone
+    double session_begins_s_ =
+        0.0;                // of this session's; winding back further needs the file from its beginning
+    bool is_fresh_ = true;  // the bone has not been shown yet
+    bool is_at_end_ = false;
+    bool tool_is_news_ = false;
+    std::string error_;
+    RateMeter frame_rate_;
+    RateMeter byte_rate_;
+};
+
+}  // namespace osteomill

@@ -1,0 +1,234 @@
+// A session recorded, looked into, shown again and cut by other people's tools: the real programs.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <chrono>
+#include <csignal>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "tests/support/child_process.h"
+#include "tests/support/eventually.h"
+#include "tests/support/temporary_folder.h"
+
+namespace osteomill::testing {
+namespace {
+
+using namespace std::chrono_literals;
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+
+class Recording : public ::testing::Test {
+  protected:
+    Recording() {
+        std::ofstream(file("tooth.csv")) << "t_s,x_mm,y_mm,z_mm,axis_x,axis_y,axis_z,pedal\n"
+                                            "0.0,0.5,0.2,5.5,0,0,1,0\n"
+                                            "0.4,0.5,0.2,4.5,0,0,1,1\n"
+                                            "1.6,0.5,0.2,2.9,0,0,1,1\n";
+        std::ofstream(file("block.csv")) << "t_s,x_mm,y_mm,z_mm,axis_x,axis_y,axis_z,pedal\n"
+                                            "0.0,-1,0,3.5,0,0,1,0\n"
+                                            "0.4,-1,0,2.5,0,0,1,1\n"
+                                            "1.4,-1,0,1.0,0,0,1,1\n"
+                                            "2.4,1,0,1.0,0,0,1,1\n";
+        write_block();
+    }
+
+    /// A small block of bone, ever stiffer upwards: there in no time.
+    void write_block() const {
+        std::ofstream out(file("block.nrrd"), std::ios::binary);
+        out << "NRRD0004\ntype: int16\ndimension: 3\nspace: left-posterior-superior\nsizes: 48 40 32\n"
+               "space directions: (0.2,0,0) (0,0.2,0) (0,0,0.2)\nspace origin: (-4.7,-3.9,-4.1)\n"
+               "encoding: raw\nendian: little\n\n";
+        for (int z = 0; z < 32; ++z)
+            for (int voxel = 0; voxel < 48 * 40; ++voxel) {
+                const int hu = 400 + 30 * z;
+                out.put(static_cast<char>(hu & 0xFF)).put(static_cast<char>(hu >> 8));
+            }
+    }
+
+    std::string file(const std::string& name) const { return (folder_ / name).string(); }
+
+    nlohmann::json json(const std::string& name) const {
+        std::ifstream in(file(name));
+        return nlohmann::json::parse(in);
+    }
+
+    std::vector<std::string> server(const std::string& scene, const std::string& report) const {
+        std::vector<std::string> command{HAPTIC_SERVER,        "--clock", "virtual",   "--trajectory",
+                                         file(scene + ".csv"), "--json",  file(report)};
+        if (scene == "block") command.insert(command.end(), {"--bone", file("block.nrrd")});
+        return command;
+    }
+    /// Drills on the virtual clock; server.json says how it went.
+    void record(const std::string& name, const std::string& scene = "block") const {
+        std::vector<std::string> command = server(scene, "server.json");
+        command.insert(command.end(), {"--record", file(name)});
+        const Finished finished = run_program(command);
+        ASSERT_EQ(finished.status, 0) << finished.err;
+    }
+    /// The same in a shell where files may have so many KiB: a full disk.
+    Finished record_on_disk_of(std::uintmax_t kibibytes, const std::string& name,
+                               const std::string& report) const {
+        std::string command = "ulimit -f " + std::to_string(kibibytes) + "; exec";
+        for (const std::string& word : server("block", report)) command += " " + word;
+        return run_program({"/bin/bash", "-c", command + " --record " + file(name)});
+    }
+    nlohmann::json info(const std::string& name) const {
+        const Finished read = run_program({PACKET_REPLAY, file(name), "--info", "--json", file("info.json")});
+        EXPECT_EQ(read.status, 0) << read.err;
+        return json("info.json");
+    }
+    std::vector<std::string> client(const std::vector<std::string>& source, const std::string& report) const {
+        // OpenGL drivers leak and are unloaded before the leak checker of an instrumented client looks.
+        std::vector<std::string> command{"/usr/bin/env",  "ASAN_OPTIONS=detect_leaks=0",
+                                         RENDER_CLIENT,   "--offscreen",
+                                         "--window-size", "64x48",
+                                         "--frames",      "100000",
+                                         "--json",        file(report)};
+        command.insert(command.end(), source.begin(), source.end());
+        return command;
+    }
+
+    TemporaryFolder folder_;
+};
+
+TEST_F(Recording, LeavesEveryoneWithTheServersBone) {
+    record("a.pcap", "tooth");
+    const auto served = json("server.json");
+    EXPECT_EQ(served.at("recording").at("error"), nullptr);
+
+    const auto read = info("a.pcap");
+    EXPECT_EQ(read.at("bone_checksum"), served.at("bone_checksum"));
+    EXPECT_EQ(read.at("protocol"), "1.1");
+    EXPECT_EQ(read.at("frames"), served.at("recording").at("frames"));
+    EXPECT_NEAR(read.at("duration_s").get<double>(), served.at("duration_s").get<double>(), 1e-6);
+    EXPECT_GT(read.at("removed_mm3").at("total"), 0.1);
+    for (const auto& [tissue, removed_mm3] : served.at("removed_mm3").items())
+        EXPECT_NEAR(read.at("removed_mm3").at(tissue).get<double>(), removed_mm3.get<double>(), 1e-6);
+
+    const Finished player = run_program(client({"--replay", file("a.pcap"), "--speed", "4"}, "player.json"));
+    ASSERT_EQ(player.status, 0) << player.err;
+    EXPECT_EQ(json("player.json").at("bone_checksum"), served.at("bone_checksum"));
+    EXPECT_GT(json("player.json").at("dirty_bricks_uploaded"), 0);
+
+    ChildProcess replay(
+        {PACKET_REPLAY, file("a.pcap"), "--listen", "127.0.0.1:0", "--speed", "4", "--from-s", "1"});
+    const auto address = replay.line_after("listening on ", 60s);
+    ASSERT_TRUE(address) << replay.err();
+    const Finished viewer = run_program(client({"--connect", *address}, "viewer.json"));
+    ASSERT_EQ(viewer.status, 0) << viewer.err;
+    ASSERT_EQ(replay.wait(60s), 0) << replay.err();
+    EXPECT_EQ(json("viewer.json").at("bone_checksum"), served.at("bone_checksum"));
+    EXPECT_EQ(json("viewer.json").at("checksum_mismatches"), 0);
+}
+
+TEST_F(Recording, OfTheSameSessionIsTheSameButForItsDate) {
+    record("a.pcap");
+    record("b.pcap");
+    for (const std::string name : {"a", "b"}) {
+        const Finished read =
+            run_program({PACKET_REPLAY, file(name + ".pcap"), "--csv", file(name + ".csv")});
+        ASSERT_EQ(read.status, 0) << read.err;
+    }
+    std::ifstream a(file("a.csv")), b(file("b.csv"));
+    const std::string table{std::istreambuf_iterator<char>(a), {}};
+    EXPECT_GT(std::count(table.begin(), table.end(), '\n'), 70);
+    EXPECT_EQ(table, std::string(std::istreambuf_iterator<char>(b), {}));
+}
+
+TEST_F(Recording, OfAServerThatWasKilledIsReadableToItsLastWholeFrame) {
+    ChildProcess server(
+        {HAPTIC_SERVER, "--bone", file("block.nrrd"), "--listen", "127.0.0.1:0", "--record", file("a.pcap")});
+    ASSERT_TRUE(server.line_after("listening on ", 60s)) << server.err();
+    const auto size = [&] { return std::filesystem::file_size(file("a.pcap")); };
+    const auto with_snapshot = size();
+    ASSERT_TRUE(eventually([&] { return size() > with_snapshot + 5'000; })) << "no states";
+    server.send_signal(SIGKILL);
+    EXPECT_EQ(server.wait(60s), 128 + SIGKILL);
+    const auto read = info("a.pcap");
+    EXPECT_FALSE(read.at("ends_with_goodbye"));
+    EXPECT_GT(read.at("frames"), 10);
+
+    // The disk of a machine that lost its power may have kept less.
+    std::filesystem::resize_file(file("a.pcap"), size() - 3);
+    EXPECT_TRUE(info("a.pcap").at("is_torn"));
+    EXPECT_EQ(info("a.pcap").at("frames").get<int>(), read.at("frames").get<int>() - 1);
+}
+
+TEST_F(Recording, EndsWithAFullDiskAndTheSessionGoesOn) {
+    record("whole.pcap");
+    const auto needed = std::filesystem::file_size(file("whole.pcap")) / 1024;
+    const Finished server = record_on_disk_of(needed - 5, "a.pcap", "full.json");
+    EXPECT_EQ(server.status, 1);
+    EXPECT_THAT(server.err, AllOf(HasSubstr("a.pcap: the recording ends after "), HasSubstr("File too large"),
+                                  HasSubstr("the session goes on")));
+    const auto full = json("full.json");
+    EXPECT_EQ(full.at("bone_checksum"), json("server.json").at("bone_checksum"));
+    EXPECT_EQ(full.at("ticks"), json("server.json").at("ticks"));
+    EXPECT_THAT(full.at("recording").at("error").get<std::string>(), HasSubstr("File too large"));
+    EXPECT_EQ(info("a.pcap").at("frames"), full.at("recording").at("frames"));
+    EXPECT_FALSE(info("a.pcap").at("ends_with_goodbye"));
+
+    const Finished too_little = record_on_disk_of(1, "b.pcap", "none.json");
+    EXPECT_EQ(too_little.status, 1);
+    EXPECT_EQ(std::count(too_little.err.begin(), too_little.err.end(), '\n'), 1) << too_little.err;
+    const Finished no_room = run_program(
+        {HAPTIC_SERVER, "--bone", file("block.nrrd"), "--clock", "virtual", "--record", "/dev/full"});
+    EXPECT_EQ(no_room.status, 1);
+    EXPECT_EQ(no_room.err, "haptic_server: /dev/full: cannot write the recording: No space left on device\n");
+}
+
+TEST_F(Recording, IsCutAndJoinedByWiresharksTools) {
+    for (const char* tool : {"/usr/bin/editcap", "/usr/bin/mergecap"})
+        if (!std::filesystem::exists(tool)) GTEST_SKIP() << tool << " is not installed";
+    record("a.pcap");
+    const int frames = info("a.pcap").at("frames").get<int>() - 20;
+    ASSERT_EQ(run_program({"/usr/bin/editcap", "-r", file("a.pcap"), file("cut.pcapng"),
+                           "1-" + std::to_string(frames)})
+                  .status,
+              0);
+    EXPECT_EQ(info("cut.pcapng").at("frames"), frames);
+    ASSERT_EQ(
+        run_program({"/usr/bin/mergecap", "-a", "-w", file("both.pcapng"), file("a.pcap"), file("a.pcap")})
+            .status,
+        0);
+    const auto both = info("both.pcapng");
+    EXPECT_EQ(both.at("sessions"), 2);
+    EXPECT_EQ(both.at("bone_checksum"), json("server.json").at("bone_checksum"));
+}
+
+TEST_F(Recording, IsDecodedByTsharkWithOurProtoFiles) {
+    if (!std::filesystem::exists("/usr/bin/tshark")) GTEST_SKIP() << "tshark is not installed";
+    record("a.pcap");
+    const Finished tshark = run_program({"/usr/bin/tshark", "-r", file("a.pcap"), "-X",
+                                         "lua_script:" OSTEOMILL_PROTO "/osteomill.lua", "-o",
+                                         "uat:protobuf_search_paths:\"" OSTEOMILL_PROTO "\",\"TRUE\"", "-V"});
+    EXPECT_EQ(tshark.status, 0) << tshark.err;
+    EXPECT_THAT(tshark.out, AllOf(HasSubstr("scene_name = block"), HasSubstr("removed_mm3 = "),
+                                  HasSubstr("zstd_channels"), HasSubstr("the session has ended")));
+}
+
+TEST_F(Recording, IsNotWhatJustAnyFileIs) {
+    std::ofstream(file("text.pcap")) << "no capture at all, but some text";
+    for (const std::vector<std::string>& command :
+         {std::vector<std::string>{PACKET_REPLAY, file("text.pcap")},
+          {PACKET_REPLAY, file("none.pcap"), "--info"},
+          {RENDER_CLIENT, "--offscreen", "--replay", file("text.pcap")}}) {
+        const Finished run = run_program(command);
+        EXPECT_EQ(run.status, 1) << run.err;
+        EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << run.err;
+        EXPECT_THAT(run.err, HasSubstr(".pcap: "));
+    }
+    EXPECT_EQ(run_program({PACKET_REPLAY}).status, 2);
+    EXPECT_EQ(run_program({PACKET_REPLAY, "--help"}).status, 0);
+    EXPECT_THAT(run_program({PACKET_REPLAY, "--version"}).out, HasSubstr("0.1.0"));
+    EXPECT_EQ(run_program({RENDER_CLIENT, "--replay", "a.pcap", "--connect", "127.0.0.1:7010"}).status, 2);
+    EXPECT_EQ(run_program({RENDER_CLIENT, "--speed", "2"}).status, 2);
+}
+
+}  // namespace
+}  // namespace osteomill::testing

@@ -1,0 +1,106 @@
+// A recording made as a server makes one, of a bone that is carved at random, and what is known of it.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "common/recording/packet_reader.h"
+#include "common/wire/scene_messages.h"
+#include "haptic_server/streaming/session_recorder.h"
+#include "tests/support/random_carving.h"
+#include "tests/support/speckled_bone.h"
+
+namespace osteomill::testing {
+
+struct MadeRecordingOptions {
+    int states = 200;
+    std::uint32_t seed = 4;
+    bool ends = true;  ///< with a goodbye
+    std::uint32_t protocol_major = osteomill::protocol_major;
+};
+
+struct MadeRecording {
+    static constexpr double period_s = 0.05;
+
+    Bone before;
+    Bone after;
+    std::vector<std::uint64_t> checksum_after_state;  ///< state i is at i * period_s
+
+    double duration_s() const { return period_s * static_cast<double>(checksum_after_state.size() - 1); }
+};
+
+inline SessionInfo recorded_session_info() {
+    return {.scene_name = "test scene",
+            .server_version = "0.0.test",
+            .burrs = {Burr{.name = "round 1.5", .diameter_mm = 1.5}, Burr{.name = "round 5"}},
+            .tissues = {Tissue{.label = 2, .name = "nerve", .is_protected = true}},
+            .force_limit_n = 3.3};
+}
+
+inline MadeRecording make_recording(const std::filesystem::path& file,
+                                    const MadeRecordingOptions& options = {}) {
+    struct ToMirror final : EditSink {
+        explicit ToMirror(BoneMirror& into) : mirror(into) {}
+        void push(const EditRun& run) noexcept override { mirror.apply(run); }
+        BoneMirror& mirror;
+    };
+    std::mt19937 random(options.seed);
+    Bone bone = make_speckled_bone(random, {.grid = {.size_voxels = {64, 48, 32}}});
+    MadeRecording made{bone, bone, {}};
+    BoneMirror mirror(bone);
+    ToMirror edits(mirror);
+    SnapshotPacker packer;
+    SessionInfo session = recorded_session_info();
+    session.protocol_major = options.protocol_major;
+    const Stamp began{std::chrono::seconds(1'700'000'000) + std::chrono::nanoseconds(7)};
+    SessionRecorder recorder(file, began, to_message(session), mirror, packer);
+    ToolView tool;
+    for (int i = 0; i < options.states; ++i) {
+        if (i > 0)
+            for (int run = 0; run < 10; ++run) carve_somewhere(made.after, random, edits);
+        recorder.note(mirror.take_changes());
+        tool.time_s = MadeRecording::period_s * i;
+        tool.spindle_on = i % 2 == 1;
+        tool.burr = 1;
+        recorder.record(tool, i % 20 == 0, true);
+        made.checksum_after_state.push_back(mirror.checksum());
+    }
+    if (options.ends) recorder.finish(tool, "the end");
+    return made;
+}
+
+inline std::string bytes_of(const std::filesystem::path& file) {
+    std::ifstream in(file, std::ios::binary);
+    return {std::istreambuf_iterator<char>(in), {}};
+}
+
+inline void write_bytes(const std::filesystem::path& file, const std::string& bytes) {
+    std::ofstream(file, std::ios::binary) << bytes;
+}
+
+/// As `mergecap -a` would: the second recording's packets behind the first's.
+inline void join(const std::filesystem::path& first, const std::filesystem::path& second,
+                 const std::filesystem::path& joined) {
+    constexpr std::size_t file_header_bytes = 24;
+    write_bytes(joined, bytes_of(first) + bytes_of(second).substr(file_header_bytes));
+}
+
+/// Changes a byte within the frame that is so many before the last.
+inline void spoil(const std::filesystem::path& file, std::size_t before_last) {
+    std::vector<std::uint64_t> frame_at;
+    PacketReader packets(file);
+    constexpr std::uint64_t packet_header_bytes = 16;
+    while (const auto packet = packets.next())
+        frame_at.push_back(packet->place.offset_bytes + packet_header_bytes);
+    std::string bytes = bytes_of(file);
+    char& byte = bytes[frame_at[frame_at.size() - 1 - before_last] + 5];
+    byte = static_cast<char>(byte + 1);
+    write_bytes(file, bytes);
+}
+
+}  // namespace osteomill::testing

@@ -1,0 +1,175 @@
+#include "common/recording/playhead.h"
+
+#include <gmock/gmock.h>
+
+#include <limits>
+
+#include "common/recording/packet_writer.h"
+#include "common/wire/frame.h"
+#include "common/wire/sealed_frame.h"
+#include "tests/support/made_recording.h"
+#include "tests/support/temporary_folder.h"
+
+namespace osteomill {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using testing::MadeRecording;
+
+constexpr double for_ever = std::numeric_limits<double>::infinity();
+
+/// Goes to the end; what stands in the way, or nothing.
+std::string complaint(const std::filesystem::path& file) {
+    try {
+        Playhead playhead(file);
+        while (playhead.step(for_ever) != Playhead::Step::end) {
+        }
+    } catch (const RecordingError& error) {
+        return error.what();
+    }
+    return "";
+}
+
+class PlayheadTest : public ::testing::Test {
+  protected:
+    testing::TemporaryFolder folder_;
+    std::filesystem::path file_ = folder_ / "a.pcap";
+};
+
+TEST_F(PlayheadTest, FollowsTheBoneFromTheFirstToTheLast) {
+    const MadeRecording made = testing::make_recording(file_);
+    Playhead playhead(file_);
+    EXPECT_EQ(playhead.session().scene_name, "test scene");
+    EXPECT_EQ(playhead.session().server_version, "0.0.test");
+    EXPECT_EQ(playhead.session().protocol_minor, protocol_minor);
+    EXPECT_EQ(playhead.session().burrs.size(), 2U);
+    EXPECT_EQ(playhead.bone_checksum(), checksum(made.before));
+    EXPECT_FALSE(playhead.tool());
+    while (playhead.step(for_ever) != Playhead::Step::goodbye) {
+    }
+    EXPECT_EQ(playhead.step(for_ever), Playhead::Step::end);
+    EXPECT_EQ(playhead.bone_checksum(), checksum(made.after));
+    EXPECT_EQ(checksum(playhead.bone()), checksum(made.after));
+    EXPECT_EQ(playhead.states(), made.checksum_after_state.size() + 1) << "the last again, with the goodbye";
+    EXPECT_EQ(playhead.checksums_verified(), 11U);
+    EXPECT_NEAR(playhead.time_s(), made.duration_s(), 1e-6);
+    EXPECT_NEAR(recording_duration_s(file_), made.duration_s(), 1e-6);
+    EXPECT_FALSE(playhead.is_torn());
+}
+
+TEST_F(PlayheadTest, StopsBeforeWhatIsLater) {
+    const MadeRecording made = testing::make_recording(file_);
+    Playhead playhead(file_);
+    while (playhead.step(2.02) != Playhead::Step::nothing_due) {
+    }
+    EXPECT_NEAR(playhead.time_s(), 2.0, 1e-6);
+    EXPECT_EQ(playhead.bone_checksum(), made.checksum_after_state[40]);
+    EXPECT_EQ(playhead.tool()->time_s, 2.0);
+    EXPECT_NEAR(*playhead.next_time_s(), 2.05, 1e-6);
+}
+
+TEST_F(PlayheadTest, GoesFromOneSessionToTheNextOfAJoinedRecording) {
+    const MadeRecording first = testing::make_recording(file_, {.states = 50, .ends = false});
+    const MadeRecording second = testing::make_recording(folder_ / "b.pcap", {.states = 30, .seed = 9});
+    testing::join(file_, folder_ / "b.pcap", folder_ / "both.pcap");
+    Playhead playhead(folder_ / "both.pcap");
+    while (playhead.step(for_ever) == Playhead::Step::state)
+        EXPECT_TRUE(!playhead.next_begins_session() || playhead.bone_checksum() == checksum(first.after));
+    EXPECT_EQ(playhead.bone_checksum(), checksum(second.before));
+    while (playhead.step(for_ever) != Playhead::Step::end) {
+    }
+    EXPECT_EQ(playhead.bone_checksum(), checksum(second.after));
+    EXPECT_NEAR(playhead.time_s(), first.duration_s() + second.duration_s(), 1e-6);
+    EXPECT_NEAR(recording_duration_s(folder_ / "both.pcap"), playhead.time_s(), 1e-6);
+}
+
+TEST_F(PlayheadTest, IsReadableUpToTheLastWholeFrameWhereverItIsTorn) {
+    const MadeRecording made = testing::make_recording(file_, {.states = 40});
+    const std::string bytes = testing::bytes_of(file_);
+    std::mt19937 random(3);
+    for (int i = 0; i < 50; ++i) {
+        const auto torn = folder_ / "torn.pcap";
+        testing::write_bytes(torn, bytes.substr(0, bytes.size() - 1 - random() % 4000));
+        Playhead playhead(torn);
+        while (playhead.step(for_ever) != Playhead::Step::end) {
+        }
+        const std::size_t states = playhead.states();
+        EXPECT_GT(states, 0U);
+        EXPECT_EQ(playhead.bone_checksum(),
+                  made.checksum_after_state[std::min(states, made.checksum_after_state.size()) - 1]);
+    }
+    testing::write_bytes(folder_ / "torn.pcap", bytes.substr(0, 60'000));
+    EXPECT_THAT(complaint(folder_ / "torn.pcap"), HasSubstr("ends before the bone is complete"));
+}
+
+TEST_F(PlayheadTest, FindsEveryByteThatWasChanged) {
+    testing::make_recording(file_, {.states = 20});
+    const std::string bytes = testing::bytes_of(file_);
+    PacketReader packets(file_);
+    std::mt19937 random(6);
+    for (auto packet = packets.next(); packet; packet = packets.next()) {
+        std::string changed = bytes;
+        const std::size_t at = packet->place.offset_bytes + 16 + random() % packet->message.size();
+        changed[at] = static_cast<char>(changed[at] ^ (1 << random() % 8));
+        testing::write_bytes(folder_ / "changed.pcap", changed);
+        EXPECT_THAT(complaint(folder_ / "changed.pcap"),
+                    HasSubstr("packet " + std::to_string(packet->place.number) + " at byte "));
+    }
+}
+
+TEST_F(PlayheadTest, RefusesInOneLineWhatItCannotUnderstand) {
+    testing::make_recording(file_, {.states = 2, .protocol_major = protocol_major + 1});
+    EXPECT_THAT(complaint(file_), AllOf(HasSubstr("packet 1"), HasSubstr("recorded with protocol 2"),
+                                        HasSubstr("a newer version")));
+
+    // Cut out of a longer one: without the first packet, and without one in the middle.
+    testing::make_recording(file_, {.states = 10});
+    const std::string bytes = testing::bytes_of(file_);
+    PacketReader packets(file_);
+    const std::size_t second = (packets.next(), packets.place().offset_bytes);
+    testing::write_bytes(file_, bytes.substr(0, 24) + bytes.substr(second));
+    EXPECT_THAT(complaint(file_), HasSubstr("beginning was cut off"));
+
+    testing::write_bytes(file_, bytes);
+    PacketReader again(file_);
+    std::vector<std::size_t> offsets;
+    while (const auto packet = again.next()) offsets.push_back(packet->place.offset_bytes);
+    const std::size_t middle = offsets.size() - 4;
+    testing::write_bytes(file_, bytes.substr(0, offsets[middle]) + bytes.substr(offsets[middle + 1]));
+    EXPECT_THAT(complaint(file_), HasSubstr(" came after "));
+}
+
+TEST_F(PlayheadTest, RefusesEditsThatDoNotFitTheBoneHoweverWellSealed) {
+    testing::make_recording(file_, {.states = 2, .ends = false});
+    std::uint64_t sequence = 0;
+    PacketReader packets(file_);
+    while (packets.next()) ++sequence;
+    v1::ServerFrame frame;
+    frame.set_sequence(sequence + 1);
+    *frame.mutable_state()->mutable_tool() = to_message(ToolView{});
+    const auto complaint_about = [&](const v1::BrickEdit& edit) {
+        frame.mutable_state()->clear_edits();
+        *frame.mutable_state()->add_edits() = edit;
+        std::string stream;
+        append_sealed_frame(frame, stream);
+        FrameDecoder decoder;
+        decoder.append({reinterpret_cast<const std::uint8_t*>(stream.data()), stream.size()});
+        const auto message = decoder.next();
+        PacketWriter writer(folder_ / "tail.pcap");
+        writer.write(Stamp{}, {reinterpret_cast<const char*>(message->data()), message->size()});
+        testing::join(file_, folder_ / "tail.pcap", folder_ / "hostile.pcap");
+        return complaint(folder_ / "hostile.pcap");
+    };
+    v1::BrickEdit edit;
+    edit.set_brick(4'000'000'000U);
+    EXPECT_THAT(complaint_about(edit), HasSubstr("no bone is stored there"));
+    Playhead playhead(file_);
+    edit.set_brick(playhead.bone().content().brick_of_slot.front());
+    edit.add_changed(4090);
+    edit.add_changed(4'000'000'000U);
+    EXPECT_THAT(complaint_about(edit), AllOf(HasSubstr("packet "), HasSubstr("a run ends at voxel")));
+}
+
+}  // namespace
+}  // namespace osteomill

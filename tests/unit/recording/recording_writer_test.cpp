@@ -1,0 +1,85 @@
+#include "common/recording/recording_writer.h"
+
+#include <fcntl.h>
+#include <gmock/gmock.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <array>
+
+#include "common/recording/packet_reader.h"
+#include "tests/support/file_size_limit.h"
+#include "tests/support/temporary_folder.h"
+
+namespace osteomill {
+namespace {
+
+TEST(RecordingWriter, WritesAllThatWasPushedInOrder) {
+    const testing::TemporaryFolder folder;
+    RecordingWriter writer(folder / "a.pcap", {});
+    for (int i = 0; i < 1000; ++i) writer.push(Stamp{std::chrono::milliseconds(i)}, std::to_string(i));
+    writer.close();
+    writer.push(Stamp{}, "too late");
+    EXPECT_EQ(writer.report().frames, 1000U);
+    EXPECT_EQ(writer.report().error, "");
+    PacketReader reader(folder / "a.pcap");
+    for (int i = 0; i < 1000; ++i) {
+        const auto packet = reader.next();
+        ASSERT_TRUE(packet);
+        ASSERT_EQ(std::string(packet->message.begin(), packet->message.end()), std::to_string(i));
+    }
+    EXPECT_FALSE(reader.next());
+}
+
+TEST(RecordingWriter, SaysOnceThatTheDiskIsFullAndGoesOnWithoutIt) {
+    const testing::TemporaryFolder folder;
+    std::vector<std::string> lines;
+    RecordingWriter writer(folder / "a.pcap", [&](const std::string& line) { lines.push_back(line); });
+    {
+        const testing::FileSizeLimit disk(5'000);
+        for (int i = 0; i < 20; ++i) {
+            writer.wait_for_room();
+            writer.push(Stamp{}, std::string(1000, 'x'));
+        }
+        writer.wait_until_written();
+    }
+    EXPECT_TRUE(writer.has_failed());
+    EXPECT_TRUE(writer.has_room());
+    writer.push(Stamp{}, "forgotten");
+    writer.close();
+    ASSERT_EQ(lines.size(), 1U);
+    EXPECT_EQ(writer.report().error, lines[0]);
+    EXPECT_EQ(writer.report().frames, 4U);
+}
+
+TEST(RecordingWriter, NeverWaitsForASlowDiskAndHoldsNoMoreThanItMay) {
+    const testing::TemporaryFolder folder;
+    const auto pipe = folder / "pipe";  // nobody reads it: the slowest disk there is
+    ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+    const int reader = ::open(pipe.c_str(), O_RDONLY | O_NONBLOCK);
+    ASSERT_GE(reader, 0);
+    {
+        RecordingWriter writer(pipe, {});
+        const std::string frame(100'000, 'x');
+        std::size_t pushed = 0;
+        while (writer.has_room()) {
+            writer.push(Stamp{}, frame);
+            pushed += frame.size();
+        }
+        EXPECT_GE(pushed, RecordingWriter::capacity_bytes);
+        EXPECT_LE(pushed, RecordingWriter::capacity_bytes + 5 * frame.size()) << "some are in the pipe";
+        std::thread draining([&] {
+            std::array<char, 65536> bytes;
+            while (writer.report().frames < pushed / frame.size())
+                [[maybe_unused]] const auto ignored = ::read(reader, bytes.data(), bytes.size());
+        });
+        writer.wait_for_room();
+        writer.close();
+        draining.join();
+        EXPECT_EQ(writer.report().error, "");
+    }
+    ::close(reader);
+}
+
+}  // namespace
+}  // namespace osteomill

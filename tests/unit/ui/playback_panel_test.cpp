@@ -1,0 +1,73 @@
+#include "render_client/ui/playback_panel.h"
+
+#include <gtest/gtest.h>
+#include <imgui.h>
+
+#include "tests/support/made_recording.h"
+#include "tests/support/temporary_folder.h"
+
+namespace osteomill {
+namespace {
+
+/// Dear ImGui without anything to draw on.
+class PlaybackPanel : public ::testing::Test {
+  protected:
+    PlaybackPanel() {
+        ImGui::CreateContext();
+        ImGuiIO& io = ImGui::GetIO();
+        io.IniFilename = nullptr;
+        io.DisplaySize = {static_cast<float>(size_px_.x), static_cast<float>(size_px_.y)};
+        unsigned char* pixels = nullptr;
+        io.Fonts->GetTexDataAsRGBA32(&pixels, nullptr, nullptr);
+        for (int i = 0; i < 3; ++i) draw();  // a panel fits itself to what it holds
+    }
+    ~PlaybackPanel() override { ImGui::DestroyContext(); }
+
+    void draw() {
+        ImGui::GetIO().DeltaTime = 1.0f / 60.0f;
+        ImGui::NewFrame();
+        draw_playback_panel(player_, size_px_);
+        ImGui::EndFrame();
+    }
+    /// Presses and lets go of the left button at a part of the picture's width, in the panel's row.
+    void click(double part_of_width) {
+        ImGuiIO& io = ImGui::GetIO();
+        io.MousePos = {static_cast<float>(part_of_width * size_px_.x), static_cast<float>(size_px_.y - 30)};
+        draw();
+        EXPECT_TRUE(io.WantCaptureMouse) << "the view must not turn meanwhile";
+        io.MouseDown[0] = true;
+        draw();
+        io.MouseDown[0] = false;
+        draw();
+    }
+
+    testing::TemporaryFolder folder_;
+    testing::MadeRecording made_ = testing::make_recording(folder_ / "a.pcap", {.states = 100});
+    RecordingPlayer player_{folder_ / "a.pcap"};
+    const glm::ivec2 size_px_{1000, 700};
+};
+
+TEST_F(PlaybackPanel, PausesAndPlays) {
+    click(0.04);
+    EXPECT_FALSE(player_.is_playing());
+    click(0.04);
+    EXPECT_TRUE(player_.is_playing());
+}
+
+TEST_F(PlaybackPanel, GoesToAnyTimeInBothDirections) {
+    click(0.4);
+    const double late_s = player_.time_s();
+    click(0.2);
+    const double early_s = player_.time_s();
+    EXPECT_GT(early_s, 0.1 * player_.duration_s());
+    EXPECT_GT(late_s, early_s + 0.3 * player_.duration_s());
+    EXPECT_LT(late_s, player_.duration_s());
+}
+
+TEST_F(PlaybackPanel, ChangesTheSpeed) {
+    click(0.57);
+    EXPECT_GT(player_.speed(), 1.0);
+}
+
+}  // namespace
+}  // namespace osteomill
