@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <ostream>
 #include <string>
 
 #include "tests/studies/stability/largest_stable.h"
@@ -28,6 +29,10 @@ struct Direct {
     std::string coupling;
     LinearHold hold;
 };
+
+void PrintTo(const Direct& direct, std::ostream* out) {
+    *out << direct.coupling << ", a force every " << direct.hold.ticks_per_sample() << " ticks";
+}
 
 class DirectWall : public ::testing::TestWithParam<Direct> {};
 

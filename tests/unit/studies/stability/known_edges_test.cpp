@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <ostream>
 #include <string>
 #include <vector>
 
@@ -39,6 +40,10 @@ struct KnownEdge {
     HeldBody body;
     double largest_stiffness_n_per_m;
 };
+
+void PrintTo(const KnownEdge& edge, std::ostream* out) {
+    *out << edge.method << ", " << edge.largest_stiffness_n_per_m << " N/m";
+}
 
 class KnownEdges : public ::testing::TestWithParam<KnownEdge> {};
 
