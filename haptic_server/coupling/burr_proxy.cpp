@@ -15,7 +15,7 @@ constexpr double residual_tolerance_n = 1e-7;
 }  // namespace
 
 void BurrProxy::place(const glm::dvec3& position_mm) noexcept {
-    position_mm_ = position_mm;
+    position_mm_ = target_mm_ = position_mm;
     map_step_ = 0;
     correction_.reset();
     cleared_mm_.fill(0.0);
@@ -96,6 +96,13 @@ glm::dvec3 BurrProxy::solve(const glm::dvec3& pull_mm) noexcept {
     return d;
 }
 
+glm::dvec3 BurrProxy::held_back(const glm::dvec3& step_mm, const glm::dvec3& target_mm,
+                                double tick_s) const noexcept {
+    const double longest_mm = glm::distance(target_mm, target_mm_) + most_slip_mm_per_s * tick_s;
+    const double length_mm = glm::length(step_mm);
+    return length_mm > longest_mm ? step_mm * (longest_mm / length_mm) : step_mm;
+}
+
 void BurrProxy::advance(const glm::dvec3& target_mm, double tick_s, bool spindle_on,
                         const MillingResult& latest) noexcept {
     take_over(latest);
@@ -103,7 +110,10 @@ void BurrProxy::advance(const glm::dvec3& target_mm, double tick_s, bool spindle
     const glm::dvec3 pull = target_mm - position_mm_;
     gather_contacts(pull, tick_s, spindle_on, engagement);
     iterations_ = 0;
-    position_mm_ = contact_count_ == 0 ? target_mm : position_mm_ + solve(pull);
+    const glm::dvec3 wanted = contact_count_ == 0 ? pull : solve(pull);
+    const glm::dvec3 step = spindle_on ? held_back(wanted, target_mm, tick_s) : wanted;
+    position_mm_ = step == pull ? target_mm : position_mm_ + step;
+    target_mm_ = target_mm;
 
     if (!spindle_on) {
         correction_.reset();

@@ -1,18 +1,23 @@
 // The burr as a massless proxy, tied to the device by a spring and held by the bone: backward Euler, solved
 // each tick against the engagement map that the milling loop last sampled.
 //
-//     K_c (x - p - d) + F(d) = 0                              for the step d of the proxy p toward the device
-//     x
+//     K_c (x - p - d) + F(d) = 0      for the step d of the proxy p toward the device x
 //
-//     spindle on:   F(d) = sum over patches of C_i max(0, n_i . d - slack_i) / dt      the milling force at
-//     the step's end spindle off:  F(d) = - sum of k A_i n_i max(0, n_i . (p + d - p_map) - gap_i)    bone is
-//     a wall
+//     spindle on, the milling force at the step's end:
+//         F(d) = sum over patches of C_i max(0, n_i . d - slack_i) / dt
+//     spindle off, bone is a wall:
+//         F(d) = - sum of k A_i n_i max(0, n_i . (p + d - p_map) - gap_i)
 //
 // C_i, n_i, gap_i and A_i as in engagement.h; slack_i is how far the patch may still advance before it meets
 // bone that the proxy has not cut since the map was sampled, so no bone is felt twice. Piecewise linear:
 // Newton on the set of patches in contact, a few iterations, halving a step that does not reduce the
 // residual. In one dimension, in bone of resistance B, it is p' = (B/dt p + K_c x) / (B/dt + K_c): stable for
 // any B.
+//
+// A massless burr that breaks through, or that its own teeth pull along, would be elsewhere within a tick,
+// and the hand would feel the spring let go all at once. A handpiece has mass: with the spindle on, the burr
+// slips past the hand no faster than most_slip_mm_per_s, and the spring lets go over some ticks. The hand
+// never gets more than the spring held.
 #pragma once
 
 #include <array>
@@ -31,7 +36,7 @@ class BurrProxy {
     /// Puts the proxy somewhere, in contact with nothing that it knows of.
     void place(const glm::dvec3& position_mm) noexcept;
 
-    /// One tick of `tick_s` toward `target_mm` (patient LPS). In free air the proxy arrives there. Real-time
+    /// One tick of `tick_s` toward `target_mm` (patient LPS). In free air the proxy follows there. Real-time
     /// safe.
     void advance(const glm::dvec3& target_mm, double tick_s, bool spindle_on,
                  const MillingResult& latest) noexcept;
@@ -46,6 +51,8 @@ class BurrProxy {
     /// Wall pressure per depth with the spindle off, N/mm^3: a 1 mm burr pressed with 3 N sinks in by 0.04
     /// mm.
     static constexpr double wall_n_per_mm3 = 1000.0;
+    /// Above the hand's own speed. On a spring of 1.5 N/mm 0.15 N a tick, half of what is felt as a knock.
+    static constexpr double most_slip_mm_per_s = 100.0;
 
   private:
     struct Contact {
@@ -58,9 +65,13 @@ class BurrProxy {
     void gather_contacts(const glm::dvec3& pull_mm, double tick_s, bool spindle_on,
                          const Engagement& engagement) noexcept;
     glm::dvec3 solve(const glm::dvec3& pull_mm) noexcept;
+    /// A step no longer than the hand's and what may slip.
+    glm::dvec3 held_back(const glm::dvec3& step_mm, const glm::dvec3& target_mm,
+                         double tick_s) const noexcept;
 
     double spring_n_per_mm_;
     glm::dvec3 position_mm_{0.0};
+    glm::dvec3 target_mm_{0.0};  // of the last tick
     std::uint64_t map_step_ = 0;
     ForceCorrection correction_;
     int iterations_ = 0;

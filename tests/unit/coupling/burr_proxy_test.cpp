@@ -74,10 +74,31 @@ TEST(BurrProxy, SolvesASidewaysForceStrongerThanTheDirectOne) {
     proxy.place(glm::dvec3(0.0));
     auto bone = damper_along_x(0.05, 0.0);
     bone->engagement.patches[0].cutting_n_s_per_mm = {-0.05, -0.4, 0.0};
-    proxy.advance({0.1, 0.0, 0.0}, 0.001, true, *bone);
+    proxy.advance({0.01, 0.0, 0.0}, 0.001, true, *bone);
     const glm::dvec3 d = proxy.position_mm();
-    EXPECT_NEAR(1.5 * (0.1 - d.x), 0.05 * d.x / 0.001, 1e-6);
+    EXPECT_NEAR(1.5 * (0.01 - d.x), 0.05 * d.x / 0.001, 1e-6);
     EXPECT_NEAR(1.5 * (0.0 - d.y), 0.4 * d.x / 0.001, 1e-6);
+}
+
+TEST(BurrProxy, LetsGoOverSomeTicksWhenTheBoneIsGone) {
+    BurrProxy proxy(1.5);
+    proxy.place(glm::dvec3(0.0));
+    const auto hard = damper_along_x(100.0, 0.0);
+    glm::dvec3 hand(0.0);
+    for (int i = 0; i < 100; ++i) proxy.advance(hand += glm::dvec3(0.006, 0.0, 0.0), 0.001, true, *hard);
+    double lag_mm = hand.x - proxy.position_mm().x;
+    ASSERT_GT(lag_mm, 0.5);
+
+    MillingResult air = *hard;
+    air.step = 2;
+    air.engagement.count = 0;
+    for (int i = 0; i < 6; ++i) {
+        proxy.advance(hand += glm::dvec3(0.006, 0.0, 0.0), 0.001, true, air);
+        const double next_mm = hand.x - proxy.position_mm().x;
+        EXPECT_LE(lag_mm - next_mm, BurrProxy::most_slip_mm_per_s * 0.001 + 1e-12);
+        lag_mm = next_mm;
+    }
+    EXPECT_NEAR(lag_mm, 0.0, 1e-12) << "and arrives";
 }
 
 }  // namespace
