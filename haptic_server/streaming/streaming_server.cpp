@@ -171,12 +171,18 @@ class StreamingServer::Impl {
         const bool with_checksum = frames_++ % frames_per_checksum_ == 0;
         if (recorder_) recorder_->record(last_view_, with_checksum, options_.paced_by_session);
         for (const auto& [id, session] : std::map(sessions_)) {  // a session may close and leave the map
-            session->feed().request_state(last_view_, with_checksum);
+            session->feed().request_state(view_for(id), with_checksum);
             session->pump();
         }
         if (options_.listens && !is_accepting_) accept();
         client_log_.tell_left_out(Clock::now());
         stranger_log_.tell_left_out(Clock::now());
+    }
+
+    ToolView view_for(OperatorSeat::ClientId id) const {
+        ToolView view = last_view_;
+        if (seat_) view.driver = seat_->driver_for(id);
+        return view;
     }
 
     void update() {
@@ -243,7 +249,7 @@ class StreamingServer::Impl {
         if (seat_) seat_->vacate();
         update();
         for (const auto& [id, session] : std::map(sessions_)) {
-            session->feed().request_state(last_view_, true);
+            session->feed().request_state(view_for(id), true);
             session->feed().finish(end_of_session);
             session->pump();
         }
