@@ -150,6 +150,7 @@ class StreamingServer::Impl {
             has_failed_ = true;
             spdlog::error("streaming has stopped: {}", error.what());
             for (const auto& [id, session] : std::map(sessions_)) session->close("was cut off", false);
+            handshakes_.cancel();
             if (seat_) seat_->vacate();
         }
     }

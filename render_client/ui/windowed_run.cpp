@@ -101,10 +101,10 @@ RenderReport run_in_window(const RenderOptions& options, SessionSource& source,
             hand.follow(*session.tool(), session.session()->burrs.size());
             // What is sent last lifts the pedal; then the tool is free for others.
             if (hand.wants_tool() || had_tool) source.send_operator(hand.intent());
-            had_tool = hand.wants_tool();
             // It may be asked for, but must not jump to where this hand has gone meanwhile.
             if (session.tool()->driver == ToolDriver::another) hand.let_go();
         }
+        had_tool = drills && hand.wants_tool();
         session.show_operator(drills ? std::optional(hand.intent()) : std::nullopt);
         if (!drills) hand.let_go();
 
