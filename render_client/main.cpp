@@ -22,7 +22,8 @@ bool stop_asked() {
 
 std::unique_ptr<osteomill::SessionSource> make_session(const osteomill::RenderOptions& options) {
     if (options.replay) return std::make_unique<osteomill::ReplayedSession>(*options.replay, options.speed);
-    return std::make_unique<osteomill::LinkedSession>(options.host, options.port, options.record);
+    return std::make_unique<osteomill::LinkedSession>(options.host, options.port, options.record,
+                                                      options.tls);
 }
 
 }  // namespace

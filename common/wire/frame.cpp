@@ -42,16 +42,16 @@ std::optional<std::span<const std::uint8_t>> FrameDecoder::next() {
     std::size_t size = 0;
     for (std::size_t i = 0; i < waiting.size(); ++i) {
         if (i == longest_prefix_bytes) {
-            error_ = "a frame claims to be longer than " + std::to_string(largest_frame_bytes) + " bytes";
+            error_ = "a frame claims to be longer than " + std::to_string(largest_bytes_) + " bytes";
             return std::nullopt;
         }
         size |= static_cast<std::size_t>(waiting[i] & 0x7FU) << (7 * i);
         if (waiting[i] & 0x80U) continue;
 
         const std::size_t prefix = i + 1;
-        if (size > largest_frame_bytes)
+        if (size > largest_bytes_)
             error_ = "a frame claims " + std::to_string(size) + " bytes, over the limit of " +
-                     std::to_string(largest_frame_bytes);
+                     std::to_string(largest_bytes_);
         else if (size == 0)
             error_ = "a frame is empty";
         else if (i > 0 && waiting[i] == 0)

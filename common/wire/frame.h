@@ -20,6 +20,9 @@ namespace osteomill {
 /// how long one frame keeps the next waiting; a snapshot is cut to fit.
 inline constexpr std::size_t largest_frame_bytes = 128 * 1024;
 
+/// The largest that a client may send: it has far less to say than a server.
+inline constexpr std::size_t largest_client_frame_bytes = 8 * 1024;
+
 /// Appends one frame. Throws std::length_error for a message over the limit: the sender is to cut it first.
 void append_frame(const google::protobuf::MessageLite& message, std::string& stream);
 /// Likewise, of a message that has been serialised.
@@ -29,6 +32,10 @@ void append_frame(std::string_view message, std::string& stream);
 /// been taken, and never makes room because a peer says so.
 class FrameDecoder {
   public:
+    FrameDecoder() = default;
+    /// For a peer that has no use for frames as long as largest_frame_bytes.
+    explicit FrameDecoder(std::size_t largest_bytes) : largest_bytes_(largest_bytes) {}
+
     /// Takes over bytes as they arrived. Take all frames with next() before the next append.
     void append(std::span<const std::uint8_t> bytes);
 
@@ -44,6 +51,7 @@ class FrameDecoder {
     bool is_inside_frame() const { return taken_ < buffer_.size(); }
 
   private:
+    std::size_t largest_bytes_ = largest_frame_bytes;
     std::vector<std::uint8_t> buffer_;
     std::size_t taken_ = 0;  // bytes at the front of the buffer that next() has handed out
     std::string error_;

@@ -27,6 +27,33 @@ WireError unknown_burr(std::uint32_t burr, std::size_t burr_count) {
     return {"burr " + std::to_string(burr) + " is not one of the scene's " + std::to_string(burr_count)};
 }
 
+v1::ToolDriver to_message(ToolDriver driver) {
+    switch (driver) {
+        case ToolDriver::nobody:
+            return v1::TOOL_DRIVER_NOBODY;
+        case ToolDriver::you:
+            return v1::TOOL_DRIVER_YOU;
+        case ToolDriver::another:
+            return v1::TOOL_DRIVER_ANOTHER;
+        case ToolDriver::unknown:
+            break;
+    }
+    return v1::TOOL_DRIVER_UNKNOWN;
+}
+
+ToolDriver driver_from(v1::ToolDriver driver) {
+    switch (driver) {
+        case v1::TOOL_DRIVER_NOBODY:
+            return ToolDriver::nobody;
+        case v1::TOOL_DRIVER_YOU:
+            return ToolDriver::you;
+        case v1::TOOL_DRIVER_ANOTHER:
+            return ToolDriver::another;
+        default:  // a newer server may say what this program does not know
+            return ToolDriver::unknown;
+    }
+}
+
 }  // namespace
 
 v1::BurrDescription to_message(const Burr& burr) {
@@ -61,6 +88,7 @@ v1::ToolState to_message(const ToolView& tool) {
     message.set_removed_mm3(tool.removed_mm3);
     message.set_touches_protected(tool.touches_protected);
     message.set_fault(tool.fault);
+    message.set_driver(to_message(tool.driver));
     return message;
 }
 
@@ -150,7 +178,8 @@ std::variant<ToolView, WireError> tool_from(const v1::ToolState& message, std::s
                   .spindle_on = message.spindle_on(),
                   .removed_mm3 = message.removed_mm3(),
                   .touches_protected = message.touches_protected(),
-                  .fault = one_line(message.fault())};
+                  .fault = one_line(message.fault()),
+                  .driver = driver_from(message.driver())};
     if (!std::isfinite(tool.time_s) || !std::isfinite(tool.removed_mm3) ||
         !is_finite(tool.burr_position_mm) || !is_finite(tool.spindle_axis) ||
         !is_finite(tool.hand_position_mm) || !is_finite(tool.force_n))

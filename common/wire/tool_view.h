@@ -9,6 +9,14 @@
 
 namespace osteomill {
 
+/// Which client moves the tool, as told to one of them.
+enum class ToolDriver {
+    unknown,  ///< no client: the server has a device of its own, or is too old to say
+    nobody,   ///< the next that sends input
+    you,
+    another,  ///< whose lease has not run out: input is ignored
+};
+
 /// What a state frame says about the tool. Positions and forces in patient LPS.
 struct ToolView {
     double time_s = 0.0;                 ///< session time
@@ -21,6 +29,7 @@ struct ToolView {
     double removed_mm3 = 0.0;  ///< since the server began
     bool touches_protected = false;
     std::string fault{};  ///< one line; empty while all is well
+    ToolDriver driver = ToolDriver::unknown;
 };
 
 /// What the operator's mouse and keys say, for a server that runs with --device client.

@@ -93,14 +93,11 @@ struct Streaming {
     explicit operator bool() const { return server != nullptr; }
 };
 
-Streaming make_streaming(const ServerOptions& options, const Scene& scene, Bone mirror,
-                         MillingSession& session, const DeviceParts& device, const std::string& version) {
-    StreamingOptions wanted{.listens = options.listen.has_value(),
-                            .paced_by_session = options.session.clock == ClockKind::virtual_time};
-    if (options.listen) {
-        wanted.address = options.listen->address;
-        wanted.port = options.listen->port;
-    }
+Streaming make_streaming(StreamingOptions wanted, const ServerOptions& options, const Scene& scene,
+                         Bone mirror, MillingSession& session, const DeviceParts& device,
+                         const std::string& version) {
+    wanted.listens = options.listen.has_value();
+    wanted.paced_by_session = options.session.clock == ClockKind::virtual_time;
     if (options.record)
         wanted.record = RecordTo{.file = *options.record, .began = std::chrono::system_clock::now()};
     Streaming streaming;
@@ -154,6 +151,8 @@ void run_server(const ServerOptions& options, const std::string& version, const 
     for (const auto& file :
          {options.save_bone, options.json, options.log_csv, options.log_milling_csv, options.record})
         require_folder_of(file);
+    StreamingOptions streaming_as_typed =
+        streaming_options(options.listen.value_or(ListenAddress{}), options.access);
     Scene scene = load_scene(options);
     LoadedBone loaded = load_bone(scene);
     if (options.bone && !options.scene) place_on_bone(scene, loaded.bone);
@@ -180,9 +179,9 @@ void run_server(const ServerOptions& options, const std::string& version, const 
     const auto session =
         std::make_unique<MillingSession>(scene, std::move(bone), *device.device, session_options,
                                          log ? &*log : nullptr, milling_log ? &*milling_log : nullptr);
-    const Streaming streaming =
-        is_shown ? make_streaming(options, scene, *std::move(mirror), *session, device, version)
-                 : Streaming{};
+    const Streaming streaming = is_shown ? make_streaming(std::move(streaming_as_typed), options, scene,
+                                                          *std::move(mirror), *session, device, version)
+                                         : Streaming{};
 
     cost.startup_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
 

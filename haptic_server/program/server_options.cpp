@@ -136,14 +136,7 @@ std::optional<std::filesystem::path> path_if_given(const std::string& text) {
 std::optional<ListenAddress> listen_address(const Typed& typed) {
     if (typed.listen == "none" || (typed.listen.empty() && typed.clock == "virtual")) return std::nullopt;
     if (typed.listen.empty()) return ListenAddress{};
-    const ListenAddress where = parse_listen_address(typed.listen);
-    if (!is_loopback(where)) {
-        throw std::invalid_argument(fmt::format(
-            "'{}' can be reached from other machines; without TLS only this one may connect, for example "
-            "127.0.0.1:{}",
-            typed.listen, where.port));
-    }
-    return where;
+    return parse_listen_address(typed.listen);
 }
 
 std::string checked_coupling(const Typed& typed) {
@@ -167,7 +160,7 @@ double default_milling_rate_hz(const MillingSessionOptions& session) {
     return is_as_published ? published_rate_hz : 1.0 / MillingSession::tick_s;
 }
 
-ServerOptions checked(const Typed& typed) {
+ServerOptions checked(const Typed& typed, const AccessOptions& access) {
     const bool is_virtual = typed.clock == "virtual";
     const bool is_client = typed.device == "client";
     if (is_client && is_virtual) {
@@ -193,6 +186,7 @@ ServerOptions checked(const Typed& typed) {
     } catch (const std::invalid_argument& error) {
         throw std::invalid_argument(fmt::format("--listen: {}", error.what()));
     }
+    if (options.listen) options.access = access.access_to(*options.listen);
     if (is_client && !options.listen) {
         throw std::invalid_argument("--device client: the operator connects over --listen, which is none");
     }
@@ -216,6 +210,7 @@ CommandLine parse_command_line(int argc, const char* const* argv, const std::str
         "haptic_server");
     app.set_version_flag("--version", fmt::format("haptic_server {}", version));
     declare(app, typed);
+    const AccessOptions access(app);
     try {
         app.parse(argc, argv);
     } catch (const CLI::CallForHelp&) {
@@ -225,7 +220,7 @@ CommandLine parse_command_line(int argc, const char* const* argv, const std::str
     } catch (const CLI::ParseError& error) {
         throw std::invalid_argument(fmt::format("{}; see --help", error.what()));
     }
-    return {checked(typed), {}};
+    return {checked(typed, access), {}};
 }
 
 }  // namespace osteomill

@@ -8,7 +8,7 @@
 
 #include "haptic_server/device/hand_model.h"
 #include "haptic_server/loop/milling_session.h"
-#include "haptic_server/streaming/listen_address.h"
+#include "haptic_server/streaming/access_options.h"
 
 namespace osteomill {
 
@@ -23,6 +23,7 @@ struct ServerOptions {
     std::optional<std::filesystem::path> trajectory;
     MillingSessionOptions session;
     std::optional<ListenAddress> listen;  ///< nullopt: nobody is served
+    Access access;
     std::optional<std::filesystem::path> record;
     std::optional<std::filesystem::path> save_bone;
     std::optional<std::filesystem::path> json;

@@ -39,14 +39,13 @@ void read(const ReplayOptions& options) {
 }
 
 /// Shows the playhead's session to its end. `where`: a port 0 becomes the one that was found.
-void show_session(Playhead& playhead, double speed, ListenAddress& where, const std::atomic<bool>& stop) {
+void show_session(Playhead& playhead, double speed, StreamingOptions& where, const std::atomic<bool>& stop) {
     SessionInfo session = playhead.session();
     session.protocol_major = protocol_major;
     session.protocol_minor = protocol_minor;
     session.accepts_operator = false;
     RecordedSession shown(playhead, speed, [] { return RecordedSession::Clock::now(); });
-    StreamingServer server({.address = where.address, .port = where.port}, std::move(session),
-                           playhead.bone(), shown);
+    StreamingServer server(where, std::move(session), playhead.bone(), shown);
     server.start();
     where.port = server.port();
     fmt::print("listening on {}:{}\n", where.address, where.port);
@@ -77,9 +76,9 @@ bool go_to_next_session(Playhead& playhead) {
 
 void run_replay(const ReplayOptions& options, const std::atomic<bool>& stop) {
     if (options.only_reads()) return read(options);
+    StreamingOptions where = streaming_options(options.listen, options.access);
     Playhead playhead(options.recording);
     if (options.from_s > 0.0) go_to(playhead, options.from_s);
-    ListenAddress where = options.listen;
     do {
         show_session(playhead, options.speed, where, stop);
     } while (!stop.load() && go_to_next_session(playhead));

@@ -28,6 +28,7 @@ ReplayCommandLine parse_replay_command_line(int argc, const char* const* argv, c
     auto* where = app.add_option("--listen", listen, "Where clients connect, port 0: any free one")
                       ->type_name("ADDRESS:PORT")
                       ->capture_default_str();
+    const AccessOptions access(app);
     auto* speed = app.add_option("--speed", options.speed, "Recorded seconds a second")
                       ->check(CLI::Range(slowest, fastest))
                       ->capture_default_str();
@@ -57,12 +58,10 @@ ReplayCommandLine parse_replay_command_line(int argc, const char* const* argv, c
                             serving->get_name()));
     try {
         options.listen = parse_listen_address(listen);
-        if (!is_loopback(options.listen))
-            throw std::invalid_argument(fmt::format(
-                "'{}' can be reached from other machines; without TLS only this one may connect", listen));
     } catch (const std::invalid_argument& error) {
         throw std::invalid_argument(fmt::format("--listen: {}", error.what()));
     }
+    options.access = access.access_to(options.listen);
     return {options, {}};
 }
 

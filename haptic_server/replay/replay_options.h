@@ -5,13 +5,14 @@
 #include <optional>
 #include <string>
 
-#include "haptic_server/streaming/listen_address.h"
+#include "haptic_server/streaming/access_options.h"
 
 namespace osteomill {
 
 struct ReplayOptions {
     std::filesystem::path recording;
     ListenAddress listen;
+    Access access;
     double speed = 1.0;
     double from_s = 0.0;
     bool info = false;  ///< print what is in the recording

@@ -3,7 +3,7 @@
 namespace osteomill {
 
 bool OperatorSeat::take_input(ClientId client, const OperatorIntent& intent, Time now) {
-    if (holder_ && *holder_ != client) return false;
+    if (holder_ && *holder_ != client && now - last_heard_ <= lease) return false;
     holder_ = client;
     last_heard_ = now;
     input_ = {.hand_target = {.position_mm = intent.hand_target_mm, .spindle_axis = intent.spindle_axis},
@@ -24,6 +24,12 @@ void OperatorSeat::vacate() {
 
 void OperatorSeat::check_silence(Time now) {
     if (input_.present && now - last_heard_ > longest_silence) publish(false);
+    if (holder_ && now - last_heard_ > lease) vacate();
+}
+
+ToolDriver OperatorSeat::driver_for(ClientId client) const {
+    if (!holder_) return ToolDriver::nobody;
+    return *holder_ == client ? ToolDriver::you : ToolDriver::another;
 }
 
 void OperatorSeat::publish(bool present) {

@@ -1,4 +1,5 @@
-// Which client drives the device, and what it wants: the first that sends input, until it leaves.
+// Which client drives the device, and what it wants: the first that sends input, until it leaves or its lease
+// runs out. Its input renews the lease.
 #pragma once
 
 #include <chrono>
@@ -20,6 +21,10 @@ class OperatorSeat {
     /// outlive a pulled cable. Long enough for a slow picture of a loaded machine.
     static constexpr std::chrono::milliseconds longest_silence{500};
 
+    /// So long after its last input the seat is the next one's. Long enough to reconnect after a hiccup of
+    /// the network, short enough for a colleague who waits.
+    static constexpr std::chrono::milliseconds lease{3000};
+
     /// The seat is the one writer of `output`.
     explicit OperatorSeat(TripleBuffer<OperatorInput>& output) : output_(output) {}
 
@@ -31,6 +36,8 @@ class OperatorSeat {
     void vacate();
     /// To be called regularly.
     void check_silence(Time now);
+    /// What a client is to be told, as of the last call of any of the above.
+    ToolDriver driver_for(ClientId client) const;
 
   private:
     void publish(bool present);

@@ -1,8 +1,9 @@
 #include "haptic_server/streaming/session.h"
 
-#include <boost/asio/buffer.hpp>
-#include <boost/asio/write.hpp>
-#include <sstream>
+#include <boost/asio/error.hpp>
+#include <chrono>
+
+#include "common/net/tls_failure.h"
 
 namespace osteomill {
 
@@ -16,26 +17,24 @@ namespace {
 /// for 60 MB/s at a round trip of 4 ms.
 constexpr int send_buffer_bytes = 256 * 1024;
 
-std::string describe_peer(const asio::ip::tcp::socket& socket) {
-    error_code error;
-    const auto endpoint = socket.remote_endpoint(error);
-    if (error) return "a client";
-    std::ostringstream text;
-    text << endpoint;
-    return text.str();
+/// What a client that speaks TLS begins with: a record of kind 22, version 3.x. As a frame it would be one of
+/// 22 bytes that begins with field number 0, which protobuf does not have.
+bool is_tls_greeting(std::span<const std::uint8_t> bytes) {
+    return bytes.size() >= 2 && bytes[0] == 0x16 && bytes[1] == 0x03;
 }
 
 }  // namespace
 
-Session::Session(asio::ip::tcp::socket socket, ClientFeed feed)
-    : socket_(std::move(socket)), feed_(std::move(feed)), peer_(describe_peer(socket_)) {}
+Session::Session(std::shared_ptr<Stream> stream, ClientFeed feed)
+    : stream_(std::move(stream)), feed_(std::move(feed)), peer_(stream_->peer()) {}
 
 void Session::start(Callbacks callbacks) {
     callbacks_ = std::move(callbacks);
     error_code ignored;  // a socket without these still works
-    socket_.set_option(asio::ip::tcp::no_delay(true), ignored);
-    socket_.set_option(asio::socket_base::keep_alive(true), ignored);
-    socket_.set_option(asio::socket_base::send_buffer_size(send_buffer_bytes), ignored);
+    asio::ip::tcp::socket& socket = stream_->socket();
+    socket.set_option(asio::ip::tcp::no_delay(true), ignored);
+    socket.set_option(asio::socket_base::keep_alive(true), ignored);
+    socket.set_option(asio::socket_base::send_buffer_size(send_buffer_bytes), ignored);
     read();
     pump();
 }
@@ -46,43 +45,44 @@ void Session::pump() {
     if (!frame) {
         // The client closes when it has read goodbye. Closing first could reset the connection and destroy
         // what it has not read yet.
-        error_code ignored;
-        if (feed_.is_finished()) socket_.shutdown(asio::ip::tcp::socket::shutdown_send, ignored);
+        if (feed_.is_finished()) stream_->end_writing();
         return;
     }
-    under_way_ = std::move(*frame);
     is_writing_ = true;
-    asio::async_write(socket_, asio::buffer(under_way_),
-                      [self = shared_from_this()](error_code error, std::size_t) {
-                          self->is_writing_ = false;
-                          if (error) return self->close("left: " + error.message(), false);
-                          self->pump();
-                      });
+    stream_->write(std::move(*frame), [self = shared_from_this()](error_code error) {
+        self->is_writing_ = false;
+        if (error) return self->close("left: " + describe_stream_error(error), false);
+        self->pump();
+    });
 }
 
 void Session::close(const std::string& line, bool is_fault) {
     if (is_closed_) return;
     is_closed_ = true;
-    error_code ignored;
-    socket_.close(ignored);
+    stream_->close();
     // The callbacks hold on to whoever holds this session: let go of them.
     const Callbacks callbacks = std::exchange(callbacks_, {});
     if (callbacks.on_closed) callbacks.on_closed(line, is_fault);
 }
 
 void Session::read() {
-    socket_.async_read_some(asio::buffer(arrived_),
-                            [self = shared_from_this()](error_code error, std::size_t bytes) {
-                                if (self->is_closed_) return;
-                                if (error == asio::error::eof) return self->close("left", false);
-                                if (error) return self->close("left: " + error.message(), false);
-                                self->take(bytes);
-                            });
+    stream_->read([self = shared_from_this()](error_code error, std::span<const std::uint8_t> arrived) {
+        if (self->is_closed_) return;
+        if (error == asio::error::eof) return self->close("left", false);
+        if (error) return self->close("left: " + describe_stream_error(error), false);
+        self->take(arrived);
+    });
 }
 
-void Session::take(std::size_t bytes) {
-    decoder_.append(std::span(arrived_).first(bytes));
+void Session::take(std::span<const std::uint8_t> arrived) {
+    if (last_sequence_ == 0 && is_tls_greeting(arrived))
+        return close("dropped: it speaks TLS, which this server was not told to", true);
+    decoder_.append(arrived);
     while (const auto message = decoder_.next()) {
+        if (!messages_.take(std::chrono::steady_clock::now()))
+            return close("dropped: it sent more than " +
+                             std::to_string(static_cast<int>(most_messages_per_s)) + " messages a second",
+                         true);
         v1::ClientFrame frame;
         if (!frame.ParseFromArray(message->data(), static_cast<int>(message->size())))
             return close("dropped: it sent a frame that is no message", true);

@@ -1,21 +1,27 @@
-// One client's socket: writes what its feed says, one frame at a time, and reads what the client sends.
+// One client's connection: writes what its feed says, one frame at a time, and reads what the client sends.
 #pragma once
 
-#include <array>
-#include <boost/asio/ip/tcp.hpp>
 #include <functional>
 #include <memory>
+#include <span>
 #include <string>
 #include <utility>
 
+#include "common/net/stream.h"
 #include "common/wire/frame.h"
 #include "haptic_server/streaming/client_feed.h"
+#include "haptic_server/streaming/token_bucket.h"
 
 namespace osteomill {
 
-/// Lives until its socket is closed. All calls and callbacks are on the thread of the socket's io_context.
+/// Lives until its stream is closed. All calls and callbacks are on the thread of the stream's io_context.
 class Session : public std::enable_shared_from_this<Session> {
   public:
+    /// An operator's window sends one a frame. After a network that stood still for seconds they come at
+    /// once.
+    static constexpr double most_messages_per_s = 1000.0;
+    static constexpr double most_messages_at_once = 2000.0;
+
     struct Callbacks {
         /// A message from the client; an error if it makes no sense, which drops the client.
         std::function<std::optional<WireError>(const v1::ClientFrame&)> on_message;
@@ -23,7 +29,8 @@ class Session : public std::enable_shared_from_this<Session> {
         std::function<void(const std::string& line, bool is_fault)> on_closed;
     };
 
-    Session(boost::asio::ip::tcp::socket socket, ClientFeed feed);
+    /// The stream's handshake is over.
+    Session(std::shared_ptr<Stream> stream, ClientFeed feed);
 
     void start(Callbacks callbacks);
     ClientFeed& feed() { return feed_; }
@@ -31,23 +38,22 @@ class Session : public std::enable_shared_from_this<Session> {
     void pump();
     /// Cuts the connection.
     void close(const std::string& line, bool is_fault);
-    /// ADDRESS:PORT of the client.
+    /// ADDRESS:PORT of the client, and the name in its certificate.
     const std::string& peer() const { return peer_; }
 
   private:
     void read();
-    void take(std::size_t bytes);
+    void take(std::span<const std::uint8_t> arrived);
 
-    boost::asio::ip::tcp::socket socket_;
+    std::shared_ptr<Stream> stream_;
     ClientFeed feed_;
     Callbacks callbacks_;
     std::string peer_;
-    std::string under_way_;
     bool is_writing_ = false;
     bool is_closed_ = false;
 
-    std::array<std::uint8_t, 4096> arrived_{};
-    FrameDecoder decoder_;
+    FrameDecoder decoder_{largest_client_frame_bytes};
+    TokenBucket messages_{most_messages_per_s, most_messages_at_once};
     std::uint64_t last_sequence_ = 0;
 };
 

@@ -21,6 +21,8 @@
 #include "common/wire/scene_messages.h"
 #include "haptic_server/streaming/bone_mirror.h"
 #include "haptic_server/streaming/client_feed.h"
+#include "haptic_server/streaming/handshakes.h"
+#include "haptic_server/streaming/limited_log.h"
 #include "haptic_server/streaming/operator_seat.h"
 #include "haptic_server/streaming/session.h"
 #include "haptic_server/streaming/session_recorder.h"
@@ -61,9 +63,11 @@ tcp::acceptor listen(asio::io_context& io, const StreamingOptions& options) {
     if (error)
         throw std::runtime_error("cannot listen on " + where + ": \"" + options.address +
                                  "\" is no IP address; 127.0.0.1 or ::1 would be");
-    if (!address.is_loopback())
+    if (!address.is_loopback() && !options.tls && !options.insecure_network)
         throw std::runtime_error("cannot listen on " + where +
                                  ": without TLS only this machine is served; use 127.0.0.1 or ::1");
+    if (!address.is_loopback() && !options.tls)
+        spdlog::warn("{} is served without TLS: whoever reaches it sees everything and may drill", where);
     tcp::acceptor acceptor(io);
     const tcp::endpoint endpoint(address, options.port);
     acceptor.open(endpoint.protocol(), error);
@@ -105,7 +109,7 @@ class StreamingServer::Impl {
             recorder_.emplace(options_.record->file, options_.record->began, hello_, mirror_, packer_);
         if (acceptor_) {
             port_ = acceptor_->local_endpoint().port();
-            spdlog::info("listening on {}:{}", options_.address, port_);
+            spdlog::info("listening on {}:{}{}", options_.address, port_, options_.tls ? " with TLS" : "");
             accept();
         }
         next_frame_ = Clock::now();
@@ -146,6 +150,7 @@ class StreamingServer::Impl {
             has_failed_ = true;
             spdlog::error("streaming has stopped: {}", error.what());
             for (const auto& [id, session] : std::map(sessions_)) session->close("was cut off", false);
+            handshakes_.cancel();
             if (seat_) seat_->vacate();
         }
     }
@@ -167,10 +172,18 @@ class StreamingServer::Impl {
         const bool with_checksum = frames_++ % frames_per_checksum_ == 0;
         if (recorder_) recorder_->record(last_view_, with_checksum, options_.paced_by_session);
         for (const auto& [id, session] : std::map(sessions_)) {  // a session may close and leave the map
-            session->feed().request_state(last_view_, with_checksum);
+            session->feed().request_state(view_for(id), with_checksum);
             session->pump();
         }
         if (options_.listens && !is_accepting_) accept();
+        client_log_.tell_left_out(Clock::now());
+        stranger_log_.tell_left_out(Clock::now());
+    }
+
+    ToolView view_for(OperatorSeat::ClientId id) const {
+        ToolView view = last_view_;
+        if (seat_) view.driver = seat_->driver_for(id);
+        return view;
     }
 
     void update() {
@@ -186,28 +199,34 @@ class StreamingServer::Impl {
             is_accepting_ = false;
             if (is_finishing_) return;
             if (error) {  // such as too many open files; the next frame tries again
-                spdlog::warn("a client could not be accepted: {}", error.message());
+                log_stranger("a client could not be accepted: " + error.message());
                 return;
             }
-            admit(std::move(socket));
+            handshakes_.begin(std::move(socket));
             accept();
         });
     }
 
-    void admit(tcp::socket socket) {
+    void log_stranger(const std::string& line) {
+        stranger_log_.write(spdlog::level::warn, line, Clock::now());
+    }
+
+    void admit(std::shared_ptr<Stream> stream) {
         if (sessions_.size() >= most_clients) {
-            spdlog::warn("a client was turned away: {} are connected already", sessions_.size());
-            return;
+            log_stranger(fmt::format("client {} was turned away: {} are connected already", stream->peer(),
+                                     sessions_.size()));
+            return stream->close();
         }
         const OperatorSeat::ClientId id = ++last_client_;
-        auto session = std::make_shared<Session>(std::move(socket), ClientFeed(hello_, mirror_, packer_));
+        auto session = std::make_shared<Session>(std::move(stream), ClientFeed(hello_, mirror_, packer_));
         sessions_.emplace(id, session);
-        spdlog::info("client {} joined", session->peer());
+        client_log_.write(spdlog::level::info, fmt::format("client {} joined", session->peer()),
+                          Clock::now());
         session->start({.on_message = [this, id](const v1::ClientFrame& frame) { return take(id, frame); },
                         .on_closed =
                             [this, id, peer = session->peer()](const std::string& line, bool is_fault) {
-                                spdlog::log(is_fault ? spdlog::level::warn : spdlog::level::info,
-                                            "client {} {}", peer, line);
+                                client_log_.write(is_fault ? spdlog::level::warn : spdlog::level::info,
+                                                  fmt::format("client {} {}", peer, line), Clock::now());
                                 sessions_.erase(id);
                                 if (seat_) seat_->leave(id);
                                 if (is_finishing_ && sessions_.empty()) deadline_.cancel();
@@ -226,11 +245,12 @@ class StreamingServer::Impl {
         is_finishing_ = true;
         timer_.cancel();
         if (acceptor_) acceptor_->close();
+        handshakes_.cancel();
         work_.reset();
         if (seat_) seat_->vacate();
         update();
         for (const auto& [id, session] : std::map(sessions_)) {
-            session->feed().request_state(last_view_, true);
+            session->feed().request_state(view_for(id), true);
             session->feed().finish(end_of_session);
             session->pump();
         }
@@ -258,6 +278,17 @@ class StreamingServer::Impl {
     // Without clients and a timer nothing else keeps the thread there.
     asio::executor_work_guard<asio::io_context::executor_type> work_{io_.get_executor()};
     std::optional<tcp::acceptor> acceptor_;
+    // What is on the way in, and who is in, do not crowd each other out of the log.
+    LimitedLog stranger_log_;
+    LimitedLog client_log_;
+    Handshakes handshakes_{io_,
+                           options_.tls.get(),
+                           options_.handshake_deadline,
+                           {.on_done = [this](std::shared_ptr<Stream> stream) { admit(std::move(stream)); },
+                            .on_failed =
+                                [this](const std::string& peer, const std::string& why) {
+                                    log_stranger(fmt::format("client {} was refused: {}", peer, why));
+                                }}};
     asio::steady_timer timer_{io_};
     asio::steady_timer deadline_{io_};
     std::map<OperatorSeat::ClientId, std::shared_ptr<Session>> sessions_;

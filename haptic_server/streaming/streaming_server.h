@@ -4,8 +4,11 @@
 // loop's, and takes over what has changed at every frame whether or not anybody watches. Memory is bounded:
 // for each client there is one frame under way and a set of voxels that it has yet to be told of. A slow
 // client gets fewer frames and misses nothing; one that sends nonsense is dropped with one log line.
+// With TLS only those are clients whom the lab's CA vouches for; without it, only this machine is served
+// unless told otherwise.
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <filesystem>
 #include <memory>
@@ -13,6 +16,7 @@
 #include <string>
 
 #include "common/bone/bone.h"
+#include "common/net/tls_context.h"
 #include "common/recording/recording_writer.h"
 #include "common/wire/session_info.h"
 #include "haptic_server/exchange/operator_input.h"
@@ -30,7 +34,12 @@ struct RecordTo {
 struct StreamingOptions {
     bool listens = true;  ///< false: nobody is served, there is only a recording
     std::string address = "127.0.0.1";
-    std::uint16_t port = 7010;  ///< 0 lets the system choose; see StreamingServer::port
+    std::uint16_t port = 7010;          ///< 0 lets the system choose; see StreamingServer::port
+    std::shared_ptr<TlsContext> tls{};  ///< null: clients are served in the clear
+    bool insecure_network = false;      ///< in the clear, and yet to other machines, too
+    /// Two round trips and some milliseconds of arithmetic; a client that does not hear from its server for
+    /// 5 s gives up.
+    std::chrono::milliseconds handshake_deadline{3000};
     double frame_rate_hz = 30.0;
     /// Frames go out when show_frame() is called instead, and a recording waits for its disk: for sessions
     /// that run on a clock of their own.

@@ -13,8 +13,9 @@ namespace osteomill {
 
 class BoneLink::Impl {
   public:
-    Impl(std::string host, std::uint16_t port, const std::optional<std::filesystem::path>& record)
-        : connection_(std::move(host), port, record) {}
+    Impl(std::string host, std::uint16_t port, const std::optional<std::filesystem::path>& record,
+         const std::optional<TlsFiles>& tls)
+        : connection_(std::move(host), port, record, tls) {}
 
     LinkUpdate poll() {
         LinkUpdate update;
@@ -119,8 +120,9 @@ class BoneLink::Impl {
     RateMeter byte_rate_;
 };
 
-BoneLink::BoneLink(std::string host, std::uint16_t port, const std::optional<std::filesystem::path>& record)
-    : impl_(std::make_unique<Impl>(std::move(host), port, record)) {}
+BoneLink::BoneLink(std::string host, std::uint16_t port, const std::optional<std::filesystem::path>& record,
+                   const std::optional<TlsFiles>& tls)
+    : impl_(std::make_unique<Impl>(std::move(host), port, record, tls)) {}
 BoneLink::~BoneLink() = default;
 LinkUpdate BoneLink::poll() {
     return impl_->poll();

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "common/bone/bone.h"
+#include "common/net/tls_files.h"
 #include "common/wire/session_info.h"
 #include "common/wire/tool_view.h"
 
@@ -60,7 +61,8 @@ class BoneLink {
     /// `record`, too, if that is given: a disk that is slow makes the server gather what it has to tell, one
     /// that fails ends the recording. Throws RecordingError where it cannot begin.
     BoneLink(std::string host, std::uint16_t port,
-             const std::optional<std::filesystem::path>& record = std::nullopt);
+             const std::optional<std::filesystem::path>& record = std::nullopt,
+             const std::optional<TlsFiles>& tls = std::nullopt);
     ~BoneLink();
     BoneLink(const BoneLink&) = delete;
     BoneLink& operator=(const BoneLink&) = delete;

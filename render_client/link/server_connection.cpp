@@ -1,12 +1,12 @@
 #include "render_client/link/server_connection.h"
 
 #include <algorithm>
-#include <boost/asio/buffer.hpp>
 #include <boost/asio/connect.hpp>
+#include <boost/asio/error.hpp>
 #include <boost/asio/post.hpp>
-#include <boost/asio/write.hpp>
 #include <utility>
 
+#include "common/net/tls_failure.h"
 #include "common/wire/scene_messages.h"
 #include "common/wire/sealed_frame.h"
 
@@ -27,11 +27,15 @@ constexpr std::chrono::seconds longest_silence{5};
 /// How often to look whether a slow disk has made room. The server meanwhile gathers what it cannot send.
 constexpr milliseconds recorder_check{20};
 
+constexpr std::size_t read_bytes = 64 * 1024;
+
 }  // namespace
 
 ServerConnection::ServerConnection(std::string host, std::uint16_t port,
-                                   const std::optional<std::filesystem::path>& record)
+                                   const std::optional<std::filesystem::path>& record,
+                                   const std::optional<TlsFiles>& tls)
     : host_(std::move(host)), port_(port), where_(host_ + ":" + std::to_string(port_)) {
+    if (tls) tls_ = std::make_unique<TlsContext>(*tls, TlsContext::Role::client);
     if (record) recorder_.emplace(*record, nullptr);
     announce(LinkStatus::connecting, "connecting to " + where_);
     asio::post(io_, [this] { connect(); });
@@ -97,9 +101,18 @@ void ServerConnection::connect() {
                 if (failure) return lose("cannot reach " + where_ + ": " + failure.message());
                 error_code ignored;  // a socket without it still works
                 socket_.set_option(tcp::no_delay(true), ignored);
-                read();
+                shake_hands();
             });
         });
+}
+
+void ServerConnection::shake_hands() {
+    stream_ = connecting_stream(std::move(socket_), tls_.get(), host_, read_bytes);
+    stream_->handshake([this, generation = generation_](const std::string& failure) {
+        if (generation != generation_) return;
+        if (!failure.empty()) return lose("no TLS with " + where_ + ": " + failure);
+        read();
+    });
 }
 
 void ServerConnection::disconnect() {
@@ -107,6 +120,8 @@ void ServerConnection::disconnect() {
     error_code ignored;
     resolver_.cancel();
     socket_.close(ignored);
+    if (const auto stream = std::exchange(stream_, nullptr)) stream->close();
+    has_heard_ = false;
     silence_.cancel();
     retry_.cancel();
     recorder_room_.cancel();
@@ -134,15 +149,15 @@ void ServerConnection::read() {
     }
     if (recorder_ && !recorder_->has_room()) return read_when_recorded();
     watch_silence();
-    socket_.async_read_some(asio::buffer(arrived_),
-                            [this, generation = generation_](error_code error, std::size_t bytes) {
-                                if (generation != generation_) return;
-                                if (error) return lose("lost " + where_ + ": " + error.message());
-                                counters_.bytes += bytes;
-                                decoder_.append(std::span(arrived_).first(bytes));
-                                take_frames();
-                                if (generation == generation_) read();
-                            });
+    stream_->read([this, generation = generation_](error_code error, std::span<const std::uint8_t> arrived) {
+        if (generation != generation_) return;
+        if (error) return lose(describe_loss(error));
+        has_heard_ = true;
+        counters_.bytes += arrived.size();
+        decoder_.append(arrived);
+        take_frames();
+        if (generation == generation_) read();
+    });
 }
 
 void ServerConnection::read_when_recorded() {
@@ -219,16 +234,14 @@ void ServerConnection::write_newest_intent() {
     frame.set_sequence(++sent_sequence_);
     *frame.mutable_operator_input() = to_message(*newest_intent_);
     newest_intent_.reset();
-    under_way_ = std::make_shared<std::string>();
-    append_frame(frame, *under_way_);
+    std::string bytes;
+    append_frame(frame, bytes);
     is_writing_ = true;
-    // The bytes are shared: a handler of a connection that was given up may outlive it.
-    asio::async_write(socket_, asio::buffer(*under_way_),
-                      [this, bytes = under_way_, generation = generation_](error_code error, std::size_t) {
-                          if (generation != generation_) return;
-                          is_writing_ = false;
-                          if (!error) write_newest_intent();  // an error shows in reading, too
-                      });
+    stream_->write(std::move(bytes), [this, generation = generation_](error_code error) {
+        if (generation != generation_) return;
+        is_writing_ = false;
+        if (!error) write_newest_intent();  // an error shows in reading, too
+    });
 }
 
 void ServerConnection::reject(const std::string& line) {
@@ -244,6 +257,13 @@ void ServerConnection::lose(const std::string& line) {
         announce(counters_.connections > 0 ? LinkStatus::lost : LinkStatus::connecting,
                  line + "; trying again");
     retry_later();
+}
+
+std::string ServerConnection::describe_loss(error_code error) const {
+    if (has_heard_ || (error != asio::error::eof && !is_refusal(error)))
+        return "lost " + where_ + ": " + describe_stream_error(error);
+    if (tls_) return where_ + " turned this client away: " + describe_stream_error(error);
+    return where_ + " hung up at once: it is full, or wants TLS (--tls-cert, --tls-key, --tls-ca)";
 }
 
 void ServerConnection::retry_later() {

@@ -1,7 +1,6 @@
 // The receiving side of the link: connects, reads, decodes, and tries again, on a thread of its own.
 #pragma once
 
-#include <array>
 #include <atomic>
 #include <boost/asio/executor_work_guard.hpp>
 #include <boost/asio/io_context.hpp>
@@ -17,6 +16,8 @@
 #include <thread>
 #include <utility>
 
+#include "common/net/stream.h"
+#include "common/net/tls_context.h"
 #include "common/recording/recording_writer.h"
 #include "common/wire/frame.h"
 #include "common/wire/session_receiver.h"
@@ -35,10 +36,11 @@ struct LinkCounters {
 
 class ServerConnection {
   public:
-    /// Writes what it receives into `record`, too, if that is given; throws RecordingError if it cannot
-    /// begin.
+    /// Writes what it receives into `record`, too, if that is given, and speaks TLS if `tls` is. Throws
+    /// RecordingError if a recording cannot begin, std::runtime_error if the files of TLS are no good.
     ServerConnection(std::string host, std::uint16_t port,
-                     const std::optional<std::filesystem::path>& record = std::nullopt);
+                     const std::optional<std::filesystem::path>& record = std::nullopt,
+                     const std::optional<TlsFiles>& tls = std::nullopt);
     ~ServerConnection();
     ServerConnection(const ServerConnection&) = delete;
     ServerConnection& operator=(const ServerConnection&) = delete;
@@ -62,6 +64,7 @@ class ServerConnection {
 
     void run();
     void connect();
+    void shake_hands();
     void disconnect();
     void watch_silence();
     void read();
@@ -77,6 +80,7 @@ class ServerConnection {
     void write_newest_intent();
     void reject(const std::string& line);
     void lose(const std::string& line);
+    std::string describe_loss(boost::system::error_code error) const;
     void retry_later();
     void announce(LinkStatus status, std::string line);
 
@@ -85,6 +89,7 @@ class ServerConnection {
     const std::string where_;
     LinkQueue events_;
     LinkCounters counters_;
+    std::unique_ptr<TlsContext> tls_;  // null: in the clear
     std::optional<RecordingWriter> recorder_;
 
     boost::asio::io_context io_{1};
@@ -99,15 +104,15 @@ class ServerConnection {
 
     // Of the current connection; `generation_` tells its handlers from those of the ones before.
     std::uint64_t generation_ = 0;
+    std::shared_ptr<Stream> stream_;  // null while there is none
+    bool has_heard_ = false;
     FrameDecoder decoder_;
     SessionReceiver receiver_;
     bool is_paused_ = false;
     bool accepts_operator_ = false;
-    std::array<std::uint8_t, 64 * 1024> arrived_{};
 
     std::optional<OperatorIntent> newest_intent_;
     std::uint64_t sent_sequence_ = 0;
-    std::shared_ptr<std::string> under_way_;
     bool is_writing_ = false;
 
     LinkStatus announced_ = LinkStatus::connecting;

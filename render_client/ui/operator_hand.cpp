@@ -39,6 +39,7 @@ void OperatorHand::choose_burr(std::size_t burr) {
 void OperatorHand::let_go() {
     taken_up_ = false;
     intent_.pedal = false;
+    burr_chosen_ = false;
 }
 
 }  // namespace osteomill

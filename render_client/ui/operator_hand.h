@@ -27,10 +27,13 @@ class OperatorHand {
     void choose_burr(std::size_t burr);
     void choose_next_burr() { choose_burr(intent_.burr + 1); }
     void choose_previous_burr() { choose_burr(intent_.burr > 0 ? intent_.burr - 1 : 0); }
-    /// Lets go: pedal up, target back on the tool. For when the window loses focus or the server goes.
+    /// Lets go: pedal up, target back on the tool. For when the window loses focus, the server goes, or the
+    /// tool is another's.
     void let_go();
 
     const OperatorIntent& intent() const { return intent_; }
+    /// Whether anything was asked of the tool since it was let go of: who only looks on leaves it to others.
+    bool wants_tool() const { return taken_up_ || intent_.pedal || burr_chosen_; }
 
   private:
     OperatorIntent intent_;

@@ -3,7 +3,9 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <charconv>
+#include <stdexcept>
 
+#include "common/net/tls_options.h"
 #include "render_client/link/recording_player.h"
 
 namespace osteomill {
@@ -80,6 +82,7 @@ ParsedOptions parse_options(int argument_count, const char* const* arguments, co
                            },
                            "The server's HOST:PORT (127.0.0.1:7010)")
                         ->type_name("HOST:PORT");
+    const TlsOptions tls(app);
     auto* record = app.add_option("--record", options.record,
                                   "Write what the server sends, for --replay and packet_replay; a pcap file")
                        ->type_name("FILE");
@@ -127,6 +130,12 @@ ParsedOptions parse_options(int argument_count, const char* const* arguments, co
     }
     std::string wrong = contradiction(options);
     if (wrong.empty() && frames->count() > 0 && !options.offscreen) wrong = "--frames needs --offscreen";
+    try {
+        options.tls = tls.files();
+    } catch (const std::invalid_argument& error) {
+        wrong = error.what();
+    }
+    if (wrong.empty() && options.tls && options.replay) wrong = "--tls-cert: a --replay needs no TLS";
     if (wrong.empty() && speed->count() > 0 && !options.replay) wrong = "--speed needs --replay FILE";
     if (!wrong.empty()) parsed.no_run = wrong_usage(wrong);
     return parsed;

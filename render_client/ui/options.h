@@ -7,11 +7,14 @@
 #include <optional>
 #include <string>
 
+#include "common/net/tls_files.h"
+
 namespace osteomill {
 
 struct RenderOptions {
     std::string host = "127.0.0.1";
     std::uint16_t port = 7010;
+    std::optional<TlsFiles> tls;                  ///< absent: in the clear
     std::optional<std::filesystem::path> record;  ///< what is received goes there, too
     std::optional<std::filesystem::path> replay;  ///< a recording in place of a server
     double speed = 1.0;                           ///< of the recording: recorded seconds a second

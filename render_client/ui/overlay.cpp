@@ -151,6 +151,8 @@ void draw_warnings(const OverlayContent& content, const glm::ivec2& size_px) {
 void draw_operator_panel(const OverlayContent& content, const glm::ivec2& size_px) {
     begin_panel("operator", {0.0f, 1.0f}, size_px);
     const OperatorIntent& intent = *content.operator_intent;
+    if (content.tool && content.tool->driver == ToolDriver::another)
+        coloured_text(vermillion, "another client moves the tool; ask again when it has let go");
     coloured_text(intent.pedal ? bluish_green : IM_COL32(190, 190, 190, 255),
                   intent.pedal ? "pedal down" : "pedal up (SPACE)");
     ImGui::TextDisabled("left drag: hand   W/S: in/out   1-9 [ ]: burr");

@@ -28,8 +28,9 @@ class SessionSource {
 /// A server's session.
 class LinkedSession final : public SessionSource {
   public:
-    LinkedSession(std::string host, std::uint16_t port, const std::optional<std::filesystem::path>& record)
-        : link_(std::move(host), port, record) {}
+    LinkedSession(std::string host, std::uint16_t port, const std::optional<std::filesystem::path>& record,
+                  const std::optional<TlsFiles>& tls)
+        : link_(std::move(host), port, record, tls) {}
     LinkUpdate poll() override { return link_.poll(); }
     const Bone* bone() const override { return link_.bone(); }
     const SessionInfo* session() const override { return link_.session(); }

@@ -82,6 +82,7 @@ RenderReport run_in_window(const RenderOptions& options, SessionSource& source,
 
     Clock::time_point previous = Clock::now();
     bool session_over = false;
+    bool had_tool = false;
     while (!window.close_asked() && !stop_asked() && !window.was_pressed(GLFW_KEY_ESCAPE) && !session_over) {
         const Clock::time_point start = Clock::now();
         const double elapsed_s = std::chrono::duration<double>(start - previous).count();
@@ -98,8 +99,12 @@ RenderReport run_in_window(const RenderOptions& options, SessionSource& source,
             // What the hand wants is only known once it rests on the tool: an intent of its own making would
             // drag the tool away.
             hand.follow(*session.tool(), session.session()->burrs.size());
-            source.send_operator(hand.intent());
+            // What is sent last lifts the pedal; then the tool is free for others.
+            if (hand.wants_tool() || had_tool) source.send_operator(hand.intent());
+            // It may be asked for, but must not jump to where this hand has gone meanwhile.
+            if (session.tool()->driver == ToolDriver::another) hand.let_go();
         }
+        had_tool = drills && hand.wants_tool();
         session.show_operator(drills ? std::optional(hand.intent()) : std::nullopt);
         if (!drills) hand.let_go();
 

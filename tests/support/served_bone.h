@@ -16,7 +16,8 @@ namespace osteomill::testing {
 class ServedBone {
   public:
     explicit ServedBone(std::uint16_t port = 0, bool takes_operator = false, std::uint32_t seed = 8,
-                        std::optional<RecordTo> record = std::nullopt)
+                        std::optional<RecordTo> record = std::nullopt,
+                        std::shared_ptr<TlsContext> tls = nullptr)
         : random_(seed),
           bone_(make_speckled_bone(random_, {.grid = {.size_voxels = {160, 128, 64}}})),
           edits_(1 << 14, bone_.shared_content()) {
@@ -24,10 +25,13 @@ class ServedBone {
         scene.name = "test scene";
         scene.burrs = {Burr{.name = "round 1.5", .diameter_mm = 1.5}, Burr{.name = "round 5"}};
         scene.tissues = {Tissue{.label = 2, .name = "nerve", .is_protected = true}};
-        server_ =
-            std::make_unique<StreamingServer>(StreamingOptions{.port = port, .record = std::move(record)},
-                                              session_info(scene, takes_operator, 3.3, "0.0.test"), bone_,
-                                              shown_, takes_operator ? &operator_ : nullptr);
+        server_ = std::make_unique<StreamingServer>(
+            StreamingOptions{.port = port,
+                             .tls = std::move(tls),
+                             .handshake_deadline = std::chrono::milliseconds(300),
+                             .record = std::move(record)},
+            session_info(scene, takes_operator, 3.3, "0.0.test"), bone_, shown_,
+            takes_operator ? &operator_ : nullptr);
         server_->start();
     }
     ~ServedBone() { stop(); }

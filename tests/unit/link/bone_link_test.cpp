@@ -174,6 +174,15 @@ TEST(BoneLink, CarriesTheOperatorsWishes) {
     for (int i = 0; i < 10; ++i) second.send_operator({.burr = 0});
     ASSERT_TRUE(verifies(second, 2));
     EXPECT_EQ(served.operator_input().burr, 1U) << "the first holds the seat";
+    const auto is_told = [](BoneLink& client, ToolDriver driver) {
+        return eventually([&] {
+            const auto tool = client.poll().tool;
+            return tool && tool->driver == driver;
+        });
+    };
+    EXPECT_TRUE(is_told(second, ToolDriver::another));
+    link->send_operator(intent);
+    EXPECT_TRUE(is_told(*link, ToolDriver::you));
     EXPECT_EQ(link->poll().connections, 1U);
 
     link.reset();

@@ -107,8 +107,9 @@ TEST(ServerOptions, PrintHelpAndVersionAndAreDone) {
     const CommandLine help = parse({"--help"});
     EXPECT_FALSE(help.options.has_value());
     for (const char* option :
-         {"--scene", "--bone", "--device", "--listen", "--coupling", "--force-model", "--milling-rate-hz",
-          "--clock", "--duration-s", "--trajectory", "--save-bone", "--json", "--log-csv"}) {
+         {"--scene", "--bone", "--device", "--listen", "--tls-cert", "--tls-key", "--tls-ca",
+          "--insecure-network", "--coupling", "--force-model", "--milling-rate-hz", "--clock", "--duration-s",
+          "--trajectory", "--save-bone", "--json", "--log-csv"}) {
         EXPECT_THAT(help.text, HasSubstr(option));
     }
     for (const ForceModel& model : force_models())

@@ -54,5 +54,28 @@ TEST_F(OperatorSeatTest, LiftsThePedalOfASilentOperatorUntilHeardAgain) {
     EXPECT_TRUE(newest().pedal);
 }
 
+TEST_F(OperatorSeatTest, GoesToTheNextWhenItsLeaseRunsOut) {
+    EXPECT_EQ(seat_.driver_for(1), ToolDriver::nobody);
+    seat_.take_input(1, pressed_, start_);
+    seat_.take_input(1, pressed_, start_ + milliseconds(1000));  // renews it
+    EXPECT_EQ(seat_.driver_for(1), ToolDriver::you);
+    EXPECT_EQ(seat_.driver_for(2), ToolDriver::another);
+    const auto end = start_ + milliseconds(1000) + OperatorSeat::lease;
+    seat_.check_silence(end);
+    EXPECT_FALSE(seat_.take_input(2, pressed_, end));
+    seat_.check_silence(end + milliseconds(1));
+    EXPECT_EQ(seat_.driver_for(1), ToolDriver::nobody);
+    EXPECT_TRUE(seat_.take_input(2, {.burr = 1}, end + milliseconds(1)));
+    EXPECT_EQ(seat_.driver_for(1), ToolDriver::another);
+    EXPECT_FALSE(seat_.take_input(1, pressed_, end + milliseconds(2)));
+    EXPECT_EQ(newest().burr, 1U);
+}
+
+TEST_F(OperatorSeatTest, IsTakenOverAtTheEndOfTheLeaseWithoutWaitingForTheNextCheck) {
+    seat_.take_input(1, pressed_, start_);
+    EXPECT_TRUE(seat_.take_input(2, {.burr = 1}, start_ + OperatorSeat::lease + milliseconds(1)));
+    EXPECT_EQ(seat_.driver_for(2), ToolDriver::you);
+}
+
 }  // namespace
 }  // namespace osteomill

@@ -104,6 +104,7 @@ TEST(StreamingServer, SaysInOneLineWhyItCannotListen) {
     EXPECT_THAT(failure_of({.address = "pluto", .port = 0}),
                 ::testing::HasSubstr("\"pluto\" is no IP address"));
     EXPECT_THAT(failure_of({.address = "0.0.0.0", .port = 0}), ::testing::HasSubstr("without TLS"));
+    EXPECT_EQ(failure_of({.address = "0.0.0.0", .port = 0, .insecure_network = true}), "");
     ServedBone other;
     EXPECT_THAT(failure_of({.port = other.port()}), ::testing::HasSubstr("in use"));
     EXPECT_THAT(failure_of({.frame_rate_hz = 0.0}), ::testing::HasSubstr("frame rate"));
@@ -151,6 +152,23 @@ TEST(StreamingServer, DropsClientsThatTalkNonsenseWhileOthersNoticeNothing) {
     EXPECT_EQ(update.status, LinkStatus::live);
     EXPECT_EQ(update.connections, 1U);
     EXPECT_EQ(update.checksum_mismatches, 0U);
+}
+
+TEST(StreamingServer, DropsAClientThatSaysMoreThanAnyoneHasToSay) {
+    ServedBone served(0, true);
+    std::string flood;
+    for (std::uint64_t i = 1; i <= 5000; ++i) append_frame(input_frame(i, {.pedal = true}), flood);
+    RawClient steady(served.port()), loud(served.port()), long_winded(served.port());
+    steady.send(flood.substr(0, flood.size() / 5));
+    EXPECT_TRUE(eventually([&] { return served.operator_input().pedal; }));
+    loud.send(flood);
+    EXPECT_TRUE(loud.is_dropped());
+    std::string frame;
+    append_frame(std::string(largest_client_frame_bytes + 1, 'x'), frame);
+    long_winded.send(frame.substr(0, 3));  // its length is enough
+    EXPECT_TRUE(long_winded.is_dropped());
+    BoneLink link("127.0.0.1", served.port());
+    EXPECT_TRUE(reaches(link, LinkStatus::live));
 }
 
 TEST(StreamingServer, IsNotHeldUpByAClientThatNeverReads) {

@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <functional>
 #include <glm/geometric.hpp>
+#include <vector>
 
 namespace osteomill {
 namespace {
@@ -62,6 +64,20 @@ TEST(OperatorHand, ChoosesOnlyBurrsThatThereAre) {
     hand.choose_burr(0);
     hand.choose_previous_burr();
     EXPECT_EQ(hand.intent().burr, 0u);
+}
+
+TEST(OperatorHand, WantsTheToolOnceItIsUsedAndUntilItLetsGo) {
+    for (const auto& use : std::vector<std::function<void(OperatorHand&)>>{
+             [](OperatorHand& hand) { hand.advance(0.5); }, [](OperatorHand& hand) { hand.set_pedal(true); },
+             [](OperatorHand& hand) { hand.choose_burr(1); }}) {
+        OperatorHand hand;
+        hand.follow(tool_at({}), 6);
+        EXPECT_FALSE(hand.wants_tool());
+        use(hand);
+        EXPECT_TRUE(hand.wants_tool());
+        hand.let_go();
+        EXPECT_FALSE(hand.wants_tool());
+    }
 }
 
 TEST(OperatorHand, LetsGoOfPedalAndTarget) {

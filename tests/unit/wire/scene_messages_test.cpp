@@ -71,7 +71,8 @@ TEST(SceneMessages, BringBackTheTool) {
                         .spindle_on = true,
                         .removed_mm3 = 7.25,
                         .touches_protected = true,
-                        .fault = "the device is lost"};
+                        .fault = "the device is lost",
+                        .driver = ToolDriver::another};
     const auto result = tool_from(to_message(tool), 2);
     ASSERT_EQ(error_of(result), "");
     const ToolView& back = std::get<0>(result);
@@ -85,6 +86,7 @@ TEST(SceneMessages, BringBackTheTool) {
     EXPECT_EQ(back.removed_mm3, 7.25);
     EXPECT_TRUE(back.touches_protected);
     EXPECT_EQ(back.fault, tool.fault);
+    EXPECT_EQ(back.driver, ToolDriver::another);
     EXPECT_THAT(error_of(tool_from(to_message(tool), 1)), HasSubstr("burr 1 is not one of the scene's 1"));
     EXPECT_THAT(error_of(tool_from(to_message(ToolView{.force_n = {0, not_a_number, 0}}), 1)),
                 HasSubstr("not finite"));

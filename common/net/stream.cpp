@@ -1,0 +1,156 @@
+#include "common/net/stream.h"
+
+#include <openssl/ssl.h>
+#include <openssl/x509v3.h>
+
+#include <algorithm>
+#include <array>
+#include <boost/asio/buffer.hpp>
+#include <boost/asio/ip/address.hpp>
+#include <boost/asio/ssl/error.hpp>
+#include <boost/asio/ssl/stream.hpp>
+#include <boost/asio/write.hpp>
+#include <cctype>
+#include <sstream>
+#include <stdexcept>
+#include <utility>
+#include <vector>
+
+#include "common/net/tls_context.h"
+#include "common/net/tls_failure.h"
+
+namespace osteomill {
+
+namespace asio = boost::asio;
+namespace ssl = boost::asio::ssl;
+using asio::ip::tcp;
+using boost::system::error_code;
+
+namespace {
+
+std::string describe_end(const tcp::socket& socket) {
+    error_code error;
+    const auto endpoint = socket.remote_endpoint(error);
+    if (error) return "a client";
+    std::ostringstream text;
+    text << endpoint;
+    return text.str();
+}
+
+/// Reading and writing, which TCP and TLS have in common.
+template <typename Transport>
+class StreamOver : public Stream, public std::enable_shared_from_this<StreamOver<Transport>> {
+  public:
+    template <typename... Arguments>
+    StreamOver(tcp::socket socket, std::size_t read_bytes, Arguments&&... arguments)
+        : peer_(describe_end(socket)),
+          arrived_(read_bytes),
+          transport_(std::move(socket), std::forward<Arguments>(arguments)...) {}
+
+    void read(ReadHandler handler) override {
+        transport_.async_read_some(
+            asio::buffer(arrived_), [self = this->shared_from_this(), handler = std::move(handler)](
+                                        error_code error, std::size_t bytes) {
+                // One who hangs up seldom takes leave of TLS first, and frames say themselves if they are
+                // cut.
+                if (error == ssl::error::stream_truncated) error = asio::error::eof;
+                handler(error, std::span<const std::uint8_t>(self->arrived_).first(bytes));
+            });
+    }
+
+    void write(std::string bytes, WriteHandler handler) override {
+        under_way_ = std::move(bytes);
+        asio::async_write(transport_, asio::buffer(under_way_),
+                          [self = this->shared_from_this(), handler = std::move(handler)](
+                              error_code error, std::size_t) { handler(error); });
+    }
+
+  protected:
+    std::string peer_;
+    std::vector<std::uint8_t> arrived_;
+    std::string under_way_;
+    Transport transport_;
+};
+
+class PlainStream final : public StreamOver<tcp::socket> {
+  public:
+    using StreamOver::StreamOver;
+    void handshake(HandshakeHandler handler) override { handler(""); }
+    std::string peer() override { return peer_; }
+    tcp::socket& socket() override { return transport_; }
+};
+
+class TlsStream final : public StreamOver<ssl::stream<tcp::socket>> {
+  public:
+    TlsStream(tcp::socket socket, TlsContext& tls, std::size_t read_bytes)
+        : StreamOver(std::move(socket), read_bytes, tls.context()),
+          role_(tls.role() == TlsContext::Role::server ? ssl::stream_base::server
+                                                       : ssl::stream_base::client) {}
+
+    /// The other end's certificate is to be for this name or address.
+    void require_host(const std::string& host) {
+        SSL* const native = transport_.native_handle();
+        error_code not_numeric;
+        asio::ip::make_address(host, not_numeric);
+        X509_VERIFY_PARAM* const wanted = SSL_get0_param(native);
+        X509_VERIFY_PARAM_set_hostflags(wanted, X509_CHECK_FLAG_NEVER_CHECK_SUBJECT);
+        const bool is_set = not_numeric
+                                ? X509_VERIFY_PARAM_set1_host(wanted, host.c_str(), host.size()) == 1 &&
+                                      SSL_set_tlsext_host_name(native, host.c_str()) == 1
+                                : X509_VERIFY_PARAM_set1_ip_asc(wanted, host.c_str()) == 1;
+        if (!is_set) throw std::runtime_error("no certificate can be for the host " + host);
+    }
+
+    void handshake(HandshakeHandler handler) override {
+        transport_.async_handshake(
+            role_, [this, self = shared_from_this(), handler = std::move(handler)](error_code error) {
+                handler(error ? describe_handshake_failure(transport_.native_handle(), error) : "");
+            });
+    }
+
+    std::string peer() override {
+        SSL* const native = transport_.native_handle();
+        X509* const certificate = SSL_get0_peer_certificate(native);
+        if (certificate == nullptr || SSL_get_verify_result(native) != X509_V_OK) return peer_;
+        std::array<char, 65> name{};  // X.520's longest common name
+        X509_NAME_get_text_by_NID(X509_get_subject_name(certificate), NID_commonName, name.data(),
+                                  static_cast<int>(name.size()));
+        // It goes into logs; the lab may have signed what it did not look at.
+        std::string text = name.data();
+        std::replace_if(
+            text.begin(), text.end(), [](unsigned char c) { return std::iscntrl(c) != 0; }, '?');
+        return peer_ + " (" + text + ")";
+    }
+
+    tcp::socket& socket() override { return transport_.next_layer(); }
+
+  private:
+    ssl::stream_base::handshake_type role_;
+};
+
+}  // namespace
+
+void Stream::end_writing() {
+    error_code ignored;
+    socket().shutdown(tcp::socket::shutdown_send, ignored);
+}
+
+void Stream::close() {
+    error_code ignored;
+    socket().close(ignored);
+}
+
+std::shared_ptr<Stream> serving_stream(tcp::socket socket, TlsContext* tls, std::size_t read_bytes) {
+    if (tls == nullptr) return std::make_shared<PlainStream>(std::move(socket), read_bytes);
+    return std::make_shared<TlsStream>(std::move(socket), *tls, read_bytes);
+}
+
+std::shared_ptr<Stream> connecting_stream(tcp::socket socket, TlsContext* tls, const std::string& host,
+                                          std::size_t read_bytes) {
+    if (tls == nullptr) return std::make_shared<PlainStream>(std::move(socket), read_bytes);
+    auto stream = std::make_shared<TlsStream>(std::move(socket), *tls, read_bytes);
+    stream->require_host(host);
+    return stream;
+}
+
+}  // namespace osteomill

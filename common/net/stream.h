@@ -1,0 +1,56 @@
+// One TCP connection, plain or under TLS: who reads from it and writes to it need not know which.
+//
+// A stream owns the bytes under way in both directions, so that one who has given it up need not wait for
+// them. All calls and handlers are on the thread of the socket's io_context; handlers keep the stream alive.
+#pragma once
+
+#include <boost/asio/ip/tcp.hpp>
+#include <boost/system/error_code.hpp>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <span>
+#include <string>
+
+namespace osteomill {
+
+class TlsContext;
+
+class Stream {
+  public:
+    /// What arrived; the view holds until the handler returns.
+    using ReadHandler = std::function<void(boost::system::error_code, std::span<const std::uint8_t>)>;
+    using WriteHandler = std::function<void(boost::system::error_code)>;
+    /// `failure`: empty, or why there is no connection, in words about the other end.
+    using HandshakeHandler = std::function<void(const std::string& failure)>;
+
+    virtual ~Stream() = default;
+
+    /// First of all, and once. Without TLS it succeeds at once, from within.
+    virtual void handshake(HandshakeHandler handler) = 0;
+    /// One at a time.
+    virtual void read(ReadHandler handler) = 0;
+    /// All of it; one at a time.
+    virtual void write(std::string bytes, WriteHandler handler) = 0;
+    /// Nothing more will be written. Says so to TCP alone: a session ends with a goodbye of its own, which
+    /// TLS protects as it does all else.
+    void end_writing();
+    /// Handlers that wait are called with an error.
+    void close();
+
+    /// ADDRESS:PORT of the other end; behind it, once TLS has checked it, the name in its certificate.
+    virtual std::string peer() = 0;
+    /// For its options.
+    virtual boost::asio::ip::tcp::socket& socket() = 0;
+};
+
+/// The serving end of a connection that was accepted. `tls`: null for none; outlives the stream.
+std::shared_ptr<Stream> serving_stream(boost::asio::ip::tcp::socket socket, TlsContext* tls,
+                                       std::size_t read_bytes);
+
+/// The other end. Under TLS the server must show a certificate for `host`, a name or an address.
+std::shared_ptr<Stream> connecting_stream(boost::asio::ip::tcp::socket socket, TlsContext* tls,
+                                          const std::string& host, std::size_t read_bytes);
+
+}  // namespace osteomill

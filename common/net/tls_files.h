@@ -1,0 +1,15 @@
+// The files that a program needs to speak TLS.
+#pragma once
+
+#include <filesystem>
+
+namespace osteomill {
+
+/// All PEM. scripts/make_lab_certificates.sh makes them.
+struct TlsFiles {
+    std::filesystem::path certificate;  ///< this program's own, and what stands between it and the CA, if any
+    std::filesystem::path key;          ///< the certificate's private key, without a passphrase
+    std::filesystem::path ca;           ///< the lab's CA: who may be at the other end
+};
+
+}  // namespace osteomill

@@ -1,0 +1,27 @@
+#include "common/net/tls_options.h"
+
+#include <CLI/CLI.hpp>
+#include <stdexcept>
+#include <utility>
+
+namespace osteomill {
+
+TlsOptions::TlsOptions(CLI::App& app) {
+    app.add_option("--tls-cert", certificate_, "Speak TLS 1.3, and show this certificate")
+        ->type_name("FILE.pem");
+    app.add_option("--tls-key", key_, "Its private key")->type_name("FILE.pem");
+    app.add_option("--tls-ca", ca_, "The lab's CA: only whom it vouches for may be at the other end")
+        ->type_name("FILE.pem");
+}
+
+std::optional<TlsFiles> TlsOptions::files() const {
+    if (certificate_.empty() && key_.empty() && ca_.empty()) return std::nullopt;
+    for (const auto& [option, file] :
+         {std::pair("--tls-cert", &certificate_), std::pair("--tls-key", &key_), std::pair("--tls-ca", &ca_)})
+        if (file->empty())
+            throw std::invalid_argument(std::string(option) +
+                                        ": is missing; TLS needs --tls-cert, --tls-key and --tls-ca");
+    return TlsFiles{.certificate = certificate_, .key = key_, .ca = ca_};
+}
+
+}  // namespace osteomill

@@ -1,0 +1,31 @@
+// --tls-cert, --tls-key and --tls-ca, the same for every program.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "common/net/tls_files.h"
+
+namespace CLI {
+class App;
+}
+
+namespace osteomill {
+
+class TlsOptions {
+  public:
+    /// Adds the options; outlives the parsing.
+    explicit TlsOptions(CLI::App& app);
+    TlsOptions(const TlsOptions&) = delete;
+    TlsOptions& operator=(const TlsOptions&) = delete;
+
+    /// After parsing. Throws std::invalid_argument, in one line, unless there are all three or none.
+    std::optional<TlsFiles> files() const;
+
+  private:
+    std::string certificate_;
+    std::string key_;
+    std::string ca_;
+};
+
+}  // namespace osteomill

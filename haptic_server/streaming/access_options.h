@@ -1,0 +1,36 @@
+// Who may connect to a server, as typed on the command line: the same for all programs that serve.
+#pragma once
+
+#include <memory>
+#include <optional>
+
+#include "common/net/tls_options.h"
+#include "haptic_server/streaming/listen_address.h"
+#include "haptic_server/streaming/streaming_server.h"
+
+namespace osteomill {
+
+struct Access {
+    std::optional<TlsFiles> tls;    ///< absent: whoever reaches the server, in the clear
+    bool insecure_network = false;  ///< and that although other machines do
+};
+
+class AccessOptions {
+  public:
+    /// Adds the options; outlives the parsing.
+    explicit AccessOptions(CLI::App& app);
+
+    /// After parsing. Throws std::invalid_argument, in one line, where the files of TLS are not all named, or
+    /// where other machines would be served in the clear without being asked for.
+    Access access_to(const ListenAddress& where) const;
+
+  private:
+    TlsOptions tls_;
+    bool insecure_network_ = false;
+};
+
+/// What a server at `where` is to be told. Reads the files of TLS, and throws std::runtime_error, in one
+/// line, where they are no good.
+StreamingOptions streaming_options(const ListenAddress& where, const Access& access);
+
+}  // namespace osteomill

@@ -1,0 +1,63 @@
+// A lab's CA and certificates in a folder of a test's own, made by the script that a lab uses.
+#pragma once
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <stdexcept>
+#include <string>
+
+#include "common/net/tls_files.h"
+#include "tests/support/temporary_folder.h"
+
+namespace osteomill::testing {
+
+/// For GTEST_SKIP.
+inline bool has_openssl() {
+    return std::system("command -v openssl > /dev/null") == 0;
+}
+
+class LabCertificates {
+  public:
+    LabCertificates() { make("ca"); }
+
+    /// The files of a server for these hosts, in one string.
+    TlsFiles server(const std::string& name, const std::string& hosts = "127.0.0.1 localhost") const {
+        make("server " + name + " " + hosts);
+        return files(name);
+    }
+    TlsFiles client(const std::string& name) const {
+        make("client " + name);
+        return files(name);
+    }
+    /// A client's whose certificate held until yesterday.
+    TlsFiles expired_client() const {
+        const TlsFiles files = client("past");
+        run("cd " + folder_.path().string() +
+            " && openssl req -new -key past.key -subj /CN=past |"
+            " openssl x509 -req -CA ca.pem -CAkey ca.key -days -1 -out past.pem 2> /dev/null");
+        return files;
+    }
+    /// Another lab's certificate in the hands of one who knows this lab's CA.
+    TlsFiles impostor(const TlsFiles& of_other_lab) const {
+        return {.certificate = of_other_lab.certificate, .key = of_other_lab.key, .ca = folder_ / "ca.pem"};
+    }
+    std::filesystem::path folder() const { return folder_.path(); }
+
+  private:
+    TlsFiles files(const std::string& name) const {
+        return {.certificate = folder_ / (name + ".pem"),
+                .key = folder_ / (name + ".key"),
+                .ca = folder_ / "ca.pem"};
+    }
+    void make(const std::string& what) const {
+        run(std::string(MAKE_LAB_CERTIFICATES) + " " + folder_.path().string() + " " + what);
+    }
+    static void run(const std::string& command) {
+        if (std::system(command.c_str()) != 0) throw std::runtime_error("failed: " + command);
+    }
+
+    TemporaryFolder folder_;
+};
+
+}  // namespace osteomill::testing

@@ -1,0 +1,35 @@
+#include "common/net/tls_options.h"
+
+#include <gmock/gmock.h>
+
+#include <CLI/CLI.hpp>
+#include <stdexcept>
+
+namespace osteomill {
+namespace {
+
+std::optional<TlsFiles> parse(const std::string& command_line) {
+    CLI::App app;
+    const TlsOptions options(app);
+    app.parse(command_line, false);
+    return options.files();
+}
+
+TEST(TlsOptions, AreAllThreeOrNone) {
+    EXPECT_FALSE(parse(""));
+    const auto files = parse("--tls-cert a.pem --tls-key a.key --tls-ca ca.pem");
+    ASSERT_TRUE(files);
+    EXPECT_EQ(files->certificate, "a.pem");
+    EXPECT_EQ(files->key, "a.key");
+    EXPECT_EQ(files->ca, "ca.pem");
+    for (const auto& [line, missing] :
+         {std::pair("--tls-cert a.pem --tls-key a.key", "--tls-ca: is missing"),
+          std::pair("--tls-cert a.pem --tls-ca ca.pem", "--tls-key: is missing"),
+          std::pair("--tls-key a.key --tls-ca ca.pem", "--tls-cert: is missing")}) {
+        EXPECT_THAT([line = line] { parse(line); },
+                    ::testing::ThrowsMessage<std::invalid_argument>(::testing::HasSubstr(missing)));
+    }
+}
+
+}  // namespace
+}  // namespace osteomill
