@@ -13,7 +13,7 @@ ClientFeed::ClientFeed(v1::Hello hello, const BoneMirror& mirror, SnapshotPacker
 
 void ClientFeed::note(const ChangedVoxels& changes) {
     for (const auto& [brick, mask] : changes)
-        if (static_cast<std::size_t>(mirror_.bone().slot(brick)) < next_slot_) untold_[brick] |= mask;
+        if (static_cast<std::size_t>(mirror_.bone().slot(brick)) < next_slot_) untold_.add(brick, mask);
 }
 
 void ClientFeed::request_state(const ToolView& tool, bool with_checksum) {
@@ -82,14 +82,14 @@ void ClientFeed::fill_state(v1::ServerFrame& frame) {
     *state.mutable_tool() = to_message(tool_);
     std::size_t bytes = frame.ByteSizeLong() + room_for_tags_and_checksums;
     while (!untold_.empty()) {
-        const auto& [brick, mask] = *untold_.begin();
+        const auto [brick, mask] = untold_.next();
         const std::int32_t slot = mirror_.bone().slot(brick);
         v1::BrickEdit edit = brick_edit(brick, mirror_.bone().fractions(slot), mask);
         constexpr std::size_t tag_and_length = 4;
         bytes += edit.ByteSizeLong() + tag_and_length;
         if (bytes > largest_frame_bytes) return;  // the rest goes into the next frame
         *state.add_edits() = std::move(edit);
-        untold_.erase(untold_.begin());
+        untold_.told();
     }
     wants_state_ = false;
     if (std::exchange(wants_checksum_, false)) state.set_bone_checksum(mirror_.checksum());

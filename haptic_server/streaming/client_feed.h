@@ -3,7 +3,8 @@
 // The snapshot is taken from the mirror piece by piece, only as fast as the client reads, while milling goes
 // on. A change to a brick that has not been sent yet needs no mention: it will be sent as it then is. A
 // change to one that has been sent is remembered until a state frame tells of it. So a client ends up equal
-// to the mirror however slow it is, and costs no more than one mask of changed voxels for each brick.
+// to the mirror however slow it is, and costs no more than one mask of changed voxels for each brick, or
+// less: see UntoldVoxels.
 #pragma once
 
 #include <optional>
@@ -12,6 +13,7 @@
 #include "common/wire/snapshot.h"
 #include "common/wire/tool_view.h"
 #include "haptic_server/streaming/bone_mirror.h"
+#include "haptic_server/streaming/untold_voxels.h"
 #include "osteomill/v1/session.pb.h"
 
 namespace osteomill {
@@ -39,6 +41,9 @@ class ClientFeed {
     /// Whether goodbye has been said.
     bool is_finished() const { return stage_ == Stage::finished; }
 
+    /// What it remembers for the client.
+    const UntoldVoxels& untold() const { return untold_; }
+
   private:
     enum class Stage { hello, snapshot_begin, snapshot_bricks, snapshot_end, live, finished };
 
@@ -54,7 +59,7 @@ class ClientFeed {
     std::size_t next_slot_ = 0;  // bricks of lower slots have been sent
     std::uint64_t snapshot_checksum_ = 0;
 
-    ChangedVoxels untold_;
+    UntoldVoxels untold_;
     ToolView tool_;
     bool wants_state_ = false;
     bool wants_checksum_ = false;

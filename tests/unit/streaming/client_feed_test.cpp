@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "tests/support/block.h"
 #include "tests/support/random_carving.h"
 #include "tests/support/replica.h"
@@ -17,6 +19,17 @@ class Carver final : public EditSink {
     void push(const EditRun& run) noexcept override { ASSERT_TRUE(mirror_.apply(run)); }
     void carve(int runs) {
         for (int i = 0; i < runs; ++i) testing::carve_somewhere(bone_, random_, *this);
+        feed_.note(mirror_.take_changes());
+    }
+
+    /// Likewise, only the lower half of the bricks, and voxel by voxel.
+    void carve_first_bricks(int voxels) {
+        for (int i = 0; i < voxels; ++i) {
+            const std::size_t slot = random_() % (bone_.stored_bricks() / 2);
+            push({.brick = bone_.content().brick_of_slot[slot],
+                  .first_voxel = static_cast<std::uint16_t>(random_() % brick_voxel_count),
+                  .count = 1});
+        }
         feed_.note(mirror_.take_changes());
     }
 
@@ -84,6 +97,35 @@ TEST_F(ClientFeedTest, SplitsEditsThatDoNotFitAFrame) {
     feed_->request_state({}, true);
     EXPECT_GT(drain(), 2);
     EXPECT_EQ(replica_.checksums(), 1U) << "only the last part states a checksum";
+    expect_equal();
+}
+
+TEST_F(ClientFeedTest, TellsOfEveryBrickInTurnHoweverFastTheFirstOnesChange) {
+    drain();
+    const BrickIndex last = mirror_->bone().content().brick_of_slot.back();
+    carver_->carve(60'000);
+    feed_->request_state({}, false);
+    int frames = 0;
+    for (bool is_told = false; !is_told; ++frames) {
+        ASSERT_LT(frames, 20);
+        replica_.take(*feed_->next());
+        const auto slot = mirror_->bone().slot(last);
+        is_told = std::ranges::equal(replica_.bone()->fractions(slot), mirror_->bone().fractions(slot));
+        carver_->carve_first_bricks(20'000);  // more than a frame's worth
+        feed_->request_state({}, false);
+    }
+    EXPECT_GT(frames, 1);
+}
+
+TEST_F(ClientFeedTest, CostsNoMoreForAClientThatNeverReadsThanForItsDirtyBricks) {
+    drain();
+    for (int i = 0; i < 300; ++i) {
+        carver_->carve(300);
+        feed_->request_state({.time_s = 0.1 * i}, i % 30 == 0);
+    }
+    EXPECT_LE(feed_->untold().bricks(), mirror_->bone().stored_bricks());
+    EXPECT_LE(feed_->untold().masks(), UntoldVoxels::most_masks);
+    EXPECT_LT(drain(), 300) << "frames";
     expect_equal();
 }
 
