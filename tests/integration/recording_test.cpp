@@ -25,11 +25,29 @@ using ::testing::HasSubstr;
 class Recording : public ::testing::Test {
   protected:
     Recording() {
-        std::ofstream(file("drilling.csv")) << "t_s,x_mm,y_mm,z_mm,axis_x,axis_y,axis_z,pedal\n"
-                                               "0.0,0.5,0.2,5.5,0,0,1,0\n"
-                                               "0.4,0.5,0.2,4.5,0,0,1,1\n"
-                                               "2.0,0.5,0.2,2.5,0,0,1,1\n"
-                                               "2.4,2.0,0.2,2.5,0,0,1,1\n";
+        std::ofstream(file("tooth.csv")) << "t_s,x_mm,y_mm,z_mm,axis_x,axis_y,axis_z,pedal\n"
+                                            "0.0,0.5,0.2,5.5,0,0,1,0\n"
+                                            "0.4,0.5,0.2,4.5,0,0,1,1\n"
+                                            "1.6,0.5,0.2,2.9,0,0,1,1\n";
+        std::ofstream(file("block.csv")) << "t_s,x_mm,y_mm,z_mm,axis_x,axis_y,axis_z,pedal\n"
+                                            "0.0,-1,0,3.5,0,0,1,0\n"
+                                            "0.4,-1,0,2.5,0,0,1,1\n"
+                                            "1.4,-1,0,1.0,0,0,1,1\n"
+                                            "2.4,1,0,1.0,0,0,1,1\n";
+        write_block();
+    }
+
+    /// A small block of bone, ever stiffer upwards: there in no time.
+    void write_block() const {
+        std::ofstream out(file("block.nrrd"), std::ios::binary);
+        out << "NRRD0004\ntype: int16\ndimension: 3\nspace: left-posterior-superior\nsizes: 48 40 32\n"
+               "space directions: (0.2,0,0) (0,0.2,0) (0,0,0.2)\nspace origin: (-4.7,-3.9,-4.1)\n"
+               "encoding: raw\nendian: little\n\n";
+        for (int z = 0; z < 32; ++z)
+            for (int voxel = 0; voxel < 48 * 40; ++voxel) {
+                const int hu = 400 + 30 * z;
+                out.put(static_cast<char>(hu & 0xFF)).put(static_cast<char>(hu >> 8));
+            }
     }
 
     std::string file(const std::string& name) const { return (folder_ / name).string(); }
@@ -39,12 +57,25 @@ class Recording : public ::testing::Test {
         return nlohmann::json::parse(in);
     }
 
+    std::vector<std::string> server(const std::string& scene, const std::string& report) const {
+        std::vector<std::string> command{HAPTIC_SERVER,        "--clock", "virtual",   "--trajectory",
+                                         file(scene + ".csv"), "--json",  file(report)};
+        if (scene == "block") command.insert(command.end(), {"--bone", file("block.nrrd")});
+        return command;
+    }
     /// Drills on the virtual clock; server.json says how it went.
-    void record(const std::string& name) const {
-        const Finished server =
-            run_program({HAPTIC_SERVER, "--clock", "virtual", "--trajectory", file("drilling.csv"),
-                         "--record", file(name), "--json", file("server.json")});
-        ASSERT_EQ(server.status, 0) << server.err;
+    void record(const std::string& name, const std::string& scene = "block") const {
+        std::vector<std::string> command = server(scene, "server.json");
+        command.insert(command.end(), {"--record", file(name)});
+        const Finished finished = run_program(command);
+        ASSERT_EQ(finished.status, 0) << finished.err;
+    }
+    /// The same in a shell where files may have so many KiB: a full disk.
+    Finished record_on_disk_of(std::uintmax_t kibibytes, const std::string& name,
+                               const std::string& report) const {
+        std::string command = "ulimit -f " + std::to_string(kibibytes) + "; exec";
+        for (const std::string& word : server("block", report)) command += " " + word;
+        return run_program({"/bin/bash", "-c", command + " --record " + file(name)});
     }
     nlohmann::json info(const std::string& name) const {
         const Finished read = run_program({PACKET_REPLAY, file(name), "--info", "--json", file("info.json")});
@@ -66,7 +97,7 @@ class Recording : public ::testing::Test {
 };
 
 TEST_F(Recording, LeavesEveryoneWithTheServersBone) {
-    record("a.pcap");
+    record("a.pcap", "tooth");
     const auto served = json("server.json");
     EXPECT_EQ(served.at("recording").at("error"), nullptr);
 
@@ -110,7 +141,8 @@ TEST_F(Recording, OfTheSameSessionIsTheSameButForItsDate) {
 }
 
 TEST_F(Recording, OfAServerThatWasKilledIsReadableToItsLastWholeFrame) {
-    ChildProcess server({HAPTIC_SERVER, "--listen", "127.0.0.1:0", "--record", file("a.pcap")});
+    ChildProcess server(
+        {HAPTIC_SERVER, "--bone", file("block.nrrd"), "--listen", "127.0.0.1:0", "--record", file("a.pcap")});
     ASSERT_TRUE(server.line_after("listening on ", 60s)) << server.err();
     const auto size = [&] { return std::filesystem::file_size(file("a.pcap")); };
     const auto with_snapshot = size();
@@ -129,11 +161,8 @@ TEST_F(Recording, OfAServerThatWasKilledIsReadableToItsLastWholeFrame) {
 
 TEST_F(Recording, EndsWithAFullDiskAndTheSessionGoesOn) {
     record("whole.pcap");
-    const auto blocks = std::filesystem::file_size(file("whole.pcap")) / 1024 - 20;
-    const Finished server = run_program(
-        {"/bin/bash", "-c",
-         "ulimit -f " + std::to_string(blocks) + "; exec " HAPTIC_SERVER " --clock virtual --trajectory " +
-             file("drilling.csv") + " --record " + file("a.pcap") + " --json " + file("full.json")});
+    const auto needed = std::filesystem::file_size(file("whole.pcap")) / 1024;
+    const Finished server = record_on_disk_of(needed - 5, "a.pcap", "full.json");
     EXPECT_EQ(server.status, 1);
     EXPECT_THAT(server.err, AllOf(HasSubstr("a.pcap: the recording ends after "), HasSubstr("File too large"),
                                   HasSubstr("the session goes on")));
@@ -144,12 +173,11 @@ TEST_F(Recording, EndsWithAFullDiskAndTheSessionGoesOn) {
     EXPECT_EQ(info("a.pcap").at("frames"), full.at("recording").at("frames"));
     EXPECT_FALSE(info("a.pcap").at("ends_with_goodbye"));
 
-    const Finished too_little =
-        run_program({"/bin/bash", "-c",
-                     "ulimit -f 100; exec " HAPTIC_SERVER " --clock virtual --record " + file("b.pcap")});
+    const Finished too_little = record_on_disk_of(1, "b.pcap", "none.json");
     EXPECT_EQ(too_little.status, 1);
     EXPECT_EQ(std::count(too_little.err.begin(), too_little.err.end(), '\n'), 1) << too_little.err;
-    const Finished no_room = run_program({HAPTIC_SERVER, "--clock", "virtual", "--record", "/dev/full"});
+    const Finished no_room = run_program(
+        {HAPTIC_SERVER, "--bone", file("block.nrrd"), "--clock", "virtual", "--record", "/dev/full"});
     EXPECT_EQ(no_room.status, 1);
     EXPECT_EQ(no_room.err, "haptic_server: /dev/full: cannot write the recording: No space left on device\n");
 }
@@ -180,7 +208,7 @@ TEST_F(Recording, IsDecodedByTsharkWithOurProtoFiles) {
                                          "lua_script:" OSTEOMILL_PROTO "/osteomill.lua", "-o",
                                          "uat:protobuf_search_paths:\"" OSTEOMILL_PROTO "\",\"TRUE\"", "-V"});
     EXPECT_EQ(tshark.status, 0) << tshark.err;
-    EXPECT_THAT(tshark.out, AllOf(HasSubstr("scene_name = tooth"), HasSubstr("removed_mm3 = "),
+    EXPECT_THAT(tshark.out, AllOf(HasSubstr("scene_name = block"), HasSubstr("removed_mm3 = "),
                                   HasSubstr("zstd_channels"), HasSubstr("the session has ended")));
 }
 

@@ -60,5 +60,17 @@ TEST(Options, ShowHelpAndVersionWithoutARun) {
     EXPECT_EQ(parsed({"--version"}).no_run->message, "render_client 1.2.3\n");
 }
 
+TEST(Options, TakeARecordingInPlaceOfAServer) {
+    const ParsedOptions replay = parsed({"--replay", "a.pcap", "--speed", "2.5"});
+    ASSERT_FALSE(replay.no_run) << replay.no_run->message;
+    EXPECT_EQ(replay.options.replay, "a.pcap");
+    EXPECT_EQ(replay.options.speed, 2.5);
+    EXPECT_EQ(parsed({"--record", "b.pcap"}).options.record, "b.pcap");
+    expect_refused({"--replay", "a.pcap", "--connect", "127.0.0.1:7010"}, "--replay");
+    expect_refused({"--replay", "a.pcap", "--record", "b.pcap"}, "--record");
+    expect_refused({"--replay", "a.pcap", "--speed", "0"}, "--speed");
+    expect_refused({"--speed", "2"}, "--speed");
+}
+
 }  // namespace
 }  // namespace osteomill
