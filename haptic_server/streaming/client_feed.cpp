@@ -1,5 +1,6 @@
 #include "haptic_server/streaming/client_feed.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "common/wire/frame.h"
@@ -20,6 +21,23 @@ void ClientFeed::request_state(const ToolView& tool, bool with_checksum) {
     tool_ = tool;
     wants_state_ = true;
     wants_checksum_ = wants_checksum_ || with_checksum;
+    comparisons_left_ = std::min(comparisons_left_ + 1, most_comparisons_at_once);
+}
+
+std::optional<WireError> ClientFeed::compare(const v1::CompareBone& request) {
+    if (stage_ == Stage::finished) return std::nullopt;
+    if (stage_ != Stage::live) return WireError{"it compares a bone that it has not been sent yet"};
+    if (answer_) return WireError{"it compares again before it has been answered"};
+    if (comparisons_left_ == 0) return WireError{"it compares too often"};
+    --comparisons_left_;
+    auto compared = compare_bone(request, mirror_.bone(), mirror_.running_checksum());
+    if (auto* error = std::get_if<WireError>(&compared)) return std::move(*error);
+    auto& result = std::get<ComparedBone>(compared);
+    for (const BrickIndex brick : result.differing_bricks) untold_.add_whole(brick);
+    answer_ = std::move(result.answer);
+    wants_state_ = true;
+    wants_checksum_ = true;
+    return std::nullopt;
 }
 
 void ClientFeed::finish(std::string reason) {
@@ -80,6 +98,7 @@ void ClientFeed::fill_state(v1::ServerFrame& frame) {
     constexpr std::size_t room_for_tags_and_checksums = 64;
     v1::StateFrame& state = *frame.mutable_state();
     *state.mutable_tool() = to_message(tool_);
+    if (answer_) *state.mutable_comparison() = *std::exchange(answer_, std::nullopt);
     std::size_t bytes = frame.ByteSizeLong() + room_for_tags_and_checksums;
     while (!untold_.empty()) {
         const auto [brick, mask] = untold_.next();

@@ -10,6 +10,7 @@
 #include <optional>
 #include <string>
 
+#include "common/wire/bone_comparison.h"
 #include "common/wire/snapshot.h"
 #include "common/wire/tool_view.h"
 #include "haptic_server/streaming/bone_mirror.h"
@@ -31,6 +32,11 @@ class ClientFeed {
     /// after which the client knows all.
     void request_state(const ToolView& tool, bool with_checksum);
 
+    /// The client doubts its bone. The next state frame answers, and what differs is told like a change. An
+    /// error says why the client is not served: it has no bone yet, or asks before it has been answered, more
+    /// often than a repair needs, or what makes no sense.
+    std::optional<WireError> compare(const v1::CompareBone& request);
+
     /// Asks for the end: what is left to say, a last state with a checksum, then goodbye.
     void finish(std::string reason);
 
@@ -45,6 +51,9 @@ class ClientFeed {
     const UntoldVoxels& untold() const { return untold_; }
 
   private:
+    /// Two searches of the longest kind; after that one for each state frame.
+    static constexpr int most_comparisons_at_once = 2 * most_requests_of_a_search;
+
     enum class Stage { hello, snapshot_begin, snapshot_bricks, snapshot_end, live, finished };
 
     void fill_snapshot_bricks(v1::SnapshotBricks& message);
@@ -60,6 +69,9 @@ class ClientFeed {
     std::uint64_t snapshot_checksum_ = 0;
 
     UntoldVoxels untold_;
+    std::optional<v1::Comparison> answer_;
+    int comparisons_left_ = most_comparisons_at_once;
+
     ToolView tool_;
     bool wants_state_ = false;
     bool wants_checksum_ = false;

@@ -214,10 +214,17 @@ class StreamingServer::Impl {
     }
 
     std::optional<WireError> take(OperatorSeat::ClientId id, const v1::ClientFrame& frame) {
+        if (frame.has_compare_bone()) return compare(*sessions_.at(id), frame.compare_bone());
         if (!frame.has_operator_input()) return WireError{"it sent a frame without a body that is known"};
         const auto intent = intent_from(frame.operator_input(), burr_count_);
         if (const auto* error = std::get_if<WireError>(&intent)) return *error;
         if (seat_ && !is_finishing_) seat_->take_input(id, std::get<OperatorIntent>(intent), Clock::now());
+        return std::nullopt;
+    }
+
+    static std::optional<WireError> compare(Session& session, const v1::CompareBone& request) {
+        if (auto error = session.feed().compare(request)) return error;
+        session.pump();
         return std::nullopt;
     }
 

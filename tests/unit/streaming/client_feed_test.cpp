@@ -129,6 +129,55 @@ TEST_F(ClientFeedTest, CostsNoMoreForAClientThatNeverReadsThanForItsDirtyBricks)
     expect_equal();
 }
 
+/// All bricks of the bone as one part, with a checksum that is not theirs.
+v1::CompareBone doubt_of(const Bone& bone) {
+    v1::CompareBone request;
+    v1::BrickRange& range = *request.add_ranges();
+    const glm::uvec3 size(bone.content().size_bricks);
+    range.set_brick_count(std::uint64_t{size.x} * size.y * size.z);
+    range.set_bricks_per_part(range.brick_count());
+    range.add_part_checksum(checksum(bone) + 1);
+    return request;
+}
+
+TEST_F(ClientFeedTest, TellsBricksThatDifferWhole) {
+    drain();
+    const BrickIndex brick = mirror_->bone().content().brick_of_slot[7];
+    v1::CompareBone request;
+    v1::BrickRange& range = *request.add_ranges();
+    range.set_first_brick(brick);
+    range.set_brick_count(1);
+    range.set_bricks_per_part(1);
+    range.add_part_checksum(checksum_of_brick(brick, mirror_->bone().fractions(7)));
+    EXPECT_FALSE(feed_->compare(request));
+    EXPECT_EQ(drain(), 1);
+    EXPECT_EQ(replica_.edits_of_last_state(), 0U) << "it does not differ";
+    EXPECT_EQ(replica_.checksums(), 1U);
+    range.set_part_checksum(0, 5);
+    EXPECT_FALSE(feed_->compare(request));
+    drain();
+    EXPECT_EQ(replica_.edits_of_last_state(), 1U);
+    EXPECT_EQ(replica_.checksums(), 2U);
+    EXPECT_TRUE(feed_->untold().empty());
+}
+
+TEST_F(ClientFeedTest, RefusesComparisonsThatNoHonestClientAsksFor) {
+    const v1::CompareBone request = doubt_of(mirror_->bone());
+    EXPECT_EQ(feed_->compare(request)->line, "it compares a bone that it has not been sent yet");
+    drain();
+    EXPECT_EQ(feed_->compare({})->line, "comparison refused: it has 0 parts, not 1 to 128");
+    EXPECT_FALSE(feed_->compare(request));
+    EXPECT_EQ(feed_->compare(request)->line, "it compares again before it has been answered");
+    drain();
+    for (int i = 0; i < 2 * most_requests_of_a_search - 2; ++i) {
+        ASSERT_FALSE(feed_->compare(request));
+        drain();
+    }
+    EXPECT_EQ(feed_->compare(request)->line, "it compares too often");
+    feed_->request_state({}, false);
+    EXPECT_FALSE(feed_->compare(request)) << "one for each state";
+}
+
 TEST_F(ClientFeedTest, SaysNothingBetweenStates) {
     drain();
     carver_->carve(10);
