@@ -61,6 +61,7 @@ v1::ToolState to_message(const ToolView& tool) {
     message.set_removed_mm3(tool.removed_mm3);
     message.set_touches_protected(tool.touches_protected);
     message.set_fault(tool.fault);
+    message.set_taken_unix_ns(tool.taken_unix_ns);
     return message;
 }
 
@@ -150,7 +151,8 @@ std::variant<ToolView, WireError> tool_from(const v1::ToolState& message, std::s
                   .spindle_on = message.spindle_on(),
                   .removed_mm3 = message.removed_mm3(),
                   .touches_protected = message.touches_protected(),
-                  .fault = one_line(message.fault())};
+                  .fault = one_line(message.fault()),
+                  .taken_unix_ns = message.taken_unix_ns()};
     if (!std::isfinite(tool.time_s) || !std::isfinite(tool.removed_mm3) ||
         !is_finite(tool.burr_position_mm) || !is_finite(tool.spindle_axis) ||
         !is_finite(tool.hand_position_mm) || !is_finite(tool.force_n))

@@ -54,6 +54,11 @@ void require_fits_frame(const v1::Hello& hello) {
                                     " of a frame; shorten its burrs' and tissues' names");
 }
 
+std::int64_t unix_time_ns() {
+    const auto since_1970 = std::chrono::system_clock::now().time_since_epoch();
+    return std::chrono::duration_cast<std::chrono::nanoseconds>(since_1970).count();
+}
+
 tcp::acceptor listen(asio::io_context& io, const StreamingOptions& options) {
     const std::string where = options.address + ":" + std::to_string(options.port);
     error_code error;
@@ -165,8 +170,11 @@ class StreamingServer::Impl {
         update();
         const bool with_checksum = frames_++ % frames_per_checksum_ == 0;
         if (recorder_) recorder_->record(last_view_, with_checksum, options_.paced_by_session);
+        // A recording's packets have stamps of their own.
+        ToolView stamped = last_view_;
+        stamped.taken_unix_ns = unix_time_ns();
         for (const auto& [id, session] : std::map(sessions_)) {  // a session may close and leave the map
-            session->feed().request_state(last_view_, with_checksum);
+            session->feed().request_state(stamped, with_checksum);
             session->pump();
         }
         if (options_.listens && !is_accepting_) accept();

@@ -48,6 +48,8 @@ class BoneLink::Impl {
     void take(SessionBegan began, LinkUpdate&) {
         session_ = std::move(began.info);
         session_number_ = began.number;
+        delay_meter_ = {};
+        delay_.reset();
         repair_.reset();
     }
 
@@ -112,6 +114,9 @@ class BoneLink::Impl {
         std::ranges::sort(update.dirty_bricks);
         const auto repeated = std::ranges::unique(update.dirty_bricks);
         update.dirty_bricks.erase(repeated.begin(), repeated.end());
+        if (update.tool && update.tool->taken_unix_ns != 0)
+            delay_ = delay_meter_.update(update.tool->taken_unix_ns, std::chrono::system_clock::now());
+        update.delay = delay_;
         update.status = status_;
         update.status_line =
             repair_ ? "the bone differs from the server's; asking for the bricks that differ" : line_;
@@ -145,6 +150,8 @@ class BoneLink::Impl {
     std::uint64_t rejected_ = 0;
     std::uint64_t repairs_ = 0;
     std::uint64_t bricks_repaired_ = 0;
+    DelayMeter delay_meter_;
+    std::optional<DelayMeter::Delay> delay_;
     RateMeter frame_rate_;
     RateMeter byte_rate_;
 };

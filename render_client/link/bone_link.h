@@ -17,6 +17,7 @@
 #include "common/bone/bone.h"
 #include "common/wire/session_info.h"
 #include "common/wire/tool_view.h"
+#include "render_client/link/delay_meter.h"
 
 namespace osteomill {
 
@@ -36,6 +37,9 @@ struct LinkUpdate {
     bool bone_replaced = false;            ///< bone() is another bone: upload all of it
     std::vector<BrickIndex> dirty_bricks;  ///< ascending, each once: edited since; empty if bone_replaced
     std::optional<ToolView> tool;          ///< the newest since the last poll, if any came
+    /// How old the newest tool of this session was when a poll took it; nothing where the server does not
+    /// say.
+    std::optional<DelayMeter::Delay> delay{};
 
     std::uint32_t snapshot_bricks = 0;        ///< received so far, while receiving_snapshot
     std::uint32_t snapshot_bricks_total = 0;  ///< announced, while receiving_snapshot

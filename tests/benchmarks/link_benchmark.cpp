@@ -112,6 +112,7 @@ Rate rate_of(const Scene& scene, const Bone& bone, HapticDevice& device, double 
     std::uint64_t frames = 0;
     session->run(std::atomic<bool>{false}, [&](const ToolSnapshot&) {
         ToolView tool = shown.update(mirror, 1);
+        tool.taken_unix_ns = 1'700'000'000'000'000'000;  // as a server would
         feed.note(mirror.take_changes());
         feed.request_state(tool, frames++ % 30 == 0);
         std::size_t bytes = 0;
@@ -195,8 +196,10 @@ void measure_motion(Scene scene, const Bone& bone) {
 
     BoneLink link("127.0.0.1", server.port());
     std::optional<double> seen_x_mm;
+    std::optional<DelayMeter::Delay> stamped;
     const auto newest = [&] {
         const LinkUpdate update = link.poll();
+        stamped = update.delay;
         if (update.tool) seen_x_mm = update.tool->hand_position_mm.x;
         std::this_thread::sleep_for(std::chrono::microseconds(200));
         return seen_x_mm;
@@ -204,6 +207,7 @@ void measure_motion(Scene scene, const Bone& bone) {
     while (!newest()) {
     }
     std::vector<double> delays_ms;
+    std::vector<double> stamped_ms;
     std::mt19937 random(1);
     std::uniform_real_distribution<double> rest_s(0.05, 0.1);
     for (int i = 0; i < 200; ++i) {
@@ -214,13 +218,19 @@ void measure_motion(Scene scene, const Bone& bone) {
         while (std::abs(*newest() - before_mm) < 0.1) {
         }
         delays_ms.push_back(ms_between(device.read_at(), Clock::now()));
+        stamped_ms.push_back(1e3 * stamped->by_clocks_s);
     }
     is_over = true;
     running.join();
     server.stop();
     std::ranges::sort(delays_ms);
+    std::ranges::sort(stamped_ms);
     print("motion to frame at 30 Hz, median", delays_ms[delays_ms.size() / 2], "ms", 40);
     print("motion to frame at 30 Hz, 99th percentile", delays_ms[delays_ms.size() * 99 / 100], "ms", 40);
+    fmt::print(
+        "  of that after the server took it, as the client shows: median {:.2f} ms, 99th percentile "
+        "{:.2f} ms\n",
+        stamped_ms[stamped_ms.size() / 2], stamped_ms[stamped_ms.size() * 99 / 100]);
 }
 
 }  // namespace
