@@ -6,6 +6,7 @@
 #include "common/wire/frame.h"
 #include "common/wire/scene_messages.h"
 #include "common/wire/sealed_frame.h"
+#include "haptic_server/streaming/quiet_tool.h"
 
 namespace osteomill {
 
@@ -19,7 +20,8 @@ void ClientFeed::note(const ChangedVoxels& changes) {
 
 void ClientFeed::request_state(const ToolView& tool, bool with_checksum) {
     tool_ = tool;
-    wants_state_ = true;
+    const bool is_news = with_checksum || !untold_.empty() || !told_tool_ || !is_quiet(*told_tool_, tool);
+    wants_state_ = wants_state_ || is_news;
     wants_checksum_ = wants_checksum_ || with_checksum;
     comparisons_left_ = std::min(comparisons_left_ + 1, most_comparisons_at_once);
 }
@@ -98,6 +100,7 @@ void ClientFeed::fill_state(v1::ServerFrame& frame) {
     constexpr std::size_t room_for_tags_and_checksums = 64;
     v1::StateFrame& state = *frame.mutable_state();
     *state.mutable_tool() = to_message(tool_);
+    told_tool_ = tool_;
     if (answer_) *state.mutable_comparison() = *std::exchange(answer_, std::nullopt);
     std::size_t bytes = frame.ByteSizeLong() + room_for_tags_and_checksums;
     while (!untold_.empty()) {

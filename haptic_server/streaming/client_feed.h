@@ -27,7 +27,8 @@ class ClientFeed {
     /// To be told of every change of the mirror, before the next frame is asked for.
     void note(const ChangedVoxels& changes);
 
-    /// Asks for a state frame as soon as one can be sent. One that has not been sent yet is replaced: what it
+    /// Asks for a state frame as soon as one can be sent; but where nothing is new and the tool rests, only
+    /// every quiet_period_s. One that has not been sent yet is replaced: what it
     /// would have told of the bone, the next one tells. A checksum once asked for is stated by the next frame
     /// after which the client knows all.
     void request_state(const ToolView& tool, bool with_checksum);
@@ -73,6 +74,7 @@ class ClientFeed {
     int comparisons_left_ = most_comparisons_at_once;
 
     ToolView tool_;
+    std::optional<ToolView> told_tool_;
     bool wants_state_ = false;
     bool wants_checksum_ = false;
     std::optional<std::string> goodbye_;

@@ -185,9 +185,27 @@ TEST_F(ClientFeedTest, SaysNothingBetweenStates) {
     feed_->request_state({}, false);
     EXPECT_EQ(drain(), 1);
     EXPECT_EQ(replica_.checksums(), 0U);
-    feed_->request_state({}, false);
+    feed_->request_state({.spindle_on = true}, false);
     drain();
     EXPECT_EQ(replica_.edits_of_last_state(), 0U) << "told once";
+}
+
+TEST_F(ClientFeedTest, TellsOfAToolThatRestsTenTimesASecond) {
+    drain();
+    int frames = 0;
+    for (int i = 0; i < 90; ++i) {
+        feed_->request_state({.time_s = i / 30.0}, i % 30 == 0);
+        frames += drain();
+    }
+    EXPECT_EQ(frames, 30);
+    EXPECT_EQ(replica_.checksums(), 3U);
+    feed_->request_state({.time_s = 3.0}, false);
+    EXPECT_EQ(drain(), 1);
+    feed_->request_state({.time_s = 3.001, .force_n = {1, 0, 0}}, false);
+    EXPECT_EQ(drain(), 1) << "news goes out at once";
+    carver_->carve(1);
+    feed_->request_state({.time_s = 3.002, .force_n = {1, 0, 0}}, false);
+    EXPECT_EQ(drain(), 1);
 }
 
 TEST_F(ClientFeedTest, EndsWithTheFinalChecksumAndGoodbyeEvenInTheMiddleOfASnapshot) {
