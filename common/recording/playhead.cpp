@@ -79,12 +79,12 @@ Playhead::Step Playhead::take(RecordedEvent event) {
         auto outcome = follower_->apply(state->frame, dirty_);
         if (const auto* error = std::get_if<WireError>(&outcome))
             throw reader_.error_at(event.place, error->line);
-        if (std::holds_alternative<BoneDiffers>(outcome))
-            throw reader_.error_at(event.place, "the bone differs from the one recorded");
         auto& applied = std::get<BoneFollower::Applied>(outcome);
+        if (applied.check == CopyCheck::differs || applied.has_regained_bone)
+            throw reader_.error_at(event.place, "the bone differs from the one recorded");
         ++states_;
         state_bytes_ += event.bytes;
-        if (applied.is_verified) ++checksums_verified_;
+        if (applied.check == CopyCheck::equal) ++checksums_verified_;
         tool_ = std::move(applied.tool);
         frame_ = std::move(state->frame);
         return Step::state;

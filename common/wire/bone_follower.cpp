@@ -8,18 +8,21 @@
 
 namespace osteomill {
 
-std::variant<BoneFollower::Applied, BoneDiffers, WireError> BoneFollower::apply(
-    const v1::StateFrame& frame, std::vector<BrickIndex>& dirty) {
+std::variant<BoneFollower::Applied, WireError> BoneFollower::apply(const v1::StateFrame& frame,
+                                                                   std::vector<BrickIndex>& dirty) {
     auto tool = tool_from(frame.tool(), burr_count_);
     if (auto* error = std::get_if<WireError>(&tool)) return std::move(*error);
+    Applied applied{.tool = std::get<ToolView>(std::move(tool))};
     for (const v1::BrickEdit& edit : frame.edits()) {
-        if (auto error = apply_brick_edit(edit, bone_)) return std::move(*error);
+        auto written = correct_with_brick_edit(edit, bone_);
+        if (auto* error = std::get_if<WireError>(&written)) return std::move(*error);
+        if (std::get<EditEffect>(written) == EditEffect::raises) applied.has_regained_bone = true;
         checksum_.update(bone_, bone_.slot(edit.brick()));
         dirty.push_back(edit.brick());
     }
-    const bool states_checksum = frame.bone_checksum() != 0;
-    if (states_checksum && frame.bone_checksum() != checksum_.value()) return BoneDiffers{};
-    return Applied{std::get<ToolView>(std::move(tool)), states_checksum};
+    if (frame.bone_checksum() != 0)
+        applied.check = frame.bone_checksum() == checksum_.value() ? CopyCheck::equal : CopyCheck::differs;
+    return applied;
 }
 
 void BoneFollower::set_fractions(BrickIndex brick,

@@ -11,14 +11,20 @@
 
 namespace osteomill {
 
-/// The bone after a frame is not what the server says that it is.
-struct BoneDiffers {};
+/// What the checksum of a frame shows of a copy.
+enum class CopyCheck {
+    none,     ///< the frame stated none
+    equal,    ///< the copy has it
+    differs,  ///< the copy has another
+};
 
 class BoneFollower {
   public:
     struct Applied {
         ToolView tool;
-        bool is_verified = false;  ///< the frame stated a checksum, and it holds
+        CopyCheck check = CopyCheck::none;
+        /// An edit raised what was left, as milling cannot: the copy had lost bone, and has it again.
+        bool has_regained_bone = false;
     };
 
     /// `burr_count`: of the session, to check the tool against.
@@ -27,11 +33,11 @@ class BoneFollower {
 
     /// Appends the bricks that it changes to `dirty`. After an error part of the frame may have been applied:
     /// a fresh bone is needed.
-    std::variant<Applied, BoneDiffers, WireError> apply(const v1::StateFrame& frame,
-                                                        std::vector<BrickIndex>& dirty);
+    std::variant<Applied, WireError> apply(const v1::StateFrame& frame, std::vector<BrickIndex>& dirty);
 
     const Bone& bone() const { return bone_; }
     std::uint64_t checksum() const { return checksum_.value(); }
+    const RunningChecksum& running_checksum() const { return checksum_; }
     std::size_t burr_count() const { return burr_count_; }
 
     /// Gives a stored brick other fractions, as when a recording is wound back.

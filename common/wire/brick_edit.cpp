@@ -10,6 +10,54 @@ WireError refused(BrickIndex brick, const std::string& what) {
     return {"edit of brick " + std::to_string(brick) + " refused: " + what};
 }
 
+std::optional<WireError> fault_of_runs(const v1::BrickEdit& edit, const Bone& bone) {
+    const BrickIndex brick = edit.brick();
+    if (bone.slot(brick) == BoneContent::no_slot) return refused(brick, "no bone is stored there");
+    if (edit.changed_size() % 2 != 0) return refused(brick, "a run lacks its length");
+    std::size_t taken = 0;
+    std::size_t end_of_last = 0;
+    for (int i = 0; i < edit.changed_size(); i += 2) {
+        const std::size_t first = edit.changed(i);
+        const std::size_t length = edit.changed(i + 1);
+        if (length == 0 || first < end_of_last) return refused(brick, "its runs are empty or do not ascend");
+        if (first + length > brick_voxel_count)
+            return refused(brick, "a run ends at voxel " + std::to_string(first + length) + " of " +
+                                      std::to_string(brick_voxel_count));
+        if (length > edit.fraction().size() - taken) return refused(brick, "it has too few fractions");
+        taken += length;
+        end_of_last = first + length;
+    }
+    if (taken != edit.fraction().size()) return refused(brick, "it has more fractions than its runs");
+    return std::nullopt;
+}
+
+/// Calls `use` with each voxel of an edit without fault, and its new fraction, until that says stop.
+template <typename Use>
+void for_each_voxel_until(const v1::BrickEdit& edit, Use&& use) {
+    std::size_t next = 0;
+    for (int i = 0; i < edit.changed_size(); i += 2)
+        for (std::size_t voxel = edit.changed(i); voxel < edit.changed(i) + edit.changed(i + 1); ++voxel)
+            if (use(voxel, static_cast<std::uint8_t>(edit.fraction()[next++]))) return;
+}
+
+std::optional<std::size_t> first_raised(const v1::BrickEdit& edit, const Bone& bone) {
+    const auto fractions = bone.fractions(bone.slot(edit.brick()));
+    std::optional<std::size_t> raised;
+    for_each_voxel_until(edit, [&](std::size_t voxel, std::uint8_t fraction) {
+        if (fraction > fractions[voxel]) raised = voxel;
+        return raised.has_value();
+    });
+    return raised;
+}
+
+void write(const v1::BrickEdit& edit, Bone& bone) {
+    const auto fractions = bone.fractions(bone.slot(edit.brick()));
+    for_each_voxel_until(edit, [&](std::size_t voxel, std::uint8_t fraction) {
+        fractions[voxel] = fraction;
+        return false;
+    });
+}
+
 }  // namespace
 
 v1::BrickEdit brick_edit(BrickIndex brick, std::span<const std::uint8_t, brick_voxel_count> fractions,
@@ -29,34 +77,18 @@ v1::BrickEdit brick_edit(BrickIndex brick, std::span<const std::uint8_t, brick_v
 }
 
 std::optional<WireError> apply_brick_edit(const v1::BrickEdit& edit, Bone& bone) {
-    const BrickIndex brick = edit.brick();
-    const std::int32_t slot = bone.slot(brick);
-    if (slot == BoneContent::no_slot) return refused(brick, "no bone is stored there");
-    if (edit.changed_size() % 2 != 0) return refused(brick, "a run lacks its length");
-
-    const auto fractions = bone.fractions(slot);
-    std::size_t taken = 0;
-    std::size_t end_of_last = 0;
-    for (int i = 0; i < edit.changed_size(); i += 2) {
-        const std::size_t first = edit.changed(i);
-        const std::size_t length = edit.changed(i + 1);
-        if (length == 0 || first < end_of_last) return refused(brick, "its runs are empty or do not ascend");
-        if (first + length > brick_voxel_count)
-            return refused(brick, "a run ends at voxel " + std::to_string(first + length) + " of " +
-                                      std::to_string(brick_voxel_count));
-        if (length > edit.fraction().size() - taken) return refused(brick, "it has too few fractions");
-        for (std::size_t voxel = first; voxel < first + length; ++voxel)
-            if (static_cast<std::uint8_t>(edit.fraction()[taken++]) > fractions[voxel])
-                return refused(brick, "it raises what is left of voxel " + std::to_string(voxel));
-        end_of_last = first + length;
-    }
-    if (taken != edit.fraction().size()) return refused(brick, "it has more fractions than its runs");
-
-    std::size_t next = 0;
-    for (int i = 0; i < edit.changed_size(); i += 2)
-        for (std::size_t voxel = edit.changed(i); voxel < edit.changed(i) + edit.changed(i + 1); ++voxel)
-            fractions[voxel] = static_cast<std::uint8_t>(edit.fraction()[next++]);
+    if (auto fault = fault_of_runs(edit, bone)) return fault;
+    if (const auto voxel = first_raised(edit, bone))
+        return refused(edit.brick(), "it raises what is left of voxel " + std::to_string(*voxel));
+    write(edit, bone);
     return std::nullopt;
+}
+
+std::variant<EditEffect, WireError> correct_with_brick_edit(const v1::BrickEdit& edit, Bone& bone) {
+    if (auto fault = fault_of_runs(edit, bone)) return *fault;
+    const EditEffect effect = first_raised(edit, bone) ? EditEffect::raises : EditEffect::lowers;
+    write(edit, bone);
+    return effect;
 }
 
 }  // namespace osteomill

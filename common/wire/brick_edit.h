@@ -4,6 +4,7 @@
 #include <bitset>
 #include <optional>
 #include <span>
+#include <variant>
 
 #include "common/bone/bone.h"
 #include "common/wire/wire_error.h"
@@ -22,5 +23,11 @@ v1::BrickEdit brick_edit(BrickIndex brick, std::span<const std::uint8_t, brick_v
 /// not ascend or reach past the brick, fractions that do not fit the runs, and any that would raise what is
 /// left.
 std::optional<WireError> apply_brick_edit(const v1::BrickEdit& edit, Bone& bone);
+
+/// Whether an edit that was written could have come of milling.
+enum class EditEffect { lowers, raises };
+
+/// Likewise for a copy that may be wrong: what would raise a voxel is written, too, and said.
+std::variant<EditEffect, WireError> correct_with_brick_edit(const v1::BrickEdit& edit, Bone& bone);
 
 }  // namespace osteomill

@@ -17,6 +17,9 @@ class RunningChecksum {
 
     std::uint64_t value() const { return sum_; }
 
+    /// What `count` bricks from `first` on add to it, whether stored or not; `bone` is the one it began with.
+    std::uint64_t sum_of(const Bone& bone, BrickIndex first, std::uint64_t count) const;
+
   private:
     std::vector<std::uint64_t> term_by_slot_;
     std::uint64_t sum_ = 0;

@@ -88,6 +88,7 @@ v1::ToolState to_message(const ToolView& tool) {
     message.set_removed_mm3(tool.removed_mm3);
     message.set_touches_protected(tool.touches_protected);
     message.set_fault(tool.fault);
+    message.set_taken_unix_ns(tool.taken_unix_ns);
     message.set_driver(to_message(tool.driver));
     return message;
 }
@@ -179,6 +180,7 @@ std::variant<ToolView, WireError> tool_from(const v1::ToolState& message, std::s
                   .removed_mm3 = message.removed_mm3(),
                   .touches_protected = message.touches_protected(),
                   .fault = one_line(message.fault()),
+                  .taken_unix_ns = message.taken_unix_ns(),
                   .driver = driver_from(message.driver())};
     if (!std::isfinite(tool.time_s) || !std::isfinite(tool.removed_mm3) ||
         !is_finite(tool.burr_position_mm) || !is_finite(tool.spindle_axis) ||

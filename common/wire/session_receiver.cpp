@@ -7,7 +7,8 @@
 namespace osteomill {
 
 std::variant<SessionEvent, WireError> SessionReceiver::take(v1::ServerFrame frame) {
-    if (stage_ != Stage::hello && frame.sequence() != last_sequence_ + 1)
+    const bool follows_gap = stage_ != Stage::hello && frame.sequence() != last_sequence_ + 1;
+    if (follows_gap && !(may_miss_frames() && frame.sequence() > last_sequence_))
         return WireError{"frame " + std::to_string(frame.sequence()) + " came after " +
                          std::to_string(last_sequence_)};
     last_sequence_ = frame.sequence();
@@ -19,12 +20,16 @@ std::variant<SessionEvent, WireError> SessionReceiver::take(v1::ServerFrame fram
         return take_snapshot_bricks(frame.snapshot_bricks());
     if (stage_ == Stage::snapshot && frame.has_snapshot_end()) return take_snapshot_end(frame.snapshot_end());
     if (stage_ == Stage::live && frame.has_state())
-        return SessionEvent(StateArrived{std::move(*frame.mutable_state())});
+        return SessionEvent(StateArrived{std::move(*frame.mutable_state()), follows_gap});
     if (stage_ != Stage::hello && stage_ != Stage::over && frame.has_goodbye()) {
         stage_ = Stage::over;
         return SessionEvent(SaidGoodbye{frame.goodbye().reason()});
     }
     return WireError{"frame " + std::to_string(frame.sequence()) + " is not what should come there"};
+}
+
+bool SessionReceiver::may_miss_frames() const {
+    return gaps_ == Gaps::reported && compares_ && stage_ == Stage::live;
 }
 
 void SessionReceiver::go_on_behind(std::uint64_t sequence) {
@@ -39,6 +44,7 @@ SessionReceiver::Outcome SessionReceiver::take_hello(const v1::Hello& hello) {
     }
     auto info = session_info_from(hello);
     if (auto* error = std::get_if<WireError>(&info)) return *error;
+    compares_ = hello.protocol_minor() >= first_minor_that_compares;
     stage_ = Stage::snapshot_begin;
     return SessionEvent(std::get<SessionInfo>(std::move(info)));
 }

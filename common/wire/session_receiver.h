@@ -28,6 +28,15 @@ struct BoneArrived {
 /// A state frame, as it came; checked when it is applied: see BoneFollower.
 struct StateArrived {
     v1::StateFrame frame;
+    bool follows_gap = false;  ///< frames before it are missing, and with them what they told of the bone
+};
+
+/// What a receiver makes of a gap in the sequence of frames.
+enum class Gaps {
+    refused,  ///< an error
+    /// Between state frames of a server that compares bones it is said with the next one: what it told of
+    /// the bone can be asked for. Elsewhere an error.
+    reported,
 };
 
 /// The session is over.
@@ -45,6 +54,9 @@ using SessionEvent =
 
 class SessionReceiver {
   public:
+    SessionReceiver() = default;
+    explicit SessionReceiver(Gaps gaps) : gaps_(gaps) {}
+
     /// The next frame of the session. An error says what is wrong with it; the receiver is then of no further
     /// use.
     std::variant<SessionEvent, WireError> take(v1::ServerFrame frame);
@@ -64,11 +76,14 @@ class SessionReceiver {
     using Outcome = std::variant<SessionEvent, WireError>;
     enum class Stage { hello, snapshot_begin, snapshot, live, over };
 
+    bool may_miss_frames() const;
     Outcome take_hello(const v1::Hello& hello);
     Outcome take_snapshot_begin(const v1::SnapshotBegin& message);
     Outcome take_snapshot_bricks(const v1::SnapshotBricks& message);
     Outcome take_snapshot_end(const v1::SnapshotEnd& message);
 
+    Gaps gaps_ = Gaps::refused;
+    bool compares_ = false;  // the server does
     Stage stage_ = Stage::hello;
     std::uint64_t last_sequence_ = 0;
     std::optional<SnapshotAssembler> assembler_;

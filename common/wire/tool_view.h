@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <glm/vec3.hpp>
 #include <string>
 
@@ -29,6 +30,8 @@ struct ToolView {
     double removed_mm3 = 0.0;  ///< since the server began
     bool touches_protected = false;
     std::string fault{};  ///< one line; empty while all is well
+    /// The server's wall clock when it took this off the haptic loop, ns since 1970; 0: not said.
+    std::int64_t taken_unix_ns = 0;
     ToolDriver driver = ToolDriver::unknown;
 };
 

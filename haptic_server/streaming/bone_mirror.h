@@ -30,6 +30,7 @@ class BoneMirror {
     const Bone& bone() const { return bone_; }
     /// As of the last take_changes().
     std::uint64_t checksum() const { return checksum_.value(); }
+    const RunningChecksum& running_checksum() const { return checksum_; }
 
   private:
     Bone bone_;

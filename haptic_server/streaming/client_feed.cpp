@@ -1,10 +1,12 @@
 #include "haptic_server/streaming/client_feed.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "common/wire/frame.h"
 #include "common/wire/scene_messages.h"
 #include "common/wire/sealed_frame.h"
+#include "haptic_server/streaming/quiet_tool.h"
 
 namespace osteomill {
 
@@ -13,13 +15,31 @@ ClientFeed::ClientFeed(v1::Hello hello, const BoneMirror& mirror, SnapshotPacker
 
 void ClientFeed::note(const ChangedVoxels& changes) {
     for (const auto& [brick, mask] : changes)
-        if (static_cast<std::size_t>(mirror_.bone().slot(brick)) < next_slot_) untold_[brick] |= mask;
+        if (static_cast<std::size_t>(mirror_.bone().slot(brick)) < next_slot_) untold_.add(brick, mask);
 }
 
 void ClientFeed::request_state(const ToolView& tool, bool with_checksum) {
     tool_ = tool;
-    wants_state_ = true;
+    const bool is_news = with_checksum || !untold_.empty() || !told_tool_ || !is_quiet(*told_tool_, tool);
+    wants_state_ = wants_state_ || is_news;
     wants_checksum_ = wants_checksum_ || with_checksum;
+    comparisons_left_ = std::min(comparisons_left_ + 1, most_comparisons_at_once);
+}
+
+std::optional<WireError> ClientFeed::compare(const v1::CompareBone& request) {
+    if (stage_ == Stage::finished) return std::nullopt;
+    if (stage_ != Stage::live) return WireError{"it compares a bone that it has not been sent yet"};
+    if (answer_) return WireError{"it compares again before it has been answered"};
+    if (comparisons_left_ == 0) return WireError{"it compares too often"};
+    --comparisons_left_;
+    auto compared = compare_bone(request, mirror_.bone(), mirror_.running_checksum());
+    if (auto* error = std::get_if<WireError>(&compared)) return std::move(*error);
+    auto& result = std::get<ComparedBone>(compared);
+    for (const BrickIndex brick : result.differing_bricks) untold_.add_whole(brick);
+    answer_ = std::move(result.answer);
+    wants_state_ = true;
+    wants_checksum_ = true;
+    return std::nullopt;
 }
 
 void ClientFeed::finish(std::string reason) {
@@ -80,16 +100,18 @@ void ClientFeed::fill_state(v1::ServerFrame& frame) {
     constexpr std::size_t room_for_tags_and_checksums = 64;
     v1::StateFrame& state = *frame.mutable_state();
     *state.mutable_tool() = to_message(tool_);
+    told_tool_ = tool_;
+    if (answer_) *state.mutable_comparison() = *std::exchange(answer_, std::nullopt);
     std::size_t bytes = frame.ByteSizeLong() + room_for_tags_and_checksums;
     while (!untold_.empty()) {
-        const auto& [brick, mask] = *untold_.begin();
+        const auto [brick, mask] = untold_.next();
         const std::int32_t slot = mirror_.bone().slot(brick);
         v1::BrickEdit edit = brick_edit(brick, mirror_.bone().fractions(slot), mask);
         constexpr std::size_t tag_and_length = 4;
         bytes += edit.ByteSizeLong() + tag_and_length;
         if (bytes > largest_frame_bytes) return;  // the rest goes into the next frame
         *state.add_edits() = std::move(edit);
-        untold_.erase(untold_.begin());
+        untold_.told();
     }
     wants_state_ = false;
     if (std::exchange(wants_checksum_, false)) state.set_bone_checksum(mirror_.checksum());

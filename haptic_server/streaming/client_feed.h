@@ -3,15 +3,18 @@
 // The snapshot is taken from the mirror piece by piece, only as fast as the client reads, while milling goes
 // on. A change to a brick that has not been sent yet needs no mention: it will be sent as it then is. A
 // change to one that has been sent is remembered until a state frame tells of it. So a client ends up equal
-// to the mirror however slow it is, and costs no more than one mask of changed voxels for each brick.
+// to the mirror however slow it is, and costs no more than one mask of changed voxels for each brick, or
+// less: see UntoldVoxels.
 #pragma once
 
 #include <optional>
 #include <string>
 
+#include "common/wire/bone_comparison.h"
 #include "common/wire/snapshot.h"
 #include "common/wire/tool_view.h"
 #include "haptic_server/streaming/bone_mirror.h"
+#include "haptic_server/streaming/untold_voxels.h"
 #include "osteomill/v1/session.pb.h"
 
 namespace osteomill {
@@ -24,10 +27,16 @@ class ClientFeed {
     /// To be told of every change of the mirror, before the next frame is asked for.
     void note(const ChangedVoxels& changes);
 
-    /// Asks for a state frame as soon as one can be sent. One that has not been sent yet is replaced: what it
+    /// Asks for a state frame as soon as one can be sent; but where nothing is new and the tool rests, only
+    /// every quiet_period_s. One that has not been sent yet is replaced: what it
     /// would have told of the bone, the next one tells. A checksum once asked for is stated by the next frame
     /// after which the client knows all.
     void request_state(const ToolView& tool, bool with_checksum);
+
+    /// The client doubts its bone. The next state frame answers, and what differs is told like a change. An
+    /// error says why the client is not served: it has no bone yet, or asks before it has been answered, more
+    /// often than a repair needs, or what makes no sense.
+    std::optional<WireError> compare(const v1::CompareBone& request);
 
     /// Asks for the end: what is left to say, a last state with a checksum, then goodbye.
     void finish(std::string reason);
@@ -39,7 +48,13 @@ class ClientFeed {
     /// Whether goodbye has been said.
     bool is_finished() const { return stage_ == Stage::finished; }
 
+    /// What it remembers for the client.
+    const UntoldVoxels& untold() const { return untold_; }
+
   private:
+    /// Two searches of the longest kind; after that one for each state frame.
+    static constexpr int most_comparisons_at_once = 2 * most_requests_of_a_search;
+
     enum class Stage { hello, snapshot_begin, snapshot_bricks, snapshot_end, live, finished };
 
     void fill_snapshot_bricks(v1::SnapshotBricks& message);
@@ -54,8 +69,12 @@ class ClientFeed {
     std::size_t next_slot_ = 0;  // bricks of lower slots have been sent
     std::uint64_t snapshot_checksum_ = 0;
 
-    ChangedVoxels untold_;
+    UntoldVoxels untold_;
+    std::optional<v1::Comparison> answer_;
+    int comparisons_left_ = most_comparisons_at_once;
+
     ToolView tool_;
+    std::optional<ToolView> told_tool_;
     bool wants_state_ = false;
     bool wants_checksum_ = false;
     std::optional<std::string> goodbye_;

@@ -56,6 +56,11 @@ void require_fits_frame(const v1::Hello& hello) {
                                     " of a frame; shorten its burrs' and tissues' names");
 }
 
+std::int64_t unix_time_ns() {
+    const auto since_1970 = std::chrono::system_clock::now().time_since_epoch();
+    return std::chrono::duration_cast<std::chrono::nanoseconds>(since_1970).count();
+}
+
 tcp::acceptor listen(asio::io_context& io, const StreamingOptions& options) {
     const std::string where = options.address + ":" + std::to_string(options.port);
     error_code error;
@@ -171,8 +176,12 @@ class StreamingServer::Impl {
         update();
         const bool with_checksum = frames_++ % frames_per_checksum_ == 0;
         if (recorder_) recorder_->record(last_view_, with_checksum, options_.paced_by_session);
+        // A recording's packets have stamps of their own.
+        const std::int64_t now_unix_ns = unix_time_ns();
         for (const auto& [id, session] : std::map(sessions_)) {  // a session may close and leave the map
-            session->feed().request_state(view_for(id), with_checksum);
+            ToolView stamped = view_for(id);
+            stamped.taken_unix_ns = now_unix_ns;
+            session->feed().request_state(stamped, with_checksum);
             session->pump();
         }
         if (options_.listens && !is_accepting_) accept();
@@ -234,10 +243,17 @@ class StreamingServer::Impl {
     }
 
     std::optional<WireError> take(OperatorSeat::ClientId id, const v1::ClientFrame& frame) {
+        if (frame.has_compare_bone()) return compare(*sessions_.at(id), frame.compare_bone());
         if (!frame.has_operator_input()) return WireError{"it sent a frame without a body that is known"};
         const auto intent = intent_from(frame.operator_input(), burr_count_);
         if (const auto* error = std::get_if<WireError>(&intent)) return *error;
         if (seat_ && !is_finishing_) seat_->take_input(id, std::get<OperatorIntent>(intent), Clock::now());
+        return std::nullopt;
+    }
+
+    static std::optional<WireError> compare(Session& session, const v1::CompareBone& request) {
+        if (auto error = session.feed().compare(request)) return error;
+        session.pump();
         return std::nullopt;
     }
 

@@ -6,6 +6,7 @@
 
 #include "common/wire/bone_follower.h"
 #include "common/wire/scene_messages.h"
+#include "render_client/link/bone_repair.h"
 #include "render_client/link/rate_meter.h"
 #include "render_client/link/server_connection.h"
 
@@ -45,7 +46,13 @@ class BoneLink::Impl {
     }
 
   private:
-    void take(SessionBegan began, LinkUpdate&) { session_ = std::move(began.info); }
+    void take(SessionBegan began, LinkUpdate&) {
+        session_ = std::move(began.info);
+        session_number_ = began.number;
+        delay_meter_ = {};
+        delay_.reset();
+        repair_.reset();
+    }
 
     void take(BoneArrived arrived, LinkUpdate& update) {
         follower_.emplace(std::move(arrived), session_->burrs.size());
@@ -59,29 +66,47 @@ class BoneLink::Impl {
     }
 
     void take(StateArrived arrived, LinkUpdate& update) {
-        if (const auto error = apply(arrived.frame, update)) {
-            status_ = LinkStatus::lost;
-            line_ = error->line + "; asking for the bone afresh";
-            connection_.events().disown();
-            connection_.reconnect();
-        }
+        auto error = apply(arrived, update);
+        if (!error) return;
+        repair_.reset();
+        status_ = LinkStatus::lost;
+        line_ = error->line + "; asking for the bone afresh";
+        connection_.events().disown();
+        connection_.reconnect();
     }
 
-    std::optional<WireError> apply(const v1::StateFrame& frame, LinkUpdate& update) {
-        auto outcome = follower_->apply(frame, update.dirty_bricks);
+    std::optional<WireError> apply(const StateArrived& arrived, LinkUpdate& update) {
+        auto outcome = follower_->apply(arrived.frame, update.dirty_bricks);
         if (update.bone_replaced) update.dirty_bricks.clear();
         if (auto* error = std::get_if<WireError>(&outcome)) {
             ++rejected_;
             return std::move(*error);
         }
         ++frames_;
-        if (std::holds_alternative<BoneDiffers>(outcome)) {
-            ++mismatches_;
-            return WireError{"the bone differs from the server's"};
-        }
         auto& applied = std::get<BoneFollower::Applied>(outcome);
-        if (applied.is_verified) ++verified_;
+        if (applied.check == CopyCheck::equal) ++verified_;
         update.tool = std::move(applied.tool);
+        if (arrived.follows_gap) ++rejected_;
+        if (repair_) return follow(repair_->take(arrived, applied.check, *follower_));
+
+        const bool differs = applied.check == CopyCheck::differs || applied.has_regained_bone;
+        if (differs) ++mismatches_;
+        if (!differs && !arrived.follows_gap) return std::nullopt;
+        if (session_->protocol_minor < first_minor_that_compares)
+            return WireError{"the bone differs from the server's"};
+        repair_.emplace();
+        return follow(repair_->begin(*follower_));
+    }
+
+    std::optional<WireError> follow(BoneRepair::Progress progress) {
+        if (auto* error = std::get_if<WireError>(&progress)) return std::move(*error);
+        if (const auto* goes_on = std::get_if<BoneRepair::GoesOn>(&progress)) {
+            if (goes_on->ask) connection_.send(*goes_on->ask, session_number_);
+        } else {
+            ++repairs_;
+            bricks_repaired_ += std::get<BoneRepair::Done>(progress).bricks;
+            repair_.reset();
+        }
         return std::nullopt;
     }
 
@@ -90,8 +115,12 @@ class BoneLink::Impl {
         std::ranges::sort(update.dirty_bricks);
         const auto repeated = std::ranges::unique(update.dirty_bricks);
         update.dirty_bricks.erase(repeated.begin(), repeated.end());
+        if (update.tool && update.tool->taken_unix_ns != 0)
+            delay_ = delay_meter_.update(update.tool->taken_unix_ns, std::chrono::system_clock::now());
+        update.delay = delay_;
         update.status = status_;
-        update.status_line = line_;
+        update.status_line =
+            repair_ ? "the bone differs from the server's; asking for the bricks that differ" : line_;
         update.recording_error = connection_.recording_error();
         if (status_ == LinkStatus::receiving_snapshot) {
             update.snapshot_bricks = counters.snapshot_bricks;
@@ -102,6 +131,8 @@ class BoneLink::Impl {
         update.checksum_mismatches = mismatches_;
         update.rejected_frames = rejected_ + counters.rejected_frames;
         update.connections = counters.connections;
+        update.repairs = repairs_;
+        update.bricks_repaired = bricks_repaired_;
         const auto now = std::chrono::steady_clock::now();
         update.frames_per_s = frame_rate_.update(frames_, now);
         update.bytes_per_s = byte_rate_.update(counters.bytes, now);
@@ -111,11 +142,17 @@ class BoneLink::Impl {
     LinkStatus status_ = LinkStatus::connecting;
     std::string line_;
     std::optional<SessionInfo> session_;
+    std::uint64_t session_number_ = 0;
     std::optional<BoneFollower> follower_;
+    std::optional<BoneRepair> repair_;
     std::uint64_t frames_ = 0;
     std::uint64_t verified_ = 0;
     std::uint64_t mismatches_ = 0;
     std::uint64_t rejected_ = 0;
+    std::uint64_t repairs_ = 0;
+    std::uint64_t bricks_repaired_ = 0;
+    DelayMeter delay_meter_;
+    std::optional<DelayMeter::Delay> delay_;
     RateMeter frame_rate_;
     RateMeter byte_rate_;
 };

@@ -2,8 +2,9 @@
 //
 // A thread of its own receives frames; poll() applies them, so the bone changes only inside poll(). Losing
 // the server is a status, never an exception: the link tries again after 0.2 s, then ever less often up to 2
-// s. Every checksum that the server states is checked. A mismatch, a gap in the sequence or a frame that
-// makes no sense is counted, shown, and answered by connecting afresh, which brings a fresh snapshot.
+// s. Every checksum that the server states is checked. A mismatch or a gap in the sequence is counted, shown,
+// and answered by asking for the bricks that differ: see BoneRepair. Where that fails, the server is older
+// than protocol 1.2, or a frame makes no sense, the link connects afresh, which brings a fresh snapshot.
 #pragma once
 
 #include <cstdint>
@@ -17,6 +18,7 @@
 #include "common/net/tls_files.h"
 #include "common/wire/session_info.h"
 #include "common/wire/tool_view.h"
+#include "render_client/link/delay_meter.h"
 
 namespace osteomill {
 
@@ -36,6 +38,9 @@ struct LinkUpdate {
     bool bone_replaced = false;            ///< bone() is another bone: upload all of it
     std::vector<BrickIndex> dirty_bricks;  ///< ascending, each once: edited since; empty if bone_replaced
     std::optional<ToolView> tool;          ///< the newest since the last poll, if any came
+    /// How old the newest tool of this session was when a poll took it; nothing where the server does not
+    /// say.
+    std::optional<DelayMeter::Delay> delay{};
 
     std::uint32_t snapshot_bricks = 0;        ///< received so far, while receiving_snapshot
     std::uint32_t snapshot_bricks_total = 0;  ///< announced, while receiving_snapshot
@@ -49,6 +54,8 @@ struct LinkUpdate {
     std::uint64_t checksum_mismatches = 0;  ///< stated by the server and found different
     std::uint64_t rejected_frames = 0;      ///< gaps in the sequence, frames that made no sense
     std::uint64_t connections = 0;          ///< sessions joined
+    std::uint64_t repairs = 0;              ///< after which bone() was equal again
+    std::uint64_t bricks_repaired = 0;      ///< that differed
 
     // Over about the last second.
     double frames_per_s = 0.0;

@@ -1,6 +1,7 @@
 // What the receiving thread hands to the UI thread, in the order in which it came.
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <variant>
 
@@ -12,6 +13,7 @@ namespace osteomill {
 /// A server said hello: what came from the one before is history.
 struct SessionBegan {
     SessionInfo info;
+    std::uint64_t number = 0;  ///< counted from 1
 };
 
 /// The link stands otherwise than before.

@@ -51,7 +51,15 @@ void ServerConnection::send(const OperatorIntent& intent) {
     asio::post(io_, [this, intent] {
         if (!accepts_operator_) return;
         newest_intent_ = intent;
-        write_newest_intent();
+        write_newest();
+    });
+}
+
+void ServerConnection::send(const v1::CompareBone& request, std::uint64_t session_number) {
+    asio::post(io_, [this, request, session_number] {
+        if (!receiver_.is_live() || counters_.connections != session_number) return;
+        newest_request_ = request;
+        write_newest();
     });
 }
 
@@ -126,10 +134,11 @@ void ServerConnection::disconnect() {
     retry_.cancel();
     recorder_room_.cancel();
     decoder_ = {};
-    receiver_ = {};
+    receiver_ = SessionReceiver(gaps());
     is_paused_ = false;
     accepts_operator_ = false;
     newest_intent_.reset();
+    newest_request_.reset();
     sent_sequence_ = 0;
     is_writing_ = false;
 }
@@ -199,7 +208,7 @@ void ServerConnection::take_event(SessionInfo session) {
     ++counters_.connections;
     counters_.snapshot_bricks = 0;
     counters_.snapshot_bricks_total = 0;
-    events_.push(SessionBegan{std::move(session)});
+    events_.push(SessionBegan{std::move(session), counters_.connections});
     announce(LinkStatus::receiving_snapshot, "receiving the bone from " + where_);
 }
 
@@ -228,19 +237,21 @@ void ServerConnection::take_event(const SpeaksOtherProtocol& other) {
     retry_later();
 }
 
-void ServerConnection::write_newest_intent() {
-    if (is_writing_ || !newest_intent_) return;
+void ServerConnection::write_newest() {
+    if (is_writing_ || !(newest_intent_ || newest_request_)) return;
     v1::ClientFrame frame;
     frame.set_sequence(++sent_sequence_);
-    *frame.mutable_operator_input() = to_message(*newest_intent_);
-    newest_intent_.reset();
+    if (newest_request_)
+        *frame.mutable_compare_bone() = *std::exchange(newest_request_, std::nullopt);
+    else
+        *frame.mutable_operator_input() = to_message(*std::exchange(newest_intent_, std::nullopt));
     std::string bytes;
     append_frame(frame, bytes);
     is_writing_ = true;
     stream_->write(std::move(bytes), [this, generation = generation_](error_code error) {
         if (generation != generation_) return;
         is_writing_ = false;
-        if (!error) write_newest_intent();  // an error shows in reading, too
+        if (!error) write_newest();  // an error shows in reading, too
     });
 }
 

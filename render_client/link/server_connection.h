@@ -50,6 +50,8 @@ class ServerConnection {
 
     // Any thread.
     void send(const OperatorIntent& intent);
+    /// Dropped if that session is over.
+    void send(const v1::CompareBone& request, std::uint64_t session_number);
     /// There is room in the queue again.
     void resume();
     /// Why nothing more is recorded; empty while all is well, and where nothing is to be.
@@ -61,6 +63,9 @@ class ServerConnection {
 
   private:
     using tcp = boost::asio::ip::tcp;
+
+    /// A recording has none: what a frame told that is missing there cannot be asked for in years.
+    Gaps gaps() const { return recorder_ ? Gaps::refused : Gaps::reported; }
 
     void run();
     void connect();
@@ -77,7 +82,7 @@ class ServerConnection {
     void take_event(StateArrived arrived);
     void take_event(const SaidGoodbye& goodbye);
     void take_event(const SpeaksOtherProtocol& other);
-    void write_newest_intent();
+    void write_newest();
     void reject(const std::string& line);
     void lose(const std::string& line);
     std::string describe_loss(boost::system::error_code error) const;
@@ -112,6 +117,7 @@ class ServerConnection {
     bool accepts_operator_ = false;
 
     std::optional<OperatorIntent> newest_intent_;
+    std::optional<v1::CompareBone> newest_request_;
     std::uint64_t sent_sequence_ = 0;
     bool is_writing_ = false;
 

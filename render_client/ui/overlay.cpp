@@ -71,8 +71,12 @@ void draw_session_panel(const OverlayContent& content, const glm::ivec2& size_px
     text(fmt::format("picture {:5.1f} frames/s", content.render_frames_per_s));
     text(fmt::format("{} {:5.1f} frames/s {:7.1f} kB/s", content.player ? "file   " : "link   ",
                      content.link.frames_per_s, 1e-3 * content.link.bytes_per_s));
+    if (const auto& delay = content.link.delay)
+        text(fmt::format("delay   {:5.0f} ms by the clocks, {:.0f} over the least", 1e3 * delay->by_clocks_s,
+                         1e3 * delay->over_least_s));
     if (const std::uint64_t bad = content.link.checksum_mismatches + content.link.rejected_frames; bad > 0)
-        coloured_text(vermillion, fmt::format("{} bad frames; the bone was fetched afresh", bad));
+        coloured_text(vermillion, fmt::format("{} bad frames; {} bricks were repaired", bad,
+                                              content.link.bricks_repaired));
     if (!content.help_shown) ImGui::TextDisabled("F1 help");
     ImGui::End();
 }

@@ -51,6 +51,16 @@ class ServedBone {
         is_carving_ = false;
         if (carver_.joinable()) carver_.join();
     }
+    /// While no thread carves.
+    void carve(int runs) {
+        for (int i = 0; i < runs; ++i) carve_somewhere(bone_, random_, edits_);
+        edits_.resend_overflowed(bone_);
+        ToolSnapshot tool;
+        tool.time_s = time_s_ += 0.001;
+        tool.force_n = {0.5, 0.0, 0.0};
+        tool_.back() = tool;
+        tool_.publish();
+    }
     /// Ends as the haptic server does: milling first, then whatever still waits, then streaming.
     void stop() {
         if (!server_) return;
@@ -76,16 +86,6 @@ class ServedBone {
     }
 
   private:
-    void carve(int runs) {
-        for (int i = 0; i < runs; ++i) carve_somewhere(bone_, random_, edits_);
-        edits_.resend_overflowed(bone_);
-        ToolSnapshot tool;
-        tool.time_s = time_s_ += 0.001;
-        tool.force_n = {0.5, 0.0, 0.0};
-        tool_.back() = tool;
-        tool_.publish();
-    }
-
     std::mt19937 random_;
     Bone bone_;
     EditQueue edits_;

@@ -7,6 +7,7 @@
 #include <boost/asio/write.hpp>
 #include <limits>
 #include <utility>
+#include <vector>
 
 #include "common/wire/frame.h"
 #include "common/wire/protocol_version.h"
@@ -51,10 +52,25 @@ class HostileServer : public ::testing::Test {
     }
     void send(const v1::ServerFrame& frame) { send(bytes_of(frame)); }
 
-    static v1::ServerFrame hello() {
+    v1::ServerFrame hello() const {
         v1::ServerFrame frame;
         frame.mutable_hello()->set_protocol_major(protocol_major);
+        frame.mutable_hello()->set_protocol_minor(minor_);
         *frame.mutable_hello()->add_burrs() = to_message(Burr{});
+        return frame;
+    }
+    /// One that says it compares bones: protocol 1.2.
+    void greet_as_one_that_compares() {
+        accept();
+        minor_ = first_minor_that_compares;
+        greet();
+        minor_ = 0;
+        ASSERT_TRUE(eventually([this] { return poll().status == LinkStatus::live; }));
+    }
+    v1::ServerFrame answer(std::uint64_t bone_checksum, std::vector<std::uint32_t> differing) {
+        v1::ServerFrame frame = state(bone_checksum);
+        frame.mutable_state()->mutable_comparison()->mutable_differing_part()->Assign(differing.begin(),
+                                                                                      differing.end());
         return frame;
     }
     v1::ServerFrame state(std::uint64_t bone_checksum) {
@@ -95,6 +111,7 @@ class HostileServer : public ::testing::Test {
     tcp::acceptor acceptor_{io_, {boost::asio::ip::address_v4::loopback(), 0}};
     tcp::socket socket_{io_};
     std::uint64_t sequence_ = 0;
+    std::uint32_t minor_ = 0;
     Bone bone_ = testing::make_block({0, 0, 0}, {3.2, 1.6, 1.6}, 0.1);
     BoneLink link_{"127.0.0.1", acceptor_.local_endpoint().port()};
     LinkUpdate last_;
@@ -124,6 +141,43 @@ TEST_F(HostileServer, IsAskedAfreshAfterAGapInTheSequence) {
     send(state(0));
     expect_loss("frame 6 came after 4");
     EXPECT_EQ(last_.rejected_frames, 1U);
+}
+
+TEST_F(HostileServer, IsAskedAfreshIfARepairHelpsNothing) {
+    greet_as_one_that_compares();
+    send(state(checksum(bone_) + 1));       // the client asks
+    send(answer(checksum(bone_) + 1, {}));  // and asks once more
+    send(answer(checksum(bone_) + 1, {}));
+    expect_loss("cannot be repaired");
+    EXPECT_EQ(last_.repairs, 0U);
+}
+
+TEST_F(HostileServer, IsAskedAfreshIfItNeverAnswersAComparison) {
+    greet_as_one_that_compares();
+    for (int i = 0; i < 30; ++i) send(state(checksum(bone_) + 1));
+    expect_loss("cannot be repaired");
+}
+
+TEST_F(HostileServer, IsAskedAfreshIfItsAnswerMakesNoSense) {
+    greet_as_one_that_compares();
+    send(state(checksum(bone_) + 1));
+    send(answer(0, {2}));
+    expect_loss("names part 2 of 2");
+}
+
+TEST_F(HostileServer, IsAskedAfreshIfFramesAreMissingFromARepair) {
+    greet_as_one_that_compares();
+    send(state(checksum(bone_) + 1));
+    ++sequence_;
+    send(state(0));
+    expect_loss("frames were lost while the bone was being repaired");
+}
+
+TEST_F(HostileServer, MayNotGoBackInItsSequence) {
+    greet_as_one_that_compares();
+    sequence_ -= 2;
+    send(state(0));
+    expect_loss("frame 3 came after 4");
 }
 
 TEST_F(HostileServer, IsAskedAfreshAfterAnEditThatDoesNotFit) {

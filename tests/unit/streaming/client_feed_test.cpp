@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "tests/support/block.h"
 #include "tests/support/random_carving.h"
 #include "tests/support/replica.h"
@@ -17,6 +19,17 @@ class Carver final : public EditSink {
     void push(const EditRun& run) noexcept override { ASSERT_TRUE(mirror_.apply(run)); }
     void carve(int runs) {
         for (int i = 0; i < runs; ++i) testing::carve_somewhere(bone_, random_, *this);
+        feed_.note(mirror_.take_changes());
+    }
+
+    /// Likewise, only the lower half of the bricks, and voxel by voxel.
+    void carve_first_bricks(int voxels) {
+        for (int i = 0; i < voxels; ++i) {
+            const std::size_t slot = random_() % (bone_.stored_bricks() / 2);
+            push({.brick = bone_.content().brick_of_slot[slot],
+                  .first_voxel = static_cast<std::uint16_t>(random_() % brick_voxel_count),
+                  .count = 1});
+        }
         feed_.note(mirror_.take_changes());
     }
 
@@ -87,6 +100,84 @@ TEST_F(ClientFeedTest, SplitsEditsThatDoNotFitAFrame) {
     expect_equal();
 }
 
+TEST_F(ClientFeedTest, TellsOfEveryBrickInTurnHoweverFastTheFirstOnesChange) {
+    drain();
+    const BrickIndex last = mirror_->bone().content().brick_of_slot.back();
+    carver_->carve(60'000);
+    feed_->request_state({}, false);
+    int frames = 0;
+    for (bool is_told = false; !is_told; ++frames) {
+        ASSERT_LT(frames, 20);
+        replica_.take(*feed_->next());
+        const auto slot = mirror_->bone().slot(last);
+        is_told = std::ranges::equal(replica_.bone()->fractions(slot), mirror_->bone().fractions(slot));
+        carver_->carve_first_bricks(20'000);  // more than a frame's worth
+        feed_->request_state({}, false);
+    }
+    EXPECT_GT(frames, 1);
+}
+
+TEST_F(ClientFeedTest, CostsNoMoreForAClientThatNeverReadsThanForItsDirtyBricks) {
+    drain();
+    for (int i = 0; i < 300; ++i) {
+        carver_->carve(300);
+        feed_->request_state({.time_s = 0.1 * i}, i % 30 == 0);
+    }
+    EXPECT_LE(feed_->untold().bricks(), mirror_->bone().stored_bricks());
+    EXPECT_LE(feed_->untold().masks(), UntoldVoxels::most_masks);
+    EXPECT_LT(drain(), 300) << "frames";
+    expect_equal();
+}
+
+/// All bricks of the bone as one part, with a checksum that is not theirs.
+v1::CompareBone doubt_of(const Bone& bone) {
+    v1::CompareBone request;
+    v1::BrickRange& range = *request.add_ranges();
+    const glm::uvec3 size(bone.content().size_bricks);
+    range.set_brick_count(std::uint64_t{size.x} * size.y * size.z);
+    range.set_bricks_per_part(range.brick_count());
+    range.add_part_checksum(checksum(bone) + 1);
+    return request;
+}
+
+TEST_F(ClientFeedTest, TellsBricksThatDifferWhole) {
+    drain();
+    const BrickIndex brick = mirror_->bone().content().brick_of_slot[7];
+    v1::CompareBone request;
+    v1::BrickRange& range = *request.add_ranges();
+    range.set_first_brick(brick);
+    range.set_brick_count(1);
+    range.set_bricks_per_part(1);
+    range.add_part_checksum(checksum_of_brick(brick, mirror_->bone().fractions(7)));
+    EXPECT_FALSE(feed_->compare(request));
+    EXPECT_EQ(drain(), 1);
+    EXPECT_EQ(replica_.edits_of_last_state(), 0U) << "it does not differ";
+    EXPECT_EQ(replica_.checksums(), 1U);
+    range.set_part_checksum(0, 5);
+    EXPECT_FALSE(feed_->compare(request));
+    drain();
+    EXPECT_EQ(replica_.edits_of_last_state(), 1U);
+    EXPECT_EQ(replica_.checksums(), 2U);
+    EXPECT_TRUE(feed_->untold().empty());
+}
+
+TEST_F(ClientFeedTest, RefusesComparisonsThatNoHonestClientAsksFor) {
+    const v1::CompareBone request = doubt_of(mirror_->bone());
+    EXPECT_EQ(feed_->compare(request)->line, "it compares a bone that it has not been sent yet");
+    drain();
+    EXPECT_EQ(feed_->compare({})->line, "comparison refused: it has 0 parts, not 1 to 128");
+    EXPECT_FALSE(feed_->compare(request));
+    EXPECT_EQ(feed_->compare(request)->line, "it compares again before it has been answered");
+    drain();
+    for (int i = 0; i < 2 * most_requests_of_a_search - 2; ++i) {
+        ASSERT_FALSE(feed_->compare(request));
+        drain();
+    }
+    EXPECT_EQ(feed_->compare(request)->line, "it compares too often");
+    feed_->request_state({}, false);
+    EXPECT_FALSE(feed_->compare(request)) << "one for each state";
+}
+
 TEST_F(ClientFeedTest, SaysNothingBetweenStates) {
     drain();
     carver_->carve(10);
@@ -94,9 +185,27 @@ TEST_F(ClientFeedTest, SaysNothingBetweenStates) {
     feed_->request_state({}, false);
     EXPECT_EQ(drain(), 1);
     EXPECT_EQ(replica_.checksums(), 0U);
-    feed_->request_state({}, false);
+    feed_->request_state({.spindle_on = true}, false);
     drain();
     EXPECT_EQ(replica_.edits_of_last_state(), 0U) << "told once";
+}
+
+TEST_F(ClientFeedTest, TellsOfAToolThatRestsTenTimesASecond) {
+    drain();
+    int frames = 0;
+    for (int i = 0; i < 90; ++i) {
+        feed_->request_state({.time_s = i / 30.0}, i % 30 == 0);
+        frames += drain();
+    }
+    EXPECT_EQ(frames, 30);
+    EXPECT_EQ(replica_.checksums(), 3U);
+    feed_->request_state({.time_s = 3.0}, false);
+    EXPECT_EQ(drain(), 1);
+    feed_->request_state({.time_s = 3.001, .force_n = {1, 0, 0}}, false);
+    EXPECT_EQ(drain(), 1) << "news goes out at once";
+    carver_->carve(1);
+    feed_->request_state({.time_s = 3.002, .force_n = {1, 0, 0}}, false);
+    EXPECT_EQ(drain(), 1);
 }
 
 TEST_F(ClientFeedTest, EndsWithTheFinalChecksumAndGoodbyeEvenInTheMiddleOfASnapshot) {

@@ -133,7 +133,7 @@ TEST(StreamingServer, DropsClientsThatTalkNonsenseWhileOthersNoticeNothing) {
     const double not_a_number = std::numeric_limits<double>::quiet_NaN();
     {
         RawClient http(served.port()), oversize(served.port()), bodiless(served.port()), late(served.port()),
-            nowhere(served.port()), burr(served.port());
+            nowhere(served.port()), burr(served.port()), doubter(served.port());
         http.send("GET / HTTP/1.1\r\nHost: osteomill.example\r\nAccept: text/html, any/any\r\n\r\n" +
                   std::string(200, 'x'));
         oversize.send("\xff\xff\xff\xff\xff\xff");
@@ -141,7 +141,11 @@ TEST(StreamingServer, DropsClientsThatTalkNonsenseWhileOthersNoticeNothing) {
         late.send(input_frame(7, {}));
         nowhere.send(input_frame(1, {.hand_target_mm = {0, not_a_number, 0}}));
         burr.send(input_frame(1, {.burr = 2}));
-        for (RawClient* client : {&http, &oversize, &bodiless, &late, &nowhere, &burr})
+        v1::ClientFrame doubt;
+        doubt.set_sequence(1);
+        doubt.mutable_compare_bone();
+        doubter.send(doubt);
+        for (RawClient* client : {&http, &oversize, &bodiless, &late, &nowhere, &burr, &doubter})
             EXPECT_TRUE(client->is_dropped());
     }
     EXPECT_FALSE(served.operator_input().present);

@@ -32,7 +32,8 @@ class BoneFollowerTest : public ::testing::Test {
 TEST_F(BoneFollowerTest, FollowsAndVerifies) {
     const auto outcome = follower_.apply(halve_a_voxel(), dirty_);
     ASSERT_TRUE(std::holds_alternative<BoneFollower::Applied>(outcome));
-    EXPECT_TRUE(std::get<BoneFollower::Applied>(outcome).is_verified);
+    EXPECT_EQ(std::get<BoneFollower::Applied>(outcome).check, CopyCheck::equal);
+    EXPECT_FALSE(std::get<BoneFollower::Applied>(outcome).has_regained_bone);
     EXPECT_EQ(std::get<BoneFollower::Applied>(outcome).tool.time_s, 1.5);
     EXPECT_EQ(checksum(follower_.bone()), checksum(servers_));
     EXPECT_EQ(follower_.checksum(), checksum(servers_));
@@ -43,7 +44,20 @@ TEST_F(BoneFollowerTest, SaysThatItDiffersAfterAnEditWasLost) {
     halve_a_voxel();
     auto frame = halve_a_voxel();
     frame.clear_edits();
-    EXPECT_TRUE(std::holds_alternative<BoneDiffers>(follower_.apply(frame, dirty_)));
+    const auto outcome = follower_.apply(frame, dirty_);
+    ASSERT_TRUE(std::holds_alternative<BoneFollower::Applied>(outcome));
+    EXPECT_EQ(std::get<BoneFollower::Applied>(outcome).check, CopyCheck::differs);
+}
+
+TEST_F(BoneFollowerTest, TakesBackBoneThatItHadLostAndSaysSo) {
+    const BrickIndex brick = servers_.content().brick_of_slot[3];
+    follower_.set_fractions(brick, ByteBrick{});
+    v1::StateFrame frame = halve_a_voxel();
+    *frame.mutable_edits(0) = brick_edit(brick, servers_.fractions(3), VoxelMask().set());
+    const auto outcome = follower_.apply(frame, dirty_);
+    ASSERT_TRUE(std::holds_alternative<BoneFollower::Applied>(outcome));
+    EXPECT_TRUE(std::get<BoneFollower::Applied>(outcome).has_regained_bone);
+    EXPECT_EQ(std::get<BoneFollower::Applied>(outcome).check, CopyCheck::equal);
 }
 
 TEST_F(BoneFollowerTest, RefusesWhatMakesNoSense) {

@@ -31,7 +31,8 @@ class SessionReceiverTest : public ::testing::Test {
     }
     v1::ServerFrame hello(std::uint32_t major = protocol_major) {
         auto frame = next();
-        *frame.mutable_hello() = to_message(SessionInfo{.protocol_major = major, .burrs = {Burr{}}});
+        *frame.mutable_hello() = to_message(
+            SessionInfo{.protocol_major = major, .protocol_minor = server_minor_, .burrs = {Burr{}}});
         return frame;
     }
     v1::ServerFrame state() {
@@ -60,6 +61,7 @@ class SessionReceiverTest : public ::testing::Test {
     Bone bone_ = testing::make_block({0, 0, 0}, {2, 2, 2}, 0.1);
     SessionReceiver receiver_;
     std::uint64_t sequence_ = 0;
+    std::uint32_t server_minor_ = protocol_minor;
 };
 
 TEST_F(SessionReceiverTest, TakesASessionInItsOrder) {
@@ -70,6 +72,31 @@ TEST_F(SessionReceiverTest, TakesASessionInItsOrder) {
     goodbye.mutable_goodbye();
     expect<SaidGoodbye>(goodbye);
     expect_refused(state(), "is not what should come there");
+}
+
+TEST_F(SessionReceiverTest, SaysThatStatesAreMissingWhereTheyCanBeAskedFor) {
+    receiver_ = SessionReceiver(Gaps::reported);
+    go_live();
+    ++sequence_;
+    const auto outcome = receiver_.take(state());
+    ASSERT_TRUE(std::holds_alternative<SessionEvent>(outcome));
+    EXPECT_TRUE(std::get<StateArrived>(std::get<SessionEvent>(outcome)).follows_gap);
+    expect<StateArrived>(state());
+    sequence_ -= 2;
+    expect_refused(state(), "frame 6 came after 7");
+}
+
+TEST_F(SessionReceiverTest, RefusesAGapBeforeTheBoneIsCompleteAndFromAServerThatComparesNothing) {
+    receiver_ = SessionReceiver(Gaps::reported);
+    expect<SessionInfo>(hello());
+    ++sequence_;
+    expect_refused(state(), "frame 3 came after 1");
+    receiver_ = SessionReceiver(Gaps::reported);
+    sequence_ = 0;
+    server_minor_ = first_minor_that_compares - 1;
+    go_live();
+    ++sequence_;
+    expect_refused(state(), "frame 6 came after 4");
 }
 
 TEST_F(SessionReceiverTest, RefusesWhatComesOutOfOrder) {

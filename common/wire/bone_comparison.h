@@ -1,0 +1,70 @@
+// Finds the bricks in which two copies of a bone differ, without sending either.
+//
+// Checksums of bricks add up, so a range of bricks has one, too. Who doubts its copy sends the checksums of a
+// hundred parts of the grid; the other side says which parts differ; these are cut into smaller parts, and
+// so on until the parts are bricks. A brick that differs in a bone of 8192 bricks is found with two requests
+// of a kilobyte; in one of two million with three.
+//
+// The other side may change meanwhile: then some brick is called different that only lags behind, which does
+// no harm. One that is called equal is equal, but for a chance of 2^-64.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <variant>
+#include <vector>
+
+#include "common/bone/bone.h"
+#include "common/wire/running_checksum.h"
+#include "common/wire/wire_error.h"
+#include "osteomill/v1/bone.pb.h"
+
+namespace osteomill {
+
+/// Keeps a request within 3 KiB, and what it makes the other side do within one pass over its checksums.
+inline constexpr std::size_t most_parts_of_a_comparison = 128;
+
+/// A copy that needs more requests than this differs so widely that a fresh snapshot costs less.
+inline constexpr int most_requests_of_a_search = 64;
+
+/// The side of the copy that is in doubt.
+class DifferenceSearch {
+  public:
+    /// `bone` is the copy; the same one is to be passed to next().
+    explicit DifferenceSearch(const Bone& bone);
+
+    /// What to ask next, of the copy as it now is; nothing when all that differs has been found. To be called
+    /// when the request before has been answered.
+    std::optional<v1::CompareBone> next(const Bone& bone, const RunningChecksum& checksum);
+
+    /// The answer. Refuses one that nobody waits for, and parts that were not asked about.
+    std::optional<WireError> take(const v1::Comparison& answer);
+
+    bool awaits_answer() const { return !asked_.empty(); }
+    int requests() const { return requests_; }
+    /// Bricks that differ, so far.
+    std::size_t bricks_found() const { return bricks_found_; }
+
+  private:
+    struct Range {
+        BrickIndex first = 0;
+        std::uint64_t count = 0;
+    };
+    std::map<BrickIndex, std::uint64_t> suspects_;  // ranges that differ: count by first brick
+    std::vector<Range> asked_;                      // the parts of the request under way
+    int requests_ = 0;
+    std::size_t bricks_found_ = 0;
+};
+
+struct ComparedBone {
+    v1::Comparison answer;
+    std::vector<BrickIndex> differing_bricks;  ///< stored here: those to be told whole
+};
+
+/// The side of the bone that counts. Refuses ranges that overlap or reach past the grid, parts that do not
+/// make up their range, and more of them than most_parts_of_a_comparison.
+std::variant<ComparedBone, WireError> compare_bone(const v1::CompareBone& request, const Bone& bone,
+                                                   const RunningChecksum& checksum);
+
+}  // namespace osteomill

@@ -1,0 +1,48 @@
+// What a client has yet to be told of the bone: voxels of bricks, told brick by brick, each in its turn.
+//
+// The turn goes round the grid: after a brick comes the next above it that is waiting, and after the last
+// the first. So a brick waits for each other one at most once, even where bricks before it keep changing
+// faster than the client reads.
+//
+// Bounded: one entry of about 60 bytes for each stored brick that is waiting, and a mask of 512 bytes for
+// the first `most_masks` of them. Beyond these a brick is told whole.
+#pragma once
+
+#include <cstddef>
+#include <map>
+#include <memory>
+
+#include "common/wire/brick_edit.h"
+
+namespace osteomill {
+
+class UntoldVoxels {
+  public:
+    /// 2 MiB of masks: far more bricks than a burr touches while a network hiccups.
+    static constexpr std::size_t most_masks = 4096;
+
+    void add(BrickIndex brick, const VoxelMask& voxels);
+    void add_whole(BrickIndex brick);
+
+    bool empty() const { return waiting_.empty(); }
+    std::size_t bricks() const { return waiting_.size(); }
+    std::size_t masks() const { return masks_; }
+
+    struct Turn {
+        BrickIndex brick = 0;
+        VoxelMask voxels;
+    };
+    /// Whose turn it is; not to be called on an empty set.
+    Turn next() const;
+    /// The brick of next() has been told: the turn goes on.
+    void told();
+
+  private:
+    std::map<BrickIndex, std::unique_ptr<VoxelMask>>::const_iterator turn() const;
+
+    std::map<BrickIndex, std::unique_ptr<VoxelMask>> waiting_;  // null: the whole brick
+    std::size_t masks_ = 0;
+    BrickIndex turn_ = 0;  // bricks from here on come first
+};
+
+}  // namespace osteomill

@@ -1,0 +1,51 @@
+#include "render_client/link/bone_repair.h"
+
+#include <utility>
+
+namespace osteomill {
+
+namespace {
+
+/// A second, for what a frame lost between the search and its end told. More would hide a defect.
+constexpr int most_searches = 2;
+
+/// One a second: who has not answered by then never will.
+constexpr int most_mismatches = 20;
+
+const WireError failed{"the bone differs from the server's and cannot be repaired"};
+
+}  // namespace
+
+BoneRepair::Progress BoneRepair::begin(const BoneFollower& follower) {
+    if (++searches_ > most_searches) return failed;
+    search_.emplace(follower.bone());
+    has_found_all_ = false;
+    return ask_next(follower);
+}
+
+BoneRepair::Progress BoneRepair::take(const StateArrived& state, CopyCheck check,
+                                      const BoneFollower& follower) {
+    // The answer may be among what is missing.
+    if (state.follows_gap) return WireError{"frames were lost while the bone was being repaired"};
+    GoesOn next;
+    if (state.frame.has_comparison()) {
+        if (auto error = search_->take(state.frame.comparison())) return std::move(*error);
+        Progress progress = ask_next(follower);
+        if (std::holds_alternative<WireError>(progress)) return progress;
+        next = std::get<GoesOn>(std::move(progress));
+    }
+    if (has_found_all_ && check == CopyCheck::equal) return Done{search_->bricks_found()};
+    if (has_found_all_ && check == CopyCheck::differs) return begin(follower);
+    if (check == CopyCheck::differs && ++mismatches_ > most_mismatches) return failed;
+    return next;
+}
+
+BoneRepair::Progress BoneRepair::ask_next(const BoneFollower& follower) {
+    GoesOn next{search_->next(follower.bone(), follower.running_checksum())};
+    if (search_->requests() > most_requests_of_a_search)
+        return WireError{"the bone differs from the server's almost everywhere"};
+    has_found_all_ = !next.ask;
+    return next;
+}
+
+}  // namespace osteomill

@@ -1,0 +1,44 @@
+// Brings a copy of the bone that differs from the server's level with it again, without a new snapshot.
+//
+// The copy is compared with the server's in ever smaller parts; bricks that differ come with the state
+// frames, which go on meanwhile. The next checksum that the server states then must hold. A copy that still
+// differs is searched once more; what goes on to fail needs a snapshot.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <variant>
+
+#include "common/wire/bone_comparison.h"
+#include "common/wire/bone_follower.h"
+#include "common/wire/wire_error.h"
+
+namespace osteomill {
+
+class BoneRepair {
+  public:
+    struct GoesOn {
+        std::optional<v1::CompareBone> ask{};  ///< to be sent to the server
+    };
+    struct Done {
+        std::size_t bricks = 0;  ///< that differed
+    };
+    /// An error: the repair has failed.
+    using Progress = std::variant<GoesOn, Done, WireError>;
+
+    /// Of the copy that `follower` has.
+    Progress begin(const BoneFollower& follower);
+
+    /// After a state frame has been applied.
+    Progress take(const StateArrived& state, CopyCheck check, const BoneFollower& follower);
+
+  private:
+    Progress ask_next(const BoneFollower& follower);
+
+    std::optional<DifferenceSearch> search_;
+    bool has_found_all_ = false;
+    int searches_ = 0;
+    int mismatches_ = 0;
+};
+
+}  // namespace osteomill

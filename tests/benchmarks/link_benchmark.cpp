@@ -1,0 +1,248 @@
+// What the link costs, beside what it may cost: sizes, rates and the delay of a motion. Prints; asserts
+// nothing.
+//
+// Snapshot: the tooth phantom's, 512 x 512 x 128 voxels, as a new client is sent it. Its raw size: that of
+// its voxels, a byte for each of fraction, stiffness and tissue.
+// Carving, idle: the session on the virtual clock, its state frames as a client that keeps up is sent them.
+// Carving: the 5 mm burr clears a cavity at 6 mm/s, which no force slows down. Idle: a hand holds the tool
+// still.
+// Motion: a device on the real clock that moves by 0.2 mm now and then; from the device's reading of that
+// to a client's having the frame that shows it, over loopback.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <cstdio>
+#include <limits>
+#include <memory>
+#include <random>
+#include <thread>
+#include <vector>
+
+#include "common/wire/scene_messages.h"
+#include "haptic_server/device/simulated_device.h"
+#include "haptic_server/imaging/phantom.h"
+#include "haptic_server/loop/milling_session.h"
+#include "haptic_server/program/bone_source.h"
+#include "haptic_server/streaming/client_feed.h"
+#include "haptic_server/streaming/live_session.h"
+#include "haptic_server/streaming/streaming_server.h"
+#include "render_client/link/bone_link.h"
+
+namespace osteomill {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+void print(const std::string& what, double value, const std::string& unit, double target) {
+    fmt::print("{:<44}{:>10.2f} {:<5} target under {:g}\n", what, value, unit, target);
+    std::fflush(stdout);
+}
+
+double ms_between(Clock::time_point from, Clock::time_point to) {
+    return std::chrono::duration<double, std::milli>(to - from).count();
+}
+
+void measure_snapshot(const Scene& scene, const Bone& bone) {
+    const BoneMirror mirror(bone);
+    SnapshotPacker packer;
+    const auto began = Clock::now();
+    ClientFeed feed(to_message(session_info(scene, false, 3.3, "")), mirror, packer);
+    std::size_t bytes = 0;
+    while (const auto frame = feed.next()) bytes += frame->size();
+    const double pack_ms = ms_between(began, Clock::now());
+    const glm::dvec3 size(bone.grid().size_voxels);
+    const double raw_bytes = 3.0 * size.x * size.y * size.z;
+    const double sent = static_cast<double>(bytes);
+    print("snapshot, share of 512 x 512 x 128 voxels", 100.0 * sent / raw_bytes, "%", 15);
+    fmt::print("  {:.2f} MB of {:.1f} MB; of the {:.1f} MB that are stored {:.1f} %; packed in {:.0f} ms\n",
+               1e-6 * sent, 1e-6 * raw_bytes, 3e-6 * static_cast<double>(bone.stored_bricks()) * 4096,
+               100.0 * sent / (3.0 * static_cast<double>(bone.stored_bricks()) * 4096), pack_ms);
+    constexpr double bytes_per_s_of_100_mbit = 12.5e6;
+    // Packing and sending take turns, piece by piece, at worst.
+    print("snapshot, time at 100 Mbit/s", sent / bytes_per_s_of_100_mbit + 1e-3 * pack_ms, "s", 1);
+}
+
+struct Rate {
+    double mean_bytes_per_s = 0.0;
+    double most_bytes_in_a_second = 0.0;
+    double removed_mm3 = 0.0;
+};
+
+Trajectory trajectory_of(const Scene& scene) {
+    return make_trajectory(scene.trajectory, scene.start_pose, scene.burrs, scene.start_burr);
+}
+
+/// A device that follows its trajectory whatever pushes back.
+class DeviceOnRails final : public HapticDevice {
+  public:
+    explicit DeviceOnRails(Trajectory trajectory) : trajectory_(std::move(trajectory)) {}
+    std::string name() const override { return "rails"; }
+    DeviceLimits limits() const override { return {}; }
+    void start() override {}
+    DeviceState read(double now_s) noexcept override {
+        const TrajectorySample now = trajectory_.at(now_s);
+        return {.position_mm = now.target.position_mm,
+                .spindle_axis = now.target.spindle_axis,
+                .pedal = now.pedal};
+    }
+    void write(const glm::dvec3&) noexcept override {}
+    void stop() noexcept override {}
+
+  private:
+    Trajectory trajectory_;
+};
+
+/// Bytes of state frames from `from_s` to the session's end.
+Rate rate_of(const Scene& scene, const Bone& bone, HapticDevice& device, double from_s, double to_s) {
+    const auto session = std::make_unique<MillingSession>(
+        scene, bone, device,
+        MillingSessionOptions{
+            .clock = ClockKind::virtual_time, .duration_s = to_s, .edits_are_consumed = true});
+    LiveSession shown(session->tool(), session->edits());
+    BoneMirror mirror(bone);
+    SnapshotPacker packer;
+    ClientFeed feed(to_message(session_info(scene, false, 3.3, "")), mirror, packer);
+    while (feed.next()) {
+    }
+    std::vector<double> bytes_in_second(static_cast<std::size_t>(to_s - from_s) + 1, 0.0);
+    double removed_before_mm3 = 0.0;
+    double removed_mm3 = 0.0;
+    std::uint64_t frames = 0;
+    session->run(std::atomic<bool>{false}, [&](const ToolSnapshot&) {
+        ToolView tool = shown.update(mirror, 1);
+        tool.taken_unix_ns = 1'700'000'000'000'000'000;  // as a server would
+        feed.note(mirror.take_changes());
+        feed.request_state(tool, frames++ % 30 == 0);
+        std::size_t bytes = 0;
+        while (const auto frame = feed.next()) bytes += frame->size();
+        removed_mm3 = tool.removed_mm3;
+        if (tool.time_s < from_s)
+            removed_before_mm3 = removed_mm3;
+        else
+            bytes_in_second[static_cast<std::size_t>(tool.time_s - from_s)] += static_cast<double>(bytes);
+    });
+    Rate rate{.removed_mm3 = removed_mm3 - removed_before_mm3};
+    for (const double bytes : bytes_in_second) {
+        rate.mean_bytes_per_s += bytes / (to_s - from_s);
+        rate.most_bytes_in_a_second = std::max(rate.most_bytes_in_a_second, bytes);
+    }
+    return rate;
+}
+
+void measure_carving(Scene scene, const Bone& bone) {
+    scene.start_burr = 5;  // 5 mm
+    scene.trajectory.source = BuiltInTrajectory::cavity;
+    scene.trajectory.speed_mm_per_s = 6.0;
+    scene.trajectory.width_mm = 9.0;
+    scene.trajectory.depth_mm = 4.0;
+    constexpr double from_s = 2.0;
+    constexpr double to_s = 32.0;
+    scene.device = {};
+    DeviceOnRails device(trajectory_of(scene));
+    const Rate rate = rate_of(scene, bone, device, from_s, to_s);
+    print("carving at 6 mm/s with the 5 mm burr", 1e-3 * rate.mean_bytes_per_s, "kB/s", 60);
+    print("  the worst second of it", 1e-3 * rate.most_bytes_in_a_second, "kB/s", 60);
+    fmt::print("  {:.1f} mm^3 removed in {:.0f} s\n", rate.removed_mm3, to_s - from_s);
+}
+
+void measure_idle(Scene scene, const Bone& bone) {
+    scene.trajectory.source = BuiltInTrajectory::hold;
+    SimulatedDevice device(trajectory_of(scene), scene.device, ArmModel{}, hand_model(Grip::firm));
+    const Rate rate = rate_of(scene, bone, device, 2.0, 12.0);
+    print("idle", 1e-3 * rate.mean_bytes_per_s, "kB/s", 3);
+}
+
+/// A device that is held still but for steps along x, and remembers when it read the last.
+class SteppingDevice final : public HapticDevice {
+  public:
+    explicit SteppingDevice(const glm::dvec3& position_mm) : position_mm_(position_mm) {}
+    std::string name() const override { return "steps"; }
+    DeviceLimits limits() const override { return {}; }
+    void start() override {}
+    DeviceState read(double) noexcept override {
+        const int wanted = wanted_.load();
+        if (wanted != read_) {
+            read_ = wanted;
+            read_at_.store(Clock::now().time_since_epoch().count());
+        }
+        return {.position_mm = position_mm_ + glm::dvec3(0.2 * (read_ % 2), 0.0, 0.0)};
+    }
+    void write(const glm::dvec3&) noexcept override {}
+    void stop() noexcept override {}
+
+    /// Any thread.
+    void step() { ++wanted_; }
+    Clock::time_point read_at() const { return Clock::time_point(Clock::duration(read_at_.load())); }
+
+  private:
+    const glm::dvec3 position_mm_;
+    std::atomic<int> wanted_{0};
+    std::atomic<Clock::rep> read_at_{0};
+    int read_ = 0;
+};
+
+void measure_motion(Scene scene, const Bone& bone) {
+    scene.device = {};
+    SteppingDevice device(scene.start_pose.position_mm);
+    const auto session = std::make_unique<MillingSession>(scene, bone, device,
+                                                          MillingSessionOptions{.edits_are_consumed = true});
+    LiveSession shown(session->tool(), session->edits());
+    StreamingServer server({.port = 0}, session_info(scene, false, 3.3, ""), bone, shown);
+    server.start();
+    std::atomic<bool> is_over{false};
+    std::thread running([&] { session->run(is_over); });
+
+    BoneLink link("127.0.0.1", server.port());
+    std::optional<double> seen_x_mm;
+    std::optional<DelayMeter::Delay> stamped;
+    const auto newest = [&] {
+        const LinkUpdate update = link.poll();
+        stamped = update.delay;
+        if (update.tool) seen_x_mm = update.tool->hand_position_mm.x;
+        std::this_thread::sleep_for(std::chrono::microseconds(200));
+        return seen_x_mm;
+    };
+    while (!newest()) {
+    }
+    std::vector<double> delays_ms;
+    std::vector<double> stamped_ms;
+    std::mt19937 random(1);
+    std::uniform_real_distribution<double> rest_s(0.05, 0.1);
+    for (int i = 0; i < 200; ++i) {
+        const auto until = Clock::now() + std::chrono::duration<double>(rest_s(random));
+        while (Clock::now() < until) newest();
+        const double before_mm = *seen_x_mm;
+        device.step();
+        while (std::abs(*newest() - before_mm) < 0.1) {
+        }
+        delays_ms.push_back(ms_between(device.read_at(), Clock::now()));
+        stamped_ms.push_back(1e3 * stamped->by_clocks_s);
+    }
+    is_over = true;
+    running.join();
+    server.stop();
+    std::ranges::sort(delays_ms);
+    std::ranges::sort(stamped_ms);
+    print("motion to frame at 30 Hz, median", delays_ms[delays_ms.size() / 2], "ms", 40);
+    print("motion to frame at 30 Hz, 99th percentile", delays_ms[delays_ms.size() * 99 / 100], "ms", 40);
+    fmt::print(
+        "  of that after the server took it, as the client shows: median {:.2f} ms, 99th percentile "
+        "{:.2f} ms\n",
+        stamped_ms[stamped_ms.size() / 2], stamped_ms[stamped_ms.size() * 99 / 100]);
+}
+
+}  // namespace
+}  // namespace osteomill
+
+int main() {
+    using namespace osteomill;
+    const Scene scene = phantom_scene("tooth");
+    const Bone bone = load_bone(scene).bone;
+    measure_snapshot(scene, bone);
+    measure_carving(scene, bone);
+    measure_idle(scene, bone);
+    measure_motion(scene, bone);
+    return 0;
+}

@@ -1,0 +1,51 @@
+#include "haptic_server/streaming/quiet_tool.h"
+
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <vector>
+
+namespace osteomill {
+namespace {
+
+const ToolView told{.time_s = 5.0,
+                    .burr_position_mm = {1, 2, 3},
+                    .hand_position_mm = {1, 2, 4},
+                    .force_n = {0, 0, 1},
+                    .burr = 1};
+
+TEST(QuietTool, MayTrembleAndAge) {
+    ToolView now = told;
+    now.time_s += 0.09;
+    now.taken_unix_ns += 90'000'000;
+    now.burr_position_mm.x += 0.001;
+    now.force_n.y -= 0.001;
+    EXPECT_TRUE(is_quiet(told, now));
+    now.time_s = 5.1;
+    EXPECT_FALSE(is_quiet(told, now)) << "now and then it is told of, anyway";
+    now.time_s = 4.9;
+    EXPECT_FALSE(is_quiet(told, now)) << "time went back: another session or place in a recording";
+}
+
+TEST(QuietTool, DoesNothingThatAViewerWouldSee) {
+    const std::vector<std::function<void(ToolView&)>> changes{
+        [](ToolView& tool) { tool.burr_position_mm.z += 0.01; },
+        [](ToolView& tool) { tool.hand_position_mm.x += 0.01; },
+        [](ToolView& tool) {
+            tool.spindle_axis = {0.001, 0, 1};
+        },
+        [](ToolView& tool) { tool.force_n.x = 0.01; },
+        [](ToolView& tool) { tool.burr = 0; },
+        [](ToolView& tool) { tool.spindle_on = true; },
+        [](ToolView& tool) { tool.removed_mm3 = 1e-9; },
+        [](ToolView& tool) { tool.touches_protected = true; },
+        [](ToolView& tool) { tool.fault = "the device is gone"; }};
+    for (const auto& change : changes) {
+        ToolView now = told;
+        change(now);
+        EXPECT_FALSE(looks_the_same(told, now)) << "change " << &change - changes.data();
+    }
+}
+
+}  // namespace
+}  // namespace osteomill
