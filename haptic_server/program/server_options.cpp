@@ -211,15 +211,7 @@ CommandLine parse_command_line(int argc, const char* const* argv, const std::str
     app.set_version_flag("--version", fmt::format("haptic_server {}", version));
     declare(app, typed);
     const AccessOptions access(app);
-    try {
-        app.parse(argc, argv);
-    } catch (const CLI::CallForHelp&) {
-        return {std::nullopt, app.help()};
-    } catch (const CLI::CallForVersion&) {
-        return {std::nullopt, app.version() + "\n"};
-    } catch (const CLI::ParseError& error) {
-        throw std::invalid_argument(fmt::format("{}; see --help", error.what()));
-    }
+    if (auto text = parse_or_text(app, argc, argv)) return {std::nullopt, *std::move(text)};
     return {checked(typed, access), {}};
 }
 

@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 
+#include "haptic_server/command_line/command_line.h"
 #include "haptic_server/device/hand_model.h"
 #include "haptic_server/loop/milling_session.h"
 #include "haptic_server/streaming/access_options.h"
@@ -31,11 +32,7 @@ struct ServerOptions {
     std::optional<std::filesystem::path> log_milling_csv;
 };
 
-/// What the command line asks for: options to run with, or a text (help, version) to print and be done.
-struct CommandLine {
-    std::optional<ServerOptions> options;
-    std::string text;
-};
+using CommandLine = Asked<ServerOptions>;
 
 /// Throws std::invalid_argument with one line for wrong usage.
 CommandLine parse_command_line(int argc, const char* const* argv, const std::string& version);

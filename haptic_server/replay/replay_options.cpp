@@ -40,15 +40,7 @@ ReplayCommandLine parse_replay_command_line(int argc, const char* const* argv, c
     app.add_option("--csv", csv,
                    "Write time, pose, force, burr, spindle and removed volume, a line a frame; serve nobody")
         ->type_name("FILE");
-    try {
-        app.parse(argc, argv);
-    } catch (const CLI::CallForHelp&) {
-        return {std::nullopt, app.help()};
-    } catch (const CLI::CallForVersion&) {
-        return {std::nullopt, app.version() + "\n"};
-    } catch (const CLI::ParseError& error) {
-        throw std::invalid_argument(fmt::format("{}; see --help", error.what()));
-    }
+    if (auto text = parse_or_text(app, argc, argv)) return {std::nullopt, *std::move(text)};
     if (!json.empty()) options.json = json;
     if (!csv.empty()) options.csv = csv;
     for (const CLI::Option* serving : {where, speed, from})

@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 
+#include "haptic_server/command_line/command_line.h"
 #include "haptic_server/streaming/access_options.h"
 
 namespace osteomill {
@@ -23,11 +24,7 @@ struct ReplayOptions {
     bool only_reads() const { return info || json || csv; }
 };
 
-/// What the command line asks for: options to run with, or a text (help, version) to print and be done.
-struct ReplayCommandLine {
-    std::optional<ReplayOptions> options;
-    std::string text;
-};
+using ReplayCommandLine = Asked<ReplayOptions>;
 
 /// Throws std::invalid_argument with one line for wrong usage.
 ReplayCommandLine parse_replay_command_line(int argc, const char* const* argv, const std::string& version);

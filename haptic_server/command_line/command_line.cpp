@@ -1,0 +1,22 @@
+#include "haptic_server/command_line/command_line.h"
+
+#include <fmt/format.h>
+
+#include <stdexcept>
+
+namespace osteomill {
+
+std::optional<std::string> parse_or_text(CLI::App& app, int argc, const char* const* argv) {
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::CallForHelp&) {
+        return app.help();
+    } catch (const CLI::CallForVersion&) {
+        return app.version() + "\n";
+    } catch (const CLI::ParseError& error) {
+        throw std::invalid_argument(fmt::format("{}; see --help", error.what()));
+    }
+    return std::nullopt;
+}
+
+}  // namespace osteomill
