@@ -45,6 +45,7 @@ class ClientFeed {
     /// one frame follow in the next.
     std::optional<std::string> next();
 
+    bool has_been_asked_to_finish() const { return goodbye_.has_value(); }
     /// Whether goodbye has been said.
     bool is_finished() const { return stage_ == Stage::finished; }
 

@@ -36,7 +36,7 @@ ServerConnection::ServerConnection(std::string host, std::uint16_t port,
                                    const std::optional<TlsFiles>& tls)
     : host_(std::move(host)), port_(port), where_(host_ + ":" + std::to_string(port_)) {
     if (tls) tls_ = std::make_unique<TlsContext>(*tls, TlsContext::Role::client);
-    if (record) recorder_.emplace(*record, nullptr);
+    if (record) recorder_.emplace(*record, nullptr, WhenDiskIsFull::end);
     announce(LinkStatus::connecting, "connecting to " + where_);
     asio::post(io_, [this] { connect(); });
     thread_ = std::thread([this] { run(); });

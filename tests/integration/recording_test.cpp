@@ -159,12 +159,12 @@ TEST_F(Recording, OfAServerThatWasKilledIsReadableToItsLastWholeFrame) {
     EXPECT_EQ(info("a.pcap").at("frames").get<int>(), read.at("frames").get<int>() - 1);
 }
 
-TEST_F(Recording, EndsWithAFullDiskAndTheSessionGoesOn) {
+TEST_F(Recording, StandsStillWhileTheDiskIsFullAndTheSessionGoesOn) {
     record("whole.pcap");
     const auto needed = std::filesystem::file_size(file("whole.pcap")) / 1024;
     const Finished server = record_on_disk_of(needed - 5, "a.pcap", "full.json");
     EXPECT_EQ(server.status, 1);
-    EXPECT_THAT(server.err, AllOf(HasSubstr("a.pcap: the recording ends after "), HasSubstr("File too large"),
+    EXPECT_THAT(server.err, AllOf(HasSubstr("a.pcap: no more than "), HasSubstr("File too large"),
                                   HasSubstr("the session goes on")));
     const auto full = json("full.json");
     EXPECT_EQ(full.at("bone_checksum"), json("server.json").at("bone_checksum"));
