@@ -20,9 +20,9 @@ namespace {
 /// for 60 MB/s at a round trip of 4 ms.
 constexpr int send_buffer_bytes = 256 * 1024;
 
-/// What of that may wait for its turn, beside what is under way. So over a slow link the system holds a
-/// quarter of what the send buffer would take, and a frame is told late rather than told old.
-constexpr int most_unsent_bytes = 16 * 1024;
+/// What of that may wait for its turn behind what is on its way. So over a slow link a frame is told late
+/// rather than told old: half a second at 64 kbit/s, where the send buffer would hold half a minute.
+constexpr int most_unsent_bytes = 4 * 1024;
 using UnsentBytes = asio::detail::socket_option::integer<IPPROTO_TCP, TCP_NOTSENT_LOWAT>;
 
 /// A client that has taken nothing for so long has gone, or stands still: it may come again. The system would

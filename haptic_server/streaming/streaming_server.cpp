@@ -40,8 +40,8 @@ namespace {
 /// Bounds what strangers can make the server hold; a class of students looks on through far fewer.
 constexpr std::size_t most_clients = 32;
 
-/// How long stop() waits for clients that are slow to read the end.
-constexpr std::chrono::seconds longest_goodbye{2};
+/// How long stop() waits for clients that are slow to read the end: for 40 kB at 64 kbit/s.
+constexpr std::chrono::seconds longest_goodbye{5};
 
 constexpr const char* end_of_session = "the session has ended";
 

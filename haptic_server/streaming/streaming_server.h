@@ -68,7 +68,7 @@ class StreamingServer {
     void show_frame();
 
     /// Call after the milling loop has ended: takes over the last edits, sends every client the final state
-    /// with its checksum and a goodbye, waits up to about 2 s for slow ones, closes, joins. A second call
+    /// with its checksum and a goodbye, waits up to about 5 s for slow ones, closes, joins. A second call
     /// does nothing.
     void stop();
 
