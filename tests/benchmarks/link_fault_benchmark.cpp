@@ -70,7 +70,8 @@ struct Stage {
     std::uint16_t port = 0;
     PrivateNetwork* network = nullptr;  // none: loopback
     double seconds = 0.0;
-    std::vector<std::unique_ptr<Watcher>> watchers{};  // to be polled; the first has the fault
+    std::vector<std::unique_ptr<LinkProxy>> proxies{};  // outlive who comes through them
+    std::vector<std::unique_ptr<Watcher>> watchers{};   // to be polled; the first has the fault
 
     std::string address() const { return network != nullptr ? PrivateNetwork::server_address : "127.0.0.1"; }
     void watch(const std::string& where, std::uint16_t at) {
@@ -134,13 +135,14 @@ std::vector<Fault> faults() {
         {.name = "late-and-dropped",
          .happen =
              [](Stage& stage) {
-                 LinkProxy late(stage.port, {.delay = 100ms, .jitter = 50ms});
+                 stage.proxies.push_back(
+                     std::make_unique<LinkProxy>(stage.port, LinkQuality{.delay = 100ms, .jitter = 50ms}));
+                 LinkProxy& late = *stage.proxies.back();
                  stage.watch("127.0.0.1", late.port());
                  for (double s = 5.0; s < stage.seconds - 2.0; s += 5.0) {
                      stage.pass(5s);
                      late.drop();
                  }
-                 stage.pass(2s);
              }},
         {.name = "never-reads",
          .happen =
