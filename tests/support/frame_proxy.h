@@ -12,8 +12,10 @@
 #include <string>
 #include <thread>
 #include <utility>
+#include <vector>
 
 #include "common/wire/frame.h"
+#include "common/wire/guessed_edits.h"
 #include "common/wire/sealed_frame.h"
 
 namespace osteomill::testing {
@@ -66,6 +68,7 @@ class FrameProxy {
             decoder_.append(std::span(said_).first(bytes));
             while (const auto message = decoder_.next()) {
                 auto frame = std::get<v1::ServerFrame>(open_frame(*message, Seal::required));
+                tell_plainly(frame);
                 if (!meddle_(frame)) continue;
                 frame.clear_frame_checksum();
                 std::string passed_on;
@@ -74,6 +77,19 @@ class FrameProxy {
             }
             from_server();
         });
+    }
+    /// Edits that differ from a guess become edits, to be meddled with.
+    void tell_plainly(v1::ServerFrame& frame) {
+        if (frame.has_snapshot_begin()) {
+            const v1::Grid& grid = frame.snapshot_begin().grid();
+            size_bricks_ = size_in_bricks(
+                {.size_voxels = glm::ivec3(glm::uvec3(grid.size_x(), grid.size_y(), grid.size_z()))});
+        }
+        if (!frame.has_state() || !frame.state().has_guessed_edits()) return;
+        auto edits = unpack(frame.state().guessed_edits(), size_bricks_);
+        for (v1::BrickEdit& edit : std::get<std::vector<v1::BrickEdit>>(edits))
+            *frame.mutable_state()->add_edits() = std::move(edit);
+        frame.mutable_state()->clear_guessed_edits();
     }
     void hang_up() {
         error_code ignored;
@@ -89,6 +105,7 @@ class FrameProxy {
     tcp::socket client_{io_};
     tcp::socket server_{io_};
     FrameDecoder decoder_;
+    glm::ivec3 size_bricks_{0};
     std::array<std::uint8_t, 65536> said_{};
     std::array<std::uint8_t, 65536> asked_{};
     std::thread thread_;
