@@ -1,0 +1,90 @@
+#include "tests/support/private_network.h"
+
+#include <fcntl.h>
+#include <sched.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <cerrno>
+#include <cstdlib>
+#include <stdexcept>
+#include <system_error>
+
+namespace osteomill::testing {
+
+namespace {
+
+bool succeeds(const std::string& command) {
+    return std::system((command + " > /dev/null 2>&1").c_str()) == 0;
+}
+
+void run(const std::string& command) {
+    if (!succeeds(command)) throw std::runtime_error("failed: " + command);
+}
+
+std::string unique_name(const std::string& of_what) {
+    static std::atomic<int> made{0};
+    return "osteomill-" + of_what + "-" + std::to_string(::getpid()) + "-" + std::to_string(made++);
+}
+
+}  // namespace
+
+std::string PrivateNetwork::why_not() {
+    if (::geteuid() != 0) return "only root may make network namespaces";
+    for (const std::string program : {"ip", "tc"})
+        if (!succeeds("command -v " + program)) return program + " is not installed (iproute2)";
+    try {
+        PrivateNetwork().limit_rate("1mbit");
+    } catch (const std::exception& error) {
+        return std::string("network namespaces or tc tbf cannot be had here: ") + error.what();
+    }
+    return "";
+}
+
+PrivateNetwork::PrivateNetwork() : server_(unique_name("server")), client_(unique_name("client")) {
+    run("ip netns add " + server_);
+    run("ip netns add " + client_);
+    run("ip -n " + server_ + " link add cable type veth peer name cable netns " + client_);
+    run("ip -n " + server_ + " addr add " + server_address + "/30 dev cable");
+    run("ip -n " + client_ + " addr add 10.213.77.2/30 dev cable");
+    for (const std::string& end : {server_, client_}) {
+        run("ip -n " + end + " link set lo up");
+        run("ip -n " + end + " link set cable up");
+    }
+}
+
+PrivateNetwork::~PrivateNetwork() {
+    succeeds("ip netns del " + client_);
+    succeeds("ip netns del " + server_);
+}
+
+void PrivateNetwork::limit_rate(const std::string& rate) {
+    for (const std::string& end : {server_, client_})
+        run("tc -n " + end + " qdisc replace dev cable root tbf rate " + rate + " burst 4kb latency 400ms");
+}
+
+void PrivateNetwork::pull_cable() {
+    run("ip -n " + client_ + " link set cable down");
+}
+
+void PrivateNetwork::plug_cable() {
+    run("ip -n " + client_ + " link set cable up");
+}
+
+PrivateNetwork::Stay::Stay(const std::string& name_of_namespace)
+    : home_(::open("/proc/thread-self/ns/net", O_RDONLY | O_CLOEXEC)) {
+    const int there = ::open(("/var/run/netns/" + name_of_namespace).c_str(), O_RDONLY | O_CLOEXEC);
+    const bool is_there = home_ >= 0 && there >= 0 && ::setns(there, CLONE_NEWNET) == 0;
+    const int reason = errno;
+    if (there >= 0) ::close(there);
+    if (is_there) return;
+    if (home_ >= 0) ::close(home_);
+    throw std::system_error(reason, std::generic_category(), "cannot enter " + name_of_namespace);
+}
+
+PrivateNetwork::Stay::~Stay() {
+    if (::setns(home_, CLONE_NEWNET) != 0) std::abort();  // whatever comes next would be elsewhere
+    ::close(home_);
+}
+
+}  // namespace osteomill::testing

@@ -1,0 +1,45 @@
+// Two network namespaces joined by a cable: a server's and a client's machine on one. Needs root, ip and tc.
+#pragma once
+
+#include <string>
+
+namespace osteomill::testing {
+
+class PrivateNetwork {
+  public:
+    static constexpr const char* server_address = "10.213.77.1";
+
+    /// Why there can be none on this machine; empty where there can.
+    static std::string why_not();
+
+    /// Throws std::runtime_error with the command that failed.
+    PrivateNetwork();
+    ~PrivateNetwork();  ///< takes both down
+    PrivateNetwork(const PrivateNetwork&) = delete;
+    PrivateNetwork& operator=(const PrivateNetwork&) = delete;
+
+    /// Both ways, such as "64kbit": a token bucket (tc tbf).
+    void limit_rate(const std::string& rate);
+    void pull_cable();
+    void plug_cable();
+
+    /// While it lives, sockets that this thread makes, and threads and programs that it starts, are there.
+    class Stay {
+      public:
+        explicit Stay(const std::string& name_of_namespace);
+        ~Stay();
+        Stay(const Stay&) = delete;
+        Stay& operator=(const Stay&) = delete;
+
+      private:
+        int home_;
+    };
+    const std::string& server() const { return server_; }
+    const std::string& client() const { return client_; }
+
+  private:
+    std::string server_;
+    std::string client_;
+};
+
+}  // namespace osteomill::testing
