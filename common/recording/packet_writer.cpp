@@ -1,6 +1,7 @@
 #include "common/recording/packet_writer.h"
 
 #include <pcap/pcap.h>
+#include <stdio_ext.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -54,23 +55,30 @@ void PacketWriter::write(Stamp stamp, std::string_view message) {
     header.ts.tv_sec = whole_s.time_since_epoch().count();
     header.ts.tv_usec = (stamp - whole_s).count();  // nanoseconds: this file's precision
     header.caplen = header.len = static_cast<bpf_u_int32>(message.size());
+    std::FILE* stream = pcap_dump_file(output_.get());
+    std::clearerr(stream);
     errno = 0;
     pcap_dump(reinterpret_cast<u_char*>(output_.get()), &header,
               reinterpret_cast<const u_char*>(message.data()));
     // pcap_dump says nothing of failures; stdio remembers them.
-    if (pcap_dump_flush(output_.get()) != 0 || std::ferror(pcap_dump_file(output_.get())) != 0) give_up();
+    if (pcap_dump_flush(output_.get()) != 0 || std::ferror(stream) != 0) fail();
     ++packets_;
     whole_bytes_ += packet_header_bytes + message.size();
 }
 
-void PacketWriter::give_up() {
+void PacketWriter::fail() {
     const int reason = errno;
-    const int descriptor = ::fileno(pcap_dump_file(output_.get()));
-    // A packet that is torn would be no harm, but some tools complain of it. Where it cannot be cut off it
-    // stays.
-    [[maybe_unused]] const int ignored = ::ftruncate(descriptor, static_cast<off_t>(whole_bytes_));
-    throw RecordingError(file_.string() + ": the recording ends after " + std::to_string(packets_) +
-                         " frames: " + (reason != 0 ? std::strerror(reason) : "it cannot be written"));
+    std::FILE* stream = pcap_dump_file(output_.get());
+    const auto whole = static_cast<off_t>(whole_bytes_);
+    // What could not be written must not turn up behind what comes later.
+    ::__fpurge(stream);
+    // A packet that is torn would be no harm at the end, but some tools complain of it. Where it cannot be
+    // cut off it stays, until another is written over it.
+    [[maybe_unused]] const int ignored =
+        ::ftruncate(::fileno(stream), whole) + ::fseeko(stream, whole, SEEK_SET);
+    throw RecordingError(
+        file_.string() + ": no more than " + std::to_string(packets_) +
+        " frames could be written: " + (reason != 0 ? std::strerror(reason) : "it cannot be written"));
 }
 
 }  // namespace osteomill

@@ -21,7 +21,7 @@ class PacketWriter {
     explicit PacketWriter(std::filesystem::path file);
 
     /// `message`: at most largest_frame_bytes. Throws RecordingError, such as for a full disk; the file then
-    /// ends with the last whole packet, and nothing more can be written.
+    /// ends with the last whole packet, and the next one goes behind that if there is room by then.
     void write(Stamp stamp, std::string_view message);
 
     const std::filesystem::path& file() const { return file_; }
@@ -33,7 +33,7 @@ class PacketWriter {
         void operator()(pcap* format) const;
         void operator()(pcap_dumper* output) const;
     };
-    [[noreturn]] void give_up();
+    [[noreturn]] void fail();
 
     std::filesystem::path file_;
     std::unique_ptr<pcap, Close> format_;

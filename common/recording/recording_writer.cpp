@@ -4,9 +4,8 @@
 
 namespace osteomill {
 
-RecordingWriter::RecordingWriter(std::filesystem::path file,
-                                 std::function<void(const std::string&)> on_failure)
-    : packets_(std::move(file)), on_failure_(std::move(on_failure)) {
+RecordingWriter::RecordingWriter(std::filesystem::path file, OnNews on_news, WhenDiskIsFull when_full)
+    : packets_(std::move(file)), on_news_(std::move(on_news)), when_full_(when_full) {
     report_.file = packets_.file();
     report_.bytes = packets_.bytes();
     thread_ = std::thread([this] { run(); });
@@ -23,18 +22,18 @@ bool RecordingWriter::has_room() const {
 
 void RecordingWriter::wait_for_room() const {
     std::unique_lock lock(mutex_);
-    changed_.wait(lock, [this] { return waiting_bytes_ < capacity_bytes; });
+    changed_.wait(lock, [this] { return waiting_bytes_ < capacity_bytes || !report_.error.empty(); });
 }
 
 void RecordingWriter::wait_until_written() const {
     std::unique_lock lock(mutex_);
-    changed_.wait(lock, [this] { return waiting_bytes_ == 0; });
+    changed_.wait(lock, [this] { return waiting_bytes_ == 0 || !report_.error.empty(); });
 }
 
 void RecordingWriter::push(Stamp stamp, std::string message) {
     {
         const std::scoped_lock lock(mutex_);
-        if (is_closing_ || !report_.error.empty()) return;
+        if (is_closing_ || has_ended()) return;
         waiting_bytes_ += message.size();
         waiting_.push_back({stamp, std::move(message)});
     }
@@ -63,31 +62,47 @@ RecordingReport RecordingWriter::report() const {
 
 void RecordingWriter::run() {
     std::unique_lock lock(mutex_);
-    for (;;) {
+    for (bool stands_still = false;;) {
         changed_.wait(lock, [this] { return is_closing_ || !waiting_.empty(); });
         if (waiting_.empty()) return;
-        const Waiting next = std::move(waiting_.front());
-        waiting_.pop_front();
-        std::string error;
+        const bool is_last_attempt = is_closing_;
+        // Others only append behind it, which leaves it where it is.
+        const Waiting& next = waiting_.front();
         lock.unlock();
-        try {
-            packets_.write(next.stamp, next.message);
-        } catch (const std::exception& failure) {
-            error = failure.what();
-        }
-        if (!error.empty() && on_failure_) on_failure_(error);
+        const std::string error = write(next);
+        if (on_news_ && error.empty() && stands_still)
+            on_news_(
+                RecordingNews::goes_on,
+                packets_.file().string() + ": the recording goes on, with all that its bone lost meanwhile");
+        if (on_news_ && !error.empty() && !stands_still) on_news_(RecordingNews::stands_still, error);
         lock.lock();
-        waiting_bytes_ -= next.message.size();
         report_.frames = packets_.packets();
         report_.bytes = packets_.bytes();
-        if (!error.empty()) {
-            report_.error = std::move(error);
+        report_.error = error;
+        if (error.empty()) {
+            waiting_bytes_ -= next.message.size();
+            waiting_.pop_front();
+            if (stands_still) ++report_.pauses;
+        } else if (has_ended()) {
             waiting_.clear();
             waiting_bytes_ = 0;
         }
+        stands_still = !error.empty();
         changed_.notify_all();
-        if (!report_.error.empty()) return;
+        if (!stands_still) continue;
+        if (has_ended() || is_last_attempt) return;
+        changed_.wait_for(lock, retry_period, [this] { return is_closing_; });
     }
+}
+
+std::string RecordingWriter::write(const Waiting& frame) {
+    try {
+        packets_.write(frame.stamp, frame.message);
+    } catch (const std::exception& failure) {
+        return std::string(failure.what()) +
+               (when_full_ == WhenDiskIsFull::end ? "; the recording ends there" : "");
+    }
+    return {};
 }
 
 }  // namespace osteomill

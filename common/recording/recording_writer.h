@@ -1,6 +1,13 @@
 // Writes a recording on a thread of its own, for loops that must not wait for a disk.
+//
+// A disk that is full may have room later. Who can tell later what it could not tell now takes it for a slow
+// disk: the frame that did not fit is tried again every while, frames behind it wait, and once all that may
+// wait does, nothing more is taken until there is room. So no frame is missing, and the file goes on where it
+// stood. Who cannot, because its frames come from elsewhere and would wait for ever, ends the recording
+// there.
 #pragma once
 
+#include <chrono>
 #include <condition_variable>
 #include <cstdint>
 #include <deque>
@@ -19,34 +26,54 @@ struct RecordingReport {
     std::filesystem::path file;
     std::uint64_t frames = 0;
     std::uint64_t bytes = 0;
-    std::string error{};  ///< one line; empty where all frames are in the file
+    std::uint64_t pauses = 0;  ///< for which it stood still, and after which it went on
+    std::string error{};       ///< one line; empty where all frames are in the file
+};
+
+/// What there is to tell of a recording under way.
+enum class RecordingNews {
+    stands_still,  ///< nothing more can be written, for now or for good
+    goes_on,       ///< again
+};
+
+/// What a recording does when nothing more can be written.
+enum class WhenDiskIsFull {
+    end,        ///< there: frames that come later are forgotten
+    try_again,  ///< until it succeeds or the recording is closed
 };
 
 class RecordingWriter {
   public:
+    /// Between two attempts to go on. A full disk costs a system call in that time.
+    static constexpr std::chrono::milliseconds retry_period{500};
+
     /// What may wait for the disk. A second of the fastest loopback snapshot; whoever finds it full tells
     /// later what it has to tell, as it would a slow client.
     static constexpr std::size_t capacity_bytes = 8 * 1024 * 1024;
 
-    /// Opens the file; throws RecordingError. `on_failure` is called once, on the writing thread, with one
-    /// line, when nothing more can be written.
-    RecordingWriter(std::filesystem::path file, std::function<void(const std::string&)> on_failure);
+    /// Called on the writing thread, with one line for people.
+    using OnNews = std::function<void(RecordingNews, const std::string&)>;
+
+    /// Opens the file; throws RecordingError.
+    RecordingWriter(std::filesystem::path file, OnNews on_news, WhenDiskIsFull when_full);
     /// Closes first, if need be.
     ~RecordingWriter();
     RecordingWriter(const RecordingWriter&) = delete;
     RecordingWriter& operator=(const RecordingWriter&) = delete;
 
-    /// Whether push() would take a frame. Once writing has failed it takes, and forgets, every one.
+    /// Whether push() would take a frame. Once the recording has ended it takes, and forgets, every one.
     bool has_room() const;
-    /// Waits until there is room: for who may wait for a disk.
+    /// Waits until there is room, or the disk is full: for who may wait for a disk.
     void wait_for_room() const;
-    /// Waits until all that was pushed is in the file, or writing has failed.
+    /// Waits until all that was pushed is in the file, or the disk is full.
     void wait_until_written() const;
     /// Never waits for the disk. Call only with room.
     void push(Stamp stamp, std::string message);
+    /// Whether the last attempt to write has failed.
     bool has_failed() const;
 
-    /// Writes what still waits, and ends the thread. What is pushed later is forgotten.
+    /// Writes what still waits, with one last attempt where the disk is full, and ends the thread. What is
+    /// pushed later is forgotten.
     void close();
     RecordingReport report() const;
 
@@ -56,9 +83,13 @@ class RecordingWriter {
         std::string message;
     };
     void run();
+    /// One line why not; empty if it has been written.
+    std::string write(const Waiting& frame);
+    bool has_ended() const { return when_full_ == WhenDiskIsFull::end && !report_.error.empty(); }
 
     PacketWriter packets_;  // the writing thread's
-    const std::function<void(const std::string&)> on_failure_;
+    const OnNews on_news_;
+    const WhenDiskIsFull when_full_;
     mutable std::mutex mutex_;
     mutable std::condition_variable changed_;
     std::deque<Waiting> waiting_;

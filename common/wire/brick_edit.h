@@ -1,19 +1,16 @@
 // What milling changed in one brick, in and out of a message.
 #pragma once
 
-#include <bitset>
 #include <optional>
 #include <span>
 #include <variant>
 
 #include "common/bone/bone.h"
+#include "common/wire/voxel_mask.h"
 #include "common/wire/wire_error.h"
 #include "osteomill/v1/bone.pb.h"
 
 namespace osteomill {
-
-/// Voxels of one brick, by offset.
-using VoxelMask = std::bitset<brick_voxel_count>;
 
 /// The fractions of the voxels in the mask, as runs that hold these voxels and no others.
 v1::BrickEdit brick_edit(BrickIndex brick, std::span<const std::uint8_t, brick_voxel_count> fractions,

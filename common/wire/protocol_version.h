@@ -7,9 +7,11 @@
 namespace osteomill {
 
 inline constexpr std::uint32_t protocol_major = 1;
-inline constexpr std::uint32_t protocol_minor = 2;  // 1: each frame of a server carries its checksum
+inline constexpr std::uint32_t protocol_minor = 3;  // 1: each frame of a server carries its checksum
 
 /// From here on a server compares bones: see CompareBone.
 inline constexpr std::uint32_t first_minor_that_compares = 2;
+/// From here on a server wants to be greeted: see ClientHello. An older one would not understand it.
+inline constexpr std::uint32_t first_minor_that_is_greeted = 3;
 
 }  // namespace osteomill

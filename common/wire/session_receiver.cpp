@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "common/wire/guessed_edits.h"
 #include "common/wire/scene_messages.h"
 
 namespace osteomill {
@@ -20,7 +21,7 @@ std::variant<SessionEvent, WireError> SessionReceiver::take(v1::ServerFrame fram
         return take_snapshot_bricks(frame.snapshot_bricks());
     if (stage_ == Stage::snapshot && frame.has_snapshot_end()) return take_snapshot_end(frame.snapshot_end());
     if (stage_ == Stage::live && frame.has_state())
-        return SessionEvent(StateArrived{std::move(*frame.mutable_state()), follows_gap});
+        return take_state(std::move(*frame.mutable_state()), follows_gap);
     if (stage_ != Stage::hello && stage_ != Stage::over && frame.has_goodbye()) {
         stage_ = Stage::over;
         return SessionEvent(SaidGoodbye{frame.goodbye().reason()});
@@ -71,8 +72,20 @@ SessionReceiver::Outcome SessionReceiver::take_snapshot_end(const v1::SnapshotEn
     if (auto* error = std::get_if<WireError>(&finished)) return *error;
     Bone& bone = std::get<Bone>(finished);
     RunningChecksum terms(bone);
+    size_bricks_ = bone.content().size_bricks;
     stage_ = Stage::live;
     return SessionEvent(BoneArrived{std::move(bone), std::move(terms)});
+}
+
+SessionReceiver::Outcome SessionReceiver::take_state(v1::StateFrame state, bool follows_gap) const {
+    if (state.has_guessed_edits()) {
+        auto unpacked = unpack(state.guessed_edits(), size_bricks_);
+        if (auto* error = std::get_if<WireError>(&unpacked)) return std::move(*error);
+        for (v1::BrickEdit& edit : std::get<std::vector<v1::BrickEdit>>(unpacked))
+            *state.add_edits() = std::move(edit);
+        state.clear_guessed_edits();
+    }
+    return SessionEvent(StateArrived{std::move(state), follows_gap});
 }
 
 }  // namespace osteomill

@@ -25,7 +25,8 @@ struct BoneArrived {
     RunningChecksum checksum;
 };
 
-/// A state frame, as it came; checked when it is applied: see BoneFollower.
+/// A state frame, as it came, but for guessed edits, which have become edits; checked when it is applied: see
+/// BoneFollower.
 struct StateArrived {
     v1::StateFrame frame;
     bool follows_gap = false;  ///< frames before it are missing, and with them what they told of the bone
@@ -81,12 +82,14 @@ class SessionReceiver {
     Outcome take_snapshot_begin(const v1::SnapshotBegin& message);
     Outcome take_snapshot_bricks(const v1::SnapshotBricks& message);
     Outcome take_snapshot_end(const v1::SnapshotEnd& message);
+    Outcome take_state(v1::StateFrame state, bool follows_gap) const;
 
     Gaps gaps_ = Gaps::refused;
     bool compares_ = false;  // the server does
     Stage stage_ = Stage::hello;
     std::uint64_t last_sequence_ = 0;
     std::optional<SnapshotAssembler> assembler_;
+    glm::ivec3 size_bricks_{0};  // of the bone
     std::uint32_t bricks_received_ = 0;
     std::uint32_t bricks_announced_ = 0;
 };

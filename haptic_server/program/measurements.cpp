@@ -74,8 +74,10 @@ nlohmann::ordered_json measurements(const MillingSessionReport& report, const Bo
 }
 
 nlohmann::ordered_json recorded(const RecordingReport& recording) {
-    nlohmann::ordered_json json{
-        {"file", recording.file.string()}, {"frames", recording.frames}, {"bytes", recording.bytes}};
+    nlohmann::ordered_json json{{"file", recording.file.string()},
+                                {"frames", recording.frames},
+                                {"bytes", recording.bytes},
+                                {"pauses", recording.pauses}};
     json["error"] = nullptr;
     if (!recording.error.empty()) json["error"] = recording.error;
     return json;

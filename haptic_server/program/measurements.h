@@ -23,7 +23,8 @@ nlohmann::ordered_json measurements(const MillingSessionReport& report, const Bo
                                     std::uint64_t peak_resident_bytes, const Scene& scene,
                                     const ServerOptions& options);
 
-/// What became of a recording, under "recording": file, frames, bytes, error (null where there is none).
+/// What became of a recording, under "recording": file, frames, bytes, pauses (for which the disk was full),
+/// error (null where there is none).
 nlohmann::ordered_json recorded(const RecordingReport& recording);
 
 /// Throws std::runtime_error with one line naming the file.

@@ -10,6 +10,14 @@
 
 namespace osteomill {
 
+namespace {
+
+/// A frame that says more keeps what comes behind it waiting: this is a second of a link of 256 kbit/s. A
+/// single edit is smaller.
+constexpr std::size_t most_state_bytes = 32 * 1024;
+
+}  // namespace
+
 ClientFeed::ClientFeed(v1::Hello hello, const BoneMirror& mirror, SnapshotPacker& packer)
     : hello_(std::move(hello)), mirror_(mirror), packer_(packer) {}
 
@@ -97,11 +105,23 @@ void ClientFeed::fill_snapshot_bricks(v1::SnapshotBricks& message) {
 }
 
 void ClientFeed::fill_state(v1::ServerFrame& frame) {
-    constexpr std::size_t room_for_tags_and_checksums = 64;
     v1::StateFrame& state = *frame.mutable_state();
     *state.mutable_tool() = to_message(tool_);
-    told_tool_ = tool_;
     if (answer_) *state.mutable_comparison() = *std::exchange(answer_, std::nullopt);
+    if (guesser_ != nullptr && !untold_.empty())
+        add_guessed_edits(state);
+    else
+        add_edits(frame);
+    told_tool_ = tool_;
+    if (!untold_.empty()) return;  // the rest goes into the next frame
+    wants_state_ = false;
+    if (std::exchange(wants_checksum_, false)) state.set_bone_checksum(mirror_.checksum());
+}
+
+void ClientFeed::add_edits(v1::ServerFrame& frame) {
+    constexpr std::size_t room_for_tags_and_checksums = 64;
+    v1::StateFrame& state = *frame.mutable_state();
+    told_burr_.reset();
     std::size_t bytes = frame.ByteSizeLong() + room_for_tags_and_checksums;
     while (!untold_.empty()) {
         const auto [brick, mask] = untold_.next();
@@ -109,12 +129,38 @@ void ClientFeed::fill_state(v1::ServerFrame& frame) {
         v1::BrickEdit edit = brick_edit(brick, mirror_.bone().fractions(slot), mask);
         constexpr std::size_t tag_and_length = 4;
         bytes += edit.ByteSizeLong() + tag_and_length;
-        if (bytes > largest_frame_bytes) return;  // the rest goes into the next frame
+        if (bytes > most_state_bytes && state.edits_size() > 0) return;
         *state.add_edits() = std::move(edit);
         untold_.told();
     }
-    wants_state_ = false;
-    if (std::exchange(wants_checksum_, false)) state.set_bone_checksum(mirror_.checksum());
+}
+
+void ClientFeed::add_guessed_edits(v1::StateFrame& state) {
+    std::vector<ChangedBrick> bricks;
+    for (std::size_t bytes = 0; !untold_.empty(); untold_.told()) {
+        const auto [brick, mask] = untold_.next();
+        bytes += mask_bytes + mask.count();
+        if (bytes > largest_guessed_edits_bytes) break;
+        bricks.push_back({brick, mask});
+    }
+    const std::optional<BurrMotion> motion = burr_motion();
+    const EditGuesser::Guessed& guessed = guesser_->guess(mirror_, std::move(bricks), motion);
+    *state.mutable_guessed_edits() = guessed.edits;
+    told_burr_.reset();
+    // What is left for the next frame is of the same motion.
+    if (motion) told_burr_ = untold_.empty() ? guessed.burr : motion->from;
+}
+
+std::optional<BurrMotion> ClientFeed::burr_motion() const {
+    if (!told_tool_ || tool_.burr >= static_cast<std::size_t>(hello_.burrs_size())) return std::nullopt;
+    const double radius_mm = 0.5 * hello_.burrs(static_cast<int>(tool_.burr)).diameter_mm();
+    return BurrMotion{.from = told_burr_.value_or(burr_in_voxels(*told_tool_)),
+                      .to = burr_in_voxels(tool_),
+                      .radius = radius_mm / mirror_.bone().grid().spacing_mm};
+}
+
+glm::dvec3 ClientFeed::burr_in_voxels(const ToolView& tool) const {
+    return to_voxel_coordinates(mirror_.bone().grid(), tool.burr_position_mm);
 }
 
 }  // namespace osteomill

@@ -14,6 +14,7 @@
 #include "common/wire/snapshot.h"
 #include "common/wire/tool_view.h"
 #include "haptic_server/streaming/bone_mirror.h"
+#include "haptic_server/streaming/edit_guesser.h"
 #include "haptic_server/streaming/untold_voxels.h"
 #include "osteomill/v1/session.pb.h"
 
@@ -23,6 +24,9 @@ class ClientFeed {
   public:
     /// `mirror` and `packer` outlive the feed; `hello` is what the client is greeted with.
     ClientFeed(v1::Hello hello, const BoneMirror& mirror, SnapshotPacker& packer);
+
+    /// The client takes edits as what differs from a guess, from now on. `guesser` outlives the feed.
+    void guess_edits(EditGuesser& guesser) { guesser_ = &guesser; }
 
     /// To be told of every change of the mirror, before the next frame is asked for.
     void note(const ChangedVoxels& changes);
@@ -45,6 +49,7 @@ class ClientFeed {
     /// one frame follow in the next.
     std::optional<std::string> next();
 
+    bool has_been_asked_to_finish() const { return goodbye_.has_value(); }
     /// Whether goodbye has been said.
     bool is_finished() const { return stage_ == Stage::finished; }
 
@@ -59,6 +64,11 @@ class ClientFeed {
 
     void fill_snapshot_bricks(v1::SnapshotBricks& message);
     void fill_state(v1::ServerFrame& frame);
+    void add_edits(v1::ServerFrame& frame);
+    void add_guessed_edits(v1::StateFrame& state);
+    /// Since the client was told last; nothing where that is not known.
+    std::optional<BurrMotion> burr_motion() const;
+    glm::dvec3 burr_in_voxels(const ToolView& tool) const;
 
     v1::Hello hello_;
     const BoneMirror& mirror_;
@@ -72,6 +82,9 @@ class ClientFeed {
     UntoldVoxels untold_;
     std::optional<v1::Comparison> answer_;
     int comparisons_left_ = most_comparisons_at_once;
+
+    EditGuesser* guesser_ = nullptr;       // none: edits are told as they are
+    std::optional<glm::dvec3> told_burr_;  // in voxels, where the client has been told all
 
     ToolView tool_;
     std::optional<ToolView> told_tool_;

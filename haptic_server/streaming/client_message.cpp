@@ -8,6 +8,10 @@ namespace osteomill {
 
 std::optional<WireError> take_client_message(const v1::ClientFrame& frame, const MessagingClient& client,
                                              OperatorSeat::Time now) {
+    if (frame.has_hello()) {
+        if (frame.hello().takes_guessed_edits()) client.feed.guess_edits(client.guesser);
+        return std::nullopt;
+    }
     if (frame.has_compare_bone()) return client.feed.compare(frame.compare_bone());
     if (!frame.has_operator_input()) return WireError{"it sent a frame without a body that is known"};
     const auto intent = intent_from(frame.operator_input(), client.burr_count);

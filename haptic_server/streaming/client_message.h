@@ -14,6 +14,7 @@ namespace osteomill {
 struct MessagingClient {
     OperatorSeat::ClientId id = 0;
     ClientFeed& feed;              ///< may have something to say afterwards
+    EditGuesser& guesser;          ///< of all clients that take guessed edits; outlives the feed
     OperatorSeat* seat = nullptr;  ///< null: nobody may move the tool now, and input changes nothing
     std::size_t burr_count = 0;    ///< of the session
 };

@@ -1,5 +1,8 @@
 #include "haptic_server/streaming/session.h"
 
+#include <netinet/tcp.h>
+
+#include <boost/asio/detail/socket_option.hpp>
 #include <boost/asio/error.hpp>
 #include <chrono>
 
@@ -17,6 +20,16 @@ namespace {
 /// seconds of frames: a slow client would see old news and the feed would never learn that it is slow. Enough
 /// for 60 MB/s at a round trip of 4 ms.
 constexpr int send_buffer_bytes = 256 * 1024;
+
+/// What of that may wait for its turn behind what is on its way. So over a slow link a frame is told late
+/// rather than told old: half a second at 64 kbit/s, where the send buffer would hold half a minute.
+constexpr int most_unsent_bytes = 4 * 1024;
+using UnsentBytes = asio::detail::socket_option::integer<IPPROTO_TCP, TCP_NOTSENT_LOWAT>;
+
+/// A client that has taken nothing for so long has gone, or stands still: it may come again. The system would
+/// keep its place for a quarter of an hour.
+constexpr std::chrono::milliseconds longest_stall{30'000};
+using StallTimeout = asio::detail::socket_option::integer<IPPROTO_TCP, TCP_USER_TIMEOUT>;
 
 /// What a client that speaks TLS begins with: a record of kind 22, version 3.x. As a frame it would be one of
 /// 22 bytes that begins with field number 0, which protobuf does not have.
@@ -36,12 +49,20 @@ void Session::start(Callbacks callbacks) {
     socket.set_option(asio::ip::tcp::no_delay(true), ignored);
     socket.set_option(asio::socket_base::keep_alive(true), ignored);
     socket.set_option(asio::socket_base::send_buffer_size(send_buffer_bytes), ignored);
+    socket.set_option(UnsentBytes(most_unsent_bytes), ignored);
+    socket.set_option(StallTimeout(static_cast<int>(longest_stall.count())), ignored);
     read();
     pump();
 }
 
+void Session::serve() {
+    is_served_ = true;
+    pump();
+}
+
 void Session::pump() {
-    if (is_closed_ || is_writing_) return;
+    if (is_closed_ || is_writing_ || (has_said_hello_ && !is_served_)) return;
+    has_said_hello_ = true;
     std::optional<std::string> frame = feed_.next();
     if (!frame) {
         // The client closes when it has read goodbye. Closing first could reset the connection and destroy

@@ -32,7 +32,10 @@ class Session : public std::enable_shared_from_this<Session> {
     /// The stream's handshake is over.
     Session(std::shared_ptr<Stream> stream, ClientFeed feed);
 
+    /// Reads, and writes the feed's first frame, its hello; the rest after serve().
     void start(Callbacks callbacks);
+    /// Writes whatever the feed has to say, from now on.
+    void serve();
     ClientFeed& feed() { return feed_; }
     /// Writes the next frame, unless one is under way; call after the feed has been given something to say.
     void pump();
@@ -49,6 +52,8 @@ class Session : public std::enable_shared_from_this<Session> {
     ClientFeed feed_;
     Callbacks callbacks_;
     std::string peer_;
+    bool has_said_hello_ = false;
+    bool is_served_ = false;
     bool is_writing_ = false;
     bool is_closed_ = false;
 

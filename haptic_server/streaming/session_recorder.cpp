@@ -22,9 +22,18 @@ std::string without_length(const std::string& frame) {
 
 SessionRecorder::SessionRecorder(const std::filesystem::path& file, Stamp began, v1::Hello hello,
                                  const BoneMirror& mirror, SnapshotPacker& packer)
-    : began_(began), feed_(std::move(hello), mirror, packer), writer_(file, [this](const std::string& error) {
-          if (is_under_way_) spdlog::error("{}; the session goes on", error);
-      }) {
+    : began_(began),
+      feed_(std::move(hello), mirror, packer),
+      writer_(
+          file,
+          [this](RecordingNews news, const std::string& line) {
+              if (!is_under_way_) return;
+              if (news == RecordingNews::goes_on)
+                  spdlog::warn("{}", line);
+              else
+                  spdlog::error("{}; the session goes on, and the recording, too, once there is room", line);
+          },
+          WhenDiskIsFull::try_again) {
     hand_over(true);
     writer_.wait_until_written();
     if (writer_.has_failed()) throw RecordingError(writer_.report().error);
@@ -45,10 +54,17 @@ void SessionRecorder::finish(const ToolView& tool, const std::string& reason) {
     writer_.close();
 }
 
+RecordingReport SessionRecorder::report() const {
+    RecordingReport report = writer_.report();
+    const bool lacks_end = report.error.empty() && feed_.has_been_asked_to_finish() && !feed_.is_finished();
+    if (lacks_end) report.error = report.file.string() + ": lacks the end: the disk was full until then";
+    return report;
+}
+
 void SessionRecorder::hand_over(bool may_wait) {
     const Stamp stamp =
         began_ + std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::duration<double>(time_s_));
-    while (!writer_.has_failed()) {
+    for (;;) {
         if (may_wait) writer_.wait_for_room();
         if (!writer_.has_room()) return;
         const std::optional<std::string> frame = feed_.next();

@@ -1,7 +1,8 @@
 // Records a session as one more client sees it: the very frames that it would be sent, into a file.
 //
 // Its feed is that of any client, so what the disk is too slow for collapses into what is told later, and the
-// streaming thread never waits. A disk that fails ends the recording, not the session.
+// streaming thread never waits. A disk that is full is one that is slow: the session goes on, and once there
+// is room the next frame tells all that has changed meanwhile. Poses of that time are missing, bone is not.
 #pragma once
 
 #include <atomic>
@@ -27,7 +28,8 @@ class SessionRecorder {
     /// Hands over the end and waits until all is written.
     void finish(const ToolView& tool, const std::string& reason);
 
-    RecordingReport report() const { return writer_.report(); }
+    /// Its error also says where the end is missing.
+    RecordingReport report() const;
 
   private:
     void hand_over(bool may_wait);

@@ -24,6 +24,7 @@
 #include "haptic_server/streaming/client_message.h"
 #include "haptic_server/streaming/handshakes.h"
 #include "haptic_server/streaming/limited_log.h"
+#include "haptic_server/streaming/newcomers.h"
 #include "haptic_server/streaming/operator_seat.h"
 #include "haptic_server/streaming/session.h"
 #include "haptic_server/streaming/session_recorder.h"
@@ -40,8 +41,8 @@ namespace {
 /// Bounds what strangers can make the server hold; a class of students looks on through far fewer.
 constexpr std::size_t most_clients = 32;
 
-/// How long stop() waits for clients that are slow to read the end.
-constexpr std::chrono::seconds longest_goodbye{2};
+/// How long stop() waits for clients that are slow to read the end: for 40 kB at 64 kbit/s.
+constexpr std::chrono::seconds longest_goodbye{5};
 
 constexpr const char* end_of_session = "the session has ended";
 
@@ -174,6 +175,8 @@ class StreamingServer::Impl {
 
     void send_frame() {
         if (seat_) seat_->check_silence(Clock::now());
+        for (const OperatorSeat::ClientId id : newcomers_.take_patient(Clock::now()))
+            sessions_.at(id)->serve();
         update();
         const bool with_checksum = frames_++ % frames_per_checksum_ == 0;
         if (recorder_) recorder_->record(last_view_, with_checksum, options_.paced_by_session);
@@ -221,37 +224,63 @@ class StreamingServer::Impl {
         stranger_log_.write(spdlog::level::warn, line, Clock::now());
     }
 
+    /// Those who have said who they are, by certificate or greeting.
+    std::size_t clients() const { return sessions_.size() - newcomers_.size(); }
+
     void admit(std::shared_ptr<Stream> stream) {
-        if (sessions_.size() >= most_clients) {
+        if (clients() >= most_clients) {
             log_stranger(fmt::format("client {} was turned away: {} are connected already", stream->peer(),
-                                     sessions_.size()));
+                                     clients()));
             return stream->close();
         }
         const OperatorSeat::ClientId id = ++last_client_;
-        auto session = std::make_shared<Session>(std::move(stream), ClientFeed(hello_, mirror_, packer_));
+        const auto session =
+            std::make_shared<Session>(std::move(stream), ClientFeed(hello_, mirror_, packer_));
         sessions_.emplace(id, session);
-        client_log_.write(spdlog::level::info, fmt::format("client {} joined", session->peer()),
-                          Clock::now());
+        if (options_.tls) {
+            welcome(*session);
+        } else {
+            if (const auto oldest = newcomers_.in_the_way())
+                sessions_.at(*oldest)->close("gave way to others: it had not said a word", false);
+            newcomers_.add(id, Clock::now());
+        }
         session->start({.on_message = [this, id](const v1::ClientFrame& frame) { return take(id, frame); },
-                        .on_closed =
-                            [this, id, peer = session->peer()](const std::string& line, bool is_fault) {
-                                client_log_.write(is_fault ? spdlog::level::warn : spdlog::level::info,
-                                                  fmt::format("client {} {}", peer, line), Clock::now());
-                                sessions_.erase(id);
-                                if (seat_) seat_->leave(id);
-                                if (is_finishing_ && sessions_.empty()) deadline_.cancel();
-                            }});
+                        .on_closed = [this, id, peer = session->peer()](
+                                         const std::string& line,
+                                         bool is_fault) { dismiss(id, peer, line, is_fault); }});
+        if (options_.tls) session->serve();
+    }
+
+    void welcome(const Session& session) {
+        client_log_.write(spdlog::level::info, fmt::format("client {} joined", session.peer()), Clock::now());
+    }
+
+    void dismiss(OperatorSeat::ClientId id, const std::string& peer, const std::string& line, bool is_fault) {
+        const bool was_newcomer = newcomers_.remove(id);
+        (was_newcomer ? stranger_log_ : client_log_)
+            .write(is_fault ? spdlog::level::warn : spdlog::level::info,
+                   fmt::format("client {} {}", peer, line), Clock::now());
+        sessions_.erase(id);
+        if (seat_) seat_->leave(id);
+        if (is_finishing_ && sessions_.empty()) deadline_.cancel();
     }
 
     std::optional<WireError> take(OperatorSeat::ClientId id, const v1::ClientFrame& frame) {
-        Session& session = *sessions_.at(id);
+        const std::shared_ptr<Session> session = sessions_.at(id);
+        if (newcomers_.remove(id)) {
+            if (clients() > most_clients)
+                return WireError{fmt::format("{} clients are connected already", most_clients)};
+            welcome(*session);
+            session->serve();
+        }
         auto error = take_client_message(frame,
                                          {.id = id,
-                                          .feed = session.feed(),
+                                          .feed = session->feed(),
+                                          .guesser = guesser_,
                                           .seat = seat_ && !is_finishing_ ? &*seat_ : nullptr,
                                           .burr_count = burr_count_},
                                          Clock::now());
-        if (!error) session.pump();
+        if (!error) session->pump();
         return error;
     }
 
@@ -266,7 +295,7 @@ class StreamingServer::Impl {
         for (const auto& [id, session] : std::map(sessions_)) {
             session->feed().request_state(view_for(id), true);
             session->feed().finish(end_of_session);
-            session->pump();
+            session->serve();
         }
         if (sessions_.empty()) return;
         deadline_.expires_after(longest_goodbye);
@@ -282,6 +311,7 @@ class StreamingServer::Impl {
     const std::size_t burr_count_;
     BoneMirror mirror_;
     SnapshotPacker packer_;
+    EditGuesser guesser_;
     ShownSession& shown_;
     ToolView last_view_;
     std::optional<SessionRecorder> recorder_;
@@ -306,6 +336,7 @@ class StreamingServer::Impl {
     asio::steady_timer timer_{io_};
     asio::steady_timer deadline_{io_};
     std::map<OperatorSeat::ClientId, std::shared_ptr<Session>> sessions_;
+    Newcomers newcomers_;  // those of the sessions who are that
     OperatorSeat::ClientId last_client_ = 0;
     Clock::time_point next_frame_{};
     std::uint64_t frames_ = 0;

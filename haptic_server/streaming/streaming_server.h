@@ -5,7 +5,7 @@
 // for each client there is one frame under way and a set of voxels that it has yet to be told of. A slow
 // client gets fewer frames and misses nothing; one that sends nonsense is dropped with one log line.
 // With TLS only those are clients whom the lab's CA vouches for; without it, only this machine is served
-// unless told otherwise.
+// unless told otherwise, and who says nothing cannot take a client's place: see Newcomers.
 #pragma once
 
 #include <chrono>
@@ -68,7 +68,7 @@ class StreamingServer {
     void show_frame();
 
     /// Call after the milling loop has ended: takes over the last edits, sends every client the final state
-    /// with its checksum and a goodbye, waits up to about 2 s for slow ones, closes, joins. A second call
+    /// with its checksum and a goodbye, waits up to about 5 s for slow ones, closes, joins. A second call
     /// does nothing.
     void stop();
 

@@ -65,8 +65,10 @@ struct LinkUpdate {
 class BoneLink {
   public:
     /// Starts to connect; returns at once, also if there is no such server. What is received goes into
-    /// `record`, too, if that is given: a disk that is slow makes the server gather what it has to tell, one
-    /// that fails ends the recording. Throws RecordingError where it cannot begin.
+    /// `record`, too, if that is given: a disk that is slow makes the server gather what it has to tell. One
+    /// that fails ends the recording there: what comes later makes no sense without what is missing, and to
+    /// ask for that anew would stop the view for the recording's sake. (The server's own recording goes on.)
+    /// Throws RecordingError where it cannot begin.
     BoneLink(std::string host, std::uint16_t port,
              const std::optional<std::filesystem::path>& record = std::nullopt,
              const std::optional<TlsFiles>& tls = std::nullopt);

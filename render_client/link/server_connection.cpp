@@ -36,7 +36,7 @@ ServerConnection::ServerConnection(std::string host, std::uint16_t port,
                                    const std::optional<TlsFiles>& tls)
     : host_(std::move(host)), port_(port), where_(host_ + ":" + std::to_string(port_)) {
     if (tls) tls_ = std::make_unique<TlsContext>(*tls, TlsContext::Role::client);
-    if (record) recorder_.emplace(*record, nullptr);
+    if (record) recorder_.emplace(*record, nullptr, WhenDiskIsFull::end);
     announce(LinkStatus::connecting, "connecting to " + where_);
     asio::post(io_, [this] { connect(); });
     thread_ = std::thread([this] { run(); });
@@ -137,6 +137,7 @@ void ServerConnection::disconnect() {
     receiver_ = SessionReceiver(gaps());
     is_paused_ = false;
     accepts_operator_ = false;
+    owes_hello_ = false;
     newest_intent_.reset();
     newest_request_.reset();
     sent_sequence_ = 0;
@@ -205,6 +206,8 @@ void ServerConnection::take_event(SnapshotGoesOn) {
 
 void ServerConnection::take_event(SessionInfo session) {
     accepts_operator_ = session.accepts_operator;
+    owes_hello_ = session.protocol_minor >= first_minor_that_is_greeted;
+    write_newest();
     ++counters_.connections;
     counters_.snapshot_bricks = 0;
     counters_.snapshot_bricks_total = 0;
@@ -238,13 +241,18 @@ void ServerConnection::take_event(const SpeaksOtherProtocol& other) {
 }
 
 void ServerConnection::write_newest() {
-    if (is_writing_ || !(newest_intent_ || newest_request_)) return;
+    if (is_writing_ || !(owes_hello_ || newest_intent_ || newest_request_)) return;
     v1::ClientFrame frame;
     frame.set_sequence(++sent_sequence_);
-    if (newest_request_)
+    if (std::exchange(owes_hello_, false)) {
+        frame.mutable_hello()->set_protocol_minor(protocol_minor);
+        // A recording is to be read by older programs, too.
+        frame.mutable_hello()->set_takes_guessed_edits(!recorder_);
+    } else if (newest_request_) {
         *frame.mutable_compare_bone() = *std::exchange(newest_request_, std::nullopt);
-    else
+    } else {
         *frame.mutable_operator_input() = to_message(*std::exchange(newest_intent_, std::nullopt));
+    }
     std::string bytes;
     append_frame(frame, bytes);
     is_writing_ = true;

@@ -116,6 +116,7 @@ class ServerConnection {
     bool is_paused_ = false;
     bool accepts_operator_ = false;
 
+    bool owes_hello_ = false;
     std::optional<OperatorIntent> newest_intent_;
     std::optional<v1::CompareBone> newest_request_;
     std::uint64_t sent_sequence_ = 0;

@@ -27,10 +27,12 @@ std::string message_of(const std::string& stream) {
 }
 
 /// The frames of a session in which a run of voxels is milled, each behind its length.
-std::vector<std::string> session_frames(const Bone& bone) {
+std::vector<std::string> session_frames(const Bone& bone, bool guessed = false) {
     BoneMirror mirror(bone);
     SnapshotPacker packer;
     ClientFeed feed(to_message(small_session_info()), mirror, packer);
+    EditGuesser guesser;
+    if (guessed) feed.guess_edits(guesser);
     std::vector<std::string> frames;
     const auto drain = [&] {
         while (auto frame = feed.next()) frames.push_back(*std::move(frame));
@@ -106,6 +108,13 @@ v1::ClientFrame comparison(const Bone& copy) {
     return frame;
 }
 
+v1::ClientFrame hello() {
+    v1::ClientFrame frame;
+    frame.mutable_hello()->set_protocol_minor(protocol_minor);
+    frame.mutable_hello()->set_takes_guessed_edits(true);
+    return frame;
+}
+
 v1::ClientFrame goodbye() {
     v1::ClientFrame frame;
     frame.mutable_goodbye()->set_reason("enough");
@@ -158,13 +167,16 @@ void write_seeds(const std::filesystem::path& folder) {
                '\xff' + numbered({operator_input(1.0, 0), operator_input(-3.5, 1), goodbye()}));
     write_file(folder / "server_session/comparison",
                '\xff' + numbered({comparison(carved), operator_input(0.0, 1), comparison(bone)}));
+    write_file(folder / "server_session/hello",
+               '\x87' + numbered({hello(), operator_input(1.0, 0), comparison(bone), goodbye()}));
     write_file(folder / "server_session/slow_reader", '\x10' + numbered({operator_input(0.0, 1), goodbye()}));
     write_file(folder / "server_session/tls", std::string("\xff\x16\x03\x01\x02", 5));
 
     write_file(folder / "client_session/session", '\0' + joined(frames));
+    write_file(folder / "client_session/guessed", '\0' + joined(session_frames(bone, true)));
     write_file(folder / "client_session/varied", '\0' + joined(varied));
-    write_file(folder / "client_session/edits",
-               '\x01' + state_of(5, edited(0, 3, "\x05\x04\x03")) + state_of(6, edited(5, 16, "\x05\x04\x03")));
+    write_file(folder / "client_session/edits", '\x01' + state_of(5, edited(0, 3, "\x05\x04\x03")) +
+                                                    state_of(6, edited(5, 16, "\x05\x04\x03")));
     write_file(folder / "client_session/bone_regained", '\x01' + state_of(5, edited(0, 0, "\xff")));
     write_file(folder / "client_session/outside_grid", '\x01' + state_of(5, edited(5, 15, "\x01")));
     v1::StateFrame answer = edited(0, 0, "\x01");

@@ -64,6 +64,11 @@ void require_possible(const OperatorInput& input, std::size_t burrs) {
     require(input.burr < burrs, "a burr that is not there");
 }
 
+/// What the milling loop tells meanwhile: the first brick goes, voxel by voxel.
+EditRun run_milled_at(std::size_t step) {
+    return {.brick = 0, .first_voxel = static_cast<std::uint16_t>(step % brick_voxel_count), .count = 1};
+}
+
 }  // namespace
 
 void server_session(Bytes input) {
@@ -73,12 +78,13 @@ void server_session(Bytes input) {
     Bytes stream_bytes = input.subspan(1);
 
     static const Bone bone = small_bone();
-    const std::uint64_t checksum_before = checksum(bone);
+    Bone carved = bone;
     const SessionInfo info = small_session_info();
     BoneMirror mirror(bone);
     static SnapshotPacker packer;
     TripleBuffer<OperatorInput> output;
     OperatorSeat seat(output);
+    EditGuesser guesser;
     constexpr OperatorSeat::ClientId id = 1;
     boost::asio::io_context io;
     const auto stream = std::make_shared<ScriptedStream>(io);
@@ -86,15 +92,18 @@ void server_session(Bytes input) {
 
     std::optional<std::string> ended;
     std::size_t messages = 0;
-    session->start(
-        {.on_message =
-             [&](const v1::ClientFrame& frame) {
-                 ++messages;
-                 return take_client_message(
-                     frame,
-                     {.id = id, .feed = session->feed(), .seat = &seat, .burr_count = info.burrs.size()}, {});
-             },
-         .on_closed = [&](const std::string& line, bool) { ended = line; }});
+    session->start({.on_message =
+                        [&](const v1::ClientFrame& frame) {
+                            if (messages++ == 0) session->serve();
+                            return take_client_message(frame,
+                                                       {.id = id,
+                                                        .feed = session->feed(),
+                                                        .guesser = guesser,
+                                                        .seat = &seat,
+                                                        .burr_count = info.burrs.size()},
+                                                       {});
+                        },
+                    .on_closed = [&](const std::string& line, bool) { ended = line; }});
     stream->let_write();
     std::size_t states = 0;
     while (!stream_bytes.empty() && !ended) {
@@ -102,17 +111,20 @@ void server_session(Bytes input) {
         stream_bytes = stream_bytes.subspan(piece.size());
         stream->arrive(piece);
         if (output.refresh()) require_possible(output.front(), info.burrs.size());
+        const EditRun milled = run_milled_at(++states);
+        apply(milled, carved);
+        mirror.apply(milled);
         session->feed().note(mirror.take_changes());
-        ++states;
         session->feed().request_state({.time_s = 0.03 * static_cast<double>(states)}, states % 30 == 0);
         session->pump();
         if (reads_all) stream->let_write();
     }
-    require(checksum(mirror.bone()) == checksum_before, "a client changed the bone");
+    require(checksum(mirror.bone()) == checksum(carved), "a client changed the bone");
     if (ended) {
         require(!ended->empty() && ended->find('\n') == std::string::npos,
                 "a client is dropped without one line that says why");
     } else {
+        session->serve();
         session->feed().finish("the end");
         session->pump();
         stream->let_write();

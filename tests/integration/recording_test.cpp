@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "tests/support/block_file.h"
 #include "tests/support/child_process.h"
 #include "tests/support/eventually.h"
 #include "tests/support/temporary_folder.h"
@@ -34,20 +35,7 @@ class Recording : public ::testing::Test {
                                             "0.4,-1,0,2.5,0,0,1,1\n"
                                             "1.4,-1,0,1.0,0,0,1,1\n"
                                             "2.4,1,0,1.0,0,0,1,1\n";
-        write_block();
-    }
-
-    /// A small block of bone, ever stiffer upwards: there in no time.
-    void write_block() const {
-        std::ofstream out(file("block.nrrd"), std::ios::binary);
-        out << "NRRD0004\ntype: int16\ndimension: 3\nspace: left-posterior-superior\nsizes: 48 40 32\n"
-               "space directions: (0.2,0,0) (0,0.2,0) (0,0,0.2)\nspace origin: (-4.7,-3.9,-4.1)\n"
-               "encoding: raw\nendian: little\n\n";
-        for (int z = 0; z < 32; ++z)
-            for (int voxel = 0; voxel < 48 * 40; ++voxel) {
-                const int hu = 400 + 30 * z;
-                out.put(static_cast<char>(hu & 0xFF)).put(static_cast<char>(hu >> 8));
-            }
+        write_block(file("block.nrrd"));
     }
 
     std::string file(const std::string& name) const { return (folder_ / name).string(); }
@@ -103,7 +91,7 @@ TEST_F(Recording, LeavesEveryoneWithTheServersBone) {
 
     const auto read = info("a.pcap");
     EXPECT_EQ(read.at("bone_checksum"), served.at("bone_checksum"));
-    EXPECT_EQ(read.at("protocol"), "1.2");
+    EXPECT_EQ(read.at("protocol"), "1.3");
     EXPECT_EQ(read.at("frames"), served.at("recording").at("frames"));
     EXPECT_NEAR(read.at("duration_s").get<double>(), served.at("duration_s").get<double>(), 1e-6);
     EXPECT_GT(read.at("removed_mm3").at("total"), 0.1);
@@ -159,12 +147,12 @@ TEST_F(Recording, OfAServerThatWasKilledIsReadableToItsLastWholeFrame) {
     EXPECT_EQ(info("a.pcap").at("frames").get<int>(), read.at("frames").get<int>() - 1);
 }
 
-TEST_F(Recording, EndsWithAFullDiskAndTheSessionGoesOn) {
+TEST_F(Recording, StandsStillWhileTheDiskIsFullAndTheSessionGoesOn) {
     record("whole.pcap");
     const auto needed = std::filesystem::file_size(file("whole.pcap")) / 1024;
     const Finished server = record_on_disk_of(needed - 5, "a.pcap", "full.json");
     EXPECT_EQ(server.status, 1);
-    EXPECT_THAT(server.err, AllOf(HasSubstr("a.pcap: the recording ends after "), HasSubstr("File too large"),
+    EXPECT_THAT(server.err, AllOf(HasSubstr("a.pcap: no more than "), HasSubstr("File too large"),
                                   HasSubstr("the session goes on")));
     const auto full = json("full.json");
     EXPECT_EQ(full.at("bone_checksum"), json("server.json").at("bone_checksum"));

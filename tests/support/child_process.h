@@ -27,6 +27,7 @@ class ChildProcess {
     std::optional<int> wait(std::chrono::seconds deadline);
 
     void send_signal(int signal) const;
+    pid_t pid() const { return pid_; }
 
     /// What it has written to standard output and standard error so far.
     const std::string& out() const { return streams_[0].text; }

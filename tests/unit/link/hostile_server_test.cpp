@@ -12,6 +12,7 @@
 #include "common/wire/frame.h"
 #include "common/wire/protocol_version.h"
 #include "common/wire/scene_messages.h"
+#include "common/wire/sealed_frame.h"
 #include "common/wire/snapshot.h"
 #include "render_client/link/bone_link.h"
 #include "tests/support/block.h"
@@ -197,6 +198,18 @@ TEST_F(HostileServer, IsAskedAfreshAfterNonsense) {
     expect_loss("is not what should come there");
     send(std::string("\x03\xff\xff\xff", 4));
     expect_loss("no message");
+}
+
+TEST_F(HostileServer, IsAskedAfreshAndSaysSoAfterAFrameWhoseSealDoesNotHold) {
+    greet_until_live();
+    std::string sealed;
+    v1::ServerFrame frame = state(0);
+    frame.set_sequence(++sequence_);
+    append_sealed_frame(frame, sealed);
+    sealed.back() ^= 1;
+    send(sealed);
+    expect_loss("makes no sense: a frame's checksum does not hold; trying again");
+    EXPECT_EQ(last_.rejected_frames, 1U);
 }
 
 TEST_F(HostileServer, IsAskedAfreshIfItVanishesInTheMiddleOfAFrame) {

@@ -68,7 +68,7 @@ TEST(PacketWriter, SaysInOneLineWhyItCannotWrite) {
     EXPECT_THAT(failure_of("/dev/full"), HasSubstr("No space"));
 }
 
-TEST(PacketWriter, EndsWithTheLastWholePacketWhereTheDiskIsFull) {
+TEST(PacketWriter, EndsWithTheLastWholePacketWhileTheDiskIsFullAndGoesOnBehindIt) {
     const testing::TemporaryFolder folder;
     PacketWriter writer(folder / "a.pcap");
     std::string error;
@@ -80,13 +80,20 @@ TEST(PacketWriter, EndsWithTheLastWholePacketWhereTheDiskIsFull) {
             error = failure.what();
         }
     }
-    EXPECT_THAT(error, AllOf(HasSubstr("a.pcap"), HasSubstr("ends after 9 frames: ")));
+    EXPECT_THAT(error, AllOf(HasSubstr("a.pcap"), HasSubstr("no more than 9 frames could be written: ")));
     EXPECT_EQ(std::filesystem::file_size(folder / "a.pcap"), 24U + 9 * 1016U);
     PacketReader reader(folder / "a.pcap");
     int packets = 0;
     while (reader.next()) ++packets;
     EXPECT_EQ(packets, 9);
     EXPECT_FALSE(reader.is_torn());
+    writer.write(noon, "there is room again");
+    PacketReader again(folder / "a.pcap");
+    std::string last;
+    for (packets = 0; const auto packet = again.next(); ++packets)
+        last = std::string(packet->message.begin(), packet->message.end());
+    EXPECT_EQ(packets, 10);
+    EXPECT_EQ(last, "there is room again");
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include <array>
 
 #include "common/recording/packet_reader.h"
+#include "tests/support/eventually.h"
 #include "tests/support/file_size_limit.h"
 #include "tests/support/temporary_folder.h"
 
@@ -16,7 +17,7 @@ namespace {
 
 TEST(RecordingWriter, WritesAllThatWasPushedInOrder) {
     const testing::TemporaryFolder folder;
-    RecordingWriter writer(folder / "a.pcap", {});
+    RecordingWriter writer(folder / "a.pcap", {}, WhenDiskIsFull::end);
     for (int i = 0; i < 1000; ++i) writer.push(Stamp{std::chrono::milliseconds(i)}, std::to_string(i));
     writer.close();
     writer.push(Stamp{}, "too late");
@@ -34,7 +35,9 @@ TEST(RecordingWriter, WritesAllThatWasPushedInOrder) {
 TEST(RecordingWriter, SaysOnceThatTheDiskIsFullAndGoesOnWithoutIt) {
     const testing::TemporaryFolder folder;
     std::vector<std::string> lines;
-    RecordingWriter writer(folder / "a.pcap", [&](const std::string& line) { lines.push_back(line); });
+    RecordingWriter writer(
+        folder / "a.pcap", [&](RecordingNews, const std::string& line) { lines.push_back(line); },
+        WhenDiskIsFull::end);
     {
         const testing::FileSizeLimit disk(5'000);
         for (int i = 0; i < 20; ++i) {
@@ -52,6 +55,49 @@ TEST(RecordingWriter, SaysOnceThatTheDiskIsFullAndGoesOnWithoutIt) {
     EXPECT_EQ(writer.report().frames, 4U);
 }
 
+TEST(RecordingWriter, GoesOnWithoutAGapWhenADiskThatWasFullHasRoom) {
+    const testing::TemporaryFolder folder;
+    std::vector<RecordingNews> news;
+    RecordingWriter writer(
+        folder / "a.pcap", [&](RecordingNews what, const std::string&) { news.push_back(what); },
+        WhenDiskIsFull::try_again);
+    const auto frame = [](int i) { return std::string(1000, static_cast<char>('a' + i)); };
+    {
+        const testing::FileSizeLimit disk(5'000);
+        for (int i = 0; i < 10; ++i) writer.push(Stamp{}, frame(i));
+        writer.wait_until_written();
+        EXPECT_TRUE(writer.has_failed());
+        EXPECT_THAT(writer.report().error, ::testing::HasSubstr("no more than 4 frames"));
+        EXPECT_EQ(writer.report().frames, 4U);
+        writer.push(Stamp{}, frame(10));
+        EXPECT_TRUE(writer.has_room()) << "some may wait";
+    }
+    ASSERT_TRUE(testing::eventually([&] { return writer.report().frames == 11; }));
+    writer.close();
+    EXPECT_EQ(writer.report().error, "");
+    EXPECT_EQ(writer.report().pauses, 1U);
+    EXPECT_THAT(news, ::testing::ElementsAre(RecordingNews::stands_still, RecordingNews::goes_on));
+    PacketReader reader(folder / "a.pcap");
+    for (int i = 0; i < 11; ++i) {
+        const auto packet = reader.next();
+        ASSERT_TRUE(packet) << i;
+        ASSERT_EQ(std::string(packet->message.begin(), packet->message.end()), frame(i));
+    }
+    EXPECT_FALSE(reader.next());
+    EXPECT_FALSE(reader.is_torn());
+}
+
+TEST(RecordingWriter, TriesOnceMoreWhenItIsClosedAndThenSaysWhatIsMissing) {
+    const testing::TemporaryFolder folder;
+    RecordingWriter writer(folder / "a.pcap", {}, WhenDiskIsFull::try_again);
+    const testing::FileSizeLimit disk(5'000);
+    for (int i = 0; i < 10; ++i) writer.push(Stamp{}, std::string(1000, 'x'));
+    writer.close();
+    EXPECT_EQ(writer.report().frames, 4U);
+    EXPECT_THAT(writer.report().error, ::testing::HasSubstr("no more than 4 frames"));
+    EXPECT_EQ(writer.report().pauses, 0U);
+}
+
 TEST(RecordingWriter, NeverWaitsForASlowDiskAndHoldsNoMoreThanItMay) {
     const testing::TemporaryFolder folder;
     const auto pipe = folder / "pipe";  // nobody reads it: the slowest disk there is
@@ -59,7 +105,7 @@ TEST(RecordingWriter, NeverWaitsForASlowDiskAndHoldsNoMoreThanItMay) {
     const int reader = ::open(pipe.c_str(), O_RDONLY | O_NONBLOCK);
     ASSERT_GE(reader, 0);
     {
-        RecordingWriter writer(pipe, {});
+        RecordingWriter writer(pipe, {}, WhenDiskIsFull::try_again);
         const std::string frame(100'000, 'x');
         std::size_t pushed = 0;
         while (writer.has_room()) {

@@ -45,7 +45,9 @@ class ClientFeedTest : public ::testing::Test {
     ClientFeedTest() {
         std::mt19937 random(2);
         mirror_.emplace(testing::make_speckled_bone(random, {.grid = {.size_voxels = {128, 128, 64}}}));
-        feed_.emplace(v1::Hello(), *mirror_, packer_);
+        v1::Hello hello;
+        hello.add_burrs()->set_diameter_mm(2.0);
+        feed_.emplace(hello, *mirror_, packer_);
         carver_.emplace(*mirror_, *feed_);
     }
     /// Lets the client take all there is; says how many frames that were.
@@ -97,6 +99,20 @@ TEST_F(ClientFeedTest, SplitsEditsThatDoNotFitAFrame) {
     feed_->request_state({}, true);
     EXPECT_GT(drain(), 2);
     EXPECT_EQ(replica_.checksums(), 1U) << "only the last part states a checksum";
+    expect_equal();
+}
+
+TEST_F(ClientFeedTest, TellsTheSameAsWhatDiffersFromAGuess) {
+    EditGuesser guesser;
+    feed_->guess_edits(guesser);
+    drain();
+    for (int i = 0; i < 30; ++i) {
+        carver_->carve(i < 10 ? 20 : 5'000);  // some in more than a frame
+        feed_->request_state({.time_s = 0.1 * i, .burr_position_mm = glm::dvec3(0.2 * i)}, i % 10 == 9);
+        drain();
+    }
+    EXPECT_EQ(replica_.checksums(), 3U);
+    EXPECT_TRUE(replica_.has_guessed_edits());
     expect_equal();
 }
 

@@ -202,15 +202,57 @@ TEST(StreamingServer, KeepsNoBacklogForAClientThatReadsLate) {
     EXPECT_LT(replica.states(), 45U) << "what it missed comes as it now is, not frame by frame";
 }
 
+v1::ClientFrame greeting() {
+    v1::ClientFrame frame;
+    frame.set_sequence(1);
+    frame.mutable_hello()->set_protocol_minor(protocol_minor);
+    return frame;
+}
+
 TEST(StreamingServer, TurnsAwayClientsBeyondItsLimit) {
     ServedBone served;
     std::vector<std::unique_ptr<RawClient>> clients;
-    for (int i = 0; i < 32; ++i) clients.push_back(std::make_unique<RawClient>(served.port()));
+    for (int i = 0; i < 32; ++i) {
+        clients.push_back(std::make_unique<RawClient>(served.port()));
+        clients.back()->send(greeting());
+        testing::Replica replica;
+        ASSERT_TRUE(eventually([&] {
+            clients.back()->read_into(replica);
+            return replica.bone().has_value();
+        })) << "of client "
+            << i;
+    }
     RawClient one_more(served.port());
     EXPECT_TRUE(one_more.is_dropped());
     clients.clear();
     BoneLink link("127.0.0.1", served.port());
     EXPECT_TRUE(reaches(link, LinkStatus::live)) << "there is room again";
+}
+
+TEST(StreamingServer, LetsClientsInHoweverManyStrangersHangOnInSilence) {
+    ServedBone served;
+    std::vector<std::unique_ptr<RawClient>> strangers;
+    for (int i = 0; i < 200; ++i) strangers.push_back(std::make_unique<RawClient>(served.port()));
+    BoneLink link("127.0.0.1", served.port());
+    EXPECT_TRUE(reaches(link, LinkStatus::live));
+    for (int i = 0; i < 200; ++i) strangers.push_back(std::make_unique<RawClient>(served.port()));
+    EXPECT_TRUE(strangers.front()->is_dropped());
+    served.start_carving();
+    EXPECT_TRUE(eventually([&] { return link.poll().checksums_verified >= 2; }));
+    EXPECT_EQ(link.poll().connections, 1U) << "it was not the one to give way";
+}
+
+TEST(StreamingServer, ServesAClientOfBeforeProtocol13WhichDoesNotGreetInItsOwnTerms) {
+    ServedBone served;
+    served.start_carving();
+    RawClient old(served.port());
+    testing::Replica replica;
+    EXPECT_TRUE(eventually([&] {
+        old.read_into(replica);
+        return replica.checksums() > 1;
+    }));
+    EXPECT_GT(replica.edits_of_last_state(), 0U);
+    EXPECT_FALSE(replica.has_guessed_edits());
 }
 
 TEST(StreamingServer, RecordsAsIfForOneMoreClient) {

@@ -1,0 +1,54 @@
+// A guess of what milling has left of a brick, from the way that the burr went: exact arithmetic, so that who
+// packs an edit and who unpacks it guess the same on any machine.
+//
+// A voxel whose centre has the distance d from the way of the burr's centre keeps, of 255 steps,
+//
+//     255 * clamp(1/2 + d - R, 0, 1), rounded to the nearest
+//
+// with all lengths in voxels: the law by which milling removes bone (partial voxels). Here lengths are whole
+// multiples of 1/65536 voxel; the nearest point of the way, d and the product are each rounded down to one
+// (the point towards zero, counted from the way's beginning). It is a guess: the way is taken for straight,
+// and what was there before is not known.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <optional>
+#include <variant>
+
+#include "common/bone/brick.h"
+#include "common/wire/voxel_mask.h"
+#include "common/wire/wire_error.h"
+#include "osteomill/v1/bone.pb.h"
+
+namespace osteomill {
+
+/// A straight way of a sphere, in multiples of 1/65536 voxel; positions from the centre of voxel (0, 0, 0).
+struct GuessedSweep {
+    static constexpr std::int64_t units_per_voxel = 65536;
+    static constexpr std::int64_t longest_way_voxels = 64;  ///< along each axis
+    static constexpr std::int64_t largest_radius_voxels = 256;
+
+    std::array<std::int64_t, 3> from{};
+    std::array<std::int64_t, 3> to{};
+    std::int64_t radius = 0;
+
+    bool operator==(const GuessedSweep&) const = default;
+};
+
+/// All in voxels. Nothing where it is not finite, or too long or thick for the arithmetic to be exact.
+std::optional<GuessedSweep> guessed_sweep(const glm::dvec3& from, const glm::dvec3& to, double radius);
+
+v1::GuessedSweep to_message(const GuessedSweep& sweep);
+std::variant<GuessedSweep, WireError> guessed_sweep_from(const v1::GuessedSweep& message);
+
+struct BrickGuess {
+    VoxelMask changed;  ///< less is left than at the way's beginning alone
+    ByteBrick left{};   ///< of these; of the others 0
+};
+
+/// `brick`: its place, counted in bricks.
+BrickGuess guess_brick(const GuessedSweep& sweep, const glm::ivec3& brick);
+
+}  // namespace osteomill

@@ -1,0 +1,81 @@
+#include "haptic_server/streaming/session_recorder.h"
+
+#include <gmock/gmock.h>
+
+#include <limits>
+
+#include "common/recording/playhead.h"
+#include "common/wire/scene_messages.h"
+#include "tests/support/eventually.h"
+#include "tests/support/file_size_limit.h"
+#include "tests/support/made_recording.h"
+#include "tests/support/temporary_folder.h"
+
+namespace osteomill {
+namespace {
+
+using testing::eventually;
+
+class SessionRecorderTest : public ::testing::Test {
+  protected:
+    void carve_and_record(int states) {
+        struct ToMirror final : EditSink {
+            explicit ToMirror(BoneMirror& into) : mirror(into) {}
+            void push(const EditRun& run) noexcept override { mirror.apply(run); }
+            BoneMirror& mirror;
+        } edits(mirror_);
+        for (int i = 0; i < states; ++i) {
+            for (int run = 0; run < 10; ++run) testing::carve_somewhere(bone_, random_, edits);
+            recorder_->note(mirror_.take_changes());
+            tool_.time_s += 0.05;
+            recorder_->record(tool_, i % 20 == 0, false);
+        }
+    }
+    std::uintmax_t size() const { return std::filesystem::file_size(file_); }
+
+    const testing::TemporaryFolder folder_;
+    const std::filesystem::path file_ = folder_ / "a.pcap";
+    std::mt19937 random_{4};
+    Bone bone_ = testing::make_speckled_bone(random_, {.grid = {.size_voxels = {64, 48, 32}}});
+    BoneMirror mirror_{bone_};
+    SnapshotPacker packer_;
+    ToolView tool_;
+    std::optional<SessionRecorder> recorder_{
+        std::in_place, file_,  Stamp{std::chrono::hours(24)}, to_message(testing::recorded_session_info()),
+        mirror_,       packer_};
+};
+
+TEST_F(SessionRecorderTest, GoesOnWithTheWholeBoneAfterTheDiskWasFull) {
+    carve_and_record(20);
+    ASSERT_TRUE(eventually([&] { return recorder_->report().frames >= 20; }));
+    {
+        const testing::FileSizeLimit disk(size() + 3'000);
+        carve_and_record(200);
+        ASSERT_TRUE(eventually([&] { return !recorder_->report().error.empty(); }));
+        EXPECT_FALSE(Playhead(file_).is_torn());
+    }
+    ASSERT_TRUE(eventually([&] { return recorder_->report().pauses == 1; }));
+    carve_and_record(20);
+    recorder_->finish(tool_, "the end");
+    EXPECT_EQ(recorder_->report().error, "");
+
+    Playhead playhead(file_);
+    bool has_goodbye = false;
+    for (auto step = Playhead::Step::state; step != Playhead::Step::end;) {
+        step = playhead.step(std::numeric_limits<double>::infinity());
+        has_goodbye = has_goodbye || step == Playhead::Step::goodbye;
+    }
+    EXPECT_TRUE(has_goodbye);
+    EXPECT_EQ(playhead.bone_checksum(), checksum(bone_));
+}
+
+TEST_F(SessionRecorderTest, SaysThatTheEndIsMissingWhereTheDiskStaysFull) {
+    const testing::FileSizeLimit disk(size() + 3'000);
+    carve_and_record(200);
+    recorder_->finish(tool_, "the end");
+    EXPECT_THAT(recorder_->report().error, ::testing::HasSubstr("File too large"));
+    EXPECT_EQ(recorder_->report().pauses, 0U);
+}
+
+}  // namespace
+}  // namespace osteomill
