@@ -1,18 +1,18 @@
 #!/usr/bin/env bash
 # Installs, builds and runs every test: optimised, then under AddressSanitizer and UBSan; those of code with threads under
-# ThreadSanitizer, too.
-#   ./test.sh             all three
-#   ./test.sh release     one (or several) of: release debug asan tsan
+# ThreadSanitizer, too. Last, a minute of hostile input under libFuzzer.
+#   ./test.sh             all of these
+#   ./test.sh release     one (or several) of: release debug asan tsan fuzz
 set -euo pipefail
 cd "$(dirname "$0")"
 source scripts/prepare.sh
 
 presets=("$@")
-[ ${#presets[@]} -gt 0 ] || presets=(release asan tsan)
+[ ${#presets[@]} -gt 0 ] || presets=(release asan tsan fuzz)
 for preset in "${presets[@]}"; do
     case $preset in
-        release | debug | asan | tsan) ;;
-        *) echo "unknown preset '$preset'; choose from release debug asan tsan" >&2; exit 2 ;;
+        release | debug | asan | tsan | fuzz) ;;
+        *) echo "unknown preset '$preset'; choose from release debug asan tsan fuzz" >&2; exit 2 ;;
     esac
 done
 
@@ -20,5 +20,9 @@ install_packages
 for preset in "${presets[@]}"; do
     build "$preset"
     say "testing: $preset"
-    ctest --preset "$preset" -j "$(nproc)"
+    if [ "$preset" = fuzz ]; then
+        tests/fuzz/run.sh 20  # seconds for each of the five targets: a minute on two cores
+    else
+        ctest --preset "$preset" -j "$(nproc)"
+    fi
 done

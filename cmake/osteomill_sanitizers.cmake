@@ -1,8 +1,13 @@
-# OSTEOMILL_SANITIZER: none, address (with UBSan) or thread; what the presets asan and tsan set.
-set(OSTEOMILL_SANITIZER none CACHE STRING "Instrument everything: none, address (and undefined behaviour), thread")
-set_property(CACHE OSTEOMILL_SANITIZER PROPERTY STRINGS none address thread)
+# OSTEOMILL_SANITIZER: none, address (with UBSan), thread, or fuzzer (address, for libFuzzer); what the presets asan, tsan and
+# fuzz set.
+set(OSTEOMILL_SANITIZER none CACHE STRING
+    "Instrument everything: none, address (and undefined behaviour), thread, fuzzer (as address, with clang)")
+set_property(CACHE OSTEOMILL_SANITIZER PROPERTY STRINGS none address thread fuzzer)
 
-if(OSTEOMILL_SANITIZER STREQUAL "address")
+if(OSTEOMILL_SANITIZER STREQUAL "fuzzer")
+    add_compile_options(-fsanitize=fuzzer-no-link)
+endif()
+if(OSTEOMILL_SANITIZER MATCHES "^(address|fuzzer)$")
     # UBSan's checks of each pointer for null and alignment are a fifth of the time that the compiler takes, and AddressSanitizer
     # stops at a null pointer in use anyway.
     add_compile_options(-fsanitize=address,undefined -fno-sanitize=null,alignment -fno-sanitize-recover=all
@@ -13,5 +18,5 @@ elseif(OSTEOMILL_SANITIZER STREQUAL "thread")
     add_compile_definitions(BOOST_ASIO_DISABLE_FENCED_BLOCK)
     add_link_options(-fsanitize=thread)
 elseif(NOT OSTEOMILL_SANITIZER STREQUAL "none")
-    message(FATAL_ERROR "OSTEOMILL_SANITIZER is '${OSTEOMILL_SANITIZER}'; choose none, address or thread")
+    message(FATAL_ERROR "OSTEOMILL_SANITIZER is '${OSTEOMILL_SANITIZER}'; choose none, address, thread or fuzzer")
 endif()

@@ -50,6 +50,19 @@ std::optional<std::size_t> first_raised(const v1::BrickEdit& edit, const Bone& b
     return raised;
 }
 
+/// Bone in a voxel of a brick at the grid's edge that the grid no longer has.
+std::optional<std::size_t> first_outside_grid(const v1::BrickEdit& edit, const Bone& bone) {
+    const BoneContent& content = bone.content();
+    const glm::ivec3 first = brick_edge_voxels * brick_position(content.size_bricks, edit.brick());
+    if (contains(content.grid, first + (brick_edge_voxels - 1))) return std::nullopt;
+    std::optional<std::size_t> outside;
+    for_each_voxel_until(edit, [&](std::size_t voxel, std::uint8_t fraction) {
+        if (fraction > 0 && !contains(content.grid, first + voxel_in_brick(voxel))) outside = voxel;
+        return outside.has_value();
+    });
+    return outside;
+}
+
 void write(const v1::BrickEdit& edit, Bone& bone) {
     const auto fractions = bone.fractions(bone.slot(edit.brick()));
     for_each_voxel_until(edit, [&](std::size_t voxel, std::uint8_t fraction) {
@@ -86,6 +99,8 @@ std::optional<WireError> apply_brick_edit(const v1::BrickEdit& edit, Bone& bone)
 
 std::variant<EditEffect, WireError> correct_with_brick_edit(const v1::BrickEdit& edit, Bone& bone) {
     if (auto fault = fault_of_runs(edit, bone)) return *fault;
+    if (const auto voxel = first_outside_grid(edit, bone))
+        return refused(edit.brick(), "its voxel " + std::to_string(*voxel) + " lies outside the grid");
     const EditEffect effect = first_raised(edit, bone) ? EditEffect::raises : EditEffect::lowers;
     write(edit, bone);
     return effect;

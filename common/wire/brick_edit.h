@@ -24,7 +24,8 @@ std::optional<WireError> apply_brick_edit(const v1::BrickEdit& edit, Bone& bone)
 /// Whether an edit that was written could have come of milling.
 enum class EditEffect { lowers, raises };
 
-/// Likewise for a copy that may be wrong: what would raise a voxel is written, too, and said.
+/// Likewise for a copy that may be wrong: what would raise a voxel is written, too, and said; but bone
+/// outside the grid is refused.
 std::variant<EditEffect, WireError> correct_with_brick_edit(const v1::BrickEdit& edit, Bone& bone);
 
 }  // namespace osteomill

@@ -3,6 +3,7 @@
 #include <xxhash.h>
 
 #include "common/wire/frame.h"
+#include "common/wire/parse_message.h"
 
 namespace osteomill {
 
@@ -27,7 +28,7 @@ void append_sealed_frame(const v1::ServerFrame& frame, std::string& stream) {
 
 std::variant<v1::ServerFrame, WireError> open_frame(std::span<const std::uint8_t> message, Seal seal) {
     v1::ServerFrame frame;
-    if (!frame.ParseFromArray(message.data(), static_cast<int>(message.size())))
+    if (!parse_message(message, frame))
         return WireError{"a frame is no message"};
     if (!frame.has_frame_checksum()) {
         if (seal == Seal::required) return WireError{"a frame lacks its checksum"};

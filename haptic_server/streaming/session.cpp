@@ -7,6 +7,7 @@
 #include <chrono>
 
 #include "common/net/tls_failure.h"
+#include "common/wire/parse_message.h"
 
 namespace osteomill {
 
@@ -105,7 +106,7 @@ void Session::take(std::span<const std::uint8_t> arrived) {
                              std::to_string(static_cast<int>(most_messages_per_s)) + " messages a second",
                          true);
         v1::ClientFrame frame;
-        if (!frame.ParseFromArray(message->data(), static_cast<int>(message->size())))
+        if (!parse_message(*message, frame))
             return close("dropped: it sent a frame that is no message", true);
         if (frame.sequence() != last_sequence_ + 1)
             return close("dropped: frame " + std::to_string(frame.sequence()) + " came after " +

@@ -21,6 +21,7 @@
 #include "common/wire/scene_messages.h"
 #include "haptic_server/streaming/bone_mirror.h"
 #include "haptic_server/streaming/client_feed.h"
+#include "haptic_server/streaming/client_message.h"
 #include "haptic_server/streaming/handshakes.h"
 #include "haptic_server/streaming/limited_log.h"
 #include "haptic_server/streaming/newcomers.h"
@@ -272,22 +273,15 @@ class StreamingServer::Impl {
             welcome(*session);
             session->serve();
         }
-        if (frame.has_hello()) {
-            if (frame.hello().takes_guessed_edits()) session->feed().guess_edits(guesser_);
-            return std::nullopt;
-        }
-        if (frame.has_compare_bone()) return compare(*session, frame.compare_bone());
-        if (!frame.has_operator_input()) return WireError{"it sent a frame without a body that is known"};
-        const auto intent = intent_from(frame.operator_input(), burr_count_);
-        if (const auto* error = std::get_if<WireError>(&intent)) return *error;
-        if (seat_ && !is_finishing_) seat_->take_input(id, std::get<OperatorIntent>(intent), Clock::now());
-        return std::nullopt;
-    }
-
-    static std::optional<WireError> compare(Session& session, const v1::CompareBone& request) {
-        if (auto error = session.feed().compare(request)) return error;
-        session.pump();
-        return std::nullopt;
+        auto error = take_client_message(frame,
+                                         {.id = id,
+                                          .feed = session->feed(),
+                                          .guesser = guesser_,
+                                          .seat = seat_ && !is_finishing_ ? &*seat_ : nullptr,
+                                          .burr_count = burr_count_},
+                                         Clock::now());
+        if (!error) session->pump();
+        return error;
     }
 
     void finish() {

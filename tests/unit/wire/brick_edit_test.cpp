@@ -106,6 +106,21 @@ TEST_F(BrickEditMessage, RefusesToRaiseWhatIsLeft) {
     EXPECT_THAT(error_of(edit), HasSubstr("raises what is left of voxel 30"));
 }
 
+TEST_F(BrickEditMessage, ThatCorrectsACopyGivesBackBoneButNoneOutsideTheGrid) {
+    EXPECT_EQ(std::get<EditEffect>(correct_with_brick_edit(run(1, 30, 3), bone_)), EditEffect::lowers);
+    v1::BrickEdit edit = run(1, 30, 3);
+    edit.set_fraction(std::string(3, 101));
+    EXPECT_EQ(std::get<EditEffect>(correct_with_brick_edit(edit, bone_)), EditEffect::raises);
+
+    Bone cut = testing::make_block({0, 0, 0}, {2.0, 1.6, 1.6}, 0.1);  // of the second brick, 4 voxels along x
+    const std::uint64_t before = checksum(cut);
+    const auto refused = correct_with_brick_edit(run(1, 1, 4), cut);
+    ASSERT_TRUE(std::holds_alternative<WireError>(refused));
+    EXPECT_THAT(std::get<WireError>(refused).line, HasSubstr("voxel 4 lies outside the grid"));
+    EXPECT_EQ(checksum(cut), before);
+    EXPECT_TRUE(std::holds_alternative<EditEffect>(correct_with_brick_edit(run(1, 0, 4), cut)));
+}
+
 TEST_F(BrickEditMessage, OfTheWorstBrickIsSmallBesideAFrame) {
     VoxelMask alternating;
     for (std::size_t voxel = 0; voxel < brick_voxel_count; voxel += 2) alternating.set(voxel);

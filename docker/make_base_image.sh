@@ -1,0 +1,14 @@
+#!/usr/bin/env bash
+# Makes the image osteomill-base, a bare Debian 12, with debootstrap: for a machine that cannot pull one. As root.
+#   docker/make_base_image.sh [MIRROR]
+# The mirror stays in the image, for what is installed on top.
+set -euo pipefail
+mirror=${1:-http://deb.debian.org/debian}
+for program in debootstrap docker; do
+    command -v "$program" >/dev/null || { echo "$program is not installed (apt-get install debootstrap docker.io)" >&2; exit 1; }
+done
+root=$(mktemp -d)
+trap 'rm -rf "$root"' EXIT
+debootstrap --variant=minbase bookworm "$root" "$mirror" >"$root.log" 2>&1 || { tail "$root.log" >&2; exit 1; }
+rm -rf "$root.log" "$root"/var/cache/apt/archives/*.deb
+tar -C "$root" -c . | docker import - osteomill-base

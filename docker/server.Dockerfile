@@ -1,0 +1,26 @@
+# haptic_server and packet_replay, with what they need to run.
+#   docker build -t osteomill-server -f docker/server.Dockerfile docker
+# BASE: a Debian 12. PROGRAMS: an image with the programs, see programs.Dockerfile.
+ARG BASE=debian:bookworm-slim
+ARG PROGRAMS=osteomill-programs
+FROM ${PROGRAMS} AS programs
+
+FROM ${BASE}
+RUN apt-get update -qq \
+    && DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends \
+        libcap2-bin libfmt9 libgdcm3.0 libinsighttoolkit5.2 libpcap0.8 libprotobuf32 libspdlog1.10 libssl3 \
+        libtomlplusplus3 libxxhash0 libzstd1 \
+    && rm -rf /var/lib/apt/lists/* \
+    && useradd --uid 10001 --create-home osteomill \
+    && install -d -o osteomill /out
+COPY --from=programs haptic_server packet_replay /usr/local/bin/
+# A program that is granted what its container lacks does not start: see serve.sh.
+RUN install -D /usr/local/bin/haptic_server /usr/local/lib/osteomill/haptic_server \
+    && setcap cap_sys_nice+ep /usr/local/lib/osteomill/haptic_server
+COPY serve.sh listens.sh /usr/local/bin/
+USER osteomill
+WORKDIR /out
+EXPOSE 7010
+HEALTHCHECK --interval=5s --timeout=3s --start-period=30s --retries=3 CMD listens.sh 7010
+ENTRYPOINT ["serve.sh"]
+CMD ["--listen", "0.0.0.0:7010", "--insecure-network"]

@@ -1,0 +1,203 @@
+// Writes the seed corpus with the programs' own encoders.
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+#include <string>
+#include <vector>
+
+#include "common/recording/packet_writer.h"
+#include "common/wire/frame.h"
+#include "haptic_server/streaming/client_feed.h"
+#include "tests/fuzz/small_session.h"
+
+namespace osteomill::fuzz {
+
+namespace {
+
+void write_file(const std::filesystem::path& file, const std::string& bytes) {
+    std::filesystem::create_directories(file.parent_path());
+    std::ofstream(file, std::ios::binary) << bytes;
+}
+
+std::string message_of(const std::string& stream) {
+    FrameDecoder decoder;
+    decoder.append({reinterpret_cast<const std::uint8_t*>(stream.data()), stream.size()});
+    const auto message = decoder.next().value();
+    return {message.begin(), message.end()};
+}
+
+/// The frames of a session in which a run of voxels is milled, each behind its length.
+std::vector<std::string> session_frames(const Bone& bone, bool guessed = false) {
+    BoneMirror mirror(bone);
+    SnapshotPacker packer;
+    ClientFeed feed(to_message(small_session_info()), mirror, packer);
+    EditGuesser guesser;
+    if (guessed) feed.guess_edits(guesser);
+    std::vector<std::string> frames;
+    const auto drain = [&] {
+        while (auto frame = feed.next()) frames.push_back(*std::move(frame));
+    };
+    drain();
+    for (int i = 0; i < 4; ++i) {
+        mirror.apply(EditRun{.brick = 0,
+                             .first_voxel = static_cast<std::uint16_t>(16 * i),
+                             .count = 9,
+                             .fraction = {90, 80, 70, 60, 50, 40, 30, 20, 10}});
+        feed.note(mirror.take_changes());
+        feed.request_state({.time_s = 0.04 * i,
+                            .force_n = {0.1 * i, 0.0, -0.2},
+                            .burr = static_cast<std::size_t>(i % 2),
+                            .spindle_on = true,
+                            .removed_mm3 = 0.01 * i,
+                            .fault = i == 2 ? "the device is lost" : ""},
+                           i % 2 == 1);
+        drain();
+    }
+    feed.finish("the session has ended");
+    drain();
+    return frames;
+}
+
+std::string joined(const std::vector<std::string>& frames, std::size_t first = 0) {
+    std::string stream;
+    for (std::size_t i = first; i < frames.size(); ++i) stream += frames[i];
+    return stream;
+}
+
+/// As small_bone(), with all that a bone may have.
+Bone varied_bone() {
+    const Grid grid{.size_voxels = {20, 16, 16}, .spacing_mm = 0.2, .origin_mm = {1.0, -2.0, 3.0}};
+    auto builder = BoneBuilder::heterogeneous(grid, 0.02, true);
+    ByteBrick fraction{};
+    ByteBrick stiffness{};
+    ByteBrick tissue{};
+    for (std::size_t voxel = 0; voxel < brick_voxel_count; ++voxel) {
+        fraction[voxel] = static_cast<std::uint8_t>(voxel % 7 == 0 ? 255 : 100);
+        stiffness[voxel] = static_cast<std::uint8_t>(voxel / 64);
+        tissue[voxel] = voxel < 2048 ? 2 : 0;
+    }
+    builder.add_brick({0, 0, 0}, fraction, &stiffness, &tissue);
+    return std::move(builder).build();
+}
+
+void write_recording(const std::filesystem::path& file,
+                     const std::vector<std::vector<std::string>>& sessions) {
+    std::filesystem::create_directories(file.parent_path());
+    PacketWriter packets(file);
+    Stamp stamp{std::chrono::seconds(1'700'000'000)};
+    for (const auto& frames : sessions)
+        for (const std::string& frame : frames) {
+            packets.write(stamp, message_of(frame));
+            stamp += std::chrono::milliseconds(33);
+        }
+}
+
+v1::ClientFrame operator_input(double x_mm, std::uint32_t burr) {
+    v1::ClientFrame frame;
+    v1::OperatorInput& input = *frame.mutable_operator_input();
+    input.mutable_hand_target_mm()->set_x(x_mm);
+    input.mutable_spindle_axis()->set_z(2.0);
+    input.set_pedal(true);
+    input.set_burr(burr);
+    return frame;
+}
+
+v1::ClientFrame comparison(const Bone& copy) {
+    v1::ClientFrame frame;
+    *frame.mutable_compare_bone() = *DifferenceSearch(copy).next(copy, RunningChecksum(copy));
+    return frame;
+}
+
+v1::ClientFrame hello() {
+    v1::ClientFrame frame;
+    frame.mutable_hello()->set_protocol_minor(protocol_minor);
+    frame.mutable_hello()->set_takes_guessed_edits(true);
+    return frame;
+}
+
+v1::ClientFrame goodbye() {
+    v1::ClientFrame frame;
+    frame.mutable_goodbye()->set_reason("enough");
+    return frame;
+}
+
+std::string numbered(std::vector<v1::ClientFrame> frames) {
+    std::string stream;
+    for (std::size_t i = 0; i < frames.size(); ++i) {
+        frames[i].set_sequence(i + 1);
+        append_frame(frames[i], stream);
+    }
+    return stream;
+}
+
+/// A frame behind the four of the client target's own session, not sealed: the fuzzer cannot seal either.
+std::string state_of(std::uint64_t sequence, v1::StateFrame state) {
+    v1::ServerFrame frame;
+    frame.set_sequence(sequence);
+    *frame.mutable_state() = std::move(state);
+    std::string stream;
+    append_frame(frame, stream);
+    return stream;
+}
+
+v1::StateFrame edited(BrickIndex brick, std::uint32_t first, const std::string& fractions) {
+    v1::StateFrame state;
+    *state.mutable_tool() = to_message(ToolView{});
+    v1::BrickEdit& edit = *state.add_edits();
+    edit.set_brick(brick);
+    edit.add_changed(first);
+    edit.add_changed(static_cast<std::uint32_t>(fractions.size()));
+    edit.set_fraction(fractions);
+    return state;
+}
+
+void write_seeds(const std::filesystem::path& folder) {
+    const Bone bone = small_bone();
+    const auto frames = session_frames(bone);
+    const auto varied = session_frames(varied_bone());
+
+    write_file(folder / "frame_decoder/session", '\x07' + joined(frames));
+    write_file(folder / "frame_decoder/client", '\x40' + numbered({operator_input(1.0, 0), goodbye()}));
+    write_file(folder / "frame_decoder/too_long", std::string("\x00\xff\xff\xff\x01 too long", 14));
+    write_file(folder / "frame_decoder/padded", std::string("\x43\x81\x00 padded", 10));
+
+    Bone carved = bone;
+    carved.fractions(0)[5] = 0;
+    write_file(folder / "server_session/operator",
+               '\xff' + numbered({operator_input(1.0, 0), operator_input(-3.5, 1), goodbye()}));
+    write_file(folder / "server_session/comparison",
+               '\xff' + numbered({comparison(carved), operator_input(0.0, 1), comparison(bone)}));
+    write_file(folder / "server_session/hello",
+               '\x87' + numbered({hello(), operator_input(1.0, 0), comparison(bone), goodbye()}));
+    write_file(folder / "server_session/slow_reader", '\x10' + numbered({operator_input(0.0, 1), goodbye()}));
+    write_file(folder / "server_session/tls", std::string("\xff\x16\x03\x01\x02", 5));
+
+    write_file(folder / "client_session/session", '\0' + joined(frames));
+    write_file(folder / "client_session/guessed", '\0' + joined(session_frames(bone, true)));
+    write_file(folder / "client_session/varied", '\0' + joined(varied));
+    write_file(folder / "client_session/edits", '\x01' + state_of(5, edited(0, 3, "\x05\x04\x03")) +
+                                                    state_of(6, edited(5, 16, "\x05\x04\x03")));
+    write_file(folder / "client_session/bone_regained", '\x01' + state_of(5, edited(0, 0, "\xff")));
+    write_file(folder / "client_session/outside_grid", '\x01' + state_of(5, edited(5, 15, "\x01")));
+    v1::StateFrame answer = edited(0, 0, "\x01");
+    answer.mutable_comparison()->add_differing_part(0);
+    v1::StateFrame doubtful = edited(0, 7, "\x02");
+    doubtful.set_bone_checksum(1);
+    write_file(folder / "client_session/repair", '\x01' + state_of(5, doubtful) + state_of(6, answer));
+
+    write_recording(folder / "recording/session.pcap", {frames});
+    write_recording(folder / "recording/varied.pcap", {varied});
+    write_recording(folder / "recording/joined.pcap", {frames, varied});
+}
+
+}  // namespace
+
+}  // namespace osteomill::fuzz
+
+int main(int argc, char** argv) {
+    if (argc != 2) {
+        std::cerr << "make_fuzz_seeds FOLDER\n";
+        return 2;
+    }
+    osteomill::fuzz::write_seeds(argv[1]);
+}

@@ -1,0 +1,44 @@
+// Mutation of what is made of parts, each behind its length: bytes inserted anywhere would spoil all lengths
+// that follow, and little would get past the first check.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <random>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "common/wire/frame.h"
+
+namespace osteomill::fuzz {
+
+/// Leaves a part out, tells it twice, swaps two, or lets libFuzzer change one of them.
+void mutate_parts(std::vector<std::string>& parts, std::mt19937& random);
+
+/// The messages of a stream of frames, up to where it makes no sense; and the stream of messages. What does
+/// not fit a frame is left out.
+std::vector<std::string> messages_of(std::string_view stream);
+std::string stream_of(const std::vector<std::string>& messages);
+
+/// Numbers those that can be parsed from `first` on.
+template <typename Frame>
+void renumber(std::vector<std::string>& messages, std::uint64_t first) {
+    for (std::string& message : messages) {
+        Frame frame;
+        if (!frame.ParseFromString(message)) continue;
+        frame.set_sequence(first++);
+        message = frame.SerializeAsString();
+    }
+}
+
+/// The message with a seal that holds, and without the length before it; as it was if it is no message.
+std::string resealed(const std::string& message);
+
+/// Writes `mutated` over `data`, or, where there is no room for it, lets libFuzzer mutate what is there.
+std::size_t put(const std::string& mutated, std::uint8_t* data, std::size_t size, std::size_t most);
+
+}  // namespace osteomill::fuzz
+
+extern "C" std::size_t LLVMFuzzerMutate(std::uint8_t* data, std::size_t size, std::size_t most);

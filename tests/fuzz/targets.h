@@ -1,0 +1,45 @@
+// What hostile input is fed to. Each target takes any bytes at all and throws BrokenInvariant where the
+// program would do what it must not; a crash, a leak, undefined behaviour, a hang or memory over the bound is
+// found by what runs it: libFuzzer with the sanitizers (tests/fuzz/run.sh), or the seeds in an ordinary test.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <stdexcept>
+#include <string>
+
+namespace osteomill::fuzz {
+
+using Bytes = std::span<const std::uint8_t>;
+
+struct BrokenInvariant : std::logic_error {
+    using std::logic_error::logic_error;
+};
+
+inline void require(bool holds, const std::string& what) {
+    if (!holds) throw BrokenInvariant(what);
+}
+
+/// Finding: frames that depend on the pieces in which the stream arrived, that do not encode to the bytes
+/// that they came from, or that are longer than allowed; a complaint that is not one line.
+void frame_decoder(Bytes input);
+
+/// What a client sends, against Session, ClientFeed and OperatorSeat. Finding: a bone changed by a client; a
+/// tool moved to where no number is; an answer that is no frame, or more frames than the client may cause; a
+/// client dropped without a line.
+void server_session(Bytes input);
+
+/// What a server sends, against the decoder, SessionReceiver and BoneCopy. Finding: a copy with bone outside
+/// its grid, a checksum that is not that of its voxels, dirty bricks that are not stored, a request that a
+/// server would refuse.
+void client_session(Bytes input);
+
+/// A file, against Playhead. Finding: any exception but a RecordingError of one line; time that goes back; a
+/// place gone back to that does not lead to the same bone.
+void recording(Bytes input);
+
+/// A file, against parse_scene. Finding: any exception but a SceneError of one line; a scene that does not
+/// come back from write_scene as it was.
+void scene(Bytes input);
+
+}  // namespace osteomill::fuzz

@@ -1,0 +1,28 @@
+#include "common/wire/parse_message.h"
+
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "osteomill/v1/session.pb.h"
+
+namespace osteomill {
+namespace {
+
+bool parses(const std::string& bytes) {
+    v1::Goodbye message;
+    return parse_message({reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()}, message);
+}
+
+TEST(ParseMessage, RefusesTextThatIsNoUtf8AndLeavesItToTheCallerToSaySo) {
+    ::testing::internal::CaptureStderr();
+    EXPECT_TRUE(parses("\x0a\x02ok"));
+    EXPECT_FALSE(parses("\x0a\x02\xff\xfe"));
+    EXPECT_FALSE(
+        parses("\x0a\x05short"
+               "\x0a"));
+    EXPECT_EQ(::testing::internal::GetCapturedStderr(), "");
+}
+
+}  // namespace
+}  // namespace osteomill
