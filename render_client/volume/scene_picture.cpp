@@ -31,10 +31,7 @@ void ScenePicture::forget_bone() {
 }
 
 void ScenePicture::mark_dirty(const BoneTextures& bone, std::span<const BrickIndex> bricks) {
-    const glm::ivec3 size_bricks = size_in_bricks(bone.grid());
-    for (const BrickIndex brick : bricks)
-        dirty_.push_back(
-            {brick_position(size_bricks, brick) * brick_edge_voxels, glm::ivec3(brick_edge_voxels)});
+    for (const BrickIndex brick : bricks) dirty_.push_back(bone.voxels_of_brick(brick));
 }
 
 const gl::Framebuffer& ScenePicture::draw(const BoneTextures* bone, const DrawnTool* tool,
