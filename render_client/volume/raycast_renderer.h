@@ -2,9 +2,9 @@
 // over empty blocks, ends there, and is shaded by the gradient of the fraction.
 #pragma once
 
+#include "render_client/volume/bone_program.h"
 #include "render_client/volume/bone_renderer.h"
 #include "render_client/volume/gl/full_screen.h"
-#include "render_client/volume/gl/program.h"
 
 namespace osteomill {
 
@@ -18,7 +18,7 @@ class RaycastRenderer final : public BoneRenderer {
     void draw(const BoneTextures& bone, const Camera& camera, const glm::ivec2& size_px) override;
 
   private:
-    gl::Program program_;
+    BoneProgram bone_program_;
     gl::FullScreen full_screen_;
     EmptySpaceSkipping skipping_;
 };

@@ -1,0 +1,103 @@
+// What a fragment shader can ask about the bone, GLSL 3.30: the part that every renderer shares. BoneProgram
+// puts it in front of a renderer's own shader and binds the textures behind it.
+//
+// Points are in voxels, in texture coordinates of the bone's box: the first voxel spans 0 to 1, axes are the
+// patient's. Every function takes any point; far outside the box there is no bone.
+//
+//     vec3  bone_size                               uniform: the box, voxels
+//     float fraction_at(vec3 point)                 0 to 1, trilinear between voxels
+//     vec3  gradient_at(vec3 point)                 of the fraction, 1 / voxel; points into the bone
+//     vec3  normal_at(vec3 point, vec3 otherwise)   unit, out of the bone; `otherwise` where nothing slopes
+//     vec3  colour_at(vec3 point)                   linear RGB of the bone that is or was there
+//     float openness_at(vec3 point, vec3 normal)    0 to 1, how much of the sky above a surface is free of
+//     bone float free_length(vec3 point, vec3 direction) voxels along a unit direction (no component may be
+//     zero)
+//                                                   in which the fraction stays below one half; 0 if unknown
+#pragma once
+
+namespace osteomill {
+
+inline constexpr const char* bone_sampling_glsl = R"glsl(
+uniform sampler3D bone_fraction;
+uniform sampler3D bone_mean_fraction;
+uniform usampler3D bone_skip_distance;
+uniform usampler3D bone_colour_code;
+uniform sampler2D bone_colours;
+uniform vec3 bone_size;
+uniform bool bone_has_colour_code;
+
+const float block_edge = 4.0;
+
+float fraction_at(vec3 point) { return textureLod(bone_fraction, point / bone_size, 0.0).r; }
+
+// Eight corners of a cube: central differences smoothed across their axis, which hides that a fraction rises
+// from none to all within about one voxel.
+vec3 gradient_at(vec3 point) {
+    const float reach = 1.4;
+    vec3 gradient = vec3(0.0);
+    for (int corner = 0; corner < 8; ++corner) {
+        vec3 side = vec3(corner & 1, (corner >> 1) & 1, (corner >> 2) & 1) * 2.0 - 1.0;
+        gradient += side * fraction_at(point + reach * side);
+    }
+    return gradient / (8.0 * reach);
+}
+
+vec3 normal_at(vec3 point, vec3 otherwise) {
+    vec3 gradient = gradient_at(point);
+    float steepness = length(gradient);
+    return steepness > 1e-5 ? -gradient / steepness : otherwise;
+}
+
+// Colours of the eight nearest voxels blended trilinearly, so that tissues meet without steps.
+vec3 colour_at(vec3 point) {
+    if (!bone_has_colour_code) return texelFetch(bone_colours, ivec2(0), 0).rgb;
+    vec3 place = point - 0.5;
+    ivec3 low = ivec3(floor(place));
+    vec3 part = place - vec3(low);
+    ivec3 last = ivec3(bone_size) - 1;
+    vec3 sum = vec3(0.0);
+    float known = 0.0;
+    for (int corner = 0; corner < 8; ++corner) {
+        ivec3 side = ivec3(corner & 1, (corner >> 1) & 1, (corner >> 2) & 1);
+        uint code = texelFetch(bone_colour_code, clamp(low + side, ivec3(0), last), 0).r;
+        if (code == 0u) continue;
+        vec3 weights = mix(1.0 - part, part, vec3(side));
+        float weight = weights.x * weights.y * weights.z + 1e-5;
+        sum += weight * texelFetch(bone_colours, ivec2(int(code), 0), 0).rgb;
+        known += weight;
+    }
+    return known > 0.0 ? sum / known : texelFetch(bone_colours, ivec2(0), 0).rgb;
+}
+
+float mean_fraction_at(vec3 point) {
+    vec3 map_size = bone_size / block_edge + 2.0;
+    return textureLod(bone_mean_fraction, (point / block_edge + 1.0) / map_size, 0.0).r;
+}
+
+// By the mean fractions of blocks near and far in four directions round the normal.
+float openness_at(vec3 point, vec3 normal) {
+    vec3 aside = normalize(abs(normal.z) < 0.8 ? cross(normal, vec3(0, 0, 1)) : cross(normal, vec3(1, 0, 0)));
+    vec3 across = cross(normal, aside);
+    float taken = 0.0;
+    for (int ring = 0; ring < 4; ++ring) {
+        vec2 lean = ring == 0 ? vec2(1, 0) : ring == 1 ? vec2(-1, 0) : ring == 2 ? vec2(0, 1) : vec2(0, -1);
+        vec3 slanted = normalize(normal + 0.9 * (lean.x * aside + lean.y * across));
+        taken += mean_fraction_at(point + 7.0 * slanted) + mean_fraction_at(point + 16.0 * slanted);
+    }
+    return clamp(1.15 - 0.14 * taken, 0.0, 1.0);
+}
+
+// To the faces of the cube of blocks that the distance map says is empty.
+float free_length(vec3 point, vec3 direction) {
+    ivec3 block = ivec3(floor(point / block_edge)) + 1;
+    ivec3 last = ivec3(bone_size / block_edge) + 1;
+    int away = int(texelFetch(bone_skip_distance, clamp(block, ivec3(0), last), 0).r);
+    if (away == 0) return 0.0;
+    vec3 low = vec3(block - away) * block_edge;
+    vec3 high = vec3(block + away - 1) * block_edge;
+    vec3 leave = (mix(low, high, greaterThan(direction, vec3(0.0))) - point) / direction;
+    return max(min(leave.x, min(leave.y, leave.z)), 0.0);
+}
+)glsl";
+
+}  // namespace osteomill
