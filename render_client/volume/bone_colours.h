@@ -14,6 +14,8 @@ using ColourTable = std::array<glm::vec3, 256>;
 struct TissueColour {
     std::uint8_t label = 0;
     std::array<std::uint8_t, 3> srgb{};
+    /// Light that a millimetre of it takes away: 1 is solid, 0 hides it.
+    double opacity = 1.0;
 };
 
 /// Colour of bone of a stiffness.

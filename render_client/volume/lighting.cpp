@@ -22,4 +22,10 @@ glm::dvec3 display(const glm::dvec3& linear) {
     return glm::pow(glm::clamp(linear, 0.0, 1.0), glm::dvec3(1.0 / 2.2));
 }
 
+glm::dvec3 background_at(const glm::dvec2& place) {
+    const glm::dvec3 shade = glm::mix(glm::dvec3(0.035, 0.040, 0.048), glm::dvec3(0.115, 0.130, 0.150),
+                                      glm::smoothstep(0.0, 1.0, place.y));
+    return shade * (1.0 - 0.35 * glm::dot(place - 0.5, place - 0.5));
+}
+
 }  // namespace osteomill

@@ -36,7 +36,7 @@ enum class TransferMode {
 struct TransferFunction {
     std::string name;
     TransferMode mode = TransferMode::surface;
-    std::vector<TransferPoint> points;  ///< ascending in value, at least one
+    std::vector<TransferPoint> points{};  ///< ascending in value, at least one
 
     bool operator==(const TransferFunction&) const = default;
 };
