@@ -6,7 +6,7 @@ namespace osteomill {
 
 namespace {
 
-enum TextureUnit { fraction_unit, blocks_unit, table_unit, code_unit, colours_unit };
+enum TextureUnit { fraction_unit, blocks_unit, table_unit, code_unit, colours_unit, surface_unit };
 
 }  // namespace
 
@@ -23,6 +23,7 @@ gl::Program BoneProgram::make(BoneLayout layout) const {
     program.set("bone_tile_table", table_unit);
     program.set("bone_colour_code", code_unit);
     program.set("bone_colours", colours_unit);
+    program.set("bone_surface_colours", surface_unit);
     return program;
 }
 
@@ -33,12 +34,16 @@ const gl::Program& BoneProgram::use(const BoneTextures& bone) {
     program->use();
     program->set("bone_size", glm::vec3(bone.box().size));
     program->set("bone_texture_size", glm::vec3(bone.fraction().size()));
+    program->set("bone_mm_per_voxel", static_cast<float>(bone.grid().spacing_mm));
     program->set("bone_has_colour_code", bone.colour_code() ? 1 : 0);
+    program->set("bone_has_surface_colours", bone.surface_colours() != nullptr ? 1 : 0);
+    program->set("bone_is_translucent", bone.is_translucent() ? 1 : 0);
     bone.fraction().bind(fraction_unit);
     bone.blocks().bind(blocks_unit);
     bone.colours().bind(colours_unit);
     if (bone.tile_table()) bone.tile_table()->bind(table_unit);
-    // An integer sampler that nothing is fetched from still needs a texture of its kind, or of none.
+    if (bone.surface_colours() != nullptr) bone.surface_colours()->bind(surface_unit);
+    // A sampler that nothing is fetched from may not find a texture of another kind on its unit.
     if (bone.colour_code())
         bone.colour_code()->bind(code_unit);
     else

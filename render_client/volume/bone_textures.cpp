@@ -15,10 +15,6 @@ const Bone& drawable(const Bone& bone) {
     return bone;
 }
 
-const Bone& drawn_bone(const Bone& bone, const std::optional<CoarseBone>& copy) {
-    return copy ? copy->bone() : bone;
-}
-
 void upload_voxels(gl::Texture3D& texture, const Bone& bone, BoneChannel channel, const PlacedVoxels& placed,
                    std::vector<std::uint8_t>& scratch) {
     scratch.resize(placed.voxels.count());
@@ -30,33 +26,25 @@ gl::Texture3D upload_channel(const Bone& bone, BoneChannel channel, const BrickP
                              gl::VoxelFormat format) {
     gl::Texture3D texture(format, places.texture_size());
     std::vector<std::uint8_t> scratch;
-    if (places.layout() == BoneLayout::dense) {
-        // Layers one brick high, so that no dense copy of the whole bone is made.
-        const VoxelBox& box = places.box();
-        for (int z = 0; z < box.size.z; z += brick_edge_voxels) {
-            const glm::ivec3 first(0, 0, z);
-            const VoxelBox layer{box.first + first, {box.size.x, box.size.y, brick_edge_voxels}};
-            upload_voxels(texture, bone, channel, {layer, first}, scratch);
-        }
-        return texture;
-    }
-    scratch.assign(VoxelBox{{}, glm::ivec3(tile_edge_texels)}.count(), 0);
-    texture.upload({0, 0, 0}, glm::ivec3(tile_edge_texels), scratch);
-    const BoneContent& content = bone.content();
-    for (std::size_t slot = 0; slot < bone.stored_bricks(); ++slot) {
-        const glm::ivec3 brick = brick_position(content.size_bricks, content.brick_of_slot[slot]);
-        upload_voxels(texture, bone, channel, places.of_brick(brick, static_cast<std::int32_t>(slot)),
-                      scratch);
-    }
+    for (const PlacedVoxels& placed : places.all(bone.content()))
+        upload_voxels(texture, bone, channel, placed, scratch);
     return texture;
 }
 
-std::optional<gl::Texture3D> upload_colour_code(const Bone& bone, const BrickPlaces& places) {
-    if (!bone.content().tissue.empty())
-        return upload_channel(bone, BoneChannel::tissue, places, gl::VoxelFormat::byte_code);
-    if (!bone.content().stiffness.empty())
-        return upload_channel(bone, BoneChannel::stiffness, places, gl::VoxelFormat::byte_code);
-    return std::nullopt;
+std::optional<gl::Texture3D> upload_colour_code(const Bone& bone, const BrickPlaces& places,
+                                                const LookTable& table) {
+    if (!table.channel) return std::nullopt;
+    return upload_channel(bone, *table.channel, places, gl::VoxelFormat::byte_code);
+}
+
+std::optional<VisibleBone> without_hidden(const Bone& bone, const LookTable& table) {
+    if (!hides_bone(table)) return std::nullopt;
+    return VisibleBone(bone, table);
+}
+
+std::size_t bytes_per_voxel(const LookTable& table, Shading shading) {
+    return std::size_t{1} + (table.channel ? 1 : 0) +
+           (shading == Shading::surface_voxels ? sizeof(SurfaceTexel) : 0);
 }
 
 std::optional<gl::Texture3D> upload_tile_table(const BoneContent& content, const BrickPlaces& places) {
@@ -67,31 +55,24 @@ std::optional<gl::Texture3D> upload_tile_table(const BoneContent& content, const
     return texture;
 }
 
-ColourTable colours_of(const BoneContent& content, std::span<const TissueColour> tissues) {
-    if (!content.tissue.empty()) return colours_by_tissue(tissues);
-    if (!content.stiffness.empty()) return colours_by_stiffness(content.stiffness_per_code);
-    ColourTable plain;
-    plain.fill(plain_bone_colour());
-    return plain;
-}
-
 }  // namespace
 
-BoneTextures::BoneTextures(const Bone& bone, std::span<const TissueColour> tissues,
+BoneTextures::BoneTextures(const Bone& bone, std::span<const TissueColour> tissues, const BoneLook& look,
                            const TextureLimits& limits)
-    : BoneTextures(first_that_fits(drawable(bone), tissues, limits)) {}
+    : BoneTextures(
+          first_that_fits(drawable(bone), look_table(bone.content(), tissues, look), look.shading, limits)) {}
 
-BoneTextures BoneTextures::first_that_fits(const Bone& bone, std::span<const TissueColour> tissues,
+BoneTextures BoneTextures::first_that_fits(const Bone& bone, const LookTable& table, Shading shading,
                                            const TextureLimits& limits) {
     TextureLimits driven = limits;
     driven.longest_edge_texels = limits.longest_edge_texels.value_or(gl::max_texture3d_edge());
     std::string refusal = fmt::format("the limit is {} MiB of textures of at most {} texels an edge",
                                       limits.budget_bytes >> 20U, *driven.longest_edge_texels);
-    for (const TexturePlan& plan : texture_plans(bone.content(), driven)) {
+    for (const TexturePlan& plan : texture_plans(bone.content(), bytes_per_voxel(table, shading), driven)) {
         try {
             std::optional<CoarseBone> copy;
             if (plan.coarsening > 1) copy.emplace(bone, plan.coarsening);
-            return {bone, std::move(copy), tissues, plan, *driven.longest_edge_texels};
+            return {bone, std::move(copy), table, shading, plan, *driven.longest_edge_texels};
         } catch (const gl::NoTextureMemory& error) {
             refusal = error.what();
         }
@@ -101,31 +82,35 @@ BoneTextures BoneTextures::first_that_fits(const Bone& bone, std::span<const Tis
         bone.stored_bricks(), coarsest, refusal));
 }
 
-BoneTextures::BoneTextures(const Bone& bone, std::optional<CoarseBone> copy,
-                           std::span<const TissueColour> tissues, const TexturePlan& plan,
-                           int longest_edge_texels)
+BoneTextures::BoneTextures(const Bone& bone, std::optional<CoarseBone> copy, const LookTable& table,
+                           Shading shading, const TexturePlan& plan, int longest_edge_texels)
     : plan_(plan),
       size_bricks_(bone.content().size_bricks),
+      table_(table),
       copy_(std::move(copy)),
-      grid_(drawn_bone(bone, copy_).grid()),
-      places_(drawn_bone(bone, copy_).content(), plan.layout, longest_edge_texels),
-      empty_space_(drawn_bone(bone, copy_), places_.box()),
-      fraction_(upload_channel(drawn_bone(bone, copy_), BoneChannel::fraction, places_,
-                               gl::VoxelFormat::interpolated_byte)),
+      visible_(without_hidden(copied(bone), table_)),
+      grid_(shown(bone).grid()),
+      places_(shown(bone).content(), plan.layout, longest_edge_texels),
+      empty_space_(shown(bone), places_.box()),
+      fraction_(
+          upload_channel(shown(bone), BoneChannel::fraction, places_, gl::VoxelFormat::interpolated_byte)),
       blocks_(gl::VoxelFormat::interpolated_bytes, empty_space_.size_blocks()),
-      tile_table_(upload_tile_table(drawn_bone(bone, copy_).content(), places_)),
-      colour_code_(upload_colour_code(drawn_bone(bone, copy_), places_)),
-      colours_(colours_of(bone.content(), tissues)) {
+      tile_table_(upload_tile_table(shown(bone).content(), places_)),
+      colour_code_(upload_colour_code(shown(bone), places_, table_)),
+      colours_(table_.by_code) {
+    if (shading == Shading::surface_voxels) surface_.emplace(shown(bone), table_, places_);
     const glm::ivec3& size = empty_space_.size_blocks();
     for (int z = 0; z < size.z; ++z) upload_blocks({{0, 0, z}, {size.x, size.y, 1}});
 }
 
 void BoneTextures::update(const Bone& bone, std::span<const BrickIndex> dirty) {
     if (copy_) dirty = copy_->update(bone, dirty);
-    const Bone& drawn = drawn_bone(bone, copy_);
+    if (visible_) visible_->follow(copied(bone), dirty);
+    const Bone& drawn = shown(bone);
     for (const PlacedVoxels& placed : places_.that_show(drawn, dirty))
         upload_voxels(fraction_, drawn, BoneChannel::fraction, placed, scratch_);
     for (const VoxelBox& blocks : empty_space_.update(drawn, dirty)) upload_blocks(blocks);
+    if (surface_) surface_->update(drawn, places_, dirty);
 }
 
 void BoneTextures::upload_blocks(const VoxelBox& blocks) {

@@ -11,12 +11,8 @@ namespace osteomill {
 
 namespace {
 
-VoxelBox voxels_of_brick(const glm::ivec3& brick) {
-    return {brick * brick_edge_voxels, glm::ivec3(brick_edge_voxels)};
-}
-
-VoxelBox voxels_of_tile(const glm::ivec3& brick) {
-    return {brick * brick_edge_voxels - tile_border_voxels, glm::ivec3(tile_edge_texels)};
+VoxelBox voxels_round_brick(const glm::ivec3& brick, int reach_voxels) {
+    return {brick * brick_edge_voxels - reach_voxels, glm::ivec3(brick_edge_voxels + 2 * reach_voxels)};
 }
 
 VoxelBox overlap(const VoxelBox& a, const VoxelBox& b) {
@@ -62,27 +58,49 @@ glm::ivec3 BrickPlaces::tile_of_slot(std::int32_t slot) const {
 }
 
 PlacedVoxels BrickPlaces::of_brick(const glm::ivec3& brick, std::int32_t slot) const {
-    if (layout_ == BoneLayout::dense) return {voxels_of_brick(brick), brick * brick_edge_voxels - box_.first};
-    return {voxels_of_tile(brick), tile_of_slot(slot) * tile_edge_texels};
+    if (layout_ == BoneLayout::dense)
+        return {voxels_round_brick(brick, 0), brick * brick_edge_voxels - box_.first};
+    return {voxels_round_brick(brick, tile_border_voxels), tile_of_slot(slot) * tile_edge_texels};
 }
 
-std::span<const PlacedVoxels> BrickPlaces::that_show(const Bone& bone, std::span<const BrickIndex> dirty) {
+std::vector<PlacedVoxels> BrickPlaces::all(const BoneContent& content) const {
+    std::vector<PlacedVoxels> all;
+    if (layout_ == BoneLayout::dense) {
+        // Layers, so that no dense copy of the whole bone is ever made.
+        for (int z = 0; z < box_.size.z; z += brick_edge_voxels) {
+            const glm::ivec3 first(0, 0, z);
+            all.push_back({{box_.first + first, {box_.size.x, box_.size.y, brick_edge_voxels}}, first});
+        }
+        return all;
+    }
+    // No voxel lies before the grid: the empty tile comes out empty.
+    all.push_back({{glm::ivec3(-tile_edge_texels), glm::ivec3(tile_edge_texels)}, glm::ivec3(0)});
+    for (std::size_t slot = 0; slot < content.brick_of_slot.size(); ++slot)
+        all.push_back(of_brick(brick_position(content.size_bricks, content.brick_of_slot[slot]),
+                               static_cast<std::int32_t>(slot)));
+    return all;
+}
+
+std::span<const PlacedVoxels> BrickPlaces::that_show(const Bone& bone, std::span<const BrickIndex> dirty,
+                                                     int reach_voxels) {
     shown_.clear();
     for (const BrickIndex index : dirty) {
         const std::int32_t slot = bone.slot(index);
         if (slot == BoneContent::no_slot) continue;
         const glm::ivec3 brick = brick_position(bone.content().size_bricks, index);
-        if (layout_ == BoneLayout::dense)
-            shown_.push_back(of_brick(brick, slot));
-        else
-            add_atlas_changes(bone, brick);
+        if (layout_ == BoneLayout::atlas) {
+            add_atlas_changes(bone, brick, reach_voxels);
+            continue;
+        }
+        const VoxelBox voxels = overlap(voxels_round_brick(brick, reach_voxels), box_);
+        shown_.push_back({voxels, voxels.first - box_.first});
     }
     for (const std::int32_t slot : slots_shown_) place_of_slot_[static_cast<std::size_t>(slot)] = nowhere;
     slots_shown_.clear();
     return shown_;
 }
 
-void BrickPlaces::add_atlas_changes(const Bone& bone, const glm::ivec3& brick) {
+void BrickPlaces::add_atlas_changes(const Bone& bone, const glm::ivec3& brick, int reach_voxels) {
     const glm::ivec3 low = glm::max(brick - 1, 0);
     const glm::ivec3 high = glm::min(brick + 1, bone.content().size_bricks - 1);
     for (int z = low.z; z <= high.z; ++z)
@@ -91,7 +109,8 @@ void BrickPlaces::add_atlas_changes(const Bone& bone, const glm::ivec3& brick) {
                 const glm::ivec3 other(x, y, z);
                 const std::int32_t slot = bone.slot(other);
                 if (slot == BoneContent::no_slot) continue;
-                VoxelBox voxels = overlap(voxels_of_brick(brick), voxels_of_tile(other));
+                const PlacedVoxels tile = of_brick(other, slot);
+                VoxelBox voxels = overlap(voxels_round_brick(brick, reach_voxels), tile.voxels);
                 std::int32_t& place = place_of_slot_[static_cast<std::size_t>(slot)];
                 if (place == nowhere) {
                     place = static_cast<std::int32_t>(shown_.size());
@@ -100,7 +119,6 @@ void BrickPlaces::add_atlas_changes(const Bone& bone, const glm::ivec3& brick) {
                 } else {
                     voxels = enclosing(voxels, shown_[static_cast<std::size_t>(place)].voxels);
                 }
-                const PlacedVoxels tile = of_brick(other, slot);
                 shown_[static_cast<std::size_t>(place)] = {
                     voxels, tile.first_texel + voxels.first - tile.voxels.first};
             }

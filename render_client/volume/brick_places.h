@@ -39,9 +39,15 @@ class BrickPlaces {
     /// Everything that a stored brick's texels show: its voxels, in an atlas with their border.
     PlacedVoxels of_brick(const glm::ivec3& brick, std::int32_t slot) const;
 
-    /// What shows the voxels of these bricks: themselves and, in an atlas, the borders that repeat them, each
-    /// texture region once. Bricks that are not stored show nothing. Valid until the next call.
-    std::span<const PlacedVoxels> that_show(const Bone& bone, std::span<const BrickIndex> dirty);
+    /// All that has to be uploaded at first, in regions one brick high or of one tile, the empty tile among
+    /// them.
+    std::vector<PlacedVoxels> all(const BoneContent& content) const;
+
+    /// What shows the voxels of these bricks, and those up to `reach_voxels` (at most 14) around them:
+    /// themselves and, in an atlas, the borders that repeat them, as few regions as there are tiles. Bricks
+    /// that are not stored show nothing. Valid until the next call.
+    std::span<const PlacedVoxels> that_show(const Bone& bone, std::span<const BrickIndex> dirty,
+                                            int reach_voxels = 0);
 
     /// By brick of the box, x fastest, four bytes each: the place of its tile, counted in tiles along x, y
     /// and z, and 0.
@@ -49,7 +55,7 @@ class BrickPlaces {
 
   private:
     glm::ivec3 tile_of_slot(std::int32_t slot) const;
-    void add_atlas_changes(const Bone& bone, const glm::ivec3& brick);
+    void add_atlas_changes(const Bone& bone, const glm::ivec3& brick, int reach_voxels);
 
     BoneLayout layout_;
     VoxelBox box_;

@@ -1,5 +1,5 @@
-// Ray casting: every pixel's ray goes front to back to where the trilinear fraction reaches one half, leaps
-// over empty blocks, ends there, and is shaded by the gradient of the fraction.
+// Ray casting: every pixel's ray goes front to back, leaps over empty blocks, and ends where the trilinear
+// fraction reaches one half or, in translucent bone, where hardly any light comes through.
 #pragma once
 
 #include "render_client/volume/bone_program.h"

@@ -16,14 +16,13 @@ constexpr double bytes_per_mib = 1024.0 * 1024.0;
 constexpr std::size_t bytes_per_block = 2;
 constexpr std::size_t bytes_per_table_entry = 4;
 
-std::size_t bytes_of_plan(const BoneContent& content, const VoxelBox& box, std::size_t stored_bricks,
+std::size_t bytes_of_plan(std::size_t bytes_per_voxel, const VoxelBox& box, std::size_t stored_bricks,
                           BoneLayout layout, int longest_edge_texels) {
-    const std::size_t channels = content.tissue.empty() && content.stiffness.empty() ? 1 : 2;
     const std::size_t maps = bytes_per_block * VoxelBox{{}, box.size / block_edge_voxels + 2}.count();
-    if (layout == BoneLayout::dense) return channels * box.count() + maps;
+    if (layout == BoneLayout::dense) return bytes_per_voxel * box.count() + maps;
     const glm::ivec3 tiles = atlas_size_tiles(stored_bricks, longest_edge_texels);
     const std::size_t table = bytes_per_table_entry * VoxelBox{{}, box.size / brick_edge_voxels}.count();
-    return channels * VoxelBox{{}, tiles * tile_edge_texels}.count() + table + maps;
+    return bytes_per_voxel * VoxelBox{{}, tiles * tile_edge_texels}.count() + table + maps;
 }
 
 bool fits_edges(const VoxelBox& box, std::size_t stored_bricks, BoneLayout layout, int longest_edge_texels) {
@@ -35,7 +34,8 @@ bool fits_edges(const VoxelBox& box, std::size_t stored_bricks, BoneLayout layou
 
 }  // namespace
 
-std::vector<TexturePlan> texture_plans(const BoneContent& content, const TextureLimits& limits) {
+std::vector<TexturePlan> texture_plans(const BoneContent& content, std::size_t bytes_per_voxel,
+                                       const TextureLimits& limits) {
     const int longest_edge_texels = limits.longest_edge_texels.value();
     std::vector<TexturePlan> plans;
     for (int coarsening = 1; coarsening <= coarsest; coarsening *= 2) {
@@ -44,7 +44,8 @@ std::vector<TexturePlan> texture_plans(const BoneContent& content, const Texture
         for (const BoneLayout layout : {BoneLayout::dense, BoneLayout::atlas}) {
             if (limits.layout && limits.layout != layout) continue;
             if (!fits_edges(box, bricks.size(), layout, longest_edge_texels)) continue;
-            const std::size_t bytes = bytes_of_plan(content, box, bricks.size(), layout, longest_edge_texels);
+            const std::size_t bytes =
+                bytes_of_plan(bytes_per_voxel, box, bricks.size(), layout, longest_edge_texels);
             if (bytes <= limits.budget_bytes) plans.push_back({layout, coarsening, bytes});
         }
     }

@@ -28,8 +28,10 @@ struct TexturePlan {
 };
 
 /// Every way that keeps within the limits, best first: the bone itself before coarser copies of it (by 2, 4,
-/// 8), dense before atlas. `longest_edge_texels` of the limits must be given.
-std::vector<TexturePlan> texture_plans(const BoneContent& content, const TextureLimits& limits);
+/// 8), dense before atlas. `bytes_per_voxel` of all the textures that hold voxels; `longest_edge_texels` of
+/// the limits must be given.
+std::vector<TexturePlan> texture_plans(const BoneContent& content, std::size_t bytes_per_voxel,
+                                       const TextureLimits& limits);
 
 /// "a dense texture, 21 MiB", "a brick atlas, 412 MiB, of a copy 2 times coarser".
 std::string description(const TexturePlan& plan);

@@ -6,23 +6,6 @@
 
 namespace osteomill {
 
-namespace {
-
-std::span<const std::uint8_t> channel_of_slot(const Bone& bone, BoneChannel channel, std::int32_t slot) {
-    const auto index = static_cast<std::size_t>(slot);
-    switch (channel) {
-        case BoneChannel::stiffness:
-            return bone.content().stiffness[index];
-        case BoneChannel::tissue:
-            return bone.content().tissue[index];
-        case BoneChannel::fraction:
-            break;
-    }
-    return bone.fractions(slot);
-}
-
-}  // namespace
-
 VoxelBox box_of_bricks(const glm::ivec3& size_bricks, std::span<const BrickIndex> bricks) {
     if (bricks.empty()) return {};
     glm::ivec3 low = size_bricks;
@@ -37,6 +20,20 @@ VoxelBox box_of_bricks(const glm::ivec3& size_bricks, std::span<const BrickIndex
 
 VoxelBox stored_box(const BoneContent& content) {
     return box_of_bricks(content.size_bricks, content.brick_of_slot);
+}
+
+std::span<const std::uint8_t, brick_voxel_count> channel_of_slot(const Bone& bone, BoneChannel channel,
+                                                                 std::int32_t slot) {
+    const auto index = static_cast<std::size_t>(slot);
+    switch (channel) {
+        case BoneChannel::stiffness:
+            return bone.content().stiffness[index];
+        case BoneChannel::tissue:
+            return bone.content().tissue[index];
+        case BoneChannel::fraction:
+            break;
+    }
+    return bone.fractions(slot);
 }
 
 void copy_channel(const Bone& bone, BoneChannel channel, const VoxelBox& box,

@@ -34,7 +34,7 @@ std::vector<TissueColour> tooth_colours() {
 }
 
 BoneTextures textures_of(const Bone& bone, BoneLayout layout) {
-    return {bone, tooth_colours(), {.layout = layout}};
+    return {bone, tooth_colours(), {}, {.layout = layout}};
 }
 
 const char* name_of(BoneLayout layout) {

@@ -20,6 +20,8 @@ TexelFormat texel_format(VoxelFormat format) {
     switch (format) {
         case VoxelFormat::interpolated_bytes:
             return {GL_RG8, GL_RG, GL_LINEAR, 2};
+        case VoxelFormat::interpolated_rgba:
+            return {GL_RGBA8, GL_RGBA, GL_LINEAR, 4};
         case VoxelFormat::byte_code:
             return {GL_R8UI, GL_RED_INTEGER, GL_NEAREST, 1};
         case VoxelFormat::byte_codes:

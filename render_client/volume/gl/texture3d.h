@@ -14,6 +14,7 @@ namespace osteomill::gl {
 enum class VoxelFormat {
     interpolated_byte,   ///< GL_R8, read as 0 to 1, trilinear
     interpolated_bytes,  ///< GL_RG8, two of them
+    interpolated_rgba,   ///< GL_RGBA8, four of them
     byte_code,           ///< GL_R8UI, read as a whole number by texelFetch
     byte_codes           ///< GL_RGBA8UI, four of them
 };

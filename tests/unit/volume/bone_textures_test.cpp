@@ -43,13 +43,13 @@ TEST_F(BoneTexturesTest, AreTheSameByDirtyBricksAsByAFullUploadInBothLayouts) {
         Bone bone = ball();
         const Bone whole = bone;
         const TextureLimits limits{.layout = layout};
-        BoneTextures updated(bone, {}, limits);
+        BoneTextures updated(bone, {}, {}, limits);
         const std::vector<std::uint8_t> before = texels(updated.fraction());
         const auto dirty = carve_sphere(bone, {4.2, 3.5, 4.0}, 1.1);
         ASSERT_FALSE(dirty.empty());
         ASSERT_LT(dirty.size(), bone.stored_bricks());
         updated.update(bone, dirty);
-        const BoneTextures uploaded(bone, {}, limits);
+        const BoneTextures uploaded(bone, {}, {}, limits);
         EXPECT_EQ(texels(updated.fraction()), texels(uploaded.fraction()));
         EXPECT_EQ(mean_fractions(updated), mean_fractions(uploaded));
         updated.update(whole, dirty);
@@ -59,7 +59,7 @@ TEST_F(BoneTexturesTest, AreTheSameByDirtyBricksAsByAFullUploadInBothLayouts) {
 
 TEST_F(BoneTexturesTest, HoldInAnAtlasEachBrickWithTheVoxelsAroundIt) {
     const Bone bone = ball();
-    const BoneTextures textures(bone, {}, {.layout = BoneLayout::atlas});
+    const BoneTextures textures(bone, {}, {}, {.layout = BoneLayout::atlas});
     const std::vector<std::uint8_t> atlas = texels(textures.fraction());
     const glm::ivec3 size = textures.fraction().size();
     const BoneContent& content = bone.content();
@@ -106,7 +106,7 @@ TEST_F(BoneTexturesTest, TakeAnAtlasForABoneThatExceedsTheDriversTextures) {
 TEST_F(BoneTexturesTest, AskTheDriverForTheBytesThatTheyPlanned) {
     const Bone bone = ball();
     for (const BoneLayout layout : {BoneLayout::dense, BoneLayout::atlas}) {
-        const BoneTextures textures(bone, {}, {.layout = layout});
+        const BoneTextures textures(bone, {}, {}, {.layout = layout});
         std::size_t bytes = VoxelBox{{}, textures.fraction().size()}.count();
         bytes += 2 * VoxelBox{{}, textures.blocks().size()}.count();
         if (textures.tile_table()) bytes += 4 * VoxelBox{{}, textures.tile_table()->size()}.count();
@@ -116,7 +116,7 @@ TEST_F(BoneTexturesTest, AskTheDriverForTheBytesThatTheyPlanned) {
 
 TEST_F(BoneTexturesTest, RefuseABoneThatFitsInNoWayAndSayWhatTheLimitIs) {
     try {
-        BoneTextures(ball(), {}, {.budget_bytes = 1000});
+        BoneTextures(ball(), {}, {}, {.budget_bytes = 1000});
         FAIL();
     } catch (const std::runtime_error& error) {
         EXPECT_NE(std::string(error.what()).find("0 MiB"), std::string::npos) << error.what();

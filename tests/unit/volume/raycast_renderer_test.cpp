@@ -56,7 +56,7 @@ Camera ball_camera(double elevation_rad) {
 
 TEST_F(RaycastRendererTest, DrawsTheSamePictureWithAndWithoutSkippingInBothLayouts) {
     for (const BoneLayout layout : {BoneLayout::dense, BoneLayout::atlas}) {
-        const BoneTextures textures(carved_ball(), {}, {.layout = layout});
+        const BoneTextures textures(carved_ball(), {}, {}, {.layout = layout});
         for (const double elevation : {0.75, 0.0, -0.6}) {
             const Camera camera = ball_camera(elevation);
             EXPECT_EQ(drawn(textures, camera), drawn(textures, camera, EmptySpaceSkipping::none));
@@ -71,8 +71,8 @@ TEST_F(RaycastRendererTest, DrawsAnAtlasLikeADenseTexture) {
         grid, [](const glm::dvec3& p) { return 3.4 - glm::length(p); },
         [](const glm::dvec3& p) { return static_cast<std::uint8_t>(p.z > 0.53 ? 1 : 2); });
     carve_sphere(bone, {1.0, -2.0, 2.6}, 1.5);
-    const BoneTextures dense(bone, tissues, {.layout = BoneLayout::dense});
-    const BoneTextures atlas(bone, tissues, {.layout = BoneLayout::atlas});
+    const BoneTextures dense(bone, tissues, {}, {.layout = BoneLayout::dense});
+    const BoneTextures atlas(bone, tissues, {}, {.layout = BoneLayout::atlas});
     for (const double elevation : {0.75, 0.0, -0.6}) {
         const Camera camera = ball_camera(elevation);
         EXPECT_LE(differing_pixels(drawn(dense, camera), drawn(atlas, camera)), 4);
@@ -84,7 +84,7 @@ TEST_F(RaycastRendererTest, DrawsTheSamePictureAfterUpdatesAsAfterAFullUploadInB
     const Camera camera = camera_on({0.0, 0.0, 0.0}, 6.0);
     for (const BoneLayout layout : {BoneLayout::dense, BoneLayout::atlas}) {
         Bone bone = whole;
-        BoneTextures updated(bone, {}, {.layout = layout});
+        BoneTextures updated(bone, {}, {}, {.layout = layout});
         const Picture before = drawn(updated, camera);
         std::vector<BrickIndex> carved;
         for (double x = -1.0; x < 1.0; x += 0.25) {
@@ -92,11 +92,11 @@ TEST_F(RaycastRendererTest, DrawsTheSamePictureAfterUpdatesAsAfterAFullUploadInB
             updated.update(bone, dirty);
             carved.insert(carved.end(), dirty.begin(), dirty.end());
         }
-        const BoneTextures uploaded(bone, {}, {.layout = layout});
+        const BoneTextures uploaded(bone, {}, {}, {.layout = layout});
         EXPECT_EQ(drawn(updated, camera), drawn(uploaded, camera));
         EXPECT_NE(drawn(updated, camera), before);
         // Undone: built while carved, the map of empty space spans the cut.
-        BoneTextures refilled(bone, {}, {.layout = layout});
+        BoneTextures refilled(bone, {}, {}, {.layout = layout});
         updated.update(whole, carved);
         refilled.update(whole, carved);
         EXPECT_EQ(drawn(updated, camera), before);
@@ -109,7 +109,7 @@ TEST_F(RaycastRendererTest, DrawsACoarserCopyAtTheSamePlaceAndCarvesIt) {
     Bone bone = whole;
     // All of the bone needs twice the budget, in either layout.
     const std::size_t dense_bytes = BoneTextures(whole, {}).plan().bytes;
-    BoneTextures coarse(bone, {}, {.budget_bytes = dense_bytes / 2});
+    BoneTextures coarse(bone, {}, {}, {.budget_bytes = dense_bytes / 2});
     ASSERT_EQ(coarse.plan().coarsening, 2);
     Camera camera = ball_camera(1.4);
     const gl::Framebuffer framebuffer(size_px);

@@ -18,7 +18,8 @@ Bone two_bricks() {
 
 TEST(TexturePlan, PrefersADenseTextureThenAnAtlasThenCoarserCopies) {
     const Bone bone = two_bricks();
-    const auto plans = texture_plans(bone.content(), {.budget_bytes = plenty, .longest_edge_texels = 2048});
+    const auto plans =
+        texture_plans(bone.content(), 1, {.budget_bytes = plenty, .longest_edge_texels = 2048});
     ASSERT_EQ(plans.size(), 8U);
     EXPECT_EQ(plans[0].layout, BoneLayout::dense);
     EXPECT_EQ(plans[0].bytes, 640U * 16 * 16 + 2U * 162 * 6 * 6);
@@ -33,7 +34,7 @@ TEST(TexturePlan, PrefersADenseTextureThenAnAtlasThenCoarserCopies) {
 TEST(TexturePlan, KeepsToTheBudget) {
     const Bone bone = two_bricks();
     const TextureLimits limits{.budget_bytes = 50'000, .longest_edge_texels = 2048};
-    const auto plans = texture_plans(bone.content(), limits);
+    const auto plans = texture_plans(bone.content(), 1, limits);
     ASSERT_FALSE(plans.empty());
     EXPECT_EQ(plans.front().layout, BoneLayout::atlas);
     for (const TexturePlan& plan : plans) EXPECT_LE(plan.bytes, limits.budget_bytes);
@@ -41,7 +42,7 @@ TEST(TexturePlan, KeepsToTheBudget) {
 
 TEST(TexturePlan, KeepsToTheLongestEdge) {
     const Bone bone = two_bricks();
-    const auto plans = texture_plans(bone.content(), {.budget_bytes = plenty, .longest_edge_texels = 256});
+    const auto plans = texture_plans(bone.content(), 1, {.budget_bytes = plenty, .longest_edge_texels = 256});
     ASSERT_FALSE(plans.empty());
     EXPECT_EQ(plans.front().layout, BoneLayout::atlas);
     EXPECT_EQ(plans.front().coarsening, 1);
@@ -49,7 +50,7 @@ TEST(TexturePlan, KeepsToTheLongestEdge) {
 
 TEST(TexturePlan, HasNoneWhereNothingFits) {
     const Bone bone = two_bricks();
-    EXPECT_TRUE(texture_plans(bone.content(), {.budget_bytes = 100, .longest_edge_texels = 2048}).empty());
+    EXPECT_TRUE(texture_plans(bone.content(), 1, {.budget_bytes = 100, .longest_edge_texels = 2048}).empty());
 }
 
 TEST(TexturePlan, IsDescribedInOneLine) {
