@@ -26,6 +26,10 @@
 
 namespace osteomill {
 
+/// How far from a voxel, along an axis, a surface can lie whose shading depends on it: openness_at looks 16
+/// voxels away into a map of 4-voxel blocks whose interpolation reads 2 voxels beyond each; one in reserve.
+inline constexpr int shading_reach_voxels = 19;
+
 /// Where texels lie, one of two; bone_sampling_glsl follows.
 inline constexpr const char* dense_places_glsl = R"glsl(
 uniform vec3 bone_size;
