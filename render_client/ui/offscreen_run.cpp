@@ -52,6 +52,7 @@ RenderReport run_offscreen(const RenderOptions& options, SessionSource& source,
     gl::require_opengl_3_3();
     Panels panels;
     SessionPicture session(source, panels, options.window_size_px.value_or(default_size_px));
+    session.limit_textures({.budget_bytes = options.texture_budget_bytes});
     FrameTimes frame_times;
 
     bool going_on = wait_for_bone(session, stop_asked);

@@ -76,6 +76,7 @@ RenderReport run_in_window(const RenderOptions& options, SessionSource& source,
     gl::require_opengl_3_3();
     Panels panels(window.handle());
     SessionPicture session(source, panels, window.framebuffer_size_px(), FrameQuality::on_demand);
+    session.limit_textures({.budget_bytes = options.texture_budget_bytes});
     OperatorHand hand;
     FrameTimes frame_times;
     Screenshots screenshots(options.screenshots, screenshot_interval(options));
