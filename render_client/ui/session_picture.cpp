@@ -33,8 +33,14 @@ std::vector<TissueColour> tissue_colours(const SessionInfo* session) {
 
 }  // namespace
 
-SessionPicture::SessionPicture(SessionSource& source, Panels& panels, const glm::ivec2& size_px)
-    : source_(source), panels_(panels), picture_(renderer_, size_px), size_px_(picture_.size_px()) {}
+SessionPicture::SessionPicture(SessionSource& source, Panels& panels, const glm::ivec2& size_px,
+                               RendererChoice renderer, const BoneLook& look)
+    : source_(source),
+      panels_(panels),
+      renderer_(make_renderer(renderer)),
+      bone_look_(look),
+      picture_(*renderer_, size_px),
+      size_px_(picture_.size_px()) {}
 
 void SessionPicture::take_in() {
     link_ = source_.poll();
@@ -63,13 +69,20 @@ void SessionPicture::replace_bone() {
     // The old textures go first: both together might not fit.
     textures_.reset();
     try {
-        textures_.emplace(*source_.bone(), tissues);
+        textures_.emplace(*source_.bone(), tissues, bone_look_);
     } catch (const std::runtime_error& error) {
         bone_problem_ = error.what();
         return;
     }
     // After a reconnection the view stays where the user left it.
     if (first) reset_camera();
+}
+
+void SessionPicture::set_bone_look(const BoneLook& look) {
+    if (look == bone_look_) return;
+    if (look.transfer) require_valid(*look.transfer);
+    bone_look_ = look;
+    if (textures_) replace_bone();
 }
 
 void SessionPicture::reset_camera() {

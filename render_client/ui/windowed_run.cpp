@@ -75,7 +75,7 @@ RenderReport run_in_window(const RenderOptions& options, SessionSource& source,
     Window window(options.window_size_px.value_or(default_size_px), "Osteomill");
     gl::require_opengl_3_3();
     Panels panels(window.handle());
-    SessionPicture session(source, panels, window.framebuffer_size_px());
+    SessionPicture session(source, panels, window.framebuffer_size_px(), options.renderer, options.look);
     OperatorHand hand;
     FrameTimes frame_times;
     Screenshots screenshots(options.screenshots, screenshot_interval(options));
