@@ -51,8 +51,8 @@ RenderReport run_offscreen(const RenderOptions& options, SessionSource& source,
     gl::OffscreenContext context;
     gl::require_opengl_3_3();
     Panels panels;
-    SessionPicture session(source, panels, options.window_size_px.value_or(default_size_px), options.renderer,
-                           options.look);
+    SessionPicture session(source, panels, options.window_size_px.value_or(default_size_px),
+                           FrameQuality::full, options.renderer, options.look);
     FrameTimes frame_times;
 
     bool going_on = wait_for_bone(session, stop_asked);

@@ -55,6 +55,13 @@ bool has_problem(LinkStatus status) {
     return status == LinkStatus::connecting || status == LinkStatus::lost || status == LinkStatus::refused;
 }
 
+/// As wide whichever it is: the panel must not jump while the view is turned.
+std::string quality_in_words(const PictureQuality& quality) {
+    if (quality.refined) return "full quality";
+    if (quality.scale == 1.0) return "refining    ";
+    return fmt::format("coarse {:3.0f} % ", 100.0 * quality.scale);
+}
+
 void draw_session_panel(const OverlayContent& content, const glm::ivec2& size_px) {
     // The status may grow from one frame to the next, a panel that fits itself follows a frame later.
     const float status_px = ImGui::CalcTextSize(content.link.status_line.c_str()).x;
@@ -68,7 +75,8 @@ void draw_session_panel(const OverlayContent& content, const glm::ivec2& size_px
         coloured_text(vermillion, status);
     else
         text(status);
-    text(fmt::format("picture {:5.1f} frames/s", content.render_frames_per_s));
+    text(fmt::format("picture {:5.1f} frames/s, {}", content.render_frames_per_s,
+                     quality_in_words(content.quality)));
     text(fmt::format("{} {:5.1f} frames/s {:7.1f} kB/s", content.player ? "file   " : "link   ",
                      content.link.frames_per_s, 1e-3 * content.link.bytes_per_s));
     if (const auto& delay = content.link.delay)

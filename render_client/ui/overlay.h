@@ -8,6 +8,7 @@
 
 #include "render_client/ui/session_source.h"
 #include "render_client/ui/tool_history.h"
+#include "render_client/volume/picture_quality.h"
 
 namespace osteomill {
 
@@ -17,6 +18,7 @@ struct OverlayContent {
     std::optional<ToolView> tool;
     const ToolHistory* history = nullptr;
     double render_frames_per_s = 0.0;
+    PictureQuality quality;
     bool help_shown = false;
     /// What the operator asks for, where one drills from here.
     std::optional<OperatorIntent> operator_intent;

@@ -2,6 +2,9 @@
 #pragma once
 
 #include <glm/vec2.hpp>
+#include <vector>
+
+#include "render_client/volume/pixel_box.h"
 
 struct GLFWwindow;
 
@@ -19,8 +22,8 @@ class Panels {
 
     /// Opens an ImGui frame. `elapsed_s` is the time since the last one.
     void begin(const glm::ivec2& size_px, double elapsed_s);
-    /// Draws what was put into the frame into the bound framebuffer.
-    void end();
+    /// Draws what was put into the frame into the bound framebuffer; returns where that is.
+    std::vector<PixelBox> end();
 
   private:
     void start();

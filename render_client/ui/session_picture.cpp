@@ -34,12 +34,12 @@ std::vector<TissueColour> tissue_colours(const SessionInfo* session) {
 }  // namespace
 
 SessionPicture::SessionPicture(SessionSource& source, Panels& panels, const glm::ivec2& size_px,
-                               RendererChoice renderer, const BoneLook& look)
+                               FrameQuality quality, RendererChoice renderer, const BoneLook& look)
     : source_(source),
       panels_(panels),
       renderer_(make_renderer(renderer)),
       bone_look_(look),
-      picture_(*renderer_, size_px),
+      picture_(*renderer_, size_px, quality == FrameQuality::on_demand ? &draw_timer_ : nullptr),
       size_px_(picture_.size_px()) {}
 
 void SessionPicture::take_in() {
@@ -114,12 +114,13 @@ const gl::Framebuffer& SessionPicture::draw(double elapsed_s) {
                   .tool = tool_,
                   .history = &history_,
                   .render_frames_per_s = frames_per_s_,
+                  .quality = picture_.quality(),
                   .help_shown = help_shown_,
                   .operator_intent = operator_intent_,
                   .player = source_.player(),
                   .bone_problem = bone_problem_},
                  size_px_);
-    panels_.end();
+    picture_.cover(panels_.end());
     return picture;
 }
 

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include <map>
+#include <algorithm>
 #include <memory>
 #include <thread>
 
@@ -38,6 +38,22 @@ References references_of(const TrialBone& trial, const Camera& camera, const Bon
     if (look.shading == Shading::surface_voxels) return {model, model};
     settings.gradient = ReferenceGradient::trilinear;
     return {std::move(model), reference_image(volume, camera, size_px, settings)};
+}
+
+/// Points of the same bone and view together, in the order in which these first come; so a chart has a panel
+/// for each.
+std::vector<DrawingPoint> by_panel(std::vector<DrawingPoint> points) {
+    const auto first_like = [all = points](const DrawingPoint& point) {
+        return std::find_if(all.begin(), all.end(),
+                            [&](const DrawingPoint& other) {
+                                return other.bone == point.bone && other.view == point.view;
+                            }) -
+               all.begin();
+    };
+    std::stable_sort(points.begin(), points.end(), [&](const DrawingPoint& a, const DrawingPoint& b) {
+        return first_like(a) < first_like(b);
+    });
+    return points;
 }
 
 }  // namespace
@@ -117,13 +133,19 @@ std::vector<DrawingPoint> measure(const TrialBone& trial, const std::vector<Draw
 
 std::string csv_of(const std::vector<DrawingPoint>& points) {
     std::string csv =
-        "bone,view,family,label,step_voxels,skips,divisor,frame_ms,frame_cpu_ms,psnr_db,ssim,"
+        "panel_number,panel,bone,view,family,label,step_voxels,skips,divisor,frame_ms,frame_cpu_ms,psnr_db,"
+        "ssim,"
         "psnr_trilinear_db,is_default\n";
-    for (const DrawingPoint& p : points)
-        csv += fmt::format("{},{},{},{},{},{},{},{:.3f},{:.3f},{:.3f},{:.5f},{:.3f},{}\n", p.bone, p.view,
-                           p.setting.family, p.setting.label, p.setting.step_voxels, p.setting.skips ? 1 : 0,
-                           p.setting.divisor, p.frame.wall_ms, p.frame.cpu_ms, p.psnr_db, p.ssim,
-                           p.psnr_trilinear_db, p.setting.is_default ? 1 : 0);
+    std::string panel;
+    int panel_number = 0;
+    for (const DrawingPoint& p : by_panel(points)) {
+        if (panel != p.bone + " " + p.view) ++panel_number;
+        panel = p.bone + " " + p.view;
+        csv += fmt::format("{},{},{},{},{},{},{},{},{},{:.3f},{:.3f},{:.3f},{:.5f},{:.3f},{}\n", panel_number,
+                           panel, p.bone, p.view, p.setting.family, p.setting.label, p.setting.step_voxels,
+                           p.setting.skips ? 1 : 0, p.setting.divisor, p.frame.wall_ms, p.frame.cpu_ms,
+                           p.psnr_db, p.ssim, p.psnr_trilinear_db, p.setting.is_default ? 1 : 0);
+    }
     return csv;
 }
 
