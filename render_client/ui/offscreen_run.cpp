@@ -51,7 +51,8 @@ RenderReport run_offscreen(const RenderOptions& options, SessionSource& source,
     gl::OffscreenContext context;
     gl::require_opengl_3_3();
     Panels panels;
-    SessionPicture session(source, panels, options.window_size_px.value_or(default_size_px));
+    SessionPicture session(source, panels, options.window_size_px.value_or(default_size_px),
+                           FrameQuality::full, options.renderer, options.look);
     session.limit_textures({.budget_bytes = options.texture_budget_bytes});
     FrameTimes frame_times;
 

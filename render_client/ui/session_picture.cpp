@@ -36,10 +36,12 @@ std::vector<TissueColour> tissue_colours(const SessionInfo* session) {
 }  // namespace
 
 SessionPicture::SessionPicture(SessionSource& source, Panels& panels, const glm::ivec2& size_px,
-                               FrameQuality quality)
+                               FrameQuality quality, RendererChoice renderer, const BoneLook& look)
     : source_(source),
       panels_(panels),
-      picture_(renderer_, size_px, quality == FrameQuality::on_demand ? &draw_timer_ : nullptr),
+      renderer_(make_renderer(renderer)),
+      bone_look_(look),
+      picture_(*renderer_, size_px, quality == FrameQuality::on_demand ? &draw_timer_ : nullptr),
       size_px_(picture_.size_px()) {}
 
 void SessionPicture::take_in() {
@@ -69,7 +71,7 @@ void SessionPicture::replace_bone() {
     // The old textures go first: both together might not fit.
     textures_.reset();
     try {
-        textures_.emplace(*source_.bone(), tissues, BoneLook{}, texture_limits_);
+        textures_.emplace(*source_.bone(), tissues, bone_look_, texture_limits_);
     } catch (const std::runtime_error& error) {
         bone_problem_ = error.what();
         return;
@@ -78,6 +80,13 @@ void SessionPicture::replace_bone() {
         fmt::print(stderr, "render_client: the bone is drawn from {}\n", description(textures_->plan()));
     // After a reconnection the view stays where the user left it.
     if (first) reset_camera();
+}
+
+void SessionPicture::set_bone_look(const BoneLook& look) {
+    if (look == bone_look_) return;
+    if (look.transfer) require_valid(*look.transfer);
+    bone_look_ = look;
+    if (textures_) replace_bone();
 }
 
 void SessionPicture::reset_camera() {

@@ -75,7 +75,8 @@ RenderReport run_in_window(const RenderOptions& options, SessionSource& source,
     Window window(options.window_size_px.value_or(default_size_px), "Osteomill");
     gl::require_opengl_3_3();
     Panels panels(window.handle());
-    SessionPicture session(source, panels, window.framebuffer_size_px(), FrameQuality::on_demand);
+    SessionPicture session(source, panels, window.framebuffer_size_px(), FrameQuality::on_demand,
+                           options.renderer, options.look);
     session.limit_textures({.budget_bytes = options.texture_budget_bytes});
     OperatorHand hand;
     FrameTimes frame_times;
