@@ -8,6 +8,7 @@
 #include <string>
 
 #include "common/net/tls_files.h"
+#include "render_client/ui/theme.h"
 
 namespace osteomill {
 
@@ -24,6 +25,9 @@ struct RenderOptions {
     std::filesystem::path screenshots;  ///< empty writes none
     int screenshot_every = 0;           ///< 0 spreads about 30 over `frames`
     std::optional<glm::ivec2> window_size_px;
+    ThemeName theme = ThemeName::dark;
+    std::optional<double> ui_scale;  ///< of panels and letters; absent: the display's, 1 offscreen
+    bool panels = true;
     std::filesystem::path json;  ///< empty writes none
 };
 

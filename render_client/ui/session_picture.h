@@ -29,7 +29,7 @@ class SessionPicture {
     Camera& camera() { return camera_; }
     /// The first view again: of the tool's surroundings, or of all the bone while there is no tool.
     void reset_camera();
-    void toggle_help() { help_shown_ = !help_shown_; }
+    ViewSettings& view() { return view_; }
     void show_operator(const std::optional<OperatorIntent>& intent) { operator_intent_ = intent; }
 
     bool has_bone() const { return textures_.has_value(); }
@@ -61,7 +61,7 @@ class SessionPicture {
     std::optional<ToolView> tool_;
     ToolHistory history_;
     std::optional<OperatorIntent> operator_intent_;
-    bool help_shown_ = false;
+    ViewSettings view_;
     double spin_rad_ = 0.0;
     double frames_per_s_ = 0.0;
     std::uint64_t dirty_bricks_uploaded_ = 0;

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "render_client/volume/lighting.h"
+#include "render_client/volume/look_shader.h"
 #include "render_client/volume/raycast_shader.h"
 
 namespace osteomill {
@@ -22,7 +23,7 @@ glm::vec2 depth_terms(const Camera& camera, double spacing_mm, const glm::ivec2&
 }  // namespace
 
 RaycastRenderer::RaycastRenderer(EmptySpaceSkipping skipping)
-    : bone_program_(raycast_vertex_glsl, std::string(lighting_glsl) + raycast_fragment_glsl),
+    : bone_program_(raycast_vertex_glsl, std::string(lighting_glsl) + look_glsl + raycast_fragment_glsl),
       skipping_(skipping) {}
 
 void RaycastRenderer::draw(const BoneTextures& bone, const Camera& camera, const glm::ivec2& size_px) {
@@ -36,6 +37,7 @@ void RaycastRenderer::draw(const BoneTextures& bone, const Camera& camera, const
     program.set("up", glm::vec3(half_height * camera.up()));
     program.set("eye", glm::vec3(bone.to_box_voxels(camera.eye_mm())));
     program.set("picture_size", glm::vec2(size_px));
+    set_look_uniforms(program, look(), bone);
     program.set("depth_terms", depth_terms(camera, bone.grid().spacing_mm, size_px));
 
     glEnable(GL_DEPTH_TEST);

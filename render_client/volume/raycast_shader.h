@@ -1,4 +1,5 @@
-// The ray caster's shaders, GLSL 3.30; the fragment shader follows bone_sampling_glsl. Lengths are in voxels,
+// The ray caster's shaders, GLSL 3.30; the fragment shader follows bone_sampling_glsl and
+// look_glsl. Lengths are in voxels,
 // in texture coordinates of the bone's box (the first voxel spans 0 to 1), axes are the patient's.
 #pragma once
 
@@ -28,10 +29,7 @@ out vec4 pixel;
 const float surface = 0.5;
 
 void draw_background() {
-    float height = gl_FragCoord.y / picture_size.y;
-    vec2 off_centre = gl_FragCoord.xy / picture_size - 0.5;
-    vec3 shade = mix(vec3(0.035, 0.040, 0.048), vec3(0.115, 0.130, 0.150), smoothstep(0.0, 1.0, height));
-    pixel = vec4(display(shade * (1.0 - 0.35 * dot(off_centre, off_centre))), 1.0);
+    pixel = vec4(display(background_at(gl_FragCoord.xy / picture_size)), 1.0);
     gl_FragDepth = 1.0;
 }
 
@@ -45,6 +43,7 @@ void main() {
     vec3 leave3 = max(to_low, to_high);
     float enter = max(max(enter3.x, enter3.y), max(enter3.z, 0.0));
     float leave = min(leave3.x, min(leave3.y, leave3.z));
+    int cut = clip_by_cuts(eye, direction, enter, leave);
 
     // Samples stand on one lattice along the ray, skipped or not, so skipping cannot change the picture.
     float index = 0.0;
@@ -77,9 +76,11 @@ void main() {
         else outside = middle;
     }
     vec3 p = eye + inside * direction;
-    vec3 normal = normal_at(p, -direction);
+    // A ray that begins in bone sees the face of a cut: flat, and open to the sky.
+    bool in_cut = cut >= 0 && index == 0.0;
+    vec3 normal = in_cut ? cut_planes[cut].xyz : normal_at(p, -direction);
     vec3 colour = colour_at(p - 0.6 * normal);
-    pixel = vec4(display(lit(colour, normal, openness_at(p, normal))), 1.0);
+    pixel = vec4(display(lit(colour, normal, in_cut ? 1.0 : openness_at(p, normal))), 1.0);
     gl_FragDepth = depth_terms.x + depth_terms.y / (inside * dot(direction, forward));
 }
 )glsl";

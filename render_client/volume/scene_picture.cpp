@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <glm/common.hpp>
+#include <glm/exponential.hpp>
 #include <glm/geometric.hpp>
 
 namespace osteomill {
@@ -25,6 +26,12 @@ void ScenePicture::resize(const glm::ivec2& size_px) {
     layer_camera_.reset();
 }
 
+void ScenePicture::set_look(const SceneLook& look) {
+    if (look == renderer_.look()) return;
+    renderer_.set_look(look);
+    layer_camera_.reset();
+}
+
 void ScenePicture::forget_bone() {
     layer_camera_.reset();
     dirty_.clear();
@@ -45,10 +52,15 @@ const gl::Framebuffer& ScenePicture::draw(const BoneTextures* bone, const DrawnT
     }
     picture_.bind();
     if (!bone) {
-        glClearColor(0.22f, 0.23f, 0.25f, 1.0f);
+        const glm::vec3 grey = glm::pow(renderer_.look().background_low, glm::vec3(1.0f / 2.2f));
+        glClearColor(grey.r, grey.g, grey.b, 1.0f);
         glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
     }
-    if (bone && tool) tool_renderer_.draw(*tool, camera, size_px());
+    if (bone && tool) {
+        contact_shadow_.draw(layer_, tool->position_mm, 0.5 * tool->burr.diameter_mm, tool->spindle_axis,
+                             camera, size_px());
+        tool_renderer_.draw(*tool, camera, size_px());
+    }
     return picture_;
 }
 
@@ -76,24 +88,6 @@ void ScenePicture::draw_layer(const BoneTextures& bone, const Camera& camera) {
     }
     renderer_.draw(bone, camera, size_px());
     glDisable(GL_SCISSOR_TEST);
-}
-
-std::optional<PixelBox> pixels_of_box(const Camera& camera, const glm::dvec3& low_mm,
-                                      const glm::dvec3& high_mm, const glm::ivec2& size_px) {
-    glm::dvec2 first(size_px), last(0.0);
-    for (int corner = 0; corner < 8; ++corner) {
-        const glm::dvec3 place(corner & 1 ? high_mm.x : low_mm.x, corner & 2 ? high_mm.y : low_mm.y,
-                               corner & 4 ? high_mm.z : low_mm.z);
-        if (glm::dot(place - camera.eye_mm(), camera.forward()) < camera.near_mm) return std::nullopt;
-        const glm::dvec2 pixel = pixel_of(camera, place, size_px);
-        first = glm::min(first, pixel);
-        last = glm::max(last, pixel);
-    }
-    const glm::ivec2 low = glm::clamp(glm::ivec2(glm::floor(first)) - 1, glm::ivec2(0), size_px);
-    const glm::ivec2 high = glm::clamp(glm::ivec2(glm::ceil(last)) + 1, glm::ivec2(0), size_px);
-    const glm::ivec2 size = glm::max(high - low, 0);
-    // pixel_of counts rows from the top.
-    return PixelBox{{low.x, size_px.y - low.y - size.y}, size};
 }
 
 }  // namespace osteomill

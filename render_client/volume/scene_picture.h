@@ -6,7 +6,9 @@
 #include <span>
 
 #include "render_client/volume/bone_renderer.h"
+#include "render_client/volume/contact_shadow.h"
 #include "render_client/volume/gl/framebuffer.h"
+#include "render_client/volume/pixel_box.h"
 #include "render_client/volume/tool_renderer.h"
 
 namespace osteomill {
@@ -17,6 +19,8 @@ class ScenePicture {
 
     /// Sizes of less than one pixel count as one.
     void resize(const glm::ivec2& size_px);
+    /// Cuts and background, from the next draw on; another look than before draws the layer anew.
+    void set_look(const SceneLook& look);
     /// The bone was replaced: its layer is drawn anew.
     void forget_bone();
     /// These bricks changed since the last draw.
@@ -33,19 +37,11 @@ class ScenePicture {
 
     BoneRenderer& renderer_;
     ToolRenderer tool_renderer_;
+    ContactShadow contact_shadow_;
     gl::Framebuffer layer_;
     gl::Framebuffer picture_;
     std::optional<Camera> layer_camera_;  ///< none: the layer is stale everywhere
     std::vector<VoxelBox> dirty_;         ///< voxels of the bone's grid
 };
-
-/// Pixels (from the lower left corner, as glScissor counts) that can show a box of patient space; none where
-/// it reaches behind the camera and could be anywhere.
-struct PixelBox {
-    glm::ivec2 first{0};
-    glm::ivec2 size{0};
-};
-std::optional<PixelBox> pixels_of_box(const Camera& camera, const glm::dvec3& low_mm,
-                                      const glm::dvec3& high_mm, const glm::ivec2& size_px);
 
 }  // namespace osteomill

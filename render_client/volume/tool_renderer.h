@@ -25,6 +25,8 @@ struct DrawnTool {
 
 /// Length of the force arrow.
 inline constexpr double arrow_mm_per_n = 4.0;
+/// Less force than this shows no arrow.
+inline constexpr double shortest_arrow_n = 0.02;
 
 class ToolRenderer {
   public:
@@ -33,8 +35,13 @@ class ToolRenderer {
     void draw(const DrawnTool& tool, const Camera& camera, const glm::ivec2& size_px);
 
   private:
+    struct Finish {
+        float opacity = 1.0f;
+        float polish = 0.0f;  ///< 0 matt, 1 steel
+    };
+    /// The program must be in use.
     void draw_mesh(const gl::Mesh& mesh, const glm::dmat4& model, const glm::dmat4& view_projection,
-                   float opacity) const;
+                   const Finish& finish) const;
 
     gl::Program program_;
     gl::Mesh arrow_;

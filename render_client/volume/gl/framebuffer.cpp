@@ -78,6 +78,11 @@ void Framebuffer::copy_colour_to_window() const {
     glBindFramebuffer(GL_FRAMEBUFFER, 0);
 }
 
+void Framebuffer::bind_depth(int unit) const {
+    glActiveTexture(GL_TEXTURE0 + static_cast<GLenum>(unit));
+    glBindTexture(GL_TEXTURE_2D, depth_);
+}
+
 Picture Framebuffer::read_back() const {
     Picture picture(size_px_);
     const auto row_bytes = static_cast<std::size_t>(size_px_.x) * 3;

@@ -23,6 +23,9 @@ class Framebuffer {
     void copy_to(const Framebuffer& target) const;
     /// glBlitFramebuffer of colour to the window's framebuffer, lower left corners together.
     void copy_colour_to_window() const;
+    /// Binds the depth as a texture to GL_TEXTURE0 + unit, for reading while another framebuffer is drawn
+    /// into.
+    void bind_depth(int unit) const;
     /// glReadPixels of the colour; the first row is the top one.
     Picture read_back() const;
     /// Depth (0 near to 1 far) of a pixel counted from the lower left corner.

@@ -42,6 +42,18 @@ TEST(Options, TakeEverythingOfAnOffscreenRun) {
     EXPECT_EQ(result.options.json, "out.json");
 }
 
+TEST(Options, SetTheView) {
+    const ParsedOptions result = parsed({"--theme", "light", "--ui-scale", "1.5", "--no-panels"});
+    ASSERT_FALSE(result.no_run.has_value()) << result.no_run->message;
+    EXPECT_EQ(result.options.theme, ThemeName::light);
+    EXPECT_EQ(result.options.ui_scale, 1.5);
+    EXPECT_FALSE(result.options.panels);
+    EXPECT_EQ(parsed({}).options.theme, ThemeName::dark);
+    EXPECT_TRUE(parsed({}).options.panels);
+    expect_refused({"--theme", "pink"}, "--theme");
+    expect_refused({"--ui-scale", "9"}, "--ui-scale");
+}
+
 TEST(Options, RefuseInOneLineThatNamesWhatIsWrong) {
     expect_refused({"--connect", "somewhere"}, "somewhere");
     expect_refused({"--connect", "host:70000"}, "host:70000");
