@@ -27,6 +27,7 @@ void draw_cube(const PanelPainter& painter, Camera& camera, const PanelPlace& pl
     const auto in_picture = [&](const glm::dvec2& point) {
         return place.first + glm::vec2(point) * place.size;
     };
+    painter.canvas().AddDrawCmd();
     for (const CubeFace& face : visible_faces(camera)) {
         std::array<ImVec2, 4> corners;
         for (std::size_t i = 0; i < 4; ++i) corners[i] = to_imgui(in_picture(face.corners[i]));

@@ -10,6 +10,7 @@
 #include "render_client/ui/tool_history.h"
 #include "render_client/ui/view_settings.h"
 #include "render_client/volume/camera.h"
+#include "render_client/volume/picture_quality.h"
 
 namespace osteomill {
 
@@ -22,6 +23,7 @@ struct OverlayContent {
     Camera* camera = nullptr;
     ViewSettings* view = nullptr;
     double render_frames_per_s = 0.0;
+    PictureQuality quality;
     /// What the operator asks for, where one drills from here.
     std::optional<OperatorIntent> operator_intent;
     /// Null unless a recording is shown.

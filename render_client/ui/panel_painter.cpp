@@ -61,6 +61,8 @@ void PanelPainter::draw(const PanelText& text, const PanelPlace& place) const {
 }
 
 void PanelPainter::draw_background(const PanelPlace& place) const {
+    // A command of its own for each panel: what lies between them need not be drawn again, see Panels::end.
+    canvas_.AddDrawCmd();
     canvas_.AddRectFilled(to_imgui(place.first), to_imgui(place.first + place.size), colour_of(theme_.panel),
                           4.0f * scale_);
 }
@@ -72,6 +74,7 @@ void PanelPainter::draw_text(const glm::vec2& place, const Rgba& colour, const s
 }
 
 void PanelPainter::draw_on_picture(const glm::vec2& place, const std::string& text) const {
+    canvas_.AddDrawCmd();
     const glm::vec2 margin(3.0f * scale_, 1.0f * scale_);
     const glm::vec2 size(width_of(text), ImGui::GetFontSize());
     canvas_.AddRectFilled(to_imgui(place - margin), to_imgui(place + size + margin),

@@ -10,6 +10,12 @@ TextLine line(Tone tone, std::string text) {
     return {{tone, std::move(text)}};
 }
 
+std::string quality_in_words(const PictureQuality& quality) {
+    if (quality.refined) return "full quality";
+    if (quality.scale == 1.0) return "refining";
+    return fmt::format("coarse, {:.0f} %", 100.0 * quality.scale);
+}
+
 bool has_problem(LinkStatus status) {
     return status == LinkStatus::connecting || status == LinkStatus::lost || status == LinkStatus::refused;
 }
@@ -21,7 +27,8 @@ PanelText session_text(const OverlayContent& content) {
     if (content.session) text.push_back(line(Tone::plain, content.session->scene_name));
     text.push_back(
         line(has_problem(content.link.status) ? Tone::warning : Tone::plain, content.link.status_line));
-    text.push_back(line(Tone::dim, fmt::format("picture {:.0f} frames/s", content.render_frames_per_s)));
+    text.push_back(line(Tone::dim, fmt::format("picture {:.0f} frames/s, {}", content.render_frames_per_s,
+                                               quality_in_words(content.quality))));
     text.push_back(
         line(Tone::dim, fmt::format("{} {:.0f} frames/s, {:.1f} kB/s", content.player ? "file" : "link",
                                     content.link.frames_per_s, 1e-3 * content.link.bytes_per_s)));

@@ -10,6 +10,8 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <glm/common.hpp>
+#include <limits>
 #include <stdexcept>
 
 #include "render_client/ui/panel_painter.h"
@@ -38,6 +40,34 @@ void set_colours(const Theme& theme, ImGuiStyle& style) {
     set({ImGuiCol_ButtonHovered, ImGuiCol_FrameBgHovered, ImGuiCol_HeaderHovered}, theme.control_hovered);
     set({ImGuiCol_ButtonActive, ImGuiCol_FrameBgActive, ImGuiCol_HeaderActive, ImGuiCol_SliderGrabActive},
         theme.control_active);
+}
+
+/// What a draw command covers, in pixels of the framebuffer, y up.
+PixelBox box_of(const ImDrawData& drawn, const ImDrawList& list, const ImDrawCmd& command) {
+    glm::vec2 low(std::numeric_limits<float>::max()), high(std::numeric_limits<float>::lowest());
+    for (unsigned int i = 0; i < command.ElemCount; ++i) {
+        const int index = list.IdxBuffer[static_cast<int>(command.IdxOffset + i)];
+        const ImVec2& place = list.VtxBuffer[static_cast<int>(command.VtxOffset) + index].pos;
+        low = glm::min(low, {place.x, place.y});
+        high = glm::max(high, {place.x, place.y});
+    }
+    low = glm::max(low, {command.ClipRect.x, command.ClipRect.y});
+    high = glm::min(high, {command.ClipRect.z, command.ClipRect.w});
+    if (low.x >= high.x || low.y >= high.y) return {};
+    const glm::vec2 origin(drawn.DisplayPos.x, drawn.DisplayPos.y);
+    const glm::vec2 scale(drawn.FramebufferScale.x, drawn.FramebufferScale.y);
+    const glm::ivec2 first(glm::floor((low - origin) * scale));
+    const glm::ivec2 end(glm::ceil((high - origin) * scale));
+    const int height = static_cast<int>(drawn.DisplaySize.y * scale.y);
+    return {{first.x, height - end.y}, end - first};
+}
+
+std::vector<PixelBox> boxes_of(const ImDrawData& drawn) {
+    std::vector<PixelBox> boxes;
+    for (int list = 0; list < drawn.CmdListsCount; ++list)
+        for (const ImDrawCmd& command : drawn.CmdLists[list]->CmdBuffer)
+            boxes.push_back(box_of(drawn, *drawn.CmdLists[list], command));
+    return boxes;
 }
 
 }  // namespace
@@ -112,9 +142,11 @@ void Panels::begin(const glm::ivec2& size_px, double elapsed_s, ThemeName theme,
     ImGui::NewFrame();
 }
 
-void Panels::end() {
+std::vector<PixelBox> Panels::end() {
     ImGui::Render();
+    const ImDrawData* drawn = ImGui::GetDrawData();
     ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
+    return boxes_of(*drawn);
 }
 
 }  // namespace osteomill

@@ -3,8 +3,10 @@
 #pragma once
 
 #include <glm/vec2.hpp>
+#include <vector>
 
 #include "render_client/ui/theme.h"
+#include "render_client/volume/pixel_box.h"
 
 struct GLFWwindow;
 
@@ -23,8 +25,8 @@ class Panels {
     /// Opens an ImGui frame, in the colours of `theme` and with letters and controls `scale` times as large
     /// as on an ordinary display. `elapsed_s` is the time since the last one.
     void begin(const glm::ivec2& size_px, double elapsed_s, ThemeName theme, float scale);
-    /// Draws what was put into the frame into the bound framebuffer.
-    void end();
+    /// Draws what was put into the frame into the bound framebuffer; returns where that is.
+    std::vector<PixelBox> end();
 
   private:
     void start();

@@ -23,6 +23,7 @@ glm::vec2 scale_bar_size(const PanelPainter& painter, const ScaleBar& bar) {
 void draw_scale_bar(const PanelPainter& painter, const ScaleBar& bar, const PanelPlace& place) {
     ImDrawList& canvas = painter.canvas();
     const ImU32 ink = colour_of(painter.theme().on_picture);
+    canvas.AddDrawCmd();
     canvas.AddRectFilled(to_imgui(place.first), to_imgui(place.first + place.size),
                          colour_of(painter.theme().behind_letter), 3.0f * painter.scale());
     const float middle = place.first.x + 0.5f * place.size.x;

@@ -36,8 +36,12 @@ std::vector<TissueColour> tissue_colours(const SessionInfo* session) {
 
 }  // namespace
 
-SessionPicture::SessionPicture(SessionSource& source, Panels& panels, const glm::ivec2& size_px)
-    : source_(source), panels_(panels), picture_(renderer_, size_px), size_px_(picture_.size_px()) {}
+SessionPicture::SessionPicture(SessionSource& source, Panels& panels, const glm::ivec2& size_px,
+                               FrameQuality quality)
+    : source_(source),
+      panels_(panels),
+      picture_(renderer_, size_px, quality == FrameQuality::on_demand ? &draw_timer_ : nullptr),
+      size_px_(picture_.size_px()) {}
 
 void SessionPicture::take_in() {
     link_ = source_.poll();
@@ -113,12 +117,13 @@ const gl::Framebuffer& SessionPicture::draw(double elapsed_s) {
                   .camera = &camera_,
                   .view = &view_,
                   .render_frames_per_s = frames_per_s_,
+                  .quality = picture_.quality(),
                   .operator_intent = operator_intent_,
                   .player = source_.player(),
                   .bone_problem = bone_problem_,
                   .has_bone = has_bone()},
                  size_px_);
-    panels_.end();
+    picture_.cover(panels_.end());
     return picture;
 }
 

@@ -8,20 +8,31 @@
 #include "render_client/ui/panels.h"
 #include "render_client/ui/report.h"
 #include "render_client/ui/session_source.h"
+#include "render_client/volume/gl/draw_timer.h"
 #include "render_client/volume/gl/offscreen_context.h"
 #include "render_client/volume/raycast_renderer.h"
 #include "render_client/volume/scene_picture.h"
 
 namespace osteomill {
 
+enum class FrameQuality {
+    full,      ///< every frame at full quality, however long it takes
+    on_demand  ///< coarser under motion where it must be to keep the rate of frames, full soon after
+};
+
 class SessionPicture {
   public:
-    SessionPicture(SessionSource& source, Panels& panels, const glm::ivec2& size_px);
+    SessionPicture(SessionSource& source, Panels& panels, const glm::ivec2& size_px,
+                   FrameQuality quality = FrameQuality::full);
 
     /// Polls the source and brings the textures up to date.
     void take_in();
     /// Draws bone, tool and panels; leaves the framebuffer bound. `elapsed_s`: since the last frame.
     const gl::Framebuffer& draw(double elapsed_s);
+
+    /// How long the whole frame took, waiting excluded: what quality on demand goes by.
+    void frame_took(double frame_s) { picture_.frame_took(frame_s); }
+    PictureQuality quality() const { return picture_.quality(); }
 
     void resize(const glm::ivec2& size_px);
     const glm::ivec2& size_px() const { return size_px_; }
@@ -51,6 +62,7 @@ class SessionPicture {
     SessionSource& source_;
     Panels& panels_;
     RaycastRenderer renderer_;
+    gl::DrawTimer draw_timer_;
     ScenePicture picture_;
     glm::ivec2 size_px_;
     Camera camera_;

@@ -74,7 +74,7 @@ RenderReport run_in_window(const RenderOptions& options, SessionSource& source,
     Window window(options.window_size_px.value_or(default_size_px), "Osteomill");
     gl::require_opengl_3_3();
     Panels panels(window.handle());
-    SessionPicture session(source, panels, window.framebuffer_size_px());
+    SessionPicture session(source, panels, window.framebuffer_size_px(), FrameQuality::on_demand);
     OperatorHand hand;
     session.view().theme = options.theme;
     session.view().panels_shown = options.panels;
@@ -132,7 +132,9 @@ RenderReport run_in_window(const RenderOptions& options, SessionSource& source,
         if (session_over) screenshots.after_last_frame(framebuffer);
         framebuffer.copy_colour_to_window();
         window.show_frame();
-        frame_times.add(std::chrono::duration<double, std::milli>(Clock::now() - start).count());
+        const double took_s = std::chrono::duration<double>(Clock::now() - start).count();
+        session.frame_took(took_s);
+        frame_times.add(1e3 * took_s);
         std::this_thread::sleep_until(start + shortest_frame);
     }
     RenderReport report = session.report();

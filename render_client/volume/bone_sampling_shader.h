@@ -17,6 +17,10 @@
 
 namespace osteomill {
 
+/// How far from a voxel, along an axis, a surface can lie whose shading depends on it: openness_at looks 16
+/// voxels away into a map of 4-voxel blocks whose interpolation reads 2 voxels beyond each; one in reserve.
+inline constexpr int shading_reach_voxels = 19;
+
 inline constexpr const char* bone_sampling_glsl = R"glsl(
 uniform sampler3D bone_fraction;
 uniform sampler3D bone_mean_fraction;

@@ -31,9 +31,9 @@ uniform vec3 spindle_axis;
 in vec3 ray;
 out vec4 pixel;
 
-const float reach = 9.0;             // radii beyond which nothing is darkened
+const float reach = 6.0;             // radii beyond which nothing is darkened
 const float shank_radius = 0.5;
-const float shank_length = 8.0;
+const float shank_length = 6.0;
 const float lamp_half_angle = 0.12;  // rad: how fast the shadow's edge widens
 
 // How much of the lamp a ball takes: soft between the edges of core and half-shadow.
@@ -63,7 +63,8 @@ void main() {
 }
 )glsl";
 
-constexpr double reach_radii = 9.0;  // as in the shader
+constexpr double reach_radii = 6.0;  // as in the shader
+constexpr int depth_unit = 1;        // behind the colour
 
 }  // namespace
 
@@ -71,13 +72,13 @@ ContactShadow::ContactShadow()
     : program_(vertex_glsl, std::string("#version 330 core\n") + lighting_glsl + fragment_glsl) {}
 
 void ContactShadow::draw(const gl::Framebuffer& bone, const glm::dvec3& burr_mm, double radius_mm,
-                         const glm::dvec3& spindle_axis, const Camera& camera,
-                         const glm::ivec2& size_px) const {
+                         const glm::dvec3& spindle_axis, const Camera& camera, TileMask& covered) const {
+    const glm::ivec2& size_px = covered.size_px();
     const double half_height = glm::tan(0.5 * camera.field_of_view_rad);
     const double half_width = half_height * size_px.x / size_px.y;
     const glm::dmat4 projection = camera.projection(size_px);
     program_.use();
-    program_.set("bone_depth", 0);
+    program_.set("bone_depth", depth_unit);
     program_.set("forward", glm::vec3(camera.forward()));
     program_.set("right", glm::vec3(half_width * camera.right()));
     program_.set("up", glm::vec3(half_height * camera.up()));
@@ -85,13 +86,16 @@ void ContactShadow::draw(const gl::Framebuffer& bone, const glm::dvec3& burr_mm,
     program_.set("spindle_axis", glm::vec3(spindle_axis));
     program_.set("picture_size", glm::vec2(size_px));
     program_.set("depth_terms", glm::vec2(0.5 - 0.5 * projection[2][2], 0.5 * projection[3][2] / radius_mm));
-    bone.bind_depth(0);
+    bone.bind_textures(depth_unit - 1);
 
     const double reach_mm = reach_radii * radius_mm;
     const auto pixels = pixels_of_box(camera, burr_mm - reach_mm, burr_mm + reach_mm, size_px);
     if (pixels) {
+        covered.mark(*pixels);
         glEnable(GL_SCISSOR_TEST);
         glScissor(pixels->first.x, pixels->first.y, pixels->size.x, pixels->size.y);
+    } else {
+        covered.mark_all();
     }
     glDisable(GL_DEPTH_TEST);
     glEnable(GL_BLEND);

@@ -7,24 +7,24 @@
 // where the burr is close; it is the part of the sky that the sphere takes.
 #pragma once
 
-#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
 #include "render_client/volume/camera.h"
 #include "render_client/volume/gl/framebuffer.h"
 #include "render_client/volume/gl/full_screen.h"
 #include "render_client/volume/gl/program.h"
+#include "render_client/volume/tile_mask.h"
 
 namespace osteomill {
 
 class ContactShadow {
   public:
     ContactShadow();
-    /// Darkens the bound framebuffer of `size_px`. `bone` holds the bone's depth, as Camera::projection has
-    /// it, and is not the bound one. The burr is a sphere of `radius_mm` round `burr_mm`, its shank follows
-    /// `spindle_axis` (unit); patient LPS.
+    /// Darkens the bound framebuffer, whose size is the mask's, and marks the tiles where it may have. `bone`
+    /// holds the bone's depth, as Camera::projection has it, and is not the bound one. The burr is a sphere
+    /// of `radius_mm` round `burr_mm`, its shank follows `spindle_axis` (unit); patient LPS.
     void draw(const gl::Framebuffer& bone, const glm::dvec3& burr_mm, double radius_mm,
-              const glm::dvec3& spindle_axis, const Camera& camera, const glm::ivec2& size_px) const;
+              const glm::dvec3& spindle_axis, const Camera& camera, TileMask& covered) const;
 
   private:
     gl::Program program_;

@@ -70,18 +70,18 @@ ToolRenderer::ToolRenderer()
       ghost_(unit_sphere(linear_from_srgb({86, 180, 233}))),
       burr_(burr_and_shank(burr_shape_)) {}
 
-void ToolRenderer::draw(const DrawnTool& tool, const Camera& camera, const glm::ivec2& size_px) {
+void ToolRenderer::draw(const DrawnTool& tool, const Camera& camera, TileMask& covered) {
     if (tool.burr != burr_shape_) {
         burr_shape_ = tool.burr;
         burr_ = gl::Mesh(burr_and_shank(burr_shape_));
     }
-    const glm::dmat4 view_projection = camera.projection(size_px) * camera.view();
+    const glm::dmat4 view_projection = camera.projection(covered.size_px()) * camera.view();
     program_.use();
     program_.set("eye", glm::vec3(camera.eye_mm()));
     const glm::dmat4 at_burr = glm::translate(glm::dmat4(1.0), tool.position_mm) * z_to(tool.spindle_axis);
     glEnable(GL_DEPTH_TEST);
     draw_mesh(burr_, glm::rotate(at_burr, tool.spin_rad, glm::dvec3(0, 0, 1)), view_projection,
-              {.polish = 1.0f});
+              {.polish = 1.0f}, covered);
 
     const double force_n = glm::length(tool.force_n);
     if (std::isfinite(force_n) && force_n > shortest_arrow_n) {
@@ -93,7 +93,7 @@ void ToolRenderer::draw(const DrawnTool& tool, const Camera& camera, const glm::
         glEnable(GL_CULL_FACE);
         const double thickness_mm = std::min(length_mm, 10.0);
         draw_mesh(arrow_, glm::scale(at_force, glm::dvec3(thickness_mm, thickness_mm, length_mm)),
-                  view_projection, {});
+                  view_projection, {}, covered);
         glDisable(GL_CULL_FACE);
         glEnable(GL_DEPTH_TEST);
     }
@@ -104,7 +104,7 @@ void ToolRenderer::draw(const DrawnTool& tool, const Camera& camera, const glm::
         glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
         glDisable(GL_DEPTH_TEST);
         draw_mesh(ghost_, glm::scale(at_hand, glm::dvec3(0.5 * tool.burr.diameter_mm)), view_projection,
-                  {.opacity = 0.25f});
+                  {.opacity = 0.25f}, covered);
         glEnable(GL_DEPTH_TEST);
         glDisable(GL_CULL_FACE);
         glDisable(GL_BLEND);
@@ -112,7 +112,8 @@ void ToolRenderer::draw(const DrawnTool& tool, const Camera& camera, const glm::
 }
 
 void ToolRenderer::draw_mesh(const gl::Mesh& mesh, const glm::dmat4& model, const glm::dmat4& view_projection,
-                             const Finish& finish) const {
+                             const Finish& finish, TileMask& covered) const {
+    mark_box(covered, mesh.low(), mesh.high(), view_projection * model);
     program_.set("to_clip", glm::mat4(view_projection * model));
     program_.set("to_patient", glm::mat4(model));
     program_.set("normal_to_patient", glm::mat3(glm::transpose(glm::inverse(glm::dmat3(model)))));

@@ -27,10 +27,11 @@ class ContactShadowTest : public OffscreenTest {
         const gl::Framebuffer bone(size_px_), picture(size_px_);
         bone.bind();
         renderer.draw(*textures_, camera_, size_px_);
-        bone.copy_to(picture);
+        bone.copy_to(picture, {{0, 0}, size_px_});
         picture.bind();
+        TileMask covered(size_px_);
         if (height_mm > 0.0)
-            shadow.draw(bone, {0.0, 0.0, height_mm}, radius_mm_, {0.0, 0.0, 1.0}, camera_, size_px_);
+            shadow.draw(bone, {0.0, 0.0, height_mm}, radius_mm_, {0.0, 0.0, 1.0}, camera_, covered);
         return picture.read_back();
     }
     /// 1 where the bone at a place on its upper side is as bright as without a burr.
