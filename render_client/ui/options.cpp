@@ -45,6 +45,30 @@ NoRun wrong_usage(const std::string& what) {
     return {2, "render_client: " + what};
 }
 
+/// The preset of this name; none for any other.
+std::optional<TransferFunction> preset_of(const std::string& name) {
+    for (const TransferFunction& preset : transfer_presets())
+        if (preset.name == name) return preset;
+    return std::nullopt;
+}
+
+std::string preset_names() {
+    std::string names;
+    for (const TransferFunction& preset : transfer_presets())
+        names += (names.empty() ? "" : ", ") + preset.name;
+    return names;
+}
+
+void add_look(CLI::App& app, RenderOptions& options) {
+    const std::map<std::string, RendererChoice> renderers{{"raycast", RendererChoice::raycast},
+                                                          {"slices", RendererChoice::slices}};
+    app.add_option("--renderer", options.renderer,
+                   "raycast (default) skips what is empty; slices through the 3D texture, as published")
+        ->transform(CLI::Transformer(renderers))
+        ->check(CLI::IsMember({RendererChoice::raycast, RendererChoice::slices}))
+        ->type_name("raycast|slices");
+}
+
 /// What the options together get wrong; empty where they agree.
 std::string contradiction(const RenderOptions& options) {
     if (options.offscreen && options.until_server_ends)

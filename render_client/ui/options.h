@@ -9,6 +9,8 @@
 
 #include "common/net/tls_files.h"
 #include "render_client/ui/theme.h"
+#include "render_client/volume/bone_look.h"
+#include "render_client/volume/renderer_choice.h"
 
 namespace osteomill {
 
@@ -19,6 +21,8 @@ struct RenderOptions {
     std::optional<std::filesystem::path> record;  ///< what is received goes there, too
     std::optional<std::filesystem::path> replay;  ///< a recording in place of a server
     double speed = 1.0;                           ///< of the recording: recorded seconds a second
+    RendererChoice renderer = RendererChoice::raycast;
+    BoneLook look;
     bool offscreen = false;
     int frames = 300;                   ///< offscreen: ends after so many
     bool until_server_ends = false;     ///< in a window: close it when the session is over

@@ -8,11 +8,16 @@
 //     float fraction_at(vec3 point)                 0 to 1, trilinear between voxels
 //     vec3  gradient_at(vec3 point)                 of the fraction, 1 / voxel; points into the bone
 //     vec3  normal_at(vec3 point, vec3 otherwise)   unit, out of the bone; `otherwise` where nothing slopes
-//     vec3  colour_at(vec3 point)                   linear RGB of the bone that is or was there
+//     vec4  look_at(vec3 point)                     linear RGB and opacity of the bone that is or was there
+//     float density_at(vec3 point)                  the fraction times the opacity of the nearest voxel
+//     vec4  surface_colour_at(vec3 point)           of surface voxels nearby: display RGB times alpha, alpha
 //     float openness_at(vec3 point, vec3 normal)    0 to 1, how much of the sky above a surface is free of
-//     bone float free_length(vec3 point, vec3 direction) voxels along a unit direction (no component may be
-//     zero)
+//                                                   bone
+//     float free_length(vec3 point, vec3 direction) voxels along a unit direction (no component may be zero)
 //                                                   in which the fraction stays below one half; 0 if unknown
+//     bool  bone_is_translucent                     opacities are per mm, else bone is solid
+//     bool  bone_has_surface_colours                else surface_colour_at means nothing
+//     float bone_mm_per_voxel
 #pragma once
 
 namespace osteomill {
@@ -27,8 +32,10 @@ uniform sampler3D bone_mean_fraction;
 uniform usampler3D bone_skip_distance;
 uniform usampler3D bone_colour_code;
 uniform sampler2D bone_colours;
+uniform sampler3D bone_surface_colours;
 uniform vec3 bone_size;
-uniform bool bone_has_colour_code;
+uniform float bone_mm_per_voxel;
+uniform bool bone_has_colour_code, bone_has_surface_colours, bone_is_translucent;
 
 const float block_edge = 4.0;
 
@@ -52,25 +59,38 @@ vec3 normal_at(vec3 point, vec3 otherwise) {
     return steepness > 1e-5 ? -gradient / steepness : otherwise;
 }
 
-// Colours of the eight nearest voxels blended trilinearly, so that tissues meet without steps.
-vec3 colour_at(vec3 point) {
-    if (!bone_has_colour_code) return texelFetch(bone_colours, ivec2(0), 0).rgb;
+uint code_at(ivec3 voxel) {
+    if (!bone_has_colour_code) return 0u;
+    return texelFetch(bone_colour_code, clamp(voxel, ivec3(0), ivec3(bone_size) - 1), 0).r;
+}
+
+float density_at(vec3 point) {
+    uint code = code_at(ivec3(floor(point)));
+    return fraction_at(point) * texelFetch(bone_colours, ivec2(int(code), 0), 0).a;
+}
+
+vec4 surface_colour_at(vec3 point) { return textureLod(bone_surface_colours, point / bone_size, 0.0); }
+
+// Looks of the eight nearest voxels blended trilinearly, so that tissues meet without steps. What is hidden
+// does not tinge what stands beside it.
+vec4 look_at(vec3 point) {
+    if (!bone_has_colour_code) return texelFetch(bone_colours, ivec2(0), 0);
     vec3 place = point - 0.5;
     ivec3 low = ivec3(floor(place));
     vec3 part = place - vec3(low);
-    ivec3 last = ivec3(bone_size) - 1;
-    vec3 sum = vec3(0.0);
+    vec4 sum = vec4(0.0);
     float known = 0.0;
     for (int corner = 0; corner < 8; ++corner) {
         ivec3 side = ivec3(corner & 1, (corner >> 1) & 1, (corner >> 2) & 1);
-        uint code = texelFetch(bone_colour_code, clamp(low + side, ivec3(0), last), 0).r;
-        if (code == 0u) continue;
+        uint code = code_at(low + side);
+        vec4 look = texelFetch(bone_colours, ivec2(int(code), 0), 0);
+        if (code == 0u || look.a == 0.0) continue;
         vec3 weights = mix(1.0 - part, part, vec3(side));
         float weight = weights.x * weights.y * weights.z + 1e-5;
-        sum += weight * texelFetch(bone_colours, ivec2(int(code), 0), 0).rgb;
+        sum += weight * look;
         known += weight;
     }
-    return known > 0.0 ? sum / known : texelFetch(bone_colours, ivec2(0), 0).rgb;
+    return known > 0.0 ? sum / known : texelFetch(bone_colours, ivec2(0), 0);
 }
 
 float mean_fraction_at(vec3 point) {

@@ -40,36 +40,37 @@ gl::Texture3D upload_map(const std::vector<std::uint8_t>& map, const glm::ivec3&
     return texture;
 }
 
-std::optional<gl::Texture3D> upload_colour_code(const Bone& bone, const VoxelBox& box) {
-    if (!bone.content().tissue.empty())
-        return upload_channel(bone, BoneChannel::tissue, box, gl::VoxelFormat::byte_code);
-    if (!bone.content().stiffness.empty())
-        return upload_channel(bone, BoneChannel::stiffness, box, gl::VoxelFormat::byte_code);
-    return std::nullopt;
+std::optional<gl::Texture3D> upload_colour_code(const Bone& bone, const VoxelBox& box,
+                                                const LookTable& table) {
+    if (!table.channel) return std::nullopt;
+    return upload_channel(bone, *table.channel, box, gl::VoxelFormat::byte_code);
 }
 
-ColourTable colours_of(const BoneContent& content, std::span<const TissueColour> tissues) {
-    if (!content.tissue.empty()) return colours_by_tissue(tissues);
-    if (!content.stiffness.empty()) return colours_by_stiffness(content.stiffness_per_code);
-    ColourTable plain;
-    plain.fill(plain_bone_colour());
-    return plain;
+std::optional<VisibleBone> without_hidden(const Bone& bone, const LookTable& table) {
+    if (!hides_bone(table)) return std::nullopt;
+    return VisibleBone(bone, table);
 }
 
 }  // namespace
 
-BoneTextures::BoneTextures(const Bone& bone, std::span<const TissueColour> tissues)
+BoneTextures::BoneTextures(const Bone& bone, std::span<const TissueColour> tissues, const BoneLook& look)
     : grid_(bone.grid()),
       box_(drawable_box(bone)),
-      empty_space_(bone, box_),
-      fraction_(upload_channel(bone, BoneChannel::fraction, box_, gl::VoxelFormat::interpolated_byte)),
+      table_(look_table(bone.content(), tissues, look)),
+      visible_(without_hidden(bone, table_)),
+      empty_space_(shown(bone), box_),
+      fraction_(upload_channel(shown(bone), BoneChannel::fraction, box_, gl::VoxelFormat::interpolated_byte)),
       distance_(upload_map(empty_space_.distance(), empty_space_.size_blocks(), gl::VoxelFormat::byte_code)),
       mean_fraction_(upload_map(empty_space_.mean_fraction(), empty_space_.size_blocks(),
                                 gl::VoxelFormat::interpolated_byte)),
-      colour_code_(upload_colour_code(bone, box_)),
-      colours_(colours_of(bone.content(), tissues)) {}
+      colour_code_(upload_colour_code(bone, box_, table_)),
+      colours_(table_.by_code) {
+    if (look.shading == Shading::surface_voxels) surface_.emplace(shown(bone), table_, box_);
+}
 
-void BoneTextures::update(const Bone& bone, std::span<const BrickIndex> dirty) {
+void BoneTextures::update(const Bone& carved, std::span<const BrickIndex> dirty) {
+    if (visible_) visible_->follow(carved, dirty);
+    const Bone& bone = shown(carved);
     const glm::ivec3 size_bricks = bone.content().size_bricks;
     for (const BrickIndex index : dirty) {
         const glm::ivec3 brick = brick_position(size_bricks, index);
@@ -83,6 +84,7 @@ void BoneTextures::update(const Bone& bone, std::span<const BrickIndex> dirty) {
         mean_fraction_.upload(blocks.first, blocks.size,
                               copy_blocks(empty_space_.mean_fraction(), size, blocks));
     }
+    if (surface_) surface_->update(bone, dirty);
 }
 
 glm::dvec3 BoneTextures::to_box_voxels(const glm::dvec3& position_mm) const {

@@ -3,6 +3,7 @@
 #include <glm/trigonometric.hpp>
 #include <string>
 
+#include "render_client/volume/bone_shading_shader.h"
 #include "render_client/volume/lighting.h"
 #include "render_client/volume/look_shader.h"
 #include "render_client/volume/raycast_shader.h"
@@ -10,9 +11,6 @@
 namespace osteomill {
 
 namespace {
-
-/// A chord through bone shorter than this may be missed; a longer step was not worth its speed.
-constexpr float step_voxels = 0.75f;
 
 /// Window depth as a function of the distance along the camera's axis, from the projection matrix.
 glm::vec2 depth_terms(const Camera& camera, double spacing_mm, const glm::ivec2& size_px) {
@@ -22,16 +20,17 @@ glm::vec2 depth_terms(const Camera& camera, double spacing_mm, const glm::ivec2&
 
 }  // namespace
 
-RaycastRenderer::RaycastRenderer(EmptySpaceSkipping skipping)
-    : bone_program_(raycast_vertex_glsl, std::string(lighting_glsl) + look_glsl + raycast_fragment_glsl),
-      skipping_(skipping) {}
+RaycastRenderer::RaycastRenderer(const RaycastSettings& settings)
+    : bone_program_(raycast_vertex_glsl, std::string(lighting_glsl) + look_glsl + bone_shading_glsl +
+                                             cut_shading_glsl + raycast_fragment_glsl),
+      settings_(settings) {}
 
 void RaycastRenderer::draw(const BoneTextures& bone, const Camera& camera, const glm::ivec2& size_px) {
     const double half_height = glm::tan(0.5 * camera.field_of_view_rad);
     const double half_width = half_height * size_px.x / size_px.y;
     const gl::Program& program = bone_program_.use(bone);
-    program.set("step_length", step_voxels);
-    program.set("skips", skipping_ == EmptySpaceSkipping::distance_map ? 1 : 0);
+    program.set("step_length", settings_.step_voxels);
+    program.set("skips", settings_.skipping == EmptySpaceSkipping::distance_map ? 1 : 0);
     program.set("forward", glm::vec3(camera.forward()));
     program.set("right", glm::vec3(half_width * camera.right()));
     program.set("up", glm::vec3(half_height * camera.up()));

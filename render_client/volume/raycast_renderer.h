@@ -1,5 +1,5 @@
-// Ray casting: every pixel's ray goes front to back to where the trilinear fraction reaches one half, leaps
-// over empty blocks, ends there, and is shaded by the gradient of the fraction.
+// Ray casting: every pixel's ray goes front to back, leaps over empty blocks, and ends where the trilinear
+// fraction reaches one half or, in translucent bone, where hardly any light comes through.
 #pragma once
 
 #include "render_client/volume/bone_program.h"
@@ -12,15 +12,22 @@ namespace osteomill {
 /// changes no pixel.
 enum class EmptySpaceSkipping { distance_map, none };
 
+struct RaycastSettings {
+    EmptySpaceSkipping skipping = EmptySpaceSkipping::distance_map;
+    /// Distance of the samples along a ray, voxels, above 0. A chord through bone shorter than this may be
+    /// missed.
+    float step_voxels = 0.75f;
+};
+
 class RaycastRenderer final : public BoneRenderer {
   public:
-    explicit RaycastRenderer(EmptySpaceSkipping skipping = EmptySpaceSkipping::distance_map);
+    explicit RaycastRenderer(const RaycastSettings& settings = {});
     void draw(const BoneTextures& bone, const Camera& camera, const glm::ivec2& size_px) override;
 
   private:
     BoneProgram bone_program_;
     gl::FullScreen full_screen_;
-    EmptySpaceSkipping skipping_;
+    RaycastSettings settings_;
 };
 
 }  // namespace osteomill

@@ -1,5 +1,4 @@
-// The ray caster's shaders, GLSL 3.30; the fragment shader follows bone_sampling_glsl and
-// look_glsl. Lengths are in voxels,
+// The ray caster's shaders, GLSL 3.30; the fragment shader follows cut_shading_glsl. Lengths are in voxels,
 // in texture coordinates of the bone's box (the first voxel spans 0 to 1), axes are the patient's.
 #pragma once
 
@@ -26,62 +25,84 @@ uniform vec2 picture_size;
 in vec3 ray;
 out vec4 pixel;
 
-const float surface = 0.5;
+const float darkest_seen = 0.004;  // of light that comes through: less changes no displayed level by one
+
+vec3 direction;
+float enter, leave;
 
 void draw_background() {
     pixel = vec4(display(background_at(gl_FragCoord.xy / picture_size)), 1.0);
     gl_FragDepth = 1.0;
 }
 
-void main() {
-    vec3 direction = normalize(ray);
-    direction = mix(direction, vec3(1e-6), lessThan(abs(direction), vec3(1e-6)));
-    // One voxel beyond the box on every side the fraction has fallen to zero.
-    vec3 to_low = (vec3(-1.0) - eye) / direction;
-    vec3 to_high = (bone_size + 1.0 - eye) / direction;
-    vec3 enter3 = min(to_low, to_high);
-    vec3 leave3 = max(to_low, to_high);
-    float enter = max(max(enter3.x, enter3.y), max(enter3.z, 0.0));
-    float leave = min(leave3.x, min(leave3.y, leave3.z));
-    int cut = clip_by_cuts(eye, direction, enter, leave);
+float depth_of(float distance_along) {
+    return depth_terms.x + depth_terms.y / (distance_along * dot(direction, forward));
+}
 
-    // Samples stand on one lattice along the ray, skipped or not, so skipping cannot change the picture.
-    float index = 0.0;
-    bool hit = false;
+// Samples stand on one lattice along the ray, skipped or not, so skipping cannot change the picture. False
+// where no sample from `index` on meets bone; else index is the first that does.
+bool find_bone(inout float index) {
     for (int visit = 0; visit < 16384; ++visit) {
         float distance_along = enter + index * step_length;
-        if (distance_along > leave) break;
+        if (distance_along > leave) return false;
         vec3 p = eye + distance_along * direction;
         float leap = skips ? free_length(p, direction) : 0.0;
         if (leap > 0.0) {
             index += max(ceil(leap / step_length), 1.0);
             continue;
         }
-        if (fraction_at(p) >= surface) {
-            hit = true;
-            break;
-        }
+        if (fraction_at(p) >= bone_surface) return true;
         index += 1.0;
     }
-    if (!hit) {
-        draw_background();
-        return;
-    }
+    return false;
+}
 
+void draw_surface(float index) {
     float outside = enter + max(index - 1.0, 0.0) * step_length;
     float inside = enter + index * step_length;
     for (int halving = 0; halving < 6; ++halving) {
         float middle = 0.5 * (outside + inside);
-        if (fraction_at(eye + middle * direction) >= surface) inside = middle;
+        if (fraction_at(eye + middle * direction) >= bone_surface) inside = middle;
         else outside = middle;
     }
-    vec3 p = eye + inside * direction;
-    // A ray that begins in bone sees the face of a cut: flat, and open to the sky.
-    bool in_cut = cut >= 0 && index == 0.0;
-    vec3 normal = in_cut ? cut_planes[cut].xyz : normal_at(p, -direction);
-    vec3 colour = colour_at(p - 0.6 * normal);
-    pixel = vec4(display(lit(colour, normal, in_cut ? 1.0 : openness_at(p, normal))), 1.0);
-    gl_FragDepth = depth_terms.x + depth_terms.y / (inside * dot(direction, forward));
+    pixel = vec4(shown_pixel(eye + inside * direction, direction), 1.0);
+    gl_FragDepth = depth_of(inside);
+}
+
+// Front to back, until hardly any light comes through.
+void draw_translucent(float index) {
+    vec3 light = vec3(0.0);
+    float through = 1.0;
+    gl_FragDepth = 1.0;
+    do {
+        float distance_along = enter + index * step_length;
+        vec3 p = eye + distance_along * direction;
+        vec4 piece = translucent_piece(p, step_length);
+        light += through * piece.rgb;
+        through *= 1.0 - piece.a;
+        if (gl_FragDepth == 1.0 && look_at(p).a >= solid_opacity) gl_FragDepth = depth_of(distance_along);
+        index += 1.0;
+    } while (through > darkest_seen && find_bone(index));
+    light += through * background_at(gl_FragCoord.xy / picture_size);
+    pixel = vec4(display(light), 1.0);
+}
+
+void main() {
+    direction = normalize(ray);
+    direction = mix(direction, vec3(1e-6), lessThan(abs(direction), vec3(1e-6)));
+    // One voxel beyond the box on every side the fraction has fallen to zero.
+    vec3 to_low = (vec3(-1.0) - eye) / direction;
+    vec3 to_high = (bone_size + 1.0 - eye) / direction;
+    vec3 enter3 = min(to_low, to_high);
+    vec3 leave3 = max(to_low, to_high);
+    enter = max(max(enter3.x, enter3.y), max(enter3.z, 0.0));
+    leave = min(leave3.x, min(leave3.y, leave3.z));
+    clip_by_cuts(eye, direction, enter, leave);
+
+    float index = 0.0;
+    if (!find_bone(index)) draw_background();
+    else if (bone_is_translucent) draw_translucent(index);
+    else draw_surface(index);
 }
 )glsl";
 

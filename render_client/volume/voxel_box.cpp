@@ -6,23 +6,6 @@
 
 namespace osteomill {
 
-namespace {
-
-std::span<const std::uint8_t> channel_of_slot(const Bone& bone, BoneChannel channel, std::int32_t slot) {
-    const auto index = static_cast<std::size_t>(slot);
-    switch (channel) {
-        case BoneChannel::stiffness:
-            return bone.content().stiffness[index];
-        case BoneChannel::tissue:
-            return bone.content().tissue[index];
-        case BoneChannel::fraction:
-            break;
-    }
-    return bone.fractions(slot);
-}
-
-}  // namespace
-
 VoxelBox stored_box(const BoneContent& content) {
     if (content.brick_of_slot.empty()) return {};
     glm::ivec3 low = content.size_bricks;
@@ -33,6 +16,20 @@ VoxelBox stored_box(const BoneContent& content) {
         high = glm::max(high, brick + 1);
     }
     return {low * brick_edge_voxels, (high - low) * brick_edge_voxels};
+}
+
+std::span<const std::uint8_t, brick_voxel_count> channel_of_slot(const Bone& bone, BoneChannel channel,
+                                                                 std::int32_t slot) {
+    const auto index = static_cast<std::size_t>(slot);
+    switch (channel) {
+        case BoneChannel::stiffness:
+            return bone.content().stiffness[index];
+        case BoneChannel::tissue:
+            return bone.content().tissue[index];
+        case BoneChannel::fraction:
+            break;
+    }
+    return bone.fractions(slot);
 }
 
 void copy_channel(const Bone& bone, BoneChannel channel, const VoxelBox& box,

@@ -22,6 +22,10 @@ VoxelBox stored_box(const BoneContent& content);
 
 enum class BoneChannel { fraction, stiffness, tissue };
 
+/// A channel of a stored brick, one byte a voxel. The bone must have the channel.
+std::span<const std::uint8_t, brick_voxel_count> channel_of_slot(const Bone& bone, BoneChannel channel,
+                                                                 std::int32_t slot);
+
 /// Copies a channel within `box` (which may reach past the grid) into `voxels`, x fastest; zero where no
 /// brick is stored. The bone must have the channel.
 void copy_channel(const Bone& bone, BoneChannel channel, const VoxelBox& box, std::span<std::uint8_t> voxels);

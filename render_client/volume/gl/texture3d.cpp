@@ -7,13 +7,28 @@
 
 namespace osteomill::gl {
 
+namespace {
+
+GLint internal_format(VoxelFormat format) {
+    switch (format) {
+        case VoxelFormat::byte_code:
+            return GL_R8UI;
+        case VoxelFormat::interpolated_rgba:
+            return GL_RGBA8;
+        case VoxelFormat::interpolated_byte:
+            break;
+    }
+    return GL_R8;
+}
+
+}  // namespace
+
 Texture3D::Texture3D(VoxelFormat format, const glm::ivec3& size) : format_(format), size_(size) {
-    const bool interpolated = format == VoxelFormat::interpolated_byte;
     glGenTextures(1, &id_);
     glBindTexture(GL_TEXTURE_3D, id_);
-    glTexImage3D(GL_TEXTURE_3D, 0, interpolated ? GL_R8 : GL_R8UI, size.x, size.y, size.z, 0,
-                 transfer_format(), GL_UNSIGNED_BYTE, nullptr);
-    const GLint filter = interpolated ? GL_LINEAR : GL_NEAREST;
+    glTexImage3D(GL_TEXTURE_3D, 0, internal_format(format), size.x, size.y, size.z, 0, transfer_format(),
+                 GL_UNSIGNED_BYTE, nullptr);
+    const GLint filter = format == VoxelFormat::byte_code ? GL_NEAREST : GL_LINEAR;
     glTexParameteri(GL_TEXTURE_3D, GL_TEXTURE_MIN_FILTER, filter);
     glTexParameteri(GL_TEXTURE_3D, GL_TEXTURE_MAG_FILTER, filter);
     glTexParameteri(GL_TEXTURE_3D, GL_TEXTURE_MAX_LEVEL, 0);
@@ -21,7 +36,7 @@ Texture3D::Texture3D(VoxelFormat format, const glm::ivec3& size) : format_(forma
         glTexParameteri(GL_TEXTURE_3D, axis, GL_CLAMP_TO_BORDER);
     try {
         require_no_gl_error("making a 3D texture of " + std::to_string(size.x) + " x " +
-                            std::to_string(size.y) + " x " + std::to_string(size.z) + " bytes");
+                            std::to_string(size.y) + " x " + std::to_string(size.z) + " texels");
     } catch (...) {
         glDeleteTextures(1, &id_);
         throw;
@@ -44,8 +59,7 @@ Texture3D::~Texture3D() {
 
 void Texture3D::upload(const glm::ivec3& first, const glm::ivec3& size,
                        std::span<const std::uint8_t> texels) {
-    const auto needed = static_cast<std::size_t>(size.x) * size.y * size.z;
-    if (texels.size() != needed) throw std::invalid_argument("a texture upload of the wrong length");
+    if (texels.size() != bytes(size)) throw std::invalid_argument("a texture upload of the wrong length");
     glBindTexture(GL_TEXTURE_3D, id_);
     glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
     glTexSubImage3D(GL_TEXTURE_3D, 0, first.x, first.y, first.z, size.x, size.y, size.z, transfer_format(),
@@ -53,8 +67,7 @@ void Texture3D::upload(const glm::ivec3& first, const glm::ivec3& size,
 }
 
 void Texture3D::read_back(std::span<std::uint8_t> texels) const {
-    if (texels.size() != static_cast<std::size_t>(size_.x) * size_.y * size_.z)
-        throw std::invalid_argument("a texture read-back of the wrong length");
+    if (texels.size() != bytes(size_)) throw std::invalid_argument("a texture read-back of the wrong length");
     glBindTexture(GL_TEXTURE_3D, id_);
     glPixelStorei(GL_PACK_ALIGNMENT, 1);
     glGetTexImage(GL_TEXTURE_3D, 0, transfer_format(), GL_UNSIGNED_BYTE, texels.data());
@@ -66,7 +79,20 @@ void Texture3D::bind(int unit) const {
 }
 
 GLenum Texture3D::transfer_format() const {
-    return format_ == VoxelFormat::interpolated_byte ? GL_RED : GL_RED_INTEGER;
+    switch (format_) {
+        case VoxelFormat::byte_code:
+            return GL_RED_INTEGER;
+        case VoxelFormat::interpolated_rgba:
+            return GL_RGBA;
+        case VoxelFormat::interpolated_byte:
+            break;
+    }
+    return GL_RED;
+}
+
+std::size_t Texture3D::bytes(const glm::ivec3& size) const {
+    const std::size_t texels = static_cast<std::size_t>(size.x) * size.y * size.z;
+    return format_ == VoxelFormat::interpolated_rgba ? 4 * texels : texels;
 }
 
 int max_texture3d_edge() {

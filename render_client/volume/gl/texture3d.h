@@ -3,6 +3,7 @@
 
 #include <epoxy/gl.h>
 
+#include <cstddef>
 #include <cstdint>
 #include <glm/vec3.hpp>
 #include <span>
@@ -12,7 +13,8 @@ namespace osteomill::gl {
 /// How a texel is stored and how it is read between texels. Outside the texture every read gives zero.
 enum class VoxelFormat {
     interpolated_byte,  ///< GL_R8, read as 0 to 1, trilinear
-    byte_code           ///< GL_R8UI, read as a whole number by texelFetch
+    byte_code,          ///< GL_R8UI, read as a whole number by texelFetch
+    interpolated_rgba   ///< GL_RGBA8, four bytes a texel, each read as 0 to 1, trilinear
 };
 
 class Texture3D {
@@ -24,9 +26,9 @@ class Texture3D {
     Texture3D& operator=(Texture3D&& other) noexcept;
     ~Texture3D();
 
-    /// glTexSubImage3D: one byte a texel, x fastest. The box must lie within the texture.
+    /// glTexSubImage3D: x fastest. The box must lie within the texture.
     void upload(const glm::ivec3& first, const glm::ivec3& size, std::span<const std::uint8_t> texels);
-    /// glGetTexImage: the whole texture, one byte a texel, x fastest.
+    /// glGetTexImage: the whole texture, x fastest.
     void read_back(std::span<std::uint8_t> texels) const;
     /// Binds to GL_TEXTURE0 + unit.
     void bind(int unit) const;
@@ -35,6 +37,7 @@ class Texture3D {
 
   private:
     GLenum transfer_format() const;
+    std::size_t bytes(const glm::ivec3& size) const;
 
     GLuint id_ = 0;
     VoxelFormat format_;

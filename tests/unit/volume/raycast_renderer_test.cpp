@@ -17,7 +17,7 @@ const Grid grid{.size_voxels = {96, 96, 80}, .origin_mm = {-4.75, -4.75, -3.95}}
 
 Picture drawn(const BoneTextures& textures, const Camera& camera,
               EmptySpaceSkipping skipping = EmptySpaceSkipping::distance_map) {
-    RaycastRenderer renderer(skipping);
+    RaycastRenderer renderer({.skipping = skipping});
     const gl::Framebuffer framebuffer(size_px);
     framebuffer.bind();
     renderer.draw(textures, camera, size_px);
