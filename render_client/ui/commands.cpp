@@ -36,6 +36,9 @@ void Commands::take(Action action) {
         case Action::cuts_panel:
             view.cuts_panel_shown = !view.cuts_panel_shown;
             break;
+        case Action::transfer_panel:
+            view.transfer_panel_shown = !view.transfer_panel_shown;
+            break;
         case Action::cut_x:
         case Action::cut_y:
         case Action::cut_z:

@@ -23,11 +23,11 @@ glm::vec2 full_size(const PanelPainter& painter, const std::vector<HelpLine>& li
 
 }  // namespace
 
-PanelWish help_wish(const PanelPainter& painter, Situation situation, const glm::vec2& room) {
+glm::vec2 help_size(const PanelPainter& painter, Situation situation, const glm::vec2& room) {
     const glm::vec2 size = full_size(painter, help_lines(situation));
     const float factor = std::min({1.0f, room.x / size.x, room.y / size.y});
     // Below a third nobody could read it: rather the size that lay_out leaves out.
-    return {Anchor::middle, {std::max(factor, 0.3f) * size}};
+    return std::max(factor, 0.3f) * size;
 }
 
 void draw_help(const PanelPainter& painter, Situation situation, const PanelPlace& place) {

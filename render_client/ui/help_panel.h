@@ -6,8 +6,8 @@
 
 namespace osteomill {
 
-/// In the middle, at most as large as `room`.
-PanelWish help_wish(const PanelPainter& painter, Situation situation, const glm::vec2& room);
+/// At most as large as `room`.
+glm::vec2 help_size(const PanelPainter& painter, Situation situation, const glm::vec2& room);
 void draw_help(const PanelPainter& painter, Situation situation, const PanelPlace& place);
 
 }  // namespace osteomill

@@ -46,6 +46,7 @@ const std::vector<KeyBinding>& table() {
         {always, {GLFW_KEY_F2}, Action::theme, "F2", "light or dark"},
         {always, {GLFW_KEY_F3}, Action::panels, "F3", "panels on, off"},
         {always, {GLFW_KEY_F4}, Action::cuts_panel, "F4", "panel of the cuts"},
+        {always, {GLFW_KEY_F5}, Action::transfer_panel, "F5", "panel of colours and opacity"},
         {always, {GLFW_KEY_F11}, Action::export_frames, "F11", "write every frame as PNG: begin, end"},
         {always, {GLFW_KEY_F12, GLFW_KEY_P}, Action::screenshot, "F12, P", "write this picture as PNG"},
         {always, {GLFW_KEY_ESCAPE}, Action::end, "ESC", "end"},

@@ -15,6 +15,7 @@ enum class Action {
     theme,
     panels,
     cuts_panel,
+    transfer_panel,
     cut_x,
     cut_y,
     cut_z,

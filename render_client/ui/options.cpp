@@ -1,5 +1,8 @@
 #include "render_client/ui/options.h"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <charconv>
@@ -45,28 +48,39 @@ NoRun wrong_usage(const std::string& what) {
     return {2, "render_client: " + what};
 }
 
-/// The preset of this name; none for any other.
-std::optional<TransferFunction> preset_of(const std::string& name) {
-    for (const TransferFunction& preset : transfer_presets())
-        if (preset.name == name) return preset;
-    return std::nullopt;
-}
-
-std::string preset_names() {
-    std::string names;
-    for (const TransferFunction& preset : transfer_presets())
-        names += (names.empty() ? "" : ", ") + preset.name;
-    return names;
+/// An option with a few named values; what is no name is refused with all that are.
+template <typename Value>
+void add_choice(CLI::App& app, const std::string& option, const std::vector<std::string>& names,
+                const std::vector<Value>& values, Value& chosen, const std::string& help) {
+    app.add_option_function<std::string>(
+           option,
+           [=, &chosen](const std::string& text) {
+               const auto name = std::find(names.begin(), names.end(), text);
+               if (name == names.end())
+                   throw CLI::ValidationError(
+                       option, fmt::format("is '{}', not one of {}", text, fmt::join(names, ", ")));
+               chosen = values[static_cast<std::size_t>(name - names.begin())];
+           },
+           help)
+        ->type_name(fmt::format("{}", fmt::join(names, "|")));
 }
 
 void add_look(CLI::App& app, RenderOptions& options) {
-    const std::map<std::string, RendererChoice> renderers{{"raycast", RendererChoice::raycast},
-                                                          {"slices", RendererChoice::slices}};
-    app.add_option("--renderer", options.renderer,
-                   "raycast (default) skips what is empty; slices through the 3D texture, as published")
-        ->transform(CLI::Transformer(renderers))
-        ->check(CLI::IsMember({RendererChoice::raycast, RendererChoice::slices}))
-        ->type_name("raycast|slices");
+    add_choice(app, "--renderer", {"raycast", "slices"},
+               std::vector{RendererChoice::raycast, RendererChoice::slices}, options.renderer,
+               "raycast (default) skips what is empty; slices cut the 3D texture, as published");
+    add_choice(
+        app, "--shading", {"gradient", "surface-voxels"},
+        std::vector{Shading::gradient, Shading::surface_voxels}, options.look.shading,
+        "Light by the gradient in every pixel (default), or once for each surface voxel, as published");
+    std::vector<std::string> names;
+    std::vector<std::optional<TransferFunction>> presets;
+    for (const TransferFunction& preset : transfer_presets()) {
+        names.push_back(preset.name);
+        presets.emplace_back(preset);
+    }
+    add_choice(app, "--transfer", names, presets, options.look.transfer,
+               "Colour and opacity by stiffness; unless given, tissues in their own colours");
 }
 
 /// What the options together get wrong; empty where they agree.
@@ -128,6 +142,7 @@ ParsedOptions parse_options(int argument_count, const char* const* arguments, co
            },
            "Size of the picture (1280x800; 960x600 offscreen)")
         ->type_name("WxH");
+    add_look(app, options);
     app.add_option("--theme", options.theme, "Colours: dark or light (dark)")
         ->transform(CLI::CheckedTransformer(theme_names).description(""))
         ->type_name("NAME");

@@ -37,11 +37,15 @@ std::vector<TissueColour> tissue_colours(const SessionInfo* session) {
 }  // namespace
 
 SessionPicture::SessionPicture(SessionSource& source, Panels& panels, const glm::ivec2& size_px,
-                               FrameQuality quality)
+                               FrameQuality quality, RendererChoice renderer, const BoneLook& look)
     : source_(source),
       panels_(panels),
-      picture_(renderer_, size_px, quality == FrameQuality::on_demand ? &draw_timer_ : nullptr),
-      size_px_(picture_.size_px()) {}
+      renderer_(make_renderer(renderer)),
+      bone_look_(look),
+      picture_(*renderer_, size_px, quality == FrameQuality::on_demand ? &draw_timer_ : nullptr),
+      size_px_(picture_.size_px()) {
+    view_.transfer = TransferEditor(look.transfer);
+}
 
 void SessionPicture::take_in() {
     link_ = source_.poll();
@@ -70,7 +74,7 @@ void SessionPicture::replace_bone() {
     // The old textures go first: both together might not fit.
     textures_.reset();
     try {
-        textures_.emplace(*source_.bone(), tissues);
+        textures_.emplace(*source_.bone(), tissues, bone_look_);
     } catch (const std::runtime_error& error) {
         bone_problem_ = error.what();
         return;
@@ -80,6 +84,13 @@ void SessionPicture::replace_bone() {
     view_.cuts.set_bounds(middle_mm - half_mm, middle_mm + half_mm);
     // After a reconnection the view stays where the user left it.
     if (first) reset_camera();
+}
+
+void SessionPicture::set_bone_look(const BoneLook& look) {
+    if (look == bone_look_) return;
+    if (look.transfer) require_valid(*look.transfer);
+    bone_look_ = look;
+    if (textures_) replace_bone();
 }
 
 void SessionPicture::reset_camera() {
@@ -101,6 +112,8 @@ const gl::Framebuffer& SessionPicture::draw(double elapsed_s) {
         const double now_per_s = 1.0 / elapsed_s;
         frames_per_s_ = frames_per_s_ > 0.0 ? 0.9 * frames_per_s_ + 0.1 * now_per_s : now_per_s;
     }
+    if (view_.transfer.take_change())
+        set_bone_look({.shading = bone_look_.shading, .transfer = view_.transfer.function()});
     const Theme& theme = theme_of(view_.theme);
     picture_.set_look({.cuts = view_.cuts.planes(),
                        .background_low = theme.background_low,

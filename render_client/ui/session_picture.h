@@ -10,7 +10,7 @@
 #include "render_client/ui/session_source.h"
 #include "render_client/volume/gl/draw_timer.h"
 #include "render_client/volume/gl/offscreen_context.h"
-#include "render_client/volume/raycast_renderer.h"
+#include "render_client/volume/renderer_choice.h"
 #include "render_client/volume/scene_picture.h"
 
 namespace osteomill {
@@ -23,7 +23,8 @@ enum class FrameQuality {
 class SessionPicture {
   public:
     SessionPicture(SessionSource& source, Panels& panels, const glm::ivec2& size_px,
-                   FrameQuality quality = FrameQuality::full);
+                   FrameQuality quality = FrameQuality::full,
+                   RendererChoice renderer = RendererChoice::raycast, const BoneLook& look = {});
 
     /// Polls the source and brings the textures up to date.
     void take_in();
@@ -40,6 +41,10 @@ class SessionPicture {
     Camera& camera() { return camera_; }
     /// The first view again: of the tool's surroundings, or of all the bone while there is no tool.
     void reset_camera();
+    /// Another look takes new textures, as a new bone does; the view stays. Throws std::invalid_argument
+    /// where its transfer function is none.
+    void set_bone_look(const BoneLook& look);
+    const BoneLook& bone_look() const { return bone_look_; }
     ViewSettings& view() { return view_; }
     void show_operator(const std::optional<OperatorIntent>& intent) { operator_intent_ = intent; }
 
@@ -61,7 +66,8 @@ class SessionPicture {
 
     SessionSource& source_;
     Panels& panels_;
-    RaycastRenderer renderer_;
+    std::unique_ptr<BoneRenderer> renderer_;
+    BoneLook bone_look_;
     gl::DrawTimer draw_timer_;
     ScenePicture picture_;
     glm::ivec2 size_px_;

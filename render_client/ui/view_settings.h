@@ -5,6 +5,7 @@
 
 #include "render_client/ui/cut_settings.h"
 #include "render_client/ui/theme.h"
+#include "render_client/ui/transfer_editor.h"
 
 namespace osteomill {
 
@@ -14,7 +15,9 @@ struct ViewSettings {
     bool panels_shown = true;
     bool help_shown = false;
     bool cuts_panel_shown = false;
+    bool transfer_panel_shown = false;
     CutSettings cuts;
+    TransferEditor transfer;
     std::string notice;  ///< one line for a few seconds; empty: none
 };
 

@@ -74,7 +74,8 @@ RenderReport run_in_window(const RenderOptions& options, SessionSource& source,
     Window window(options.window_size_px.value_or(default_size_px), "Osteomill");
     gl::require_opengl_3_3();
     Panels panels(window.handle());
-    SessionPicture session(source, panels, window.framebuffer_size_px(), FrameQuality::on_demand);
+    SessionPicture session(source, panels, window.framebuffer_size_px(), FrameQuality::on_demand,
+                           options.renderer, options.look);
     OperatorHand hand;
     session.view().theme = options.theme;
     session.view().panels_shown = options.panels;

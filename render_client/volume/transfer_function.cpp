@@ -78,7 +78,7 @@ TransferFunction ct_window(double centre, double width) {
     };
     // Several points, because grey levels are even on the display and colours blend in linear light. The ramp
     // of opacity is a tenth of the window: at one code of stiffness the edge would be stairs.
-    return {.name = "ct window",
+    return {.name = "ct-window",
             .points = {point(0.25, 0.0), point(0.35, 1.0), point(0.5, 1.0), point(0.625, 1.0),
                        point(0.75, 1.0), point(0.875, 1.0), point(1.0, 1.0)}};
 }

@@ -50,7 +50,7 @@ glm::vec4 look_of(const TransferFunction& function, double value);
 void require_valid(const TransferFunction& function);
 
 /// "bone": all bone in its own colours. "tooth": what is softer than dentine is seen through, enamel and
-/// dentine stand in it. "ct window": grey levels of a bone window; what is softer than the window's middle is
+/// dentine stand in it. "ct-window": grey levels of a bone window; what is softer than the window's middle is
 /// peeled off.
 std::span<const TransferFunction> transfer_presets();
 

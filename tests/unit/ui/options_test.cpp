@@ -28,6 +28,21 @@ TEST(Options, WorkWithAServerOnThisMachineByDefault) {
     EXPECT_FALSE(result.options.offscreen);
 }
 
+TEST(Options, ChooseRendererShadingAndTransferFunctionByName) {
+    EXPECT_EQ(parsed({}).options.renderer, RendererChoice::raycast);
+    EXPECT_EQ(parsed({}).options.look, BoneLook{});
+    const ParsedOptions result =
+        parsed({"--renderer", "slices", "--shading", "surface-voxels", "--transfer", "tooth"});
+    ASSERT_FALSE(result.no_run.has_value()) << result.no_run->message;
+    EXPECT_EQ(result.options.renderer, RendererChoice::slices);
+    EXPECT_EQ(result.options.look.shading, Shading::surface_voxels);
+    ASSERT_TRUE(result.options.look.transfer.has_value());
+    EXPECT_EQ(result.options.look.transfer->name, "tooth");
+    expect_refused({"--renderer", "rasterise"}, "--renderer: is 'rasterise', not one of raycast, slices");
+    expect_refused({"--shading", "flat"}, "surface-voxels");
+    expect_refused({"--transfer", "skin"}, "ct-window");
+}
+
 TEST(Options, TakeEverythingOfAnOffscreenRun) {
     const ParsedOptions result =
         parsed({"--connect", "[::1]:7011", "--offscreen", "--frames", "12", "--screenshots", "shots",
