@@ -6,6 +6,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <charconv>
+#include <map>
 #include <stdexcept>
 
 #include "common/net/tls_options.h"
@@ -17,6 +18,7 @@ namespace {
 
 constexpr int largest_window_px = 16384;
 constexpr int wanted_screenshots = 30;
+const std::map<std::string, ThemeName> theme_names{{"dark", ThemeName::dark}, {"light", ThemeName::light}};
 
 std::optional<int> whole_number(std::string_view text, int low, int high) {
     int value = 0;
@@ -141,6 +143,13 @@ ParsedOptions parse_options(int argument_count, const char* const* arguments, co
            "Size of the picture (1280x800; 960x600 offscreen)")
         ->type_name("WxH");
     add_look(app, options);
+    app.add_option("--theme", options.theme, "Colours: dark or light (dark)")
+        ->transform(CLI::CheckedTransformer(theme_names).description(""))
+        ->type_name("NAME");
+    app.add_option("--ui-scale", options.ui_scale,
+                   "Size of panels and letters (the display's; 1 offscreen), 0.5 to 4")
+        ->check(CLI::Range(0.5, 4.0));
+    app.add_flag("!--no-panels", options.panels, "Only the picture: no panels over it");
     app.add_flag("--offscreen", options.offscreen, "Draw without a display; write pictures instead");
     auto* frames = app.add_option("--frames", options.frames,
                                   "Offscreen: end after so many frames (300), or sooner with the session")

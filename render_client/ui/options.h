@@ -8,6 +8,7 @@
 #include <string>
 
 #include "common/net/tls_files.h"
+#include "render_client/ui/theme.h"
 #include "render_client/volume/bone_look.h"
 #include "render_client/volume/renderer_choice.h"
 #include "render_client/volume/texture_plan.h"
@@ -29,8 +30,11 @@ struct RenderOptions {
     std::filesystem::path screenshots;  ///< empty writes none
     int screenshot_every = 0;           ///< 0 spreads about 30 over `frames`
     std::optional<glm::ivec2> window_size_px;
+    ThemeName theme = ThemeName::dark;
+    std::optional<double> ui_scale;  ///< of panels and letters; absent: the display's, 1 offscreen
+    bool panels = true;
     std::size_t texture_budget_bytes = default_texture_budget_bytes;  ///< for the bone
-    std::filesystem::path json;                                       ///< empty writes none
+    std::filesystem::path json;  ///< empty writes none
 };
 
 /// The command line asks for something other than a run: usage error (2), or help or version (0).

@@ -48,7 +48,7 @@ class SessionPicture {
     /// where its transfer function is none.
     void set_bone_look(const BoneLook& look);
     const BoneLook& bone_look() const { return bone_look_; }
-    void toggle_help() { help_shown_ = !help_shown_; }
+    ViewSettings& view() { return view_; }
     void show_operator(const std::optional<OperatorIntent>& intent) { operator_intent_ = intent; }
 
     bool has_bone() const { return textures_.has_value(); }
@@ -83,7 +83,7 @@ class SessionPicture {
     std::optional<ToolView> tool_;
     ToolHistory history_;
     std::optional<OperatorIntent> operator_intent_;
-    bool help_shown_ = false;
+    ViewSettings view_;
     double spin_rad_ = 0.0;
     double frames_per_s_ = 0.0;
     std::uint64_t dirty_bricks_uploaded_ = 0;

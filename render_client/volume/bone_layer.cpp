@@ -42,6 +42,12 @@ void BoneLayer::resize(const glm::ivec2& size_px) {
     camera_.reset();
 }
 
+void BoneLayer::set_look(const SceneLook& look) {
+    if (look == renderer_.look()) return;
+    renderer_.set_look(look);
+    forget();
+}
+
 void BoneLayer::forget() {
     camera_.reset();
     dirty_.clear();

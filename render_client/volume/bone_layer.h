@@ -27,6 +27,9 @@ class BoneLayer {
     BoneLayer(BoneRenderer& renderer, const glm::ivec2& size_px, Stopwatch* stopwatch);
 
     void resize(const glm::ivec2& size_px);
+    /// Cuts and background; another look than before makes all of it stale.
+    void set_look(const SceneLook& look);
+    const SceneLook& look() const { return renderer_.look(); }
     /// Another bone: all of it is stale.
     void forget();
     /// These bricks changed since the last update.

@@ -5,6 +5,8 @@
 #include <glm/exponential.hpp>
 #include <glm/geometric.hpp>
 
+#include "render_client/volume/scene_look.h"
+
 namespace osteomill {
 
 glm::dvec3 lit(const glm::dvec3& colour, const glm::dvec3& normal, double openness) {
@@ -23,7 +25,8 @@ glm::dvec3 display(const glm::dvec3& linear) {
 }
 
 glm::dvec3 background_at(const glm::dvec2& place) {
-    const glm::dvec3 shade = glm::mix(glm::dvec3(0.035, 0.040, 0.048), glm::dvec3(0.115, 0.130, 0.150),
+    const SceneLook look;
+    const glm::dvec3 shade = glm::mix(glm::dvec3(look.background_low), glm::dvec3(look.background_high),
                                       glm::smoothstep(0.0, 1.0, place.y));
     return shade * (1.0 - 0.35 * glm::dot(place - 0.5, place - 0.5));
 }

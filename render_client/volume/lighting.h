@@ -15,11 +15,12 @@ glm::dvec3 lit(const glm::dvec3& colour, const glm::dvec3& normal, double openne
 /// Linear RGB, clamped to 0 to 1, as the display takes it, 0 to 1.
 glm::dvec3 display(const glm::dvec3& linear);
 
-/// What is behind the bone, linear RGB; `place` is 0 to 1 from the picture's lower left corner.
+/// What is behind the bone in a SceneLook's own colours, linear RGB; `place` is 0 to 1 from the picture's
+/// lower left corner. Its GLSL is part of look_glsl.
 glm::dvec3 background_at(const glm::dvec2& place);
 
-/// GLSL: the same functions in float: `vec3 lit(vec3 colour, vec3 normal, float openness)`,
-/// `vec3 display(vec3 linear)` and `vec3 background_at(vec2 place)`.
+/// GLSL: the same functions in float: `vec3 lit(vec3 colour, vec3 normal, float openness)` and
+/// `vec3 display(vec3 linear)`.
 inline constexpr const char* lighting_glsl = R"glsl(
 const vec3 key_direction = vec3(-0.4364, -0.5455, 0.7155);
 const vec3 fill_direction = vec3(0.8944, -0.2236, 0.3873);
@@ -31,11 +32,6 @@ vec3 lit(vec3 colour, vec3 normal, float openness) {
     vec3 light = ambient * openness + vec3(0.66, 0.63, 0.58) * key * mix(0.45, 1.0, openness)
                + vec3(0.15, 0.17, 0.20) * fill * openness;
     return colour * light;
-}
-
-vec3 background_at(vec2 place) {
-    vec3 shade = mix(vec3(0.035, 0.040, 0.048), vec3(0.115, 0.130, 0.150), smoothstep(0.0, 1.0, place.y));
-    return shade * (1.0 - 0.35 * dot(place - 0.5, place - 0.5));
 }
 
 vec3 display(vec3 linear) { return pow(clamp(linear, 0.0, 1.0), vec3(1.0 / 2.2)); }

@@ -5,6 +5,7 @@
 
 #include "render_client/volume/bone_shading_shader.h"
 #include "render_client/volume/lighting.h"
+#include "render_client/volume/look_shader.h"
 #include "render_client/volume/raycast_shader.h"
 
 namespace osteomill {
@@ -20,11 +21,12 @@ glm::vec2 depth_terms(const Camera& camera, double spacing_mm, const glm::ivec2&
 }  // namespace
 
 RaycastRenderer::RaycastRenderer(const RaycastSettings& settings)
-    : bone_program_(raycast_vertex_glsl,
-                    std::string(lighting_glsl) + bone_shading_glsl + raycast_fragment_glsl),
+    : bone_program_(raycast_vertex_glsl, std::string(lighting_glsl) + look_glsl + bone_shading_glsl +
+                                             cut_shading_glsl + raycast_fragment_glsl),
       settings_(settings) {}
 
 void RaycastRenderer::draw(const BoneTextures& bone, const Camera& camera, const glm::ivec2& size_px) {
+    background_.draw(bone, look(), size_px);
     const double half_height = glm::tan(0.5 * camera.field_of_view_rad);
     const double half_width = half_height * size_px.x / size_px.y;
     const gl::Program& program = bone_program_.use(bone);
@@ -35,12 +37,10 @@ void RaycastRenderer::draw(const BoneTextures& bone, const Camera& camera, const
     program.set("up", glm::vec3(half_height * camera.up()));
     program.set("eye", glm::vec3(bone.to_box_voxels(camera.eye_mm())));
     program.set("picture_size", glm::vec2(size_px));
+    set_look_uniforms(program, look(), bone);
     program.set("depth_terms", depth_terms(camera, bone.grid().spacing_mm, size_px));
 
-    glEnable(GL_DEPTH_TEST);
-    glDepthFunc(GL_ALWAYS);
     full_screen_.draw();
-    glDepthFunc(GL_LESS);
 }
 
 }  // namespace osteomill

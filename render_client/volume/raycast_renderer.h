@@ -2,6 +2,7 @@
 // fraction reaches one half or, in translucent bone, where hardly any light comes through.
 #pragma once
 
+#include "render_client/volume/background.h"
 #include "render_client/volume/bone_program.h"
 #include "render_client/volume/bone_renderer.h"
 #include "render_client/volume/gl/full_screen.h"
@@ -25,6 +26,7 @@ class RaycastRenderer final : public BoneRenderer {
     void draw(const BoneTextures& bone, const Camera& camera, const glm::ivec2& size_px) override;
 
   private:
+    Background background_;
     BoneProgram bone_program_;
     gl::FullScreen full_screen_;
     RaycastSettings settings_;

@@ -1,4 +1,4 @@
-// The ray caster's shaders, GLSL 3.30; the fragment shader follows bone_shading_glsl. Lengths are in voxels,
+// The ray caster's shaders, GLSL 3.30; the fragment shader follows cut_shading_glsl. Lengths are in voxels,
 // in texture coordinates of the bone's box (the first voxel spans 0 to 1), axes are the patient's.
 #pragma once
 
@@ -30,11 +30,6 @@ const float darkest_seen = 0.004;  // of light that comes through: less changes 
 vec3 direction;
 float enter, leave;
 
-void draw_background() {
-    pixel = vec4(display(background_at(gl_FragCoord.xy / picture_size)), 1.0);
-    gl_FragDepth = 1.0;
-}
-
 float depth_of(float distance_along) {
     return depth_terms.x + depth_terms.y / (distance_along * dot(direction, forward));
 }
@@ -65,7 +60,7 @@ void draw_surface(float index) {
         if (fraction_at(eye + middle * direction) >= bone_surface) inside = middle;
         else outside = middle;
     }
-    pixel = vec4(surface_pixel(eye + inside * direction, direction), 1.0);
+    pixel = vec4(shown_pixel(eye + inside * direction, direction), 1.0);
     gl_FragDepth = depth_of(inside);
 }
 
@@ -97,10 +92,13 @@ void main() {
     vec3 leave3 = max(to_low, to_high);
     enter = max(max(enter3.x, enter3.y), max(enter3.z, 0.0));
     leave = min(leave3.x, min(leave3.y, leave3.z));
+    clip_by_cuts(eye, direction, enter, leave);
 
     float index = 0.0;
-    if (!find_bone(index)) draw_background();
-    else if (bone_is_translucent) draw_translucent(index);
+    // A software rasteriser goes no further where all of a group of pixels are discarded; the two sides of a
+    // branch it would both compute.
+    if (!find_bone(index)) discard;
+    if (bone_is_translucent) draw_translucent(index);
     else draw_surface(index);
 }
 )glsl";

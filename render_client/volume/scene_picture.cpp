@@ -1,6 +1,7 @@
 #include "render_client/volume/scene_picture.h"
 
 #include <glm/common.hpp>
+#include <glm/exponential.hpp>
 
 namespace osteomill {
 
@@ -26,11 +27,16 @@ const gl::Framebuffer& ScenePicture::draw(const BoneTextures* bone, const DrawnT
     }
     picture_.bind();
     if (!bone) {
-        glClearColor(0.22f, 0.23f, 0.25f, 1.0f);
+        const glm::vec3 grey = glm::pow(layer_.look().background_low, glm::vec3(1.0f / 2.2f));
+        glClearColor(grey.r, grey.g, grey.b, 1.0f);
         glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
         covered_.mark_all();
     }
-    if (bone && tool) tool_renderer_.draw(*tool, camera, covered_);
+    if (bone && tool) {
+        contact_shadow_.draw(layer_.framebuffer(), tool->position_mm, 0.5 * tool->burr.diameter_mm,
+                             tool->spindle_axis, camera, covered_);
+        tool_renderer_.draw(*tool, camera, covered_);
+    }
     return picture_;
 }
 

@@ -5,6 +5,7 @@
 #include <span>
 
 #include "render_client/volume/bone_layer.h"
+#include "render_client/volume/contact_shadow.h"
 #include "render_client/volume/tool_renderer.h"
 
 namespace osteomill {
@@ -17,6 +18,8 @@ class ScenePicture {
 
     /// Sizes of less than one pixel count as one.
     void resize(const glm::ivec2& size_px);
+    /// Cuts and background, from the next draw on.
+    void set_look(const SceneLook& look) { layer_.set_look(look); }
     /// The bone was replaced: its layer is drawn anew.
     void forget_bone() { layer_.forget(); }
     /// These bricks changed since the last draw.
@@ -38,6 +41,7 @@ class ScenePicture {
   private:
     BoneLayer layer_;
     ToolRenderer tool_renderer_;
+    ContactShadow contact_shadow_;
     gl::Framebuffer picture_;
     TileMask covered_;  ///< where the picture does not show the layer
 };

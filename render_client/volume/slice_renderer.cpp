@@ -5,6 +5,7 @@
 
 #include "render_client/volume/bone_shading_shader.h"
 #include "render_client/volume/lighting.h"
+#include "render_client/volume/look_shader.h"
 #include "render_client/volume/slice_shader.h"
 #include "render_client/volume/view_slices.h"
 
@@ -15,7 +16,7 @@ namespace {
 constexpr int light_unit = 0;  // no bone is sampled beside it
 
 std::string lit_source(const char* fragment) {
-    return std::string("#version 330 core\n") + lighting_glsl + fragment;
+    return std::string("#version 330 core\n") + lighting_glsl + look_glsl + fragment;
 }
 
 /// From voxels of the textures to patient space.
@@ -30,8 +31,8 @@ glm::dmat4 to_patient(const BoneTextures& bone) {
 
 SliceRenderer::SliceRenderer(const SliceSettings& settings)
     : settings_(settings),
-      slice_program_(slice_vertex_glsl, std::string(lighting_glsl) + bone_shading_glsl + slice_fragment_glsl),
-      background_program_(whole_picture_vertex_glsl, lit_source(background_fragment_glsl)),
+      slice_program_(slice_vertex_glsl, std::string(lighting_glsl) + look_glsl + bone_shading_glsl +
+                                            cut_shading_glsl + slice_fragment_glsl),
       blend_program_(whole_picture_vertex_glsl, lit_source(blend_fragment_glsl)) {}
 
 void SliceRenderer::draw(const BoneTextures& bone, const Camera& camera, const glm::ivec2& size_px) {
@@ -39,20 +40,11 @@ void SliceRenderer::draw(const BoneTextures& bone, const Camera& camera, const g
     slices_.upload(view_slices(glm::dvec3(-1.0), glm::dvec3(bone.box().size) + 1.0,
                                bone.to_box_voxels(camera.eye_mm()), camera.forward(),
                                settings_.spacing_voxels));
-    glEnable(GL_DEPTH_TEST);
-    draw_background(size_px);
+    background_.draw(bone, look(), size_px);
     if (bone.is_translucent())
         draw_translucent(bone, camera, size_px);
     else
         draw_slices(bone, camera, size_px, Pass::solid);
-}
-
-void SliceRenderer::draw_background(const glm::ivec2& size_px) {
-    background_program_.use();
-    background_program_.set("picture_size", glm::vec2(size_px));
-    glDepthFunc(GL_ALWAYS);
-    full_screen_.draw();
-    glDepthFunc(GL_LESS);
 }
 
 void SliceRenderer::draw_slices(const BoneTextures& bone, const Camera& camera, const glm::ivec2& size_px,
@@ -63,6 +55,7 @@ void SliceRenderer::draw_slices(const BoneTextures& bone, const Camera& camera, 
     program.set("forward", glm::vec3(camera.forward()));
     program.set("spacing", settings_.spacing_voxels);
     program.set("drawn_pass", static_cast<int>(pass));
+    set_look_uniforms(program, look(), bone);
     slices_.draw();
 }
 
@@ -80,6 +73,7 @@ void SliceRenderer::draw_translucent(const BoneTextures& bone, const Camera& cam
     blend_program_.use();
     blend_program_.set("light", light_unit);
     blend_program_.set("picture_size", glm::vec2(size_px));
+    set_look_uniforms(blend_program_, look(), bone);
     light_->bind_texture(light_unit);
     glDisable(GL_DEPTH_TEST);
     full_screen_.draw();

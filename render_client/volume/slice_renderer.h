@@ -8,6 +8,7 @@
 
 #include <optional>
 
+#include "render_client/volume/background.h"
 #include "render_client/volume/bone_program.h"
 #include "render_client/volume/bone_renderer.h"
 #include "render_client/volume/gl/full_screen.h"
@@ -30,12 +31,11 @@ class SliceRenderer final : public BoneRenderer {
     enum class Pass { solid, light, depth };
 
     void draw_slices(const BoneTextures& bone, const Camera& camera, const glm::ivec2& size_px, Pass pass);
-    void draw_background(const glm::ivec2& size_px);
     void draw_translucent(const BoneTextures& bone, const Camera& camera, const glm::ivec2& size_px);
 
     SliceSettings settings_;
     BoneProgram slice_program_;
-    gl::Program background_program_;
+    Background background_;
     gl::Program blend_program_;
     gl::FullScreen full_screen_;
     gl::TriangleStream slices_;

@@ -1,4 +1,4 @@
-// The shaders of view-aligned slices, GLSL 3.30; the fragment shader follows bone_shading_glsl. Lengths are
+// The shaders of view-aligned slices, GLSL 3.30; the fragment shader follows cut_shading_glsl. Lengths are
 // in voxels, in texture coordinates of the bone's box, axes are the patient's.
 #pragma once
 
@@ -32,7 +32,7 @@ void main() {
     vec3 direction = normalize(from_eye);
     vec3 along = from_eye * (spacing / dot(from_eye, forward));  // from the slice before, on this ray
     pixel = vec4(0.0);
-    if (fraction_at(sampled) < bone_surface) discard;
+    if (fraction_at(sampled) < bone_surface || is_cut_away(sampled)) discard;
     if (drawn_pass == light_pass) {
         pixel = translucent_piece(sampled, length(along));
         return;
@@ -44,27 +44,15 @@ void main() {
     float outside = 1.0, inside = 0.0;  // in steps before the slice
     for (int halving = 0; halving < 6; ++halving) {
         float middle = 0.5 * (outside + inside);
-        if (fraction_at(sampled - middle * along) >= bone_surface) inside = middle;
+        vec3 before = sampled - middle * along;
+        if (fraction_at(before) >= bone_surface && !is_cut_away(before)) inside = middle;
         else outside = middle;
     }
-    pixel = vec4(surface_pixel(sampled - inside * along, direction), 1.0);
+    pixel = vec4(shown_pixel(sampled - inside * along, direction), 1.0);
 }
 )glsl";
 
-inline constexpr const char* whole_picture_vertex_glsl = R"glsl(#version 330 core
-void main() {
-    gl_Position = vec4(gl_VertexID == 1 ? 3.0 : -1.0, gl_VertexID == 2 ? 3.0 : -1.0, 1.0, 1.0);
-}
-)glsl";
-
-/// Follow lighting_glsl: the background, and the background behind gathered light.
-inline constexpr const char* background_fragment_glsl = R"glsl(
-uniform vec2 picture_size;
-out vec4 pixel;
-
-void main() { pixel = vec4(display(background_at(gl_FragCoord.xy / picture_size)), 1.0); }
-)glsl";
-
+/// Follows lighting_glsl and look_glsl: the background behind gathered light.
 inline constexpr const char* blend_fragment_glsl = R"glsl(
 uniform sampler2D light;
 uniform vec2 picture_size;

@@ -25,6 +25,8 @@ struct DrawnTool {
 
 /// Length of the force arrow.
 inline constexpr double arrow_mm_per_n = 4.0;
+/// Less force than this shows no arrow.
+inline constexpr double shortest_arrow_n = 0.02;
 
 class ToolRenderer {
   public:
@@ -34,8 +36,13 @@ class ToolRenderer {
     void draw(const DrawnTool& tool, const Camera& camera, TileMask& covered);
 
   private:
+    struct Finish {
+        float opacity = 1.0f;
+        float polish = 0.0f;  ///< 0 matt, 1 steel
+    };
+    /// The program must be in use.
     void draw_mesh(const gl::Mesh& mesh, const glm::dmat4& model, const glm::dmat4& view_projection,
-                   float opacity, TileMask& covered) const;
+                   const Finish& finish, TileMask& covered) const;
 
     gl::Program program_;
     gl::Mesh arrow_;

@@ -44,9 +44,9 @@ TEST(Options, ChooseRendererShadingAndTransferFunctionByName) {
 }
 
 TEST(Options, TakeEverythingOfAnOffscreenRun) {
-    const ParsedOptions result = parsed({"--connect", "[::1]:7011", "--offscreen", "--frames", "12",
-                                         "--screenshots", "shots", "--screenshot-every", "3", "--window-size",
-                                         "320x200", "--texture-budget-mib", "64", "--json", "out.json"});
+    const ParsedOptions result =
+        parsed({"--connect", "[::1]:7011", "--offscreen", "--frames", "12", "--screenshots", "shots",
+                "--screenshot-every", "3", "--window-size", "320x200", "--texture-budget-mib", "64", "--json", "out.json"});
     ASSERT_FALSE(result.no_run.has_value()) << result.no_run->message;
     EXPECT_EQ(result.options.host, "::1");
     EXPECT_EQ(result.options.port, 7011);
@@ -56,6 +56,18 @@ TEST(Options, TakeEverythingOfAnOffscreenRun) {
     EXPECT_EQ(result.options.window_size_px, glm::ivec2(320, 200));
     EXPECT_EQ(result.options.texture_budget_bytes, std::size_t{64} << 20U);
     EXPECT_EQ(result.options.json, "out.json");
+}
+
+TEST(Options, SetTheView) {
+    const ParsedOptions result = parsed({"--theme", "light", "--ui-scale", "1.5", "--no-panels"});
+    ASSERT_FALSE(result.no_run.has_value()) << result.no_run->message;
+    EXPECT_EQ(result.options.theme, ThemeName::light);
+    EXPECT_EQ(result.options.ui_scale, 1.5);
+    EXPECT_FALSE(result.options.panels);
+    EXPECT_EQ(parsed({}).options.theme, ThemeName::dark);
+    EXPECT_TRUE(parsed({}).options.panels);
+    expect_refused({"--theme", "pink"}, "--theme");
+    expect_refused({"--ui-scale", "9"}, "--ui-scale");
 }
 
 TEST(Options, RefuseInOneLineThatNamesWhatIsWrong) {

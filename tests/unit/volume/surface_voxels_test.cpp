@@ -74,7 +74,7 @@ TEST_F(SurfaceTextureTest, IsShadedAgainOnlyRoundTheChangeAndEqualsAFreshOne) {
     for (const BoneLayout layout : {BoneLayout::dense, BoneLayout::atlas}) {
         Bone bone = ball();
         const LookTable table = look_table(bone.content(), {}, {});
-        const BrickPlaces places(bone.content(), layout, gl::max_texture3d_edge());
+        BrickPlaces places(bone.content(), layout, gl::max_texture3d_edge());
         SurfaceTexture updated(bone, table, places);
         // At the corner of bricks, so that neighbours' voxels become surface, too.
         updated.update(bone, places, carve_sphere(bone, {0.75, 0.75, 1.2}, 0.8));
