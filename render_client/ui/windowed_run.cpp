@@ -124,8 +124,10 @@ RenderReport run_in_window(const RenderOptions& options, SessionSource& source,
         // ImGui took the input in while the panels were drawn; it takes effect in the next frame.
         move_camera(session, !drills);
         if (drills) move_hand(hand, window, session, elapsed_s);
-        for (const Action action :
-             actions_of(window.presses(), situation_of(drills, source.player() != nullptr)))
+        // Letters that are typed into a panel are no commands.
+        const std::span<const int> presses =
+            ImGui::GetIO().WantTextInput ? std::span<const int>() : window.presses();
+        for (const Action action : actions_of(presses, situation_of(drills, source.player() != nullptr)))
             commands.take(action);
         commands.write_pictures(framebuffer, std::chrono::duration<double>(start - began).count());
 

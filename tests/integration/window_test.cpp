@@ -60,8 +60,8 @@ class WindowTest : public ::testing::Test {
     /// A window whose picture is on the screen, with the keyboard.
     void open_window(const std::vector<std::string>& more) {
         window_.emplace(display_->shown_here(client(more)));
-        ASSERT_TRUE(display_->xdotool(
-            {"search", "--sync", "--onlyvisible", "--name", "^Osteomill$", "windowfocus", "--sync"}))
+        ASSERT_TRUE(
+            display_->xdotool({"search", "--sync", "--onlyvisible", "--name", "^Osteomill$", "windowfocus"}))
             << window_->err();
         ASSERT_TRUE(comes_true([&] { return shows_bone(display_->screen()); })) << window_->err();
     }
@@ -148,10 +148,11 @@ TEST_F(WindowTest, AnswersMouseAndKeysAndShowsWhatAnOffscreenRunDraws) {
     EXPECT_TRUE(shows(first)) << "the notice goes";
 
     for (const auto& [width, height] : {std::pair("1", "1"), {"300", "1"}, {"1", "200"}, {"200", "150"}})
-        ASSERT_TRUE(display_->xdotool({"search", "--name", "^Osteomill$", "windowsize", width, height}))
+        ASSERT_TRUE(
+            display_->xdotool({"search", "--sync", "--name", "^Osteomill$", "windowsize", width, height}))
             << width;
-    ASSERT_TRUE(display_->xdotool({"search", "--name", "^Osteomill$", "windowunmap", "--sync", "windowmap",
-                                   "--sync", "windowsize", "480", "360", "windowfocus"}));
+    ASSERT_TRUE(display_->xdotool({"search", "--sync", "--name", "^Osteomill$", "windowunmap", "--sync",
+                                   "windowmap", "--sync", "windowsize", "480", "360", "windowfocus"}));
     EXPECT_TRUE(shows(first)) << "after every size, hidden and shown again";
 
     // The hand: down towards the tooth and into it with the pedal down.

@@ -21,8 +21,9 @@ TEST(KeyBindings, GiveNoKeyTwoMeaningsInOneSituation) {
     for (const Situation situation : situations) {
         std::set<int> taken;
         for (const KeyBinding& binding : key_bindings())
-            if (holds(binding, situation))
+            if (holds(binding, situation)) {
                 for (const int key : binding.keys) EXPECT_TRUE(taken.insert(key).second) << binding.name;
+            }
     }
 }
 
