@@ -79,7 +79,7 @@ TEST_F(SceneLookTest, BackgroundIsTheLooks) {
     ScenePicture picture(renderer, size_px);
     const Camera camera = camera_on({0.0, 0.0, 0.0}, 9.0);
     const int dark = picture.draw(&textures, nullptr, camera).read_back().at(120, 2)[1];
-    picture.set_look({.background_low = glm::vec3(0.6f), .background_high = glm::vec3(0.8f)});
+    picture.set_look({.cuts = {}, .background_low = glm::vec3(0.6f), .background_high = glm::vec3(0.8f)});
     const int light = picture.draw(&textures, nullptr, camera).read_back().at(120, 2)[1];
     EXPECT_LT(dark, 110);
     EXPECT_GT(light, 190);
