@@ -1,5 +1,6 @@
 #include "render_client/ui/cuts_panel.h"
 
+#include <algorithm>
 #include <array>
 
 #include "render_client/ui/input_panel.h"
@@ -16,7 +17,8 @@ void draw_row(CutSettings& cuts, std::size_t index, const Camera& camera) {
     bool is_on = cut.is_on;
     if (ImGui::Checkbox(names[index], &is_on)) is_on ? cuts.step(index, camera) : cuts.switch_off(index);
     auto position_mm = static_cast<float>(cut.position_mm);
-    const auto reach_mm = static_cast<float>(cuts.reach_mm(index));
+    // One that was never on has no direction yet, and so no reach.
+    const float reach_mm = std::max(static_cast<float>(cuts.reach_mm(index)), 0.1f);
     ImGui::BeginDisabled(!cut.is_on);
     const float flip_width = 5.0f * ImGui::GetFontSize();
     ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x - flip_width - ImGui::GetStyle().ItemSpacing.x);

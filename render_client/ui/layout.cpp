@@ -40,17 +40,24 @@ const PanelPlace* first_met(const Places& taken, const PanelPlace& place, float 
     return nullptr;
 }
 
-std::optional<PanelPlace> find_place(const Places& taken, Anchor anchor, const glm::vec2& size,
+PanelPlace free_middle(const glm::vec2& picture) {
+    return {0.5f * (1.0f - free_middle_part) * picture, free_middle_part * picture, 0};
+}
+
+std::optional<PanelPlace> find_place(const Places& taken, const PanelWish& wish, const glm::vec2& size,
                                      const glm::vec2& picture, float margin) {
     const glm::vec2 room = picture - size - 2.0f * margin;
     if (room.x < 0.0f || room.y < 0.0f) return std::nullopt;
-    const glm::vec2 part = part_of(anchor);
+    const glm::vec2 part = part_of(wish.anchor);
     PanelPlace place{glm::vec2(margin) + part * room, size, 0};
     const bool upwards = part.y == 1.0f;
     // Every move goes past a panel that it never meets again.
     for (std::size_t moves = 0; moves <= taken.size(); ++moves) {
         const PanelPlace* other = first_met(taken, place, margin);
-        if (!other) return place;
+        if (!other) {
+            if (!wish.may_cover_middle && meet(place, free_middle(picture), 0.0f)) return std::nullopt;
+            return place;
+        }
         place.first.y = upwards ? other->first.y - margin - size.y : other->first.y + other->size.y + margin;
         if (place.first.y < margin || place.first.y > margin + room.y) return std::nullopt;
     }
@@ -64,7 +71,7 @@ Places lay_out(std::span<const PanelWish> wishes, const glm::vec2& picture, floa
     for (const PanelWish& wish : wishes) {
         std::optional<PanelPlace> found;
         for (std::size_t choice = 0; choice < wish.sizes.size() && !found; ++choice) {
-            found = find_place(places, wish.anchor, wish.sizes[choice], picture, margin);
+            found = find_place(places, wish, wish.sizes[choice], picture, margin);
             if (found) found->choice = choice;
         }
         places.push_back(found);

@@ -14,6 +14,7 @@ enum class Anchor { upper_left, upper_right, lower_left, lower_right, top, botto
 struct PanelWish {
     Anchor anchor = Anchor::upper_left;
     std::vector<glm::vec2> sizes;
+    bool may_cover_middle = false;  ///< the user asked for it and cannot do without
 };
 
 struct PanelPlace {
@@ -26,7 +27,11 @@ struct PanelPlace {
 /// panel. A panel goes to its anchor; where others are, it moves past them: down from an upper anchor, up
 /// from a lower one. One whose first size fits nowhere there gets its next, and none if none fits: a small
 /// window shows fewer panels.
+/// The middle of the picture, where the burr is, stays free of all that may not cover it.
 std::vector<std::optional<PanelPlace>> lay_out(std::span<const PanelWish> wishes, const glm::vec2& picture,
                                                float margin);
+
+/// How much of the picture's width and height that is.
+inline constexpr float free_middle_part = 0.2f;
 
 }  // namespace osteomill

@@ -88,6 +88,7 @@ class PlotColumn {
             const float x = first.x + size.x * static_cast<float>(1.0 - age_s / ToolHistory::kept_s);
             canvas.AddLine({x, first.y}, {x, first.y + size.y}, grid, painter_.scale());
         }
+        canvas.PushClipRect(to_imgui(first), to_imgui(first + size), true);
         for (const Line& line : lines) {
             std::vector<ImVec2> points;
             for (const glm::vec2& point : plot_points(line.samples, ToolHistory::kept_s, range, size))
@@ -96,6 +97,7 @@ class PlotColumn {
                                colour_of(painter_.theme()[line.tone]), ImDrawFlags_None,
                                1.5f * painter_.scale());
         }
+        canvas.PopClipRect();
         pen_y_ += height + 0.3f * ImGui::GetFontSize();
     }
 

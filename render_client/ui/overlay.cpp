@@ -25,8 +25,13 @@ using Draw = std::function<void(const PanelPlace&)>;
 class PanelList {
   public:
     void add(Anchor anchor, std::vector<glm::vec2> sizes, Draw draw) {
-        wishes_.push_back({anchor, std::move(sizes)});
+        wishes_.push_back({.anchor = anchor, .sizes = std::move(sizes)});
         draws_.push_back(std::move(draw));
+    }
+    /// One that the user opened.
+    void add_asked_for(Anchor anchor, const glm::vec2& size, Draw draw) {
+        add(anchor, {size}, std::move(draw));
+        wishes_.back().may_cover_middle = true;
     }
     void add_text(const PanelPainter& painter, Anchor anchor, const PanelText& text, float widest) {
         add(anchor, {painter.size_of(text, widest)},
@@ -57,17 +62,19 @@ void add_plot(PanelList& panels, const OverlayContent& content, const PanelPaint
 void add_controls(PanelList& panels, const OverlayContent& content, const PanelPainter& painter,
                   const glm::vec2& picture, float side_width) {
     ViewSettings& view = *content.view;
+    if (view.cuts_panel_shown)
+        panels.add_asked_for(Anchor::upper_left, cuts_panel_size(painter), [&](const PanelPlace& place) {
+            draw_cuts_panel(view.cuts, *content.camera, place);
+        });
+    if (view.transfer_panel_shown)
+        panels.add_asked_for(Anchor::upper_left, transfer_panel_size(painter), [&](const PanelPlace& place) {
+            draw_transfer_panel(painter, view.transfer, place);
+        });
     if (content.operator_intent)
         panels.add_text(painter, Anchor::lower_left, operator_text(content), side_width);
     if (content.player != nullptr)
         panels.add(Anchor::lower_left, {playback_panel_size(painter, picture)},
                    [&](const PanelPlace& place) { draw_playback_panel(*content.player, place); });
-    if (view.cuts_panel_shown)
-        panels.add(Anchor::upper_left, {cuts_panel_size(painter)},
-                   [&](const PanelPlace& place) { draw_cuts_panel(view.cuts, *content.camera, place); });
-    if (view.transfer_panel_shown)
-        panels.add(Anchor::upper_left, {transfer_panel_size(painter)},
-                   [&](const PanelPlace& place) { draw_transfer_panel(painter, view.transfer, place); });
 }
 
 /// What the user reads.
@@ -105,8 +112,9 @@ void draw_overlay(const OverlayContent& content, const glm::ivec2& size_px) {
     if (content.view->help_shown) {
         const Situation situation =
             situation_of(content.operator_intent.has_value(), content.player != nullptr);
-        panels.add(Anchor::middle, {help_size(painter, situation, picture - 2.0f * margin)},
-                   [&painter, situation](const PanelPlace& place) { draw_help(painter, situation, place); });
+        panels.add_asked_for(
+            Anchor::middle, help_size(painter, situation, picture - 2.0f * margin),
+            [&painter, situation](const PanelPlace& place) { draw_help(painter, situation, place); });
     }
     if (content.view->panels_shown) {
         add_controls(panels, content, painter, picture, side_width);

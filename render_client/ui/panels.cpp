@@ -140,6 +140,7 @@ void Panels::begin(const glm::ivec2& size_px, double elapsed_s, ThemeName theme,
     io.DisplaySize = {static_cast<float>(size_px.x), static_cast<float>(size_px.y)};
     io.DisplayFramebufferScale = {1.0f, 1.0f};
     ImGui::NewFrame();
+    wheel_notches_ = io.MouseWheel;
 }
 
 std::vector<PixelBox> Panels::end() {

@@ -28,6 +28,9 @@ class Panels {
     /// Draws what was put into the frame into the bound framebuffer; returns where that is.
     std::vector<PixelBox> end();
 
+    /// Notches that the wheel was turned by in this frame: Dear ImGui forgets them when the frame ends.
+    float wheel_notches() const { return wheel_notches_; }
+
   private:
     void start();
     void set_style(ThemeName theme, float scale);
@@ -36,6 +39,7 @@ class Panels {
     GLFWwindow* window_ = nullptr;
     ThemeName theme_ = ThemeName::dark;
     float scale_ = 0.0f;  // none yet
+    float wheel_notches_ = 0.0f;
 };
 
 }  // namespace osteomill

@@ -112,10 +112,8 @@ void SessionPicture::reset_camera() {
 
 const gl::Framebuffer& SessionPicture::draw(double elapsed_s) {
     turn_burr(elapsed_s);
-    if (elapsed_s > 0.0) {
-        const double now_per_s = 1.0 / elapsed_s;
-        frames_per_s_ = frames_per_s_ > 0.0 ? 0.9 * frames_per_s_ + 0.1 * now_per_s : now_per_s;
-    }
+    // The mean of times, not of rates: a few frames that come at once would count for hundreds a second.
+    frame_s_ = frame_s_ > 0.0 ? 0.9 * frame_s_ + 0.1 * elapsed_s : elapsed_s;
     if (view_.transfer.take_change())
         set_bone_look({.shading = bone_look_.shading, .transfer = view_.transfer.function()});
     const Theme& theme = theme_of(view_.theme);
@@ -133,7 +131,7 @@ const gl::Framebuffer& SessionPicture::draw(double elapsed_s) {
                   .history = &history_,
                   .camera = &camera_,
                   .view = &view_,
-                  .render_frames_per_s = frames_per_s_,
+                  .render_frames_per_s = frame_s_ > 0.0 ? 1.0 / frame_s_ : 0.0,
                   .quality = picture_.quality(),
                   .operator_intent = operator_intent_,
                   .player = source_.player(),

@@ -85,7 +85,7 @@ class SessionPicture {
     std::optional<OperatorIntent> operator_intent_;
     ViewSettings view_;
     double spin_rad_ = 0.0;
-    double frames_per_s_ = 0.0;
+    double frame_s_ = 0.0;  ///< between frames, in the mean over the last ten or so
     std::uint64_t dirty_bricks_uploaded_ = 0;
 };
 

@@ -79,7 +79,8 @@ void TransferEditor::add(double value) {
                                         [](double v, const TransferPoint& point) { return v < point.value; });
     const TransferPoint point{
         value, {srgb_from_linear(look.r), srgb_from_linear(look.g), srgb_from_linear(look.b)}, look.a};
-    selected_ = static_cast<std::size_t>(points.insert(place, point) - points.begin());
+    selected_ = static_cast<std::size_t>(place - points.begin());
+    points.insert(place, point);
     has_changed_ = true;
 }
 

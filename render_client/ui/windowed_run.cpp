@@ -31,7 +31,7 @@ constexpr double cut_mm_per_notch = 0.5;
 /// rate of its frames is smooth.
 constexpr std::chrono::milliseconds shortest_frame(16);
 
-void move_camera(SessionPicture& session, bool left_turns) {
+void move_camera(SessionPicture& session, float wheel_notches, bool left_turns) {
     const ImGuiIO& io = ImGui::GetIO();
     if (io.WantCaptureMouse) return;  // a panel has it
     const glm::dvec2 moved_px(io.MouseDelta.x, io.MouseDelta.y);
@@ -40,14 +40,15 @@ void move_camera(SessionPicture& session, bool left_turns) {
         pan(session.camera(), moved_px, session.size_px());
     else if (right || (left_turns && io.MouseDown[ImGuiMouseButton_Left]))
         orbit(session.camera(), -orbit_rad_per_px * moved_px.x, orbit_rad_per_px * moved_px.y);
-    if (io.MouseWheel == 0.0f || io.KeyCtrl) return;
+    if (wheel_notches == 0.0f || io.KeyCtrl) return;
     if (io.KeyAlt)
-        session.view().cuts.move_last(cut_mm_per_notch * io.MouseWheel);
+        session.view().cuts.move_last(cut_mm_per_notch * wheel_notches);
     else
-        zoom(session.camera(), std::pow(zoom_per_notch, io.MouseWheel));
+        zoom(session.camera(), std::pow(zoom_per_notch, wheel_notches));
 }
 
-void move_hand(OperatorHand& hand, const Window& window, SessionPicture& session, double elapsed_s) {
+void move_hand(OperatorHand& hand, const Window& window, SessionPicture& session, float wheel_notches,
+               double elapsed_s) {
     const ImGuiIO& io = ImGui::GetIO();
     if (!window.focused()) {
         hand.let_go();
@@ -56,7 +57,7 @@ void move_hand(OperatorHand& hand, const Window& window, SessionPicture& session
     if (!io.WantCaptureMouse) {
         if (io.MouseDown[ImGuiMouseButton_Left] && (io.MouseDelta.x != 0.0f || io.MouseDelta.y != 0.0f))
             hand.move_in_picture({io.MouseDelta.x, io.MouseDelta.y}, session.camera(), session.size_px());
-        if (io.KeyCtrl && io.MouseWheel != 0.0f) hand.advance(advance_mm_per_notch * io.MouseWheel);
+        if (io.KeyCtrl && wheel_notches != 0.0f) hand.advance(advance_mm_per_notch * wheel_notches);
     }
     if (window.key_down(GLFW_KEY_W)) hand.advance(advance_mm_per_s * elapsed_s);
     if (window.key_down(GLFW_KEY_S)) hand.advance(-advance_mm_per_s * elapsed_s);
@@ -123,10 +124,12 @@ RenderReport run_in_window(const RenderOptions& options, SessionSource& source,
         session.view().scale = static_cast<float>(options.ui_scale.value_or(window.content_scale()));
         const gl::Framebuffer& framebuffer = session.draw(elapsed_s);
         // ImGui took the input in while the panels were drawn; it takes effect in the next frame.
-        move_camera(session, !drills);
-        if (drills) move_hand(hand, window, session, elapsed_s);
-        for (const Action action :
-             actions_of(window.presses(), situation_of(drills, source.player() != nullptr)))
+        move_camera(session, panels.wheel_notches(), !drills);
+        if (drills) move_hand(hand, window, session, panels.wheel_notches(), elapsed_s);
+        // Letters that are typed into a panel are no commands.
+        const std::span<const int> presses =
+            ImGui::GetIO().WantTextInput ? std::span<const int>() : window.presses();
+        for (const Action action : actions_of(presses, situation_of(drills, source.player() != nullptr)))
             commands.take(action);
         commands.write_pictures(framebuffer, std::chrono::duration<double>(start - began).count());
 

@@ -55,11 +55,20 @@ TEST(Layout, ShowsEveryPanelInALargeWindowAtItsAnchor) {
     EXPECT_EQ(places[4]->first, glm::vec2(10, 240)) << "below the panel that has the corner";
 }
 
+TEST(Layout, KeepsTheMiddleFree) {
+    const std::vector<PanelWish> wishes{{Anchor::lower_right, {{300, 250}, {300, 100}}},
+                                        {Anchor::middle, {{50, 50}}, true}};
+    const auto places = lay_out(wishes, {400, 300}, margin);
+    ASSERT_TRUE(places[0]);
+    EXPECT_EQ(places[0]->choice, 1u) << "the first size would hide the burr";
+    EXPECT_TRUE(places[1]) << "help may";
+}
+
 TEST(Layout, GivesALessImportantPanelItsSmallerSizeAndThenNone) {
     const std::vector<PanelWish> wishes{{Anchor::upper_left, {{90, 50}}},
                                         {Anchor::lower_left, {{90, 80}, {90, 30}}},
                                         {Anchor::upper_left, {{90, 20}}}};
-    const auto places = lay_out(wishes, {110, 115}, margin);
+    const auto places = lay_out(wishes, {260, 115}, margin);
     ASSERT_TRUE(places[0]);
     ASSERT_TRUE(places[1]);
     EXPECT_EQ(places[1]->choice, 1u);

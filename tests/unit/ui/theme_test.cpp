@@ -77,9 +77,9 @@ TEST_P(EveryTheme, TellsTheForcesApartForEveryKindOfColourVision) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Themes, EveryTheme, testing::Values(ThemeName::dark, ThemeName::light),
-                         [](const auto& info) {
-                             return info.param == ThemeName::dark ? std::string("dark")
-                                                                  : std::string("light");
+                         [](const auto& tested) {
+                             return tested.param == ThemeName::dark ? std::string("dark")
+                                                                    : std::string("light");
                          });
 
 }  // namespace

@@ -27,7 +27,7 @@ const std::array<TissueColour, 2> colours{{{1, {230, 20, 20}}, {2, {20, 230, 20}
 /// Along the camera's axis.
 double distance_of(const Camera& camera, float window_depth) {
     const glm::dmat4 projection = camera.projection(size_px);
-    return projection[3][2] / (1.0 - 2.0 * static_cast<double>(window_depth) - projection[2][2]);
+    return projection[3][2] / (2.0 * static_cast<double>(window_depth) - 1.0 + projection[2][2]);
 }
 
 TEST_F(SceneLookTest, CutShowsTheTissuesInsideAsAFlatFaceWhereTheCutIs) {
