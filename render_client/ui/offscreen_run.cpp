@@ -53,6 +53,7 @@ RenderReport run_offscreen(const RenderOptions& options, SessionSource& source,
     Panels panels;
     SessionPicture session(source, panels, options.window_size_px.value_or(default_size_px),
                            FrameQuality::full, options.renderer, options.look);
+    session.limit_textures({.budget_bytes = options.texture_budget_bytes});
     FrameTimes frame_times;
 
     bool going_on = wait_for_bone(session, stop_asked);

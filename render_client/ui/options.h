@@ -10,6 +10,7 @@
 #include "common/net/tls_files.h"
 #include "render_client/volume/bone_look.h"
 #include "render_client/volume/renderer_choice.h"
+#include "render_client/volume/texture_plan.h"
 
 namespace osteomill {
 
@@ -28,7 +29,8 @@ struct RenderOptions {
     std::filesystem::path screenshots;  ///< empty writes none
     int screenshot_every = 0;           ///< 0 spreads about 30 over `frames`
     std::optional<glm::ivec2> window_size_px;
-    std::filesystem::path json;  ///< empty writes none
+    std::size_t texture_budget_bytes = default_texture_budget_bytes;  ///< for the bone
+    std::filesystem::path json;                                       ///< empty writes none
 };
 
 /// The command line asks for something other than a run: usage error (2), or help or version (0).

@@ -1,5 +1,7 @@
 #include "render_client/ui/session_picture.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <glm/common.hpp>
@@ -69,11 +71,13 @@ void SessionPicture::replace_bone() {
     // The old textures go first: both together might not fit.
     textures_.reset();
     try {
-        textures_.emplace(*source_.bone(), tissues, bone_look_);
+        textures_.emplace(*source_.bone(), tissues, bone_look_, texture_limits_);
     } catch (const std::runtime_error& error) {
         bone_problem_ = error.what();
         return;
     }
+    if (textures_->plan().layout != BoneLayout::dense || textures_->plan().coarsening > 1)
+        fmt::print(stderr, "render_client: the bone is drawn from {}\n", description(textures_->plan()));
     // After a reconnection the view stays where the user left it.
     if (first) reset_camera();
 }
@@ -158,6 +162,7 @@ RenderReport SessionPicture::report() const {
     RenderReport report;
     report.gl_renderer = gl::renderer_name();
     if (const Bone* bone = source_.bone()) report.bone_checksum = checksum(*bone);
+    if (textures_) report.textures = textures_->plan();
     report.dirty_bricks_uploaded = dirty_bricks_uploaded_;
     report.checksum_mismatches = link_.checksum_mismatches;
     report.link_status = link_.status_line;
