@@ -15,7 +15,7 @@ ScaledFrames frames_of(double at, const TrialBone& trial, const glm::ivec2& size
     const int times = quick ? 3 : 7;
     ScaledFrames row{.at = at};
     {
-        const BoneTextures textures(trial.bone, trial.tissues, {});
+        const BoneTextures textures(trial.bone, trial.tissues);
         row.raycast = cost(*raycast, textures, times);
         row.slices = cost(*slices, textures, 1);
     }

@@ -29,6 +29,13 @@ ordered_json json_of(const Cost& cost) {
 
 /// One run of the study: what was asked, where it goes.
 class RenderStudy {
+    // A chapter with a bar of its own. First in the class, because what it returns is deduced.
+    template <typename Work>
+    auto with_progress(const std::string& title, Work&& work) const {
+        ProgressLine line(surroundings_.progress, surroundings_.is_terminal, title);
+        return work(line.reporter());
+    }
+
   public:
     RenderStudy(const RenderStudyOptions& options, const StudySurroundings& surroundings)
         : options_(options),
@@ -68,12 +75,6 @@ class RenderStudy {
     }
 
   private:
-    template <typename Work>
-    auto with_progress(const std::string& title, Work&& work) const {
-        ProgressLine line(surroundings_.progress, surroundings_.is_terminal, title);
-        return work(line.reporter());
-    }
-
     static TrialBone done(TrialBone trial, const Progress& progress) {
         progress(1.0);
         return trial;

@@ -9,7 +9,7 @@ std::vector<UploadRow> measure_uploads(const TrialBone& trial, bool quick, const
         quick ? std::vector{1.0, 3.0, 5.0} : std::vector{0.5, 1.0, 1.5, 2.0, 3.0, 4.0, 5.0, 6.0, 8.0};
     const int times = quick ? 5 : 25;
     // A second upload of the same bricks costs what the first does: neither looks at what was there.
-    BoneTextures by_gradient(trial.bone, trial.tissues, {});
+    BoneTextures by_gradient(trial.bone, trial.tissues);
     BoneTextures by_voxels(trial.bone, trial.tissues, {.shading = Shading::surface_voxels});
     std::vector<UploadRow> rows;
     for (const double diameter_mm : diameters_mm) {

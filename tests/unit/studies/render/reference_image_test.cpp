@@ -17,7 +17,7 @@ namespace {
 
 using ReferenceImageTest = OffscreenTest;
 
-const glm::ivec2 size_px(160, 120);
+const glm::ivec2 size_px(128, 96);
 const Grid grid{.size_voxels = {64, 64, 48}, .origin_mm = {-3.15, -3.15, -2.35}};
 const std::array<TissueColour, 2> tissues{{{1, {230, 190, 150}}, {2, {200, 80, 70}}}};
 
