@@ -16,8 +16,8 @@ enum class EmptySpaceSkipping { distance_map, none };
 struct RaycastSettings {
     EmptySpaceSkipping skipping = EmptySpaceSkipping::distance_map;
     /// Distance of the samples along a ray, voxels, above 0. A chord through bone shorter than this may be
-    /// missed.
-    float step_voxels = 0.75f;
+    /// missed. Most of a frame's time goes into shading: 1.0 saves a tenth of it, and 3 to 5 dB.
+    float step_voxels = 0.5f;
 };
 
 class RaycastRenderer final : public BoneRenderer {
