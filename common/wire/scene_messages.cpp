@@ -90,6 +90,7 @@ v1::ToolState to_message(const ToolView& tool) {
     message.set_fault(tool.fault);
     message.set_taken_unix_ns(tool.taken_unix_ns);
     message.set_driver(to_message(tool.driver));
+    if (tool.depth_mm) message.set_depth_mm(*tool.depth_mm);
     return message;
 }
 
@@ -182,9 +183,10 @@ std::variant<ToolView, WireError> tool_from(const v1::ToolState& message, std::s
                   .fault = one_line(message.fault()),
                   .taken_unix_ns = message.taken_unix_ns(),
                   .driver = driver_from(message.driver())};
+    if (message.has_depth_mm()) tool.depth_mm = message.depth_mm();
     if (!std::isfinite(tool.time_s) || !std::isfinite(tool.removed_mm3) ||
-        !is_finite(tool.burr_position_mm) || !is_finite(tool.spindle_axis) ||
-        !is_finite(tool.hand_position_mm) || !is_finite(tool.force_n))
+        !std::isfinite(tool.depth_mm.value_or(0.0)) || !is_finite(tool.burr_position_mm) ||
+        !is_finite(tool.spindle_axis) || !is_finite(tool.hand_position_mm) || !is_finite(tool.force_n))
         return WireError{"the tool state holds a number that is not finite"};
     if (tool.burr >= burr_count) return unknown_burr(message.burr(), burr_count);
     return tool;

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <glm/vec3.hpp>
+#include <optional>
 #include <string>
 
 #include "common/scene/scene.h"
@@ -33,6 +34,9 @@ struct ToolView {
     /// The server's wall clock when it took this off the haptic loop, ns since 1970; 0: not said.
     std::int64_t taken_unix_ns = 0;
     ToolDriver driver = ToolDriver::unknown;
+    /// Of the burr's tip below where it first met bone, along the spindle axis of that moment; nothing where
+    /// the server does not say.
+    std::optional<double> depth_mm{};
 };
 
 /// What the operator's mouse and keys say, for a server that runs with --device client.

@@ -15,13 +15,14 @@ Scene tooth_scene() {
     Scene scene;
     scene.name = "tooth";
     scene.bone = PhantomSource{"tooth"};
-    scene.tissues = {{label(ToothTissue::cortical_bone), "cortical bone", {224, 214, 196}, false},
-                     {label(ToothTissue::trabecular_bone), "trabecular bone", {205, 170, 125}, false},
-                     {label(ToothTissue::dentine), "dentine", {236, 208, 140}, false},
+    // Each a good step in lightness from the next, so that no kind of colour vision takes one for another.
+    scene.tissues = {{label(ToothTissue::cortical_bone), "cortical bone", {226, 216, 198}, false},
+                     {label(ToothTissue::trabecular_bone), "trabecular bone", {186, 146, 104}, false},
+                     {label(ToothTissue::dentine), "dentine", {232, 194, 112}, false},
                      {label(ToothTissue::enamel), "enamel", {246, 244, 236}, false},
-                     {label(ToothTissue::pulp), "pulp", {204, 76, 70}, true},
-                     {label(ToothTissue::nerve_canal), "nerve canal", {240, 200, 40}, true},
-                     {label(ToothTissue::carious_lesion), "carious lesion", {110, 74, 48}, false}};
+                     {label(ToothTissue::pulp), "pulp", {184, 34, 40}, true},
+                     {label(ToothTissue::nerve_canal), "nerve canal", {56, 132, 196}, true},
+                     {label(ToothTissue::carious_lesion), "carious lesion", {84, 54, 34}, false}};
     // 40 000 rpm, a slow dental handpiece: at the published 10 000 rpm enamel would push back with several
     // newtons, more than the arm can render or a dentist would use (about 1 N).
     scene.burrs = default_burr_set(40'000.0 / 60.0);

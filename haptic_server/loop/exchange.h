@@ -24,6 +24,8 @@ struct ToolSnapshot {
     double removed_mm3 = 0.0;  ///< since the start
     bool touches_protected = false;
     Fault fault = Fault::none;
+    /// Of the burr's tip below where it first met bone, along the spindle axis of that moment; 0 before.
+    double depth_mm = 0.0;
 };
 
 }  // namespace osteomill

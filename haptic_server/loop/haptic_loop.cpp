@@ -72,6 +72,7 @@ void HapticLoop::tick(double now_s, std::uint64_t missed_periods) noexcept {
     if (latest.touches_protected) protected_until_s_ = now_s + protected_shown_s;
 
     const bool spindle_on = hand.spindle_on && was_engaged && is_engaged;
+    const bool in_contact = latest.total_removed_mm3 > 0.0 || force_n != glm::dvec3(0.0);
     const ToolSnapshot snapshot{.time_s = now_s,
                                 .burr_pose = burr_pose_,
                                 .hand_pose = hand_pose_,
@@ -80,9 +81,10 @@ void HapticLoop::tick(double now_s, std::uint64_t missed_periods) noexcept {
                                 .force_n = force_n,
                                 .removed_mm3 = latest.total_removed_mm3,
                                 .touches_protected = now_s < protected_until_s_,
-                                .fault = guard_.fault()};
+                                .fault = guard_.fault(),
+                                .depth_mm = depth_mm(in_contact)};
     publish({.pose = burr_pose_, .spindle_on = spindle_on, .burr = burr_, .elapsed_s = elapsed_s}, snapshot);
-    log(snapshot, latest.total_removed_mm3 > 0.0 || force_n != glm::dvec3(0.0));
+    log(snapshot);
 }
 
 void HapticLoop::publish(const BurrCommand& command, const ToolSnapshot& snapshot) noexcept {
@@ -94,21 +96,22 @@ void HapticLoop::publish(const BurrCommand& command, const ToolSnapshot& snapsho
     parts_.status.publish();
 }
 
-void HapticLoop::log(const ToolSnapshot& snapshot, bool in_contact) noexcept {
-    if (parts_.log == nullptr) return;
+double HapticLoop::depth_mm(bool in_contact) noexcept {
     if (in_contact && !has_met_bone_) {
         has_met_bone_ = true;
-        first_contact_ = snapshot.burr_pose;
+        first_contact_ = burr_pose_;
     }
-    const double depth_mm = has_met_bone_
-                                ? glm::dot(first_contact_.position_mm - snapshot.burr_pose.position_mm,
-                                           first_contact_.spindle_axis)
-                                : 0.0;
+    if (!has_met_bone_) return 0.0;
+    return glm::dot(first_contact_.position_mm - burr_pose_.position_mm, first_contact_.spindle_axis);
+}
+
+void HapticLoop::log(const ToolSnapshot& snapshot) noexcept {
+    if (parts_.log == nullptr) return;
     parts_.log->push({.time_s = snapshot.time_s,
                       .hand_mm = snapshot.hand_pose.position_mm,
                       .burr_mm = snapshot.burr_pose.position_mm,
                       .force_n = snapshot.force_n,
-                      .depth_mm = depth_mm,
+                      .depth_mm = snapshot.depth_mm,
                       .removed_mm3 = snapshot.removed_mm3,
                       .spindle_on = snapshot.spindle_on,
                       .fault = snapshot.fault});

@@ -65,7 +65,8 @@ class HapticLoop {
   private:
     HandState hand_state(double now_s, double elapsed_s, const DeviceState& device) noexcept;
     void publish(const BurrCommand& command, const ToolSnapshot& snapshot) noexcept;
-    void log(const ToolSnapshot& snapshot, bool in_contact) noexcept;
+    double depth_mm(bool in_contact) noexcept;
+    void log(const ToolSnapshot& snapshot) noexcept;
 
     HapticLoopParts parts_;
     HapticLoopOptions options_;

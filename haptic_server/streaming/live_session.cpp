@@ -18,7 +18,8 @@ ToolView view_of(const ToolSnapshot& tool) {
             .spindle_on = tool.spindle_on,
             .removed_mm3 = tool.removed_mm3,
             .touches_protected = tool.touches_protected,
-            .fault = describe(tool.fault)};
+            .fault = describe(tool.fault),
+            .depth_mm = tool.depth_mm};
 }
 
 }  // namespace

@@ -51,7 +51,12 @@ RenderReport run_offscreen(const RenderOptions& options, SessionSource& source,
     gl::OffscreenContext context;
     gl::require_opengl_3_3();
     Panels panels;
-    SessionPicture session(source, panels, options.window_size_px.value_or(default_size_px));
+    SessionPicture session(source, panels, options.window_size_px.value_or(default_size_px),
+                           FrameQuality::full, options.renderer, options.look);
+    session.limit_textures({.budget_bytes = options.texture_budget_bytes});
+    session.view().theme = options.theme;
+    session.view().scale = static_cast<float>(options.ui_scale.value_or(1.0));
+    session.view().panels_shown = options.panels;
     FrameTimes frame_times;
 
     bool going_on = wait_for_bone(session, stop_asked);

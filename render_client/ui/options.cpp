@@ -1,8 +1,12 @@
 #include "render_client/ui/options.h"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <charconv>
+#include <map>
 #include <stdexcept>
 
 #include "common/net/tls_options.h"
@@ -14,6 +18,7 @@ namespace {
 
 constexpr int largest_window_px = 16384;
 constexpr int wanted_screenshots = 30;
+const std::map<std::string, ThemeName> theme_names{{"dark", ThemeName::dark}, {"light", ThemeName::light}};
 
 std::optional<int> whole_number(std::string_view text, int low, int high) {
     int value = 0;
@@ -41,6 +46,41 @@ std::string take_address(const std::string& text, RenderOptions& options) {
 
 NoRun wrong_usage(const std::string& what) {
     return {2, "render_client: " + what};
+}
+
+/// An option with a few named values; what is no name is refused with all that are.
+template <typename Value>
+void add_choice(CLI::App& app, const std::string& option, const std::vector<std::string>& names,
+                const std::vector<Value>& values, Value& chosen, const std::string& help) {
+    app.add_option_function<std::string>(
+           option,
+           [=, &chosen](const std::string& text) {
+               const auto name = std::find(names.begin(), names.end(), text);
+               if (name == names.end())
+                   throw CLI::ValidationError(
+                       option, fmt::format("is '{}', not one of {}", text, fmt::join(names, ", ")));
+               chosen = values[static_cast<std::size_t>(name - names.begin())];
+           },
+           help)
+        ->type_name(fmt::format("{}", fmt::join(names, "|")));
+}
+
+void add_look(CLI::App& app, RenderOptions& options) {
+    add_choice(app, "--renderer", {"raycast", "slices"},
+               std::vector{RendererChoice::raycast, RendererChoice::slices}, options.renderer,
+               "raycast (default) skips what is empty; slices cut the 3D texture, as published");
+    add_choice(
+        app, "--shading", {"gradient", "surface-voxels"},
+        std::vector{Shading::gradient, Shading::surface_voxels}, options.look.shading,
+        "Light by the gradient in every pixel (default), or once for each surface voxel, as published");
+    std::vector<std::string> names;
+    std::vector<std::optional<TransferFunction>> presets;
+    for (const TransferFunction& preset : transfer_presets()) {
+        names.push_back(preset.name);
+        presets.emplace_back(preset);
+    }
+    add_choice(app, "--transfer", names, presets, options.look.transfer,
+               "Colour and opacity by stiffness; unless given, tissues in their own colours");
 }
 
 /// What the options together get wrong; empty where they agree.
@@ -102,6 +142,14 @@ ParsedOptions parse_options(int argument_count, const char* const* arguments, co
            },
            "Size of the picture (1280x800; 960x600 offscreen)")
         ->type_name("WxH");
+    add_look(app, options);
+    app.add_option("--theme", options.theme, "Colours: dark or light (dark)")
+        ->transform(CLI::CheckedTransformer(theme_names).description(""))
+        ->type_name("NAME");
+    app.add_option("--ui-scale", options.ui_scale,
+                   "Size of panels and letters (the display's; 1 offscreen), 0.5 to 4")
+        ->check(CLI::Range(0.5, 4.0));
+    app.add_flag("!--no-panels", options.panels, "Only the picture: no panels over it");
     app.add_flag("--offscreen", options.offscreen, "Draw without a display; write pictures instead");
     auto* frames = app.add_option("--frames", options.frames,
                                   "Offscreen: end after so many frames (300), or sooner with the session")
@@ -114,6 +162,13 @@ ParsedOptions parse_options(int argument_count, const char* const* arguments, co
     app.add_option("--screenshot-every", options.screenshot_every,
                    "Write a picture every so many frames (spreads about 30 over --frames)")
         ->check(CLI::Range(1, 1'000'000));
+    app.add_option_function<int>(
+           "--texture-budget-mib",
+           [&](int mib) { options.texture_budget_bytes = static_cast<std::size_t>(mib) << 20U; },
+           "Graphics memory for the bone (1024); a larger bone is drawn from an atlas of its bricks, or "
+           "coarser")
+        ->check(CLI::Range(1, 1 << 20))
+        ->type_name("MIB");
     app.add_option("--json", options.json, "Write what was measured to this file")->type_name("FILE");
 
     try {

@@ -8,6 +8,10 @@
 #include <string>
 
 #include "common/net/tls_files.h"
+#include "render_client/ui/theme.h"
+#include "render_client/volume/bone_look.h"
+#include "render_client/volume/renderer_choice.h"
+#include "render_client/volume/texture_plan.h"
 
 namespace osteomill {
 
@@ -18,12 +22,18 @@ struct RenderOptions {
     std::optional<std::filesystem::path> record;  ///< what is received goes there, too
     std::optional<std::filesystem::path> replay;  ///< a recording in place of a server
     double speed = 1.0;                           ///< of the recording: recorded seconds a second
+    RendererChoice renderer = RendererChoice::raycast;
+    BoneLook look;
     bool offscreen = false;
     int frames = 300;                   ///< offscreen: ends after so many
     bool until_server_ends = false;     ///< in a window: close it when the session is over
     std::filesystem::path screenshots;  ///< empty writes none
     int screenshot_every = 0;           ///< 0 spreads about 30 over `frames`
     std::optional<glm::ivec2> window_size_px;
+    ThemeName theme = ThemeName::dark;
+    std::optional<double> ui_scale;  ///< of panels and letters; absent: the display's, 1 offscreen
+    bool panels = true;
+    std::size_t texture_budget_bytes = default_texture_budget_bytes;  ///< for the bone
     std::filesystem::path json;  ///< empty writes none
 };
 

@@ -1,210 +1,126 @@
 #include "render_client/ui/overlay.h"
 
-#include <fmt/format.h>
-#include <imgui.h>
+#include <functional>
+#include <glm/common.hpp>
 
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <glm/geometric.hpp>
-#include <limits>
-#include <vector>
-
+#include "render_client/ui/cube_panel.h"
+#include "render_client/ui/cuts_panel.h"
+#include "render_client/ui/help_panel.h"
+#include "render_client/ui/live_plot.h"
+#include "render_client/ui/panel_painter.h"
+#include "render_client/ui/picture_marks.h"
 #include "render_client/ui/playback_panel.h"
+#include "render_client/ui/tissue_legend.h"
+#include "render_client/ui/transfer_panel.h"
 
 namespace osteomill {
 
 namespace {
 
-// Okabe and Ito's palette: told apart by every kind of colour vision.
-constexpr ImU32 orange = IM_COL32(230, 159, 0, 255);
-constexpr ImU32 sky_blue = IM_COL32(86, 180, 233, 255);
-constexpr ImU32 bluish_green = IM_COL32(0, 190, 140, 255);
-constexpr ImU32 vermillion = IM_COL32(240, 105, 30, 255);
-constexpr std::array<ImU32, 3> axis_colours{orange, sky_blue, bluish_green};
-constexpr std::array<const char*, 3> axis_names{"left", "back", "up"};
+constexpr float margin_px = 12.0f;  // at scale 1
 
-constexpr float margin_px = 12.0f;
-constexpr ImGuiWindowFlags panel_flags = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_AlwaysAutoResize |
-                                         ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
-                                         ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_NoNav |
-                                         ImGuiWindowFlags_NoInputs;
+using Draw = std::function<void(const PanelPlace&)>;
 
-/// Opens a panel that hangs at a corner or edge: `anchor` 0 to 1 from the picture's upper left.
-void begin_panel(const char* name, const ImVec2& anchor, const glm::ivec2& size_px) {
-    const auto place = [](float part, int length) {
-        return margin_px + part * (static_cast<float>(length) - 2.0f * margin_px);
-    };
-    ImGui::SetNextWindowPos({place(anchor.x, size_px.x), place(anchor.y, size_px.y)}, ImGuiCond_Always,
-                            anchor);
-    ImGui::SetNextWindowBgAlpha(0.72f);
-    ImGui::Begin(name, nullptr, panel_flags);
-}
-
-void text(const std::string& line) {
-    ImGui::TextUnformatted(line.c_str());
-}
-
-void coloured_text(ImU32 colour, const std::string& line) {
-    ImGui::PushStyleColor(ImGuiCol_Text, colour);
-    text(line);
-    ImGui::PopStyleColor();
-}
-
-bool has_problem(LinkStatus status) {
-    return status == LinkStatus::connecting || status == LinkStatus::lost || status == LinkStatus::refused;
-}
-
-void draw_session_panel(const OverlayContent& content, const glm::ivec2& size_px) {
-    // The status may grow from one frame to the next, a panel that fits itself follows a frame later.
-    const float status_px = ImGui::CalcTextSize(content.link.status_line.c_str()).x;
-    ImGui::SetNextWindowSizeConstraints(
-        {status_px + 2.0f * ImGui::GetStyle().WindowPadding.x, 0.0f},
-        {std::numeric_limits<float>::max(), std::numeric_limits<float>::max()});
-    begin_panel("session", {0.0f, 0.0f}, size_px);
-    if (content.session) text("scene   " + content.session->scene_name);
-    const std::string status = content.link.status_line;
-    if (has_problem(content.link.status))
-        coloured_text(vermillion, status);
-    else
-        text(status);
-    text(fmt::format("picture {:5.1f} frames/s", content.render_frames_per_s));
-    text(fmt::format("{} {:5.1f} frames/s {:7.1f} kB/s", content.player ? "file   " : "link   ",
-                     content.link.frames_per_s, 1e-3 * content.link.bytes_per_s));
-    if (const auto& delay = content.link.delay)
-        text(fmt::format("delay   {:5.0f} ms by the clocks, {:.0f} over the least", 1e3 * delay->by_clocks_s,
-                         1e3 * delay->over_least_s));
-    if (const std::uint64_t bad = content.link.checksum_mismatches + content.link.rejected_frames; bad > 0)
-        coloured_text(vermillion, fmt::format("{} bad frames; {} bricks were repaired", bad,
-                                              content.link.bricks_repaired));
-    if (!content.help_shown) ImGui::TextDisabled("F1 help");
-    ImGui::End();
-}
-
-void draw_tool_panel(const OverlayContent& content, const glm::ivec2& size_px) {
-    const ToolView& tool = *content.tool;
-    begin_panel("tool", {1.0f, 0.0f}, size_px);
-    if (content.session && tool.burr < content.session->burrs.size()) {
-        const Burr& burr = content.session->burrs[tool.burr];
-        text(fmt::format("burr    {:.1f} mm, {} edges", burr.diameter_mm, burr.edges));
-        const std::string spindle =
-            tool.spindle_on ? fmt::format("{:.0f} rpm", 60.0 * burr.spindle_rev_per_s) : "off";
-        coloured_text(tool.spindle_on ? bluish_green : IM_COL32(190, 190, 190, 255), "spindle " + spindle);
+/// Wishes for places, and what to draw there: the most important first.
+class PanelList {
+  public:
+    void add(Anchor anchor, std::vector<glm::vec2> sizes, Draw draw) {
+        wishes_.push_back({.anchor = anchor, .sizes = std::move(sizes)});
+        draws_.push_back(std::move(draw));
     }
-    text(fmt::format("removed {:.2f} mm3", tool.removed_mm3));
-    text(fmt::format("time    {:.1f} s", tool.time_s));
-    ImGui::End();
-}
-
-/// Three lines through the last seconds; the scale is symmetric and never finer than half a newton.
-void plot_forces(const ToolHistory& history, const ImVec2& size) {
-    const ImVec2 corner = ImGui::GetCursorScreenPos();
-    ImDrawList& canvas = *ImGui::GetWindowDrawList();
-    double largest_n = 0.5;
-    for (const auto& sample : history.samples())
-        for (int axis = 0; axis < 3; ++axis) largest_n = std::max(largest_n, std::abs(sample.force_n[axis]));
-    const auto height_of = [&](double force_n) {
-        return corner.y + size.y * static_cast<float>(0.5 - 0.5 * force_n / largest_n);
-    };
-    canvas.AddLine({corner.x, height_of(0.0)}, {corner.x + size.x, height_of(0.0)},
-                   IM_COL32(150, 150, 150, 120));
-    const double newest_s = history.samples().empty() ? 0.0 : history.samples().back().time_s;
-    std::vector<ImVec2> line;
-    for (int axis = 0; axis < 3; ++axis) {
-        line.clear();
-        for (const auto& sample : history.samples()) {
-            const double age = (newest_s - sample.time_s) / ToolHistory::kept_s;
-            line.push_back(
-                {corner.x + size.x * static_cast<float>(1.0 - age), height_of(sample.force_n[axis])});
-        }
-        canvas.AddPolyline(line.data(), static_cast<int>(line.size()),
-                           axis_colours[static_cast<std::size_t>(axis)], ImDrawFlags_None, 1.5f);
+    /// One that the user opened.
+    void add_asked_for(Anchor anchor, const glm::vec2& size, Draw draw) {
+        add(anchor, {size}, std::move(draw));
+        wishes_.back().may_cover_middle = true;
     }
-    const std::string scale = fmt::format("{:.1f} N", largest_n);
-    canvas.AddText({corner.x + 2.0f, corner.y}, IM_COL32(200, 200, 200, 200), scale.c_str());
-    ImGui::Dummy(size);
-}
-
-void draw_force_panel(const OverlayContent& content, const glm::ivec2& size_px) {
-    begin_panel("force", {1.0f, 1.0f}, size_px);
-    const glm::dvec3& force_n = content.tool->force_n;
-    text(fmt::format("force on the hand {:5.2f} N", glm::length(force_n)));
-    for (int axis = 0; axis < 3; ++axis) {
-        const auto index = static_cast<std::size_t>(axis);
-        coloured_text(axis_colours[index], fmt::format("{} {:+.2f}", axis_names[index], force_n[axis]));
-        if (axis < 2) ImGui::SameLine();
+    void add_text(const PanelPainter& painter, Anchor anchor, const PanelText& text, float widest) {
+        add(anchor, {painter.size_of(text, widest)},
+            [&painter, text](const PanelPlace& place) { painter.draw(text, place); });
     }
-    if (content.history) plot_forces(*content.history, {280.0f, 90.0f});
-    ImGui::TextDisabled("last %.0f s, patient axes", ToolHistory::kept_s);
-    ImGui::End();
-}
-
-void draw_warnings(const OverlayContent& content, const glm::ivec2& size_px) {
-    std::vector<std::string> warnings;
-    if (!content.bone_problem.empty()) warnings.push_back(content.bone_problem);
-    if (!content.link.recording_error.empty()) warnings.push_back(content.link.recording_error);
-    if (content.tool && !content.tool->fault.empty()) warnings.push_back("FAULT: " + content.tool->fault);
-    if (content.tool && content.tool->touches_protected)
-        warnings.emplace_back("PROTECTED TISSUE: the burr touches it");
-    if (warnings.empty()) return;
-    begin_panel("warnings", {0.5f, 0.0f}, size_px);
-    for (const std::string& warning : warnings) coloured_text(vermillion, warning);
-    ImGui::End();
-}
-
-void draw_operator_panel(const OverlayContent& content, const glm::ivec2& size_px) {
-    begin_panel("operator", {0.0f, 1.0f}, size_px);
-    const OperatorIntent& intent = *content.operator_intent;
-    if (content.tool && content.tool->driver == ToolDriver::another)
-        coloured_text(vermillion, "another client moves the tool; ask again when it has let go");
-    coloured_text(intent.pedal ? bluish_green : IM_COL32(190, 190, 190, 255),
-                  intent.pedal ? "pedal down" : "pedal up (SPACE)");
-    ImGui::TextDisabled("left drag: hand   W/S: in/out   1-9 [ ]: burr");
-    ImGui::End();
-}
-
-void draw_help(const OverlayContent& content, const glm::ivec2& size_px) {
-    begin_panel("help", {0.5f, 0.5f}, size_px);
-    text("right drag          turn the view");
-    text("middle drag, or     shift it");
-    text("  shift + right drag");
-    text("wheel               zoom");
-    text("HOME                first view again");
-    text("F1                  this help");
-    text("ESC                 end");
-    ImGui::Separator();
-    if (content.operator_intent) {
-        text("left drag           move the hand in the picture's plane;");
-        text("                    let go to move the mouse without the hand");
-        text("W, S, ctrl + wheel  along the spindle: into the bone, out of it");
-        text("SPACE (held)        pedal: the spindle turns");
-        text("1 to 9, [ and ]     choose the burr");
-        text("orange arrow        the force that an arm would give to the hand");
-        text("blue sphere         where the hand wants the burr");
-    } else if (content.player != nullptr) {
-        text("left drag           turn the view");
-        text("SPACE               play, pause");
-        text("LEFT, RIGHT         5 s back, on");
-    } else {
-        text("left drag           turn the view");
-        text("This server has its own device: to drill with the mouse, start");
-        text("haptic_server with --device client.");
+    void draw_in(const glm::vec2& picture, float margin) const {
+        const auto places = lay_out(wishes_, picture, margin);
+        for (std::size_t i = 0; i < places.size(); ++i)
+            if (places[i]) draws_[i](*places[i]);
     }
-    ImGui::End();
+
+  private:
+    std::vector<PanelWish> wishes_;
+    std::vector<Draw> draws_;
+};
+
+void add_plot(PanelList& panels, const OverlayContent& content, const PanelPainter& painter) {
+    std::vector<glm::vec2> sizes;
+    for (const PlotDetail detail : {PlotDetail::all, PlotDetail::forces, PlotDetail::numbers})
+        sizes.push_back(live_plot_size(painter, detail));
+    panels.add(Anchor::lower_right, sizes, [&](const PanelPlace& place) {
+        draw_live_plot(painter, *content.history, *content.tool, static_cast<PlotDetail>(place.choice),
+                       place);
+    });
+}
+
+/// What the user works with.
+void add_controls(PanelList& panels, const OverlayContent& content, const PanelPainter& painter,
+                  const glm::vec2& picture, float side_width) {
+    ViewSettings& view = *content.view;
+    if (view.cuts_panel_shown)
+        panels.add_asked_for(Anchor::upper_left, cuts_panel_size(painter), [&](const PanelPlace& place) {
+            draw_cuts_panel(view.cuts, *content.camera, place);
+        });
+    if (view.transfer_panel_shown)
+        panels.add_asked_for(Anchor::upper_left, transfer_panel_size(painter), [&](const PanelPlace& place) {
+            draw_transfer_panel(painter, view.transfer, place);
+        });
+    if (content.operator_intent)
+        panels.add_text(painter, Anchor::lower_left, operator_text(content), side_width);
+    if (content.player != nullptr)
+        panels.add(Anchor::lower_left, {playback_panel_size(painter, picture)},
+                   [&](const PanelPlace& place) { draw_playback_panel(*content.player, place); });
+}
+
+/// What the user reads.
+void add_readings(PanelList& panels, const OverlayContent& content, const PanelPainter& painter,
+                  const glm::ivec2& size_px, float side_width) {
+    if (content.tool) add_plot(panels, content, painter);
+    panels.add_text(painter, Anchor::upper_left, session_text(content), side_width);
+    if (content.tool) panels.add_text(painter, Anchor::upper_right, tool_text(content), side_width);
+    if (content.has_bone) {
+        panels.add(Anchor::upper_right, {cube_size(painter)},
+                   [&](const PanelPlace& place) { draw_cube(painter, *content.camera, place); });
+        const ScaleBar bar = scale_bar_of(*content.camera, size_px);
+        panels.add(Anchor::bottom, {scale_bar_size(painter, bar)},
+                   [&painter, bar](const PanelPlace& place) { draw_scale_bar(painter, bar, place); });
+    }
+    // A transfer function puts other colours in place of the tissues'.
+    if (content.session && !content.session->tissues.empty() && !content.view->transfer.function())
+        panels.add(Anchor::upper_left, {legend_size(painter, content.session->tissues)},
+                   [&](const PanelPlace& place) { draw_legend(painter, content.session->tissues, place); });
 }
 
 }  // namespace
 
 void draw_overlay(const OverlayContent& content, const glm::ivec2& size_px) {
-    draw_session_panel(content, size_px);
-    if (content.tool) {
-        draw_tool_panel(content, size_px);
-        draw_force_panel(content, size_px);
+    const PanelPainter painter(theme_of(content.view->theme), content.view->scale);
+    const glm::vec2 picture(size_px);
+    if (content.tool && content.has_bone && content.view->panels_shown)
+        draw_force_label(painter, *content.tool, *content.camera, size_px);
+    const float margin = margin_px * painter.scale();
+    const float side_width =
+        glm::clamp(0.45f * picture.x, 200.0f * painter.scale(), 360.0f * painter.scale());
+    PanelList panels;
+    if (const PanelText warnings = warning_text(content); !warnings.empty())
+        panels.add_text(painter, Anchor::top, warnings, picture.x - 2.0f * margin);
+    if (content.view->help_shown) {
+        const Situation situation =
+            situation_of(content.operator_intent.has_value(), content.player != nullptr);
+        panels.add_asked_for(
+            Anchor::middle, help_size(painter, situation, picture - 2.0f * margin),
+            [&painter, situation](const PanelPlace& place) { draw_help(painter, situation, place); });
     }
-    draw_warnings(content, size_px);
-    if (content.operator_intent) draw_operator_panel(content, size_px);
-    if (content.player != nullptr) draw_playback_panel(*content.player, size_px);
-    if (content.help_shown) draw_help(content, size_px);
+    if (content.view->panels_shown) {
+        add_controls(panels, content, painter, picture, side_width);
+        add_readings(panels, content, painter, size_px, side_width);
+    }
+    panels.draw_in(picture, margin);
 }
 
 }  // namespace osteomill

@@ -1,7 +1,12 @@
-// Dear ImGui's context and its OpenGL 3 back end, as one RAII value. Needs a current OpenGL context.
+// Dear ImGui's context and its OpenGL 3 back end, as one RAII value. Needs a current OpenGL context. All
+// lengths are pixels of the picture, also where a window counts in larger units.
 #pragma once
 
 #include <glm/vec2.hpp>
+#include <vector>
+
+#include "render_client/ui/theme.h"
+#include "render_client/volume/pixel_box.h"
 
 struct GLFWwindow;
 
@@ -17,14 +22,24 @@ class Panels {
     Panels& operator=(const Panels&) = delete;
     ~Panels();
 
-    /// Opens an ImGui frame. `elapsed_s` is the time since the last one.
-    void begin(const glm::ivec2& size_px, double elapsed_s);
-    /// Draws what was put into the frame into the bound framebuffer.
-    void end();
+    /// Opens an ImGui frame, in the colours of `theme` and with letters and controls `scale` times as large
+    /// as on an ordinary display. `elapsed_s` is the time since the last one.
+    void begin(const glm::ivec2& size_px, double elapsed_s, ThemeName theme, float scale);
+    /// Draws what was put into the frame into the bound framebuffer; returns where that is.
+    std::vector<PixelBox> end();
+
+    /// Notches that the wheel was turned by in this frame: Dear ImGui forgets them when the frame ends.
+    float wheel_notches() const { return wheel_notches_; }
 
   private:
     void start();
+    void set_style(ThemeName theme, float scale);
+    void load_letters(float scale);
+
     GLFWwindow* window_ = nullptr;
+    ThemeName theme_ = ThemeName::dark;
+    float scale_ = 0.0f;  // none yet
+    float wheel_notches_ = 0.0f;
 };
 
 }  // namespace osteomill

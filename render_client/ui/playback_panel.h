@@ -2,12 +2,13 @@
 // needs an ImGui frame to be open.
 #pragma once
 
-#include <glm/vec2.hpp>
-
 #include "render_client/link/recording_player.h"
+#include "render_client/ui/panel_painter.h"
 
 namespace osteomill {
 
-void draw_playback_panel(RecordingPlayer& player, const glm::ivec2& size_px);
+/// As wide as is useful in a picture of that size.
+glm::vec2 playback_panel_size(const PanelPainter& painter, const glm::vec2& picture);
+void draw_playback_panel(RecordingPlayer& player, const PanelPlace& place);
 
 }  // namespace osteomill

@@ -1,5 +1,7 @@
 #include "render_client/ui/session_picture.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <glm/common.hpp>
@@ -20,6 +22,9 @@ constexpr double shown_rev_per_s = 0.8;
 constexpr double closest_first_view_mm = 10.0;
 constexpr double tool_part_of_first_view = 0.45;
 
+/// A hand's target this close to the burr is where the burr is.
+constexpr double nearest_shown_target_mm = 0.05;
+
 glm::dvec3 middle_of(const Grid& grid, const VoxelBox& box) {
     return 0.5 * (centre_of_voxel_mm(grid, box.first) + centre_of_voxel_mm(grid, box.first + box.size - 1));
 }
@@ -33,8 +38,16 @@ std::vector<TissueColour> tissue_colours(const SessionInfo* session) {
 
 }  // namespace
 
-SessionPicture::SessionPicture(SessionSource& source, Panels& panels, const glm::ivec2& size_px)
-    : source_(source), panels_(panels), picture_(renderer_, size_px), size_px_(picture_.size_px()) {}
+SessionPicture::SessionPicture(SessionSource& source, Panels& panels, const glm::ivec2& size_px,
+                               FrameQuality quality, RendererChoice renderer, const BoneLook& look)
+    : source_(source),
+      panels_(panels),
+      renderer_(make_renderer(renderer)),
+      bone_look_(look),
+      picture_(*renderer_, size_px, quality == FrameQuality::on_demand ? &draw_timer_ : nullptr),
+      size_px_(picture_.size_px()) {
+    view_.transfer = TransferEditor(look.transfer);
+}
 
 void SessionPicture::take_in() {
     link_ = source_.poll();
@@ -63,13 +76,25 @@ void SessionPicture::replace_bone() {
     // The old textures go first: both together might not fit.
     textures_.reset();
     try {
-        textures_.emplace(*source_.bone(), tissues);
+        textures_.emplace(*source_.bone(), tissues, bone_look_, texture_limits_);
     } catch (const std::runtime_error& error) {
         bone_problem_ = error.what();
         return;
     }
+    if (textures_->plan().layout != BoneLayout::dense || textures_->plan().coarsening > 1)
+        fmt::print(stderr, "render_client: the bone is drawn from {}\n", description(textures_->plan()));
+    const glm::dvec3 half_mm = 0.5 * textures_->grid().spacing_mm * glm::dvec3(textures_->box().size);
+    const glm::dvec3 middle_mm = middle_of(textures_->grid(), textures_->box());
+    view_.cuts.set_bounds(middle_mm - half_mm, middle_mm + half_mm);
     // After a reconnection the view stays where the user left it.
     if (first) reset_camera();
+}
+
+void SessionPicture::set_bone_look(const BoneLook& look) {
+    if (look == bone_look_) return;
+    if (look.transfer) require_valid(*look.transfer);
+    bone_look_ = look;
+    if (textures_) replace_bone();
 }
 
 void SessionPicture::reset_camera() {
@@ -87,26 +112,33 @@ void SessionPicture::reset_camera() {
 
 const gl::Framebuffer& SessionPicture::draw(double elapsed_s) {
     turn_burr(elapsed_s);
-    if (elapsed_s > 0.0) {
-        const double now_per_s = 1.0 / elapsed_s;
-        frames_per_s_ = frames_per_s_ > 0.0 ? 0.9 * frames_per_s_ + 0.1 * now_per_s : now_per_s;
-    }
+    // The mean of times, not of rates: a few frames that come at once would count for hundreds a second.
+    frame_s_ = frame_s_ > 0.0 ? 0.9 * frame_s_ + 0.1 * elapsed_s : elapsed_s;
+    if (view_.transfer.take_change())
+        set_bone_look({.shading = bone_look_.shading, .transfer = view_.transfer.function()});
+    const Theme& theme = theme_of(view_.theme);
+    picture_.set_look({.cuts = view_.cuts.planes(),
+                       .background_low = theme.background_low,
+                       .background_high = theme.background_high});
     std::optional<DrawnTool> tool;
     if (tool_) tool = drawn_tool();
     const gl::Framebuffer& picture =
         picture_.draw(textures_ ? &*textures_ : nullptr, tool ? &*tool : nullptr, camera_);
-    panels_.begin(size_px_, elapsed_s);
+    panels_.begin(size_px_, elapsed_s, view_.theme, view_.scale);
     draw_overlay({.link = link_,
                   .session = source_.session(),
                   .tool = tool_,
                   .history = &history_,
-                  .render_frames_per_s = frames_per_s_,
-                  .help_shown = help_shown_,
+                  .camera = &camera_,
+                  .view = &view_,
+                  .render_frames_per_s = frame_s_ > 0.0 ? 1.0 / frame_s_ : 0.0,
+                  .quality = picture_.quality(),
                   .operator_intent = operator_intent_,
                   .player = source_.player(),
-                  .bone_problem = bone_problem_},
+                  .bone_problem = bone_problem_,
+                  .has_bone = has_bone()},
                  size_px_);
-    panels_.end();
+    picture_.cover(panels_.end());
     return picture;
 }
 
@@ -131,7 +163,9 @@ DrawnTool SessionPicture::drawn_tool() const {
     drawn.spindle_axis = tool_->spindle_axis;
     drawn.spin_rad = spin_rad_;
     drawn.force_n = tool_->force_n;
-    if (operator_intent_) drawn.hand_target_mm = operator_intent_->hand_target_mm;
+    if (operator_intent_ &&
+        glm::distance(operator_intent_->hand_target_mm, drawn.position_mm) > nearest_shown_target_mm)
+        drawn.hand_target_mm = operator_intent_->hand_target_mm;
     return drawn;
 }
 
@@ -144,6 +178,7 @@ RenderReport SessionPicture::report() const {
     RenderReport report;
     report.gl_renderer = gl::renderer_name();
     if (const Bone* bone = source_.bone()) report.bone_checksum = checksum(*bone);
+    if (textures_) report.textures = textures_->plan();
     report.dirty_bricks_uploaded = dirty_bricks_uploaded_;
     report.checksum_mismatches = link_.checksum_mismatches;
     report.link_status = link_.status_line;

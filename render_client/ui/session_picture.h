@@ -8,20 +8,35 @@
 #include "render_client/ui/panels.h"
 #include "render_client/ui/report.h"
 #include "render_client/ui/session_source.h"
+#include "render_client/volume/gl/draw_timer.h"
 #include "render_client/volume/gl/offscreen_context.h"
-#include "render_client/volume/raycast_renderer.h"
+#include "render_client/volume/renderer_choice.h"
 #include "render_client/volume/scene_picture.h"
 
 namespace osteomill {
 
+enum class FrameQuality {
+    full,      ///< every frame at full quality, however long it takes
+    on_demand  ///< coarser under motion where it must be to keep the rate of frames, full soon after
+};
+
 class SessionPicture {
   public:
-    SessionPicture(SessionSource& source, Panels& panels, const glm::ivec2& size_px);
+    SessionPicture(SessionSource& source, Panels& panels, const glm::ivec2& size_px,
+                   FrameQuality quality = FrameQuality::full,
+                   RendererChoice renderer = RendererChoice::raycast, const BoneLook& look = {});
+
+    /// Of the bones that come from now on.
+    void limit_textures(const TextureLimits& limits) { texture_limits_ = limits; }
 
     /// Polls the source and brings the textures up to date.
     void take_in();
     /// Draws bone, tool and panels; leaves the framebuffer bound. `elapsed_s`: since the last frame.
     const gl::Framebuffer& draw(double elapsed_s);
+
+    /// How long the whole frame took, waiting excluded: what quality on demand goes by.
+    void frame_took(double frame_s) { picture_.frame_took(frame_s); }
+    PictureQuality quality() const { return picture_.quality(); }
 
     void resize(const glm::ivec2& size_px);
     const glm::ivec2& size_px() const { return size_px_; }
@@ -29,7 +44,11 @@ class SessionPicture {
     Camera& camera() { return camera_; }
     /// The first view again: of the tool's surroundings, or of all the bone while there is no tool.
     void reset_camera();
-    void toggle_help() { help_shown_ = !help_shown_; }
+    /// Another look takes new textures, as a new bone does; the view stays. Throws std::invalid_argument
+    /// where its transfer function is none.
+    void set_bone_look(const BoneLook& look);
+    const BoneLook& bone_look() const { return bone_look_; }
+    ViewSettings& view() { return view_; }
     void show_operator(const std::optional<OperatorIntent>& intent) { operator_intent_ = intent; }
 
     bool has_bone() const { return textures_.has_value(); }
@@ -50,20 +69,23 @@ class SessionPicture {
 
     SessionSource& source_;
     Panels& panels_;
-    RaycastRenderer renderer_;
+    std::unique_ptr<BoneRenderer> renderer_;
+    BoneLook bone_look_;
+    gl::DrawTimer draw_timer_;
     ScenePicture picture_;
     glm::ivec2 size_px_;
     Camera camera_;
     Camera first_view_;
     std::optional<BoneTextures> textures_;
+    TextureLimits texture_limits_;
     std::string bone_problem_;
     LinkUpdate link_;
     std::optional<ToolView> tool_;
     ToolHistory history_;
     std::optional<OperatorIntent> operator_intent_;
-    bool help_shown_ = false;
+    ViewSettings view_;
     double spin_rad_ = 0.0;
-    double frames_per_s_ = 0.0;
+    double frame_s_ = 0.0;  ///< between frames, in the mean over the last ten or so
     std::uint64_t dirty_bricks_uploaded_ = 0;
 };
 

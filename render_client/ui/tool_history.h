@@ -1,14 +1,14 @@
-// The last seconds of forces, for the live plot.
+// The last seconds of forces, depth and removed volume, for the live plot.
 #pragma once
 
-#include <array>
 #include <deque>
+#include <optional>
 
 #include "common/wire/tool_view.h"
 
 namespace osteomill {
 
-/// Forces of the newest frames, oldest first. A frame whose time is not later than the one before is left
+/// What the newest frames told, oldest first. A frame whose time is not later than the one before is left
 /// out; one that is earlier starts a new session and forgets what was there.
 class ToolHistory {
   public:
@@ -17,6 +17,8 @@ class ToolHistory {
     struct Sample {
         double time_s = 0.0;
         glm::dvec3 force_n{0.0};
+        std::optional<double> depth_mm{};
+        double removed_mm3 = 0.0;
     };
 
     void add(const ToolView& tool);

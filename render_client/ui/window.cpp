@@ -3,10 +3,13 @@
 #include <epoxy/gl.h>
 // GLFW comes after libepoxy, which brings OpenGL's declarations.
 #include <GLFW/glfw3.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cstdlib>
+#include <stdexcept>
 
+#include "render_client/ui/display_watch.h"
 #include "render_client/volume/gl/offscreen_context.h"
 
 namespace osteomill {
@@ -19,6 +22,18 @@ std::string last_glfw_error() {
     return description ? description : "unknown reason";
 }
 
+/// What this display offers where it is not OpenGL 3.3, in words.
+std::string offered_opengl() {
+    glfwDefaultWindowHints();
+    glfwWindowHint(GLFW_VISIBLE, GLFW_FALSE);
+    GLFWwindow* window = glfwCreateWindow(16, 16, "", nullptr, nullptr);
+    if (!window) return "the display offers no OpenGL at all (" + last_glfw_error() + ")";
+    glfwMakeContextCurrent(window);
+    const std::string found = "the display offers " + gl::renderer_name();
+    glfwDestroyWindow(window);
+    return found;
+}
+
 }  // namespace
 
 Window::Window(const glm::ivec2& size_px, const std::string& title) {
@@ -29,14 +44,16 @@ Window::Window(const glm::ivec2& size_px, const std::string& title) {
     glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 3);
     glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
     glfwWindowHint(GLFW_OPENGL_FORWARD_COMPAT, GLFW_TRUE);
+    glfwWindowHint(GLFW_CONTEXT_ROBUSTNESS, GLFW_LOSE_CONTEXT_ON_RESET);
     window_ = glfwCreateWindow(size_px.x, size_px.y, title.c_str(), nullptr, nullptr);
     if (!window_) {
-        const std::string reason = last_glfw_error();
+        const std::string found = offered_opengl();
         glfwTerminate();
-        throw gl::NoOpenGl("no OpenGL 3.3 window: " + reason +
+        throw gl::NoOpenGl("OpenGL 3.3 is needed; " + found +
                            "; install a graphics driver, or Mesa's software one: apt-get install "
                            "libgl1-mesa-dri libgl1");
     }
+    watch_display(&is_display_gone_);
     glfwMakeContextCurrent(window_);
     glfwSwapInterval(1);
     glfwSetWindowUserPointer(window_, this);
@@ -66,14 +83,23 @@ bool Window::key_down(int glfw_key) const {
     return glfwGetKey(window_, glfw_key) == GLFW_PRESS;
 }
 
-bool Window::was_pressed(int glfw_key) const {
-    return std::find(presses_.begin(), presses_.end(), glfw_key) != presses_.end();
-}
-
 glm::ivec2 Window::framebuffer_size_px() const {
     glm::ivec2 size_px(0);
     glfwGetFramebufferSize(window_, &size_px.x, &size_px.y);
     return size_px;
+}
+
+double Window::content_scale() const {
+    float scale_x = 1.0f, scale_y = 1.0f;
+    glfwGetWindowContentScale(window_, &scale_x, &scale_y);
+    return std::clamp(static_cast<double>(std::max(scale_x, scale_y)), 0.5, 4.0);
+}
+
+void Window::require_alive() const {
+    if (is_display_gone_)
+        throw std::runtime_error("the display has gone: its server ended or closed the link");
+    if (epoxy_has_gl_extension("GL_ARB_robustness") && glGetGraphicsResetStatusARB() != GL_NO_ERROR)
+        throw std::runtime_error("the graphics card was reset and the picture is lost; start again");
 }
 
 void Window::show_frame() {

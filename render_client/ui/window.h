@@ -2,6 +2,7 @@
 #pragma once
 
 #include <glm/vec2.hpp>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -21,17 +22,23 @@ class Window {
     bool focused() const;
     bool minimised() const;
     bool key_down(int glfw_key) const;
-    /// Whether a key went down since the last clear_presses(), even if it is up again by now.
-    bool was_pressed(int glfw_key) const;
+    /// The keys that went down since the last clear_presses(), even if they are up again by now.
+    std::span<const int> presses() const { return presses_; }
     void clear_presses() { presses_.clear(); }
     /// Of the picture, which on dense displays has more pixels than the window has units.
     glm::ivec2 framebuffer_size_px() const;
+    /// How many times as dense as an ordinary one the display is, in pixels of the picture.
+    double content_scale() const;
+    /// Throws std::runtime_error where the display has gone (its server ended or shut this program out) or
+    /// the graphics card was reset: nothing more can be shown.
+    void require_alive() const;
     void show_frame();
     GLFWwindow* handle() const { return window_; }
 
   private:
     GLFWwindow* window_ = nullptr;
     std::vector<int> presses_;
+    bool is_display_gone_ = false;
 };
 
 }  // namespace osteomill

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <thread>
 
+#include "render_client/ui/commands.h"
 #include "render_client/ui/operator_hand.h"
 #include "render_client/ui/screenshots.h"
 #include "render_client/ui/session_picture.h"
@@ -25,14 +26,13 @@ constexpr double orbit_rad_per_px = 0.008;
 constexpr double zoom_per_notch = 0.88;
 constexpr double advance_mm_per_s = 2.0;
 constexpr double advance_mm_per_notch = 0.1;
-constexpr double seek_s = 5.0;
+constexpr double cut_mm_per_notch = 0.5;
 /// A display without vertical synchronisation must not take the cores from a server beside it: twice the
 /// rate of its frames is smooth.
 constexpr std::chrono::milliseconds shortest_frame(16);
 
-void move_camera(SessionPicture& session, const Window& window, bool left_turns) {
+void move_camera(SessionPicture& session, float wheel_notches, bool left_turns) {
     const ImGuiIO& io = ImGui::GetIO();
-    if (window.was_pressed(GLFW_KEY_HOME)) session.reset_camera();
     if (io.WantCaptureMouse) return;  // a panel has it
     const glm::dvec2 moved_px(io.MouseDelta.x, io.MouseDelta.y);
     const bool right = io.MouseDown[ImGuiMouseButton_Right];
@@ -40,32 +40,32 @@ void move_camera(SessionPicture& session, const Window& window, bool left_turns)
         pan(session.camera(), moved_px, session.size_px());
     else if (right || (left_turns && io.MouseDown[ImGuiMouseButton_Left]))
         orbit(session.camera(), -orbit_rad_per_px * moved_px.x, orbit_rad_per_px * moved_px.y);
-    if (io.MouseWheel != 0.0f && !io.KeyCtrl) zoom(session.camera(), std::pow(zoom_per_notch, io.MouseWheel));
+    if (wheel_notches == 0.0f || io.KeyCtrl) return;
+    if (io.KeyAlt)
+        session.view().cuts.move_last(cut_mm_per_notch * wheel_notches);
+    else
+        zoom(session.camera(), std::pow(zoom_per_notch, wheel_notches));
 }
 
-void move_hand(OperatorHand& hand, const Window& window, SessionPicture& session, double elapsed_s) {
+void move_hand(OperatorHand& hand, const Window& window, SessionPicture& session, float wheel_notches,
+               double elapsed_s) {
     const ImGuiIO& io = ImGui::GetIO();
     if (!window.focused()) {
         hand.let_go();
         return;
     }
-    if (io.MouseDown[ImGuiMouseButton_Left] && (io.MouseDelta.x != 0.0f || io.MouseDelta.y != 0.0f))
-        hand.move_in_picture({io.MouseDelta.x, io.MouseDelta.y}, session.camera(), session.size_px());
-    if (io.KeyCtrl && io.MouseWheel != 0.0f) hand.advance(advance_mm_per_notch * io.MouseWheel);
+    if (!io.WantCaptureMouse) {
+        if (io.MouseDown[ImGuiMouseButton_Left] && (io.MouseDelta.x != 0.0f || io.MouseDelta.y != 0.0f))
+            hand.move_in_picture({io.MouseDelta.x, io.MouseDelta.y}, session.camera(), session.size_px());
+        if (io.KeyCtrl && wheel_notches != 0.0f) hand.advance(advance_mm_per_notch * wheel_notches);
+    }
     if (window.key_down(GLFW_KEY_W)) hand.advance(advance_mm_per_s * elapsed_s);
     if (window.key_down(GLFW_KEY_S)) hand.advance(-advance_mm_per_s * elapsed_s);
-    for (int digit = 0; digit < 9; ++digit)
-        if (window.was_pressed(GLFW_KEY_1 + digit)) hand.choose_burr(static_cast<std::size_t>(digit));
-    if (window.was_pressed(GLFW_KEY_RIGHT_BRACKET)) hand.choose_next_burr();
-    if (window.was_pressed(GLFW_KEY_LEFT_BRACKET)) hand.choose_previous_burr();
+    for (const int key : window.presses())
+        if (key >= GLFW_KEY_1 && key <= GLFW_KEY_9)
+            hand.choose_burr(static_cast<std::size_t>(key - GLFW_KEY_1));
     hand.set_pedal(window.key_down(GLFW_KEY_SPACE));
     hand.follow(*session.tool(), session.session()->burrs.size());
-}
-
-void move_player(RecordingPlayer& player, const Window& window) {
-    if (window.was_pressed(GLFW_KEY_SPACE)) player.is_playing() ? player.pause() : player.play();
-    if (window.was_pressed(GLFW_KEY_LEFT)) player.seek(player.time_s() - seek_s);
-    if (window.was_pressed(GLFW_KEY_RIGHT)) player.seek(player.time_s() + seek_s);
 }
 
 }  // namespace
@@ -75,20 +75,27 @@ RenderReport run_in_window(const RenderOptions& options, SessionSource& source,
     Window window(options.window_size_px.value_or(default_size_px), "Osteomill");
     gl::require_opengl_3_3();
     Panels panels(window.handle());
-    SessionPicture session(source, panels, window.framebuffer_size_px());
+    SessionPicture session(source, panels, window.framebuffer_size_px(), FrameQuality::on_demand,
+                           options.renderer, options.look);
+    session.limit_textures({.budget_bytes = options.texture_budget_bytes});
     OperatorHand hand;
+    session.view().theme = options.theme;
+    session.view().panels_shown = options.panels;
+    Commands commands(session, hand, source.player(), options.screenshots);
     FrameTimes frame_times;
     Screenshots screenshots(options.screenshots, screenshot_interval(options));
 
-    Clock::time_point previous = Clock::now();
+    const Clock::time_point began = Clock::now();
+    Clock::time_point previous = began;
     bool session_over = false;
     bool had_tool = false;
-    while (!window.close_asked() && !stop_asked() && !window.was_pressed(GLFW_KEY_ESCAPE) && !session_over) {
+    while (!window.close_asked() && !stop_asked() && !commands.end_wanted() && !session_over) {
         const Clock::time_point start = Clock::now();
         const double elapsed_s = std::chrono::duration<double>(start - previous).count();
         previous = start;
         window.clear_presses();
         glfwPollEvents();
+        window.require_alive();
         session.take_in();
         session_over = options.until_server_ends && session.link().status == LinkStatus::finished;
 
@@ -114,18 +121,25 @@ RenderReport run_in_window(const RenderOptions& options, SessionSource& source,
             continue;
         }
         session.resize(window.framebuffer_size_px());
+        session.view().scale = static_cast<float>(options.ui_scale.value_or(window.content_scale()));
         const gl::Framebuffer& framebuffer = session.draw(elapsed_s);
         // ImGui took the input in while the panels were drawn; it takes effect in the next frame.
-        move_camera(session, window, !drills);
-        if (drills) move_hand(hand, window, session, elapsed_s);
-        if (source.player() != nullptr) move_player(*source.player(), window);
-        if (window.was_pressed(GLFW_KEY_F1)) session.toggle_help();
+        move_camera(session, panels.wheel_notches(), !drills);
+        if (drills) move_hand(hand, window, session, panels.wheel_notches(), elapsed_s);
+        // Letters that are typed into a panel are no commands.
+        const std::span<const int> presses =
+            ImGui::GetIO().WantTextInput ? std::span<const int>() : window.presses();
+        for (const Action action : actions_of(presses, situation_of(drills, source.player() != nullptr)))
+            commands.take(action);
+        commands.write_pictures(framebuffer, std::chrono::duration<double>(start - began).count());
 
         if (session.has_bone()) screenshots.after_frame(framebuffer);
         if (session_over) screenshots.after_last_frame(framebuffer);
         framebuffer.copy_colour_to_window();
         window.show_frame();
-        frame_times.add(std::chrono::duration<double, std::milli>(Clock::now() - start).count());
+        const double took_s = std::chrono::duration<double>(Clock::now() - start).count();
+        session.frame_took(took_s);
+        frame_times.add(1e3 * took_s);
         std::this_thread::sleep_until(start + shortest_frame);
     }
     RenderReport report = session.report();

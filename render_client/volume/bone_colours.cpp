@@ -10,23 +10,18 @@ namespace {
 
 using Srgb = std::array<std::uint8_t, 3>;
 
-struct ColourKnot {
-    double relative_stiffness;
-    Srgb srgb;
-};
-
 // Relative stiffness 1 is the cortical bone of the burr's coefficients; trabecular bone lies around a tenth
 // of it, enamel above twice.
-constexpr std::array<ColourKnot, 5> stiffness_knots{{{0.0, {150, 84, 62}},
-                                                     {0.15, {196, 134, 100}},
-                                                     {0.5, {226, 197, 156}},
-                                                     {1.0, {238, 222, 190}},
-                                                     {2.5, {248, 246, 238}}}};
+constexpr std::array<StiffnessColour, 5> stiffness_knots{{{0.0, {150, 84, 62}},
+                                                          {0.15, {196, 134, 100}},
+                                                          {0.5, {226, 197, 156}},
+                                                          {1.0, {238, 222, 190}},
+                                                          {2.5, {248, 246, 238}}}};
 
 glm::vec3 colour_of_stiffness(double relative_stiffness) {
     for (std::size_t knot = 1; knot < stiffness_knots.size(); ++knot) {
-        const ColourKnot& low = stiffness_knots[knot - 1];
-        const ColourKnot& high = stiffness_knots[knot];
+        const StiffnessColour& low = stiffness_knots[knot - 1];
+        const StiffnessColour& high = stiffness_knots[knot];
         if (relative_stiffness > high.relative_stiffness) continue;
         const double part = (relative_stiffness - low.relative_stiffness) /
                             (high.relative_stiffness - low.relative_stiffness);
@@ -56,6 +51,10 @@ ColourTable colours_by_tissue(std::span<const TissueColour> tissues) {
     table.fill(plain_bone_colour());
     for (const TissueColour& tissue : tissues) table[tissue.label] = linear_from_srgb(tissue.srgb);
     return table;
+}
+
+std::span<const StiffnessColour> stiffness_colours() {
+    return stiffness_knots;
 }
 
 ColourTable colours_by_stiffness(double stiffness_per_code) {

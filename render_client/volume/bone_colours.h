@@ -14,6 +14,14 @@ using ColourTable = std::array<glm::vec3, 256>;
 struct TissueColour {
     std::uint8_t label = 0;
     std::array<std::uint8_t, 3> srgb{};
+    /// Light that a millimetre of it takes away: 1 is solid, 0 hides it.
+    double opacity = 1.0;
+};
+
+/// Colour of bone of a stiffness.
+struct StiffnessColour {
+    double relative_stiffness = 0.0;
+    std::array<std::uint8_t, 3> srgb{};
 };
 
 /// sRGB (IEC 61966-2-1) to linear light.
@@ -24,6 +32,9 @@ glm::vec3 plain_bone_colour();
 
 /// Colours by label; labels without a colour look like plain bone.
 ColourTable colours_by_tissue(std::span<const TissueColour> tissues);
+
+/// The knots between which bone is coloured by stiffness, ascending.
+std::span<const StiffnessColour> stiffness_colours();
 
 /// Colours by stiffness code: spongy bone reddish brown, dentine and cortical bone ivory, enamel near white.
 ColourTable colours_by_stiffness(double stiffness_per_code);

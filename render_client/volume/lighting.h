@@ -1,11 +1,26 @@
 // Lights fixed to the scene: a key light from the front, above and to the left of the viewer's usual place, a
-// weaker fill light opposite, and an ambient light that is brighter from above. Diffuse only.
+// weaker fill light opposite, and an ambient light that is brighter from above. Diffuse only. And what is
+// behind. Once for the shaders, once for what is lit on the CPU; tests hold the two together.
 #pragma once
+
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
 
 namespace osteomill {
 
-/// GLSL: `vec3 lit(vec3 colour, vec3 normal, float openness)`, all linear RGB and patient axes, where
-/// openness (0 to 1) is how much of the ambient light gets there; and `vec3 display(vec3 linear)`, to sRGB.
+/// Light that a surface sends back, linear RGB. `normal` is unit, patient axes; `openness` (0 to 1) is how
+/// much of the ambient light gets there.
+glm::dvec3 lit(const glm::dvec3& colour, const glm::dvec3& normal, double openness);
+
+/// Linear RGB, clamped to 0 to 1, as the display takes it, 0 to 1.
+glm::dvec3 display(const glm::dvec3& linear);
+
+/// What is behind the bone in a SceneLook's own colours, linear RGB; `place` is 0 to 1 from the picture's
+/// lower left corner. Its GLSL is part of look_glsl.
+glm::dvec3 background_at(const glm::dvec2& place);
+
+/// GLSL: the same functions in float: `vec3 lit(vec3 colour, vec3 normal, float openness)` and
+/// `vec3 display(vec3 linear)`.
 inline constexpr const char* lighting_glsl = R"glsl(
 const vec3 key_direction = vec3(-0.4364, -0.5455, 0.7155);
 const vec3 fill_direction = vec3(0.8944, -0.2236, 0.3873);

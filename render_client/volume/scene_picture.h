@@ -1,51 +1,49 @@
-// The picture of one moment: bone, tool, force. The bone's layer is kept, and drawn again only when camera,
-// size or bone change; after a carve under a still camera only where the carve can be seen.
+// The picture of one moment: bone, tool, force. The bone is a layer of its own (see BoneLayer); what the tool
+// and an overlay covered in one frame is restored from it in the next, and nothing else is copied.
 #pragma once
 
-#include <optional>
 #include <span>
 
-#include "render_client/volume/bone_renderer.h"
-#include "render_client/volume/gl/framebuffer.h"
+#include "render_client/volume/bone_layer.h"
+#include "render_client/volume/contact_shadow.h"
 #include "render_client/volume/tool_renderer.h"
 
 namespace osteomill {
 
 class ScenePicture {
   public:
-    ScenePicture(BoneRenderer& renderer, const glm::ivec2& size_px);
+    /// `stopwatch` makes it draw on demand, at whatever quality keeps the rate of frames; null: always in
+    /// full. Renderer and stopwatch must outlive it.
+    ScenePicture(BoneRenderer& renderer, const glm::ivec2& size_px, Stopwatch* stopwatch = nullptr);
 
     /// Sizes of less than one pixel count as one.
     void resize(const glm::ivec2& size_px);
+    /// Cuts and background, from the next draw on.
+    void set_look(const SceneLook& look) { layer_.set_look(look); }
     /// The bone was replaced: its layer is drawn anew.
-    void forget_bone();
+    void forget_bone() { layer_.forget(); }
     /// These bricks changed since the last draw.
-    void mark_dirty(const BoneTextures& bone, std::span<const BrickIndex> bricks);
+    void mark_dirty(const BoneTextures& bone, std::span<const BrickIndex> bricks) {
+        layer_.mark_dirty(bone, bricks);
+    }
 
     /// Draws into its own framebuffer and leaves it bound, so that an overlay may follow. Null: there is no
     /// bone, or no tool, yet.
     const gl::Framebuffer& draw(const BoneTextures* bone, const DrawnTool* tool, const Camera& camera);
+    /// What an overlay drew over, after draw: without this call it would stay in the next frame.
+    void cover(std::span<const PixelBox> boxes);
 
-    const glm::ivec2& size_px() const { return layer_.size_px(); }
+    /// How long the whole frame took, waiting excluded.
+    void frame_took(double frame_s) { layer_.frame_took(frame_s); }
+    PictureQuality quality() const { return layer_.quality(); }
+    const glm::ivec2& size_px() const { return picture_.size_px(); }
 
   private:
-    void draw_layer(const BoneTextures& bone, const Camera& camera);
-
-    BoneRenderer& renderer_;
+    BoneLayer layer_;
     ToolRenderer tool_renderer_;
-    gl::Framebuffer layer_;
+    ContactShadow contact_shadow_;
     gl::Framebuffer picture_;
-    std::optional<Camera> layer_camera_;  ///< none: the layer is stale everywhere
-    std::vector<VoxelBox> dirty_;         ///< voxels of the bone's grid
+    TileMask covered_;  ///< where the picture does not show the layer
 };
-
-/// Pixels (from the lower left corner, as glScissor counts) that can show a box of patient space; none where
-/// it reaches behind the camera and could be anywhere.
-struct PixelBox {
-    glm::ivec2 first{0};
-    glm::ivec2 size{0};
-};
-std::optional<PixelBox> pixels_of_box(const Camera& camera, const glm::dvec3& low_mm,
-                                      const glm::dvec3& high_mm, const glm::ivec2& size_px);
 
 }  // namespace osteomill

@@ -2,13 +2,13 @@
 // ghost. All are meshes, tested against the depth that the bone left.
 #pragma once
 
-#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <optional>
 
 #include "render_client/volume/camera.h"
 #include "render_client/volume/gl/mesh.h"
 #include "render_client/volume/gl/program.h"
+#include "render_client/volume/tile_mask.h"
 #include "render_client/volume/tool_shape.h"
 
 namespace osteomill {
@@ -25,16 +25,24 @@ struct DrawnTool {
 
 /// Length of the force arrow.
 inline constexpr double arrow_mm_per_n = 4.0;
+/// Less force than this shows no arrow.
+inline constexpr double shortest_arrow_n = 0.02;
 
 class ToolRenderer {
   public:
     ToolRenderer();
-    /// Draws over the bound framebuffer, whose depth is that of Camera::projection.
-    void draw(const DrawnTool& tool, const Camera& camera, const glm::ivec2& size_px);
+    /// Draws over the bound framebuffer, whose depth is that of Camera::projection and whose size that of the
+    /// mask; marks the tiles that it may have drawn into.
+    void draw(const DrawnTool& tool, const Camera& camera, TileMask& covered);
 
   private:
+    struct Finish {
+        float opacity = 1.0f;
+        float polish = 0.0f;  ///< 0 matt, 1 steel
+    };
+    /// The program must be in use.
     void draw_mesh(const gl::Mesh& mesh, const glm::dmat4& model, const glm::dmat4& view_projection,
-                   float opacity) const;
+                   const Finish& finish, TileMask& covered) const;
 
     gl::Program program_;
     gl::Mesh arrow_;

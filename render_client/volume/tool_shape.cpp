@@ -66,8 +66,10 @@ struct Station {
     double radius;
 };
 
+using ColourRound = std::function<glm::vec3(double angle_rad)>;
+
 /// A body of revolution; each pair of stations is a band of its own, so that edges between bands stay sharp.
-Triangles lathe(const std::vector<Station>& stations, const glm::vec3& colour) {
+Triangles lathe(const std::vector<Station>& stations, const ColourRound& colour) {
     Triangles body;
     for (std::size_t band = 0; band + 1 < stations.size(); ++band) {
         Triangles part = wrap(2, 32, [&](int row, double angle_rad) {
@@ -75,12 +77,17 @@ Triangles lathe(const std::vector<Station>& stations, const glm::vec3& colour) {
             return Vertex{
                 {station.radius * std::cos(angle_rad), station.radius * std::sin(angle_rad), station.z},
                 {},
-                colour};
+                colour(angle_rad)};
         });
         smooth_normals(part);
         append(body, part);
     }
     return body;
+}
+
+/// A smooth shank would not show that it turns: two dark marks do, also while the burr is out of sight.
+glm::vec3 marked_shank(double angle_rad) {
+    return std::abs(std::sin(angle_rad)) < 0.35 ? groove_steel : shank_steel;
 }
 
 /// 1 at the bottom of a flute, 0 on the land between two. Flutes wind round the axis and fade at the tip.
@@ -121,12 +128,13 @@ Triangles burr_and_shank(const BurrShape& burr) {
                         {taper_end, shank},
                         {taper_end + shank_length_mm, shank},
                         {taper_end + shank_length_mm, 0.0}},
-                       shank_steel));
+                       marked_shank));
     return tool;
 }
 
 Triangles unit_arrow(const glm::vec3& linear_rgb) {
-    return lathe({{0.0, 0.0}, {0.0, 0.03}, {0.72, 0.03}, {0.72, 0.085}, {1.0, 0.0}}, linear_rgb);
+    return lathe({{0.0, 0.0}, {0.0, 0.03}, {0.72, 0.03}, {0.72, 0.085}, {1.0, 0.0}},
+                 [&](double) { return linear_rgb; });
 }
 
 Triangles unit_sphere(const glm::vec3& linear_rgb) {

@@ -16,11 +16,18 @@ struct VoxelBox {
     std::size_t count() const { return static_cast<std::size_t>(size.x) * size.y * size.z; }
 };
 
+/// The bricks' box in voxels of their grid; empty for no bricks.
+VoxelBox box_of_bricks(const glm::ivec3& size_bricks, std::span<const BrickIndex> bricks);
+
 /// Whole bricks that enclose every stored brick, in voxels of the bone's grid; empty for a bone without
 /// bricks.
 VoxelBox stored_box(const BoneContent& content);
 
 enum class BoneChannel { fraction, stiffness, tissue };
+
+/// A channel of a stored brick, one byte a voxel. The bone must have the channel.
+std::span<const std::uint8_t, brick_voxel_count> channel_of_slot(const Bone& bone, BoneChannel channel,
+                                                                 std::int32_t slot);
 
 /// Copies a channel within `box` (which may reach past the grid) into `voxels`, x fastest; zero where no
 /// brick is stored. The bone must have the channel.

@@ -8,21 +8,24 @@ namespace osteomill::gl {
 
 namespace {
 
-GLuint make_attachment(const glm::ivec2& size_px, GLint internal_format, GLenum format, GLenum type) {
+GLuint make_attachment(const glm::ivec2& size_px, GLint internal_format, GLenum format, GLenum type,
+                       GLint filter) {
     GLuint id = 0;
     glGenTextures(1, &id);
     glBindTexture(GL_TEXTURE_2D, id);
     glTexImage2D(GL_TEXTURE_2D, 0, internal_format, size_px.x, size_px.y, 0, format, type, nullptr);
-    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
-    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, filter);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, filter);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
     return id;
 }
 
 }  // namespace
 
 Framebuffer::Framebuffer(const glm::ivec2& size_px) : size_px_(size_px) {
-    colour_ = make_attachment(size_px, GL_RGBA8, GL_RGBA, GL_UNSIGNED_BYTE);
-    depth_ = make_attachment(size_px, GL_DEPTH_COMPONENT32F, GL_DEPTH_COMPONENT, GL_FLOAT);
+    colour_ = make_attachment(size_px, GL_RGBA8, GL_RGBA, GL_UNSIGNED_BYTE, GL_LINEAR);
+    depth_ = make_attachment(size_px, GL_DEPTH_COMPONENT32F, GL_DEPTH_COMPONENT, GL_FLOAT, GL_NEAREST);
     glGenFramebuffers(1, &id_);
     glBindFramebuffer(GL_FRAMEBUFFER, id_);
     glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, colour_, 0);
@@ -63,10 +66,11 @@ void Framebuffer::bind() const {
     glViewport(0, 0, size_px_.x, size_px_.y);
 }
 
-void Framebuffer::copy_to(const Framebuffer& target) const {
+void Framebuffer::copy_to(const Framebuffer& target, const PixelBox& box) const {
+    const glm::ivec2 end = box.first + box.size;
     glBindFramebuffer(GL_READ_FRAMEBUFFER, id_);
     glBindFramebuffer(GL_DRAW_FRAMEBUFFER, target.id_);
-    glBlitFramebuffer(0, 0, size_px_.x, size_px_.y, 0, 0, size_px_.x, size_px_.y,
+    glBlitFramebuffer(box.first.x, box.first.y, end.x, end.y, box.first.x, box.first.y, end.x, end.y,
                       GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT, GL_NEAREST);
 }
 
@@ -76,6 +80,13 @@ void Framebuffer::copy_colour_to_window() const {
     glBlitFramebuffer(0, 0, size_px_.x, size_px_.y, 0, 0, size_px_.x, size_px_.y, GL_COLOR_BUFFER_BIT,
                       GL_NEAREST);
     glBindFramebuffer(GL_FRAMEBUFFER, 0);
+}
+
+void Framebuffer::bind_textures(int unit) const {
+    glActiveTexture(GL_TEXTURE0 + static_cast<GLenum>(unit));
+    glBindTexture(GL_TEXTURE_2D, colour_);
+    glActiveTexture(GL_TEXTURE0 + static_cast<GLenum>(unit + 1));
+    glBindTexture(GL_TEXTURE_2D, depth_);
 }
 
 Picture Framebuffer::read_back() const {

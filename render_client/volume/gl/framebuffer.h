@@ -6,6 +6,7 @@
 #include <glm/vec2.hpp>
 
 #include "render_client/volume/picture.h"
+#include "render_client/volume/pixel_box.h"
 
 namespace osteomill::gl {
 
@@ -19,10 +20,13 @@ class Framebuffer {
 
     /// Draw calls that follow land here; the viewport becomes the whole picture.
     void bind() const;
-    /// glBlitFramebuffer of colour and depth; sizes must be equal.
-    void copy_to(const Framebuffer& target) const;
+    /// glBlitFramebuffer of colour and depth within a box; sizes must be equal.
+    void copy_to(const Framebuffer& target, const PixelBox& box) const;
     /// glBlitFramebuffer of colour to the window's framebuffer, lower left corners together.
     void copy_colour_to_window() const;
+    /// Binds the colour, read between pixels by linear interpolation, to GL_TEXTURE0 + unit, and the depth,
+    /// not interpolated, to the next unit.
+    void bind_textures(int unit) const;
     /// glReadPixels of the colour; the first row is the top one.
     Picture read_back() const;
     /// Depth (0 near to 1 far) of a pixel counted from the lower left corner.

@@ -4,10 +4,10 @@
 
 namespace osteomill::gl {
 
-LookupTable::LookupTable(const std::array<glm::vec3, 256>& linear_rgb_by_code) {
+LookupTable::LookupTable(const std::array<glm::vec4, 256>& look_by_code) {
     glGenTextures(1, &id_);
     glBindTexture(GL_TEXTURE_2D, id_);
-    glTexImage2D(GL_TEXTURE_2D, 0, GL_RGB32F, 256, 1, 0, GL_RGB, GL_FLOAT, linear_rgb_by_code.data());
+    glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA32F, 256, 1, 0, GL_RGBA, GL_FLOAT, look_by_code.data());
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
 }

@@ -1,17 +1,19 @@
-// A table of 256 colours in a texture of 256 x 1 texels: what a byte code looks like. A move-only value.
+// A table of 256 colours and opacities in a texture of 256 x 1 texels: what a byte code looks like. A
+// move-only value.
 #pragma once
 
 #include <epoxy/gl.h>
 
 #include <array>
-#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
 
 namespace osteomill::gl {
 
 class LookupTable {
   public:
-    /// Linear RGB by code, stored as GL_RGB32F; read by texelFetch(sampler2D, ivec2(code, 0), 0).
-    explicit LookupTable(const std::array<glm::vec3, 256>& linear_rgb_by_code);
+    /// Linear RGB and opacity by code, stored as GL_RGBA32F; read by texelFetch(sampler2D, ivec2(code, 0),
+    /// 0).
+    explicit LookupTable(const std::array<glm::vec4, 256>& look_by_code);
     LookupTable(LookupTable&& other) noexcept;
     LookupTable& operator=(LookupTable&& other) noexcept;
     ~LookupTable();

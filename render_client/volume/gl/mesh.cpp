@@ -1,6 +1,7 @@
 #include "render_client/volume/gl/mesh.h"
 
 #include <cstddef>
+#include <glm/common.hpp>
 #include <utility>
 
 namespace osteomill::gl {
@@ -17,6 +18,11 @@ void set_attribute(GLuint index, std::size_t offset) {
 }  // namespace
 
 Mesh::Mesh(const Triangles& triangles) : index_count_(static_cast<GLsizei>(triangles.indices.size())) {
+    if (!triangles.vertices.empty()) low_ = high_ = triangles.vertices.front().position;
+    for (const Vertex& vertex : triangles.vertices) {
+        low_ = glm::min(low_, vertex.position);
+        high_ = glm::max(high_, vertex.position);
+    }
     glGenVertexArrays(1, &array_);
     glGenBuffers(1, &vertices_);
     glGenBuffers(1, &indices_);
@@ -38,13 +44,17 @@ Mesh::Mesh(Mesh&& other) noexcept
     : array_(std::exchange(other.array_, 0)),
       vertices_(std::exchange(other.vertices_, 0)),
       indices_(std::exchange(other.indices_, 0)),
-      index_count_(other.index_count_) {}
+      index_count_(other.index_count_),
+      low_(other.low_),
+      high_(other.high_) {}
 
 Mesh& Mesh::operator=(Mesh&& other) noexcept {
     std::swap(array_, other.array_);
     std::swap(vertices_, other.vertices_);
     std::swap(indices_, other.indices_);
     std::swap(index_count_, other.index_count_);
+    std::swap(low_, other.low_);
+    std::swap(high_, other.high_);
     return *this;
 }
 

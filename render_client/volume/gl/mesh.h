@@ -16,12 +16,17 @@ class Mesh {
     ~Mesh();
 
     void draw() const;
+    /// Opposite corners of the box round all vertices.
+    const glm::vec3& low() const { return low_; }
+    const glm::vec3& high() const { return high_; }
 
   private:
     GLuint array_ = 0;
     GLuint vertices_ = 0;
     GLuint indices_ = 0;
     GLsizei index_count_ = 0;
+    glm::vec3 low_{0.0f};
+    glm::vec3 high_{0.0f};
 };
 
 }  // namespace osteomill::gl

@@ -47,6 +47,23 @@ EGLContext make_context(EGLDisplay display) {
     return eglCreateContext(display, config, EGL_NO_CONTEXT, context_wish.data());
 }
 
+/// What EGL offers where it is not OpenGL 3.3, in words.
+std::string offered_opengl(EGLDisplay display) {
+    constexpr std::array<EGLint, 3> config_wish{EGL_SURFACE_TYPE, 0, EGL_NONE};
+    EGLConfig config = nullptr;
+    EGLint configs = 0;
+    if (!eglChooseConfig(display, config_wish.data(), &config, 1, &configs) || configs < 1)
+        return "EGL offers no OpenGL at all";
+    EGLContext context = eglCreateContext(display, config, EGL_NO_CONTEXT, nullptr);
+    if (context == EGL_NO_CONTEXT) return "EGL offers no OpenGL at all";
+    std::string found = "EGL offers an OpenGL that needs a surface";
+    if (eglMakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, context))
+        found = "EGL offers " + renderer_name();
+    eglMakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
+    eglDestroyContext(display, context);
+    return found;
+}
+
 }  // namespace
 
 OffscreenContext::OffscreenContext() {
@@ -54,8 +71,9 @@ OffscreenContext::OffscreenContext() {
     display_ = surfaceless_display();
     context_ = make_context(display_);
     if (context_ == EGL_NO_CONTEXT) {
+        const std::string found = offered_opengl(display_);
         eglTerminate(display_);
-        fail("EGL makes no OpenGL 3.3 core context");
+        fail(found);
     }
     if (!eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, context_)) {
         eglDestroyContext(display_, context_);

@@ -2,8 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <stdexcept>
+#include <vector>
 
 #include "common/scene/scene_file.h"
 
@@ -82,6 +85,25 @@ TEST(CubePhantom, IsHomogeneousWithItsTopAtZero) {
     };
     EXPECT_EQ(at(-0.04), 255);
     EXPECT_EQ(at(0.06), 0);
+}
+
+/// CIE L*, 0 to 100, of an sRGB colour.
+double lightness(const std::array<std::uint8_t, 3>& srgb) {
+    const std::array<double, 3> weights{0.2126, 0.7152, 0.0722};
+    double luminance = 0.0;
+    for (std::size_t i = 0; i < 3; ++i) {
+        const double value = srgb[i] / 255.0;
+        luminance += weights[i] * (value <= 0.04045 ? value / 12.92 : std::pow((value + 0.055) / 1.055, 2.4));
+    }
+    return luminance > 0.008856 ? 116.0 * std::cbrt(luminance) - 16.0 : 903.3 * luminance;
+}
+
+TEST(PhantomScenes, GiveTissuesColoursThatDifferInLightness) {
+    std::vector<double> lightnesses;
+    for (const Tissue& tissue : phantom_scene("tooth").tissues)
+        lightnesses.push_back(lightness(tissue.colour_rgb));
+    std::sort(lightnesses.begin(), lightnesses.end());
+    for (std::size_t i = 1; i < lightnesses.size(); ++i) EXPECT_GE(lightnesses[i] - lightnesses[i - 1], 6.0);
 }
 
 TEST(PhantomScenes, AreTheOnesThatAreShippedAsFiles) {

@@ -227,6 +227,8 @@ TEST(HapticLoop, MeasuresDepthFromWhereTheBurrFirstMetBone) {
     tick_at(5.0, 0.0);
     tick_at(4.0, 0.1);  // contact
     tick_at(3.5, 0.2);
+    bench.tool.refresh();
+    EXPECT_DOUBLE_EQ(bench.tool.front().depth_mm, 0.5) << "what clients are told";
     log.close();
     std::FILE* in = std::fopen(file.c_str(), "r");
     ASSERT_NE(in, nullptr);

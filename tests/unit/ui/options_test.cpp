@@ -28,10 +28,25 @@ TEST(Options, WorkWithAServerOnThisMachineByDefault) {
     EXPECT_FALSE(result.options.offscreen);
 }
 
+TEST(Options, ChooseRendererShadingAndTransferFunctionByName) {
+    EXPECT_EQ(parsed({}).options.renderer, RendererChoice::raycast);
+    EXPECT_EQ(parsed({}).options.look, BoneLook{});
+    const ParsedOptions result =
+        parsed({"--renderer", "slices", "--shading", "surface-voxels", "--transfer", "tooth"});
+    ASSERT_FALSE(result.no_run.has_value()) << result.no_run->message;
+    EXPECT_EQ(result.options.renderer, RendererChoice::slices);
+    EXPECT_EQ(result.options.look.shading, Shading::surface_voxels);
+    ASSERT_TRUE(result.options.look.transfer.has_value());
+    EXPECT_EQ(result.options.look.transfer->name, "tooth");
+    expect_refused({"--renderer", "rasterise"}, "--renderer: is 'rasterise', not one of raycast, slices");
+    expect_refused({"--shading", "flat"}, "surface-voxels");
+    expect_refused({"--transfer", "skin"}, "ct-window");
+}
+
 TEST(Options, TakeEverythingOfAnOffscreenRun) {
     const ParsedOptions result =
         parsed({"--connect", "[::1]:7011", "--offscreen", "--frames", "12", "--screenshots", "shots",
-                "--screenshot-every", "3", "--window-size", "320x200", "--json", "out.json"});
+                "--screenshot-every", "3", "--window-size", "320x200", "--texture-budget-mib", "64", "--json", "out.json"});
     ASSERT_FALSE(result.no_run.has_value()) << result.no_run->message;
     EXPECT_EQ(result.options.host, "::1");
     EXPECT_EQ(result.options.port, 7011);
@@ -39,7 +54,20 @@ TEST(Options, TakeEverythingOfAnOffscreenRun) {
     EXPECT_EQ(result.options.screenshots, "shots");
     EXPECT_EQ(result.options.screenshot_every, 3);
     EXPECT_EQ(result.options.window_size_px, glm::ivec2(320, 200));
+    EXPECT_EQ(result.options.texture_budget_bytes, std::size_t{64} << 20U);
     EXPECT_EQ(result.options.json, "out.json");
+}
+
+TEST(Options, SetTheView) {
+    const ParsedOptions result = parsed({"--theme", "light", "--ui-scale", "1.5", "--no-panels"});
+    ASSERT_FALSE(result.no_run.has_value()) << result.no_run->message;
+    EXPECT_EQ(result.options.theme, ThemeName::light);
+    EXPECT_EQ(result.options.ui_scale, 1.5);
+    EXPECT_FALSE(result.options.panels);
+    EXPECT_EQ(parsed({}).options.theme, ThemeName::dark);
+    EXPECT_TRUE(parsed({}).options.panels);
+    expect_refused({"--theme", "pink"}, "--theme");
+    expect_refused({"--ui-scale", "9"}, "--ui-scale");
 }
 
 TEST(Options, RefuseInOneLineThatNamesWhatIsWrong) {

@@ -26,7 +26,9 @@ class PlaybackPanel : public ::testing::Test {
     void draw() {
         ImGui::GetIO().DeltaTime = 1.0f / 60.0f;
         ImGui::NewFrame();
-        draw_playback_panel(player_, size_px_);
+        const PanelPainter painter(theme_of(ThemeName::dark), 1.0f);
+        const glm::vec2 size = playback_panel_size(painter, glm::vec2(size_px_));
+        draw_playback_panel(player_, {{12.0f, static_cast<float>(size_px_.y) - 12.0f - size.y}, size});
         ImGui::EndFrame();
     }
     /// Presses and lets go of the left button at a part of the picture's width, in the panel's row.

@@ -21,6 +21,16 @@ TEST(ToolHistory, KeepsTheLastSecondsAndNoFrameTwice) {
     EXPECT_EQ(history.samples().front().time_s, 20.0);
 }
 
+TEST(ToolHistory, KeepsWhatThePlotsShow) {
+    ToolHistory history;
+    history.add(ToolView{.time_s = 1.0, .force_n = {1, 2, 3}, .removed_mm3 = 4.0, .depth_mm = 0.5});
+    history.add(at_time(1.1));
+    EXPECT_EQ(history.samples().front().force_n, glm::dvec3(1, 2, 3));
+    EXPECT_EQ(history.samples().front().removed_mm3, 4.0);
+    EXPECT_EQ(history.samples().front().depth_mm, 0.5);
+    EXPECT_EQ(history.samples().back().depth_mm, std::nullopt) << "a server that does not say";
+}
+
 TEST(ToolHistory, StartsAnewWithANewSession) {
     ToolHistory history;
     history.add(at_time(5.0));

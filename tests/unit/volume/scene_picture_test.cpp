@@ -1,5 +1,9 @@
 #include "render_client/volume/scene_picture.h"
 
+#include <array>
+#include <cmath>
+
+#include "render_client/volume/pixel_box.h"
 #include "render_client/volume/raycast_renderer.h"
 #include "tests/unit/volume/made_bone.h"
 #include "tests/unit/volume/offscreen_test.h"
@@ -39,21 +43,115 @@ TEST_F(ScenePictureTest, HidesTheToolBehindBoneAndShowsItInFront) {
     EXPECT_NE(middle(picture.draw(&textures, &in_front, camera).read_back()), middle(bone_alone));
 }
 
+/// A hilly slab as wide as the grid, so that walls shade each other.
+Bone hills() {
+    return made_bone(grid, [](const glm::dvec3& p) {
+        return 1.0 + 0.8 * std::sin(2.0 * p.x) * std::cos(1.7 * p.y) - p.z;
+    });
+}
+
+/// Passes everything on and counts the pixels that it was asked for.
+class CountingRenderer final : public BoneRenderer {
+  public:
+    void draw(const BoneTextures& bone, const Camera& camera, const glm::ivec2& size) override {
+        std::array<GLint, 4> scissor{};
+        glGetIntegerv(GL_SCISSOR_BOX, scissor.data());
+        const bool whole = glIsEnabled(GL_SCISSOR_TEST) == GL_FALSE;
+        pixels += whole ? size.x * size.y : scissor[2] * scissor[3];
+        renderer_.draw(bone, camera, size);
+    }
+    std::int64_t pixels = 0;
+
+  private:
+    RaycastRenderer renderer_;
+};
+
 TEST_F(ScenePictureTest, RedrawsUnderAStillCameraWhatAFullDrawWouldShow) {
-    Bone bone = ball();
+    Bone bone = hills();
     BoneTextures textures(bone, {});
+    CountingRenderer renderer;
+    ScenePicture kept(renderer, size_px);
+    // From afar, aslant, and from so near that the bone reaches behind the eye.
+    const std::array<Camera, 3> cameras{
+        camera_on({0.0, 0.0, 0.0}, 5.0),
+        Camera{.distance_mm = 14.0, .azimuth_rad = 2.0, .elevation_rad = 0.3, .near_mm = 0.1},
+        Camera{.distance_mm = 3.0, .elevation_rad = 0.6, .near_mm = 0.1}};
+    for (std::size_t view = 0; view < cameras.size(); ++view) {
+        kept.draw(&textures, nullptr, cameras[view]);
+        for (int carve = 0; carve < 5; ++carve) {
+            const auto step = static_cast<double>(5 * view + static_cast<std::size_t>(carve));
+            std::vector<BrickIndex> dirty;
+            for (const double side : {-1.0, 1.0})  // two at once, far apart
+                for (const BrickIndex brick :
+                     carve_sphere(bone, {side * 3.0, -2.5 + 0.3 * step, 1.6 + 0.1 * side}, 0.5))
+                    dirty.push_back(brick);
+            textures.update(bone, dirty);
+            kept.mark_dirty(textures, dirty);
+            ScenePicture fresh(renderer, size_px);
+            EXPECT_EQ(kept.draw(&textures, nullptr, cameras[view]).read_back(),
+                      fresh.draw(&textures, nullptr, cameras[view]).read_back())
+                << "view " << view << ", carve " << carve;
+        }
+    }
+}
+
+TEST_F(ScenePictureTest, DrawsSeparateCarvesAndNotWhatLiesBetween) {
+    const Grid long_grid{.size_voxels = {480, 32, 32}, .origin_mm = {-23.95, -1.55, -1.55}};
+    Bone bone = made_bone(long_grid, [](const glm::dvec3& p) { return -p.z; });
+    BoneTextures textures(bone, {});
+    CountingRenderer renderer;
+    ScenePicture picture(renderer, size_px);
+    const Camera camera{.distance_mm = 50.0, .elevation_rad = 1.0};
+    picture.draw(&textures, nullptr, camera);
+    const std::int64_t whole = renderer.pixels;
+    std::vector<BrickIndex> dirty;
+    for (const double x : {-21.0, 21.0})
+        for (const BrickIndex brick : carve_sphere(bone, {x, 0.0, 0.0}, 0.4)) dirty.push_back(brick);
+    textures.update(bone, dirty);
+    picture.mark_dirty(textures, dirty);
+    renderer.pixels = 0;
+    picture.draw(&textures, nullptr, camera);
+    EXPECT_GT(renderer.pixels, 0);
+    EXPECT_LT(renderer.pixels, whole / 5);  // their union is as wide as the picture
+    renderer.pixels = 0;
+    picture.draw(&textures, nullptr, camera);
+    EXPECT_EQ(renderer.pixels, 0) << "nothing changed";
+}
+
+TEST_F(ScenePictureTest, RestoresWhatToolAndOverlayCovered) {
+    const BoneTextures textures(ball(), {});
     RaycastRenderer renderer;
     ScenePicture kept(renderer, size_px);
-    const Camera camera = camera_on({0.0, 0.0, 0.0}, 5.0);
-    kept.draw(&textures, nullptr, camera);
-    for (const double x : {-0.5, 0.0, 0.6}) {
-        const auto dirty = carve_sphere(bone, {x, -1.0, 2.4}, 0.8);
-        textures.update(bone, dirty);
-        kept.mark_dirty(textures, dirty);
+    const Camera camera = camera_on({0.0, 0.0, 0.0}, 6.0);
+    for (const double x : {-3.0, -2.6, 3.0, 40.0}) {
+        DrawnTool tool = burr_at({x, -1.0, 2.9});
+        tool.spindle_axis = glm::normalize(glm::dvec3(0.5, 0.1, 1.0));
+        tool.force_n = {0.3, -0.4, 0.2 * x};
+        tool.hand_target_mm = glm::dvec3(x, 0.0, 3.4);
         ScenePicture fresh(renderer, size_px);
-        EXPECT_EQ(kept.draw(&textures, nullptr, camera).read_back(),
-                  fresh.draw(&textures, nullptr, camera).read_back());
+        EXPECT_EQ(kept.draw(&textures, &tool, camera).read_back(),
+                  fresh.draw(&textures, &tool, camera).read_back())
+            << x;
+        // An overlay that is only there until the next frame.
+        const PixelBox box{{static_cast<int>(10.0 + std::abs(x)), 20}, {50, 33}};
+        kept.draw(&textures, &tool, camera);
+        glEnable(GL_SCISSOR_TEST);
+        glScissor(box.first.x, box.first.y, box.size.x, box.size.y);
+        glClearColor(1.0f, 0.0f, 1.0f, 1.0f);
+        glClear(GL_COLOR_BUFFER_BIT);
+        glDisable(GL_SCISSOR_TEST);
+        kept.cover(std::array{box});
     }
+}
+
+TEST_F(ScenePictureTest, ShowsBoneAgainAfterAPictureWithoutIt) {
+    const BoneTextures textures(ball(), {});
+    RaycastRenderer renderer;
+    ScenePicture picture(renderer, size_px);
+    const Camera camera = camera_on({0.0, 0.0, 0.0}, 6.0);
+    const Picture before = picture.draw(&textures, nullptr, camera).read_back();
+    picture.draw(nullptr, nullptr, camera);
+    EXPECT_EQ(picture.draw(&textures, nullptr, camera).read_back(), before);
 }
 
 TEST_F(ScenePictureTest, SurvivesEverySizeDownToNothing) {

@@ -72,7 +72,8 @@ TEST(SceneMessages, BringBackTheTool) {
                         .removed_mm3 = 7.25,
                         .touches_protected = true,
                         .fault = "the device is lost",
-                        .driver = ToolDriver::another};
+                        .driver = ToolDriver::another,
+                        .depth_mm = -0.5};
     const auto result = tool_from(to_message(tool), 2);
     ASSERT_EQ(error_of(result), "");
     const ToolView& back = std::get<0>(result);
@@ -87,8 +88,12 @@ TEST(SceneMessages, BringBackTheTool) {
     EXPECT_TRUE(back.touches_protected);
     EXPECT_EQ(back.fault, tool.fault);
     EXPECT_EQ(back.driver, ToolDriver::another);
+    EXPECT_EQ(back.depth_mm, -0.5);
+    EXPECT_EQ(std::get<0>(tool_from(to_message(ToolView{}), 1)).depth_mm, std::nullopt);
     EXPECT_THAT(error_of(tool_from(to_message(tool), 1)), HasSubstr("burr 1 is not one of the scene's 1"));
     EXPECT_THAT(error_of(tool_from(to_message(ToolView{.force_n = {0, not_a_number, 0}}), 1)),
+                HasSubstr("not finite"));
+    EXPECT_THAT(error_of(tool_from(to_message(ToolView{.depth_mm = not_a_number}), 1)),
                 HasSubstr("not finite"));
 }
 

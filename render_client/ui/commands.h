@@ -1,0 +1,40 @@
+// Carries out what keys ask for once: of the view, the hand, the player, and for pictures in files.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "render_client/ui/key_bindings.h"
+#include "render_client/ui/operator_hand.h"
+#include "render_client/ui/picture_export.h"
+#include "render_client/ui/session_picture.h"
+
+namespace osteomill {
+
+class Commands {
+  public:
+    /// Pictures go into `pictures_folder`; an empty one is the current folder. `player` is null where no
+    /// recording is shown.
+    Commands(SessionPicture& session, OperatorHand& hand, RecordingPlayer* player,
+             const std::filesystem::path& pictures_folder);
+
+    void take(Action action);
+    /// Call after each frame: writes what was asked for, and says so, or what went wrong, for a few seconds.
+    void write_pictures(const gl::Framebuffer& picture, double now_s);
+
+    bool end_wanted() const { return end_wanted_; }
+
+  private:
+    void say(std::string notice, double now_s);
+
+    SessionPicture& session_;
+    OperatorHand& hand_;
+    RecordingPlayer* player_;
+    PictureExport pictures_;
+    bool picture_wanted_ = false;
+    bool export_wanted_ = false;
+    bool end_wanted_ = false;
+    double notice_until_s_ = 0.0;
+};
+
+}  // namespace osteomill

@@ -1,0 +1,18 @@
+#include "render_client/ui/display_watch.h"
+
+#include <X11/Xlib.h>
+#include <dlfcn.h>
+
+namespace osteomill {
+
+void watch_display(bool* is_gone) {
+    // A GLFW for Wayland has no such function; calling it by name would end the program there.
+    const auto display_of_glfw = reinterpret_cast<Display* (*)()>(::dlsym(RTLD_DEFAULT, "glfwGetX11Display"));
+    Display* display = display_of_glfw ? display_of_glfw() : nullptr;
+    if (!display) return;
+    XSetIOErrorExitHandler(
+        display, [](Display*, void* gone) { *static_cast<bool*>(gone) = true; }, is_gone);
+    XSetIOErrorHandler([](Display*) { return 0; });
+}
+
+}  // namespace osteomill

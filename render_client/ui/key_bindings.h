@@ -1,0 +1,64 @@
+// What the keys and the mouse do: one table, from which the window acts and F1's help is printed.
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+namespace osteomill {
+
+/// What a key that is pressed once asks for. Keys that act while they are held are in the table, too, so that
+/// the help shows them and none is bound twice; their action is `none`.
+enum class Action {
+    none,
+    help,
+    theme,
+    panels,
+    cuts_panel,
+    transfer_panel,
+    cut_x,
+    cut_y,
+    cut_z,
+    cut_view,
+    first_view,
+    screenshot,
+    export_frames,
+    end,
+    next_burr,
+    previous_burr,
+    play_or_pause,
+    back_5_s,
+    on_5_s,
+};
+
+/// In which kind of session a binding holds.
+enum class Situation {
+    always,
+    drilling,   ///< the mouse moves the hand
+    playing,    ///< a recording is shown
+    looking_on  ///< neither
+};
+
+Situation situation_of(bool drills, bool shows_recording);
+
+struct KeyBinding {
+    Situation situation = Situation::always;
+    std::vector<int> keys;  ///< of GLFW; empty for the mouse
+    Action action = Action::none;
+    const char* name = "";  ///< of key or mouse, for people
+    const char* meaning = "";
+};
+
+std::span<const KeyBinding> key_bindings();
+
+/// The actions of the keys that went down, in their order.
+std::vector<Action> actions_of(std::span<const int> pressed_keys, Situation situation);
+
+/// A line of the help: what to press, what it does. A line without a name goes on with the one before.
+struct HelpLine {
+    std::string name;
+    std::string meaning;
+};
+std::vector<HelpLine> help_lines(Situation situation);
+
+}  // namespace osteomill

@@ -1,0 +1,32 @@
+// What is behind the bone, drawn first over the whole picture: a renderer then leaves alone the pixels in
+// which it finds no bone.
+#pragma once
+
+#include <glm/vec2.hpp>
+
+#include "render_client/volume/bone_textures.h"
+#include "render_client/volume/gl/full_screen.h"
+#include "render_client/volume/gl/program.h"
+#include "render_client/volume/scene_look.h"
+
+namespace osteomill {
+
+/// A triangle over the whole picture (gl::FullScreen), at the far end of its depth.
+inline constexpr const char* whole_picture_vertex_glsl = R"glsl(#version 330 core
+void main() {
+    gl_Position = vec4(gl_VertexID == 1 ? 3.0 : -1.0, gl_VertexID == 2 ? 3.0 : -1.0, 1.0, 1.0);
+}
+)glsl";
+
+class Background {
+  public:
+    Background();
+    /// Colour, and depth 1, over the viewport of `size_px` or what glScissor leaves of it.
+    void draw(const BoneTextures& bone, const SceneLook& look, const glm::ivec2& size_px);
+
+  private:
+    gl::Program program_;
+    gl::FullScreen full_screen_;
+};
+
+}  // namespace osteomill

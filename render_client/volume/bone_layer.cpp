@@ -1,0 +1,182 @@
+#include "render_client/volume/bone_layer.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
+
+#include "render_client/volume/bone_sampling_shader.h"
+
+namespace osteomill {
+
+namespace {
+
+/// Frames without motion before refining starts: while the view is being turned, some frames see no motion,
+/// and pieces that become sharp in them and blurred in the next would flicker.
+constexpr int frames_before_refining = 2;
+
+/// Coarse pixels drawn round those that are needed: interpolation reads them.
+constexpr int coarse_margin_px = 2;
+
+glm::ivec2 divided(const glm::ivec2& size_px, double divisor) {
+    return glm::max(glm::ivec2(glm::ceil(glm::dvec2(size_px) / divisor)), 1);
+}
+
+/// The pixels of a coarse picture that are needed to show a box of the fine one.
+PixelBox in_coarse(const PixelBox& box, const glm::ivec2& fine_px, const glm::ivec2& coarse_px) {
+    const glm::dvec2 ratio = glm::dvec2(coarse_px) / glm::dvec2(fine_px);
+    const glm::ivec2 low = glm::ivec2(glm::floor(glm::dvec2(box.first) * ratio)) - coarse_margin_px;
+    const glm::ivec2 high =
+        glm::ivec2(glm::ceil(glm::dvec2(box.first + box.size) * ratio)) + coarse_margin_px;
+    const glm::ivec2 first = glm::max(low, 0);
+    return {first, glm::min(high, coarse_px) - first};
+}
+
+}  // namespace
+
+BoneLayer::BoneLayer(BoneRenderer& renderer, const glm::ivec2& size_px, Stopwatch* stopwatch)
+    : renderer_(renderer), stopwatch_(stopwatch), layer_(size_px), coarse_({1, 1}), stale_(size_px) {}
+
+void BoneLayer::resize(const glm::ivec2& size_px) {
+    layer_ = gl::Framebuffer(size_px);
+    stale_ = TileMask(size_px);
+    camera_.reset();
+}
+
+void BoneLayer::set_look(const SceneLook& look) {
+    if (look == renderer_.look()) return;
+    renderer_.set_look(look);
+    forget();
+}
+
+void BoneLayer::forget() {
+    camera_.reset();
+    dirty_.clear();
+}
+
+void BoneLayer::mark_dirty(const BoneTextures& bone, std::span<const BrickIndex> bricks) {
+    for (const BrickIndex brick : bricks) dirty_.push_back(bone.voxels_of_brick(brick));
+}
+
+TileMask BoneLayer::update(const BoneTextures& bone, const Camera& camera) {
+    learn();
+    draws_this_frame_ = 0;
+    const bool moved = camera_ != camera;
+    TileMask fresh(size_px());
+    if (moved)
+        fresh.mark_all();
+    else
+        fresh = tiles_of_dirty_bricks(bone, camera);
+    dirty_.clear();
+    camera_ = camera;
+    frames_at_rest_ = moved ? 0 : frames_at_rest_ + 1;
+    stale_ |= fresh;
+    if (!stale_.any()) return stale_;
+
+    const Extent extent = moved ? Extent::whole : Extent::parts;
+    const bool fits = !stopwatch_ || (moved ? control_.divisor_for(extent, stale_.pixels()) == 1.0
+                                            : stale_.pixels() <= control_.affordable_pixels(extent));
+    if (fits) {
+        const TileMask drawn = stale_;
+        draw_exact(bone, camera, drawn, extent);
+        return drawn;
+    }
+    TileMask changed = fresh;
+    std::int64_t room_px = control_.affordable_pixels(extent);
+    if (fresh.any()) room_px -= draw_as_affordable(bone, camera, fresh, extent);
+    if (frames_at_rest_ >= frames_before_refining) {
+        // What is about to change again is not worth refining.
+        const TileMask refined = part_that_fits(TileMask(stale_) -= fresh, room_px);
+        draw_exact(bone, camera, refined, extent);
+        changed |= refined;
+    }
+    return changed;
+}
+
+void BoneLayer::learn() {
+    if (!stopwatch_ || !measured_) return;
+    const std::optional<double> took_s = stopwatch_->take_s();
+    if (!took_s) return;
+    control_.drew(measured_->extent, measured_->pixels, *took_s);
+    if (frame_s_) control_.frame_took(*frame_s_, *took_s);
+    measured_.reset();
+}
+
+void BoneLayer::frame_took(double frame_s) {
+    frame_s_ = draws_this_frame_ == 1 ? std::optional(frame_s) : std::nullopt;
+    if (draws_this_frame_ == 0) control_.frame_took(frame_s, 0.0);
+}
+
+TileMask BoneLayer::tiles_of_dirty_bricks(const BoneTextures& bone, const Camera& camera) const {
+    TileMask tiles(size_px());
+    const glm::dmat4 to_clip = camera.projection(size_px()) * camera.view();
+    constexpr double reach = shading_reach_voxels + 0.5;  // a voxel's faces are half a voxel from its centre
+    const Grid& grid = bone.grid();
+    for (const VoxelBox& box : dirty_) {
+        const glm::dvec3 low_mm = centre_of_voxel_mm(grid, box.first) - reach * grid.spacing_mm;
+        const glm::dvec3 high_mm =
+            centre_of_voxel_mm(grid, box.first + box.size - 1) + reach * grid.spacing_mm;
+        mark_box(tiles, low_mm, high_mm, to_clip);
+    }
+    return tiles;
+}
+
+std::int64_t BoneLayer::draw_exact(const BoneTextures& bone, const Camera& camera, const TileMask& tiles,
+                                   Extent extent) {
+    stale_ -= tiles;
+    return draw_timed(bone, camera, layer_, tiles.rectangles(), extent);
+}
+
+std::int64_t BoneLayer::draw_as_affordable(const BoneTextures& bone, const Camera& camera,
+                                           const TileMask& tiles, Extent extent) {
+    const double divisor = control_.divisor_for(extent, tiles.pixels());
+    if (divisor == 1.0) return draw_exact(bone, camera, tiles, extent);
+    coarsest_divisor_ = tiles == stale_ ? divisor : std::max(coarsest_divisor_, divisor);
+    const glm::ivec2 size = divided(size_px(), divisor);
+    if (size != coarse_.size_px()) coarse_ = gl::Framebuffer(size);
+    const std::vector<PixelBox> boxes = tiles.rectangles();
+    std::vector<PixelBox> coarse_boxes;
+    for (const PixelBox& box : boxes) coarse_boxes.push_back(in_coarse(box, size_px(), size));
+    const std::int64_t drawn_px = draw_timed(bone, camera, coarse_, coarse_boxes, extent);
+    magnifier_.draw(coarse_, layer_, boxes);
+    return drawn_px;
+}
+
+std::int64_t BoneLayer::draw_timed(const BoneTextures& bone, const Camera& camera,
+                                   const gl::Framebuffer& target, std::span<const PixelBox> boxes,
+                                   Extent extent) {
+    if (boxes.empty()) return 0;
+    ++draws_this_frame_;
+    const bool measures = stopwatch_ && !measured_;
+    std::int64_t pixels = 0;
+    target.bind();
+    if (measures) stopwatch_->start();
+    glEnable(GL_SCISSOR_TEST);
+    for (const PixelBox& box : boxes) {
+        glScissor(box.first.x, box.first.y, box.size.x, box.size.y);
+        renderer_.draw(bone, camera, target.size_px());
+        pixels += box.count();
+    }
+    glDisable(GL_SCISSOR_TEST);
+    if (measures) {
+        stopwatch_->stop();
+        measured_ = Measured{extent, pixels};
+        frame_s_.reset();
+    }
+    return pixels;
+}
+
+TileMask BoneLayer::part_that_fits(const TileMask& tiles, std::int64_t room_px) const {
+    TileMask part(size_px());
+    for (const std::size_t tile : tiles.tiles()) {
+        if (room_px <= 0) break;
+        part.mark(tiles.box_of_tile(tile));
+        room_px -= tiles.box_of_tile(tile).count();
+    }
+    return part;
+}
+
+PictureQuality BoneLayer::quality() const {
+    return stale_.any() ? PictureQuality{1.0 / coarsest_divisor_, false} : PictureQuality{};
+}
+
+}  // namespace osteomill

@@ -1,0 +1,64 @@
+#include "render_client/volume/bone_look.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace osteomill {
+
+namespace {
+
+LookTable by_stiffness(const BoneContent& content, const TransferFunction& transfer) {
+    require_valid(transfer);
+    LookTable table{.mode = transfer.mode};
+    if (content.stiffness.empty()) {
+        table.by_code.fill(look_of(transfer, content.homogeneous_stiffness));
+        return table;
+    }
+    table.channel = BoneChannel::stiffness;
+    for (std::size_t code = 0; code < table.by_code.size(); ++code)
+        table.by_code[code] = look_of(transfer, static_cast<double>(code) * content.stiffness_per_code);
+    return table;
+}
+
+LookTable opaque(std::optional<BoneChannel> channel, const ColourTable& colours) {
+    LookTable table{.channel = channel};
+    for (std::size_t code = 0; code < colours.size(); ++code)
+        table.by_code[code] = glm::vec4(colours[code], 1.0f);
+    return table;
+}
+
+LookTable by_tissue(std::span<const TissueColour> tissues) {
+    LookTable table = opaque(BoneChannel::tissue, colours_by_tissue(tissues));
+    for (const TissueColour& tissue : tissues) {
+        table.by_code[tissue.label].a = static_cast<float>(std::clamp(tissue.opacity, 0.0, 1.0));
+        if (tissue.opacity > 0.0 && tissue.opacity < 1.0) table.mode = TransferMode::translucent;
+    }
+    return table;
+}
+
+}  // namespace
+
+LookTable look_table(const BoneContent& content, std::span<const TissueColour> tissues,
+                     const BoneLook& look) {
+    if (look.transfer) return by_stiffness(content, *look.transfer);
+    if (!content.tissue.empty()) return by_tissue(tissues);
+    if (!content.stiffness.empty())
+        return opaque(BoneChannel::stiffness, colours_by_stiffness(content.stiffness_per_code));
+    ColourTable plain;
+    plain.fill(plain_bone_colour());
+    return opaque(std::nullopt, plain);
+}
+
+std::array<std::uint8_t, 256> shown_part_by_code(const LookTable& table) {
+    std::array<std::uint8_t, 256> parts{};
+    for (std::size_t code = 0; code < parts.size(); ++code) {
+        const float opacity = table.by_code[code].a;
+        const float part = table.mode == TransferMode::surface ? opacity : std::ceil(opacity);
+        parts[code] = static_cast<std::uint8_t>(std::lround(255.0f * part));
+    }
+    // Code 0 is a voxel of which the channel knows nothing: it may be bone all the same.
+    if (table.channel) parts[0] = 255;
+    return parts;
+}
+
+}  // namespace osteomill

@@ -1,0 +1,43 @@
+// How a bone is to be shown: how its surface is lit, and what colour and opacity its tissues or its stiffness
+// give it.
+#pragma once
+
+#include <glm/vec4.hpp>
+#include <optional>
+
+#include "render_client/volume/bone_colours.h"
+#include "render_client/volume/transfer_function.h"
+#include "render_client/volume/voxel_box.h"
+
+namespace osteomill {
+
+/// Where the light on a surface comes from.
+enum class Shading {
+    gradient,       ///< the gradient of the fraction in every pixel, and ambient occlusion
+    surface_voxels  ///< as published: once for each surface voxel, into a texture (see surface_voxels.h)
+};
+
+struct BoneLook {
+    Shading shading = Shading::gradient;
+    /// Colour and opacity by stiffness. Absent: the colours and opacities of the tissues where the bone is
+    /// labelled, else the colours of its stiffness.
+    std::optional<TransferFunction> transfer{};
+
+    bool operator==(const BoneLook&) const = default;
+};
+
+/// A look, worked out for one bone's codes.
+struct LookTable {
+    std::optional<BoneChannel> channel{};  ///< what the codes are; none: all bone looks like code 0
+    std::array<glm::vec4, 256> by_code{};  ///< linear RGB and opacity
+    TransferMode mode = TransferMode::surface;
+};
+
+/// Throws std::invalid_argument like require_valid where the look's transfer function is none.
+LookTable look_table(const BoneContent& content, std::span<const TissueColour> tissues, const BoneLook& look);
+
+/// How much of a voxel of each code counts, 0 to 255: its opacity where bone is a solid surface, all or
+/// nothing where one sees through it.
+std::array<std::uint8_t, 256> shown_part_by_code(const LookTable& table);
+
+}  // namespace osteomill

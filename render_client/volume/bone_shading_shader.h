@@ -1,0 +1,67 @@
+// What light makes of the bone at a point, GLSL 3.30; follows bone_sampling_glsl and lighting_glsl.
+//
+//     vec3  surface_pixel(vec3 point, vec3 direction)   display RGB of the bone's surface at a point, seen
+//                                                       along a unit direction
+//     vec4  translucent_piece(vec3 point, float length)
+//                                                       linear RGB times alpha, and alpha, of so many voxels
+//                                                       of a ray around a point within translucent bone
+//     const float bone_surface                          the fraction at which bone begins
+//     const float solid_opacity                         translucent bone counts for depth from this opacity
+//     on
+#pragma once
+
+namespace osteomill {
+
+inline constexpr const char* bone_shading_glsl = R"glsl(
+const float bone_surface = 0.5;
+const float solid_opacity = 0.5;
+
+vec3 surface_pixel(vec3 point, vec3 direction) {
+    if (bone_has_surface_colours) {
+        vec4 colour = surface_colour_at(point);
+        return colour.rgb / max(colour.a, 1e-3);
+    }
+    vec3 normal = normal_at(point, -direction);
+    return display(lit(smooth_look_at(point - normal).rgb, normal, openness_at(point, normal)));
+}
+
+// Slope of the density, which also shows borders between tissues of different opacity.
+vec3 density_gradient_at(vec3 point) {
+    const float reach = 1.4;
+    vec3 gradient = vec3(0.0);
+    for (int corner = 0; corner < 8; ++corner) {
+        vec3 side = vec3(corner & 1, (corner >> 1) & 1, (corner >> 2) & 1) * 2.0 - 1.0;
+        gradient += side * density_at(point + reach * side);
+    }
+    return gradient / (8.0 * reach);
+}
+
+// Light within bone, where nothing faces it: what a surface aslant to the key light gets.
+const vec3 light_within = vec3(0.50, 0.49, 0.48);
+
+vec3 translucent_colour(vec3 point, vec3 colour) {
+    if (bone_has_surface_colours) {
+        vec4 surface = surface_colour_at(point);
+        vec3 linear = pow(surface.rgb / max(surface.a, 1e-3), vec3(2.2));
+        return mix(colour * light_within, linear, min(2.0 * surface.a, 1.0));
+    }
+    vec3 gradient = density_gradient_at(point);
+    float steepness = length(gradient);
+    if (steepness < 1e-4) return colour * light_within;
+    return mix(colour * light_within, lit(colour, -gradient / steepness, 1.0), min(12.0 * steepness, 1.0));
+}
+
+// From the surface on bone takes light away in proportion to how far the fraction has risen beyond it, so
+// that samples meet no edge.
+vec4 translucent_piece(vec3 point, float length_voxels) {
+    float filled = 2.0 * fraction_at(point) - 1.0;
+    if (filled <= 0.0) return vec4(0.0);
+    vec4 look = look_at(point);
+    float alpha = 1.0 - pow(1.0 - min(look.a, 0.999), filled * length_voxels * bone_mm_per_voxel);
+    // What is hardly seen is not worth its normal.
+    vec3 colour = alpha < 0.002 ? look.rgb * light_within : translucent_colour(point, look.rgb);
+    return vec4(alpha * colour, alpha);
+}
+)glsl";
+
+}  // namespace osteomill

@@ -1,0 +1,52 @@
+// How much may be drawn in a frame, so that frames keep their rate: what a pixel costs is learnt from what
+// the last ones cost, and from it how many can be afforded and how coarse a picture must be that is drawn
+// whole.
+//
+// A frame has room for `target_frame_s` less what the rest of it takes (tool, panels, showing the picture),
+// but at least for a quarter of it. What is known follows a measurement by half of the difference upwards and
+// by a fifth downwards: a frame that comes late is worse than one that is a little coarse. Parts of a picture
+// under a still camera are counted by themselves: they are where the bone is, and dearer than the average
+// that background lowers.
+#pragma once
+
+#include <cstdint>
+
+namespace osteomill {
+
+/// What was drawn: a whole picture, or parts of one under a still camera.
+enum class Extent { whole, parts };
+
+/// The goal under motion; what is shown then is smooth to the eye.
+inline constexpr double target_frame_s = 1.0 / 30.0;
+
+class DetailControl {
+  public:
+    /// Throws std::invalid_argument unless the time is positive.
+    explicit DetailControl(double frame_s = target_frame_s);
+
+    /// Pixels that were drawn and how long it took; nothing is learnt from no pixels or from no time.
+    void drew(Extent extent, std::int64_t pixels, double took_s);
+    /// How long a whole frame took, waiting excluded, and the drawing of bone in it.
+    void frame_took(double frame_s, double drawing_s);
+
+    /// Pixels for which there is room in a frame; without limit as long as nothing is known.
+    std::int64_t affordable_pixels(Extent extent) const;
+
+    /// By how much to divide width and height of so many pixels: 1 for full resolution, up to 8. It falls
+    /// only when the finer picture would take at most 80 % of the room, so that it does not flicker between
+    /// two.
+    double divisor_for(Extent extent, std::int64_t pixels);
+
+  private:
+    struct Known {
+        double s_per_px = 0.0;  ///< zero: nothing was measured yet
+        double divisor = 1.0;
+    };
+
+    double frame_s_;
+    double rest_s_ = 0.0;
+    Known whole_;
+    Known parts_;
+};
+
+}  // namespace osteomill

@@ -1,0 +1,52 @@
+// How long the driver took for the commands between two points (GL_TIME_ELAPSED): the drawing's own time,
+// not that of the call, which returns long before. A software rasteriser counts, too: the wall-clock time
+// that its threads were at it.
+#pragma once
+
+#include <epoxy/gl.h>
+
+#include <algorithm>
+#include <chrono>
+
+#include "render_client/volume/stopwatch.h"
+
+namespace osteomill::gl {
+
+class DrawTimer final : public Stopwatch {
+  public:
+    /// Needs a current OpenGL context, as do all calls.
+    DrawTimer() { glGenQueries(1, &query_); }
+    DrawTimer(const DrawTimer&) = delete;
+    DrawTimer& operator=(const DrawTimer&) = delete;
+    ~DrawTimer() override { glDeleteQueries(1, &query_); }
+
+    void start() override {
+        glBeginQuery(GL_TIME_ELAPSED, query_);
+        started_ = Clock::now();
+    }
+    void stop() override {
+        glEndQuery(GL_TIME_ELAPSED);
+        pending_ = true;
+    }
+    std::optional<double> take_s() override {
+        if (!pending_) return std::nullopt;
+        GLuint available = GL_FALSE;
+        glGetQueryObjectuiv(query_, GL_QUERY_RESULT_AVAILABLE, &available);
+        if (available == GL_FALSE) return std::nullopt;
+        GLuint64 elapsed_ns = 0;
+        glGetQueryObjectui64v(query_, GL_QUERY_RESULT, &elapsed_ns);
+        pending_ = false;
+        // Mesa 22.3's software rasteriser now and then counts from the machine's start.
+        const double at_most_s = std::chrono::duration<double>(Clock::now() - started_).count();
+        return std::min(1e-9 * static_cast<double>(elapsed_ns), at_most_s);
+    }
+
+  private:
+    using Clock = std::chrono::steady_clock;
+
+    Clock::time_point started_;
+    GLuint query_ = 0;
+    bool pending_ = false;
+};
+
+}  // namespace osteomill::gl

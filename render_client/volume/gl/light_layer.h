@@ -1,0 +1,36 @@
+// Light gathered front to back: linear RGB times alpha, and alpha, in half floats, since many thin layers
+// would drown in the steps of eight bits. A move-only value.
+#pragma once
+
+#include <epoxy/gl.h>
+
+#include <glm/vec2.hpp>
+
+namespace osteomill::gl {
+
+class LightLayer {
+  public:
+    /// Throws std::runtime_error where the driver cannot draw into such a picture.
+    explicit LightLayer(const glm::ivec2& size_px);
+    LightLayer(LightLayer&& other) noexcept;
+    LightLayer& operator=(LightLayer&& other) noexcept;
+    ~LightLayer();
+
+    /// Draw calls that follow land here, each behind those before it; the layer is cleared (both within
+    /// glScissor's part). Depth is neither tested nor written.
+    void begin();
+    /// The framebuffer that was bound before, without blending, is drawn to again.
+    void end();
+    /// Binds what was gathered to GL_TEXTURE0 + unit.
+    void bind_texture(int unit) const;
+
+    const glm::ivec2& size_px() const { return size_px_; }
+
+  private:
+    glm::ivec2 size_px_;
+    GLuint id_ = 0;
+    GLuint colour_ = 0;
+    GLint previous_ = 0;
+};
+
+}  // namespace osteomill::gl

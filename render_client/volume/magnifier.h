@@ -1,0 +1,25 @@
+// Shows a coarse picture in a finer one: colour interpolated, depth not, so that what is drawn on top later
+// is still hidden where it should be.
+#pragma once
+
+#include <span>
+
+#include "render_client/volume/gl/framebuffer.h"
+#include "render_client/volume/gl/full_screen.h"
+#include "render_client/volume/gl/program.h"
+
+namespace osteomill {
+
+class Magnifier {
+  public:
+    Magnifier();
+    /// Fills these boxes of `fine` with what `coarse` shows there; both show the same view.
+    void draw(const gl::Framebuffer& coarse, const gl::Framebuffer& fine,
+              std::span<const PixelBox> boxes) const;
+
+  private:
+    gl::Program program_;
+    gl::FullScreen full_screen_;
+};
+
+}  // namespace osteomill

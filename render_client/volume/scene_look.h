@@ -1,0 +1,29 @@
+// How the scene is looked at, apart from bone and camera: what is cut away, and what is behind the bone.
+#pragma once
+
+#include <cstddef>
+#include <glm/vec3.hpp>
+#include <vector>
+
+namespace osteomill {
+
+/// Takes away the points of patient space with dot(normal, p) > offset_mm, for the eye only.
+struct CutPlane {
+    glm::dvec3 normal{0.0, 0.0, 1.0};  ///< unit, patient LPS, towards what is taken away
+    double offset_mm = 0.0;
+
+    bool operator==(const CutPlane&) const = default;
+};
+
+/// A renderer heeds the first so many.
+inline constexpr std::size_t most_cut_planes = 4;
+
+struct SceneLook {
+    std::vector<CutPlane> cuts;
+    glm::vec3 background_low{0.035f, 0.040f, 0.048f};  ///< linear RGB at the picture's lower edge
+    glm::vec3 background_high{0.115f, 0.130f, 0.150f};
+
+    bool operator==(const SceneLook&) const = default;
+};
+
+}  // namespace osteomill

@@ -1,0 +1,92 @@
+#include "render_client/volume/transfer_function.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <glm/common.hpp>
+#include <stdexcept>
+
+#include "render_client/volume/bone_colours.h"
+
+namespace osteomill {
+
+namespace {
+
+// Between trabecular (0.1) and cortical bone (1), so that the window shows which is which.
+constexpr double window_centre = 0.6;
+constexpr double window_width = 1.2;
+
+TransferFunction bone_preset() {
+    TransferFunction bone{.name = "bone"};
+    for (const StiffnessColour& knot : stiffness_colours())
+        bone.points.push_back({knot.relative_stiffness, knot.srgb, 1.0});
+    return bone;
+}
+
+TransferFunction tooth_preset() {
+    // Dentine is about as stiff as cortical bone, so the jaw's outer wall stands with the teeth.
+    return {.name = "tooth",
+            .mode = TransferMode::translucent,
+            .points = {{0.0, {176, 96, 84}, 0.10},
+                       {0.3, {196, 134, 100}, 0.12},
+                       {0.8, {226, 190, 130}, 0.45},
+                       {1.2, {236, 214, 170}, 0.60},
+                       {1.6, {246, 244, 236}, 0.92},
+                       {2.5, {250, 250, 250}, 0.97}}};
+}
+
+}  // namespace
+
+glm::vec4 look_of(const TransferFunction& function, double value) {
+    const auto look = [](const TransferPoint& point) {
+        return glm::vec4(linear_from_srgb(point.srgb), static_cast<float>(point.opacity));
+    };
+    if (value <= function.points.front().value) return look(function.points.front());
+    for (std::size_t i = 1; i < function.points.size(); ++i) {
+        const TransferPoint& low = function.points[i - 1];
+        const TransferPoint& high = function.points[i];
+        if (value > high.value) continue;
+        const double part = (value - low.value) / (high.value - low.value);
+        return glm::mix(look(low), look(high), static_cast<float>(part));
+    }
+    return look(function.points.back());
+}
+
+void require_valid(const TransferFunction& function) {
+    if (function.points.empty())
+        throw std::invalid_argument("transfer function '" + function.name + "' has no control point");
+    for (std::size_t i = 0; i < function.points.size(); ++i) {
+        const TransferPoint& point = function.points[i];
+        const auto refuse = [&](const std::string& what) {
+            throw std::invalid_argument(
+                fmt::format("transfer function '{}', point {}: {}", function.name, i + 1, what));
+        };
+        if (!std::isfinite(point.value)) refuse("its value is no number");
+        if (i > 0 && !(point.value > function.points[i - 1].value))
+            refuse(fmt::format("its value {} must be above the {} before it", point.value,
+                               function.points[i - 1].value));
+        if (!(point.opacity >= 0.0 && point.opacity <= 1.0))
+            refuse(fmt::format("its opacity is {}, must be 0 to 1", point.opacity));
+    }
+}
+
+TransferFunction ct_window(double centre, double width) {
+    const double black = centre - 0.5 * width;
+    const auto point = [&](double part, double opacity) {
+        const auto grey = static_cast<std::uint8_t>(std::lround(255.0 * part));
+        return TransferPoint{black + part * width, {grey, grey, grey}, opacity};
+    };
+    // Several points, because grey levels are even on the display and colours blend in linear light. The ramp
+    // of opacity is a tenth of the window: at one code of stiffness the edge would be stairs.
+    return {.name = "ct-window",
+            .points = {point(0.25, 0.0), point(0.35, 1.0), point(0.5, 1.0), point(0.625, 1.0),
+                       point(0.75, 1.0), point(0.875, 1.0), point(1.0, 1.0)}};
+}
+
+std::span<const TransferFunction> transfer_presets() {
+    static const std::vector<TransferFunction> presets{bone_preset(), tooth_preset(),
+                                                       ct_window(window_centre, window_width)};
+    return presets;
+}
+
+}  // namespace osteomill

@@ -1,0 +1,61 @@
+// A transfer function: colour and opacity of bone by its relative stiffness, along lines between control
+// points.
+//
+// The scene makes stiffness from CT numbers and the client is sent stiffness, so that is what a value is: 1
+// is cortical bone (1600 HU by the default relation), trabecular bone lies around a tenth, enamel above
+// twice.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <glm/vec4.hpp>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace osteomill {
+
+struct TransferPoint {
+    double value = 0.0;  ///< relative stiffness
+    std::array<std::uint8_t, 3> srgb{};
+    double opacity = 1.0;  ///< 0 to 1, see TransferMode
+
+    bool operator==(const TransferPoint&) const = default;
+};
+
+/// What opacity means.
+enum class TransferMode {
+    /// How much of a voxel counts: bone ends where fraction times opacity crosses one half, and is solid
+    /// there. A ramp from 0 to 1 peels off what is softer, smoothly. Fast.
+    surface,
+    /// How much light a millimetre of bone takes away: one sees through it, at the price of every sample on
+    /// the way. 0 hides.
+    translucent
+};
+
+struct TransferFunction {
+    std::string name;
+    TransferMode mode = TransferMode::surface;
+    std::vector<TransferPoint> points{};  ///< ascending in value, at least one
+
+    bool operator==(const TransferFunction&) const = default;
+};
+
+/// Linear RGB and opacity at a value; the end points hold beyond them. Colours blend in linear light, as the
+/// shaders do it.
+glm::vec4 look_of(const TransferFunction& function, double value);
+
+/// Throws std::invalid_argument, naming the point, unless there is one, values are finite and ascend, and
+/// opacities are within 0 to 1.
+void require_valid(const TransferFunction& function);
+
+/// "bone": all bone in its own colours. "tooth": what is softer than dentine is seen through, enamel and
+/// dentine stand in it. "ct-window": grey levels of a bone window; what is softer than the window's middle is
+/// peeled off.
+std::span<const TransferFunction> transfer_presets();
+
+/// A CT window as radiology knows it: black at centre - width / 2, white at centre + width / 2; what is
+/// darker than a quarter of the window is hidden. Both are relative stiffness; width is positive.
+TransferFunction ct_window(double centre, double width);
+
+}  // namespace osteomill

@@ -1,0 +1,32 @@
+// The bone without what a transfer function hides: a copy whose fractions are lowered to the part of each
+// voxel that is shown. What draws a bone draws this one as it would any other, and skips what is hidden as it
+// skips empty space.
+#pragma once
+
+#include <span>
+
+#include "render_client/volume/bone_look.h"
+
+namespace osteomill {
+
+class VisibleBone {
+  public:
+    VisibleBone(const Bone& bone, const LookTable& table);
+
+    /// Takes over these bricks of `bone`, which is the bone of the constructor, carved since.
+    void follow(const Bone& bone, std::span<const BrickIndex> dirty);
+
+    const Bone& bone() const { return visible_; }
+
+  private:
+    void take_over(const Bone& bone, std::int32_t slot);
+
+    std::optional<BoneChannel> channel_;
+    std::array<std::uint8_t, 256> shown_part_;
+    Bone visible_;
+};
+
+/// Whether this look hides any bone at all; where not, the bone itself can be drawn.
+bool hides_bone(const LookTable& table);
+
+}  // namespace osteomill

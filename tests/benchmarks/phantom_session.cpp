@@ -1,0 +1,84 @@
+#include "tests/benchmarks/phantom_session.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+#include <variant>
+
+#include "haptic_server/imaging/phantom.h"
+#include "haptic_server/milling/carve.h"
+
+namespace osteomill {
+
+namespace {
+
+constexpr double frame_s = 1.0 / 30.0;
+constexpr double feed_mm_per_s = 6.0;
+constexpr double circle_radius_mm = 1.5;
+constexpr std::size_t five_mm_burr = 5;
+
+class DirtyBricks final : public EditSink {
+  public:
+    void push(const EditRun& run) noexcept override { bricks.push_back(run.brick); }
+    std::vector<BrickIndex> bricks;
+};
+
+class Nobody final : public RemovalSink {
+  public:
+    void take(const RemovedVoxels&) noexcept override {}
+};
+
+}  // namespace
+
+Bone tooth_phantom_bone() {
+    return bone_from_hu(std::get<HuVolume>(make_phantom("tooth")), phantom_threshold_hu,
+                        default_stiffness_relation());
+}
+
+PhantomSession::PhantomSession() : bone_(tooth_phantom_bone()) {
+    const Scene scene = phantom_scene("tooth");
+    info_.scene_name = scene.name;
+    info_.burrs = scene.burrs;
+    info_.tissues = scene.tissues;
+    tool_.burr = five_mm_burr;
+    tool_.spindle_on = true;
+    tool_.burr_position_mm = scene.trajectory.start_mm + glm::dvec3(circle_radius_mm, 0.0, 2.0);
+    tool_.force_n = {0.3, -0.2, 0.8};
+}
+
+void PhantomSession::step() {
+    dirty_.clear();
+    tool_.time_s += frame_s;
+    if (!mills_) return;
+    const glm::dvec3 from_mm = tool_.burr_position_mm;
+    way_mm_ += feed_mm_per_s * frame_s;
+    const double angle_rad = way_mm_ / circle_radius_mm;
+    const glm::dvec3 middle_mm = phantom_scene("tooth").trajectory.start_mm;
+    // 0.5 mm deeper a turn: there is bone ahead at every step.
+    const double sunk_mm = way_mm_ / (2.0 * 3.14159265358979 * circle_radius_mm) * 0.5;
+    tool_.burr_position_mm = middle_mm + glm::dvec3(circle_radius_mm * std::cos(angle_rad),
+                                                    circle_radius_mm * std::sin(angle_rad), 2.0 - sunk_mm);
+    const Grid& grid = bone_.grid();
+    DirtyBricks edits;
+    Nobody nobody;
+    carve(bone_,
+          {to_voxel_coordinates(grid, from_mm), to_voxel_coordinates(grid, tool_.burr_position_mm),
+           0.5 * info_.burrs[five_mm_burr].diameter_mm / grid.spacing_mm},
+          CarveHistory::none, {}, edits, nobody);
+    std::sort(edits.bricks.begin(), edits.bricks.end());
+    edits.bricks.erase(std::unique(edits.bricks.begin(), edits.bricks.end()), edits.bricks.end());
+    dirty_ = std::move(edits.bricks);
+}
+
+LinkUpdate PhantomSession::poll() {
+    LinkUpdate update;
+    update.status = LinkStatus::live;
+    update.status_line = "benchmark";
+    update.bone_replaced = std::exchange(first_, false);
+    update.frames_per_s = 30.0;
+    update.tool = tool_;
+    update.dirty_bricks = std::exchange(dirty_, {});
+    return update;
+}
+
+}  // namespace osteomill

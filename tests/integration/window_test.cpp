@@ -1,0 +1,200 @@
+// render_client in a real window, with a real server: what mouse and keys do, what is on the screen, and what
+// happens when the display fails. Needs Xvfb and xdotool.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <functional>
+#include <thread>
+
+#include "render_client/volume/png_file.h"
+#include "tests/support/virtual_display.h"
+
+namespace osteomill::testing {
+namespace {
+
+using namespace std::chrono_literals;
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+
+const glm::ivec2 size_px(480, 360);
+
+/// The part of the pixels of which a channel differs by more than rounding and a moving cursor of text do.
+double difference(const Picture& a, const Picture& b) {
+    if (a.size_px != b.size_px) return 1.0;
+    int differing = 0;
+    for (std::size_t pixel = 0; pixel < a.rgb.size(); pixel += 3) {
+        bool differs = false;
+        for (std::size_t channel = 0; channel < 3; ++channel)
+            differs = differs || std::abs(a.rgb[pixel + channel] - b.rgb[pixel + channel]) > 12;
+        differing += differs ? 1 : 0;
+    }
+    return 3.0 * differing / static_cast<double>(a.rgb.size());
+}
+
+int lines_of(const std::string& text) {
+    return static_cast<int>(std::count(text.begin(), text.end(), '\n'));
+}
+
+class WindowTest : public ::testing::Test {
+  protected:
+    void SetUp() override {
+        if (const std::string missing = VirtualDisplay::missing(); !missing.empty())
+            GTEST_SKIP() << "needs " << missing;
+        server_.emplace(
+            std::vector<std::string>{HAPTIC_SERVER, "--listen", "127.0.0.1:0", "--device", "client"});
+        const auto address = server_->line_after("listening on ", 60s);
+        ASSERT_TRUE(address) << server_->err();
+        address_ = *address;
+        display_.emplace(size_px);
+    }
+
+    std::string folder(const std::string& name) const { return (folder_ / name).string(); }
+    std::vector<std::string> client(const std::vector<std::string>& more) const {
+        std::vector<std::string> command{RENDER_CLIENT, "--connect", address_, "--window-size",
+                                         std::to_string(size_px.x) + "x" + std::to_string(size_px.y)};
+        command.insert(command.end(), more.begin(), more.end());
+        return command;
+    }
+    /// A window whose picture is on the screen, with the keyboard.
+    void open_window(const std::vector<std::string>& more) {
+        window_.emplace(display_->shown_here(client(more)));
+        ASSERT_TRUE(
+            display_->xdotool({"search", "--sync", "--onlyvisible", "--name", "^Osteomill$", "windowfocus"}))
+            << window_->err();
+        ASSERT_TRUE(comes_true([&] { return shows_bone(display_->screen()); })) << window_->err();
+    }
+    static bool shows_bone(const Picture& screen) {
+        const std::uint8_t* middle = screen.at(screen.size_px.x / 2, screen.size_px.y / 2);
+        return middle[0] > 90 && middle[0] > middle[2];
+    }
+    /// Gives a window up to half a minute: a sanitizer on a busy machine draws a frame a second.
+    static bool comes_true(const std::function<bool()>& happened) {
+        for (int attempt = 0; attempt < 300; ++attempt) {
+            if (happened()) return true;
+            std::this_thread::sleep_for(100ms);
+        }
+        return false;
+    }
+    bool shows(const Picture& wanted, double at_most = 0.01) const {
+        return comes_true([&] { return difference(display_->screen(), wanted) <= at_most; });
+    }
+    bool shows_otherwise_than(const Picture& before, double at_least) const {
+        return comes_true([&] { return difference(display_->screen(), before) >= at_least; });
+    }
+    void press(const std::string& key) const { ASSERT_TRUE(display_->xdotool({"key", key})) << key; }
+
+    TemporaryFolder folder_;
+    std::optional<ChildProcess> server_;
+    std::string address_;
+    std::optional<VirtualDisplay> display_;
+    std::optional<ChildProcess> window_;
+};
+
+TEST_F(WindowTest, AnswersMouseAndKeysAndShowsWhatAnOffscreenRunDraws) {
+    open_window({"--no-panels", "--screenshots", folder("pictures"), "--screenshot-every", "1000000"});
+    const Finished offscreen = run_program(
+        client({"--offscreen", "--frames", "3", "--no-panels", "--screenshots", folder("offscreen")}));
+    ASSERT_EQ(offscreen.status, 0) << offscreen.err;
+    const Picture first = read_png(folder("offscreen") + "/final.png");
+    EXPECT_TRUE(shows(first)) << "the window differs from the offscreen picture in "
+                              << difference(display_->screen(), first);
+
+    press("F1");
+    EXPECT_TRUE(shows_otherwise_than(first, 0.2)) << "help";
+    press("F1");
+    EXPECT_TRUE(shows(first)) << "help goes again";
+
+    press("F2");
+    EXPECT_TRUE(comes_true([&] { return display_->screen().at(2, 2)[0] > 170; })) << "light";
+    press("F2");
+    EXPECT_TRUE(shows(first)) << "dark again";
+
+    press("F3");
+    EXPECT_TRUE(shows_otherwise_than(first, 0.05)) << "panels";
+    press("F3");
+    EXPECT_TRUE(shows(first)) << "no panels";
+
+    press("x");
+    EXPECT_TRUE(shows_otherwise_than(first, 0.05)) << "a cut";
+    const Picture cut = display_->screen();
+    press("x");
+    EXPECT_TRUE(shows_otherwise_than(cut, 0.05)) << "the other half";
+    press("x");
+    EXPECT_TRUE(shows(first)) << "no cut";
+
+    // A slow machine may see a press and a release in one frame, so the button stays down until it works.
+    ASSERT_TRUE(display_->xdotool({"mousemove", "240", "180", "mousedown", "3"}));
+    EXPECT_TRUE(comes_true([&] {
+        display_->xdotool({"mousemove_relative", "7", "2"});
+        return difference(display_->screen(), first) >= 0.1;
+    })) << "the view turns";
+    ASSERT_TRUE(display_->xdotool({"mouseup", "3"}));
+    press("Home");
+    EXPECT_TRUE(shows(first)) << "the first view";
+
+    EXPECT_TRUE(comes_true([&] {
+        display_->xdotool({"click", "4"});
+        return difference(display_->screen(), first) >= 0.1;
+    })) << "the wheel zooms";
+    press("Home");
+    EXPECT_TRUE(shows(first));
+
+    press("F12");
+    const std::filesystem::path file = folder("pictures") + "/screenshot_0001.png";
+    EXPECT_TRUE(comes_true([&] { return std::filesystem::exists(file); }));
+    EXPECT_TRUE(comes_true([&] {  // it may be there and not yet be written
+        try {
+            return difference(read_png(file), first) < 0.01;
+        } catch (const std::runtime_error&) {
+            return false;
+        }
+    }));
+    EXPECT_TRUE(shows(first)) << "the notice goes";
+
+    for (const auto& [width, height] : {std::pair("1", "1"), {"300", "1"}, {"1", "200"}, {"200", "150"}})
+        ASSERT_TRUE(
+            display_->xdotool({"search", "--sync", "--name", "^Osteomill$", "windowsize", width, height}))
+            << width;
+    ASSERT_TRUE(display_->xdotool({"search", "--sync", "--name", "^Osteomill$", "windowunmap", "--sync",
+                                   "windowmap", "--sync", "windowsize", "480", "360", "windowfocus"}));
+    EXPECT_TRUE(shows(first)) << "after every size, hidden and shown again";
+
+    // The hand: down towards the tooth and into it with the pedal down.
+    ASSERT_TRUE(display_->xdotool({"keydown", "w"}));
+    EXPECT_TRUE(shows_otherwise_than(first, 0.01)) << "the burr moves";
+    ASSERT_TRUE(display_->xdotool({"keyup", "w"}));
+
+    press("Escape");
+    EXPECT_EQ(window_->wait(60s), 0) << window_->err();
+}
+
+TEST_F(WindowTest, EndsWithOneLineWhenTheDisplayGoes) {
+    open_window({});
+    display_->break_down();
+    EXPECT_EQ(window_->wait(60s), 1);
+    EXPECT_THAT(window_->err(), HasSubstr("display has gone"));
+    EXPECT_EQ(lines_of(window_->err()), 1) << window_->err();
+}
+
+TEST_F(WindowTest, SaysWhatItFoundInPlaceOfOpenGl33AndWhatToInstall) {
+    for (const std::vector<std::string>& how : {std::vector<std::string>{}, {"--offscreen"}}) {
+        std::vector<std::string> command = client(how);
+        command.insert(command.begin(), {"/usr/bin/env", "MESA_GL_VERSION_OVERRIDE=2.1"});
+        const Finished run = run_program(display_->shown_here(command));
+        EXPECT_EQ(run.status, 1);
+        EXPECT_THAT(run.err,
+                    AllOf(HasSubstr("OpenGL 3.3"), HasSubstr("OpenGL 2.1"), HasSubstr("apt-get install")));
+        EXPECT_EQ(lines_of(run.err), 1) << run.err;
+    }
+    std::vector<std::string> nowhere = client({});
+    nowhere.insert(nowhere.begin(), {"/usr/bin/env", "-u", "WAYLAND_DISPLAY", "DISPLAY=:4321"});
+    const Finished run = run_program(nowhere);
+    EXPECT_EQ(run.status, 1);
+    EXPECT_THAT(run.err, AllOf(HasSubstr(":4321"), HasSubstr("--offscreen")));
+    EXPECT_EQ(lines_of(run.err), 1) << run.err;
+}
+
+}  // namespace
+}  // namespace osteomill::testing

@@ -1,0 +1,63 @@
+#include "render_client/ui/key_bindings.h"
+
+#include <gmock/gmock.h>
+
+#include <array>
+#include <set>
+
+namespace osteomill {
+namespace {
+
+using testing::ElementsAre;
+using testing::IsEmpty;
+
+constexpr std::array<Situation, 3> situations{Situation::drilling, Situation::playing, Situation::looking_on};
+
+bool holds(const KeyBinding& binding, Situation situation) {
+    return binding.situation == Situation::always || binding.situation == situation;
+}
+
+std::string text_of(const KeyBinding& binding) {
+    return std::string(binding.name) + ": " + binding.meaning;
+}
+
+TEST(KeyBindings, GiveNoKeyTwoMeaningsInOneSituation) {
+    for (const Situation situation : situations) {
+        std::set<int> taken;
+        for (const KeyBinding& binding : key_bindings())
+            if (holds(binding, situation)) {
+                for (const int key : binding.keys) EXPECT_TRUE(taken.insert(key).second) << binding.name;
+            }
+    }
+}
+
+TEST(KeyBindings, HelpShowsEachThatHoldsAndNoOther) {
+    for (const Situation situation : situations) {
+        std::set<std::string> shown, expected;
+        for (const HelpLine& line : help_lines(situation)) shown.insert(line.name + ": " + line.meaning);
+        for (const KeyBinding& binding : key_bindings())
+            if (holds(binding, situation)) expected.insert(text_of(binding));
+        for (const KeyBinding& binding : key_bindings())
+            EXPECT_EQ(shown.count(text_of(binding)), expected.count(text_of(binding))) << text_of(binding);
+    }
+}
+
+TEST(KeyBindings, ReachEveryAction) {
+    std::set<Action> reached;
+    for (const KeyBinding& binding : key_bindings()) reached.insert(binding.action);
+    for (int action = 0; action <= static_cast<int>(Action::on_5_s); ++action)
+        EXPECT_EQ(reached.count(static_cast<Action>(action)), 1u) << action;
+}
+
+TEST(KeyBindings, DependOnTheKindOfSession) {
+    constexpr std::array<int, 1> space{' '};
+    constexpr std::array<int, 2> cut_then_bracket{'X', ']'};
+    EXPECT_THAT(actions_of(space, Situation::playing), ElementsAre(Action::play_or_pause));
+    EXPECT_THAT(actions_of(space, Situation::drilling), IsEmpty()) << "the pedal is held, not pressed";
+    EXPECT_THAT(actions_of(cut_then_bracket, Situation::drilling),
+                ElementsAre(Action::cut_x, Action::next_burr));
+    EXPECT_THAT(actions_of(cut_then_bracket, Situation::looking_on), ElementsAre(Action::cut_x));
+}
+
+}  // namespace
+}  // namespace osteomill

@@ -1,0 +1,80 @@
+#include "render_client/ui/layout.h"
+
+#include <gtest/gtest.h>
+
+namespace osteomill {
+namespace {
+
+constexpr float margin = 10.0f;
+
+/// What the client asks for with everything open, at scale 1.
+std::vector<PanelWish> many_panels(float scale) {
+    return {{Anchor::top, {scale * glm::vec2(300, 40)}},
+            {Anchor::lower_left, {scale * glm::vec2(320, 70)}},
+            {Anchor::upper_left, {scale * glm::vec2(300, 220)}},
+            {Anchor::lower_right, {scale * glm::vec2(300, 310), scale * glm::vec2(300, 130)}},
+            {Anchor::upper_left, {scale * glm::vec2(330, 100)}},
+            {Anchor::upper_right, {scale * glm::vec2(180, 90)}},
+            {Anchor::upper_right, {scale * glm::vec2(84, 84)}},
+            {Anchor::bottom, {scale * glm::vec2(120, 30)}},
+            {Anchor::upper_left, {scale * glm::vec2(160, 140)}}};
+}
+
+bool overlap(const PanelPlace& a, const PanelPlace& b) {
+    return a.first.x < b.first.x + b.size.x && b.first.x < a.first.x + a.size.x &&
+           a.first.y < b.first.y + b.size.y && b.first.y < a.first.y + a.size.y;
+}
+
+TEST(Layout, NeverLetsPanelsOverlapOrLeaveThePicture) {
+    for (const float scale : {1.0f, 2.0f})
+        for (const glm::vec2 picture : {glm::vec2(1, 1), glm::vec2(320, 240), glm::vec2(640, 480),
+                                        glm::vec2(800, 600), glm::vec2(1600, 1000), glm::vec2(300, 2000)}) {
+            const auto places = lay_out(many_panels(scale), picture, margin);
+            for (std::size_t i = 0; i < places.size(); ++i) {
+                if (!places[i]) continue;
+                EXPECT_GE(places[i]->first.x, margin);
+                EXPECT_GE(places[i]->first.y, margin);
+                EXPECT_LE(places[i]->first.x + places[i]->size.x, picture.x - margin);
+                EXPECT_LE(places[i]->first.y + places[i]->size.y, picture.y - margin);
+                for (std::size_t j = 0; j < i; ++j)
+                    if (places[j]) {
+                        EXPECT_FALSE(overlap(*places[i], *places[j])) << i << " and " << j;
+                    }
+            }
+        }
+}
+
+TEST(Layout, ShowsEveryPanelInALargeWindowAtItsAnchor) {
+    const glm::vec2 picture(1600, 1000);
+    const auto places = lay_out(many_panels(1.0f), picture, margin);
+    for (const auto& place : places) ASSERT_TRUE(place);
+    EXPECT_EQ(places[0]->first, glm::vec2(650, 10));
+    EXPECT_EQ(places[1]->first, glm::vec2(10, 920));
+    EXPECT_EQ(places[2]->first, glm::vec2(10, 10));
+    EXPECT_EQ(places[3]->first, glm::vec2(1290, 680));
+    EXPECT_EQ(places[4]->first, glm::vec2(10, 240)) << "below the panel that has the corner";
+}
+
+TEST(Layout, KeepsTheMiddleFree) {
+    const std::vector<PanelWish> wishes{{Anchor::lower_right, {{300, 250}, {300, 100}}},
+                                        {Anchor::middle, {{50, 50}}, true}};
+    const auto places = lay_out(wishes, {400, 300}, margin);
+    ASSERT_TRUE(places[0]);
+    EXPECT_EQ(places[0]->choice, 1u) << "the first size would hide the burr";
+    EXPECT_TRUE(places[1]) << "help may";
+}
+
+TEST(Layout, GivesALessImportantPanelItsSmallerSizeAndThenNone) {
+    const std::vector<PanelWish> wishes{{Anchor::upper_left, {{90, 50}}},
+                                        {Anchor::lower_left, {{90, 80}, {90, 30}}},
+                                        {Anchor::upper_left, {{90, 20}}}};
+    const auto places = lay_out(wishes, {260, 115}, margin);
+    ASSERT_TRUE(places[0]);
+    ASSERT_TRUE(places[1]);
+    EXPECT_EQ(places[1]->choice, 1u);
+    EXPECT_EQ(places[1]->size, glm::vec2(90, 30));
+    EXPECT_FALSE(places[2]);
+}
+
+}  // namespace
+}  // namespace osteomill

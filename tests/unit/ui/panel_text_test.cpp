@@ -1,0 +1,72 @@
+#include "render_client/ui/panel_text.h"
+
+#include <gmock/gmock.h>
+
+namespace osteomill {
+namespace {
+
+using ::testing::HasSubstr;
+
+/// All lines, one after the other.
+std::string plain(const PanelText& text) {
+    std::string all;
+    for (const TextLine& line : text) {
+        for (const TextPiece& piece : line) all += piece.text;
+        all += '\n';
+    }
+    return all;
+}
+
+bool has_tone(const PanelText& text, Tone tone) {
+    for (const TextLine& line : text)
+        for (const TextPiece& piece : line)
+            if (piece.tone == tone) return true;
+    return false;
+}
+
+class PanelTexts : public ::testing::Test {
+  protected:
+    PanelTexts() {
+        session_.scene_name = "tooth";
+        session_.burrs = {{.name = "3 mm", .diameter_mm = 3.0, .edges = 8}};
+        content_.session = &session_;
+        content_.view = &view_;
+        content_.tool = ToolView{.removed_mm3 = 1.234};
+        content_.link.status = LinkStatus::live;
+        content_.link.status_line = "connected to 127.0.0.1:7010";
+    }
+
+    SessionInfo session_;
+    ViewSettings view_;
+    OverlayContent content_;
+};
+
+TEST_F(PanelTexts, SayInAWarningThatAnotherClientHasTheTool) {
+    content_.operator_intent = OperatorIntent{};
+    EXPECT_FALSE(has_tone(operator_text(content_), Tone::warning));
+    content_.tool->driver = ToolDriver::another;
+    EXPECT_TRUE(has_tone(operator_text(content_), Tone::warning));
+    EXPECT_THAT(plain(operator_text(content_)), HasSubstr("another client moves the tool"));
+}
+
+TEST_F(PanelTexts, WarnOnlyWhereThereIsSomethingToWarnOf) {
+    EXPECT_TRUE(warning_text(content_).empty());
+    content_.tool->touches_protected = true;
+    content_.tool->fault = "the device is lost";
+    content_.bone_problem = "too large";
+    view_.notice = "written: a.png";
+    const std::string text = plain(warning_text(content_));
+    for (const char* part : {"PROTECTED", "FAULT: the device is lost", "too large", "written: a.png"})
+        EXPECT_THAT(text, HasSubstr(part));
+}
+
+TEST_F(PanelTexts, TellTheToolAndTheSession) {
+    EXPECT_THAT(plain(tool_text(content_)), HasSubstr("burr 3.0 mm, 8 edges\nspindle off\nremoved 1.23 mm"));
+    EXPECT_FALSE(has_tone(session_text(content_), Tone::warning));
+    content_.link.status = LinkStatus::lost;
+    EXPECT_TRUE(has_tone(session_text(content_), Tone::warning));
+    EXPECT_THAT(plain(session_text(content_)), HasSubstr("connected to 127.0.0.1:7010"));
+}
+
+}  // namespace
+}  // namespace osteomill

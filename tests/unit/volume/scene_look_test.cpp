@@ -1,0 +1,89 @@
+#include "render_client/volume/scene_look.h"
+
+#include <cmath>
+
+#include "render_client/volume/raycast_renderer.h"
+#include "render_client/volume/scene_picture.h"
+#include "tests/unit/volume/made_bone.h"
+#include "tests/unit/volume/offscreen_test.h"
+
+namespace osteomill {
+namespace {
+
+using SceneLookTest = OffscreenTest;
+
+const glm::ivec2 size_px(240, 180);
+const glm::ivec2 middle = size_px / 2;
+const Grid grid{.size_voxels = {96, 96, 80}, .origin_mm = {-4.75, -4.75, -3.95}};
+
+/// A ball of radius 3 mm, red inside 2 mm, green outside.
+Bone peach() {
+    return made_bone(
+        grid, [](const glm::dvec3& p) { return 3.0 - glm::length(p); },
+        [](const glm::dvec3& p) { return static_cast<std::uint8_t>(glm::length(p) < 2.0 ? 1 : 2); });
+}
+const std::array<TissueColour, 2> colours{{{1, {230, 20, 20}}, {2, {20, 230, 20}}}};
+
+/// Along the camera's axis.
+double distance_of(const Camera& camera, float window_depth) {
+    const glm::dmat4 projection = camera.projection(size_px);
+    return projection[3][2] / (2.0 * static_cast<double>(window_depth) - 1.0 + projection[2][2]);
+}
+
+TEST_F(SceneLookTest, CutShowsTheTissuesInsideAsAFlatFaceWhereTheCutIs) {
+    const BoneTextures textures(peach(), colours);
+    Camera camera = camera_on({0.0, 0.0, 0.0}, 6.0);
+    camera.azimuth_rad = camera.elevation_rad = 0.0;
+    RaycastRenderer renderer;
+    ScenePicture picture(renderer, size_px);
+    const Picture whole = picture.draw(&textures, nullptr, camera).read_back();
+    EXPECT_GT(whole.at(middle.x, middle.y)[1], 2 * whole.at(middle.x, middle.y)[0]);
+
+    picture.set_look({.cuts = {{{0.0, -1.0, 0.0}, 0.5}}});  // what is in front of y = -0.5 is gone
+    const gl::Framebuffer& cut = picture.draw(&textures, nullptr, camera);
+    const Picture inside = cut.read_back();
+    EXPECT_GT(inside.at(middle.x, middle.y)[0], 2 * inside.at(middle.x, middle.y)[1]) << "the red core";
+    const int shell_px = static_cast<int>(2.5 / mm_per_px_at(camera, {0.0, 0.0, 0.0}, size_px));
+    const auto* shell = inside.at(middle.x + shell_px, middle.y);
+    EXPECT_GT(shell[1], 2 * shell[0]) << "the green shell round it";
+    for (const int aside : {0, 12, -20})
+        EXPECT_NEAR(distance_of(camera, cut.depth_at({middle.x + aside, middle.y})), camera.distance_mm - 0.5,
+                    0.01);
+    // A flat face has one colour under a lamp that is far away.
+    for (int channel = 0; channel < 3; ++channel)
+        EXPECT_NEAR(inside.at(middle.x + 8, middle.y + 5)[channel], inside.at(middle.x, middle.y)[channel],
+                    2);
+
+    picture.set_look({});
+    EXPECT_EQ(picture.draw(&textures, nullptr, camera).read_back(), whole) << "cuts are for the eye only";
+}
+
+TEST_F(SceneLookTest, SeveralCutsLeaveWhatNoneTakesAway) {
+    const BoneTextures textures(peach(), colours);
+    Camera camera = camera_on({0.0, 0.0, 0.0}, 6.0);
+    camera.azimuth_rad = camera.elevation_rad = 0.0;
+    RaycastRenderer renderer;
+    ScenePicture picture(renderer, size_px);
+    picture.set_look({.cuts = {{{1.0, 0.0, 0.0}, 0.0}, {{0.0, 0.0, 1.0}, 0.0}, {{0.0, 1.0, 0.0}, -2.9}}});
+    const gl::Framebuffer& drawn = picture.draw(&textures, nullptr, camera);
+    // What is left is a splinter on the right hand of the patient, below, in front of y = -2.9.
+    EXPECT_EQ(drawn.depth_at({middle.x + 15, middle.y - 15}), 1.0f);
+    EXPECT_EQ(drawn.depth_at({middle.x - 15, middle.y + 15}), 1.0f);
+    EXPECT_LT(drawn.depth_at({middle.x - 4, middle.y - 4}), 1.0f);
+    EXPECT_EQ(drawn.depth_at({middle.x - 40, middle.y - 40}), 1.0f);
+}
+
+TEST_F(SceneLookTest, BackgroundIsTheLooks) {
+    const BoneTextures textures(peach(), colours);
+    RaycastRenderer renderer;
+    ScenePicture picture(renderer, size_px);
+    const Camera camera = camera_on({0.0, 0.0, 0.0}, 9.0);
+    const int dark = picture.draw(&textures, nullptr, camera).read_back().at(120, 2)[1];
+    picture.set_look({.cuts = {}, .background_low = glm::vec3(0.6f), .background_high = glm::vec3(0.8f)});
+    const int light = picture.draw(&textures, nullptr, camera).read_back().at(120, 2)[1];
+    EXPECT_LT(dark, 110);
+    EXPECT_GT(light, 190);
+}
+
+}  // namespace
+}  // namespace osteomill
