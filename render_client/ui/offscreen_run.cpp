@@ -56,6 +56,7 @@ RenderReport run_offscreen(const RenderOptions& options, SessionSource& source,
     session.view().theme = options.theme;
     session.view().scale = static_cast<float>(options.ui_scale.value_or(1.0));
     session.view().panels_shown = options.panels;
+    session.limit_textures({.budget_bytes = options.texture_budget_bytes});
     FrameTimes frame_times;
 
     bool going_on = wait_for_bone(session, stop_asked);

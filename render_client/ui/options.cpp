@@ -162,6 +162,13 @@ ParsedOptions parse_options(int argument_count, const char* const* arguments, co
     app.add_option("--screenshot-every", options.screenshot_every,
                    "Write a picture every so many frames (spreads about 30 over --frames)")
         ->check(CLI::Range(1, 1'000'000));
+    app.add_option_function<int>(
+           "--texture-budget-mib",
+           [&](int mib) { options.texture_budget_bytes = static_cast<std::size_t>(mib) << 20U; },
+           "Graphics memory for the bone (1024); a larger bone is drawn from an atlas of its bricks, or "
+           "coarser")
+        ->check(CLI::Range(1, 1 << 20))
+        ->type_name("MIB");
     app.add_option("--json", options.json, "Write what was measured to this file")->type_name("FILE");
 
     try {

@@ -11,6 +11,7 @@
 #include "render_client/ui/theme.h"
 #include "render_client/volume/bone_look.h"
 #include "render_client/volume/renderer_choice.h"
+#include "render_client/volume/texture_plan.h"
 
 namespace osteomill {
 
@@ -32,7 +33,8 @@ struct RenderOptions {
     ThemeName theme = ThemeName::dark;
     std::optional<double> ui_scale;  ///< of panels and letters; absent: the display's, 1 offscreen
     bool panels = true;
-    std::filesystem::path json;  ///< empty writes none
+    std::size_t texture_budget_bytes = default_texture_budget_bytes;  ///< for the bone
+    std::filesystem::path json;                                       ///< empty writes none
 };
 
 /// The command line asks for something other than a run: usage error (2), or help or version (0).

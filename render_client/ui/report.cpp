@@ -8,6 +8,18 @@
 
 namespace osteomill {
 
+namespace {
+
+nlohmann::ordered_json json_of(const std::optional<TexturePlan>& textures) {
+    if (!textures) return nullptr;
+    constexpr double bytes_per_mib = 1024.0 * 1024.0;
+    return {{"layout", textures->layout == BoneLayout::dense ? "dense" : "atlas"},
+            {"coarsening", textures->coarsening},
+            {"mib", static_cast<double>(textures->bytes) / bytes_per_mib}};
+}
+
+}  // namespace
+
 std::string to_json(const RenderReport& report) {
     const nlohmann::ordered_json json{{"frames", report.frame_times.count()},
                                       {"frame_ms",
@@ -16,6 +28,7 @@ std::string to_json(const RenderReport& report) {
                                         {"max", report.frame_times.percentile_ms(1.0)}}},
                                       {"gl_renderer", report.gl_renderer},
                                       {"bone_checksum", fmt::format("{:016x}", report.bone_checksum)},
+                                      {"bone_textures", json_of(report.textures)},
                                       {"dirty_bricks_uploaded", report.dirty_bricks_uploaded},
                                       {"checksum_mismatches", report.checksum_mismatches},
                                       {"link_status", report.link_status}};

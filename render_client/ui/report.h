@@ -3,22 +3,26 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 
 #include "render_client/ui/frame_times.h"
+#include "render_client/volume/texture_plan.h"
 
 namespace osteomill {
 
 struct RenderReport {
     FrameTimes frame_times;
     std::string gl_renderer;
-    std::uint64_t bone_checksum = 0;  ///< of the bone as it was last drawn
+    std::uint64_t bone_checksum = 0;      ///< of the bone as it was last drawn
+    std::optional<TexturePlan> textures;  ///< how the bone is held; absent: there is none
     std::uint64_t dirty_bricks_uploaded = 0;
     std::uint64_t checksum_mismatches = 0;
     std::string link_status;
 };
 
-/// Keys: frames, frame_ms {p50, p99, max}, gl_renderer, bone_checksum (16 hex digits), dirty_bricks_uploaded,
+/// Keys: frames, frame_ms {p50, p99, max}, gl_renderer, bone_checksum (16 hex digits), bone_textures
+/// {layout: "dense" or "atlas", coarsening, mib} (null without a bone), dirty_bricks_uploaded,
 /// checksum_mismatches, link_status.
 std::string to_json(const RenderReport& report);
 

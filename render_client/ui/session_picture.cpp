@@ -1,5 +1,7 @@
 #include "render_client/ui/session_picture.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <glm/common.hpp>
@@ -74,7 +76,7 @@ void SessionPicture::replace_bone() {
     // The old textures go first: both together might not fit.
     textures_.reset();
     try {
-        textures_.emplace(*source_.bone(), tissues, bone_look_);
+        textures_.emplace(*source_.bone(), tissues, bone_look_, texture_limits_);
     } catch (const std::runtime_error& error) {
         bone_problem_ = error.what();
         return;
@@ -82,6 +84,8 @@ void SessionPicture::replace_bone() {
     const glm::dvec3 half_mm = 0.5 * textures_->grid().spacing_mm * glm::dvec3(textures_->box().size);
     const glm::dvec3 middle_mm = middle_of(textures_->grid(), textures_->box());
     view_.cuts.set_bounds(middle_mm - half_mm, middle_mm + half_mm);
+    if (textures_->plan().layout != BoneLayout::dense || textures_->plan().coarsening > 1)
+        fmt::print(stderr, "render_client: the bone is drawn from {}\n", description(textures_->plan()));
     // After a reconnection the view stays where the user left it.
     if (first) reset_camera();
 }
@@ -174,6 +178,7 @@ RenderReport SessionPicture::report() const {
     RenderReport report;
     report.gl_renderer = gl::renderer_name();
     if (const Bone* bone = source_.bone()) report.bone_checksum = checksum(*bone);
+    if (textures_) report.textures = textures_->plan();
     report.dirty_bricks_uploaded = dirty_bricks_uploaded_;
     report.checksum_mismatches = link_.checksum_mismatches;
     report.link_status = link_.status_line;

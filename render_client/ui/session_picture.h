@@ -26,6 +26,9 @@ class SessionPicture {
                    FrameQuality quality = FrameQuality::full,
                    RendererChoice renderer = RendererChoice::raycast, const BoneLook& look = {});
 
+    /// Of the bones that come from now on.
+    void limit_textures(const TextureLimits& limits) { texture_limits_ = limits; }
+
     /// Polls the source and brings the textures up to date.
     void take_in();
     /// Draws bone, tool and panels; leaves the framebuffer bound. `elapsed_s`: since the last frame.
@@ -74,6 +77,7 @@ class SessionPicture {
     Camera camera_;
     Camera first_view_;
     std::optional<BoneTextures> textures_;
+    TextureLimits texture_limits_;
     std::string bone_problem_;
     LinkUpdate link_;
     std::optional<ToolView> tool_;

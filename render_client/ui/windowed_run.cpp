@@ -77,6 +77,7 @@ RenderReport run_in_window(const RenderOptions& options, SessionSource& source,
     Panels panels(window.handle());
     SessionPicture session(source, panels, window.framebuffer_size_px(), FrameQuality::on_demand,
                            options.renderer, options.look);
+    session.limit_textures({.budget_bytes = options.texture_budget_bytes});
     OperatorHand hand;
     session.view().theme = options.theme;
     session.view().panels_shown = options.panels;

@@ -53,11 +53,8 @@ void BoneLayer::forget() {
     dirty_.clear();
 }
 
-void BoneLayer::mark_dirty(const Grid& grid, std::span<const BrickIndex> bricks) {
-    const glm::ivec3 size_bricks = size_in_bricks(grid);
-    for (const BrickIndex brick : bricks)
-        dirty_.push_back(
-            {brick_position(size_bricks, brick) * brick_edge_voxels, glm::ivec3(brick_edge_voxels)});
+void BoneLayer::mark_dirty(const BoneTextures& bone, std::span<const BrickIndex> bricks) {
+    for (const BrickIndex brick : bricks) dirty_.push_back(bone.voxels_of_brick(brick));
 }
 
 TileMask BoneLayer::update(const BoneTextures& bone, const Camera& camera) {

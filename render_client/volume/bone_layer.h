@@ -33,7 +33,7 @@ class BoneLayer {
     /// Another bone: all of it is stale.
     void forget();
     /// These bricks changed since the last update.
-    void mark_dirty(const Grid& grid, std::span<const BrickIndex> bricks);
+    void mark_dirty(const BoneTextures& bone, std::span<const BrickIndex> bricks);
 
     /// Draws what is due. Returns the tiles that look different from before. Leaves some framebuffer bound.
     TileMask update(const BoneTextures& bone, const Camera& camera);

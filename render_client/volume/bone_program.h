@@ -3,6 +3,8 @@
 #pragma once
 
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "render_client/volume/bone_textures.h"
 #include "render_client/volume/gl/program.h"
@@ -14,16 +16,32 @@ class BoneProgram {
     /// Texture units from this one on are the renderer's own.
     static constexpr int first_free_unit = 8;
 
-    /// `fragment_source` is GLSL 3.30 without its #version line. Throws std::runtime_error with the
-    /// compiler's log.
-    BoneProgram(const std::string& vertex_source, const std::string& fragment_source);
+    /// `fragment_source` is GLSL 3.30 without its #version line.
+    BoneProgram(std::string vertex_source, std::string fragment_source);
 
-    /// glUseProgram with this bone's textures on units 0 to first_free_unit - 1. The program that comes back
-    /// is for the renderer's own uniforms: set them all after every call, it may be another one next time.
+    /// glUseProgram, of a program for this bone's layout and look, with its textures on units 0 to
+    /// first_free_unit - 1. The program that comes back is for the renderer's own uniforms: set them all
+    /// after every call, it may be another one next time. Throws std::runtime_error with the compiler's log
+    /// where the shaders do not compile.
     const gl::Program& use(const BoneTextures& bone);
 
   private:
-    gl::Program program_;
+    /// What is fixed when a program is compiled. A software rasteriser computes both sides of a branch on a
+    /// uniform for every pixel.
+    struct Variant {
+        BoneLayout layout = BoneLayout::dense;
+        bool has_colour_code = false;
+        bool has_surface_colours = false;
+        bool is_translucent = false;
+
+        bool operator==(const Variant&) const = default;
+    };
+    gl::Program make(const Variant& variant) const;
+    const gl::Program& program_for(const Variant& variant);
+
+    std::string vertex_source_;
+    std::string fragment_source_;
+    std::vector<std::pair<Variant, gl::Program>> programs_;  ///< made when a bone first needs them
 };
 
 }  // namespace osteomill

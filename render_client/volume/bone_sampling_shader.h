@@ -5,16 +5,23 @@
 // patient's. Every function takes any point; far outside the box there is no bone.
 //
 //     vec3  bone_size                               uniform: the box, voxels
+//     vec3  texture_place(vec3 point)               where a texture that is placed as the fractions are
+//                                                   (BrickPlaces) holds the point, 0 to 1 along each edge
+//     ivec3 texel_shift(vec3 point)                 texel less voxel number, for the voxels of the box within
+//                                                   one of the point
 //     float fraction_at(vec3 point)                 0 to 1, trilinear between voxels
 //     vec3  gradient_at(vec3 point)                 of the fraction, 1 / voxel; points into the bone
 //     vec3  normal_at(vec3 point, vec3 otherwise)   unit, out of the bone; `otherwise` where nothing slopes
 //     vec4  look_at(vec3 point)                     linear RGB and opacity of the bone that is or was there
+//     vec4  smooth_look_at(vec3 point)              the same without a trace of the voxels' steps
 //     float density_at(vec3 point)                  the fraction times the opacity of the nearest voxel
 //     vec4  surface_colour_at(vec3 point)           of surface voxels nearby: display RGB times alpha, alpha
 //     float openness_at(vec3 point, vec3 normal)    0 to 1, how much of the sky above a surface is free of
 //                                                   bone
 //     float free_length(vec3 point, vec3 direction) voxels along a unit direction (no component may be zero)
 //                                                   in which the fraction stays below one half; 0 if unknown
+//     const bool, by variant of the program:
+//     bool  bone_has_colour_code                    else all bone looks alike
 //     bool  bone_is_translucent                     opacities are per mm, else bone is solid
 //     bool  bone_has_surface_colours                else surface_colour_at means nothing
 //     float bone_mm_per_voxel
@@ -26,20 +33,54 @@ namespace osteomill {
 /// voxels away into a map of 4-voxel blocks whose interpolation reads 2 voxels beyond each; one in reserve.
 inline constexpr int shading_reach_voxels = 19;
 
+/// Where texels lie, one of two; bone_sampling_glsl follows.
+inline constexpr const char* dense_places_glsl = R"glsl(
+uniform vec3 bone_size;
+
+vec3 texture_place(vec3 point) { return point / bone_size; }
+ivec3 texel_shift(vec3 point) { return ivec3(0); }
+)glsl";
+
+inline constexpr const char* atlas_places_glsl = R"glsl(
+uniform vec3 bone_size;
+uniform usampler3D bone_tile_table;
+uniform vec3 bone_texture_size;
+
+const float brick_edge = 16.0;
+const int tile_edge = 18, tile_border = 1;
+
+ivec3 brick_at(vec3 point) {
+    return clamp(ivec3(floor(point / brick_edge)), ivec3(0), ivec3(bone_size / brick_edge) - 1);
+}
+
+ivec3 first_texel_of(ivec3 brick) {
+    return ivec3(texelFetch(bone_tile_table, brick, 0).xyz) * tile_edge + tile_border;
+}
+
+vec3 texture_place(vec3 point) {
+    ivec3 brick = brick_at(point);
+    // A point beyond the box gets what the outermost border holds: nothing.
+    vec3 within = clamp(point - vec3(brick) * brick_edge, -0.5, brick_edge + 0.5);
+    return (vec3(first_texel_of(brick)) + within) / bone_texture_size;
+}
+
+ivec3 texel_shift(vec3 point) {
+    ivec3 brick = brick_at(point);
+    return first_texel_of(brick) - brick * int(brick_edge);
+}
+)glsl";
+
 inline constexpr const char* bone_sampling_glsl = R"glsl(
 uniform sampler3D bone_fraction;
-uniform sampler3D bone_mean_fraction;
-uniform usampler3D bone_skip_distance;
+uniform sampler3D bone_blocks;
 uniform usampler3D bone_colour_code;
 uniform sampler2D bone_colours;
 uniform sampler3D bone_surface_colours;
-uniform vec3 bone_size;
 uniform float bone_mm_per_voxel;
-uniform bool bone_has_colour_code, bone_has_surface_colours, bone_is_translucent;
 
 const float block_edge = 4.0;
 
-float fraction_at(vec3 point) { return textureLod(bone_fraction, point / bone_size, 0.0).r; }
+float fraction_at(vec3 point) { return textureLod(bone_fraction, texture_place(point), 0.0).r; }
 
 // Eight corners of a cube: central differences smoothed across their axis, which hides that a fraction rises
 // from none to all within about one voxel.
@@ -59,17 +100,18 @@ vec3 normal_at(vec3 point, vec3 otherwise) {
     return steepness > 1e-5 ? -gradient / steepness : otherwise;
 }
 
-uint code_at(ivec3 voxel) {
+// `shift` is texel_shift of a point within one voxel.
+uint code_at(ivec3 voxel, ivec3 shift) {
     if (!bone_has_colour_code) return 0u;
-    return texelFetch(bone_colour_code, clamp(voxel, ivec3(0), ivec3(bone_size) - 1), 0).r;
+    return texelFetch(bone_colour_code, clamp(voxel, ivec3(0), ivec3(bone_size) - 1) + shift, 0).r;
 }
 
 float density_at(vec3 point) {
-    uint code = code_at(ivec3(floor(point)));
+    uint code = code_at(ivec3(floor(point)), texel_shift(point));
     return fraction_at(point) * texelFetch(bone_colours, ivec2(int(code), 0), 0).a;
 }
 
-vec4 surface_colour_at(vec3 point) { return textureLod(bone_surface_colours, point / bone_size, 0.0); }
+vec4 surface_colour_at(vec3 point) { return textureLod(bone_surface_colours, texture_place(point), 0.0); }
 
 // Looks of the eight nearest voxels blended trilinearly, so that tissues meet without steps. What is hidden
 // does not tinge what stands beside it.
@@ -78,11 +120,12 @@ vec4 look_at(vec3 point) {
     vec3 place = point - 0.5;
     ivec3 low = ivec3(floor(place));
     vec3 part = place - vec3(low);
+    ivec3 shift = texel_shift(point);
     vec4 sum = vec4(0.0);
     float known = 0.0;
     for (int corner = 0; corner < 8; ++corner) {
         ivec3 side = ivec3(corner & 1, (corner >> 1) & 1, (corner >> 2) & 1);
-        uint code = code_at(low + side);
+        uint code = code_at(low + side, shift);
         vec4 look = texelFetch(bone_colours, ivec2(int(code), 0), 0);
         if (code == 0u || look.a == 0.0) continue;
         vec3 weights = mix(1.0 - part, part, vec3(side));
@@ -93,9 +136,35 @@ vec4 look_at(vec3 point) {
     return known > 0.0 ? sum / known : texelFetch(bone_colours, ivec2(0), 0);
 }
 
+// Looks of the 27 nearest voxels blended by the quadratic B-spline, twice as wide as trilinear: colours by
+// stiffness change from voxel to voxel where the CT blurred a surface, and labels end in steps.
+vec4 smooth_look_at(vec3 point) {
+    if (!bone_has_colour_code) return texelFetch(bone_colours, ivec2(0), 0);
+    ivec3 nearest = ivec3(floor(point));
+    vec3 off = point - vec3(nearest) - 0.5;
+    vec3 before = 0.5 * (0.5 - off) * (0.5 - off), after = 0.5 * (0.5 + off) * (0.5 + off);
+    ivec3 shift = texel_shift(point);
+    vec4 sum = vec4(0.0);
+    float known = 0.0;
+    for (int z = -1; z <= 1; ++z)
+        for (int y = -1; y <= 1; ++y)
+            for (int x = -1; x <= 1; ++x) {
+                uint code = code_at(nearest + ivec3(x, y, z), shift);
+                vec4 look = texelFetch(bone_colours, ivec2(int(code), 0), 0);
+                if (code == 0u || look.a == 0.0) continue;
+                vec3 weights = vec3(x < 0 ? before.x : x > 0 ? after.x : 1.0 - before.x - after.x,
+                                    y < 0 ? before.y : y > 0 ? after.y : 1.0 - before.y - after.y,
+                                    z < 0 ? before.z : z > 0 ? after.z : 1.0 - before.z - after.z);
+                float weight = weights.x * weights.y * weights.z + 1e-5;
+                sum += weight * look;
+                known += weight;
+            }
+    return known > 0.0 ? sum / known : texelFetch(bone_colours, ivec2(0), 0);
+}
+
 float mean_fraction_at(vec3 point) {
     vec3 map_size = bone_size / block_edge + 2.0;
-    return textureLod(bone_mean_fraction, (point / block_edge + 1.0) / map_size, 0.0).r;
+    return textureLod(bone_blocks, (point / block_edge + 1.0) / map_size, 0.0).r;
 }
 
 // By the mean fractions of blocks near and far in four directions round the normal.
@@ -115,7 +184,7 @@ float openness_at(vec3 point, vec3 normal) {
 float free_length(vec3 point, vec3 direction) {
     ivec3 block = ivec3(floor(point / block_edge)) + 1;
     ivec3 last = ivec3(bone_size / block_edge) + 1;
-    int away = int(texelFetch(bone_skip_distance, clamp(block, ivec3(0), last), 0).r);
+    int away = int(texelFetch(bone_blocks, clamp(block, ivec3(0), last), 0).g * 255.0 + 0.5);
     if (away == 0) return 0.0;
     vec3 low = vec3(block - away) * block_edge;
     vec3 high = vec3(block + away - 1) * block_edge;

@@ -9,7 +9,8 @@ namespace osteomill {
 
 namespace {
 
-constexpr std::array<double, 11> divisors{1.0, 1.25, 1.5, 1.75, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 8.0};
+constexpr std::array<double, 14> divisors{1.0,  1.25, 1.5, 1.75, 2.0, 2.25, 2.5,
+                                          2.75, 3.0,  3.5, 4.0,  5.0, 6.0,  8.0};
 constexpr double least_part_for_drawing = 0.25;
 constexpr double rise_a_measurement = 0.5;
 constexpr double fall_a_measurement = 0.2;

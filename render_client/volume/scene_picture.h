@@ -24,7 +24,7 @@ class ScenePicture {
     void forget_bone() { layer_.forget(); }
     /// These bricks changed since the last draw.
     void mark_dirty(const BoneTextures& bone, std::span<const BrickIndex> bricks) {
-        layer_.mark_dirty(bone.grid(), bricks);
+        layer_.mark_dirty(bone, bricks);
     }
 
     /// Draws into its own framebuffer and leaves it bound, so that an overlay may follow. Null: there is no

@@ -3,6 +3,7 @@
 
 #include <span>
 
+#include "render_client/volume/brick_places.h"
 #include "render_client/volume/gl/texture3d.h"
 #include "render_client/volume/surface_voxels.h"
 
@@ -10,20 +11,19 @@ namespace osteomill {
 
 class SurfaceTexture {
   public:
-    /// Shades the whole box (of the bone's grid, whole bricks). Throws std::runtime_error where the driver
-    /// has no memory for its four bytes a voxel.
-    SurfaceTexture(const Bone& bone, const LookTable& table, const VoxelBox& box);
+    /// Shades all of the bone. Throws gl::NoTextureMemory where the driver has none for four bytes a voxel.
+    SurfaceTexture(const Bone& bone, const LookTable& table, const BrickPlaces& places);
 
     /// Shades again what a change of these bricks can have changed: themselves and one voxel round them.
-    void update(const Bone& bone, std::span<const BrickIndex> dirty);
+    /// `places` are those of the constructor.
+    void update(const Bone& bone, BrickPlaces& places, std::span<const BrickIndex> dirty);
 
     const gl::Texture3D& texture() const { return texture_; }
 
   private:
-    void shade(const Bone& bone, const VoxelBox& box);
+    void shade(const Bone& bone, const PlacedVoxels& placed);
 
     LookTable table_;
-    VoxelBox box_;
     gl::Texture3D texture_;
 };
 

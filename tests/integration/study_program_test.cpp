@@ -141,6 +141,29 @@ TEST_F(StudyProgram, PolishesQuickly) {
         EXPECT_THAT(text_of(out_ + "/polishing_" + chart + ".svg"), HasSubstr("</svg>")) << chart;
 }
 
+TEST_F(StudyProgram, DrawsAndMeasuresPicturesQuickly) {
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+    GTEST_SKIP() << "what it runs is run by the unit tests; under a sanitizer it takes minutes";
+#endif
+    const Outcome outcome = run("render --quick --out " + out_);
+    if (outcome.err.find("OpenGL") != std::string::npos)
+        GTEST_SKIP() << "needs OpenGL without a display: " << outcome.err;
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+    const auto found = nlohmann::json::parse(text_of(out_ + "/render.json"));
+    EXPECT_THAT(outcome.out, HasSubstr(found.at("gl_renderer").get<std::string>()));
+    int defaults = 0;
+    for (const auto& point : found.at("accuracy")) {
+        EXPECT_GT(point.at("frame").at("wall_ms"), 0.0);
+        if (!point.at("is_default")) continue;
+        ++defaults;
+        EXPECT_GE(point.at("psnr_db"), 40.0);
+    }
+    EXPECT_EQ(defaults, 1);
+    for (const char* chart : {"accuracy", "scaling", "upload"})
+        EXPECT_THAT(text_of(out_ + "/render_" + chart + ".svg"), HasSubstr("</svg>")) << chart;
+    EXPECT_TRUE(std::filesystem::exists(out_ + "/pictures/tooth_phantom_slices_surface_voxels_after.png"));
+}
+
 TEST_F(StudyProgram, SaysInOneLineWhatIsWrong) {
     expect_refused("force --cases nowhere.json --out " + out_, 1, "nowhere.json: cannot be read");
     std::ofstream(folder_ / "bad.json") << "[{\"name\": \"half a case\"}]";
@@ -149,7 +172,7 @@ TEST_F(StudyProgram, SaysInOneLineWhatIsWrong) {
     std::ofstream(folder_ / "file") << "in the way";
     expect_refused(std::string("force --cases ") + case_file + " --out " + (folder_ / "file/out").string(), 1,
                    "file/out: cannot be made a folder");
-    expect_refused("", 2, "a study to run: force, stability or polishing");
+    expect_refused("", 2, "a study to run: force, stability, polishing or render");
     expect_refused("farce", 2, "farce");
     expect_refused(std::string("force --cases ") + case_file + " --voxel-mm 0", 2, "--voxel-mm");
     expect_refused("force --case x.json", 2, "--case");

@@ -13,6 +13,7 @@
 #include "tests/studies/force/case_report.h"
 #include "tests/studies/force/force_study.h"
 #include "tests/studies/polishing/polishing_options.h"
+#include "tests/studies/render/render_options.h"
 #include "tests/studies/report/output_files.h"
 #include "tests/studies/stability/map/stability_options.h"
 #include "tests/studies/stability/scene/map_run.h"
@@ -99,6 +100,11 @@ void run(const osteomill::study::PolishingStudyOptions& options) {
     osteomill::study::run_polishing_study(options, surroundings());
 }
 
+void run(const osteomill::study::RenderStudyOptions& options) {
+    osteomill::study::make_folder(options.out);
+    osteomill::study::run_render_study(options, surroundings());
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -110,10 +116,12 @@ int main(int argc, char** argv) {
     const CLI::App* const is_stability = osteomill::study::add_stability(app, stability);
     osteomill::study::PolishingStudyOptions polishing;
     const CLI::App* const is_polishing = osteomill::study::add_polishing(app, polishing);
+    osteomill::study::RenderStudyOptions render;
+    const CLI::App* const is_render = osteomill::study::add_render(app, render);
     try {
         app.parse(argc, argv);
         if (app.get_subcommands().empty())
-            throw CLI::RequiredError("a study to run: force, stability or polishing");
+            throw CLI::RequiredError("a study to run: force, stability, polishing or render");
     } catch (const CLI::ParseError& error) {
         if (error.get_exit_code() == 0) return app.exit(error);
         std::cerr << "osteomill_study: " << error.what() << " (see --help)\n";
@@ -124,6 +132,8 @@ int main(int argc, char** argv) {
             run(stability);
         else if (is_polishing->parsed())
             run(polishing);
+        else if (is_render->parsed())
+            run(render);
         else
             run(force);
         return 0;

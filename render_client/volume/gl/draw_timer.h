@@ -5,6 +5,9 @@
 
 #include <epoxy/gl.h>
 
+#include <algorithm>
+#include <chrono>
+
 #include "render_client/volume/stopwatch.h"
 
 namespace osteomill::gl {
@@ -17,7 +20,10 @@ class DrawTimer final : public Stopwatch {
     DrawTimer& operator=(const DrawTimer&) = delete;
     ~DrawTimer() override { glDeleteQueries(1, &query_); }
 
-    void start() override { glBeginQuery(GL_TIME_ELAPSED, query_); }
+    void start() override {
+        glBeginQuery(GL_TIME_ELAPSED, query_);
+        started_ = Clock::now();
+    }
     void stop() override {
         glEndQuery(GL_TIME_ELAPSED);
         pending_ = true;
@@ -30,10 +36,15 @@ class DrawTimer final : public Stopwatch {
         GLuint64 elapsed_ns = 0;
         glGetQueryObjectui64v(query_, GL_QUERY_RESULT, &elapsed_ns);
         pending_ = false;
-        return 1e-9 * static_cast<double>(elapsed_ns);
+        // Mesa 22.3's software rasteriser now and then counts from the machine's start.
+        const double at_most_s = std::chrono::duration<double>(Clock::now() - started_).count();
+        return std::min(1e-9 * static_cast<double>(elapsed_ns), at_most_s);
     }
 
   private:
+    using Clock = std::chrono::steady_clock;
+
+    Clock::time_point started_;
     GLuint query_ = 0;
     bool pending_ = false;
 };

@@ -139,6 +139,28 @@ glm::dvec4 ReferenceVolume::look_at(const glm::dvec3& point) const {
     return known > 0.0 ? sum / known : unknown;
 }
 
+glm::dvec4 ReferenceVolume::smooth_look_at(const glm::dvec3& point) const {
+    const glm::dvec4 unknown(table_.by_code[0]);
+    if (code_.empty()) return unknown;
+    const glm::ivec3 nearest(glm::floor(point));
+    const glm::dvec3 off = point - glm::dvec3(nearest) - 0.5;
+    // By step along an axis, -1 to 1.
+    const std::array<glm::dvec3, 3> weights{0.5 * (0.5 - off) * (0.5 - off), 0.75 - off * off,
+                                            0.5 * (0.5 + off) * (0.5 + off)};
+    glm::dvec4 sum(0.0);
+    double known = 0.0;
+    for (std::size_t step = 0; step < 27; ++step) {
+        const std::size_t x = step % 3, y = step / 3 % 3, z = step / 9;
+        const std::uint8_t code = code_at(nearest + glm::ivec3(x, y, z) - 1);
+        const glm::dvec4 look(table_.by_code[code]);
+        if (code == 0 || look.a == 0.0) continue;
+        const double weight = weights[x].x * weights[y].y * weights[z].z + 1e-5;
+        sum += weight * look;
+        known += weight;
+    }
+    return known > 0.0 ? sum / known : unknown;
+}
+
 glm::dvec4 ReferenceVolume::surface_colour_at(const glm::dvec3& point) const {
     const Place at(point);
     glm::dvec4 sum(0.0);

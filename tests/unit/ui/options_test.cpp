@@ -44,9 +44,9 @@ TEST(Options, ChooseRendererShadingAndTransferFunctionByName) {
 }
 
 TEST(Options, TakeEverythingOfAnOffscreenRun) {
-    const ParsedOptions result =
-        parsed({"--connect", "[::1]:7011", "--offscreen", "--frames", "12", "--screenshots", "shots",
-                "--screenshot-every", "3", "--window-size", "320x200", "--json", "out.json"});
+    const ParsedOptions result = parsed({"--connect", "[::1]:7011", "--offscreen", "--frames", "12",
+                                         "--screenshots", "shots", "--screenshot-every", "3", "--window-size",
+                                         "320x200", "--texture-budget-mib", "64", "--json", "out.json"});
     ASSERT_FALSE(result.no_run.has_value()) << result.no_run->message;
     EXPECT_EQ(result.options.host, "::1");
     EXPECT_EQ(result.options.port, 7011);
@@ -54,6 +54,7 @@ TEST(Options, TakeEverythingOfAnOffscreenRun) {
     EXPECT_EQ(result.options.screenshots, "shots");
     EXPECT_EQ(result.options.screenshot_every, 3);
     EXPECT_EQ(result.options.window_size_px, glm::ivec2(320, 200));
+    EXPECT_EQ(result.options.texture_budget_bytes, std::size_t{64} << 20U);
     EXPECT_EQ(result.options.json, "out.json");
 }
 

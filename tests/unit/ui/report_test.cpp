@@ -19,6 +19,16 @@ TEST(Report, HasTheKeysThatOthersReadByName) {
     EXPECT_EQ(json.at("frame_ms").at("max"), 8.0);
     EXPECT_EQ(json.at("gl_renderer"), "llvmpipe");
     EXPECT_EQ(json.at("bone_checksum"), "0000000000abcdef");
+    EXPECT_TRUE(json.at("bone_textures").is_null());
+}
+
+TEST(Report, SaysHowTheBoneIsHeld) {
+    RenderReport report;
+    report.textures = TexturePlan{BoneLayout::atlas, 2, 3U << 20};
+    const auto textures = nlohmann::json::parse(to_json(report)).at("bone_textures");
+    EXPECT_EQ(textures.at("layout"), "atlas");
+    EXPECT_EQ(textures.at("coarsening"), 2);
+    EXPECT_EQ(textures.at("mib"), 3.0);
 }
 
 TEST(Report, SurvivesAStatusThatIsNoText) {

@@ -1,0 +1,35 @@
+// Pictures and what they cost.
+#pragma once
+
+#include <functional>
+#include <glm/vec2.hpp>
+
+#include "render_client/volume/bone_renderer.h"
+#include "render_client/volume/gl/framebuffer.h"
+
+namespace osteomill::study {
+
+/// What a piece of work took: on the clock until OpenGL had finished it, and of all threads of this process.
+struct Cost {
+    double wall_ms = 0.0;
+    double cpu_ms = 0.0;
+};
+
+/// Does it once unmeasured, then `times` times; the median of each (the smallest would hide what a driver
+/// does now and then, the mean what else runs on the machine). `times` is at least 1. Needs a current
+/// context.
+Cost median_cost(const std::function<void()>& work, int times);
+
+struct TimedPicture {
+    Picture picture;
+    Cost cost;
+};
+
+/// Draws the whole bone layer at `size_px`.
+TimedPicture timed_drawing(BoneRenderer& renderer, const BoneTextures& bone, const Camera& camera,
+                           const glm::ivec2& size_px, int times);
+
+/// A picture of another size, bilinear between pixels, as a coarser one is shown in a window.
+Picture scaled(const Picture& picture, const glm::ivec2& size_px);
+
+}  // namespace osteomill::study

@@ -1,0 +1,40 @@
+// The bones that pictures are measured on, and the views of them.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "common/bone/bone.h"
+#include "render_client/volume/bone_colours.h"
+#include "render_client/volume/camera.h"
+
+namespace osteomill::study {
+
+struct TrialBone {
+    std::string name{};
+    Bone bone;
+    std::vector<TissueColour> tissues{};
+    Camera overview{};
+    Camera close_up{};
+};
+
+/// The phantom of the default scene, 512 x 512 x 128 voxels.
+TrialBone tooth_trial();
+
+/// 40 mm of the skull in the folder of trial scans, 400^3 voxels, imported by way of a file in `folder` which
+/// is removed again. Throws std::runtime_error where the scan is not there.
+TrialBone skull_trial(const std::filesystem::path& scans, const std::filesystem::path& folder);
+
+/// A shape with hollows and thin walls (two interwoven sheets of a gyroid in a ball) of `edge_voxels` along
+/// each axis: the same picture at any size.
+TrialBone gyroid_trial(int edge_voxels);
+
+/// Where the camera's axis first meets bone; throws std::runtime_error where it meets none.
+glm::dvec3 seen_point_mm(const Bone& bone, const Camera& camera);
+
+/// Takes away a ball of this diameter round the point in the close-up's middle; returns the bricks that
+/// changed.
+std::vector<BrickIndex> carve_in_view(TrialBone& trial, double diameter_mm);
+
+}  // namespace osteomill::study

@@ -1,0 +1,109 @@
+#include "render_client/volume/surface_voxels.h"
+
+#include <cmath>
+#include <glm/geometric.hpp>
+
+#include "render_client/volume/lighting.h"
+#include "render_client/volume/surface_texture.h"
+#include "tests/unit/volume/made_bone.h"
+#include "tests/unit/volume/offscreen_test.h"
+
+namespace osteomill {
+namespace {
+
+using SurfaceTextureTest = OffscreenTest;
+
+const Grid grid{.size_voxels = {48, 48, 48}, .origin_mm = {-2.35, -2.35, -2.35}};
+
+Bone ball() {
+    return made_bone(grid, [](const glm::dvec3& p) { return 1.9 - glm::length(p); });
+}
+
+VoxelBox whole() {
+    return {{0, 0, 0}, grid.size_voxels};
+}
+
+std::size_t place(const glm::ivec3& voxel) {
+    return (static_cast<std::size_t>(voxel.z) * 48 + voxel.y) * 48 + voxel.x;
+}
+
+/// The definition, voxel by voxel: at least half full, with a neighbour that is not.
+bool is_on_surface(const Bone& bone, const glm::ivec3& voxel) {
+    if (bone.fraction_at(voxel) < 128) return false;
+    for (int i = 0; i < 27; ++i)
+        if (bone.fraction_at(voxel + glm::ivec3(i % 3, i / 3 % 3, i / 9) - 1) < 128) return true;
+    return false;
+}
+
+TEST(SurfaceVoxels, AreThoseInsideWithANeighbourOutside) {
+    const Bone bone = ball();
+    const auto texels = shade_surface_voxels(bone, look_table(bone.content(), {}, {}), whole());
+    int surface = 0;
+    for (int z = 0; z < 48; ++z)
+        for (int y = 0; y < 48; ++y)
+            for (int x = 0; x < 48; ++x) {
+                const glm::ivec3 voxel(x, y, z);
+                ASSERT_EQ(texels[place(voxel)].a == 255, is_on_surface(bone, voxel));
+                surface += texels[place(voxel)].a == 255 ? 1 : 0;
+            }
+    // A shell of the ball, between one and two voxels thick.
+    const double area_voxels = 4.0 * std::acos(-1.0) * 19.0 * 19.0;
+    EXPECT_GT(surface, 0.9 * area_voxels);
+    EXPECT_LT(surface, 2.0 * area_voxels);
+}
+
+TEST(SurfaceVoxels, AreLitByTheNormalOfTheBall) {
+    const Bone bone = ball();
+    const LookTable table = look_table(bone.content(), {}, {});
+    const auto texels = shade_surface_voxels(bone, table, whole());
+    double worst = 0.0;
+    for (int z = 0; z < 48; ++z)
+        for (int y = 0; y < 48; ++y)
+            for (int x = 0; x < 48; ++x) {
+                const SurfaceTexel& texel = texels[place({x, y, z})];
+                if (texel.a == 0) continue;
+                const glm::dvec3 normal = glm::normalize(centre_of_voxel_mm(grid, {x, y, z}));
+                const glm::dvec3 expected = display(lit(glm::dvec3(table.by_code[0]), normal, 1.0));
+                worst = std::max(worst, std::abs(texel.g / 255.0 - expected.g));
+            }
+    // Normals of 26 directions are off by some degrees; a wrong weight or sign is off by tens.
+    EXPECT_LT(worst, 0.09);
+}
+
+TEST_F(SurfaceTextureTest, IsShadedAgainOnlyRoundTheChangeAndEqualsAFreshOne) {
+    for (const BoneLayout layout : {BoneLayout::dense, BoneLayout::atlas}) {
+        Bone bone = ball();
+        const LookTable table = look_table(bone.content(), {}, {});
+        const BrickPlaces places(bone.content(), layout, gl::max_texture3d_edge());
+        SurfaceTexture updated(bone, table, places);
+        // At the corner of bricks, so that neighbours' voxels become surface, too.
+        updated.update(bone, places, carve_sphere(bone, {0.75, 0.75, 1.2}, 0.8));
+        const SurfaceTexture fresh(bone, table, places);
+        const auto texels = [&](const SurfaceTexture& surface) {
+            std::vector<std::uint8_t> bytes(4 * VoxelBox{{}, places.texture_size()}.count());
+            surface.texture().read_back(bytes);
+            return bytes;
+        };
+        // What lies in tiles that no brick has is nobody's business.
+        const auto expected = texels(fresh), found = texels(updated);
+        const glm::ivec3 size = places.texture_size();
+        for (std::size_t slot = 0; slot < bone.stored_bricks(); ++slot) {
+            const glm::ivec3 brick =
+                brick_position(bone.content().size_bricks, bone.content().brick_of_slot[slot]);
+            const PlacedVoxels placed = places.of_brick(brick, static_cast<std::int32_t>(slot));
+            for (std::size_t i = 0; i < placed.voxels.count(); ++i) {
+                const glm::ivec3 edge = placed.voxels.size;
+                const auto n = static_cast<int>(i);
+                const glm::ivec3 texel =
+                    placed.first_texel + glm::ivec3(n % edge.x, n / edge.x % edge.y, n / (edge.x * edge.y));
+                const std::size_t at =
+                    4 * ((static_cast<std::size_t>(texel.z) * size.y + texel.y) * size.x + texel.x);
+                ASSERT_EQ(found[at + 3], expected[at + 3]);
+                ASSERT_EQ(found[at], expected[at]);
+            }
+        }
+    }
+}
+
+}  // namespace
+}  // namespace osteomill
