@@ -13,7 +13,7 @@
 namespace osteomill {
 namespace {
 
-const glm::ivec2 size_px(400, 300);
+const glm::ivec2 size_px(200, 150);
 const Grid grid{.size_voxels = {96, 96, 80}, .origin_mm = {-4.75, -4.75, -3.95}};
 
 class BothRenderers : public OffscreenTest, public testing::WithParamInterface<RendererChoice> {
@@ -67,8 +67,8 @@ TEST_P(BothRenderers, PickPointsOnACarvedSphereWithinHalfAVoxel) {
     const gl::Framebuffer& picture = drawn(textures, camera);
     const glm::dmat4 to_patient = glm::inverse(camera.projection(size_px) * camera.view());
     int picked = 0;
-    for (int y = 110; y < 190; y += 16)
-        for (int x = 150; x < 250; x += 20) {
+    for (int y = 55; y < 95; y += 8)
+        for (int x = 75; x < 125; x += 10) {
             const float depth = picture.depth_at({x, y});
             const glm::dvec4 clip(2.0 * (x + 0.5) / size_px.x - 1.0, 2.0 * (y + 0.5) / size_px.y - 1.0,
                                   2.0 * static_cast<double>(depth) - 1.0, 1.0);

@@ -56,7 +56,8 @@ TEST(SurfaceVoxels, AreLitByTheNormalOfTheBall) {
     const Bone bone = ball();
     const LookTable table = look_table(bone.content(), {}, {});
     const auto texels = shade_surface_voxels(bone, table, whole());
-    double worst = 0.0;
+    double sum = 0.0;
+    int count = 0;
     for (int z = 0; z < 48; ++z)
         for (int y = 0; y < 48; ++y)
             for (int x = 0; x < 48; ++x) {
@@ -64,17 +65,19 @@ TEST(SurfaceVoxels, AreLitByTheNormalOfTheBall) {
                 if (texel.a == 0) continue;
                 const glm::dvec3 normal = glm::normalize(centre_of_voxel_mm(grid, {x, y, z}));
                 const glm::dvec3 expected = display(lit(glm::dvec3(table.by_code[0]), normal, 1.0));
-                worst = std::max(worst, std::abs(texel.g / 255.0 - expected.g));
+                sum += std::abs(texel.g / 255.0 - expected.g);
+                ++count;
             }
-    // Normals of 26 directions are off by some degrees; a wrong weight or sign is off by tens.
-    EXPECT_LT(worst, 0.09);
+    // A voxel of the inner layer looks out in one of 26 directions, tens of degrees off; most do not.
+    ASSERT_GT(count, 1000);
+    EXPECT_LT(sum / count, 0.04);
 }
 
 TEST_F(SurfaceTextureTest, IsShadedAgainOnlyRoundTheChangeAndEqualsAFreshOne) {
     for (const BoneLayout layout : {BoneLayout::dense, BoneLayout::atlas}) {
         Bone bone = ball();
         const LookTable table = look_table(bone.content(), {}, {});
-        const BrickPlaces places(bone.content(), layout, gl::max_texture3d_edge());
+        BrickPlaces places(bone.content(), layout, gl::max_texture3d_edge());
         SurfaceTexture updated(bone, table, places);
         // At the corner of bricks, so that neighbours' voxels become surface, too.
         updated.update(bone, places, carve_sphere(bone, {0.75, 0.75, 1.2}, 0.8));
