@@ -17,7 +17,7 @@ ScaledFrames frames_of(double at, const TrialBone& trial, const glm::ivec2& size
     {
         const BoneTextures textures(trial.bone, trial.tissues);
         row.raycast = cost(*raycast, textures, times);
-        row.slices = cost(*slices, textures, 1);
+        row.slices = cost(*slices, textures, 0);
     }
     const BoneTextures textures(trial.bone, trial.tissues, {.shading = Shading::surface_voxels});
     row.raycast_surface_voxels = cost(*raycast, textures, times);

@@ -43,7 +43,7 @@ void write_gallery(const TrialBone& trial, const glm::ivec2& size_px, const std:
     }
     for (const TransferFunction& preset : transfer_presets()) {
         const BoneTextures textures(trial.bone, trial.tissues, {.transfer = preset});
-        write(RendererChoice::raycast, textures, trial.overview, "transfer_" + preset.name);
+        write(RendererChoice::raycast, textures, trial.close_up, "transfer_" + preset.name);
     }
 }
 

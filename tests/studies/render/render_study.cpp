@@ -40,7 +40,7 @@ class RenderStudy {
     RenderStudy(const RenderStudyOptions& options, const StudySurroundings& surroundings)
         : options_(options),
           surroundings_(surroundings),
-          size_px_(options.quick ? glm::ivec2(240, 180) : glm::ivec2(640, 480)) {}
+          size_px_(options.size_px.value_or(options.quick ? glm::ivec2(240, 180) : glm::ivec2(640, 480))) {}
 
     void run() {
         ordered_json found;

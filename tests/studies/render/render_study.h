@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <glm/vec2.hpp>
 #include <optional>
 
 #include "tests/studies/report/surroundings.h"
@@ -11,6 +12,7 @@ namespace osteomill::study {
 struct RenderStudyOptions {
     std::filesystem::path out;
     bool quick = false;                            ///< fewer settings, smaller pictures: under a minute
+    std::optional<glm::ivec2> size_px{};           ///< of the pictures; none: 640 x 480, 240 x 180 if quick
     std::optional<std::filesystem::path> scans{};  ///< a folder of trial scans; none: the phantom alone
 };
 

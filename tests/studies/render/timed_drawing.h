@@ -16,8 +16,8 @@ struct Cost {
 };
 
 /// Does it once unmeasured, then `times` times; the median of each (the smallest would hide what a driver
-/// does now and then, the mean what else runs on the machine). `times` is at least 1. Needs a current
-/// context.
+/// does now and then, the mean what else runs on the machine). With `times` 0 the first time is what
+/// counts: for what takes seconds. Needs a current context.
 Cost median_cost(const std::function<void()>& work, int times);
 
 struct TimedPicture {

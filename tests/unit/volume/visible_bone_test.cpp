@@ -44,6 +44,25 @@ TEST(VisibleBone, IsPeeledSmoothlyByARampOfOpacity) {
     EXPECT_EQ(visible.bone().fraction_at({5, 5, 5}), 128);
 }
 
+TEST(VisibleBone, KeepsTheSoftRimOfHardBoneAcrossBricks) {
+    // Stiff bone up to z = 1.5 mm (voxel 15, a brick's last), a soft rim of one voxel, soft bone above.
+    BoneBuilder builder = BoneBuilder::heterogeneous(grid, 0.02, false);
+    for (int z = 0; z < 2; ++z)
+        for (int y = 0; y < 2; ++y)
+            for (int x = 0; x < 2; ++x) {
+                ByteBrick fraction{}, stiffness{};
+                fraction.fill(255);
+                stiffness.fill(z == 0 ? 100 : 10);
+                builder.add_brick({x, y, z}, fraction, &stiffness, nullptr);
+            }
+    const Bone bone = std::move(builder).build();
+    const BoneLook hard{.transfer = ct_window(1.5, 1.0)};
+    const VisibleBone visible(bone, look_table(bone.content(), {}, hard));
+    EXPECT_EQ(visible.bone().fraction_at({5, 5, 15}), 255);
+    EXPECT_EQ(visible.bone().fraction_at({5, 5, 16}), 255) << "beside hard bone";
+    EXPECT_EQ(visible.bone().fraction_at({5, 5, 17}), 0);
+}
+
 TEST(BoneLook, TakesTissuesUnlessATransferFunctionIsGiven) {
     const Bone bone = labelled();
     EXPECT_EQ(look_table(bone.content(), {}, {}).channel, BoneChannel::tissue);

@@ -5,7 +5,10 @@ stats table using 'panel_number' nooutput
 panels = int(STATS_max)
 columns = panels > 1 ? 2 : 1
 rows = (panels + columns - 1) / columns
-set terminal svg size 900*columns + 100,620*rows + 160 dynamic font 'DejaVu Sans,15' background 'white'
+# Room for the legend, pixels.
+legend = columns > 1 ? 130.0 : 190.0
+height = 620*rows + 30 + legend
+set terminal svg size (columns > 1 ? 900*columns + 100 : 1250),height dynamic font 'DejaVu Sans,15' background 'white'
 set output folder.'/render_accuracy.svg'
 array Family[6] = ['rays shaded by gradient', 'rays to surface voxels', 'rays without skipping', \
                    'rays at lower resolution', 'slices shaded by gradient', 'slices of surface voxels (published)']
@@ -20,9 +23,9 @@ set offsets graph 0.05, graph 0.12, graph 0.08, graph 0.08
 set xlabel 'time of a frame (median), ms'
 set ylabel 'PSNR against the reference image, dB'
 renderer = system("head -n 1 '".folder."/gl_renderer.txt'")
-bottom = 130.0 / (620*rows + 160)
+bottom = legend / height
 set multiplot layout rows,columns title "What a picture costs and what it is worth\n".renderer \
-    font ',18' noenhanced margins (columns > 1 ? 0.06 : 0.1),0.985,bottom + 0.05,1 - 0.75*bottom spacing 0.07,0.11
+    font ',18' noenhanced margins (columns > 1 ? 0.06 : 0.1),0.985,bottom + 0.05,1 - 100/height spacing 0.07,0.11
 do for [p=1:panels] {
     set title system(sprintf("awk -F, '$1 == %d { print $2; exit }' '%s'", p, table)) offset 0,-0.5
     if (p == 1) {
@@ -35,7 +38,7 @@ do for [p=1:panels] {
          for [i=1:6] table using 'frame_ms':(of(p, i, 'psnr_db')):'label' with labels \
              left offset 0.8,0.5 font ',11' tc rgb Colour[i] notitle, \
          table using 'frame_ms':(of(p, 1, 'psnr_trilinear_db')) with points pt 1 ps 1.1 lw 1.5 lc rgb blue \
-             title 'the same, against normals that are the derivative', \
+             title 'rays by gradient, against the derivative as normal', \
          table using 'frame_ms':(column('panel_number') == p && column('is_default') == 1 ? column('psnr_db') : NaN) \
              with points pt 6 ps 2.2 lw 2.5 lc rgb black title 'the default', \
          40 with lines dt 2 lw 1.5 lc rgb black title 'goal of full quality'
