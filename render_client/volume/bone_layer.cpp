@@ -4,6 +4,7 @@
 #include <cmath>
 #include <glm/common.hpp>
 
+#include "render_client/volume/block_summary.h"
 #include "render_client/volume/bone_sampling_shader.h"
 
 namespace osteomill {
@@ -31,6 +32,14 @@ PixelBox in_coarse(const PixelBox& box, const glm::ivec2& fine_px, const glm::iv
     return {first, glm::min(high, coarse_px) - first};
 }
 
+/// A change is felt as far as its block is: what shading reads are means over blocks. A brick of a coarser
+/// copy may be a part of one.
+VoxelBox in_whole_blocks(const VoxelBox& box, const glm::ivec3& origin) {
+    const glm::ivec3 first = (box.first - origin) / block_edge_voxels * block_edge_voxels;
+    const glm::ivec3 end = box.first + box.size - origin + (block_edge_voxels - 1);
+    return {origin + first, end / block_edge_voxels * block_edge_voxels - first};
+}
+
 }  // namespace
 
 BoneLayer::BoneLayer(BoneRenderer& renderer, const glm::ivec2& size_px, Stopwatch* stopwatch)
@@ -48,15 +57,14 @@ void BoneLayer::forget() {
 }
 
 void BoneLayer::mark_dirty(const BoneTextures& bone, std::span<const BrickIndex> bricks) {
-    const glm::ivec3 size_bricks = size_in_bricks(bone.grid());
     for (const BrickIndex brick : bricks)
-        dirty_.push_back(
-            {brick_position(size_bricks, brick) * brick_edge_voxels, glm::ivec3(brick_edge_voxels)});
+        dirty_.push_back(in_whole_blocks(bone.voxels_of_brick(brick), bone.box().first));
 }
 
 TileMask BoneLayer::update(const BoneTextures& bone, const Camera& camera) {
     learn();
     draws_this_frame_ = 0;
+    measures_this_frame_ = false;
     const bool moved = camera_ != camera;
     TileMask fresh(size_px());
     if (moved)
@@ -99,7 +107,8 @@ void BoneLayer::learn() {
 }
 
 void BoneLayer::frame_took(double frame_s) {
-    frame_s_ = draws_this_frame_ == 1 ? std::optional(frame_s) : std::nullopt;
+    // What is not drawing is known where all drawing was measured.
+    if (measures_this_frame_ && draws_this_frame_ == 1) frame_s_ = frame_s;
     if (draws_this_frame_ == 0) control_.frame_took(frame_s, 0.0);
 }
 
@@ -157,6 +166,7 @@ std::int64_t BoneLayer::draw_timed(const BoneTextures& bone, const Camera& camer
     if (measures) {
         stopwatch_->stop();
         measured_ = Measured{extent, pixels};
+        measures_this_frame_ = true;
         frame_s_.reset();
     }
     return pixels;

@@ -71,6 +71,7 @@ class BoneLayer {
     std::optional<Camera> camera_;   ///< that the layer shows; none: there is nothing in it yet
     int frames_at_rest_ = 0;
     int draws_this_frame_ = 0;
+    bool measures_this_frame_ = false;
     std::optional<Measured> measured_;  ///< what the stopwatch runs, or ran, for
     std::optional<double> frame_s_;     ///< how long that frame took
 };

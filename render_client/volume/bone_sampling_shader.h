@@ -5,6 +5,10 @@
 // patient's. Every function takes any point; far outside the box there is no bone.
 //
 //     vec3  bone_size                               uniform: the box, voxels
+//     vec3  texture_place(vec3 point)               where a texture that is placed as the fractions are
+//                                                   (BrickPlaces) holds the point, 0 to 1 along each edge
+//     ivec3 texel_shift(vec3 point)                 texel less voxel number, for the voxels of the box within
+//                                                   one of the point
 //     float fraction_at(vec3 point)                 0 to 1, trilinear between voxels
 //     vec3  gradient_at(vec3 point)                 of the fraction, 1 / voxel; points into the bone
 //     vec3  normal_at(vec3 point, vec3 otherwise)   unit, out of the bone; `otherwise` where nothing slopes
@@ -21,18 +25,53 @@ namespace osteomill {
 /// voxels away into a map of 4-voxel blocks whose interpolation reads 2 voxels beyond each; one in reserve.
 inline constexpr int shading_reach_voxels = 19;
 
+/// Where texels lie, one of two; bone_sampling_glsl follows.
+inline constexpr const char* dense_places_glsl = R"glsl(
+uniform vec3 bone_size;
+
+vec3 texture_place(vec3 point) { return point / bone_size; }
+ivec3 texel_shift(vec3 point) { return ivec3(0); }
+)glsl";
+
+inline constexpr const char* atlas_places_glsl = R"glsl(
+uniform vec3 bone_size;
+uniform usampler3D bone_tile_table;
+uniform vec3 bone_texture_size;
+
+const float brick_edge = 16.0;
+const int tile_edge = 18, tile_border = 1;
+
+ivec3 brick_at(vec3 point) {
+    return clamp(ivec3(floor(point / brick_edge)), ivec3(0), ivec3(bone_size / brick_edge) - 1);
+}
+
+ivec3 first_texel_of(ivec3 brick) {
+    return ivec3(texelFetch(bone_tile_table, brick, 0).xyz) * tile_edge + tile_border;
+}
+
+vec3 texture_place(vec3 point) {
+    ivec3 brick = brick_at(point);
+    // A point beyond the box gets what the outermost border holds: nothing.
+    vec3 within = clamp(point - vec3(brick) * brick_edge, -0.5, brick_edge + 0.5);
+    return (vec3(first_texel_of(brick)) + within) / bone_texture_size;
+}
+
+ivec3 texel_shift(vec3 point) {
+    ivec3 brick = brick_at(point);
+    return first_texel_of(brick) - brick * int(brick_edge);
+}
+)glsl";
+
 inline constexpr const char* bone_sampling_glsl = R"glsl(
 uniform sampler3D bone_fraction;
-uniform sampler3D bone_mean_fraction;
-uniform usampler3D bone_skip_distance;
+uniform sampler3D bone_blocks;
 uniform usampler3D bone_colour_code;
 uniform sampler2D bone_colours;
-uniform vec3 bone_size;
 uniform bool bone_has_colour_code;
 
 const float block_edge = 4.0;
 
-float fraction_at(vec3 point) { return textureLod(bone_fraction, point / bone_size, 0.0).r; }
+float fraction_at(vec3 point) { return textureLod(bone_fraction, texture_place(point), 0.0).r; }
 
 // Eight corners of a cube: central differences smoothed across their axis, which hides that a fraction rises
 // from none to all within about one voxel.
@@ -59,11 +98,12 @@ vec3 colour_at(vec3 point) {
     ivec3 low = ivec3(floor(place));
     vec3 part = place - vec3(low);
     ivec3 last = ivec3(bone_size) - 1;
+    ivec3 shift = texel_shift(point);
     vec3 sum = vec3(0.0);
     float known = 0.0;
     for (int corner = 0; corner < 8; ++corner) {
         ivec3 side = ivec3(corner & 1, (corner >> 1) & 1, (corner >> 2) & 1);
-        uint code = texelFetch(bone_colour_code, clamp(low + side, ivec3(0), last), 0).r;
+        uint code = texelFetch(bone_colour_code, clamp(low + side, ivec3(0), last) + shift, 0).r;
         if (code == 0u) continue;
         vec3 weights = mix(1.0 - part, part, vec3(side));
         float weight = weights.x * weights.y * weights.z + 1e-5;
@@ -75,7 +115,7 @@ vec3 colour_at(vec3 point) {
 
 float mean_fraction_at(vec3 point) {
     vec3 map_size = bone_size / block_edge + 2.0;
-    return textureLod(bone_mean_fraction, (point / block_edge + 1.0) / map_size, 0.0).r;
+    return textureLod(bone_blocks, (point / block_edge + 1.0) / map_size, 0.0).r;
 }
 
 // By the mean fractions of blocks near and far in four directions round the normal.
@@ -95,7 +135,7 @@ float openness_at(vec3 point, vec3 normal) {
 float free_length(vec3 point, vec3 direction) {
     ivec3 block = ivec3(floor(point / block_edge)) + 1;
     ivec3 last = ivec3(bone_size / block_edge) + 1;
-    int away = int(texelFetch(bone_skip_distance, clamp(block, ivec3(0), last), 0).r);
+    int away = int(texelFetch(bone_blocks, clamp(block, ivec3(0), last), 0).g * 255.0 + 0.5);
     if (away == 0) return 0.0;
     vec3 low = vec3(block - away) * block_edge;
     vec3 high = vec3(block + away - 1) * block_edge;

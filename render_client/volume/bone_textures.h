@@ -1,5 +1,6 @@
 // The bone as 3D textures: its fractions, which are carved; one byte a voxel of what colours it (tissue label
-// or stiffness code), only where the bone has such a channel; and the maps for skipping empty space.
+// or stiffness code), only where the bone has such a channel; and a map for skipping empty space and for
+// ambient light. Dense, as a brick atlas, or of a coarser copy, as memory allows.
 #pragma once
 
 #include <optional>
@@ -7,46 +8,68 @@
 
 #include "common/bone/bone.h"
 #include "render_client/volume/bone_colours.h"
+#include "render_client/volume/coarse_bone.h"
 #include "render_client/volume/empty_space.h"
 #include "render_client/volume/gl/lookup_table.h"
 #include "render_client/volume/gl/texture3d.h"
+#include "render_client/volume/texture_plan.h"
 
 namespace osteomill {
 
 class BoneTextures {
   public:
-    /// Uploads all of it, cropped to the stored bricks. Tissue colours are used where the bone is labelled.
-    /// Throws std::runtime_error naming sizes where the bone exceeds the driver's 3D textures or has no
-    /// brick.
-    BoneTextures(const Bone& bone, std::span<const TissueColour> tissues);
+    /// Uploads all of it, cropped to the stored bricks, by the first of texture_plans for which the driver
+    /// has memory. Tissue colours are used where the bone is labelled. Throws std::runtime_error where the
+    /// bone has no brick, and where nothing fits, naming sizes.
+    BoneTextures(const Bone& bone, std::span<const TissueColour> tissues, const TextureLimits& limits = {});
 
-    /// Uploads the fractions of these bricks and what follows from them: glTexSubImage3D, brick by brick.
-    /// `bone` is the bone of the constructor, carved since. Call before drawing: a texture that a frame in
-    /// flight uses makes the call wait for that frame.
+    /// Uploads the fractions of these bricks, lowered or raised, and what follows from them: glTexSubImage3D,
+    /// region by region, never their union. `bone` is the bone of the constructor, changed since. Call before
+    /// drawing: a texture that a frame in flight uses makes the call wait for that frame.
     void update(const Bone& bone, std::span<const BrickIndex> dirty);
 
-    /// The part of the bone's grid that the textures hold, in whole bricks.
-    const VoxelBox& box() const { return box_; }
+    /// How the bone is held: in which layout, how much coarser than it is, in how many bytes.
+    const TexturePlan& plan() const { return plan_; }
+    /// The grid that is drawn: the bone's own or, of a coarser copy, the copy's.
     const Grid& grid() const { return grid_; }
+    /// The part of grid() that the textures hold, in whole bricks.
+    const VoxelBox& box() const { return places_.box(); }
+    /// Voxels of grid() in which a brick of the bone (of its own grid, not of a copy's) is seen.
+    VoxelBox voxels_of_brick(BrickIndex brick) const;
+    /// Where the bricks of grid() lie in fraction() and colour_code().
+    const BrickPlaces& places() const { return places_; }
+
     const gl::Texture3D& fraction() const { return fraction_; }
-    const gl::Texture3D& distance() const { return distance_; }
-    const gl::Texture3D& mean_fraction() const { return mean_fraction_; }
-    /// What `colours` is looked up by; none for a homogeneous, unlabelled bone.
+    /// What `colours` is looked up by, placed as the fractions are; none for a homogeneous, unlabelled bone.
     const std::optional<gl::Texture3D>& colour_code() const { return colour_code_; }
     const gl::LookupTable& colours() const { return colours_; }
+    /// BrickPlaces::tile_table; none in a dense layout.
+    const std::optional<gl::Texture3D>& tile_table() const { return tile_table_; }
+    /// For each block of EmptySpace, two bytes: its mean fraction and its distance.
+    const gl::Texture3D& blocks() const { return blocks_; }
 
     /// A point of patient space in texture coordinates counted in voxels: (0, 0, 0) is the box's corner.
     glm::dvec3 to_box_voxels(const glm::dvec3& position_mm) const;
 
   private:
+    BoneTextures(const Bone& bone, std::optional<CoarseBone> copy, std::span<const TissueColour> tissues,
+                 const TexturePlan& plan, int longest_edge_texels);
+    static BoneTextures first_that_fits(const Bone& bone, std::span<const TissueColour> tissues,
+                                        const TextureLimits& limits);
+    void upload_blocks(const VoxelBox& blocks);
+
+    TexturePlan plan_;
+    glm::ivec3 size_bricks_;  ///< of the bone, not of a copy
+    std::optional<CoarseBone> copy_;
     Grid grid_;
-    VoxelBox box_;
+    BrickPlaces places_;
     EmptySpace empty_space_;
     gl::Texture3D fraction_;
-    gl::Texture3D distance_;
-    gl::Texture3D mean_fraction_;
+    gl::Texture3D blocks_;
+    std::optional<gl::Texture3D> tile_table_;
     std::optional<gl::Texture3D> colour_code_;
     gl::LookupTable colours_;
+    std::vector<std::uint8_t> scratch_;
 };
 
 }  // namespace osteomill

@@ -23,16 +23,20 @@ std::span<const std::uint8_t> channel_of_slot(const Bone& bone, BoneChannel chan
 
 }  // namespace
 
-VoxelBox stored_box(const BoneContent& content) {
-    if (content.brick_of_slot.empty()) return {};
-    glm::ivec3 low = content.size_bricks;
+VoxelBox box_of_bricks(const glm::ivec3& size_bricks, std::span<const BrickIndex> bricks) {
+    if (bricks.empty()) return {};
+    glm::ivec3 low = size_bricks;
     glm::ivec3 high{0};
-    for (const BrickIndex index : content.brick_of_slot) {
-        const glm::ivec3 brick = brick_position(content.size_bricks, index);
+    for (const BrickIndex index : bricks) {
+        const glm::ivec3 brick = brick_position(size_bricks, index);
         low = glm::min(low, brick);
         high = glm::max(high, brick + 1);
     }
     return {low * brick_edge_voxels, (high - low) * brick_edge_voxels};
+}
+
+VoxelBox stored_box(const BoneContent& content) {
+    return box_of_bricks(content.size_bricks, content.brick_of_slot);
 }
 
 void copy_channel(const Bone& bone, BoneChannel channel, const VoxelBox& box,

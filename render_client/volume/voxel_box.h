@@ -16,6 +16,9 @@ struct VoxelBox {
     std::size_t count() const { return static_cast<std::size_t>(size.x) * size.y * size.z; }
 };
 
+/// The bricks' box in voxels of their grid; empty for no bricks.
+VoxelBox box_of_bricks(const glm::ivec3& size_bricks, std::span<const BrickIndex> bricks);
+
 /// Whole bricks that enclose every stored brick, in voxels of the bone's grid; empty for a bone without
 /// bricks.
 VoxelBox stored_box(const BoneContent& content);

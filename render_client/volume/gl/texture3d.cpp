@@ -7,24 +7,52 @@
 
 namespace osteomill::gl {
 
+namespace {
+
+struct TexelFormat {
+    GLint stored;
+    GLenum transferred;
+    GLint filter;
+    std::size_t bytes;
+};
+
+TexelFormat texel_format(VoxelFormat format) {
+    switch (format) {
+        case VoxelFormat::interpolated_bytes:
+            return {GL_RG8, GL_RG, GL_LINEAR, 2};
+        case VoxelFormat::byte_code:
+            return {GL_R8UI, GL_RED_INTEGER, GL_NEAREST, 1};
+        case VoxelFormat::byte_codes:
+            return {GL_RGBA8UI, GL_RGBA_INTEGER, GL_NEAREST, 4};
+        case VoxelFormat::interpolated_byte:
+            break;
+    }
+    return {GL_R8, GL_RED, GL_LINEAR, 1};
+}
+
+std::size_t byte_count(const glm::ivec3& size, VoxelFormat format) {
+    return texel_format(format).bytes * static_cast<std::size_t>(size.x) * size.y * size.z;
+}
+
+}  // namespace
+
 Texture3D::Texture3D(VoxelFormat format, const glm::ivec3& size) : format_(format), size_(size) {
-    const bool interpolated = format == VoxelFormat::interpolated_byte;
+    const TexelFormat texels = texel_format(format);
     glGenTextures(1, &id_);
     glBindTexture(GL_TEXTURE_3D, id_);
-    glTexImage3D(GL_TEXTURE_3D, 0, interpolated ? GL_R8 : GL_R8UI, size.x, size.y, size.z, 0,
-                 transfer_format(), GL_UNSIGNED_BYTE, nullptr);
-    const GLint filter = interpolated ? GL_LINEAR : GL_NEAREST;
-    glTexParameteri(GL_TEXTURE_3D, GL_TEXTURE_MIN_FILTER, filter);
-    glTexParameteri(GL_TEXTURE_3D, GL_TEXTURE_MAG_FILTER, filter);
+    glTexImage3D(GL_TEXTURE_3D, 0, texels.stored, size.x, size.y, size.z, 0, texels.transferred,
+                 GL_UNSIGNED_BYTE, nullptr);
+    glTexParameteri(GL_TEXTURE_3D, GL_TEXTURE_MIN_FILTER, texels.filter);
+    glTexParameteri(GL_TEXTURE_3D, GL_TEXTURE_MAG_FILTER, texels.filter);
     glTexParameteri(GL_TEXTURE_3D, GL_TEXTURE_MAX_LEVEL, 0);
     for (const GLenum axis : {GL_TEXTURE_WRAP_S, GL_TEXTURE_WRAP_T, GL_TEXTURE_WRAP_R})
         glTexParameteri(GL_TEXTURE_3D, axis, GL_CLAMP_TO_BORDER);
     try {
         require_no_gl_error("making a 3D texture of " + std::to_string(size.x) + " x " +
-                            std::to_string(size.y) + " x " + std::to_string(size.z) + " bytes");
-    } catch (...) {
+                            std::to_string(size.y) + " x " + std::to_string(size.z) + " texels");
+    } catch (const std::runtime_error& error) {
         glDeleteTextures(1, &id_);
-        throw;
+        throw NoTextureMemory(error.what());
     }
 }
 
@@ -44,20 +72,20 @@ Texture3D::~Texture3D() {
 
 void Texture3D::upload(const glm::ivec3& first, const glm::ivec3& size,
                        std::span<const std::uint8_t> texels) {
-    const auto needed = static_cast<std::size_t>(size.x) * size.y * size.z;
+    const std::size_t needed = byte_count(size, format_);
     if (texels.size() != needed) throw std::invalid_argument("a texture upload of the wrong length");
     glBindTexture(GL_TEXTURE_3D, id_);
     glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
-    glTexSubImage3D(GL_TEXTURE_3D, 0, first.x, first.y, first.z, size.x, size.y, size.z, transfer_format(),
-                    GL_UNSIGNED_BYTE, texels.data());
+    glTexSubImage3D(GL_TEXTURE_3D, 0, first.x, first.y, first.z, size.x, size.y, size.z,
+                    texel_format(format_).transferred, GL_UNSIGNED_BYTE, texels.data());
 }
 
 void Texture3D::read_back(std::span<std::uint8_t> texels) const {
-    if (texels.size() != static_cast<std::size_t>(size_.x) * size_.y * size_.z)
+    if (texels.size() != byte_count(size_, format_))
         throw std::invalid_argument("a texture read-back of the wrong length");
     glBindTexture(GL_TEXTURE_3D, id_);
     glPixelStorei(GL_PACK_ALIGNMENT, 1);
-    glGetTexImage(GL_TEXTURE_3D, 0, transfer_format(), GL_UNSIGNED_BYTE, texels.data());
+    glGetTexImage(GL_TEXTURE_3D, 0, texel_format(format_).transferred, GL_UNSIGNED_BYTE, texels.data());
 }
 
 void Texture3D::bind(int unit) const {
@@ -65,8 +93,9 @@ void Texture3D::bind(int unit) const {
     glBindTexture(GL_TEXTURE_3D, id_);
 }
 
-GLenum Texture3D::transfer_format() const {
-    return format_ == VoxelFormat::interpolated_byte ? GL_RED : GL_RED_INTEGER;
+void Texture3D::unbind(int unit) {
+    glActiveTexture(GL_TEXTURE0 + static_cast<GLenum>(unit));
+    glBindTexture(GL_TEXTURE_3D, 0);
 }
 
 int max_texture3d_edge() {

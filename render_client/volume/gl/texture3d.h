@@ -6,36 +6,43 @@
 #include <cstdint>
 #include <glm/vec3.hpp>
 #include <span>
+#include <stdexcept>
 
 namespace osteomill::gl {
 
 /// How a texel is stored and how it is read between texels. Outside the texture every read gives zero.
 enum class VoxelFormat {
-    interpolated_byte,  ///< GL_R8, read as 0 to 1, trilinear
-    byte_code           ///< GL_R8UI, read as a whole number by texelFetch
+    interpolated_byte,   ///< GL_R8, read as 0 to 1, trilinear
+    interpolated_bytes,  ///< GL_RG8, two of them
+    byte_code,           ///< GL_R8UI, read as a whole number by texelFetch
+    byte_codes           ///< GL_RGBA8UI, four of them
+};
+
+/// The driver has no memory for a texture, or none of that size. The message says how large it was to be.
+struct NoTextureMemory : std::runtime_error {
+    using std::runtime_error::runtime_error;
 };
 
 class Texture3D {
   public:
-    /// glTexImage3D: storage for `size` texels, contents undefined. Throws std::runtime_error where the
-    /// driver has no memory for it.
+    /// glTexImage3D: storage for `size` texels, contents undefined. Throws NoTextureMemory.
     Texture3D(VoxelFormat format, const glm::ivec3& size);
     Texture3D(Texture3D&& other) noexcept;
     Texture3D& operator=(Texture3D&& other) noexcept;
     ~Texture3D();
 
-    /// glTexSubImage3D: one byte a texel, x fastest. The box must lie within the texture.
+    /// glTexSubImage3D: the bytes of each texel, x fastest. The box must lie within the texture.
     void upload(const glm::ivec3& first, const glm::ivec3& size, std::span<const std::uint8_t> texels);
-    /// glGetTexImage: the whole texture, one byte a texel, x fastest.
+    /// glGetTexImage: the whole texture, the bytes of each texel, x fastest.
     void read_back(std::span<std::uint8_t> texels) const;
     /// Binds to GL_TEXTURE0 + unit.
     void bind(int unit) const;
+    /// Leaves no 3D texture on GL_TEXTURE0 + unit.
+    static void unbind(int unit);
 
     const glm::ivec3& size() const { return size_; }
 
   private:
-    GLenum transfer_format() const;
-
     GLuint id_ = 0;
     VoxelFormat format_;
     glm::ivec3 size_;

@@ -66,8 +66,7 @@ TEST(EmptySpace, NeverPromisesEmptinessThatIsNotThereWhileBoneIsCarved) {
     std::uniform_real_distribution<double> place_mm(0.5, 4.3);
     for (int cut = 0; cut < 12; ++cut) {
         const glm::dvec3 centre(place_mm(random), place_mm(random), place_mm(random));
-        for (const BrickIndex brick : carve_sphere(bone, centre, 0.7))
-            space.update_after_carving(bone, brick_position(bone.content().size_bricks, brick));
+        space.update(bone, carve_sphere(bone, centre, 0.7));
     }
     const EmptySpace fresh(bone, box);
     EXPECT_EQ(space.mean_fraction(), fresh.mean_fraction());
@@ -83,10 +82,7 @@ TEST(EmptySpace, ReportsEveryBlockThatAnUpdateChanged) {
     const VoxelBox box = stored_box(bone.content());
     EmptySpace space(bone, box);
     const EmptySpace before = space;
-    std::vector<VoxelBox> reported;
-    for (const BrickIndex brick : carve_sphere(bone, {2.0, 2.4, 3.6}, 0.6))
-        reported.push_back(
-            space.update_after_carving(bone, brick_position(bone.content().size_bricks, brick)));
+    const auto reported = space.update(bone, carve_sphere(bone, {2.0, 2.4, 3.6}, 0.6));
     for_each_block(space, [&](const glm::ivec3& block) {
         if (at(space, space.distance(), block) == at(before, before.distance(), block) &&
             at(space, space.mean_fraction(), block) == at(before, before.mean_fraction(), block))
@@ -96,6 +92,25 @@ TEST(EmptySpace, ReportsEveryBlockThatAnUpdateChanged) {
         });
         EXPECT_TRUE(covered);
     });
+}
+
+// Undoing, or playing a recording backwards, fills again what was milled away.
+TEST(EmptySpace, FollowsBoneThatComesBack) {
+    Bone bone = ball();
+    const Bone whole = bone;
+    const VoxelBox box = stored_box(bone.content());
+    const auto carved = carve_sphere(bone, {2.0, 2.4, 2.4}, 0.9);
+    // Built while carved, its distances span the cavity; updated, they have to come down again.
+    EmptySpace built_carved(bone, box);
+    EmptySpace updated(whole, box);
+    updated.update(bone, carved);
+    bone = whole;
+    built_carved.update(bone, carved);
+    updated.update(bone, carved);
+    const EmptySpace fresh(whole, box);
+    EXPECT_EQ(built_carved.distance(), fresh.distance());
+    EXPECT_EQ(updated.distance(), fresh.distance());
+    EXPECT_EQ(built_carved.mean_fraction(), fresh.mean_fraction());
 }
 
 }  // namespace

@@ -1,0 +1,142 @@
+// What the bone on the graphics card costs: bringing it up to date after a carve, and drawing it.
+//
+// Scene: the tooth phantom, 512 x 512 x 128 voxels of 0.1 mm, held dense and as a brick atlas. Times are CPU
+// time of all threads, which is what a software rasteriser costs.
+//
+// Updates: a fresh ball is cut out of whole bone, the worst case of a carve of that size, and put back; both
+// are timed, as they upload the same bricks. Frames: 640 x 480, every pixel, of all of the bone and of the
+// crown close up.
+#include <benchmark/benchmark.h>
+#include <fmt/format.h>
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include "haptic_server/imaging/phantom.h"
+#include "render_client/volume/gl/framebuffer.h"
+#include "render_client/volume/gl/offscreen_context.h"
+#include "render_client/volume/raycast_renderer.h"
+
+namespace osteomill {
+namespace {
+
+const Bone& tooth() {
+    static const Bone bone =
+        bone_from_hu(make_tooth_phantom(), phantom_threshold_hu, default_stiffness_relation());
+    return bone;
+}
+
+std::vector<TissueColour> tooth_colours() {
+    std::vector<TissueColour> colours;
+    for (const Tissue& tissue : phantom_scene("tooth").tissues)
+        colours.push_back({tissue.label, tissue.colour_rgb});
+    return colours;
+}
+
+BoneTextures textures_of(const Bone& bone, BoneLayout layout) {
+    return {bone, tooth_colours(), {.layout = layout}};
+}
+
+const char* name_of(BoneLayout layout) {
+    return layout == BoneLayout::dense ? "dense" : "atlas";
+}
+
+/// Empties the voxels within the ball; returns the bricks that it touched.
+std::vector<BrickIndex> cut_ball(Bone& bone, const glm::dvec3& centre_mm, double radius_mm) {
+    std::vector<BrickIndex> touched;
+    const BoneContent& content = bone.content();
+    for (std::size_t slot = 0; slot < bone.stored_bricks(); ++slot) {
+        const glm::ivec3 first =
+            brick_position(content.size_bricks, content.brick_of_slot[slot]) * brick_edge_voxels;
+        bool touches = false;
+        const auto fractions = bone.fractions(static_cast<std::int32_t>(slot));
+        for (std::size_t offset = 0; offset < brick_voxel_count; ++offset) {
+            const glm::dvec3 place_mm = centre_of_voxel_mm(bone.grid(), first + voxel_in_brick(offset));
+            if (glm::distance(place_mm, centre_mm) > radius_mm || fractions[offset] == 0) continue;
+            fractions[offset] = 0;
+            touches = true;
+        }
+        if (touches) touched.push_back(content.brick_of_slot[slot]);
+    }
+    return touched;
+}
+
+/// The middle of the whole bone's box.
+glm::dvec3 middle_mm(const Grid& grid, const VoxelBox& box) {
+    return 0.5 * (centre_of_voxel_mm(grid, box.first) + centre_of_voxel_mm(grid, box.first + box.size - 1));
+}
+
+/// Argument: burr diameter in tenths of a millimetre.
+void update_after_carve(benchmark::State& state, BoneLayout layout) {
+    const Bone& whole = tooth();
+    Bone carved = whole;
+    BoneTextures textures = textures_of(whole, layout);
+    const auto dirty = cut_ball(carved, middle_mm(textures.grid(), textures.box()),
+                                0.05 * static_cast<double>(state.range(0)));
+    bool is_carved = false;
+    for ([[maybe_unused]] auto _ : state) {
+        textures.update(is_carved ? whole : carved, dirty);
+        is_carved = !is_carved;
+    }
+    glFinish();
+    state.counters["bricks"] = static_cast<double>(dirty.size());
+}
+
+/// Argument: which view, 0 of all of the bone, 1 of the crown.
+void draw_frame(benchmark::State& state, BoneLayout layout, const RaycastSettings& settings) {
+    const glm::ivec2 size_px(640, 480);
+    const BoneTextures textures = textures_of(tooth(), layout);
+    const glm::dvec3 half_mm = 0.5 * textures.grid().spacing_mm * glm::dvec3(textures.box().size);
+    Camera camera = camera_on(middle_mm(textures.grid(), textures.box()), glm::length(half_mm));
+    if (state.range(0) == 1) {
+        camera.target_mm.z += 0.8 * half_mm.z;
+        zoom(camera, 0.3);
+    }
+    RaycastRenderer renderer(settings);
+    const gl::Framebuffer framebuffer(size_px);
+    const auto draw = [&] {
+        framebuffer.bind();
+        renderer.draw(textures, camera, size_px);
+        glFinish();
+    };
+    draw();
+    for ([[maybe_unused]] auto _ : state) draw();
+    state.SetLabel(description(textures.plan()));
+}
+
+void register_benchmarks() {
+    for (const BoneLayout layout : {BoneLayout::dense, BoneLayout::atlas}) {
+        benchmark::RegisterBenchmark(fmt::format("update/{}", name_of(layout)).c_str(),
+                                     [layout](benchmark::State& state) { update_after_carve(state, layout); })
+            ->ArgName("burr_tenths_mm")
+            ->Arg(10)
+            ->Arg(20)
+            ->Arg(30)
+            ->Arg(50)
+            ->MeasureProcessCPUTime()
+            ->Unit(benchmark::kMillisecond);
+        for (const float step : {0.5f, 0.75f, 1.0f, 2.0f})
+            benchmark::RegisterBenchmark(
+                fmt::format("frame/{}/step {}", name_of(layout), step).c_str(),
+                [layout, step](benchmark::State& state) { draw_frame(state, layout, {.step_voxels = step}); })
+                ->ArgName("close")
+                ->Arg(0)
+                ->Arg(1)
+                ->Iterations(10)
+                ->MeasureProcessCPUTime()
+                ->Unit(benchmark::kMillisecond);
+    }
+}
+
+}  // namespace
+}  // namespace osteomill
+
+int main(int argument_count, char** arguments) {
+    benchmark::Initialize(&argument_count, arguments);
+    if (benchmark::ReportUnrecognizedArguments(argument_count, arguments)) return 2;
+    const osteomill::gl::OffscreenContext context;
+    fmt::print("{}\n", osteomill::gl::renderer_name());
+    osteomill::register_benchmarks();
+    benchmark::RunSpecifiedBenchmarks();
+    return 0;
+}
