@@ -67,13 +67,18 @@ TileMask BoneLayer::update(const BoneTextures& bone, const Camera& camera) {
     measures_this_frame_ = false;
     const bool moved = camera_ != camera;
     TileMask fresh(size_px());
-    if (moved)
+    TileMask misplaced(size_px());  // shows a surface where there is none any more
+    if (moved) {
         fresh.mark_all();
-    else
-        fresh = tiles_of_dirty_bricks(bone, camera);
+        misplaced = fresh;
+    } else {
+        fresh = tiles_of_dirty_bricks(bone, camera, shading_reach_voxels);
+        misplaced = tiles_of_dirty_bricks(bone, camera, surface_reach_voxels);
+    }
     dirty_.clear();
     camera_ = camera;
     frames_at_rest_ = moved ? 0 : frames_at_rest_ + 1;
+    if (!stale_.any()) coarsest_divisor_ = 1.0;
     stale_ |= fresh;
     if (!stale_.any()) return stale_;
 
@@ -85,12 +90,12 @@ TileMask BoneLayer::update(const BoneTextures& bone, const Camera& camera) {
         draw_exact(bone, camera, drawn, extent);
         return drawn;
     }
-    TileMask changed = fresh;
+    TileMask changed = misplaced;
     std::int64_t room_px = control_.affordable_pixels(extent);
-    if (fresh.any()) room_px -= draw_as_affordable(bone, camera, fresh, extent);
+    if (misplaced.any()) room_px -= draw_as_affordable(bone, camera, misplaced, extent);
     if (frames_at_rest_ >= frames_before_refining) {
-        // What is about to change again is not worth refining.
-        const TileMask refined = part_that_fits(TileMask(stale_) -= fresh, room_px);
+        // What was just drawn is about to change again: not worth refining.
+        const TileMask refined = part_that_fits(TileMask(stale_) -= misplaced, room_px);
         draw_exact(bone, camera, refined, extent);
         changed |= refined;
     }
@@ -112,10 +117,11 @@ void BoneLayer::frame_took(double frame_s) {
     if (draws_this_frame_ == 0) control_.frame_took(frame_s, 0.0);
 }
 
-TileMask BoneLayer::tiles_of_dirty_bricks(const BoneTextures& bone, const Camera& camera) const {
+TileMask BoneLayer::tiles_of_dirty_bricks(const BoneTextures& bone, const Camera& camera,
+                                          int reach_voxels) const {
     TileMask tiles(size_px());
     const glm::dmat4 to_clip = camera.projection(size_px()) * camera.view();
-    constexpr double reach = shading_reach_voxels + 0.5;  // a voxel's faces are half a voxel from its centre
+    const double reach = reach_voxels + 0.5;  // a voxel's faces are half a voxel from its centre
     const Grid& grid = bone.grid();
     for (const VoxelBox& box : dirty_) {
         const glm::dvec3 low_mm = centre_of_voxel_mm(grid, box.first) - reach * grid.spacing_mm;
@@ -172,9 +178,12 @@ std::int64_t BoneLayer::draw_timed(const BoneTextures& bone, const Camera& camer
     return pixels;
 }
 
-TileMask BoneLayer::part_that_fits(const TileMask& tiles, std::int64_t room_px) const {
+TileMask BoneLayer::part_that_fits(const TileMask& tiles, std::int64_t room_px) {
     TileMask part(size_px());
-    for (const std::size_t tile : tiles.tiles()) {
+    std::vector<std::size_t> waiting = tiles.tiles();
+    std::rotate(waiting.begin(), std::lower_bound(waiting.begin(), waiting.end(), next_tile_), waiting.end());
+    for (const std::size_t tile : waiting) {
+        next_tile_ = tile;
         if (room_px <= 0) break;
         part.mark(tiles.box_of_tile(tile));
         room_px -= tiles.box_of_tile(tile).count();
