@@ -63,7 +63,7 @@ void BoneLayer::mark_dirty(const BoneTextures& bone, std::span<const BrickIndex>
 
 TileMask BoneLayer::update(const BoneTextures& bone, const Camera& camera) {
     learn();
-    draws_this_frame_ = 0;
+    drawn_this_frame_px_ = 0;
     measures_this_frame_ = false;
     const bool moved = camera_ != camera;
     TileMask fresh(size_px());
@@ -90,16 +90,20 @@ TileMask BoneLayer::update(const BoneTextures& bone, const Camera& camera) {
         draw_exact(bone, camera, drawn, extent);
         return drawn;
     }
-    TileMask changed = misplaced;
     std::int64_t room_px = control_.affordable_pixels(extent);
-    if (misplaced.any()) room_px -= draw_as_affordable(bone, camera, misplaced, extent);
-    if (frames_at_rest_ >= frames_before_refining) {
-        // What was just drawn is about to change again: not worth refining.
-        const TileMask refined = part_that_fits(TileMask(stale_) -= misplaced, room_px);
-        draw_exact(bone, camera, refined, extent);
-        changed |= refined;
+    TileMask exact(size_px());
+    if (misplaced.any()) {
+        const double divisor = control_.divisor_for(extent, misplaced.pixels());
+        if (divisor == 1.0)
+            exact = misplaced;
+        else
+            room_px -= draw_coarse(bone, camera, misplaced, extent, divisor);
     }
-    return changed;
+    // What was drawn coarsely just now is about to change again: not worth refining.
+    if (frames_at_rest_ >= frames_before_refining)
+        exact |= part_that_fits(TileMask(stale_) -= misplaced, room_px - exact.pixels());
+    draw_exact(bone, camera, exact, extent);
+    return exact |= misplaced;
 }
 
 void BoneLayer::learn() {
@@ -107,14 +111,18 @@ void BoneLayer::learn() {
     const std::optional<double> took_s = stopwatch_->take_s();
     if (!took_s) return;
     control_.drew(measured_->extent, measured_->pixels, *took_s);
-    if (frame_s_) control_.frame_took(*frame_s_, *took_s);
+    if (frame_s_) {
+        // What was drawn besides in that frame cost about as much a pixel.
+        const double all_drawing_s = *took_s * static_cast<double>(measured_->pixels_of_frame) /
+                                     static_cast<double>(measured_->pixels);
+        control_.frame_took(*frame_s_, all_drawing_s);
+    }
     measured_.reset();
 }
 
 void BoneLayer::frame_took(double frame_s) {
-    // What is not drawing is known where all drawing was measured.
-    if (measures_this_frame_ && draws_this_frame_ == 1) frame_s_ = frame_s;
-    if (draws_this_frame_ == 0) control_.frame_took(frame_s, 0.0);
+    if (measures_this_frame_) frame_s_ = frame_s;
+    if (drawn_this_frame_px_ == 0) control_.frame_took(frame_s, 0.0);
 }
 
 TileMask BoneLayer::tiles_of_dirty_bricks(const BoneTextures& bone, const Camera& camera,
@@ -132,16 +140,14 @@ TileMask BoneLayer::tiles_of_dirty_bricks(const BoneTextures& bone, const Camera
     return tiles;
 }
 
-std::int64_t BoneLayer::draw_exact(const BoneTextures& bone, const Camera& camera, const TileMask& tiles,
-                                   Extent extent) {
+void BoneLayer::draw_exact(const BoneTextures& bone, const Camera& camera, const TileMask& tiles,
+                           Extent extent) {
     stale_ -= tiles;
-    return draw_timed(bone, camera, layer_, tiles.rectangles(), extent);
+    draw_timed(bone, camera, layer_, tiles.rectangles(), extent);
 }
 
-std::int64_t BoneLayer::draw_as_affordable(const BoneTextures& bone, const Camera& camera,
-                                           const TileMask& tiles, Extent extent) {
-    const double divisor = control_.divisor_for(extent, tiles.pixels());
-    if (divisor == 1.0) return draw_exact(bone, camera, tiles, extent);
+std::int64_t BoneLayer::draw_coarse(const BoneTextures& bone, const Camera& camera, const TileMask& tiles,
+                                    Extent extent, double divisor) {
     coarsest_divisor_ = tiles == stale_ ? divisor : std::max(coarsest_divisor_, divisor);
     const glm::ivec2 size = divided(size_px(), divisor);
     if (size != coarse_.size_px()) coarse_ = gl::Framebuffer(size);
@@ -157,7 +163,6 @@ std::int64_t BoneLayer::draw_timed(const BoneTextures& bone, const Camera& camer
                                    const gl::Framebuffer& target, std::span<const PixelBox> boxes,
                                    Extent extent) {
     if (boxes.empty()) return 0;
-    ++draws_this_frame_;
     const bool measures = stopwatch_ && !measured_;
     std::int64_t pixels = 0;
     target.bind();
@@ -169,12 +174,14 @@ std::int64_t BoneLayer::draw_timed(const BoneTextures& bone, const Camera& camer
         pixels += box.count();
     }
     glDisable(GL_SCISSOR_TEST);
+    drawn_this_frame_px_ += pixels;
     if (measures) {
         stopwatch_->stop();
-        measured_ = Measured{extent, pixels};
+        measured_ = Measured{.extent = extent, .pixels = pixels};
         measures_this_frame_ = true;
         frame_s_.reset();
     }
+    if (measures_this_frame_) measured_->pixels_of_frame = drawn_this_frame_px_;
     return pixels;
 }
 

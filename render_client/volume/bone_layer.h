@@ -48,15 +48,15 @@ class BoneLayer {
     struct Measured {
         Extent extent;
         std::int64_t pixels;
+        std::int64_t pixels_of_frame = 0;  ///< with what else was drawn in that frame
     };
 
     void learn();
     TileMask tiles_of_dirty_bricks(const BoneTextures& bone, const Camera& camera, int reach_voxels) const;
+    void draw_exact(const BoneTextures& bone, const Camera& camera, const TileMask& tiles, Extent extent);
     /// These return the pixels that they drew.
-    std::int64_t draw_exact(const BoneTextures& bone, const Camera& camera, const TileMask& tiles,
-                            Extent extent);
-    std::int64_t draw_as_affordable(const BoneTextures& bone, const Camera& camera, const TileMask& tiles,
-                                    Extent extent);
+    std::int64_t draw_coarse(const BoneTextures& bone, const Camera& camera, const TileMask& tiles,
+                             Extent extent, double divisor);
     std::int64_t draw_timed(const BoneTextures& bone, const Camera& camera, const gl::Framebuffer& target,
                             std::span<const PixelBox> boxes, Extent extent);
     /// Takes turns: what did not fit comes first the next time.
@@ -74,7 +74,7 @@ class BoneLayer {
     std::vector<VoxelBox> dirty_;    ///< voxels of the bone's grid
     std::optional<Camera> camera_;   ///< that the layer shows; none: there is nothing in it yet
     int frames_at_rest_ = 0;
-    int draws_this_frame_ = 0;
+    std::int64_t drawn_this_frame_px_ = 0;
     bool measures_this_frame_ = false;
     std::optional<Measured> measured_;  ///< what the stopwatch runs, or ran, for
     std::optional<double> frame_s_;     ///< how long that frame took
