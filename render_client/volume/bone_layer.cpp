@@ -4,6 +4,7 @@
 #include <cmath>
 #include <glm/common.hpp>
 
+#include "render_client/volume/block_summary.h"
 #include "render_client/volume/bone_sampling_shader.h"
 
 namespace osteomill {
@@ -31,6 +32,14 @@ PixelBox in_coarse(const PixelBox& box, const glm::ivec2& fine_px, const glm::iv
     return {first, glm::min(high, coarse_px) - first};
 }
 
+/// A change is felt as far as its block is: what shading reads are means over blocks. A brick of a coarser
+/// copy may be a part of one.
+VoxelBox in_whole_blocks(const VoxelBox& box, const glm::ivec3& origin) {
+    const glm::ivec3 first = (box.first - origin) / block_edge_voxels * block_edge_voxels;
+    const glm::ivec3 end = box.first + box.size - origin + (block_edge_voxels - 1);
+    return {origin + first, end / block_edge_voxels * block_edge_voxels - first};
+}
+
 }  // namespace
 
 BoneLayer::BoneLayer(BoneRenderer& renderer, const glm::ivec2& size_px, Stopwatch* stopwatch)
@@ -54,21 +63,28 @@ void BoneLayer::forget() {
 }
 
 void BoneLayer::mark_dirty(const BoneTextures& bone, std::span<const BrickIndex> bricks) {
-    for (const BrickIndex brick : bricks) dirty_.push_back(bone.voxels_of_brick(brick));
+    for (const BrickIndex brick : bricks)
+        dirty_.push_back(in_whole_blocks(bone.voxels_of_brick(brick), bone.box().first));
 }
 
 TileMask BoneLayer::update(const BoneTextures& bone, const Camera& camera) {
     learn();
-    draws_this_frame_ = 0;
+    drawn_this_frame_px_ = 0;
+    measures_this_frame_ = false;
     const bool moved = camera_ != camera;
     TileMask fresh(size_px());
-    if (moved)
+    TileMask misplaced(size_px());  // shows a surface where there is none any more
+    if (moved) {
         fresh.mark_all();
-    else
-        fresh = tiles_of_dirty_bricks(bone, camera);
+        misplaced = fresh;
+    } else {
+        fresh = tiles_of_dirty_bricks(bone, camera, shading_reach_voxels);
+        misplaced = tiles_of_dirty_bricks(bone, camera, surface_reach_voxels);
+    }
     dirty_.clear();
     camera_ = camera;
     frames_at_rest_ = moved ? 0 : frames_at_rest_ + 1;
+    if (!stale_.any()) coarsest_divisor_ = 1.0;
     stale_ |= fresh;
     if (!stale_.any()) return stale_;
 
@@ -80,16 +96,20 @@ TileMask BoneLayer::update(const BoneTextures& bone, const Camera& camera) {
         draw_exact(bone, camera, drawn, extent);
         return drawn;
     }
-    TileMask changed = fresh;
     std::int64_t room_px = control_.affordable_pixels(extent);
-    if (fresh.any()) room_px -= draw_as_affordable(bone, camera, fresh, extent);
-    if (frames_at_rest_ >= frames_before_refining) {
-        // What is about to change again is not worth refining.
-        const TileMask refined = part_that_fits(TileMask(stale_) -= fresh, room_px);
-        draw_exact(bone, camera, refined, extent);
-        changed |= refined;
+    TileMask exact(size_px());
+    if (misplaced.any()) {
+        const double divisor = control_.divisor_for(extent, misplaced.pixels());
+        if (divisor == 1.0)
+            exact = misplaced;
+        else
+            room_px -= draw_coarse(bone, camera, misplaced, extent, divisor);
     }
-    return changed;
+    // What was drawn coarsely just now is about to change again: not worth refining.
+    if (frames_at_rest_ >= frames_before_refining)
+        exact |= part_that_fits(TileMask(stale_) -= misplaced, room_px - exact.pixels());
+    draw_exact(bone, camera, exact, extent);
+    return exact |= misplaced;
 }
 
 void BoneLayer::learn() {
@@ -97,19 +117,25 @@ void BoneLayer::learn() {
     const std::optional<double> took_s = stopwatch_->take_s();
     if (!took_s) return;
     control_.drew(measured_->extent, measured_->pixels, *took_s);
-    if (frame_s_) control_.frame_took(*frame_s_, *took_s);
+    if (frame_s_) {
+        // What was drawn besides in that frame cost about as much a pixel.
+        const double all_drawing_s = *took_s * static_cast<double>(measured_->pixels_of_frame) /
+                                     static_cast<double>(measured_->pixels);
+        control_.frame_took(*frame_s_, all_drawing_s);
+    }
     measured_.reset();
 }
 
 void BoneLayer::frame_took(double frame_s) {
-    frame_s_ = draws_this_frame_ == 1 ? std::optional(frame_s) : std::nullopt;
-    if (draws_this_frame_ == 0) control_.frame_took(frame_s, 0.0);
+    if (measures_this_frame_) frame_s_ = frame_s;
+    if (drawn_this_frame_px_ == 0) control_.frame_took(frame_s, 0.0);
 }
 
-TileMask BoneLayer::tiles_of_dirty_bricks(const BoneTextures& bone, const Camera& camera) const {
+TileMask BoneLayer::tiles_of_dirty_bricks(const BoneTextures& bone, const Camera& camera,
+                                          int reach_voxels) const {
     TileMask tiles(size_px());
     const glm::dmat4 to_clip = camera.projection(size_px()) * camera.view();
-    constexpr double reach = shading_reach_voxels + 0.5;  // a voxel's faces are half a voxel from its centre
+    const double reach = reach_voxels + 0.5;  // a voxel's faces are half a voxel from its centre
     const Grid& grid = bone.grid();
     for (const VoxelBox& box : dirty_) {
         const glm::dvec3 low_mm = centre_of_voxel_mm(grid, box.first) - reach * grid.spacing_mm;
@@ -120,16 +146,14 @@ TileMask BoneLayer::tiles_of_dirty_bricks(const BoneTextures& bone, const Camera
     return tiles;
 }
 
-std::int64_t BoneLayer::draw_exact(const BoneTextures& bone, const Camera& camera, const TileMask& tiles,
-                                   Extent extent) {
+void BoneLayer::draw_exact(const BoneTextures& bone, const Camera& camera, const TileMask& tiles,
+                           Extent extent) {
     stale_ -= tiles;
-    return draw_timed(bone, camera, layer_, tiles.rectangles(), extent);
+    draw_timed(bone, camera, layer_, tiles.rectangles(), extent);
 }
 
-std::int64_t BoneLayer::draw_as_affordable(const BoneTextures& bone, const Camera& camera,
-                                           const TileMask& tiles, Extent extent) {
-    const double divisor = control_.divisor_for(extent, tiles.pixels());
-    if (divisor == 1.0) return draw_exact(bone, camera, tiles, extent);
+std::int64_t BoneLayer::draw_coarse(const BoneTextures& bone, const Camera& camera, const TileMask& tiles,
+                                    Extent extent, double divisor) {
     coarsest_divisor_ = tiles == stale_ ? divisor : std::max(coarsest_divisor_, divisor);
     const glm::ivec2 size = divided(size_px(), divisor);
     if (size != coarse_.size_px()) coarse_ = gl::Framebuffer(size);
@@ -145,7 +169,6 @@ std::int64_t BoneLayer::draw_timed(const BoneTextures& bone, const Camera& camer
                                    const gl::Framebuffer& target, std::span<const PixelBox> boxes,
                                    Extent extent) {
     if (boxes.empty()) return 0;
-    ++draws_this_frame_;
     const bool measures = stopwatch_ && !measured_;
     std::int64_t pixels = 0;
     target.bind();
@@ -157,17 +180,23 @@ std::int64_t BoneLayer::draw_timed(const BoneTextures& bone, const Camera& camer
         pixels += box.count();
     }
     glDisable(GL_SCISSOR_TEST);
+    drawn_this_frame_px_ += pixels;
     if (measures) {
         stopwatch_->stop();
-        measured_ = Measured{extent, pixels};
+        measured_ = Measured{.extent = extent, .pixels = pixels};
+        measures_this_frame_ = true;
         frame_s_.reset();
     }
+    if (measures_this_frame_) measured_->pixels_of_frame = drawn_this_frame_px_;
     return pixels;
 }
 
-TileMask BoneLayer::part_that_fits(const TileMask& tiles, std::int64_t room_px) const {
+TileMask BoneLayer::part_that_fits(const TileMask& tiles, std::int64_t room_px) {
     TileMask part(size_px());
-    for (const std::size_t tile : tiles.tiles()) {
+    std::vector<std::size_t> waiting = tiles.tiles();
+    std::rotate(waiting.begin(), std::lower_bound(waiting.begin(), waiting.end(), next_tile_), waiting.end());
+    for (const std::size_t tile : waiting) {
+        next_tile_ = tile;
         if (room_px <= 0) break;
         part.mark(tiles.box_of_tile(tile));
         room_px -= tiles.box_of_tile(tile).count();

@@ -2,8 +2,10 @@
 //
 // Each tile of the picture is either exact, as the renderer would draw it now, or stale. What turns stale
 // (all of it when the camera moves; under a still camera the tiles whose rays, or whose shading, can meet a
-// changed brick) is drawn again at once where time allows. Where it does not, it is drawn at a lower
-// resolution and magnified, and becomes exact piece by piece, as frames have room, once the camera rests.
+// changed brick) is drawn again at once where time allows. Where it does not, what shows a surface
+// that is no longer there is drawn at a lower resolution and magnified; tiles in which a carve nearby changes
+// no more than the ambient light stay as they are; and all of them become exact piece by piece, as frames
+// have room, once the camera rests.
 #pragma once
 
 #include <optional>
@@ -49,18 +51,19 @@ class BoneLayer {
     struct Measured {
         Extent extent;
         std::int64_t pixels;
+        std::int64_t pixels_of_frame = 0;  ///< with what else was drawn in that frame
     };
 
     void learn();
-    TileMask tiles_of_dirty_bricks(const BoneTextures& bone, const Camera& camera) const;
+    TileMask tiles_of_dirty_bricks(const BoneTextures& bone, const Camera& camera, int reach_voxels) const;
+    void draw_exact(const BoneTextures& bone, const Camera& camera, const TileMask& tiles, Extent extent);
     /// These return the pixels that they drew.
-    std::int64_t draw_exact(const BoneTextures& bone, const Camera& camera, const TileMask& tiles,
-                            Extent extent);
-    std::int64_t draw_as_affordable(const BoneTextures& bone, const Camera& camera, const TileMask& tiles,
-                                    Extent extent);
+    std::int64_t draw_coarse(const BoneTextures& bone, const Camera& camera, const TileMask& tiles,
+                             Extent extent, double divisor);
     std::int64_t draw_timed(const BoneTextures& bone, const Camera& camera, const gl::Framebuffer& target,
                             std::span<const PixelBox> boxes, Extent extent);
-    TileMask part_that_fits(const TileMask& tiles, std::int64_t room_px) const;
+    /// Takes turns: what did not fit comes first the next time.
+    TileMask part_that_fits(const TileMask& tiles, std::int64_t room_px);
 
     BoneRenderer& renderer_;
     Stopwatch* stopwatch_;
@@ -70,10 +73,12 @@ class BoneLayer {
     gl::Framebuffer coarse_;  ///< where stale parts are drawn before they are magnified
     TileMask stale_;
     double coarsest_divisor_ = 1.0;  ///< among the stale tiles
+    std::size_t next_tile_ = 0;      ///< whose turn it is to be refined
     std::vector<VoxelBox> dirty_;    ///< voxels of the bone's grid
     std::optional<Camera> camera_;   ///< that the layer shows; none: there is nothing in it yet
     int frames_at_rest_ = 0;
-    int draws_this_frame_ = 0;
+    std::int64_t drawn_this_frame_px_ = 0;
+    bool measures_this_frame_ = false;
     std::optional<Measured> measured_;  ///< what the stopwatch runs, or ran, for
     std::optional<double> frame_s_;     ///< how long that frame took
 };

@@ -32,6 +32,9 @@ namespace osteomill {
 /// How far from a voxel, along an axis, a surface can lie whose shading depends on it: openness_at looks 16
 /// voxels away into a map of 4-voxel blocks whose interpolation reads 2 voxels beyond each; one in reserve.
 inline constexpr int shading_reach_voxels = 19;
+/// The same for where a surface is and which way it faces, which is what a carve is seen by: gradient_at
+/// reads 2 voxels away; one in reserve.
+inline constexpr int surface_reach_voxels = 3;
 
 /// Where texels lie, one of two; bone_sampling_glsl follows.
 inline constexpr const char* dense_places_glsl = R"glsl(

@@ -9,8 +9,9 @@ namespace osteomill {
 
 namespace {
 
-constexpr std::array<double, 14> divisors{1.0,  1.25, 1.5, 1.75, 2.0, 2.25, 2.5,
-                                          2.75, 3.0,  3.5, 4.0,  5.0, 6.0,  8.0};
+constexpr std::array<double, 11> divisors{1.0, 1.25, 1.5, 1.75, 2.0, 2.25, 2.5, 2.75, 3.0, 3.5, 4.0};
+constexpr double coarsest_whole = 4.0;
+constexpr double coarsest_parts = 2.0;
 constexpr double least_part_for_drawing = 0.25;
 constexpr double rise_a_measurement = 0.5;
 constexpr double fall_a_measurement = 0.2;
@@ -61,7 +62,7 @@ double DetailControl::divisor_for(Extent extent, std::int64_t pixels) {
     const double with_reserve = finest(pixels, full_enough_to_refine * affordable);
     double& divisor = (extent == Extent::whole ? whole_ : parts_).divisor;
     divisor = std::clamp(divisor, needed, with_reserve);
-    return divisor;
+    return std::min(divisor, extent == Extent::whole ? coarsest_whole : coarsest_parts);
 }
 
 }  // namespace osteomill

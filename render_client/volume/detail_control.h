@@ -32,7 +32,8 @@ class DetailControl {
     /// Pixels for which there is room in a frame; without limit as long as nothing is known.
     std::int64_t affordable_pixels(Extent extent) const;
 
-    /// By how much to divide width and height of so many pixels: 1 for full resolution, up to 8. It falls
+    /// By how much to divide width and height of so many pixels: 1 for full resolution, up to
+    /// 4 for a whole picture and 2 for parts: one that is coarser hides what the hand works at. It falls
     /// only when the finer picture would take at most 80 % of the room, so that it does not flicker between
     /// two.
     double divisor_for(Extent extent, std::int64_t pixels);

@@ -36,9 +36,10 @@ TEST(DetailControl, DividesBothEdgesByWhatBringsThePixelsWithinTheRoom) {
     EXPECT_NEAR(static_cast<double>(control.affordable_pixels(Extent::whole)), pixels / 4.0, 1.0);
 }
 
-TEST(DetailControl, GoesNoCoarserThanAnEighth) {
+TEST(DetailControl, GoesNoCoarserThanAQuarterAndInPartsThanAHalf) {
     DetailControl control = knowing(1.0);
-    EXPECT_EQ(control.divisor_for(Extent::whole, pixels), 8.0);
+    EXPECT_EQ(control.divisor_for(Extent::whole, pixels), 4.0);
+    EXPECT_EQ(control.divisor_for(Extent::parts, pixels), 2.0);
 }
 
 TEST(DetailControl, LeavesRoomForTheRestOfTheFrameButKeepsAQuarter) {
@@ -56,7 +57,7 @@ TEST(DetailControl, CountsTheRestWithoutTheDrawingOfBone) {
 }
 
 TEST(DetailControl, HoldsTheRateOfFramesWhateverAPixelCosts) {
-    for (const double full_frame_s : {0.01, 0.05, 0.2, 0.7}) {
+    for (const double full_frame_s : {0.01, 0.05, 0.2, 0.3}) {
         DetailControl control(frame_s);
         double took_s = full_frame_s;
         for (int frame = 0; frame < 30; ++frame) {

@@ -95,6 +95,27 @@ TEST_F(ScenePictureTest, RedrawsUnderAStillCameraWhatAFullDrawWouldShow) {
     }
 }
 
+TEST_F(ScenePictureTest, RedrawsACoarserCopyAndAnAtlasAsExactly) {
+    for (const TextureLimits& limits :
+         {TextureLimits{.longest_edge_texels = 16}, TextureLimits{.layout = BoneLayout::atlas}}) {
+        Bone bone = hills();
+        BoneTextures textures(bone, {}, limits);
+        RaycastRenderer renderer;
+        ScenePicture kept(renderer, size_px);
+        const Camera camera = camera_on({0.0, 0.0, 0.0}, 5.0);
+        kept.draw(&textures, nullptr, camera);
+        for (int carve = 0; carve < 4; ++carve) {
+            const auto dirty = carve_sphere(bone, {-2.0 + carve, 1.3 - carve, 1.4}, 0.6);
+            textures.update(bone, dirty);
+            kept.mark_dirty(textures, dirty);
+            ScenePicture fresh(renderer, size_px);
+            EXPECT_EQ(kept.draw(&textures, nullptr, camera).read_back(),
+                      fresh.draw(&textures, nullptr, camera).read_back())
+                << description(textures.plan()) << ", carve " << carve;
+        }
+    }
+}
+
 TEST_F(ScenePictureTest, DrawsSeparateCarvesAndNotWhatLiesBetween) {
     const Grid long_grid{.size_voxels = {480, 32, 32}, .origin_mm = {-23.95, -1.55, -1.55}};
     Bone bone = made_bone(long_grid, [](const glm::dvec3& p) { return -p.z; });

@@ -143,19 +143,42 @@ TEST_F(SpeedOnDemand, DrawsASmallCarveExactlyAtOnceHoweverDearTheWholePictureIs)
 }
 
 TEST_F(SpeedOnDemand, ShowsACarveThatIsTooLargeForAFrameCoarselyAtOnceAndExactlySoon) {
-    PricedRenderer renderer(8.0 * target_frame_s / all_pixels);
+    PricedRenderer renderer(24.0 * target_frame_s / all_pixels);
     ScenePicture picture(renderer, size_px, &renderer);
-    const Picture before = picture.draw(&*textures_, nullptr, camera_).read_back();
+    Picture before = picture.draw(&*textures_, nullptr, camera_).read_back();
     for (int frame = 0; frame < 4; ++frame) {
         carve(picture, {0.2 * frame, -1.0, 2.4}, 1.2);
-        EXPECT_NE(picture.draw(&*textures_, nullptr, camera_).read_back(), before);
+        const Picture shown = picture.draw(&*textures_, nullptr, camera_).read_back();
+        EXPECT_NE(shown, before);
         EXPECT_FALSE(picture.quality().refined);
-        EXPECT_LT(picture.quality().scale, 1.0);
+        EXPECT_EQ(picture.quality().scale, 0.5);
+        before = shown;
     }
-    for (int frame = 0; frame < 15 && !picture.quality().refined; ++frame)
+    for (int frame = 0; frame < 40 && !picture.quality().refined; ++frame)
         picture.draw(&*textures_, nullptr, camera_);
     EXPECT_EQ(picture.draw(&*textures_, nullptr, camera_).read_back(), full_picture(camera_));
     EXPECT_EQ(picture.quality(), PictureQuality{});
+}
+
+TEST_F(SpeedOnDemand, LetsTheAmbientLightNearACarveWaitRatherThanBlurIt) {
+    PricedRenderer renderer(6.0 * target_frame_s / all_pixels);
+    ScenePicture picture(renderer, size_px, &renderer);
+    camera_.distance_mm *= 1.5;
+    picture.draw(&*textures_, nullptr, camera_);
+    for (int frame = 0; frame < 3; ++frame) {
+        const glm::dvec3 centre_mm(0.1 * frame, -1.0, 2.6);
+        carve(picture, centre_mm, 0.4);
+        const Picture shown = picture.draw(&*textures_, nullptr, camera_).read_back();
+        EXPECT_EQ(picture.quality(), (PictureQuality{.scale = 1.0, .refined = false}));
+        const Picture full = full_picture(camera_);
+        const glm::ivec2 middle(pixel_of(camera_, centre_mm, size_px));
+        for (int y = middle.y - 8; y <= middle.y + 8; ++y)
+            for (int x = middle.x - 8; x <= middle.x + 8; ++x)
+                ASSERT_EQ(shown.at(x, y)[1], full.at(x, y)[1]) << x << ' ' << y;
+    }
+    for (int frame = 0; frame < 20 && !picture.quality().refined; ++frame)
+        picture.draw(&*textures_, nullptr, camera_);
+    EXPECT_EQ(picture.draw(&*textures_, nullptr, camera_).read_back(), full_picture(camera_));
 }
 
 TEST_F(SpeedOnDemand, StartsAnewWhereTheSizeOrTheBoneChangesInTheMiddleOfRefining) {
