@@ -40,6 +40,15 @@ struct Lowering::Kernel {
         Bricks bricks;
     };
 
+    /// Whether rows y to y + 7 of a slice pass the ball by.
+    static bool misses(const CrescentRows::Shape& shape, int y, int z) {
+        const float low = static_cast<float>(y) - shape.middle.y;
+        const float across = std::max({low, -low - static_cast<float>(eight - 1), 0.0f});
+        const float dz = static_cast<float>(z) - shape.middle.z;
+        return across * across + dz * dz >
+               shape.outer_squared + static_cast<float>(CrescentRows::slack_voxels);
+    }
+
     [[gnu::always_inline]] static Group group_of(const Ints& first, const Ints& end) {
         Group group{first, end, {}};
         const Ints is_empty = first >= end;
@@ -155,6 +164,10 @@ struct Lowering::Kernel {
         Bricks all{layer.end_x(), -1};
         for (int g = first_group; g < end_group; ++g) {
             const auto at = static_cast<std::size_t>(g);
+            if (misses(shape, first_y + eight * (g % 2), first_z + g / 2)) {
+                left[at].bricks = right[at].bricks = {};
+                continue;
+            }
             const EightRows eight_of = eight_rows(shape, first_y + eight * (g % 2), first_z + g / 2);
             left[at] = group_of(eight_of.left_first, eight_of.left_end);
             right[at] = group_of(eight_of.right_first, eight_of.right_end);
