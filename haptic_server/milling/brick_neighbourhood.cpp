@@ -1,7 +1,6 @@
 #include "haptic_server/milling/brick_neighbourhood.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/vector_relational.hpp>
@@ -46,15 +45,33 @@ double BrickNeighbourhood::stiffness(const glm::vec3& place) const {
     return at == BoneContent::no_slot ? 0.0 : bone_->content().stiffness_in(at, offset_in_brick(nearest));
 }
 
-float BrickNeighbourhood::fraction_across_bricks(const glm::ivec3& first, const glm::vec3& w) const {
-    std::array<float, 8> c{};
-    for (int i = 0; i < 8; ++i) {
-        const glm::ivec3 place = first + glm::ivec3(i & 1, (i >> 1) & 1, i >> 2);
+float BrickNeighbourhood::fraction(const glm::vec3& place) const {
+    const glm::ivec3 first(place);
+    const glm::vec3 w = place - glm::vec3(first);
+    const std::uint64_t bytes = corners(first);
+    std::array<float, 8> c;
+    for (std::size_t i = 0; i < c.size(); ++i) c[i] = static_cast<float>(bytes >> (8 * i) & 255u);
+    return detail::trilinear(c, w.x, w.y, w.z);
+}
+
+std::uint64_t BrickNeighbourhood::corners_across_bricks(const glm::ivec3& first) const {
+    const bool within_x = (first.x & 15) != 15;
+    const auto byte_at = [&](const glm::ivec3& place) -> std::uint64_t {
         const std::int32_t at = slot(place);
-        if (at == BoneContent::no_slot) continue;
-        c[static_cast<std::size_t>(i)] = bone_->fractions(at)[offset_in_brick(place)];
+        return at == BoneContent::no_slot ? 0 : bone_->fractions(at)[offset_in_brick(place)];
+    };
+    std::uint64_t bytes = 0;
+    for (int i = 0; i < 4; ++i) {
+        const glm::ivec3 place = first + glm::ivec3(0, i & 1, i >> 1);
+        std::uint64_t pair = 0;
+        if (!within_x) {
+            pair = byte_at(place) | byte_at(place + glm::ivec3(1, 0, 0)) << 8;
+        } else if (const std::int32_t at = slot(place); at != BoneContent::no_slot) {
+            pair = detail::pair_at(bone_->fractions(at).data() + offset_in_brick(place));
+        }
+        bytes |= pair << (16 * i);
     }
-    return detail::trilinear(c[0], c[1], c[2], c[3], c[4], c[5], c[6], c[7], w);
+    return bytes;
 }
 
 }  // namespace osteomill

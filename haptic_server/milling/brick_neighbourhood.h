@@ -1,14 +1,19 @@
 // The bricks around a ball, looked up once so that many samples near it need not.
 #pragma once
 
+#include <array>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <glm/vec3.hpp>
 #include <vector>
 
 #include "common/bone/bone.h"
 
 namespace osteomill {
+
+static_assert(std::endian::native == std::endian::little);
 
 class BrickNeighbourhood {
   public:
@@ -29,6 +34,10 @@ class BrickNeighbourhood {
                                                edge_ * ((place.y >> 4) + edge_ * (place.z >> 4)))];
     }
 
+    /// Fractions of a voxel within the ball and of its seven neighbours beyond it, a byte each: first along
+    /// x, then y, then z, the first lowest.
+    std::uint64_t corners(const glm::ivec3& first) const;
+
     /// Fraction, 0 to 255, trilinear between the centres of voxels, at a place within the ball.
     float fraction(const glm::vec3& place) const;
 
@@ -37,7 +46,7 @@ class BrickNeighbourhood {
     double stiffness(const glm::vec3& place) const;
 
   private:
-    float fraction_across_bricks(const glm::ivec3& first, const glm::vec3& w) const;
+    std::uint64_t corners_across_bricks(const glm::ivec3& first) const;
 
     int edge_;  // of the cube of bricks
     const Bone* bone_ = nullptr;
@@ -47,29 +56,37 @@ class BrickNeighbourhood {
 
 namespace detail {
 
-/// Corners in the order x, y, z of a cube, weighed by the place within it.
-inline float trilinear(float c000, float c100, float c010, float c110, float c001, float c101, float c011,
-                       float c111, const glm::vec3& w) {
-    const float y0z0 = c000 + w.x * (c100 - c000);
-    const float y1z0 = c010 + w.x * (c110 - c010);
-    const float y0z1 = c001 + w.x * (c101 - c001);
-    const float y1z1 = c011 + w.x * (c111 - c011);
-    const float z0 = y0z0 + w.y * (y1z0 - y0z0);
-    const float z1 = y0z1 + w.y * (y1z1 - y0z1);
-    return z0 + w.z * (z1 - z0);
+/// Between the corners of a cube in the order x, y, z, weighed by the place within it; `Real` is a number or
+/// a vector of numbers.
+template <typename Real>
+[[gnu::always_inline]] inline Real trilinear(const std::array<Real, 8>& c, const Real& wx, const Real& wy,
+                                             const Real& wz) {
+    const Real y0z0 = c[0] + wx * (c[1] - c[0]);
+    const Real y1z0 = c[2] + wx * (c[3] - c[2]);
+    const Real y0z1 = c[4] + wx * (c[5] - c[4]);
+    const Real y1z1 = c[6] + wx * (c[7] - c[6]);
+    const Real z0 = y0z0 + wy * (y1z0 - y0z0);
+    const Real z1 = y0z1 + wy * (y1z1 - y0z1);
+    return z0 + wz * (z1 - z0);
+}
+
+/// Two neighbouring bytes.
+inline std::uint64_t pair_at(const std::uint8_t* bytes) {
+    std::uint16_t pair;
+    std::memcpy(&pair, bytes, sizeof pair);
+    return pair;
 }
 
 }  // namespace detail
 
-inline float BrickNeighbourhood::fraction(const glm::vec3& place) const {
-    const glm::ivec3 first(place);
-    const glm::vec3 w = place - glm::vec3(first);
+inline std::uint64_t BrickNeighbourhood::corners(const glm::ivec3& first) const {
     const bool within_one_brick = (first.x & 15) != 15 && (first.y & 15) != 15 && (first.z & 15) != 15;
-    if (!within_one_brick) return fraction_across_bricks(first, w);
+    if (!within_one_brick) return corners_across_bricks(first);
     const std::int32_t at = slot(first);
-    if (at == BoneContent::no_slot) return 0.0f;
+    if (at == BoneContent::no_slot) return 0;
     const std::uint8_t* const f = bone_->fractions(at).data() + offset_in_brick(first);
-    return detail::trilinear(f[0], f[1], f[16], f[17], f[256], f[257], f[272], f[273], w);
+    return detail::pair_at(f) | detail::pair_at(f + 16) << 16 | detail::pair_at(f + 256) << 32 |
+           detail::pair_at(f + 272) << 48;
 }
 
 }  // namespace osteomill

@@ -1,14 +1,17 @@
 #include "haptic_server/milling/chip_force.h"
 
-#include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <numbers>
 
 #include "haptic_server/milling/burr_frame.h"
+#include "haptic_server/milling/lanes.h"
 
 namespace osteomill {
 
 namespace {
+
+using lanes::Floats;
 
 /// Inputs of the loop as plain floats: nothing in it may alias.
 struct Constants {
@@ -43,75 +46,131 @@ Constants constants(const CuttingStep& step, const glm::ivec3& base) {
             static_cast<float>(disc_radius_voxels)};
 }
 
-[[gnu::always_inline]] inline void loop_over(const Constants& in, std::size_t count, const float* vx,
-                                             const float* vy, const float* vz, const float* weights,
-                                             ChipForces& out) {
-    const Constants c = in;
-    const float disc_squared = c.disc_radius * c.disc_radius;
-    for (std::size_t i = 0; i < count; ++i) {
-        const float wx = vx[i] - c.middle_x;
-        const float wy = vy[i] - c.middle_y;
-        const float wz = vz[i] - c.middle_z;
-        const float x = c.xx * wx + c.xy * wy + c.xz * wz;
-        const float y = c.yx * wx + c.yy * wy + c.yz * wz;
-        const float z = c.zx * wx + c.zy * wy + c.zz * wz;
-        const float r_squared = x * x + y * y;
-        const float distance_squared = r_squared + z * z;
-        // No voxel of a crescent is that near the centre; padding may be.
-        const float distance = std::sqrt(distance_squared < 0.25f ? 0.25f : distance_squared);
-        const float disc_r = std::sqrt(r_squared < disc_squared ? disc_squared : r_squared);
-        const float per_both = 1.0f / (distance * disc_r);  // one division for two
-        const float per_disc_r = per_both * distance;
-        const float cos_kappa = -z * (per_both * disc_r);
-        const float to_surface = distance * c.per_radius;  // 1 / r there = this / r here
-        const float mean_per_r = mean_inverse_distance(r_squared, per_disc_r, c.disc_radius);
+/// Eight voxels in burr axes and their forces.
+struct EightForces {
+    Floats x, y, z;
+    Floats force_x, force_y, force_z;
+    Floats r_squared;
+};
 
-        const float weight = weights[i];
-        const float swirl = weight * to_surface * per_disc_r * per_disc_r;  // e / r, where e = (x, y) / r
-        const float outward = c.axial * cos_kappa * swirl + c.radial * c.per_radius * weight * per_disc_r;
-        out.x[i] = x;
-        out.y[i] = y;
-        out.z[i] = z;
-        out.force_x[i] = c.tangential * swirl * y - outward * x;
-        out.force_y[i] = -c.tangential * swirl * x - outward * y;
-        out.force_z[i] = weight * (c.radial * cos_kappa * to_surface * mean_per_r - c.axial * c.per_radius);
-    }
-}
+[[gnu::always_inline]] inline EightForces forces_of(const Constants& c, const Floats& vx, const Floats& vy,
+                                                    const Floats& vz, const Floats& weight) {
+    const Floats wx = vx - c.middle_x;
+    const Floats wy = vy - c.middle_y;
+    const Floats wz = vz - c.middle_z;
+    const Floats x = c.xx * wx + c.xy * wy + c.xz * wz;
+    const Floats y = c.yx * wx + c.yy * wy + c.yz * wz;
+    const Floats z = c.zx * wx + c.zy * wy + c.zz * wz;
+    const Floats r_squared = x * x + y * y;
+    const Floats distance_squared = r_squared + z * z;
+    const Floats disc_squared = lanes::floats(c.disc_radius * c.disc_radius);
+    // No voxel of a crescent is that near the centre; padding may be.
+    const Floats distance =
+        lanes::square_root(distance_squared < 0.25f ? lanes::floats(0.25f) : distance_squared);
+    const Floats disc_r = lanes::square_root(r_squared < disc_squared ? disc_squared : r_squared);
+    const Floats per_both = 1.0f / (distance * disc_r);  // one division for two
+    const Floats per_disc_r = per_both * distance;
+    const Floats cos_kappa = -z * (per_both * disc_r);
+    const Floats to_surface = distance * c.per_radius;  // 1 / r there = this / r here
+    const Floats mean_per_r = mean_inverse_distance(r_squared, per_disc_r, lanes::floats(c.disc_radius));
 
-#if defined(__x86_64__)
-[[gnu::target("avx2")]] void loop_over_avx2(const Constants& c, std::size_t count, const float* x,
-                                            const float* y, const float* z, const float* weights,
-                                            ChipForces& out) {
-    loop_over(c, count, x, y, z, weights, out);
-}
-#endif
-
-void forces_of(const Constants& c, std::size_t count, const float* x, const float* y, const float* z,
-               const float* weights, [[maybe_unused]] InstructionSet instructions, ChipForces& out) {
-#if defined(__x86_64__)
-    if (instructions == InstructionSet::avx2) {
-        loop_over_avx2(c, count, x, y, z, weights, out);
-        return;
-    }
-#endif
-    loop_over(c, count, x, y, z, weights, out);
+    const Floats swirl = weight * to_surface * per_disc_r * per_disc_r;  // e / r, where e = (x, y) / r
+    const Floats outward = c.axial * cos_kappa * swirl + c.radial * c.per_radius * weight * per_disc_r;
+    return {x,
+            y,
+            z,
+            c.tangential * swirl * y - outward * x,
+            -c.tangential * swirl * x - outward * y,
+            weight * (c.radial * cos_kappa * to_surface * mean_per_r - c.axial * c.per_radius),
+            r_squared};
 }
 
 /// Voxels whose middle lies nearer to the axis than 1.4 voxels are taken apart.
 constexpr float refined_r_squared = 2.0f;
 
-float smallest_r_squared(const ChipForces& forces, std::size_t padded_count) {
-    constexpr std::size_t lanes = RemovedVoxels::lanes;
-    std::array<float, lanes> smallest;
-    smallest.fill(refined_r_squared);
-    for (std::size_t first = 0; first < padded_count; first += lanes)
-        for (std::size_t lane = 0; lane < lanes; ++lane) {
-            const float x = forces.x[first + lane];
-            const float y = forces.y[first + lane];
-            const float r_squared = x * x + y * y;
-            smallest[lane] = r_squared < smallest[lane] ? r_squared : smallest[lane];
-        }
-    return *std::min_element(smallest.begin(), smallest.end());
+/// Fills in the voxels of `out`; returns the smallest r^2 among them.
+[[gnu::always_inline]] inline float fill_with(const Constants& constants, std::size_t count, const float* vx,
+                                              const float* vy, const float* vz, const float* weights,
+                                              ChipForces& out) {
+    const Constants c = constants;
+    Floats nearest = lanes::floats(refined_r_squared);
+    for (std::size_t i = 0; i < count; i += lanes::width) {
+        const EightForces f = forces_of(c, lanes::load<Floats>(vx + i), lanes::load<Floats>(vy + i),
+                                        lanes::load<Floats>(vz + i), lanes::load<Floats>(weights + i));
+        lanes::store(&out.x[i], f.x);
+        lanes::store(&out.y[i], f.y);
+        lanes::store(&out.z[i], f.z);
+        lanes::store(&out.force_x[i], f.force_x);
+        lanes::store(&out.force_y[i], f.force_y);
+        lanes::store(&out.force_z[i], f.force_z);
+        nearest = f.r_squared < nearest ? f.r_squared : nearest;
+    }
+    return lanes::smallest(nearest);
+}
+
+struct Sum {
+    glm::dvec3 force{0.0};
+    std::uint64_t left_out = 0;  // bit i: some of eight voxels from 8 i on
+};
+static_assert(RemovedVoxels::capacity / RemovedVoxels::lanes <= 64);
+
+/// Sum over those voxels that need not be taken apart.
+[[gnu::always_inline]] inline Sum sum_with(const Constants& constants, std::size_t count, const float* vx,
+                                           const float* vy, const float* vz, const float* weights,
+                                           float least_r_squared) {
+    const Constants c = constants;
+    const Floats zero{};
+    Floats x{};
+    Floats y{};
+    Floats z{};
+    std::uint64_t left_out = 0;
+    for (std::size_t i = 0; i < count; i += lanes::width) {
+        const EightForces f = forces_of(c, lanes::load<Floats>(vx + i), lanes::load<Floats>(vy + i),
+                                        lanes::load<Floats>(vz + i), lanes::load<Floats>(weights + i));
+        left_out |= std::uint64_t{lanes::any(f.r_squared < least_r_squared)} << (i / lanes::width);
+        x += f.r_squared < least_r_squared ? zero : f.force_x;
+        y += f.r_squared < least_r_squared ? zero : f.force_y;
+        z += f.r_squared < least_r_squared ? zero : f.force_z;
+    }
+    return {{lanes::sum(x), lanes::sum(y), lanes::sum(z)}, left_out};
+}
+
+float fill_plain(const Constants& c, std::size_t count, const float* x, const float* y, const float* z,
+                 const float* weights, ChipForces& out) {
+    return fill_with(c, count, x, y, z, weights, out);
+}
+
+Sum sum_plain(const Constants& c, std::size_t count, const float* x, const float* y, const float* z,
+              const float* weights, float least_r_squared) {
+    return sum_with(c, count, x, y, z, weights, least_r_squared);
+}
+
+#if defined(__x86_64__)
+[[gnu::target("avx2")]] float fill_avx2(const Constants& c, std::size_t count, const float* x, const float* y,
+                                        const float* z, const float* weights, ChipForces& out) {
+    return fill_with(c, count, x, y, z, weights, out);
+}
+
+[[gnu::target("avx2")]] Sum sum_avx2(const Constants& c, std::size_t count, const float* x, const float* y,
+                                     const float* z, const float* weights, float least_r_squared) {
+    return sum_with(c, count, x, y, z, weights, least_r_squared);
+}
+#endif
+
+float fill(const Constants& c, std::size_t count, const float* x, const float* y, const float* z,
+           const float* weights, [[maybe_unused]] InstructionSet instructions, ChipForces& out) {
+#if defined(__x86_64__)
+    if (instructions == InstructionSet::avx2) return fill_avx2(c, count, x, y, z, weights, out);
+#endif
+    return fill_plain(c, count, x, y, z, weights, out);
+}
+
+Sum sum(const Constants& c, std::size_t count, const float* x, const float* y, const float* z,
+        const float* weights, float least_r_squared, [[maybe_unused]] InstructionSet instructions) {
+#if defined(__x86_64__)
+    if (instructions == InstructionSet::avx2) return sum_avx2(c, count, x, y, z, weights, least_r_squared);
+#endif
+    return sum_plain(c, count, x, y, z, weights, least_r_squared);
 }
 
 /// Middles of the parts of a voxel taken apart into 4^3, along one axis: `run` parts in a row share a place.
@@ -122,9 +181,9 @@ constexpr std::array<float, part_count> part_places(std::size_t run) {
     return places;
 }
 
-/// Force of such a voxel. `scratch` is overwritten.
-glm::vec3 force_of_parts(const Constants& c, const glm::vec3& voxel, float weight,
-                         InstructionSet instructions, ChipForces& scratch) {
+/// Force of such a voxel.
+glm::dvec3 force_of_parts(const Constants& c, const glm::vec3& voxel, float weight,
+                          InstructionSet instructions) {
     static constexpr auto part_x = part_places(1);
     static constexpr auto part_y = part_places(4);
     static constexpr auto part_z = part_places(16);
@@ -140,8 +199,7 @@ glm::vec3 force_of_parts(const Constants& c, const glm::vec3& voxel, float weigh
         z[i] = voxel.z + part_z[i];
         weights[i] = weight / part_count;
     }
-    forces_of(fine, part_count, x.data(), y.data(), z.data(), weights.data(), instructions, scratch);
-    return glm::vec3(sum_of(scratch, part_count));
+    return sum(fine, part_count, x.data(), y.data(), z.data(), weights.data(), 0.0f, instructions).force;
 }
 
 }  // namespace
@@ -161,34 +219,37 @@ void chip_forces(const CuttingStep& step, const RemovedVoxels& removed, std::spa
                  InstructionSet instructions, ChipForces& out) noexcept {
     const Constants c = constants(step, removed.base);
     const std::size_t count = removed.padded_count();
-    forces_of(c, count, removed.x.data(), removed.y.data(), removed.z.data(), weights.data(), instructions,
-              out);
-    if (smallest_r_squared(out, count) >= refined_r_squared) return;
-    ChipForces parts;
+    const float smallest_r_squared = fill(c, count, removed.x.data(), removed.y.data(), removed.z.data(),
+                                          weights.data(), instructions, out);
+    if (smallest_r_squared >= refined_r_squared) return;
     for (std::size_t i = 0; i < removed.count; ++i) {
         if (out.x[i] * out.x[i] + out.y[i] * out.y[i] >= refined_r_squared) continue;
         const glm::vec3 voxel(removed.x[i], removed.y[i], removed.z[i]);
-        const glm::vec3 force = force_of_parts(c, voxel, weights[i], instructions, parts);
+        const glm::vec3 force(force_of_parts(c, voxel, weights[i], instructions));
         out.force_x[i] = force.x;
         out.force_y[i] = force.y;
         out.force_z[i] = force.z;
     }
 }
 
-glm::dvec3 sum_of(const ChipForces& forces, std::size_t padded_count) noexcept {
-    constexpr std::size_t lanes = RemovedVoxels::lanes;
-    std::array<float, lanes> x{};
-    std::array<float, lanes> y{};
-    std::array<float, lanes> z{};
-    for (std::size_t first = 0; first < padded_count; first += lanes)
-        for (std::size_t lane = 0; lane < lanes; ++lane) {
-            x[lane] += forces.force_x[first + lane];
-            y[lane] += forces.force_y[first + lane];
-            z[lane] += forces.force_z[first + lane];
+glm::dvec3 sum_of_chip_forces(const CuttingStep& step, const RemovedVoxels& removed,
+                              std::span<const float> weights, InstructionSet instructions) noexcept {
+    const Constants c = constants(step, removed.base);
+    Sum total = sum(c, removed.padded_count(), removed.x.data(), removed.y.data(), removed.z.data(),
+                    weights.data(), refined_r_squared, instructions);
+    for (std::size_t i = 0; i < removed.count; ++i) {
+        if ((total.left_out >> (i / RemovedVoxels::lanes) & 1u) == 0) {
+            i += RemovedVoxels::lanes - 1;
+            continue;
         }
-    glm::dvec3 sum(0.0);
-    for (std::size_t lane = 0; lane < lanes; ++lane) sum += glm::dvec3(x[lane], y[lane], z[lane]);
-    return sum;
+        const glm::vec3 voxel(removed.x[i], removed.y[i], removed.z[i]);
+        const glm::vec3 w = voxel - glm::vec3(c.middle_x, c.middle_y, c.middle_z);
+        const float x = c.xx * w.x + c.xy * w.y + c.xz * w.z;
+        const float y = c.yx * w.x + c.yy * w.y + c.yz * w.z;
+        if (weights[i] != 0.0f && x * x + y * y < refined_r_squared)
+            total.force += force_of_parts(c, voxel, weights[i], instructions);
+    }
+    return total.force;
 }
 
 }  // namespace osteomill

@@ -38,16 +38,15 @@ inline constexpr double disc_radius_voxels = 0.56418958354775628695;
 /// it is at least `a`, its inverse: 2/a at the axis, near 1/r away from it. From the complete elliptic
 /// integral that it is: the first terms of its series inside the disc, 4 E(r/a) / (pi a), and outside, 1/r +
 /// a^2/(8 r^3) + 3 a^4/(64 r^5); within 4 % at the disc's edge, 0.5 % beyond 1.5 a.
+/// `Real` is a number or the lanes of a vector; the constants are exact in single precision.
 template <typename Real>
 [[gnu::always_inline]] inline Real mean_inverse_distance(Real r_squared, Real per_r, Real a) {
-    const Real per_a = 1 / a;
+    const Real per_a = 1.0f / a;
     const Real k = r_squared * per_a * per_a;
     const Real q = a * a * per_r * per_r;
-    const Real inside = 2 * per_a *
-                        (1 - k * (static_cast<Real>(1.0 / 4.0) +
-                                  k * (static_cast<Real>(3.0 / 64.0) + k * static_cast<Real>(10.0 / 256.0))));
-    const Real outside = per_r * (1 + q * (static_cast<Real>(1.0 / 8.0) + q * static_cast<Real>(3.0 / 64.0)));
-    return k < 1 ? inside : outside;
+    const Real inside = 2.0f * per_a * (1.0f - k * (0.25f + k * (0.046875f + k * 0.0390625f)));
+    const Real outside = per_r * (1.0f + q * (0.125f + q * 0.046875f));
+    return k < 1.0f ? inside : outside;
 }
 
 /// A step, as the force sees it.
@@ -83,8 +82,8 @@ struct ChipForces {
 void chip_forces(const CuttingStep& step, const RemovedVoxels& removed, std::span<const float> weights,
                  InstructionSet instructions, ChipForces& out) noexcept;
 
-/// Sum of the forces of the first `padded_count` voxels (a multiple of RemovedVoxels::lanes); burr axes, in
-/// units of CuttingStep::newton_per_unit. Real-time safe.
-glm::dvec3 sum_of(const ChipForces& forces, std::size_t padded_count) noexcept;
+/// Sum of the same forces; burr axes, in units of CuttingStep::newton_per_unit. Real-time safe.
+glm::dvec3 sum_of_chip_forces(const CuttingStep& step, const RemovedVoxels& removed,
+                              std::span<const float> weights, InstructionSet instructions) noexcept;
 
 }  // namespace osteomill

@@ -28,6 +28,7 @@ void ChipMap::add(const RemovedVoxels& removed, std::span<const float> weights) 
     const double h = step_.spacing_mm;
     const glm::dvec3 middle = step_.middle_voxels - glm::dvec3(removed.base);
     for (std::size_t i = 0; i < removed.count; ++i) {
+        if (weights[i] == 0.0f) continue;
         const glm::dvec3 w = (glm::dvec3(removed.x[i], removed.y[i], removed.z[i]) - middle) * h;
         const double psi = std::atan2(glm::dot(w, step_.frame[1]), glm::dot(w, step_.frame[0]));
         const double turn = psi / (2.0 * std::numbers::pi) + (psi < 0.0 ? 1.0 : 0.0);

@@ -1,36 +1,10 @@
 #include "haptic_server/milling/cover.h"
 
-#include <cmath>
 #include <glm/geometric.hpp>
 
 namespace osteomill {
 
 namespace {
-
-/// One voxel. Comparisons are written as the selections that vector units have.
-template <VoxelEdges edges>
-[[gnu::always_inline]] inline std::int32_t fraction_left(const SweepSeenFrom& sweep, float x, float y,
-                                                         float z) {
-    const double wx = static_cast<double>(x) - sweep.from.x;
-    const double wy = static_cast<double>(y) - sweep.from.y;
-    const double wz = static_cast<double>(z) - sweep.from.z;
-    double t =
-        (wx * sweep.along.x + (wy * sweep.along.y + wz * sweep.along.z)) * sweep.inverse_length_squared;
-    t = t < 0.0 ? 0.0 : t;
-    t = t > 1.0 ? 1.0 : t;
-    const double dx = wx - t * sweep.along.x;
-    const double dy = wy - t * sweep.along.y;
-    const double dz = wz - t * sweep.along.z;
-    const double distance = std::sqrt(dx * dx + dy * dy + dz * dz);
-    if constexpr (edges == VoxelEdges::whole) {
-        return distance <= sweep.radius ? 0 : 255;
-    } else {
-        double cover = 0.5 + sweep.radius - distance;
-        cover = cover < 0.0 ? 0.0 : cover;
-        cover = cover > 1.0 ? 1.0 : cover;
-        return static_cast<std::int32_t>(255.0 * (1.0 - cover) + 0.5);
-    }
-}
 
 template <VoxelEdges edges>
 [[gnu::always_inline]] inline void all_fractions_left(const SweepSeenFrom& sweep, const float* x,

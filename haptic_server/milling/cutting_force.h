@@ -16,8 +16,7 @@ class CuttingForce {
 
     /// `weights`: relative stiffness times the fraction removed, padded with zeros like the batch.
     void add(const RemovedVoxels& removed, std::span<const float> weights) noexcept {
-        chip_forces(step_, removed, weights, instructions_, forces_);
-        sum_ += sum_of(forces_, removed.padded_count());
+        sum_ += sum_of_chip_forces(step_, removed, weights, instructions_);
     }
 
     /// Mean force of the bone on the burr during the step, N, patient axes.
@@ -27,7 +26,6 @@ class CuttingForce {
     CuttingStep step_;
     InstructionSet instructions_;
     glm::dvec3 sum_{0.0};
-    ChipForces forces_;
 };
 
 }  // namespace osteomill

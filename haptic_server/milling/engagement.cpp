@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <cstring>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <numbers>
@@ -23,6 +25,12 @@ unsigned place_on_sphere(const glm::dvec3& normal) {
                  (eighth.z >> bit & 1u) << (3 * bit + 2);
     return place;
 }
+
+/// Where along a patch's normal the bone is looked at, from the burr's surface.
+constexpr std::array<float, 4> offsets_voxels{-static_cast<float>(EngagementProbe::reach_voxels), -0.5f, 0.5f,
+                                              static_cast<float>(EngagementProbe::reach_voxels)};
+/// Half of a voxel's 255 steps: the bone's surface.
+constexpr float half = 127.5f;
 
 }  // namespace
 
@@ -53,6 +61,12 @@ EngagementProbe::EngagementProbe(const Burr& burr, double spacing_mm)
     std::stable_sort(patches_.begin(), patches_.end(), [](const Patch& a, const Patch& b) {
         return place_on_sphere(a.normal) < place_on_sphere(b.normal);
     });
+    // Filled up to whole fours with the last one.
+    const std::size_t padded = (count + four - 1) / four * four;
+    for (int axis = 0; axis < 3; ++axis)
+        for (std::size_t i = 0; i < padded; ++i)
+            normals_[static_cast<std::size_t>(axis)].push_back(
+                static_cast<float>(patches_[std::min(i, count - 1)].normal[axis]));
 }
 
 void EngagementProbe::sample(const Bone& bone, const glm::dvec3& position_mm, const glm::dvec3& spindle_axis,
@@ -67,36 +81,91 @@ void EngagementProbe::sample(const Bone& bone, const glm::dvec3& position_mm, co
     if (!bricks_.gather(bone, centre, radius + reach_voxels + 1.0)) return;
 
     const glm::dmat3 frame = burr_frame(spindle_axis);
-    const glm::dvec3 base(bricks_.base());
-    const glm::vec3 place_of_centre(centre - base);
-    constexpr std::array<float, 4> offsets_voxels{-static_cast<float>(reach_voxels), -0.5f, 0.5f,
-                                                  static_cast<float>(reach_voxels)};
-    constexpr float half = 127.5f;
-    for (const Patch& patch : patches_) {
-        const glm::dvec3 normal = frame * patch.normal;
-        const glm::vec3 outward(normal);
-        const glm::vec3 surface = place_of_centre + static_cast<float>(radius) * outward;
-        float inner_offset = offsets_voxels[0];
-        float inner = 0.0f;
-        for (std::size_t i = 0; i < offsets_voxels.size(); ++i) {
-            const float offset = offsets_voxels[i];
-            const float fraction = bricks_.fraction(surface + offset * outward);
-            if (fraction < half) {
-                inner_offset = offset;
-                inner = fraction;
-                continue;
-            }
-            const float crossing =
-                i == 0 ? offset
-                       : inner_offset + (offset - inner_offset) * (half - inner) / (fraction - inner);
+    const glm::vec3 place_of_centre(centre - glm::dvec3(bricks_.base()));
+    const auto radius_voxels = static_cast<float>(radius);
+    for (std::size_t first = 0; first < patches_.size(); first += four) {
+        const FourFractions along = sample_four(first, glm::mat3(frame), place_of_centre, radius_voxels);
+        for (std::size_t lane = 0; lane < four && first + lane < patches_.size(); ++lane) {
+            const Crossing crossing = first_crossing(along, lane);
+            if (!crossing.found) continue;
+            const Patch& patch = patches_[first + lane];
+            const glm::dvec3 normal = frame * patch.normal;
+            const glm::vec3 outward(normal);
+            const glm::vec3 surface = place_of_centre + radius_voxels * outward;
             // Stiffness one voxel into the bone, where no partial voxel dilutes it.
-            double stiffness = bricks_.stiffness(surface + (crossing + 1.0f) * outward);
-            if (stiffness == 0.0) stiffness = bricks_.stiffness(surface + offset * outward);
-            out.patches[out.count++] = {normal, static_cast<double>(crossing) * h,
+            double stiffness = bricks_.stiffness(surface + (crossing.offset_voxels + 1.0f) * outward);
+            if (stiffness == 0.0)
+                stiffness = bricks_.stiffness(surface + crossing.bone_offset_voxels * outward);
+            out.patches[out.count++] = {normal, static_cast<double>(crossing.offset_voxels) * h,
                                         stiffness * (frame * patch.cutting_n_s_per_mm), patch_area_mm2_};
-            break;
         }
     }
+}
+
+EngagementProbe::FourFractions EngagementProbe::sample_four(std::size_t first, const glm::mat3& frame,
+                                                            const glm::vec3& centre,
+                                                            float radius_voxels) const noexcept {
+    using Floats [[gnu::vector_size(16)]] = float;
+    using Ints [[gnu::vector_size(16)]] = std::int32_t;
+    std::array<Floats, 3> normal;
+    for (std::size_t axis = 0; axis < 3; ++axis)
+        std::memcpy(&normal[axis], &normals_[axis][first], sizeof normal[axis]);
+    std::array<Floats, 3> outward;
+    std::array<Floats, 3> surface;
+    for (int axis = 0; axis < 3; ++axis) {
+        const auto at = static_cast<std::size_t>(axis);
+        outward[at] = frame[0][axis] * normal[0] + frame[1][axis] * normal[1] + frame[2][axis] * normal[2];
+        surface[at] = centre[axis] + radius_voxels * outward[at];
+    }
+    FourFractions along;
+    for (std::size_t i = 0; i < offsets_voxels.size(); ++i) {
+        std::array<Floats, 3> place;
+        std::array<Ints, 3> voxel;
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            place[axis] = surface[axis] + offsets_voxels[i] * outward[axis];
+            voxel[axis] = __builtin_convertvector(place[axis], Ints);
+            place[axis] -= __builtin_convertvector(voxel[axis], Floats);
+        }
+        // The low and the high four corners of each.
+        Ints low{};
+        Ints high{};
+        bool any = false;
+        for (int lane = 0; lane < 4; ++lane) {
+            const std::uint64_t corners = bricks_.corners({voxel[0][lane], voxel[1][lane], voxel[2][lane]});
+            low[lane] = static_cast<std::int32_t>(corners & 0xffffffffu);
+            high[lane] = static_cast<std::int32_t>(corners >> 32);
+            any |= corners != 0;
+        }
+        Floats fraction{};
+        if (any) {
+            std::array<Floats, 8> c;
+            for (int corner = 0; corner < 4; ++corner) {
+                c[static_cast<std::size_t>(corner)] =
+                    __builtin_convertvector(low >> (8 * corner) & 255, Floats);
+                c[static_cast<std::size_t>(corner) + 4] =
+                    __builtin_convertvector(high >> (8 * corner) & 255, Floats);
+            }
+            fraction = detail::trilinear(c, place[0], place[1], place[2]);
+        }
+        std::memcpy(along[i].data(), &fraction, sizeof fraction);
+        // Farther out than bone nobody looks.
+        if (any && fraction[0] >= half && fraction[1] >= half && fraction[2] >= half && fraction[3] >= half)
+            break;
+    }
+    return along;
+}
+
+EngagementProbe::Crossing EngagementProbe::first_crossing(const FourFractions& along, std::size_t lane) {
+    for (std::size_t i = 0; i < offsets_voxels.size(); ++i) {
+        const float fraction = along[i][lane];
+        if (fraction < half) continue;
+        const float offset = offsets_voxels[i];
+        if (i == 0) return {true, offset, offset};
+        const float inner = along[i - 1][lane];
+        const float inner_offset = offsets_voxels[i - 1];
+        return {true, inner_offset + (offset - inner_offset) * (half - inner) / (fraction - inner), offset};
+    }
+    return {};
 }
 
 }  // namespace osteomill

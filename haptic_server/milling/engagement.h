@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstddef>
+#include <glm/mat3x3.hpp>
 #include <glm/vec3.hpp>
 #include <vector>
 
@@ -57,9 +58,27 @@ class EngagementProbe {
         glm::dvec3 cutting_n_s_per_mm;  ///< burr axes, for bone of relative stiffness 1
     };
 
+    /// Patches are looked at four at a time: a vector that every processor has.
+    static constexpr std::size_t four = 4;
+    /// Fractions, 0 to 255, of four patches at each of four places along their normals, from within outward.
+    using FourFractions = std::array<std::array<float, four>, 4>;
+    /// Where bone begins: between two such places, the outer of them in bone.
+    struct Crossing {
+        bool found = false;
+        float offset_voxels = 0.0f;
+        float bone_offset_voxels = 0.0f;
+    };
+
+    /// Patches `first` to `first` + 3; places farther out than bone in all four are not set. `centre` and
+    /// the bricks in voxels from the bricks' base.
+    FourFractions sample_four(std::size_t first, const glm::mat3& frame, const glm::vec3& centre,
+                              float radius_voxels) const noexcept;
+    static Crossing first_crossing(const FourFractions& along, std::size_t lane);
+
     double radius_mm_;
     double patch_area_mm2_;
     std::vector<Patch> patches_;
+    std::array<std::vector<float>, 3> normals_;  // of the patches, by axis
     BrickNeighbourhood bricks_;
 };
 

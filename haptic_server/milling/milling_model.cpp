@@ -52,20 +52,20 @@ class ForceOfRemoved final : public RemovalSink {
         const auto per_code = static_cast<float>(content_.stiffness_per_code / 255.0);
         for (std::size_t i = 0; i < removed.count; ++i) {
             const ByteBrick& stiffness = content_.stiffness[static_cast<std::size_t>(removed.slot[i])];
-            weights_[i] = per_code * static_cast<float>(stiffness[removed.offset[i]]) * removed.codes[i];
+            weights_[i] = per_code *
+                          static_cast<float>(stiffness[static_cast<std::size_t>(removed.offset[i])]) *
+                          removed.codes[i];
         }
         for (std::size_t i = removed.count; i < removed.padded_count(); ++i) weights_[i] = 0.0f;
     }
 
     void enter(const RemovedVoxels& removed) noexcept {
         if (content_.tissue.empty()) {
-            double codes = 0.0;
-            for (std::size_t i = 0; i < removed.count; ++i) codes += static_cast<double>(removed.codes[i]);
-            account_.take(0, codes);
+            account_.take(0, removed.lost_codes());
             return;
         }
         for (std::size_t i = 0; i < removed.count; ++i)
-            account_.take(content_.tissue_in(removed.slot[i], removed.offset[i]),
+            account_.take(content_.tissue_in(removed.slot[i], static_cast<std::size_t>(removed.offset[i])),
                           static_cast<double>(removed.codes[i]));
     }
 

@@ -51,20 +51,20 @@ void ToothForce::forget() noexcept {
 }
 
 void ToothForce::add(const RemovedVoxels& removed, std::span<const float> weights) noexcept {
+    step_sum_ += sum_of_chip_forces(step_, removed, weights, instructions_);
     chip_forces(step_, removed, weights, instructions_, forces_);
-    step_sum_ += sum_of(forces_, removed.padded_count());
     const double to_impulse = step_.newton_per_unit * step_.elapsed_s;
     const double bins_per_rad = instants_ / pitch_rad_;
     for (std::size_t i = 0; i < removed.count; ++i) {
+        const glm::dvec3 force(forces_.force_x[i], forces_.force_y[i], forces_.force_z[i]);
         const double x = static_cast<double>(forces_.x[i]);
         const double y = static_cast<double>(forces_.y[i]);
         const double psi = sigma_ * std::atan2(y, x);
         const double bin_of_centre = (psi - pitch_rad_ * std::floor(psi / pitch_rad_)) * bins_per_rad;
         // A voxel is as wide as it is, seen from the spindle: it cuts in each bin that it reaches into.
         const double width = bins_per_rad / std::max(std::hypot(x, y), disc_radius_voxels);
-        const glm::dvec3 impulse =
-            to_impulse * glm::dvec3(forces_.force_x[i], forces_.force_y[i], forces_.force_z[i]);
-        spread(impulse, bin_of_centre - 0.5 * width, std::min(width, static_cast<double>(instants_)));
+        spread(to_impulse * force, bin_of_centre - 0.5 * width,
+               std::min(width, static_cast<double>(instants_)));
     }
 }
 

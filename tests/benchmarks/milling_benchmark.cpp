@@ -3,6 +3,13 @@
 // Scene: 512 x 512 x 128 voxels of 0.1 mm, 5 mm burr, upright, feed 6 mm/s. Each iteration times one step of
 // the crescent and one of the scan, which sums over bins as published, in turn; both bones must come out
 // equal. Counters: medians and 99th percentiles in microseconds; times_faster is the ratio of the medians.
+//
+// How many times faster the crescent can be is a matter of counts. The scan visits some 70 000 voxels a step,
+// at 5 to 8 ns each. Of them lose bone, in a step at 100 Hz and at 1 kHz: 450 and 370 (0.5 mm deep), 950 and
+// 760 (1 mm), 2540 and 1950 (half immersed): at 1 kHz half immersed one in 36, each in one of 1090 rows of
+// bricks that are to be reported. To be 40 times faster there, all that is done for such a voxel (to find it,
+// to lower it, its force, its share of the edit) would have to take 6 ns, less than the scan needs to turn
+// down an empty one.
 #include <benchmark/benchmark.h>
 
 #include <algorithm>

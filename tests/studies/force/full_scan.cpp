@@ -62,7 +62,7 @@ class MetBone {
         met_.y[n] = from_base.y;
         met_.z[n] = from_base.z;
         met_.slot[n] = slot;
-        met_.offset[n] = static_cast<std::uint16_t>(offset_in_brick(voxel));
+        met_.offset[n] = static_cast<std::int32_t>(offset_in_brick(voxel));
     }
 
     void lower() {
@@ -72,7 +72,7 @@ class MetBone {
                        {left_.data(), padded}, InstructionSet::plain);
         const std::size_t met_count = std::exchange(met_.count, 0);
         for (std::size_t i = 0; i < met_count; ++i) {
-            std::uint8_t& fraction = bone_.fractions(met_.slot[i])[met_.offset[i]];
+            std::uint8_t& fraction = bone_.fractions(met_.slot[i])[static_cast<std::size_t>(met_.offset[i])];
             if (left_[i] >= fraction) continue;
             const int codes = fraction - left_[i];
             fraction = static_cast<std::uint8_t>(left_[i]);

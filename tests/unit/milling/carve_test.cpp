@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <random>
 #include <vector>
 
@@ -109,6 +110,49 @@ TEST(Carve, CrescentAloneEqualsTheFullSearch) {
         from = to;
     }
     EXPECT_EQ(checksum(crescent), checksum(full));
+}
+
+/// What the formula of cover.h says of every voxel, asked one by one in double precision.
+void carve_voxel_by_voxel(Bone& bone, const Sweep& sweep, VoxelEdges edges) {
+    const SweepSeenFrom seen(sweep, glm::dvec3(0.0), edges);
+    const glm::ivec3 size = bone.grid().size_voxels;
+    glm::ivec3 v;
+    for (v.z = 0; v.z < size.z; ++v.z)
+        for (v.y = 0; v.y < size.y; ++v.y)
+            for (v.x = 0; v.x < size.x; ++v.x) {
+                std::uint8_t& fraction = bone.fractions(bone.slot(v >> 4))[offset_in_brick(v)];
+                const glm::vec3 place(v);
+                const std::int32_t left =
+                    edges == VoxelEdges::partial
+                        ? fraction_left<VoxelEdges::partial>(seen, place.x, place.y, place.z)
+                        : fraction_left<VoxelEdges::whole>(seen, place.x, place.y, place.z);
+                fraction = static_cast<std::uint8_t>(std::min<int>(fraction, left));
+            }
+}
+
+TEST(Carve, LeavesOfEachVoxelWhatTheFormulaSays) {
+    std::mt19937 random(7);
+    std::uniform_real_distribution<double> part(0.0, 1.0);
+    std::uniform_real_distribution<double> step(-1.1, 1.1);
+    // The larger the burr, the less single precision knows of its surface.
+    for (const double radius : {0.4, 5.0, 25.0, 249.0})
+        for (const VoxelEdges edges : {VoxelEdges::partial, VoxelEdges::whole})
+            for (const InstructionSet instructions : {InstructionSet::plain, best_instruction_set()}) {
+                Bone bone = make_block({0.0, 0.0, 0.0}, {3.5, 3.3, 3.4}, spacing_mm);
+                Bone expected = bone;
+                NoEdits edits;
+                Count removed;
+                for (int i = 0; i < 6; ++i) {
+                    const glm::dvec3 hit = glm::dvec3(part(random), part(random), part(random)) * 33.0;
+                    const glm::dvec3 from = hit - radius * glm::normalize(glm::dvec3(1.0, 2.0, part(random)));
+                    const glm::dvec3 to = from + glm::dvec3(step(random), step(random), step(random));
+                    carve(bone, {from, to, radius}, CarveHistory::none,
+                          {.edges = edges, .instructions = instructions}, edits, removed);
+                    carve_voxel_by_voxel(expected, {from, to, radius}, edges);
+                }
+                EXPECT_EQ(checksum(bone), checksum(expected)) << "radius " << radius << " voxels";
+                EXPECT_GT(removed.codes, 0);
+            }
 }
 
 TEST(Carve, EditsRebuildTheBoneInAnotherCopy) {

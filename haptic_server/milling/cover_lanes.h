@@ -1,0 +1,84 @@
+// What a sweep leaves of eight voxels at once: the formula of cover.h in single precision, which is twice as
+// fast as double, and how far off that can be. Where both ends of that margin round to the same of the 255
+// steps, so does double precision; where they do not (one voxel in a hundred), it must be asked.
+//
+// The margin: with u = 2^-24 and no place more than D = R + 4 from the path, the components of the distance
+// are off by at most u (2 D + 3) (places are whole numbers, and the whole part of `from` is taken off them
+// first, which rounds nothing), the distance by u (6 D + 6), and less what it is compared with by u (7 D +
+// 7). An error in the nearest point's place on the path counts only by its square.
+#pragma once
+
+#include <glm/common.hpp>
+#include <glm/vec3.hpp>
+
+#include "haptic_server/milling/cover.h"
+#include "haptic_server/milling/lanes.h"
+
+namespace osteomill {
+
+/// A sweep, for lanes.
+struct SweepForLanes {
+    explicit SweepForLanes(const SweepSeenFrom& sweep)
+        : from_whole(glm::floor(sweep.from)),
+          from_rest(sweep.from - glm::floor(sweep.from)),
+          along(sweep.along),
+          // So short a step is none, and its inverse is no number of single precision.
+          inverse_length_squared(
+              sweep.inverse_length_squared > 1e20 ? 0.0f : static_cast<float>(sweep.inverse_length_squared)),
+          radius(static_cast<float>(sweep.radius)),
+          margin(static_cast<float>(0x1p-24 * 8.0 * (sweep.radius + 6.0))) {}
+
+    glm::vec3 from_whole;
+    glm::vec3 from_rest;
+    glm::vec3 along;
+    float inverse_length_squared;
+    float radius;
+    float margin;  // voxels
+};
+
+/// Bounds of what is left, 0 to 255. Where they differ, nothing is known of either.
+struct LeftLanes {
+    lanes::Ints least;
+    lanes::Ints most;
+};
+
+namespace detail {
+/// A number of the 255 steps, rounded as in cover.h.
+[[gnu::always_inline]] inline lanes::Ints rounded_code(lanes::Floats code) {
+    const lanes::Floats zero{};
+    code = code < 0.0f ? zero : code;
+    code = code > 255.0f ? zero + 255.0f : code;
+    return __builtin_convertvector(code + 0.5f, lanes::Ints);
+}
+}  // namespace detail
+
+/// For voxels at whole numbers, counted from the sweep's base.
+template <VoxelEdges edges>
+[[gnu::always_inline]] inline LeftLanes fraction_left(const SweepForLanes& sweep, const lanes::Floats& x,
+                                                      const lanes::Floats& y, const lanes::Floats& z) {
+    using lanes::Floats;
+    using lanes::Ints;
+    const Floats zero{};
+    const Floats wx = x - sweep.from_whole.x - sweep.from_rest.x;
+    const Floats wy = y - sweep.from_whole.y - sweep.from_rest.y;
+    const Floats wz = z - sweep.from_whole.z - sweep.from_rest.z;
+    Floats t =
+        (wx * sweep.along.x + (wy * sweep.along.y + wz * sweep.along.z)) * sweep.inverse_length_squared;
+    t = t < 0.0f ? zero : t;
+    t = t > 1.0f ? zero + 1.0f : t;
+    const Floats dx = wx - t * sweep.along.x;
+    const Floats dy = wy - t * sweep.along.y;
+    const Floats dz = wz - t * sweep.along.z;
+    const Floats distance = lanes::square_root(dx * dx + dy * dy + dz * dz);
+    if constexpr (edges == VoxelEdges::whole) {
+        const Ints least = (distance - sweep.margin > sweep.radius) & 255;
+        const Ints most = (distance + sweep.margin > sweep.radius) & 255;
+        return {least, most};
+    } else {
+        const Floats codes = 255.0f * (distance - (sweep.radius - 0.5f));
+        const float off = 255.0f * sweep.margin;
+        return {detail::rounded_code(codes - off), detail::rounded_code(codes + off)};
+    }
+}
+
+}  // namespace osteomill

@@ -1,0 +1,100 @@
+// Eight numbers at a time, as the inner loops of milling do them. These are the compiler's own vectors: plain
+// C++ operators act on each lane, every target has them, and a function with a wider instruction set does
+// them in fewer instructions. So one text serves every InstructionSet and gives the same bits in each.
+//
+// Everything here must be inlined into the function that chose the instructions: take and return vectors only
+// in always-inlined functions, never in a lambda.
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+
+namespace osteomill::lanes {
+
+inline constexpr std::size_t width = 8;
+
+using Floats [[gnu::vector_size(32)]] = float;
+using Ints [[gnu::vector_size(32)]] = std::int32_t;
+using HalfInts [[gnu::vector_size(16)]] = std::int32_t;
+
+template <typename Lanes, typename Scalar>
+[[gnu::always_inline]] inline Lanes load(const Scalar* from) {
+    Lanes lanes;
+    std::memcpy(&lanes, from, sizeof lanes);
+    return lanes;
+}
+
+template <typename Scalar, typename Lanes>
+[[gnu::always_inline]] inline void store(Scalar* to, const Lanes& lanes) {
+    std::memcpy(to, &lanes, sizeof lanes);
+}
+
+[[gnu::always_inline]] inline Ints ints(std::int32_t value) {
+    return Ints{} + value;
+}
+[[gnu::always_inline]] inline Floats floats(float value) {
+    return Floats{} + value;
+}
+[[gnu::always_inline]] inline Ints counting() {
+    return Ints{0, 1, 2, 3, 4, 5, 6, 7};
+}
+[[gnu::always_inline]] inline Floats to_floats(const Ints& v) {
+    return __builtin_convertvector(v, Floats);
+}
+
+[[gnu::always_inline]] inline Ints smaller(const Ints& a, const Ints& b) {
+    return a < b ? a : b;
+}
+[[gnu::always_inline]] inline Ints larger(const Ints& a, const Ints& b) {
+    return a < b ? b : a;
+}
+
+[[gnu::always_inline]] inline HalfInts low_half(const Ints& v) {
+    return __builtin_shufflevector(v, v, 0, 1, 2, 3);
+}
+[[gnu::always_inline]] inline HalfInts high_half(const Ints& v) {
+    return __builtin_shufflevector(v, v, 4, 5, 6, 7);
+}
+/// The compiler makes one instruction of it.
+[[gnu::always_inline]] inline Floats square_root(const Floats& v) {
+    Floats root;
+    for (int i = 0; i < 8; ++i) root[i] = std::sqrt(v[i]);
+    return root;
+}
+
+/// Whether a bit is set in some lane.
+[[gnu::always_inline]] inline bool any(const Ints& v) {
+    using Words [[gnu::vector_size(32)]] = std::uint64_t;
+    const Words words = reinterpret_cast<const Words&>(v);
+    return (words[0] | words[1] | words[2] | words[3]) != 0;
+}
+
+/// Largest of the eight.
+[[gnu::always_inline]] inline std::int32_t largest(const Ints& v) {
+    const HalfInts low = low_half(v);
+    const HalfInts high = high_half(v);
+    const HalfInts four = low < high ? high : low;
+    const HalfInts swapped = __builtin_shufflevector(four, four, 2, 3, 0, 1);
+    const HalfInts two = four < swapped ? swapped : four;
+    return two[0] < two[1] ? two[1] : two[0];
+}
+[[gnu::always_inline]] inline std::int32_t smallest(const Ints& v) {
+    return -largest(-v);
+}
+
+[[gnu::always_inline]] inline float smallest(const Floats& v) {
+    float least = v[0];
+    for (int i = 1; i < 8; ++i) least = v[i] < least ? v[i] : least;
+    return least;
+}
+
+/// Sum of the eight, in the order of the lanes.
+[[gnu::always_inline]] inline double sum(const Floats& v) {
+    double total = 0.0;
+    for (int i = 0; i < 8; ++i) total += static_cast<double>(v[i]);
+    return total;
+}
+
+}  // namespace osteomill::lanes

@@ -1,0 +1,267 @@
+#include "haptic_server/milling/lowering.h"
+
+#include <algorithm>
+#include <bit>
+#include <cstring>
+#include <utility>
+
+#include "haptic_server/milling/cover_lanes.h"
+#include "haptic_server/milling/crescent_lanes.h"
+
+namespace osteomill {
+
+using lanes::Floats;
+using lanes::Ints;
+
+static_assert(lanes::width == RemovedVoxels::lanes);
+
+Lowering::Lowering(Bone& bone, const glm::ivec3& base, const SweepSeenFrom& sweep,
+                   InstructionSet instructions, EditSink& edits, RemovalSink& removed) noexcept
+    : bone_(bone), sweep_(sweep), instructions_(instructions), edits_(edits), sink_(removed) {
+    voxels_.base = base;
+}
+
+struct Lowering::Kernel {
+    Lowering& to;
+
+    static constexpr int eight = 8;
+    /// Groups of eight rows in a row of bricks: two a slice.
+    static constexpr int most_groups = 2 * brick_edge_voxels;
+
+    /// The bricks, along x, in which a part of eight rows lies.
+    struct Bricks {
+        int first = 0;
+        int last = -1;
+    };
+
+    struct Group {
+        Ints first;
+        Ints end;
+        Bricks bricks;
+    };
+
+    /// Whether rows y to y + 7 of a slice pass the ball by.
+    static bool misses(const CrescentRows::Shape& shape, int y, int z) {
+        const float low = static_cast<float>(y) - shape.middle.y;
+        const float across = std::max({low, -low - static_cast<float>(eight - 1), 0.0f});
+        const float dz = static_cast<float>(z) - shape.middle.z;
+        return across * across + dz * dz >
+               shape.outer_squared + static_cast<float>(CrescentRows::slack_voxels);
+    }
+
+    [[gnu::always_inline]] static Group group_of(const Ints& first, const Ints& end) {
+        Group group{first, end, {}};
+        const Ints is_empty = first >= end;
+        if (!lanes::any(~is_empty)) return group;
+        const int last = lanes::largest(end & ~is_empty) - 1;
+        group.bricks = {lanes::smallest(is_empty ? lanes::ints(last) : first) / brick_edge_voxels,
+                        last / brick_edge_voxels};
+        return group;
+    }
+
+    /// Appends a group's voxels in the brick at `brick_x` to the list.
+    [[gnu::always_inline]] void list_group(const Group& group, int brick_x, int offset, std::size_t& count) {
+        if (brick_x < group.bricks.first || brick_x > group.bricks.last) return;
+        const Ints in_brick_first = group.first - brick_x * brick_edge_voxels;
+        const Ints in_brick_end = group.end - brick_x * brick_edge_voxels;
+        const Ints end = lanes::smaller(in_brick_end, lanes::ints(brick_edge_voxels));
+        const Ints x = lanes::larger(in_brick_first, Ints{});
+        std::array<std::int32_t, lanes::width> first;
+        std::array<std::int32_t, lanes::width> length;
+        lanes::store(first.data(), x + (offset + brick_edge_voxels * lanes::counting()));
+        lanes::store(length.data(), lanes::larger(end - x, Ints{}));
+        const bool any_longer_than_eight = lanes::largest(end - x) > eight;
+        // Eight voxels are written for each row, of which the next row overwrites what is too many.
+        for (std::size_t row = 0; row < lanes::width; ++row) {
+            const Ints voxels = first[row] + lanes::counting();
+            lanes::store(&to.list_[count], voxels);
+            if (any_longer_than_eight) lanes::store(&to.list_[count + lanes::width], voxels + eight);
+            count += static_cast<std::size_t>(length[row]);
+        }
+    }
+
+    /// What the sweep leaves of eight voxels of a brick whose first voxel is at `corner`.
+    template <VoxelEdges edges>
+    [[gnu::always_inline]] static Ints left_of(const SweepSeenFrom& sweep, const SweepForLanes& fast,
+                                               const Floats& x, const Floats& y, const Floats& z) {
+        const LeftLanes left = fraction_left<edges>(fast, x, y, z);
+        if (!lanes::any(left.least != left.most)) [[likely]]
+            return left.least;
+        Ints exact = left.least;
+        for (int i = 0; i < eight; ++i)
+            if (left.least[i] != left.most[i])
+                exact[i] = osteomill::fraction_left<edges>(sweep, x[i], y[i], z[i]);
+        return exact;
+    }
+
+    /// By registers: what is written byte by byte cannot be read as a vector until it has reached the cache.
+    [[gnu::always_inline]] static Ints gathered(const std::uint8_t* bytes, const std::int32_t* at) {
+        return Ints{bytes[at[0]], bytes[at[1]], bytes[at[2]], bytes[at[3]],
+                    bytes[at[4]], bytes[at[5]], bytes[at[6]], bytes[at[7]]};
+    }
+
+    /// Lowers the voxels of the list.
+    template <VoxelEdges edges>
+    [[gnu::always_inline]] void lower_list(const SweepSeenFrom& sweep, const SweepForLanes& fast,
+                                           std::int32_t slot, const glm::ivec3& corner, std::size_t count) {
+        std::uint8_t* const fractions = to.bone_.fractions(slot).data();
+        std::uint16_t* const changed = to.changed_.data();
+        RemovedVoxels& out = to.voxels_;
+        // The last eight are filled up with a voxel that is not asked for.
+        lanes::store(&to.list_[count], lanes::ints(to.list_[0]));
+        for (std::size_t i = 0; i < count; i += lanes::width) {
+            const Ints voxel = lanes::load<Ints>(&to.list_[i]);
+            const Ints bytes = gathered(fractions, &to.list_[i]);
+            const Ints is_asked = lanes::counting() < static_cast<int>(count - i);
+            const Ints old = bytes & is_asked;
+            if (!lanes::any(old)) continue;  // the burr in its own groove
+
+            const Ints place_x = voxel & 15;
+            const Floats x = lanes::to_floats(corner.x + place_x);
+            const Floats y = lanes::to_floats(corner.y + (voxel >> 4 & 15));
+            const Floats z = lanes::to_floats(corner.z + (voxel >> 8));
+            const Ints left = lanes::smaller(old, left_of<edges>(sweep, fast, x, y, z));
+            const Ints lost = old - left;
+            if (!lanes::any(lost)) continue;
+
+            std::array<std::int32_t, lanes::width> lefts;
+            std::array<std::int32_t, lanes::width> bits;
+            lanes::store(lefts.data(), left);
+            lanes::store(bits.data(), (lost > 0) & (1 << place_x));
+            const auto write = [&](std::size_t lane) {
+                const auto offset = static_cast<std::size_t>(to.list_[i + lane]);
+                fractions[offset] = static_cast<std::uint8_t>(lefts[lane]);
+                changed[offset / brick_edge_voxels] |= static_cast<std::uint16_t>(bits[lane]);
+            };
+            if (i + lanes::width <= count)
+                for (std::size_t lane = 0; lane < lanes::width; ++lane) write(lane);
+            else
+                for (std::size_t lane = 0; i + lane < count; ++lane) write(lane);
+            if (out.count == RemovedVoxels::capacity) to.hand_on_voxels();
+            const std::size_t n = out.count;
+            lanes::store(&out.x[n], x);
+            lanes::store(&out.y[n], y);
+            lanes::store(&out.z[n], z);
+            lanes::store(&out.codes[n], lanes::to_floats(lost));
+            lanes::store(&out.slot[n], lanes::ints(slot));
+            lanes::store(&out.offset[n], voxel);
+            out.count += lanes::width;
+        }
+    }
+
+    template <VoxelEdges edges>
+    [[gnu::always_inline]] void lower_bricks(const CrescentRows& rows, const BrickLayer& layer, int brick_y,
+                                             const VoxelRange& slices) {
+        const SweepSeenFrom sweep = to.sweep_;
+        const SweepForLanes fast(sweep);
+        const CrescentRows::Shape shape = rows.shape();
+        const int first_y = brick_y * brick_edge_voxels;
+        const int first_z = slices.first / brick_edge_voxels * brick_edge_voxels;
+        const int first_group = 2 * (slices.first - first_z);
+        const int end_group = 2 * (slices.end - first_z);
+        std::array<Group, most_groups> left;
+        std::array<Group, most_groups> right;
+        Bricks all{layer.end_x(), -1};
+        for (int g = first_group; g < end_group; ++g) {
+            const auto at = static_cast<std::size_t>(g);
+            if (misses(shape, first_y + eight * (g % 2), first_z + g / 2)) {
+                left[at].bricks = right[at].bricks = {};
+                continue;
+            }
+            const EightRows eight_of = eight_rows(shape, first_y + eight * (g % 2), first_z + g / 2);
+            left[at] = group_of(eight_of.left_first, eight_of.left_end);
+            right[at] = group_of(eight_of.right_first, eight_of.right_end);
+            for (const Bricks& bricks : {left[at].bricks, right[at].bricks}) {
+                if (bricks.last < 0) continue;
+                all.first = std::min(all.first, bricks.first);
+                all.last = std::max(all.last, bricks.last);
+            }
+        }
+        for (int brick_x = all.first; brick_x <= all.last; ++brick_x) {
+            const std::int32_t slot = layer.slot(brick_x, brick_y);
+            if (slot == BoneContent::no_slot) continue;
+            std::size_t count = 0;
+            for (int g = first_group; g < end_group; ++g) {
+                const auto at = static_cast<std::size_t>(g);
+                list_group(left[at], brick_x, g * eight * brick_edge_voxels, count);
+                list_group(right[at], brick_x, g * eight * brick_edge_voxels, count);
+            }
+            if (count == 0) continue;
+            // By now what was written to the brick before has reached the cache.
+            to.report_changes();
+            lower_list<edges>(sweep, fast, slot, {brick_x * brick_edge_voxels, first_y, first_z}, count);
+            to.changed_slot_ = slot;
+        }
+    }
+};
+
+void Lowering::lower_bricks_plain(const CrescentRows& rows, const BrickLayer& layer, int brick_y,
+                                  const VoxelRange& z) noexcept {
+    if (sweep_.edges == VoxelEdges::partial)
+        Kernel{*this}.lower_bricks<VoxelEdges::partial>(rows, layer, brick_y, z);
+    else
+        Kernel{*this}.lower_bricks<VoxelEdges::whole>(rows, layer, brick_y, z);
+}
+
+#if defined(__x86_64__)
+[[gnu::target("avx2")]] void Lowering::lower_bricks_avx2(const CrescentRows& rows, const BrickLayer& layer,
+                                                         int brick_y, const VoxelRange& z) noexcept {
+    if (sweep_.edges == VoxelEdges::partial)
+        Kernel{*this}.lower_bricks<VoxelEdges::partial>(rows, layer, brick_y, z);
+    else
+        Kernel{*this}.lower_bricks<VoxelEdges::whole>(rows, layer, brick_y, z);
+}
+#endif
+
+void Lowering::lower_bricks(const CrescentRows& rows, const BrickLayer& layer, int brick_y,
+                            const VoxelRange& z) noexcept {
+#if defined(__x86_64__)
+    if (instructions_ == InstructionSet::avx2) {
+        lower_bricks_avx2(rows, layer, brick_y, z);
+        return;
+    }
+#endif
+    lower_bricks_plain(rows, layer, brick_y, z);
+}
+
+void Lowering::report_changes() noexcept {
+    if (changed_slot_ == BoneContent::no_slot) return;
+    constexpr std::size_t rows_at_once = 8;
+    for (std::size_t row = 0; row < changed_.size(); row += rows_at_once) {
+        std::array<std::uint64_t, 2> any;
+        std::memcpy(any.data(), &changed_[row], sizeof any);
+        if ((any[0] | any[1]) == 0) continue;
+        for (std::size_t i = row; i < row + rows_at_once; ++i)
+            if (changed_[i] != 0) report_row(i);
+    }
+    changed_slot_ = BoneContent::no_slot;
+}
+
+void Lowering::report_row(std::size_t row) noexcept {
+    const unsigned voxels = std::exchange(changed_[row], std::uint16_t{0});
+    const int first = std::countr_zero(voxels);
+    const int last = 31 - std::countl_zero(voxels);
+    const std::size_t first_voxel = brick_edge_voxels * row + static_cast<std::size_t>(first);
+    const std::uint8_t* const fractions = bone_.fractions(changed_slot_).data() + first_voxel;
+    EditRun run{.brick = bone_.content().brick_of_slot[static_cast<std::size_t>(changed_slot_)],
+                .first_voxel = static_cast<std::uint16_t>(first_voxel),
+                .count = static_cast<std::uint8_t>(last - first + 1)};
+    // A copy of fixed length is the quickest; it must not leave the brick.
+    if (first_voxel + run.fraction.size() <= brick_voxel_count)
+        std::copy_n(fractions, run.fraction.size(), run.fraction.begin());
+    else
+        std::copy_n(fractions, run.count, run.fraction.begin());
+    edits_.push(run);
+}
+
+void Lowering::hand_on_voxels() noexcept {
+    if (voxels_.count > 0) sink_.take(voxels_);
+    voxels_.count = 0;
+}
+
+void Lowering::flush() noexcept {
+    report_changes();
+    hand_on_voxels();
+}
+
+}  // namespace osteomill
