@@ -19,6 +19,7 @@
 #include "haptic_server/device/hid/hid_arm.h"
 #include "haptic_server/device/hid/hidapi_transport.h"
 #include "haptic_server/device/hid/profile_file.h"
+#include "haptic_server/device/hid/space_mouse.h"
 #include "haptic_server/device/simulated_device.h"
 #include "haptic_server/imaging/carved_bone.h"
 #include "haptic_server/imaging/phantom.h"
@@ -88,6 +89,13 @@ DeviceParts make_device(const ServerOptions& options, Scene& scene) {
     if (options.device == DeviceKind::hid) return make_haptic_arm(options, scene);
     const HandModel hand = hand_model(options.grip);
     DeviceParts parts;
+    if (options.device == DeviceKind::space_mouse) {
+        parts.transport = std::make_unique<HidapiTransport>();
+        parts.device = std::make_unique<SpaceMouse>(
+            scene, ArmModel{}, hand, *parts.transport, [clock = RealClock()] { return clock.now_s(); },
+            [] { ask_for_real_time(device_priority); });
+        return parts;
+    }
     if (options.device == DeviceKind::client) {
         parts.operator_input = std::make_unique<TripleBuffer<OperatorInput>>();
         parts.device = std::make_unique<ClientDevice>(*parts.operator_input, scene.start_pose, scene.device,

@@ -91,8 +91,10 @@ void declare(CLI::App& app, Typed& typed) {
     app.add_option("--bone", typed.bone, "Bone from a file that bone_import wrote, instead of the scene's")
         ->type_name("FILE.nrrd");
     app.add_option("--device", typed.device,
-                   "Who moves the tool: a simulated hand, a client's mouse, or a haptic arm over USB HID")
-        ->check(one_of({"simulated", "client", "hid"}))
+                   "Who moves the tool: a simulated hand, a client's mouse, a haptic arm over USB HID, or a "
+                   "3D mouse, "
+                   "whose force clients show")
+        ->check(one_of({"simulated", "client", "hid", "spacemouse"}))
         ->capture_default_str();
     app.add_option("--device-profile", typed.device_profile,
                    fmt::format("Which haptic arm --device hid drives: {}, or a TOML file of your own ({})",
@@ -188,6 +190,7 @@ ServerOptions checked(const Typed& typed, const AccessOptions& access) {
     options.lists_devices = typed.lists_devices;
     if (is_hid) options.device = DeviceKind::hid;
     if (is_client) options.device = DeviceKind::client;
+    if (typed.device == "spacemouse") options.device = DeviceKind::space_mouse;
     if (!typed.device_profile.empty()) options.device_profile = typed.device_profile;
     if (!typed.scene.empty()) options.scene = typed.scene;
     options.bone = path_if_given(typed.bone);

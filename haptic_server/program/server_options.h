@@ -13,7 +13,7 @@
 
 namespace osteomill {
 
-enum class DeviceKind { simulated, client, hid };
+enum class DeviceKind { simulated, client, hid, space_mouse };
 
 struct ServerOptions {
     std::optional<std::string>

@@ -8,6 +8,7 @@
 
 #include "haptic_server/device/hid/hid_arm.h"
 #include "haptic_server/device/hid/profile_file.h"
+#include "haptic_server/device/hid/space_mouse_report.h"
 
 namespace osteomill {
 
@@ -21,7 +22,7 @@ std::string use_of(const HidDeviceInfo& device) {
     if (!profiles.empty())
         return fmt::format("haptic arm: --device hid --device-profile {} or your own .toml",
                            fmt::join(profiles, "|"));
-    return "";
+    return is_space_mouse(device) ? "3D mouse, moves the tool without a force: --device spacemouse" : "";
 }
 
 std::string readiness(HidTransport& transport, const HidDeviceInfo& device) {
@@ -44,7 +45,7 @@ std::string device_list(HidTransport& transport) {
         text += fmt::format("{:04x}:{:04x} {}\n    {}\n    {}\n", device.vendor_id, device.product_id,
                             device.product, use, readiness(transport, device));
     }
-    return text.empty() ? "no haptic arm is plugged in\n" : text;
+    return text.empty() ? "no haptic arm and no 3D mouse is plugged in\n" : text;
 }
 
 }  // namespace osteomill

@@ -48,6 +48,7 @@ TEST(ServerOptions, DriveAHapticArmInRealTime) {
     EXPECT_EQ(usual.device, DeviceKind::hid);
     EXPECT_EQ(usual.device_profile, "woodenhaptics_v2015");
     EXPECT_EQ(parse({"--device", "hid", "--device-profile", "my.toml"}).options->device_profile, "my.toml");
+    EXPECT_EQ(parse({"--device", "spacemouse"}).options->device, DeviceKind::space_mouse);
     EXPECT_TRUE(parse({"--list-devices"}).options->lists_devices);
     EXPECT_THAT(error_of({"--device", "hid", "--clock", "virtual"}), HasSubstr("--clock real"));
     EXPECT_THAT(error_of({"--device", "hid", "--trajectory", "t.csv"}), HasSubstr("--device simulated"));
