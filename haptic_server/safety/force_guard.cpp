@@ -1,4 +1,4 @@
-#include "haptic_server/loop/force_guard.h"
+#include "haptic_server/safety/force_guard.h"
 
 #include <algorithm>
 #include <glm/geometric.hpp>
@@ -37,7 +37,7 @@ glm::dvec3 ForceGuard::tick(const glm::dvec3& wanted_n, Fault fault, double tick
         if (state_ == State::off) in_state_s_ = 0.0;
     }
 
-    in_state_s_ += tick_s;
+    in_state_s_ += tick_s;  // of no interest to `active`, which lasts
     switch (state_) {
         case State::active:
             force_n_ = approach(wanted_n, tick_s);
