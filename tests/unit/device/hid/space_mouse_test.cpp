@@ -56,18 +56,19 @@ TEST(SpaceMouseState, PassesOverWhatItDoesNotKnow) {
 
 class PluggedMouse : public ::testing::Test {
   protected:
-    PluggedMouse() {
-        scene.burrs.resize(2);
-        scene.start_pose.position_mm = {1.0, 2.0, 3.0};
-        hid.plug({.info = {path, 0x256F, 0xC635, 0x0001, 0x0008, "SpaceMouse"}});
-    }
+    PluggedMouse() { hid.plug({.info = {path, 0x256F, 0xC635, 0x0001, 0x0008, "SpaceMouse"}}); }
     void send(std::span<const std::uint8_t> report) {
         hid.with([&](FakeHidDevice& device) { device.send(report); }, path);
     }
     DeviceState step() { return mouse.read(session_s += 0.001); }
 
     const std::string path = "/dev/hidraw1";
-    Scene scene;
+    Scene scene = [] {
+        Scene desk;
+        desk.burrs.resize(2);
+        desk.start_pose.position_mm = {1.0, 2.0, 3.0};
+        return desk;
+    }();
     testing::FakeHid hid;
     std::atomic<double> thread_s{0.0};
     double session_s = 0.0;
