@@ -1,6 +1,7 @@
 #include "haptic_server/program/server.h"
 
 #include <fmt/format.h>
+#include <spdlog/spdlog.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -25,6 +26,7 @@
 #include "haptic_server/imaging/phantom.h"
 #include "haptic_server/loop/clock.h"
 #include "haptic_server/loop/force_log.h"
+#include "haptic_server/loop/real_time.h"
 #include "haptic_server/loop/thread_priority.h"
 #include "haptic_server/program/bone_source.h"
 #include "haptic_server/program/measurements.h"
@@ -220,6 +222,11 @@ void run_server(const ServerOptions& options, const std::string& version, const 
 
     cost.startup_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
 
+    if (options.session.clock == ClockKind::real) {
+        const std::string advice =
+            advice_on_rights(real_time_rights(), std::filesystem::read_symlink("/proc/self/exe").string());
+        if (!advice.empty()) spdlog::warn("{}", advice);
+    }
     StatusLine status(stderr, isatty(STDERR_FILENO) == 1);
     std::atomic<bool> is_over{false};
     session->run(is_over, [&](const ToolSnapshot& tool) {

@@ -27,6 +27,8 @@ struct Typed {
     std::string force_model = force_model_names().front();
     double milling_rate_hz = 0.0;
     std::string clock = "real";
+    int haptic_cpu = -1;
+    int milling_cpu = -1;
     double duration_s = std::numeric_limits<double>::infinity();
     std::string listen;
     std::string record;
@@ -120,6 +122,11 @@ void declare(CLI::App& app, Typed& typed) {
     app.add_option("--clock", typed.clock, "real, or virtual: as fast as it can, repeatable to the bit")
         ->check(one_of({"real", "virtual"}))
         ->capture_default_str();
+    app.add_option("--haptic-cpu", typed.haptic_cpu,
+                   "Bind the haptic loop to this processor; best one that the kernel keeps free (isolcpus)")
+        ->check(CLI::NonNegativeNumber);
+    app.add_option("--milling-cpu", typed.milling_cpu, "Bind the milling loop to this processor")
+        ->check(CLI::NonNegativeNumber);
     app.add_option("--duration-s", typed.duration_s, "Stop after this long (or at the trajectory's end)")
         ->check(CLI::PositiveNumber);
     app.add_option("--listen", typed.listen,
@@ -200,6 +207,8 @@ ServerOptions checked(const Typed& typed, const AccessOptions& access) {
     options.session.coupling = checked_coupling(typed);
     options.session.force_model = typed.force_model;
     options.session.duration_s = typed.duration_s;
+    if (typed.haptic_cpu >= 0) options.session.haptic_cpu = typed.haptic_cpu;
+    if (typed.milling_cpu >= 0) options.session.milling_cpu = typed.milling_cpu;
     options.session.milling_rate_hz =
         typed.milling_rate_hz > 0.0 ? typed.milling_rate_hz : default_milling_rate_hz(options.session);
     try {
