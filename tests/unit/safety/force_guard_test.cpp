@@ -82,6 +82,14 @@ TEST(ForceGuard, StaysOffWhileTheFaultLasts) {
     EXPECT_EQ(guard.state(), State::off);
 }
 
+TEST(ForceGuard, StaysOffInALateTickThatBringsAFault) {
+    ForceGuard guard = guard_feeling({1.0, 0.0, 0.0});
+    for (int i = 0; i < 100; ++i) guard.tick({1.0, 0.0, 0.0}, Fault::device_lost, tick_s);
+    guard.tick({1.0, 0.0, 0.0}, Fault::overrun, 10.0 * ForceGuard::settle_s);
+    EXPECT_EQ(guard.state(), State::off);
+    EXPECT_EQ(guard.fault(), Fault::overrun);
+}
+
 TEST(ForceGuard, FinishesFadingAlthoughTheFaultHasGone) {
     ForceGuard guard = guard_feeling({1.0, 0.0, 0.0});
     guard.tick({1.0, 0.0, 0.0}, Fault::overrun, tick_s);

@@ -28,6 +28,7 @@ struct Event {
     bool pedal = false;
     double wanted_n = 0.0;
     bool is_sound = true;
+    double elapsed_s = tick_s;
 
     bool is_fault() const { return fault != Fault::none || !is_sound || !std::isfinite(wanted_n); }
 };
@@ -37,7 +38,11 @@ std::vector<Event> every_event() {
     for (const bool pedal : {false, true}) {
         for (const double wanted_n : {0.0, 1.0, 1e300, -1e300, std::nan(""), HUGE_VAL}) {
             events.push_back({Fault::none, pedal, wanted_n});
-            for (const Fault fault : all_faults) events.push_back({fault, pedal, wanted_n});
+            for (const Fault fault : all_faults) {
+                events.push_back({fault, pedal, wanted_n});
+                // The machine stood still, which is a fault, too: a tick that is longer than any fade.
+                events.push_back({fault, pedal, wanted_n, true, 1.0});
+            }
         }
         events.push_back({Fault::none, pedal, 1.0, false});
     }
@@ -55,7 +60,7 @@ struct Reached {
     Reached after(const Event& event) const {
         Reached next = *this;
         next.monitor.begin(event.fault, event.pedal);
-        next.force_n = next.monitor.pass({event.wanted_n, 0.0, 0.0}, event.is_sound, tick_s);
+        next.force_n = next.monitor.pass({event.wanted_n, 0.0, 0.0}, event.is_sound, event.elapsed_s);
         next.quiet_ticks = event.is_fault() ? 0 : std::min(1000, quiet_ticks + 1);
         const bool restarts = event.is_fault() || monitor.state() != State::off;
         next.off_ticks = restarts ? 0 : off_ticks + 1;
