@@ -7,6 +7,14 @@
 
 namespace osteomill {
 
+namespace {
+
+/// A device that talks without end must not keep the loops off their processor. One on full-speed USB takes
+/// twice as long for a report, and is not kept waiting.
+constexpr std::chrono::microseconds shortest_exchange{500};
+
+}  // namespace
+
 std::unique_ptr<HidConversation> HidWorker::open() {
     const std::vector<HidDeviceInfo> devices = parts_.transport.list();
     const auto found = std::find_if(devices.begin(), devices.end(), parts_.is_wanted);
@@ -38,7 +46,9 @@ void HidWorker::run() {
             look_again();
             continue;
         }
+        const auto began = std::chrono::steady_clock::now();
         const bool goes_on = conversation_->exchange();
+        std::this_thread::sleep_until(began + shortest_exchange);
         notice_.store(conversation_->notice(), std::memory_order_relaxed);
         if (goes_on) continue;
         conversation_.reset();
