@@ -41,7 +41,7 @@ std::uint64_t faults_of(const std::function<void()>& before, const std::function
 
 TEST(TouchStack, LeavesNoPageOfItToBeWaitedFor) {
     EXPECT_GT(faults_of([] {}, use_stack), 8u) << "it is worth it, and the count counts";
-    EXPECT_EQ(faults_of(touch_stack, use_stack), 0u);
+    EXPECT_LE(faults_of(touch_stack, use_stack), 2u) << "none but those of a sanitizer's own books";
 }
 
 TEST(BindToCpu, KeepsAThreadWhereItIsPut) {
