@@ -17,6 +17,8 @@ for preset in "${presets[@]}"; do
 done
 
 install_packages
+# For the tests in a virtual machine, which are skipped without it.
+scripts/fetch_vm_kernel.sh || echo "the tests in a virtual machine will be skipped" >&2
 for preset in "${presets[@]}"; do
     build "$preset"
     say "testing: $preset"

@@ -51,6 +51,10 @@ class HapticDevice {
 
     /// Force off, device closed. Safe in any state.
     virtual void stop() noexcept = 0;
+
+    /// What people should know or do about the device, in one line that lives for ever; empty while all is
+    /// well. Any thread.
+    virtual const char* notice() const noexcept { return ""; }
 };
 
 }  // namespace osteomill

@@ -1,17 +1,12 @@
 // The values that the loops hand to one another. Plain data, no pointers.
 #pragma once
 
-#include <cstdint>
+#include <cstddef>
 
 #include "common/scene/scene.h"
+#include "haptic_server/safety/fault.h"
 
 namespace osteomill {
-
-/// Why the force is off.
-enum class Fault : std::uint8_t { none, device_lost, model_stalled, not_a_number, overrun, device_jumped };
-
-/// One line for people; empty for Fault::none.
-const char* describe(Fault fault);
 
 /// Haptic loop to streaming loop: what a client is shown.
 struct ToolSnapshot {
@@ -23,7 +18,7 @@ struct ToolSnapshot {
     glm::dvec3 force_n{0.0};   ///< on the hand as written to the device, patient axes
     double removed_mm3 = 0.0;  ///< since the start
     bool touches_protected = false;
-    Fault fault = Fault::none;
+    Fault fault = Fault::none;  ///< why the force is off
     /// Of the burr's tip below where it first met bone, along the spindle axis of that moment; 0 before.
     double depth_mm = 0.0;
 };

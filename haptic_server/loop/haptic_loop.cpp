@@ -12,8 +12,7 @@ namespace osteomill {
 HapticLoop::HapticLoop(const HapticLoopParts& parts, const HapticLoopOptions& options)
     : parts_(parts),
       options_(options),
-      watchdog_(options.tick_s),
-      guard_(parts.device.limits().max_force_n),
+      safety_(options.tick_s, parts.device.limits().max_force_n),
       hand_pose_(options.start_pose),
       burr_pose_(options.start_pose),
       burr_(options.start_burr) {}
@@ -21,14 +20,13 @@ HapticLoop::HapticLoop(const HapticLoopParts& parts, const HapticLoopOptions& op
 HandState HapticLoop::hand_state(double now_s, double elapsed_s, const DeviceState& device) noexcept {
     const DeviceMapping& mapping = options_.mapping;
     if (device.burr && *device.burr < options_.burr_count) burr_ = *device.burr;
-    if (!device.pedal) pedal_must_rise_ = false;
     hand_pose_ = {position_in_patient_mm(mapping, device.position_mm),
                   direction_in_patient(mapping, device.spindle_axis)};
     return {.now_s = now_s,
             .tick_s = elapsed_s,
             .pose = hand_pose_,
             .velocity_mm_per_s = velocity_in_patient_mm_per_s(mapping, device.velocity_mm_per_s),
-            .spindle_on = device.pedal && !pedal_must_rise_,
+            .spindle_on = safety_.wants_spindle(),
             .burr = burr_};
 }
 
@@ -38,40 +36,33 @@ void HapticLoop::tick(double now_s, std::uint64_t missed_periods) noexcept {
     parts_.results.refresh();
     const MillingResult& latest = parts_.results.front();
 
-    Fault fault = watchdog_.check({.now_s = now_s,
-                                   .device = device,
-                                   .model_step = latest.step,
-                                   .model_valid = latest.valid,
-                                   .missed_periods = missed_periods});
-    if (fault == Fault::device_lost || fault == Fault::device_jumped) pedal_must_rise_ = true;
+    safety_.observe({.now_s = now_s,
+                     .device = device,
+                     .model_step = latest.step,
+                     .model_valid = latest.valid,
+                     .missed_periods = missed_periods});
 
     HandState hand{.now_s = now_s, .tick_s = elapsed_s, .pose = hand_pose_, .burr = burr_};
-    if (fault != Fault::device_lost) hand = hand_state(now_s, elapsed_s, device);
+    if (safety_.has_hand()) hand = hand_state(now_s, elapsed_s, device);
 
     glm::dvec3 wanted_n(0.0);
-    if (fault == Fault::none && guard_.is_engaged()) {
+    bool is_sound = true;
+    if (safety_.may_touch()) {
         const CouplingOutput output = parts_.coupling.tick(hand, latest);
         wanted_n = output.force_n;
         burr_pose_ = output.burr_pose;
-        if (!is_finite(burr_pose_.position_mm) || !is_finite(burr_pose_.spindle_axis)) {
-            fault = Fault::not_a_number;
-        }
+        is_sound = is_finite(burr_pose_.position_mm) && is_finite(burr_pose_.spindle_axis);
     }
 
-    const bool was_engaged = guard_.is_engaged();
-    const glm::dvec3 force_n = guard_.tick(wanted_n, fault, elapsed_s);
-    const bool is_engaged = guard_.is_engaged();
-    if (was_engaged && !is_engaged) {
-        parts_.coupling.reset();
-        ++fault_counts_[static_cast<std::size_t>(guard_.fault())];
-    }
-    if (!was_engaged || !is_engaged) burr_pose_ = hand_pose_;
+    const glm::dvec3 force_n = safety_.pass(wanted_n, is_sound, elapsed_s);
+    if (safety_.has_just_let_go()) parts_.coupling.reset();
+    if (!safety_.holds_tool()) burr_pose_ = hand_pose_;
 
     parts_.device.write(force_in_device_n(options_.mapping, force_n));
     peak_force_n_ = std::max(peak_force_n_, glm::length(force_n));
     if (latest.touches_protected) protected_until_s_ = now_s + protected_shown_s;
 
-    const bool spindle_on = hand.spindle_on && was_engaged && is_engaged;
+    const bool spindle_on = safety_.spindle_turns();
     const bool in_contact = latest.total_removed_mm3 > 0.0 || force_n != glm::dvec3(0.0);
     const ToolSnapshot snapshot{.time_s = now_s,
                                 .burr_pose = burr_pose_,
@@ -81,8 +72,8 @@ void HapticLoop::tick(double now_s, std::uint64_t missed_periods) noexcept {
                                 .force_n = force_n,
                                 .removed_mm3 = latest.total_removed_mm3,
                                 .touches_protected = now_s < protected_until_s_,
-                                .fault = guard_.fault(),
-                                .depth_mm = depth_mm(in_contact)};
+                                 .fault = safety_.fault(),
+                                 .depth_mm = depth_mm(in_contact)};
     publish({.pose = burr_pose_, .spindle_on = spindle_on, .burr = burr_, .elapsed_s = elapsed_s}, snapshot);
     log(snapshot);
 }

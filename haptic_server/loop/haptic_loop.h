@@ -1,15 +1,15 @@
 // One tick of the haptic loop: read the device, couple, guard, write the force, and tell everybody else. Its
 // pace is somebody else's business (periodic.h), physics is the coupling's.
 //
-//   device --pose--> watchdog --fault--+
-//      |                               v
-//      +--pose--> coupling --force--> guard --force--> device
-//                    |                  |
-//                    +--burr pose-------+--> milling loop (spindle off while the guard is not engaged)
+//   device --pose--+---> safety monitor --may touch?--+
+//                  |            ^    |                v
+//                  |          force  +--force--> device
+//                  |            |
+//                  +--pose--> coupling --burr pose--> milling loop (spindle off unless the monitor lets it
+//                  turn)
 //
 // While a fault lasts the tool is out of the bone: no spindle, no force, and the coupling starts afresh from
-// the hand when the guard engages again. After the device was lost or jumped, the spindle stays off until the
-// pedal has been up: the tool may have come back in the middle of the bone.
+// the hand when the force comes back. What makes a fault, and what follows, is safety_monitor.h's.
 #pragma once
 
 #include <array>
@@ -20,10 +20,9 @@
 #include "haptic_server/device/haptic_device.h"
 #include "haptic_server/exchange/triple_buffer.h"
 #include "haptic_server/loop/exchange.h"
-#include "haptic_server/loop/force_guard.h"
 #include "haptic_server/loop/force_log.h"
-#include "haptic_server/loop/watchdog.h"
 #include "haptic_server/milling/milling_step.h"
+#include "haptic_server/safety/safety_monitor.h"
 
 namespace osteomill {
 
@@ -49,7 +48,7 @@ struct HapticLoopOptions {
 
 class HapticLoop {
   public:
-    static constexpr std::size_t fault_kinds = 6;
+    static constexpr std::size_t fault_kinds = SafetyMonitor::fault_kinds;
     /// Touching protected tissue is told for this long, so that no streamed frame misses it.
     static constexpr double protected_shown_s = 0.2;
 
@@ -60,7 +59,7 @@ class HapticLoop {
 
     double peak_force_n() const { return peak_force_n_; }
     /// How often each Fault turned the force off.
-    const std::array<std::uint64_t, fault_kinds>& fault_counts() const { return fault_counts_; }
+    const std::array<std::uint64_t, fault_kinds>& fault_counts() const { return safety_.fault_counts(); }
 
   private:
     HandState hand_state(double now_s, double elapsed_s, const DeviceState& device) noexcept;
@@ -70,20 +69,17 @@ class HapticLoop {
 
     HapticLoopParts parts_;
     HapticLoopOptions options_;
-    Watchdog watchdog_;
-    ForceGuard guard_;
+    SafetyMonitor safety_;
 
     ToolPose hand_pose_;  // patient LPS; the last that was read
     ToolPose burr_pose_;
     std::size_t burr_;
-    bool pedal_must_rise_ = false;
     double protected_until_s_ = 0.0;
 
     bool has_met_bone_ = false;
     ToolPose first_contact_;
 
     double peak_force_n_ = 0.0;
-    std::array<std::uint64_t, fault_kinds> fault_counts_{};
 };
 
 }  // namespace osteomill

@@ -1,11 +1,16 @@
 #include "haptic_server/loop/milling_session.h"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <stdexcept>
 #include <thread>
 #include <utility>
 
+#include "haptic_server/loop/real_time.h"
 #include "haptic_server/loop/thread_priority.h"
 
 namespace osteomill {
@@ -17,14 +22,45 @@ constexpr std::uint64_t chore_ticks = 33;  // the rate of a streaming server's f
 /// How long a session waits for whoever consumes its edits before it gives up on them.
 constexpr std::chrono::seconds longest_wait_for_consumer{10};
 
+void require_usable(const std::optional<int>& cpu) {
+    const std::vector<int> usable = usable_cpus();
+    if (!cpu || std::find(usable.begin(), usable.end(), *cpu) != usable.end()) return;
+    throw std::invalid_argument(
+        fmt::format("processor {} is not one that this program may use; choose one of {}", *cpu,
+                    fmt::join(usable, ", ")));
+}
+
 const MillingSessionOptions& validated(const MillingSessionOptions& options) {
     if (!(options.milling_rate_hz >= least_milling_rate_hz &&
           options.milling_rate_hz <= most_milling_rate_hz)) {
         throw std::invalid_argument("milling rate " + std::to_string(options.milling_rate_hz) +
                                     " Hz is out of range; choose 25 to 10000 Hz");
     }
+    require_usable(options.haptic_cpu);
+    require_usable(options.milling_cpu);
     return options;
 }
+
+/// What a thread does before its loop, so that the loop finds all it needs.
+void prepare_thread(const std::optional<int>& cpu) noexcept {
+    if (cpu) bind_to_cpu(*cpu);
+    touch_stack();
+}
+
+/// Counts the page faults of the thread that calls it once a tick.
+class PageFaultCount {
+  public:
+    void tick() noexcept {
+        if (++ticks_ == MillingSession::settling_ticks) at_start_ = page_faults_of_this_thread();
+    }
+    std::uint64_t since_settled() const noexcept {
+        return ticks_ < MillingSession::settling_ticks ? 0 : page_faults_of_this_thread() - at_start_;
+    }
+
+  private:
+    std::uint64_t ticks_ = 0;
+    std::uint64_t at_start_ = 0;
+};
 
 /// Polls until `is_done`, a stop or the longest wait.
 template <typename IsDone>
@@ -85,25 +121,34 @@ void MillingSession::run(const std::atomic<bool>& stop,
 void MillingSession::run_in_threads(const std::atomic<bool>& stop,
                                     const std::function<void(const ToolSnapshot&)>& on_progress) {
     std::atomic<bool> is_over{false};
+    is_memory_locked_ = lock_memory();
     RealClock clock;
     std::thread haptic([&] {
+        prepare_thread(options_.haptic_cpu);
+        PageFaultCount faults;
         has_real_time_priority_.store(ask_for_real_time(haptic_priority));
         run_periodically(clock, tick_s, 0.0, is_over, haptic_statistics_,
-                         [this](double time_s, std::uint64_t missed) {
+                         [&](double time_s, std::uint64_t missed) {
                              haptic_loop_.tick(time_s, missed);
                              now_s_.store(time_s, std::memory_order_relaxed);
+                             faults.tick();
                              return true;
                          });
+        haptic_page_faults_ = faults.since_settled();
     });
     const double period_s = 1.0 / options_.milling_rate_hz;
     std::thread milling([&] {
+        prepare_thread(options_.milling_cpu);
+        PageFaultCount faults;
         ask_for_real_time(milling_priority);
         // Half a tick after the haptic loop: it finds a fresh command and is done before the next tick.
         run_periodically(clock, period_s, 0.5 * tick_s, is_over, milling_statistics_,
                          [&](double time_s, std::uint64_t missed) {
                              milling_loop_.step(time_s, period_s * static_cast<double>(1 + missed));
+                             faults.tick();
                              return true;
                          });
+        milling_page_faults_ = faults.since_settled();
     });
 
     while (!stop.load(std::memory_order_relaxed) && clock.now_s() < options_.duration_s) {
@@ -176,7 +221,10 @@ MillingSessionReport MillingSession::report() const {
             .fault_counts = haptic_loop_.fault_counts(),
             .edit_overflows = edits_.overflow_count(),
             .bone_checksum = checksum(model_->bone()),
-            .real_time_priority = has_real_time_priority_.load()};
+            .real_time_priority = has_real_time_priority_.load(),
+            .memory_locked = is_memory_locked_,
+            .haptic_page_faults = haptic_page_faults_,
+            .milling_page_faults = milling_page_faults_};
 }
 
 }  // namespace osteomill

@@ -10,6 +10,7 @@
 #include <functional>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -43,6 +44,10 @@ struct MillingSessionOptions {
     double duration_s = std::numeric_limits<double>::infinity();
     /// Somebody consumes edits() while the session runs. If not, the session empties the queue itself.
     bool edits_are_consumed = false;
+    /// Processors that the loops are bound to, of those that this process may use; absent: the system's
+    /// choice.
+    std::optional<int> haptic_cpu{};
+    std::optional<int> milling_cpu{};
 };
 
 struct MillingSessionReport {
@@ -55,17 +60,23 @@ struct MillingSessionReport {
     std::uint64_t edit_overflows = 0;
     std::uint64_t bone_checksum = 0;
     bool real_time_priority = false;  ///< the haptic loop ran under SCHED_FIFO
+    bool memory_locked = false;       ///< no page can have been away
+    /// Pages that the loops waited for, real clock only, from their hundredth tick on.
+    std::uint64_t haptic_page_faults = 0;
+    std::uint64_t milling_page_faults = 0;
 };
 
 class MillingSession {
   public:
     static constexpr double tick_s = 0.001;
+    /// Ticks after which a loop has touched what it works with.
+    static constexpr std::uint64_t settling_ticks = 100;
     /// Half a second of the heaviest carving (5 mm burr at 1 kHz).
     static constexpr std::size_t edit_queue_runs = 1u << 18;
 
     /// `device` and the logs (may be null) outlive the session. Throws std::invalid_argument for a milling
-    /// rate out of range, an unknown coupling or force model, a coupling that the force model has no law for,
-    /// or a scene that the parts refuse.
+    /// rate out of range, a processor that this process may not use, an unknown coupling or force model, a
+    /// coupling that the force model has no law for, or a scene that the parts refuse.
     MillingSession(const Scene& scene, Bone bone, HapticDevice& device, const MillingSessionOptions& options,
                    ForceLog* log = nullptr, MillingLog* milling_log = nullptr);
 
@@ -109,6 +120,9 @@ class MillingSession {
     PeriodicStatistics milling_statistics_;
     std::atomic<double> now_s_{0.0};
     std::atomic<bool> has_real_time_priority_{false};
+    bool is_memory_locked_ = false;
+    std::uint64_t haptic_page_faults_ = 0;
+    std::uint64_t milling_page_faults_ = 0;
 };
 
 }  // namespace osteomill

@@ -58,6 +58,8 @@ nlohmann::ordered_json measurements(const MillingSessionReport& report, const Bo
     json["duration_s"] = report.duration_s;
     json["ticks"] = report.haptic.ticks;
     json["real_time_priority"] = report.real_time_priority;
+    json["memory_locked"] = report.memory_locked;
+    json["page_faults"] = {{"haptic", report.haptic_page_faults}, {"milling", report.milling_page_faults}};
     json["missed_deadlines"] = report.haptic.missed;
     json["wakeup_latency_us"] = percentiles_us(report.haptic.wakeup_latency);
     json["haptic_tick_us"] = percentiles_us(report.haptic.duration);

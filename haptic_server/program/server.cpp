@@ -1,6 +1,7 @@
 #include "haptic_server/program/server.h"
 
 #include <fmt/format.h>
+#include <spdlog/spdlog.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -15,10 +16,18 @@
 
 #include "common/scene/scene_file.h"
 #include "haptic_server/device/client_device.h"
+#include "haptic_server/device/hid/device_list.h"
+#include "haptic_server/device/hid/hid_arm.h"
+#include "haptic_server/device/hid/hidapi_transport.h"
+#include "haptic_server/device/hid/profile_file.h"
+#include "haptic_server/device/hid/space_mouse.h"
 #include "haptic_server/device/simulated_device.h"
 #include "haptic_server/imaging/carved_bone.h"
 #include "haptic_server/imaging/phantom.h"
+#include "haptic_server/loop/clock.h"
 #include "haptic_server/loop/force_log.h"
+#include "haptic_server/loop/real_time.h"
+#include "haptic_server/loop/thread_priority.h"
 #include "haptic_server/program/bone_source.h"
 #include "haptic_server/program/measurements.h"
 #include "haptic_server/program/resident_memory.h"
@@ -56,6 +65,7 @@ void require_folder_of(const std::optional<std::filesystem::path>& file) {
 
 /// The device that the options ask for, and what it is driven by.
 struct DeviceParts {
+    std::unique_ptr<HidTransport> transport;                      // null: the device is not plugged in
     std::unique_ptr<TripleBuffer<OperatorInput>> operator_input;  // null: nobody may drive
     std::unique_ptr<HapticDevice> device;
     const SimulatedDevice* simulated = nullptr;  // `device`, if it is one
@@ -63,9 +73,31 @@ struct DeviceParts {
     bool is_finished() const { return simulated != nullptr && simulated->is_finished(); }
 };
 
-DeviceParts make_device(const ServerOptions& options, const Scene& scene) {
+DeviceParts make_haptic_arm(const ServerOptions& options, Scene& scene) {
+    const ArmProfile profile = load_arm_profile(options.device_profile);
+    // A scene that does not say how the arm sits on the patient: its calibration position is the start.
+    if (scene.device == DeviceMapping{})
+        scene.device.offset_mm = scene.start_pose.position_mm - home_position_mm(profile);
+    DeviceParts parts;
+    parts.transport = std::make_unique<HidapiTransport>();
+    parts.device = std::make_unique<HidArm>(
+        profile, *parts.transport, [clock = RealClock()] { return clock.now_s(); },
+        [] { ask_for_real_time(device_priority); });
+    return parts;
+}
+
+/// Places the scene, too, where it leaves that to the device.
+DeviceParts make_device(const ServerOptions& options, Scene& scene) {
+    if (options.device == DeviceKind::hid) return make_haptic_arm(options, scene);
     const HandModel hand = hand_model(options.grip);
     DeviceParts parts;
+    if (options.device == DeviceKind::space_mouse) {
+        parts.transport = std::make_unique<HidapiTransport>();
+        parts.device = std::make_unique<SpaceMouse>(
+            scene, ArmModel{}, hand, *parts.transport, [clock = RealClock()] { return clock.now_s(); },
+            [] { ask_for_real_time(device_priority); });
+        return parts;
+    }
     if (options.device == DeviceKind::client) {
         parts.operator_input = std::make_unique<TripleBuffer<OperatorInput>>();
         parts.device = std::make_unique<ClientDevice>(*parts.operator_input, scene.start_pose, scene.device,
@@ -147,6 +179,11 @@ void close_log(std::optional<Log>& log) {
 }  // namespace
 
 void run_server(const ServerOptions& options, const std::string& version, const std::atomic<bool>& stop) {
+    if (options.lists_devices) {
+        HidapiTransport transport;
+        fmt::print("{}", device_list(transport));
+        return;
+    }
     const auto began = std::chrono::steady_clock::now();
     for (const auto& file :
          {options.save_bone, options.json, options.log_csv, options.log_milling_csv, options.record})
@@ -185,10 +222,16 @@ void run_server(const ServerOptions& options, const std::string& version, const 
 
     cost.startup_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
 
+    if (options.session.clock == ClockKind::real) {
+        const std::string advice =
+            advice_on_rights(real_time_rights(), std::filesystem::read_symlink("/proc/self/exe").string());
+        if (!advice.empty()) spdlog::warn("{}", advice);
+    }
     StatusLine status(stderr, isatty(STDERR_FILENO) == 1);
     std::atomic<bool> is_over{false};
     session->run(is_over, [&](const ToolSnapshot& tool) {
         status.show(tool, StatusLine::Clock::now());
+        status.show_notice(tool, device.device->notice());
         if (streaming && options.session.clock == ClockKind::virtual_time) streaming.server->show_frame();
         if (stop.load() || device.is_finished()) is_over.store(true);
     });

@@ -7,6 +7,7 @@
 #include <map>
 #include <stdexcept>
 
+#include "haptic_server/device/hid/profile_file.h"
 #include "haptic_server/imaging/phantom.h"
 
 namespace osteomill {
@@ -18,12 +19,16 @@ struct Typed {
     std::string scene;
     std::string bone;
     std::string device = "simulated";
+    std::string device_profile;
+    bool lists_devices = false;
     std::string grip = "firm";
     std::string trajectory;
     std::string coupling;
     std::string force_model = force_model_names().front();
     double milling_rate_hz = 0.0;
     std::string clock = "real";
+    int haptic_cpu = -1;
+    int milling_cpu = -1;
     double duration_s = std::numeric_limits<double>::infinity();
     std::string listen;
     std::string record;
@@ -87,9 +92,18 @@ void declare(CLI::App& app, Typed& typed) {
         ->capture_default_str();
     app.add_option("--bone", typed.bone, "Bone from a file that bone_import wrote, instead of the scene's")
         ->type_name("FILE.nrrd");
-    app.add_option("--device", typed.device, "Who moves the tool: a simulated hand, or a client's mouse")
-        ->check(one_of({"simulated", "client"}))
+    app.add_option("--device", typed.device,
+                   "Who moves the tool: a simulated hand, a client's mouse, a haptic arm over USB HID, or a "
+                   "3D mouse, "
+                   "whose force clients show")
+        ->check(one_of({"simulated", "client", "hid", "spacemouse"}))
         ->capture_default_str();
+    app.add_option("--device-profile", typed.device_profile,
+                   fmt::format("Which haptic arm --device hid drives: {}, or a TOML file of your own ({})",
+                               fmt::join(shipped_profile_names(), ", "), ServerOptions{}.device_profile))
+        ->type_name("NAME|FILE.toml");
+    app.add_flag("--list-devices", typed.lists_devices,
+                 "Say which haptic devices are plugged in and whether they can be used, and end");
     app.add_option("--grip", typed.grip, "How the simulated hand holds the arm")
         ->check(one_of({"light", "firm"}))
         ->capture_default_str();
@@ -108,6 +122,11 @@ void declare(CLI::App& app, Typed& typed) {
     app.add_option("--clock", typed.clock, "real, or virtual: as fast as it can, repeatable to the bit")
         ->check(one_of({"real", "virtual"}))
         ->capture_default_str();
+    app.add_option("--haptic-cpu", typed.haptic_cpu,
+                   "Bind the haptic loop to this processor; best one that the kernel keeps free (isolcpus)")
+        ->check(CLI::NonNegativeNumber);
+    app.add_option("--milling-cpu", typed.milling_cpu, "Bind the milling loop to this processor")
+        ->check(CLI::NonNegativeNumber);
     app.add_option("--duration-s", typed.duration_s, "Stop after this long (or at the trajectory's end)")
         ->check(CLI::PositiveNumber);
     app.add_option("--listen", typed.listen,
@@ -163,22 +182,33 @@ double default_milling_rate_hz(const MillingSessionOptions& session) {
 ServerOptions checked(const Typed& typed, const AccessOptions& access) {
     const bool is_virtual = typed.clock == "virtual";
     const bool is_client = typed.device == "client";
-    if (is_client && is_virtual) {
-        throw std::invalid_argument("--device client: an operator needs --clock real");
+    const bool is_hid = typed.device == "hid";
+    const bool is_simulated = typed.device == "simulated";
+    if (!is_simulated && is_virtual) {
+        throw std::invalid_argument(fmt::format("--device {}: a person needs --clock real", typed.device));
     }
-    if (is_client && !typed.trajectory.empty()) {
+    if (!is_simulated && !typed.trajectory.empty()) {
         throw std::invalid_argument("--trajectory: only --device simulated follows one");
     }
+    if (!is_hid && !typed.device_profile.empty()) {
+        throw std::invalid_argument("--device-profile: goes with --device hid");
+    }
     ServerOptions options;
+    options.lists_devices = typed.lists_devices;
+    if (is_hid) options.device = DeviceKind::hid;
+    if (is_client) options.device = DeviceKind::client;
+    if (typed.device == "spacemouse") options.device = DeviceKind::space_mouse;
+    if (!typed.device_profile.empty()) options.device_profile = typed.device_profile;
     if (!typed.scene.empty()) options.scene = typed.scene;
     options.bone = path_if_given(typed.bone);
-    options.device = is_client ? DeviceKind::client : DeviceKind::simulated;
     options.grip = typed.grip == "light" ? Grip::light : Grip::firm;
     options.trajectory = path_if_given(typed.trajectory);
     options.session.clock = is_virtual ? ClockKind::virtual_time : ClockKind::real;
     options.session.coupling = checked_coupling(typed);
     options.session.force_model = typed.force_model;
     options.session.duration_s = typed.duration_s;
+    if (typed.haptic_cpu >= 0) options.session.haptic_cpu = typed.haptic_cpu;
+    if (typed.milling_cpu >= 0) options.session.milling_cpu = typed.milling_cpu;
     options.session.milling_rate_hz =
         typed.milling_rate_hz > 0.0 ? typed.milling_rate_hz : default_milling_rate_hz(options.session);
     try {

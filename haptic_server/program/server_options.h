@@ -13,13 +13,15 @@
 
 namespace osteomill {
 
-enum class DeviceKind { simulated, client };
+enum class DeviceKind { simulated, client, hid, space_mouse };
 
 struct ServerOptions {
     std::optional<std::string>
         scene;  ///< a phantom's name or a TOML file; absent: the bone's own, or the tooth
     std::optional<std::filesystem::path> bone;
     DeviceKind device = DeviceKind::simulated;
+    std::string device_profile = "woodenhaptics_v2015";  ///< a shipped profile's name or a TOML file
+    bool lists_devices = false;                          ///< and does nothing else
     Grip grip = Grip::firm;
     std::optional<std::filesystem::path> trajectory;
     MillingSessionOptions session;

@@ -32,6 +32,14 @@ void StatusLine::show_fault(const ToolSnapshot& tool) {
     std::fflush(out_);
 }
 
+void StatusLine::show_notice(const ToolSnapshot& tool, std::string_view notice) {
+    if (notice == notice_) return;
+    finish();
+    notice_ = notice;
+    fmt::print(out_, "{:7.1f} s   {}\n", tool.time_s, notice.empty() ? "the device is ready" : notice);
+    std::fflush(out_);
+}
+
 void StatusLine::finish() {
     if (is_line_open_) fmt::print(out_, "\n");
     is_line_open_ = false;

@@ -4,6 +4,8 @@
 
 #include <chrono>
 #include <cstdio>
+#include <string>
+#include <string_view>
 
 #include "haptic_server/loop/exchange.h"
 
@@ -18,6 +20,8 @@ class StatusLine {
 
     /// To be called often; `now` is the time of people, not of the session.
     void show(const ToolSnapshot& tool, Clock::time_point now);
+    /// What the device says of itself, on a line of its own whenever that changes; empty: nothing.
+    void show_notice(const ToolSnapshot& tool, std::string_view notice);
     /// Ends the status line.
     void finish();
 
@@ -28,6 +32,7 @@ class StatusLine {
     bool is_terminal_;
     bool is_line_open_ = false;
     Fault fault_ = Fault::none;
+    std::string notice_;
     Clock::time_point next_{};
 };
 

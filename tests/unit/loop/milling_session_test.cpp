@@ -1,5 +1,6 @@
 #include "haptic_server/loop/milling_session.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -8,6 +9,7 @@
 #include <thread>
 
 #include "haptic_server/device/simulated_device.h"
+#include "haptic_server/loop/real_time.h"
 #include "haptic_server/milling/force_models.h"
 #include "tests/support/block.h"
 #include "tests/unit/loop/scripted_parts.h"
@@ -34,6 +36,12 @@ SimulatedDevice simulated(const Scene& scene) {
     return SimulatedDevice(make_trajectory(scene.trajectory, scene.start_pose, scene.burrs, 0), scene.device,
                            ArmModel{}, hand_model(Grip::firm));
 }
+
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+constexpr bool sanitiser_ignores_locks = true;
+#else
+constexpr bool sanitiser_ignores_locks = false;
+#endif
 
 MillingSessionOptions virtual_options(double duration_s) {
     return {.clock = ClockKind::virtual_time, .duration_s = duration_s};
@@ -165,6 +173,26 @@ TEST(MillingSession, RunsInThreadsOnTheRealClockAndStopsWhenTold) {
     EXPECT_EQ(report.haptic.wakeup_latency.count(), report.haptic.ticks);
     EXPECT_GT(shown, 0u);
     EXPECT_EQ(checksum(copy), report.bone_checksum);
+}
+
+TEST(MillingSession, WaitsForNoPageOnceItsMemoryIsLocked) {
+    const MillingSessionReport report = run({.duration_s = 0.6});
+    if (!report.memory_locked) GTEST_SKIP() << "this user may not lock memory";
+    if (sanitiser_ignores_locks) GTEST_SKIP() << "a sanitizer takes mlockall for done";
+    EXPECT_GT(report.haptic.ticks, MillingSession::settling_ticks) << "it was counted";
+    EXPECT_EQ(report.haptic_page_faults, 0u);
+    EXPECT_EQ(report.milling_page_faults, 0u);
+}
+
+TEST(MillingSession, BindsItsLoopsToProcessorsThatThereAre) {
+    const int cpu = usable_cpus().front();
+    EXPECT_GT(run({.duration_s = 0.05, .haptic_cpu = cpu, .milling_cpu = cpu}).haptic.ticks, 0u);
+    try {
+        run({.duration_s = 0.05, .haptic_cpu = 1000});
+        FAIL() << "there is no such processor";
+    } catch (const std::invalid_argument& error) {
+        EXPECT_THAT(error.what(), ::testing::HasSubstr("processor 1000"));
+    }
 }
 
 TEST(MillingSession, StartsAndStopsItsDeviceOnce) {

@@ -43,6 +43,18 @@ TEST(ServerOptions, NeedNoneToServeTheToothOnThisMachine) {
     EXPECT_FALSE(options.json || options.log_csv || options.save_bone || options.bone);
 }
 
+TEST(ServerOptions, DriveAHapticArmInRealTime) {
+    const ServerOptions usual = *parse({"--device", "hid"}).options;
+    EXPECT_EQ(usual.device, DeviceKind::hid);
+    EXPECT_EQ(usual.device_profile, "woodenhaptics_v2015");
+    EXPECT_EQ(parse({"--device", "hid", "--device-profile", "my.toml"}).options->device_profile, "my.toml");
+    EXPECT_EQ(parse({"--device", "spacemouse"}).options->device, DeviceKind::space_mouse);
+    EXPECT_TRUE(parse({"--list-devices"}).options->lists_devices);
+    EXPECT_THAT(error_of({"--device", "hid", "--clock", "virtual"}), HasSubstr("--clock real"));
+    EXPECT_THAT(error_of({"--device", "hid", "--trajectory", "t.csv"}), HasSubstr("--device simulated"));
+    EXPECT_THAT(error_of({"--device-profile", "polhem_v1"}), HasSubstr("--device hid"));
+}
+
 TEST(ServerOptions, MillAtThePublishedRateWithThePublishedCoupling) {
     EXPECT_EQ(parse({}).options->session.milling_rate_hz, 1000.0);
     EXPECT_EQ(parse({"--coupling", "interpolate"}).options->session.milling_rate_hz, 100.0);

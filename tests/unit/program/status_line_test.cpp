@@ -90,5 +90,15 @@ TEST(StatusLine, SaysAtOnceWhenTheForceGoesOffAndComesBack) {
     EXPECT_THAT(text, HasSubstr("comes back"));
 }
 
+TEST(StatusLine, TellsWhatTheDeviceSaysOfItselfOnce) {
+    Paper paper;
+    StatusLine status(paper.file(), false);
+    status.show_notice(tool_at(0.0), "");
+    status.show_notice(tool_at(1.0), "plug it in again");
+    status.show_notice(tool_at(2.0), "plug it in again");
+    status.show_notice(tool_at(3.0), "");
+    EXPECT_EQ(paper.text(), "    1.0 s   plug it in again\n    3.0 s   the device is ready\n");
+}
+
 }  // namespace
 }  // namespace osteomill

@@ -1,4 +1,4 @@
-#include "haptic_server/loop/force_guard.h"
+#include "haptic_server/safety/force_guard.h"
 
 #include <algorithm>
 #include <glm/geometric.hpp>
@@ -34,10 +34,9 @@ glm::dvec3 ForceGuard::tick(const glm::dvec3& wanted_n, Fault fault, double tick
             faded_n_ = force_n_;
         }
         fault_ = fault;
-        if (state_ == State::off) in_state_s_ = 0.0;
     }
 
-    in_state_s_ += tick_s;
+    in_state_s_ += tick_s;  // of no interest to `active`, which lasts
     switch (state_) {
         case State::active:
             force_n_ = approach(wanted_n, tick_s);
@@ -51,6 +50,8 @@ glm::dvec3 ForceGuard::tick(const glm::dvec3& wanted_n, Fault fault, double tick
             break;
         case State::off:
             force_n_ = glm::dvec3(0.0);
+            // A tick that comes late lasts longer than settle_s: however long, one with a fault starts anew.
+            if (fault != Fault::none) in_state_s_ = 0.0;
             if (in_state_s_ > settle_s) {
                 state_ = State::fading_in;
                 in_state_s_ = 0.0;

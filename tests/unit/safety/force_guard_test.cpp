@@ -1,4 +1,4 @@
-#include "haptic_server/loop/force_guard.h"
+#include "haptic_server/safety/force_guard.h"
 
 #include <gtest/gtest.h>
 
@@ -13,9 +13,6 @@ namespace {
 constexpr double tick_s = 0.001;
 constexpr double limit_n = 3.3;
 using State = ForceGuard::State;
-
-const std::array all_faults{Fault::device_lost, Fault::model_stalled, Fault::not_a_number, Fault::overrun,
-                            Fault::device_jumped};
 
 int ticks_in(double duration_s) {
     return static_cast<int>(std::lround(duration_s / tick_s));
@@ -83,6 +80,14 @@ TEST(ForceGuard, StaysOffWhileTheFaultLasts) {
     ForceGuard guard = guard_feeling({1.0, 0.0, 0.0});
     for (int i = 0; i < 2000; ++i) guard.tick({1.0, 0.0, 0.0}, Fault::device_lost, tick_s);
     EXPECT_EQ(guard.state(), State::off);
+}
+
+TEST(ForceGuard, StaysOffInALateTickThatBringsAFault) {
+    ForceGuard guard = guard_feeling({1.0, 0.0, 0.0});
+    for (int i = 0; i < 100; ++i) guard.tick({1.0, 0.0, 0.0}, Fault::device_lost, tick_s);
+    guard.tick({1.0, 0.0, 0.0}, Fault::overrun, 10.0 * ForceGuard::settle_s);
+    EXPECT_EQ(guard.state(), State::off);
+    EXPECT_EQ(guard.fault(), Fault::overrun);
 }
 
 TEST(ForceGuard, FinishesFadingAlthoughTheFaultHasGone) {

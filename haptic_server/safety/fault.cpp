@@ -1,4 +1,4 @@
-#include "haptic_server/loop/exchange.h"
+#include "haptic_server/safety/fault.h"
 
 namespace osteomill {
 

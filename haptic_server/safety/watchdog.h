@@ -4,7 +4,7 @@
 #include <glm/vec3.hpp>
 
 #include "haptic_server/device/haptic_device.h"
-#include "haptic_server/loop/exchange.h"
+#include "haptic_server/safety/fault.h"
 
 namespace osteomill {
 

@@ -18,7 +18,7 @@
 
 #include <glm/vec3.hpp>
 
-#include "haptic_server/loop/exchange.h"
+#include "haptic_server/safety/fault.h"
 
 namespace osteomill {
 

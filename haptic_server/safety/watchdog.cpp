@@ -1,4 +1,4 @@
-#include "haptic_server/loop/watchdog.h"
+#include "haptic_server/safety/watchdog.h"
 
 #include <cmath>
 #include <glm/geometric.hpp>

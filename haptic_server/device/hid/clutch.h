@@ -1,0 +1,23 @@
+// Lets the hand move while the tool stays, as one lifts a mouse: while engaged the position does not follow,
+// and afterwards it goes on from there.
+#pragma once
+
+#include <glm/vec3.hpp>
+
+namespace osteomill {
+
+class Clutch {
+  public:
+    /// Where the tool is, given where the hand is; both mm. Real-time safe.
+    glm::dvec3 position_mm(const glm::dvec3& hand_mm, bool is_engaged) noexcept {
+        if (is_engaged) offset_mm_ = tool_mm_ - hand_mm;
+        tool_mm_ = hand_mm + offset_mm_;
+        return tool_mm_;
+    }
+
+  private:
+    glm::dvec3 offset_mm_{0.0};
+    glm::dvec3 tool_mm_{0.0};
+};
+
+}  // namespace osteomill

@@ -1,0 +1,61 @@
+// The seam between the drivers and USB HID: hidapi on one side (hidapi_transport.h), a script in the tests.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace osteomill {
+
+struct HidDeviceInfo {
+    std::string path;  ///< such as /dev/hidraw0
+    std::uint16_t vendor_id = 0;
+    std::uint16_t product_id = 0;
+    std::uint16_t usage_page = 0;
+    std::uint16_t usage = 0;
+    std::string product{};  ///< as the device calls itself
+};
+
+/// One line that says what stands in the way of opening a device, and what would help.
+class HidOpenError : public std::runtime_error {
+  public:
+    HidOpenError(const std::string& message, bool needs_permission)
+        : std::runtime_error(message), needs_permission_(needs_permission) {}
+    /// The device is there and this user may not use it.
+    bool needs_permission() const { return needs_permission_; }
+
+  private:
+    bool needs_permission_;
+};
+
+/// A device that was opened; closed by its destructor. One thread at a time.
+class HidConnection {
+  public:
+    static constexpr int gone = -1;
+
+    virtual ~HidConnection() = default;
+
+    /// Takes the oldest report that waits, or waits up to `wait_ms` for one. Bytes of the report, 0 for none,
+    /// or `gone`. Does not allocate while the device is there.
+    virtual int read(std::span<std::uint8_t> into, int wait_ms) noexcept = 0;
+
+    /// Sends a report that begins with its number (0: not numbered); false if the device did not take it. A
+    /// USB device may take a millisecond or two to take it.
+    virtual bool write(std::span<const std::uint8_t> report) noexcept = 0;
+};
+
+class HidTransport {
+  public:
+    virtual ~HidTransport() = default;
+
+    /// What is plugged in now. Not real-time safe, like open.
+    virtual std::vector<HidDeviceInfo> list() = 0;
+
+    /// Throws HidOpenError.
+    virtual std::unique_ptr<HidConnection> open(const std::string& path) = 0;
+};
+
+}  // namespace osteomill

@@ -1,0 +1,42 @@
+// What a thread needs of the system to be in time: memory that is there, and a processor.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace osteomill {
+
+/// What this process may ask for.
+struct RealTimeRights {
+    bool priority = false;  ///< SCHED_FIFO: CAP_SYS_NICE, or a limit on rtprio
+    bool memory = false;    ///< locking all memory: CAP_IPC_LOCK, or no limit on memlock
+};
+
+RealTimeRights real_time_rights() noexcept;
+
+/// One line that says what is missing, what that means and what to run; empty where nothing is. `program` is
+/// the file that was started.
+std::string advice_on_rights(const RealTimeRights& rights, const std::string& program);
+
+/// Keeps every page of the process in memory, those of today and those to come, so that no tick waits for
+/// one. Only with the right to do so without limit: under a limit, what is allocated later would fail.
+/// Returns whether it is so.
+bool lock_memory() noexcept;
+
+/// Touches as much of the calling thread's stack as its loop may ever use, so that its first deep call finds
+/// it there.
+void touch_stack() noexcept;
+inline constexpr std::size_t touched_stack_bytes = 256 * 1024;
+
+/// Pages that the calling thread had to wait for since it began: from memory or made (minor), or from the
+/// disk.
+std::uint64_t page_faults_of_this_thread() noexcept;
+
+/// Processors that this process may run on.
+std::vector<int> usable_cpus();
+
+/// Binds the calling thread to one of them; false if the system does not.
+bool bind_to_cpu(int cpu) noexcept;
+
+}  // namespace osteomill

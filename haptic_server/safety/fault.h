@@ -1,0 +1,17 @@
+// What turns the force off.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+namespace osteomill {
+
+enum class Fault : std::uint8_t { none, device_lost, model_stalled, not_a_number, overrun, device_jumped };
+
+inline constexpr std::array all_faults{Fault::device_lost, Fault::model_stalled, Fault::not_a_number,
+                                       Fault::overrun, Fault::device_jumped};
+
+/// One line for people; empty for Fault::none.
+const char* describe(Fault fault);
+
+}  // namespace osteomill

@@ -1,0 +1,93 @@
+// The one place that decides whether the hand may feel a force and the burr may turn. It looks (watchdog.h),
+// limits and fades the force (force_guard.h), and keeps the spindle off where the tool may have come back in
+// the middle of the bone. Nothing reaches the device but through it.
+//
+// Two machines, stepped together once a tick. The force:
+//
+//             fault                faded out              no fault for settle_s
+//   active ----------> fading out -----------> off --------------------------> fading in
+//     ^                    ^                    | ^ (stays off while a fault       |  |
+//     |                    |                    +-+  lasts)                        |  |
+//     |                    +----------------------- fault -------------------------+  |
+//     +------------------------------- faded in --------------------------------------+
+//
+//   state       the hand feels                                          the tool
+//   active      the wanted force, within limit and rate                 touches bone
+//   fading out  the last force, shrinking to nothing in fade_out_s      is out of the bone: no spindle, no
+//   wall off         nothing                                                 is out of the bone fading in the
+//   wanted force times a gain that grows from 0 to 1    touches bone
+//
+// The spindle:
+//
+//             the device was lost or jumped
+//   free ------------------------------------> locked
+//     ^                                          |
+//     +----- the pedal was up, device there -----+
+//
+//   free        turns while the pedal is down and the tool touches bone
+//   locked      stays off, however the pedal is: whoever pressed it then did not mean the bone it is in now
+//
+// From no state does a fault lead to a force: in the tick of a fault and in all that follow until settle_s
+// have passed without one, the force only shrinks, and within fade_out_s it is zero. safety_monitor_test.cpp
+// visits every state that can be reached, with every fault in each.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <glm/vec3.hpp>
+
+#include "haptic_server/safety/fault.h"
+#include "haptic_server/safety/force_guard.h"
+#include "haptic_server/safety/watchdog.h"
+
+namespace osteomill {
+
+class SafetyMonitor {
+  public:
+    static constexpr std::size_t fault_kinds = all_faults.size() + 1;
+
+    SafetyMonitor(double tick_s, double max_force_n) : watchdog_(tick_s), guard_(max_force_n) {}
+
+    /// Begins a tick: looks for faults. Real-time safe, like all here.
+    void observe(const Observation& seen) noexcept { begin(watchdog_.check(seen), seen.device.pedal); }
+
+    /// Begins a tick with what was found, for whoever looks otherwise. `pedal` counts only of a device that
+    /// is there.
+    void begin(Fault found, bool pedal) noexcept;
+
+    /// Whether what the device reads can be used in this tick.
+    bool has_hand() const { return found_ != Fault::device_lost; }
+    /// Whether the force is to be computed in this tick: no fault, and the hand may feel it.
+    bool may_touch() const { return found_ == Fault::none && guard_.is_engaged(); }
+
+    /// Ends the tick: the force that may be written, of one that is wanted (not read unless may_touch()).
+    /// `is_sound`: what was computed with it is finite; if not, that is a fault as a force is that is none.
+    glm::dvec3 pass(const glm::dvec3& wanted_n, bool is_sound, double elapsed_s) noexcept;
+
+    /// After pass(): the tool touched bone before this tick and goes on doing so.
+    bool holds_tool() const { return was_engaged_ && guard_.is_engaged(); }
+    /// After pass(): the force was turned off in this tick.
+    bool has_just_let_go() const { return was_engaged_ && !guard_.is_engaged(); }
+    /// After pass(): the spindle turns in this tick.
+    bool spindle_turns() const { return holds_tool() && wants_spindle(); }
+    /// What the coupling is told before pass() of the spindle.
+    bool wants_spindle() const { return pedal_ && !is_spindle_locked_ && has_hand(); }
+
+    ForceGuard::State state() const { return guard_.state(); }
+    bool is_spindle_locked() const { return is_spindle_locked_; }
+    /// Why the force is off; none while it is not.
+    Fault fault() const { return guard_.fault(); }
+    /// How often each Fault turned the force off.
+    const std::array<std::uint64_t, fault_kinds>& fault_counts() const { return fault_counts_; }
+
+  private:
+    Watchdog watchdog_;
+    ForceGuard guard_;
+    Fault found_ = Fault::none;  // in this tick
+    bool pedal_ = false;
+    bool is_spindle_locked_ = false;
+    bool was_engaged_ = true;
+    std::array<std::uint64_t, fault_kinds> fault_counts_{};
+};
+
+}  // namespace osteomill

@@ -1,0 +1,58 @@
+#include "haptic_server/loop/real_time.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <array>
+#include <functional>
+#include <thread>
+
+namespace osteomill {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+
+TEST(RealTimeRights, AreAdvisedOnOnlyWhereTheyAreMissing) {
+    EXPECT_EQ(advice_on_rights({true, true}, "bin/haptic_server"), "");
+    EXPECT_THAT(advice_on_rights({false, true}, "bin/haptic_server"),
+                AllOf(HasSubstr("no right to real-time priority:"),
+                      HasSubstr("sudo setcap cap_sys_nice,cap_ipc_lock+ep bin/haptic_server")));
+    EXPECT_THAT(advice_on_rights({true, false}, "x"), HasSubstr("no right to lock memory:"));
+    EXPECT_THAT(advice_on_rights({false, false}, "x"), HasSubstr("nor to lock memory"));
+}
+
+/// Far down the stack, page by page.
+void use_stack() {
+    std::array<volatile char, touched_stack_bytes / 2> deep;
+    for (std::size_t i = 0; i < deep.size(); i += 1024) deep[i] = 1;
+}
+
+std::uint64_t faults_of(const std::function<void()>& before, const std::function<void()>& work) {
+    std::uint64_t faults = 0;
+    std::thread([&] {
+        before();
+        const std::uint64_t so_far = page_faults_of_this_thread();
+        work();
+        faults = page_faults_of_this_thread() - so_far;
+    }).join();
+    return faults;
+}
+
+TEST(TouchStack, LeavesNoPageOfItToBeWaitedFor) {
+    EXPECT_GT(faults_of([] {}, use_stack), 8u) << "it is worth it, and the count counts";
+    EXPECT_LE(faults_of(touch_stack, use_stack), 2u) << "none but those of a sanitizer's own books";
+}
+
+TEST(BindToCpu, KeepsAThreadWhereItIsPut) {
+    const std::vector<int> cpus = usable_cpus();
+    ASSERT_FALSE(cpus.empty());
+    std::thread([&] {
+        ASSERT_TRUE(bind_to_cpu(cpus.back()));
+        EXPECT_EQ(usable_cpus(), std::vector<int>{cpus.back()});
+    }).join();
+    EXPECT_FALSE(bind_to_cpu(CPU_SETSIZE - 1));
+}
+
+}  // namespace
+}  // namespace osteomill

@@ -1,0 +1,200 @@
+// The safety monitor, exhaustively: every state that can be reached, and from each everything that can
+// happen.
+#include "haptic_server/safety/safety_monitor.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <glm/geometric.hpp>
+#include <map>
+#include <tuple>
+#include <vector>
+
+namespace osteomill {
+namespace {
+
+using State = ForceGuard::State;
+
+/// Long enough for a force to reach any other within a tick, so that the forces that occur are few and the
+/// states finite; short against every time constant of the monitor.
+constexpr double tick_s = 0.01;
+constexpr double limit_n = 3.0;
+constexpr double time_to_zero_s = 0.05;  // the promise
+
+/// What can happen in a tick.
+struct Event {
+    Fault fault = Fault::none;
+    bool pedal = false;
+    double wanted_n = 0.0;
+    bool is_sound = true;
+    double elapsed_s = tick_s;
+
+    bool is_fault() const { return fault != Fault::none || !is_sound || !std::isfinite(wanted_n); }
+};
+
+std::vector<Event> every_event() {
+    std::vector<Event> events;
+    for (const bool pedal : {false, true}) {
+        for (const double wanted_n : {0.0, 1.0, 1e300, -1e300, std::nan(""), HUGE_VAL}) {
+            events.push_back({Fault::none, pedal, wanted_n});
+            for (const Fault fault : all_faults) {
+                events.push_back({fault, pedal, wanted_n});
+                // The machine stood still, which is a fault, too: a tick that is longer than any fade.
+                events.push_back({fault, pedal, wanted_n, true, 1.0});
+            }
+        }
+        events.push_back({Fault::none, pedal, 1.0, false});
+    }
+    return events;
+}
+
+/// A monitor with the force that it last let through, and how it came to be there.
+struct Reached {
+    SafetyMonitor monitor{tick_s, limit_n};
+    glm::dvec3 force_n{0.0};
+    int quiet_ticks = 1000;  ///< since the last fault, 1000 for more
+    int off_ticks = 0;       ///< in `off`, since the last fault
+    int ticks_of_fault = 0;  ///< since the force was turned off, 1000 for more
+
+    Reached after(const Event& event) const {
+        Reached next = *this;
+        next.monitor.begin(event.fault, event.pedal);
+        next.force_n = next.monitor.pass({event.wanted_n, 0.0, 0.0}, event.is_sound, event.elapsed_s);
+        next.quiet_ticks = event.is_fault() ? 0 : std::min(1000, quiet_ticks + 1);
+        const bool restarts = event.is_fault() || monitor.state() != State::off;
+        next.off_ticks = restarts ? 0 : off_ticks + 1;
+        next.ticks_of_fault = next.monitor.fault() == Fault::none ? 0 : std::min(1000, ticks_of_fault + 1);
+        return next;
+    }
+    /// All that the future depends on: two monitors that agree in this behave alike. Times are told apart by
+    /// the ticks that went by in a state.
+    using Key = std::tuple<State, bool, double, int, int>;
+    Key key(int ticks_in_state) const {
+        return {monitor.state(), monitor.is_spindle_locked(), force_n.x,
+                monitor.state() == State::active ? 0 : ticks_in_state,
+                monitor.state() == State::off ? off_ticks : 0};
+    }
+};
+
+/// Calls `check(from, event, to)` for every transition of every state that can be reached; gives the states.
+std::vector<Reached> explore(const std::function<void(const Reached&, const Event&, const Reached&)>& check =
+                                 [](auto&&...) {}) {
+    const std::vector<Event> events = every_event();
+    std::map<Reached::Key, int> seen;
+    std::vector<std::pair<Reached, int>> frontier{{Reached{}, 0}};
+    std::vector<Reached> states;
+    seen[frontier.front().first.key(0)] = 1;
+    while (!frontier.empty()) {
+        const auto [from, ticks_in_state] = frontier.back();
+        frontier.pop_back();
+        states.push_back(from);
+        for (const Event& event : events) {
+            const Reached to = from.after(event);
+            check(from, event, to);
+            // Within `off` nothing but the ticks since a fault counts.
+            const bool is_same =
+                to.monitor.state() == from.monitor.state() && to.monitor.state() != State::off;
+            const int ticks = is_same ? std::min(ticks_in_state + 1, 100) : 0;
+            if (seen[to.key(ticks)]++ == 0) frontier.emplace_back(to, ticks);
+        }
+    }
+    return states;
+}
+
+TEST(SafetyMonitor, LeadsFromNoStateByAnyFaultToAForce) {
+    std::size_t transitions = 0;
+    const std::vector<Reached> states =
+        explore([&](const Reached& from, const Event& event, const Reached& to) {
+            ++transitions;
+            const double before_n = glm::length(from.force_n);
+            const double after_n = glm::length(to.force_n);
+            ASSERT_TRUE(std::isfinite(after_n));
+            ASSERT_LE(after_n, limit_n * (1.0 + 1e-12));
+            if (event.is_fault()) {
+                ASSERT_LE(after_n, before_n) << "a fault never makes a force, and never more of one";
+                ASSERT_TRUE(to.monitor.state() == State::fading_out || to.monitor.state() == State::off);
+            }
+            if (to.monitor.state() == State::off) {
+                ASSERT_EQ(after_n, 0.0);
+            }
+            if (to.monitor.fault() != Fault::none) {
+                ASSERT_LE(after_n, before_n) << "nor does it come back before the fault has gone";
+                if (to.ticks_of_fault * tick_s >= time_to_zero_s) {
+                    ASSERT_EQ(after_n, 0.0);
+                }
+            }
+            const bool comes_back = from.monitor.fault() != Fault::none && to.monitor.fault() == Fault::none;
+            if (comes_back) {
+                ASSERT_GT(to.quiet_ticks * tick_s, ForceGuard::settle_s - 1e-9);
+            }
+        });
+    // Every state of both machines is among them, at every stage of a fade.
+    std::map<std::pair<State, bool>, int> visited;
+    for (const Reached& reached : states)
+        ++visited[{reached.monitor.state(), reached.monitor.is_spindle_locked()}];
+    EXPECT_EQ(visited.size(), 8u);
+    EXPECT_GT((visited[{State::fading_in, false}]), static_cast<int>(ForceGuard::fade_in_s / tick_s));
+    EXPECT_EQ(transitions, states.size() * every_event().size());
+    std::printf("%zu states, %zu transitions\n", states.size(), transitions);
+}
+
+TEST(SafetyMonitor, TurnsTheSpindleOnlyInAHandThatIsThereAndHasLetGoOfThePedal) {
+    explore([](const Reached& from, const Event& event, const Reached& to) {
+        const bool is_lost_or_jumped =
+            event.fault == Fault::device_lost || event.fault == Fault::device_jumped;
+        if (to.monitor.spindle_turns()) {
+            ASSERT_TRUE(event.pedal && !event.is_fault());
+            ASSERT_FALSE(from.monitor.is_spindle_locked());
+            ASSERT_TRUE(to.monitor.state() == State::active || to.monitor.state() == State::fading_in);
+        }
+        if (is_lost_or_jumped && event.pedal) {
+            ASSERT_TRUE(to.monitor.is_spindle_locked());
+        }
+        const bool unlocks = from.monitor.is_spindle_locked() && !to.monitor.is_spindle_locked();
+        if (unlocks) {
+            ASSERT_TRUE(!event.pedal && event.fault != Fault::device_lost);
+        }
+    });
+}
+
+TEST(SafetyMonitor, ComesBackFromEveryStateOnceAllIsWell) {
+    for (const Reached& reached : explore()) {
+        Reached now = reached;
+        const int ticks =
+            static_cast<int>((ForceGuard::fade_out_s + ForceGuard::settle_s + ForceGuard::fade_in_s) /
+                             tick_s) +
+            5;
+        for (int i = 0; i < ticks; ++i) now = now.after({.wanted_n = 1.0});
+        ASSERT_EQ(now.monitor.state(), State::active);
+        ASSERT_NEAR(now.force_n.x, 1.0, 1e-9);
+        ASSERT_FALSE(now.monitor.is_spindle_locked());
+    }
+}
+
+/// The other half of the chain: whatever is wrong, alone or together with anything else, is found.
+TEST(SafetyMonitor, FindsEveryCombinationOfWhatCanBeWrong) {
+    for (unsigned wrong = 0; wrong < 64; ++wrong) {
+        SafetyMonitor monitor(0.001, limit_n);
+        Observation seen;
+        const auto tick = [&](unsigned now_wrong) {
+            seen.now_s += 0.001;
+            if (!(now_wrong & 1)) ++seen.model_step;
+            seen.model_valid = !(now_wrong & 2);
+            seen.device.connected = !(now_wrong & 4);
+            seen.device.position_mm.x =
+                now_wrong & 8 ? (seen.device.position_mm.x > 0.0 ? -50.0 : 50.0) : 0.0;
+            seen.device.position_mm.y = now_wrong & 16 ? NAN : 0.0;
+            seen.missed_periods = now_wrong & 32 ? 3 : 0;
+            monitor.observe(seen);
+            return glm::length(monitor.pass({0.0, 0.0, 2.0}, true, 0.001));
+        };
+        for (int i = 0; i < 100; ++i) tick(0);
+        double force_n = 0.0;
+        for (int i = 0; i < 200; ++i) force_n = tick(wrong);
+        EXPECT_EQ(force_n == 0.0, wrong != 0) << "combination " << wrong;
+    }
+}
+
+}  // namespace
+}  // namespace osteomill
