@@ -5,7 +5,7 @@ set -euo pipefail
 cd "$(dirname "$0")"
 source scripts/prepare.sh
 
-install_packages
+install_packages scripts/packages.txt
 build release haptic_server render_client
 
 out=out/demo

@@ -16,7 +16,7 @@ for preset in "${presets[@]}"; do
     esac
 done
 
-install_packages
+install_packages scripts/packages.txt scripts/test_packages.txt
 # For the tests in a virtual machine, which are skipped without it.
 scripts/fetch_vm_kernel.sh || echo "the tests in a virtual machine will be skipped" >&2
 for preset in "${presets[@]}"; do

@@ -3,10 +3,10 @@
 
 say() { printf '\n== %s\n' "$*"; }
 
-# Installs the packages of packages.txt that are not there yet; asks for root only then.
+# install_packages LIST...: installs what the lists name and is not there yet; asks for root only then.
 install_packages() {
     local wanted missing=() package
-    mapfile -t wanted < <(grep -v '^#' scripts/packages.txt)
+    mapfile -t wanted < <(grep -hv '^#' "$@")
     for package in "${wanted[@]}"; do
         dpkg-query -W -f '${Status}' "$package" 2>/dev/null | grep -q 'ok installed' || missing+=("$package")
     done
