@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <memory>
+#include <set>
 #include <thread>
 
 #include "render_client/volume/slice_renderer.h"
@@ -61,7 +62,7 @@ std::vector<DrawingPoint> by_panel(std::vector<DrawingPoint> points) {
 std::vector<DrawingSetting> drawing_settings(bool quick) {
     std::vector<DrawingSetting> settings;
     const float usual = RaycastSettings{}.step_voxels;
-    for (const float step : {0.25f, 0.5f, usual, 1.0f, 2.0f}) {
+    for (const float step : std::set{0.25f, 0.5f, usual, 1.0f, 2.0f}) {
         if (quick && step == 0.25f) continue;
         settings.push_back({.family = "rays shaded by gradient",
                             .label = fmt::format("step {}", step),
@@ -73,7 +74,7 @@ std::vector<DrawingSetting> drawing_settings(bool quick) {
                             .look = by_surface_voxels,
                             .step_voxels = step});
     }
-    for (const float step : quick ? std::vector{usual} : std::vector{usual, 1.0f, 2.0f})
+    for (const float step : quick ? std::set{usual} : std::set{usual, 1.0f, 2.0f})
         settings.push_back({.family = "rays without skipping",
                             .label = fmt::format("step {}", step),
                             .step_voxels = step,
@@ -82,7 +83,7 @@ std::vector<DrawingSetting> drawing_settings(bool quick) {
         settings.push_back({.family = "rays at lower resolution",
                             .label = fmt::format("1 / {}", divisor),
                             .divisor = divisor});
-    for (const float spacing : quick ? std::vector{1.0f} : std::vector{0.5f, usual, 1.0f, 2.0f}) {
+    for (const float spacing : quick ? std::set{1.0f} : std::set{0.5f, 1.0f, 2.0f}) {
         settings.push_back({.family = "slices shaded by gradient",
                             .label = fmt::format("spacing {}", spacing),
                             .renderer = RendererChoice::slices,
