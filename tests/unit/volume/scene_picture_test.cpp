@@ -99,7 +99,7 @@ TEST_F(ScenePictureTest, RedrawsACoarserCopyAndAnAtlasAsExactly) {
     for (const TextureLimits& limits :
          {TextureLimits{.longest_edge_texels = 16}, TextureLimits{.layout = BoneLayout::atlas}}) {
         Bone bone = hills();
-        BoneTextures textures(bone, {}, limits);
+        BoneTextures textures(bone, {}, {}, limits);
         RaycastRenderer renderer;
         ScenePicture kept(renderer, size_px);
         const Camera camera = camera_on({0.0, 0.0, 0.0}, 5.0);
