@@ -147,7 +147,7 @@ glm::ivec3 SurfaceShader::outward(const std::uint8_t* own, std::size_t row, int 
 
 SurfaceTexel SurfaceShader::texel(const glm::ivec3& outward, std::uint8_t code) const {
     // A single voxel in empty space looks to all sides: it is lit from above.
-    const glm::vec3& light = light_.towards(outward == glm::ivec3(0) ? glm::ivec3(0, 0, 1) : outward);
+    const glm::vec3 light = light_.towards(outward == glm::ivec3(0) ? glm::ivec3(0, 0, 1) : outward);
     const glm::vec3 seen = display_by_code_[code] * light;
     const auto byte = [](float value) { return static_cast<std::uint8_t>(std::min(value, 255.0f) + 0.5f); };
     return {byte(seen.r), byte(seen.g), byte(seen.b), 255};

@@ -108,15 +108,22 @@ TEST(SurfaceVoxels, HaveTheColourOfTheirDefinitionInRowsOfAnyLength) {
     const VoxelBox box{{-1, 0, 2}, {146, 16, 15}};
     const auto texels = SurfaceShader(table).shade(bone, box);
     ASSERT_EQ(texels.size(), box.count());
+    double sum = 0.0;
+    int count = 0;
     for (std::size_t i = 0; i < texels.size(); ++i) {
         const auto n = static_cast<int>(i);
         const glm::ivec3 voxel = box.first + glm::ivec3(n % 146, n / 146 % 16, n / (146 * 16));
         const glm::dvec4 expected = defined_texel(bone, table, voxel);
         ASSERT_EQ(texels[i].a, expected.a) << voxel.x << ' ' << voxel.y << ' ' << voxel.z;
-        ASSERT_NEAR(texels[i].r, expected.r, 3.5);
-        ASSERT_NEAR(texels[i].g, expected.g, 3.5);
-        ASSERT_NEAR(texels[i].b, expected.b, 3.5);
+        ASSERT_NEAR(texels[i].r, expected.r, 8.0);
+        ASSERT_NEAR(texels[i].g, expected.g, 8.0);
+        ASSERT_NEAR(texels[i].b, expected.b, 8.0);
+        sum += std::abs(texels[i].g - expected.g);
+        count += expected.a > 0.0 ? 1 : 0;
     }
+    // Directions are looked up: a degree matters where the key light begins, and hardly elsewhere.
+    ASSERT_GT(count, 10000);
+    EXPECT_LT(sum / count, 0.7);
 }
 
 TEST_F(SurfaceTextureTest, IsShadedAgainOnlyRoundTheChangeAndEqualsAFreshOne) {
