@@ -3,23 +3,13 @@
 #include <glm/trigonometric.hpp>
 #include <string>
 
+#include "render_client/volume/camera_rays_shader.h"
 #include "render_client/volume/lighting.h"
 #include "render_client/volume/pixel_box.h"
 
 namespace osteomill {
 
 namespace {
-
-constexpr const char* vertex_glsl = R"glsl(#version 330 core
-uniform vec3 forward, right, up;  // right and up reach from the picture's middle to its edge at distance 1
-out vec3 ray;
-
-void main() {
-    vec2 corner = vec2(gl_VertexID == 1 ? 3.0 : -1.0, gl_VertexID == 2 ? 3.0 : -1.0);
-    ray = forward + corner.x * right + corner.y * up;
-    gl_Position = vec4(corner, 0.0, 1.0);
-}
-)glsl";
 
 // Points relative to the burr's centre, in burr radii; patient axes.
 constexpr const char* fragment_glsl = R"glsl(
@@ -69,7 +59,7 @@ constexpr int depth_unit = 1;        // behind the colour
 }  // namespace
 
 ContactShadow::ContactShadow()
-    : program_(vertex_glsl, std::string("#version 330 core\n") + lighting_glsl + fragment_glsl) {}
+    : program_(camera_rays_vertex_glsl, std::string("#version 330 core\n") + lighting_glsl + fragment_glsl) {}
 
 void ContactShadow::draw(const gl::Framebuffer& bone, const glm::dvec3& burr_mm, double radius_mm,
                          const glm::dvec3& spindle_axis, const Camera& camera, TileMask& covered) const {

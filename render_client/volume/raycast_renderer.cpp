@@ -4,6 +4,7 @@
 #include <string>
 
 #include "render_client/volume/bone_shading_shader.h"
+#include "render_client/volume/camera_rays_shader.h"
 #include "render_client/volume/lighting.h"
 #include "render_client/volume/look_shader.h"
 #include "render_client/volume/raycast_shader.h"
@@ -21,8 +22,8 @@ glm::vec2 depth_terms(const Camera& camera, double spacing_mm, const glm::ivec2&
 }  // namespace
 
 RaycastRenderer::RaycastRenderer(const RaycastSettings& settings)
-    : bone_program_(raycast_vertex_glsl, std::string(lighting_glsl) + look_glsl + bone_shading_glsl +
-                                             cut_shading_glsl + raycast_fragment_glsl),
+    : bone_program_(camera_rays_vertex_glsl, std::string(lighting_glsl) + look_glsl + bone_shading_glsl +
+                                                 cut_shading_glsl + raycast_fragment_glsl),
       settings_(settings) {}
 
 void RaycastRenderer::draw(const BoneTextures& bone, const Camera& camera, const glm::ivec2& size_px) {

@@ -1,19 +1,9 @@
-// The ray caster's shaders, GLSL 3.30; the fragment shader follows cut_shading_glsl. Lengths are in voxels,
-// in texture coordinates of the bone's box (the first voxel spans 0 to 1), axes are the patient's.
+// The ray caster's fragment shader, GLSL 3.30; follows cut_shading_glsl, behind camera_rays_vertex_glsl.
+// Lengths are in voxels, in texture coordinates of the bone's box (the first voxel spans 0 to 1), axes are
+// the patient's.
 #pragma once
 
 namespace osteomill {
-
-inline constexpr const char* raycast_vertex_glsl = R"glsl(#version 330 core
-uniform vec3 forward, right, up;  // right and up reach from the picture's middle to its edge at distance 1
-out vec3 ray;
-
-void main() {
-    vec2 corner = vec2(gl_VertexID == 1 ? 3.0 : -1.0, gl_VertexID == 2 ? 3.0 : -1.0);
-    ray = forward + corner.x * right + corner.y * up;
-    gl_Position = vec4(corner, 0.0, 1.0);
-}
-)glsl";
 
 inline constexpr const char* raycast_fragment_glsl = R"glsl(
 uniform vec3 eye;
