@@ -49,6 +49,10 @@ LookTable look_table(const BoneContent& content, std::span<const TissueColour> t
     return opaque(std::nullopt, plain);
 }
 
+double colour_depth_voxels(const LookTable& table) {
+    return table.channel == BoneChannel::stiffness ? 2.5 : 1.0;
+}
+
 std::array<std::uint8_t, 256> shown_part_by_code(const LookTable& table) {
     std::array<std::uint8_t, 256> parts{};
     for (std::size_t code = 0; code < parts.size(); ++code) {

@@ -36,6 +36,11 @@ struct LookTable {
 /// Throws std::invalid_argument like require_valid where the look's transfer function is none.
 LookTable look_table(const BoneContent& content, std::span<const TissueColour> tissues, const BoneLook& look);
 
+/// How far below bone's surface its colour is taken, voxels: one, which is below the steps of labels. What
+/// goes by stiffness is taken deeper, because CT blurs a surface over several voxels, and the mixture with
+/// air in the outermost ones would be seen as rings wherever the surface passes from one layer to the next.
+double colour_depth_voxels(const LookTable& table);
+
 /// How much of a voxel of each code counts, 0 to 255: its opacity where bone is a solid surface, all or
 /// nothing where one sees through it.
 std::array<std::uint8_t, 256> shown_part_by_code(const LookTable& table);

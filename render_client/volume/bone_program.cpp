@@ -51,6 +51,7 @@ const gl::Program& BoneProgram::use(const BoneTextures& bone) {
     program.set("bone_size", glm::vec3(bone.box().size));
     program.set("bone_texture_size", glm::vec3(bone.fraction().size()));
     program.set("bone_mm_per_voxel", static_cast<float>(bone.grid().spacing_mm));
+    program.set("bone_colour_depth", static_cast<float>(bone.colour_depth_voxels()));
     bone.fraction().bind(fraction_unit);
     bone.blocks().bind(blocks_unit);
     bone.colours().bind(colours_unit);

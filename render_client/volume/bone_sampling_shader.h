@@ -14,6 +14,7 @@
 //     vec3  normal_at(vec3 point, vec3 otherwise)   unit, out of the bone; `otherwise` where nothing slopes
 //     vec4  look_at(vec3 point)                     linear RGB and opacity of the bone that is or was there
 //     vec4  smooth_look_at(vec3 point)              the same without a trace of the voxels' steps
+//     vec4  look_under(vec3 point, vec3 normal)     smooth_look_at below a surface with that outward normal
 //     float density_at(vec3 point)                  the fraction times the opacity of the nearest voxel
 //     vec4  surface_colour_at(vec3 point)           of surface voxels nearby: display RGB times alpha, alpha
 //     float openness_at(vec3 point, vec3 normal)    0 to 1, how much of the sky above a surface is free of
@@ -80,6 +81,7 @@ uniform usampler3D bone_colour_code;
 uniform sampler2D bone_colours;
 uniform sampler3D bone_surface_colours;
 uniform float bone_mm_per_voxel;
+uniform float bone_colour_depth;  // voxels
 
 const float block_edge = 4.0;
 
@@ -163,6 +165,12 @@ vec4 smooth_look_at(vec3 point) {
                 known += weight;
             }
     return known > 0.0 ? sum / known : texelFetch(bone_colours, ivec2(0), 0);
+}
+
+// As deep as there is bone: a shell may be thinner than that.
+vec4 look_under(vec3 point, vec3 normal) {
+    float bone_there = fraction_at(point - bone_colour_depth * normal);
+    return smooth_look_at(point - mix(1.0, bone_colour_depth, bone_there) * normal);
 }
 
 float mean_fraction_at(vec3 point) {

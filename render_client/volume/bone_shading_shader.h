@@ -22,7 +22,7 @@ vec3 surface_pixel(vec3 point, vec3 direction) {
         return colour.rgb / max(colour.a, 1e-3);
     }
     vec3 normal = normal_at(point, -direction);
-    return display(lit(smooth_look_at(point - normal).rgb, normal, openness_at(point, normal)));
+    return display(lit(look_under(point, normal).rgb, normal, openness_at(point, normal)));
 }
 
 // Slope of the density, which also shows borders between tissues of different opacity.

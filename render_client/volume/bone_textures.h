@@ -9,6 +9,7 @@
 
 #include "common/bone/bone.h"
 #include "render_client/volume/bone_look.h"
+#include "render_client/volume/changed_voxels.h"
 #include "render_client/volume/coarse_bone.h"
 #include "render_client/volume/empty_space.h"
 #include "render_client/volume/gl/lookup_table.h"
@@ -29,8 +30,8 @@ class BoneTextures {
                  const TextureLimits& limits = {});
 
     /// Uploads the fractions of these bricks, lowered or raised, and what follows from them: glTexSubImage3D,
-    /// region by region, never their union. `bone` is the bone of the constructor, changed since. Call before
-    /// drawing: a texture that a frame in flight uses makes the call wait for that frame.
+    /// region by region, never a union of what lies apart. `bone` is the bone of the constructor, changed
+    /// since. Call before drawing: a texture that a frame in flight uses makes the call wait for that frame.
     void update(const Bone& bone, std::span<const BrickIndex> dirty);
 
     /// How the bone is held: in which layout, how much coarser than it is, in how many bytes.
@@ -52,6 +53,8 @@ class BoneTextures {
     const gl::Texture3D* surface_colours() const { return surface_ ? &surface_->texture() : nullptr; }
     /// Whether one sees through the bone: opacities are then per millimetre.
     bool is_translucent() const { return table_.mode == TransferMode::translucent; }
+    /// Voxels below the surface at which its colour is taken.
+    double colour_depth_voxels() const { return osteomill::colour_depth_voxels(table_); }
     /// BrickPlaces::tile_table; none in a dense layout.
     const std::optional<gl::Texture3D>& tile_table() const { return tile_table_; }
     /// For each block of EmptySpace, two bytes: its mean fraction and its distance.
@@ -67,6 +70,8 @@ class BoneTextures {
                                         const TextureLimits& limits);
     const Bone& copied(const Bone& bone) const { return copy_ ? copy_->bone() : bone; }
     const Bone& shown(const Bone& bone) const { return visible_ ? visible_->bone() : copied(bone); }
+    /// Voxels of the bone that is shown, at most all of these bricks.
+    std::span<const VoxelBox> changed_voxels(const Bone& drawn, std::span<const BrickIndex> dirty);
     void upload_blocks(const VoxelBox& blocks);
 
     TexturePlan plan_;
@@ -83,6 +88,8 @@ class BoneTextures {
     std::optional<gl::Texture3D> colour_code_;
     gl::LookupTable colours_;
     std::optional<SurfaceTexture> surface_;
+    std::optional<ChangedVoxels> changed_;  ///< only beside surface_, whose voxels cost most
+    std::vector<VoxelBox> dirty_boxes_;
     std::vector<std::uint8_t> scratch_;
 };
 

@@ -11,8 +11,12 @@ namespace osteomill {
 
 namespace {
 
+VoxelBox grown(const VoxelBox& box, int reach_voxels) {
+    return {box.first - reach_voxels, box.size + 2 * reach_voxels};
+}
+
 VoxelBox voxels_round_brick(const glm::ivec3& brick, int reach_voxels) {
-    return {brick * brick_edge_voxels - reach_voxels, glm::ivec3(brick_edge_voxels + 2 * reach_voxels)};
+    return grown({brick * brick_edge_voxels, glm::ivec3(brick_edge_voxels)}, reach_voxels);
 }
 
 VoxelBox overlap(const VoxelBox& a, const VoxelBox& b) {
@@ -81,28 +85,39 @@ std::vector<PlacedVoxels> BrickPlaces::all(const BoneContent& content) const {
     return all;
 }
 
-std::span<const PlacedVoxels> BrickPlaces::that_show(const Bone& bone, std::span<const BrickIndex> dirty,
+std::span<const PlacedVoxels> BrickPlaces::that_show(const Bone& bone, std::span<const VoxelBox> changed,
                                                      int reach_voxels) {
     shown_.clear();
-    for (const BrickIndex index : dirty) {
-        const std::int32_t slot = bone.slot(index);
-        if (slot == BoneContent::no_slot) continue;
-        const glm::ivec3 brick = brick_position(bone.content().size_bricks, index);
-        if (layout_ == BoneLayout::atlas) {
-            add_atlas_changes(bone, brick, reach_voxels);
-            continue;
-        }
-        const VoxelBox voxels = overlap(voxels_round_brick(brick, reach_voxels), box_);
-        shown_.push_back({voxels, voxels.first - box_.first});
+    for (const VoxelBox& box : changed) {
+        const VoxelBox voxels = overlap(grown(box, reach_voxels), box_);
+        if (voxels.count() == 0) continue;
+        if (layout_ == BoneLayout::atlas)
+            add_atlas_changes(bone, voxels);
+        else
+            add_dense_change(voxels);
     }
     for (const std::int32_t slot : slots_shown_) place_of_slot_[static_cast<std::size_t>(slot)] = nowhere;
     slots_shown_.clear();
     return shown_;
 }
 
-void BrickPlaces::add_atlas_changes(const Bone& bone, const glm::ivec3& brick, int reach_voxels) {
-    const glm::ivec3 low = glm::max(brick - 1, 0);
-    const glm::ivec3 high = glm::min(brick + 1, bone.content().size_bricks - 1);
+void BrickPlaces::add_dense_change(VoxelBox voxels) {
+    // A quarter more texels are worth a region less, and what neighbours share is not shown twice.
+    while (!shown_.empty()) {
+        const VoxelBox& last = shown_.back().voxels;
+        const VoxelBox both = enclosing(voxels, last);
+        if (4 * both.count() > 5 * (voxels.count() + last.count())) break;
+        voxels = both;
+        shown_.pop_back();
+    }
+    shown_.push_back({voxels, voxels.first - box_.first});
+}
+
+void BrickPlaces::add_atlas_changes(const Bone& bone, const VoxelBox& changed) {
+    const glm::ivec3 end = changed.first + changed.size;
+    const glm::ivec3 low = glm::max(changed.first - tile_border_voxels, 0) / brick_edge_voxels;
+    const glm::ivec3 high =
+        glm::min((end - 1 + tile_border_voxels) / brick_edge_voxels, bone.content().size_bricks - 1);
     for (int z = low.z; z <= high.z; ++z)
         for (int y = low.y; y <= high.y; ++y)
             for (int x = low.x; x <= high.x; ++x) {
@@ -110,7 +125,7 @@ void BrickPlaces::add_atlas_changes(const Bone& bone, const glm::ivec3& brick, i
                 const std::int32_t slot = bone.slot(other);
                 if (slot == BoneContent::no_slot) continue;
                 const PlacedVoxels tile = of_brick(other, slot);
-                VoxelBox voxels = overlap(voxels_round_brick(brick, reach_voxels), tile.voxels);
+                VoxelBox voxels = overlap(changed, tile.voxels);
                 std::int32_t& place = place_of_slot_[static_cast<std::size_t>(slot)];
                 if (place == nowhere) {
                     place = static_cast<std::int32_t>(shown_.size());

@@ -43,10 +43,11 @@ class BrickPlaces {
     /// them.
     std::vector<PlacedVoxels> all(const BoneContent& content) const;
 
-    /// What shows the voxels of these bricks, and those up to `reach_voxels` (at most 14) around them:
-    /// themselves and, in an atlas, the borders that repeat them, as few regions as there are tiles. Bricks
-    /// that are not stored show nothing. Valid until the next call.
-    std::span<const PlacedVoxels> that_show(const Bone& bone, std::span<const BrickIndex> dirty,
+    /// What shows these voxels, and those up to `reach_voxels` around them: themselves and, in an atlas, the
+    /// borders that repeat them. Dense, boxes that follow each other become one where that is hardly more to
+    /// upload: neighbouring bricks do, in ascending order; never what lies far apart. In an atlas there is
+    /// one region for each tile. Bricks that are not stored show nothing. Valid until the next call.
+    std::span<const PlacedVoxels> that_show(const Bone& bone, std::span<const VoxelBox> changed,
                                             int reach_voxels = 0);
 
     /// By brick of the box, x fastest, four bytes each: the place of its tile, counted in tiles along x, y
@@ -55,7 +56,8 @@ class BrickPlaces {
 
   private:
     glm::ivec3 tile_of_slot(std::int32_t slot) const;
-    void add_atlas_changes(const Bone& bone, const glm::ivec3& brick, int reach_voxels);
+    void add_dense_change(VoxelBox voxels);
+    void add_atlas_changes(const Bone& bone, const VoxelBox& changed);
 
     BoneLayout layout_;
     VoxelBox box_;

@@ -41,7 +41,10 @@ void RaycastRenderer::draw(const BoneTextures& bone, const Camera& camera, const
     set_look_uniforms(program, look(), bone);
     program.set("depth_terms", depth_terms(camera, bone.grid().spacing_mm, size_px));
 
+    // What one sees through has no depth, that is, the background's.
+    glDepthFunc(GL_LEQUAL);
     full_screen_.draw();
+    glDepthFunc(GL_LESS);
 }
 
 }  // namespace osteomill

@@ -14,16 +14,16 @@ class SurfaceTexture {
     /// Shades all of the bone. Throws gl::NoTextureMemory where the driver has none for four bytes a voxel.
     SurfaceTexture(const Bone& bone, const LookTable& table, const BrickPlaces& places);
 
-    /// Shades again what a change of these bricks can have changed: themselves and one voxel round them.
+    /// Shades again what a change of these voxels can have changed: themselves and one voxel round them.
     /// `places` are those of the constructor.
-    void update(const Bone& bone, BrickPlaces& places, std::span<const BrickIndex> dirty);
+    void update(const Bone& bone, BrickPlaces& places, std::span<const VoxelBox> changed);
 
     const gl::Texture3D& texture() const { return texture_; }
 
   private:
     void shade(const Bone& bone, const PlacedVoxels& placed);
 
-    LookTable table_;
+    SurfaceShader shader_;
     gl::Texture3D texture_;
 };
 

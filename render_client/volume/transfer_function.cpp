@@ -2,19 +2,22 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <glm/common.hpp>
 #include <stdexcept>
 
+#include "common/scene/stiffness_relation.h"
 #include "render_client/volume/bone_colours.h"
 
 namespace osteomill {
 
 namespace {
 
-// Between trabecular (0.1) and cortical bone (1), so that the window shows which is which.
-constexpr double window_centre = 0.6;
-constexpr double window_width = 1.2;
+// From soft tissue up to enamel: spongy bone and thin walls of 300 HU are dark grey, cortical bone and
+// dentine light, enamel white.
+constexpr double window_centre_hu = 800.0;
+constexpr double window_width_hu = 2400.0;
 
 TransferFunction bone_preset() {
     TransferFunction bone{.name = "bone"};
@@ -70,22 +73,34 @@ void require_valid(const TransferFunction& function) {
     }
 }
 
-TransferFunction ct_window(double centre, double width) {
-    const double black = centre - 0.5 * width;
-    const auto point = [&](double part, double opacity) {
+TransferFunction ct_window(double centre_hu, double width_hu) {
+    const double black_hu = centre_hu - 0.5 * width_hu;
+    const StiffnessRelation relation = default_stiffness_relation();
+    const auto grey_point = [&](double hu, double part, double opacity) {
         const auto grey = static_cast<std::uint8_t>(std::lround(255.0 * part));
-        return TransferPoint{black + part * width, {grey, grey, grey}, opacity};
+        return TransferPoint{relative_stiffness(relation, hu), {grey, grey, grey}, opacity};
     };
-    // Several points, because grey levels are even on the display and colours blend in linear light. The ramp
-    // of opacity is a tenth of the window: at one code of stiffness the edge would be stairs.
-    return {.name = "ct-window",
-            .points = {point(0.25, 0.0), point(0.35, 1.0), point(0.5, 1.0), point(0.625, 1.0),
-                       point(0.75, 1.0), point(0.875, 1.0), point(1.0, 1.0)}};
+    // Many points, because grey levels are even in HU and on the display, while stiffness is a power of HU
+    // and colours blend in linear light. Opacity rises over more than one code of stiffness: else the edge of
+    // what is hidden would be stairs.
+    constexpr int points = 25;
+    constexpr double hidden_part = 0.2, opaque_part = 0.28;
+    TransferFunction window{.name = "ct-window"};
+    for (int i = 0; i < points; ++i) {
+        const double part = hidden_part + (1.0 - hidden_part) * i / (points - 1);
+        const TransferPoint point =
+            grey_point(black_hu + part * width_hu, part,
+                       std::clamp((part - hidden_part) / (opaque_part - hidden_part), 0.0, 1.0));
+        // The relation is flat where there is no bone: of points of equal stiffness the last one counts.
+        if (!window.points.empty() && point.value <= window.points.back().value) window.points.pop_back();
+        window.points.push_back(point);
+    }
+    return window;
 }
 
 std::span<const TransferFunction> transfer_presets() {
     static const std::vector<TransferFunction> presets{bone_preset(), tooth_preset(),
-                                                       ct_window(window_centre, window_width)};
+                                                       ct_window(window_centre_hu, window_width_hu)};
     return presets;
 }
 

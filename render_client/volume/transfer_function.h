@@ -50,12 +50,12 @@ glm::vec4 look_of(const TransferFunction& function, double value);
 void require_valid(const TransferFunction& function);
 
 /// "bone": all bone in its own colours. "tooth": what is softer than dentine is seen through, enamel and
-/// dentine stand in it. "ct-window": grey levels of a bone window; what is softer than the window's middle is
-/// peeled off.
+/// dentine stand in it. "ct-window": grey levels of a bone window.
 std::span<const TransferFunction> transfer_presets();
 
-/// A CT window as radiology knows it: black at centre - width / 2, white at centre + width / 2; what is
-/// darker than a quarter of the window is hidden. Both are relative stiffness; width is positive.
-TransferFunction ct_window(double centre, double width);
+/// A CT window as radiology knows it, HU: black at centre - width / 2, white at centre + width / 2; what is
+/// darker than a fifth of the window is hidden. Stiffness counts as the HU that it has by the default
+/// relation; bone has more than 0, and so must the window's upper end. Width is positive.
+TransferFunction ct_window(double centre_hu, double width_hu);
 
 }  // namespace osteomill

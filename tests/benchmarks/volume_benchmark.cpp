@@ -3,12 +3,14 @@
 // Scene: the tooth phantom, 512 x 512 x 128 voxels of 0.1 mm, held dense and as a brick atlas. Times are CPU
 // time of all threads, which is what a software rasteriser costs.
 //
-// Updates: a fresh ball is cut out of whole bone, the worst case of a carve of that size, and put back; both
-// are timed, as they upload the same bricks. Frames: 640 x 480, every pixel, of all of the bone and of the
-// crown close up.
+// Updates: a fresh ball is cut out of whole bone, the worst case of a carve of that size; putting it back is
+// not timed. A sweep, what a burr does between two frames: the same ball moves on by a tenth of its diameter
+// in a slot. Frames: 640 x 480, every pixel, of all of the bone and of the crown close up.
 #include <benchmark/benchmark.h>
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <ctime>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
@@ -33,15 +35,25 @@ std::vector<TissueColour> tooth_colours() {
     return colours;
 }
 
-BoneTextures textures_of(const Bone& bone, BoneLayout layout) {
-    return {bone, tooth_colours(), {}, {.layout = layout}};
+BoneTextures textures_of(const Bone& bone, BoneLayout layout, Shading shading = Shading::gradient) {
+    return {bone, tooth_colours(), {.shading = shading}, {.layout = layout}};
 }
 
 const char* name_of(BoneLayout layout) {
     return layout == BoneLayout::dense ? "dense" : "atlas";
 }
 
-/// Empties the voxels within the ball; returns the bricks that it touched.
+const char* name_of(Shading shading) {
+    return shading == Shading::gradient ? "gradient" : "surface-voxels";
+}
+
+double cpu_now_s() {
+    std::timespec time{};
+    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
+    return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+}
+
+/// Lowers each voxel to what lies outside the ball; returns the bricks that it touched.
 std::vector<BrickIndex> cut_ball(Bone& bone, const glm::dvec3& centre_mm, double radius_mm) {
     std::vector<BrickIndex> touched;
     const BoneContent& content = bone.content();
@@ -52,8 +64,11 @@ std::vector<BrickIndex> cut_ball(Bone& bone, const glm::dvec3& centre_mm, double
         const auto fractions = bone.fractions(static_cast<std::int32_t>(slot));
         for (std::size_t offset = 0; offset < brick_voxel_count; ++offset) {
             const glm::dvec3 place_mm = centre_of_voxel_mm(bone.grid(), first + voxel_in_brick(offset));
-            if (glm::distance(place_mm, centre_mm) > radius_mm || fractions[offset] == 0) continue;
-            fractions[offset] = 0;
+            const double outside_voxels =
+                (glm::distance(place_mm, centre_mm) - radius_mm) / bone.grid().spacing_mm;
+            const auto left = static_cast<std::uint8_t>(255.0 * std::clamp(0.5 + outside_voxels, 0.0, 1.0));
+            if (left >= fractions[offset]) continue;
+            fractions[offset] = left;
             touches = true;
         }
         if (touches) touched.push_back(content.brick_of_slot[slot]);
@@ -66,20 +81,41 @@ glm::dvec3 middle_mm(const Grid& grid, const VoxelBox& box) {
     return 0.5 * (centre_of_voxel_mm(grid, box.first) + centre_of_voxel_mm(grid, box.first + box.size - 1));
 }
 
+/// Uploads `after` in place of `before` again and again.
+void time_update(benchmark::State& state, BoneTextures& textures, const Bone& before, const Bone& after,
+                 std::span<const BrickIndex> dirty) {
+    for ([[maybe_unused]] auto _ : state) {
+        const double start_s = cpu_now_s();
+        textures.update(after, dirty);
+        glFinish();
+        state.SetIterationTime(cpu_now_s() - start_s);
+        textures.update(before, dirty);
+        glFinish();
+    }
+    state.counters["bricks"] = static_cast<double>(dirty.size());
+}
+
 /// Argument: burr diameter in tenths of a millimetre.
-void update_after_carve(benchmark::State& state, BoneLayout layout) {
+void update_after_carve(benchmark::State& state, BoneLayout layout, Shading shading) {
     const Bone& whole = tooth();
     Bone carved = whole;
-    BoneTextures textures = textures_of(whole, layout);
+    BoneTextures textures = textures_of(whole, layout, shading);
     const auto dirty = cut_ball(carved, middle_mm(textures.grid(), textures.box()),
                                 0.05 * static_cast<double>(state.range(0)));
-    bool is_carved = false;
-    for ([[maybe_unused]] auto _ : state) {
-        textures.update(is_carved ? whole : carved, dirty);
-        is_carved = !is_carved;
-    }
-    glFinish();
-    state.counters["bricks"] = static_cast<double>(dirty.size());
+    time_update(state, textures, whole, carved, dirty);
+}
+
+/// Likewise.
+void update_in_a_sweep(benchmark::State& state, BoneLayout layout, Shading shading) {
+    const double radius_mm = 0.05 * static_cast<double>(state.range(0));
+    Bone before = tooth();
+    const VoxelBox box = stored_box(before.content());
+    const glm::dvec3 middle = middle_mm(before.grid(), box);
+    cut_ball(before, middle, radius_mm);
+    Bone after = before;
+    const auto dirty = cut_ball(after, middle + glm::dvec3(0.2 * radius_mm, 0.0, 0.0), radius_mm);
+    BoneTextures textures = textures_of(before, layout, shading);
+    time_update(state, textures, before, after, dirty);
 }
 
 /// Argument: which view, 0 of all of the bone, 1 of the crown.
@@ -106,15 +142,24 @@ void draw_frame(benchmark::State& state, BoneLayout layout, const RaycastSetting
 
 void register_benchmarks() {
     for (const BoneLayout layout : {BoneLayout::dense, BoneLayout::atlas}) {
-        benchmark::RegisterBenchmark(fmt::format("update/{}", name_of(layout)).c_str(),
-                                     [layout](benchmark::State& state) { update_after_carve(state, layout); })
-            ->ArgName("burr_tenths_mm")
-            ->Arg(10)
-            ->Arg(20)
-            ->Arg(30)
-            ->Arg(50)
-            ->MeasureProcessCPUTime()
-            ->Unit(benchmark::kMillisecond);
+        for (const Shading shading : {Shading::gradient, Shading::surface_voxels}) {
+            const auto name = [&](const char* what) {
+                return fmt::format("{}/{}/{}", what, name_of(layout), name_of(shading));
+            };
+            const auto add = [&](const std::string& named, const auto& updates) {
+                benchmark::RegisterBenchmark(
+                    named.c_str(), [=](benchmark::State& state) { updates(state, layout, shading); })
+                    ->ArgName("burr_tenths_mm")
+                    ->Arg(10)
+                    ->Arg(20)
+                    ->Arg(30)
+                    ->Arg(50)
+                    ->UseManualTime()
+                    ->Unit(benchmark::kMillisecond);
+            };
+            add(name("update"), update_after_carve);
+            add(name("sweep"), update_in_a_sweep);
+        }
         for (const float step : {0.5f, 0.75f, 1.0f, 2.0f})
             benchmark::RegisterBenchmark(
                 fmt::format("frame/{}/step {}", name_of(layout), step).c_str(),

@@ -90,7 +90,7 @@ class ReferenceRays {
                                         : volume_.eight_corner_gradient_at(point);
         const double steepness = glm::length(gradient);
         const glm::dvec3 normal = steepness > 1e-5 ? -gradient / steepness : -direction;
-        const glm::dvec3 colour(volume_.smooth_look_at(point - normal));
+        const glm::dvec3 colour(volume_.look_under(point, normal));
         return display(lit(colour, normal, volume_.openness_at(point, normal)));
     }
 

@@ -55,7 +55,7 @@ ReferenceVolume::ReferenceVolume(const Bone& whole, std::span<const TissueColour
     const EmptySpace blocks(bone, box_);
     mean_size_ = blocks.size_blocks();
     mean_fraction_ = blocks.mean_fraction();
-    if (look.shading == Shading::surface_voxels) surface_ = shade_surface_voxels(bone, table_, box_);
+    if (look.shading == Shading::surface_voxels) surface_ = SurfaceShader(table_).shade(bone, box_);
 }
 
 bool ReferenceVolume::contains(const glm::ivec3& voxel) const {
@@ -159,6 +159,12 @@ glm::dvec4 ReferenceVolume::smooth_look_at(const glm::dvec3& point) const {
         known += weight;
     }
     return known > 0.0 ? sum / known : unknown;
+}
+
+glm::dvec4 ReferenceVolume::look_under(const glm::dvec3& point, const glm::dvec3& normal) const {
+    const double deepest = colour_depth_voxels(table_);
+    const double bone_there = fraction_at(point - deepest * normal);
+    return smooth_look_at(point - glm::mix(1.0, deepest, bone_there) * normal);
 }
 
 glm::dvec4 ReferenceVolume::surface_colour_at(const glm::dvec3& point) const {

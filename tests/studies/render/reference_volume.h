@@ -44,6 +44,7 @@ class ReferenceVolume {
     glm::dvec4 look_at(const glm::dvec3& point) const;
     /// Likewise of the 27 nearest, by the quadratic B-spline.
     glm::dvec4 smooth_look_at(const glm::dvec3& point) const;
+    glm::dvec4 look_under(const glm::dvec3& point, const glm::dvec3& normal) const;
     /// Display RGB times alpha, and alpha, of surface voxels.
     glm::dvec4 surface_colour_at(const glm::dvec3& point) const;
     /// How much of the sky above a surface is free of bone, as the shaders estimate it.

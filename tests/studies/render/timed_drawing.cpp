@@ -33,8 +33,14 @@ double wall_now_ms() {
 }  // namespace
 
 Cost median_cost(const std::function<void()>& work, int times) {
+    return median_cost([] {}, work, times);
+}
+
+Cost median_cost(const std::function<void()>& prepare, const std::function<void()>& work, int times) {
     std::vector<double> wall_ms, cpu_ms;
     for (int time = 0; time <= times; ++time) {
+        prepare();
+        glFinish();
         const double wall_before = wall_now_ms(), cpu_before = cpu_now_ms();
         work();
         glFinish();

@@ -19,6 +19,8 @@ struct Cost {
 /// does now and then, the mean what else runs on the machine). With `times` 0 the first time is what
 /// counts: for what takes seconds. Needs a current context.
 Cost median_cost(const std::function<void()>& work, int times);
+/// Likewise, of work that has to be prepared each time; preparing is not measured.
+Cost median_cost(const std::function<void()>& prepare, const std::function<void()>& work, int times);
 
 struct TimedPicture {
     Picture picture;

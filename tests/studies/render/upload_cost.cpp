@@ -8,7 +8,7 @@ std::vector<UploadRow> measure_uploads(const TrialBone& trial, bool quick, const
     const std::vector<double> diameters_mm =
         quick ? std::vector{1.0, 3.0, 5.0} : std::vector{0.5, 1.0, 1.5, 2.0, 3.0, 4.0, 5.0, 6.0, 8.0};
     const int times = quick ? 5 : 25;
-    // A second upload of the same bricks costs what the first does: neither looks at what was there.
+    // Bone that comes back is not what is measured, but without it there would be nothing new to upload.
     BoneTextures by_gradient(trial.bone, trial.tissues);
     BoneTextures by_voxels(trial.bone, trial.tissues, {.shading = Shading::surface_voxels});
     std::vector<UploadRow> rows;
@@ -16,7 +16,8 @@ std::vector<UploadRow> measure_uploads(const TrialBone& trial, bool quick, const
         TrialBone carved = trial;
         const auto bricks = carve_in_view(carved, diameter_mm);
         const auto cost = [&](BoneTextures& textures) {
-            return median_cost([&] { textures.update(carved.bone, bricks); }, times);
+            return median_cost([&] { textures.update(trial.bone, bricks); },
+                               [&] { textures.update(carved.bone, bricks); }, times);
         };
         rows.push_back({.diameter_mm = diameter_mm,
                         .bricks = bricks.size(),

@@ -5,6 +5,7 @@
 
 #include "render_client/volume/pixel_box.h"
 #include "render_client/volume/raycast_renderer.h"
+#include "render_client/volume/renderer_choice.h"
 #include "tests/unit/volume/made_bone.h"
 #include "tests/unit/volume/offscreen_test.h"
 
@@ -116,6 +117,32 @@ TEST_F(ScenePictureTest, RedrawsACoarserCopyAndAnAtlasAsExactly) {
     }
 }
 
+TEST_F(ScenePictureTest, RedrawsSlicesAndSurfaceVoxelsAsExactly) {
+    for (const RendererChoice choice : {RendererChoice::raycast, RendererChoice::slices})
+        for (const Shading shading : {Shading::gradient, Shading::surface_voxels}) {
+            if (choice == RendererChoice::raycast && shading == Shading::gradient) continue;  // see above
+            Bone bone = hills();
+            BoneTextures textures(bone, {}, {.shading = shading});
+            const auto renderer = make_renderer(choice);
+            ScenePicture kept(*renderer, size_px);
+            const Camera camera = camera_on({0.0, 0.0, 0.0}, 5.0);
+            kept.draw(&textures, nullptr, camera);
+            for (int carve = 0; carve < 3; ++carve) {
+                const auto dirty = carve_sphere(bone, {-2.0 + carve, 1.3 - carve, 1.4}, 0.6);
+                textures.update(bone, dirty);
+                kept.mark_dirty(textures, dirty);
+                const BoneTextures uploaded(bone, {}, {.shading = shading});
+                ScenePicture fresh(*renderer, size_px);
+                const Picture redrawn = kept.draw(&textures, nullptr, camera).read_back();
+                EXPECT_EQ(redrawn, fresh.draw(&textures, nullptr, camera).read_back())
+                    << static_cast<int>(choice) << ", carve " << carve;
+                ScenePicture again(*renderer, size_px);
+                EXPECT_EQ(redrawn, again.draw(&uploaded, nullptr, camera).read_back())
+                    << "textures made anew, carve " << carve;
+            }
+        }
+}
+
 TEST_F(ScenePictureTest, DrawsSeparateCarvesAndNotWhatLiesBetween) {
     const Grid long_grid{.size_voxels = {480, 32, 32}, .origin_mm = {-23.95, -1.55, -1.55}};
     Bone bone = made_bone(long_grid, [](const glm::dvec3& p) { return -p.z; });
@@ -162,6 +189,19 @@ TEST_F(ScenePictureTest, RestoresWhatToolAndOverlayCovered) {
         glClear(GL_COLOR_BUFFER_BIT);
         glDisable(GL_SCISSOR_TEST);
         kept.cover(std::array{box});
+    }
+}
+
+TEST_F(ScenePictureTest, ShowsHazeWithNothingSolidInIt) {
+    const BoneLook haze{.transfer = TransferFunction{.name = "haze",
+                                                     .mode = TransferMode::translucent,
+                                                     .points = {{1.0, {255, 255, 255}, 0.3}}}};
+    const BoneTextures textures(ball(), {}, haze);
+    for (const RendererChoice choice : {RendererChoice::raycast, RendererChoice::slices}) {
+        const auto renderer = make_renderer(choice);
+        ScenePicture picture(*renderer, size_px);
+        const Picture drawn = picture.draw(&textures, nullptr, camera_on({0.0, 0.0, 0.0}, 6.0)).read_back();
+        EXPECT_GT(drawn.at(120, 90)[0], drawn.at(2, 90)[0] + 40) << static_cast<int>(choice);
     }
 }
 

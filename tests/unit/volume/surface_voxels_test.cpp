@@ -3,6 +3,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "render_client/volume/changed_voxels.h"
 #include "render_client/volume/lighting.h"
 #include "render_client/volume/surface_texture.h"
 #include "tests/unit/volume/made_bone.h"
@@ -37,7 +38,7 @@ bool is_on_surface(const Bone& bone, const glm::ivec3& voxel) {
 
 TEST(SurfaceVoxels, AreThoseInsideWithANeighbourOutside) {
     const Bone bone = ball();
-    const auto texels = shade_surface_voxels(bone, look_table(bone.content(), {}, {}), whole());
+    const auto texels = SurfaceShader(look_table(bone.content(), {}, {})).shade(bone, whole());
     int surface = 0;
     for (int z = 0; z < 48; ++z)
         for (int y = 0; y < 48; ++y)
@@ -55,7 +56,7 @@ TEST(SurfaceVoxels, AreThoseInsideWithANeighbourOutside) {
 TEST(SurfaceVoxels, AreLitByTheNormalOfTheBall) {
     const Bone bone = ball();
     const LookTable table = look_table(bone.content(), {}, {});
-    const auto texels = shade_surface_voxels(bone, table, whole());
+    const auto texels = SurfaceShader(table).shade(bone, whole());
     double sum = 0.0;
     int count = 0;
     for (int z = 0; z < 48; ++z)
@@ -73,6 +74,58 @@ TEST(SurfaceVoxels, AreLitByTheNormalOfTheBall) {
     EXPECT_LT(sum / count, 0.04);
 }
 
+/// The definition in double precision; alpha 0 where it is no surface voxel.
+glm::dvec4 defined_texel(const Bone& bone, const LookTable& table, const glm::ivec3& voxel) {
+    if (!is_on_surface(bone, voxel)) return glm::dvec4(0.0);
+    glm::dvec3 outward(0.0);
+    const int own = bone.fraction_at(voxel);
+    for (int i = 0; i < 27; ++i) {
+        const glm::ivec3 step = glm::ivec3(i % 3, i / 3 % 3, i / 9) - 1;
+        const int other = bone.fraction_at(voxel + step);
+        if (other >= 128) continue;
+        const double distance = glm::length(glm::dvec3(step));
+        outward += (own - other) / distance * (glm::dvec3(step) / distance);
+    }
+    const glm::dvec3 normal = glm::length(outward) > 1e-9 ? glm::normalize(outward) : glm::dvec3(0, 0, 1);
+    const glm::dvec3 colour(table.by_code[bone.tissue_at(voxel)]);
+    return {255.0 * display(lit(colour, normal, 1.0)), 255.0};
+}
+
+TEST(SurfaceVoxels, HaveTheColourOfTheirDefinitionInRowsOfAnyLength) {
+    // Fractions and labels without any order, in rows of more voxels than a word has bits.
+    const Grid rows{.size_voxels = {144, 16, 16}};
+    Bone bone = made_bone(
+        rows, [](const glm::dvec3&) { return 1.0; },
+        [](const glm::dvec3& p) { return static_cast<std::uint8_t>(p.y > 0.7 ? 1 : 2); });
+    std::uint32_t state = 1;
+    for (std::size_t slot = 0; slot < bone.stored_bricks(); ++slot)
+        for (std::uint8_t& fraction : bone.fractions(static_cast<std::int32_t>(slot))) {
+            state = 1664525U * state + 1013904223U;  // Knuth's generator
+            fraction = static_cast<std::uint8_t>(state >> 28U < 2U ? state >> 20U : 255U);
+        }
+    const std::vector<TissueColour> tissues{{1, {200, 120, 80}}, {2, {90, 160, 240}}};
+    const LookTable table = look_table(bone.content(), tissues, {});
+    const VoxelBox box{{-1, 0, 2}, {146, 16, 15}};
+    const auto texels = SurfaceShader(table).shade(bone, box);
+    ASSERT_EQ(texels.size(), box.count());
+    double sum = 0.0;
+    int count = 0;
+    for (std::size_t i = 0; i < texels.size(); ++i) {
+        const auto n = static_cast<int>(i);
+        const glm::ivec3 voxel = box.first + glm::ivec3(n % 146, n / 146 % 16, n / (146 * 16));
+        const glm::dvec4 expected = defined_texel(bone, table, voxel);
+        ASSERT_EQ(texels[i].a, expected.a) << voxel.x << ' ' << voxel.y << ' ' << voxel.z;
+        ASSERT_NEAR(texels[i].r, expected.r, 8.0);
+        ASSERT_NEAR(texels[i].g, expected.g, 8.0);
+        ASSERT_NEAR(texels[i].b, expected.b, 8.0);
+        sum += std::abs(texels[i].g - expected.g);
+        count += expected.a > 0.0 ? 1 : 0;
+    }
+    // Directions are looked up: a degree matters where the key light begins, and hardly elsewhere.
+    ASSERT_GT(count, 10000);
+    EXPECT_LT(sum / count, 0.7);
+}
+
 TEST_F(SurfaceTextureTest, IsShadedAgainOnlyRoundTheChangeAndEqualsAFreshOne) {
     for (const BoneLayout layout : {BoneLayout::dense, BoneLayout::atlas}) {
         Bone bone = ball();
@@ -80,7 +133,8 @@ TEST_F(SurfaceTextureTest, IsShadedAgainOnlyRoundTheChangeAndEqualsAFreshOne) {
         BrickPlaces places(bone.content(), layout, gl::max_texture3d_edge());
         SurfaceTexture updated(bone, table, places);
         // At the corner of bricks, so that neighbours' voxels become surface, too.
-        updated.update(bone, places, carve_sphere(bone, {0.75, 0.75, 1.2}, 0.8));
+        ChangedVoxels changed(bone);
+        updated.update(bone, places, changed.since_last(bone, carve_sphere(bone, {0.75, 0.75, 1.2}, 0.8)));
         const SurfaceTexture fresh(bone, table, places);
         const auto texels = [&](const SurfaceTexture& surface) {
             std::vector<std::uint8_t> bytes(4 * VoxelBox{{}, places.texture_size()}.count());

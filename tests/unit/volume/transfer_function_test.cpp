@@ -5,6 +5,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "common/scene/stiffness_relation.h"
 #include "render_client/volume/bone_colours.h"
 
 namespace osteomill {
@@ -48,7 +49,8 @@ TEST(TransferPresets, AreValidAndDifferInWhatTheyHide) {
     EXPECT_EQ(look_of(bone, trabecular).a, 1.0f);
     EXPECT_LT(look_of(tooth, trabecular).a, 0.2f);
     EXPECT_GT(look_of(tooth, enamel).a, 0.9f);
-    EXPECT_EQ(look_of(window, trabecular).a, 0.0f);
+    EXPECT_EQ(look_of(window, trabecular).a, 1.0f);
+    EXPECT_LT(look_of(window, trabecular).r, 0.2f);
     EXPECT_EQ(look_of(window, enamel), glm::vec4(1.0f));
 }
 
@@ -61,11 +63,15 @@ TEST(TransferPresets, ShowBoneInTheColoursOfItsStiffness) {
 }
 
 TEST(CtWindow, IsBlackBelowAndWhiteAbove) {
-    const TransferFunction window = ct_window(1.0, 1.0);
+    const TransferFunction window = ct_window(1000.0, 1000.0);
     EXPECT_NO_THROW(require_valid(window));
-    EXPECT_NEAR(look_of(window, 1.5).r, 1.0f, 1e-6);
-    EXPECT_LT(look_of(window, 0.75).r, 0.1f);
-    EXPECT_EQ(look_of(window, 0.7).a, 0.0f);
+    const auto at_hu = [&](double hu) {
+        return look_of(window, relative_stiffness(default_stiffness_relation(), hu));
+    };
+    EXPECT_NEAR(at_hu(1500.0).r, 1.0f, 1e-6);
+    EXPECT_NEAR(at_hu(1000.0).r, linear_from_srgb({128, 128, 128}).r, 0.01);
+    EXPECT_LT(at_hu(800.0).r, 0.1f);
+    EXPECT_EQ(at_hu(700.0).a, 0.0f);
 }
 
 }  // namespace

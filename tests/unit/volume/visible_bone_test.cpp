@@ -56,7 +56,7 @@ TEST(VisibleBone, KeepsTheSoftRimOfHardBoneAcrossBricks) {
                 builder.add_brick({x, y, z}, fraction, &stiffness, nullptr);
             }
     const Bone bone = std::move(builder).build();
-    const BoneLook hard{.transfer = ct_window(1.5, 1.0)};
+    const BoneLook hard{.transfer = ct_window(1600.0, 1500.0)};
     const VisibleBone visible(bone, look_table(bone.content(), {}, hard));
     EXPECT_EQ(visible.bone().fraction_at({5, 5, 15}), 255);
     EXPECT_EQ(visible.bone().fraction_at({5, 5, 16}), 255) << "beside hard bone";
