@@ -6,6 +6,7 @@
 
 #include "common/bone/finite.h"
 #include "common/scene/device_mapping.h"
+#include "haptic_server/loop/clearance.h"
 
 namespace osteomill {
 
@@ -36,11 +37,13 @@ void HapticLoop::tick(double now_s, std::uint64_t missed_periods) noexcept {
     parts_.results.refresh();
     const MillingResult& latest = parts_.results.front();
 
+    const glm::dvec3 reading_mm = position_in_patient_mm(options_.mapping, device.position_mm);
     safety_.observe({.now_s = now_s,
                      .device = device,
                      .model_step = latest.step,
                      .model_valid = latest.valid,
-                     .missed_periods = missed_periods});
+                     .missed_periods = missed_periods,
+                     .clearance = clearance_of(latest, reading_mm)});
 
     HandState hand{.now_s = now_s, .tick_s = elapsed_s, .pose = hand_pose_, .burr = burr_};
     if (safety_.has_hand()) hand = hand_state(now_s, elapsed_s, device);
@@ -72,8 +75,8 @@ void HapticLoop::tick(double now_s, std::uint64_t missed_periods) noexcept {
                                 .force_n = force_n,
                                 .removed_mm3 = latest.total_removed_mm3,
                                 .touches_protected = now_s < protected_until_s_,
-                                 .fault = safety_.fault(),
-                                 .depth_mm = depth_mm(in_contact)};
+                                .fault = safety_.fault(),
+                                .depth_mm = depth_mm(in_contact)};
     publish({.pose = burr_pose_, .spindle_on = spindle_on, .burr = burr_, .elapsed_s = elapsed_s}, snapshot);
     log(snapshot);
 }

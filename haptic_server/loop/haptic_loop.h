@@ -5,11 +5,11 @@
 //                  |            ^    |                v
 //                  |          force  +--force--> device
 //                  |            |
-//                  +--pose--> coupling --burr pose--> milling loop (spindle off unless the monitor lets it
-//                  turn)
+//                  +--pose--> coupling --burr pose--> milling loop
 //
-// While a fault lasts the tool is out of the bone: no spindle, no force, and the coupling starts afresh from
-// the hand when the force comes back. What makes a fault, and what follows, is safety_monitor.h's.
+// While a fault lasts the tool is out of the bone: no spindle, no force. The milling loop only looks at the
+// bone where the hand is, and the coupling starts afresh from the hand when the force comes back, which is
+// not before the burr is clear of bone there. What makes a fault, and what follows, is safety_monitor.h's.
 #pragma once
 
 #include <array>

@@ -3,7 +3,9 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
+#include <vector>
 
 namespace osteomill {
 
@@ -18,11 +20,20 @@ class Histogram {
     /// that is reached, never above the maximum. 0 where nothing was added.
     double quantile_s(double share) const;
 
+    struct Bucket {
+        double up_to_s = 0.0;  ///< upper edge; of the last, the maximum
+        std::uint64_t count = 0;
+    };
+    /// Those that are not empty, ascending.
+    std::vector<Bucket> filled() const;
+
     static constexpr double smallest_s = 1e-8;
     static constexpr int buckets_per_octave = 24;
     static constexpr int octaves = 34;
 
   private:
+    double upper_edge_s(std::size_t bucket) const;
+
     std::array<std::uint64_t, buckets_per_octave * octaves> buckets_{};
     std::uint64_t count_ = 0;
     double max_s_ = 0.0;

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <latch>
+#include <optional>
 #include <stdexcept>
 #include <thread>
 #include <utility>
@@ -122,12 +124,18 @@ void MillingSession::run_in_threads(const std::atomic<bool>& stop,
                                     const std::function<void(const ToolSnapshot&)>& on_progress) {
     std::atomic<bool> is_over{false};
     is_memory_locked_ = lock_memory();
-    RealClock clock;
+    // With memory locked a thread's whole stack is brought in before it starts, which takes milliseconds: the
+    // session begins when both threads are there, or its first ticks would be late.
+    std::latch prepared(2);
+    std::latch begun(1);
+    std::optional<RealClock> clock;
     std::thread haptic([&] {
         prepare_thread(options_.haptic_cpu);
         PageFaultCount faults;
         has_real_time_priority_.store(ask_for_real_time(haptic_priority));
-        run_periodically(clock, tick_s, 0.0, is_over, haptic_statistics_,
+        prepared.count_down();
+        begun.wait();
+        run_periodically(*clock, tick_s, 0.0, is_over, haptic_statistics_,
                          [&](double time_s, std::uint64_t missed) {
                              haptic_loop_.tick(time_s, missed);
                              now_s_.store(time_s, std::memory_order_relaxed);
@@ -141,8 +149,10 @@ void MillingSession::run_in_threads(const std::atomic<bool>& stop,
         prepare_thread(options_.milling_cpu);
         PageFaultCount faults;
         ask_for_real_time(milling_priority);
+        prepared.count_down();
+        begun.wait();
         // Half a tick after the haptic loop: it finds a fresh command and is done before the next tick.
-        run_periodically(clock, period_s, 0.5 * tick_s, is_over, milling_statistics_,
+        run_periodically(*clock, period_s, 0.5 * tick_s, is_over, milling_statistics_,
                          [&](double time_s, std::uint64_t missed) {
                              milling_loop_.step(time_s, period_s * static_cast<double>(1 + missed));
                              faults.tick();
@@ -151,9 +161,13 @@ void MillingSession::run_in_threads(const std::atomic<bool>& stop,
         milling_page_faults_ = faults.since_settled();
     });
 
-    while (!stop.load(std::memory_order_relaxed) && clock.now_s() < options_.duration_s) {
+    prepared.wait();
+    clock.emplace();
+    begun.count_down();
+
+    while (!stop.load(std::memory_order_relaxed) && clock->now_s() < options_.duration_s) {
         do_chores(on_progress);
-        clock.sleep_until(std::min(clock.now_s() + chore_period_s, options_.duration_s));
+        clock->sleep_until(std::min(clock->now_s() + chore_period_s, options_.duration_s));
     }
     is_over.store(true, std::memory_order_relaxed);
     haptic.join();

@@ -12,6 +12,7 @@ namespace osteomill {
 struct PeriodicStatistics {
     std::uint64_t ticks = 0;   ///< that were run
     std::uint64_t missed = 0;  ///< deadlines that had passed when the next tick's wake-up came
+    std::uint64_t late = 0;    ///< ticks whose work was done a period or more after their deadline
     Histogram wakeup_latency;  ///< from the deadline to the start of the work
     Histogram duration;        ///< of the work
 };
@@ -28,6 +29,7 @@ void run_periodically(Clock& clock, double period_s, double first_s, const std::
         clock.sleep_until(deadline_s);
         const double woke_s = clock.now_s();
         statistics.wakeup_latency.add(woke_s - deadline_s);
+        const double late_from_s = deadline_s + period_s;
 
         std::uint64_t missed = 0;
         if (woke_s - deadline_s >= period_s) {
@@ -38,7 +40,9 @@ void run_periodically(Clock& clock, double period_s, double first_s, const std::
         statistics.missed += missed;
         ++statistics.ticks;
         const bool go_on = work(deadline_s, missed);
-        statistics.duration.add(clock.now_s() - woke_s);
+        const double done_s = clock.now_s();
+        statistics.duration.add(done_s - woke_s);
+        if (done_s >= late_from_s) ++statistics.late;
         if (!go_on) return;
     }
 }

@@ -35,7 +35,9 @@ struct MillingResult {
     double total_removed_mm3 = 0.0;  ///< since the start
     bool touches_protected = false;  ///< the step removed protected tissue
     bool valid = true;               ///< false: the command was refused (not finite), force is zero
-    Engagement engagement;           ///< the bone around the burr after the step
+    /// Only of models without an engagement, with the spindle off: bone lies inside the burr.
+    bool has_bone_inside = false;
+    Engagement engagement;  ///< the bone around the burr after the step
 };
 
 }  // namespace osteomill

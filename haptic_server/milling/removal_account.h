@@ -31,6 +31,7 @@ class RemovalAccount {
         result.removed_mm3 = 0.0;
         result.total_removed_mm3 = total_removed_mm3_;
         result.touches_protected = false;
+        result.has_bone_inside = false;
         result.engagement.count = 0;
     }
 

@@ -20,6 +20,16 @@ nlohmann::ordered_json percentiles_us(const Histogram& histogram) {
             {"max", us_per_s * histogram.max_s()}};
 }
 
+/// What the percentiles were taken from: pairs of a duration in microseconds and how many lasted as long, or
+/// less and longer than those of the pair before.
+nlohmann::ordered_json histogram_us(const Histogram& histogram) {
+    constexpr double us_per_s = 1e6;
+    nlohmann::ordered_json json = nlohmann::ordered_json::array();
+    for (const Histogram::Bucket& bucket : histogram.filled())
+        json.push_back({us_per_s * bucket.up_to_s, bucket.count});
+    return json;
+}
+
 nlohmann::ordered_json removed_by_name(const RemovedByTissue& removed_mm3, const Scene& scene) {
     nlohmann::ordered_json json;
     json["total"] = std::accumulate(removed_mm3.begin(), removed_mm3.end(), 0.0);
@@ -61,6 +71,7 @@ nlohmann::ordered_json measurements(const MillingSessionReport& report, const Bo
     json["memory_locked"] = report.memory_locked;
     json["page_faults"] = {{"haptic", report.haptic_page_faults}, {"milling", report.milling_page_faults}};
     json["missed_deadlines"] = report.haptic.missed;
+    json["late_ticks"] = report.haptic.late;
     json["wakeup_latency_us"] = percentiles_us(report.haptic.wakeup_latency);
     json["haptic_tick_us"] = percentiles_us(report.haptic.duration);
     json["milling_steps"] = report.milling.ticks;
@@ -72,6 +83,9 @@ nlohmann::ordered_json measurements(const MillingSessionReport& report, const Bo
     json["edit_overflows"] = report.edit_overflows;
     json["bone"] = cost(bone, peak_resident_bytes);
     json["bone_checksum"] = fmt::format("{:016x}", report.bone_checksum);
+    json["histograms_us"] = {{"wakeup_latency", histogram_us(report.haptic.wakeup_latency)},
+                             {"haptic_tick", histogram_us(report.haptic.duration)},
+                             {"milling_step", histogram_us(report.milling.duration)}};
     return json;
 }
 

@@ -16,6 +16,8 @@ const char* describe(Fault fault) {
             return "the haptic loop misses its deadlines: force off";
         case Fault::device_jumped:
             return "the device jumped: force off";
+        case Fault::in_bone:
+            return "the burr came back inside the bone: no force until it is held clear of it";
     }
     return "unknown fault: force off";
 }

@@ -6,10 +6,18 @@
 
 namespace osteomill {
 
-enum class Fault : std::uint8_t { none, device_lost, model_stalled, not_a_number, overrun, device_jumped };
+enum class Fault : std::uint8_t {
+    none,
+    device_lost,
+    model_stalled,
+    not_a_number,
+    overrun,
+    device_jumped,
+    in_bone
+};
 
 inline constexpr std::array all_faults{Fault::device_lost, Fault::model_stalled, Fault::not_a_number,
-                                       Fault::overrun, Fault::device_jumped};
+                                       Fault::overrun,     Fault::device_jumped, Fault::in_bone};
 
 /// One line for people; empty for Fault::none.
 const char* describe(Fault fault);

@@ -1,21 +1,30 @@
 // The one place that decides whether the hand may feel a force and the burr may turn. It looks (watchdog.h),
-// limits and fades the force (force_guard.h), and keeps the spindle off where the tool may have come back in
-// the middle of the bone. Nothing reaches the device but through it.
+// limits and fades the force (force_guard.h), keeps the force off while the tool has come back inside the
+// bone, and the spindle off where nobody can have meant the bone that it is in. Nothing reaches the device
+// but through it.
 //
 // Two machines, stepped together once a tick. The force:
 //
 //             fault                faded out              no fault for settle_s
 //   active ----------> fading out -----------> off --------------------------> fading in
 //     ^                    ^                    | ^ (stays off while a fault       |  |
-//     |                    |                    +-+  lasts)                        |  |
+//     |                    |                    +-+  lasts, or bone in the burr)   |  |
 //     |                    +----------------------- fault -------------------------+  |
 //     +------------------------------- faded in --------------------------------------+
 //
-//   state       the hand feels                                          the tool
-//   active      the wanted force, within limit and rate                 touches bone
-//   fading out  the last force, shrinking to nothing in fade_out_s      is out of the bone: no spindle, no
-//   wall off         nothing                                                 is out of the bone fading in the
-//   wanted force times a gain that grows from 0 to 1    touches bone
+//   state        the hand feels                              the tool
+//   active       the wanted force, within limit and rate     touches bone
+//   fading out   the last force, shrinking to nothing        is out of the bone: no spindle, no wall
+//   off          nothing                                     is out of the bone
+//   fading in    the wanted force, a gain from 0 to 1        touches bone
+//
+// Back inside the bone. Without a force, nothing keeps the hand from sinking into the bone. Were the tool to
+// take hold again there, no wall would be right: a proxy that starts inside is held by bone on all sides, and
+// pulls the hand back in when it leaves; the nearest way out may be the wrong side of a thin wall, and a hand
+// thrown out over millimetres is as bad as one pulled in. So `off` lasts until the burr, at the hand's place,
+// has been known to be clear of bone (clearance.h) for settle_s; Fault::in_bone says so until then. The hand
+// lifts it out and feels nothing, nothing is cut, and the force fades in where every wall is in front of the
+// burr. Where the hand moves too fast to know, `off` lasts, too, for the fault that there was.
 //
 // The spindle:
 //
@@ -28,8 +37,8 @@
 //   locked      stays off, however the pedal is: whoever pressed it then did not mean the bone it is in now
 //
 // From no state does a fault lead to a force: in the tick of a fault and in all that follow until settle_s
-// have passed without one, the force only shrinks, and within fade_out_s it is zero. safety_monitor_test.cpp
-// visits every state that can be reached, with every fault in each.
+// have passed without one and clear of bone, the force only shrinks, and within fade_out_s it is zero.
+// safety_monitor_test.cpp visits every state that can be reached, with every fault in each, in bone and out.
 #pragma once
 
 #include <array>
@@ -49,11 +58,13 @@ class SafetyMonitor {
     SafetyMonitor(double tick_s, double max_force_n) : watchdog_(tick_s), guard_(max_force_n) {}
 
     /// Begins a tick: looks for faults. Real-time safe, like all here.
-    void observe(const Observation& seen) noexcept { begin(watchdog_.check(seen), seen.device.pedal); }
+    void observe(const Observation& seen) noexcept {
+        begin(watchdog_.check(seen), seen.device.pedal, seen.clearance);
+    }
 
     /// Begins a tick with what was found, for whoever looks otherwise. `pedal` counts only of a device that
-    /// is there.
-    void begin(Fault found, bool pedal) noexcept;
+    /// is there, `clearance` while the force is off.
+    void begin(Fault found, bool pedal, Clearance clearance) noexcept;
 
     /// Whether what the device reads can be used in this tick.
     bool has_hand() const { return found_ != Fault::device_lost; }
@@ -83,7 +94,8 @@ class SafetyMonitor {
   private:
     Watchdog watchdog_;
     ForceGuard guard_;
-    Fault found_ = Fault::none;  // in this tick
+    Fault found_ = Fault::none;      // in this tick
+    Fault keeps_off_ = Fault::none;  // the same, and what else keeps an `off` force off
     bool pedal_ = false;
     bool is_spindle_locked_ = false;
     bool was_engaged_ = true;

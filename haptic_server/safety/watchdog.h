@@ -1,6 +1,7 @@
 // Looks for what must turn the force off. It only tells; force_guard.h acts.
 #pragma once
 
+#include <cstdint>
 #include <glm/vec3.hpp>
 
 #include "haptic_server/device/haptic_device.h"
@@ -8,15 +9,20 @@
 
 namespace osteomill {
 
+/// Whether bone reaches into the burr.
+enum class Clearance : std::uint8_t { clear, in_bone, unknown };
+
 /// What the haptic loop knows at a tick.
 struct Observation {
-    double now_s = 0.0;                ///< session time
-    DeviceState device;                ///< as just read
-    std::uint64_t model_step = 0;      ///< of the newest milling result; 0: none yet
-    bool model_valid = true;           ///< that result is one
-    std::uint64_t missed_periods = 0;  ///< haptic deadlines that passed unserved just before this tick
+    double now_s = 0.0;                      ///< session time
+    DeviceState device;                      ///< as just read
+    std::uint64_t model_step = 0;            ///< of the newest milling result; 0: none yet
+    bool model_valid = true;                 ///< that result is one
+    std::uint64_t missed_periods = 0;        ///< haptic deadlines that passed unserved just before this tick
+    Clearance clearance = Clearance::clear;  ///< of the burr, were it where the hand is
 };
 
+/// Bone is not its business: that is no fault by itself, see safety_monitor.h.
 /// Checked in this order; the first that applies is the fault of the tick:
 ///   device_lost     the device says that it is not connected, or reads what is not finite
 ///   device_jumped   it moved farther than a hand can since the last tick

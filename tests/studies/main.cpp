@@ -13,6 +13,7 @@
 #include "tests/studies/force/case_report.h"
 #include "tests/studies/force/force_study.h"
 #include "tests/studies/polishing/polishing_options.h"
+#include "tests/studies/realtime/realtime_options.h"
 #include "tests/studies/render/render_options.h"
 #include "tests/studies/report/output_files.h"
 #include "tests/studies/stability/map/stability_options.h"
@@ -105,6 +106,11 @@ void run(const osteomill::study::RenderStudyOptions& options) {
     osteomill::study::run_render_study(options, surroundings());
 }
 
+void run(const osteomill::study::RealtimeStudyOptions& options) {
+    osteomill::study::make_folder(options.out);
+    osteomill::study::run_realtime_study(options, surroundings());
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -118,10 +124,12 @@ int main(int argc, char** argv) {
     const CLI::App* const is_polishing = osteomill::study::add_polishing(app, polishing);
     osteomill::study::RenderStudyOptions render;
     const CLI::App* const is_render = osteomill::study::add_render(app, render);
+    osteomill::study::RealtimeStudyOptions realtime;
+    const CLI::App* const is_realtime = osteomill::study::add_realtime(app, realtime);
     try {
         app.parse(argc, argv);
         if (app.get_subcommands().empty())
-            throw CLI::RequiredError("a study to run: force, stability, polishing or render");
+            throw CLI::RequiredError("a study to run: force, stability, polishing, render or realtime");
     } catch (const CLI::ParseError& error) {
         if (error.get_exit_code() == 0) return app.exit(error);
         std::cerr << "osteomill_study: " << error.what() << " (see --help)\n";
@@ -134,6 +142,8 @@ int main(int argc, char** argv) {
             run(polishing);
         else if (is_render->parsed())
             run(render);
+        else if (is_realtime->parsed())
+            run(realtime);
         else
             run(force);
         return 0;

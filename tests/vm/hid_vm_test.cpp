@@ -124,6 +124,13 @@ std::vector<int> faults_of(const std::vector<Tick>& log) {
     return faults;
 }
 
+/// When the spindle has turned for the last time.
+double last_milling_s(const std::vector<Tick>& log) {
+    const auto last =
+        std::find_if(log.rbegin(), log.rend(), [](const Tick& tick) { return tick.spindle_on; });
+    return last == log.rend() ? 0.0 : last->time_s;
+}
+
 TEST(HidArmInAVirtualMachine, MillsAsTheSimulatedOneAndSurvivesNonsenseAndAPulledCable) {
     if (const std::string reason = obstacle(); !reason.empty()) GTEST_SKIP() << reason;
     const testing::TemporaryFolder folder;
@@ -169,8 +176,12 @@ TEST(HidArmInAVirtualMachine, MillsAsTheSimulatedOneAndSurvivesNonsenseAndAPulle
     // Lost until calibrated, at the nonsense, and while unplugged; each time the force comes back.
     constexpr int none = 0;
     constexpr int device_lost = 1;
-    EXPECT_EQ(faults_of(log), (std::vector<int>{device_lost, none, device_lost, none, device_lost, none}))
+    // After the nonsense the burr is back inside the bone, and is lifted out.
+    constexpr int in_bone = 6;
+    EXPECT_EQ(faults_of(log),
+              (std::vector<int>{device_lost, none, device_lost, in_bone, none, device_lost, none}))
         << said;
+    EXPECT_THAT(said, HasSubstr("the burr came back inside the bone"));
     EXPECT_THAT(said, HasSubstr("plug it in again"));
     double lost_since_s = -1.0;
     for (const Tick& tick : log) {
@@ -179,6 +190,14 @@ TEST(HidArmInAVirtualMachine, MillsAsTheSimulatedOneAndSurvivesNonsenseAndAPulle
         if (tick.fault != none && tick.time_s - lost_since_s > 0.05) {
             ASSERT_EQ(glm::length(tick.force_n), 0.0) << tick.time_s;
         }
+    }
+    // With the spindle off a force pushes out of the bone, whose top is z = 0, or along it; none pulls
+    // deeper.
+    constexpr double friction_of_a_turn_n = 0.1;
+    const double pressing_from_s = last_milling_s(log);
+    for (const Tick& tick : log) {
+        if (tick.time_s <= pressing_from_s) continue;
+        ASSERT_GT(tick.force_n.z, -friction_of_a_turn_n) << "pulled deeper at " << tick.time_s << " s";
     }
     EXPECT_GT(glm::length(log.back().force_n), 0.1) << "the wall is felt again, in the end";
 

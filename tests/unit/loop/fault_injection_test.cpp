@@ -1,7 +1,8 @@
-// Faults put into the loop while a hand presses on bone, with every coupling: the force is gone in time, and
-// comes back without a jump.
+// Faults put into the loop while a hand presses on bone, with every coupling: the force is gone in time,
+// stays away while the burr is in the bone, and comes back without a jump when the hand has lifted it out.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <glm/geometric.hpp>
@@ -34,6 +35,8 @@ class PressedHand {
     bool model_runs = true;
     bool model_is_valid = true;
     double model_force_n = 0.0;
+
+    double now_s() const { return tick_s * static_cast<double>(number_); }
 
     /// The force written in one more tick, and before it `missed` deadlines that nobody served.
     glm::dvec3 tick(std::uint64_t missed = 0) {
@@ -107,9 +110,18 @@ std::vector<Injection> injections() {
              rest_in_bone}};
 }
 
+/// Lifts by 1.2 mm, waits for the force and presses as before.
+void press_again(PressedHand& hand, double now_s) {
+    constexpr double mm_per_s = 4.0;
+    hand.device.script = [now_s](double t_s) {
+        const double lifted_mm = std::min({mm_per_s * (t_s - now_s), 1.2, mm_per_s * (1.3 - (t_s - now_s))});
+        return DeviceState{.position_mm = {0.0, 0.0, -0.8 + std::max(0.0, lifted_mm)}};
+    };
+}
+
 class FaultInjection : public ::testing::TestWithParam<std::tuple<std::string, std::size_t>> {};
 
-TEST_P(FaultInjection, TurnsTheForceOffInTimeAndOnWithoutAJump) {
+TEST_P(FaultInjection, TurnsTheForceOffInTimeAndOnWithoutAJumpOnceLiftedOut) {
     const Injection injection = injections()[std::get<1>(GetParam())];
     PressedHand hand(std::get<0>(GetParam()));
     glm::dvec3 before_n(0.0);
@@ -128,8 +140,13 @@ TEST_P(FaultInjection, TurnsTheForceOffInTimeAndOnWithoutAJump) {
     }
 
     injection.end(hand);
+    for (int i = 0; i < 600; ++i) ASSERT_EQ(hand.tick(), glm::dvec3(0.0)) << "tick " << i << " in the bone";
+
+    press_again(hand, hand.now_s());
+    before_n = glm::dvec3(0.0);
     for (int i = 0; i < 2000; ++i) {
         const glm::dvec3 now_n = hand.tick();
+        ASSERT_GE(now_n.z, -0.02) << "tick " << i << " after the fault: pulled deeper";
         ASSERT_LE(glm::distance(now_n, before_n), most_jump_n) << "tick " << i << " after the fault";
         before_n = now_n;
     }

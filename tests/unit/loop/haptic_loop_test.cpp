@@ -36,6 +36,7 @@ class Bench {
         for (int i = 0; i < ticks; ++i) {
             if (model_runs) {
                 ++next.step;
+                next.pose = commands.front().pose;
                 results->back() = next;
                 results->publish();
             }

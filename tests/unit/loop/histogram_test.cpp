@@ -35,6 +35,19 @@ TEST(Histogram, KeepsTheLargestExactly) {
     EXPECT_EQ(histogram.quantile_s(1.0), 0.000123456);
 }
 
+TEST(Histogram, ListsWhatItHasCountedByUpperEdge) {
+    Histogram histogram;
+    EXPECT_TRUE(histogram.filled().empty());
+    for (const double seconds : {1e-5, 1e-5, 2e-3}) histogram.add(seconds);
+    const auto filled = histogram.filled();
+    ASSERT_EQ(filled.size(), 2u);
+    EXPECT_EQ(filled[0].count, 2u);
+    EXPECT_GE(filled[0].up_to_s, 1e-5);
+    EXPECT_LT(filled[0].up_to_s, 1.03e-5);
+    EXPECT_EQ(filled[1].count, 1u);
+    EXPECT_EQ(filled[1].up_to_s, 2e-3) << "never above the maximum";
+}
+
 TEST(Histogram, TakesWhatNoClockShouldGive) {
     Histogram histogram;
     histogram.add(-1.0);

@@ -19,6 +19,8 @@ class LateClock final : public Clock {
         now_s_ = std::max(now_s_, time_s) + late_s;
     }
 
+    void work(double duration_s) { now_s_ += duration_s; }
+
   private:
     std::vector<double> late_s_;
     std::size_t sleeps_ = 0;
@@ -73,6 +75,20 @@ TEST(Periodic, SkipsAndCountsWhatItMissed) {
     EXPECT_DOUBLE_EQ(ticks[2].time_s, 0.005);
     EXPECT_EQ(statistics.missed, 3u);
     EXPECT_EQ(statistics.ticks, 3u);
+}
+
+TEST(Periodic, CountsTicksThatAreDoneAfterTheNextDeadline) {
+    // Late by waking, late by working, and in time.
+    LateClock clock({0.0, 0.0034, 0.0, 0.0, 0.0004});
+    PeriodicStatistics statistics;
+    int tick = 0;
+    run_periodically(clock, 0.001, 0.0, std::atomic<bool>{false}, statistics, [&](double, std::uint64_t) {
+        if (tick == 2) clock.work(0.0011);
+        if (tick == 4) clock.work(0.0005);
+        return ++tick < 5;
+    });
+    EXPECT_EQ(statistics.ticks, 5u);
+    EXPECT_EQ(statistics.late, 2u);
 }
 
 TEST(Periodic, DoesNotStartAfterItWasToldToStop) {

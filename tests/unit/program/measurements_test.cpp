@@ -12,6 +12,7 @@ std::unique_ptr<MillingSessionReport> some_report() {
     auto report = std::make_unique<MillingSessionReport>();
     report->haptic.ticks = 1000;
     report->haptic.missed = 3;
+    report->haptic.late = 4;
     for (int i = 1; i <= 100; ++i) report->haptic.wakeup_latency.add(1e-6 * i);
     report->milling.duration.add(250e-6);
     report->removed_mm3[0] = 0.25;
@@ -41,6 +42,11 @@ TEST(Measurements, HaveTheKeysThatAreFixed) {
     EXPECT_EQ(json.at("peak_force_n"), 2.5);
     EXPECT_EQ(json.at("bone_checksum"), "00ab00000000cdef");
     EXPECT_EQ(json.at("faults").at("overrun"), 2);
+    EXPECT_EQ(json.at("late_ticks"), 4);
+    const auto& steps = json.at("histograms_us").at("milling_step");
+    ASSERT_EQ(steps.size(), 1u);
+    EXPECT_NEAR(steps.at(0).at(0).get<double>(), 250.0, 1e-6);
+    EXPECT_EQ(steps.at(0).at(1), 1);
 }
 
 TEST(Measurements, NameEveryTissueOfTheSceneAndWhatHasNoLabel) {

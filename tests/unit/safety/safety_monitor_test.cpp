@@ -29,6 +29,7 @@ struct Event {
     double wanted_n = 0.0;
     bool is_sound = true;
     double elapsed_s = tick_s;
+    Clearance clearance = Clearance::clear;
 
     bool is_fault() const { return fault != Fault::none || !is_sound || !std::isfinite(wanted_n); }
 };
@@ -46,6 +47,13 @@ std::vector<Event> every_event() {
         }
         events.push_back({Fault::none, pedal, 1.0, false});
     }
+    const std::size_t out_of_bone = events.size();
+    for (const Clearance clearance : {Clearance::in_bone, Clearance::unknown}) {
+        for (std::size_t i = 0; i < out_of_bone; ++i) {
+            events.push_back(events[i]);
+            events.back().clearance = clearance;
+        }
+    }
     return events;
 }
 
@@ -54,15 +62,18 @@ struct Reached {
     SafetyMonitor monitor{tick_s, limit_n};
     glm::dvec3 force_n{0.0};
     int quiet_ticks = 1000;  ///< since the last fault, 1000 for more
-    int off_ticks = 0;       ///< in `off`, since the last fault
+    int off_ticks = 0;       ///< in `off`, since the last fault or bone in the burr
+    int clear_ticks = 1000;  ///< since bone was last in the burr, 1000 for more
     int ticks_of_fault = 0;  ///< since the force was turned off, 1000 for more
 
     Reached after(const Event& event) const {
         Reached next = *this;
-        next.monitor.begin(event.fault, event.pedal);
+        next.monitor.begin(event.fault, event.pedal, event.clearance);
         next.force_n = next.monitor.pass({event.wanted_n, 0.0, 0.0}, event.is_sound, event.elapsed_s);
         next.quiet_ticks = event.is_fault() ? 0 : std::min(1000, quiet_ticks + 1);
-        const bool restarts = event.is_fault() || monitor.state() != State::off;
+        const bool is_clear = event.clearance == Clearance::clear;
+        next.clear_ticks = is_clear ? std::min(1000, clear_ticks + 1) : 0;
+        const bool restarts = event.is_fault() || !is_clear || monitor.state() != State::off;
         next.off_ticks = restarts ? 0 : off_ticks + 1;
         next.ticks_of_fault = next.monitor.fault() == Fault::none ? 0 : std::min(1000, ticks_of_fault + 1);
         return next;
@@ -127,6 +138,7 @@ TEST(SafetyMonitor, LeadsFromNoStateByAnyFaultToAForce) {
             const bool comes_back = from.monitor.fault() != Fault::none && to.monitor.fault() == Fault::none;
             if (comes_back) {
                 ASSERT_GT(to.quiet_ticks * tick_s, ForceGuard::settle_s - 1e-9);
+                ASSERT_GT(to.clear_ticks * tick_s, ForceGuard::settle_s - 1e-9) << "nor in the bone";
             }
         });
     // Every state of both machines is among them, at every stage of a fade.
@@ -156,6 +168,25 @@ TEST(SafetyMonitor, TurnsTheSpindleOnlyInAHandThatIsThereAndHasLetGoOfThePedal) 
             ASSERT_TRUE(!event.pedal && event.fault != Fault::device_lost);
         }
     });
+}
+
+TEST(SafetyMonitor, GivesNoForceInsideTheBoneHoweverLongItLasts) {
+    for (const Clearance clearance : {Clearance::in_bone, Clearance::unknown})
+        for (const Reached& reached : explore()) {
+            Reached now = reached;
+            const bool was_engaged = now.monitor.fault() == Fault::none;
+            for (int i = 0; i < 100; ++i) {
+                now = now.after({.pedal = i % 2 == 0, .wanted_n = 1.0, .clearance = clearance});
+                if (was_engaged) continue;
+                ASSERT_LE(glm::length(now.force_n), glm::length(reached.force_n));
+                ASSERT_FALSE(now.monitor.spindle_turns());
+            }
+            // Bone in the burr is no fault of a tool that has hold of it: a wall gives way a little.
+            ASSERT_EQ(now.monitor.fault() == Fault::none, was_engaged);
+            if (!was_engaged && clearance == Clearance::in_bone) {
+                ASSERT_EQ(now.monitor.fault(), Fault::in_bone);
+            }
+        }
 }
 
 TEST(SafetyMonitor, ComesBackFromEveryStateOnceAllIsWell) {

@@ -1,0 +1,22 @@
+#include "haptic_server/loop/clearance.h"
+
+#include <algorithm>
+#include <glm/geometric.hpp>
+
+namespace osteomill {
+
+Clearance clearance_of(const MillingResult& latest, const glm::dvec3& position_mm) noexcept {
+    const Engagement& map = latest.engagement;
+    const glm::dvec3 moved = position_mm - latest.pose.position_mm;
+    // Written so that nothing is known of a position that is not finite.
+    if (!(glm::length(moved) <= EngagementProbe::reach_voxels * map.spacing_mm)) return Clearance::unknown;
+    if (latest.has_bone_inside) return Clearance::in_bone;
+    const double allowed_mm = clearance_voxels * map.spacing_mm;
+    const auto* const end = map.patches.begin() + map.count;
+    const bool is_in_bone = std::any_of(map.patches.begin(), end, [&](const EngagedPatch& patch) {
+        return patch.gap_mm - glm::dot(patch.normal, moved) < -allowed_mm;
+    });
+    return is_in_bone ? Clearance::in_bone : Clearance::clear;
+}
+
+}  // namespace osteomill
