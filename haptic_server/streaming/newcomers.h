@@ -20,9 +20,9 @@ class Newcomers {
     using Id = std::uint64_t;  ///< ascending in the order in which they came
     using Time = std::chrono::steady_clock::time_point;
 
-    /// At 1000 connections a minute, each of which stays, one has a second to say its word: several round
-    /// trips round the world.
-    static constexpr std::size_t most_at_once = 16;
+    /// All 32 clients may come at once, as after a server's restart, and strangers between them. At 1000
+    /// connections a minute, each of which stays, one has three seconds to say its word.
+    static constexpr std::size_t most_at_once = 48;
     static constexpr std::chrono::milliseconds patience{500};
 
     /// Who has to go before another can be added, if anyone.
