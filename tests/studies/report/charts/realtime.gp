@@ -8,7 +8,7 @@ load_of(column) = system(sprintf("tail -n +2 '%s' | cut -d, -f1 | uniq | sed -n 
 columns = int(system(sprintf("tail -n +2 '%s' | cut -d, -f1 | uniq | wc -l", table)))
 has_cyclictest = int(system(sprintf("grep -c ',cyclictest,' '%s' || true", table))) > 0
 set multiplot layout 2,columns columnsfirst title \
-    "The haptic loop at 1 kHz: milling, recording, two clients; cyclictest in turns with it" font ',17' \
+    "The haptic loop at 1 kHz: milling, recording, two clients".(has_cyclictest ? '; cyclictest in turns with it' : '') font ',17' \
     margins 0.075,0.985,0.09,0.87 spacing 0.085,0.13
 set logscale x
 set xrange [0.05:20000]
