@@ -28,8 +28,7 @@ void append_sealed_frame(const v1::ServerFrame& frame, std::string& stream) {
 
 std::variant<v1::ServerFrame, WireError> open_frame(std::span<const std::uint8_t> message, Seal seal) {
     v1::ServerFrame frame;
-    if (!parse_message(message, frame))
-        return WireError{"a frame is no message"};
+    if (!parse_message(message, frame)) return WireError{"a frame is no message"};
     if (!frame.has_frame_checksum()) {
         if (seal == Seal::required) return WireError{"a frame lacks its checksum"};
         return frame;

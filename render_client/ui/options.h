@@ -34,7 +34,7 @@ struct RenderOptions {
     std::optional<double> ui_scale;  ///< of panels and letters; absent: the display's, 1 offscreen
     bool panels = true;
     std::size_t texture_budget_bytes = default_texture_budget_bytes;  ///< for the bone
-    std::filesystem::path json;  ///< empty writes none
+    std::filesystem::path json;                                       ///< empty writes none
 };
 
 /// The command line asks for something other than a run: usage error (2), or help or version (0).

@@ -44,9 +44,9 @@ TEST(Options, ChooseRendererShadingAndTransferFunctionByName) {
 }
 
 TEST(Options, TakeEverythingOfAnOffscreenRun) {
-    const ParsedOptions result =
-        parsed({"--connect", "[::1]:7011", "--offscreen", "--frames", "12", "--screenshots", "shots",
-                "--screenshot-every", "3", "--window-size", "320x200", "--texture-budget-mib", "64", "--json", "out.json"});
+    const ParsedOptions result = parsed({"--connect", "[::1]:7011", "--offscreen", "--frames", "12",
+                                         "--screenshots", "shots", "--screenshot-every", "3", "--window-size",
+                                         "320x200", "--texture-budget-mib", "64", "--json", "out.json"});
     ASSERT_FALSE(result.no_run.has_value()) << result.no_run->message;
     EXPECT_EQ(result.options.host, "::1");
     EXPECT_EQ(result.options.port, 7011);

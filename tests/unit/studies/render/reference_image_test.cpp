@@ -61,9 +61,10 @@ TEST(ReferenceVolume, RefusesABoneWithoutBricks) {
     EXPECT_THROW(ReferenceVolume(nothing, {}, {}), std::runtime_error);
 }
 
-// Why the shaders take wider differences than the derivative of the interpolation: near the surface of a ball,
-// whose normals are known, the derivative is further off. So are differences over more than about a voxel,
-// which the fraction saturates: 3 degrees at a reach of 0.5, 5 by the derivative, 11 at a reach of 1.4.
+// Why the shaders take wider differences than the derivative of the interpolation: near the surface of a
+// ball, whose normals are known, the derivative is further off. So are differences over more than about a
+// voxel, which the fraction saturates: 3 degrees at a reach of 0.5, 5 by the derivative, 11 at a reach
+// of 1.4.
 TEST(ReferenceVolume, HasTruerNormalsByEightCornersThanByTheDerivative) {
     const double radius_mm = 1.8;
     const ReferenceVolume volume(
