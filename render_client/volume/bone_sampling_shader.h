@@ -87,10 +87,11 @@ const float block_edge = 4.0;
 
 float fraction_at(vec3 point) { return textureLod(bone_fraction, texture_place(point), 0.0).r; }
 
-// Eight corners of a voxel: its mean slope. A fraction rises from none to all within about one voxel, so wider
-// differences would saturate and turn normals by ten degrees, and the derivative itself jumps between voxels.
+// Eight corners about a point: the mean slope between them. A fraction rises from none to all within about one
+// voxel, so corners much farther apart would saturate and turn normals by ten degrees, and the derivative itself
+// jumps between voxels. At 0.4 voxels pictures are within 40 dB of the derivative's (osteomill_study render).
 vec3 gradient_at(vec3 point) {
-    const float reach = 0.5;
+    const float reach = 0.4;
     vec3 gradient = vec3(0.0);
     for (int corner = 0; corner < 8; ++corner) {
         vec3 side = vec3(corner & 1, (corner >> 1) & 1, (corner >> 2) & 1) * 2.0 - 1.0;

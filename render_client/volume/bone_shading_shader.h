@@ -27,7 +27,7 @@ vec3 surface_pixel(vec3 point, vec3 direction) {
 
 // Slope of the density, which also shows borders between tissues of different opacity.
 vec3 density_gradient_at(vec3 point) {
-    const float reach = 0.5;
+    const float reach = 0.4;
     vec3 gradient = vec3(0.0);
     for (int corner = 0; corner < 8; ++corner) {
         vec3 side = vec3(corner & 1, (corner >> 1) & 1, (corner >> 2) & 1) * 2.0 - 1.0;

@@ -34,7 +34,7 @@ struct Place {
 };
 
 /// Distance of the eight corners from the point, voxels: as in the shaders.
-constexpr double corner_reach = 0.5;
+constexpr double corner_reach = 0.4;
 
 }  // namespace
 
