@@ -1,7 +1,8 @@
 #include "render_client/volume/contact_shadow.h"
 
+#include <fmt/format.h>
+
 #include <glm/trigonometric.hpp>
-#include <string>
 
 #include "render_client/volume/camera_rays_shader.h"
 #include "render_client/volume/lighting.h"
@@ -59,7 +60,8 @@ constexpr int depth_unit = 1;        // behind the colour
 }  // namespace
 
 ContactShadow::ContactShadow()
-    : program_(camera_rays_vertex_glsl, std::string("#version 330 core\n") + lighting_glsl + fragment_glsl) {}
+    : program_(camera_rays_vertex_glsl,
+               fmt::format("#version 330 core\n{}{}", lighting_glsl, fragment_glsl)) {}
 
 void ContactShadow::draw(const gl::Framebuffer& bone, const glm::dvec3& burr_mm, double radius_mm,
                          const glm::dvec3& spindle_axis, const Camera& camera, TileMask& covered) const {
