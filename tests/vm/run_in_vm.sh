@@ -3,8 +3,8 @@
 #
 #     run_in_vm.sh KERNEL_FOLDER WORK_FOLDER PROGRAM...
 #
-# KERNEL_FOLDER is what scripts/fetch_vm_kernel.sh unpacked. WORK_FOLDER holds run.sh, which the machine runs in /work among
-# copies of all the files there; what it leaves in /work/out comes back in WORK_FOLDER/out, what it prints in WORK_FOLDER/console.
+# KERNEL_FOLDER is what scripts/fetch_vm_kernel.sh unpacked. WORK_FOLDER holds run.sh, which the machine runs in /trial among
+# copies of all the files there; what it leaves in /trial/out comes back in WORK_FOLDER/out, what it prints in WORK_FOLDER/console.
 # PROGRAMs are copied to /bin with the libraries they need. The machine's clock counts instructions (-icount): however busy the
 # host is, time inside is what a machine of a fixed speed would see.
 set -euo pipefail
@@ -15,7 +15,7 @@ shift 2
 
 root=$(mktemp -d)
 trap 'rm -rf "$root"' EXIT
-mkdir -p "$root"/{bin,dev,proc,sys,tmp,modules,work,lib64}
+mkdir -p "$root"/{bin,dev,proc,sys,tmp,modules,trial,lib64}
 cp "$(command -v busybox)" "$root/bin/busybox"
 cp "$kernel"/modules/*.ko "$root/modules/"
 for program in "$@"; do
@@ -27,12 +27,12 @@ for program in "$@"; do
         [ -e "$root$library" ] || cp -L "$library" "$root$library"
     done
 done
-find "$work" -maxdepth 1 -type f -exec cp {} "$root/work/" \;
+find "$work" -maxdepth 1 -type f -exec cp {} "$root/trial/" \;
 
 cat >"$root/init" <<'INIT'
 #!/bin/busybox sh
 /bin/busybox --install -s /bin
-export PATH=/bin HOME=/work
+export PATH=/bin HOME=/trial
 mount -t devtmpfs none /dev
 mount -t proc none /proc
 mount -t sysfs none /sys
@@ -40,11 +40,11 @@ for module in hid uhid hid-generic; do insmod /modules/$module.ko; done
 # Threads with real-time priority may use the one processor as long as they need.
 echo -1 >/proc/sys/kernel/sched_rt_runtime_us
 ip link set lo up
-mkdir -p /work/out
-cd /work
+mkdir -p /trial/out
+cd /trial
 sh ./run.sh
 stty -F /dev/ttyS1 raw
-tar -c -z -C /work out >/dev/ttyS1
+tar -c -z -C /trial out >/dev/ttyS1
 poweroff -f
 INIT
 chmod +x "$root/init"
