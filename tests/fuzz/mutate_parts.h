@@ -42,3 +42,21 @@ std::size_t put(const std::string& mutated, std::uint8_t* data, std::size_t size
 }  // namespace osteomill::fuzz
 
 extern "C" std::size_t LLVMFuzzerMutate(std::uint8_t* data, std::size_t size, std::size_t most);
+
+namespace osteomill::fuzz {
+
+/// Mutates what a session's target reads: a byte of how to feed it, then a stream of frames, which are
+/// numbered from `first` on half of the time.
+template <typename Frame>
+std::size_t mutate_session(std::uint8_t* data, std::size_t size, std::size_t most, unsigned seed,
+                           std::uint64_t first) {
+    std::mt19937 random(seed);
+    if (size < 2 || random() % 4 == 0) return LLVMFuzzerMutate(data, size, most);
+    const char* const bytes = reinterpret_cast<const char*>(data);
+    auto messages = messages_of({bytes + 1, size - 1});
+    mutate_parts(messages, random);
+    if (random() % 2 == 0) renumber<Frame>(messages, first);
+    return put(bytes[0] + stream_of(messages), data, size, most);
+}
+
+}  // namespace osteomill::fuzz

@@ -5,11 +5,5 @@
 extern "C" std::size_t LLVMFuzzerCustomMutator(std::uint8_t* data, std::size_t size, std::size_t most,
                                                unsigned seed) {
     using namespace osteomill;
-    std::mt19937 random(seed);
-    if (size < 2 || random() % 4 == 0) return LLVMFuzzerMutate(data, size, most);
-    const char* const bytes = reinterpret_cast<const char*>(data);
-    auto messages = fuzz::messages_of({bytes + 1, size - 1});
-    fuzz::mutate_parts(messages, random);
-    if (random() % 2 == 0) fuzz::renumber<v1::ClientFrame>(messages, 1);
-    return fuzz::put(bytes[0] + fuzz::stream_of(messages), data, size, most);
+    return fuzz::mutate_session<v1::ClientFrame>(data, size, most, seed, 1);
 }
