@@ -27,13 +27,12 @@ vec3 surface_pixel(vec3 point, vec3 direction) {
 
 // Slope of the density, which also shows borders between tissues of different opacity.
 vec3 density_gradient_at(vec3 point) {
-    const float reach = 0.4;
     vec3 gradient = vec3(0.0);
     for (int corner = 0; corner < 8; ++corner) {
-        vec3 side = vec3(corner & 1, (corner >> 1) & 1, (corner >> 2) & 1) * 2.0 - 1.0;
-        gradient += side * density_at(point + reach * side);
+        vec3 side = side_of_corner(corner);
+        gradient += side * density_at(point + corner_reach * side);
     }
-    return gradient / (8.0 * reach);
+    return gradient / (8.0 * corner_reach);
 }
 
 // Light within bone, where nothing faces it: what a surface aslant to the key light gets.
