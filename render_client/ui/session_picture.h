@@ -47,7 +47,6 @@ class SessionPicture {
     /// Another look takes new textures, as a new bone does; the view stays. Throws std::invalid_argument
     /// where its transfer function is none.
     void set_bone_look(const BoneLook& look);
-    const BoneLook& bone_look() const { return bone_look_; }
     ViewSettings& view() { return view_; }
     void show_operator(const std::optional<OperatorIntent>& intent) { operator_intent_ = intent; }
 
