@@ -4,7 +4,6 @@
 #include <cmath>
 #include <glm/common.hpp>
 
-#include "render_client/volume/block_summary.h"
 #include "render_client/volume/bone_sampling_shader.h"
 
 namespace osteomill {
@@ -32,14 +31,6 @@ PixelBox in_coarse(const PixelBox& box, const glm::ivec2& fine_px, const glm::iv
     return {first, glm::min(high, coarse_px) - first};
 }
 
-/// A change is felt as far as its block is: what shading reads are means over blocks. A brick of a coarser
-/// copy may be a part of one.
-VoxelBox in_whole_blocks(const VoxelBox& box, const glm::ivec3& origin) {
-    const glm::ivec3 first = (box.first - origin) / block_edge_voxels * block_edge_voxels;
-    const glm::ivec3 end = box.first + box.size - origin + (block_edge_voxels - 1);
-    return {origin + first, end / block_edge_voxels * block_edge_voxels - first};
-}
-
 }  // namespace
 
 BoneLayer::BoneLayer(BoneRenderer& renderer, const glm::ivec2& size_px, Stopwatch* stopwatch)
@@ -62,9 +53,8 @@ void BoneLayer::forget() {
     dirty_.clear();
 }
 
-void BoneLayer::mark_dirty(const BoneTextures& bone, std::span<const BrickIndex> bricks) {
-    for (const BrickIndex brick : bricks)
-        dirty_.push_back(in_whole_blocks(bone.voxels_of_brick(brick), bone.box().first));
+void BoneLayer::mark_dirty(std::span<const VoxelBox> changed) {
+    dirty_.insert(dirty_.end(), changed.begin(), changed.end());
 }
 
 TileMask BoneLayer::update(const BoneTextures& bone, const Camera& camera) {
@@ -78,8 +68,8 @@ TileMask BoneLayer::update(const BoneTextures& bone, const Camera& camera) {
         fresh.mark_all();
         misplaced = fresh;
     } else {
-        fresh = tiles_of_dirty_bricks(bone, camera, shading_reach_voxels);
-        misplaced = tiles_of_dirty_bricks(bone, camera, surface_reach_voxels);
+        fresh = tiles_of_changes(bone, camera, shading_reach_voxels);
+        misplaced = tiles_of_changes(bone, camera, surface_reach_voxels);
     }
     dirty_.clear();
     camera_ = camera;
@@ -131,8 +121,7 @@ void BoneLayer::frame_took(double frame_s) {
     if (drawn_this_frame_px_ == 0) control_.frame_took(frame_s, 0.0);
 }
 
-TileMask BoneLayer::tiles_of_dirty_bricks(const BoneTextures& bone, const Camera& camera,
-                                          int reach_voxels) const {
+TileMask BoneLayer::tiles_of_changes(const BoneTextures& bone, const Camera& camera, int reach_voxels) const {
     TileMask tiles(size_px());
     const glm::dmat4 to_clip = camera.projection(size_px()) * camera.view();
     const double reach = reach_voxels + 0.5;  // a voxel's faces are half a voxel from its centre

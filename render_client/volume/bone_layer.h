@@ -34,8 +34,8 @@ class BoneLayer {
     const SceneLook& look() const { return renderer_.look(); }
     /// Another bone: all of it is stale.
     void forget();
-    /// These bricks changed since the last update.
-    void mark_dirty(const BoneTextures& bone, std::span<const BrickIndex> bricks);
+    /// These voxels changed since the last update: what BoneTextures::update returned.
+    void mark_dirty(std::span<const VoxelBox> changed);
 
     /// Draws what is due. Returns the tiles that look different from before. Leaves some framebuffer bound.
     TileMask update(const BoneTextures& bone, const Camera& camera);
@@ -55,7 +55,7 @@ class BoneLayer {
     };
 
     void learn();
-    TileMask tiles_of_dirty_bricks(const BoneTextures& bone, const Camera& camera, int reach_voxels) const;
+    TileMask tiles_of_changes(const BoneTextures& bone, const Camera& camera, int reach_voxels) const;
     void draw_exact(const BoneTextures& bone, const Camera& camera, const TileMask& tiles, Extent extent);
     /// These return the pixels that they drew.
     std::int64_t draw_coarse(const BoneTextures& bone, const Camera& camera, const TileMask& tiles,
@@ -74,8 +74,8 @@ class BoneLayer {
     TileMask stale_;
     double coarsest_divisor_ = 1.0;  ///< among the stale tiles
     std::size_t next_tile_ = 0;      ///< whose turn it is to be refined
-    std::vector<VoxelBox> dirty_;    ///< voxels of the bone's grid
-    std::optional<Camera> camera_;   ///< that the layer shows; none: there is nothing in it yet
+    std::vector<VoxelBox> dirty_;  ///< voxels of the bone's grid, whole blocks: shading reads means over them
+    std::optional<Camera> camera_;  ///< that the layer shows; none: there is nothing in it yet
     int frames_at_rest_ = 0;
     std::int64_t drawn_this_frame_px_ = 0;
     bool measures_this_frame_ = false;

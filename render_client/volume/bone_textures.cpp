@@ -85,7 +85,6 @@ BoneTextures BoneTextures::first_that_fits(const Bone& bone, const LookTable& ta
 BoneTextures::BoneTextures(const Bone& bone, std::optional<CoarseBone> copy, const LookTable& table,
                            Shading shading, const TexturePlan& plan, int longest_edge_texels)
     : plan_(plan),
-      size_bricks_(bone.content().size_bricks),
       table_(table),
       copy_(std::move(copy)),
       visible_(without_hidden(copied(bone), table_)),
@@ -97,34 +96,23 @@ BoneTextures::BoneTextures(const Bone& bone, std::optional<CoarseBone> copy, con
       blocks_(gl::VoxelFormat::interpolated_bytes, empty_space_.size_blocks()),
       tile_table_(upload_tile_table(shown(bone).content(), places_)),
       colour_code_(upload_colour_code(shown(bone), places_, table_)),
-      colours_(table_.by_code) {
-    if (shading == Shading::surface_voxels) {
-        surface_.emplace(shown(bone), table_, places_);
-        changed_.emplace(shown(bone));
-    }
+      colours_(table_.by_code),
+      changed_(shown(bone)) {
+    if (shading == Shading::surface_voxels) surface_.emplace(shown(bone), table_, places_);
     const glm::ivec3& size = empty_space_.size_blocks();
     for (int z = 0; z < size.z; ++z) upload_blocks({{0, 0, z}, {size.x, size.y, 1}});
 }
 
-void BoneTextures::update(const Bone& bone, std::span<const BrickIndex> dirty) {
+std::span<const VoxelBox> BoneTextures::update(const Bone& bone, std::span<const BrickIndex> dirty) {
     if (copy_) dirty = copy_->update(bone, dirty);
     if (visible_) visible_->follow(copied(bone), dirty);
     const Bone& drawn = shown(bone);
-    const std::span<const VoxelBox> changed = changed_voxels(drawn, dirty);
+    const std::span<const VoxelBox> changed = changed_.since_last(drawn, dirty);
     for (const PlacedVoxels& placed : places_.that_show(drawn, changed))
         upload_voxels(fraction_, drawn, BoneChannel::fraction, placed, scratch_);
     for (const VoxelBox& blocks : empty_space_.update(drawn, dirty)) upload_blocks(blocks);
     if (surface_) surface_->update(drawn, places_, changed);
-}
-
-std::span<const VoxelBox> BoneTextures::changed_voxels(const Bone& drawn, std::span<const BrickIndex> dirty) {
-    if (changed_) return changed_->since_last(drawn, dirty);
-    dirty_boxes_.clear();
-    for (const BrickIndex brick : dirty)
-        if (drawn.slot(brick) != BoneContent::no_slot)
-            dirty_boxes_.push_back({brick_position(drawn.content().size_bricks, brick) * brick_edge_voxels,
-                                    glm::ivec3(brick_edge_voxels)});
-    return dirty_boxes_;
+    return changed;
 }
 
 void BoneTextures::upload_blocks(const VoxelBox& blocks) {
@@ -140,11 +128,6 @@ void BoneTextures::upload_blocks(const VoxelBox& blocks) {
             }
         }
     blocks_.upload(blocks.first, blocks.size, scratch_);
-}
-
-VoxelBox BoneTextures::voxels_of_brick(BrickIndex brick) const {
-    const int edge = brick_edge_voxels / plan_.coarsening;
-    return {brick_position(size_bricks_, brick) * edge, glm::ivec3(edge)};
 }
 
 glm::dvec3 BoneTextures::to_box_voxels(const glm::dvec3& position_mm) const {

@@ -9,7 +9,7 @@
 
 #include "common/bone/bone.h"
 #include "render_client/volume/bone_look.h"
-#include "render_client/volume/changed_voxels.h"
+#include "render_client/volume/changed_blocks.h"
 #include "render_client/volume/coarse_bone.h"
 #include "render_client/volume/empty_space.h"
 #include "render_client/volume/gl/lookup_table.h"
@@ -29,10 +29,12 @@ class BoneTextures {
     BoneTextures(const Bone& bone, std::span<const TissueColour> tissues, const BoneLook& look = {},
                  const TextureLimits& limits = {});
 
-    /// Uploads the fractions of these bricks, lowered or raised, and what follows from them: glTexSubImage3D,
+    /// Uploads what changed in these bricks, lowered or raised, and what follows from it: glTexSubImage3D,
     /// region by region, never a union of what lies apart. `bone` is the bone of the constructor, changed
     /// since. Call before drawing: a texture that a frame in flight uses makes the call wait for that frame.
-    void update(const Bone& bone, std::span<const BrickIndex> dirty);
+    /// Returns where the picture can differ, in voxels of grid(), whole blocks of EmptySpace; valid until the
+    /// next call.
+    std::span<const VoxelBox> update(const Bone& bone, std::span<const BrickIndex> dirty);
 
     /// How the bone is held: in which layout, how much coarser than it is, in how many bytes.
     const TexturePlan& plan() const { return plan_; }
@@ -40,14 +42,14 @@ class BoneTextures {
     const Grid& grid() const { return grid_; }
     /// The part of grid() that the textures hold, in whole bricks.
     const VoxelBox& box() const { return places_.box(); }
-    /// Voxels of grid() in which a brick of the bone (of its own grid, not of a copy's) is seen.
-    VoxelBox voxels_of_brick(BrickIndex brick) const;
     /// Where the bricks of grid() lie in fraction(), colour_code() and surface_colours().
     const BrickPlaces& places() const { return places_; }
 
     const gl::Texture3D& fraction() const { return fraction_; }
     /// What `colours` is looked up by, placed as the fractions are; none for a homogeneous, unlabelled bone.
     const std::optional<gl::Texture3D>& colour_code() const { return colour_code_; }
+    /// Whether they are labels, alike within a tissue, and not stiffness.
+    bool codes_are_tissues() const { return table_.channel == BoneChannel::tissue; }
     const gl::LookupTable& colours() const { return colours_; }
     /// Display RGB times alpha, and alpha, of the surface voxels; none unless the look shades them.
     const gl::Texture3D* surface_colours() const { return surface_ ? &surface_->texture() : nullptr; }
@@ -70,12 +72,9 @@ class BoneTextures {
                                         const TextureLimits& limits);
     const Bone& copied(const Bone& bone) const { return copy_ ? copy_->bone() : bone; }
     const Bone& shown(const Bone& bone) const { return visible_ ? visible_->bone() : copied(bone); }
-    /// Voxels of the bone that is shown, at most all of these bricks.
-    std::span<const VoxelBox> changed_voxels(const Bone& drawn, std::span<const BrickIndex> dirty);
     void upload_blocks(const VoxelBox& blocks);
 
     TexturePlan plan_;
-    glm::ivec3 size_bricks_;  ///< of the bone, not of a copy
     LookTable table_;
     std::optional<CoarseBone> copy_;      ///< only where the bone itself exceeds the memory
     std::optional<VisibleBone> visible_;  ///< of the copy, if any; only where the look hides bone
@@ -88,8 +87,7 @@ class BoneTextures {
     std::optional<gl::Texture3D> colour_code_;
     gl::LookupTable colours_;
     std::optional<SurfaceTexture> surface_;
-    std::optional<ChangedVoxels> changed_;  ///< only beside surface_, whose voxels cost most
-    std::vector<VoxelBox> dirty_boxes_;
+    ChangedBlocks changed_;
     std::vector<std::uint8_t> scratch_;
 };
 
