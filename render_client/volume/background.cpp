@@ -19,13 +19,13 @@ void main() { pixel = vec4(display(background_at(gl_FragCoord.xy / picture_size)
 }  // namespace
 
 Background::Background()
-    : program_(whole_picture_vertex_glsl,
-               std::string("#version 330 core\n") + lighting_glsl + look_glsl + background_fragment_glsl) {}
+    : program_(whole_picture_vertex_glsl, std::string("#version 330 core\n") + lighting_glsl +
+                                              background_glsl + background_fragment_glsl) {}
 
-void Background::draw(const BoneTextures& bone, const SceneLook& look, const glm::ivec2& size_px) {
+void Background::draw(const SceneLook& look, const glm::ivec2& size_px) {
     program_.use();
     program_.set("picture_size", glm::vec2(size_px));
-    set_look_uniforms(program_, look, bone);
+    set_background_uniforms(program_, look);
     glEnable(GL_DEPTH_TEST);
     glDepthFunc(GL_ALWAYS);
     full_screen_.draw();

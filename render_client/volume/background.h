@@ -4,7 +4,6 @@
 
 #include <glm/vec2.hpp>
 
-#include "render_client/volume/bone_textures.h"
 #include "render_client/volume/gl/full_screen.h"
 #include "render_client/volume/gl/program.h"
 #include "render_client/volume/scene_look.h"
@@ -22,7 +21,7 @@ class Background {
   public:
     Background();
     /// Colour, and depth 1, over the viewport of `size_px` or what glScissor leaves of it.
-    void draw(const BoneTextures& bone, const SceneLook& look, const glm::ivec2& size_px);
+    void draw(const SceneLook& look, const glm::ivec2& size_px);
 
   private:
     gl::Program program_;

@@ -23,6 +23,7 @@
 //                                                   in which the fraction stays below one half; 0 if unknown
 //     const bool, by variant of the program:
 //     bool  bone_has_colour_code                    else all bone looks alike
+//     bool  bone_codes_are_tissues                  codes are alike within a tissue; else they are stiffness
 //     bool  bone_is_translucent                     opacities are per mm, else bone is solid
 //     bool  bone_has_surface_colours                else surface_colour_at means nothing
 //     float bone_mm_per_voxel
@@ -147,14 +148,20 @@ vec4 look_at(vec3 point) {
     return known > 0.0 ? sum / known : texelFetch(bone_colours, ivec2(0), 0);
 }
 
+// Whether any of the 27 nearest voxels has another code than the nearest one.
+bool codes_differ_about(ivec3 nearest, ivec3 shift) {
+    uint code = code_at(nearest, shift), others = 0u;
+    for (int z = -1; z <= 1; ++z)
+        for (int y = -1; y <= 1; ++y)
+            for (int x = -1; x <= 1; ++x) others |= code_at(nearest + ivec3(x, y, z), shift) ^ code;
+    return others != 0u;
+}
+
 // Looks of the 27 nearest voxels blended by the quadratic B-spline, twice as wide as trilinear: colours by
 // stiffness change from voxel to voxel where the CT blurred a surface, and labels end in steps.
-vec4 smooth_look_at(vec3 point) {
-    if (!bone_has_colour_code) return texelFetch(bone_colours, ivec2(0), 0);
-    ivec3 nearest = ivec3(floor(point));
+vec4 blended_look(vec3 point, ivec3 nearest, ivec3 shift) {
     vec3 off = point - vec3(nearest) - 0.5;
     vec3 before = 0.5 * (0.5 - off) * (0.5 - off), after = 0.5 * (0.5 + off) * (0.5 + off);
-    ivec3 shift = texel_shift(point);
     vec4 sum = vec4(0.0);
     float known = 0.0;
     for (int z = -1; z <= 1; ++z)
@@ -171,6 +178,20 @@ vec4 smooth_look_at(vec3 point) {
                 known += weight;
             }
     return known > 0.0 ? sum / known : texelFetch(bone_colours, ivec2(0), 0);
+}
+
+vec4 smooth_look_at(vec3 point) {
+    if (!bone_has_colour_code) return texelFetch(bone_colours, ivec2(0), 0);
+    ivec3 nearest = ivec3(floor(point));
+    ivec3 shift = texel_shift(point);
+    uint code = code_at(nearest, shift);
+    vec4 look = texelFetch(bone_colours, ivec2(int(code), 0), 0);
+    if (code == 0u || look.a == 0.0) look = texelFetch(bone_colours, ivec2(0), 0);
+    // Amid a tissue that is all. A loop of one turn or none, because a software rasteriser computes both sides of
+    // a branch but leaves a loop in which there is no pixel of a group.
+    int turns = bone_codes_are_tissues && !codes_differ_about(nearest, shift) ? 0 : 1;
+    for (int turn = 0; turn < turns; ++turn) look = blended_look(point, nearest, shift);
+    return look;
 }
 
 // As deep as there is bone: a shell may be thinner than that.

@@ -1,20 +1,25 @@
-// A SceneLook in GLSL 3.30, for every renderer's fragment shader; set_look_uniforms sets its uniforms. Points
-// are in the coordinates of bone_sampling_glsl.
+// A SceneLook in GLSL 3.30, for every renderer's fragment shader. Points are in the coordinates of
+// bone_sampling_glsl.
 //
-// look_glsl, which follows nothing:
+// background_glsl, which follows nothing; set_background_uniforms sets its uniforms:
 //
+//     vec3  background_at(vec2 place)              linear RGB; place 0 to 1 from the picture's lower left
+//                                                  corner
+//
+// cuts_glsl, which follows cut_count_glsl; set_cut_uniforms sets its uniforms:
+//
+//     const int cut_count
 //     void  clip_by_cuts(vec3 eye, vec3 direction, inout float enter, inout float leave)
 //                                                  shortens a ray to what no cut takes away
 //     bool  is_cut_away(vec3 point)
-//     vec3  background_at(vec2 place)              linear RGB; place 0 to 1 from the picture's lower left
-//     corner
 //
 // cut_shading_glsl, which follows bone_shading_glsl:
 //
 //     vec3  shown_pixel(vec3 point, vec3 direction)  as surface_pixel, but for the faces of cuts, which are
-//     flat
-//                                                    and open to the sky
+//                                                    flat and open to the sky
 #pragma once
+
+#include <string>
 
 #include "render_client/volume/bone_textures.h"
 #include "render_client/volume/gl/program.h"
@@ -22,10 +27,17 @@
 
 namespace osteomill {
 
-inline constexpr const char* look_glsl = R"glsl(
-uniform int cut_count;
-uniform vec4 cut_planes[4];  // xyz unit, towards what is taken away; w offset, voxels
+inline constexpr const char* background_glsl = R"glsl(
 uniform vec3 background_low, background_high;
+
+vec3 background_at(vec2 place) {
+    vec3 shade = mix(background_low, background_high, smoothstep(0.0, 1.0, place.y));
+    return shade * (1.0 - 0.35 * dot(place - 0.5, place - 0.5));
+}
+)glsl";
+
+inline constexpr const char* cuts_glsl = R"glsl(
+uniform vec4 cut_planes[4];  // xyz unit, towards what is taken away; w offset, voxels
 
 void clip_by_cuts(vec3 eye, vec3 direction, inout float enter, inout float leave) {
     for (int cut = 0; cut < cut_count; ++cut) {
@@ -41,11 +53,6 @@ bool is_cut_away(vec3 point) {
     for (int cut = 0; cut < cut_count; ++cut)
         if (dot(cut_planes[cut].xyz, point) > cut_planes[cut].w) return true;
     return false;
-}
-
-vec3 background_at(vec2 place) {
-    vec3 shade = mix(background_low, background_high, smoothstep(0.0, 1.0, place.y));
-    return shade * (1.0 - 0.35 * dot(place - 0.5, place - 0.5));
 }
 )glsl";
 
@@ -64,7 +71,13 @@ vec3 shown_pixel(vec3 point, vec3 direction) {
 }
 )glsl";
 
+/// How many cuts a look has, of those that a renderer heeds. Fixed when a program is compiled: in most
+/// pictures there is none, and what no picture needs is to cost no pixel anything.
+int cut_count(const SceneLook& look);
+std::string cut_count_glsl(int cut_count);
+
 /// The program must be in use.
-void set_look_uniforms(const gl::Program& program, const SceneLook& look, const BoneTextures& bone);
+void set_background_uniforms(const gl::Program& program, const SceneLook& look);
+void set_cut_uniforms(const gl::Program& program, const SceneLook& look, const BoneTextures& bone);
 
 }  // namespace osteomill

@@ -16,7 +16,7 @@ namespace {
 constexpr int light_unit = 0;  // no bone is sampled beside it
 
 std::string lit_source(const char* fragment) {
-    return std::string("#version 330 core\n") + lighting_glsl + look_glsl + fragment;
+    return std::string("#version 330 core\n") + lighting_glsl + background_glsl + fragment;
 }
 
 /// From voxels of the textures to patient space.
@@ -31,8 +31,8 @@ glm::dmat4 to_patient(const BoneTextures& bone) {
 
 SliceRenderer::SliceRenderer(const SliceSettings& settings)
     : settings_(settings),
-      slice_program_(slice_vertex_glsl, std::string(lighting_glsl) + look_glsl + bone_shading_glsl +
-                                            cut_shading_glsl + slice_fragment_glsl),
+      slice_program_(slice_vertex_glsl,
+                     std::string(lighting_glsl) + bone_shading_glsl + cut_shading_glsl + slice_fragment_glsl),
       blend_program_(whole_picture_vertex_glsl, lit_source(blend_fragment_glsl)) {}
 
 void SliceRenderer::draw(const BoneTextures& bone, const Camera& camera, const glm::ivec2& size_px) {
@@ -40,7 +40,7 @@ void SliceRenderer::draw(const BoneTextures& bone, const Camera& camera, const g
     slices_.upload(view_slices(glm::dvec3(-1.0), glm::dvec3(bone.box().size) + 1.0,
                                bone.to_box_voxels(camera.eye_mm()), camera.forward(),
                                settings_.spacing_voxels));
-    background_.draw(bone, look(), size_px);
+    background_.draw(look(), size_px);
     if (bone.is_translucent())
         draw_translucent(bone, camera, size_px);
     else
@@ -49,13 +49,12 @@ void SliceRenderer::draw(const BoneTextures& bone, const Camera& camera, const g
 
 void SliceRenderer::draw_slices(const BoneTextures& bone, const Camera& camera, const glm::ivec2& size_px,
                                 Pass pass) {
-    const gl::Program& program = slice_program_.use(bone);
+    const gl::Program& program = slice_program_.use(bone, look());
     program.set("to_clip", glm::mat4(camera.projection(size_px) * camera.view() * to_patient(bone)));
     program.set("eye", glm::vec3(bone.to_box_voxels(camera.eye_mm())));
     program.set("forward", glm::vec3(camera.forward()));
     program.set("spacing", settings_.spacing_voxels);
     program.set("drawn_pass", static_cast<int>(pass));
-    set_look_uniforms(program, look(), bone);
     slices_.draw();
 }
 
@@ -73,7 +72,7 @@ void SliceRenderer::draw_translucent(const BoneTextures& bone, const Camera& cam
     blend_program_.use();
     blend_program_.set("light", light_unit);
     blend_program_.set("picture_size", glm::vec2(size_px));
-    set_look_uniforms(blend_program_, look(), bone);
+    set_background_uniforms(blend_program_, look());
     light_->bind_texture(light_unit);
     glDisable(GL_DEPTH_TEST);
     full_screen_.draw();
