@@ -42,6 +42,11 @@ void CutSettings::step(std::size_t index, const Camera& camera) {
         cut.is_on = false;
 }
 
+void CutSettings::set(std::size_t axis, const glm::dvec3& normal, double position_mm) {
+    cuts_[axis] = {.is_on = true, .normal = normal, .position_mm = position_mm};
+    last_ = axis;
+}
+
 void CutSettings::turn_over(std::size_t index) {
     Cut& cut = cuts_[index];
     last_ = index;

@@ -5,7 +5,9 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <array>
 #include <charconv>
+#include <cmath>
 #include <map>
 #include <stdexcept>
 
@@ -42,6 +44,40 @@ std::string take_address(const std::string& text, RenderOptions& options) {
         }
     }
     return "is '" + text + "', not HOST:PORT with a port from 1 to 65535, such as 127.0.0.1:7010";
+}
+
+/// A side of the patient that a cut can take away.
+struct Side {
+    const char* name;
+    std::size_t axis;
+    double sign;  // of the axis, patient LPS
+};
+constexpr std::array sides{Side{"left", 0, 1.0},   Side{"right", 0, -1.0}, Side{"back", 1, 1.0},
+                           Side{"front", 1, -1.0}, Side{"above", 2, 1.0},  Side{"below", 2, -1.0}};
+
+/// Adds the cut that "SIDE" or "SIDE:MM" means. Returns what is wrong, or nothing.
+std::string take_cut(const std::string& text, CutSettings& cuts) {
+    const std::size_t colon = text.find(':');
+    const auto side =
+        std::find_if(sides.begin(), sides.end(),
+                     [name = text.substr(0, colon)](const Side& known) { return name == known.name; });
+    double position_mm = 0.0;
+    bool is_number = true;
+    if (colon != std::string::npos) {
+        const char* const end = text.data() + text.size();
+        const auto [stop, error] = std::from_chars(text.data() + colon + 1, end, position_mm);
+        is_number = error == std::errc() && stop == end && std::isfinite(position_mm);
+    }
+    if (side == sides.end() || !is_number)
+        return fmt::format(
+            "is '{}', not left, right, front, back, above or below, or one of these with how many mm off the "
+            "bone's middle, such as left:2.5",
+            text);
+    if (cuts[side->axis].is_on) return fmt::format("'{}': there is a cut along that axis already", text);
+    glm::dvec3 normal(0.0);
+    normal[static_cast<int>(side->axis)] = side->sign;
+    cuts.set(side->axis, normal, position_mm);
+    return {};
 }
 
 NoRun wrong_usage(const std::string& what) {
@@ -81,6 +117,17 @@ void add_look(CLI::App& app, RenderOptions& options) {
     }
     add_choice(app, "--transfer", names, presets, options.look.transfer,
                "Colour and opacity by stiffness; unless given, tissues in their own colours");
+    app.add_option_function<std::vector<std::string>>(
+           "--cut",
+           [&](const std::vector<std::string>& texts) {
+               for (const std::string& text : texts)
+                   if (const std::string wrong = take_cut(text, options.cuts); !wrong.empty())
+                       throw CLI::ValidationError("--cut", wrong);
+           },
+           "Open the bone: its left, right, front, back, above or below is gone, from so many mm beyond its "
+           "middle on (0); "
+           "up to three")
+        ->type_name("SIDE[:MM]");
 }
 
 /// What the options together get wrong; empty where they agree.

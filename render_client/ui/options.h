@@ -8,6 +8,7 @@
 #include <string>
 
 #include "common/net/tls_files.h"
+#include "render_client/ui/cut_settings.h"
 #include "render_client/ui/theme.h"
 #include "render_client/volume/bone_look.h"
 #include "render_client/volume/renderer_choice.h"
@@ -24,6 +25,7 @@ struct RenderOptions {
     double speed = 1.0;                           ///< of the recording: recorded seconds a second
     RendererChoice renderer = RendererChoice::raycast;
     BoneLook look;
+    CutSettings cuts;  ///< the bone's bounds are not known yet
     bool offscreen = false;
     int frames = 300;                   ///< offscreen: ends after so many
     bool until_server_ends = false;     ///< in a window: close it when the session is over

@@ -80,6 +80,7 @@ RenderReport run_in_window(const RenderOptions& options, SessionSource& source,
     session.limit_textures({.budget_bytes = options.texture_budget_bytes});
     OperatorHand hand;
     session.view().theme = options.theme;
+    session.view().cuts = options.cuts;
     session.view().panels_shown = options.panels;
     Commands commands(session, hand, source.player(), options.screenshots);
     FrameTimes frame_times;

@@ -55,6 +55,16 @@ TEST_F(Cuts, MoveWithinTheBone) {
     EXPECT_DOUBLE_EQ(cuts[1].position_mm, 10.0) << "a cut that is off stays";
 }
 
+TEST_F(Cuts, SetBeforeTheBoneIsKnownAreConfinedByIt) {
+    CutSettings early;
+    early.set(2, {0.0, 0.0, -1.0}, 12.0);
+    early.set(0, {1.0, 0.0, 0.0}, 80.0);
+    early.set_bounds({0.0, 0.0, 0.0}, {10.0, 20.0, 30.0});
+    ASSERT_EQ(early.planes().size(), 2U);
+    EXPECT_DOUBLE_EQ(early.planes()[0].offset_mm, 10.0);
+    EXPECT_DOUBLE_EQ(early.planes()[1].offset_mm, -3.0) << "what lies below z = 3 is gone";
+}
+
 TEST_F(Cuts, TurnOverInPlace) {
     cuts.step(2, camera);
     cuts.move_to(2, 5.0);

@@ -43,6 +43,22 @@ TEST(Options, ChooseRendererShadingAndTransferFunctionByName) {
     expect_refused({"--transfer", "skin"}, "ct-window");
 }
 
+TEST(Options, OpenTheBoneByTheSidesThatAreToGo) {
+    EXPECT_FALSE(parsed({}).options.cuts.any());
+    const ParsedOptions result = parsed({"--cut", "front", "--cut", "left:-2.5"});
+    ASSERT_FALSE(result.no_run.has_value()) << result.no_run->message;
+    const CutSettings& cuts = result.options.cuts;
+    EXPECT_TRUE(cuts[0].is_on);
+    EXPECT_EQ(cuts[0].normal, glm::dvec3(1.0, 0.0, 0.0));
+    EXPECT_EQ(cuts[0].position_mm, -2.5);
+    EXPECT_EQ(cuts[1].normal, glm::dvec3(0.0, -1.0, 0.0));
+    EXPECT_EQ(cuts[1].position_mm, 0.0);
+    EXPECT_FALSE(cuts[2].is_on);
+    for (const char* wrong : {"top", "left:", "left:1mm", "left:nan", ":3"})
+        expect_refused({"--cut", wrong}, wrong);
+    expect_refused({"--cut", "left", "--cut", "right"}, "already");
+}
+
 TEST(Options, TakeEverythingOfAnOffscreenRun) {
     const ParsedOptions result = parsed({"--connect", "[::1]:7011", "--offscreen", "--frames", "12",
                                          "--screenshots", "shots", "--screenshot-every", "3", "--window-size",
