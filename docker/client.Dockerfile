@@ -14,6 +14,8 @@ RUN apt-get update -qq \
     && useradd --uid 10001 --create-home osteomill \
     && install -d -o osteomill /out
 COPY --from=programs render_client /usr/local/bin/
+# An image in which it lacks a library is none.
+RUN render_client --version
 COPY is_connected.sh /usr/local/bin/
 USER osteomill
 WORKDIR /out

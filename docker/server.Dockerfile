@@ -8,12 +8,14 @@ FROM ${PROGRAMS} AS programs
 FROM ${BASE}
 RUN apt-get update -qq \
     && DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends \
-        libcap2-bin libfmt9 libgdcm3.0 libinsighttoolkit5.2 libpcap0.8 libprotobuf32 libspdlog1.10 libssl3 \
+        libcap2-bin libfmt9 libgdcm3.0 libhidapi-hidraw0 libinsighttoolkit5.2 libpcap0.8 libprotobuf32 libspdlog1.10 libssl3 \
         libtomlplusplus3 libxxhash0 libzstd1 \
     && rm -rf /var/lib/apt/lists/* \
     && useradd --uid 10001 --create-home osteomill \
     && install -d -o osteomill /out
 COPY --from=programs haptic_server packet_replay /usr/local/bin/
+# An image in which they lack a library is none.
+RUN haptic_server --version && packet_replay --version
 # A program that is granted what its container lacks does not start: see serve.sh.
 RUN install -D /usr/local/bin/haptic_server /usr/local/lib/osteomill/haptic_server \
     && setcap cap_sys_nice+ep /usr/local/lib/osteomill/haptic_server
