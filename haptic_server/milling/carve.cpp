@@ -21,8 +21,8 @@ void carve_short(Bone& bone, const Sweep& ball, bool crescent_only, const CarveS
     const glm::ivec3 near(glm::floor(0.5 * (ball.from + ball.to)));
     const glm::ivec3 base = ((near - reach) >> 4) * brick_edge_voxels;  // rounded down to a brick
     const glm::dvec3 origin(base);
-    CrescentRows rows({ball.from - origin, ball.to - origin, ball.radius}, crescent_only,
-                      glm::max(-base, glm::ivec3(0)), size - base);
+    CrescentRows rows({ball.from - origin, ball.to - origin, ball.radius}, rim_voxels(settings.edges),
+                      crescent_only, glm::max(-base, glm::ivec3(0)), size - base);
     const VoxelRange slices = rows.slices();
     if (rows.columns().empty() || rows.rows().empty() || slices.empty()) return;
 

@@ -16,11 +16,12 @@ template <VoxelEdges edges>
             left[lane] = fraction_left<edges>(local, x[lane], y[lane], z[lane]);
 }
 
-[[gnu::always_inline]] inline void for_either_edges(const SweepSeenFrom& sweep, const float* x,
-                                                    const float* y, const float* z, std::int32_t* left,
-                                                    std::size_t count) {
+[[gnu::always_inline]] inline void for_edges(const SweepSeenFrom& sweep, const float* x, const float* y,
+                                             const float* z, std::int32_t* left, std::size_t count) {
     if (sweep.edges == VoxelEdges::partial)
         all_fractions_left<VoxelEdges::partial>(sweep, x, y, z, left, count);
+    else if (sweep.edges == VoxelEdges::soft)
+        all_fractions_left<VoxelEdges::soft>(sweep, x, y, z, left, count);
     else
         all_fractions_left<VoxelEdges::whole>(sweep, x, y, z, left, count);
 }
@@ -28,7 +29,7 @@ template <VoxelEdges edges>
 #if defined(__x86_64__)
 [[gnu::target("avx2")]] void fractions_left_avx2(const SweepSeenFrom& sweep, const float* x, const float* y,
                                                  const float* z, std::int32_t* left, std::size_t count) {
-    for_either_edges(sweep, x, y, z, left, count);
+    for_edges(sweep, x, y, z, left, count);
 }
 #endif
 
@@ -50,7 +51,7 @@ void fractions_left(const SweepSeenFrom& sweep, std::span<const float> x, std::s
         return;
     }
 #endif
-    for_either_edges(sweep, x.data(), y.data(), z.data(), left.data(), left.size());
+    for_edges(sweep, x.data(), y.data(), z.data(), left.data(), left.size());
 }
 
 }  // namespace osteomill

@@ -2,9 +2,18 @@
 // covers,
 //
 //     cover = clamp(1/2 + (R - distance) / h, 0, 1)      partial voxels
+//     cover = that, smoothed                             soft voxels
 //     cover = 1 where distance <= R, else 0              whole voxels, as in the published system
 //
 // with the distance of the voxel's centre from the path of the burr's centre.
+//
+// A ramp of one voxel is what a cube is covered by a plane along its faces. Aslant, a plane takes up to sqrt
+// 3 voxels to cover it, and chips thinner than a voxel show the corners of the ramp as a ripple. Soft voxels
+// have the ramp's mean over b = 1 / sqrt 2 voxel: with u = (R - distance) / h and a = min(|u|, 1/2 + b/2),
+//
+//     cover = 1/2 + sign(u) (a - max(0, a - 1/2 + b/2)^2 / (2 b))
+//
+// which is smooth, and whose burr reaches b/2 farther.
 #pragma once
 
 #include <cmath>
@@ -17,7 +26,17 @@
 namespace osteomill {
 
 /// Whether a voxel can be partly gone.
-enum class VoxelEdges { partial, whole };
+enum class VoxelEdges { partial, soft, whole };
+
+namespace detail {
+inline constexpr double soft_mean_over = 0.70710678118654752;
+}
+
+/// How far beyond the burr's radius a voxel's centre can be that loses something, voxels.
+constexpr double rim_voxels(VoxelEdges edges) {
+    if (edges == VoxelEdges::whole) return 0.0;
+    return edges == VoxelEdges::partial ? 0.5 : 0.5 + 0.5 * detail::soft_mean_over;
+}
 
 /// A short sweep, seen from a voxel nearby; what the inner loop needs of it.
 struct SweepSeenFrom {
@@ -49,6 +68,16 @@ template <VoxelEdges edges>
     const double distance = std::sqrt(dx * dx + dy * dy + dz * dz);
     if constexpr (edges == VoxelEdges::whole) {
         return distance <= sweep.radius ? 0 : 255;
+    } else if constexpr (edges == VoxelEdges::soft) {
+        constexpr double mean_over = detail::soft_mean_over;
+        const double beyond = distance - sweep.radius;
+        double off = std::abs(beyond);
+        off = off > rim_voxels(edges) ? rim_voxels(edges) : off;
+        double bent = off - (0.5 - 0.5 * mean_over);
+        bent = bent < 0.0 ? 0.0 : bent;
+        const double rise = off - bent * bent * (0.5 / mean_over);
+        const double left = 0.5 + std::copysign(rise, beyond);
+        return static_cast<std::int32_t>(255.0 * left + 0.5);
     } else {
         double cover = 0.5 + sweep.radius - distance;
         cover = cover < 0.0 ? 0.0 : cover;

@@ -4,8 +4,9 @@
 //
 // The margin: with u = 2^-24 and no place more than D = R + 4 from the path, the components of the distance
 // are off by at most u (2 D + 3) (places are whole numbers, and the whole part of `from` is taken off them
-// first, which rounds nothing), the distance by u (6 D + 6), and less what it is compared with by u (7 D +
-// 7). An error in the nearest point's place on the path counts only by its square.
+// first, which rounds nothing), the distance by u (6 D + 6), less what it is compared with by u (7 D + 7),
+// and what soft voxels make of that, which nowhere rises faster, by 6 u more. An error in the nearest point's
+// place on the path counts only by its square.
 #pragma once
 
 #include <glm/common.hpp>
@@ -74,6 +75,19 @@ template <VoxelEdges edges>
         const Ints least = (distance - sweep.margin > sweep.radius) & 255;
         const Ints most = (distance + sweep.margin > sweep.radius) & 255;
         return {least, most};
+    } else if constexpr (edges == VoxelEdges::soft) {
+        constexpr auto rim = static_cast<float>(rim_voxels(edges));
+        constexpr auto bend_from = static_cast<float>(0.5 - 0.5 * detail::soft_mean_over);
+        constexpr auto bend = static_cast<float>(0.5 / detail::soft_mean_over);
+        const Floats beyond = distance - sweep.radius;
+        Floats off = beyond < 0.0f ? -beyond : beyond;
+        off = off > rim ? zero + rim : off;
+        Floats bent = off - bend_from;
+        bent = bent < 0.0f ? zero : bent;
+        const Floats rise = off - bent * bent * bend;
+        const Floats codes = 127.5f + 255.0f * (beyond < 0.0f ? -rise : rise);
+        const float off_codes = 255.0f * sweep.margin;
+        return {detail::rounded_code(codes - off_codes), detail::rounded_code(codes + off_codes)};
     } else {
         const Floats codes = 255.0f * (distance - (sweep.radius - 0.5f));
         const float off = 255.0f * sweep.margin;

@@ -7,14 +7,14 @@
 
 namespace osteomill {
 
-CrescentRows::CrescentRows(const Sweep& ball, bool crescent_only, const glm::ivec3& first,
+CrescentRows::CrescentRows(const Sweep& ball, double rim, bool crescent_only, const glm::ivec3& first,
                            const glm::ivec3& end) noexcept
     : crescent_only_(crescent_only) {
     const glm::dvec3 middle = 0.5 * (ball.from + ball.to);
     const glm::dvec3 along = ball.to - ball.from;
     const double length = glm::length(along);
-    const double outer = ball.radius + 0.5 + 0.5 * length + slack_voxels;
-    const double inner = ball.radius - 0.5 - 0.5 * length - slack_voxels;
+    const double outer = ball.radius + rim + 0.5 * length + slack_voxels;
+    const double inner = ball.radius - rim - 0.5 * length - slack_voxels;
     shape_.middle = glm::vec3(middle);
     shape_.from = glm::vec3(ball.from);
     shape_.outer_squared = static_cast<float>(outer * outer);

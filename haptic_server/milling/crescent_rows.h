@@ -1,9 +1,11 @@
 // Which voxels of a row can lie in the crescent that a burr cuts in one short step. A superset, quickly
 // found: for a step of length L from a to b about its middle m, what changes lies
 //
-//     within R + 1/2 + L/2 of m       (beyond, no voxel is covered),
-//     not within R - 1/2 - L/2 of m   (there the ball at a has left nothing),
-//     ahead of the plane through a across the step.
+//     within R + rim + L/2 of m       (beyond, no voxel is covered),
+//     not within R - rim - L/2 of m   (there the ball at a has left nothing),
+//     ahead of the plane through a across the step
+//
+// with rim_voxels() of cover.h.
 #pragma once
 
 #include <glm/vec3.hpp>
@@ -30,9 +32,9 @@ class CrescentRows {
     static constexpr double largest_radius_voxels = 250.0;
     static constexpr int most_rows = 528;
 
-    /// `ball` is counted from the base, and so are the voxels `first` <= v < `end` that there are. With
-    /// `crescent_only` false, all of the ball is looked at.
-    CrescentRows(const Sweep& ball, bool crescent_only, const glm::ivec3& first,
+    /// `ball` and `rim` in voxels; the ball is counted from the base, and so are the voxels `first` <= v <
+    /// `end` that there are. With `crescent_only` false, all of the ball is looked at.
+    CrescentRows(const Sweep& ball, double rim, bool crescent_only, const glm::ivec3& first,
                  const glm::ivec3& end) noexcept;
 
     /// What the sweep can reach of the voxels that there are.

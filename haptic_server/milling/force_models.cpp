@@ -15,6 +15,7 @@ namespace osteomill {
 std::vector<ForceModel> force_models() {
     return {
         {.name = "milling", .description = "the cutting law, summed over removed voxels"},
+        {.name = "milling-soft", .description = "the same with soft voxels, for chips thinner than one"},
         {.name = "milling-bins", .description = "the same over bins of angle and height, as published"},
         {.name = "milling-instants", .description = "the same within the tooth period"},
         {.name = "point-spring", .description = "a spring at the deepest point", .has_cutting_law = false},
@@ -40,16 +41,16 @@ ForceModel force_model(const std::string& name) {
 
 std::unique_ptr<ContactModel> make_contact_model(const std::string& name, Bone bone, std::vector<Burr> burrs,
                                                  const std::vector<Tissue>& tissues) {
-    const auto milling = [&](ForceSummation summation) {
-        return std::make_unique<MillingModel>(std::move(bone), std::move(burrs), tissues,
-                                              MillingSettings{.summation = summation});
+    const auto milling = [&](const MillingSettings& settings) {
+        return std::make_unique<MillingModel>(std::move(bone), std::move(burrs), tissues, settings);
     };
     const auto eroding = [&](std::unique_ptr<ContactLaw> law) {
         return std::make_unique<ErodingModel>(std::move(bone), std::move(burrs), tissues, std::move(law));
     };
-    if (name == "milling") return milling(ForceSummation::voxels);
-    if (name == "milling-bins") return milling(ForceSummation::bins);
-    if (name == "milling-instants") return milling(ForceSummation::instants);
+    if (name == "milling") return milling({});
+    if (name == "milling-soft") return milling({.edges = VoxelEdges::soft});
+    if (name == "milling-bins") return milling({.summation = ForceSummation::bins});
+    if (name == "milling-instants") return milling({.summation = ForceSummation::instants});
     if (name == "point-spring") return eroding(std::make_unique<PointSpring>());
     if (name == "petersik") return eroding(std::make_unique<PetersikProbe>());
     if (name == "morris") return eroding(std::make_unique<VoxelTool>());

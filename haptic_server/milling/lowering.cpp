@@ -199,6 +199,8 @@ void Lowering::lower_bricks_plain(const CrescentRows& rows, const BrickLayer& la
                                   const VoxelRange& z) noexcept {
     if (sweep_.edges == VoxelEdges::partial)
         Kernel{*this}.lower_bricks<VoxelEdges::partial>(rows, layer, brick_y, z);
+    else if (sweep_.edges == VoxelEdges::soft)
+        Kernel{*this}.lower_bricks<VoxelEdges::soft>(rows, layer, brick_y, z);
     else
         Kernel{*this}.lower_bricks<VoxelEdges::whole>(rows, layer, brick_y, z);
 }
@@ -208,6 +210,8 @@ void Lowering::lower_bricks_plain(const CrescentRows& rows, const BrickLayer& la
                                                          int brick_y, const VoxelRange& z) noexcept {
     if (sweep_.edges == VoxelEdges::partial)
         Kernel{*this}.lower_bricks<VoxelEdges::partial>(rows, layer, brick_y, z);
+    else if (sweep_.edges == VoxelEdges::soft)
+        Kernel{*this}.lower_bricks<VoxelEdges::soft>(rows, layer, brick_y, z);
     else
         Kernel{*this}.lower_bricks<VoxelEdges::whole>(rows, layer, brick_y, z);
 }

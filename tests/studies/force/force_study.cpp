@@ -34,7 +34,8 @@ class ForceStudy {
 
     void run() {
         ordered_json found;
-        found["survey"] = survey();
+        found["survey"] = survey("survey", {});
+        found["survey_soft"] = survey("survey_soft", {.edges = VoxelEdges::soft});
         found["pareto"] = pareto();
         found["convergence"] = convergence();
         curves();
@@ -64,26 +65,26 @@ class ForceStudy {
         write_text(table, options_.out / name);
     }
 
-    ordered_json survey() const {
+    ordered_json survey(const std::string& name, const MillingSettings& settings) const {
         const auto points = survey_points(options_.quick);
-        const auto results = with_progress("survey", [&](const Progress& progress) {
+        const auto results = with_progress(name, [&](const Progress& progress) {
             std::vector<SurveyResult> measured;
             for (const SurveyPoint& point : points) {
-                measured.push_back(measure(point, voxel_model()));
+                measured.push_back(measure(point, voxel_model(settings)));
                 progress(static_cast<double>(measured.size()) / static_cast<double>(points.size()));
             }
             return measured;
         });
-        write(csv_of(results), "survey.csv");
+        write(csv_of(results), name + ".csv");
         std::size_t misses = 0;
         for (const SurveyResult& r : results) {
             if (r.meets_error() && r.meets_ripple()) continue;
             ++misses;
-            say("misses: {}: error {:.2f} % (target {:.0f} %), ripple {:.2f} %{}", r.point.motion.name,
-                100.0 * r.error, 100.0 * r.point.most_error, 100.0 * r.ripple,
+            say("{} misses: {}: error {:.2f} % (target {:.0f} %), ripple {:.2f} %{}", name,
+                r.point.motion.name, 100.0 * r.error, 100.0 * r.point.most_error, 100.0 * r.ripple,
                 r.point.most_ripple ? fmt::format(" (target {:.0f} %)", 100.0 * *r.point.most_ripple) : "");
         }
-        say("survey: {} of {} motions meet their targets", results.size() - misses, results.size());
+        say("{}: {} of {} motions meet their targets", name, results.size() - misses, results.size());
         return summary_of(results);
     }
 

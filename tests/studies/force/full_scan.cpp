@@ -40,11 +40,6 @@ std::vector<ToolVoxel> tool_voxels(double reach) {
     return voxels;
 }
 
-/// How far beyond the burr's radius a voxel's centre can lie that the burr still lowers.
-double rim_voxels(VoxelEdges edges) {
-    return edges == VoxelEdges::partial ? 0.5 : 0.0;
-}
-
 /// Bone that the tool met, lowered a batch at a time.
 template <typename Force>
 class MetBone {

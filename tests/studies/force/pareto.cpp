@@ -41,6 +41,10 @@ std::vector<ParetoSetting> pareto_settings(bool quick) {
                             .label = label,
                             .make = voxel_model(binary),
                             .voxel_mm = voxel_mm});
+        settings.push_back({.family = "crescent of soft voxels",
+                            .label = label,
+                            .make = voxel_model({.edges = VoxelEdges::soft}),
+                            .voxel_mm = voxel_mm});
         if (quick && voxel_mm < 0.1) continue;
         settings.push_back({.family = "full scan of partial voxels",
                             .label = label,

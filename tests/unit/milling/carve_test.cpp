@@ -125,6 +125,8 @@ void carve_voxel_by_voxel(Bone& bone, const Sweep& sweep, VoxelEdges edges) {
                 const std::int32_t left =
                     edges == VoxelEdges::partial
                         ? fraction_left<VoxelEdges::partial>(seen, place.x, place.y, place.z)
+                    : edges == VoxelEdges::soft
+                        ? fraction_left<VoxelEdges::soft>(seen, place.x, place.y, place.z)
                         : fraction_left<VoxelEdges::whole>(seen, place.x, place.y, place.z);
                 fraction = static_cast<std::uint8_t>(std::min<int>(fraction, left));
             }
@@ -136,7 +138,7 @@ TEST(Carve, LeavesOfEachVoxelWhatTheFormulaSays) {
     std::uniform_real_distribution<double> step(-1.1, 1.1);
     // The larger the burr, the less single precision knows of its surface.
     for (const double radius : {0.4, 5.0, 25.0, 249.0})
-        for (const VoxelEdges edges : {VoxelEdges::partial, VoxelEdges::whole})
+        for (const VoxelEdges edges : {VoxelEdges::partial, VoxelEdges::soft, VoxelEdges::whole})
             for (const InstructionSet instructions : {InstructionSet::plain, best_instruction_set()}) {
                 Bone bone = make_block({0.0, 0.0, 0.0}, {3.5, 3.3, 3.4}, spacing_mm);
                 Bone expected = bone;

@@ -39,7 +39,7 @@ RemovedVoxels random_voxels() {
 TEST_F(InstructionSets, CoverVoxelsAlike) {
     const RemovedVoxels voxels = random_voxels();
     const std::size_t count = voxels.padded_count();
-    for (const VoxelEdges edges : {VoxelEdges::partial, VoxelEdges::whole}) {
+    for (const VoxelEdges edges : {VoxelEdges::partial, VoxelEdges::soft, VoxelEdges::whole}) {
         const SweepSeenFrom sweep({{70.3, 80.1, 90.7}, {70.9, 80.0, 90.5}, 25.0}, glm::dvec3(voxels.base),
                                   edges);
         std::array<std::vector<std::int32_t>, 2> left;
