@@ -61,7 +61,7 @@ void SessionPicture::take_in() {
     if (link_.bone_replaced || (!textures_ && bone_problem_.empty())) {
         replace_bone();
     } else if (textures_ && !link_.dirty_bricks.empty()) {
-        picture_.mark_dirty(textures_->update(*bone, link_.dirty_bricks));
+        picture_.mark_dirty(*textures_, textures_->update(*bone, link_.dirty_bricks));
         dirty_bricks_uploaded_ += link_.dirty_bricks.size();
     }
     if (first_of_tool && camera_ == first_view_) reset_camera();

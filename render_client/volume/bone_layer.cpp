@@ -4,6 +4,7 @@
 #include <cmath>
 #include <glm/common.hpp>
 
+#include "render_client/volume/block_summary.h"
 #include "render_client/volume/bone_sampling_shader.h"
 
 namespace osteomill {
@@ -31,6 +32,13 @@ PixelBox in_coarse(const PixelBox& box, const glm::ivec2& fine_px, const glm::iv
     return {first, glm::min(high, coarse_px) - first};
 }
 
+/// A change is felt as far as its block is: what shading reads are means over blocks, counted from `origin`.
+VoxelBox in_whole_blocks(const VoxelBox& box, const glm::ivec3& origin) {
+    const glm::ivec3 first = (box.first - origin) / block_edge_voxels * block_edge_voxels;
+    const glm::ivec3 end = box.first + box.size - origin + (block_edge_voxels - 1);
+    return {origin + first, end / block_edge_voxels * block_edge_voxels - first};
+}
+
 }  // namespace
 
 BoneLayer::BoneLayer(BoneRenderer& renderer, const glm::ivec2& size_px, Stopwatch* stopwatch)
@@ -53,8 +61,8 @@ void BoneLayer::forget() {
     dirty_.clear();
 }
 
-void BoneLayer::mark_dirty(std::span<const VoxelBox> changed) {
-    dirty_.insert(dirty_.end(), changed.begin(), changed.end());
+void BoneLayer::mark_dirty(const BoneTextures& bone, std::span<const VoxelBox> changed) {
+    for (const VoxelBox& box : changed) dirty_.push_back(in_whole_blocks(box, bone.box().first));
 }
 
 TileMask BoneLayer::update(const BoneTextures& bone, const Camera& camera) {

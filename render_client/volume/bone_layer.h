@@ -34,8 +34,8 @@ class BoneLayer {
     const SceneLook& look() const { return renderer_.look(); }
     /// Another bone: all of it is stale.
     void forget();
-    /// These voxels changed since the last update: what BoneTextures::update returned.
-    void mark_dirty(std::span<const VoxelBox> changed);
+    /// These voxels of `bone` changed since the last update: what its own update returned.
+    void mark_dirty(const BoneTextures& bone, std::span<const VoxelBox> changed);
 
     /// Draws what is due. Returns the tiles that look different from before. Leaves some framebuffer bound.
     TileMask update(const BoneTextures& bone, const Camera& camera);

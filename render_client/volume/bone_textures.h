@@ -9,7 +9,7 @@
 
 #include "common/bone/bone.h"
 #include "render_client/volume/bone_look.h"
-#include "render_client/volume/changed_blocks.h"
+#include "render_client/volume/changed_voxels.h"
 #include "render_client/volume/coarse_bone.h"
 #include "render_client/volume/empty_space.h"
 #include "render_client/volume/gl/lookup_table.h"
@@ -32,8 +32,7 @@ class BoneTextures {
     /// Uploads what changed in these bricks, lowered or raised, and what follows from it: glTexSubImage3D,
     /// region by region, never a union of what lies apart. `bone` is the bone of the constructor, changed
     /// since. Call before drawing: a texture that a frame in flight uses makes the call wait for that frame.
-    /// Returns where the picture can differ, in voxels of grid(), whole blocks of EmptySpace; valid until the
-    /// next call.
+    /// Returns what changed, in voxels of grid(); valid until the next call.
     std::span<const VoxelBox> update(const Bone& bone, std::span<const BrickIndex> dirty);
 
     /// How the bone is held: in which layout, how much coarser than it is, in how many bytes.
@@ -87,7 +86,7 @@ class BoneTextures {
     std::optional<gl::Texture3D> colour_code_;
     gl::LookupTable colours_;
     std::optional<SurfaceTexture> surface_;
-    ChangedBlocks changed_;
+    ChangedVoxels changed_;
     std::vector<std::uint8_t> scratch_;
 };
 

@@ -22,8 +22,10 @@ class ScenePicture {
     void set_look(const SceneLook& look) { layer_.set_look(look); }
     /// The bone was replaced: its layer is drawn anew.
     void forget_bone() { layer_.forget(); }
-    /// These voxels changed since the last draw: what BoneTextures::update returned.
-    void mark_dirty(std::span<const VoxelBox> changed) { layer_.mark_dirty(changed); }
+    /// These voxels of `bone` changed since the last draw: what its update returned.
+    void mark_dirty(const BoneTextures& bone, std::span<const VoxelBox> changed) {
+        layer_.mark_dirty(bone, changed);
+    }
 
     /// Draws into its own framebuffer and leaves it bound, so that an overlay may follow. Null: there is no
     /// bone, or no tool, yet.

@@ -20,7 +20,7 @@ class OurPicture final : public MeasuredPicture {
 
     void look_from(const Camera& camera) override { camera_ = camera; }
     void changed(const Bone& bone, std::span<const BrickIndex> dirty) override {
-        scene_.mark_dirty(textures_.update(bone, dirty));
+        scene_.mark_dirty(textures_, textures_.update(bone, dirty));
     }
     void draw_all() override {
         scene_.forget_bone();

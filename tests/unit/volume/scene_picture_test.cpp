@@ -86,7 +86,7 @@ TEST_F(ScenePictureTest, RedrawsUnderAStillCameraWhatAFullDrawWouldShow) {
                 for (const BrickIndex brick :
                      carve_sphere(bone, {side * 3.0, -2.5 + 0.3 * step, 1.6 + 0.1 * side}, 0.5))
                     dirty.push_back(brick);
-            kept.mark_dirty(textures.update(bone, dirty));
+            kept.mark_dirty(textures, textures.update(bone, dirty));
             ScenePicture fresh(renderer, size_px);
             EXPECT_EQ(kept.draw(&textures, nullptr, cameras[view]).read_back(),
                       fresh.draw(&textures, nullptr, cameras[view]).read_back())
@@ -106,7 +106,7 @@ TEST_F(ScenePictureTest, RedrawsACoarserCopyAndAnAtlasAsExactly) {
         kept.draw(&textures, nullptr, camera);
         for (int carve = 0; carve < 4; ++carve) {
             const auto dirty = carve_sphere(bone, {-2.0 + carve, 1.3 - carve, 1.4}, 0.6);
-            kept.mark_dirty(textures.update(bone, dirty));
+            kept.mark_dirty(textures, textures.update(bone, dirty));
             ScenePicture fresh(renderer, size_px);
             EXPECT_EQ(kept.draw(&textures, nullptr, camera).read_back(),
                       fresh.draw(&textures, nullptr, camera).read_back())
@@ -127,7 +127,7 @@ TEST_F(ScenePictureTest, RedrawsSlicesAndSurfaceVoxelsAsExactly) {
             kept.draw(&textures, nullptr, camera);
             for (int carve = 0; carve < 3; ++carve) {
                 const auto dirty = carve_sphere(bone, {-2.0 + carve, 1.3 - carve, 1.4}, 0.6);
-                kept.mark_dirty(textures.update(bone, dirty));
+                kept.mark_dirty(textures, textures.update(bone, dirty));
                 const BoneTextures uploaded(bone, {}, {.shading = shading});
                 ScenePicture fresh(*renderer, size_px);
                 const Picture redrawn = kept.draw(&textures, nullptr, camera).read_back();
@@ -152,7 +152,7 @@ TEST_F(ScenePictureTest, DrawsSeparateCarvesAndNotWhatLiesBetween) {
     std::vector<BrickIndex> dirty;
     for (const double x : {-21.0, 21.0})
         for (const BrickIndex brick : carve_sphere(bone, {x, 0.0, 0.0}, 0.4)) dirty.push_back(brick);
-    picture.mark_dirty(textures.update(bone, dirty));
+    picture.mark_dirty(textures, textures.update(bone, dirty));
     renderer.pixels = 0;
     picture.draw(&textures, nullptr, camera);
     EXPECT_GT(renderer.pixels, 0);

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "render_client/volume/changed_blocks.h"
+#include "render_client/volume/changed_voxels.h"
 #include "render_client/volume/lighting.h"
 #include "render_client/volume/surface_texture.h"
 #include "tests/unit/volume/made_bone.h"
@@ -133,7 +133,7 @@ TEST_F(SurfaceTextureTest, IsShadedAgainOnlyRoundTheChangeAndEqualsAFreshOne) {
         BrickPlaces places(bone.content(), layout, gl::max_texture3d_edge());
         SurfaceTexture updated(bone, table, places);
         // At the corner of bricks, so that neighbours' voxels become surface, too.
-        ChangedBlocks changed(bone);
+        ChangedVoxels changed(bone);
         updated.update(bone, places, changed.since_last(bone, carve_sphere(bone, {0.75, 0.75, 1.2}, 0.8)));
         const SurfaceTexture fresh(bone, table, places);
         const auto texels = [&](const SurfaceTexture& surface) {
