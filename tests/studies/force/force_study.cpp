@@ -101,14 +101,15 @@ class ForceStudy {
         write(csv_of(points, motions_), "pareto.csv");
         ordered_json json = ordered_json::array();
         for (const ParetoPoint& p : points)
-            json.push_back({{"family", p.setting.family},
-                            {"label", p.setting.label},
-                            {"voxel_mm", p.setting.voxel_mm},
-                            {"milling_rate_hz", p.setting.milling_rate_hz},
-                            {"is_default", p.setting.is_default},
-                            {"step_us", {{"p50", p.step_us_p50}, {"p99", p.step_us_p99}}},
-                            {"error_percent", 100.0 * p.mean_error},
-                            {"worst_ripple_percent", 100.0 * p.worst_ripple}});
+            json.push_back(
+                {{"family", p.setting.family},
+                 {"label", p.setting.label},
+                 {"voxel_mm", p.setting.voxel_mm},
+                 {"milling_rate_hz", p.setting.milling_rate_hz},
+                 {"is_default", p.setting.is_default},
+                 {"step_us", {{"mean", p.step_us_mean}, {"p50", p.step_us_p50}, {"p99", p.step_us_p99}}},
+                 {"error_percent", 100.0 * p.mean_error},
+                 {"worst_ripple_percent", 100.0 * p.worst_ripple}});
         return json;
     }
 

@@ -27,6 +27,7 @@ std::vector<ParetoSetting> pareto_settings(bool quick);
 
 struct ParetoPoint {
     ParetoSetting setting;
+    double step_us_mean = 0.0;  ///< a model may wait for some steps and make up for them in others
     double step_us_p50 = 0.0;
     double step_us_p99 = 0.0;
     std::vector<double> errors{};  ///< by motion, mean over where the lattice lies

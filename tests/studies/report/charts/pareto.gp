@@ -16,25 +16,25 @@ set datafile missing NaN
 set logscale xy
 set format x '%g'
 set format y '%g'
-set xrange [1 < * < 3 : *]
+set xrange [0.3 < * < 3 : *]
 set offsets 0, graph 0.1, 0, 0
-set xlabel 'time of a step (median), µs'
+set xlabel 'time of a step (mean), µs'
 set multiplot layout 1,2 title 'What a step costs and what it is worth: 5 mm burr; polishing, tilted, plunging, curved, two layers' \
     font ',18' margins 0.06,0.985,0.3,0.88 spacing 0.07,0.1
 set ylabel 'error of the mean force, mean over the motions, %'
 set key at screen 0.5,0.19 center top maxrows 5 Left reverse samplen 2 width 1 font ',14'
-plot for [i=1:9] table using 'step_us_p50':(of(i, 'mean_error_percent')) with linespoints \
+plot for [i=1:9] table using 'step_us_mean':(of(i, 'mean_error_percent')) with linespoints \
          lc rgb Colour[i] pt Point[i] ps 1.1 lw 1.2 title Family[i], \
-     for [i=1:6] table using 'step_us_p50':(of(i, 'mean_error_percent')):'label' with labels \
+     for [i=1:6] table using 'step_us_mean':(of(i, 'mean_error_percent')):'label' with labels \
          left offset 0.8,0.45 font ',11' tc rgb Colour[i] notitle, \
-     table using 'step_us_p50':(column('is_default') == 1 ? column('mean_error_percent') : NaN) with points \
+     table using 'step_us_mean':(column('is_default') == 1 ? column('mean_error_percent') : NaN) with points \
          pt 6 ps 2.2 lw 2.5 lc rgb black title 'the default (voxels of 0.1 mm)'
 set ylabel 'largest ripple of 10 ms steps, %'
 unset key
-plot for [i=1:9] table using 'step_us_p50':(of(i, 'worst_ripple_percent')) with linespoints \
+plot for [i=1:9] table using 'step_us_mean':(of(i, 'worst_ripple_percent')) with linespoints \
          lc rgb Colour[i] pt Point[i] ps 1.1 lw 1.2, \
-     for [i=1:6] table using 'step_us_p50':(of(i, 'worst_ripple_percent')):'label' with labels \
+     for [i=1:6] table using 'step_us_mean':(of(i, 'worst_ripple_percent')):'label' with labels \
          left offset 0.8,0.45 font ',11' tc rgb Colour[i], \
-     table using 'step_us_p50':(column('is_default') == 1 ? column('worst_ripple_percent') : NaN) with points \
+     table using 'step_us_mean':(column('is_default') == 1 ? column('worst_ripple_percent') : NaN) with points \
          pt 6 ps 2.2 lw 2.5 lc rgb black
 unset multiplot
