@@ -12,9 +12,8 @@ namespace osteomill {
 
 namespace {
 
-/// A frame that says more keeps what comes behind it waiting: this is a second of a link of 256 kbit/s. A
-/// single edit is smaller.
-constexpr std::size_t most_state_bytes = 32 * 1024;
+/// What edits shrink to where most of them are as guessed: a part of what is to be told of them, at least.
+constexpr std::size_t least_shrinking = 4;
 
 }  // namespace
 
@@ -57,7 +56,7 @@ void ClientFeed::finish(std::string reason) {
     wants_checksum_ = true;
 }
 
-std::optional<std::string> ClientFeed::next() {
+std::optional<std::string> ClientFeed::next(std::size_t most_state_bytes) {
     v1::ServerFrame frame;
     frame.set_sequence(sequence_ + 1);
     switch (stage_) {
@@ -79,7 +78,7 @@ std::optional<std::string> ClientFeed::next() {
             break;
         case Stage::live:
             if (wants_state_) {
-                fill_state(frame);
+                fill_state(frame, most_state_bytes);
             } else if (goodbye_) {
                 frame.mutable_goodbye()->set_reason(*goodbye_);
                 stage_ = Stage::finished;
@@ -104,21 +103,21 @@ void ClientFeed::fill_snapshot_bricks(v1::SnapshotBricks& message) {
             checksum_of_brick(brick, bone.fractions(static_cast<std::int32_t>(next_slot_++)));
 }
 
-void ClientFeed::fill_state(v1::ServerFrame& frame) {
+void ClientFeed::fill_state(v1::ServerFrame& frame, std::size_t most_bytes) {
     v1::StateFrame& state = *frame.mutable_state();
     *state.mutable_tool() = to_message(tool_);
     if (answer_) *state.mutable_comparison() = *std::exchange(answer_, std::nullopt);
     if (guesser_ != nullptr && !untold_.empty())
-        add_guessed_edits(state);
+        add_guessed_edits(state, most_bytes);
     else
-        add_edits(frame);
+        add_edits(frame, most_bytes);
     told_tool_ = tool_;
     if (!untold_.empty()) return;  // the rest goes into the next frame
     wants_state_ = false;
     if (std::exchange(wants_checksum_, false)) state.set_bone_checksum(mirror_.checksum());
 }
 
-void ClientFeed::add_edits(v1::ServerFrame& frame) {
+void ClientFeed::add_edits(v1::ServerFrame& frame, std::size_t most_bytes) {
     constexpr std::size_t room_for_tags_and_checksums = 64;
     v1::StateFrame& state = *frame.mutable_state();
     told_burr_.reset();
@@ -129,18 +128,19 @@ void ClientFeed::add_edits(v1::ServerFrame& frame) {
         v1::BrickEdit edit = brick_edit(brick, mirror_.bone().fractions(slot), mask);
         constexpr std::size_t tag_and_length = 4;
         bytes += edit.ByteSizeLong() + tag_and_length;
-        if (bytes > most_state_bytes && state.edits_size() > 0) return;
+        if (bytes > most_bytes && state.edits_size() > 0) return;
         *state.add_edits() = std::move(edit);
         untold_.told();
     }
 }
 
-void ClientFeed::add_guessed_edits(v1::StateFrame& state) {
+void ClientFeed::add_guessed_edits(v1::StateFrame& state, std::size_t most_bytes) {
+    const std::size_t most_told = std::min(least_shrinking * most_bytes, largest_guessed_edits_bytes);
     std::vector<ChangedBrick> bricks;
     for (std::size_t bytes = 0; !untold_.empty(); untold_.told()) {
         const auto [brick, mask] = untold_.next();
         bytes += mask_bytes + mask.count();
-        if (bytes > largest_guessed_edits_bytes) break;
+        if (bytes > most_told && !bricks.empty()) break;
         bricks.push_back({brick, mask});
     }
     const std::optional<BurrMotion> motion = burr_motion();

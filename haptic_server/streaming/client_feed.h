@@ -15,6 +15,7 @@
 #include "common/wire/tool_view.h"
 #include "haptic_server/streaming/bone_mirror.h"
 #include "haptic_server/streaming/edit_guesser.h"
+#include "haptic_server/streaming/frame_pace.h"
 #include "haptic_server/streaming/untold_voxels.h"
 #include "osteomill/v1/session.pb.h"
 
@@ -46,8 +47,8 @@ class ClientFeed {
     void finish(std::string reason);
 
     /// The next frame, as bytes for the stream; nothing while there is nothing to say. Edits that do not fit
-    /// one frame follow in the next.
-    std::optional<std::string> next();
+    /// a state frame of so many bytes follow in the next; but it tells of one brick at least.
+    std::optional<std::string> next(std::size_t most_state_bytes = FramePace::most);
 
     bool has_been_asked_to_finish() const { return goodbye_.has_value(); }
     /// Whether goodbye has been said.
@@ -63,9 +64,9 @@ class ClientFeed {
     enum class Stage { hello, snapshot_begin, snapshot_bricks, snapshot_end, live, finished };
 
     void fill_snapshot_bricks(v1::SnapshotBricks& message);
-    void fill_state(v1::ServerFrame& frame);
-    void add_edits(v1::ServerFrame& frame);
-    void add_guessed_edits(v1::StateFrame& state);
+    void fill_state(v1::ServerFrame& frame, std::size_t most_bytes);
+    void add_edits(v1::ServerFrame& frame, std::size_t most_bytes);
+    void add_guessed_edits(v1::StateFrame& state, std::size_t most_bytes);
     /// Since the client was told last; nothing where that is not known.
     std::optional<BurrMotion> burr_motion() const;
     glm::dvec3 burr_in_voxels(const ToolView& tool) const;

@@ -63,7 +63,7 @@ void Session::serve() {
 void Session::pump() {
     if (is_closed_ || is_writing_ || (has_said_hello_ && !is_served_)) return;
     has_said_hello_ = true;
-    std::optional<std::string> frame = feed_.next();
+    std::optional<std::string> frame = feed_.next(pace_.most_bytes());
     if (!frame) {
         // The client closes when it has read goodbye. Closing first could reset the connection and destroy
         // what it has not read yet.
@@ -71,11 +71,24 @@ void Session::pump() {
         return;
     }
     is_writing_ = true;
-    stream_->write(std::move(*frame), [self = shared_from_this()](error_code error) {
-        self->is_writing_ = false;
+    const std::size_t bytes = frame->size();
+    const auto began = std::chrono::steady_clock::now();
+    stream_->write(std::move(*frame), [self = shared_from_this(), bytes, began](error_code error) {
         if (error) return self->close("left: " + describe_stream_error(error), false);
-        self->pump();
+        self->wait_until_taken(bytes, began);
     });
+}
+
+void Session::wait_until_taken(std::size_t bytes, std::chrono::steady_clock::time_point began) {
+    // The system takes a frame whole as soon as it has room for a part of it. The next one is not made before
+    // most of this one is on its way, or it would be old when its turn comes.
+    stream_->socket().async_wait(
+        asio::socket_base::wait_write, [self = shared_from_this(), bytes, began](error_code) {
+            const std::chrono::duration<double> took = std::chrono::steady_clock::now() - began;
+            self->pace_.wrote(bytes, took.count());
+            self->is_writing_ = false;
+            self->pump();
+        });
 }
 
 void Session::close(const std::string& line, bool is_fault) {

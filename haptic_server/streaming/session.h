@@ -1,6 +1,7 @@
 // One client's connection: writes what its feed says, one frame at a time, and reads what the client sends.
 #pragma once
 
+#include <chrono>
 #include <functional>
 #include <memory>
 #include <span>
@@ -45,6 +46,7 @@ class Session : public std::enable_shared_from_this<Session> {
     const std::string& peer() const { return peer_; }
 
   private:
+    void wait_until_taken(std::size_t bytes, std::chrono::steady_clock::time_point began);
     void read();
     void take(std::span<const std::uint8_t> arrived);
 
@@ -52,6 +54,7 @@ class Session : public std::enable_shared_from_this<Session> {
     ClientFeed feed_;
     Callbacks callbacks_;
     std::string peer_;
+    FramePace pace_;
     bool has_said_hello_ = false;
     bool is_served_ = false;
     bool is_writing_ = false;

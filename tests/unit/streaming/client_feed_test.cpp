@@ -102,6 +102,25 @@ TEST_F(ClientFeedTest, SplitsEditsThatDoNotFitAFrame) {
     expect_equal();
 }
 
+TEST_F(ClientFeedTest, SaysLittleAtATimeOverASlowLink) {
+    EditGuesser guesser;
+    for (const bool guesses : {false, true}) {
+        if (guesses) feed_->guess_edits(guesser);
+        drain();
+        carver_->carve(5'000);
+        feed_->request_state({}, true);
+        int frames = 0;
+        while (auto frame = feed_->next(FramePace::least)) {
+            // A single brick may be more, but not by much.
+            EXPECT_LT(frame->size(), FramePace::least + brick_voxel_count + brick_voxel_count / 4);
+            replica_.take(*frame);
+            ++frames;
+        }
+        EXPECT_GT(frames, 10);
+        expect_equal();
+    }
+}
+
 TEST_F(ClientFeedTest, TellsTheSameAsWhatDiffersFromAGuess) {
     EditGuesser guesser;
     feed_->guess_edits(guesser);
