@@ -65,6 +65,12 @@ class StreamOver : public Stream, public std::enable_shared_from_this<StreamOver
                               error_code error, std::size_t) { handler(error); });
     }
 
+    void wait_until_taken(std::function<void()> handler) override {
+        this->socket().async_wait(
+            asio::socket_base::wait_write,
+            [self = this->shared_from_this(), handler = std::move(handler)](error_code) { handler(); });
+    }
+
   protected:
     std::string peer_;
     std::vector<std::uint8_t> arrived_;

@@ -75,20 +75,14 @@ void Session::pump() {
     const auto began = std::chrono::steady_clock::now();
     stream_->write(std::move(*frame), [self = shared_from_this(), bytes, began](error_code error) {
         if (error) return self->close("left: " + describe_stream_error(error), false);
-        self->wait_until_taken(bytes, began);
-    });
-}
-
-void Session::wait_until_taken(std::size_t bytes, std::chrono::steady_clock::time_point began) {
-    // The system takes a frame whole as soon as it has room for a part of it. The next one is not made before
-    // most of this one is on its way, or it would be old when its turn comes.
-    stream_->socket().async_wait(
-        asio::socket_base::wait_write, [self = shared_from_this(), bytes, began](error_code) {
+        // The next one is not made before this one is on its way: it would be old when its turn comes.
+        self->stream_->wait_until_taken([self, bytes, began] {
             const std::chrono::duration<double> took = std::chrono::steady_clock::now() - began;
             self->pace_.wrote(bytes, took.count());
             self->is_writing_ = false;
             self->pump();
         });
+    });
 }
 
 void Session::close(const std::string& line, bool is_fault) {

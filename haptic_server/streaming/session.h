@@ -1,7 +1,6 @@
 // One client's connection: writes what its feed says, one frame at a time, and reads what the client sends.
 #pragma once
 
-#include <chrono>
 #include <functional>
 #include <memory>
 #include <span>
@@ -46,7 +45,6 @@ class Session : public std::enable_shared_from_this<Session> {
     const std::string& peer() const { return peer_; }
 
   private:
-    void wait_until_taken(std::size_t bytes, std::chrono::steady_clock::time_point began);
     void read();
     void take(std::span<const std::uint8_t> arrived);
 

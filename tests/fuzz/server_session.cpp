@@ -31,6 +31,7 @@ class ScriptedStream final : public Stream {
         ++frames_written_;
         writer_ = std::move(handler);
     }
+    void wait_until_taken(std::function<void()> handler) override { handler(); }
     std::string peer() override { return "192.0.2.1:7"; }
     boost::asio::ip::tcp::socket& socket() override { return socket_; }
 
