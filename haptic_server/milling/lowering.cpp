@@ -193,27 +193,27 @@ struct Lowering::Kernel {
             to.changed_slot_ = slot;
         }
     }
+
+    [[gnu::always_inline]] void lower_bricks(const CrescentRows& rows, const BrickLayer& layer, int brick_y,
+                                             const VoxelRange& slices) {
+        if (to.sweep_.edges == VoxelEdges::partial)
+            lower_bricks<VoxelEdges::partial>(rows, layer, brick_y, slices);
+        else if (to.sweep_.edges == VoxelEdges::soft)
+            lower_bricks<VoxelEdges::soft>(rows, layer, brick_y, slices);
+        else
+            lower_bricks<VoxelEdges::whole>(rows, layer, brick_y, slices);
+    }
 };
 
 void Lowering::lower_bricks_plain(const CrescentRows& rows, const BrickLayer& layer, int brick_y,
                                   const VoxelRange& z) noexcept {
-    if (sweep_.edges == VoxelEdges::partial)
-        Kernel{*this}.lower_bricks<VoxelEdges::partial>(rows, layer, brick_y, z);
-    else if (sweep_.edges == VoxelEdges::soft)
-        Kernel{*this}.lower_bricks<VoxelEdges::soft>(rows, layer, brick_y, z);
-    else
-        Kernel{*this}.lower_bricks<VoxelEdges::whole>(rows, layer, brick_y, z);
+    Kernel{*this}.lower_bricks(rows, layer, brick_y, z);
 }
 
 #if defined(__x86_64__)
 [[gnu::target("avx2")]] void Lowering::lower_bricks_avx2(const CrescentRows& rows, const BrickLayer& layer,
                                                          int brick_y, const VoxelRange& z) noexcept {
-    if (sweep_.edges == VoxelEdges::partial)
-        Kernel{*this}.lower_bricks<VoxelEdges::partial>(rows, layer, brick_y, z);
-    else if (sweep_.edges == VoxelEdges::soft)
-        Kernel{*this}.lower_bricks<VoxelEdges::soft>(rows, layer, brick_y, z);
-    else
-        Kernel{*this}.lower_bricks<VoxelEdges::whole>(rows, layer, brick_y, z);
+    Kernel{*this}.lower_bricks(rows, layer, brick_y, z);
 }
 #endif
 

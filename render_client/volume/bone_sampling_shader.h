@@ -148,9 +148,9 @@ vec4 look_at(vec3 point) {
     return known > 0.0 ? sum / known : texelFetch(bone_colours, ivec2(0), 0);
 }
 
-// Whether any of the 27 nearest voxels has another code than the nearest one.
-bool codes_differ_about(ivec3 nearest, ivec3 shift) {
-    uint code = code_at(nearest, shift), others = 0u;
+// Whether any of the 27 nearest voxels has another code than the nearest one, which is given.
+bool codes_differ_about(ivec3 nearest, uint code, ivec3 shift) {
+    uint others = 0u;
     for (int z = -1; z <= 1; ++z)
         for (int y = -1; y <= 1; ++y)
             for (int x = -1; x <= 1; ++x) others |= code_at(nearest + ivec3(x, y, z), shift) ^ code;
@@ -189,7 +189,7 @@ vec4 smooth_look_at(vec3 point) {
     if (code == 0u || look.a == 0.0) look = texelFetch(bone_colours, ivec2(0), 0);
     // Amid a tissue that is all. A loop of one turn or none, because a software rasteriser computes both sides of
     // a branch but leaves a loop in which there is no pixel of a group.
-    int turns = bone_codes_are_tissues && !codes_differ_about(nearest, shift) ? 0 : 1;
+    int turns = bone_codes_are_tissues && !codes_differ_about(nearest, code, shift) ? 0 : 1;
     for (int turn = 0; turn < turns; ++turn) look = blended_look(point, nearest, shift);
     return look;
 }
