@@ -54,8 +54,8 @@ class GuessedEditsTest : public ::testing::Test {
 
 TEST_F(GuessedEditsTest, AreTheEditsThatWerePackedWhateverTheGuess) {
     for (const auto& sweep :
-         {guessed_sweep({20.0, 12.0, 20.0}, {22.0, 13.0, 18.5}, 9.0),    // in the middle of it
-          guessed_sweep({-50.0, -50.0, 0.0}, {-50.0, -48.0, 0.0}, 9.0),  // nowhere near
+         {guessed_sweep({20.0, 12.0, 20.0}, {22.0, 13.0, 18.5}, 9.0, 0.7),  // in the middle of it
+          guessed_sweep({-50.0, -50.0, 0.0}, {-50.0, -48.0, 0.0}, 9.0),     // nowhere near
           std::optional<GuessedSweep>()}) {
         for (const std::size_t voxels : {1U, 50U, 2000U}) {
             const std::vector<ChangedBrick> changed = carve(voxels);
