@@ -2,6 +2,7 @@
 
 #include <variant>
 
+#include "common/wire/protocol_version.h"
 #include "common/wire/scene_messages.h"
 
 namespace osteomill {
@@ -9,7 +10,9 @@ namespace osteomill {
 std::optional<WireError> take_client_message(const v1::ClientFrame& frame, const MessagingClient& client,
                                              OperatorSeat::Time now) {
     if (frame.has_hello()) {
-        if (frame.hello().takes_guessed_edits()) client.feed.guess_edits(client.guesser);
+        if (frame.hello().takes_guessed_edits() &&
+            frame.hello().protocol_minor() >= first_minor_that_smooths_guesses)
+            client.feed.guess_edits(client.guesser);
         return std::nullopt;
     }
     if (frame.has_compare_bone()) return client.feed.compare(frame.compare_bone());

@@ -202,10 +202,10 @@ TEST(StreamingServer, KeepsNoBacklogForAClientThatReadsLate) {
     EXPECT_LT(replica.states(), 45U) << "what it missed comes as it now is, not frame by frame";
 }
 
-v1::ClientFrame greeting() {
+v1::ClientFrame greeting(std::uint32_t minor = protocol_minor) {
     v1::ClientFrame frame;
     frame.set_sequence(1);
-    frame.mutable_hello()->set_protocol_minor(protocol_minor);
+    frame.mutable_hello()->set_protocol_minor(minor);
     return frame;
 }
 
@@ -253,6 +253,24 @@ TEST(StreamingServer, ServesAClientOfBeforeProtocol13WhichDoesNotGreetInItsOwnTe
     }));
     EXPECT_GT(replica.edits_of_last_state(), 0U);
     EXPECT_FALSE(replica.has_guessed_edits());
+}
+
+TEST(StreamingServer, SendsGuessedEditsOnlyToAClientThatKnowsSmoothedSweeps) {
+    ServedBone served;
+    served.start_carving();
+    for (const std::uint32_t minor :
+         {first_minor_that_smooths_guesses - 1, first_minor_that_smooths_guesses}) {
+        RawClient client(served.port());
+        v1::ClientFrame frame = greeting(minor);
+        frame.mutable_hello()->set_takes_guessed_edits(true);
+        client.send(frame);
+        testing::Replica replica;
+        EXPECT_TRUE(eventually([&] {
+            client.read_into(replica);
+            return replica.checksums() > 1;
+        }));
+        EXPECT_EQ(replica.has_guessed_edits(), minor == first_minor_that_smooths_guesses) << minor;
+    }
 }
 
 TEST(StreamingServer, RecordsAsIfForOneMoreClient) {
