@@ -32,6 +32,11 @@ namespace detail {
 inline constexpr double soft_mean_over = 0.70710678118654752;
 }
 
+/// What partial voxels are smoothed over, voxels; of whole ones, which have no ramp, 0.
+constexpr double smoothing_voxels(VoxelEdges edges) {
+    return edges == VoxelEdges::soft ? detail::soft_mean_over : 0.0;
+}
+
 /// How far beyond the burr's radius a voxel's centre can be that loses something, voxels.
 constexpr double rim_voxels(VoxelEdges edges) {
     if (edges == VoxelEdges::whole) return 0.0;

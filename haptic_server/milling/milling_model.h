@@ -34,6 +34,7 @@ class MillingModel final : public ContactModel {
 
     const Bone& bone() const override { return bone_; }
     const RemovedByTissue& removed_mm3() const override { return account_.removed_mm3(); }
+    double edge_smoothing_voxels() const override { return smoothing_voxels(settings_.edges); }
 
   private:
     /// Whether so little lies between position_mm_ and the command's place that it can wait for the next

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <limits>
 #include <memory>
 
@@ -109,6 +110,15 @@ TEST_F(MillingModelTest, RefusesABurrThatCannotCut) {
     EXPECT_THROW(MillingModel(block(), {}, {}), std::invalid_argument);
     EXPECT_THROW(MillingModel(block(), {Burr{.diameter_mm = 0.0}}, {}), std::invalid_argument);
     EXPECT_THROW(MillingModel(block(), {Burr{.spindle_rev_per_s = -1.0}}, {}), std::invalid_argument);
+}
+
+TEST_F(MillingModelTest, SaysWhatTheEdgesThatItLeavesAreSmoothedOver) {
+    const auto smoothing_of = [this](VoxelEdges edges) {
+        return MillingModel(block(), {burr}, {}, {.edges = edges}).edge_smoothing_voxels();
+    };
+    EXPECT_DOUBLE_EQ(smoothing_of(VoxelEdges::soft), std::sqrt(0.5));
+    EXPECT_EQ(smoothing_of(VoxelEdges::partial), 0.0);
+    EXPECT_EQ(smoothing_of(VoxelEdges::whole), 0.0);
 }
 
 }  // namespace
