@@ -134,10 +134,11 @@ Streaming make_streaming(StreamingOptions wanted, const ServerOptions& options, 
         wanted.record = RecordTo{.file = *options.record, .began = std::chrono::system_clock::now()};
     Streaming streaming;
     streaming.shown = std::make_unique<LiveSession>(session.tool(), session.edits());
+    SessionInfo info =
+        session_info(scene, device.operator_input != nullptr, device.device->limits().max_force_n, version);
+    info.edge_smoothing_voxels = session.edge_smoothing_voxels();
     streaming.server = std::make_unique<StreamingServer>(
-        std::move(wanted),
-        session_info(scene, device.operator_input != nullptr, device.device->limits().max_force_n, version),
-        std::move(mirror), *streaming.shown, device.operator_input.get());
+        std::move(wanted), std::move(info), std::move(mirror), *streaming.shown, device.operator_input.get());
     streaming.server->start();
     if (options.listen) {
         fmt::print("listening on {}:{}\n", options.listen->address, streaming.server->port());

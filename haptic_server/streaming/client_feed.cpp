@@ -156,7 +156,8 @@ std::optional<BurrMotion> ClientFeed::burr_motion() const {
     const double radius_mm = 0.5 * hello_.burrs(static_cast<int>(tool_.burr)).diameter_mm();
     return BurrMotion{.from = told_burr_.value_or(burr_in_voxels(*told_tool_)),
                       .to = burr_in_voxels(tool_),
-                      .radius = radius_mm / mirror_.bone().grid().spacing_mm};
+                      .radius = radius_mm / mirror_.bone().grid().spacing_mm,
+                      .smoothing = hello_.edge_smoothing_voxels()};
 }
 
 glm::dvec3 ClientFeed::burr_in_voxels(const ToolView& tool) const {

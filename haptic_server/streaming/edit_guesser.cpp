@@ -40,9 +40,9 @@ const EditGuesser::Guessed& EditGuesser::guess(const BoneMirror& mirror, std::ve
     std::optional<GuessedSweep> sweep;
     guessed_.burr = motion ? motion->to : glm::dvec3(0.0);
     if (motion) {
-        guessed_.burr =
-            fit_end_of_sweep(motion->from, motion->to, motion->radius, part_voxels(mirror.bone(), bricks_));
-        sweep = guessed_sweep(motion->from, guessed_.burr, motion->radius);
+        guessed_.burr = fit_end_of_sweep(motion->from, motion->to, motion->radius, motion->smoothing,
+                                         part_voxels(mirror.bone(), bricks_));
+        sweep = guessed_sweep(motion->from, guessed_.burr, motion->radius, motion->smoothing);
     }
     guessed_.edits = packer_.pack(mirror.bone(), bricks_, sweep);
     return guessed_;

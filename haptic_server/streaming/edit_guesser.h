@@ -15,6 +15,7 @@ struct BurrMotion {
     glm::dvec3 from{0.0};
     glm::dvec3 to{0.0};  ///< about: where the burr is shown
     double radius = 0.0;
+    double smoothing = 0.0;  ///< of what it leaves of voxels: see swept_guess.h
 
     bool operator==(const BurrMotion&) const = default;
 };

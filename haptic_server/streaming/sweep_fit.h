@@ -1,9 +1,16 @@
 // Where a burr must have come to rest to leave the bone as it is.
 //
-// What is left of a voxel ahead of the burr says how far its centre is from the burr's (see cover.h of
-// milling): d = R - 1/2 + left / 255 in voxels. The end of the way is the point whose distances from such
-// voxels are closest to these (Gauss-Newton). The pose that clients are shown would do worse: it is up to a
-// step older or newer than the edits, and a tenth of a voxel changes every fraction.
+// What is left of a voxel ahead of the burr says how far its centre is from the burr's: the law of
+// swept_guess.h, read backwards. With r = left / 255 - 1/2 and e = 1/2 - b/2, in voxels,
+//
+//     d = R + sign(r) |r|                                              where |r| <= e
+//     d = R + sign(r) (e + b - sqrt(b^2 - 2 b (|r| - e)))              beyond
+//
+// The end of the way is the point whose distances from such voxels are closest to these (Gauss-Newton), each
+// weighed by the square of the law's slope there: a fraction is rounded to a step, which near the flat ends
+// of a smoothed ramp is worth ten times the distance that it is in its middle. The pose that clients are
+// shown would do worse: it is up to a step older or newer than the edits, and a tenth of a voxel changes
+// every fraction.
 #pragma once
 
 #include <cstdint>
@@ -18,9 +25,9 @@ struct PartVoxel {
     std::uint8_t left = 0;     ///< 1 to 254
 };
 
-/// All in voxels: the burr went from `from` to about `estimate`. The estimate itself where the voxels do not
-/// tell better: too few of them, or none of a ball near it.
+/// All in voxels: the burr went from `from` to about `estimate`; `smoothing` is b, 0 to 1. The estimate
+/// itself where the voxels do not tell better: too few of them, or none of a ball near it.
 glm::dvec3 fit_end_of_sweep(const glm::dvec3& from, const glm::dvec3& estimate, double radius,
-                            const std::vector<PartVoxel>& voxels);
+                            double smoothing, const std::vector<PartVoxel>& voxels);
 
 }  // namespace osteomill

@@ -108,7 +108,9 @@ Rate rate_of(const Scene& scene, const Bone& bone, HapticDevice& device, Edits e
     LiveSession shown(session->tool(), session->edits());
     BoneMirror mirror(bone);
     SnapshotPacker packer;
-    ClientFeed feed(to_message(session_info(scene, false, 3.3, "")), mirror, packer);
+    SessionInfo info = session_info(scene, false, 3.3, "");
+    info.edge_smoothing_voxels = session->edge_smoothing_voxels();
+    ClientFeed feed(to_message(info), mirror, packer);
     while (feed.next()) {
     }
     EditGuesser guesser;

@@ -1,0 +1,52 @@
+#include "haptic_server/streaming/edit_guesser.h"
+
+#include <gtest/gtest.h>
+
+#include "haptic_server/milling/carve.h"
+#include "tests/support/block.h"
+
+namespace osteomill {
+namespace {
+
+class ToMirror final : public EditSink {
+  public:
+    explicit ToMirror(BoneMirror& mirror) : mirror_(mirror) {}
+    void push(const EditRun& run) noexcept override { ASSERT_TRUE(mirror_.apply(run)); }
+
+  private:
+    BoneMirror& mirror_;
+};
+
+class Nobody final : public RemovalSink {
+  public:
+    void take(const RemovedVoxels&) noexcept override {}
+};
+
+/// Bytes of what differs from the guess when milling takes a burr of 9 voxels by two voxels into a block.
+std::size_t bytes_of_carving(VoxelEdges edges, double smoothing) {
+    Bone bone = testing::make_block({0.0, 0.0, 0.0}, {48.0, 48.0, 32.0}, 1.0);
+    BoneMirror mirror(bone);
+    ToMirror edits(mirror);
+    Nobody nobody;
+    constexpr double radius = 9.0;
+    const glm::dvec3 from(24.2, 23.1, 33.3), to(25.1, 24.0, 31.7);
+    carve(bone, {from, from, radius}, CarveHistory::none, {.edges = edges}, edits, nobody);
+    (void)mirror.take_changes();
+    carve(bone, {from, to, radius}, CarveHistory::carved_at_from, {.edges = edges}, edits, nobody);
+    std::vector<ChangedBrick> bricks;
+    for (const auto& [brick, voxels] : mirror.take_changes()) bricks.push_back({brick, voxels});
+    EditGuesser guesser;
+    const BurrMotion shown{
+        .from = from, .to = to + glm::dvec3(0.2, -0.1, 0.1), .radius = radius, .smoothing = smoothing};
+    return guesser.guess(mirror, bricks, shown).edits.zstd_differences().size();
+}
+
+TEST(EditGuesser, GuessesBestByTheLawThatMillingCarvesBy) {
+    constexpr double soft = smoothing_voxels(VoxelEdges::soft);
+    constexpr double sharp = smoothing_voxels(VoxelEdges::partial);
+    EXPECT_LT(2 * bytes_of_carving(VoxelEdges::soft, soft), bytes_of_carving(VoxelEdges::soft, sharp));
+    EXPECT_LT(2 * bytes_of_carving(VoxelEdges::partial, sharp), bytes_of_carving(VoxelEdges::partial, soft));
+}
+
+}  // namespace
+}  // namespace osteomill
