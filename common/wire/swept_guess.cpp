@@ -155,7 +155,7 @@ BrickGuess guess_brick(const GuessedSweep& sweep, const glm::ivec3& brick) {
             const glm::dvec3 position =
                 first + glm::dvec3(static_cast<double>(x) * static_cast<double>(unit), 0.0, 0.0);
             const std::int64_t left = fraction_left(nearby, position);
-            if (left >= fraction_left(at_rest, position)) continue;
+            if (left == 255 || left >= fraction_left(at_rest, position)) continue;
             guess.changed.set(row + x);
             guess.left[row + x] = static_cast<std::uint8_t>(left);
         }
