@@ -45,6 +45,7 @@ std::vector<std::string> session_frames(const Bone& bone, bool guessed = false) 
                              .fraction = {90, 80, 70, 60, 50, 40, 30, 20, 10}});
         feed.note(mirror.take_changes());
         feed.request_state({.time_s = 0.04 * i,
+                            .burr_position_mm = {0.1 * i, 0.0, 0.0},
                             .force_n = {0.1 * i, 0.0, -0.2},
                             .burr = static_cast<std::size_t>(i % 2),
                             .spindle_on = true,
