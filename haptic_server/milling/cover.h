@@ -32,7 +32,7 @@ namespace detail {
 inline constexpr double soft_mean_over = 0.70710678118654752;
 }
 
-/// What partial voxels are smoothed over, voxels; of whole ones, which have no ramp, 0.
+/// What the ramp is the mean over, voxels: 0 for partial voxels, and for whole ones, which have none.
 constexpr double smoothing_voxels(VoxelEdges edges) {
     return edges == VoxelEdges::soft ? detail::soft_mean_over : 0.0;
 }

@@ -19,6 +19,7 @@ struct MessagingClient {
     std::size_t burr_count = 0;    ///< of the session
 };
 
+/// A client is told of edits as guesses if it takes them and is of protocol 1.4 or later.
 /// An error if the message makes no sense, which drops the client: no body, numbers that are not finite, a
 /// burr that is not there, a comparison that ClientFeed refuses. It has then changed nothing.
 std::optional<WireError> take_client_message(const v1::ClientFrame& frame, const MessagingClient& client,
