@@ -11,13 +11,10 @@
 //     e_psi = (-sin psi, cos psi, 0)
 //     e_kappa = (cos psi cos kappa, sin psi cos kappa, sin kappa).
 //
-// A voxel of the crescent is up to half a voxel off the burr's surface, so it is first moved there along the
+// A voxel of the crescent is up to a voxel off the burr's surface, so it is first moved there along the
 // direction n from the burr's centre: r = R sin kappa. With K_r n + K_a e_kappa written out, sin kappa / r =
-// 1 / R leaves only e_psi / r, e_r / r and 1 / r that grow toward the spindle's axis. They are averaged over
-// a disc of the voxel's cross-section, or a voxel at the tip would count for far too much or too little: 1/r
-// by mean_inverse_distance, and the vectors, whose components are harmonic, by their value at the disc's
-// middle while the axis lies outside it and (x, y) / a^2 once it lies within. The few voxels nearest to the
-// axis, where a disc is no cube, are summed over 4^3 parts of theirs.
+// 1 / R leaves only e_psi / r, e_r / r, e_r and 1 / r that vary quickly near the spindle's axis: of these the
+// means of axis_means.h are taken.
 #pragma once
 
 #include <array>
@@ -33,21 +30,6 @@ namespace osteomill {
 
 /// Radius of a disc of a voxel's cross-section, 1/sqrt(pi).
 inline constexpr double disc_radius_voxels = 0.56418958354775628695;
-
-/// Mean of 1/|p| over a disc of radius `a` whose middle lies at a distance r, given as its square and, where
-/// it is at least `a`, its inverse: 2/a at the axis, near 1/r away from it. From the complete elliptic
-/// integral that it is: the first terms of its series inside the disc, 4 E(r/a) / (pi a), and outside, 1/r +
-/// a^2/(8 r^3) + 3 a^4/(64 r^5); within 4 % at the disc's edge, 0.5 % beyond 1.5 a.
-/// `Real` is a number or the lanes of a vector; the constants are exact in single precision.
-template <typename Real>
-[[gnu::always_inline]] inline Real mean_inverse_distance(Real r_squared, Real per_r, Real a) {
-    const Real per_a = 1.0f / a;
-    const Real k = r_squared * per_a * per_a;
-    const Real q = a * a * per_r * per_r;
-    const Real inside = 2.0f * per_a * (1.0f - k * (0.25f + k * (0.046875f + k * 0.0390625f)));
-    const Real outside = per_r * (1.0f + q * (0.125f + q * 0.046875f));
-    return k < 1.0f ? inside : outside;
-}
 
 /// A step, as the force sees it.
 struct CuttingStep {

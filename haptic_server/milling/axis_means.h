@@ -1,0 +1,45 @@
+// What a voxel near the spindle's axis stands for. The force of a chip grows toward the axis as 1/r: taken at
+// the voxel's middle it would be far too much or too little, and its mean over the voxel's cube is wrong
+// wherever the chip's thickness slopes at the axis, as it does under a tilted burr (by 2 to 4 % of the force
+// of a burr ten voxels thick). So its mean is taken over a disc about the voxel with weights that leave
+// slopes and curvatures of what the voxels hold as they are. With t = (r / a)^2:
+//
+//     w(t) = 4 (2 - 5 t) (1 - t)^2 / (pi a^2),   t < 1.
+//
+// The second moment of w is zero, and a is such that its Fourier transform is zero, too, at one wave a voxel:
+// the sum over voxels then does not tell where the lattice lies. The weight within r is M(t) = 1 - (1 - t)^3
+// (1 - 5 t). The components of e / r, e the unit vector away from the axis, are harmonic, so their mean is
+// M(t) e / r. The means over circles of e and of 1/r are complete elliptic integrals; of their means over w
+// these are least-squares fits, within 0.2 % of e and, but for 1 % at t = 1, within 0.1 % of 1/r.
+#pragma once
+
+namespace osteomill {
+
+/// Radius a of the disc, voxels.
+inline constexpr float axis_disc_voxels = 1.3631f;
+
+/// Means over the disc about a point at a distance r from the axis, voxels. `Real` is a number or the lanes
+/// of a vector.
+template <typename Real>
+struct AxisMeans {
+    Real swirl;    ///< mean of e / r = this * (x, y)
+    Real outward;  ///< mean of e = this * (x, y)
+    Real inverse;  ///< mean of 1 / r
+};
+
+/// `per_r`: 1 / r, which may be anything finite where r is below 0.1.
+template <typename Real>
+[[gnu::always_inline]] inline AxisMeans<Real> axis_means(Real r_squared, Real per_r) {
+    constexpr float per_a = 1.0f / axis_disc_voxels;
+    const Real t = r_squared * (per_a * per_a);
+    const Real swirl = (8.0f - t * (18.0f - t * (16.0f - t * 5.0f))) * (per_a * per_a);
+    const Real outward = (2.74129f - t * (3.95094f - t * (3.26297f - t * 1.04984f))) * per_a;
+    const Real inverse =
+        (5.48678f - t * (16.05004f - t * (21.36871f - t * (12.15962f - t * 2.32825f)))) * per_a;
+    const Real per_t = per_r * per_r * (axis_disc_voxels * axis_disc_voxels);
+    const Real far = per_t * per_t;
+    const Real far_inverse = per_r * (1.0f - far * (0.00992f + far * 0.01317f));
+    return {t < 1.0f ? swirl : per_r * per_r, t < 1.0f ? outward : per_r, t < 1.0f ? inverse : far_inverse};
+}
+
+}  // namespace osteomill
