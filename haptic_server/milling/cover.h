@@ -30,17 +30,21 @@ enum class VoxelEdges { partial, soft, whole };
 
 namespace detail {
 inline constexpr double soft_mean_over = 0.70710678118654752;
-}
+/// How far from the surface a soft voxel's centre is that is all or nothing.
+inline constexpr double soft_ramp_half = 0.5 + 0.5 * soft_mean_over;
+}  // namespace detail
 
 /// What the ramp is the mean over, voxels: 0 for partial voxels, and for whole ones, which have none.
 constexpr double smoothing_voxels(VoxelEdges edges) {
     return edges == VoxelEdges::soft ? detail::soft_mean_over : 0.0;
 }
 
-/// How far beyond the burr's radius a voxel's centre can be that loses something, voxels.
+/// How far from the burr's surface a voxel's centre can be that loses something and keeps something, voxels:
+/// beyond, the ramp is within half of one of the 255 steps of its end (soft: it ends as a parabola, v^2 / (2
+/// b) = 1 / 510 at v = 0.0527).
 constexpr double rim_voxels(VoxelEdges edges) {
     if (edges == VoxelEdges::whole) return 0.0;
-    return edges == VoxelEdges::partial ? 0.5 : 0.5 + 0.5 * detail::soft_mean_over;
+    return edges == VoxelEdges::partial ? 0.5 - 0.5 / 255.0 : detail::soft_ramp_half - 0.0526;
 }
 
 /// A short sweep, seen from a voxel nearby; what the inner loop needs of it.
@@ -77,7 +81,7 @@ template <VoxelEdges edges>
         constexpr double mean_over = detail::soft_mean_over;
         const double beyond = distance - sweep.radius;
         double off = std::abs(beyond);
-        off = off > rim_voxels(edges) ? rim_voxels(edges) : off;
+        off = off > detail::soft_ramp_half ? detail::soft_ramp_half : off;
         double bent = off - (0.5 - 0.5 * mean_over);
         bent = bent < 0.0 ? 0.0 : bent;
         const double rise = off - bent * bent * (0.5 / mean_over);

@@ -1,6 +1,6 @@
 // What a sweep leaves of eight voxels at once: the formula of cover.h in single precision, which is twice as
-// fast as double, and how far off that can be. Where both ends of that margin round to the same of the 255
-// steps, so does double precision; where they do not (one voxel in a hundred), it must be asked.
+// fast as double, and where its error could round to another of the 255 steps: there (one voxel
+// in a hundred) double precision must be asked.
 //
 // The margin: with u = 2^-24 and no place more than D = R + 4 from the path, the components of the distance
 // are off by at most u (2 D + 3) (places are whole numbers, and the whole part of `from` is taken off them
@@ -37,19 +37,22 @@ struct SweepForLanes {
     float margin;  // voxels
 };
 
-/// Bounds of what is left, 0 to 255. Where they differ, nothing is known of either.
+/// What is left, 0 to 255, where single precision knows it.
 struct LeftLanes {
-    lanes::Ints least;
-    lanes::Ints most;
+    lanes::Ints left;
+    lanes::Ints is_unsure;  ///< -1 where double precision must be asked, else 0
 };
 
 namespace detail {
-/// A number of the 255 steps, rounded as in cover.h.
-[[gnu::always_inline]] inline lanes::Ints rounded_code(lanes::Floats code) {
+/// A number of the 255 steps, known within `off`, rounded as in cover.h.
+[[gnu::always_inline]] inline LeftLanes rounded_code(lanes::Floats code, float off) {
     const lanes::Floats zero{};
     code = code < 0.0f ? zero : code;
     code = code > 255.0f ? zero + 255.0f : code;
-    return __builtin_convertvector(code + 0.5f, lanes::Ints);
+    const lanes::Floats raised = code + 0.5f;
+    const lanes::Ints left = __builtin_convertvector(raised, lanes::Ints);
+    const lanes::Floats rest = raised - lanes::to_floats(left);
+    return {left, (rest < off) | (rest > 1.0f - off)};
 }
 }  // namespace detail
 
@@ -72,11 +75,11 @@ template <VoxelEdges edges>
     const Floats dz = wz - t * sweep.along.z;
     const Floats distance = lanes::square_root(dx * dx + dy * dy + dz * dz);
     if constexpr (edges == VoxelEdges::whole) {
-        const Ints least = (distance - sweep.margin > sweep.radius) & 255;
-        const Ints most = (distance + sweep.margin > sweep.radius) & 255;
-        return {least, most};
+        const Ints left = (distance > sweep.radius) & 255;
+        const Floats beyond = distance - sweep.radius;
+        return {left, (beyond < sweep.margin) & (beyond > -sweep.margin)};
     } else if constexpr (edges == VoxelEdges::soft) {
-        constexpr auto rim = static_cast<float>(rim_voxels(edges));
+        constexpr auto rim = static_cast<float>(detail::soft_ramp_half);
         constexpr auto bend_from = static_cast<float>(0.5 - 0.5 * detail::soft_mean_over);
         constexpr auto bend = static_cast<float>(0.5 / detail::soft_mean_over);
         const Floats beyond = distance - sweep.radius;
@@ -86,12 +89,10 @@ template <VoxelEdges edges>
         bent = bent < 0.0f ? zero : bent;
         const Floats rise = off - bent * bent * bend;
         const Floats codes = 127.5f + 255.0f * (beyond < 0.0f ? -rise : rise);
-        const float off_codes = 255.0f * sweep.margin;
-        return {detail::rounded_code(codes - off_codes), detail::rounded_code(codes + off_codes)};
+        return detail::rounded_code(codes, 255.0f * sweep.margin);
     } else {
         const Floats codes = 255.0f * (distance - (sweep.radius - 0.5f));
-        const float off = 255.0f * sweep.margin;
-        return {detail::rounded_code(codes - off), detail::rounded_code(codes + off)};
+        return detail::rounded_code(codes, 255.0f * sweep.margin);
     }
 }
 

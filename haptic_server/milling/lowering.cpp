@@ -85,12 +85,11 @@ struct Lowering::Kernel {
     [[gnu::always_inline]] static Ints left_of(const SweepSeenFrom& sweep, const SweepForLanes& fast,
                                                const Floats& x, const Floats& y, const Floats& z) {
         const LeftLanes left = fraction_left<edges>(fast, x, y, z);
-        if (!lanes::any(left.least != left.most)) [[likely]]
-            return left.least;
-        Ints exact = left.least;
+        if (!lanes::any(left.is_unsure)) [[likely]]
+            return left.left;
+        Ints exact = left.left;
         for (int i = 0; i < eight; ++i)
-            if (left.least[i] != left.most[i])
-                exact[i] = osteomill::fraction_left<edges>(sweep, x[i], y[i], z[i]);
+            if (left.is_unsure[i] != 0) exact[i] = osteomill::fraction_left<edges>(sweep, x[i], y[i], z[i]);
         return exact;
     }
 
