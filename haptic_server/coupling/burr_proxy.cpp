@@ -12,13 +12,19 @@ namespace {
 constexpr int most_iterations = 24;
 constexpr double residual_tolerance_n = 1e-7;
 
+/// Share of a patch that touches the bone.
+double touching_share(double gap_voxels) {
+    constexpr double width = BurrProxy::surely_apart_voxels - BurrProxy::surely_touching_voxels;
+    return std::clamp((BurrProxy::surely_apart_voxels - gap_voxels) / width, 0.0, 1.0);
+}
+
 }  // namespace
 
 void BurrProxy::place(const glm::dvec3& position_mm) noexcept {
     position_mm_ = target_mm_ = position_mm;
     map_step_ = 0;
     correction_.reset();
-    cleared_mm_.fill(0.0);
+    cut_mm_.fill(0.0);
 }
 
 void BurrProxy::take_over(const MillingResult& latest) noexcept {
@@ -27,12 +33,8 @@ void BurrProxy::take_over(const MillingResult& latest) noexcept {
     if (latest.spindle_on) correction_.compare(latest.force_n, latest.time_s, latest.pose.spindle_axis);
     const Engagement& engagement = latest.engagement;
     const glm::dvec3 moved = position_mm_ - engagement.burr_position_mm;
-    const double contact_gap_mm = contact_gap_voxels * engagement.spacing_mm;
-    for (std::size_t i = 0; i < engagement.count; ++i) {
-        const EngagedPatch& patch = engagement.patches[i];
-        const double gap = patch.gap_mm < contact_gap_mm ? 0.0 : patch.gap_mm;
-        cleared_mm_[i] = std::max(gap, glm::dot(patch.normal, moved));
-    }
+    for (std::size_t i = 0; i < engagement.count; ++i)
+        cut_mm_[i] = std::max(0.0, glm::dot(engagement.patches[i].normal, moved));
 }
 
 void BurrProxy::gather_contacts(const glm::dvec3& pull_mm, double tick_s, bool spindle_on,
@@ -42,14 +44,20 @@ void BurrProxy::gather_contacts(const glm::dvec3& pull_mm, double tick_s, bool s
     // The force may turn the step sideways, but never make it longer than the pull (K_r, K_a >= 0 and the
     // wall only resist).
     const double longest_mm = glm::length(pull_mm) + 2.0 * engagement.spacing_mm;
+    const auto add = [&](const glm::dvec3& normal, const glm::dvec3& force_n_per_mm, double begins_mm) {
+        if (begins_mm <= longest_mm) contacts_[contact_count_++] = {normal, force_n_per_mm, begins_mm};
+    };
     for (std::size_t i = 0; i < engagement.count; ++i) {
         const EngagedPatch& patch = engagement.patches[i];
         const double along = glm::dot(patch.normal, moved);
-        const double begins = (spindle_on ? cleared_mm_[i] : patch.gap_mm) - along;
-        if (begins > longest_mm) continue;
-        const glm::dvec3 force = spindle_on ? correction_.gain() * patch.cutting_n_s_per_mm / tick_s
-                                            : -wall_n_per_mm3 * patch.area_mm2 * patch.normal;
-        contacts_[contact_count_++] = {patch.normal, force, begins};
+        if (!spindle_on) {
+            add(patch.normal, -wall_n_per_mm3 * patch.area_mm2 * patch.normal, patch.gap_mm - along);
+            continue;
+        }
+        const glm::dvec3 force = correction_.gain() * patch.cutting_n_s_per_mm / tick_s;
+        const double share = touching_share(patch.gap_mm / engagement.spacing_mm);
+        if (share > 0.0) add(patch.normal, share * force, cut_mm_[i] - along);
+        if (share < 1.0) add(patch.normal, (1.0 - share) * force, std::max(patch.gap_mm, cut_mm_[i]) - along);
     }
 }
 
@@ -122,7 +130,7 @@ void BurrProxy::advance(const glm::dvec3& target_mm, double tick_s, bool spindle
     correction_.add_prediction(spring_n_per_mm_ * (position_mm_ - target_mm), tick_s);
     const glm::dvec3 moved = position_mm_ - engagement.burr_position_mm;
     for (std::size_t i = 0; i < engagement.count; ++i)
-        cleared_mm_[i] = std::max(cleared_mm_[i], glm::dot(engagement.patches[i].normal, moved));
+        cut_mm_[i] = std::max(cut_mm_[i], glm::dot(engagement.patches[i].normal, moved));
 }
 
 }  // namespace osteomill

@@ -4,12 +4,16 @@
 //     K_c (x - p - d) + F(d) = 0      for the step d of the proxy p toward the device x
 //
 //     spindle on, the milling force at the step's end:
-//         F(d) = sum over patches of C_i max(0, n_i . d - slack_i) / dt
+//         F(d) = sum over patches of C_i (w_i max(0, n_i . d - cut_i)
+//                                         + (1 - w_i) max(0, n_i . d - max(gap_i, cut_i))) / dt
 //     spindle off, bone is a wall:
 //         F(d) = - sum of k A_i n_i max(0, n_i . (p + d - p_map) - gap_i)
 //
-// C_i, n_i, gap_i and A_i as in engagement.h; slack_i is how far the patch may still advance before it meets
-// bone that the proxy has not cut since the map was sampled, so no bone is felt twice. Piecewise linear:
+// C_i, n_i, gap_i and A_i as in engagement.h, with gaps counted from p in the first; cut_i is how far the
+// patch may advance in what the proxy has cut since the map was sampled, so no bone is felt twice. Gaps of
+// freshly carved bone scatter by about a tenth of a voxel, more than a burr advances in a tick: a patch whose gap is
+// near a fifth of a voxel may touch or not, and counts as touching by the weight w_i, which falls from 1 to 0
+// between a tenth and three tenths. A threshold would let it come and go with the lattice. Piecewise linear:
 // Newton on the set of patches in contact, a few iterations, halving a step that does not reduce the
 // residual. In one dimension, in bone of resistance B, it is p' = (B/dt p + K_c x) / (B/dt + K_c): stable for
 // any B.
@@ -45,9 +49,9 @@ class BurrProxy {
     /// Iterations that the last advance took, for benchmarks.
     int iterations() const { return iterations_; }
 
-    /// A patch whose gap is below this share of a voxel counts as in contact: gaps of freshly carved bone
-    /// scatter by about a tenth of a voxel, more than a burr advances in a tick.
-    static constexpr double contact_gap_voxels = 0.2;
+    /// Between these gaps a patch counts as touching by a share.
+    static constexpr double surely_touching_voxels = 0.1;
+    static constexpr double surely_apart_voxels = 0.3;
     /// Wall pressure per depth with the spindle off, N/mm^3: a 1 mm burr pressed with 3 N sinks in by 0.04
     /// mm.
     static constexpr double wall_n_per_mm3 = 1000.0;
@@ -76,8 +80,8 @@ class BurrProxy {
     ForceCorrection correction_;
     int iterations_ = 0;
     std::array<double, Engagement::max_patches>
-        cleared_mm_{};  // by patch: advance from p_map to which bone is cut
-    std::array<Contact, Engagement::max_patches> contacts_{};
+        cut_mm_{};  // by patch: advance from p_map to which the proxy has cut
+    std::array<Contact, 2 * Engagement::max_patches> contacts_{};  // a patch may have two
     std::size_t contact_count_ = 0;
 };
 

@@ -19,7 +19,7 @@ enum class CarveHistory {
 };
 
 struct CarveSettings {
-    VoxelEdges edges = VoxelEdges::partial;
+    VoxelEdges edges = VoxelEdges::soft;
     InstructionSet instructions = best_instruction_set();
 };
 

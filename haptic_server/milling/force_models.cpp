@@ -15,7 +15,7 @@ namespace osteomill {
 std::vector<ForceModel> force_models() {
     return {
         {.name = "milling", .description = "the cutting law, summed over removed voxels"},
-        {.name = "milling-soft", .description = "the same with soft voxels, for chips thinner than one"},
+        {.name = "milling-partial", .description = "the same with voxels of sharper edges, faster"},
         {.name = "milling-bins", .description = "the same over bins of angle and height, as published"},
         {.name = "milling-instants", .description = "the same within the tooth period"},
         {.name = "point-spring", .description = "a spring at the deepest point", .has_cutting_law = false},
@@ -48,7 +48,7 @@ std::unique_ptr<ContactModel> make_contact_model(const std::string& name, Bone b
         return std::make_unique<ErodingModel>(std::move(bone), std::move(burrs), tissues, std::move(law));
     };
     if (name == "milling") return milling({});
-    if (name == "milling-soft") return milling({.edges = VoxelEdges::soft});
+    if (name == "milling-partial") return milling({.edges = VoxelEdges::partial});
     if (name == "milling-bins") return milling({.summation = ForceSummation::bins});
     if (name == "milling-instants") return milling({.summation = ForceSummation::instants});
     if (name == "point-spring") return eroding(std::make_unique<PointSpring>());

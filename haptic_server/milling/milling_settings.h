@@ -18,7 +18,7 @@ struct MillingSettings {
     ForceSummation summation = ForceSummation::voxels;
     ChipBins bins{};              ///< of ForceSummation::bins
     int instants_per_tooth = 20;  ///< of ForceSummation::instants
-    VoxelEdges edges = VoxelEdges::partial;
+    VoxelEdges edges = VoxelEdges::soft;
     InstructionSet instructions = best_instruction_set();
 };
 

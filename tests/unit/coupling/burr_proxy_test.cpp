@@ -58,6 +58,25 @@ TEST(BurrProxy, MeetsBoneOnlyBeyondTheGapAndNeverTwice) {
     EXPECT_NEAR(proxy.position_mm().x, 0.1, 1e-12) << "cut already";
 }
 
+TEST(BurrProxy, TakesAPatchIntoContactByDegreesAsItsGapCloses) {
+    // The gap of a rim scatters with the lattice by some hundredths of a voxel; the force must not jump.
+    double last_mm = 0.0;
+    for (double gap_voxels = 0.0; gap_voxels <= 0.4; gap_voxels += 0.02) {
+        BurrProxy proxy(1.5);
+        proxy.place(glm::dvec3(0.0));
+        proxy.advance({0.005, 0.0, 0.0}, 0.001, true, *damper_along_x(0.001, 0.1 * gap_voxels));
+        const double advance_mm = proxy.position_mm().x;
+        if (gap_voxels == 0.0) {
+            EXPECT_NEAR(advance_mm, 1.5 * 0.005 / (1.0 + 1.5), 1e-9);
+        } else {
+            EXPECT_GE(advance_mm, last_mm - 1e-12) << gap_voxels;
+            EXPECT_LT(advance_mm - last_mm, 0.0005) << gap_voxels;
+        }
+        last_mm = advance_mm;
+    }
+    EXPECT_NEAR(last_mm, 0.005, 1e-12) << "and is free of it";
+}
+
 TEST(BurrProxy, StopsAtAWallWithTheSpindleOff) {
     BurrProxy proxy(1.5);
     proxy.place(glm::dvec3(0.0));
