@@ -106,7 +106,7 @@ TEST_F(StudyProgram, DrawsItsChartsQuickly) {
     EXPECT_THAT(outcome.err, HasSubstr("survey 100 %\n"));
     const auto found = nlohmann::json::parse(text_of(out_ + "/force.json"));
     EXPECT_LT(found.at("survey").at("all").at("error_percent").at("p50"), 1.0);
-    EXPECT_GE(found.at("convergence").at("partial_slope"), 1.0) << "at least linear";
+    EXPECT_GE(found.at("convergence").at("soft_slope"), 1.0) << "at least linear";
     for (const auto& row : found.at("cost").at("by_diameter"))
         EXPECT_GT(row.at("times_faster").at("100_hz"), 0.0);
     EXPECT_EQ(found.at("memory").at(0).at("name"), "tooth phantom");

@@ -36,7 +36,7 @@ double fitted(const std::vector<double>& x, const std::vector<double>& y, double
 
 struct Columns {
     std::vector<double> voxel_mm;
-    std::vector<double> partial;
+    std::vector<double> soft;
     std::vector<double> binary;
 };
 
@@ -44,7 +44,7 @@ Columns columns_of(const std::vector<ConvergenceRow>& rows) {
     Columns columns;
     for (const ConvergenceRow& row : rows) {
         columns.voxel_mm.push_back(row.voxel_mm);
-        columns.partial.push_back(row.partial_error);
+        columns.soft.push_back(row.soft_error);
         columns.binary.push_back(row.binary_error);
     }
     return columns;
@@ -63,13 +63,13 @@ Convergence measure_convergence(const std::vector<StudiedMotion>& motions, bool 
     Convergence convergence;
     for (const double voxel_mm : sizes_mm) {
         convergence.rows.push_back({.voxel_mm = voxel_mm,
-                                    .partial_error = mean_error(motions, voxel_mm, places, voxel_model()),
+                                    .soft_error = mean_error(motions, voxel_mm, places, voxel_model()),
                                     .binary_error = mean_error(motions, voxel_mm, places,
                                                                voxel_model({.edges = VoxelEdges::whole}))});
         progress(static_cast<double>(convergence.rows.size()) / static_cast<double>(sizes_mm.size()));
     }
     const Columns columns = columns_of(convergence.rows);
-    convergence.partial_slope = log_log_slope(columns.voxel_mm, columns.partial);
+    convergence.soft_slope = log_log_slope(columns.voxel_mm, columns.soft);
     convergence.binary_slope = log_log_slope(columns.voxel_mm, columns.binary);
     return convergence;
 }
@@ -77,12 +77,12 @@ Convergence measure_convergence(const std::vector<StudiedMotion>& motions, bool 
 std::string csv_of(const Convergence& convergence) {
     const Columns columns = columns_of(convergence.rows);
     std::string csv =
-        "voxel_mm,partial_error_percent,binary_error_percent,partial_fit_percent,binary_fit_percent\n";
+        "voxel_mm,soft_error_percent,binary_error_percent,soft_fit_percent,binary_fit_percent\n";
     for (const ConvergenceRow& row : convergence.rows)
         csv += fmt::format(
-            "{:.4f},{:.5f},{:.5f},{:.5f},{:.5f}\n", row.voxel_mm, 100.0 * row.partial_error,
+            "{:.4f},{:.5f},{:.5f},{:.5f},{:.5f}\n", row.voxel_mm, 100.0 * row.soft_error,
             100.0 * row.binary_error,
-            100.0 * fitted(columns.voxel_mm, columns.partial, convergence.partial_slope, row.voxel_mm),
+            100.0 * fitted(columns.voxel_mm, columns.soft, convergence.soft_slope, row.voxel_mm),
             100.0 * fitted(columns.voxel_mm, columns.binary, convergence.binary_slope, row.voxel_mm));
     return csv;
 }

@@ -11,14 +11,14 @@ namespace osteomill::study {
 
 struct ConvergenceRow {
     double voxel_mm = 0.0;
-    double partial_error =
+    double soft_error =
         0.0;  ///< mean over the motions and over where the lattice lies, share of the reference
     double binary_error = 0.0;
 };
 
 struct Convergence {
     std::vector<ConvergenceRow> rows;
-    double partial_slope = 0.0;  ///< of log error against log voxel size: 1 is linear
+    double soft_slope = 0.0;  ///< of log error against log voxel size: 1 is linear
     double binary_slope = 0.0;
 };
 

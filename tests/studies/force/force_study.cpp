@@ -35,7 +35,7 @@ class ForceStudy {
     void run() {
         ordered_json found;
         found["survey"] = survey("survey", {});
-        found["survey_soft"] = survey("survey_soft", {.edges = VoxelEdges::soft});
+        found["survey_partial"] = survey("survey_partial", {.edges = VoxelEdges::partial});
         found["pareto"] = pareto();
         found["convergence"] = convergence();
         curves();
@@ -118,9 +118,9 @@ class ForceStudy {
             return measure_convergence(motions_, options_.quick, progress);
         });
         write(csv_of(found), "convergence.csv");
-        say("error falls with voxel size to the power {:.2f} (partial voxels), {:.2f} (binary)",
-            found.partial_slope, found.binary_slope);
-        return {{"partial_slope", found.partial_slope}, {"binary_slope", found.binary_slope}};
+        say("error falls with voxel size to the power {:.2f} (soft voxels), {:.2f} (binary)",
+            found.soft_slope, found.binary_slope);
+        return {{"soft_slope", found.soft_slope}, {"binary_slope", found.binary_slope}};
     }
 
     void curves() const {

@@ -32,7 +32,7 @@ std::vector<ParetoSetting> pareto_settings(bool quick) {
         const std::string label = millimetres(voxel_mm);
         const MillingSettings binary{.edges = VoxelEdges::whole};
         const MillingSettings published{.summation = ForceSummation::bins, .edges = VoxelEdges::whole};
-        settings.push_back({.family = "crescent of partial voxels",
+        settings.push_back({.family = "crescent of soft voxels",
                             .label = label,
                             .make = voxel_model(),
                             .voxel_mm = voxel_mm,
@@ -41,12 +41,12 @@ std::vector<ParetoSetting> pareto_settings(bool quick) {
                             .label = label,
                             .make = voxel_model(binary),
                             .voxel_mm = voxel_mm});
-        settings.push_back({.family = "crescent of soft voxels",
+        settings.push_back({.family = "crescent of partial voxels",
                             .label = label,
-                            .make = voxel_model({.edges = VoxelEdges::soft}),
+                            .make = voxel_model({.edges = VoxelEdges::partial}),
                             .voxel_mm = voxel_mm});
         if (quick && voxel_mm < 0.1) continue;
-        settings.push_back({.family = "full scan of partial voxels",
+        settings.push_back({.family = "full scan of soft voxels",
                             .label = label,
                             .make = full_scan_model(),
                             .voxel_mm = voxel_mm});

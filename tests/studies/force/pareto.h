@@ -12,7 +12,7 @@ namespace osteomill::study {
 
 /// A way to mill.
 struct ParetoSetting {
-    std::string family{};  ///< what it belongs to in the chart: "crescent of partial voxels" ...
+    std::string family{};  ///< what it belongs to in the chart: "crescent of soft voxels" ...
     std::string label{};   ///< what tells it from the others of its family: "0.1 mm" ...
     MakeModel make{};
     double voxel_mm = 0.1;
@@ -21,8 +21,8 @@ struct ParetoSetting {
     bool is_default = false;  ///< what haptic_server does unless told otherwise
 };
 
-/// Voxel sizes, bins, instants, binary and partial voxels, crescent and full scan, milling rates. The scan of
-/// 0.05 mm voxels, half a million of them, and some instants only where not `quick`.
+/// Voxel sizes, bins, instants, soft, partial and binary voxels, crescent and full scan, milling rates. The
+/// scan of 0.05 mm voxels, half a million of them, and some instants only where not `quick`.
 std::vector<ParetoSetting> pareto_settings(bool quick);
 
 struct ParetoPoint {

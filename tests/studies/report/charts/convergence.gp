@@ -18,5 +18,5 @@ slope(max, min) = (max - min) / (X_max - X_min)
 plot table using 1:5 with lines lw 1.5 dt 2 lc rgb red title sprintf('slope %.2f', slope(B_max, B_min)), \
      '' using 1:3 with points pt 5 ps 1.1 lc rgb red title 'binary voxels', \
      '' using 1:4 with lines lw 1.5 dt 2 lc rgb blue title sprintf('slope %.2f', slope(P_max, P_min)), \
-     '' using 1:2 with points pt 7 ps 1.1 lc rgb blue title 'partial voxels', \
+     '' using 1:2 with points pt 7 ps 1.1 lc rgb blue title 'soft voxels', \
      '' using 1:($1 == 0.1 ? $2 : NaN) with points pt 6 ps 2 lw 2.5 lc rgb black title 'the default'

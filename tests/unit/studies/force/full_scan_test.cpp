@@ -51,7 +51,7 @@ void expect_equal(const MillingSettings& settings) {
 
 TEST(FullScan, LeavesTheSameBoneAndFeelsTheSameForceAsTheCrescent) {
     expect_equal({});
-    expect_equal({.edges = VoxelEdges::soft});
+    expect_equal({.edges = VoxelEdges::partial});
     expect_equal({.edges = VoxelEdges::whole});
     expect_equal({.summation = ForceSummation::bins});
 }
