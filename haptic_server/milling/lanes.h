@@ -71,6 +71,14 @@ template <typename Scalar, typename Lanes>
     return (words[0] | words[1] | words[2] | words[3]) != 0;
 }
 
+/// Bit i is set where lane i, 0 or -1, is -1.
+[[gnu::always_inline]] inline unsigned bits_of(const Ints& is) {
+    const Ints bits = is & Ints{1, 2, 4, 8, 16, 32, 64, 128};
+    const HalfInts four = low_half(bits) | high_half(bits);
+    const HalfInts two = four | __builtin_shufflevector(four, four, 2, 3, 0, 1);
+    return static_cast<unsigned>(two[0] | two[1]);
+}
+
 /// Largest of the eight.
 [[gnu::always_inline]] inline std::int32_t largest(const Ints& v) {
     const HalfInts low = low_half(v);

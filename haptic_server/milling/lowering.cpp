@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <bit>
-#include <cstring>
-#include <utility>
 
 #include "haptic_server/milling/cover_lanes.h"
 #include "haptic_server/milling/crescent_lanes.h"
@@ -76,6 +74,10 @@ struct Lowering::Kernel {
             const Ints voxels = first[row] + lanes::counting();
             lanes::store(&to.list_[count], voxels);
             if (any_longer_than_eight) lanes::store(&to.list_[count + lanes::width], voxels + eight);
+            to.rows_[to.row_count_] = {static_cast<std::uint16_t>(first[row]),
+                                       static_cast<std::uint16_t>(length[row]),
+                                       static_cast<std::uint16_t>(count)};
+            to.row_count_ += length[row] > 0 ? 1 : 0;
             count += static_cast<std::size_t>(length[row]);
         }
     }
@@ -104,33 +106,31 @@ struct Lowering::Kernel {
     [[gnu::always_inline]] void lower_list(const SweepSeenFrom& sweep, const SweepForLanes& fast,
                                            std::int32_t slot, const glm::ivec3& corner, std::size_t count) {
         std::uint8_t* const fractions = to.bone_.fractions(slot).data();
-        std::uint16_t* const changed = to.changed_.data();
         RemovedVoxels& out = to.voxels_;
         // The last eight are filled up with a voxel that is not asked for.
         lanes::store(&to.list_[count], lanes::ints(to.list_[0]));
         for (std::size_t i = 0; i < count; i += lanes::width) {
+            std::uint8_t& changed = to.changed_[i / lanes::width];
+            changed = 0;
             const Ints voxel = lanes::load<Ints>(&to.list_[i]);
             const Ints bytes = gathered(fractions, &to.list_[i]);
             const Ints is_asked = lanes::counting() < static_cast<int>(count - i);
             const Ints old = bytes & is_asked;
             if (!lanes::any(old)) continue;  // the burr in its own groove
 
-            const Ints place_x = voxel & 15;
-            const Floats x = lanes::to_floats(corner.x + place_x);
+            const Floats x = lanes::to_floats(corner.x + (voxel & 15));
             const Floats y = lanes::to_floats(corner.y + (voxel >> 4 & 15));
             const Floats z = lanes::to_floats(corner.z + (voxel >> 8));
             const Ints left = lanes::smaller(old, left_of<edges>(sweep, fast, x, y, z));
             const Ints lost = old - left;
-            if (!lanes::any(lost)) continue;
+            changed = static_cast<std::uint8_t>(lanes::bits_of(lost > 0));
+            if (changed == 0) continue;
 
             std::array<std::int32_t, lanes::width> lefts;
-            std::array<std::int32_t, lanes::width> bits;
             lanes::store(lefts.data(), left);
-            lanes::store(bits.data(), (lost > 0) & (1 << place_x));
             const auto write = [&](std::size_t lane) {
-                const auto offset = static_cast<std::size_t>(to.list_[i + lane]);
-                fractions[offset] = static_cast<std::uint8_t>(lefts[lane]);
-                changed[offset / brick_edge_voxels] |= static_cast<std::uint16_t>(bits[lane]);
+                fractions[static_cast<std::size_t>(to.list_[i + lane])] =
+                    static_cast<std::uint8_t>(lefts[lane]);
             };
             if (i + lanes::width <= count)
                 for (std::size_t lane = 0; lane < lanes::width; ++lane) write(lane);
@@ -180,6 +180,7 @@ struct Lowering::Kernel {
             const std::int32_t slot = layer.slot(brick_x, brick_y);
             if (slot == BoneContent::no_slot) continue;
             std::size_t count = 0;
+            to.row_count_ = 0;
             for (int g = first_group; g < end_group; ++g) {
                 const auto at = static_cast<std::size_t>(g);
                 list_group(left[at], brick_x, g * eight * brick_edge_voxels, count);
@@ -190,6 +191,8 @@ struct Lowering::Kernel {
             to.report_changes();
             lower_list<edges>(sweep, fast, slot, {brick_x * brick_edge_voxels, first_y, first_z}, count);
             to.changed_slot_ = slot;
+            std::copy_n(to.rows_.begin(), to.row_count_, to.changed_rows_.begin());
+            to.changed_row_count_ = to.row_count_;
         }
     }
 
@@ -229,26 +232,23 @@ void Lowering::lower_bricks(const CrescentRows& rows, const BrickLayer& layer, i
 
 void Lowering::report_changes() noexcept {
     if (changed_slot_ == BoneContent::no_slot) return;
-    constexpr std::size_t rows_at_once = 8;
-    for (std::size_t row = 0; row < changed_.size(); row += rows_at_once) {
-        std::array<std::uint64_t, 2> any;
-        std::memcpy(any.data(), &changed_[row], sizeof any);
-        if ((any[0] | any[1]) == 0) continue;
-        for (std::size_t i = row; i < row + rows_at_once; ++i)
-            if (changed_[i] != 0) report_row(i);
+    for (std::size_t i = 0; i < changed_row_count_; ++i) {
+        const Row& row = changed_rows_[i];
+        const std::uint8_t* const stream = &changed_[row.place / 8];
+        const unsigned from_place = (stream[0] | stream[1] << 8u | stream[2] << 16u) >> row.place % 8;
+        const unsigned voxels = from_place & ((1u << row.length) - 1u);
+        if (voxels == 0) continue;
+        report_run(row.first + static_cast<std::size_t>(std::countr_zero(voxels)),
+                   row.first + static_cast<std::size_t>(31 - std::countl_zero(voxels)));
     }
     changed_slot_ = BoneContent::no_slot;
 }
 
-void Lowering::report_row(std::size_t row) noexcept {
-    const unsigned voxels = std::exchange(changed_[row], std::uint16_t{0});
-    const int first = std::countr_zero(voxels);
-    const int last = 31 - std::countl_zero(voxels);
-    const std::size_t first_voxel = brick_edge_voxels * row + static_cast<std::size_t>(first);
+void Lowering::report_run(std::size_t first_voxel, std::size_t last_voxel) noexcept {
     const std::uint8_t* const fractions = bone_.fractions(changed_slot_).data() + first_voxel;
     EditRun run{.brick = bone_.content().brick_of_slot[static_cast<std::size_t>(changed_slot_)],
                 .first_voxel = static_cast<std::uint16_t>(first_voxel),
-                .count = static_cast<std::uint8_t>(last - first + 1)};
+                .count = static_cast<std::uint8_t>(last_voxel - first_voxel + 1)};
     // A copy of fixed length is the quickest; it must not leave the brick.
     if (first_voxel + run.fraction.size() <= brick_voxel_count)
         std::copy_n(fractions, run.fraction.size(), run.fraction.begin());

@@ -40,7 +40,7 @@ class Lowering {
     void lower_bricks_avx2(const CrescentRows& rows, const BrickLayer& layer, int brick_y,
                            const VoxelRange& z) noexcept;
     void report_changes() noexcept;
-    void report_row(std::size_t row) noexcept;
+    void report_run(std::size_t first_voxel, std::size_t last_voxel) noexcept;
     void hand_on_voxels() noexcept;
 
     Bone& bone_;
@@ -48,10 +48,24 @@ class Lowering {
     InstructionSet instructions_;
     EditSink& edits_;
     RemovalSink& sink_;
-    // The brick that was last lowered and not yet reported, and its rows: bit i is set where voxel i changed.
+    /// Neighbouring voxels of a row of a brick, and where in the list they begin.
+    struct Row {
+        std::uint16_t first;  ///< offset in the brick
+        std::uint16_t length;
+        std::uint16_t place;
+    };
+    /// Rows of a brick: left and right of the ball's inside.
+    static constexpr std::size_t most_rows = 2 * std::size_t{brick_edge_voxels} * brick_edge_voxels;
+
+    // Scratch, not cleared: a step starts with nothing to do. The rows of the brick that is being listed, and
+    // of the one that was last lowered and is not yet reported; of its list, bit i of the stream is set where
+    // voxel i lost something.
     std::int32_t changed_slot_ = BoneContent::no_slot;
-    alignas(64) std::array<std::uint16_t, std::size_t{brick_edge_voxels} * brick_edge_voxels> changed_{};
-    // Scratch, not cleared: a step starts with nothing to do.
+    std::size_t row_count_ = 0;
+    std::size_t changed_row_count_ = 0;
+    std::array<Row, most_rows + RemovedVoxels::lanes> rows_;
+    std::array<Row, most_rows + RemovedVoxels::lanes> changed_rows_;
+    std::array<std::uint8_t, brick_voxel_count / 8 + 2> changed_;
     alignas(
         64) std::array<std::int32_t, brick_voxel_count + 2 * RemovedVoxels::lanes> list_;  // offsets in it
     RemovedVoxels voxels_;
