@@ -27,7 +27,15 @@ struct AxisMeans {
     Real inverse;  ///< mean of 1 / r
 };
 
-/// `per_r`: 1 / r, which may be anything finite where r is below 0.1.
+/// Where the disc does not reach the axis: r at least axis_disc_voxels. `per_r` is 1 / r.
+template <typename Real>
+[[gnu::always_inline]] inline AxisMeans<Real> far_axis_means(Real per_r) {
+    const Real per_t = per_r * per_r * (axis_disc_voxels * axis_disc_voxels);
+    const Real far = per_t * per_t;
+    return {per_r * per_r, per_r, per_r * (1.0f - far * (0.00992f + far * 0.01317f))};
+}
+
+/// Anywhere. `per_r`: 1 / r, which may be anything finite where r is below 0.1.
 template <typename Real>
 [[gnu::always_inline]] inline AxisMeans<Real> axis_means(Real r_squared, Real per_r) {
     constexpr float per_a = 1.0f / axis_disc_voxels;
@@ -36,10 +44,8 @@ template <typename Real>
     const Real outward = (2.74129f - t * (3.95094f - t * (3.26297f - t * 1.04984f))) * per_a;
     const Real inverse =
         (5.48678f - t * (16.05004f - t * (21.36871f - t * (12.15962f - t * 2.32825f)))) * per_a;
-    const Real per_t = per_r * per_r * (axis_disc_voxels * axis_disc_voxels);
-    const Real far = per_t * per_t;
-    const Real far_inverse = per_r * (1.0f - far * (0.00992f + far * 0.01317f));
-    return {t < 1.0f ? swirl : per_r * per_r, t < 1.0f ? outward : per_r, t < 1.0f ? inverse : far_inverse};
+    const AxisMeans<Real> far = far_axis_means(per_r);
+    return {t < 1.0f ? swirl : far.swirl, t < 1.0f ? outward : far.outward, t < 1.0f ? inverse : far.inverse};
 }
 
 }  // namespace osteomill

@@ -67,7 +67,11 @@ struct EightForces {
     const Floats per_both = 1.0f / (distance * r);  // one division for two
     const Floats cos_kappa = -z * (per_both * r);
     const Floats to_surface = distance * c.per_radius;  // 1 / r there = this / r here
-    const AxisMeans<Floats> mean = axis_means(r_squared, per_both * distance);
+    const Floats per_r = per_both * distance;
+    // Few voxels are near the axis.
+    constexpr float near_squared = axis_disc_voxels * axis_disc_voxels;
+    const AxisMeans<Floats> mean =
+        lanes::any(r_squared < near_squared) ? axis_means(r_squared, per_r) : far_axis_means(per_r);
 
     const Floats swirl = weight * to_surface * mean.swirl;
     const Floats outward = c.axial * cos_kappa * swirl + c.radial * c.per_radius * weight * mean.outward;

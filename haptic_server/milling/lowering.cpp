@@ -82,69 +82,96 @@ struct Lowering::Kernel {
         }
     }
 
-    /// What the sweep leaves of eight voxels of a brick whose first voxel is at `corner`.
-    template <VoxelEdges edges>
-    [[gnu::always_inline]] static Ints left_of(const SweepSeenFrom& sweep, const SweepForLanes& fast,
-                                               const Floats& x, const Floats& y, const Floats& z) {
-        const LeftLanes left = fraction_left<edges>(fast, x, y, z);
-        if (!lanes::any(left.is_unsure)) [[likely]]
-            return left.left;
-        Ints exact = left.left;
-        for (int i = 0; i < eight; ++i)
-            if (left.is_unsure[i] != 0) exact[i] = osteomill::fraction_left<edges>(sweep, x[i], y[i], z[i]);
-        return exact;
-    }
-
     /// By registers: what is written byte by byte cannot be read as a vector until it has reached the cache.
     [[gnu::always_inline]] static Ints gathered(const std::uint8_t* bytes, const std::int32_t* at) {
         return Ints{bytes[at[0]], bytes[at[1]], bytes[at[2]], bytes[at[3]],
                     bytes[at[4]], bytes[at[5]], bytes[at[6]], bytes[at[7]]};
     }
 
-    /// Lowers the voxels of the list.
+    /// Eight voxels of the list.
+    struct EightVoxels {
+        Ints offset;
+        Ints old;  // fractions; 0 for those that are not asked for
+        Floats x;
+        Floats y;
+        Floats z;
+    };
+
+    /// Those from place `i` of the list on, up to `count`. `corner`: the brick's first voxel.
+    [[gnu::always_inline]] EightVoxels eight_voxels(const std::uint8_t* fractions, const glm::ivec3& corner,
+                                                    std::size_t i, std::size_t count) const {
+        const Ints offset = lanes::load<Ints>(&to.list_[i]);
+        const Ints is_asked = lanes::counting() < static_cast<int>(count) - static_cast<int>(i);
+        return {offset, gathered(fractions, &to.list_[i]) & is_asked,
+                lanes::to_floats(corner.x + (offset & 15)), lanes::to_floats(corner.y + (offset >> 4 & 15)),
+                lanes::to_floats(corner.z + (offset >> 8))};
+    }
+
+    /// Asks double precision where single precision is not sure.
+    template <VoxelEdges edges>
+    static void make_sure(const SweepSeenFrom& sweep, const EightVoxels& voxels, LeftLanes& left) {
+        for (unsigned unsure = lanes::bits_of(left.is_unsure); unsure != 0; unsure &= unsure - 1) {
+            const int i = std::countr_zero(unsure);
+            left.left[i] = osteomill::fraction_left<edges>(sweep, voxels.x[i], voxels.y[i], voxels.z[i]);
+        }
+    }
+
+    /// Writes what is left of eight voxels and lists those that lost something. Says which did.
+    [[gnu::always_inline]] std::uint8_t lower_eight(const EightVoxels& voxels, const Ints& most_left,
+                                                    std::uint8_t* fractions, std::int32_t slot, std::size_t i,
+                                                    std::size_t count) {
+        const Ints left = lanes::smaller(voxels.old, most_left);
+        const Ints lost = voxels.old - left;
+        const auto changed = static_cast<std::uint8_t>(lanes::bits_of(lost > 0));
+        if (changed == 0) return 0;
+        std::array<std::int32_t, lanes::width> lefts;
+        lanes::store(lefts.data(), left);
+        const std::size_t asked = std::min(lanes::width, count - i);
+        if (asked == lanes::width)  // of a known length the loop is none
+            for (std::size_t lane = 0; lane < lanes::width; ++lane)
+                fractions[static_cast<std::size_t>(to.list_[i + lane])] =
+                    static_cast<std::uint8_t>(lefts[lane]);
+        else
+            for (std::size_t lane = 0; lane < asked; ++lane)
+                fractions[static_cast<std::size_t>(to.list_[i + lane])] =
+                    static_cast<std::uint8_t>(lefts[lane]);
+        RemovedVoxels& out = to.voxels_;
+        if (out.count == RemovedVoxels::capacity) to.hand_on_voxels();
+        const std::size_t n = out.count;
+        lanes::store(&out.x[n], voxels.x);
+        lanes::store(&out.y[n], voxels.y);
+        lanes::store(&out.z[n], voxels.z);
+        lanes::store(&out.codes[n], lanes::to_floats(lost));
+        lanes::store(&out.slot[n], lanes::ints(slot));
+        lanes::store(&out.offset[n], voxels.offset);
+        out.count += lanes::width;
+        return changed;
+    }
+
+    /// Lowers the voxels of the list. Two times eight in turn: the roots of one are waited for while the
+    /// other's are computed.
     template <VoxelEdges edges>
     [[gnu::always_inline]] void lower_list(const SweepSeenFrom& sweep, const SweepForLanes& fast,
                                            std::int32_t slot, const glm::ivec3& corner, std::size_t count) {
         std::uint8_t* const fractions = to.bone_.fractions(slot).data();
-        RemovedVoxels& out = to.voxels_;
-        // The last eight are filled up with a voxel that is not asked for.
+        // The last sixteen are filled up with a voxel that is not asked for.
         lanes::store(&to.list_[count], lanes::ints(to.list_[0]));
-        for (std::size_t i = 0; i < count; i += lanes::width) {
-            std::uint8_t& changed = to.changed_[i / lanes::width];
-            changed = 0;
-            const Ints voxel = lanes::load<Ints>(&to.list_[i]);
-            const Ints bytes = gathered(fractions, &to.list_[i]);
-            const Ints is_asked = lanes::counting() < static_cast<int>(count - i);
-            const Ints old = bytes & is_asked;
-            if (!lanes::any(old)) continue;  // the burr in its own groove
-
-            const Floats x = lanes::to_floats(corner.x + (voxel & 15));
-            const Floats y = lanes::to_floats(corner.y + (voxel >> 4 & 15));
-            const Floats z = lanes::to_floats(corner.z + (voxel >> 8));
-            const Ints left = lanes::smaller(old, left_of<edges>(sweep, fast, x, y, z));
-            const Ints lost = old - left;
-            changed = static_cast<std::uint8_t>(lanes::bits_of(lost > 0));
-            if (changed == 0) continue;
-
-            std::array<std::int32_t, lanes::width> lefts;
-            lanes::store(lefts.data(), left);
-            const auto write = [&](std::size_t lane) {
-                fractions[static_cast<std::size_t>(to.list_[i + lane])] =
-                    static_cast<std::uint8_t>(lefts[lane]);
-            };
-            if (i + lanes::width <= count)
-                for (std::size_t lane = 0; lane < lanes::width; ++lane) write(lane);
-            else
-                for (std::size_t lane = 0; i + lane < count; ++lane) write(lane);
-            if (out.count == RemovedVoxels::capacity) to.hand_on_voxels();
-            const std::size_t n = out.count;
-            lanes::store(&out.x[n], x);
-            lanes::store(&out.y[n], y);
-            lanes::store(&out.z[n], z);
-            lanes::store(&out.codes[n], lanes::to_floats(lost));
-            lanes::store(&out.slot[n], lanes::ints(slot));
-            lanes::store(&out.offset[n], voxel);
-            out.count += lanes::width;
+        lanes::store(&to.list_[count + lanes::width], lanes::ints(to.list_[0]));
+        for (std::size_t i = 0; i < count; i += 2 * lanes::width) {
+            std::uint8_t* const changed = &to.changed_[i / lanes::width];
+            changed[0] = changed[1] = 0;
+            const EightVoxels a = eight_voxels(fractions, corner, i, count);
+            const EightVoxels b = eight_voxels(fractions, corner, i + lanes::width, count);
+            if (!lanes::any(a.old | b.old)) continue;  // the burr in its own groove
+            LeftLanes left_a = fraction_left<edges>(fast, a.x, a.y, a.z);
+            LeftLanes left_b = fraction_left<edges>(fast, b.x, b.y, b.z);
+            if (lanes::any(left_a.is_unsure | left_b.is_unsure)) [[unlikely]] {
+                make_sure<edges>(sweep, a, left_a);
+                make_sure<edges>(sweep, b, left_b);
+            }
+            changed[0] = lower_eight(a, left_a.left, fractions, slot, i, count);
+            if (i + lanes::width < count)
+                changed[1] = lower_eight(b, left_b.left, fractions, slot, i + lanes::width, count);
         }
     }
 
