@@ -18,8 +18,8 @@ static_assert(most_voxels_across_burr <= 2.0 * CrescentRows::largest_radius_voxe
 namespace {
 
 /// Directions are taken from the middle of a stretch of the way: the force of a stretch as long as the burr's
-/// radius would be 10 % off, that of a fifth of it 0.5 %.
-constexpr double longest_stretch_radii = 0.2;
+/// radius would be 10 % off, that of an eighth of it 0.2 %.
+constexpr double longest_stretch_radii = 0.125;
 /// At 10 kHz a burr moves by less than one of a voxel's 255 steps at a time. Below five of them, and for no
 /// longer than a haptic tick, milling waits: the bone comes out the same and so does the mean force.
 constexpr double shortest_way_voxels = 0.02;
