@@ -11,10 +11,10 @@
 //
 // C_i, n_i, gap_i and A_i as in engagement.h, with gaps counted from p in the first; cut_i is how far the
 // patch may advance in what the proxy has cut since the map was sampled, so no bone is felt twice. Gaps of
-// freshly carved bone scatter by about a tenth of a voxel, more than a burr advances in a tick: a patch whose gap is
-// near a fifth of a voxel may touch or not, and counts as touching by the weight w_i, which falls from 1 to 0
-// between a tenth and three tenths. A threshold would let it come and go with the lattice. Piecewise linear:
-// Newton on the set of patches in contact, a few iterations, halving a step that does not reduce the
+// freshly carved bone scatter by about a tenth of a voxel, more than a burr advances in a tick: a patch whose
+// gap is near a fifth of a voxel may touch or not, and counts as touching by the weight w_i, which falls from
+// 1 to 0 between a tenth and three tenths. A threshold would let it come and go with the lattice. Piecewise
+// linear: Newton on the set of patches in contact, a few iterations, halving a step that does not reduce the
 // residual. In one dimension, in bone of resistance B, it is p' = (B/dt p + K_c x) / (B/dt + K_c): stable for
 // any B.
 //

@@ -1,6 +1,6 @@
 // What a sweep leaves of eight voxels at once: the formula of cover.h in single precision, which is twice as
-// fast as double, and where its error could round to another of the 255 steps: there (one voxel
-// in a hundred) double precision must be asked.
+// fast as double, and where its error could round to another of the 255 steps: there (one voxel in a hundred)
+// double precision must be asked.
 //
 // The margin: with u = 2^-24 and no place more than D = R + 4 from the path, the components of the distance
 // are off by at most u (2 D + 3) (places are whole numbers, and the whole part of `from` is taken off them
