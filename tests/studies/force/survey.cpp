@@ -68,24 +68,26 @@ std::string csv_of(const std::vector<SurveyResult>& results) {
     std::string csv =
         "group,name,diameter_mm,depth_mm,spindle_tilt_deg,spindle_azimuth_deg,up_x,up_y,up_z,feed_x_mm_s,"
         "feed_y_mm_s,"
-        "feed_z_mm_s,rpm,edges,groove_mm_higher,milling_rate_hz,reference_x_n,reference_y_n,reference_z_n,"
+        "feed_z_mm_s,rpm,edges,groove_mm_higher,milling_rate_hz,voxel_mm,reference_x_n,reference_y_n,"
+        "reference_z_n,"
         "force_x_n,"
         "force_y_n,force_z_n,error_percent,error_target_percent,removal_error_percent,ripple_percent,"
         "ripple_target_percent,step_us\n";
     for (const SurveyResult& r : results) {
         const SteadyCase& c = r.point.motion;
         csv += fmt::format(
-            "{},\"{}\",{},{:.4f},{:.2f},{:.2f},{:.5f},{:.5f},{:.5f},{:.5f},{:.5f},{:.5f},{:.0f},{},{},{:.0f},"
+            "{},\"{}\",{},{:.4f},{:.2f},{:.2f},{:.5f},{:.5f},{:.5f},{:.5f},{:.5f},{:.5f},{:.0f},{},{},{:."
+            "0f},{},"
             "{:.6f},{:.6f},"
             "{:.6f},{:.6f},{:.6f},{:.6f},{:.4f},{},{:.4f},{:.4f},{},{:.2f}\n",
             r.point.group, c.name, c.burr.diameter_mm, c.depth_mm, r.point.tilt_deg, r.point.azimuth_deg,
             c.up.x, c.up.y, c.up.z, c.velocity_mm_per_s.x, c.velocity_mm_per_s.y, c.velocity_mm_per_s.z,
             60.0 * c.burr.spindle_rev_per_s, c.burr.edges,
             c.previous_groove_mm_higher ? fmt::format("{:.4f}", *c.previous_groove_mm_higher) : "",
-            r.point.run.milling_rate_hz, r.reference_n.x, r.reference_n.y, r.reference_n.z, r.force_n.x,
-            r.force_n.y, r.force_n.z, 100.0 * r.error, 100.0 * r.point.most_error, 100.0 * r.removal_error,
-            100.0 * r.ripple, r.point.most_ripple ? fmt::format("{}", 100.0 * *r.point.most_ripple) : "",
-            r.step_us);
+            r.point.run.milling_rate_hz, r.point.run.voxel_mm, r.reference_n.x, r.reference_n.y,
+            r.reference_n.z, r.force_n.x, r.force_n.y, r.force_n.z, 100.0 * r.error,
+            100.0 * r.point.most_error, 100.0 * r.removal_error, 100.0 * r.ripple,
+            r.point.most_ripple ? fmt::format("{}", 100.0 * *r.point.most_ripple) : "", r.step_us);
     }
     return csv;
 }

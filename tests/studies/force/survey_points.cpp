@@ -31,6 +31,7 @@ struct Description {
     double rate_hz = 100.0;
     std::optional<double> groove_mm{};
     bool plunges = false;  ///< the feed is straight into the surface
+    double voxel_mm = 0.1;
 };
 
 glm::dvec3 direction(double tilt_deg, double azimuth_deg) {
@@ -55,6 +56,7 @@ SurveyPoint point_of(const std::string& group, const Description& d) {
     c.depth_mm = d.depth_mm;
     c.previous_groove_mm_higher = d.groove_mm;
     point.run.milling_rate_hz = d.rate_hz;
+    point.run.voxel_mm = d.voxel_mm;
 
     const bool is_5_mm = d.diameter_mm == 5.0;
     const bool upright = d.tilt_deg == 0.0 && d.surface_tilt_deg == 0.0;
@@ -64,10 +66,11 @@ SurveyPoint point_of(const std::string& group, const Description& d) {
     c.name = fmt::format(
         "{} mm, {:.2f} deep{}, spindle {:.0f}/{:.0f} deg, surface {:.0f}/{:.0f} deg, heading {:.0f} deg, "
         "{}{:.3g} mm/s, "
-        "{:.0f} rpm, {} edges, {:.0f} Hz",
+        "{:.0f} rpm, {} edges, {:.0f} Hz{}",
         d.diameter_mm, d.depth_mm, d.groove_mm ? fmt::format(" after {:.2f} less", *d.groove_mm) : "",
         d.tilt_deg, d.azimuth_deg, d.surface_tilt_deg, d.surface_azimuth_deg, d.heading_deg,
-        d.plunges ? "plunging " : "", d.feed_mm_per_s, d.rpm, d.edges, d.rate_hz);
+        d.plunges ? "plunging " : "", d.feed_mm_per_s, d.rpm, d.edges, d.rate_hz,
+        d.voxel_mm == 0.1 ? "" : fmt::format(", voxels of {} mm", d.voxel_mm));
     return point;
 }
 
@@ -117,17 +120,24 @@ void add_tilts(PointList& list) {
 }
 
 /// Small burrs that lean forward and cut with their tip: the spindle's axis lies within the cut or near its
-/// edge, the forces of its sides nearly cancel, and there are only 10 to 20 voxels to tell them apart.
+/// edge, the forces of its sides nearly cancel, and there are only 10 to 20 voxels to tell them apart; or
+/// twice as many.
 void add_tips(PointList& list) {
     constexpr std::array small_diameters_mm{2.0, 1.5, 1.0};
     constexpr std::array tilts_deg{30.0, 45.0, 60.0, 75.0};
+    const auto tip = [](double diameter_mm, double share_of_radius, double tilt, double voxel_mm) {
+        return Description{.diameter_mm = diameter_mm,
+                           .depth_mm = 0.5 * diameter_mm * share_of_radius,
+                           .tilt_deg = tilt,
+                           .azimuth_deg = 180.0,
+                           .voxel_mm = voxel_mm};
+    };
     list.each(tilts_deg, [&](double tilt) {
-        for (const double diameter_mm : small_diameters_mm)
-            for (const double share_of_radius : {0.7, 0.85, 1.0})
-                list.add("tip", {.diameter_mm = diameter_mm,
-                                 .depth_mm = 0.5 * diameter_mm * share_of_radius,
-                                 .tilt_deg = tilt,
-                                 .azimuth_deg = 180.0});
+        for (const double diameter_mm : small_diameters_mm) {
+            for (const double share : {0.7, 0.85, 1.0}) list.add("tip", tip(diameter_mm, share, tilt, 0.1));
+            for (const double share : {0.6, 0.7, 0.85, 1.0})
+                list.add("fine tip", tip(diameter_mm, share, tilt, 0.05));
+        }
     });
 }
 
