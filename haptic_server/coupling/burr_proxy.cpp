@@ -54,10 +54,13 @@ void BurrProxy::gather_contacts(const glm::dvec3& pull_mm, double tick_s, bool s
             add(patch.normal, -wall_n_per_mm3 * patch.area_mm2 * patch.normal, patch.gap_mm - along);
             continue;
         }
-        const glm::dvec3 force = correction_.gain() * patch.cutting_n_s_per_mm / tick_s;
         const double share = touching_share(patch.gap_mm / engagement.spacing_mm);
-        if (share > 0.0) add(patch.normal, share * force, cut_mm_[i] - along);
-        if (share < 1.0) add(patch.normal, (1.0 - share) * force, std::max(patch.gap_mm, cut_mm_[i]) - along);
+        const double begins = cut_mm_[i] - along;
+        const double begins_beyond_gap = std::max(patch.gap_mm, cut_mm_[i]) - along;
+        if ((share > 0.0 ? begins : begins_beyond_gap) > longest_mm) continue;
+        const glm::dvec3 force = correction_.gain() * patch.cutting_n_s_per_mm / tick_s;
+        if (share > 0.0) add(patch.normal, share * force, begins);
+        if (share < 1.0) add(patch.normal, (1.0 - share) * force, begins_beyond_gap);
     }
 }
 
