@@ -126,15 +126,13 @@ struct Lowering::Kernel {
         if (changed == 0) return 0;
         std::array<std::int32_t, lanes::width> lefts;
         lanes::store(lefts.data(), left);
-        const std::size_t asked = std::min(lanes::width, count - i);
-        if (asked == lanes::width)  // of a known length the loop is none
-            for (std::size_t lane = 0; lane < lanes::width; ++lane)
-                fractions[static_cast<std::size_t>(to.list_[i + lane])] =
-                    static_cast<std::uint8_t>(lefts[lane]);
+        const auto write = [&](std::size_t lane) {
+            fractions[static_cast<std::size_t>(to.list_[i + lane])] = static_cast<std::uint8_t>(lefts[lane]);
+        };
+        if (i + lanes::width <= count)  // of a known length the loop is none
+            for (std::size_t lane = 0; lane < lanes::width; ++lane) write(lane);
         else
-            for (std::size_t lane = 0; lane < asked; ++lane)
-                fractions[static_cast<std::size_t>(to.list_[i + lane])] =
-                    static_cast<std::uint8_t>(lefts[lane]);
+            for (std::size_t lane = 0; i + lane < count; ++lane) write(lane);
         RemovedVoxels& out = to.voxels_;
         if (out.count == RemovedVoxels::capacity) to.hand_on_voxels();
         const std::size_t n = out.count;
