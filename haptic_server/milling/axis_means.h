@@ -17,6 +17,10 @@
 
 namespace osteomill {
 
+/// Radius of a disc of a voxel's cross-section, 1/sqrt(pi): how near to the axis a voxel is taken to be at
+/// least, where no mean is.
+inline constexpr double disc_radius_voxels = 0.56418958354775628695;
+
 /// Radius a of the disc, voxels.
 inline constexpr float axis_disc_voxels = 1.93f;
 

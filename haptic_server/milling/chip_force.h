@@ -28,9 +28,6 @@
 
 namespace osteomill {
 
-/// Radius of a disc of a voxel's cross-section, 1/sqrt(pi).
-inline constexpr double disc_radius_voxels = 0.56418958354775628695;
-
 /// A step, as the force sees it.
 struct CuttingStep {
     /// `middle_voxels` is the burr's centre half-way through the step, in voxel coordinates: directions taken

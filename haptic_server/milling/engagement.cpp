@@ -8,8 +8,8 @@
 #include <glm/geometric.hpp>
 #include <numbers>
 
+#include "haptic_server/milling/axis_means.h"
 #include "haptic_server/milling/burr_frame.h"
-#include "haptic_server/milling/chip_force.h"
 
 namespace osteomill {
 

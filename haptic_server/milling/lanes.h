@@ -92,12 +92,6 @@ template <typename Scalar, typename Lanes>
     return -largest(-v);
 }
 
-[[gnu::always_inline]] inline float smallest(const Floats& v) {
-    float least = v[0];
-    for (int i = 1; i < 8; ++i) least = v[i] < least ? v[i] : least;
-    return least;
-}
-
 /// Sum of the eight, in the order of the lanes.
 [[gnu::always_inline]] inline double sum(const Floats& v) {
     double total = 0.0;

@@ -6,6 +6,8 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "haptic_server/milling/axis_means.h"
+
 namespace osteomill {
 
 namespace {
