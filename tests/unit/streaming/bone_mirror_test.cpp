@@ -3,19 +3,13 @@
 #include <gtest/gtest.h>
 
 #include "tests/support/block.h"
+#include "tests/support/mirror_sink.h"
 #include "tests/support/random_carving.h"
 
 namespace osteomill {
 namespace {
 
-class MirrorSink final : public EditSink {
-  public:
-    explicit MirrorSink(BoneMirror& mirror) : mirror_(mirror) {}
-    void push(const EditRun& run) noexcept override { EXPECT_TRUE(mirror_.apply(run)); }
-
-  private:
-    BoneMirror& mirror_;
-};
+using testing::MirrorSink;
 
 TEST(BoneMirror, FollowsTheBoneAndKnowsItsChecksum) {
     Bone bone = testing::make_block({0, 0, 0}, {4, 4, 4}, 0.1);

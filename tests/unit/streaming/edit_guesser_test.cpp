@@ -4,18 +4,10 @@
 
 #include "haptic_server/milling/carve.h"
 #include "tests/support/block.h"
+#include "tests/support/mirror_sink.h"
 
 namespace osteomill {
 namespace {
-
-class ToMirror final : public EditSink {
-  public:
-    explicit ToMirror(BoneMirror& mirror) : mirror_(mirror) {}
-    void push(const EditRun& run) noexcept override { ASSERT_TRUE(mirror_.apply(run)); }
-
-  private:
-    BoneMirror& mirror_;
-};
 
 class Nobody final : public RemovalSink {
   public:
@@ -26,7 +18,7 @@ class Nobody final : public RemovalSink {
 std::size_t bytes_of_carving(VoxelEdges edges, double smoothing) {
     Bone bone = testing::make_block({0.0, 0.0, 0.0}, {48.0, 48.0, 32.0}, 1.0);
     BoneMirror mirror(bone);
-    ToMirror edits(mirror);
+    testing::MirrorSink edits(mirror);
     Nobody nobody;
     constexpr double radius = 9.0;
     const glm::dvec3 from(24.2, 23.1, 33.3), to(25.1, 24.0, 31.7);

@@ -2,22 +2,15 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+
+#include "tests/support/smoothed_ramp.h"
 
 namespace osteomill {
 namespace {
 
 constexpr double radius = 25.0;
-
-/// A ramp's mean over `smoothing` voxels, from the ramp's integral.
-double left_of(double beyond, double smoothing) {
-    const auto ramp = [](double u) { return std::clamp(0.5 + u, 0.0, 1.0); };
-    if (smoothing == 0.0) return ramp(beyond);
-    const auto integral = [&](double u) { return 0.5 * ramp(u) * ramp(u) + std::max(0.0, u - 0.5); };
-    return (integral(beyond + 0.5 * smoothing) - integral(beyond - 0.5 * smoothing)) / smoothing;
-}
 
 /// The voxels that a ball leaves in part, ahead of a motion along -z.
 std::vector<PartVoxel> cut_by(const glm::dvec3& centre, double smoothing) {
@@ -25,7 +18,8 @@ std::vector<PartVoxel> cut_by(const glm::dvec3& centre, double smoothing) {
     for (int z = 0; z < 30; ++z)
         for (int y = 0; y < 60; ++y)
             for (int x = 0; x < 60; ++x) {
-                const double left = left_of(glm::distance(glm::dvec3(x, y, z), centre) - radius, smoothing);
+                const double left =
+                    testing::left_by_ramp(glm::distance(glm::dvec3(x, y, z), centre) - radius, smoothing);
                 const auto steps = static_cast<int>(std::floor(255.0 * left + 0.5));
                 if (steps > 0 && steps < 255)
                     voxels.push_back({glm::dvec3(x, y, z), static_cast<std::uint8_t>(steps)});

@@ -4,6 +4,8 @@
 
 #include <limits>
 
+#include "tests/support/smoothed_ramp.h"
+
 namespace osteomill {
 namespace {
 
@@ -11,17 +13,11 @@ using ::testing::HasSubstr;
 
 constexpr double radius = 10.0;
 
-/// What a ball at `centre` leaves of a voxel, by milling's law (cover.h) in plain double: a ramp, or its mean
-/// over `smoothing` voxels, by the trapezium that two of its integrals make.
+/// What a ball at `centre` leaves of a voxel, by milling's law (cover.h) in plain double.
 int left_by_law(const glm::dvec3& voxel, const glm::dvec3& centre, double smoothing) {
     const glm::dvec3 off = voxel - centre;
     const double beyond = std::sqrt(off.x * off.x + off.y * off.y + off.z * off.z) - radius;
-    const auto ramp = [](double u) { return std::clamp(0.5 + u, 0.0, 1.0); };
-    const auto integral = [&](double u) { return 0.5 * ramp(u) * ramp(u) + std::max(0.0, u - 0.5); };
-    const double left =
-        smoothing > 0.0
-            ? (integral(beyond + 0.5 * smoothing) - integral(beyond - 0.5 * smoothing)) / smoothing
-            : ramp(beyond);
+    const double left = testing::left_by_ramp(beyond, smoothing);
     return static_cast<int>(255.0 * left + 0.5);
 }
 
