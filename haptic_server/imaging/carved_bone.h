@@ -14,11 +14,12 @@
 
 #include "common/bone/bone.h"
 #include "haptic_server/imaging/hu_file.h"
+#include "haptic_server/imaging/hu_volume.h"
 
 namespace osteomill {
 
 /// HU of a voxel of which nothing is left.
-inline constexpr std::int16_t milled_away_hu = -1000;
+inline constexpr std::int16_t milled_away_hu = air_hu;
 
 /// Writes the files. `source` is the volume that `bone` was built from; its key-values go with it (the
 /// threshold among them). Throws std::invalid_argument where the grids differ, ImagingError where a file

@@ -10,6 +10,9 @@
 
 namespace osteomill {
 
+/// What a voxel of nothing holds.
+inline constexpr std::int16_t air_hu = -1000;
+
 struct HuVolume {
     Grid grid;
     std::vector<std::int16_t> hu;      ///< x fastest, then y, then z

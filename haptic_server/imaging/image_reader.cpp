@@ -97,14 +97,14 @@ void note_nrrd_orientation(const std::filesystem::path& path, SourceImage& image
 
 std::vector<float> read_file_values(const std::filesystem::path& path, const SourceImage& geometry,
                                     const ReportProgress& report) {
-    using FloatImage = itk::Image<float, 3>;
+    using FileImage = itk::Image<float, 3>;
     try {
         const QuietLibraries quiet;
-        const auto reader = itk::ImageFileReader<FloatImage>::New();
+        const auto reader = itk::ImageFileReader<FileImage>::New();
         reader->SetImageIO(io_for(path));
         reader->SetFileName(path.string());
         reader->Update();
-        const FloatImage* image = reader->GetOutput();
+        const FileImage* image = reader->GetOutput();
         if (image->GetBufferedRegion().GetNumberOfPixels() != voxel_count(geometry))
             throw ImagingError(path, "changed while it was read");
         std::vector<float> values(image->GetBufferPointer(),

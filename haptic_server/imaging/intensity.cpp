@@ -8,11 +8,11 @@
 #include <stdexcept>
 #include <utility>
 
+#include "haptic_server/imaging/hu_volume.h"
+
 namespace osteomill {
 
 namespace {
-
-constexpr float air = -1000.0F;
 
 std::pair<double, double> two_numbers(const char* option, const char* form, const std::string& text) {
     const auto refuse = [&] {
@@ -56,7 +56,7 @@ std::size_t replace_not_finite(std::span<float> values) {
     std::size_t replaced = 0;
     for (float& value : values) {
         if (std::isfinite(value)) continue;
-        value = air;
+        value = air_hu;
         ++replaced;
     }
     return replaced;

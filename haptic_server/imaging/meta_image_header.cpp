@@ -25,7 +25,7 @@ std::string trimmed(const std::string& text) {
 }
 
 /// The header ends with the line that names the data.
-MetaImageHeader read_header(const std::filesystem::path& path) {
+MetaImageHeader read_meta_image_header(const std::filesystem::path& path) {
     constexpr int most_lines = 4096;
     std::ifstream file(path, std::ios::binary);
     MetaImageHeader header;
@@ -50,7 +50,7 @@ std::string field(const MetaImageHeader& header, const char* name) {
 }  // namespace
 
 void require_meta_image_spacing(const std::filesystem::path& path) {
-    const MetaImageHeader header = read_header(path);
+    const MetaImageHeader header = read_meta_image_header(path);
     for (const char* name : {"ElementSpacing", "ElementSize"}) {
         std::istringstream words(field(header, name));
         for (std::string word; words >> word;) {
@@ -63,7 +63,7 @@ void require_meta_image_spacing(const std::filesystem::path& path) {
 }
 
 void require_whole_meta_image(const std::filesystem::path& path, std::uint64_t voxel_bytes) {
-    const MetaImageHeader header = read_header(path);
+    const MetaImageHeader header = read_meta_image_header(path);
     const std::string data = field(header, "ElementDataFile");
     const bool local = data == "LOCAL" || data == "Local" || data == "local";
     // A list or a pattern of files, one a slice: ITK misses a file that is not there.

@@ -7,7 +7,6 @@ namespace osteomill {
 
 namespace {
 
-constexpr std::int16_t air = -1000;
 constexpr int reach = kept_voxels_around_bone;
 
 using Mask = std::vector<std::uint8_t>;
@@ -51,7 +50,7 @@ std::uint64_t clear_far_from_bone(HuVolume& volume, double threshold_hu) {
         for (int near = std::max(0, z - reach); near <= std::min(slices - 1, z + reach); ++near)
             for (std::size_t i = 0; i < length; ++i) keep[i] |= mask(near)[i];
         for (std::size_t i = 0; i < length; ++i)
-            if (keep[i] == 0) hu[i] = air;
+            if (keep[i] == 0) hu[i] = air_hu;
     }
     return bone;
 }

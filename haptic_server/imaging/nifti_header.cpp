@@ -42,7 +42,7 @@ struct NiftiHeader {
 };
 
 /// zlib reads plain files as they are.
-NiftiHeader read_header(const std::filesystem::path& path) {
+NiftiHeader read_nifti_header(const std::filesystem::path& path) {
     const GzipFile file(gzopen(path.c_str(), "rb"));
     std::vector<unsigned char> bytes(nifti2_header_bytes);
     const int read = file ? gzread(file.get(), bytes.data(), static_cast<unsigned>(bytes.size())) : -1;
@@ -92,7 +92,7 @@ bool holds_its_voxels(const std::filesystem::path& path) {
 
 void require_nifti_spacing(const std::filesystem::path& path) {
     if (!holds_its_voxels(path)) return;
-    const NiftiHeader header = read_header(path);
+    const NiftiHeader header = read_nifti_header(path);
     for (const double spacing_mm : header.spacing_mm)
         if (!(std::abs(spacing_mm) > 0.0) || !std::isfinite(spacing_mm))
             throw ImagingError(
@@ -102,7 +102,7 @@ void require_nifti_spacing(const std::filesystem::path& path) {
 
 void require_whole_nifti(const std::filesystem::path& path, std::uint64_t voxel_bytes) {
     if (!holds_its_voxels(path)) return;
-    const std::uint64_t expected = read_header(path).voxels_begin + voxel_bytes;
+    const std::uint64_t expected = read_nifti_header(path).voxels_begin + voxel_bytes;
     const std::optional<std::uint64_t> found = inflated_bytes(path);
     if (!found) throw ImagingError(path, "is cut off or damaged: its gzip stream breaks off");
     if (*found < expected)

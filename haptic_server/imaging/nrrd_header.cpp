@@ -17,7 +17,7 @@ namespace {
 /// No sane header is longer; what is, is some other file.
 constexpr int most_header_lines = 4096;
 
-std::string trimmed(std::string text) {
+std::string without_blanks_around(std::string text) {
     const auto is_space = [](unsigned char c) { return std::isspace(c) != 0; };
     text.erase(text.begin(), std::find_if_not(text.begin(), text.end(), is_space));
     text.erase(std::find_if_not(text.rbegin(), text.rend(), is_space).base(), text.end());
@@ -60,7 +60,7 @@ std::map<std::string, std::string> read_nrrd_header(const std::filesystem::path&
         throw ImagingError(path, "is not a NRRD file (its first line must begin with NRRD)");
     std::map<std::string, std::string> header;
     for (int i = 0; i < most_header_lines && std::getline(file, line); ++i) {
-        line = trimmed(line);
+        line = without_blanks_around(line);
         if (line.empty()) break;
         const std::size_t colon = line.find(':');
         if (line[0] == '#' || colon == std::string::npos) continue;
@@ -68,7 +68,7 @@ std::map<std::string, std::string> read_nrrd_header(const std::filesystem::path&
         std::string name = line.substr(0, colon);
         std::transform(name.begin(), name.end(), name.begin(),
                        [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-        header[name] = trimmed(line.substr(colon + 1));
+        header[name] = without_blanks_around(line.substr(colon + 1));
     }
     return header;
 }

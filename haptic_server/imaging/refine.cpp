@@ -15,8 +15,6 @@ namespace osteomill {
 
 namespace {
 
-constexpr std::int16_t air = -1000;
-
 struct HuRange {
     float low = 0.0F;
     float high = 0.0F;
@@ -101,7 +99,7 @@ class ObliqueSampler {
         for (int y = 0; y < grid_.size_voxels.y; ++y)
             for (int x = 0; x < grid_.size_voxels.x; ++x) {
                 const glm::dvec3 at = voxel_at(part_, centre_of_voxel_mm(grid_, {x, y, z}));
-                *out++ = within(at) ? range_.whole(value(at)) : air;
+                *out++ = within(at) ? range_.whole(value(at)) : air_hu;
             }
     }
 

@@ -15,7 +15,6 @@ namespace df = distance_field;
 // CT numbers: enamel, dentine and pulp as measured in children's teeth (2071 to 2955, 1323 to 1899, 184 to
 // 420 HU); the lesion lies well below dentine; canal contents just above the threshold, so that they are
 // there to be hurt.
-constexpr double air_hu = -1000.0;
 constexpr double ligament_hu = 60.0;
 constexpr double enamel_hu = 2500.0;
 constexpr double dentine_hu = 1600.0;
@@ -151,7 +150,7 @@ HuVolume make_tooth_phantom() {
     const Grid grid{.size_voxels = {512, 512, 128}, .spacing_mm = 0.1, .origin_mm = {-25.55, -25.55, -8.45}};
     const auto voxels = static_cast<std::size_t>(512) * 512 * 128;
     HuVolume volume{.grid = grid,
-                    .hu = std::vector<std::int16_t>(voxels, static_cast<std::int16_t>(air_hu)),
+                    .hu = std::vector<std::int16_t>(voxels, air_hu),
                     .tissue = std::vector<std::uint8_t>(voxels, 0)};
     const double h = grid.spacing_mm;
     for (int z = 0; z < 128; ++z)
