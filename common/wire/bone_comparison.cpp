@@ -11,7 +11,7 @@ std::uint64_t rounded_up_ratio(std::uint64_t count, std::uint64_t divisor) {
     return count / divisor + (count % divisor != 0 ? 1 : 0);
 }
 
-WireError refused(const std::string& what) {
+WireError comparison_refused(const std::string& what) {
     return {"comparison refused: " + what};
 }
 
@@ -21,21 +21,21 @@ std::optional<WireError> fault_of(const v1::CompareBone& request, std::uint64_t 
     for (const v1::BrickRange& range : request.ranges()) {
         const std::uint64_t first = range.first_brick();
         if (range.brick_count() == 0 || range.bricks_per_part() == 0)
-            return refused("a range or its parts are empty");
-        if (first < end_of_last) return refused("its ranges overlap or do not ascend");
+            return comparison_refused("a range or its parts are empty");
+        if (first < end_of_last) return comparison_refused("its ranges overlap or do not ascend");
         if (first >= bricks_of_grid || range.brick_count() > bricks_of_grid - first)
-            return refused("a range of " + std::to_string(range.brick_count()) + " bricks from " +
-                           std::to_string(first) + " on reaches past the grid's " +
-                           std::to_string(bricks_of_grid));
+            return comparison_refused("a range of " + std::to_string(range.brick_count()) + " bricks from " +
+                                      std::to_string(first) + " on reaches past the grid's " +
+                                      std::to_string(bricks_of_grid));
         if (static_cast<std::uint64_t>(range.part_checksum_size()) !=
             rounded_up_ratio(range.brick_count(), range.bricks_per_part()))
-            return refused("a range has more or fewer checksums than parts");
+            return comparison_refused("a range has more or fewer checksums than parts");
         end_of_last = first + range.brick_count();
         parts += static_cast<std::size_t>(range.part_checksum_size());
     }
     if (parts == 0 || parts > most_parts_of_a_comparison)
-        return refused("it has " + std::to_string(parts) + " parts, not 1 to " +
-                       std::to_string(most_parts_of_a_comparison));
+        return comparison_refused("it has " + std::to_string(parts) + " parts, not 1 to " +
+                                  std::to_string(most_parts_of_a_comparison));
     return std::nullopt;
 }
 

@@ -6,28 +6,29 @@ namespace osteomill {
 
 namespace {
 
-WireError refused(BrickIndex brick, const std::string& what) {
+WireError edit_refused(BrickIndex brick, const std::string& what) {
     return {"edit of brick " + std::to_string(brick) + " refused: " + what};
 }
 
 std::optional<WireError> fault_of_runs(const v1::BrickEdit& edit, const Bone& bone) {
     const BrickIndex brick = edit.brick();
-    if (bone.slot(brick) == BoneContent::no_slot) return refused(brick, "no bone is stored there");
-    if (edit.changed_size() % 2 != 0) return refused(brick, "a run lacks its length");
+    if (bone.slot(brick) == BoneContent::no_slot) return edit_refused(brick, "no bone is stored there");
+    if (edit.changed_size() % 2 != 0) return edit_refused(brick, "a run lacks its length");
     std::size_t taken = 0;
     std::size_t end_of_last = 0;
     for (int i = 0; i < edit.changed_size(); i += 2) {
         const std::size_t first = edit.changed(i);
         const std::size_t length = edit.changed(i + 1);
-        if (length == 0 || first < end_of_last) return refused(brick, "its runs are empty or do not ascend");
+        if (length == 0 || first < end_of_last)
+            return edit_refused(brick, "its runs are empty or do not ascend");
         if (first + length > brick_voxel_count)
-            return refused(brick, "a run ends at voxel " + std::to_string(first + length) + " of " +
-                                      std::to_string(brick_voxel_count));
-        if (length > edit.fraction().size() - taken) return refused(brick, "it has too few fractions");
+            return edit_refused(brick, "a run ends at voxel " + std::to_string(first + length) + " of " +
+                                           std::to_string(brick_voxel_count));
+        if (length > edit.fraction().size() - taken) return edit_refused(brick, "it has too few fractions");
         taken += length;
         end_of_last = first + length;
     }
-    if (taken != edit.fraction().size()) return refused(brick, "it has more fractions than its runs");
+    if (taken != edit.fraction().size()) return edit_refused(brick, "it has more fractions than its runs");
     return std::nullopt;
 }
 
@@ -92,7 +93,7 @@ v1::BrickEdit brick_edit(BrickIndex brick, std::span<const std::uint8_t, brick_v
 std::optional<WireError> apply_brick_edit(const v1::BrickEdit& edit, Bone& bone) {
     if (auto fault = fault_of_runs(edit, bone)) return fault;
     if (const auto voxel = first_raised(edit, bone))
-        return refused(edit.brick(), "it raises what is left of voxel " + std::to_string(*voxel));
+        return edit_refused(edit.brick(), "it raises what is left of voxel " + std::to_string(*voxel));
     write(edit, bone);
     return std::nullopt;
 }
@@ -100,7 +101,7 @@ std::optional<WireError> apply_brick_edit(const v1::BrickEdit& edit, Bone& bone)
 std::variant<EditEffect, WireError> correct_with_brick_edit(const v1::BrickEdit& edit, Bone& bone) {
     if (auto fault = fault_of_runs(edit, bone)) return *fault;
     if (const auto voxel = first_outside_grid(edit, bone))
-        return refused(edit.brick(), "its voxel " + std::to_string(*voxel) + " lies outside the grid");
+        return edit_refused(edit.brick(), "its voxel " + std::to_string(*voxel) + " lies outside the grid");
     const EditEffect effect = first_raised(edit, bone) ? EditEffect::raises : EditEffect::lowers;
     write(edit, bone);
     return effect;

@@ -14,9 +14,9 @@ namespace osteomill {
 namespace {
 
 /// Some ten microseconds more than the fastest for a frame, and a tenth smaller.
-constexpr int compression_level = 3;
+constexpr int frame_compression_level = 3;
 
-WireError refused(const std::string& what) {
+WireError edits_refused(const std::string& what) {
     return {"guessed edits refused: " + what};
 }
 
@@ -71,8 +71,9 @@ v1::GuessedEdits GuessedEditsPacker::pack(const Bone& bone, const std::vector<Ch
              voxel = mask._Find_next(voxel))
             differences_.push_back(static_cast<std::uint8_t>(fractions[voxel] - guessed[i][voxel]));
     }
-    const std::size_t size = ZSTD_compressCCtx(context_.get(), compressed_.data(), compressed_.size(),
-                                               differences_.data(), differences_.size(), compression_level);
+    const std::size_t size =
+        ZSTD_compressCCtx(context_.get(), compressed_.data(), compressed_.size(), differences_.data(),
+                          differences_.size(), frame_compression_level);
     if (ZSTD_isError(size)) throw std::runtime_error(ZSTD_getErrorName(size));
     message.set_zstd_differences(compressed_.data(), size);
     return message;
@@ -88,14 +89,14 @@ std::variant<std::vector<v1::BrickEdit>, WireError> unpack(const v1::GuessedEdit
     }
     const auto count = static_cast<std::size_t>(message.brick_size());
     if (count == 0 || count * mask_bytes > largest_guessed_edits_bytes)
-        return refused("they are of " + std::to_string(count) + " bricks, not 1 to " +
-                       std::to_string(largest_guessed_edits_bytes / mask_bytes));
+        return edits_refused("they are of " + std::to_string(count) + " bricks, not 1 to " +
+                             std::to_string(largest_guessed_edits_bytes / mask_bytes));
     std::vector<std::uint8_t> differences(largest_guessed_edits_bytes);
     const std::size_t size =
         ZSTD_decompress(differences.data(), differences.size(), message.zstd_differences().data(),
                         message.zstd_differences().size());
-    if (ZSTD_isError(size)) return refused(ZSTD_getErrorName(size));
-    if (size < count * mask_bytes) return refused("they lack masks");
+    if (ZSTD_isError(size)) return edits_refused(ZSTD_getErrorName(size));
+    if (size < count * mask_bytes) return edits_refused("they lack masks");
     differences.resize(size);
 
     const glm::uvec3 table(size_bricks);
@@ -105,17 +106,17 @@ std::variant<std::vector<v1::BrickEdit>, WireError> unpack(const v1::GuessedEdit
     for (std::size_t i = 0; i < count; ++i) {
         const BrickIndex brick = message.brick(static_cast<int>(i));
         if (brick >= std::uint64_t{table.x} * table.y * table.z)
-            return refused("brick " + std::to_string(brick) + " lies outside the grid");
+            return edits_refused("brick " + std::to_string(brick) + " lies outside the grid");
         const BrickGuess by_sweep = guess(sweep, size_bricks, brick);
         const VoxelMask changed = by_sweep.changed ^ mask_at(std::span(differences).subspan(i * mask_bytes));
-        if (changed.count() > size - next) return refused("they lack fractions");
+        if (changed.count() > size - next) return edits_refused("they lack fractions");
         ByteBrick fractions = by_sweep.left;
         for (std::size_t voxel = changed._Find_first(); voxel < brick_voxel_count;
              voxel = changed._Find_next(voxel))
             fractions[voxel] = static_cast<std::uint8_t>(fractions[voxel] + differences[next++]);
         edits.push_back(brick_edit(brick, fractions, changed));
     }
-    if (next != size) return refused("they have more fractions than changed voxels");
+    if (next != size) return edits_refused("they have more fractions than changed voxels");
     return edits;
 }
 

@@ -14,7 +14,7 @@ namespace osteomill {
 namespace {
 
 /// Fast enough to pack a bone while 30 frames a second go on beside it; higher levels gain little on bone.
-constexpr int compression_level = 1;
+constexpr int snapshot_compression_level = 1;
 
 std::size_t channel_count(bool heterogeneous, bool labelled) {
     return std::size_t{1} + (heterogeneous ? 1 : 0) + (labelled ? 1 : 0);
@@ -45,14 +45,14 @@ ByteBrick brick_at(std::span<const std::uint8_t> channels, std::size_t position)
     return brick;
 }
 
-WireError refused(std::string what) {
+WireError snapshot_refused(std::string what) {
     return {"snapshot refused: " + std::move(what)};
 }
 
 std::variant<Grid, WireError> grid_from(const v1::Grid& message) {
     constexpr auto largest = static_cast<std::uint32_t>(std::numeric_limits<int>::max());
     if (std::max({message.size_x(), message.size_y(), message.size_z()}) > largest)
-        return refused("the grid has more than 65536 voxels along an axis");
+        return snapshot_refused("the grid has more than 65536 voxels along an axis");
     const Grid grid{.size_voxels = {static_cast<int>(message.size_x()), static_cast<int>(message.size_y()),
                                     static_cast<int>(message.size_z())},
                     .spacing_mm = message.spacing_mm(),
@@ -60,7 +60,7 @@ std::variant<Grid, WireError> grid_from(const v1::Grid& message) {
     try {
         require_valid(grid);
     } catch (const std::invalid_argument& error) {
-        return refused(error.what());
+        return snapshot_refused(error.what());
     }
     return grid;
 }
@@ -118,8 +118,9 @@ v1::SnapshotBricks SnapshotPacker::pack(const Bone& bone, std::size_t first_slot
             if (!channel->empty())
                 channels_.insert(channels_.end(), (*channel)[slot].begin(), (*channel)[slot].end());
     }
-    const std::size_t size = ZSTD_compressCCtx(context_.get(), compressed_.data(), compressed_.size(),
-                                               channels_.data(), channels_.size(), compression_level);
+    const std::size_t size =
+        ZSTD_compressCCtx(context_.get(), compressed_.data(), compressed_.size(), channels_.data(),
+                          channels_.size(), snapshot_compression_level);
     if (ZSTD_isError(size)) throw std::runtime_error(ZSTD_getErrorName(size));
     message.set_zstd_channels(compressed_.data(), size);
     return message;
@@ -138,8 +139,8 @@ std::variant<SnapshotAssembler, WireError> SnapshotAssembler::begin(const v1::Sn
     if (const auto* error = std::get_if<WireError>(&parsed)) return *error;
     const Grid& grid = std::get<Grid>(parsed);
     if (message.brick_count() > brick_count(grid))
-        return refused(std::to_string(message.brick_count()) + " bricks are announced for a grid of " +
-                       std::to_string(brick_count(grid)));
+        return snapshot_refused(std::to_string(message.brick_count()) +
+                                " bricks are announced for a grid of " + std::to_string(brick_count(grid)));
     try {
         require_within_limits(message.brick_count(),
                               channel_count(message.heterogeneous(), message.labelled()));
@@ -151,10 +152,10 @@ std::variant<SnapshotAssembler, WireError> SnapshotAssembler::begin(const v1::Sn
         builder.reserve_bricks(message.brick_count());
         return SnapshotAssembler(std::move(builder), message, size_in_bricks(grid));
     } catch (const std::invalid_argument& error) {
-        return refused(error.what());
+        return snapshot_refused(error.what());
     } catch (const std::bad_alloc&) {
-        return refused("there is no room for the " + std::to_string(message.brick_count()) +
-                       " bricks announced");
+        return snapshot_refused("there is no room for the " + std::to_string(message.brick_count()) +
+                                " bricks announced");
     }
 }
 
@@ -162,26 +163,28 @@ std::optional<WireError> SnapshotAssembler::add(const v1::SnapshotBricks& messag
     const std::size_t channels = channel_count(heterogeneous_, labelled_);
     const auto bricks = static_cast<std::size_t>(message.brick_size());
     if (bricks == 0 || bricks > most_bricks_of_piece(channels))
-        return refused("a piece holds " + std::to_string(bricks) + " bricks, not 1 to " +
-                       std::to_string(most_bricks_of_piece(channels)));
+        return snapshot_refused("a piece holds " + std::to_string(bricks) + " bricks, not 1 to " +
+                                std::to_string(most_bricks_of_piece(channels)));
     if (bricks > announced_ - received_)
-        return refused("more bricks came than the " + std::to_string(announced_) + " announced");
+        return snapshot_refused("more bricks came than the " + std::to_string(announced_) + " announced");
 
     channels_.resize(bricks * channels * brick_voxel_count);
     const std::size_t size = ZSTD_decompress(channels_.data(), channels_.size(),
                                              message.zstd_channels().data(), message.zstd_channels().size());
-    if (ZSTD_isError(size)) return refused(std::string("a piece is corrupt: ") + ZSTD_getErrorName(size));
+    if (ZSTD_isError(size))
+        return snapshot_refused(std::string("a piece is corrupt: ") + ZSTD_getErrorName(size));
     if (size != channels_.size())
-        return refused("a piece holds " + std::to_string(size) + " bytes, not " +
-                       std::to_string(channels_.size()));
+        return snapshot_refused("a piece holds " + std::to_string(size) + " bytes, not " +
+                                std::to_string(channels_.size()));
 
     const glm::uvec3 table(size_bricks_);
     for (std::size_t i = 0; i < bricks; ++i) {
         const BrickIndex brick = message.brick(static_cast<int>(i));
         if (static_cast<std::int64_t>(brick) <= last_brick_)
-            return refused("brick " + std::to_string(brick) + " comes after " + std::to_string(last_brick_));
+            return snapshot_refused("brick " + std::to_string(brick) + " comes after " +
+                                    std::to_string(last_brick_));
         if (brick >= static_cast<std::uint64_t>(table.x) * table.y * table.z)
-            return refused("brick " + std::to_string(brick) + " lies outside the grid");
+            return snapshot_refused("brick " + std::to_string(brick) + " lies outside the grid");
         last_brick_ = brick;
 
         std::size_t next = i * channels;
@@ -192,7 +195,7 @@ std::optional<WireError> SnapshotAssembler::add(const v1::SnapshotBricks& messag
             builder_.add_brick(brick_position(size_bricks_, brick), fraction,
                                heterogeneous_ ? &stiffness : nullptr, labelled_ ? &tissue : nullptr);
         } catch (const std::invalid_argument& error) {
-            return refused(error.what());
+            return snapshot_refused(error.what());
         }
     }
     received_ += static_cast<std::uint32_t>(bricks);
@@ -201,10 +204,10 @@ std::optional<WireError> SnapshotAssembler::add(const v1::SnapshotBricks& messag
 
 std::variant<Bone, WireError> SnapshotAssembler::finish(const v1::SnapshotEnd& message) && {
     if (received_ != announced_)
-        return refused(std::to_string(received_) + " bricks came of the " + std::to_string(announced_) +
-                       " announced");
+        return snapshot_refused(std::to_string(received_) + " bricks came of the " +
+                                std::to_string(announced_) + " announced");
     Bone bone = std::move(builder_).build();
-    if (checksum(bone) != message.checksum()) return refused("its checksum does not hold");
+    if (checksum(bone) != message.checksum()) return snapshot_refused("its checksum does not hold");
     return bone;
 }
 

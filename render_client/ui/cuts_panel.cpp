@@ -9,13 +9,13 @@ namespace osteomill {
 
 namespace {
 
-constexpr std::array<const char*, CutSettings::count> names{"left/right (X)", "front/back (Y)",
-                                                            "above/below (Z)", "across the view (C)"};
+constexpr std::array<const char*, CutSettings::count> cut_names{"left/right (X)", "front/back (Y)",
+                                                                "above/below (Z)", "across the view (C)"};
 
 void draw_row(CutSettings& cuts, std::size_t index, const Camera& camera) {
     const CutSettings::Cut& cut = cuts[index];
     bool is_on = cut.is_on;
-    if (ImGui::Checkbox(names[index], &is_on)) is_on ? cuts.step(index, camera) : cuts.switch_off(index);
+    if (ImGui::Checkbox(cut_names[index], &is_on)) is_on ? cuts.step(index, camera) : cuts.switch_off(index);
     auto position_mm = static_cast<float>(cut.position_mm);
     // One that was never on has no direction yet, and so no reach.
     const float reach_mm = std::max(static_cast<float>(cuts.reach_mm(index)), 0.1f);

@@ -16,7 +16,7 @@
 namespace osteomill {
 namespace {
 
-constexpr double tick_s = 0.001;
+using testing::tick_s;
 constexpr int most_ticks_to_zero = 50;
 /// The bar for any coupling: no jump between ticks that the hand did not ask for.
 constexpr double most_jump_n = 0.3;

@@ -11,7 +11,7 @@
 namespace osteomill {
 namespace {
 
-constexpr double tick_s = 0.001;
+using testing::tick_s;
 
 /// A haptic loop between a scripted device, a scripted coupling and a milling loop that the test plays.
 class Bench {

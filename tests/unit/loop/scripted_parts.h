@@ -10,6 +10,8 @@
 
 namespace osteomill::testing {
 
+inline constexpr double tick_s = 0.001;
+
 /// Reads what `script` says of the session time; remembers what was written.
 class ScriptedDevice final : public HapticDevice {
   public:

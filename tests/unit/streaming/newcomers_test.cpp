@@ -8,13 +8,13 @@ namespace {
 using ::testing::ElementsAre;
 using ::testing::IsEmpty;
 
-const Newcomers::Time start{};
+const Newcomers::Time opening{};
 
 TEST(Newcomers, GiveWayOldestFirstWhenTheirPlacesAreShort) {
     Newcomers newcomers;
     for (Newcomers::Id id = 1; id <= Newcomers::most_at_once; ++id) {
         EXPECT_FALSE(newcomers.in_the_way());
-        newcomers.add(id, start);
+        newcomers.add(id, opening);
     }
     EXPECT_EQ(newcomers.in_the_way(), 1U);
     EXPECT_TRUE(newcomers.remove(2)) << "it has spoken";
@@ -24,11 +24,11 @@ TEST(Newcomers, GiveWayOldestFirstWhenTheirPlacesAreShort) {
 
 TEST(Newcomers, AreServedOnceAfterTheyHaveBeenSilentForAWhile) {
     Newcomers newcomers;
-    newcomers.add(1, start);
-    newcomers.add(2, start + Newcomers::patience);
-    EXPECT_THAT(newcomers.take_patient(start), IsEmpty());
-    EXPECT_THAT(newcomers.take_patient(start + Newcomers::patience), ElementsAre(1));
-    EXPECT_THAT(newcomers.take_patient(start + 2 * Newcomers::patience), ElementsAre(2));
+    newcomers.add(1, opening);
+    newcomers.add(2, opening + Newcomers::patience);
+    EXPECT_THAT(newcomers.take_patient(opening), IsEmpty());
+    EXPECT_THAT(newcomers.take_patient(opening + Newcomers::patience), ElementsAre(1));
+    EXPECT_THAT(newcomers.take_patient(opening + 2 * Newcomers::patience), ElementsAre(2));
     EXPECT_EQ(newcomers.size(), 2U) << "they still give way to others";
 }
 

@@ -58,7 +58,7 @@ double stable_up_to(const WholeMap& map, const MethodScore& score, MapGrip grip)
 ordered_json json_of(const WholeMap& map, const MethodScore& score) {
     ordered_json up_to = ordered_json::object();
     for (const MapGrip grip : map_grips()) up_to[name_of(grip)] = stable_up_to(map, score, grip);
-    ordered_json json{
+    ordered_json found{
         {"cases", score.cases},
         {"stable", score.stable},
         {"stable_share", score.share()},
@@ -80,8 +80,8 @@ ordered_json json_of(const WholeMap& map, const MethodScore& score) {
         {"mean_error_percent", {{"median", 100.0 * score.median_mean_error}}}};
     const double on_real_device = stable_share(
         results_where(map, [&](const MapPoint& point) { return is_of(point, MapPart::real_device, score); }));
-    if (!std::isnan(on_real_device)) json["stable_share_on_real_device"] = on_real_device;
-    return json;
+    if (!std::isnan(on_real_device)) found["stable_share_on_real_device"] = on_real_device;
+    return found;
 }
 
 }  // namespace

@@ -1,16 +1,13 @@
 #include "tests/studies/stability/map/map_view.h"
 
 #include <algorithm>
-#include <limits>
 
 namespace osteomill::study {
 
 namespace {
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-
 double share_of_truth(double error_n, const MapOutcome& outcome) {
-    return outcome.truth_mean_n > 0.0 ? error_n / outcome.truth_mean_n : nan;
+    return outcome.truth_mean_n > 0.0 ? error_n / outcome.truth_mean_n : no_share;
 }
 
 }  // namespace
@@ -24,7 +21,7 @@ std::vector<MapResult> results_where(const WholeMap& map,
 }
 
 double stable_share(const std::vector<MapResult>& results) {
-    if (results.empty()) return nan;
+    if (results.empty()) return no_share;
     const auto stable = std::count_if(results.begin(), results.end(),
                                       [](const MapResult& result) { return result.outcome.is_stable; });
     return static_cast<double>(stable) / static_cast<double>(results.size());

@@ -2,11 +2,15 @@
 #pragma once
 
 #include <functional>
+#include <limits>
 #include <vector>
 
 #include "tests/studies/stability/map/merge.h"
 
 namespace osteomill::study {
+
+/// The share of nothing.
+inline constexpr double no_share = std::numeric_limits<double>::quiet_NaN();
 
 struct MapResult {
     const MapPoint& point;

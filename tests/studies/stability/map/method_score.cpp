@@ -15,15 +15,13 @@ namespace osteomill::study {
 
 namespace {
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-
 /// Errors below this share are drawn at it: a logarithmic axis has no zero.
 constexpr double smallest_drawn_percent = 0.01;
 
 /// Of the finite values; NaN of none.
 double median(std::vector<double> values) {
     std::erase_if(values, [](double value) { return !std::isfinite(value); });
-    if (values.empty()) return nan;
+    if (values.empty()) return no_share;
     const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
     std::nth_element(values.begin(), middle, values.end());
     return *middle;
@@ -60,7 +58,7 @@ MethodScore score_of(const std::string& method, MapScene scene, const std::vecto
     score.median_rms_error = median(rms_errors);
     score.median_mean_error = median(mean_errors);
     score.common_rms_error = median(common_errors);
-    score.worst_rms_error = nan;
+    score.worst_rms_error = no_share;
     for (const double error : rms_errors) score.worst_rms_error = std::fmax(score.worst_rms_error, error);
     return score;
 }
