@@ -1,12 +1,13 @@
-# osteomill_module(NAME SOURCES a.cpp ... LIBRARIES lib ...): one static library per folder of the house.
-# Includes are written from the repository root ("common/bone/grid.h").
+# osteomill_module(NAME SOURCES a.cpp ... LIBRARIES lib ... [SEPARATE]): one static library per folder of the house.
+# Includes are written from the repository root ("common/bone/grid.h"). SEPARATE: see osteomill_join.
 function(osteomill_module name)
-    cmake_parse_arguments(arg "" "" "SOURCES;LIBRARIES" ${ARGN})
+    cmake_parse_arguments(arg "SEPARATE" "" "SOURCES;LIBRARIES" ${ARGN})
     if(arg_SOURCES)
         add_library(${name} STATIC ${arg_SOURCES})
         target_include_directories(${name} PUBLIC ${CMAKE_SOURCE_DIR})
         target_link_libraries(${name} PUBLIC ${arg_LIBRARIES} PRIVATE osteomill_warnings)
         target_precompile_headers(${name} REUSE_FROM osteomill_precompiled)
+        osteomill_join(${name} module "${arg_SEPARATE}")
     else()
         add_library(${name} INTERFACE)
         target_include_directories(${name} INTERFACE ${CMAKE_SOURCE_DIR})
