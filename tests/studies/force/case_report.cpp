@@ -18,8 +18,8 @@ ordered_json percent(double share) {
     return std::isfinite(share) ? ordered_json(100.0 * share) : ordered_json(nullptr);
 }
 
-double relative_error(double value, double reference) {
-    return study::relative_error(glm::dvec3(value, 0.0, 0.0), glm::dvec3(reference, 0.0, 0.0));
+double removal_error(double value, double reference) {
+    return relative_error(glm::dvec3(value, 0.0, 0.0), glm::dvec3(reference, 0.0, 0.0));
 }
 
 }  // namespace
@@ -40,7 +40,7 @@ ordered_json report_of(const SteadyCase& c, const SteadyRun& run, const MakeMode
         {"file", force_and_removal(c.mean_force_n, c.removal_mm3_per_s)},
         {"error_percent", percent(relative_error(force_n, reference_n))},
         {"file_error_percent", percent(relative_error(force_n, c.mean_force_n))},
-        {"removal_error_percent", percent(relative_error(removal, reference_mm3_per_s))},
+        {"removal_error_percent", percent(removal_error(removal, reference_mm3_per_s))},
         {"ripple_percent", percent(ripple(series))},
         {"step_us", {{"p50", percentile(series.step_us, 0.5)}, {"p99", percentile(series.step_us, 0.99)}}},
         {"steps", path.steps},

@@ -13,8 +13,8 @@ namespace osteomill::study {
 
 namespace {
 
-constexpr double voxel_mm = 0.1;
-constexpr double travel_mm = 1.0;
+constexpr double block_voxel_mm = 0.1;
+constexpr double curve_travel_mm = 1.0;
 
 Burr five_millimetres() {
     return {.diameter_mm = 5.0, .sense = SpindleSense::counter_clockwise};
@@ -44,8 +44,8 @@ class NamedModel final : public StudiedModel {
 };
 
 Bone flat_block() {
-    const double reach_mm = 3.0 + travel_mm;
-    return voxelised({.low_mm = {-reach_mm, -3.0, -5.5}, .high_mm = {reach_mm, 3.0, 0.0}}, voxel_mm);
+    const double reach_mm = 3.0 + curve_travel_mm;
+    return voxelised({.low_mm = {-reach_mm, -3.0, -5.5}, .high_mm = {reach_mm, 3.0, 0.0}}, block_voxel_mm);
 }
 
 glm::dvec3 place_at(double depth_mm, double x_mm) {
@@ -62,9 +62,9 @@ double sliding_step_us(const std::string& name, const Bone& bone, bool quick) {
     NamedModel model(name, bone, five_millimetres());
     const double step_s = 0.001;
     const double step_mm = 6.0 * step_s;
-    const int steps = quick ? 20 : static_cast<int>(travel_mm / step_mm);
+    const int steps = quick ? 20 : static_cast<int>(curve_travel_mm / step_mm);
     std::vector<glm::dvec3> positions;
-    for (int i = 0; i <= steps; ++i) positions.push_back(place_at(1.0, -0.5 * travel_mm + i * step_mm));
+    for (int i = 0; i <= steps; ++i) positions.push_back(place_at(1.0, -0.5 * curve_travel_mm + i * step_mm));
     return percentile(run_path(model, {0.0, 0.0, 1.0}, step_s, positions).step_us, 0.5);
 }
 

@@ -15,7 +15,7 @@ namespace osteomill::study {
 
 namespace {
 
-constexpr double voxel_mm = 0.1;
+constexpr double scaled_voxel_mm = 0.1;
 constexpr double feed_mm_per_s = 6.0;
 
 /// Median time of a step of a burr that travels half immersed in the surface z = 0, from x = -travel/2.
@@ -42,10 +42,10 @@ ScalingRow row_of(double at, const Bone& bone, const Burr& burr, bool quick) {
 
 /// A cube of solid bone whose top face lies at z = 0, its middle below the origin.
 Bone solid_cube(int edge_voxels) {
-    const double half_mm = 0.5 * edge_voxels * voxel_mm;
+    const double half_mm = 0.5 * edge_voxels * scaled_voxel_mm;
     const Grid grid{.size_voxels = glm::ivec3(edge_voxels),
-                    .spacing_mm = voxel_mm,
-                    .origin_mm = glm::dvec3(-half_mm, -half_mm, -2.0 * half_mm) + 0.5 * voxel_mm};
+                    .spacing_mm = scaled_voxel_mm,
+                    .origin_mm = glm::dvec3(-half_mm, -half_mm, -2.0 * half_mm) + 0.5 * scaled_voxel_mm};
     BoneBuilder builder = BoneBuilder::homogeneous(grid, 1.0, false);
     ByteBrick full;
     full.fill(255);
@@ -63,8 +63,9 @@ std::vector<ScalingRow> cost_by_diameter(bool quick, const Progress& progress) {
     std::vector<ScalingRow> rows;
     for (const double diameter_mm : diameters_mm) {
         const double reach_mm = 0.5 * diameter_mm + 2.0;
-        const Bone bone = voxelised(
-            {.low_mm = {-reach_mm, -reach_mm, -reach_mm}, .high_mm = {reach_mm, reach_mm, 0.0}}, voxel_mm);
+        const Bone bone =
+            voxelised({.low_mm = {-reach_mm, -reach_mm, -reach_mm}, .high_mm = {reach_mm, reach_mm, 0.0}},
+                      scaled_voxel_mm);
         rows.push_back(row_of(diameter_mm, bone, Burr{.diameter_mm = diameter_mm}, quick));
         progress(static_cast<double>(rows.size()) / static_cast<double>(diameters_mm.size()));
     }
