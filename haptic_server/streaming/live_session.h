@@ -9,9 +9,10 @@
 
 namespace osteomill {
 
-/// What clients are told of a scene.
+/// What clients are told of a scene. `edge_smoothing_voxels`: how the session's burr leaves the edges of
+/// voxels, see SessionInfo.
 SessionInfo session_info(const Scene& scene, bool accepts_operator, double force_limit_n,
-                         std::string program_version);
+                         double edge_smoothing_voxels, std::string program_version);
 
 /// The one reader of `tool` and the one consumer of `edits`; both outlive it. Never waits for the loops.
 class LiveSession final : public ShownSession {

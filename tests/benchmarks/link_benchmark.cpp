@@ -49,7 +49,7 @@ void measure_snapshot(const Scene& scene, const Bone& bone) {
     const BoneMirror mirror(bone);
     SnapshotPacker packer;
     const auto began = Clock::now();
-    ClientFeed feed(to_message(session_info(scene, false, 3.3, "")), mirror, packer);
+    ClientFeed feed(to_message(session_info(scene, false, 3.3, 0.0, "")), mirror, packer);
     std::size_t bytes = 0;
     while (const auto frame = feed.next()) bytes += frame->size();
     const double pack_ms = ms_between(began, Clock::now());
@@ -108,9 +108,8 @@ Rate rate_of(const Scene& scene, const Bone& bone, HapticDevice& device, Edits e
     LiveSession shown(session->tool(), session->edits());
     BoneMirror mirror(bone);
     SnapshotPacker packer;
-    SessionInfo info = session_info(scene, false, 3.3, "");
-    info.edge_smoothing_voxels = session->edge_smoothing_voxels();
-    ClientFeed feed(to_message(info), mirror, packer);
+    ClientFeed feed(to_message(session_info(scene, false, 3.3, session->edge_smoothing_voxels(), "")), mirror,
+                    packer);
     while (feed.next()) {
     }
     EditGuesser guesser;
@@ -208,7 +207,8 @@ void measure_motion(Scene scene, const Bone& bone) {
     const auto session = std::make_unique<MillingSession>(scene, bone, device,
                                                           MillingSessionOptions{.edits_are_consumed = true});
     LiveSession shown(session->tool(), session->edits());
-    StreamingServer server({.port = 0}, session_info(scene, false, 3.3, ""), bone, shown);
+    StreamingServer server({.port = 0}, session_info(scene, false, 3.3, session->edge_smoothing_voxels(), ""),
+                           bone, shown);
     server.start();
     std::atomic<bool> is_over{false};
     std::thread running([&] { session->run(is_over); });

@@ -92,7 +92,7 @@ std::string failure_of(const StreamingOptions& options, const std::string& burr_
     scene.burrs = {Burr{.name = burr_name}};
     try {
         LiveSession shown(tool, edits);
-        StreamingServer server(options, session_info(scene, false, 3.3, "0.0.test"), bone, shown);
+        StreamingServer server(options, session_info(scene, false, 3.3, 0.0, "0.0.test"), bone, shown);
         server.start();
     } catch (const std::exception& error) {
         return error.what();
@@ -309,7 +309,7 @@ TEST(StreamingServer, ShowsFramesWhenItIsToldToWhereTheSessionKeepsTheTime) {
     scene.burrs = {Burr{}};
     StreamingServer server(
         {.listens = false, .paced_by_session = true, .record = RecordTo{folder / "a.pcap", Stamp{}}},
-        session_info(scene, false, 3.3, "0.0.test"), bone, shown);
+        session_info(scene, false, 3.3, 0.0, "0.0.test"), bone, shown);
     server.start();
     for (int i = 0; i < 10; ++i) {
         tool.back().time_s = i;
