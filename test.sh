@@ -25,6 +25,7 @@ for preset in "${presets[@]}"; do
     if [ "$preset" = fuzz ]; then
         tests/fuzz/run.sh 20  # seconds for each of the five targets: a minute on two cores
     else
-        ctest --preset "$preset" -j "$(nproc)"
+        # Many tests wait more than they compute: half as many again as there are cores.
+        ctest --preset "$preset" -j "$(($(nproc) * 3 / 2))"
     fi
 done
