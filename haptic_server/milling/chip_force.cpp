@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "common/bone/bone.h"
 #include "haptic_server/milling/axis_means.h"
 #include "haptic_server/milling/burr_frame.h"
 #include "haptic_server/milling/lanes.h"
@@ -44,20 +45,35 @@ Constants constants(const CuttingStep& step, const glm::ivec3& base) {
             step.coefficients.z};
 }
 
-/// Eight voxels in burr axes and their forces.
-struct EightForces {
+/// Eight places in burr axes.
+struct EightPlaces {
     Floats x, y, z;
-    Floats force_x, force_y, force_z;
 };
 
-[[gnu::always_inline]] inline EightForces forces_of(const Constants& c, const Floats& vx, const Floats& vy,
-                                                    const Floats& vz, const Floats& weight) {
+[[gnu::always_inline]] inline EightPlaces places_of(const Constants& c, const Floats& vx, const Floats& vy,
+                                                    const Floats& vz) {
     const Floats wx = vx - c.middle_x;
     const Floats wy = vy - c.middle_y;
     const Floats wz = vz - c.middle_z;
-    const Floats x = c.xx * wx + c.xy * wy + c.xz * wz;
-    const Floats y = c.yx * wx + c.yy * wy + c.yz * wz;
-    const Floats z = c.zx * wx + c.zy * wy + c.zz * wz;
+    return {c.xx * wx + c.xy * wy + c.xz * wz, c.yx * wx + c.yy * wy + c.yz * wz,
+            c.zx * wx + c.zy * wy + c.zz * wz};
+}
+
+/// And their forces.
+struct EightForces {
+    Floats x, y, z;
+    Floats force_x, force_y, force_z;
+    bool any_near;
+};
+
+/// `near_squared`: how near to the axis, squared, a voxel is for which the means of axis_means.h are asked.
+[[gnu::always_inline]] inline EightForces forces_of(const Constants& c, const EightPlaces& places,
+                                                    const Floats& weight,
+                                                    float near_squared = axis_disc_voxels *
+                                                                         axis_disc_voxels) {
+    const Floats& x = places.x;
+    const Floats& y = places.y;
+    const Floats& z = places.z;
     const Floats r_squared = x * x + y * y;
     const Floats distance_squared = r_squared + z * z;
     // No voxel of a crescent is that near the centre; padding may be.
@@ -68,10 +84,8 @@ struct EightForces {
     const Floats cos_kappa = -z * (per_both * r);
     const Floats to_surface = distance * c.per_radius;  // 1 / r there = this / r here
     const Floats per_r = per_both * distance;
-    // Few voxels are near the axis.
-    constexpr float near_squared = axis_disc_voxels * axis_disc_voxels;
-    const AxisMeans<Floats> mean =
-        lanes::any(r_squared < near_squared) ? axis_means(r_squared, per_r) : far_axis_means(per_r);
+    const bool any_near = lanes::any(r_squared < near_squared);  // few are
+    const AxisMeans<Floats> mean = any_near ? axis_means(r_squared, per_r) : far_axis_means(per_r);
 
     const Floats swirl = weight * to_surface * mean.swirl;
     const Floats outward = c.axial * cos_kappa * swirl + c.radial * c.per_radius * weight * mean.outward;
@@ -80,7 +94,8 @@ struct EightForces {
             z,
             c.tangential * swirl * y - outward * x,
             -c.tangential * swirl * x - outward * y,
-            weight * (c.radial * cos_kappa * to_surface * mean.inverse - c.axial * c.per_radius)};
+            weight * (c.radial * cos_kappa * to_surface * mean.inverse - c.axial * c.per_radius),
+            any_near};
 }
 
 [[gnu::always_inline]] inline void fill_with(const Constants& constants, std::size_t count, const float* vx,
@@ -88,8 +103,10 @@ struct EightForces {
                                              ChipForces& out) {
     const Constants c = constants;
     for (std::size_t i = 0; i < count; i += lanes::width) {
-        const EightForces f = forces_of(c, lanes::load<Floats>(vx + i), lanes::load<Floats>(vy + i),
-                                        lanes::load<Floats>(vz + i), lanes::load<Floats>(weights + i));
+        const EightForces f = forces_of(c,
+                                        places_of(c, lanes::load<Floats>(vx + i), lanes::load<Floats>(vy + i),
+                                                  lanes::load<Floats>(vz + i)),
+                                        lanes::load<Floats>(weights + i));
         lanes::store(&out.x[i], f.x);
         lanes::store(&out.y[i], f.y);
         lanes::store(&out.z[i], f.z);
@@ -107,8 +124,10 @@ struct EightForces {
     Floats y{};
     Floats z{};
     for (std::size_t i = 0; i < count; i += lanes::width) {
-        const EightForces f = forces_of(c, lanes::load<Floats>(vx + i), lanes::load<Floats>(vy + i),
-                                        lanes::load<Floats>(vz + i), lanes::load<Floats>(weights + i));
+        const EightForces f = forces_of(c,
+                                        places_of(c, lanes::load<Floats>(vx + i), lanes::load<Floats>(vy + i),
+                                                  lanes::load<Floats>(vz + i)),
+                                        lanes::load<Floats>(weights + i));
         x += f.force_x;
         y += f.force_y;
         z += f.force_z;
@@ -116,7 +135,127 @@ struct EightForces {
     return {lanes::sum(x), lanes::sum(y), lanes::sum(z)};
 }
 
+/// TipSearch as plain floats.
+struct TipConstants {
+    float way_x, way_y, way_z;
+    float least_share;
+    float radius;
+    float reach_squared;
+    float per_level_x, per_level_y;
+    bool moves;
+};
+
+TipConstants tip_constants(const CuttingStep& step, const TipSearch& tip) {
+    const auto radius = static_cast<float>(step.radius_voxels);
+    // As far off the axis as a voxel can be that is within the disc once it is moved to the burr's surface.
+    const float reach = tip_disc_voxels * (1.0f + 1.0f / radius);
+    return {tip.direction.x, tip.direction.y, tip.direction.z,
+            tip.least_share, radius,          reach * reach,
+            tip.per_level.x, tip.per_level.y, tip.per_level != glm::vec2(0.0f)};
+}
+
+struct EightTipSums {
+    Floats area{};
+    Floats stiffness{};
+    Floats x{};
+    Floats y{};
+    Floats moved_x{};
+    Floats moved_y{};
+    Floats moved_z{};
+};
+
+/// What the voxels from `first` on kept, in 255 steps; 0 for those that lost nothing.
+[[gnu::always_inline]] inline Floats kept_by(const RemovedVoxels& removed, std::size_t first) {
+    Floats kept{};
+    for (std::size_t lane = 0; lane < lanes::width; ++lane) {
+        const std::size_t i = first + lane;
+        if (removed.codes[i] > 0.0f)
+            kept[lane] = static_cast<float>(
+                removed.bone->fractions(removed.slot[i])[static_cast<std::size_t>(removed.offset[i])]);
+    }
+    return kept;
+}
+
+/// Adds the voxels from `first` on to the sums over the disc.
+[[gnu::always_inline]] inline void search_tip(const Constants& c, const TipConstants& tip,
+                                              const RemovedVoxels& removed, std::size_t first,
+                                              const EightPlaces& places, const Floats& weight,
+                                              EightTipSums& sums) {
+    constexpr float per_code = 1.0f / 255.0f;
+    constexpr float per_disc_squared = 1.0f / (tip_disc_voxels * tip_disc_voxels);
+    const Floats r_squared = places.x * places.x + places.y * places.y;
+    const Floats distance_squared = r_squared + places.z * places.z;
+    const Floats per_distance =
+        1.0f / lanes::square_root(distance_squared < 0.25f ? lanes::floats(0.25f) : distance_squared);
+    const Floats to_surface = tip.radius * per_distance;
+    const Floats in_disc = 1.0f - r_squared * to_surface * to_surface * per_disc_squared;
+    const auto is_in_disc = (in_disc > 0.0f) & (places.z < 0.0f);
+
+    const Floats share = (tip.way_x * places.x + tip.way_y * places.y + tip.way_z * places.z) * per_distance;
+    const Floats cos_kappa = -places.z * per_distance;
+    const Floats per_chip = cos_kappa / (share < tip.least_share ? lanes::floats(tip.least_share) : share);
+    const Floats counted = is_in_disc ? in_disc * per_chip : Floats{};
+    const Floats lost = lanes::load<Floats>(&removed.codes[first]);
+    const Floats area = counted * (per_code * lost);
+    sums.area += area;
+    sums.stiffness += counted * weight;
+    sums.x += area * (places.x * to_surface);
+    sums.y += area * (places.y * to_surface);
+    if (!tip.moves) return;
+
+    const Floats level = is_in_disc ? per_code * (kept_by(removed, first) + 0.5f * lost) - 0.5f : Floats{};
+    const EightForces listed = forces_of(c, places, weight);
+    const EightForces moved = forces_of(
+        c, {places.x + tip.per_level_x * level, places.y + tip.per_level_y * level, places.z}, weight);
+    sums.moved_x += moved.force_x - listed.force_x;
+    sums.moved_y += moved.force_y - listed.force_y;
+    sums.moved_z += moved.force_z - listed.force_z;
+}
+
+[[gnu::always_inline]] inline ChipSums sum_and_search_with(const Constants& constants,
+                                                           const TipConstants& tip_constants,
+                                                           const RemovedVoxels& removed,
+                                                           const float* weights) {
+    const Constants c = constants;
+    Floats x{};
+    Floats y{};
+    Floats z{};
+    std::array<std::uint16_t, RemovedVoxels::capacity / lanes::width> near_tip;  // first voxels of eights
+    std::size_t near_count = 0;
+    const float reach_squared = tip_constants.reach_squared;
+    for (std::size_t i = 0; i < removed.padded_count(); i += lanes::width) {
+        const EightPlaces places =
+            places_of(c, lanes::load<Floats>(&removed.x[i]), lanes::load<Floats>(&removed.y[i]),
+                      lanes::load<Floats>(&removed.z[i]));
+        const EightForces f = forces_of(c, places, lanes::load<Floats>(weights + i), reach_squared);
+        near_tip[near_count] = static_cast<std::uint16_t>(i);
+        near_count += f.any_near ? 1 : 0;
+        x += f.force_x;
+        y += f.force_y;
+        z += f.force_z;
+    }
+    const TipConstants tip = tip_constants;
+    EightTipSums tip_sums;
+    for (std::size_t n = 0; n < near_count; ++n) {
+        const std::size_t i = near_tip[n];
+        const EightPlaces places =
+            places_of(c, lanes::load<Floats>(&removed.x[i]), lanes::load<Floats>(&removed.y[i]),
+                      lanes::load<Floats>(&removed.z[i]));
+        search_tip(c, tip, removed, i, places, lanes::load<Floats>(weights + i), tip_sums);
+    }
+    return {{lanes::sum(x), lanes::sum(y), lanes::sum(z)},
+            {lanes::sum(tip_sums.area),
+             lanes::sum(tip_sums.stiffness),
+             {lanes::sum(tip_sums.x), lanes::sum(tip_sums.y)},
+             {lanes::sum(tip_sums.moved_x), lanes::sum(tip_sums.moved_y), lanes::sum(tip_sums.moved_z)}}};
+}
+
 #if defined(__x86_64__)
+[[gnu::target("avx2")]] ChipSums sum_and_search_avx2(const Constants& c, const TipConstants& tip,
+                                                     const RemovedVoxels& removed, const float* weights) {
+    return sum_and_search_with(c, tip, removed, weights);
+}
+
 [[gnu::target("avx2")]] void fill_avx2(const Constants& c, std::size_t count, const float* x, const float* y,
                                        const float* z, const float* weights, ChipForces& out) {
     fill_with(c, count, x, y, z, weights, out);
@@ -164,6 +303,17 @@ glm::dvec3 sum_of_chip_forces(const CuttingStep& step, const RemovedVoxels& remo
         return sum_avx2(c, count, removed.x.data(), removed.y.data(), removed.z.data(), weights.data());
 #endif
     return sum_with(c, count, removed.x.data(), removed.y.data(), removed.z.data(), weights.data());
+}
+
+ChipSums sum_of_chip_forces(const CuttingStep& step, const RemovedVoxels& removed,
+                            std::span<const float> weights, [[maybe_unused]] InstructionSet instructions,
+                            const TipSearch& tip) noexcept {
+    const Constants c = constants(step, removed.base);
+    const TipConstants t = tip_constants(step, tip);
+#if defined(__x86_64__)
+    if (instructions == InstructionSet::avx2) return sum_and_search_avx2(c, t, removed, weights.data());
+#endif
+    return sum_and_search_with(c, t, removed, weights.data());
 }
 
 }  // namespace osteomill

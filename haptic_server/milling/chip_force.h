@@ -25,6 +25,7 @@
 #include "common/scene/burr.h"
 #include "haptic_server/milling/instruction_set.h"
 #include "haptic_server/milling/removed_voxels.h"
+#include "haptic_server/milling/tip_edge.h"
 
 namespace osteomill {
 
@@ -64,5 +65,23 @@ void chip_forces(const CuttingStep& step, const RemovedVoxels& removed, std::spa
 /// Sum of the same forces; burr axes, in units of CuttingStep::newton_per_unit. Real-time safe.
 glm::dvec3 sum_of_chip_forces(const CuttingStep& step, const RemovedVoxels& removed,
                               std::span<const float> weights, InstructionSet instructions) noexcept;
+
+/// Force, in the same axes and units, of chips at the tip of which the sum of weight times e / r is
+/// `e_per_r`.
+inline glm::dvec3 force_at_tip(const CuttingStep& step, const glm::dvec2& e_per_r) {
+    const glm::dvec3 k(step.coefficients);
+    return {k.x * e_per_r.y - k.z * e_per_r.x, -k.x * e_per_r.x - k.z * e_per_r.y, 0.0};
+}
+
+struct ChipSums {
+    glm::dvec3 force{0.0};
+    TipSums tip{};
+};
+
+/// The same, and what shows where the chip ends near the tip. What `removed` lists is in its bone as it is
+/// now.
+ChipSums sum_of_chip_forces(const CuttingStep& step, const RemovedVoxels& removed,
+                            std::span<const float> weights, InstructionSet instructions,
+                            const TipSearch& tip) noexcept;
 
 }  // namespace osteomill

@@ -16,6 +16,7 @@ static_assert(lanes::width == RemovedVoxels::lanes);
 Lowering::Lowering(Bone& bone, const glm::ivec3& base, const SweepSeenFrom& sweep,
                    InstructionSet instructions, EditSink& edits, RemovalSink& removed) noexcept
     : bone_(bone), sweep_(sweep), instructions_(instructions), edits_(edits), sink_(removed) {
+    voxels_.bone = &bone;
     voxels_.base = base;
 }
 

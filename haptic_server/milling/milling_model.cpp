@@ -111,7 +111,8 @@ void MillingModel::cut(const BurrCommand& command, const glm::dvec3& to_mm, doub
     const CuttingStep cutting(burr, command.pose.spindle_axis, 0.5 * (sweep.from + sweep.to), grid.spacing_mm,
                               share * since_milled_s_);
     if (settings_.summation == ForceSummation::voxels) {
-        CuttingForce force(cutting, settings_.instructions);
+        tip_.begin_step(cutting.frame, cutting.radius_voxels, sweep.to - sweep.from);
+        CuttingForce force(cutting, settings_.instructions, tip_);
         carve_and_sum(sweep, share, edits, force, result);
     } else if (settings_.summation == ForceSummation::bins) {
         chips_.begin_step(burr, cutting);
@@ -152,7 +153,10 @@ void MillingModel::mill(const BurrCommand& command, EditSink& edits, MillingResu
             edits, result);
     }
     // A spindle that starts within bone clears a whole ball at once, which no later step does again.
-    if (is_first) tooth_.forget();
+    if (is_first) {
+        tooth_.forget();
+        tip_.forget();
+    }
     milled_force_n_ = is_first ? glm::dvec3(0.0) : result.force_n;
     since_milled_s_ = 0.0;
 }

@@ -56,6 +56,7 @@ class MillingModel final : public ContactModel {
     MillingSettings settings_;
     ChipMap chips_;
     ToothForce tooth_;
+    TipEdge tip_;
     RemovalAccount account_;
 
     bool has_position_ = false;        // position_mm_ holds where the burr last milled, or was

@@ -9,13 +9,16 @@
 
 namespace osteomill {
 
+class Bone;
+
 /// Structure of arrays, scratch of a carve: entries beyond the count are not set, except that pad() fills the
 /// last group of `lanes`.
 struct RemovedVoxels {
     static constexpr std::size_t capacity = 512;
     static constexpr std::size_t lanes = 8;
 
-    glm::ivec3 base{0};  ///< voxel that x, y, z are counted from
+    const Bone* bone = nullptr;  ///< that they were lowered in; of no interest to most
+    glm::ivec3 base{0};          ///< voxel that x, y, z are counted from
     std::size_t count = 0;
     alignas(64) std::array<float, capacity> x;  ///< whole numbers of 0 to a few hundred
     alignas(64) std::array<float, capacity> y;
