@@ -14,7 +14,7 @@
 // A voxel of the crescent is up to a voxel off the burr's surface, so it is first moved there along the
 // direction n from the burr's centre: r = R sin kappa. With K_r n + K_a e_kappa written out, sin kappa / r =
 // 1 / R leaves only e_psi / r, e_r / r, e_r and 1 / r that vary quickly near the spindle's axis: of these the
-// means of axis_means.h are taken.
+// means of axis_means.h are taken. Where the chip ends near the axis, tip_edge.h puts them right.
 #pragma once
 
 #include <array>
