@@ -18,6 +18,9 @@ Lowering::Lowering(Bone& bone, const glm::ivec3& base, const SweepSeenFrom& swee
     : bone_(bone), sweep_(sweep), instructions_(instructions), edits_(edits), sink_(removed) {
     voxels_.bone = &bone;
     voxels_.base = base;
+    awaiting_.base = base;
+    awaiting_.from = sweep.from;
+    awaiting_.along = sweep.along;
 }
 
 struct Lowering::Kernel {
@@ -117,6 +120,25 @@ struct Lowering::Kernel {
         }
     }
 
+    /// Lists those of eight voxels that await the burr, each a bit that is set: few, and where they are there
+    /// is little to lower.
+    [[gnu::noinline]] void list_awaiting(const EightVoxels& voxels, unsigned awaiting, std::int32_t slot) {
+        AwaitingVoxels& out = to.awaiting_;
+        if (out.count + lanes::width > AwaitingVoxels::capacity) to.hand_on_awaiting();
+        std::size_t n = out.count;
+        for (unsigned bits = awaiting; bits != 0; bits &= bits - 1) {
+            const int lane = std::countr_zero(bits);
+            out.x[n] = voxels.x[lane];
+            out.y[n] = voxels.y[lane];
+            out.z[n] = voxels.z[lane];
+            out.left[n] = static_cast<float>(voxels.old[lane]);
+            out.slot[n] = slot;
+            out.offset[n] = voxels.offset[lane];
+            ++n;
+        }
+        out.count = n;
+    }
+
     /// Writes what is left of eight voxels and lists those that lost something. Says which did.
     [[gnu::always_inline]] std::uint8_t lower_eight(const EightVoxels& voxels, const Ints& most_left,
                                                     std::uint8_t* fractions, std::int32_t slot, std::size_t i,
@@ -167,6 +189,12 @@ struct Lowering::Kernel {
             if (lanes::any(left_a.is_unsure | left_b.is_unsure)) [[unlikely]] {
                 make_sure<edges>(sweep, a, left_a);
                 make_sure<edges>(sweep, b, left_b);
+            }
+            const Ints awaits_a = (a.old > 0) & (a.old < left_a.left);
+            const Ints awaits_b = (b.old > 0) & (b.old < left_b.left);
+            if (lanes::any(awaits_a | awaits_b)) [[unlikely]] {
+                list_awaiting(a, lanes::bits_of(awaits_a), slot);
+                list_awaiting(b, lanes::bits_of(awaits_b), slot);
             }
             changed[0] = lower_eight(a, left_a.left, fractions, slot, i, count);
             if (i + lanes::width < count)
@@ -288,9 +316,16 @@ void Lowering::hand_on_voxels() noexcept {
     voxels_.count = 0;
 }
 
+void Lowering::hand_on_awaiting() noexcept {
+    hand_on_voxels();
+    awaiting_.pad();
+    if (awaiting_.count > 0) sink_.await(awaiting_);
+    awaiting_.count = 0;
+}
+
 void Lowering::flush() noexcept {
     report_changes();
-    hand_on_voxels();
+    hand_on_awaiting();
 }
 
 }  // namespace osteomill

@@ -7,6 +7,8 @@
 #include <cstdint>
 #include <glm/vec3.hpp>
 
+#include "haptic_server/milling/awaiting_voxels.h"
+
 namespace osteomill {
 
 class Bone;
@@ -50,6 +52,8 @@ class RemovalSink {
   public:
     virtual ~RemovalSink() = default;
     virtual void take(const RemovedVoxels& removed) noexcept = 0;
+    /// Voxels that the same sweep leaves as they are, for whom it may concern.
+    virtual void await(const AwaitingVoxels&) noexcept {}
 };
 
 }  // namespace osteomill
