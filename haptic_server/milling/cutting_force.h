@@ -19,9 +19,10 @@ class CuttingForce {
     CuttingForce(const CuttingStep& step, InstructionSet instructions, TipEdge& tip) noexcept
         : step_(step), instructions_(instructions), tip_(&tip) {}
 
-    /// `weights`: relative stiffness times the fraction removed, padded with zeros like the batch.
+    /// `weights`: relative stiffness times the fraction removed, padded with zeros like the batch. Voxels of
+    /// no bone, which onsets.h makes up, show no edge.
     void add(const RemovedVoxels& removed, std::span<const float> weights) noexcept {
-        if (!tip_ || !tip_->search().is_on) {
+        if (!tip_ || !tip_->search().is_on || !removed.bone) {
             sum_ += sum_of_chip_forces(step_, removed, weights, instructions_);
             return;
         }

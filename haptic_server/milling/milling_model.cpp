@@ -9,6 +9,7 @@
 #include "haptic_server/milling/carve.h"
 #include "haptic_server/milling/crescent_rows.h"
 #include "haptic_server/milling/cutting_force.h"
+#include "haptic_server/milling/onsets.h"
 #include "haptic_server/milling/usable_burr.h"
 
 namespace osteomill {
@@ -28,17 +29,23 @@ constexpr double longest_wait_s = 0.001 - 1e-7;
 /// Nobody feels the direction of a step that crosses the whole bone.
 constexpr double most_stretches = 64.0;
 
-/// Weighs each removed voxel by its stiffness, enters it into the account and hands it to the force.
+/// Weighs each removed voxel by its stiffness, enters it into the account and hands it to the force, and
+/// afterwards what smooths the moments at which voxels are met.
 template <typename Force>
 class ForceOfRemoved final : public RemovalSink {
   public:
-    ForceOfRemoved(const BoneContent& content, RemovalAccount& account, Force& force) noexcept
-        : content_(content), account_(account), force_(force) {}
+    ForceOfRemoved(const BoneContent& content, RemovalAccount& account, Onsets& onsets, Force& force) noexcept
+        : content_(content), account_(account), onsets_(onsets), force_(force) {}
 
     void take(const RemovedVoxels& removed) noexcept override {
         weigh(removed);
         enter(removed);
         force_.add(removed, {weights_.data(), removed.padded_count()});
+    }
+
+    void await(const AwaitingVoxels& awaiting) noexcept override {
+        onsets_.take(awaiting);
+        if (onsets_.voxels().count > 0) force_.add(onsets_.voxels(), onsets_.weights());
     }
 
   private:
@@ -60,8 +67,10 @@ class ForceOfRemoved final : public RemovalSink {
     }
 
     void enter(const RemovedVoxels& removed) noexcept {
+        const double codes = removed.lost_codes();
+        onsets_.removed(codes);
         if (content_.tissue.empty()) {
-            account_.take(0, removed.lost_codes());
+            account_.take(0, codes);
             return;
         }
         for (std::size_t i = 0; i < removed.count; ++i)
@@ -71,6 +80,7 @@ class ForceOfRemoved final : public RemovalSink {
 
     const BoneContent& content_;
     RemovalAccount& account_;
+    Onsets& onsets_;
     Force& force_;
     alignas(64) std::array<float, RemovedVoxels::capacity> weights_;
 };
@@ -96,7 +106,8 @@ MillingModel::MillingModel(Bone bone, std::vector<Burr> burrs, const std::vector
 template <typename Force>
 void MillingModel::carve_and_sum(const Sweep& sweep, double share, EditSink& edits, Force& force,
                                  MillingResult& result) noexcept {
-    ForceOfRemoved removed(bone_.content(), account_, force);
+    Onsets onsets(sweep.radius, settings_.edges, bone_.content(), settings_.instructions);
+    ForceOfRemoved removed(bone_.content(), account_, onsets, force);
     carve(bone_, sweep, carved_at_position_ ? CarveHistory::carved_at_from : CarveHistory::none,
           {.edges = settings_.edges, .instructions = settings_.instructions}, edits, removed);
     result.force_n += share * force.force_n();

@@ -19,7 +19,7 @@ struct RemovedVoxels {
     static constexpr std::size_t capacity = 512;
     static constexpr std::size_t lanes = 8;
 
-    const Bone* bone = nullptr;  ///< that they were lowered in; of no interest to most
+    const Bone* bone = nullptr;  ///< that they were lowered in; none where they only stand for a loss
     glm::ivec3 base{0};          ///< voxel that x, y, z are counted from
     std::size_t count = 0;
     alignas(64) std::array<float, capacity> x;  ///< whole numbers of 0 to a few hundred
