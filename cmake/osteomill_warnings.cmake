@@ -1,5 +1,8 @@
 # Warnings are errors in every target of the project; third-party headers are SYSTEM and exempt.
 add_library(osteomill_warnings INTERFACE)
 target_compile_options(osteomill_warnings INTERFACE
-    -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion -Wnon-virtual-dtor
+    -Wall -Wextra -Wpedantic -Wconversion -Wno-sign-conversion -Wnon-virtual-dtor
     -Woverloaded-virtual -Werror)
+# A name within a function hides nothing of its own file where what it hides belongs to a file that is joined with it.
+target_compile_options(osteomill_warnings INTERFACE
+    $<IF:$<AND:$<CXX_COMPILER_ID:GNU>,$<BOOL:$<TARGET_PROPERTY:UNITY_BUILD>>>,-Wshadow=local,-Wshadow>)

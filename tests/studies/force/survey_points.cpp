@@ -173,6 +173,9 @@ void add_second_passes(PointList& list) {
             "second pass",
             {.depth_mm = 1.0, .surface_tilt_deg = 30.0, .surface_azimuth_deg = 20.0, .groove_mm = groove_mm});
         list.add("second pass", {.depth_mm = 1.0, .heading_deg = 33.0, .groove_mm = groove_mm});
+        // So slow that a voxel loses few of its 255 steps at a time.
+        for (const double feed_mm_per_s : {0.5, 2.0})
+            list.add("slow second pass", {.feed_mm_per_s = feed_mm_per_s, .groove_mm = groove_mm});
         list.add("second pass", {.diameter_mm = 1.0, .depth_mm = 0.5, .groove_mm = groove_mm});
     });
 }
