@@ -29,6 +29,14 @@ struct SweepForLanes {
           radius(static_cast<float>(sweep.radius)),
           margin(static_cast<float>(0x1p-24 * 8.0 * (sweep.radius + 6.0))) {}
 
+    /// The ball where it begins.
+    SweepForLanes beginning() const {
+        SweepForLanes ball = *this;
+        ball.along = glm::vec3(0.0f);
+        ball.inverse_length_squared = 0.0f;
+        return ball;
+    }
+
     glm::vec3 from_whole;
     glm::vec3 from_rest;
     glm::vec3 along;
@@ -45,10 +53,7 @@ struct LeftLanes {
 
 namespace detail {
 /// A number of the 255 steps, known within `off`, rounded as in cover.h.
-[[gnu::always_inline]] inline LeftLanes rounded_code(lanes::Floats code, float off) {
-    const lanes::Floats zero{};
-    code = code < 0.0f ? zero : code;
-    code = code > 255.0f ? zero + 255.0f : code;
+[[gnu::always_inline]] inline LeftLanes rounded_code(const lanes::Floats& code, float off) {
     const lanes::Floats raised = code + 0.5f;
     const lanes::Ints left = __builtin_convertvector(raised, lanes::Ints);
     const lanes::Floats rest = raised - lanes::to_floats(left);
@@ -56,12 +61,10 @@ namespace detail {
 }
 }  // namespace detail
 
-/// For voxels at whole numbers, counted from the sweep's base.
-template <VoxelEdges edges>
-[[gnu::always_inline]] inline LeftLanes fraction_left(const SweepForLanes& sweep, const lanes::Floats& x,
-                                                      const lanes::Floats& y, const lanes::Floats& z) {
+/// How far voxels at whole numbers, counted from the sweep's base, are from its way.
+[[gnu::always_inline]] inline lanes::Floats distance_from(const SweepForLanes& sweep, const lanes::Floats& x,
+                                                          const lanes::Floats& y, const lanes::Floats& z) {
     using lanes::Floats;
-    using lanes::Ints;
     const Floats zero{};
     const Floats wx = x - sweep.from_whole.x - sweep.from_rest.x;
     const Floats wy = y - sweep.from_whole.y - sweep.from_rest.y;
@@ -73,12 +76,19 @@ template <VoxelEdges edges>
     const Floats dx = wx - t * sweep.along.x;
     const Floats dy = wy - t * sweep.along.y;
     const Floats dz = wz - t * sweep.along.z;
-    const Floats distance = lanes::square_root(dx * dx + dy * dy + dz * dz);
-    if constexpr (edges == VoxelEdges::whole) {
-        const Ints left = (distance > sweep.radius) & 255;
-        const Floats beyond = distance - sweep.radius;
-        return {left, (beyond < sweep.margin) & (beyond > -sweep.margin)};
-    } else if constexpr (edges == VoxelEdges::soft) {
+    return lanes::square_root(dx * dx + dy * dy + dz * dz);
+}
+
+/// What is left of such voxels, 0 to 255, not rounded; within 255 margins. Not for whole voxels.
+template <VoxelEdges edges>
+[[gnu::always_inline]] inline lanes::Floats code_left(const SweepForLanes& sweep, const lanes::Floats& x,
+                                                      const lanes::Floats& y, const lanes::Floats& z) {
+    using lanes::Floats;
+    static_assert(edges != VoxelEdges::whole);
+    const Floats zero{};
+    const Floats distance = distance_from(sweep, x, y, z);
+    Floats code;
+    if constexpr (edges == VoxelEdges::soft) {
         constexpr auto rim = static_cast<float>(detail::soft_ramp_half);
         constexpr auto bend_from = static_cast<float>(0.5 - 0.5 * detail::soft_mean_over);
         constexpr auto bend = static_cast<float>(0.5 / detail::soft_mean_over);
@@ -88,11 +98,27 @@ template <VoxelEdges edges>
         Floats bent = off - bend_from;
         bent = bent < 0.0f ? zero : bent;
         const Floats rise = off - bent * bent * bend;
-        const Floats codes = 127.5f + 255.0f * (beyond < 0.0f ? -rise : rise);
-        return detail::rounded_code(codes, 255.0f * sweep.margin);
+        code = 127.5f + 255.0f * (beyond < 0.0f ? -rise : rise);
     } else {
-        const Floats codes = 255.0f * (distance - (sweep.radius - 0.5f));
-        return detail::rounded_code(codes, 255.0f * sweep.margin);
+        code = 255.0f * (distance - (sweep.radius - 0.5f));
+    }
+    code = code < 0.0f ? zero : code;
+    return code > 255.0f ? zero + 255.0f : code;
+}
+
+/// What is left of such voxels, 0 to 255.
+template <VoxelEdges edges>
+[[gnu::always_inline]] inline LeftLanes fraction_left(const SweepForLanes& sweep, const lanes::Floats& x,
+                                                      const lanes::Floats& y, const lanes::Floats& z) {
+    using lanes::Floats;
+    using lanes::Ints;
+    if constexpr (edges == VoxelEdges::whole) {
+        const Floats distance = distance_from(sweep, x, y, z);
+        const Ints left = (distance > sweep.radius) & 255;
+        const Floats beyond = distance - sweep.radius;
+        return {left, (beyond < sweep.margin) & (beyond > -sweep.margin)};
+    } else {
+        return detail::rounded_code(code_left<edges>(sweep, x, y, z), 255.0f * sweep.margin);
     }
 }
 

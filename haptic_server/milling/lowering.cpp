@@ -5,6 +5,7 @@
 
 #include "haptic_server/milling/cover_lanes.h"
 #include "haptic_server/milling/crescent_lanes.h"
+#include "haptic_server/milling/unrounded_loss.h"
 
 namespace osteomill {
 
@@ -15,7 +16,13 @@ static_assert(lanes::width == RemovedVoxels::lanes);
 
 Lowering::Lowering(Bone& bone, const glm::ivec3& base, const SweepSeenFrom& sweep,
                    InstructionSet instructions, EditSink& edits, RemovalSink& removed) noexcept
-    : bone_(bone), sweep_(sweep), instructions_(instructions), edits_(edits), sink_(removed) {
+    : bone_(bone),
+      sweep_(sweep),
+      instructions_(instructions),
+      edits_(edits),
+      sink_(removed),
+      wants_unrounded_(removed.wants_unrounded()) {
+    unrounded_.base = base;
     voxels_.bone = &bone;
     voxels_.base = base;
     awaiting_.base = base;
@@ -139,6 +146,25 @@ struct Lowering::Kernel {
         out.count = n;
     }
 
+    /// Lists what eight voxels lose between two of their 255 steps.
+    template <VoxelEdges edges>
+    [[gnu::always_inline]] void list_unrounded(const SweepForLanes& from, const SweepForLanes& sweep,
+                                               const EightVoxels& voxels, const Ints& most_left,
+                                               std::int32_t slot) {
+        RemovedVoxels& out = to.unrounded_;
+        if (out.count == RemovedVoxels::capacity) to.hand_on_unrounded();
+        const Ints left = lanes::smaller(voxels.old, most_left);
+        const std::size_t n = out.count;
+        lanes::store(&out.x[n], voxels.x);
+        lanes::store(&out.y[n], voxels.y);
+        lanes::store(&out.z[n], voxels.z);
+        lanes::store(&out.codes[n],
+                     loss_between_steps<edges>(from, sweep, voxels.x, voxels.y, voxels.z, voxels.old, left));
+        lanes::store(&out.slot[n], lanes::ints(slot));
+        lanes::store(&out.offset[n], voxels.offset);
+        out.count += lanes::width;
+    }
+
     /// Writes what is left of eight voxels and lists those that lost something. Says which did.
     [[gnu::always_inline]] std::uint8_t lower_eight(const EightVoxels& voxels, const Ints& most_left,
                                                     std::uint8_t* fractions, std::int32_t slot, std::size_t i,
@@ -195,6 +221,13 @@ struct Lowering::Kernel {
             if (lanes::any(awaits_a | awaits_b)) [[unlikely]] {
                 list_awaiting(a, lanes::bits_of(awaits_a), slot);
                 list_awaiting(b, lanes::bits_of(awaits_b), slot);
+            }
+            if constexpr (edges != VoxelEdges::whole) {
+                if (to.wants_unrounded_) [[unlikely]] {
+                    const SweepForLanes from = fast.beginning();
+                    list_unrounded<edges>(from, fast, a, left_a.left, slot);
+                    list_unrounded<edges>(from, fast, b, left_b.left, slot);
+                }
             }
             changed[0] = lower_eight(a, left_a.left, fractions, slot, i, count);
             if (i + lanes::width < count)
@@ -323,9 +356,16 @@ void Lowering::hand_on_awaiting() noexcept {
     awaiting_.count = 0;
 }
 
+void Lowering::hand_on_unrounded() noexcept {
+    hand_on_voxels();
+    if (unrounded_.count > 0) sink_.take_unrounded(unrounded_);
+    unrounded_.count = 0;
+}
+
 void Lowering::flush() noexcept {
     report_changes();
     hand_on_awaiting();
+    hand_on_unrounded();
 }
 
 }  // namespace osteomill

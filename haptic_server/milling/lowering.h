@@ -44,6 +44,7 @@ class Lowering {
     void report_run(std::size_t first_voxel, std::size_t last_voxel) noexcept;
     void hand_on_voxels() noexcept;
     void hand_on_awaiting() noexcept;
+    void hand_on_unrounded() noexcept;
 
     Bone& bone_;
     SweepSeenFrom sweep_;
@@ -72,6 +73,8 @@ class Lowering {
         64) std::array<std::int32_t, brick_voxel_count + 2 * RemovedVoxels::lanes> list_;  // offsets in it
     RemovedVoxels voxels_;
     AwaitingVoxels awaiting_;
+    bool wants_unrounded_;
+    RemovedVoxels unrounded_;
 };
 
 }  // namespace osteomill

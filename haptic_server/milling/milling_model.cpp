@@ -29,13 +29,26 @@ constexpr double longest_wait_s = 0.001 - 1e-7;
 /// Nobody feels the direction of a step that crosses the whole bone.
 constexpr double most_stretches = 64.0;
 
+/// Slower, force is counted from what voxels lose between their 255 steps (unrounded_loss.h), which takes
+/// half as long again; faster, whole steps say as much.
+constexpr double slow_voxels_per_s = 30.0;
+/// What was removed fades from the memory within so much of the way.
+constexpr double lately_voxels = 0.5;
+
 /// Weighs each removed voxel by its stiffness, enters it into the account and hands it to the force, and
-/// afterwards what smooths the moments at which voxels are met.
+/// afterwards what smooths the moments at which voxels are met and the steps of their fractions.
 template <typename Force>
 class ForceOfRemoved final : public RemovalSink {
   public:
-    ForceOfRemoved(const BoneContent& content, RemovalAccount& account, Onsets& onsets, Force& force) noexcept
-        : content_(content), account_(account), onsets_(onsets), force_(force) {}
+    /// `lately_removed_codes` grows by what is removed.
+    ForceOfRemoved(const BoneContent& content, RemovalAccount& account, Onsets& onsets, bool is_slow,
+                   double& lately_removed_codes, Force& force) noexcept
+        : content_(content),
+          account_(account),
+          onsets_(onsets),
+          is_slow_(is_slow),
+          lately_removed_codes_(lately_removed_codes),
+          force_(force) {}
 
     void take(const RemovedVoxels& removed) noexcept override {
         weigh(removed);
@@ -46,6 +59,18 @@ class ForceOfRemoved final : public RemovalSink {
     void await(const AwaitingVoxels& awaiting) noexcept override {
         onsets_.take(awaiting);
         if (onsets_.voxels().count > 0) force_.add(onsets_.voxels(), onsets_.weights());
+    }
+
+    bool wants_unrounded() const noexcept override { return is_slow_; }
+
+    void take_unrounded(const RemovedVoxels& more) noexcept override {
+        double codes = 0.0;
+        for (std::size_t i = 0; i < more.count; ++i) codes += static_cast<double>(std::abs(more.codes[i]));
+        if (!(codes > 0.0)) return;
+        weigh(more);
+        const auto share = static_cast<float>(std::min(1.0, lately_removed_codes_ / codes));
+        for (std::size_t i = 0; i < more.padded_count(); ++i) weights_[i] *= share;
+        force_.add(more, {weights_.data(), more.padded_count()});
     }
 
   private:
@@ -69,6 +94,7 @@ class ForceOfRemoved final : public RemovalSink {
     void enter(const RemovedVoxels& removed) noexcept {
         const double codes = removed.lost_codes();
         onsets_.removed(codes);
+        lately_removed_codes_ += codes;
         if (content_.tissue.empty()) {
             account_.take(0, codes);
             return;
@@ -81,6 +107,8 @@ class ForceOfRemoved final : public RemovalSink {
     const BoneContent& content_;
     RemovalAccount& account_;
     Onsets& onsets_;
+    bool is_slow_;
+    double& lately_removed_codes_;
     Force& force_;
     alignas(64) std::array<float, RemovedVoxels::capacity> weights_;
 };
@@ -107,7 +135,10 @@ template <typename Force>
 void MillingModel::carve_and_sum(const Sweep& sweep, double share, EditSink& edits, Force& force,
                                  MillingResult& result) noexcept {
     Onsets onsets(sweep.radius, settings_.edges, bone_.content(), settings_.instructions);
-    ForceOfRemoved removed(bone_.content(), account_, onsets, force);
+    const double way_voxels = glm::length(sweep.to - sweep.from);
+    const bool is_slow = way_voxels < slow_voxels_per_s * share * since_milled_s_;
+    lately_removed_codes_ *= std::exp(-way_voxels / lately_voxels);
+    ForceOfRemoved removed(bone_.content(), account_, onsets, is_slow, lately_removed_codes_, force);
     carve(bone_, sweep, carved_at_position_ ? CarveHistory::carved_at_from : CarveHistory::none,
           {.edges = settings_.edges, .instructions = settings_.instructions}, edits, removed);
     result.force_n += share * force.force_n();
@@ -165,6 +196,7 @@ void MillingModel::mill(const BurrCommand& command, EditSink& edits, MillingResu
     }
     // A spindle that starts within bone clears a whole ball at once, which no later step does again.
     if (is_first) {
+        lately_removed_codes_ = 0.0;
         tooth_.forget();
         tip_.forget();
     }

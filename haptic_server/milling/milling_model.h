@@ -64,6 +64,7 @@ class MillingModel final : public ContactModel {
     glm::dvec3 position_mm_{0.0};
     std::size_t burr_ = 0;
     double since_milled_s_ = 0.0;
+    double lately_removed_codes_ = 0.0;
     glm::dvec3 milled_force_n_{0.0};  // of the way that was last milled
 };
 

@@ -54,6 +54,11 @@ class RemovalSink {
     virtual void take(const RemovedVoxels& removed) noexcept = 0;
     /// Voxels that the same sweep leaves as they are, for whom it may concern.
     virtual void await(const AwaitingVoxels&) noexcept {}
+    /// Whether take_unrounded() is to be told anything: it takes time.
+    virtual bool wants_unrounded() const noexcept { return false; }
+    /// By how much more than whole steps voxels would lose if nothing were rounded (unrounded_loss.h); of no
+    /// bone.
+    virtual void take_unrounded(const RemovedVoxels&) noexcept {}
 };
 
 }  // namespace osteomill

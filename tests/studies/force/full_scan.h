@@ -3,7 +3,8 @@
 // shape and the bone, and lowers what is left. No bricks are passed over, no crescent is known. It follows
 // the same rule of what a sweep leaves of a voxel (cover.h) and sums force with the same sums (chip_map.h,
 // cutting_force.h, onsets.h), so that bone and force are those of MillingModel, but for what tip_edge.h puts
-// right near the tip of a burr that leans, and only the way of finding voxels differs.
+// right near the tip of a burr that leans and unrounded_loss.h in slow feeds, and only the way of finding
+// voxels differs.
 #pragma once
 
 #include "tests/studies/force/studied_model.h"

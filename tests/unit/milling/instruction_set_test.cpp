@@ -100,5 +100,13 @@ TEST_F(InstructionSets, MillAlike) {
     }
 }
 
+TEST_F(InstructionSets, MillSlowlyAlike) {
+    auto slow = testing::reference_cases().front();
+    slow.velocity_mm_per_s *= 0.5 / glm::length(slow.velocity_mm_per_s);
+    const auto plain = testing::run_steady(slow, 0.1, 0.01, 0.1, {.instructions = InstructionSet::plain});
+    const auto best = testing::run_steady(slow, 0.1, 0.01, 0.1, {.instructions = best_instruction_set()});
+    EXPECT_EQ(plain.mean_force_n, best.mean_force_n);
+}
+
 }  // namespace
 }  // namespace osteomill
