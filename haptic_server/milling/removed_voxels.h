@@ -52,7 +52,7 @@ class RemovalSink {
   public:
     virtual ~RemovalSink() = default;
     virtual void take(const RemovedVoxels& removed) noexcept = 0;
-    /// Voxels that the same sweep leaves as they are, for whom it may concern.
+    /// Voxels that the same sweep has not met (awaiting_voxels.h), for sums that look ahead.
     virtual void await(const AwaitingVoxels&) noexcept {}
     /// Whether take_unrounded() is to be told anything: it takes time.
     virtual bool wants_unrounded() const noexcept { return false; }
