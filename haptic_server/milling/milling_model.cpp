@@ -10,6 +10,7 @@
 #include "haptic_server/milling/crescent_rows.h"
 #include "haptic_server/milling/cutting_force.h"
 #include "haptic_server/milling/onsets.h"
+#include "haptic_server/milling/stiffness_weights.h"
 #include "haptic_server/milling/usable_burr.h"
 
 namespace osteomill {
@@ -51,9 +52,8 @@ class ForceOfRemoved final : public RemovalSink {
           force_(force) {}
 
     void take(const RemovedVoxels& removed) noexcept override {
-        weigh(removed);
         enter(removed);
-        force_.add(removed, {weights_.data(), removed.padded_count()});
+        add(removed, 1.0);
     }
 
     void await(const AwaitingVoxels& awaiting) noexcept override {
@@ -67,28 +67,14 @@ class ForceOfRemoved final : public RemovalSink {
         double codes = 0.0;
         for (std::size_t i = 0; i < more.count; ++i) codes += static_cast<double>(std::abs(more.codes[i]));
         if (!(codes > 0.0)) return;
-        weigh(more);
-        const auto share = static_cast<float>(std::min(1.0, lately_removed_codes_ / codes));
-        for (std::size_t i = 0; i < more.padded_count(); ++i) weights_[i] *= share;
-        force_.add(more, {weights_.data(), more.padded_count()});
+        add(more, std::min(1.0, lately_removed_codes_ / codes));
     }
 
   private:
-    void weigh(const RemovedVoxels& removed) noexcept {
-        if (content_.stiffness.empty()) {
-            const auto per_code = static_cast<float>(content_.homogeneous_stiffness / 255.0);
-            for (std::size_t i = 0; i < removed.padded_count(); ++i)
-                weights_[i] = per_code * removed.codes[i];
-            return;
-        }
-        const auto per_code = static_cast<float>(content_.stiffness_per_code / 255.0);
-        for (std::size_t i = 0; i < removed.count; ++i) {
-            const ByteBrick& stiffness = content_.stiffness[static_cast<std::size_t>(removed.slot[i])];
-            weights_[i] = per_code *
-                          static_cast<float>(stiffness[static_cast<std::size_t>(removed.offset[i])]) *
-                          removed.codes[i];
-        }
-        for (std::size_t i = removed.count; i < removed.padded_count(); ++i) weights_[i] = 0.0f;
+    /// Hands `share` of what voxels lose to the force.
+    void add(const RemovedVoxels& removed, double share) noexcept {
+        weigh_by_stiffness(content_, removed, share, weights_);
+        force_.add(removed, {weights_.data(), removed.padded_count()});
     }
 
     void enter(const RemovedVoxels& removed) noexcept {

@@ -6,6 +6,7 @@
 #include <glm/geometric.hpp>
 
 #include "haptic_server/milling/lanes.h"
+#include "haptic_server/milling/stiffness_weights.h"
 
 namespace osteomill {
 
@@ -134,17 +135,7 @@ void Onsets::weigh() noexcept {
     const double wanted = std::abs(voxels_.lost_codes());
     const double granted = std::min(wanted, codes_left_);
     codes_left_ -= granted;
-    const double per_code = (wanted > granted ? granted / wanted : 1.0) / 255.0;
-    if (content_.stiffness.empty()) {
-        const auto weight_per_code = static_cast<float>(per_code * content_.homogeneous_stiffness);
-        for (std::size_t i = 0; i < voxels_.count; ++i) weights_[i] = weight_per_code * voxels_.codes[i];
-        return;
-    }
-    for (std::size_t i = 0; i < voxels_.count; ++i)
-        weights_[i] =
-            static_cast<float>(per_code * content_.stiffness_in(
-                                              voxels_.slot[i], static_cast<std::size_t>(voxels_.offset[i]))) *
-            voxels_.codes[i];
+    weigh_by_stiffness(content_, voxels_, wanted > granted ? granted / wanted : 1.0, weights_);
 }
 
 }  // namespace osteomill
