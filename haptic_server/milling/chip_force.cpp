@@ -50,11 +50,12 @@ struct EightPlaces {
     Floats x, y, z;
 };
 
-[[gnu::always_inline]] inline EightPlaces places_of(const Constants& c, const Floats& vx, const Floats& vy,
-                                                    const Floats& vz) {
-    const Floats wx = vx - c.middle_x;
-    const Floats wy = vy - c.middle_y;
-    const Floats wz = vz - c.middle_z;
+/// Of the voxels at (*vx, *vy, *vz) and the seven that follow.
+[[gnu::always_inline]] inline EightPlaces places_of(const Constants& c, const float* vx, const float* vy,
+                                                    const float* vz) {
+    const Floats wx = lanes::load<Floats>(vx) - c.middle_x;
+    const Floats wy = lanes::load<Floats>(vy) - c.middle_y;
+    const Floats wz = lanes::load<Floats>(vz) - c.middle_z;
     return {c.xx * wx + c.xy * wy + c.xz * wz, c.yx * wx + c.yy * wy + c.yz * wz,
             c.zx * wx + c.zy * wy + c.zz * wz};
 }
@@ -103,10 +104,8 @@ struct EightForces {
                                              ChipForces& out) {
     const Constants c = constants;
     for (std::size_t i = 0; i < count; i += lanes::width) {
-        const EightForces f = forces_of(c,
-                                        places_of(c, lanes::load<Floats>(vx + i), lanes::load<Floats>(vy + i),
-                                                  lanes::load<Floats>(vz + i)),
-                                        lanes::load<Floats>(weights + i));
+        const EightForces f =
+            forces_of(c, places_of(c, vx + i, vy + i, vz + i), lanes::load<Floats>(weights + i));
         lanes::store(&out.x[i], f.x);
         lanes::store(&out.y[i], f.y);
         lanes::store(&out.z[i], f.z);
@@ -124,10 +123,8 @@ struct EightForces {
     Floats y{};
     Floats z{};
     for (std::size_t i = 0; i < count; i += lanes::width) {
-        const EightForces f = forces_of(c,
-                                        places_of(c, lanes::load<Floats>(vx + i), lanes::load<Floats>(vy + i),
-                                                  lanes::load<Floats>(vz + i)),
-                                        lanes::load<Floats>(weights + i));
+        const EightForces f =
+            forces_of(c, places_of(c, vx + i, vy + i, vz + i), lanes::load<Floats>(weights + i));
         x += f.force_x;
         y += f.force_y;
         z += f.force_z;
@@ -224,9 +221,7 @@ struct EightTipSums {
     std::size_t near_count = 0;
     const float reach_squared = tip_constants.reach_squared;
     for (std::size_t i = 0; i < removed.padded_count(); i += lanes::width) {
-        const EightPlaces places =
-            places_of(c, lanes::load<Floats>(&removed.x[i]), lanes::load<Floats>(&removed.y[i]),
-                      lanes::load<Floats>(&removed.z[i]));
+        const EightPlaces places = places_of(c, &removed.x[i], &removed.y[i], &removed.z[i]);
         const EightForces f = forces_of(c, places, lanes::load<Floats>(weights + i), reach_squared);
         near_tip[near_count] = static_cast<std::uint16_t>(i);
         near_count += f.any_near ? 1 : 0;
@@ -238,9 +233,7 @@ struct EightTipSums {
     EightTipSums tip_sums;
     for (std::size_t n = 0; n < near_count; ++n) {
         const std::size_t i = near_tip[n];
-        const EightPlaces places =
-            places_of(c, lanes::load<Floats>(&removed.x[i]), lanes::load<Floats>(&removed.y[i]),
-                      lanes::load<Floats>(&removed.z[i]));
+        const EightPlaces places = places_of(c, &removed.x[i], &removed.y[i], &removed.z[i]);
         search_tip(c, tip, removed, i, places, lanes::load<Floats>(weights + i), tip_sums);
     }
     return {{lanes::sum(x), lanes::sum(y), lanes::sum(z)},

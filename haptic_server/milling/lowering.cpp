@@ -146,23 +146,28 @@ struct Lowering::Kernel {
         out.count = n;
     }
 
+    /// Adds eight voxels and what they lose to a batch that has room for them.
+    [[gnu::always_inline]] static void append(RemovedVoxels& out, const EightVoxels& voxels,
+                                              const Floats& codes, std::int32_t slot) {
+        const std::size_t n = out.count;
+        lanes::store(&out.x[n], voxels.x);
+        lanes::store(&out.y[n], voxels.y);
+        lanes::store(&out.z[n], voxels.z);
+        lanes::store(&out.codes[n], codes);
+        lanes::store(&out.slot[n], lanes::ints(slot));
+        lanes::store(&out.offset[n], voxels.offset);
+        out.count += lanes::width;
+    }
+
     /// Lists what eight voxels lose between two of their 255 steps.
     template <VoxelEdges edges>
     [[gnu::always_inline]] void list_unrounded(const SweepForLanes& from, const SweepForLanes& sweep,
                                                const EightVoxels& voxels, const Ints& most_left,
                                                std::int32_t slot) {
-        RemovedVoxels& out = to.unrounded_;
-        if (out.count == RemovedVoxels::capacity) to.hand_on_unrounded();
+        if (to.unrounded_.count == RemovedVoxels::capacity) to.hand_on_unrounded();
         const Ints left = lanes::smaller(voxels.old, most_left);
-        const std::size_t n = out.count;
-        lanes::store(&out.x[n], voxels.x);
-        lanes::store(&out.y[n], voxels.y);
-        lanes::store(&out.z[n], voxels.z);
-        lanes::store(&out.codes[n],
-                     loss_between_steps<edges>(from, sweep, voxels.x, voxels.y, voxels.z, voxels.old, left));
-        lanes::store(&out.slot[n], lanes::ints(slot));
-        lanes::store(&out.offset[n], voxels.offset);
-        out.count += lanes::width;
+        append(to.unrounded_, voxels,
+               loss_between_steps<edges>(from, sweep, voxels.x, voxels.y, voxels.z, voxels.old, left), slot);
     }
 
     /// Writes what is left of eight voxels and lists those that lost something. Says which did.
@@ -182,16 +187,8 @@ struct Lowering::Kernel {
             for (std::size_t lane = 0; lane < lanes::width; ++lane) write(lane);
         else
             for (std::size_t lane = 0; i + lane < count; ++lane) write(lane);
-        RemovedVoxels& out = to.voxels_;
-        if (out.count == RemovedVoxels::capacity) to.hand_on_voxels();
-        const std::size_t n = out.count;
-        lanes::store(&out.x[n], voxels.x);
-        lanes::store(&out.y[n], voxels.y);
-        lanes::store(&out.z[n], voxels.z);
-        lanes::store(&out.codes[n], lanes::to_floats(lost));
-        lanes::store(&out.slot[n], lanes::ints(slot));
-        lanes::store(&out.offset[n], voxels.offset);
-        out.count += lanes::width;
+        if (to.voxels_.count == RemovedVoxels::capacity) to.hand_on_voxels();
+        append(to.voxels_, voxels, lanes::to_floats(lost), slot);
         return changed;
     }
 
