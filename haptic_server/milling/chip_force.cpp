@@ -18,7 +18,6 @@ using lanes::Floats;
 struct Constants {
     float xx, xy, xz, yx, yy, yz, zx, zy, zz;  // rows of the rotation into burr axes
     float middle_x, middle_y, middle_z;        // counted from the batch's base
-    float per_radius;
     float tangential, radial, axial;
 };
 
@@ -39,7 +38,6 @@ Constants constants(const CuttingStep& step, const glm::ivec3& base) {
             middle.x,
             middle.y,
             middle.z,
-            static_cast<float>(1.0 / step.radius_voxels),
             step.coefficients.x,
             step.coefficients.y,
             step.coefficients.z};
@@ -82,20 +80,20 @@ struct EightForces {
         lanes::square_root(distance_squared < 0.25f ? lanes::floats(0.25f) : distance_squared);
     const Floats r = lanes::square_root(r_squared < 0.01f ? lanes::floats(0.01f) : r_squared);
     const Floats per_both = 1.0f / (distance * r);  // one division for two
-    const Floats cos_kappa = -z * (per_both * r);
-    const Floats to_surface = distance * c.per_radius;  // 1 / r there = this / r here
+    const Floats per_distance = per_both * r;
+    const Floats cos_kappa = -z * per_distance;
     const Floats per_r = per_both * distance;
     const bool any_near = lanes::any(r_squared < near_squared);  // few are
     const AxisMeans<Floats> mean = any_near ? axis_means(r_squared, per_r) : far_axis_means(per_r);
 
-    const Floats swirl = weight * to_surface * mean.swirl;
-    const Floats outward = c.axial * cos_kappa * swirl + c.radial * c.per_radius * weight * mean.outward;
+    const Floats swirl = weight * mean.swirl;
+    const Floats outward = c.axial * cos_kappa * swirl + c.radial * per_distance * weight * mean.outward;
     return {x,
             y,
             z,
             c.tangential * swirl * y - outward * x,
             -c.tangential * swirl * x - outward * y,
-            weight * (c.radial * cos_kappa * to_surface * mean.inverse - c.axial * c.per_radius),
+            weight * (c.radial * cos_kappa * mean.inverse - c.axial * per_distance),
             any_near};
 }
 
