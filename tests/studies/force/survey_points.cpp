@@ -141,6 +141,33 @@ void add_tips(PointList& list) {
     });
 }
 
+/// The bone's face passes the spindle's axis within a voxel: all of the chip's edge is where the force of a
+/// voxel depends most on its place. Along the lattice and aslant.
+void add_tips_at_the_face(PointList& list) {
+    constexpr std::array tilts_deg{30.0, 45.0, 60.0, 75.0};
+    constexpr std::array azimuths_deg{110.0, 145.0, 180.0, 257.0};
+    const auto add = [&](double diameter_mm, double tilt, double azimuth, double voxels_inside) {
+        const double depth_mm = 0.5 * diameter_mm * (1.0 - std::cos(tilt * degree)) +
+                                0.1 * voxels_inside * std::sin(tilt * degree);
+        if (depth_mm < 0.1) return;
+        const Description d{
+            .diameter_mm = diameter_mm, .depth_mm = depth_mm, .tilt_deg = tilt, .azimuth_deg = azimuth};
+        list.add("tip at the face", d);
+        Description aslant = d;
+        aslant.surface_tilt_deg = 139.0;
+        aslant.surface_azimuth_deg = 206.0;
+        aslant.heading_deg = 20.0;
+        list.add("tip at the face", aslant);
+    };
+    list.each(tilts_deg, [&](double tilt) {
+        list.each(azimuths_deg, [&](double azimuth) {
+            for (const double diameter_mm : {5.0, 2.0, 1.5, 1.0})
+                for (const double voxels_inside : {-1.0, 0.0, 1.0})
+                    add(diameter_mm, tilt, azimuth, voxels_inside);
+        });
+    });
+}
+
 void add_surfaces(PointList& list) {
     struct Orientation {
         double tilt_deg;
@@ -264,6 +291,7 @@ std::vector<SurveyPoint> survey_points(bool quick) {
     add_depths(list);
     add_tilts(list);
     add_tips(list);
+    add_tips_at_the_face(list);
     add_surfaces(list);
     add_second_passes(list);
     add_headings_and_feeds(list);
