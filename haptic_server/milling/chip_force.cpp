@@ -132,28 +132,34 @@ struct EightForces {
 
 /// TipSearch as plain floats.
 struct TipConstants {
-    float way_x, way_y, way_z;
-    float least_share;
     float radius;
     float reach_squared;
     float per_level_x, per_level_y;
+    float per_depth_x, per_depth_y;
     bool moves;
 };
 
 TipConstants tip_constants(const CuttingStep& step, const TipSearch& tip) {
     const auto radius = static_cast<float>(step.radius_voxels);
     // As far off the axis as a voxel can be that is within the disc once it is moved to the burr's surface.
-    const float reach = tip_disc_voxels * (1.0f + 1.0f / radius);
-    return {tip.direction.x, tip.direction.y, tip.direction.z,
-            tip.least_share, radius,          reach * reach,
-            tip.per_level.x, tip.per_level.y, tip.per_level != glm::vec2(0.0f)};
+    const float reach = tip_disc_voxels * (1.0f + 2.0f / radius);
+    return {radius,
+            reach * reach,
+            tip.per_level.x,
+            tip.per_level.y,
+            tip.per_depth.x,
+            tip.per_depth.y,
+            tip.per_level != glm::vec2(0.0f)};
 }
 
 struct EightTipSums {
-    Floats area{};
+    Floats volume{};
     Floats stiffness{};
     Floats x{};
     Floats y{};
+    Floats force_x{};
+    Floats force_y{};
+    Floats force_z{};
     Floats moved_x{};
     Floats moved_y{};
     Floats moved_z{};
@@ -186,22 +192,26 @@ struct EightTipSums {
     const Floats in_disc = 1.0f - r_squared * to_surface * to_surface * per_disc_squared;
     const auto is_in_disc = (in_disc > 0.0f) & (places.z < 0.0f);
 
-    const Floats share = (tip.way_x * places.x + tip.way_y * places.y + tip.way_z * places.z) * per_distance;
-    const Floats cos_kappa = -places.z * per_distance;
-    const Floats per_chip = cos_kappa / (share < tip.least_share ? lanes::floats(tip.least_share) : share);
-    const Floats counted = is_in_disc ? in_disc * per_chip : Floats{};
+    const Floats counted = is_in_disc ? in_disc : Floats{};
     const Floats lost = lanes::load<Floats>(&removed.codes[first]);
-    const Floats area = counted * (per_code * lost);
-    sums.area += area;
+    const Floats volume = counted * (per_code * lost);
+    sums.volume += volume;
     sums.stiffness += counted * weight;
-    sums.x += area * (places.x * to_surface);
-    sums.y += area * (places.y * to_surface);
+    sums.x += volume * (places.x * to_surface);
+    sums.y += volume * (places.y * to_surface);
+    const EightForces listed = forces_of(c, places, weight);
+    sums.force_x += counted * listed.force_x;
+    sums.force_y += counted * listed.force_y;
+    sums.force_z += counted * listed.force_z;
     if (!tip.moves) return;
 
     const Floats level = is_in_disc ? per_code * (kept_by(removed, first) + 0.5f * lost) - 0.5f : Floats{};
-    const EightForces listed = forces_of(c, places, weight);
-    const EightForces moved = forces_of(
-        c, {places.x + tip.per_level_x * level, places.y + tip.per_level_y * level, places.z}, weight);
+    const Floats depth = is_in_disc ? tip.radius - distance_squared * per_distance : Floats{};
+    const EightForces moved =
+        forces_of(c,
+                  {places.x + tip.per_level_x * level + tip.per_depth_x * depth,
+                   places.y + tip.per_level_y * level + tip.per_depth_y * depth, places.z},
+                  weight);
     sums.moved_x += moved.force_x - listed.force_x;
     sums.moved_y += moved.force_y - listed.force_y;
     sums.moved_z += moved.force_z - listed.force_z;
@@ -215,6 +225,9 @@ struct EightTipSums {
     Floats x{};
     Floats y{};
     Floats z{};
+    Floats place_x{};
+    Floats place_y{};
+    Floats place_z{};
     std::array<std::uint16_t, RemovedVoxels::capacity / lanes::width> near_tip;  // first voxels of eights
     std::size_t near_count = 0;
     const float reach_squared = tip_constants.reach_squared;
@@ -226,19 +239,25 @@ struct EightTipSums {
         x += f.force_x;
         y += f.force_y;
         z += f.force_z;
+        const Floats lost = lanes::load<Floats>(&removed.codes[i]);
+        place_x += lost * places.x;
+        place_y += lost * places.y;
+        place_z += lost * places.z;
     }
     const TipConstants tip = tip_constants;
-    EightTipSums tip_sums;
+    EightTipSums seen;
     for (std::size_t n = 0; n < near_count; ++n) {
         const std::size_t i = near_tip[n];
         const EightPlaces places = places_of(c, &removed.x[i], &removed.y[i], &removed.z[i]);
-        search_tip(c, tip, removed, i, places, lanes::load<Floats>(weights + i), tip_sums);
+        search_tip(c, tip, removed, i, places, lanes::load<Floats>(weights + i), seen);
     }
     return {{lanes::sum(x), lanes::sum(y), lanes::sum(z)},
-            {lanes::sum(tip_sums.area),
-             lanes::sum(tip_sums.stiffness),
-             {lanes::sum(tip_sums.x), lanes::sum(tip_sums.y)},
-             {lanes::sum(tip_sums.moved_x), lanes::sum(tip_sums.moved_y), lanes::sum(tip_sums.moved_z)}}};
+            {.volume = lanes::sum(seen.volume),
+             .moment = {lanes::sum(seen.x), lanes::sum(seen.y)},
+             .stiffness = lanes::sum(seen.stiffness),
+             .force = {lanes::sum(seen.force_x), lanes::sum(seen.force_y), lanes::sum(seen.force_z)},
+             .moved = {lanes::sum(seen.moved_x), lanes::sum(seen.moved_y), lanes::sum(seen.moved_z)},
+             .places = glm::dvec3(lanes::sum(place_x), lanes::sum(place_y), lanes::sum(place_z)) / 255.0}};
 }
 
 #if defined(__x86_64__)

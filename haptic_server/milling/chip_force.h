@@ -69,11 +69,11 @@ void chip_forces(const CuttingStep& step, const RemovedVoxels& removed, std::spa
 glm::dvec3 sum_of_chip_forces(const CuttingStep& step, const RemovedVoxels& removed,
                               std::span<const float> weights, InstructionSet instructions) noexcept;
 
-/// Force, in the same axes and units, of chips at the tip of which the sum of weight times e / r is
-/// `e_per_r`.
-inline glm::dvec3 force_at_tip(const CuttingStep& step, const glm::dvec2& e_per_r) {
+/// Force, in the same axes and units, of chips at the tip of which the sum of weight times e / r is x and y
+/// of `at_tip`, and that of weight times cos kappa / r is z.
+inline glm::dvec3 force_at_tip(const CuttingStep& step, const glm::dvec3& at_tip) {
     const glm::dvec3 k(step.coefficients);
-    return {k.x * e_per_r.y - k.z * e_per_r.x, -k.x * e_per_r.x - k.z * e_per_r.y, 0.0};
+    return {k.x * at_tip.y - k.z * at_tip.x, -k.x * at_tip.x - k.z * at_tip.y, k.y * at_tip.z};
 }
 
 struct ChipSums {

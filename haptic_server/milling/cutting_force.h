@@ -32,9 +32,10 @@ class CuttingForce {
     }
 
     /// Mean force of the bone on the burr during the step, N, patient axes.
-    glm::dvec3 force_n() const noexcept {
+    /// Asked once: all of the step is added.
+    glm::dvec3 force_n() noexcept {
         const glm::dvec3 at_tip =
-            tip_ ? tip_->moved() + force_at_tip(step_, tip_->missing()) : glm::dvec3(0.0);
+            tip_ ? tip_->evened() + force_at_tip(step_, tip_->end_step()) : glm::dvec3(0.0);
         return step_.frame * (step_.newton_per_unit * (sum_ + at_tip));
     }
 

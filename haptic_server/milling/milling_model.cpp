@@ -108,6 +108,7 @@ MillingModel::MillingModel(Bone bone, std::vector<Burr> burrs, const std::vector
       settings_(settings),
       chips_(settings.bins),
       tooth_(settings.instants_per_tooth, settings.instructions),
+      tip_(settings.instructions),
       account_(bone_.grid(), tissues) {
     if (burrs_.empty()) throw std::invalid_argument("the milling model needs at least one burr");
     probes_.reserve(burrs_.size());
@@ -139,7 +140,9 @@ void MillingModel::cut(const BurrCommand& command, const glm::dvec3& to_mm, doub
     const CuttingStep cutting(burr, command.pose.spindle_axis, 0.5 * (sweep.from + sweep.to), grid.spacing_mm,
                               share * since_milled_s_);
     if (settings_.summation == ForceSummation::voxels) {
-        tip_.begin_step(cutting.frame, cutting.radius_voxels, sweep.to - sweep.from);
+        // The first stretch of all clears a whole ball, which shows no face.
+        tip_.begin_step(cutting.frame, cutting.radius_voxels,
+                        carved_at_position_ ? sweep.to - sweep.from : glm::dvec3(0.0));
         CuttingForce force(cutting, settings_.instructions, tip_);
         carve_and_sum(sweep, share, edits, force, result);
     } else if (settings_.summation == ForceSummation::bins) {
@@ -184,7 +187,6 @@ void MillingModel::mill(const BurrCommand& command, EditSink& edits, MillingResu
     if (is_first) {
         lately_removed_codes_ = 0.0;
         tooth_.forget();
-        tip_.forget();
     }
     milled_force_n_ = is_first ? glm::dvec3(0.0) : result.force_n;
     since_milled_s_ = 0.0;

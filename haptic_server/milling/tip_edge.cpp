@@ -4,55 +4,56 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
-#include <numbers>
-
-#include "haptic_server/milling/axis_means.h"
 
 namespace osteomill {
 
 namespace {
 
-constexpr double disc = static_cast<double>(tip_disc_voxels);
+constexpr auto disc = static_cast<double>(tip_disc_voxels);
 
 /// Of the way, after which the sums have forgotten all but 1/e.
 constexpr double memory_voxels = 2.0;
 
-/// A chip's thickness is taken to be at least that share of the tip's.
-constexpr double least_chip = 0.1;
-/// Where the disc reaches so far up the burr that its chip is thinner than a fifth of the tip's, the edge is
-/// trusted less; not at all where the burr does not cut on all of the disc.
-constexpr double sure_chip = 0.2;
-/// Farther from the axis the disc shows too little of the edge.
+/// Of A. A burr that is hardly thicker than the disc has no tip.
+constexpr double least_radius = 1.2;
+/// Of the way, along the axis.
+constexpr double least_advance = 1e-3;
+
+/// Of the volume of a whole chip: where less or more is cut no face shows.
+constexpr double least_share = 0.01;
+constexpr double most_share = 0.99;
+/// Farther from the axis the disc shows too little of a face.
 constexpr double sure_distance_voxels = 2.5;
 constexpr double largest_distance_voxels = 2.9;
-/// Of the moment that a straight edge would have: less has a chip that ends on more sides than one.
-constexpr double sure_moment = 0.8;
-constexpr double least_moment = 0.5;
+/// Of the moment that a face through the axis would have: sums that are farther than that from those of the
+/// face that fits best have a chip that ends otherwise.
+constexpr double sure_rest = 0.25;
+constexpr double largest_rest = 0.5;
+constexpr double moment_of_half_disc = 0.17;  // 4/15 / (pi/2), in A times the volume of a whole chip
+/// Steeper ones are taken for that steep.
+constexpr double largest_cot = 3.0;
+constexpr double largest_per_sine = 3.0;
+
+constexpr int newton_steps = 3;
+constexpr double longest_step_voxels = 1.0;
+constexpr double longest_turn_rad = 0.6;
 
 double ramp(double from, double to, double at) {
     return std::clamp((at - from) / (to - from), 0.0, 1.0);
 }
 
-/// d / A of the edge that leaves `share` of the disc.
-double relative_distance(double share) {
-    const double larger = std::clamp(std::max(share, 1.0 - share), 0.5, 1.0);
-    const double v = 1.0 - std::pow(2.0 - 2.0 * larger, 0.4);
-    const double distance = v * (1.4527 - v * (0.8582 - v * (0.6053 - 0.2006 * v)));
-    return share < 0.5 ? -distance : distance;
+glm::dvec2 turned(const glm::dvec2& v, double angle_rad) {
+    const double c = std::cos(angle_rad);
+    const double s = std::sin(angle_rad);
+    return {c * v.x - s * v.y, s * v.x + c * v.y};
 }
 
-/// Of what the means miss, for a chip of 1.
-double missing_of_half_plane(double distance_voxels) {
-    constexpr double a = static_cast<double>(axis_disc_voxels);
-    const double s = std::abs(distance_voxels) / a;
-    if (s >= 1.0) return 0.0;
-    const double squared = (1.0 - s) * (1.0 - s);
-    return a * squared * squared * (-0.427 + s * (1.434 + s * 3.162));
+/// Volume and moment as what the fit sees: of like size.
+glm::dvec3 seen_by_fit(double volume, const glm::dvec2& moment) {
+    return {0.5 * disc * volume, moment};
 }
-
-/// How much of the tip's chip there is at least on the disc. `direction` of the way, burr axes.
-double thinnest_chip(const glm::dvec3& direction, double radius_voxels) {
-    return 1.0 - disc * std::hypot(direction.x, direction.y) / (radius_voxels * -direction.z);
+glm::dvec3 seen_by_fit(const glm::dvec3& sums) {
+    return seen_by_fit(sums.x, {sums.y, sums.z});
 }
 
 }  // namespace
@@ -60,78 +61,118 @@ double thinnest_chip(const glm::dvec3& direction, double radius_voxels) {
 void TipEdge::begin_step(const glm::dmat3& frame, double radius_voxels,
                          const glm::dvec3& way_voxels) noexcept {
     search_ = {};
-    step_area_ = 0.0;
+    step_stiffness_ = 0.0;
+    step_force_ = glm::dvec3(0.0);
     frame_ = frame;
-    radius_voxels_ = radius_voxels;
-    way_ = glm::transpose(frame) * way_voxels;
-    const double length = glm::length(way_);
-    const bool tip_advances = length > 0.0 && -way_.z > 1e-3 * length;
-    if (!tip_advances || thinnest_chip(way_, radius_voxels) <= 0.0) {
+    const double length = glm::length(way_voxels);
+    const glm::dvec3 way = glm::transpose(frame) * way_voxels;
+    if (radius_voxels < least_radius * disc || !(length > 0.0) || -way.z <= least_advance * length) {
         forget();
         return;
     }
+    direction_ = way / length;
+    disc_.begin(radius_voxels, direction_);
     const double kept = std::exp(-length / memory_voxels);
-    way_sum_ *= kept;
-    area_sum_ *= kept;
+    way_sum_ = kept * way_sum_ + length;
+    volume_sum_ *= kept;
     stiffness_sum_ *= kept;
     moment_sum_ *= kept;
+    force_sum_ *= kept;
     moved_sum_ *= kept;
+    places_sum_ *= kept;
 
-    const Edge before = edge();
     search_.is_on = true;
-    search_.direction = glm::vec3(way_ / length);
-    search_.least_share = static_cast<float>(least_chip * -way_.z / length);
-    search_.per_level = glm::vec2(before.trust * before.shift_per_level * before.outward);
-    way_sum_ += length;
+    search_.per_level = glm::vec2(glm::transpose(frame) * per_level_);
+    search_.per_depth = glm::vec2(glm::transpose(frame) * per_depth_);
 }
 
 void TipEdge::add(const TipSums& sums) noexcept {
-    step_area_ += sums.area;
-    area_sum_ += sums.area;
+    step_stiffness_ += sums.stiffness;
+    step_force_ += sums.force;
+    volume_sum_ += sums.volume;
     stiffness_sum_ += sums.stiffness;
     moment_sum_ += frame_ * glm::dvec3(sums.moment, 0.0);
+    force_sum_ += frame_ * sums.force;
     moved_sum_ += frame_ * sums.moved;
+    places_sum_ += frame_ * sums.places;
 }
 
-TipEdge::Edge TipEdge::edge() const noexcept {
-    const double all = 0.5 * std::numbers::pi * disc * disc * way_sum_;
-    const glm::dvec2 moment(glm::transpose(frame_) * moment_sum_);
-    const double moment_length = glm::length(moment);
-    if (!(all > 0.0) || !(moment_length > 0.0)) return {};
-
-    Edge edge{.outward = -moment / moment_length};
-    const double relative = relative_distance(area_sum_ / all);
-    const double rest = 1.0 - relative * relative;
-    const double straight_moment = 4.0 / 15.0 * disc * disc * disc * rest * rest * std::sqrt(rest) * way_sum_;
-
-    const double advance = -way_.z;
-    const double along = glm::dot(edge.outward, glm::dvec2(way_));
-    const double cot_theta = along / advance;
-    edge.shift_per_level = std::min((std::hypot(advance, along) - along) / advance, 1.0);
-    edge.distance_voxels =
-        disc * relative + disc * disc * rest * std::clamp(cot_theta, -2.0, 2.0) / (10.0 * radius_voxels_);
-    edge.trust = ramp(0.0, sure_chip, thinnest_chip(way_, radius_voxels_)) *
-                 ramp(-largest_distance_voxels, -sure_distance_voxels, -std::abs(edge.distance_voxels)) *
-                 ramp(least_moment * straight_moment, sure_moment * straight_moment, moment_length);
-    return edge;
+/// By the sum of all places: N points away from it, and across the way.
+double TipEdge::cot_theta() const noexcept {
+    const glm::dvec3 places = glm::transpose(frame_) * places_sum_;
+    const glm::dvec3 normal = glm::dot(places, direction_) * direction_ - places;
+    const double across = std::hypot(normal.x, normal.y);
+    return across > 0.0 ? std::clamp(normal.z / across, -largest_cot, largest_cot) : 0.0;
 }
 
-glm::dvec2 TipEdge::missing() const noexcept {
-    if (!(step_area_ > 0.0)) return glm::dvec2(0.0);
-    const Edge found = edge();
-    const double share = step_area_ / area_sum_;
-    const double chip = -way_.z / glm::length(way_) * way_sum_ * stiffness_sum_ / area_sum_;
-    return found.trust * share * chip * missing_of_half_plane(found.distance_voxels) * found.outward;
+FaceAtTip TipEdge::face_that_shows(const Seen& seen, const TipDiscSums& whole) const noexcept {
+    const double share = seen.volume / whole.volume;
+    const glm::dvec2 toward_face = share * whole.moment - seen.moment;
+    const double length = glm::length(toward_face);
+    FaceAtTip face{.outward = length > 0.0 ? toward_face / length : glm::dvec2(1.0, 0.0),
+                   .distance_voxels = 1.2 * disc * (share - 0.5),
+                   .cot_theta = cot_theta()};
+    const glm::dvec3 target = seen_by_fit(seen.volume, seen.moment);
+    const double damping = 1e-3 * whole.volume * whole.volume;
+    for (int i = 0; i < newton_steps; ++i) {
+        const TipDiscSums sums = disc_.cut_by(face);
+        const glm::dvec3 rest = target - seen_by_fit(sums.volume, sums.moment);
+        const glm::dvec3 by_distance = seen_by_fit(sums.per_distance);
+        const glm::dvec3 by_turn = seen_by_fit(sums.per_turn);
+        const double a = glm::dot(by_distance, by_distance) + damping;
+        const double b = glm::dot(by_distance, by_turn);
+        const double c = glm::dot(by_turn, by_turn) + damping;
+        const double to_distance = glm::dot(by_distance, rest);
+        const double to_turn = glm::dot(by_turn, rest);
+        const double determinant = a * c - b * b;
+        const double step = (c * to_distance - b * to_turn) / determinant;
+        const double turn = (a * to_turn - b * to_distance) / determinant;
+        face.distance_voxels = std::clamp(
+            face.distance_voxels + std::clamp(step, -longest_step_voxels, longest_step_voxels), -disc, disc);
+        face.outward = turned(face.outward, std::clamp(turn, -longest_turn_rad, longest_turn_rad));
+    }
+    return face;
 }
 
-glm::dvec3 TipEdge::moved() const noexcept {
-    if (!(step_area_ > 0.0)) return glm::dvec3(0.0);
-    return step_area_ / area_sum_ * (glm::transpose(frame_) * moved_sum_);
+TipEdge::Found TipEdge::find() const noexcept {
+    const TipDiscSums whole = disc_.whole();
+    const Seen seen{volume_sum_ / way_sum_, glm::dvec2(glm::transpose(frame_) * moment_sum_) / way_sum_};
+    const double share = seen.volume / whole.volume;
+    if (!(share > least_share && share < most_share)) return {};
+
+    Found found{.face = face_that_shows(seen, whole)};
+    const TipDiscSums sums = disc_.cut_by(found.face);
+    found.missing = sums.missing - share * whole.missing;
+    const double rest =
+        glm::length(seen_by_fit(seen.volume, seen.moment) - seen_by_fit(sums.volume, sums.moment)) /
+        (moment_of_half_disc * disc * whole.volume);
+    found.trust =
+        ramp(-largest_rest, -sure_rest, -rest) *
+        ramp(-largest_distance_voxels, -sure_distance_voxels, -std::abs(found.face.distance_voxels));
+    return found;
+}
+
+glm::dvec3 TipEdge::end_step() noexcept {
+    per_level_ = per_depth_ = glm::dvec3(0.0);
+    if (!(step_stiffness_ > 0.0)) return glm::dvec3(0.0);
+    const Found found = find();
+    const glm::dvec3 outward = found.trust * (frame_ * glm::dvec3(found.face.outward, 0.0));
+    const double cot = found.face.cot_theta;
+    const double per_sine = std::min(std::hypot(1.0, cot), largest_per_sine);
+    per_level_ = per_sine * outward;
+    per_depth_ = per_sine * cot / std::hypot(1.0, cot) * outward;
+    return found.trust * way_sum_ * step_stiffness_ / volume_sum_ * found.missing;
+}
+
+glm::dvec3 TipEdge::evened() const noexcept {
+    if (!(step_stiffness_ > 0.0)) return glm::dvec3(0.0);
+    const glm::dvec3 lately = glm::transpose(frame_) * (force_sum_ + moved_sum_);
+    return step_stiffness_ / stiffness_sum_ * lately - step_force_;
 }
 
 void TipEdge::forget() noexcept {
-    way_sum_ = area_sum_ = stiffness_sum_ = 0.0;
-    moment_sum_ = moved_sum_ = glm::dvec3(0.0);
+    way_sum_ = volume_sum_ = stiffness_sum_ = 0.0;
+    moment_sum_ = force_sum_ = moved_sum_ = places_sum_ = per_level_ = per_depth_ = glm::dvec3(0.0);
 }
 
 }  // namespace osteomill

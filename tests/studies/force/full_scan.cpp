@@ -48,6 +48,7 @@ class MetBone {
     MetBone(Bone& bone, const Sweep& sweep, const glm::ivec3& base, VoxelEdges edges, Onsets& onsets,
             Force& force)
         : bone_(bone), sweep_(sweep, glm::dvec3(base), edges), onsets_(onsets), force_(force) {
+        met_.bone = &bone;
         met_.base = awaiting_.base = base;
         awaiting_.from = sweep_.from;
         awaiting_.along = sweep_.along;
@@ -81,7 +82,9 @@ class MetBone {
             met_.y[n] = met_.y[i];
             met_.z[n] = met_.z[i];
             met_.codes[n] = static_cast<float>(codes);
-            const glm::ivec3 voxel = met_.base + glm::ivec3(glm::vec3(met_.x[i], met_.y[i], met_.z[i]));
+            met_.slot[n] = met_.slot[i];
+            met_.offset[n] = met_.offset[i];
+            const glm::ivec3 voxel = met_.base + glm::ivec3(glm::vec3(met_.x[n], met_.y[n], met_.z[n]));
             weights_[n] = static_cast<float>(codes / 255.0 * bone_.stiffness_at(voxel));
             removed_codes_ += codes;
         }
@@ -139,7 +142,8 @@ class FullScan final : public StudiedModel {
           radius_voxels_(burr.radius_mm() / bone_.grid().spacing_mm),
           tool_(tool_voxels(radius_voxels_ + rim_voxels(settings.edges) + 1.0 +
                             0.5 * CrescentRows::longest_step_voxels)),
-          chips_(settings.bins) {
+          chips_(settings.bins),
+          tip_(InstructionSet::plain) {
         if (settings.summation == ForceSummation::instants)
             throw std::invalid_argument("the full scan sums over voxels or bins, not over instants");
     }
@@ -156,10 +160,13 @@ class FullScan final : public StudiedModel {
                 chips_.begin_step(burr_, cutting);
                 outcome = mill(sweep, cutting, chips_);
             } else {
-                CuttingForce force(cutting, InstructionSet::plain);
+                tip_.begin_step(cutting.frame, radius_voxels_,
+                                was_on_ ? sweep.to - sweep.from : glm::dvec3(0.0));
+                CuttingForce force(cutting, InstructionSet::plain, tip_);
                 outcome = mill(sweep, cutting, force);
             }
         }
+        was_on_ = command.spindle_on;
         position_mm_ = command.pose.position_mm;
         has_position_ = true;
         return outcome;
@@ -215,6 +222,8 @@ class FullScan final : public StudiedModel {
     double radius_voxels_;
     std::vector<ToolVoxel> tool_;
     ChipMap chips_;
+    TipEdge tip_;
+    bool was_on_ = false;
     bool has_position_ = false;
     glm::dvec3 position_mm_{0.0};
 };
