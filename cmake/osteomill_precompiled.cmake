@@ -1,6 +1,6 @@
 # What nearly every file includes is parsed once a preset instead of once a file, which is half of the time that a compiler needs
-# for a test. Only for speed: every file still includes what it uses, which the release preset proves by doing without but in
-# tests (and must: optimising, GCC 12 takes what is inlined from a precompiled std::string for out of bounds).
+# for a test. Only for speed: every file still includes what it uses, which the debug preset proves by doing without but in tests.
+# So does the release preset, which must: optimising, GCC 12 takes what is inlined from a precompiled std::string for out of bounds.
 set(osteomill_common_headers
     <algorithm> <array> <chrono> <cmath> <cstdint> <filesystem> <fstream> <functional> <map> <memory> <optional> <span>
     <stdexcept> <string> <string_view> <utility> <variant> <vector>
