@@ -206,7 +206,11 @@ struct EightTipSums {
     if (!tip.moves) return;
 
     const Floats level = is_in_disc ? per_code * (kept_by(removed, first) + 0.5f * lost) - 0.5f : Floats{};
-    const Floats depth = is_in_disc ? tip.radius - distance_squared * per_distance : Floats{};
+    // Only a leap has deeper ones.
+    constexpr float deepest = 1.5f;
+    Floats depth = is_in_disc ? tip.radius - distance_squared * per_distance : Floats{};
+    depth = depth > deepest ? lanes::floats(deepest) : depth;
+    depth = depth < -deepest ? lanes::floats(-deepest) : depth;
     const EightForces moved =
         forces_of(c,
                   {places.x + tip.per_level_x * level + tip.per_depth_x * depth,

@@ -31,8 +31,8 @@ class CuttingForce {
         tip_->add(sums.tip);
     }
 
-    /// Mean force of the bone on the burr during the step, N, patient axes.
-    /// Asked once: all of the step is added.
+    /// Mean force of the bone on the burr during the step, N, patient axes. Asked once, when all of the step
+    /// is added.
     glm::dvec3 force_n() noexcept {
         const glm::dvec3 at_tip =
             tip_ ? tip_->evened() + force_at_tip(step_, tip_->end_step()) : glm::dvec3(0.0);

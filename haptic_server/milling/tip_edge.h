@@ -9,10 +9,10 @@
 // is there is left out.
 //
 // Where a voxel's bone lies. A voxel of which the share l is left loses what lies (l - 1/2) N off its middle,
-// N the outward normal of the face: it is lowered toward the face, and what is not full is full from the
-// other side. By the ramp of cover.h this goes when the middle is at the depth g under the burr's surface,
-// whereas its own turn is when it lies on that surface itself. Of the way between the two places, that across
-// the face is
+// N the outward normal of the face: bone goes from the face down, and a voxel that was never full lacks what
+// would lie above. By the ramp of cover.h this goes when the middle is at the depth g under the burr's
+// surface, whereas its own turn is when it lies on that surface itself. Of the way between the two places,
+// that across the face is
 //
 //     ((l - 1/2) + g cos theta) / sin theta   along u,   cos theta = -N . n,
 //
