@@ -229,6 +229,7 @@ struct EightTipSums {
     Floats x{};
     Floats y{};
     Floats z{};
+    Floats all{};
     Floats place_x{};
     Floats place_y{};
     Floats place_z{};
@@ -237,13 +238,15 @@ struct EightTipSums {
     const float reach_squared = tip_constants.reach_squared;
     for (std::size_t i = 0; i < removed.padded_count(); i += lanes::width) {
         const EightPlaces places = places_of(c, &removed.x[i], &removed.y[i], &removed.z[i]);
-        const EightForces f = forces_of(c, places, lanes::load<Floats>(weights + i), reach_squared);
+        const Floats weight = lanes::load<Floats>(weights + i);
+        const EightForces f = forces_of(c, places, weight, reach_squared);
         near_tip[near_count] = static_cast<std::uint16_t>(i);
         near_count += f.any_near ? 1 : 0;
         x += f.force_x;
         y += f.force_y;
         z += f.force_z;
         const Floats lost = lanes::load<Floats>(&removed.codes[i]);
+        all += weight;
         place_x += lost * places.x;
         place_y += lost * places.y;
         place_z += lost * places.z;
@@ -261,6 +264,7 @@ struct EightTipSums {
              .stiffness = lanes::sum(seen.stiffness),
              .force = {lanes::sum(seen.force_x), lanes::sum(seen.force_y), lanes::sum(seen.force_z)},
              .moved = {lanes::sum(seen.moved_x), lanes::sum(seen.moved_y), lanes::sum(seen.moved_z)},
+             .all = lanes::sum(all),
              .places = glm::dvec3(lanes::sum(place_x), lanes::sum(place_y), lanes::sum(place_z)) / 255.0}};
 }
 

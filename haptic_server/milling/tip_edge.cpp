@@ -12,7 +12,7 @@ namespace {
 constexpr auto disc = static_cast<double>(tip_disc_voxels);
 
 /// Of the way, after which the sums have forgotten all but 1/e.
-constexpr double memory_voxels = 2.0;
+constexpr double memory_voxels = 3.0;
 
 /// Of A. A burr that is hardly thicker than the disc has no tip.
 constexpr double least_radius = 1.2;
@@ -30,6 +30,8 @@ constexpr double largest_distance_voxels = 2.9;
 constexpr double sure_rest = 0.25;
 constexpr double largest_rest = 0.5;
 constexpr double moment_of_half_disc = 0.17;  // 4/15 / (pi/2), in A times the volume of a whole chip
+/// By how much the share of the tip in what is cut swings with the lattice; more is meant.
+constexpr double largest_swing = 0.2;
 /// Steeper ones are taken for that steep.
 constexpr double largest_cot = 3.0;
 constexpr double largest_per_sine = 3.0;
@@ -61,6 +63,7 @@ glm::dvec3 seen_by_fit(const glm::dvec3& sums) {
 void TipEdge::begin_step(const glm::dmat3& frame, double radius_voxels,
                          const glm::dvec3& way_voxels) noexcept {
     search_ = {};
+    step_all_ = 0.0;
     step_stiffness_ = 0.0;
     step_force_ = glm::dvec3(0.0);
     frame_ = frame;
@@ -74,6 +77,7 @@ void TipEdge::begin_step(const glm::dmat3& frame, double radius_voxels,
     disc_.begin(radius_voxels, direction_);
     const double kept = std::exp(-length / memory_voxels);
     way_sum_ = kept * way_sum_ + length;
+    all_sum_ *= kept;
     volume_sum_ *= kept;
     stiffness_sum_ *= kept;
     moment_sum_ *= kept;
@@ -87,8 +91,10 @@ void TipEdge::begin_step(const glm::dmat3& frame, double radius_voxels,
 }
 
 void TipEdge::add(const TipSums& sums) noexcept {
+    step_all_ += sums.all;
     step_stiffness_ += sums.stiffness;
     step_force_ += sums.force;
+    all_sum_ += sums.all;
     volume_sum_ += sums.volume;
     stiffness_sum_ += sums.stiffness;
     moment_sum_ += frame_ * glm::dvec3(sums.moment, 0.0);
@@ -167,11 +173,14 @@ glm::dvec3 TipEdge::end_step() noexcept {
 glm::dvec3 TipEdge::evened() const noexcept {
     if (!(step_stiffness_ > 0.0)) return glm::dvec3(0.0);
     const glm::dvec3 lately = glm::transpose(frame_) * (force_sum_ + moved_sum_);
-    return step_stiffness_ / stiffness_sum_ * lately - step_force_;
+    const double of_tip = step_stiffness_ / stiffness_sum_;
+    const double of_all =
+        std::clamp(step_all_ / all_sum_, (1.0 - largest_swing) * of_tip, (1.0 + largest_swing) * of_tip);
+    return of_all * lately - step_force_;
 }
 
 void TipEdge::forget() noexcept {
-    way_sum_ = volume_sum_ = stiffness_sum_ = 0.0;
+    way_sum_ = all_sum_ = volume_sum_ = stiffness_sum_ = 0.0;
     moment_sum_ = force_sum_ = moved_sum_ = places_sum_ = per_level_ = per_depth_ = glm::dvec3(0.0);
 }
 

@@ -24,13 +24,14 @@
 // of the volume and its first moment say what tip_disc.h says of a face: of its place and direction the ones
 // that fit best are found by Gauss and Newton's method from a guess. How the face is inclined these hardly
 // show, but all that the step removed does: for a face of which N . v = 0 in steady motion, the sum of n over
-// it lies in the plane of v and N. A way of a few of a voxel's 255 steps tells little: all sums remember two
-// voxels of the way, so that the mean force does not depend on the tick. What they say is scaled by what the
-// step cut, which in air is nothing.
+// it lies in the plane of v and N. A way of a few of a voxel's 255 steps tells little: all sums remember
+// three voxels of the way, so that the mean force does not depend on the tick. What they say is scaled by
+// what the step cut, which in air is nothing.
 //
 // How the tip's force swings. As voxels pass the axis it does, by several percent where the rest of the force
-// cancels or is small. That of the disc, counted by 1 - r^2 / A^2, is for each bit of volume the force that
-// it was over those two voxels of the way; what is moved swings more, and so is that.
+// cancels or is small. That of the disc, counted by 1 - r^2 / A^2, is for each bit of what the burr removes
+// the force that it was over those three voxels of the way; what is moved swings more, and so is that. A
+// share of the tip that changes by more than the lattice makes it counts at once.
 //
 // Used by the mean over voxels (cutting_force.h); the instants of tooth_force.h and the bins of chip_map.h do
 // without.
@@ -60,10 +61,11 @@ struct TipSums {
     double stiffness = 0.0;  ///< relative, times that volume
     glm::dvec3 force{0.0};   ///< of that volume, in the units of the sum of forces
     glm::dvec3 moved{0.0};   ///< by what the sum of forces grows if bone is moved to where it lies
+    double all = 0.0;        ///< of all voxels, times their relative stiffness
     glm::dvec3 places{0.0};  ///< of all voxels, from the burr's centre
 };
 
-/// The face, as the last two voxels of the way have shown it. Real-time safe but for its construction.
+/// The face, as the last three voxels of the way have shown it. Real-time safe but for its construction.
 class TipEdge {
   public:
     explicit TipEdge(InstructionSet instructions) : disc_(instructions) {}
@@ -84,7 +86,7 @@ class TipEdge {
     glm::dvec3 end_step() noexcept;
 
     /// By what the step's sum of forces changes where bone lies beside its voxel's middle, and where the
-    /// tip's force is that of two voxels of the way; burr axes.
+    /// tip's force is that of three voxels of the way; burr axes.
     glm::dvec3 evened() const noexcept;
 
   private:
@@ -108,6 +110,7 @@ class TipEdge {
     glm::dmat3 frame_{1.0};
     glm::dvec3 direction_{0.0, 0.0, -1.0};  // of the way, burr axes
     // What the step has added to the sums below.
+    double step_all_ = 0.0;
     double step_stiffness_ = 0.0;
     glm::dvec3 step_force_{0.0};
 
@@ -117,6 +120,7 @@ class TipEdge {
 
     // Fading sums; vectors in patient axes.
     double way_sum_ = 0.0;
+    double all_sum_ = 0.0;
     double volume_sum_ = 0.0;
     double stiffness_sum_ = 0.0;
     glm::dvec3 moment_sum_{0.0};

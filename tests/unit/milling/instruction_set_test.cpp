@@ -84,6 +84,7 @@ TEST_F(InstructionSets, LookForTheTipsEdgeAlike) {
     EXPECT_EQ(plain.tip.moment, best.tip.moment);
     EXPECT_EQ(plain.tip.force, best.tip.force);
     EXPECT_EQ(plain.tip.moved, best.tip.moved);
+    EXPECT_EQ(plain.tip.all, best.tip.all);
     EXPECT_EQ(plain.tip.places, best.tip.places);
     EXPECT_GT(plain.tip.volume, 0.0);
     EXPECT_GT(glm::length(plain.tip.moved), 0.0);

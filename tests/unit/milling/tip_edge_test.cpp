@@ -119,6 +119,7 @@ TEST(TipEdge, SaysNothingInAirNorWhereTheTipDoesNotAdvance) {
     TipEdge tip = begun();
     TipSums sums = half_plane(0.0);
     sums.moved = {1.0, 2.0, 3.0};
+    sums.all = sums.stiffness;
     tip.add(sums);
     EXPECT_EQ(tip.evened(), sums.moved);
     EXPECT_LT(tip.end_step().y, -0.5);
@@ -135,23 +136,36 @@ TEST(TipEdge, SaysNothingInAirNorWhereTheTipDoesNotAdvance) {
     EXPECT_FALSE(tip.search().is_on) << "a burr hardly thicker than the disc";
 }
 
-TEST(TipEdge, EvensTheTipsForceOverTwoVoxelsOfTheWay) {
+/// What is felt beside the step's own force in the second of two steps of half a voxel: the first has a force
+/// of 6 and cuts ten times the whole disc, the second has none and cuts of tip and of all so many times that.
+double evened_after(double tip_share, double all_share) {
     TipEdge tip = begun();
-    TipSums first = half_plane(4.0);
-    first.force = {6.0, 0.0, 0.0};
-    tip.add(first);
+    TipSums sums = half_plane(4.0);
+    sums.force = {6.0, 0.0, 0.0};
+    sums.all = 10.0 * sums.stiffness;
+    tip.add(sums);
     EXPECT_EQ(tip.evened(), glm::dvec3(0.0));
     tip.end_step();
 
-    // Half the volume, none of the force: what is felt is half of what is remembered.
-    TipSums second = first;
-    second.volume *= 0.5;
-    second.stiffness *= 0.5;
-    second.force = glm::dvec3(0.0);
+    sums.volume *= tip_share;
+    sums.stiffness *= tip_share;
+    sums.all *= all_share;
+    sums.force = glm::dvec3(0.0);
     tip.begin_step(glm::dmat3(1.0), flat, down);
-    tip.add(second);
-    const double kept = std::exp(-0.5 / 2.0);
-    EXPECT_NEAR(tip.evened().x, 6.0 * kept * 0.5 / (kept + 0.5), 1e-9);
+    tip.add(sums);
+    return tip.evened().x;
+}
+
+TEST(TipEdge, EvensTheTipsForceOverThreeVoxelsOfTheWay) {
+    const double kept = std::exp(-0.5 / 3.0);
+    const auto share_of = [&](double share) { return share / (kept + share); };
+    EXPECT_NEAR(evened_after(1.0, 1.0), 6.0 * kept * share_of(1.0), 1e-9);
+    // Half of all is half of what is remembered.
+    EXPECT_NEAR(evened_after(0.5, 0.5), 6.0 * kept * share_of(0.5), 1e-9);
+    // So little does the lattice, and all counts; a tip that cuts less counts at once.
+    EXPECT_NEAR(evened_after(0.9, 1.0), 6.0 * kept * share_of(1.0), 1e-9);
+    EXPECT_NEAR(evened_after(0.2, 1.0), 6.0 * kept * 1.2 * share_of(0.2), 1e-9);
+    EXPECT_EQ(evened_after(0.0, 1.0), 0.0);
 }
 
 TEST(TipEdge, IsToldTheForceOfBoneWhereItLies) {
@@ -177,6 +191,7 @@ TEST(TipEdge, IsToldTheForceOfBoneWhereItLies) {
     const double counted = 1.0 - (25.0 / 26.0) / (disc * disc);
     EXPECT_NEAR(sums.tip.volume, 0.5 * counted, 1e-5);
     EXPECT_NEAR(sums.tip.stiffness, 0.5 * counted, 1e-5);
+    EXPECT_EQ(sums.tip.all, 0.5);
     EXPECT_LT(glm::length(sums.tip.force - counted * force), 1e-5 * glm::length(force));
     EXPECT_LT(glm::length(sums.tip.places - 0.5 * glm::dvec3(1.0, 0.0, -5.0)), 1e-5);
 
