@@ -53,7 +53,7 @@ TipDisc::TipDisc(InstructionSet instructions) : instructions_(instructions) {
 
 void TipDisc::begin(double radius_voxels, const glm::dvec3& direction) noexcept {
     direction_ = glm::vec3(direction);
-    if (radius_voxels == radius_voxels_ && circles_[0].rise > 0.0f) return;
+    if (radius_voxels == radius_voxels_) return;
     radius_voxels_ = radius_voxels;
     for (Circle& circle : circles_) {
         const auto r = static_cast<double>(circle.radius);

@@ -57,7 +57,7 @@ class TipDisc {
     /// The burr's radius, more than A, and the direction of its centre's way; unit, burr axes.
     void begin(double radius_voxels, const glm::dvec3& direction) noexcept;
 
-    /// Of bone that ends in no face.
+    /// Of bone that ends in no face. A burr has begun, here and below.
     TipDiscSums whole() const noexcept;
 
     TipDiscSums cut_by(const FaceAtTip& face) const noexcept;
@@ -87,7 +87,7 @@ class TipDisc {
     TipDiscSums sums(const FaceAtTip& face, bool is_whole) const noexcept;
 
     InstructionSet instructions_;
-    double radius_voxels_ = 2.0 * static_cast<double>(tip_disc_voxels);
+    double radius_voxels_ = 0.0;  // no burr yet
     glm::vec3 direction_{0.0f, 0.0f, -1.0f};
     std::array<Circle, circles> circles_;
     alignas(64) std::array<float, angles> cosine_;

@@ -111,8 +111,7 @@ double TipEdge::cot_theta() const noexcept {
     return across > 0.0 ? std::clamp(normal.z / across, -largest_cot, largest_cot) : 0.0;
 }
 
-FaceAtTip TipEdge::face_that_shows(const Seen& seen, const TipDiscSums& whole) const noexcept {
-    const double share = seen.volume / whole.volume;
+FaceAtTip TipEdge::face_that_shows(const Seen& seen, double share, const TipDiscSums& whole) const noexcept {
     const glm::dvec2 toward_face = share * whole.moment - seen.moment;
     const double length = glm::length(toward_face);
     FaceAtTip face{.outward = length > 0.0 ? toward_face / length : glm::dvec2(1.0, 0.0),
@@ -146,7 +145,7 @@ TipEdge::Found TipEdge::find() const noexcept {
     const double share = seen.volume / whole.volume;
     if (!(share > least_share && share < most_share)) return {};
 
-    Found found{.face = face_that_shows(seen, whole)};
+    Found found{.face = face_that_shows(seen, share, whole)};
     const TipDiscSums sums = disc_.cut_by(found.face);
     found.missing = sums.missing - share * whole.missing;
     const double rest =
@@ -164,9 +163,10 @@ glm::dvec3 TipEdge::end_step() noexcept {
     const Found found = find();
     const glm::dvec3 outward = found.trust * (frame_ * glm::dvec3(found.face.outward, 0.0));
     const double cot = found.face.cot_theta;
-    const double per_sine = std::min(std::hypot(1.0, cot), largest_per_sine);
+    const double exact_per_sine = std::hypot(1.0, cot);
+    const double per_sine = std::min(exact_per_sine, largest_per_sine);
     per_level_ = per_sine * outward;
-    per_depth_ = per_sine * cot / std::hypot(1.0, cot) * outward;
+    per_depth_ = per_sine * cot / exact_per_sine * outward;
     return found.trust * way_sum_ * step_stiffness_ / volume_sum_ * found.missing;
 }
 

@@ -102,7 +102,8 @@ class TipEdge {
     };
     void forget() noexcept;
     double cot_theta() const noexcept;
-    FaceAtTip face_that_shows(const Seen& seen, const TipDiscSums& whole) const noexcept;
+    /// `share` of the whole chip's volume that is seen.
+    FaceAtTip face_that_shows(const Seen& seen, double share, const TipDiscSums& whole) const noexcept;
     Found find() const noexcept;
 
     TipDisc disc_;
