@@ -6,7 +6,8 @@
 # KERNEL_FOLDER is what scripts/fetch_vm_kernel.sh unpacked. WORK_FOLDER holds run.sh, which the machine runs in /trial among
 # copies of all the files there; what it leaves in /trial/out comes back in WORK_FOLDER/out, what it prints in WORK_FOLDER/console.
 # PROGRAMs are copied to /bin with the libraries they need. The machine's clock counts instructions (-icount): however busy the
-# host is, time inside is what a machine of a fixed speed would see.
+# host is, time inside is what a machine of a fixed speed would see. Without random instructions, random addresses and another date
+# each time, programs there do for seconds what they did the last time.
 set -euo pipefail
 
 kernel=$1
@@ -52,8 +53,9 @@ chmod +x "$root/init"
 
 rm -rf "$work/out" "$work/out.tar.gz"
 # 2^1 ns per instruction: a machine of 500 million instructions per second, that skips the time in which it sleeps.
-timeout 240 qemu-system-x86_64 -accel tcg -icount shift=1,sleep=off -cpu max -smp 1 -m 1024 -nodefaults -no-reboot -display none \
-    -kernel "$kernel/vmlinuz" -initrd "$work/initramfs" -append "console=ttyS0 quiet panic=-1 mitigations=off" \
+timeout 240 qemu-system-x86_64 -accel tcg -icount shift=1,sleep=off -cpu max,-rdrand,-rdseed -smp 1 -m 1024 \
+    -rtc base=2026-01-01,clock=vm -nodefaults -no-reboot -display none \
+    -kernel "$kernel/vmlinuz" -initrd "$work/initramfs" -append "console=ttyS0 quiet panic=-1 mitigations=off nokaslr norandmaps" \
     -serial "file:$work/console" -serial "file:$work/out.tar.gz" </dev/null
 rm "$work/initramfs"
 tar -x -z -C "$work" -f "$work/out.tar.gz"
