@@ -39,6 +39,20 @@ struct Onsets::Kernel {
         Floats slope;
     };
 
+    /// Rows of voxels, which the burr meets a period apart.
+    struct Rows {
+        float period;
+        float per_period;
+
+        [[gnu::always_inline]] Floats less_a_period(const Floats& way) const {
+            return way > period ? way - period : way;
+        }
+        /// What a row is given on its way to the burr, as a share of the rate at which it then loses.
+        [[gnu::always_inline]] Floats given_until_met(const Floats& way) const {
+            return 0.5f * way * (1.0f - way * per_period);
+        }
+    };
+
     [[gnu::always_inline]] static RampPlace partial_place(const Floats& left) {
         return {left * (1.0f / 255.0f) - 0.5f, lanes::floats(1.0f)};
     }
@@ -61,12 +75,10 @@ struct Onsets::Kernel {
         const glm::vec3 at(awaiting.from + awaiting.along);
         const glm::vec3 across = glm::abs(v);
         const float period = 1.0f / std::max({across.x, across.y, across.z});
-        const float per_period = 1.0f / period;
         const float radius = to.radius_;
         const float reach_squared = to.reach_ * to.reach_;
         const bool is_soft = to.edges_ == VoxelEdges::soft;
-        const auto p = [=](const Floats& way) { return 0.5f * way * (1.0f - way * per_period); };
-        const auto less_a_period = [=](const Floats& way) { return way > period ? way - period : way; };
+        const Rows rows{period, 1.0f / period};
         RemovedVoxels& out = to.voxels_;
         for (std::size_t i = 0; i < awaiting.padded_count(); i += lanes::width) {
             const Floats x = lanes::load<Floats>(&awaiting.x[i]);
@@ -91,9 +103,9 @@ struct Onsets::Kernel {
             const Floats root = lanes::square_root(is_met ? root_squared : lanes::floats(1.0f));
             const Ints is_next = is_met & (met * met + period * (period + 2.0f * root) < reach_squared);
             const Floats way = is_next ? beyond_still / (ahead + root) : Floats{};
-            const Floats before = less_a_period(less_a_period(way + length));
+            const Floats before = rows.less_a_period(rows.less_a_period(way + length));
             const Floats rate = place.slope * root / met;
-            const Floats given = rate * (p(before) - p(way));
+            const Floats given = rate * (rows.given_until_met(before) - rows.given_until_met(way));
             const Floats until = is_next ? way + 0.5f * length : Floats{};
             const std::size_t n = out.count;
             lanes::store(&out.x[n], x - until * v.x);
