@@ -225,8 +225,8 @@ TEST_F(HostileServer, IsRejectedIfItsForceLimitIsNoNumber) {
     v1::ServerFrame frame = hello();
     frame.mutable_hello()->set_force_limit_n(std::numeric_limits<double>::quiet_NaN());
     send(frame);
-    EXPECT_TRUE(eventually([this] { return poll().rejected_frames == 1; }));
-    EXPECT_THAT(last_.status_line, HasSubstr("force limit"));
+    EXPECT_TRUE(eventually([this] { return poll().status_line.find("force limit") != std::string::npos; }));
+    EXPECT_EQ(last_.rejected_frames, 1U);
     EXPECT_EQ(link_.session(), nullptr);
 }
 
