@@ -1,12 +1,18 @@
-# osteomill_module(NAME SOURCES a.cpp ... LIBRARIES lib ... [SEPARATE]): one static library per folder of the house.
-# Includes are written from the repository root ("common/bone/grid.h"). SEPARATE: see osteomill_join.
+# osteomill_module(NAME SOURCES a.cpp ... LIBRARIES lib ... [LOOPS] [SEPARATE]): one static library per folder of the house.
+# Includes are written from the repository root ("common/bone/grid.h"). LOOPS: it has the inner loops that tests wait for, see
+# osteomill_loops_options. SEPARATE: see osteomill_join.
 function(osteomill_module name)
-    cmake_parse_arguments(arg "SEPARATE" "" "SOURCES;LIBRARIES" ${ARGN})
+    cmake_parse_arguments(arg "LOOPS;SEPARATE" "" "SOURCES;LIBRARIES" ${ARGN})
     if(arg_SOURCES)
         add_library(${name} STATIC ${arg_SOURCES})
         target_include_directories(${name} PUBLIC ${CMAKE_SOURCE_DIR})
         target_link_libraries(${name} PUBLIC ${arg_LIBRARIES} PRIVATE osteomill_warnings)
-        target_precompile_headers(${name} REUSE_FROM osteomill_precompiled)
+        if(arg_LOOPS)
+            target_compile_options(${name} PRIVATE ${osteomill_loops_options})
+            target_precompile_headers(${name} REUSE_FROM osteomill_loops_precompiled)
+        else()
+            target_precompile_headers(${name} REUSE_FROM osteomill_precompiled)
+        endif()
         osteomill_join(${name} "${arg_SEPARATE}")
     else()
         add_library(${name} INTERFACE)

@@ -16,3 +16,6 @@ function(osteomill_precompile name)
 endfunction()
 
 osteomill_precompile(osteomill_precompiled LIBRARIES glm::glm HEADERS ${osteomill_common_headers})
+# Precompiled headers serve only what is compiled with the same optimisation.
+osteomill_precompile(osteomill_loops_precompiled LIBRARIES glm::glm HEADERS ${osteomill_common_headers})
+target_compile_options(osteomill_loops_precompiled PRIVATE ${osteomill_loops_options})
