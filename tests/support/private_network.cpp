@@ -41,34 +41,41 @@ std::string PrivateNetwork::why_not() {
     return "";
 }
 
-PrivateNetwork::PrivateNetwork() : server_(unique_name("server")), client_(unique_name("client")) {
-    run("ip netns add " + server_);
-    run("ip netns add " + client_);
-    run("ip -n " + server_ + " link add cable type veth peer name cable netns " + client_);
-    run("ip -n " + server_ + " addr add " + server_address + "/30 dev cable");
-    run("ip -n " + client_ + " addr add 10.213.77.2/30 dev cable");
-    for (const std::string& end : {server_, client_}) {
+PrivateNetwork::Namespace::Namespace(const std::string& of_what) : name_(unique_name(of_what)) {
+    try {
+        run("ip netns add " + name_);
+    } catch (const std::runtime_error&) {
+        // Where it may not be mounted, its place is there already.
+        succeeds("ip netns del " + name_);
+        throw;
+    }
+}
+
+PrivateNetwork::Namespace::~Namespace() {
+    succeeds("ip netns del " + name_);
+}
+
+PrivateNetwork::PrivateNetwork() : server_("server"), client_("client") {
+    run("ip -n " + server() + " link add cable type veth peer name cable netns " + client());
+    run("ip -n " + server() + " addr add " + server_address + "/30 dev cable");
+    run("ip -n " + client() + " addr add 10.213.77.2/30 dev cable");
+    for (const std::string& end : {server(), client()}) {
         run("ip -n " + end + " link set lo up");
         run("ip -n " + end + " link set cable up");
     }
 }
 
-PrivateNetwork::~PrivateNetwork() {
-    succeeds("ip netns del " + client_);
-    succeeds("ip netns del " + server_);
-}
-
 void PrivateNetwork::limit_rate(const std::string& rate) {
-    for (const std::string& end : {server_, client_})
+    for (const std::string& end : {server(), client()})
         run("tc -n " + end + " qdisc replace dev cable root tbf rate " + rate + " burst 4kb latency 400ms");
 }
 
 void PrivateNetwork::pull_cable() {
-    run("ip -n " + client_ + " link set cable down");
+    run("ip -n " + client() + " link set cable down");
 }
 
 void PrivateNetwork::plug_cable() {
-    run("ip -n " + client_ + " link set cable up");
+    run("ip -n " + client() + " link set cable up");
 }
 
 PrivateNetwork::Stay::Stay(const std::string& name_of_namespace)

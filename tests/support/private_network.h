@@ -14,9 +14,6 @@ class PrivateNetwork {
 
     /// Throws std::runtime_error with the command that failed.
     PrivateNetwork();
-    ~PrivateNetwork();  ///< takes both down
-    PrivateNetwork(const PrivateNetwork&) = delete;
-    PrivateNetwork& operator=(const PrivateNetwork&) = delete;
 
     /// Both ways, such as "64kbit": a token bucket (tc tbf).
     void limit_rate(const std::string& rate);
@@ -34,12 +31,25 @@ class PrivateNetwork {
       private:
         int home_;
     };
-    const std::string& server() const { return server_; }
-    const std::string& client() const { return client_; }
+    const std::string& server() const { return server_.name(); }
+    const std::string& client() const { return client_.name(); }
 
   private:
-    std::string server_;
-    std::string client_;
+    /// Is gone with this, also where what comes after cannot be had.
+    class Namespace {
+      public:
+        explicit Namespace(const std::string& of_what);
+        ~Namespace();
+        Namespace(const Namespace&) = delete;
+        Namespace& operator=(const Namespace&) = delete;
+        const std::string& name() const { return name_; }
+
+      private:
+        std::string name_;
+    };
+
+    Namespace server_;
+    Namespace client_;
 };
 
 }  // namespace osteomill::testing
