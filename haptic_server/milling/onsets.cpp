@@ -39,7 +39,7 @@ struct Onsets::Kernel {
         Floats slope;
     };
 
-    /// Rows of voxels, which the burr meets a period apart.
+    /// Rows of voxels, met a period apart.
     struct Rows {
         float period;
         float per_period;
@@ -47,7 +47,8 @@ struct Onsets::Kernel {
         [[gnu::always_inline]] Floats less_a_period(const Floats& way) const {
             return way > period ? way - period : way;
         }
-        /// What a row is given on its way to the burr, as a share of the rate at which it then loses.
+        /// P of onsets.h: what a row is given from here on until it is met, over the rate at which it then
+        /// loses.
         [[gnu::always_inline]] Floats given_until_met(const Floats& way) const {
             return 0.5f * way * (1.0f - way * per_period);
         }
