@@ -86,6 +86,8 @@ bool Window::key_down(int glfw_key) const {
 glm::ivec2 Window::framebuffer_size_px() const {
     glm::ivec2 size_px(0);
     glfwGetFramebufferSize(window_, &size_px.x, &size_px.y);
+    // GLFW asks the display, and without an answer gives what lies on the stack.
+    require_display();
     return size_px;
 }
 
@@ -95,9 +97,13 @@ double Window::content_scale() const {
     return std::clamp(static_cast<double>(std::max(scale_x, scale_y)), 0.5, 4.0);
 }
 
-void Window::require_alive() const {
+void Window::require_display() const {
     if (is_display_gone_)
         throw std::runtime_error("the display has gone: its server ended or closed the link");
+}
+
+void Window::require_alive() const {
+    require_display();
     if (epoxy_has_gl_extension("GL_ARB_robustness") && glGetGraphicsResetStatusARB() != GL_NO_ERROR)
         throw std::runtime_error("the graphics card was reset and the picture is lost; start again");
 }

@@ -20,12 +20,14 @@ class Window {
 
     bool close_asked() const;
     bool focused() const;
+    /// Throws as require_alive() where the display has gone.
     bool minimised() const;
     bool key_down(int glfw_key) const;
     /// The keys that went down since the last clear_presses(), even if they are up again by now.
     std::span<const int> presses() const { return presses_; }
     void clear_presses() { presses_.clear(); }
-    /// Of the picture, which on dense displays has more pixels than the window has units.
+    /// Of the picture, which on dense displays has more pixels than the window has units. Throws as
+    /// require_alive() where the display has gone.
     glm::ivec2 framebuffer_size_px() const;
     /// How many times as dense as an ordinary one the display is, in pixels of the picture.
     double content_scale() const;
@@ -36,6 +38,8 @@ class Window {
     GLFWwindow* handle() const { return window_; }
 
   private:
+    void require_display() const;
+
     GLFWwindow* window_ = nullptr;
     std::vector<int> presses_;
     bool is_display_gone_ = false;
