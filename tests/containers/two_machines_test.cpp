@@ -3,7 +3,6 @@
 #include "tests/containers/two_machines.h"
 
 #include <gmock/gmock.h>
-#include <png.h>
 
 #include <chrono>
 #include <cmath>
@@ -13,11 +12,11 @@
 #include <iostream>
 #include <iterator>
 #include <nlohmann/json.hpp>
-#include <optional>
 #include <sstream>
 #include <thread>
 #include <vector>
 
+#include "render_client/volume/png_file.h"
 #include "tests/support/child_process.h"
 #include "tests/support/temporary_folder.h"
 
@@ -35,17 +34,24 @@ nlohmann::json json_of(const std::filesystem::path& file) {
     return nlohmann::json::parse(bytes_of(file));
 }
 
+/// Waits, reading what the server says, until `happened`; false where it does not within a minute.
+template <typename Happened>
+bool comes_true(ChildProcess& server, Happened&& happened) {
+    const auto deadline = std::chrono::steady_clock::now() + 60s;
+    while (!happened())
+        if (std::chrono::steady_clock::now() > deadline || server.wait(1s)) return false;
+    return true;
+}
+
 /// Waits until a line about a client has been logged so often.
 bool is_said(ChildProcess& server, const std::string& about, const std::string& what, int times) {
-    const auto deadline = std::chrono::steady_clock::now() + 60s;
-    for (;;) {
+    return comes_true(server, [&] {
         int said = 0;
         std::istringstream log(server.err());
         for (std::string line; std::getline(log, line);)
             if (line.find(about) != std::string::npos && line.ends_with(what)) ++said;
-        if (said >= times) return true;
-        if (std::chrono::steady_clock::now() > deadline || server.wait(1s)) return false;
-    }
+        return said >= times;
+    });
 }
 
 /// The newest of the server's lines that says how much bone is gone; there is one every five seconds.
@@ -53,8 +59,8 @@ struct Progress {
     double time_s = 0.0;
     double removed_mm3 = 0.0;
 };
-std::optional<Progress> progress_of(const ChildProcess& server) {
-    std::optional<Progress> newest;
+Progress progress_of(const ChildProcess& server) {
+    Progress newest;
     std::istringstream log(server.err());
     for (std::string line; std::getline(log, line);) {
         const std::size_t at = line.find("removed ");
@@ -62,17 +68,6 @@ std::optional<Progress> progress_of(const ChildProcess& server) {
         newest = {.time_s = std::stod(line), .removed_mm3 = std::stod(line.substr(at + 8))};
     }
     return newest;
-}
-
-/// Waits until the server's newest line is as wanted; the first such, or what it said last.
-template <typename Wanted>
-Progress wait_for(ChildProcess& server, Wanted&& is_wanted) {
-    const auto deadline = std::chrono::steady_clock::now() + 60s;
-    for (;;) {
-        const Progress progress = progress_of(server).value_or(Progress{});
-        if (is_wanted(progress) || std::chrono::steady_clock::now() > deadline || server.wait(1s))
-            return progress;
-    }
 }
 
 /// Drills a hole by pecking, for a loop that gets no core stops for safety and mills on once it is clear of
@@ -92,21 +87,10 @@ double write_drilling(const std::filesystem::path& file) {
     return out_s;
 }
 
-/// The RGB values of a picture's pixels; empty where it cannot be read.
-std::vector<std::uint8_t> colours_of(const std::filesystem::path& png) {
-    png_image image{};
-    image.version = PNG_IMAGE_VERSION;
-    if (png_image_begin_read_from_file(&image, png.c_str()) == 0) return {};
-    image.format = PNG_FORMAT_RGB;
-    std::vector<std::uint8_t> bytes(PNG_IMAGE_SIZE(image));
-    if (png_image_finish_read(&image, nullptr, bytes.data(), 0, nullptr) == 0) return {};
-    return bytes;
-}
-
-double mean_difference(const std::vector<std::uint8_t>& a, const std::vector<std::uint8_t>& b) {
+double mean_difference(const Picture& a, const Picture& b) {
     double sum = 0.0;
-    for (std::size_t i = 0; i < a.size(); ++i) sum += std::abs(int{a[i]} - int{b[i]});
-    return sum / static_cast<double>(a.size());
+    for (std::size_t i = 0; i < a.rgb.size(); ++i) sum += std::abs(int{a.rgb[i]} - int{b.rgb[i]});
+    return sum / static_cast<double>(a.rgb.size());
 }
 
 class TwoMachinesTest : public ::testing::Test {
@@ -153,21 +137,21 @@ TEST_F(TwoMachinesTest, EndWithTheSameBoneAndPictureThoughTheCableWasPulled) {
     const std::string far = "client " + machines_->viewer_address() + ":";
     ASSERT_TRUE(is_said(server, "client 127.0.0.1:", "joined", 1)) << server.err() << steady.err();
     ASSERT_TRUE(is_said(server, far, "joined", 1)) << server.err() << cut.err();
-    const Progress before =
-        wait_for(server, [&](const Progress& now) { return now.removed_mm3 > is_drilling_mm3; });
-    ASSERT_GT(before.removed_mm3, is_drilling_mm3) << server.err();
+    ASSERT_TRUE(comes_true(server, [&] { return progress_of(server).removed_mm3 > is_drilling_mm3; }))
+        << server.err();
+    const double removed_before_mm3 = progress_of(server).removed_mm3;
     machines_->pull_cable();
     std::this_thread::sleep_for(longer_than_a_client_bears_silence);
     machines_->plug_cable();
     ASSERT_TRUE(is_said(server, far, "joined", 2)) << server.err() << cut.err();
-    wait_for(server, [&](const Progress& now) { return now.time_s > out_s; });
+    ASSERT_TRUE(comes_true(server, [&] { return progress_of(server).time_s > out_s; })) << server.err();
     server.send_signal(SIGINT);
     ASSERT_EQ(server.wait(60s), 0) << server.err();
     ASSERT_EQ(steady.wait(60s), 0) << steady.err();
     ASSERT_EQ(cut.wait(60s), 0) << cut.err();
 
     const auto served = json_of(folder_ / "server.json");
-    EXPECT_GT(served.at("removed_mm3").at("total"), before.removed_mm3 + is_drilling_mm3)
+    EXPECT_GT(served.at("removed_mm3").at("total"), removed_before_mm3 + is_drilling_mm3)
         << "it drilled on without the cable\n"
         << server.err();
     for (const char* name : {"steady", "cut"}) {
@@ -176,10 +160,10 @@ TEST_F(TwoMachinesTest, EndWithTheSameBoneAndPictureThoughTheCableWasPulled) {
         EXPECT_EQ(seen.at("checksum_mismatches"), 0) << name;
         EXPECT_GT(seen.at("frames"), 0) << name;
     }
-    const auto seen_steadily = colours_of(folder_ / "steady/final.png");
-    const auto seen_after_the_cut = colours_of(folder_ / "cut/final.png");
-    ASSERT_FALSE(seen_steadily.empty());
-    ASSERT_EQ(seen_after_the_cut.size(), seen_steadily.size());
+    const Picture seen_steadily = read_png(folder_ / "steady/final.png");
+    const Picture seen_after_the_cut = read_png(folder_ / "cut/final.png");
+    ASSERT_FALSE(seen_steadily.rgb.empty());
+    ASSERT_EQ(seen_after_the_cut.size_px, seen_steadily.size_px);
     const double difference = mean_difference(seen_steadily, seen_after_the_cut);
     std::cout << "the two last pictures differ by " << difference << " of 255\n";
     EXPECT_LT(difference, largest_difference_of_pictures);
