@@ -1,0 +1,109 @@
+#include "common/files/whole_file.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <stdexcept>
+#include <string>
+
+#include "tests/support/file_size_limit.h"
+#include "tests/support/temporary_folder.h"
+
+namespace osteomill {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::FileSizeLimit;
+using ::testing::HasSubstr;
+using testing::TemporaryFolder;
+using ::testing::ThrowsMessage;
+
+std::string content(const fs::path& path) {
+    std::ostringstream text;
+    text << std::ifstream(path).rdbuf();
+    return text.str();
+}
+
+void write(const fs::path& path, const std::string& text) {
+    std::ofstream(path) << text;
+}
+
+TEST(WholeFile, ReplacesTheOldFileOnlyWhenCommitted) {
+    const TemporaryFolder folder;
+    const fs::path path = folder / "bone.nrrd";
+    write(path, "old");
+    WholeFile file(path);
+    write(file.part(), "new");
+    EXPECT_EQ(content(path), "old");
+    file.commit();
+    EXPECT_EQ(content(path), "new");
+    EXPECT_FALSE(fs::exists(file.part()));
+}
+
+TEST(WholeFile, LeavesTheOldFileAndNoPartWhereItIsGivenUp) {
+    const TemporaryFolder folder;
+    const fs::path path = folder / "bone.nrrd";
+    write(path, "old");
+    {
+        const WholeFile file(path);
+        write(file.part(), "half of the n");
+    }
+    EXPECT_EQ(content(path), "old");
+    EXPECT_FALSE(fs::exists(part_of(path)));
+}
+
+TEST(WholeFile, KeepsAPartThatIsWorthSomething) {
+    const TemporaryFolder folder;
+    const fs::path path = folder / "session.pcap";
+    {
+        WholeFile file(path);
+        write(file.part(), "torn");
+        file.keep_part();
+    }
+    EXPECT_FALSE(fs::exists(path));
+    EXPECT_EQ(content(folder / "session.part.pcap"), "torn");
+}
+
+TEST(WholeFile, SaysWhichFileCannotBeWritten) {
+    const TemporaryFolder folder;
+    const fs::path path = folder / "no_folder" / "bone.nrrd";
+    EXPECT_THAT([&] { WholeFile(path).commit(); },
+                ThrowsMessage<std::runtime_error>(HasSubstr(path.string() + ": cannot be written: No such")));
+    EXPECT_THAT([&] { write_whole_file(path, "text"); },
+                ThrowsMessage<std::runtime_error>(HasSubstr(path.string() + ": cannot be written: No such")));
+}
+
+TEST(WholeFile, ReplacesWhatALinkPointsTo) {
+    const TemporaryFolder folder;
+    const fs::path real = folder / "real.json";
+    const fs::path link = folder / "link.json";
+    write(real, "old");
+    fs::create_symlink("real.json", link);
+    write_whole_file(link, "new");
+    EXPECT_TRUE(fs::is_symlink(link));
+    EXPECT_EQ(content(real), "new");
+}
+
+TEST(WholeFile, WritesToADeviceWithoutReplacingIt) {
+    write_whole_file("/dev/null", "text");
+    EXPECT_TRUE(fs::is_character_file("/dev/null"));
+}
+
+TEST(WriteWholeFile, LeavesTheOldFileOnAFullDisk) {
+    const TemporaryFolder folder;
+    const fs::path path = folder / "measurements.json";
+    write(path, "old");
+    {
+        const FileSizeLimit limit(1000);
+        EXPECT_THAT([&] { write_whole_file(path, std::string(5000, 'x')); },
+                    ThrowsMessage<std::runtime_error>(HasSubstr("File too large")));
+    }
+    EXPECT_EQ(content(path), "old");
+    EXPECT_FALSE(fs::exists(part_of(path)));
+}
+
+}  // namespace
+}  // namespace osteomill
