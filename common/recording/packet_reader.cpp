@@ -6,16 +6,31 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
+#include <fstream>
+#include <span>
 #include <system_error>
 #include <utility>
+#include <vector>
 
 #include "common/wire/frame.h"
+#include "common/wire/sealed_frame.h"
 
 namespace osteomill {
 
 namespace {
 
 constexpr std::int64_t latest_s = 7'258'118'400;  // nanoseconds since 1970 in 64 bits end in 2262
+
+// A packet's header in a pcap file: two numbers of time, the bytes that were kept, the bytes that there were.
+constexpr std::size_t packet_header_bytes = 16;
+constexpr std::size_t kept_bytes_offset = 8;
+constexpr std::size_t whole_bytes_offset = 12;
+
+/// What libpcap reads at most of one packet before it gives up.
+constexpr std::size_t largest_packet_read_bytes = 256 * 1024;
+
+/// Bounds the search for packets in a file that is made to look as if it had one at every byte.
+constexpr int most_hashed = 10'000;
 
 }  // namespace
 
@@ -52,6 +67,11 @@ std::optional<Packet> PacketReader::next() {
     if (outcome == PCAP_ERROR_BREAK) return std::nullopt;
     if (outcome != 1) {
         if (std::feof(pcap_file(input_.get())) != 0) {
+            if (is_followed_by_packets(here))
+                throw RecordingError(
+                    where(here) +
+                    "its length is damaged: it would end behind the end of the file, and whole "
+                    "packets follow it");
             is_torn_ = true;
             return std::nullopt;
         }
@@ -69,6 +89,33 @@ std::optional<Packet> PacketReader::next() {
         throw RecordingError(where(here) + "its time stamp is no time before the year 2200");
     const Stamp stamp{std::chrono::seconds(header->ts.tv_sec) + std::chrono::nanoseconds(header->ts.tv_usec)};
     return Packet{here, stamp, {bytes, header->caplen}};
+}
+
+/// Whether a packet that cannot be read hides others: looks for one with a sound seal behind its beginning.
+/// Of files that a recorder wrote; those of editcap (pcapng, or of another byte order) are taken for torn.
+bool PacketReader::is_followed_by_packets(const PacketPlace& place) const {
+    std::ifstream file(file_, std::ios::binary);
+    file.seekg(static_cast<std::streamoff>(place.offset_bytes));
+    std::vector<std::uint8_t> tail(packet_header_bytes + largest_packet_read_bytes);
+    file.read(reinterpret_cast<char*>(tail.data()), static_cast<std::streamsize>(tail.size()));
+    tail.resize(static_cast<std::size_t>(file.gcount()));
+    const auto number_at = [&](std::size_t offset) {
+        std::uint32_t number = 0;
+        std::memcpy(&number, tail.data() + offset, sizeof number);
+        return number;
+    };
+    int hashed = 0;
+    for (std::size_t at = 1; at + packet_header_bytes < tail.size() && hashed < most_hashed; ++at) {
+        const std::size_t size = number_at(at + kept_bytes_offset);
+        if (size != number_at(at + whole_bytes_offset) || size < seal_bytes ||
+            size > tail.size() - at - packet_header_bytes)
+            continue;
+        const std::span<const std::uint8_t> message = std::span(tail).subspan(at + packet_header_bytes, size);
+        if (message.size() > largest_frame_bytes) continue;
+        ++hashed;
+        if (has_sound_seal(message)) return true;
+    }
+    return false;
 }
 
 PacketPlace PacketReader::place() const {

@@ -20,7 +20,8 @@ class PacketReader {
     explicit PacketReader(std::filesystem::path file);
 
     /// The next packet, or nothing at the end: of the file, or of what is whole of it (see is_torn). Throws
-    /// RecordingError for what is no packet of a recording.
+    /// RecordingError for what is no packet of a recording, and for a packet that claims to go beyond the
+    /// end of the file although whole ones follow it: its header is damaged.
     std::optional<Packet> next();
 
     /// Once next() has come to the end: whether the file ends within a packet, as a crash leaves it.
@@ -38,6 +39,8 @@ class PacketReader {
     struct Close {
         void operator()(pcap* file) const;
     };
+    bool is_followed_by_packets(const PacketPlace& place) const;
+
     std::filesystem::path file_;
     std::uint64_t file_bytes_ = 0;
     std::unique_ptr<pcap, Close> input_;

@@ -99,9 +99,14 @@ double recording_duration_s(const std::filesystem::path& file) {
     RecordedTime time;
     try {
         while (const auto packet = packets.next()) {
-            const auto frame = open_frame(packet->message, Seal::required);
-            if (std::holds_alternative<WireError>(frame)) break;
-            time.next_s(packet->stamp, std::get<v1::ServerFrame>(frame).has_hello());
+            const auto opened = open_frame(packet->message, Seal::required);
+            const auto* frame = std::get_if<v1::ServerFrame>(&opened);
+            if (frame == nullptr) break;
+            // The time in the frame is sealed, its packet's is not.
+            const Stamp stamp = frame->has_recorded_unix_ns()
+                                    ? Stamp(std::chrono::nanoseconds(frame->recorded_unix_ns()))
+                                    : packet->stamp;
+            time.next_s(stamp, frame->has_hello());
         }
     } catch (const RecordingError&) {
         // Who reads it comes upon this, too, and says it then.

@@ -24,7 +24,7 @@ class RecordingReader {
 
     /// What the next frame says, or nothing at the end. A hello begins another session, whatever was before:
     /// recordings may be joined. Throws RecordingError, with packet and byte, for a frame that is corrupt,
-    /// out of order or of another major version of the protocol.
+    /// out of order, of another time than its packet's, or of another major version of the protocol.
     std::optional<RecordedEvent> next();
 
     /// At the end: whether the file ends within a packet.
@@ -44,8 +44,11 @@ class RecordingReader {
     }
 
   private:
+    std::optional<WireError> check_time(const v1::ServerFrame& frame, Stamp stamp);
+
     PacketReader packets_;
     SessionReceiver receiver_;
+    bool frames_have_time_ = false;  // of this session, whose hello decides: since protocol 1.5
 };
 
 }  // namespace osteomill

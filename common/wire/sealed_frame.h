@@ -18,6 +18,9 @@ namespace osteomill {
 /// What a seal adds to a message: a tag of one byte, and 32 bits.
 inline constexpr std::size_t seal_bytes = 5;
 
+/// What a recording adds to a sealed frame: a tag of one byte, and 64 bits.
+inline constexpr std::size_t recorded_time_bytes = 9;
+
 /// Appends the frame, which is not sealed yet, with its seal, behind its length. Throws std::length_error for
 /// one that does not fit: see append_frame.
 void append_sealed_frame(const v1::ServerFrame& frame, std::string& stream);
@@ -30,5 +33,12 @@ enum class Seal {
 /// The frame of a message's bytes. Refused: bytes that are no message, a seal that does not hold or is not
 /// the last field, and a required one that is missing.
 std::variant<v1::ServerFrame, WireError> open_frame(std::span<const std::uint8_t> message, Seal seal);
+
+/// Whether these bytes end in a seal that holds, whatever they say.
+bool has_sound_seal(std::span<const std::uint8_t> message);
+
+/// A sealed message with the time at which it is recorded, nanoseconds since 1970, sealed anew. Call only
+/// with what open_frame took as sealed.
+std::string with_recorded_time(std::span<const std::uint8_t> sealed_message, std::int64_t unix_ns);
 
 }  // namespace osteomill

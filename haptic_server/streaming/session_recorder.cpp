@@ -5,17 +5,17 @@
 #include <utility>
 
 #include "common/wire/frame.h"
+#include "common/wire/sealed_frame.h"
 
 namespace osteomill {
 
 namespace {
 
 /// A recording's packets know their length; the one before a frame on the wire is left out.
-std::string without_length(const std::string& frame) {
+std::string packet_of(const std::string& frame, Stamp stamp) {
     FrameDecoder decoder;
     decoder.append({reinterpret_cast<const std::uint8_t*>(frame.data()), frame.size()});
-    const auto message = decoder.next();
-    return {message->begin(), message->end()};
+    return with_recorded_time(*decoder.next(), stamp.time_since_epoch().count());
 }
 
 }  // namespace
@@ -69,7 +69,7 @@ void SessionRecorder::hand_over(bool may_wait) {
         if (!writer_.has_room()) return;
         const std::optional<std::string> frame = feed_.next();
         if (!frame) return;
-        writer_.push(stamp, without_length(*frame));
+        writer_.push(stamp, packet_of(*frame, stamp));
     }
 }
 

@@ -51,6 +51,7 @@ void require_fits_frame(const v1::Hello& hello) {
     v1::ServerFrame frame;
     frame.set_sequence(~std::uint64_t{0});
     *frame.mutable_hello() = hello;
+    frame.set_recorded_unix_ns(0);
     frame.set_frame_checksum(0);
     if (frame.ByteSizeLong() > largest_frame_bytes)
         throw std::invalid_argument("the scene's names take " + std::to_string(frame.ByteSizeLong()) +

@@ -193,7 +193,10 @@ std::optional<WireError> ServerConnection::take(std::span<const std::uint8_t> me
     if (auto* error = std::get_if<WireError>(&frame)) return std::move(*error);
     auto event = receiver_.take(std::get<v1::ServerFrame>(std::move(frame)));
     if (auto* error = std::get_if<WireError>(&event)) return std::move(*error);
-    if (recorder_) recorder_->push(std::chrono::system_clock::now(), {message.begin(), message.end()});
+    if (recorder_) {
+        const Stamp now = std::chrono::system_clock::now();
+        recorder_->push(now, with_recorded_time(message, now.time_since_epoch().count()));
+    }
     std::visit([this](auto&& what) { take_event(std::forward<decltype(what)>(what)); },
                std::get<SessionEvent>(std::move(event)));
     return std::nullopt;

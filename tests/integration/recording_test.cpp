@@ -92,7 +92,7 @@ TEST_F(Recording, LeavesEveryoneWithTheServersBone) {
 
     const auto read = info("a.pcap");
     EXPECT_EQ(read.at("bone_checksum"), served.at("bone_checksum"));
-    EXPECT_EQ(read.at("protocol"), "1.4");
+    EXPECT_EQ(read.at("protocol"), "1.5");
     EXPECT_EQ(read.at("frames"), served.at("recording").at("frames"));
     EXPECT_NEAR(Playhead(file("a.pcap")).session().edge_smoothing_voxels, 0.7071, 1e-4) << "soft voxels";
     EXPECT_NEAR(read.at("duration_s").get<double>(), served.at("duration_s").get<double>(), 1e-6);
@@ -147,6 +147,29 @@ TEST_F(Recording, OfAServerThatWasKilledIsReadableToItsLastWholeFrame) {
     std::filesystem::resize_file(file("a.pcap"), size() - 3);
     EXPECT_TRUE(info("a.pcap").at("is_torn"));
     EXPECT_EQ(info("a.pcap").at("frames").get<int>(), read.at("frames").get<int>() - 1);
+}
+
+TEST_F(Recording, WithADamagedMiddleIsNotTakenForATornEnd) {
+    record("a.pcap");
+    std::ifstream in(file("a.pcap"), std::ios::binary);
+    const std::string bytes{std::istreambuf_iterator<char>(in), {}};
+    PacketReader packets(file("a.pcap"));
+    std::size_t at = 0;
+    for (int i = 0; i < 20; ++i) at = packets.next()->place.offset_bytes;
+    const auto replay_with = [&](std::size_t offset, char change) {
+        std::string damaged = bytes;
+        damaged[at + offset] = static_cast<char>(damaged[at + offset] ^ change);
+        std::ofstream(file("damaged.pcap"), std::ios::binary) << damaged;
+        return run_program({PACKET_REPLAY, file("damaged.pcap"), "--info"});
+    };
+    constexpr std::size_t nanoseconds = 4, kept = 8;
+    for (const auto& [offset, change, what] :
+         {std::tuple{nanoseconds + 1, '\x10', "its time stamp is not the one"},
+          std::tuple{kept + 1, '\x40', "packet"}, std::tuple{kept + 2, '\x01', "whole packets follow it"}}) {
+        const Finished replay = replay_with(offset, change);
+        EXPECT_EQ(replay.status, 1) << replay.out;
+        EXPECT_THAT(replay.err, AllOf(HasSubstr("damaged.pcap, packet 20 at byte "), HasSubstr(what)));
+    }
 }
 
 TEST_F(Recording, StandsStillWhileTheDiskIsFullAndTheSessionGoesOn) {

@@ -118,6 +118,26 @@ TEST_F(PlayheadTest, FindsEveryByteThatWasChanged) {
     }
 }
 
+TEST_F(PlayheadTest, FindsEveryBitThatWasChangedInTheHeaderOfAPacket) {
+    constexpr std::size_t header_bytes = 16;
+    testing::make_recording(file_, {.states = 4});
+    const std::string bytes = testing::bytes_of(file_);
+    std::vector<std::size_t> packet_at;
+    PacketReader packets(file_);
+    while (const auto packet = packets.next()) packet_at.push_back(packet->place.offset_bytes);
+    packet_at.pop_back();  // a length that goes beyond the file's end cannot be told from a torn end there
+    for (std::size_t number = 1; number <= packet_at.size(); ++number)
+        for (std::size_t bit = 0; bit < 8 * header_bytes; ++bit) {
+            std::string changed = bytes;
+            char& byte = changed[packet_at[number - 1] + bit / 8];
+            byte = static_cast<char>(byte ^ (1 << bit % 8));
+            testing::write_bytes(folder_ / "changed.pcap", changed);
+            EXPECT_THAT(complaint(folder_ / "changed.pcap"),
+                        HasSubstr("packet " + std::to_string(number) + " at byte "))
+                << "bit " << bit;
+        }
+}
+
 TEST_F(PlayheadTest, RefusesInOneLineWhatItCannotUnderstand) {
     testing::make_recording(file_, {.states = 2, .protocol_major = protocol_major + 1});
     EXPECT_THAT(complaint(file_), AllOf(HasSubstr("packet 1"), HasSubstr("recorded with protocol 2"),
@@ -157,7 +177,7 @@ TEST_F(PlayheadTest, RefusesEditsThatDoNotFitTheBoneHoweverWellSealed) {
         decoder.append({reinterpret_cast<const std::uint8_t*>(stream.data()), stream.size()});
         const auto message = decoder.next();
         PacketWriter writer(folder_ / "tail.pcap");
-        writer.write(Stamp{}, {reinterpret_cast<const char*>(message->data()), message->size()});
+        writer.write(Stamp{}, with_recorded_time(*message, 0));
         testing::join(file_, folder_ / "tail.pcap", folder_ / "hostile.pcap");
         return complaint(folder_ / "hostile.pcap");
     };

@@ -50,6 +50,36 @@ TEST(SealedFrame, IsTheMessageAndBehindItTheLowerHalfOfItsXxh3) {
     EXPECT_EQ(complaint(message), "");
 }
 
+TEST(SealedFrame, CarriesTheTimeAtWhichItIsRecordedUnderItsSeal) {
+    const auto message = sealed(goodbye());
+    const std::string stamped = with_recorded_time(message, 1'700'000'000'000'000'007);
+    EXPECT_EQ(stamped.size(), message.size() + recorded_time_bytes);
+    const std::vector<std::uint8_t> bytes(stamped.begin(), stamped.end());
+    EXPECT_TRUE(has_sound_seal(bytes));
+    const auto opened = open_frame(bytes, Seal::required);
+    ASSERT_TRUE(std::holds_alternative<v1::ServerFrame>(opened));
+    EXPECT_EQ(std::get<v1::ServerFrame>(opened).recorded_unix_ns(), 1'700'000'000'000'000'007);
+    EXPECT_EQ(std::get<v1::ServerFrame>(opened).goodbye().reason(), "the end");
+}
+
+TEST(SealedFrame, IsRefusedAfterAnyBitOfTheStreamHasChangedItsLengthToo) {
+    std::string stream;
+    append_sealed_frame(goodbye(), stream);
+    const std::size_t first = stream.size();
+    append_sealed_frame(goodbye(), stream);
+    for (std::size_t bit = 0; bit < 8 * first; ++bit) {
+        std::string bad = stream;
+        bad[bit / 8] = static_cast<char>(bad[bit / 8] ^ (1 << bit % 8));
+        FrameDecoder decoder;
+        decoder.append({reinterpret_cast<const std::uint8_t*>(bad.data()), bad.size()});
+        const auto message = decoder.next();
+        if (message)
+            EXPECT_NE(complaint({message->begin(), message->end()}), "") << bit;
+        else
+            EXPECT_TRUE(!decoder.error().empty() || decoder.is_inside_frame()) << bit;
+    }
+}
+
 TEST(SealedFrame, IsRefusedAfterAnyBitHasChanged) {
     const auto good = sealed(goodbye());
     for (std::size_t bit = 0; bit < 8 * good.size(); ++bit) {
