@@ -7,6 +7,7 @@
 #pragma once
 
 #include <chrono>
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <stdexcept>
@@ -15,6 +16,9 @@ namespace osteomill {
 
 /// When a frame was sent, UTC. In a server's recording: when the session began, plus the session's time.
 using Stamp = std::chrono::sys_time<std::chrono::nanoseconds>;
+
+/// What a pcap file has before each packet: two numbers of time, the bytes kept, the bytes that there were.
+inline constexpr std::size_t packet_header_bytes = 16;
 
 /// Where a packet lies in its file.
 struct PacketPlace {

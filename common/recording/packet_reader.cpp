@@ -21,9 +21,7 @@ namespace {
 
 constexpr std::int64_t latest_s = 7'258'118'400;  // nanoseconds since 1970 in 64 bits end in 2262
 
-// A packet's header in a pcap file: two numbers of time, the bytes that were kept, the bytes that there were.
-constexpr std::size_t packet_header_bytes = 16;
-constexpr std::size_t kept_bytes_offset = 8;
+constexpr std::size_t kept_bytes_offset = 8;  // in a packet's header
 constexpr std::size_t whole_bytes_offset = 12;
 
 /// What libpcap reads at most of one packet before it gives up.

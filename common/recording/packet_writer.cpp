@@ -16,7 +16,6 @@ namespace osteomill {
 namespace {
 
 constexpr std::uint64_t file_header_bytes = 24;
-constexpr std::uint64_t packet_header_bytes = 16;
 
 }  // namespace
 
