@@ -4,13 +4,18 @@
 #   make_lab_certificates.sh FOLDER ca [NAME]                 once: the lab's CA, in FOLDER
 #   make_lab_certificates.sh FOLDER server NAME HOST...       for each server; HOST: every name or address that clients connect to
 #   make_lab_certificates.sh FOLDER client NAME               for each client
+#   make_lab_certificates.sh FOLDER revoke [NAME]             when a key is lost or someone leaves: makes FOLDER/crl.pem
 #
 # ca.pem goes to every machine. NAME.pem and NAME.key go to the machine they are for, over a channel that is trusted already (scp),
 # and nowhere else. ca.key signs new certificates: whoever has it is the lab, so it belongs on no server and on no client.
 #
 # Keys are ECDSA P-256, readable by their owner alone. The CA holds for ten years, a certificate for 825 days, unless --days N
-# before FOLDER says otherwise; after that it is refused, and a new one is to be made. Nothing is ever overwritten. There is no
-# list of revoked certificates: when a key is lost, make a new CA, and certificates for all.
+# before FOLDER says otherwise; after that it is refused, and a new one is to be made. No key and no certificate is ever
+# overwritten.
+#
+# crl.pem names all certificates that were revoked so far; without a NAME it is only made anew. It is no secret, goes to every machine
+# (copied beside the old one and moved over it), and programs read it with --tls-crl FILE. It holds for as long as the CA of today
+# would, and after that nobody is accepted until there is a new one. FOLDER/revoked.index, with which it is made, stays with ca.key.
 set -euo pipefail
 umask 077
 
@@ -20,7 +25,7 @@ fail() {
 }
 
 usage() {
-    sed -n '4,6s/^#   //p' "$0" >&2
+    sed -n '4,7s/^#   //p' "$0" >&2
     exit 2
 }
 
@@ -72,7 +77,7 @@ make_ca() {
     mkdir -p "$folder"
     require_absent "$folder/ca.pem" "$folder/ca.key"
     openssl req -x509 "${new_key[@]}" -keyout "$folder/ca.key" -out "$folder/ca.pem" -days "$ca_days" -subj "/CN=$1" \
-        -addext basicConstraints=critical,CA:TRUE,pathlen:0 -addext keyUsage=critical,keyCertSign 2>"$log"
+        -addext basicConstraints=critical,CA:TRUE,pathlen:0 -addext keyUsage=critical,keyCertSign,cRLSign 2>"$log"
     chmod 644 "$folder/ca.pem"
 }
 
@@ -96,6 +101,36 @@ authorityKeyIdentifier=keyid"
     chmod 644 "$folder/$1.pem"
 }
 
+# sign_list ARGUMENT...: openssl ca, with the records of whom the CA has revoked
+sign_list() {
+    openssl ca -batch -config <(printf '[ca]\ndefault_ca = lab\n[lab]\ndatabase = %s\ndefault_md = sha256\n' \
+        "$folder/revoked.index") -cert "$folder/ca.pem" -keyfile "$folder/ca.key" "$@" 2>>"$log"
+}
+
+revoke() {
+    [ -f "$folder/ca.key" ] || fail "$folder holds no CA; only who has its key can revoke what it signed"
+    openssl x509 -in "$folder/ca.pem" -noout -ext keyUsage 2>/dev/null | grep -q "CRL Sign" ||
+        fail "$folder/ca.pem was made before there were lists of revoked certificates and may sign none; make a new CA"
+    # OpenSSL opens what stands there with the folder's name in it.
+    [[ $folder != *[\$\#\"\\]* ]] || fail "the folder's name '$folder' has a character that openssl takes for its own"
+    touch "$folder/revoked.index"
+    if [ $# -gt 0 ]; then
+        require_name "$1"
+        [ "$1" != ca ] || fail "the CA cannot revoke itself: make a new one, and certificates for all"
+        [ -f "$folder/$1.pem" ] || fail "there is no certificate $folder/$1.pem to revoke"
+        local serial
+        serial=$(openssl x509 -in "$folder/$1.pem" -noout -serial | cut -d= -f2)
+        if grep -q "^R.*[[:space:]]${serial}[[:space:]]" "$folder/revoked.index"; then
+            echo "$folder/$1.pem is revoked already; the list is made anew" >&2
+        else
+            sign_list -revoke "$folder/$1.pem" || fail "openssl could not revoke $folder/$1.pem"
+        fi
+    fi
+    sign_list -gencrl -crldays "$ca_days" -out "$folder/crl.pem.new" || fail "openssl could not make $folder/crl.pem"
+    chmod 644 "$folder/crl.pem.new"
+    mv "$folder/crl.pem.new" "$folder/crl.pem"
+}
+
 log=$(mktemp)
 trap 'status=$?; [ $status -eq 0 ] || cat "$log" >&2; rm -f "$log"; exit $status' EXIT
 
@@ -113,6 +148,10 @@ case $role in
     client)
         [ $# -eq 1 ] || usage
         make_certificate "$1" clientAuth
+        ;;
+    revoke)
+        [ $# -le 1 ] || usage
+        revoke "$@"
         ;;
     *)
         usage

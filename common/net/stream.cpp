@@ -1,5 +1,6 @@
 #include "common/net/stream.h"
 
+#include <openssl/bio.h>
 #include <openssl/ssl.h>
 #include <openssl/x509v3.h>
 
@@ -11,6 +12,7 @@
 #include <boost/asio/ssl/stream.hpp>
 #include <boost/asio/write.hpp>
 #include <cctype>
+#include <memory>
 #include <sstream>
 #include <stdexcept>
 #include <utility>
@@ -27,15 +29,6 @@ using asio::ip::tcp;
 using boost::system::error_code;
 
 namespace {
-
-std::string describe_end(const tcp::socket& socket) {
-    error_code error;
-    const auto endpoint = socket.remote_endpoint(error);
-    if (error) return "a client";
-    std::ostringstream text;
-    text << endpoint;
-    return text.str();
-}
 
 /// Reading and writing, which TCP and TLS have in common.
 template <typename Transport>
@@ -90,6 +83,7 @@ class TlsStream final : public StreamOver<ssl::stream<tcp::socket>> {
   public:
     TlsStream(tcp::socket socket, TlsContext& tls, std::size_t read_bytes)
         : StreamOver(std::move(socket), read_bytes, tls.context()),
+          tls_(tls),
           role_(tls.role() == TlsContext::Role::server ? ssl::stream_base::server
                                                        : ssl::stream_base::client) {}
 
@@ -110,14 +104,14 @@ class TlsStream final : public StreamOver<ssl::stream<tcp::socket>> {
     void handshake(HandshakeHandler handler) override {
         transport_.async_handshake(
             role_, [this, self = shared_from_this(), handler = std::move(handler)](error_code error) {
+                is_refused_ = error && is_about_certificates(error);
                 handler(error ? describe_handshake_failure(transport_.native_handle(), error) : "");
             });
     }
 
     std::string peer() override {
-        SSL* const native = transport_.native_handle();
-        X509* const certificate = SSL_get0_peer_certificate(native);
-        if (certificate == nullptr || SSL_get_verify_result(native) != X509_V_OK) return peer_;
+        const X509* const certificate = checked_certificate();
+        if (certificate == nullptr) return peer_;
         std::array<char, 65> name{};  // X.520's longest common name
         X509_NAME_get_text_by_NID(X509_get_subject_name(certificate), NID_commonName, name.data(),
                                   static_cast<int>(name.size()));
@@ -128,13 +122,47 @@ class TlsStream final : public StreamOver<ssl::stream<tcp::socket>> {
         return peer_ + " (" + text + ")";
     }
 
+    std::string subject() override {
+        const X509* const certificate = checked_certificate();
+        const std::unique_ptr<BIO, decltype(&BIO_free)> text(BIO_new(BIO_s_mem()), &BIO_free);
+        if (certificate == nullptr || !text) return {};
+        X509_NAME_print_ex(text.get(), X509_get_subject_name(certificate), 0, XN_FLAG_RFC2253);
+        char* data = nullptr;
+        const long length = BIO_get_mem_data(text.get(), &data);
+        return length > 0 ? std::string(data, static_cast<std::size_t>(length)) : std::string();
+    }
+
+    bool is_revoked() override {
+        X509* const certificate = checked_certificate();
+        return certificate != nullptr && tls_.revokes(*certificate);
+    }
+
+    bool is_refused() const override { return is_refused_; }
+
     tcp::socket& socket() override { return transport_.next_layer(); }
 
   private:
+    /// The other end's, once it has been accepted; null before.
+    X509* checked_certificate() {
+        SSL* const native = transport_.native_handle();
+        return SSL_get_verify_result(native) == X509_V_OK ? SSL_get0_peer_certificate(native) : nullptr;
+    }
+
+    TlsContext& tls_;
+    bool is_refused_ = false;
     ssl::stream_base::handshake_type role_;
 };
 
 }  // namespace
+
+std::string describe_end(const tcp::socket& socket) {
+    error_code error;
+    const auto endpoint = socket.remote_endpoint(error);
+    if (error) return "a client";
+    std::ostringstream text;
+    text << endpoint;
+    return text.str();
+}
 
 void Stream::end_writing() {
     error_code ignored;

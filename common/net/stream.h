@@ -44,9 +44,18 @@ class Stream {
 
     /// ADDRESS:PORT of the other end; behind it, once TLS has checked it, the name in its certificate.
     virtual std::string peer() = 0;
+    /// The whole subject of that certificate, in the form of RFC 2253 ("CN=viewer"); empty without TLS.
+    virtual std::string subject() { return {}; }
+    /// Whether that certificate has been revoked since, as far as the list is known here.
+    virtual bool is_revoked() { return false; }
+    /// After a handshake that failed: whether it is for a certificate's sake, and to try again is no use.
+    virtual bool is_refused() const { return false; }
     /// For its options.
     virtual boost::asio::ip::tcp::socket& socket() = 0;
 };
+
+/// ADDRESS:PORT of the other end; "a client" where it has gone.
+std::string describe_end(const boost::asio::ip::tcp::socket& socket);
 
 /// The serving end of a connection that was accepted. `tls`: null for none; outlives the stream.
 std::shared_ptr<Stream> serving_stream(boost::asio::ip::tcp::socket socket, TlsContext* tls,

@@ -6,6 +6,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "common/net/own_certificate.h"
+
 namespace osteomill {
 
 namespace ssl = boost::asio::ssl;
@@ -42,9 +44,20 @@ TlsContext::TlsContext(const TlsFiles& files, Role role)
     if (error)
         throw std::runtime_error(files.key.string() +
                                  ": holds no private key in PEM form, or one with a passphrase");
+    require_private(files.key);
+    X509& own = *SSL_CTX_get0_certificate(native);
+    require_fit(own, files.certificate, role);
     context_.load_verify_file(files.ca.string(), error);
     if (error) throw std::runtime_error(files.ca.string() + ": holds no CA certificate in PEM form");
     context_.set_verify_mode(ssl::verify_peer | ssl::verify_fail_if_no_peer_cert);
+    if (files.crl.empty()) return;
+    revoked_ = std::make_unique<RevocationLists>(files.crl, files.ca, *native);
+    if (revoked_->revokes(own))
+        throw std::runtime_error(files.certificate.string() + ": is revoked by " + files.crl.string());
+}
+
+RevocationLists::Look TlsContext::refresh(RevocationLists::Time now) {
+    return revoked_ ? revoked_->refresh(now) : RevocationLists::Look{};
 }
 
 }  // namespace osteomill

@@ -7,6 +7,7 @@
 #include <boost/asio/ssl/context.hpp>
 #include <memory>
 
+#include "common/net/revocation_lists.h"
 #include "common/net/tls_files.h"
 
 namespace osteomill {
@@ -15,16 +16,23 @@ class TlsContext {
   public:
     enum class Role { server, client };
 
-    /// Throws std::runtime_error, in one line, where a file cannot be read, holds something else, or the key
-    /// is not the certificate's.
+    /// Throws std::runtime_error, in one line, where a file cannot be read or holds something else, where the
+    /// key is not the certificate's or not kept to its owner, and where the certificate is not for the role,
+    /// has expired or is revoked: see own_certificate.h and revocation_lists.h.
     TlsContext(const TlsFiles& files, Role role);
 
     Role role() const { return role_; }
     boost::asio::ssl::context& context() { return context_; }
 
+    /// Looks whether the list of revoked certificates has changed. On the thread of the connections.
+    RevocationLists::Look refresh(RevocationLists::Time now);
+    /// Whether that list names the certificate.
+    bool revokes(X509& certificate) const { return revoked_ && revoked_->revokes(certificate); }
+
   private:
     Role role_;
     boost::asio::ssl::context context_;
+    std::unique_ptr<RevocationLists> revoked_;  // null: there is no list
 };
 
 }  // namespace osteomill

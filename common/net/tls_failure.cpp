@@ -49,6 +49,25 @@ bool is_refusal(const boost::system::error_code& error) {
            reason_of(error) < SSL_AD_REASON_OFFSET + 256;
 }
 
+bool is_about_certificates(const boost::system::error_code& error) {
+    if (!is_of_openssl(error)) return false;
+    if (reason_of(error) == SSL_R_CERTIFICATE_VERIFY_FAILED) return true;
+    if (!is_refusal(error)) return false;
+    switch (reason_of(error) - SSL_AD_REASON_OFFSET) {
+        case SSL_AD_BAD_CERTIFICATE:
+        case SSL_AD_UNSUPPORTED_CERTIFICATE:
+        case SSL_AD_CERTIFICATE_REVOKED:
+        case SSL_AD_CERTIFICATE_EXPIRED:
+        case SSL_AD_CERTIFICATE_UNKNOWN:
+        case SSL_AD_UNKNOWN_CA:
+        case SSL_AD_ACCESS_DENIED:
+        case SSL_AD_CERTIFICATE_REQUIRED:
+            return true;
+        default:
+            return false;
+    }
+}
+
 std::string describe_stream_error(const boost::system::error_code& error) {
     if (is_of_openssl(error)) return describe_openssl(error);
     if (error == boost::asio::error::eof || error == boost::asio::ssl::error::stream_truncated)
@@ -58,7 +77,13 @@ std::string describe_stream_error(const boost::system::error_code& error) {
 
 std::string describe_handshake_failure(const SSL* tls, const boost::system::error_code& error) {
     const long verified = SSL_get_verify_result(tls);
-    if (is_of_openssl(error) && reason_of(error) == SSL_R_CERTIFICATE_VERIFY_FAILED)
+    const bool is_refused = is_of_openssl(error) && reason_of(error) == SSL_R_CERTIFICATE_VERIFY_FAILED;
+    if (is_refused && verified == X509_V_ERR_CRL_HAS_EXPIRED)
+        return "its certificate is not accepted: the list of revoked certificates (--tls-crl) has expired";
+    if (is_refused && verified == X509_V_ERR_UNABLE_TO_GET_CRL)
+        return "its certificate is not accepted: there is no list of revoked certificates (--tls-crl) of its "
+               "CA";
+    if (is_refused)
         return std::string("its certificate is not accepted: ") + X509_verify_cert_error_string(verified);
     return describe_stream_error(error);
 }

@@ -15,6 +15,9 @@ std::string describe_handshake_failure(const SSL* tls, const boost::system::erro
 /// only in place of the first data.
 bool is_refusal(const boost::system::error_code& error);
 
+/// Whether it would end the same way again as long as the certificates of both ends stay what they are.
+bool is_about_certificates(const boost::system::error_code& error);
+
 /// Of any error of a stream.
 std::string describe_stream_error(const boost::system::error_code& error);
 

@@ -1,4 +1,4 @@
-// --tls-cert, --tls-key and --tls-ca, the same for every program.
+// --tls-cert, --tls-key, --tls-ca and --tls-crl, the same for every program.
 #pragma once
 
 #include <optional>
@@ -19,13 +19,15 @@ class TlsOptions {
     TlsOptions(const TlsOptions&) = delete;
     TlsOptions& operator=(const TlsOptions&) = delete;
 
-    /// After parsing. Throws std::invalid_argument, in one line, unless there are all three or none.
+    /// After parsing. Throws std::invalid_argument, in one line, unless there are the first three or
+    /// none.
     std::optional<TlsFiles> files() const;
 
   private:
     std::string certificate_;
     std::string key_;
     std::string ca_;
+    std::string crl_;
 };
 
 }  // namespace osteomill

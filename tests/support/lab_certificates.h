@@ -31,12 +31,12 @@ class LabCertificates {
         return files(name);
     }
     /// A client's whose certificate held until yesterday.
-    TlsFiles expired_client() const {
-        const TlsFiles files = client("past");
-        run("cd " + folder_.path().string() +
-            " && openssl req -new -key past.key -subj /CN=past |"
-            " openssl x509 -req -CA ca.pem -CAkey ca.key -days -1 -out past.pem 2> /dev/null");
-        return files;
+    TlsFiles expired_client() const { return expired(client("past"), "clientAuth"); }
+    TlsFiles expired_server() const { return expired(server("past"), "serverAuth"); }
+    /// The list of revoked certificates, with one more where a name is given.
+    std::filesystem::path revoke(const std::string& name = "") const {
+        make("revoke " + name);
+        return folder_ / "crl.pem";
     }
     /// Another lab's certificate in the hands of one who knows this lab's CA.
     TlsFiles impostor(const TlsFiles& of_other_lab) const {
@@ -49,6 +49,14 @@ class LabCertificates {
         return {.certificate = folder_ / (name + ".pem"),
                 .key = folder_ / (name + ".key"),
                 .ca = folder_ / "ca.pem"};
+    }
+    /// The same key with a certificate that held until yesterday.
+    TlsFiles expired(const TlsFiles& files, const std::string& usage) const {
+        run("cd " + folder_.path().string() + " && echo extendedKeyUsage=" + usage +
+            " > past.ext && openssl req -new -key past.key -subj /CN=past |"
+            " openssl x509 -req -CA ca.pem -CAkey ca.key -days -1 -extfile past.ext -out past.pem 2> "
+            "/dev/null");
+        return files;
     }
     void make(const std::string& what) const {
         run(std::string(MAKE_LAB_CERTIFICATES) + " " + folder_.path().string() + " " + what);

@@ -22,9 +22,12 @@ TEST(TlsOptions, AreAllThreeOrNone) {
     EXPECT_EQ(files->certificate, "a.pem");
     EXPECT_EQ(files->key, "a.key");
     EXPECT_EQ(files->ca, "ca.pem");
+    EXPECT_EQ(files->crl, "");
+    EXPECT_EQ(parse("--tls-cert a.pem --tls-key a.key --tls-ca ca.pem --tls-crl crl.pem")->crl, "crl.pem");
     for (const auto& [line, missing] :
          {std::pair("--tls-cert a.pem --tls-key a.key", "--tls-ca: is missing"),
           std::pair("--tls-cert a.pem --tls-ca ca.pem", "--tls-key: is missing"),
+          std::pair("--tls-crl crl.pem", "--tls-cert: is missing"),
           std::pair("--tls-key a.key --tls-ca ca.pem", "--tls-cert: is missing")}) {
         EXPECT_THAT([line = line] { parse(line); },
                     ::testing::ThrowsMessage<std::invalid_argument>(::testing::HasSubstr(missing)));

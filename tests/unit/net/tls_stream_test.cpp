@@ -61,6 +61,7 @@ class TlsStreamTest : public ::testing::Test {
         auto stream = connecting_stream(std::move(client_socket_), &*client_tls_, host, 4096);
         stream->handshake([this, stream](const std::string& failure) {
             client_failure_ = failure;
+            client_refused_ = stream->is_refused();
             if (!failure.empty()) return stream->close();
             stream->read([this](error_code error, std::span<const std::uint8_t> arrived) {
                 client_error_ = error;
@@ -91,6 +92,14 @@ class TlsStreamTest : public ::testing::Test {
         run_until([this] { return io_.poll() == 0; });
     }
 
+    /// A client that does not look at its own certificate.
+    void meet_by_hand_with(const TlsFiles& files) {
+        asio::ssl::context context(asio::ssl::context::tls_client);
+        context.use_certificate_chain_file(files.certificate.string());
+        context.use_private_key_file(files.key.string(), asio::ssl::context::pem);
+        meet_by_hand(context);
+    }
+
     std::optional<LabCertificates> lab_;
     std::optional<TlsContext> server_tls_;
     std::optional<TlsContext> client_tls_;
@@ -99,6 +108,7 @@ class TlsStreamTest : public ::testing::Test {
     tcp::socket client_socket_{io_};
     std::optional<std::string> server_failure_;
     std::optional<std::string> client_failure_;
+    bool client_refused_ = false;
     std::optional<error_code> client_error_;
     std::string client_arrived_;
 };
@@ -141,14 +151,41 @@ TEST_F(TlsStreamTest, RefusesAClientOfAnotherLabAndTellsIt) {
 }
 
 TEST_F(TlsStreamTest, RefusesAClientWhoseCertificateHasExpired) {
-    meet(lab_->server("bench"), lab_->expired_client());
+    meet_by_hand_with(lab_->expired_client());
     EXPECT_EQ(*server_failure_, "its certificate is not accepted: certificate has expired");
-    EXPECT_THAT(describe_stream_error(*client_error_), HasSubstr("certificate expired"));
 }
 
 TEST_F(TlsStreamTest, RefusesAServersCertificateFromAClient) {
-    meet(lab_->server("bench"), lab_->server("other"));
+    meet_by_hand_with(lab_->server("other"));
     EXPECT_THAT(*server_failure_, HasSubstr("purpose"));
+}
+
+TEST_F(TlsStreamTest, RefusesARevokedClientAndTellsItThatItIsFinal) {
+    const TlsFiles lost = lab_->client("lost");
+    TlsFiles bench = lab_->server("bench");
+    bench.crl = lab_->revoke("lost");
+    meet(bench, lost);
+    EXPECT_EQ(*server_failure_, "its certificate is not accepted: certificate revoked");
+    EXPECT_THAT(describe_stream_error(*client_error_), HasSubstr("certificate revoked"));
+    EXPECT_TRUE(is_about_certificates(*client_error_));
+}
+
+TEST_F(TlsStreamTest, KnowsTheWholeSubjectOfTheOtherEndAndWhetherItHasBeenRevokedSince) {
+    TlsFiles bench = lab_->server("bench");
+    bench.crl = lab_->revoke();
+    connect();
+    const auto server = serve(bench);
+    EXPECT_EQ(server->subject(), "");
+    const auto client = join(lab_->client("viewer"));
+    run_until([this] { return server_failure_ && client_failure_; });
+    EXPECT_EQ(server->subject(), "CN=viewer");
+    EXPECT_EQ(client->subject(), "CN=bench");
+    EXPECT_FALSE(server->is_revoked());
+    lab_->revoke("viewer");
+    const auto later = std::chrono::steady_clock::now() + std::chrono::hours(1);
+    EXPECT_TRUE(server_tls_->refresh(later).has_news);
+    EXPECT_TRUE(server->is_revoked());
+    EXPECT_FALSE(client->is_revoked()) << "it knows no list";
 }
 
 TEST_F(TlsStreamTest, RefusesAClientWithoutCertificate) {
@@ -171,6 +208,7 @@ TEST_F(TlsStreamTest, IsNotMadeByAClientWithAServerOfAnotherLab) {
     meet(other.impostor(other.server("bench")), lab_->client("viewer"));
     EXPECT_THAT(*client_failure_, HasSubstr("its certificate is not accepted"));
     EXPECT_THAT(*server_failure_, HasSubstr("it refuses this program"));
+    EXPECT_TRUE(client_refused_);
 }
 
 TEST_F(TlsStreamTest, IsNotMadeByAClientWithAnotherHostThanItAskedFor) {
@@ -205,6 +243,7 @@ TEST_F(TlsStreamTest, SaysThatAServerDoesNotSpeakTls) {
     const auto client = join(lab_->client("viewer"));
     run_until([this] { return client_failure_.has_value(); });
     EXPECT_EQ(*client_failure_, "it does not speak TLS");
+    EXPECT_FALSE(client_refused_) << "it may be restarted with TLS";
 }
 
 }  // namespace

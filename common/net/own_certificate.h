@@ -1,0 +1,21 @@
+// Whether a program may show itself with its certificate and key, asked before anybody connects: what is
+// wrong here would else come up as a refusal at the other end, or never.
+#pragma once
+
+#include <openssl/x509.h>
+
+#include <filesystem>
+
+#include "common/net/tls_context.h"
+
+namespace osteomill {
+
+/// Throws std::runtime_error, in one line, where others than its owner may read or write the file; where root
+/// is its owner, a group may read it.
+void require_private(const std::filesystem::path& key);
+
+/// Throws std::runtime_error, in one line, where the certificate has expired, does not hold yet, or lacks the
+/// extended key usage of the role: serverAuth or clientAuth. `file` is where it came from.
+void require_fit(const X509& certificate, const std::filesystem::path& file, TlsContext::Role role);
+
+}  // namespace osteomill

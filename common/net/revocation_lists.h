@@ -1,0 +1,65 @@
+// The certificates that the lab has revoked: lists of its CA in a file, read again when that changes.
+//
+// A list that has expired revokes nobody and vouches for nobody: while the newest one is of that kind, every
+// certificate is refused, because whoever can keep a new list away could else bring a lost key back. A file
+// that changed and cannot be used (torn while it is written, of another CA, expired) is reported once, and
+// the lists before hold on.
+#pragma once
+
+#include <openssl/ssl.h>
+#include <sys/stat.h>
+
+#include <chrono>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace osteomill {
+
+class RevocationLists {
+  public:
+    using Time = std::chrono::steady_clock::time_point;
+
+    /// So often at most it is looked whether the file has changed.
+    static constexpr std::chrono::seconds look_period{1};
+
+    /// `context` has its CAs already; from now on it accepts nobody whom these lists name, nor whose CA none
+    /// of them is of. Throws std::runtime_error, in one line, where the file holds no list, or one that is
+    /// not of a CA of `ca_file`, has expired or does not hold yet. `context` outlives this.
+    RevocationLists(std::filesystem::path file, const std::filesystem::path& ca_file, SSL_CTX& context);
+    ~RevocationLists();
+    RevocationLists(const RevocationLists&) = delete;
+    RevocationLists& operator=(const RevocationLists&) = delete;
+
+    struct Look {
+        bool has_news = false;  ///< other lists hold than before
+        std::string failure{};  ///< one line; once for each change of the file
+    };
+    Look refresh(Time now);
+
+    /// Whether the certificate itself is named.
+    bool revokes(X509& certificate) const;
+
+  private:
+    struct Free {
+        void operator()(X509* certificate) const { X509_free(certificate); }
+        void operator()(X509_CRL* list) const { X509_CRL_free(list); }
+    };
+    using Lists = std::vector<std::unique_ptr<X509_CRL, Free>>;
+
+    /// Throws as the constructor does.
+    Lists read() const;
+    void require_good(X509_CRL& list) const;
+    void install(Lists lists);
+
+    const std::filesystem::path file_;
+    const std::filesystem::path ca_file_;
+    SSL_CTX& context_;
+    std::vector<std::unique_ptr<X509, Free>> authorities_;
+    Lists lists_;
+    struct stat seen_ {};
+    Time last_look_{};
+};
+
+}  // namespace osteomill

@@ -1,0 +1,75 @@
+#include "common/net/own_certificate.h"
+
+#include <gmock/gmock.h>
+
+#include <fstream>
+#include <stdexcept>
+
+#include "tests/support/lab_certificates.h"
+
+namespace osteomill {
+namespace {
+
+using ::testing::HasSubstr;
+using testing::LabCertificates;
+using ::testing::StartsWith;
+using Role = TlsContext::Role;
+using std::filesystem::perms;
+
+std::string failure_of(const TlsFiles& files, Role role) {
+    try {
+        TlsContext context(files, role);
+    } catch (const std::runtime_error& error) {
+        return error.what();
+    }
+    return "";
+}
+
+TEST(OwnCertificate, IsRefusedWhereItIsForTheOtherRoleHasExpiredOrSaysNoRole) {
+    if (!testing::has_openssl()) GTEST_SKIP() << "there is no openssl to make certificates with";
+    const LabCertificates lab;
+    const TlsFiles bench = lab.server("bench");
+    const TlsFiles viewer = lab.client("viewer");
+    EXPECT_EQ(failure_of(bench, Role::server), "");
+    EXPECT_EQ(failure_of(viewer, Role::client), "");
+    EXPECT_THAT(failure_of(bench, Role::client), HasSubstr("lacks the extended key usage clientAuth"));
+    EXPECT_THAT(failure_of(viewer, Role::server), HasSubstr("lacks the extended key usage serverAuth"));
+    EXPECT_THAT(failure_of(lab.expired_client(), Role::client), HasSubstr("past.pem: has expired, on 20"));
+
+    // One without any extension; the CA's own key will do.
+    const std::string folder = lab.folder().string();
+    ASSERT_EQ(
+        std::system(("cd " + folder +
+                     " && openssl req -x509 -key bench.key -subj /CN=bare -days 9 -out bare.pem 2> bare.log")
+                        .c_str()),
+        0);
+    EXPECT_THAT(failure_of({folder + "/bare.pem", bench.key, bench.ca}, Role::server),
+                HasSubstr("serverAuth"));
+}
+
+TEST(OwnCertificate, NeedsAKeyThatItsOwnerAloneMayRead) {
+    if (!testing::has_openssl()) GTEST_SKIP() << "there is no openssl to make certificates with";
+    const testing::TemporaryFolder folder;
+    const std::filesystem::path key = folder / "a.key";
+    std::ofstream(key) << "a key";
+    const auto failure_at = [&](perms mode) {
+        std::filesystem::permissions(key, mode);
+        try {
+            require_private(key);
+        } catch (const std::runtime_error& error) {
+            return std::string(error.what());
+        }
+        return std::string();
+    };
+    const perms owner = perms::owner_read | perms::owner_write;
+    EXPECT_EQ(failure_at(owner), "");
+    EXPECT_EQ(failure_at(perms::owner_read), "");
+    EXPECT_THAT(failure_at(owner | perms::others_read), HasSubstr("others may read (its mode is 604)"));
+    EXPECT_THAT(failure_at(owner | perms::group_write), HasSubstr("chmod 600 " + key.string()));
+    // A group's key is fine where root has put it.
+    EXPECT_EQ(failure_at(owner | perms::group_read).empty(), ::geteuid() == 0);
+    EXPECT_THROW(require_private(folder / "none"), std::runtime_error);
+}
+
+}  // namespace
+}  // namespace osteomill
