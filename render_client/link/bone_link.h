@@ -28,7 +28,9 @@ enum class LinkStatus {
     live,                ///< bone() follows the server's
     lost,                ///< the connection broke; trying again
     finished,            ///< the server said goodbye; bone() is what it left; trying again quietly
-    refused,             ///< the server speaks another major version of the protocol
+    /// The server speaks another major version of the protocol, or one of the two does not accept the
+    /// other's certificate: trying again, but somebody has to do something.
+    refused,
 };
 
 /// What happened since the last poll, and where the link stands.

@@ -4,6 +4,7 @@
 #include <boost/asio/connect.hpp>
 #include <boost/asio/error.hpp>
 #include <boost/asio/post.hpp>
+#include <cstdio>
 #include <utility>
 
 #include "common/net/tls_failure.h"
@@ -115,10 +116,17 @@ void ServerConnection::connect() {
 }
 
 void ServerConnection::shake_hands() {
+    if (tls_) {
+        const RevocationLists::Look look = tls_->refresh(std::chrono::steady_clock::now());
+        if (!look.failure.empty()) std::fprintf(stderr, "render_client: %s\n", look.failure.c_str());
+    }
     stream_ = connecting_stream(std::move(socket_), tls_.get(), host_, read_bytes);
     stream_->handshake([this, generation = generation_](const std::string& failure) {
         if (generation != generation_) return;
-        if (!failure.empty()) return lose("no TLS with " + where_ + ": " + failure);
+        if (!failure.empty()) {
+            const std::string line = "no TLS with " + where_ + ": " + failure;
+            return stream_->is_refused() ? refuse(line) : lose(line);
+        }
         read();
     });
 }
@@ -161,6 +169,8 @@ void ServerConnection::read() {
     watch_silence();
     stream_->read([this, generation = generation_](error_code error, std::span<const std::uint8_t> arrived) {
         if (generation != generation_) return;
+        // A server that does not accept this program's certificate says so in place of the first data.
+        if (error && is_about_certificates(error)) return refuse(describe_loss(error));
         if (error) return lose(describe_loss(error));
         has_heard_ = true;
         counters_.bytes += arrived.size();
@@ -235,12 +245,8 @@ void ServerConnection::take_event(const SaidGoodbye& goodbye) {
 }
 
 void ServerConnection::take_event(const SpeaksOtherProtocol& other) {
-    disconnect();
-    announce(LinkStatus::refused, where_ + " speaks protocol " + std::to_string(other.major) +
-                                      ", this program " + std::to_string(protocol_major) +
-                                      ": update the older of the two");
-    backoff_ = longest_backoff;
-    retry_later();
+    refuse(where_ + " speaks protocol " + std::to_string(other.major) + ", this program " +
+           std::to_string(protocol_major) + ": update the older of the two");
 }
 
 void ServerConnection::write_newest() {
@@ -278,6 +284,13 @@ void ServerConnection::lose(const std::string& line) {
     if (announced_ != LinkStatus::finished && announced_ != LinkStatus::refused)
         announce(counters_.connections > 0 ? LinkStatus::lost : LinkStatus::connecting,
                  line + "; trying again");
+    retry_later();
+}
+
+void ServerConnection::refuse(std::string line) {
+    disconnect();
+    announce(LinkStatus::refused, std::move(line));
+    backoff_ = longest_backoff;
     retry_later();
 }
 

@@ -85,6 +85,8 @@ class ServerConnection {
     void write_newest();
     void reject(const std::string& line);
     void lose(const std::string& line);
+    /// Nothing that this program does makes it come right, so that there is no hurry to try again.
+    void refuse(std::string line);
     std::string describe_loss(boost::system::error_code error) const;
     void retry_later();
     void announce(LinkStatus status, std::string line);

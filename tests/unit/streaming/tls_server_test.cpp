@@ -74,7 +74,7 @@ TEST_F(TlsServer, IsNotTrustedByALinkOfAnotherLab) {
     const LabCertificates other;
     const auto stranger = link(other.client("viewer"));
     EXPECT_TRUE(says(*stranger, "its certificate is not accepted"));
-    EXPECT_EQ(stranger->poll().status, LinkStatus::connecting);
+    EXPECT_EQ(stranger->poll().status, LinkStatus::refused);
 }
 
 TEST_F(TlsServer, IsWhatALinkWithTlsAsksFor) {
