@@ -35,6 +35,8 @@ v1::ToolDriver to_message(ToolDriver driver) {
             return v1::TOOL_DRIVER_YOU;
         case ToolDriver::another:
             return v1::TOOL_DRIVER_ANOTHER;
+        case ToolDriver::others_only:
+            return v1::TOOL_DRIVER_OTHERS_ONLY;
         case ToolDriver::unknown:
             break;
     }
@@ -49,6 +51,8 @@ ToolDriver driver_from(v1::ToolDriver driver) {
             return ToolDriver::you;
         case v1::TOOL_DRIVER_ANOTHER:
             return ToolDriver::another;
+        case v1::TOOL_DRIVER_OTHERS_ONLY:
+            return ToolDriver::others_only;
         default:  // a newer server may say what this program does not know
             return ToolDriver::unknown;
     }

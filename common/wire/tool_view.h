@@ -16,7 +16,8 @@ enum class ToolDriver {
     unknown,  ///< no client: the server has a device of its own, or is too old to say
     nobody,   ///< the next that sends input
     you,
-    another,  ///< whose lease has not run out: input is ignored
+    another,      ///< whose lease has not run out: input is ignored
+    others_only,  ///< whoever it is, not this client, which may only watch: input is ignored
 };
 
 /// What a state frame says about the tool. Positions and forces in patient LPS.

@@ -191,6 +191,7 @@ void run_server(const ServerOptions& options, const std::string& version, const 
         require_folder_of(file);
     StreamingOptions streaming_as_typed =
         streaming_options(options.listen.value_or(ListenAddress{}), options.access);
+    if (options.operators) streaming_as_typed.operators.emplace(*options.operators);
     Scene scene = load_scene(options);
     LoadedBone loaded = load_bone(scene);
     if (options.bone && !options.scene) place_on_bone(scene, loaded.bone);

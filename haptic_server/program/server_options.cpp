@@ -31,6 +31,7 @@ struct Typed {
     int milling_cpu = -1;
     double duration_s = std::numeric_limits<double>::infinity();
     std::string listen;
+    std::string operators;
     std::string record;
     std::string save_bone;
     std::string json;
@@ -133,6 +134,11 @@ void declare(CLI::App& app, Typed& typed) {
                    "Where clients connect, port 0: any free one; \"none\": nobody does (127.0.0.1:7010; none "
                    "with --clock virtual)")
         ->type_name("ADDRESS:PORT");
+    app.add_option("--operators", typed.operators,
+                   "With --device client and TLS: who may move the tool, others watch; a certificate's "
+                   "subject a line, "
+                   "whole, as RFC 2253 writes it, such as CN=viewer; # begins a comment")
+        ->type_name("FILE");
     app.add_option("--record", typed.record,
                    "Write what a client is sent, for packet_replay and render_client --replay; a pcap file")
         ->type_name("FILE");
@@ -220,6 +226,13 @@ ServerOptions checked(const Typed& typed, const AccessOptions& access) {
     if (is_client && !options.listen) {
         throw std::invalid_argument("--device client: the operator connects over --listen, which is none");
     }
+    options.operators = path_if_given(typed.operators);
+    if (options.operators && !is_client)
+        throw std::invalid_argument(
+            "--operators: goes with --device client; with others no client moves the tool");
+    if (options.operators && !options.access.tls)
+        throw std::invalid_argument(
+            "--operators: needs TLS (--tls-cert, --tls-key, --tls-ca), which says who a client is");
     options.record = path_if_given(typed.record);
     options.save_bone = path_if_given(typed.save_bone);
     if (options.save_bone && options.save_bone->extension() != ".nrrd") {

@@ -4,6 +4,7 @@
 
 namespace osteomill {
 
+using boost::asio::ip::tcp;
 using boost::system::error_code;
 
 namespace {
@@ -14,27 +15,46 @@ constexpr std::size_t read_bytes = 4096;
 }  // namespace
 
 Handshakes::Handshakes(boost::asio::io_context& io, TlsContext* tls, std::chrono::milliseconds deadline,
-                       Callbacks callbacks)
-    : io_(io), tls_(tls), deadline_(deadline), callbacks_(std::move(callbacks)) {}
+                       Callbacks callbacks, std::size_t most_at_once)
+    : io_(io), tls_(tls), deadline_(deadline), callbacks_(std::move(callbacks)), places_(most_at_once) {}
 
-void Handshakes::begin(boost::asio::ip::tcp::socket socket) {
-    const auto stream = serving_stream(std::move(socket), tls_, read_bytes);
-    if (under_way_.size() >= most_at_once)
-        fail(under_way_.begin()->first,
-             "it gave way to others, with " + std::to_string(under_way_.size()) + " handshakes under way");
+void Handshakes::begin(tcp::socket socket) {
+    if (tls_ == nullptr) {
+        const auto stream = serving_stream(std::move(socket), nullptr, read_bytes);
+        return stream->handshake([&](const std::string&) { callbacks_.on_done(stream); });
+    }
+    error_code error;
+    const tcp::endpoint from = socket.remote_endpoint(error);
+    if (error) return;  // gone again
+    if (const auto oldest = places_.in_the_way())
+        fail(*oldest,
+             "it gave way to others, with " + std::to_string(places_.size()) + " handshakes under way");
     const Id id = ++last_id_;
-    Handshake& handshake = under_way_.try_emplace(id, stream, io_).first->second;
+    Handshake& handshake = under_way_.try_emplace(id, std::move(socket), io_).first->second;
+    places_.add(id, origin_of(from.address()));
     handshake.timer.expires_after(deadline_);
-    handshake.timer.async_wait([this, id](error_code error) {
-        if (!error) fail(id, "no TLS handshake within " + std::to_string(deadline_.count()) + " ms");
+    handshake.timer.async_wait([this, id](error_code failure) {
+        if (!failure) fail(id, "no TLS handshake within " + std::to_string(deadline_.count()) + " ms");
     });
-    // Last: without TLS it is over before this returns.
+    handshake.socket.async_wait(tcp::socket::wait_read, [this, id](error_code failure) {
+        if (!failure) shake_hands(id);
+    });
+}
+
+void Handshakes::shake_hands(Id id) {
+    const auto begun = under_way_.find(id);
+    if (begun == under_way_.end()) return;
+    error_code error;
+    if (begun->second.socket.available(error) == 0) return fail(id, "it hung up");
+    const auto stream = serving_stream(std::move(begun->second.socket), tls_, read_bytes);
+    begun->second.stream = stream;
     stream->handshake([this, id](const std::string& failure) {
         if (!failure.empty()) return fail(id, failure);
         const auto found = under_way_.find(id);
         if (found == under_way_.end()) return;
-        const auto done = std::move(found->second.stream);
+        const auto done = std::exchange(found->second.stream, nullptr);
         under_way_.erase(found);
+        places_.remove(id);
         callbacks_.on_done(done);
     });
 }
@@ -42,9 +62,16 @@ void Handshakes::begin(boost::asio::ip::tcp::socket socket) {
 void Handshakes::fail(Id id, const std::string& why) {
     const auto found = under_way_.find(id);
     if (found == under_way_.end()) return;
-    const std::string peer = found->second.stream->peer();
+    const Handshake& handshake = found->second;
+    const std::string peer = handshake.stream ? handshake.stream->peer() : describe_end(handshake.socket);
     under_way_.erase(found);
+    places_.remove(id);
     callbacks_.on_failed(peer, why);
+}
+
+void Handshakes::cancel() {
+    under_way_.clear();
+    places_.clear();
 }
 
 }  // namespace osteomill

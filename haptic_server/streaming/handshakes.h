@@ -1,5 +1,8 @@
 // Connections between being accepted and being a client: the TLS handshake, with a deadline for each and a
 // bound on how many there are. Without TLS they are clients at once.
+//
+// One that has not said a word is a socket and a timer; TLS, which costs a hundred times as much, begins with
+// the first byte. Whose place is taken when they are short: see FairPlaces.
 #pragma once
 
 #include <boost/asio/io_context.hpp>
@@ -13,44 +16,44 @@
 #include <string>
 
 #include "common/net/stream.h"
+#include "haptic_server/streaming/fair_places.h"
 
 namespace osteomill {
 
 class Handshakes {
   public:
-    /// When there are more, the oldest gives way: an honest one is over long before.
-    static constexpr std::size_t most_at_once = 16;
-
     struct Callbacks {
         std::function<void(std::shared_ptr<Stream>)> on_done;
         /// `why` is in words about the other end.
         std::function<void(const std::string& peer, const std::string& why)> on_failed;
     };
 
-    /// `tls`: null for none. It and `io` outlive this.
+    /// `tls`: null for none. It and `io` outlive this. `most_at_once`: places under TLS.
     Handshakes(boost::asio::io_context& io, TlsContext* tls, std::chrono::milliseconds deadline,
-               Callbacks callbacks);
+               Callbacks callbacks, std::size_t most_at_once = places_for_strangers());
 
     void begin(boost::asio::ip::tcp::socket socket);
     /// Hangs up on all that are under way; nobody is told.
-    void cancel() { under_way_.clear(); }
+    void cancel();
 
   private:
     /// Closes what has not been handed on.
     struct Handshake {
-        Handshake(std::shared_ptr<Stream> its_stream, boost::asio::io_context& io)
-            : stream(std::move(its_stream)), timer(io) {}
+        Handshake(boost::asio::ip::tcp::socket its_socket, boost::asio::io_context& io)
+            : socket(std::move(its_socket)), timer(io) {}
         ~Handshake() {
             if (stream) stream->close();
         }
         Handshake(const Handshake&) = delete;
         Handshake& operator=(const Handshake&) = delete;
 
-        std::shared_ptr<Stream> stream;
+        boost::asio::ip::tcp::socket socket;  // until the first byte has come
+        std::shared_ptr<Stream> stream;       // from then on
         boost::asio::steady_timer timer;
     };
-    using Id = std::uint64_t;
+    using Id = FairPlaces::Id;
 
+    void shake_hands(Id id);
     void fail(Id id, const std::string& why);
 
     boost::asio::io_context& io_;
@@ -59,6 +62,7 @@ class Handshakes {
     Callbacks callbacks_;
     Id last_id_ = 0;
     std::map<Id, Handshake> under_way_;
+    FairPlaces places_;  // of these
 };
 
 }  // namespace osteomill

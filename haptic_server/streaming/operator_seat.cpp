@@ -3,7 +3,9 @@
 namespace osteomill {
 
 bool OperatorSeat::take_input(ClientId client, const OperatorIntent& intent, Time now) {
-    if (holder_ && *holder_ != client && now - last_heard_ <= lease) return false;
+    if (holder_ && *holder_ != client && is_kept(now)) return false;
+    if (holder_ != client) activity_.begin();
+    activity_.note(intent, now);
     holder_ = client;
     last_heard_ = now;
     input_ = {.hand_target = {.position_mm = intent.hand_target_mm, .spindle_axis = intent.spindle_axis},

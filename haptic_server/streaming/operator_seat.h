@@ -1,5 +1,6 @@
 // Which client drives the device, and what it wants: the first that sends input, until it leaves or its lease
-// runs out. Its input renews the lease.
+// runs out. Its input renews the lease; but one that brings nothing new for half a minute, see
+// OperatorActivity, gives the seat to the next who asks.
 #pragma once
 
 #include <chrono>
@@ -9,6 +10,7 @@
 #include "common/wire/tool_view.h"
 #include "haptic_server/exchange/operator_input.h"
 #include "haptic_server/exchange/triple_buffer.h"
+#include "haptic_server/streaming/operator_activity.h"
 
 namespace osteomill {
 
@@ -36,14 +38,19 @@ class OperatorSeat {
     void vacate();
     /// To be called regularly.
     void check_silence(Time now);
+    /// Who has it, for the log.
+    std::optional<ClientId> holder() const { return holder_; }
     /// What a client is to be told, as of the last call of any of the above.
     ToolDriver driver_for(ClientId client) const;
 
   private:
+    /// Whether the holder may keep it though another asks.
+    bool is_kept(Time now) const { return now - last_heard_ <= lease && !activity_.is_idle(now); }
     void publish(bool present);
 
     TripleBuffer<OperatorInput>& output_;
     std::optional<ClientId> holder_;
+    OperatorActivity activity_;  // of the holder
     Time last_heard_{};
     OperatorInput input_;
 };

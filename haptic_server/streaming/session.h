@@ -43,6 +43,8 @@ class Session : public std::enable_shared_from_this<Session> {
     void close(const std::string& line, bool is_fault);
     /// ADDRESS:PORT of the client, and the name in its certificate.
     const std::string& peer() const { return peer_; }
+    /// Whether that certificate has been revoked since.
+    bool is_revoked() const { return stream_->is_revoked(); }
 
   private:
     void read();

@@ -13,6 +13,7 @@
 #include <future>
 #include <map>
 #include <optional>
+#include <set>
 #include <stdexcept>
 #include <thread>
 #include <utility>
@@ -22,6 +23,7 @@
 #include "haptic_server/streaming/bone_mirror.h"
 #include "haptic_server/streaming/client_feed.h"
 #include "haptic_server/streaming/client_message.h"
+#include "haptic_server/streaming/fair_places.h"
 #include "haptic_server/streaming/handshakes.h"
 #include "haptic_server/streaming/limited_log.h"
 #include "haptic_server/streaming/newcomers.h"
@@ -176,6 +178,8 @@ class StreamingServer::Impl {
 
     void send_frame() {
         if (seat_) seat_->check_silence(Clock::now());
+        log_seat();
+        drop_revoked();
         for (const OperatorSeat::ClientId id : newcomers_.take_patient(Clock::now()))
             sessions_.at(id)->serve();
         update();
@@ -196,8 +200,39 @@ class StreamingServer::Impl {
 
     ToolView view_for(OperatorSeat::ClientId id) const {
         ToolView view = last_view_;
-        if (seat_) view.driver = seat_->driver_for(id);
+        if (seat_) view.driver = may_only_watch(id) ? ToolDriver::others_only : seat_->driver_for(id);
         return view;
+    }
+
+    bool may_only_watch(OperatorSeat::ClientId id) const { return watchers_.contains(id); }
+
+    /// What one is greeted with who may or may not move the tool.
+    v1::Hello hello_for(bool may_operate) const {
+        v1::Hello hello = hello_;
+        hello.set_accepts_operator(hello.accepts_operator() && may_operate);
+        return hello;
+    }
+
+    /// A line where the tool has changed hands. After the seat knows: nobody waits for a log.
+    void log_seat() {
+        const std::optional<OperatorSeat::ClientId> holder = seat_ ? seat_->holder() : std::nullopt;
+        if (holder == logged_holder_) return;
+        if (logged_holder_) log_client(fmt::format("client {} no longer moves the tool", holder_peer_));
+        logged_holder_ = holder;
+        if (!holder) return;
+        holder_peer_ = sessions_.at(*holder)->peer();
+        log_client(fmt::format("client {} moves the tool", holder_peer_));
+    }
+
+    /// Those who are in when their certificates are revoked are out.
+    void drop_revoked() {
+        if (!options_.tls) return;
+        const RevocationLists::Look look = options_.tls->refresh(Clock::now());
+        if (!look.failure.empty()) spdlog::warn("{}", look.failure);
+        if (!look.has_news) return;
+        spdlog::info("the list of revoked certificates was read again");
+        for (const auto& [id, session] : std::map(sessions_))
+            if (session->is_revoked()) session->close("was dropped: its certificate is revoked", true);
     }
 
     void update() {
@@ -221,6 +256,8 @@ class StreamingServer::Impl {
         });
     }
 
+    void log_client(const std::string& line) { client_log_.write(spdlog::level::info, line, Clock::now()); }
+
     void log_stranger(const std::string& line) {
         stranger_log_.write(spdlog::level::warn, line, Clock::now());
     }
@@ -235,15 +272,19 @@ class StreamingServer::Impl {
             return stream->close();
         }
         const OperatorSeat::ClientId id = ++last_client_;
-        const auto session =
-            std::make_shared<Session>(std::move(stream), ClientFeed(hello_, mirror_, packer_));
+        const bool may_operate = !options_.operators || options_.operators->names(stream->subject());
+        if (!may_operate) watchers_.insert(id);
+        error_code ignored;  // one who has gone already leaves as soon as it is read
+        const Origin origin = origin_of(stream->socket().remote_endpoint(ignored).address());
+        const auto session = std::make_shared<Session>(std::move(stream),
+                                                       ClientFeed(hello_for(may_operate), mirror_, packer_));
         sessions_.emplace(id, session);
         if (options_.tls) {
             welcome(*session);
         } else {
             if (const auto oldest = newcomers_.in_the_way())
                 sessions_.at(*oldest)->close("gave way to others: it had not said a word", false);
-            newcomers_.add(id, Clock::now());
+            newcomers_.add(id, origin, Clock::now());
         }
         session->start({.on_message = [this, id](const v1::ClientFrame& frame) { return take(id, frame); },
                         .on_closed = [this, id, peer = session->peer()](
@@ -252,9 +293,7 @@ class StreamingServer::Impl {
         if (options_.tls) session->serve();
     }
 
-    void welcome(const Session& session) {
-        client_log_.write(spdlog::level::info, fmt::format("client {} joined", session.peer()), Clock::now());
-    }
+    void welcome(const Session& session) { log_client(fmt::format("client {} joined", session.peer())); }
 
     void dismiss(OperatorSeat::ClientId id, const std::string& peer, const std::string& line, bool is_fault) {
         const bool was_newcomer = newcomers_.remove(id);
@@ -262,7 +301,10 @@ class StreamingServer::Impl {
             .write(is_fault ? spdlog::level::warn : spdlog::level::info,
                    fmt::format("client {} {}", peer, line), Clock::now());
         sessions_.erase(id);
+        watchers_.erase(id);
+        refused_input_.erase(id);
         if (seat_) seat_->leave(id);
+        log_seat();
         if (is_finishing_ && sessions_.empty()) deadline_.cancel();
     }
 
@@ -274,13 +316,18 @@ class StreamingServer::Impl {
             welcome(*session);
             session->serve();
         }
-        auto error = take_client_message(frame,
-                                         {.id = id,
-                                          .feed = session->feed(),
-                                          .guesser = guesser_,
-                                          .seat = seat_ && !is_finishing_ ? &*seat_ : nullptr,
-                                          .burr_count = burr_count_},
-                                         Clock::now());
+        auto error =
+            take_client_message(frame,
+                                {.id = id,
+                                 .feed = session->feed(),
+                                 .guesser = guesser_,
+                                 .seat = seat_ && !is_finishing_ && !may_only_watch(id) ? &*seat_ : nullptr,
+                                 .burr_count = burr_count_},
+                                Clock::now());
+        log_seat();
+        if (frame.has_operator_input() && may_only_watch(id) && refused_input_.insert(id).second)
+            log_client(fmt::format("client {} may only watch; what it asks of the tool is refused",
+                                   session->peer()));
         if (!error) session->pump();
         return error;
     }
@@ -292,6 +339,7 @@ class StreamingServer::Impl {
         handshakes_.cancel();
         work_.reset();
         if (seat_) seat_->vacate();
+        log_seat();
         update();
         for (const auto& [id, session] : std::map(sessions_)) {
             session->feed().request_state(view_for(id), true);
@@ -333,11 +381,16 @@ class StreamingServer::Impl {
                             .on_failed =
                                 [this](const std::string& peer, const std::string& why) {
                                     log_stranger(fmt::format("client {} was refused: {}", peer, why));
-                                }}};
+                                }},
+                           options_.places_for_strangers};
     asio::steady_timer timer_{io_};
     asio::steady_timer deadline_{io_};
     std::map<OperatorSeat::ClientId, std::shared_ptr<Session>> sessions_;
-    Newcomers newcomers_;  // those of the sessions who are that
+    Newcomers newcomers_{options_.places_for_strangers};  // those of the sessions who are that
+    std::set<OperatorSeat::ClientId> watchers_;           // those of the sessions who may not move the tool
+    std::set<OperatorSeat::ClientId> refused_input_;  // and of these, who have been named in the log for it
+    std::optional<OperatorSeat::ClientId> logged_holder_;
+    std::string holder_peer_;  // theirs, whom logged_holder_ is about
     OperatorSeat::ClientId last_client_ = 0;
     Clock::time_point next_frame_{};
     std::uint64_t frames_ = 0;

@@ -21,6 +21,8 @@
 #include "common/wire/session_info.h"
 #include "haptic_server/exchange/operator_input.h"
 #include "haptic_server/exchange/triple_buffer.h"
+#include "haptic_server/streaming/fair_places.h"
+#include "haptic_server/streaming/operator_list.h"
 #include "haptic_server/streaming/shown_session.h"
 
 namespace osteomill {
@@ -37,9 +39,13 @@ struct StreamingOptions {
     std::uint16_t port = 7010;          ///< 0 lets the system choose; see StreamingServer::port
     std::shared_ptr<TlsContext> tls{};  ///< null: clients are served in the clear
     bool insecure_network = false;      ///< in the clear, and yet to other machines, too
+    /// Who may move the tool, where a client does; nothing: every client. Names nobody without TLS.
+    std::optional<OperatorList> operators{};
     /// Two round trips and some milliseconds of arithmetic; a client that does not hear from its server for
     /// 5 s gives up.
     std::chrono::milliseconds handshake_deadline{3000};
+    /// Places for those who are not clients yet, see FairPlaces.
+    std::size_t places_for_strangers = osteomill::places_for_strangers();
     double frame_rate_hz = 30.0;
     /// Frames go out when show_frame() is called instead, and a recording waits for its disk: for sessions
     /// that run on a clock of their own.

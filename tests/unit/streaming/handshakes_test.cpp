@@ -21,18 +21,21 @@ class HandshakesTest : public ::testing::Test {
   protected:
     static constexpr milliseconds never = seconds(3600);
 
+    static constexpr std::size_t places = 16;
+
     void begin_under_tls(milliseconds deadline) {
         if (!testing::has_openssl()) GTEST_SKIP() << "there is no openssl to make certificates with";
         tls_.emplace(lab_.emplace().server("bench"), TlsContext::Role::server);
-        handshakes_.emplace(io_, &*tls_, deadline, callbacks());
+        handshakes_.emplace(io_, &*tls_, deadline, callbacks(), places);
     }
     Handshakes::Callbacks callbacks() {
         return {.on_done = [this](std::shared_ptr<Stream> stream) { done_.push_back(std::move(stream)); },
                 .on_failed = [this](const std::string&, const std::string& why) { failed_.push_back(why); }};
     }
     /// Connects a client that says nothing.
-    void connect_silent() {
-        clients_.emplace_back(io_).connect(acceptor_.local_endpoint());
+    void connect_silent(const char* from = "127.0.0.1") {
+        tcp::socket& client = clients_.emplace_back(io_, tcp::endpoint(asio::ip::make_address(from), 0));
+        client.connect(acceptor_.local_endpoint());
         handshakes_->begin(acceptor_.accept());
     }
     /// Whether the server has hung up.
@@ -74,12 +77,29 @@ TEST_F(HandshakesTest, EndAtTheirDeadline) {
 
 TEST_F(HandshakesTest, GiveWayToNewOnesWhenThereAreTooMany) {
     begin_under_tls(never);
-    for (std::size_t i = 0; i < Handshakes::most_at_once + 2; ++i) connect_silent();
+    for (std::size_t i = 0; i < places + 2; ++i) connect_silent();
     EXPECT_EQ(failed_.size(), 2U);
     EXPECT_THAT(failed_[0], ::testing::HasSubstr("it gave way"));
     EXPECT_TRUE(is_dropped(clients_[0]));
     EXPECT_TRUE(is_dropped(clients_[1]));
     EXPECT_FALSE(is_dropped(clients_[2]));
+}
+
+TEST_F(HandshakesTest, AreNotCrowdedOutFromAnotherAddress) {
+    begin_under_tls(never);
+    connect_silent();
+    for (std::size_t i = 0; i < 3 * places; ++i) connect_silent("127.0.0.2");
+    EXPECT_EQ(failed_.size(), 2 * places + 1);
+    EXPECT_FALSE(is_dropped(clients_[0]));
+    EXPECT_TRUE(is_dropped(clients_[1]));
+}
+
+TEST_F(HandshakesTest, AreNotBegunWithOneWhoHangsUpWithoutAWord) {
+    begin_under_tls(never);
+    connect_silent();
+    clients_[0].close();
+    io_.run_for(seconds(30));
+    EXPECT_THAT(failed_, ::testing::ElementsAre("it hung up"));
 }
 
 TEST_F(HandshakesTest, EndInSilenceWhenTheyAreCancelled) {

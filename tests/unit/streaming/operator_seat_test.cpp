@@ -77,5 +77,25 @@ TEST_F(OperatorSeatTest, IsTakenOverAtTheEndOfTheLeaseWithoutWaitingForTheNextCh
     EXPECT_EQ(seat_.driver_for(2), ToolDriver::you);
 }
 
+TEST_F(OperatorSeatTest, IsKeptByOneWhoRestsUntilAnotherAsksForIt) {
+    const OperatorIntent resting{.hand_target_mm = {1, 2, 3}};
+    auto now = start_;
+    const auto rest_for = [&](std::chrono::seconds time) {
+        for (const auto end = now + time; now < end; now += milliseconds(100))
+            EXPECT_TRUE(seat_.take_input(1, resting, now));
+    };
+    rest_for(std::chrono::seconds(30));
+    EXPECT_FALSE(seat_.take_input(2, pressed_, now)) << "not yet";
+    rest_for(std::chrono::seconds(1));
+    EXPECT_EQ(seat_.holder(), 1U);
+    EXPECT_TRUE(seat_.take_input(2, pressed_, now));
+    EXPECT_EQ(seat_.holder(), 2U);
+    EXPECT_EQ(newest().burr, 2U);
+    EXPECT_FALSE(seat_.take_input(1, resting, now)) << "the new one has just begun";
+    now += OperatorSeat::lease;
+    EXPECT_TRUE(seat_.take_input(2, {.burr = 1}, now));
+    EXPECT_FALSE(seat_.take_input(1, resting, now + OperatorActivity::longest_rest / 10));
+}
+
 }  // namespace
 }  // namespace osteomill

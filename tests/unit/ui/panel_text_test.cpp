@@ -49,6 +49,13 @@ TEST_F(PanelTexts, SayInAWarningThatAnotherClientHasTheTool) {
     EXPECT_THAT(plain(operator_text(content_)), HasSubstr("another client moves the tool"));
 }
 
+TEST_F(PanelTexts, SayToOneWhoMayOnlyWatchThatItIsSo) {
+    EXPECT_TRUE(warning_text(content_).empty());
+    content_.tool->driver = ToolDriver::others_only;
+    EXPECT_THAT(plain(warning_text(content_)), HasSubstr("you watch"));
+    EXPECT_FALSE(has_tone(warning_text(content_), Tone::warning)) << "nothing is wrong";
+}
+
 TEST_F(PanelTexts, WarnOnlyWhereThereIsSomethingToWarnOf) {
     EXPECT_TRUE(warning_text(content_).empty());
     content_.tool->touches_protected = true;

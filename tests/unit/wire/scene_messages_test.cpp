@@ -101,6 +101,9 @@ TEST(SceneMessages, BringBackTheTool) {
     EXPECT_TRUE(back.touches_protected);
     EXPECT_EQ(back.fault, tool.fault);
     EXPECT_EQ(back.driver, ToolDriver::another);
+    for (const ToolDriver driver :
+         {ToolDriver::unknown, ToolDriver::nobody, ToolDriver::you, ToolDriver::others_only})
+        EXPECT_EQ(std::get<0>(tool_from(to_message(ToolView{.driver = driver}), 1)).driver, driver);
     EXPECT_EQ(back.depth_mm, -0.5);
     EXPECT_EQ(std::get<0>(tool_from(to_message(ToolView{}), 1)).depth_mm, std::nullopt);
     EXPECT_THAT(error_of(tool_from(to_message(tool), 1)), HasSubstr("burr 1 is not one of the scene's 1"));

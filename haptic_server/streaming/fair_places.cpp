@@ -1,0 +1,58 @@
+#include "haptic_server/streaming/fair_places.h"
+
+#include <sys/resource.h>
+
+#include <algorithm>
+
+namespace osteomill {
+
+Origin origin_of(const boost::asio::ip::address& address) {
+    if (address.is_v4()) return {.is_v6 = false, .network = address.to_v4().to_uint()};
+    const boost::asio::ip::address_v6 v6 = address.to_v6();
+    if (v6.is_v4_mapped())
+        return {.is_v6 = false,
+                .network = boost::asio::ip::make_address_v4(boost::asio::ip::v4_mapped, v6).to_uint()};
+    Origin origin{.is_v6 = true};
+    const auto bytes = v6.to_bytes();
+    for (std::size_t i = 0; i < 8; ++i) origin.network = origin.network << 8 | bytes[i];
+    return origin;
+}
+
+std::optional<FairPlaces::Id> FairPlaces::in_the_way() const {
+    if (origins_.size() < most_) return std::nullopt;
+    // Of those who hold equally many, whose oldest is the oldest.
+    const auto most = std::ranges::max_element(holders_, [](const auto& a, const auto& b) {
+        if (a.second.size() != b.second.size()) return a.second.size() < b.second.size();
+        return *a.second.begin() > *b.second.begin();
+    });
+    return *most->second.begin();
+}
+
+void FairPlaces::add(Id id, const Origin& origin) {
+    origins_.emplace(id, origin);
+    holders_[origin].insert(id);
+}
+
+bool FairPlaces::remove(Id id) {
+    const auto found = origins_.find(id);
+    if (found == origins_.end()) return false;
+    const auto holder = holders_.find(found->second);
+    holder->second.erase(id);
+    if (holder->second.empty()) holders_.erase(holder);
+    origins_.erase(found);
+    return true;
+}
+
+void FairPlaces::clear() {
+    origins_.clear();
+    holders_.clear();
+}
+
+std::size_t places_for_strangers() {
+    constexpr std::size_t plenty = 512;
+    rlimit files{};
+    if (::getrlimit(RLIMIT_NOFILE, &files) != 0) return plenty;
+    return std::clamp<std::size_t>(files.rlim_cur / 2, 16, plenty);
+}
+
+}  // namespace osteomill
