@@ -1,0 +1,22 @@
+# What makes a defect that gets past the tests harder to use: the programs read what strangers send. Every target has it, but those
+# of the sanitizers, which find more and want the checks of their own.
+#
+# - a canary behind the arrays of a function: a write beyond one ends the program before the function returns
+# - _FORTIFY_SOURCE: the C library's copies check the sizes that the compiler knows; needs optimisation
+# - a program is loaded anywhere (PIE), and its table of functions is filled once and then sealed (full RELRO)
+# - indirect jumps land on marked places only, and returns go where they came from, where processor and system enforce it
+if(NOT OSTEOMILL_SANITIZER STREQUAL "none")
+    return()
+endif()
+include(CheckCXXCompilerFlag)
+
+# -fPIE and not CMake's -fPIC: no target is a shared library, and the loops are not to pay for names that none can replace.
+add_compile_options(-fstack-protector-strong -fPIE
+                    $<$<CONFIG:Release,RelWithDebInfo,MinSizeRel>:-U_FORTIFY_SOURCE>
+                    $<$<CONFIG:Release,RelWithDebInfo,MinSizeRel>:-D_FORTIFY_SOURCE=2>)
+add_link_options(-pie -Wl,-z,relro,-z,now,-z,noexecstack)
+# Only x86 has it.
+check_cxx_compiler_flag(-fcf-protection OSTEOMILL_HAS_CF_PROTECTION)
+if(OSTEOMILL_HAS_CF_PROTECTION)
+    add_compile_options(-fcf-protection)
+endif()
