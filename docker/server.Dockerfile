@@ -25,4 +25,6 @@ WORKDIR /out
 EXPOSE 7010
 HEALTHCHECK --interval=5s --timeout=3s --start-period=30s --retries=3 CMD listens.sh 7010
 ENTRYPOINT ["serve.sh"]
-CMD ["--listen", "0.0.0.0:7010", "--insecure-network"]
+# Its own loopback, for clients in the same network namespace. Other machines take TLS:
+#   --listen 0.0.0.0:7010 --tls-cert F --tls-key F --tls-ca F, with the files in a volume, owned by user 10001
+CMD ["--listen", "127.0.0.1:7010"]
