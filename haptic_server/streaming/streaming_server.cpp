@@ -21,11 +21,13 @@
 #include "common/wire/frame.h"
 #include "common/wire/scene_messages.h"
 #include "haptic_server/streaming/bone_mirror.h"
+#include "haptic_server/streaming/changes_of_hands.h"
 #include "haptic_server/streaming/client_feed.h"
 #include "haptic_server/streaming/client_message.h"
 #include "haptic_server/streaming/fair_places.h"
 #include "haptic_server/streaming/handshakes.h"
 #include "haptic_server/streaming/limited_log.h"
+#include "haptic_server/streaming/listener.h"
 #include "haptic_server/streaming/newcomers.h"
 #include "haptic_server/streaming/operator_seat.h"
 #include "haptic_server/streaming/session.h"
@@ -45,7 +47,6 @@ constexpr std::size_t most_clients = 32;
 
 /// How long stop() waits for clients that are slow to read the end: for 40 kB at 64 kbit/s.
 constexpr std::chrono::seconds longest_goodbye{5};
-
 constexpr const char* end_of_session = "the session has ended";
 
 /// A hello too long for a frame would fail only when a client joins.
@@ -64,28 +65,6 @@ void require_fits_frame(const v1::Hello& hello) {
 std::int64_t unix_time_ns() {
     const auto since_1970 = std::chrono::system_clock::now().time_since_epoch();
     return std::chrono::duration_cast<std::chrono::nanoseconds>(since_1970).count();
-}
-
-tcp::acceptor listen(asio::io_context& io, const StreamingOptions& options) {
-    const std::string where = options.address + ":" + std::to_string(options.port);
-    error_code error;
-    const asio::ip::address address = asio::ip::make_address(options.address, error);
-    if (error)
-        throw std::runtime_error("cannot listen on " + where + ": \"" + options.address +
-                                 "\" is no IP address; 127.0.0.1 or ::1 would be");
-    if (!address.is_loopback() && !options.tls && !options.insecure_network)
-        throw std::runtime_error("cannot listen on " + where +
-                                 ": without TLS only this machine is served; use 127.0.0.1 or ::1");
-    if (!address.is_loopback() && !options.tls)
-        spdlog::warn("{} is served without TLS: whoever reaches it sees everything and may drill", where);
-    tcp::acceptor acceptor(io);
-    const tcp::endpoint endpoint(address, options.port);
-    acceptor.open(endpoint.protocol(), error);
-    if (!error) acceptor.set_option(tcp::acceptor::reuse_address(true), error);
-    if (!error) acceptor.bind(endpoint, error);
-    if (!error) acceptor.listen(asio::socket_base::max_listen_connections, error);
-    if (error) throw std::runtime_error("cannot listen on " + where + ": " + error.message());
-    return acceptor;
 }
 
 }  // namespace
@@ -200,11 +179,9 @@ class StreamingServer::Impl {
 
     ToolView view_for(OperatorSeat::ClientId id) const {
         ToolView view = last_view_;
-        if (seat_) view.driver = may_only_watch(id) ? ToolDriver::others_only : seat_->driver_for(id);
+        if (seat_) view.driver = watchers_.contains(id) ? ToolDriver::others_only : seat_->driver_for(id);
         return view;
     }
-
-    bool may_only_watch(OperatorSeat::ClientId id) const { return watchers_.contains(id); }
 
     /// What one is greeted with who may or may not move the tool.
     v1::Hello hello_for(bool may_operate) const {
@@ -213,15 +190,11 @@ class StreamingServer::Impl {
         return hello;
     }
 
-    /// A line where the tool has changed hands. After the seat knows: nobody waits for a log.
+    /// After the seat knows: nobody waits for a log.
     void log_seat() {
-        const std::optional<OperatorSeat::ClientId> holder = seat_ ? seat_->holder() : std::nullopt;
-        if (holder == logged_holder_) return;
-        if (logged_holder_) log_client(fmt::format("client {} no longer moves the tool", holder_peer_));
-        logged_holder_ = holder;
-        if (!holder) return;
-        holder_peer_ = sessions_.at(*holder)->peer();
-        log_client(fmt::format("client {} moves the tool", holder_peer_));
+        if (!seat_) return;
+        const auto peer_of = [this](auto id) { return sessions_.at(id)->peer(); };
+        for (const auto& line : changes_of_hands_.look(seat_->holder(), peer_of)) log_client(line);
     }
 
     /// Those who are in when their certificates are revoked are out.
@@ -230,7 +203,6 @@ class StreamingServer::Impl {
         const RevocationLists::Look look = options_.tls->refresh(Clock::now());
         if (!look.failure.empty()) spdlog::warn("{}", look.failure);
         if (!look.has_news) return;
-        spdlog::info("the list of revoked certificates was read again");
         for (const auto& [id, session] : std::map(sessions_))
             if (session->is_revoked()) session->close("was dropped: its certificate is revoked", true);
     }
@@ -316,16 +288,16 @@ class StreamingServer::Impl {
             welcome(*session);
             session->serve();
         }
-        auto error =
-            take_client_message(frame,
-                                {.id = id,
-                                 .feed = session->feed(),
-                                 .guesser = guesser_,
-                                 .seat = seat_ && !is_finishing_ && !may_only_watch(id) ? &*seat_ : nullptr,
-                                 .burr_count = burr_count_},
-                                Clock::now());
+        auto error = take_client_message(
+            frame,
+            {.id = id,
+             .feed = session->feed(),
+             .guesser = guesser_,
+             .seat = seat_ && !is_finishing_ && !watchers_.contains(id) ? &*seat_ : nullptr,
+             .burr_count = burr_count_},
+            Clock::now());
         log_seat();
-        if (frame.has_operator_input() && may_only_watch(id) && refused_input_.insert(id).second)
+        if (frame.has_operator_input() && watchers_.contains(id) && refused_input_.insert(id).second)
             log_client(fmt::format("client {} may only watch; what it asks of the tool is refused",
                                    session->peer()));
         if (!error) session->pump();
@@ -371,7 +343,7 @@ class StreamingServer::Impl {
     // Without clients and a timer nothing else keeps the thread there.
     asio::executor_work_guard<asio::io_context::executor_type> work_{io_.get_executor()};
     std::optional<tcp::acceptor> acceptor_;
-    // What is on the way in, and who is in, do not crowd each other out of the log.
+    // Each with its share of the log.
     LimitedLog stranger_log_;
     LimitedLog client_log_;
     Handshakes handshakes_{io_,
@@ -389,8 +361,7 @@ class StreamingServer::Impl {
     Newcomers newcomers_{options_.places_for_strangers};  // those of the sessions who are that
     std::set<OperatorSeat::ClientId> watchers_;           // those of the sessions who may not move the tool
     std::set<OperatorSeat::ClientId> refused_input_;  // and of these, who have been named in the log for it
-    std::optional<OperatorSeat::ClientId> logged_holder_;
-    std::string holder_peer_;  // theirs, whom logged_holder_ is about
+    ChangesOfHands changes_of_hands_;
     OperatorSeat::ClientId last_client_ = 0;
     Clock::time_point next_frame_{};
     std::uint64_t frames_ = 0;
