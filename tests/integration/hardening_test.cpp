@@ -1,0 +1,97 @@
+// The programs as they were linked, and the units that start them: hardened as
+// cmake/osteomill_hardening.cmake says, and confined.
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <fstream>
+#include <iterator>
+#include <regex>
+#include <string>
+
+#include "tests/support/child_process.h"
+
+namespace osteomill::testing {
+namespace {
+
+using ::testing::ContainsRegex;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+std::string bytes_of(const std::string& file) {
+    std::ifstream in(file, std::ios::binary);
+    return {std::istreambuf_iterator<char>(in), {}};
+}
+
+std::size_t count(const std::string& text, const std::string& what) {
+    std::size_t found = 0;
+    for (std::size_t at = text.find(what); at != std::string::npos; at = text.find(what, at + what.size()))
+        ++found;
+    return found;
+}
+
+bool is_there(const std::string& program) {
+    return run_program({"/bin/sh", "-c", "command -v " + program}).status == 0;
+}
+
+class Hardening : public ::testing::TestWithParam<const char*> {};
+
+TEST_P(Hardening, IsInTheProgram) {
+    if (!IS_HARDENED) GTEST_SKIP() << "only what is optimised, and without sanitizers, is hardened";
+    if (!is_there("readelf")) GTEST_SKIP() << "there is no readelf (binutils)";
+    const std::string program = std::string(PROGRAMS) + "/" + GetParam();
+    const std::string headers = run_program({"/usr/bin/env", "readelf", "-hldW", program}).out;
+    EXPECT_THAT(headers, ContainsRegex("Type: +DYN")) << "it is loaded anywhere";
+    EXPECT_THAT(headers, HasSubstr("GNU_RELRO"));
+    EXPECT_THAT(headers, ContainsRegex("FLAGS_1.*NOW")) << "with all functions found at the start";
+    EXPECT_THAT(headers, ContainsRegex("GNU_STACK .* RW ")) << "and no code on the stack";
+    const std::string symbols = run_program({"/usr/bin/env", "readelf", "-W", "--dyn-syms", program}).out;
+    EXPECT_THAT(symbols, HasSubstr("__stack_chk_fail"));
+    EXPECT_THAT(symbols, ContainsRegex("__[a-z]+_chk@")) << "copies are checked";
+    const std::string mark("\xf3\x0f\x1e\xfa", 4);  // endbr64; what the C library brings along has a handful
+    if (run_program({"/bin/uname", "-m"}).out == "x86_64\n") {
+        EXPECT_GT(count(bytes_of(program), mark), 500U);
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Of, Hardening,
+                         ::testing::Values("haptic_server", "packet_replay", "render_client", "bone_import"),
+                         [](const auto& program) { return std::string(program.param); });
+
+TEST(Confinement, OfTheServiceIsWhatSystemdCallsOk) {
+    const std::string unit = std::string(SCRIPTS) + "/systemd/osteomill.service";
+    if (run_program({"/bin/sh", "-c", "systemd-analyze security --help | grep -q -- --offline"}).status != 0)
+        GTEST_SKIP() << "there is no systemd-analyze that judges a unit offline (systemd 250)";
+    // In tenths: below 3.0.
+    const Finished judged = run_program({"/usr/bin/env", "systemd-analyze", "security", "--offline=yes",
+                                         "--threshold=30", "--no-pager", unit});
+    EXPECT_EQ(judged.status, 0) << judged.out << judged.err;
+    EXPECT_THAT(judged.out, HasSubstr("Overall exposure level for osteomill.service"));
+    EXPECT_THAT(judged.err, Not(HasSubstr("Unknown")))
+        << "a directive that systemd does not know confines nothing";
+    // And yet it may do what its loops and its arm need.
+    const std::string text = bytes_of(unit);
+    for (const char* needed :
+         {"DeviceAllow=char-hidraw rw", "LimitRTPRIO=50", "LimitMEMLOCK=infinity", "RestrictRealtime=no",
+          "SupplementaryGroups=plugdev", "StateDirectory=osteomill"})
+        EXPECT_THAT(text, HasSubstr(std::string("\n") + needed + "\n"));
+}
+
+TEST(Confinement, OfTheContainersLeavesOneCapabilityAndNothingToWriteOn) {
+    const std::string compose = bytes_of(std::string(DOCKER_FOLDER) + "/compose.yaml");
+    EXPECT_GE(count(compose, "    image: "), 4U);
+    EXPECT_EQ(count(compose, "    <<: *confined"), count(compose, "    image: "))
+        << "each service is confined";
+    for (const char* line :
+         {"  cap_drop: [ALL]", "  read_only: true", "  security_opt: [\"no-new-privileges:true\"]"})
+        EXPECT_EQ(count(compose, line), 1U) << line;
+    EXPECT_EQ(count(compose, "cap_add:"), count(compose, "cap_add: [SYS_NICE]"));
+    EXPECT_EQ(count(compose, "privileged"), 0U);
+    const std::string image = bytes_of(std::string(DOCKER_FOLDER) + "/server.Dockerfile");
+    std::smatch command;
+    ASSERT_TRUE(std::regex_search(image, command, std::regex("\nCMD (.*)\n")));
+    EXPECT_THAT(command.str(1), HasSubstr("127.0.0.1:"));
+    EXPECT_THAT(command.str(1), Not(HasSubstr("--insecure-network")));
+}
+
+}  // namespace
+}  // namespace osteomill::testing
