@@ -221,5 +221,31 @@ TEST(HidArmInAVirtualMachine, MillsAsTheSimulatedOneAndSurvivesNonsenseAndAPulle
     EXPECT_LT(strongest_n, 3.4);
 }
 
+TEST(HidArmInAVirtualMachine, MillsUnderTheServiceWithAllThatItsUnitTakesAway) {
+    if (const std::string reason = obstacle(); !reason.empty()) GTEST_SKIP() << reason;
+    const std::string systemd = "/lib/systemd/systemd";
+    if (!std::filesystem::exists(systemd)) GTEST_SKIP() << "systemd is not installed";
+    const testing::TemporaryFolder folder;
+    for (const char* file : {"scene.toml", "trajectory.csv", "vm_arm.toml"})
+        std::filesystem::copy(std::filesystem::path(VM_INPUTS) / file, folder / file);
+    std::filesystem::copy(std::filesystem::path(VM_INPUTS) / "run_service.sh", folder / "run.sh");
+    std::filesystem::copy(SERVICE, folder / "osteomill.service");
+    write_block(folder / "block.nrrd");
+    const auto machine = testing::run_program(
+        {RUN_IN_VM, VM_KERNEL, folder.path(), HAPTIC_SERVER, UHID_ARM, systemd}, std::chrono::seconds(270));
+    ASSERT_EQ(machine.status, 0) << machine.err << text_of(folder / "console");
+    const std::filesystem::path out = folder / "out";
+    const std::string said = text_of(out / "server.txt") + text_of(folder / "console");
+    ASSERT_EQ(text_of(out / "result.txt"), "success 0\n") << said;
+    std::ifstream report(out / "server.json");
+    const auto json = nlohmann::json::parse(report);
+    EXPECT_GT(json.at("removed_mm3").at("total"), 0.0) << "the arm was calibrated and milled\n" << said;
+    EXPECT_TRUE(json.at("real_time_priority"));
+    EXPECT_TRUE(json.at("memory_locked"));
+    // Written as osteomill, for osteomill alone.
+    EXPECT_THAT(text_of(out / "state.txt"), HasSubstr("-rw------- "));
+    EXPECT_THAT(text_of(out / "state.txt"), ::testing::ContainsRegex(" 900 +900 "));
+}
+
 }  // namespace
 }  // namespace osteomill
