@@ -5,7 +5,7 @@
 namespace osteomill {
 namespace {
 
-Origin from(const char* address) {
+Origin origin_at(const char* address) {
     return origin_of(boost::asio::ip::make_address(address));
 }
 
@@ -16,24 +16,24 @@ void squeeze_in(FairPlaces& places, FairPlaces::Id id, const Origin& origin) {
 }
 
 TEST(Origin, IsAnAddressOrTheNetworkThatOnePartyHas) {
-    EXPECT_EQ(from("10.0.0.1"), from("::ffff:10.0.0.1"));
-    EXPECT_NE(from("10.0.0.1"), from("10.0.0.2"));
-    EXPECT_EQ(from("2001:db8:1:2::1"), from("2001:db8:1:2:ffff:ffff:ffff:ffff"));
-    EXPECT_NE(from("2001:db8:1:2::1"), from("2001:db8:1:3::1"));
-    EXPECT_NE(from("::1"), from("0.0.0.0"));
-    EXPECT_NE(from("::a00:1"), from("10.0.0.1"));
+    EXPECT_EQ(origin_at("10.0.0.1"), origin_at("::ffff:10.0.0.1"));
+    EXPECT_NE(origin_at("10.0.0.1"), origin_at("10.0.0.2"));
+    EXPECT_EQ(origin_at("2001:db8:1:2::1"), origin_at("2001:db8:1:2:ffff:ffff:ffff:ffff"));
+    EXPECT_NE(origin_at("2001:db8:1:2::1"), origin_at("2001:db8:1:3::1"));
+    EXPECT_NE(origin_at("::1"), origin_at("0.0.0.0"));
+    EXPECT_NE(origin_at("::a00:1"), origin_at("10.0.0.1"));
 }
 
 TEST(FairPlaces, GoOldestFirstOfThoseWhoHoldMost) {
     FairPlaces places(3);
-    places.add(1, from("10.0.0.1"));
-    places.add(2, from("10.0.0.2"));
+    places.add(1, origin_at("10.0.0.1"));
+    places.add(2, origin_at("10.0.0.2"));
     EXPECT_FALSE(places.in_the_way());
-    places.add(3, from("10.0.0.2"));
+    places.add(3, origin_at("10.0.0.2"));
     EXPECT_EQ(places.in_the_way(), 2U);
     EXPECT_TRUE(places.remove(2));
     EXPECT_FALSE(places.remove(2));
-    places.add(4, from("10.0.0.3"));
+    places.add(4, origin_at("10.0.0.3"));
     EXPECT_EQ(places.in_the_way(), 1U) << "of equals the oldest";
     places.clear();
     EXPECT_EQ(places.size(), 0U);
@@ -42,20 +42,20 @@ TEST(FairPlaces, GoOldestFirstOfThoseWhoHoldMost) {
 
 TEST(FairPlaces, AreNotTakenFromAnotherAddressByAFlood) {
     FairPlaces places(16);
-    places.add(1, from("2001:db8:1:2::7"));
+    places.add(1, origin_at("2001:db8:1:2::7"));
     // Each from an address of its own, of one network.
     for (FairPlaces::Id id = 2; id < 10'000; ++id)
-        squeeze_in(places, id, from(("2001:db8:6:6::" + std::to_string(id)).c_str()));
+        squeeze_in(places, id, origin_at(("2001:db8:6:6::" + std::to_string(id)).c_str()));
     EXPECT_EQ(places.size(), 16U);
     EXPECT_TRUE(places.remove(1));
 }
 
 TEST(FairPlaces, ArePassedOnByAFloodFromOneAddressOnlyWhenAsManyHaveComeAsThereAre) {
     FairPlaces places(16);
-    places.add(1, from("127.0.0.1"));
-    for (FairPlaces::Id id = 2; id <= 16; ++id) squeeze_in(places, id, from("127.0.0.1"));
+    places.add(1, origin_at("127.0.0.1"));
+    for (FairPlaces::Id id = 2; id <= 16; ++id) squeeze_in(places, id, origin_at("127.0.0.1"));
     EXPECT_EQ(places.in_the_way(), 1U);
-    squeeze_in(places, 17, from("127.0.0.1"));
+    squeeze_in(places, 17, origin_at("127.0.0.1"));
     EXPECT_FALSE(places.remove(1));
 }
 
