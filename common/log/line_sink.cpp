@@ -1,0 +1,50 @@
+#include "common/log/line_sink.h"
+
+#include <spdlog/sinks/base_sink.h>
+#include <spdlog/spdlog.h>
+
+#include <array>
+#include <mutex>
+#include <utility>
+
+namespace osteomill {
+
+namespace {
+
+/// By spdlog's levels: trace, debug, info, warning, error, critical; as spdlog colours them.
+constexpr std::array<const char*, SPDLOG_LEVEL_OFF + 1> colours{
+    "\033[37m", "\033[36m", "\033[32m", "\033[33m\033[1m", "\033[31m\033[1m", "\033[1m\033[41m", ""};
+constexpr const char* no_colour = "\033[m";
+
+/// spdlog's own asynchronous logger waits for its thread at the end, and its sinks throw where a stream
+/// fails.
+class LineSink final : public spdlog::sinks::base_sink<std::mutex> {
+  public:
+    explicit LineSink(std::shared_ptr<LineStream> stream) : stream_(std::move(stream)) {}
+
+  private:
+    void sink_it_(const spdlog::details::log_msg& message) override {
+        spdlog::memory_buf_t line;
+        formatter_->format(message, line);
+        std::string text(line.data(), line.size());
+        if (stream_->is_terminal() && message.color_range_end > message.color_range_start) {
+            text.insert(message.color_range_end, no_colour);
+            text.insert(message.color_range_start, colours.at(static_cast<std::size_t>(message.level)));
+        }
+        stream_->write(std::move(text));
+    }
+    void flush_() override {}
+
+    std::shared_ptr<LineStream> stream_;
+};
+
+}  // namespace
+
+void log_to(std::shared_ptr<LineStream> stream, const std::string& program) {
+    auto logger = std::make_shared<spdlog::logger>(program, std::make_shared<LineSink>(std::move(stream)));
+    // By default it would be written to standard error there and then.
+    logger->set_error_handler([](const std::string&) {});
+    spdlog::set_default_logger(std::move(logger));
+}
+
+}  // namespace osteomill

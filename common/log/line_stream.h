@@ -1,0 +1,61 @@
+// Lines for people, on a terminal or wherever they want to read them, from threads that must not wait for it.
+//
+// Lines that find no room are dropped and counted, and the count is said as soon as there is room again. A
+// stream that fails (a full disk, a closed pipe, a terminal that is gone) is given up quietly: a log is no
+// reason to end.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <mutex>
+#include <sstream>
+#include <string>
+
+#include "common/log/background_writer.h"
+
+namespace osteomill {
+
+class LineStream {
+  public:
+    /// Some thousand lines.
+    static constexpr std::size_t default_capacity_bytes = 256 * 1024;
+
+    explicit LineStream(int descriptor, std::size_t capacity_bytes = default_capacity_bytes);
+
+    // Any thread; none of these waits for the descriptor but finish().
+
+    /// `text`: one or more whole lines, or one that is to be overwritten.
+    void write(std::string text);
+    /// Whether all is written that was, or never will be: what is worth saying only now is best not said
+    /// while older lines wait.
+    bool has_caught_up() const { return writer_.is_idle(); }
+    bool is_terminal() const { return is_terminal_; }
+    /// Waits as BackgroundWriter::finish does; what comes later is forgotten.
+    void finish();
+
+  private:
+    void say_dropped();
+
+    BackgroundWriter writer_;
+    const bool is_terminal_;
+    std::mutex mutex_;
+    std::uint64_t dropped_ = 0;
+};
+
+/// An ordinary stream whose text goes there whenever it is flushed.
+class LineStreamBuffer final : public std::stringbuf {
+  public:
+    /// `stream` outlives it.
+    explicit LineStreamBuffer(LineStream& stream) : stream_(stream) {}
+    ~LineStreamBuffer() override { LineStreamBuffer::sync(); }
+    LineStreamBuffer(const LineStreamBuffer&) = delete;
+    LineStreamBuffer& operator=(const LineStreamBuffer&) = delete;
+
+  protected:
+    int sync() override;
+
+  private:
+    LineStream& stream_;
+};
+
+}  // namespace osteomill
