@@ -79,11 +79,16 @@ WholeFile::~WholeFile() {
 void WholeFile::commit() {
     if (!owns_part_) return;
     if (const int reason = sync(part_, O_RDONLY)) fail(path_, reason);
+    commit_unsynced();
+    if (const int reason = sync(folder_of(target_), O_RDONLY | O_DIRECTORY)) fail(path_, reason);
+}
+
+void WholeFile::commit_unsynced() {
+    if (!owns_part_) return;
     std::error_code failed;
     fs::rename(part_, target_, failed);
     if (failed) fail(path_, failed.value());
     owns_part_ = false;
-    if (const int reason = sync(folder_of(target_), O_RDONLY | O_DIRECTORY)) fail(path_, reason);
 }
 
 void write_whole_file(const fs::path& path, std::string_view text) {

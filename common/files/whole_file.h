@@ -28,6 +28,9 @@ class WholeFile {
     /// Syncs the part and makes it the file. Throws std::runtime_error with one line that names the file and
     /// the reason; the old file is then as it was.
     void commit();
+    /// The same without a sync, which takes a disk's time: for what may go with the machine but not with the
+    /// program, such as a picture that is written between two drawn frames.
+    void commit_unsynced();
     /// Leaves the part where it is, under its own name: an incomplete file that is worth something (a torn
     /// recording) although it must not take the old one's place.
     void keep_part() noexcept { owns_part_ = false; }

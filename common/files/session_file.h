@@ -1,0 +1,47 @@
+// A file that is written over a whole session: what has come so far lies in a part beside it (whole_file.h),
+// which becomes the file when the session ends.
+//
+// A part that a killed session left is worth keeping, a torn recording above all: the next session of that
+// name moves it to NAME.torn-N.EXT. Two sessions at a time cannot write the same file.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "common/files/whole_file.h"
+
+namespace osteomill {
+
+class SessionFile {
+  public:
+    /// Makes an empty part. Throws std::runtime_error with one line where that cannot be, or another session
+    /// is writing it.
+    explicit SessionFile(const std::filesystem::path& path);
+    /// Removes the part unless it was committed or kept.
+    ~SessionFile();
+    SessionFile(const SessionFile&) = delete;
+    SessionFile& operator=(const SessionFile&) = delete;
+
+    /// As it was asked for.
+    const std::filesystem::path& path() const { return file_->path(); }
+    /// Where to write, by whatever means; to be closed before commit(). What is no regular file (/dev/null, a
+    /// pipe) is written directly.
+    const std::filesystem::path& part() const { return file_->part(); }
+    /// Where the part of a session that was killed is now, if there was one.
+    const std::optional<std::filesystem::path>& torn() const { return torn_; }
+
+    /// As WholeFile's.
+    void commit() { file_->commit(); }
+    void keep_part() noexcept { file_->keep_part(); }
+
+  private:
+    std::optional<WholeFile> file_;  // from the moment that the part is this session's
+    std::optional<std::filesystem::path> torn_;
+    int lock_ = -1;  // a descriptor of the part, for as long as it is this session's; -1 where there is none
+};
+
+/// One line for people about a part of `path` that was moved to `torn`.
+std::string torn_line(const std::filesystem::path& path, const std::filesystem::path& torn);
+
+}  // namespace osteomill
