@@ -12,6 +12,10 @@ namespace osteomill {
 template <typename T>
 class TripleBuffer {
   public:
+    TripleBuffer() = default;
+    /// What the reader finds before anything is published; back() holds the same.
+    explicit TripleBuffer(const T& first) : values_{first, first, first} {}
+
     /// Writer only. The value to fill; it holds what was written there three publications ago.
     T& back() noexcept { return values_[back_]; }
     /// Writer only. Makes back() the latest value. Real-time safe.
@@ -26,7 +30,8 @@ class TripleBuffer {
         front_ = middle_.exchange(front_, std::memory_order_acq_rel) & index_mask;
         return true;
     }
-    /// Reader only. The value last taken over; default-constructed before the first.
+    /// Reader only. The value last taken over; before the first, what the
+    /// buffer was made with.
     const T& front() const noexcept { return values_[front_]; }
 
   private:

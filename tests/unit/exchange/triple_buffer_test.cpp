@@ -16,6 +16,12 @@ TEST(TripleBuffer, HasNothingNewBeforeTheFirstPublication) {
     EXPECT_EQ(buffer.front(), 0);
 }
 
+TEST(TripleBuffer, HoldsWhatItWasMadeWithUntilThen) {
+    TripleBuffer<int> buffer(7);
+    EXPECT_FALSE(buffer.refresh());
+    EXPECT_EQ(buffer.front(), 7);
+}
+
 TEST(TripleBuffer, HandsOverTheLatestAndSkipsWhatLiesBetween) {
     TripleBuffer<int> buffer;
     for (int i = 1; i <= 5; ++i) {
