@@ -6,6 +6,7 @@
 namespace osteomill {
 
 Clearance clearance_of(const MillingResult& latest, const glm::dvec3& position_mm) noexcept {
+    if (latest.step == 0) return Clearance::unknown;
     const Engagement& map = latest.engagement;
     const glm::dvec3 moved = position_mm - latest.pose.position_mm;
     // Written so that nothing is known of a position that is not finite.

@@ -17,7 +17,7 @@ const char* describe(Fault fault) {
         case Fault::device_jumped:
             return "the device jumped: force off";
         case Fault::in_bone:
-            return "the burr came back inside the bone: no force until it is held clear of it";
+            return "the burr is inside the bone: no force until it is held clear of it";
     }
     return "unknown fault: force off";
 }

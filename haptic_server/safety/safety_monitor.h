@@ -1,6 +1,6 @@
 // The one place that decides whether the hand may feel a force and the burr may turn. It looks (watchdog.h),
 // limits and fades the force (force_guard.h), keeps the force off while the tool has come back inside the
-// bone, and the spindle off where nobody can have meant the bone that it is in. Nothing reaches the device
+// bone or starts there, and the spindle off where nobody can have meant the bone that it is in. Nothing reaches the device
 // but through it.
 //
 // Two machines, stepped together once a tick. The force:
@@ -12,7 +12,13 @@
 //     |                    +----------------------- fault -------------------------+  |
 //     +------------------------------- faded in --------------------------------------+
 //
+// It begins in `active`, but untried: until it is known whether there is bone in the burr (clearance.h), which
+// takes a milling result, no force is felt and no bone touched. A burr that is clear is tried then and there;
+// one in bone goes off, as if it had come back there. So a session that starts in air feels the first force
+// there is, and one that starts in bone none.
+//
 //   state        the hand feels                              the tool
+//   untried      nothing                                     is out of the bone
 //   active       the wanted force, within limit and rate     touches bone
 //   fading out   the last force, shrinking to nothing        is out of the bone: no spindle, no wall
 //   off          nothing                                     is out of the bone
@@ -63,7 +69,7 @@ class SafetyMonitor {
     }
 
     /// Begins a tick with what was found, for whoever looks otherwise. `pedal` counts only of a device that
-    /// is there, `clearance` while the force is off.
+    /// is there, `clearance` while the force is off or untried.
     void begin(Fault found, bool pedal, Clearance clearance) noexcept;
 
     /// Whether what the device reads can be used in this tick.
@@ -76,16 +82,18 @@ class SafetyMonitor {
     glm::dvec3 pass(const glm::dvec3& wanted_n, bool is_sound, double elapsed_s) noexcept;
 
     /// After pass(): the tool touched bone before this tick and goes on doing so.
-    bool holds_tool() const { return was_engaged_ && guard_.is_engaged(); }
+    bool holds_tool() const { return was_engaged_ && guard_.is_engaged() && !is_untried_; }
     /// After pass(): the force was turned off in this tick.
     bool has_just_let_go() const { return was_engaged_ && !guard_.is_engaged(); }
     /// After pass(): the spindle turns in this tick.
     bool spindle_turns() const { return holds_tool() && wants_spindle(); }
     /// What the coupling is told before pass() of the spindle.
-    bool wants_spindle() const { return pedal_ && !is_spindle_locked_ && has_hand(); }
+    bool wants_spindle() const { return pedal_ && !is_spindle_locked_ && has_hand() && !is_untried_; }
 
     ForceGuard::State state() const { return guard_.state(); }
     bool is_spindle_locked() const { return is_spindle_locked_; }
+    /// Nothing is known of the bone in the burr yet, nor was there a fault.
+    bool is_untried() const { return is_untried_; }
     /// Why the force is off; none while it is not.
     Fault fault() const { return guard_.fault(); }
     /// How often each Fault turned the force off.
@@ -98,6 +106,7 @@ class SafetyMonitor {
     Fault keeps_off_ = Fault::none;  // the same, and what else keeps an `off` force off
     bool pedal_ = false;
     bool is_spindle_locked_ = false;
+    bool is_untried_ = true;
     bool was_engaged_ = true;
     std::array<std::uint64_t, fault_kinds> fault_counts_{};
 };

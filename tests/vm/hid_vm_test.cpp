@@ -191,7 +191,7 @@ TEST(HidArmInAVirtualMachine, MillsAsTheSimulatedOneAndSurvivesNonsenseAndAPulle
     EXPECT_EQ(faults_of(log),
               (std::vector<int>{device_lost, none, device_lost, in_bone, none, device_lost, none}))
         << said;
-    EXPECT_THAT(said, HasSubstr("the burr came back inside the bone"));
+    EXPECT_THAT(said, HasSubstr("the burr is inside the bone"));
     EXPECT_THAT(said, HasSubstr("plug it in again"));
     double lost_since_s = -1.0;
     for (const Tick& tick : log) {

@@ -15,6 +15,7 @@ std::unique_ptr<MillingResult> seen_from(const glm::dvec3& burr_mm) {
     const Bone block = testing::make_block({-4.0, -4.0, -4.0}, {4.0, 4.0, 0.0}, 0.1);
     const Burr burr{.name = "2 mm", .diameter_mm = 2.0, .spindle_rev_per_s = 500.0};
     auto result = std::make_unique<MillingResult>();
+    result->step = 1;
     result->pose.position_mm = burr_mm;
     EngagementProbe(burr, 0.1).sample(block, burr_mm, {0.0, 0.0, 1.0}, result->engagement);
     return result;
@@ -44,6 +45,8 @@ TEST(Clearance, FollowsABurrOnlyAsFarAsTheMapSees) {
 
 TEST(Clearance, TakesTheWordOfAModelWithoutAMap) {
     MillingResult result;
+    EXPECT_EQ(Clearance::unknown, clearance_of(result, glm::dvec3(0.0))) << "there is no result yet";
+    result.step = 1;
     EXPECT_EQ(Clearance::clear, clearance_of(result, glm::dvec3(0.0)));
     result.has_bone_inside = true;
     EXPECT_EQ(Clearance::in_bone, clearance_of(result, glm::dvec3(0.0)));

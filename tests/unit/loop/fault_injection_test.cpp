@@ -26,7 +26,9 @@ class PressedHand {
   public:
     explicit PressedHand(const std::string& method)
         : coupling_(make_coupling(method, {.device = device.limits()})) {
-        device.script = [](double) { return DeviceState{.position_mm = {0.0, 0.0, -0.8}}; };
+        device.script = [](double t_s) {
+            return DeviceState{.position_mm = {0.0, 0.0, std::max(-0.8, 0.1 - 4.0 * t_s)}};
+        };
         loop_ = std::make_unique<HapticLoop>(
             HapticLoopParts{device, *coupling_, *results_, commands_, tool_, status_}, HapticLoopOptions{});
     }

@@ -89,6 +89,8 @@ TEST(HapticLoop, MapsTheHandToThePatientAndTheForceBack) {
             .position_mm = {3, 0, 0}, .velocity_mm_per_s = {5, 0, 0}, .spindle_axis = {1, 0, 0}};
     };
     bench.coupling.force = [](const HandState&) { return glm::dvec3(0.0, 0.5, 0.0); };
+    // In the first tick nothing is known of the bone at the hand.
+    EXPECT_EQ(bench.run(1), glm::dvec3(0.0));
     const glm::dvec3 written = bench.run(1);
     const HandState& hand = bench.coupling.hands.back();
     EXPECT_EQ(hand.pose.position_mm, glm::dvec3(1.0, 6.0, 0.0));
@@ -223,6 +225,10 @@ TEST(HapticLoop, MeasuresDepthFromWhereTheBurrFirstMetBone) {
     const auto tick_at = [&](double z_mm, double force_n) {
         device.script = [z_mm](double) { return DeviceState{.position_mm = {0, 0, z_mm}}; };
         coupling.force = [force_n](const HandState&) { return glm::dvec3(0, 0, force_n); };
+        ++bench.next.step;
+        bench.next.pose.position_mm = {0, 0, z_mm};
+        bench.results->back() = bench.next;
+        bench.results->publish();
         loop.tick(tick_s * static_cast<double>(bench.tick_number++), 0);
     };
     tick_at(5.0, 0.0);

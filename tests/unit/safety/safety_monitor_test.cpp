@@ -80,9 +80,12 @@ struct Reached {
     }
     /// All that the future depends on: two monitors that agree in this behave alike. Times are told apart by
     /// the ticks that went by in a state.
-    using Key = std::tuple<State, bool, double, int, int>;
+    using Key = std::tuple<State, bool, bool, double, int, int>;
     Key key(int ticks_in_state) const {
-        return {monitor.state(), monitor.is_spindle_locked(), force_n.x,
+        return {monitor.state(),
+                monitor.is_untried(),
+                monitor.is_spindle_locked(),
+                force_n.x,
                 monitor.state() == State::active ? 0 : ticks_in_state,
                 monitor.state() == State::off ? off_ticks : 0};
     }
@@ -126,7 +129,7 @@ TEST(SafetyMonitor, LeadsFromNoStateByAnyFaultToAForce) {
                 ASSERT_LE(after_n, before_n) << "a fault never makes a force, and never more of one";
                 ASSERT_TRUE(to.monitor.state() == State::fading_out || to.monitor.state() == State::off);
             }
-            if (to.monitor.state() == State::off) {
+            if (to.monitor.state() == State::off || to.monitor.is_untried()) {
                 ASSERT_EQ(after_n, 0.0);
             }
             if (to.monitor.fault() != Fault::none) {
@@ -158,6 +161,7 @@ TEST(SafetyMonitor, TurnsTheSpindleOnlyInAHandThatIsThereAndHasLetGoOfThePedal) 
         if (to.monitor.spindle_turns()) {
             ASSERT_TRUE(event.pedal && !event.is_fault());
             ASSERT_FALSE(from.monitor.is_spindle_locked());
+            ASSERT_FALSE(to.monitor.is_untried());
             ASSERT_TRUE(to.monitor.state() == State::active || to.monitor.state() == State::fading_in);
         }
         if (is_lost_or_jumped && event.pedal) {
@@ -174,6 +178,7 @@ TEST(SafetyMonitor, GivesNoForceInsideTheBoneHoweverLongItLasts) {
     for (const Clearance clearance : {Clearance::in_bone, Clearance::unknown})
         for (const Reached& reached : explore()) {
             Reached now = reached;
+            if (now.monitor.is_untried()) continue;  // see StartsWithoutAForceInsideTheBone
             const bool was_engaged = now.monitor.fault() == Fault::none;
             for (int i = 0; i < 100; ++i) {
                 now = now.after({.pedal = i % 2 == 0, .wanted_n = 1.0, .clearance = clearance});
@@ -187,6 +192,35 @@ TEST(SafetyMonitor, GivesNoForceInsideTheBoneHoweverLongItLasts) {
                 ASSERT_EQ(now.monitor.fault(), Fault::in_bone);
             }
         }
+}
+
+TEST(SafetyMonitor, StartsWithoutAForceInsideTheBone) {
+    const Event in_bone{.pedal = true, .wanted_n = 1.0, .clearance = Clearance::in_bone};
+    Reached now;
+    for (int i = 0; i < 100; ++i) {
+        now = now.after(in_bone);
+        ASSERT_EQ(now.monitor.fault(), Fault::in_bone);
+        ASSERT_EQ(now.force_n, glm::dvec3(0.0));
+        ASSERT_FALSE(now.monitor.spindle_turns());
+    }
+    EXPECT_EQ(now.monitor.fault_counts()[static_cast<std::size_t>(Fault::in_bone)], 1U);
+    int clear_ticks = 0;
+    for (; now.monitor.fault() != Fault::none; ++clear_ticks) now = now.after({.wanted_n = 1.0});
+    EXPECT_NEAR(clear_ticks * tick_s, ForceGuard::settle_s, 2.0 * tick_s);
+}
+
+TEST(SafetyMonitor, StartsInAirWithTheFirstForceAsSoonAsThatIsKnown) {
+    Reached now;
+    for (int i = 0; i < 100; ++i) {
+        now = now.after({.pedal = true, .wanted_n = 1.0, .clearance = Clearance::unknown});
+        ASSERT_TRUE(now.monitor.is_untried());
+        ASSERT_EQ(now.force_n, glm::dvec3(0.0));
+        ASSERT_FALSE(now.monitor.spindle_turns());
+        ASSERT_EQ(now.monitor.fault(), Fault::none);
+    }
+    now = now.after({.pedal = true, .wanted_n = 1.0});
+    EXPECT_EQ(now.force_n.x, 1.0) << "no fading in";
+    EXPECT_TRUE(now.monitor.spindle_turns());
 }
 
 TEST(SafetyMonitor, ComesBackFromEveryStateOnceAllIsWell) {

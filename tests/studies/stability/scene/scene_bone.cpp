@@ -7,6 +7,7 @@
 
 #include "common/bone/bone_builder.h"
 #include "common/bone/edit.h"
+#include "haptic_server/device/arm_model.h"
 #include "haptic_server/milling/milling_model.h"
 
 namespace osteomill::study {
@@ -58,7 +59,10 @@ Bone scene_bone(const ScenePlan& plan) {
 
     MillingModel model(std::move(block), {plan.burr}, {});
     const glm::dvec3 end_mm = guided_position_mm(plan, plan.timing.guided);
-    const std::array<glm::dvec3, 2> slot_mm{end_mm - glm::dvec3(2.0 * beside_mm, 0.0, 0.0), end_mm};
+    // Also where an arm's encoders read the start: a burr that starts inside the bone is without force.
+    const double step_mm = ArmModel{}.resolution_mm;
+    const glm::dvec3 end_as_read_mm = step_mm * glm::round(end_mm / step_mm);
+    const std::array slot_mm{end_mm - glm::dvec3(2.0 * beside_mm, 0.0, 0.0), end_mm, end_as_read_mm};
     NoEdits edits;
     const auto result = std::make_unique<MillingResult>();
     for (const glm::dvec3& to_mm : slot_mm)
