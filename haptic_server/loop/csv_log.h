@@ -1,5 +1,5 @@
 // A file of samples, one line each, that a real-time loop may write to: the loop only queues, somebody else
-// writes.
+// makes lines of that, and a thread of the file's own waits for the disk.
 #pragma once
 
 #include <fmt/format.h>
@@ -7,34 +7,48 @@
 #include <atomic>
 #include <boost/lockfree/spsc_queue.hpp>
 #include <cstdint>
-#include <cstdio>
 #include <filesystem>
-#include <memory>
+#include <optional>
 #include <string>
+
+#include "common/files/session_file.h"
+#include "common/log/background_writer.h"
 
 namespace osteomill {
 
-/// The file behind a log. After a failed write (a full disk) nothing more is written and error() says why.
+/// The file behind a log, written by a thread of its own. After a failed write (a full disk) nothing more is
+/// written and error() says why. Until it is closed its file is the part beside the one that was asked for
+/// (session_file.h); that stays where the log is not whole.
 class CsvFile {
   public:
     /// Creates the file and writes the header line. Throws std::runtime_error with one line naming the file.
     CsvFile(const std::filesystem::path& file, const std::string& header_line);
+    /// A log that was not closed stays as a part, if anything was written.
+    ~CsvFile();
+    CsvFile(const CsvFile&) = delete;
+    CsvFile& operator=(const CsvFile&) = delete;
 
+    /// Whether all that was written has reached the disk.
+    bool is_idle() const { return writer_.is_idle(); }
+    /// Waits until it is.
+    void wait_until_idle() const { writer_.wait_until_idle(); }
+    /// Does not wait for the disk.
     void write(const fmt::memory_buffer& text);
-    /// What the system could not store shows here at the latest.
+    /// What the system could not store shows here at the latest. Waits for the disk, but not for ever (see
+    /// BackgroundWriter::finish).
     void close();
     /// One line, empty while all is well.
     const std::string& error() const { return error_; }
-    const std::filesystem::path& path() const { return path_; }
+    const std::filesystem::path& path() const { return file_.path(); }
+    const std::optional<std::filesystem::path>& torn() const { return file_.torn(); }
 
   private:
-    struct Close {
-        void operator()(std::FILE* file) const { std::fclose(file); }
-    };
-    void fail();
+    void fail(const std::string& why);
 
-    std::filesystem::path path_;
-    std::unique_ptr<std::FILE, Close> file_;
+    SessionFile file_;
+    BackgroundWriter writer_;
+    bool has_samples_ = false;
+    bool is_closed_ = false;
     std::string error_;
 };
 
@@ -52,23 +66,35 @@ class CsvLog {
     void push(const Sample& sample) noexcept {
         if (!queue_.push(sample)) dropped_.fetch_add(1, std::memory_order_relaxed);
     }
-    /// Any one other thread: writes what is queued.
+    /// Any one other thread: hands on what is queued, unless the disk still has the last to write; then the
+    /// queue has to last.
     void drain() {
-        fmt::memory_buffer text;
-        queue_.consume_all([&text](const Sample& sample) { sample.append_to(text); });
-        file_.write(text);
+        if (file_.is_idle()) hand_on();
+    }
+    /// Likewise, but waits for the disk: for sessions that run on a clock of their own.
+    void drain_all() {
+        file_.wait_until_idle();
+        hand_on();
     }
     /// Writes what is left and closes the file.
     void close() {
-        drain();
+        hand_on();
         file_.close();
     }
 
     std::uint64_t dropped() const noexcept { return dropped_.load(std::memory_order_relaxed); }
     const std::string& error() const { return file_.error(); }
     const std::filesystem::path& path() const { return file_.path(); }
+    /// Where the log is now that an earlier session, which was killed, left under the part's name.
+    const std::optional<std::filesystem::path>& torn() const { return file_.torn(); }
 
   private:
+    void hand_on() {
+        fmt::memory_buffer text;
+        queue_.consume_all([&text](const Sample& sample) { sample.append_to(text); });
+        file_.write(text);
+    }
+
     CsvFile file_;
     boost::lockfree::spsc_queue<Sample> queue_;
     std::atomic<std::uint64_t> dropped_{0};

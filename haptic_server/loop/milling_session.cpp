@@ -43,6 +43,11 @@ const MillingSessionOptions& validated(const MillingSessionOptions& options) {
     return options;
 }
 
+/// What is shown before the first tick.
+ToolSnapshot tool_at_start(const Scene& scene) {
+    return {.burr_pose = scene.start_pose, .hand_pose = scene.start_pose, .burr = scene.start_burr};
+}
+
 /// What a thread does before its loop, so that the loop finds all it needs.
 void prepare_thread(const std::optional<int>& cpu) noexcept {
     if (cpu) bind_to_cpu(*cpu);
@@ -90,6 +95,8 @@ MillingSession::MillingSession(const Scene& scene, Bone bone, HapticDevice& devi
            .position_resolution_mm = device.limits().position_resolution_mm * scene.device.scale,
            .model_holds_wall = !force_model(options.force_model).has_cutting_law})),
       edits_(edit_queue_runs, model_->bone().shared_content()),
+      tool_(tool_at_start(scene)),
+      status_(tool_at_start(scene)),
       haptic_loop_({.device = device,
                     .coupling = *coupling_,
                     .results = results_,
@@ -202,8 +209,12 @@ void MillingSession::run_in_lock_step(const std::atomic<bool>& stop,
 }
 
 void MillingSession::do_chores(const std::function<void(const ToolSnapshot&)>& on_progress) {
-    if (log_ != nullptr) log_->drain();
-    if (milling_log_ != nullptr) milling_log_->drain();
+    const auto drain = [this](auto* log) {
+        if (log == nullptr) return;
+        options_.clock == ClockKind::real ? log->drain() : log->drain_all();
+    };
+    drain(log_);
+    drain(milling_log_);
     if (!options_.edits_are_consumed) edits_.consume_all([](const EditRun&) {});
     status_.refresh();
     if (on_progress) on_progress(status_.front());

@@ -80,7 +80,8 @@ class MillingSession {
     MillingSession(const Scene& scene, Bone bone, HapticDevice& device, const MillingSessionOptions& options,
                    ForceLog* log = nullptr, MillingLog* milling_log = nullptr);
 
-    /// For the streaming server: the tool's newest state, and the edits in order (each one reader).
+    /// For the streaming server: the tool's newest state (the start pose before the first tick), and the
+    /// edits in order (each one reader).
     TripleBuffer<ToolSnapshot>& tool() { return tool_; }
     EditQueue& edits() { return edits_; }
     /// Likewise: what the edits' edges are smoothed over (ContactModel).

@@ -1,15 +1,22 @@
 #include "haptic_server/loop/force_log.h"
 
+#include <fcntl.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
+#include <csignal>
 #include <fstream>
 #include <sstream>
 #include <stdexcept>
 
+#include "tests/support/file_size_limit.h"
+
 namespace osteomill {
 namespace {
 
+using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::StartsWith;
 
@@ -63,6 +70,71 @@ TEST(ForceLog, SaysSoWhenTheDiskIsFull) {
     log.close();
     EXPECT_THAT(log.error(), HasSubstr("/dev/full: the log is not complete"));
     EXPECT_THAT(log.error(), HasSubstr("space"));
+}
+
+TEST(ForceLog, LeavesTheOldFileUntilItIsClosed) {
+    const auto file = scratch_file();
+    std::ofstream(file) << "old";
+    {
+        ForceLog log(file);
+        log.push({});
+        log.drain_all();
+        EXPECT_EQ(text_of(file), "old");
+        log.close();
+    }
+    EXPECT_THAT(text_of(file), StartsWith("t_s,"));
+    EXPECT_FALSE(std::filesystem::exists(part_of(file)));
+    std::filesystem::remove(file);
+}
+
+TEST(ForceLog, KeepsWhatADiskThatBecameFullTookAndTheOldFile) {
+    const auto file = scratch_file();
+    std::ofstream(file) << "old";
+    {
+        const testing::FileSizeLimit disk(2000);
+        ForceLog log(file);
+        for (int i = 0; i < 1000; ++i) log.push({});
+        log.close();
+        EXPECT_THAT(log.error(), AllOf(HasSubstr("File too large"), HasSubstr(part_of(file).string())));
+    }
+    EXPECT_EQ(text_of(file), "old");
+    EXPECT_EQ(text_of(part_of(file)).size(), 2000U);
+    std::filesystem::remove(file);
+    std::filesystem::remove(part_of(file));
+}
+
+TEST(ForceLog, KeepsThePartOfASessionThatFailed) {
+    const auto file = scratch_file();
+    { const ForceLog nothing_written(file); }
+    EXPECT_FALSE(std::filesystem::exists(part_of(file)));
+    {
+        ForceLog log(file);
+        log.push({});
+        log.drain_all();
+    }
+    EXPECT_FALSE(std::filesystem::exists(file));
+    EXPECT_THAT(text_of(part_of(file)), StartsWith("t_s,"));
+    std::filesystem::remove(part_of(file));
+}
+
+TEST(ForceLog, DropsLinesRatherThanWaitForADiskThatDoesNotAnswer) {
+    const auto pipe = scratch_file();
+    std::filesystem::remove(pipe);
+    ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+    std::signal(SIGPIPE, SIG_IGN);
+    const int reader = ::open(pipe.c_str(), O_RDONLY | O_NONBLOCK);  // and never reads
+    {
+        ForceLog log(pipe);
+        for (int drain = 0; drain < 10; ++drain) {
+            for (std::size_t i = 0; i < ForceLog::capacity / 2; ++i) log.push({});
+            log.drain();
+        }
+        EXPECT_GT(log.dropped(), ForceLog::capacity);
+        log.close();
+        EXPECT_THAT(log.error(), HasSubstr("the disk does not answer"));
+    }
+    ::close(reader);
+    std::filesystem::remove(pipe);
 }
 
 TEST(ForceLog, NamesAFileThatCannotBeCreated) {

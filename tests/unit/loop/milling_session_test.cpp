@@ -216,10 +216,37 @@ TEST(MillingSession, DoesNotCutWithThePedalUp) {
     EXPECT_EQ(session->report().bone_checksum, checksum(block()));
 }
 
+TEST(MillingSession, ShowsTheStartPoseBeforeTheFirstTick) {
+    testing::ScriptedDevice device;
+    Scene scene = block_scene();
+    scene.start_pose = {{1.0, 2.0, 3.0}, {0.0, 0.6, 0.8}};
+    scene.burrs.push_back(scene.burrs.front());
+    scene.start_burr = 1;
+    const auto session = std::make_unique<MillingSession>(scene, block(), device, virtual_options(0.5));
+    EXPECT_FALSE(session->tool().refresh());
+    const ToolSnapshot& tool = session->tool().front();
+    EXPECT_EQ(tool.burr_pose.position_mm, scene.start_pose.position_mm);
+    EXPECT_EQ(tool.burr_pose.spindle_axis, scene.start_pose.spindle_axis);
+    EXPECT_EQ(tool.hand_pose.position_mm, scene.start_pose.position_mm);
+    EXPECT_EQ(tool.burr, 1U);
+}
+
+TEST(MillingSession, StartsInsideTheBoneWithoutForceOrSpindle) {
+    testing::ScriptedDevice device;
+    device.script = [](double) { return DeviceState{.position_mm = {0.0, 0.0, 0.5}, .pedal = true}; };
+    const auto session =
+        std::make_unique<MillingSession>(block_scene(), block(), device, virtual_options(0.5));
+    session->run(std::atomic<bool>{false});
+    EXPECT_EQ(session->report().bone_checksum, checksum(block()));
+    EXPECT_EQ(session->report().peak_force_n, 0.0);
+    EXPECT_EQ(session->report().fault_counts[static_cast<std::size_t>(Fault::in_bone)], 1U);
+}
+
 TEST(MillingSession, CutsNoChannelToWhereADeviceJumped) {
     testing::ScriptedDevice device;
     device.script = [](double t_s) {
-        return DeviceState{.position_mm = {t_s < 0.1 ? -3.0 : 3.0, 0.0, 0.5}, .pedal = true};
+        return DeviceState{.position_mm = {t_s < 0.1 ? -3.0 : 3.0, 0.0, std::max(0.5, 2.0 - 30.0 * t_s)},
+                           .pedal = true};
     };
     const auto session =
         std::make_unique<MillingSession>(block_scene(), block(), device, virtual_options(1.0));
