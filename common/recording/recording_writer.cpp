@@ -1,11 +1,22 @@
 #include "common/recording/recording_writer.h"
 
+#include <stdexcept>
 #include <utility>
 
 namespace osteomill {
 
-RecordingWriter::RecordingWriter(std::filesystem::path file, OnNews on_news, WhenDiskIsFull when_full)
-    : packets_(std::move(file)), on_news_(std::move(on_news)), when_full_(when_full) {
+namespace {
+
+SessionFile begun(const std::filesystem::path& file) try {
+    return SessionFile(file);
+} catch (const std::runtime_error& error) {
+    throw RecordingError(error.what());
+}
+
+}  // namespace
+
+RecordingWriter::RecordingWriter(const std::filesystem::path& file, OnNews on_news, WhenDiskIsFull when_full)
+    : file_(begun(file)), packets_(file_.part()), on_news_(std::move(on_news)), when_full_(when_full) {
     report_.file = packets_.file();
     report_.bytes = packets_.bytes();
     thread_ = std::thread([this] { run(); });
@@ -13,6 +24,7 @@ RecordingWriter::RecordingWriter(std::filesystem::path file, OnNews on_news, Whe
 
 RecordingWriter::~RecordingWriter() {
     close();
+    if (is_worth_keeping_ && packets_.packets() > 0) file_.keep_part();
 }
 
 bool RecordingWriter::has_room() const {
@@ -53,6 +65,25 @@ void RecordingWriter::close() {
     }
     changed_.notify_all();
     thread_.join();
+}
+
+void RecordingWriter::commit() {
+    close();
+    if (has_failed()) return;
+    std::string error;
+    try {
+        file_.commit();
+    } catch (const std::runtime_error& failure) {
+        error = failure.what();
+    }
+    const std::scoped_lock lock(mutex_);
+    report_.error = error;
+    if (error.empty()) report_.file = file_.path();
+}
+
+void RecordingWriter::discard() {
+    close();
+    is_worth_keeping_ = false;
 }
 
 RecordingReport RecordingWriter::report() const {

@@ -5,6 +5,9 @@
 // wait does, nothing more is taken until there is room. So no frame is missing, and the file goes on where it
 // stood. Who cannot, because its frames come from elsewhere and would wait for ever, ends the recording
 // there.
+//
+// Until the recording is whole its file is the part beside the one that was asked for (session_file.h). That
+// can be read at any time, and stays where the recording is torn.
 #pragma once
 
 #include <chrono>
@@ -14,16 +17,18 @@
 #include <filesystem>
 #include <functional>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <thread>
 
+#include "common/files/session_file.h"
 #include "common/recording/packet_writer.h"
 
 namespace osteomill {
 
 /// What became of a recording.
 struct RecordingReport {
-    std::filesystem::path file;
+    std::filesystem::path file;  ///< where it lies by now
     std::uint64_t frames = 0;
     std::uint64_t bytes = 0;
     std::uint64_t pauses = 0;  ///< for which it stood still, and after which it went on
@@ -54,9 +59,9 @@ class RecordingWriter {
     /// Called on the writing thread, with one line for people.
     using OnNews = std::function<void(RecordingNews, const std::string&)>;
 
-    /// Opens the file; throws RecordingError.
-    RecordingWriter(std::filesystem::path file, OnNews on_news, WhenDiskIsFull when_full);
-    /// Closes first, if need be.
+    /// Begins the file; throws RecordingError.
+    RecordingWriter(const std::filesystem::path& file, OnNews on_news, WhenDiskIsFull when_full);
+    /// Closes first, if need be. A recording that was not committed stays as a part, if anything is in it.
     ~RecordingWriter();
     RecordingWriter(const RecordingWriter&) = delete;
     RecordingWriter& operator=(const RecordingWriter&) = delete;
@@ -75,7 +80,14 @@ class RecordingWriter {
     /// Writes what still waits, with one last attempt where the disk is full, and ends the thread. What is
     /// pushed later is forgotten.
     void close();
+    /// Closes first, and makes the part the file, unless frames are missing. What goes wrong shows in the
+    /// report.
+    void commit();
+    /// Closes first; what there is goes with the destructor: it is worth nothing.
+    void discard();
     RecordingReport report() const;
+    /// Where a recording is now that an earlier session, which was killed, left under the part's name.
+    const std::optional<std::filesystem::path>& torn() const { return file_.torn(); }
 
   private:
     struct Waiting {
@@ -87,6 +99,8 @@ class RecordingWriter {
     std::string write(const Waiting& frame);
     bool has_ended() const { return when_full_ == WhenDiskIsFull::end && !report_.error.empty(); }
 
+    SessionFile file_;
+    bool is_worth_keeping_ = true;
     PacketWriter packets_;  // the writing thread's
     const OnNews on_news_;
     const WhenDiskIsFull when_full_;

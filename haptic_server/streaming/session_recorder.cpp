@@ -36,8 +36,12 @@ SessionRecorder::SessionRecorder(const std::filesystem::path& file, Stamp began,
           WhenDiskIsFull::try_again) {
     hand_over(true);
     writer_.wait_until_written();
-    if (writer_.has_failed()) throw RecordingError(writer_.report().error);
+    if (writer_.has_failed()) {
+        writer_.discard();
+        throw RecordingError(writer_.report().error);
+    }
     is_under_way_ = true;
+    if (writer_.torn()) spdlog::warn("{}", torn_line(file, *writer_.torn()));
 }
 
 void SessionRecorder::record(const ToolView& tool, bool with_checksum, bool may_wait) {
@@ -51,6 +55,7 @@ void SessionRecorder::finish(const ToolView& tool, const std::string& reason) {
     feed_.request_state(tool, true);
     feed_.finish(reason);
     hand_over(true);
+    if (feed_.is_finished()) writer_.commit();
     writer_.close();
 }
 

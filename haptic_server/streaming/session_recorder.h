@@ -25,10 +25,10 @@ class SessionRecorder {
     void note(const ChangedVoxels& changes) { feed_.note(changes); }
     /// Hands over a state frame; without waiting, unless `may_wait`.
     void record(const ToolView& tool, bool with_checksum, bool may_wait);
-    /// Hands over the end and waits until all is written.
+    /// Hands over the end, waits until all is written and makes it the file that was asked for.
     void finish(const ToolView& tool, const std::string& reason);
 
-    /// Its error also says where the end is missing.
+    /// Its error also says where the end is missing. Then what there is stays in the part.
     RecordingReport report() const;
 
   private:

@@ -1,10 +1,11 @@
 #include "render_client/link/server_connection.h"
 
+#include <spdlog/spdlog.h>
+
 #include <algorithm>
 #include <boost/asio/connect.hpp>
 #include <boost/asio/error.hpp>
 #include <boost/asio/post.hpp>
-#include <cstdio>
 #include <utility>
 
 #include "common/net/tls_failure.h"
@@ -38,6 +39,7 @@ ServerConnection::ServerConnection(std::string host, std::uint16_t port,
     : host_(std::move(host)), port_(port), where_(host_ + ":" + std::to_string(port_)) {
     if (tls) tls_ = std::make_unique<TlsContext>(*tls, TlsContext::Role::client);
     if (record) recorder_.emplace(*record, nullptr, WhenDiskIsFull::end);
+    if (record && recorder_->torn()) spdlog::warn("{}", torn_line(*record, *recorder_->torn()));
     announce(LinkStatus::connecting, "connecting to " + where_);
     asio::post(io_, [this] { connect(); });
     thread_ = std::thread([this] { run(); });
@@ -75,7 +77,7 @@ std::string ServerConnection::recording_error() const {
 }
 
 void ServerConnection::finish_recording() {
-    if (recorder_) recorder_->close();
+    if (recorder_) recorder_->commit();
 }
 
 void ServerConnection::reconnect() {
@@ -118,7 +120,7 @@ void ServerConnection::connect() {
 void ServerConnection::shake_hands() {
     if (tls_) {
         const RevocationLists::Look look = tls_->refresh(std::chrono::steady_clock::now());
-        if (!look.failure.empty()) std::fprintf(stderr, "render_client: %s\n", look.failure.c_str());
+        if (!look.failure.empty()) spdlog::warn("{}", look.failure);
     }
     stream_ = connecting_stream(std::move(socket_), tls_.get(), host_, read_bytes);
     stream_->handshake([this, generation = generation_](const std::string& failure) {

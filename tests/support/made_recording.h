@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -58,19 +59,21 @@ inline MadeRecording make_recording(const std::filesystem::path& file,
     SessionInfo session = recorded_session_info();
     session.protocol_major = options.protocol_major;
     const Stamp began{std::chrono::seconds(1'700'000'000) + std::chrono::nanoseconds(7)};
-    SessionRecorder recorder(file, began, to_message(session), mirror, packer);
+    std::optional<SessionRecorder> recorder(std::in_place, file, began, to_message(session), mirror, packer);
     ToolView tool;
     for (int i = 0; i < options.states; ++i) {
         if (i > 0)
             for (int run = 0; run < 10; ++run) carve_somewhere(made.after, random, edits);
-        recorder.note(mirror.take_changes());
+        recorder->note(mirror.take_changes());
         tool.time_s = MadeRecording::period_s * i;
         tool.spindle_on = i % 2 == 1;
         tool.burr = 1;
-        recorder.record(tool, i % 20 == 0, true);
+        recorder->record(tool, i % 20 == 0, true);
         made.checksum_after_state.push_back(mirror.checksum());
     }
-    if (options.ends) recorder.finish(tool, "the end");
+    if (options.ends) recorder->finish(tool, "the end");
+    recorder.reset();
+    if (!options.ends) std::filesystem::rename(part_of(file), file);
     return made;
 }
 

@@ -19,7 +19,7 @@ TEST(RecordingWriter, WritesAllThatWasPushedInOrder) {
     const testing::TemporaryFolder folder;
     RecordingWriter writer(folder / "a.pcap", {}, WhenDiskIsFull::end);
     for (int i = 0; i < 1000; ++i) writer.push(Stamp{std::chrono::milliseconds(i)}, std::to_string(i));
-    writer.close();
+    writer.commit();
     writer.push(Stamp{}, "too late");
     EXPECT_EQ(writer.report().frames, 1000U);
     EXPECT_EQ(writer.report().error, "");
@@ -73,7 +73,7 @@ TEST(RecordingWriter, GoesOnWithoutAGapWhenADiskThatWasFullHasRoom) {
         EXPECT_TRUE(writer.has_room()) << "some may wait";
     }
     ASSERT_TRUE(testing::eventually([&] { return writer.report().frames == 11; }));
-    writer.close();
+    writer.commit();
     EXPECT_EQ(writer.report().error, "");
     EXPECT_EQ(writer.report().pauses, 1U);
     EXPECT_THAT(news, ::testing::ElementsAre(RecordingNews::stands_still, RecordingNews::goes_on));
@@ -96,6 +96,51 @@ TEST(RecordingWriter, TriesOnceMoreWhenItIsClosedAndThenSaysWhatIsMissing) {
     EXPECT_EQ(writer.report().frames, 4U);
     EXPECT_THAT(writer.report().error, ::testing::HasSubstr("no more than 4 frames"));
     EXPECT_EQ(writer.report().pauses, 0U);
+}
+
+TEST(RecordingWriter, LeavesTheOldRecordingUntilTheNewOneIsWhole) {
+    const testing::TemporaryFolder folder;
+    const auto path = folder / "a.pcap";
+    const auto first_packet = [](const std::filesystem::path& file) {
+        PacketReader reader(file);
+        const auto packet = reader.next();
+        return packet ? std::string(packet->message.begin(), packet->message.end()) : std::string();
+    };
+    const auto record = [&](const std::string& frame) {
+        auto writer = std::make_unique<RecordingWriter>(path, RecordingWriter::OnNews(), WhenDiskIsFull::end);
+        writer->push(Stamp{}, frame);
+        writer->wait_until_written();
+        return writer;
+    };
+    record("old")->commit();
+    {
+        const auto torn = record("torn");
+        EXPECT_EQ(torn->report().file, folder / "a.part.pcap");
+        EXPECT_EQ(first_packet(path), "old");
+        EXPECT_EQ(first_packet(folder / "a.part.pcap"), "torn") << "while it is written";
+    }
+    EXPECT_EQ(first_packet(path), "old");
+    const auto whole = record("new");
+    EXPECT_EQ(whole->torn(), folder / "a.torn-1.pcap");
+    EXPECT_EQ(first_packet(folder / "a.torn-1.pcap"), "torn");
+    whole->commit();
+    EXPECT_EQ(whole->report().file, path);
+    EXPECT_EQ(first_packet(path), "new");
+
+    record("nothing worth keeping")->discard();
+    EXPECT_EQ(first_packet(path), "new");
+    EXPECT_FALSE(std::filesystem::exists(folder / "a.part.pcap"));
+}
+
+TEST(RecordingWriter, StaysAPartWhereFramesAreMissing) {
+    const testing::TemporaryFolder folder;
+    RecordingWriter writer(folder / "a.pcap", {}, WhenDiskIsFull::end);
+    const testing::FileSizeLimit disk(5'000);
+    for (int i = 0; i < 10; ++i) writer.push(Stamp{}, std::string(1000, 'x'));
+    writer.commit();
+    EXPECT_EQ(writer.report().file, folder / "a.part.pcap");
+    EXPECT_THAT(writer.report().error, ::testing::HasSubstr("a.part.pcap: no more than 4 frames"));
+    EXPECT_FALSE(std::filesystem::exists(folder / "a.pcap"));
 }
 
 TEST(RecordingWriter, NeverWaitsForASlowDiskAndHoldsNoMoreThanItMay) {

@@ -31,10 +31,11 @@ class SessionRecorderTest : public ::testing::Test {
             recorder_->record(tool_, i % 20 == 0, false);
         }
     }
-    std::uintmax_t size() const { return std::filesystem::file_size(file_); }
+    std::uintmax_t size() const { return std::filesystem::file_size(part_); }
 
     const testing::TemporaryFolder folder_;
     const std::filesystem::path file_ = folder_ / "a.pcap";
+    const std::filesystem::path part_ = folder_ / "a.part.pcap";  // until it is whole
     std::mt19937 random_{4};
     Bone bone_ = testing::make_speckled_bone(random_, {.grid = {.size_voxels = {64, 48, 32}}});
     BoneMirror mirror_{bone_};
@@ -52,7 +53,7 @@ TEST_F(SessionRecorderTest, GoesOnWithTheWholeBoneAfterTheDiskWasFull) {
         const testing::FileSizeLimit disk(size() + 3'000);
         carve_and_record(200);
         ASSERT_TRUE(eventually([&] { return !recorder_->report().error.empty(); }));
-        EXPECT_FALSE(Playhead(file_).is_torn());
+        EXPECT_FALSE(Playhead(part_).is_torn());
     }
     ASSERT_TRUE(eventually([&] { return recorder_->report().pauses == 1; }));
     carve_and_record(20);
@@ -75,6 +76,8 @@ TEST_F(SessionRecorderTest, SaysThatTheEndIsMissingWhereTheDiskStaysFull) {
     recorder_->finish(tool_, "the end");
     EXPECT_THAT(recorder_->report().error, ::testing::HasSubstr("File too large"));
     EXPECT_EQ(recorder_->report().pauses, 0U);
+    EXPECT_EQ(recorder_->report().file, part_);
+    EXPECT_FALSE(std::filesystem::exists(file_));
 }
 
 }  // namespace

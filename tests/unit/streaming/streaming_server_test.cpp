@@ -279,7 +279,7 @@ TEST(StreamingServer, RecordsAsIfForOneMoreClient) {
     ServedBone served(0, false, 8, RecordTo{folder / "a.pcap", began});
     const std::uint64_t before = checksum(served.bone());
     {
-        Playhead playhead(folder / "a.pcap");
+        Playhead playhead(folder / "a.part.pcap");
         EXPECT_EQ(playhead.bone_checksum(), before) << "the snapshot is there before anything is carved";
     }
     served.start_carving();
