@@ -107,21 +107,26 @@ class StreamingServer::Impl {
     }
 
     void show_frame() {
-        const auto done = std::make_shared<std::promise<void>>();
-        asio::post(io_, [this, done] {
+        run_there([this] {
             if (!is_finishing_) send_frame();
-            done->set_value();
         });
-        const auto shown = done->get_future();
-        while (shown.wait_for(std::chrono::milliseconds(100)) != std::future_status::ready && !has_failed_) {
-        }
+    }
+
+    void end() {
+        if (!thread_.joinable() || std::exchange(has_ended_, true)) return;
+        run_there([this] { finish(); });
+    }
+
+    void finish_recording() {
+        end();
+        if (recorder_ && !std::exchange(has_finished_recording_, true))
+            recorder_->finish(last_view_, end_of_session);
     }
 
     void stop() {
         if (!thread_.joinable()) return;
-        asio::post(io_, [this] { finish(); });
+        finish_recording();
         thread_.join();
-        if (recorder_) recorder_->finish(last_view_, end_of_session);
     }
 
     std::uint16_t port() const { return port_; }
@@ -131,16 +136,30 @@ class StreamingServer::Impl {
     }
 
   private:
+    /// Does it on the streaming thread and waits until it is done, unless that thread has failed.
+    template <typename Work>
+    void run_there(Work work) {
+        const auto done = std::make_shared<std::promise<void>>();
+        asio::post(io_, [work, done] {
+            work();
+            done->set_value();
+        });
+        const auto is_done = done->get_future();
+        while (is_done.wait_for(std::chrono::milliseconds(100)) != std::future_status::ready &&
+               !has_failed_) {
+        }
+    }
+
     void run() {
         try {
             io_.run();
         } catch (const std::exception& error) {
             // Haptics go on without spectators.
             has_failed_ = true;
+            if (seat_) seat_->vacate();
             spdlog::error("streaming has stopped: {}", error.what());
             for (const auto& [id, session] : std::map(sessions_)) session->close("was cut off", false);
             handshakes_.cancel();
-            if (seat_) seat_->vacate();
         }
     }
 
@@ -268,6 +287,8 @@ class StreamingServer::Impl {
     void welcome(const Session& session) { log_client(fmt::format("client {} joined", session.peer())); }
 
     void dismiss(OperatorSeat::ClientId id, const std::string& peer, const std::string& line, bool is_fault) {
+        // First of all: a hand that has gone must not keep the burr turning.
+        if (seat_) seat_->leave(id);
         const bool was_newcomer = newcomers_.remove(id);
         (was_newcomer ? stranger_log_ : client_log_)
             .write(is_fault ? spdlog::level::warn : spdlog::level::info,
@@ -275,7 +296,6 @@ class StreamingServer::Impl {
         sessions_.erase(id);
         watchers_.erase(id);
         refused_input_.erase(id);
-        if (seat_) seat_->leave(id);
         log_seat();
         if (is_finishing_ && sessions_.empty()) deadline_.cancel();
     }
@@ -368,6 +388,8 @@ class StreamingServer::Impl {
     std::uint64_t frames_per_checksum_ = 1;
     bool is_accepting_ = false;
     bool is_finishing_ = false;
+    bool has_ended_ = false;               // the owner's
+    bool has_finished_recording_ = false;  // the owner's
     std::atomic<bool> has_failed_{false};
     std::uint16_t port_ = 0;
     std::thread thread_;
@@ -384,6 +406,12 @@ void StreamingServer::start() {
 }
 void StreamingServer::show_frame() {
     impl_->show_frame();
+}
+void StreamingServer::end() {
+    impl_->end();
+}
+void StreamingServer::finish_recording() {
+    impl_->finish_recording();
 }
 void StreamingServer::stop() {
     impl_->stop();

@@ -73,16 +73,22 @@ class StreamingServer {
     /// Sends a frame of what is shown, and returns when that is done: with paced_by_session.
     void show_frame();
 
-    /// Call after the milling loop has ended: takes over the last edits, sends every client the final state
-    /// with its checksum and a goodbye, waits up to about 5 s for slow ones, closes, joins. A second call
-    /// does nothing.
+    // The end, in three steps, so that whoever has something to save need not wait for clients nor a disk.
+    // Each takes those before it first, and does nothing the second time.
+
+    /// Call after the milling loop has ended: takes over the last edits, and begins to send every client the
+    /// final state with its checksum and a goodbye.
+    void end();
+    /// Waits until the recording is written, or cannot be.
+    void finish_recording();
+    /// Waits up to about 5 s for clients that are slow to read the end, closes, joins.
     void stop();
 
     /// The port that is listened on, after start().
     std::uint16_t port() const;
-    /// Checksum of the mirror, after stop().
+    /// Checksum of the mirror, after end().
     std::uint64_t mirror_checksum() const;
-    /// What became of the recording, after stop(); nothing where none was asked for.
+    /// What became of the recording, after finish_recording(); nothing where none was asked for.
     std::optional<RecordingReport> recording() const;
 
   private:
