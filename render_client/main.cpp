@@ -1,24 +1,20 @@
 // render_client: shows what is left of the bone that haptic_server mills.
 #include <fmt/format.h>
 
-#include <csignal>
+#include <cstdio>
 #include <exception>
 #include <memory>
 #include <stdexcept>
 #include <string>
 
+#include "common/log/line_sink.h"
+#include "common/program/program_output.h"
+#include "common/program/stop_signals.h"
 #include "render_client/ui/offscreen_run.h"
 #include "render_client/ui/options.h"
 #include "render_client/ui/windowed_run.h"
 
 namespace {
-
-// A signal handler may only touch a flag of this kind, and finds it nowhere but here.
-volatile std::sig_atomic_t stop_signalled = 0;
-
-bool stop_asked() {
-    return stop_signalled != 0;
-}
 
 std::unique_ptr<osteomill::SessionSource> make_session(const osteomill::RenderOptions& options) {
     if (options.replay) return std::make_unique<osteomill::ReplayedSession>(*options.replay, options.speed);
@@ -26,33 +22,46 @@ std::unique_ptr<osteomill::SessionSource> make_session(const osteomill::RenderOp
                                                       options.tls);
 }
 
+/// A recording is finished whatever else goes wrong.
+void run(const osteomill::RenderOptions& options) {
+    using namespace osteomill;
+    const auto stop_asked = [&stop = stop_on_signals()] { return stop.load(); };
+    const auto session = make_session(options);
+    std::exception_ptr failure;
+    try {
+        const RenderReport report = options.offscreen ? run_offscreen(options, *session, stop_asked)
+                                                      : run_in_window(options, *session, stop_asked);
+        if (!options.json.empty()) write_report(report, options.json);
+    } catch (const std::exception&) {
+        failure = std::current_exception();
+    }
+    const std::string unfinished = session->finish();
+    if (failure) std::rethrow_exception(failure);
+    if (!unfinished.empty()) throw std::runtime_error(unfinished);
+}
+
 }  // namespace
 
 int main(int argument_count, char** arguments) {
     using namespace osteomill;
+    ignore_signals_of_streams();
     const ParsedOptions parsed = parse_options(argument_count, arguments, OSTEOMILL_VERSION);
     if (parsed.no_run) {
         if (parsed.no_run->exit_code == 0)
-            fmt::print("{}", parsed.no_run->message);
+            std::fputs(parsed.no_run->message.c_str(), stdout);
         else
-            fmt::print(stderr, "{}\n", parsed.no_run->message);
+            std::fprintf(stderr, "%s\n", parsed.no_run->message.c_str());
         return parsed.no_run->exit_code;
     }
-    const RenderOptions& options = parsed.options;
-    std::signal(SIGINT, [](int) { stop_signalled = 1; });
-    std::signal(SIGTERM, [](int) { stop_signalled = 1; });
-    // A file over the limit of `ulimit -f` is to fail like one on a full disk, not to end the program.
-    std::signal(SIGXFSZ, SIG_IGN);
+    const ProgramOutput output;
+    log_to(output.err, "render_client");
+    int exit_code = 0;
     try {
-        const auto session = make_session(options);
-        const RenderReport report = options.offscreen ? run_offscreen(options, *session, stop_asked)
-                                                      : run_in_window(options, *session, stop_asked);
-        if (!options.json.empty()) write_report(report, options.json);
-        if (const std::string failure = session->finish(); !failure.empty())
-            throw std::runtime_error(failure);
-        return 0;
+        run(parsed.options);
     } catch (const std::exception& error) {
-        fmt::print(stderr, "render_client: {}\n", error.what());
-        return 1;
+        output.err->write(fmt::format("render_client: {}\n", error.what()));
+        exit_code = 1;
     }
+    output.finish();
+    return exit_code;
 }

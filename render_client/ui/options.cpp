@@ -10,7 +10,9 @@
 #include <cmath>
 #include <map>
 #include <stdexcept>
+#include <vector>
 
+#include "common/files/distinct_files.h"
 #include "common/net/tls_options.h"
 #include "render_client/link/recording_player.h"
 
@@ -139,6 +141,20 @@ std::string contradiction(const RenderOptions& options) {
     return {};
 }
 
+/// Says which two are one; empty where none are.
+std::string same_files(const RenderOptions& options) {
+    std::vector<NamedFile> files;
+    if (options.replay) files.push_back({"--replay", *options.replay, false});
+    if (options.record) files.push_back({"--record", *options.record});
+    if (!options.json.empty()) files.push_back({"--json", options.json});
+    try {
+        require_distinct(files);
+    } catch (const std::invalid_argument& same) {
+        return same.what();
+    }
+    return {};
+}
+
 }  // namespace
 
 std::optional<glm::ivec2> parse_size(const std::string& text) {
@@ -238,6 +254,7 @@ ParsedOptions parse_options(int argument_count, const char* const* arguments, co
         wrong = error.what();
     }
     if (wrong.empty() && options.tls && options.replay) wrong = "--tls-cert: a --replay needs no TLS";
+    if (wrong.empty()) wrong = same_files(options);
     if (wrong.empty() && speed->count() > 0 && !options.replay) wrong = "--speed needs --replay FILE";
     if (!wrong.empty()) parsed.no_run = wrong_usage(wrong);
     return parsed;

@@ -2,9 +2,9 @@
 
 #include <fmt/format.h>
 
-#include <fstream>
 #include <nlohmann/json.hpp>
-#include <stdexcept>
+
+#include "common/files/whole_file.h"
 
 namespace osteomill {
 
@@ -37,10 +37,7 @@ std::string to_json(const RenderReport& report) {
 }
 
 void write_report(const RenderReport& report, const std::filesystem::path& file) {
-    std::ofstream stream(file);
-    stream << to_json(report);
-    stream.close();
-    if (!stream) throw std::runtime_error("cannot write the report " + file.string());
+    write_whole_file(file, to_json(report));
 }
 
 }  // namespace osteomill

@@ -1,6 +1,7 @@
 #include "render_client/ui/session_picture.h"
 
 #include <fmt/format.h>
+#include <spdlog/spdlog.h>
 
 #include <algorithm>
 #include <cmath>
@@ -81,7 +82,7 @@ void SessionPicture::replace_bone() {
         return;
     }
     if (textures_->plan().layout != BoneLayout::dense || textures_->plan().coarsening > 1)
-        fmt::print(stderr, "render_client: the bone is drawn from {}\n", description(textures_->plan()));
+        spdlog::info("the bone is drawn from {}", description(textures_->plan()));
     const glm::dvec3 half_mm = 0.5 * textures_->grid().spacing_mm * glm::dvec3(textures_->box().size);
     const glm::dvec3 middle_mm = middle_of(textures_->grid(), textures_->box());
     view_.cuts.set_bounds(middle_mm - half_mm, middle_mm + half_mm);

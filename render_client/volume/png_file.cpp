@@ -5,6 +5,8 @@
 #include <cstring>
 #include <stdexcept>
 
+#include "common/files/whole_file.h"
+
 namespace osteomill {
 
 namespace {
@@ -25,8 +27,10 @@ void write_png(const Picture& picture, const std::filesystem::path& file) {
     image.height = static_cast<png_uint_32>(picture.size_px.y);
     // A frame is written between two drawn ones: speed counts for more than size.
     image.flags = PNG_IMAGE_FLAG_FAST;
-    if (!png_image_write_to_file(&image, file.c_str(), 0, picture.rgb.data(), 0, nullptr))
+    WholeFile whole(file);
+    if (!png_image_write_to_file(&image, whole.part().c_str(), 0, picture.rgb.data(), 0, nullptr))
         throw std::runtime_error("cannot write the picture " + file.string() + ": " + image.message);
+    whole.commit_unsynced();
 }
 
 Picture read_png(const std::filesystem::path& file) {

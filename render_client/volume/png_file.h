@@ -7,7 +7,7 @@
 
 namespace osteomill {
 
-/// Throws std::runtime_error naming the file where it cannot be written.
+/// Replaces the file as a whole. Throws std::runtime_error naming the file where it cannot be written.
 void write_png(const Picture& picture, const std::filesystem::path& file);
 
 /// Throws std::runtime_error naming the file where it cannot be read.
