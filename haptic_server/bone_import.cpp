@@ -1,11 +1,11 @@
 // bone_import: a scan in, a bone file out.
-#include <unistd.h>
-
 #include <CLI/CLI.hpp>
 #include <exception>
 #include <fstream>
 #include <iostream>
 
+#include "common/program/program_output.h"
+#include "common/program/stop_signals.h"
 #include "haptic_server/imaging/import_bone.h"
 #include "haptic_server/imaging/memory_estimate.h"
 
@@ -62,6 +62,7 @@ void parse_texts(const CLI::App& app, const Texts& texts, osteomill::ImportOptio
 }  // namespace
 
 int main(int argc, char** argv) {
+    osteomill::ignore_signals_of_streams();
     CLI::App app("Makes a bone file of a CT scan: isotropic, in patient LPS, in HU.", "bone_import");
     app.set_version_flag("--version", OSTEOMILL_VERSION);
     osteomill::ImportOptions options;
@@ -78,15 +79,23 @@ int main(int argc, char** argv) {
         std::cerr << "bone_import: " << error.what() << '\n';
         return exit_usage;
     }
-    try {
-        std::ifstream meminfo("/proc/meminfo");
-        osteomill::import_bone(options,
-                               {.messages = std::cerr,
-                                .is_terminal = ::isatty(STDERR_FILENO) != 0,
-                                .available_memory_bytes = osteomill::available_memory_bytes(meminfo)});
-        return 0;
-    } catch (const std::exception& error) {
-        std::cerr << "bone_import: " << error.what() << '\n';
-        return exit_failure;
+    const osteomill::ProgramOutput output;
+    int exit_code = 0;
+    {
+        osteomill::LineStreamBuffer buffer(*output.err);
+        std::ostream messages(&buffer);
+        messages << std::unitbuf;
+        try {
+            std::ifstream meminfo("/proc/meminfo");
+            osteomill::import_bone(options,
+                                   {.messages = messages,
+                                    .is_terminal = output.err->is_terminal(),
+                                    .available_memory_bytes = osteomill::available_memory_bytes(meminfo)});
+        } catch (const std::exception& error) {
+            messages << "bone_import: " << error.what() << '\n';
+            exit_code = exit_failure;
+        }
     }
+    output.finish();
+    return exit_code;
 }

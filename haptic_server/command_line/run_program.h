@@ -1,12 +1,15 @@
 // A main function but for what the program is: parse, run, say in one line what went wrong.
 #pragma once
 
-#include <spdlog/sinks/stdout_color_sinks.h>
-#include <spdlog/spdlog.h>
+#include <fmt/format.h>
 
 #include <cstdio>
 #include <exception>
 #include <stdexcept>
+
+#include "common/log/line_sink.h"
+#include "common/program/program_output.h"
+#include "common/program/stop_signals.h"
 
 namespace osteomill {
 
@@ -15,9 +18,11 @@ inline constexpr int exit_failure = 1;
 inline constexpr int exit_wrong_usage = 2;
 
 /// Returns the exit code. `parse()` gives an Asked (command_line.h) and throws std::invalid_argument for
-/// wrong usage; `run(options)` throws for a failure.
+/// wrong usage; `run(options, output)` throws for a failure. Ends also where a terminal holds up what is
+/// said, at most a moment later.
 template <typename Parse, typename Run>
 int run_program(const char* name, const Parse& parse, const Run& run) {
+    ignore_signals_of_streams();
     decltype(parse()) asked;
     try {
         asked = parse();
@@ -29,15 +34,18 @@ int run_program(const char* name, const Parse& parse, const Run& run) {
         std::fputs(asked.text.c_str(), stdout);
         return exit_success;
     }
+    const ProgramOutput output;
+    int exit_code = exit_success;
     try {
         // Standard output is for programs that wait for "listening on"; the log is for people.
-        spdlog::set_default_logger(spdlog::stderr_color_mt(name));
-        run(*asked.options);
-        return exit_success;
+        log_to(output.err, name);
+        run(*asked.options, output);
     } catch (const std::exception& error) {
-        std::fprintf(stderr, "%s: %s\n", name, error.what());
-        return exit_failure;
+        output.err->write(fmt::format("{}: {}\n", name, error.what()));
+        exit_code = exit_failure;
     }
+    output.finish();
+    return exit_code;
 }
 
 }  // namespace osteomill

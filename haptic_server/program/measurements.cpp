@@ -2,11 +2,9 @@
 
 #include <fmt/format.h>
 
-#include <cerrno>
-#include <cstring>
-#include <fstream>
 #include <numeric>
-#include <stdexcept>
+
+#include "common/files/whole_file.h"
 
 namespace osteomill {
 
@@ -100,13 +98,7 @@ nlohmann::ordered_json recorded(const RecordingReport& recording) {
 }
 
 void write_json(const nlohmann::ordered_json& json, const std::filesystem::path& file) {
-    std::ofstream out(file);
-    out << json.dump(2) << '\n';
-    out.close();
-    if (!out) {
-        throw std::runtime_error(
-            fmt::format("{}: cannot write the measurements: {}", file.string(), std::strerror(errno)));
-    }
+    write_whole_file(file, json.dump(2) + "\n");
 }
 
 }  // namespace osteomill

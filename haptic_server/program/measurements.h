@@ -27,7 +27,7 @@ nlohmann::ordered_json measurements(const MillingSessionReport& report, const Bo
 /// error (null where there is none).
 nlohmann::ordered_json recorded(const RecordingReport& recording);
 
-/// Throws std::runtime_error with one line naming the file.
+/// Replaces the file as a whole. Throws std::runtime_error with one line naming the file.
 void write_json(const nlohmann::ordered_json& json, const std::filesystem::path& file);
 
 }  // namespace osteomill

@@ -2,12 +2,10 @@
 
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <cstdio>
 #include <fstream>
 #include <memory>
 #include <optional>
@@ -127,7 +125,7 @@ struct Streaming {
 
 Streaming make_streaming(StreamingOptions wanted, const ServerOptions& options, const Scene& scene,
                          Bone mirror, MillingSession& session, const DeviceParts& device,
-                         const std::string& version) {
+                         const std::string& version, LineStream& out) {
     wanted.listens = options.listen.has_value();
     wanted.paced_by_session = options.session.clock == ClockKind::virtual_time;
     if (options.record)
@@ -140,10 +138,8 @@ Streaming make_streaming(StreamingOptions wanted, const ServerOptions& options, 
     streaming.server = std::make_unique<StreamingServer>(
         std::move(wanted), std::move(info), std::move(mirror), *streaming.shown, device.operator_input.get());
     streaming.server->start();
-    if (options.listen) {
-        fmt::print("listening on {}:{}\n", options.listen->address, streaming.server->port());
-        std::fflush(stdout);
-    }
+    if (options.listen)
+        out.write(fmt::format("listening on {}:{}\n", options.listen->address, streaming.server->port()));
     return streaming;
 }
 
@@ -167,6 +163,13 @@ class Leftovers {
 };
 
 template <typename Log>
+void begin_log(std::optional<Log>& log, const std::optional<std::filesystem::path>& file) {
+    if (!file) return;
+    log.emplace(*file);
+    if (log->torn()) spdlog::warn("{}", torn_line(*file, *log->torn()));
+}
+
+template <typename Log>
 void close_log(std::optional<Log>& log) {
     if (!log) return;
     log->close();
@@ -179,10 +182,11 @@ void close_log(std::optional<Log>& log) {
 
 }  // namespace
 
-void run_server(const ServerOptions& options, const std::string& version, const std::atomic<bool>& stop) {
+void run_server(const ServerOptions& options, const std::string& version, const std::atomic<bool>& stop,
+                const ProgramOutput& output) {
     if (options.lists_devices) {
         HidapiTransport transport;
-        fmt::print("{}", device_list(transport));
+        output.out->write(device_list(transport));
         return;
     }
     const auto began = std::chrono::steady_clock::now();
@@ -206,9 +210,9 @@ void run_server(const ServerOptions& options, const std::string& version, const 
     BoneCost cost{.memory_bytes = memory_bytes(bone), .bone_mm3 = bone_volume_mm3(bone)};
     const DeviceParts device = make_device(options, scene);
     std::optional<ForceLog> log;
-    if (options.log_csv) log.emplace(*options.log_csv);
+    begin_log(log, options.log_csv);
     std::optional<MillingLog> milling_log;
-    if (options.log_milling_csv) milling_log.emplace(*options.log_milling_csv);
+    begin_log(milling_log, options.log_milling_csv);
 
     MillingSessionOptions session_options = options.session;
     const bool is_shown = options.listen || options.record;
@@ -218,9 +222,10 @@ void run_server(const ServerOptions& options, const std::string& version, const 
     const auto session =
         std::make_unique<MillingSession>(scene, std::move(bone), *device.device, session_options,
                                          log ? &*log : nullptr, milling_log ? &*milling_log : nullptr);
-    const Streaming streaming = is_shown ? make_streaming(std::move(streaming_as_typed), options, scene,
-                                                          *std::move(mirror), *session, device, version)
-                                         : Streaming{};
+    const Streaming streaming =
+        is_shown ? make_streaming(std::move(streaming_as_typed), options, scene, *std::move(mirror), *session,
+                                  device, version, *output.out)
+                 : Streaming{};
 
     cost.startup_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
 
@@ -229,7 +234,7 @@ void run_server(const ServerOptions& options, const std::string& version, const 
             advice_on_rights(real_time_rights(), std::filesystem::read_symlink("/proc/self/exe").string());
         if (!advice.empty()) spdlog::warn("{}", advice);
     }
-    StatusLine status(stderr, isatty(STDERR_FILENO) == 1);
+    StatusLine status(*output.err, output.err->is_terminal());
     std::atomic<bool> is_over{false};
     session->run(is_over, [&](const ToolSnapshot& tool) {
         status.show(tool, StatusLine::Clock::now());
@@ -238,26 +243,29 @@ void run_server(const ServerOptions& options, const std::string& version, const 
         if (stop.load() || device.is_finished()) is_over.store(true);
     });
     status.finish();
-    if (streaming) streaming.server->stop();
-    const auto recording = streaming ? streaming.server->recording() : std::nullopt;
+    if (streaming) streaming.server->end();
 
+    std::ifstream process("/proc/self/status");
+    const std::uint64_t peak_bytes = peak_resident_bytes(process).value_or(0);
+    // What matters most first, and nothing waits for a client that is slow to read the end.
     const MillingSessionReport report = session->report();
     Leftovers leftovers;
-    leftovers.write([&] { close_log(log); });
-    leftovers.write([&] { close_log(milling_log); });
-    leftovers.write([&] {
-        if (!options.json) return;
-        std::ifstream process("/proc/self/status");
-        const std::uint64_t peak = peak_resident_bytes(process).value_or(0);
-        auto json = measurements(report, cost, peak, scene, options);
-        if (recording) json["recording"] = recorded(*recording);
-        write_json(json, *options.json);
-    });
     leftovers.write([&] {
         if (!options.save_bone) return;
         save_carved_bone(*options.save_bone, source->volume, session->bone(),
                          {{threshold_key, threshold_text(source->threshold_hu)}});
     });
+    leftovers.write([&] { close_log(log); });
+    leftovers.write([&] { close_log(milling_log); });
+    if (streaming) streaming.server->finish_recording();
+    const auto recording = streaming ? streaming.server->recording() : std::nullopt;
+    leftovers.write([&] {
+        if (!options.json) return;
+        auto json = measurements(report, cost, peak_bytes, scene, options);
+        if (recording) json["recording"] = recorded(*recording);
+        write_json(json, *options.json);
+    });
+    if (streaming) streaming.server->stop();
     leftovers.write([&] {
         if (streaming && streaming.server->mirror_checksum() != report.bone_checksum) {
             throw std::runtime_error(

@@ -4,14 +4,16 @@
 #include <atomic>
 #include <string>
 
+#include "common/program/program_output.h"
 #include "haptic_server/program/server_options.h"
 
 namespace osteomill {
 
 /// Runs until the duration or the trajectory ends, or `stop` is set from anywhere (a signal handler may).
-/// Prints "listening on ADDRESS:PORT" on standard output once clients can connect, and progress on standard
-/// error. Throws std::exception with one line for whatever stands in the way; a log or measurement that could
-/// not be written is one of these, after the session.
-void run_server(const ServerOptions& options, const std::string& version, const std::atomic<bool>& stop);
+/// Says "listening on ADDRESS:PORT" on standard output once clients can connect, and progress on standard
+/// error; neither can hold it up. Throws std::exception with one line for whatever stands in the way; a log
+/// or measurement that could not be written is one of these, after the session.
+void run_server(const ServerOptions& options, const std::string& version, const std::atomic<bool>& stop,
+                const ProgramOutput& output);
 
 }  // namespace osteomill

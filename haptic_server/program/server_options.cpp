@@ -6,7 +6,9 @@
 #include <algorithm>
 #include <map>
 #include <stdexcept>
+#include <vector>
 
+#include "common/files/distinct_files.h"
 #include "haptic_server/device/hid/profile_file.h"
 #include "haptic_server/imaging/phantom.h"
 
@@ -185,6 +187,29 @@ double default_milling_rate_hz(const MillingSessionOptions& session) {
     return is_as_published ? published_rate_hz : 1.0 / MillingSession::tick_s;
 }
 
+/// A bone may be saved over the one that was loaded: it is replaced when all of the new one is there.
+void require_distinct_files(const ServerOptions& options) {
+    std::vector<NamedFile> files;
+    const auto add = [&files](const char* option, const std::optional<std::filesystem::path>& path,
+                              bool is_written) {
+        if (path) files.push_back({option, *path, is_written});
+    };
+    add("--trajectory", options.trajectory, false);
+    if (options.scene) add("--scene", *options.scene, false);
+    add("--device-profile", options.device_profile, false);
+    add("--operators", options.operators, false);
+    add("--json", options.json, true);
+    add("--log-csv", options.log_csv, true);
+    add("--log-milling-csv", options.log_milling_csv, true);
+    add("--record", options.record, true);
+    const std::size_t without_bones = files.size();
+    for (const bool saved : {false, true}) {
+        files.resize(without_bones);
+        saved ? add("--save-bone", options.save_bone, true) : add("--bone", options.bone, false);
+        require_distinct(files);
+    }
+}
+
 ServerOptions checked(const Typed& typed, const AccessOptions& access) {
     const bool is_virtual = typed.clock == "virtual";
     const bool is_client = typed.device == "client";
@@ -241,6 +266,7 @@ ServerOptions checked(const Typed& typed, const AccessOptions& access) {
     options.json = path_if_given(typed.json);
     options.log_csv = path_if_given(typed.log_csv);
     options.log_milling_csv = path_if_given(typed.log_milling_csv);
+    require_distinct_files(options);
     return options;
 }
 

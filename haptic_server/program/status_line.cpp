@@ -8,18 +8,14 @@ namespace osteomill {
 
 void StatusLine::show(const ToolSnapshot& tool, Clock::time_point now) {
     show_fault(tool);
-    if (now < next_) return;
+    if (now < next_ || !out_.has_caught_up()) return;
     next_ = now + (is_terminal_ ? std::chrono::seconds(1) : std::chrono::seconds(5));
     const std::string line =
         fmt::format("{:7.1f} s   force {:5.2f} N   removed {:8.2f} mm^3   spindle {}{}", tool.time_s,
                     glm::length(tool.force_n), tool.removed_mm3, tool.spindle_on ? "on " : "off",
                     tool.touches_protected ? "   PROTECTED TISSUE" : "");
-    if (is_terminal_) {
-        fmt::print(out_, "\r{}\033[K", line);  // to the line's start, and erase what the last one left
-    } else {
-        fmt::print(out_, "{}\n", line);
-    }
-    std::fflush(out_);
+    // To the line's start, and erase what the last one left.
+    out_.write(is_terminal_ ? fmt::format("\r{}\033[K", line) : line + "\n");
     is_line_open_ = is_terminal_;
 }
 
@@ -27,21 +23,19 @@ void StatusLine::show_fault(const ToolSnapshot& tool) {
     if (tool.fault == fault_) return;
     finish();
     fault_ = tool.fault;
-    fmt::print(out_, "{:7.1f} s   {}\n", tool.time_s,
-               fault_ == Fault::none ? "the force comes back" : describe(fault_));
-    std::fflush(out_);
+    out_.write(fmt::format("{:7.1f} s   {}\n", tool.time_s,
+                           fault_ == Fault::none ? "the force comes back" : describe(fault_)));
 }
 
 void StatusLine::show_notice(const ToolSnapshot& tool, std::string_view notice) {
     if (notice == notice_) return;
     finish();
     notice_ = notice;
-    fmt::print(out_, "{:7.1f} s   {}\n", tool.time_s, notice.empty() ? "the device is ready" : notice);
-    std::fflush(out_);
+    out_.write(fmt::format("{:7.1f} s   {}\n", tool.time_s, notice.empty() ? "the device is ready" : notice));
 }
 
 void StatusLine::finish() {
-    if (is_line_open_) fmt::print(out_, "\n");
+    if (is_line_open_) out_.write("\n");
     is_line_open_ = false;
 }
 

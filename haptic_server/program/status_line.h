@@ -1,12 +1,13 @@
 // Tells people how it goes: a status line a second on a terminal, a line every five seconds elsewhere, and a
-// line of its own whenever the force goes off or comes back.
+// line of its own whenever the force goes off or comes back. How it went while nobody could be told is old
+// news: there is no status line until what was said before has been taken.
 #pragma once
 
 #include <chrono>
-#include <cstdio>
 #include <string>
 #include <string_view>
 
+#include "common/log/line_stream.h"
 #include "haptic_server/loop/exchange.h"
 
 namespace osteomill {
@@ -15,8 +16,8 @@ class StatusLine {
   public:
     using Clock = std::chrono::steady_clock;
 
-    /// Writes to `out`; `is_terminal` decides between rewriting one line and adding lines.
-    StatusLine(std::FILE* out, bool is_terminal) : out_(out), is_terminal_(is_terminal) {}
+    /// Writes to `out`, which outlives it; `is_terminal` decides between rewriting one line and adding lines.
+    StatusLine(LineStream& out, bool is_terminal) : out_(out), is_terminal_(is_terminal) {}
 
     /// To be called often; `now` is the time of people, not of the session.
     void show(const ToolSnapshot& tool, Clock::time_point now);
@@ -28,7 +29,7 @@ class StatusLine {
   private:
     void show_fault(const ToolSnapshot& tool);
 
-    std::FILE* out_;
+    LineStream& out_;
     bool is_terminal_;
     bool is_line_open_ = false;
     Fault fault_ = Fault::none;

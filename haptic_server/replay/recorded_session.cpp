@@ -1,5 +1,9 @@
 #include "haptic_server/replay/recorded_session.h"
 
+#include <variant>
+
+#include "common/wire/scene_messages.h"
+
 namespace osteomill {
 
 ToolView RecordedSession::update(BoneMirror& mirror, std::size_t viewers) {
@@ -13,7 +17,17 @@ ToolView RecordedSession::update(BoneMirror& mirror, std::size_t viewers) {
             is_over_ = true;
         }
     }
-    return playhead_.tool().value_or(ToolView{});
+    return tool();
+}
+
+ToolView RecordedSession::tool() const {
+    if (playhead_.tool()) return *playhead_.tool();
+    // Before the first state: where that will have it.
+    const v1::StateFrame* first = playhead_.next_frame();
+    if (first == nullptr) return {};
+    const auto read = tool_from(first->tool(), playhead_.session().burrs.size());
+    const auto* tool = std::get_if<ToolView>(&read);
+    return tool != nullptr ? *tool : ToolView{};
 }
 
 void RecordedSession::show(BoneMirror& mirror, double until_s) {

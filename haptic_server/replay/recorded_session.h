@@ -32,6 +32,7 @@ class RecordedSession final : public ShownSession {
 
   private:
     void show(BoneMirror& mirror, double until_s);
+    ToolView tool() const;
 
     Playhead& playhead_;
     const double speed_;

@@ -5,7 +5,6 @@
 #include <cerrno>
 #include <cstring>
 #include <stdexcept>
-#include <utility>
 
 namespace osteomill {
 
@@ -24,9 +23,9 @@ std::string quoted(const std::string& text) {
 
 }  // namespace
 
-RecordingCsv::RecordingCsv(std::filesystem::path file) : file_(std::move(file)), out_(file_) {
+RecordingCsv::RecordingCsv(const std::filesystem::path& file) : file_(file), out_(file_.part()) {
     if (!out_)
-        throw std::runtime_error(fmt::format("{}: cannot write: {}", file_.string(), std::strerror(errno)));
+        throw std::runtime_error(fmt::format("{}: cannot write: {}", file.string(), std::strerror(errno)));
     out_ << "time_s,session_time_s,burr_x_mm,burr_y_mm,burr_z_mm,axis_x,axis_y,axis_z,hand_x_mm,hand_y_mm,"
             "hand_z_mm,force_x_n,force_y_n,force_z_n,burr,spindle,removed_mm3\n";
 }
@@ -43,7 +42,9 @@ void RecordingCsv::add(const Playhead& playhead) {
 void RecordingCsv::close() {
     out_.close();
     if (!out_)
-        throw std::runtime_error(fmt::format("{}: cannot write: {}", file_.string(), std::strerror(errno)));
+        throw std::runtime_error(
+            fmt::format("{}: cannot write: {}", file_.path().string(), std::strerror(errno)));
+    file_.commit();
 }
 
 }  // namespace osteomill

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "common/files/whole_file.h"
 #include "common/recording/playhead.h"
 
 namespace osteomill {
@@ -15,13 +16,14 @@ namespace osteomill {
 class RecordingCsv {
   public:
     /// Throws std::runtime_error where the file cannot be written.
-    explicit RecordingCsv(std::filesystem::path file);
+    explicit RecordingCsv(const std::filesystem::path& file);
     void add(const Playhead& playhead);
-    /// Throws std::runtime_error where a line could not be written.
+    /// Makes it the file, which is as it was until then. Throws std::runtime_error where a line could not be
+    /// written.
     void close();
 
   private:
-    std::filesystem::path file_;
+    WholeFile file_;
     std::ofstream out_;
 };
 

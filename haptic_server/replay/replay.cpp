@@ -3,12 +3,12 @@
 #include <fmt/format.h>
 
 #include <chrono>
-#include <cstdio>
-#include <fstream>
 #include <limits>
 #include <stdexcept>
 #include <thread>
 
+#include "common/files/whole_file.h"
+#include "common/program/stop_signals.h"
 #include "haptic_server/replay/recorded_session.h"
 #include "haptic_server/replay/recording_csv.h"
 #include "haptic_server/replay/recording_summary.h"
@@ -18,28 +18,28 @@ namespace osteomill {
 
 namespace {
 
-void write_json(const RecordingSummary& summary, const std::filesystem::path& file) {
-    std::ofstream out(file);
-    // Names may be what a hostile file holds: bytes that are no UTF-8 must not cost the whole report.
-    out << to_json(summary).dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) << '\n';
-    out.close();
-    if (!out) throw std::runtime_error(fmt::format("{}: cannot write", file.string()));
-}
-
-void read(const ReplayOptions& options) {
+void read(const ReplayOptions& options, const std::atomic<bool>& stop) {
     std::optional<RecordingCsv> csv;
     if (options.csv) csv.emplace(*options.csv);
     const RecordingSummary summary = summarise(options.recording, [&](const Playhead& playhead) {
+        if (stop.load()) throw std::runtime_error("was told to stop; nothing was written");
         if (csv) csv->add(playhead);
     });
     if (csv) csv->close();
-    if (options.json) write_json(summary, *options.json);
+    // Names may be what a hostile file holds: bytes that are no UTF-8 must not cost the whole report.
+    if (options.json)
+        write_whole_file(
+            *options.json,
+            to_json(summary).dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n");
+    // Whoever asks for the text waits for it, and ends the program where nobody takes it.
+    end_on_signals();
     if (options.info) fmt::print("{}", to_text(summary));
     if (!summary.error.empty()) throw std::runtime_error(summary.error);
 }
 
 /// Shows the playhead's session to its end. `where`: a port 0 becomes the one that was found.
-void show_session(Playhead& playhead, double speed, StreamingOptions& where, const std::atomic<bool>& stop) {
+void show_session(Playhead& playhead, double speed, StreamingOptions& where, const std::atomic<bool>& stop,
+                  LineStream& out) {
     SessionInfo session = playhead.session();
     session.protocol_major = protocol_major;
     session.protocol_minor = protocol_minor;
@@ -48,8 +48,7 @@ void show_session(Playhead& playhead, double speed, StreamingOptions& where, con
     StreamingServer server(where, std::move(session), playhead.bone(), shown);
     server.start();
     where.port = server.port();
-    fmt::print("listening on {}:{}\n", where.address, where.port);
-    std::fflush(stdout);
+    out.write(fmt::format("listening on {}:{}\n", where.address, where.port));
     while (!shown.is_over() && !stop.load()) std::this_thread::sleep_for(std::chrono::milliseconds(10));
     server.stop();
     if (!shown.error().empty()) throw std::runtime_error(shown.error());
@@ -74,13 +73,13 @@ bool go_to_next_session(Playhead& playhead) {
 
 }  // namespace
 
-void run_replay(const ReplayOptions& options, const std::atomic<bool>& stop) {
-    if (options.only_reads()) return read(options);
+void run_replay(const ReplayOptions& options, const std::atomic<bool>& stop, const ProgramOutput& output) {
+    if (options.only_reads()) return read(options, stop);
     StreamingOptions where = streaming_options(options.listen, options.access);
     Playhead playhead(options.recording);
     if (options.from_s > 0.0) go_to(playhead, options.from_s);
     do {
-        show_session(playhead, options.speed, where, stop);
+        show_session(playhead, options.speed, where, stop, *output.out);
     } while (!stop.load() && go_to_next_session(playhead));
 }
 

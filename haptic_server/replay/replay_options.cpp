@@ -4,6 +4,9 @@
 
 #include <CLI/CLI.hpp>
 #include <stdexcept>
+#include <vector>
+
+#include "common/files/distinct_files.h"
 
 namespace osteomill {
 
@@ -43,6 +46,10 @@ ReplayCommandLine parse_replay_command_line(int argc, const char* const* argv, c
     if (auto text = parse_or_text(app, argc, argv)) return {std::nullopt, *std::move(text)};
     if (!json.empty()) options.json = json;
     if (!csv.empty()) options.csv = csv;
+    std::vector<NamedFile> files{{"FILE", options.recording, false}};
+    if (options.json) files.push_back({"--json", *options.json});
+    if (options.csv) files.push_back({"--csv", *options.csv});
+    require_distinct(files);
     for (const CLI::Option* serving : {where, speed, from})
         if (options.only_reads() && serving->count() > 0)
             throw std::invalid_argument(

@@ -4,9 +4,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cstdio>
-#include <memory>
 #include <string>
+#include <thread>
+
+#include "tests/support/unread_pipe.h"
 
 namespace osteomill {
 namespace {
@@ -17,22 +18,21 @@ using ::testing::HasSubstr;
 /// Collects what a status line writes.
 class Paper {
   public:
-    std::FILE* file() { return file_.get(); }
-    std::string text() {
-        std::fflush(file_.get());
-        std::rewind(file_.get());
-        std::string result;
-        for (int c = std::fgetc(file_.get()); c != EOF; c = std::fgetc(file_.get())) {
-            result.push_back(static_cast<char>(c));
-        }
-        return result;
+    LineStream& stream() { return stream_; }
+    /// Until all is on it.
+    void wait() const {
+        while (!stream_.has_caught_up()) std::this_thread::yield();
     }
+    /// What has come since the last time; something must have.
+    std::string text() const {
+        wait();
+        return pipe_.read(65'536);
+    }
+    const testing::UnreadPipe& pipe() const { return pipe_; }
 
   private:
-    struct Close {
-        void operator()(std::FILE* f) const { std::fclose(f); }
-    };
-    std::unique_ptr<std::FILE, Close> file_{std::tmpfile()};
+    testing::UnreadPipe pipe_;
+    LineStream stream_{pipe_.writer()};
 };
 
 ToolSnapshot tool_at(double time_s, Fault fault = Fault::none) {
@@ -48,26 +48,47 @@ long lines(const std::string& text) {
 
 TEST(StatusLine, AddsALineEveryFiveSecondsWhereThereIsNoTerminal) {
     Paper paper;
-    StatusLine status(paper.file(), false);
+    StatusLine status(paper.stream(), false);
     const StatusLine::Clock::time_point start{};
-    for (int i = 0; i <= 120; ++i) status.show(tool_at(0.1 * i), start + milliseconds(100 * i));
+    for (int i = 0; i <= 120; ++i) {
+        status.show(tool_at(0.1 * i), start + milliseconds(100 * i));
+        paper.wait();
+    }
     EXPECT_EQ(lines(paper.text()), 3);
 }
 
 TEST(StatusLine, RewritesOneLineOnATerminal) {
     Paper paper;
-    StatusLine status(paper.file(), true);
+    StatusLine status(paper.stream(), true);
     const StatusLine::Clock::time_point start{};
-    for (int i = 0; i <= 30; ++i) status.show({}, start + milliseconds(100 * i));
+    for (int i = 0; i <= 30; ++i) {
+        status.show({}, start + milliseconds(100 * i));
+        paper.wait();
+    }
     status.finish();
     const std::string text = paper.text();
     EXPECT_EQ(lines(text), 1);
     EXPECT_EQ(std::count(text.begin(), text.end(), '\r'), 4);
 }
 
+TEST(StatusLine, SaysNothingOldWhenATerminalThatStoodStillGoesOn) {
+    Paper paper;
+    StatusLine status(paper.stream(), true);
+    const StatusLine::Clock::time_point start{};
+    paper.pipe().fill();
+    for (int i = 0; i <= 100; ++i) status.show(tool_at(0.1 * i), start + milliseconds(100 * i));
+    while (paper.pipe().read(65'536).empty()) {
+    }
+    paper.wait();
+    status.show(tool_at(11.0), start + milliseconds(11'000));
+    const std::string text = paper.text();
+    EXPECT_EQ(std::count(text.begin(), text.end(), '\r'), 1);
+    EXPECT_THAT(text, HasSubstr("11.0 s"));
+}
+
 TEST(StatusLine, ShowsForceAndRemovedBone) {
     Paper paper;
-    StatusLine status(paper.file(), false);
+    StatusLine status(paper.stream(), false);
     ToolSnapshot tool = tool_at(1.5);
     tool.spindle_on = true;
     tool.force_n = {0.0, 0.6, 0.8};
@@ -78,7 +99,7 @@ TEST(StatusLine, ShowsForceAndRemovedBone) {
 
 TEST(StatusLine, SaysAtOnceWhenTheForceGoesOffAndComesBack) {
     Paper paper;
-    StatusLine status(paper.file(), false);
+    StatusLine status(paper.stream(), false);
     const StatusLine::Clock::time_point start{};
     status.show({}, start);
     status.show(tool_at(0.0, Fault::model_stalled), start + milliseconds(20));
@@ -92,7 +113,7 @@ TEST(StatusLine, SaysAtOnceWhenTheForceGoesOffAndComesBack) {
 
 TEST(StatusLine, TellsWhatTheDeviceSaysOfItselfOnce) {
     Paper paper;
-    StatusLine status(paper.file(), false);
+    StatusLine status(paper.stream(), false);
     status.show_notice(tool_at(0.0), "");
     status.show_notice(tool_at(1.0), "plug it in again");
     status.show_notice(tool_at(2.0), "plug it in again");

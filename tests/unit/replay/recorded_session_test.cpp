@@ -56,6 +56,14 @@ TEST_F(RecordedSessionTest, PlaysAtItsSpeedFromWhenTheFirstViewerComes) {
     EXPECT_EQ(session.error(), "");
 }
 
+TEST_F(RecordedSessionTest, ShowsTheFirstToolBeforeItsFirstState) {
+    Playhead playhead(folder_ / "a.pcap");
+    ASSERT_FALSE(playhead.tool());
+    BoneMirror mirror(playhead.bone());
+    RecordedSession session(playhead, 1.0, clock());
+    EXPECT_EQ(session.update(mirror, 0).burr, 1U) << "as recorded";
+}
+
 TEST_F(RecordedSessionTest, BeginsWhereThePlayheadIs) {
     Playhead playhead(folder_ / "a.pcap");
     while (playhead.step(5.0) != Playhead::Step::nothing_due) {
