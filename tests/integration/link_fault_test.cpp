@@ -167,7 +167,7 @@ TEST_F(LinkFaults, OfAServerKilledWhileItRecordsLeaveAFileAndClientsForTheNext) 
     Links links;
     links.push_back(std::make_unique<BoneLink>("127.0.0.1", port_));
     ASSERT_TRUE(poll_until(links, [](const LinkUpdate& update) { return update.checksums_verified >= 2; }));
-    const auto recorded = [&] { return std::filesystem::file_size(file("a.pcap")); };
+    const auto recorded = [&] { return std::filesystem::file_size(file("a.part.pcap")); };
     const auto by_then = recorded();
     ASSERT_TRUE(eventually([&] { return recorded() > by_then; }));
     server_->send_signal(SIGKILL);
@@ -175,7 +175,8 @@ TEST_F(LinkFaults, OfAServerKilledWhileItRecordsLeaveAFileAndClientsForTheNext) 
     ASSERT_TRUE(
         poll_until(links, [](const LinkUpdate& update) { return update.status == LinkStatus::lost; }));
 
-    const Finished read = run_program({PACKET_REPLAY, file("a.pcap"), "--info", "--json", file("info.json")});
+    const Finished read =
+        run_program({PACKET_REPLAY, file("a.part.pcap"), "--info", "--json", file("info.json")});
     EXPECT_EQ(read.status, 0) << read.err;
     EXPECT_FALSE(json("info.json").at("ends_with_goodbye"));
     EXPECT_GT(json("info.json").at("removed_mm3").at("total"), 0.0);

@@ -135,19 +135,26 @@ TEST_F(Recording, OfAServerThatWasKilledIsReadableToItsLastWholeFrame) {
     ChildProcess server(
         {HAPTIC_SERVER, "--bone", file("block.nrrd"), "--listen", "127.0.0.1:0", "--record", file("a.pcap")});
     ASSERT_TRUE(server.line_after("listening on ", 60s)) << server.err();
-    const auto size = [&] { return std::filesystem::file_size(file("a.pcap")); };
+    // Until its session ends a recording is a part; that of a killed one stays.
+    const auto size = [&] { return std::filesystem::file_size(file("a.part.pcap")); };
     const auto with_snapshot = size();
     ASSERT_TRUE(eventually([&] { return size() > with_snapshot + 5'000; })) << "no states";
     server.send_signal(SIGKILL);
     EXPECT_EQ(server.wait(60s), 128 + SIGKILL);
-    const auto read = info("a.pcap");
+    EXPECT_FALSE(std::filesystem::exists(file("a.pcap")));
+    const auto read = info("a.part.pcap");
     EXPECT_FALSE(read.at("ends_with_goodbye"));
     EXPECT_GT(read.at("frames"), 10);
 
     // The disk of a machine that lost its power may have kept less.
-    std::filesystem::resize_file(file("a.pcap"), size() - 3);
-    EXPECT_TRUE(info("a.pcap").at("is_torn"));
-    EXPECT_EQ(info("a.pcap").at("frames").get<int>(), read.at("frames").get<int>() - 1);
+    std::filesystem::resize_file(file("a.part.pcap"), size() - 3);
+    EXPECT_TRUE(info("a.part.pcap").at("is_torn"));
+    EXPECT_EQ(info("a.part.pcap").at("frames").get<int>(), read.at("frames").get<int>() - 1);
+
+    // Nor is it lost with the next session of that name.
+    record("a.pcap");
+    EXPECT_TRUE(info("a.pcap").at("ends_with_goodbye"));
+    EXPECT_EQ(info("a.torn-1.pcap").at("frames").get<int>(), read.at("frames").get<int>() - 1);
 }
 
 TEST_F(Recording, WithADamagedMiddleIsNotTakenForATornEnd) {
@@ -178,14 +185,15 @@ TEST_F(Recording, StandsStillWhileTheDiskIsFullAndTheSessionGoesOn) {
     const auto needed = std::filesystem::file_size(file("whole.pcap")) / 1024;
     const Finished server = record_on_disk_of(needed - 5, "a.pcap", "full.json");
     EXPECT_EQ(server.status, 1);
-    EXPECT_THAT(server.err, AllOf(HasSubstr("a.pcap: no more than "), HasSubstr("File too large"),
+    EXPECT_THAT(server.err, AllOf(HasSubstr("a.part.pcap: no more than "), HasSubstr("File too large"),
                                   HasSubstr("the session goes on")));
     const auto full = json("full.json");
     EXPECT_EQ(full.at("bone_checksum"), json("server.json").at("bone_checksum"));
     EXPECT_EQ(full.at("ticks"), json("server.json").at("ticks"));
     EXPECT_THAT(full.at("recording").at("error").get<std::string>(), HasSubstr("File too large"));
-    EXPECT_EQ(info("a.pcap").at("frames"), full.at("recording").at("frames"));
-    EXPECT_FALSE(info("a.pcap").at("ends_with_goodbye"));
+    EXPECT_EQ(full.at("recording").at("file"), file("a.part.pcap"));
+    EXPECT_EQ(info("a.part.pcap").at("frames"), full.at("recording").at("frames"));
+    EXPECT_FALSE(info("a.part.pcap").at("ends_with_goodbye"));
 
     const Finished too_little = record_on_disk_of(1, "b.pcap", "none.json");
     EXPECT_EQ(too_little.status, 1);

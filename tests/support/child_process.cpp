@@ -14,10 +14,11 @@ namespace osteomill::testing {
 
 using Clock = std::chrono::steady_clock;
 
-ChildProcess::ChildProcess(const std::vector<std::string>& command) {
-    std::array<std::array<int, 2>, 2> pipes{};
-    for (auto& pipe : pipes)
-        if (::pipe2(pipe.data(), O_CLOEXEC) != 0)
+ChildProcess::ChildProcess(const std::vector<std::string>& command, const Streams& instead) {
+    const std::array given{instead.out, instead.err};
+    std::array<std::array<int, 2>, 2> pipes{{{-1, -1}, {-1, -1}}};
+    for (std::size_t i = 0; i < 2; ++i)
+        if (given[i] < 0 && ::pipe2(pipes[i].data(), O_CLOEXEC) != 0)
             throw std::system_error(errno, std::generic_category(), "pipe");
     std::vector<char*> arguments;
     for (const std::string& argument : command) arguments.push_back(const_cast<char*>(argument.c_str()));
@@ -25,13 +26,13 @@ ChildProcess::ChildProcess(const std::vector<std::string>& command) {
     pid_ = ::fork();
     if (pid_ < 0) throw std::system_error(errno, std::generic_category(), "fork");
     if (pid_ == 0) {
-        ::dup2(pipes[0][1], STDOUT_FILENO);
-        ::dup2(pipes[1][1], STDERR_FILENO);
+        ::dup2(given[0] < 0 ? pipes[0][1] : given[0], STDOUT_FILENO);
+        ::dup2(given[1] < 0 ? pipes[1][1] : given[1], STDERR_FILENO);
         ::execv(arguments[0], arguments.data());
         ::_exit(127);
     }
     for (std::size_t i = 0; i < 2; ++i) {
-        ::close(pipes[i][1]);
+        if (given[i] < 0) ::close(pipes[i][1]);
         streams_[i].descriptor = pipes[i][0];
     }
 }

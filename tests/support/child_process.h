@@ -13,8 +13,15 @@ namespace osteomill::testing {
 
 class ChildProcess {
   public:
+    /// What a program has in place of a stream that is collected; -1 where it is.
+    struct Streams {
+        int out = -1;
+        int err = -1;
+    };
+
     /// Starts a program (absolute path first, then arguments). Throws std::system_error if it cannot.
-    explicit ChildProcess(const std::vector<std::string>& command);
+    explicit ChildProcess(const std::vector<std::string>& command) : ChildProcess(command, Streams{}) {}
+    ChildProcess(const std::vector<std::string>& command, const Streams& instead);
     ~ChildProcess();  ///< kills what still runs
     ChildProcess(const ChildProcess&) = delete;
     ChildProcess& operator=(const ChildProcess&) = delete;

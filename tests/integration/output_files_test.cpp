@@ -1,0 +1,186 @@
+// The files that a session leaves are old or new, never half of either; and no two of them are one. The real
+// programs.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <chrono>
+#include <csignal>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "tests/support/block_file.h"
+#include "tests/support/child_process.h"
+#include "tests/support/eventually.h"
+#include "tests/support/force_log_file.h"
+#include "tests/support/temporary_folder.h"
+
+namespace osteomill::testing {
+namespace {
+
+using namespace std::chrono_literals;
+namespace fs = std::filesystem;
+using Command = std::vector<std::string>;
+using ::testing::AllOf;
+using ::testing::EndsWith;
+using ::testing::HasSubstr;
+
+class OutputFiles : public ::testing::Test {
+  protected:
+    OutputFiles() { write_block(file("block.nrrd")); }
+
+    std::string file(const std::string& name) const { return (folder_ / name).string(); }
+    std::string text_of(const std::string& name) const {
+        std::ostringstream text;
+        text << std::ifstream(file(name)).rdbuf();
+        return text.str();
+    }
+    void put(const std::string& name, const std::string& text = "old") const {
+        std::ofstream(file(name)) << text;
+    }
+    Command server(const Command& options) const {
+        Command command{HAPTIC_SERVER, "--bone", file("block.nrrd")};
+        command.insert(command.end(), options.begin(), options.end());
+        return command;
+    }
+    /// In a shell where files may have so many KiB: a full disk.
+    static Finished run_on_disk_of(int kibibytes, const Command& command) {
+        std::string line = "ulimit -f " + std::to_string(kibibytes) + "; exec";
+        for (const std::string& word : command) line += " " + word;
+        return run_program({"/bin/bash", "-c", line});
+    }
+    void expect_refused(const Command& command, const std::string& one, const std::string& other) const {
+        const Finished run = run_program(command);
+        EXPECT_EQ(run.status, 2) << run.err;
+        EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << run.err;
+        EXPECT_THAT(run.err, AllOf(HasSubstr(one), HasSubstr(other)));
+    }
+
+    TemporaryFolder folder_;
+};
+
+TEST_F(OutputFiles, OfAKilledSessionLeaveTheOldOnesAsTheyWere) {
+    const Command names{"a.json", "force.csv", "milling.csv", "a.pcap"};
+    for (const std::string& name : names) put(name);
+    {
+        ChildProcess session(
+            server({"--listen", "none", "--json", file("a.json"), "--log-csv", file("force.csv"),
+                    "--log-milling-csv", file("milling.csv"), "--record", file("a.pcap")}));
+        ASSERT_TRUE(eventually([&] {
+            return fs::exists(file("force.part.csv")) && fs::file_size(file("force.part.csv")) > 10'000;
+        }));
+        session.send_signal(SIGKILL);
+        ASSERT_EQ(session.wait(60s), 128 + SIGKILL);
+    }
+    for (const std::string& name : names) EXPECT_EQ(text_of(name), "old") << name;
+    EXPECT_EQ(run_program({PACKET_REPLAY, file("a.part.pcap"), "--info"}).status, 0);
+    const auto torn_bytes = fs::file_size(file("force.part.csv"));
+
+    const Finished next =
+        run_program(server({"--clock", "virtual", "--duration-s", "0.2", "--json", file("a.json"),
+                            "--log-csv", file("force.csv"), "--record", file("a.pcap")}));
+    ASSERT_EQ(next.status, 0) << next.err;
+    EXPECT_THAT(next.err, AllOf(HasSubstr("force.torn-1.csv"), HasSubstr("a.torn-1.pcap")));
+    EXPECT_EQ(fs::file_size(file("force.torn-1.csv")), torn_bytes);
+    EXPECT_EQ(run_program({PACKET_REPLAY, file("a.torn-1.pcap"), "--info"}).status, 0);
+    EXPECT_EQ(read_force_log(file("force.csv")).size(), 201U);
+    EXPECT_EQ(run_program({PACKET_REPLAY, file("a.pcap"), "--info"}).status, 0);
+    EXPECT_FALSE(fs::exists(file("force.part.csv")));
+}
+
+TEST_F(OutputFiles, OnAFullDiskLeaveTheOldOnesAsTheyWere) {
+    for (const std::string name : {"a.json", "force.csv"}) put(name);
+    const Finished session = run_on_disk_of(2, server({"--clock", "virtual", "--duration-s", "1", "--json",
+                                                       file("a.json"), "--log-csv", file("force.csv")}));
+    EXPECT_EQ(session.status, 1);
+    EXPECT_THAT(session.err, AllOf(HasSubstr("force.csv: the log is not complete: File too large"),
+                                   HasSubstr("force.part.csv\n")));
+    EXPECT_EQ(text_of("a.json"), "old");
+    EXPECT_EQ(text_of("force.csv"), "old");
+    EXPECT_EQ(fs::file_size(file("force.part.csv")), 2048U);
+
+    ASSERT_EQ(
+        run_program(server({"--clock", "virtual", "--duration-s", "1", "--record", file("a.pcap")})).status,
+        0);
+    for (const std::string name : {"b.json", "b.csv"}) put(name);
+    for (const Command& output : {Command{"--json", file("b.json")}, {"--csv", file("b.csv")}}) {
+        const Finished replay =
+            run_on_disk_of(1, {PACKET_REPLAY, file("a.pcap"), output.front(), output.back()});
+        EXPECT_EQ(replay.status, 1) << replay.err;
+    }
+    EXPECT_EQ(text_of("b.json"), "old");
+    EXPECT_EQ(text_of("b.csv"), "old");
+    EXPECT_FALSE(fs::exists(file("b.part.csv")));
+}
+
+TEST_F(OutputFiles, OfASessionThatCannotBeginLeaveNoParts) {
+    put("force.csv");
+    const Finished session =
+        run_program(server({"--listen", "192.0.2.1:7010", "--insecure-network", "--log-csv",
+                            file("force.csv"), "--record", file("a.pcap")}));
+    EXPECT_EQ(session.status, 1) << session.err;
+    EXPECT_EQ(text_of("force.csv"), "old");
+    EXPECT_FALSE(fs::exists(file("force.part.csv")));
+    EXPECT_FALSE(fs::exists(file("a.part.pcap")));
+}
+
+TEST_F(OutputFiles, AreRefusedAtTheStartWhereTwoAreOne) {
+    put("a.csv");
+    fs::create_symlink("a.csv", file("link.csv"));
+    fs::create_hard_link(file("a.csv"), file("hard.csv"));
+    for (const std::string& same : {file("a.csv"), file("./a.csv"), file("link.csv"), file("hard.csv")})
+        expect_refused(server({"--duration-s", "0.2", "--json", same, "--log-csv", file("a.csv")}), "--json",
+                       "--log-csv");
+    expect_refused(server({"--duration-s", "0.2", "--record", file("new"), "--log-milling-csv", file("new")}),
+                   "--record", "--log-milling-csv");
+    expect_refused(
+        server({"--duration-s", "0.2", "--json", file("new.nrrd"), "--save-bone", file("new.nrrd")}),
+        "--json", "--save-bone");
+    EXPECT_EQ(text_of("a.csv"), "old");
+    EXPECT_EQ(run_program(server({"--clock", "virtual", "--duration-s", "0.1", "--json", "/dev/null",
+                                  "--log-csv", "/dev/null"}))
+                  .status,
+              0);
+}
+
+TEST_F(OutputFiles, AreRefusedWhereTheyWouldDestroyWhatIsRead) {
+    put("motion.csv", "t_s,x_mm,y_mm,z_mm,axis_x,axis_y,axis_z,pedal\n0,0,0,6,0,0,1,0\n0.2,0,0,6,0,0,1,0\n");
+    expect_refused(
+        server({"--duration-s", "0.2", "--trajectory", file("motion.csv"), "--log-csv", file("motion.csv")}),
+        "--trajectory", "--log-csv");
+    expect_refused(server({"--duration-s", "0.2", "--json", file("block.nrrd")}), "--bone", "--json");
+    ASSERT_EQ(
+        run_program(server({"--clock", "virtual", "--duration-s", "0.1", "--record", file("a.pcap")})).status,
+        0);
+    expect_refused({PACKET_REPLAY, file("a.pcap"), "--csv", file("a.pcap")}, "FILE", "--csv");
+    expect_refused({PACKET_REPLAY, file("a.pcap"), "--json", file("b"), "--csv", file("b")}, "--json",
+                   "--csv");
+    expect_refused({RENDER_CLIENT, "--offscreen", "--replay", file("a.pcap"), "--json", file("a.pcap")},
+                   "--replay", "--json");
+    EXPECT_EQ(run_program({PACKET_REPLAY, file("a.pcap"), "--info"}).status, 0) << "it is still there";
+
+    // A bone is taken up and saved under its own name every day.
+    const Finished again = run_program(server(
+        {"--trajectory", file("motion.csv"), "--clock", "virtual", "--save-bone", file("block.nrrd")}));
+    EXPECT_EQ(again.status, 0) << again.err;
+    EXPECT_EQ(run_program(server({"--trajectory", file("motion.csv"), "--clock", "virtual"})).status, 0);
+}
+
+TEST_F(OutputFiles, OfTwoSessionsAtATimeDoNotMix) {
+    ChildProcess first(server({"--listen", "127.0.0.1:0", "--record", file("a.pcap")}));
+    ASSERT_TRUE(first.line_after("listening on ", 60s));
+    const Finished second =
+        run_program(server({"--clock", "virtual", "--duration-s", "0.1", "--record", file("a.pcap")}));
+    EXPECT_EQ(second.status, 1);
+    EXPECT_THAT(second.err, HasSubstr("a.part.pcap: another session is writing it"));
+    first.send_signal(SIGINT);
+    EXPECT_EQ(first.wait(60s), 0);
+    EXPECT_EQ(run_program({PACKET_REPLAY, file("a.pcap"), "--info"}).status, 0);
+}
+
+}  // namespace
+}  // namespace osteomill::testing

@@ -1,0 +1,46 @@
+// What a server wrote with --log-csv.
+#pragma once
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <glm/vec3.hpp>
+#include <string>
+#include <vector>
+
+namespace osteomill::testing {
+
+struct ForceLogLine {
+    double time_s = 0.0;
+    glm::dvec3 burr_mm{0.0};
+    glm::dvec3 force_n{0.0};
+    double removed_mm3 = 0.0;
+    bool spindle_on = false;
+    int fault = 0;
+};
+
+/// Columns as force_log.h says.
+inline std::vector<ForceLogLine> read_force_log(const std::filesystem::path& csv) {
+    std::ifstream in(csv);
+    std::vector<ForceLogLine> lines;
+    std::string text;
+    std::getline(in, text);
+    while (std::getline(in, text)) {
+        std::vector<double> column;
+        for (const char* at = text.c_str(); *at != '\0';) {
+            char* end = nullptr;
+            column.push_back(std::strtod(at, &end));
+            at = *end == ',' ? end + 1 : end;
+        }
+        column.resize(14);
+        lines.push_back({.time_s = column[0],
+                         .burr_mm = {column[4], column[5], column[6]},
+                         .force_n = {column[7], column[8], column[9]},
+                         .removed_mm3 = column[11],
+                         .spindle_on = column[12] != 0.0,
+                         .fault = static_cast<int>(column[13])});
+    }
+    return lines;
+}
+
+}  // namespace osteomill::testing
