@@ -7,11 +7,13 @@
 #include <algorithm>
 #include <array>
 #include <cstdlib>
-#include <fstream>
 #include <sstream>
+#include <stdexcept>
 
+#include "haptic_server/imaging/dicom_scan.h"
 #include "haptic_server/imaging/imaging_error.h"
 #include "haptic_server/imaging/quiet_libraries.h"
+#include "haptic_server/imaging/regular_file.h"
 
 namespace osteomill {
 
@@ -24,7 +26,6 @@ const Tag rows_tag(0x0028, 0x0010);
 const Tag columns_tag(0x0028, 0x0011);
 const Tag samples_tag(0x0028, 0x0002);
 const Tag frames_tag(0x0028, 0x0008);
-const Tag bits_allocated_tag(0x0028, 0x0100);
 const Tag spacing_tag(0x0028, 0x0030);
 const Tag position_tag(0x0020, 0x0032);
 const Tag orientation_tag(0x0020, 0x0037);
@@ -39,6 +40,9 @@ const Tag rescale_group_tag(0x0028, 0x9145);
 const Tag intercept_tag(0x0028, 0x1052);
 const Tag slope_tag(0x0028, 0x1053);
 const Tag pixel_measures_tag(0x0028, 0x9110);
+
+/// An element's length has 32 bits.
+constexpr std::uint64_t most_file_bytes = std::uint64_t{1} << 32U;
 
 /// An element's bytes as text, without padding; empty where absent.
 std::string text_of(const DataSet& data, const Tag& tag) {
@@ -145,43 +149,25 @@ void place_frames(const DataSet& data, std::size_t count, DicomHeader& header) {
     }
 }
 
-/// Where the value of the pixel data begins in the file; GDCM stops before it.
-std::uint64_t pixel_data_position(const std::filesystem::path& path) {
-    gdcm::Reader reader;
-    reader.SetFileName(path.c_str());
-    if (!reader.ReadUpToTag(pixel_data_tag, {pixel_data_tag})) return 0;
-    return reader.GetStreamCurrentPosition();
-}
-
-/// GDCM fills up pixel data that are shorter than the image, as a cut file leaves them.
-void require_whole(const std::filesystem::path& path, const DataSet& data, const DicomHeader& header,
-                   const gdcm::TransferSyntax& syntax, std::uint64_t frames) {
-    if (!header.has_pixel_data) return;
-    // Compressed pixels come in fragments, whose decoder sees whether they are whole; a deflated file's
-    // positions are not those of its data.
-    const gdcm::ByteValue* pixels = data.GetDataElement(pixel_data_tag).GetByteValue();
-    if (pixels == nullptr || syntax == gdcm::TransferSyntax::DeflatedExplicitVRLittleEndian) return;
-    const std::uint64_t expected = frames * static_cast<std::uint64_t>(header.rows) *
-                                   static_cast<std::uint64_t>(header.columns) *
-                                   static_cast<std::uint64_t>(header.samples_per_pixel) *
-                                   static_cast<std::uint64_t>(number_of(data, bits_allocated_tag, 16)) / 8;
-    const std::uint64_t size = std::filesystem::file_size(path);
-    const std::uint64_t after_header = size - std::min(size, pixel_data_position(path));
-    const std::uint64_t there = std::min<std::uint64_t>(pixels->GetLength(), after_header);
-    if (there < expected)
-        throw ImagingError(path, "is cut off: " + std::to_string(there) + " of " + std::to_string(expected) +
-                                     " bytes of pixel data are there");
-}
-
-bool begins_as_dicom(const std::filesystem::path& path) {
-    std::ifstream file(path, std::ios::binary);
-    std::array<char, 132> start{};
-    return file.read(start.data(), start.size()) && std::string(start.data() + 128, 4) == "DICM";
+/// What GDCM may be given the file for. Files are read whole: their parts may lie anywhere.
+std::optional<DicomScan> scan_file(const std::filesystem::path& path) {
+    const RegularFile file(path);
+    if (!may_be_dicom(file.first_bytes(dicom_mark_bytes))) return std::nullopt;
+    if (file.size() > most_file_bytes) throw ImagingError(path, "is DICOM of more than 4 GiB");
+    try {
+        std::optional<DicomScan> scan = scan_dicom(file.first_bytes(most_file_bytes));
+        if (scan) require_sound_pixels(*scan);
+        return scan;
+    } catch (const std::invalid_argument& error) {
+        throw ImagingError(path, error.what());
+    }
 }
 
 }  // namespace
 
 std::optional<DicomHeader> read_dicom_header(const std::filesystem::path& path) {
+    const std::optional<DicomScan> scan = scan_file(path);
+    if (!scan) return std::nullopt;
     const QuietLibraries quiet;
     gdcm::Reader reader;
     reader.SetFileName(path.c_str());
@@ -191,11 +177,7 @@ std::optional<DicomHeader> read_dicom_header(const std::filesystem::path& path) 
     } catch (const std::exception&) {
         parsed = false;
     }
-    if (!parsed) {
-        if (begins_as_dicom(path))
-            throw ImagingError(path, "is DICOM but cannot be parsed: cut off or damaged");
-        return std::nullopt;
-    }
+    if (!parsed) throw ImagingError(path, "is DICOM but cannot be parsed: cut off or damaged");
     const DataSet& data = reader.GetFile().GetDataSet();
     DicomHeader header;
     header.series_uid = text_of(data, series_uid_tag);
@@ -211,7 +193,13 @@ std::optional<DicomHeader> read_dicom_header(const std::filesystem::path& path) 
     const long count = frames.empty() ? 1 : std::strtol(frames.c_str(), nullptr, 10);
     if (count < 1 || count > 65536)
         throw ImagingError(path, "Number of Frames (0028,0008) is '" + frames + "'");
-    require_whole(path, data, header, syntax, static_cast<std::uint64_t>(count));
+    header.modality = scan->modality;
+    header.no_grey_image = why_no_grey_image(*scan);
+    if (scan->codestream && scan->codestream->is_signed && scan->pixel_representation &&
+        *scan->codestream->is_signed != (*scan->pixel_representation == 1)) {
+        header.wrong_sign_begin = scan->pixel_representation_begin;
+        header.codestream_is_signed = *scan->codestream->is_signed;
+    }
     place_frames(data, static_cast<std::size_t>(count), header);
     return header;
 }

@@ -11,6 +11,9 @@ namespace osteomill {
 
 namespace {
 
+/// No series has so many; every file is opened.
+constexpr std::size_t most_files = 65535;
+
 std::string described(const DicomSeries& series) {
     return fmt::format("{} ({}{}{} slices)", series.uid, series.description,
                        series.description.empty() ? "" : ", ", series.slices);
@@ -29,6 +32,8 @@ void require_usable(const DicomFile& file) {
     if (header.samples_per_pixel != 1)
         throw ImagingError(
             file.path, fmt::format("has {} samples a pixel (colour); CT has one", header.samples_per_pixel));
+    if (!header.no_grey_image.empty())
+        throw ImagingError(file.path, header.no_grey_image + ", which holds no CT numbers");
     if (!header.fault.empty()) throw ImagingError(file.path, header.fault);
 }
 
@@ -37,20 +42,29 @@ void require_usable(const DicomFile& file) {
 std::vector<DicomSeries> find_series(const std::filesystem::path& folder) {
     std::vector<std::filesystem::path> paths;
     std::error_code failed;
-    for (const auto& entry : std::filesystem::directory_iterator(folder, failed))
-        if (entry.is_regular_file()) paths.push_back(entry.path());
+    for (const auto& entry : std::filesystem::directory_iterator(folder, failed)) {
+        // What cannot even be looked at, as a link to itself, is no file.
+        std::error_code unknown;
+        if (entry.is_regular_file(unknown)) paths.push_back(entry.path());
+        if (paths.size() > most_files)
+            throw ImagingError(
+                folder, fmt::format("holds more than {} files; give the folder of one series", most_files));
+    }
     if (failed) throw ImagingError(folder, "cannot be listed: " + failed.message());
     if (paths.empty()) throw ImagingError(folder, "holds no files (folders in it are not searched)");
     std::sort(paths.begin(), paths.end());
 
     std::map<std::string, DicomSeries> by_uid;
+    std::map<std::string, DicomSeries> no_images;
     for (const std::filesystem::path& path : paths) {
         std::optional<DicomHeader> header = read_dicom_header(path);
         // Reports, presentation states and a DICOMDIR are DICOM, but no image.
         if (!header || header->rows == 0 || header->columns == 0) continue;
-        DicomSeries& series = by_uid[header->series_uid];
+        DicomSeries& series = (header->no_grey_image.empty() ? by_uid : no_images)[header->series_uid];
         add(series, {path, std::move(*header)});
     }
+    // A segmentation beside its scan may have more frames than that, and is not it.
+    if (by_uid.empty() && !no_images.empty()) require_usable(no_images.begin()->second.files.front());
     if (by_uid.empty()) throw ImagingError(folder, "holds no DICOM images");
     std::vector<DicomSeries> found;
     for (auto& [uid, series] : by_uid) found.push_back(std::move(series));

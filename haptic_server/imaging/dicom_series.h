@@ -30,8 +30,9 @@ struct DicomSeries {
 };
 
 /// The series of a folder (not of the folders in it), largest first, then by UID. Files that are not DICOM,
-/// and DICOM without an image's size (reports, a DICOMDIR), are passed over. Throws ImagingError for a folder
-/// that is empty or holds no DICOM image, and for a DICOM file that is cut off.
+/// DICOM without an image's size (reports, a DICOMDIR), and what holds no CT numbers (segmentations) beside
+/// what may, are passed over. Throws ImagingError for a folder that is empty, holds no such image or more
+/// than 65535 files, for a file that cannot be opened, and for a DICOM file that read_dicom_header refuses.
 std::vector<DicomSeries> find_series(const std::filesystem::path& folder);
 
 /// The series asked for, or else the largest. `others` gets one line about each series passed over. Throws
@@ -44,7 +45,7 @@ DicomSeries series_of_file(const std::filesystem::path& path);
 
 /// Where every slice of the series lies: of multi-frame files from their functional groups. Throws
 /// ImagingError for a file without pixel data, pixel spacing or position, with several samples a pixel
-/// (RGB), or whose frames cannot be placed.
+/// (RGB), that holds no CT numbers, or whose frames cannot be placed.
 std::vector<DicomSlice> slices_of(const DicomSeries& series);
 
 }  // namespace osteomill

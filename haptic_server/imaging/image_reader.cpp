@@ -2,44 +2,52 @@
 
 #include <fmt/format.h>
 #include <itkImageFileReader.h>
-#include <itkMetaImageIO.h>
 #include <itkNiftiImageIO.h>
 #include <itkNrrdImageIO.h>
 
 #include <algorithm>
 #include <cctype>
-#include <cmath>
-#include <glm/geometric.hpp>
+#include <stdexcept>
 
 #include "haptic_server/imaging/dicom_image.h"
 #include "haptic_server/imaging/imaging_error.h"
-#include "haptic_server/imaging/meta_image_header.h"
+#include "haptic_server/imaging/meta_image.h"
 #include "haptic_server/imaging/nifti_header.h"
 #include "haptic_server/imaging/nrrd_header.h"
+#include "haptic_server/imaging/plausible_geometry.h"
 #include "haptic_server/imaging/quiet_libraries.h"
 
 namespace osteomill {
 
 namespace {
 
-/// Cosine between two axes above which an image counts as sheared; 1e-3 is 0.06 degrees.
-constexpr double perpendicular_tolerance = 1e-3;
-
 bool ends_with_any(const std::string& name, std::initializer_list<const char*> endings) {
     return std::any_of(endings.begin(), endings.end(),
                        [&](const char* ending) { return name.ends_with(ending); });
 }
 
-/// The reader for a file's name; null where it tells none.
-itk::ImageIOBase::Pointer io_for(const std::filesystem::path& path) {
+enum class FileKind { nrrd, nifti, meta_image, other };
+
+/// By the file's name.
+FileKind kind_of(const std::filesystem::path& path) {
     std::string name = path.filename().string();
     std::transform(name.begin(), name.end(), name.begin(),
                    [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    if (ends_with_any(name, {".nrrd", ".nhdr"})) return itk::NrrdImageIO::New().GetPointer();
-    if (ends_with_any(name, {".nii", ".nii.gz", ".hdr", ".img", ".img.gz"}))
-        return itk::NiftiImageIO::New().GetPointer();
-    if (ends_with_any(name, {".mha", ".mhd"})) return itk::MetaImageIO::New().GetPointer();
-    return nullptr;
+    if (ends_with_any(name, {".nrrd", ".nhdr"})) return FileKind::nrrd;
+    if (ends_with_any(name, {".nii", ".nii.gz", ".hdr", ".img", ".img.gz"})) return FileKind::nifti;
+    if (ends_with_any(name, {".mha", ".mhd"})) return FileKind::meta_image;
+    return FileKind::other;
+}
+
+itk::ImageIOBase::Pointer io_for(const std::filesystem::path& path) {
+    if (kind_of(path) == FileKind::nrrd) return itk::NrrdImageIO::New().GetPointer();
+    return itk::NiftiImageIO::New().GetPointer();
+}
+
+void require_thickness(const std::filesystem::path& path, const glm::ivec3& size_voxels) {
+    if (std::min({size_voxels.x, size_voxels.y, size_voxels.z}) < 2)
+        throw ImagingError(path, fmt::format("is a single slice ({} x {} x {} voxels), which is no volume",
+                                             size_voxels.x, size_voxels.y, size_voxels.z));
 }
 
 void require_volume(const std::filesystem::path& path, const itk::ImageIOBase& io) {
@@ -50,11 +58,6 @@ void require_volume(const std::filesystem::path& path, const itk::ImageIOBase& i
     while (dimensions > 3 && io.GetDimensions(dimensions - 1) == 1) --dimensions;
     if (dimensions != 3)
         throw ImagingError(path, fmt::format("has {} dimensions; a volume has 3", dimensions));
-    for (unsigned axis = 0; axis < 3; ++axis)
-        if (io.GetDimensions(axis) < 2)
-            throw ImagingError(path,
-                               fmt::format("is a single slice ({} x {} x {} voxels), which is no volume",
-                                           io.GetDimensions(0), io.GetDimensions(1), io.GetDimensions(2)));
 }
 
 SourceImage geometry_of(const std::filesystem::path& path, const itk::ImageIOBase& io) {
@@ -66,17 +69,12 @@ SourceImage geometry_of(const std::filesystem::path& path, const itk::ImageIOBas
         image.origin_mm[i] = io.GetOrigin(axis);
         for (int row = 0; row < 3; ++row)
             image.direction[i][row] = io.GetDirection(axis)[static_cast<std::size_t>(row)];
-        if (!(image.spacing_mm[i] > 0.0) || !std::isfinite(image.spacing_mm[i]))
-            throw ImagingError(path, fmt::format("spacing {} mm of axis {}: it must be a number above 0",
-                                                 image.spacing_mm[i], axis));
-        if (!std::isfinite(image.origin_mm[i])) throw ImagingError(path, "its origin is not a number");
     }
-    for (int a = 0; a < 3; ++a)
-        for (int b = 0; b < 3; ++b)
-            if (!(std::abs(glm::dot(image.direction[a], image.direction[b]) - (a == b ? 1.0 : 0.0)) <
-                  perpendicular_tolerance))
-                throw ImagingError(
-                    path, "its axes are not perpendicular (a gantry tilt?); reformat it upright first");
+    try {
+        require_plausible_geometry(image);
+    } catch (const std::invalid_argument& error) {
+        throw ImagingError(path, error.what());
+    }
     return image;
 }
 
@@ -116,31 +114,42 @@ std::vector<float> read_file_values(const std::filesystem::path& path, const Sou
     }
 }
 
-OpenedImage open_file(const std::filesystem::path& path, itk::ImageIOBase& io) {
-    const bool is_nrrd = dynamic_cast<const itk::NrrdImageIO*>(&io) != nullptr;
-    const bool is_meta_image = dynamic_cast<const itk::MetaImageIO*>(&io) != nullptr;
-    if (is_nrrd) require_spacing(path, read_nrrd_header(path));
-    if (is_meta_image) require_meta_image_spacing(path);
-    const bool is_nifti = !is_nrrd && !is_meta_image;
-    if (is_nifti) require_nifti_spacing(path);
+/// Header and data are held against each other before ITK reads either.
+OpenedImage open_nrrd_or_nifti(const std::filesystem::path& path) {
+    const bool is_nrrd = kind_of(path) == FileKind::nrrd;
+    const std::uint64_t more = is_nrrd ? require_sound_nrrd(path) : require_sound_nifti(path);
     OpenedImage opened;
+    const itk::ImageIOBase::Pointer io = io_for(path);
     try {
         const QuietLibraries quiet;
-        io.SetFileName(path.string());
-        io.ReadImageInformation();
+        io->SetFileName(path.string());
+        io->ReadImageInformation();
     } catch (const itk::ExceptionObject&) {
-        const char* kind = is_nrrd ? "NRRD" : is_meta_image ? "MetaImage" : "NIfTI";
-        throw ImagingError(path, fmt::format("cannot be read as {}: cut off or damaged", kind));
+        throw ImagingError(
+            path, fmt::format("cannot be read as {}: cut off or damaged", is_nrrd ? "NRRD" : "NIfTI"));
     }
-    require_volume(path, io);
-    opened.image = geometry_of(path, io);
-    const std::uint64_t voxel_bytes =
-        voxel_count(opened.image) * static_cast<std::uint64_t>(io.GetComponentSize());
-    if (is_meta_image) require_whole_meta_image(path, voxel_bytes);
-    if (is_nifti) require_whole_nifti(path, voxel_bytes);
+    require_volume(path, *io);
+    opened.image = geometry_of(path, *io);
+    require_thickness(path, opened.image.size_voxels);
     if (is_nrrd) note_nrrd_orientation(path, opened.image);
+    if (more > 0)
+        opened.image.notes.push_back(
+            fmt::format("{}: {} bytes follow its voxels; they are not read", path.string(), more));
     opened.read_values = [path, geometry = opened.image](const ReportProgress& report) {
         return read_file_values(path, geometry, report);
+    };
+    return opened;
+}
+
+OpenedImage open_meta_image_file(const std::filesystem::path& path) {
+    MetaImage image = open_meta_image(path);
+    OpenedImage opened;
+    opened.image = image.header.image;
+    require_thickness(path, opened.image.size_voxels);
+    opened.read_values = [image = std::move(image)](const ReportProgress& report) {
+        std::vector<float> values = read_meta_image_values(image);
+        report(1.0);
+        return values;
     };
     return opened;
 }
@@ -164,7 +173,9 @@ OpenedImage open_image(const std::filesystem::path& path, const std::optional<st
     if (std::filesystem::is_directory(status)) return open_folder(path, series_uid);
     if (!std::filesystem::is_regular_file(status)) throw ImagingError(path, "is neither a file nor a folder");
     if (std::filesystem::file_size(path, failed) == 0) throw ImagingError(path, "is empty");
-    if (const itk::ImageIOBase::Pointer io = io_for(path)) return open_file(path, *io);
+    const FileKind kind = kind_of(path);
+    if (kind == FileKind::meta_image) return open_meta_image_file(path);
+    if (kind != FileKind::other) return open_nrrd_or_nifti(path);
     if (read_dicom_header(path)) return open_series(path, series_of_file(path));
     throw ImagingError(path,
                        "is no DICOM folder or file, NRRD (.nrrd, .nhdr), NIfTI (.nii, .nii.gz) or MetaImage "

@@ -22,8 +22,8 @@ struct OpenedImage {
 /// Reads headers only. `series_uid` picks a series of a DICOM folder; the largest otherwise. Throws
 /// ImagingError, in one line, for all that is no three-dimensional grey image placed in the patient: a path
 /// that does not exist, an unknown kind of file, a damaged header, 2 or 4 dimensions, a single slice, colour,
-/// a spacing that is zero or no number, axes that are not perpendicular, and what dicom_series.h and
-/// slice_geometry.h refuse.
+/// a geometry that no scan has (plausible_geometry.h), voxels that are not all there or whose checksum is
+/// wrong, and what the headers, dicom_series.h and slice_geometry.h refuse.
 OpenedImage open_image(const std::filesystem::path& path, const std::optional<std::string>& series_uid);
 
 }  // namespace osteomill

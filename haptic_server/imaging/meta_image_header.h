@@ -1,16 +1,41 @@
-// The text header of a MetaImage (.mha, .mhd). ITK's reader fills up a file that was cut off, and a spacing
-// of zero makes it fail without saying why.
+// The text header of a MetaImage (.mha, .mhd). ITK's own reader of this format hands the header's text to
+// printf, copies it into buffers of fixed size, passes over slices that are missing and fills up files that
+// were cut off; so it is not used.
 #pragma once
 
 #include <cstdint>
 #include <filesystem>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "haptic_server/imaging/source_image.h"
+#include "haptic_server/imaging/voxel_data.h"
 
 namespace osteomill {
 
-/// Throws ImagingError where the spacing holds a zero or something that is not a number.
-void require_meta_image_spacing(const std::filesystem::path& path);
+/// A header must end within so many bytes.
+inline constexpr std::size_t most_meta_image_header_bytes = 1u << 20;
 
-/// Throws ImagingError where the voxels' bytes, `voxel_bytes` when not compressed, are not all there.
-void require_whole_meta_image(const std::filesystem::path& path, std::uint64_t voxel_bytes);
+enum class MetaElement { int8, uint8, int16, uint16, int32, uint32, float32, float64 };
+
+struct MetaImageHeader {
+    SourceImage image;  ///< without values; what had to be assumed is in its notes
+    MetaElement element = MetaElement::int16;
+    bool big_endian = false;
+    VoxelEncoding encoding = VoxelEncoding::raw;
+    std::int64_t header_size = 0;         ///< bytes before the voxels of each data file; -1: they are its end
+    std::vector<std::string> data_files;  ///< empty: the voxels follow the header
+    std::size_t bytes = 0;                ///< of the header
+};
+
+std::uint64_t element_bytes(MetaElement element);
+
+/// Takes the first bytes of a file apart; pure. `path` is for messages. Throws ImagingError for a header
+/// that is cut off or has no end, a field that stands there twice, a number of dimensions other than 3,
+/// colour, a type or an encoding that is not read, a geometry that no scan has (plausible_geometry.h), a
+/// number of data files that is not that of the slices.
+MetaImageHeader parse_meta_image_header(std::span<const std::uint8_t> bytes,
+                                        const std::filesystem::path& path);
 
 }  // namespace osteomill

@@ -4,14 +4,16 @@
 #include <zlib.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstring>
 #include <memory>
-#include <optional>
-#include <vector>
+#include <stdexcept>
+#include <string>
 
 #include "haptic_server/imaging/imaging_error.h"
+#include "haptic_server/imaging/plausible_geometry.h"
+#include "haptic_server/imaging/regular_file.h"
+#include "haptic_server/imaging/voxel_data.h"
 
 namespace osteomill {
 
@@ -19,94 +21,252 @@ namespace {
 
 constexpr std::int32_t nifti1_header_bytes = 348;
 constexpr std::int32_t nifti2_header_bytes = 540;
+/// Extensions stand between header and voxels; notes about a patient, not another image.
+constexpr double most_voxels_begin = 64.0 * 1024.0 * 1024.0;
+constexpr std::size_t matrix_numbers = 12;
+
+/// Values at offsets, in either byte order.
+class Fields {
+  public:
+    Fields(std::span<const std::uint8_t> bytes, bool swapped) : bytes_(bytes), swapped_(swapped) {}
+
+    template <typename T>
+    T at(std::size_t offset) const {
+        std::array<std::uint8_t, sizeof(T)> raw{};
+        std::copy_n(bytes_.begin() + static_cast<std::ptrdiff_t>(offset), sizeof(T), raw.begin());
+        if (swapped_) std::reverse(raw.begin(), raw.end());
+        T value{};
+        std::memcpy(&value, raw.data(), sizeof(T));
+        return value;
+    }
+
+  private:
+    std::span<const std::uint8_t> bytes_;
+    bool swapped_;
+};
+
+/// What both versions of the format say, each at its own offsets.
+struct Stated {
+    std::array<std::int64_t, 8> dim{};
+    std::array<double, 4> pixdim{};
+    double voxels_begin = 0.0;
+    double slope = 0.0;
+    double intercept = 0.0;
+    int datatype = 0;
+    int bits = 0;
+    int qform = 0;
+    int sform = 0;
+    std::array<double, 6> quaternion_and_offset{};
+    std::array<double, matrix_numbers> rows{};
+    std::string magic;
+};
+
+template <typename Dim, typename Real>
+void read_lists(const Fields& fields, Stated& stated, std::size_t dim, std::size_t pixdim,
+                std::size_t quaternion, std::size_t rows) {
+    for (std::size_t i = 0; i < stated.dim.size(); ++i) stated.dim[i] = fields.at<Dim>(dim + sizeof(Dim) * i);
+    for (std::size_t i = 0; i < stated.pixdim.size(); ++i)
+        stated.pixdim[i] = static_cast<double>(fields.at<Real>(pixdim + sizeof(Real) * i));
+    for (std::size_t i = 0; i < stated.quaternion_and_offset.size(); ++i)
+        stated.quaternion_and_offset[i] = static_cast<double>(fields.at<Real>(quaternion + sizeof(Real) * i));
+    for (std::size_t i = 0; i < stated.rows.size(); ++i)
+        stated.rows[i] = static_cast<double>(fields.at<Real>(rows + sizeof(Real) * i));
+}
+
+Stated read_nifti1(const Fields& fields) {
+    Stated stated;
+    read_lists<std::int16_t, float>(fields, stated, 40, 76, 256, 280);
+    stated.voxels_begin = static_cast<double>(fields.at<float>(108));
+    stated.slope = static_cast<double>(fields.at<float>(112));
+    stated.intercept = static_cast<double>(fields.at<float>(116));
+    stated.datatype = fields.at<std::int16_t>(70);
+    stated.bits = fields.at<std::int16_t>(72);
+    stated.qform = fields.at<std::int16_t>(252);
+    stated.sform = fields.at<std::int16_t>(254);
+    for (std::size_t i = 0; i < 3; ++i) stated.magic += fields.at<char>(344 + i);
+    return stated;
+}
+
+Stated read_nifti2(const Fields& fields) {
+    Stated stated;
+    read_lists<std::int64_t, double>(fields, stated, 16, 104, 352, 400);
+    stated.voxels_begin = static_cast<double>(fields.at<std::int64_t>(168));
+    stated.slope = fields.at<double>(176);
+    stated.intercept = fields.at<double>(184);
+    stated.datatype = fields.at<std::int16_t>(12);
+    stated.bits = fields.at<std::int16_t>(14);
+    stated.qform = fields.at<std::int32_t>(344);
+    stated.sform = fields.at<std::int32_t>(348);
+    for (std::size_t i = 0; i < 3; ++i) stated.magic += fields.at<char>(4 + i);
+    return stated;
+}
+
+/// Bytes of a voxel; 0 for what is no plain number.
+std::uint64_t bytes_of_datatype(int datatype) {
+    switch (datatype) {
+        case 2:
+        case 256:
+            return 1;  // uint8, int8
+        case 4:
+        case 512:
+            return 2;  // int16, uint16
+        case 8:
+        case 768:
+        case 16:
+            return 4;  // int32, uint32, float
+        case 64:
+        case 1024:
+        case 1280:
+            return 8;  // double, int64, uint64
+        case 128:
+            return 3;  // colour, which is refused later, by its name
+        case 2304:
+            return 4;
+        default:
+            return 0;
+    }
+}
+
+void require_sizes(const Stated& stated, const std::filesystem::path& path, NiftiHeader& header) {
+    if (stated.dim[0] < 1 || stated.dim[0] > 7)
+        throw ImagingError(path, fmt::format("has {} dimensions (dim[0]); a volume has 3", stated.dim[0]));
+    for (std::size_t axis = 1; axis <= static_cast<std::size_t>(stated.dim[0]); ++axis)
+        header.sizes.push_back(static_cast<std::uint64_t>(std::max<std::int64_t>(stated.dim[axis], 0)));
+    const std::uint64_t bytes = bytes_of_datatype(stated.datatype);
+    if (bytes == 0 || stated.bits != static_cast<int>(8 * bytes))
+        throw ImagingError(path, fmt::format("datatype {} of {} bits (datatype, bitpix) is not read",
+                                             stated.datatype, stated.bits));
+    try {
+        header.voxel_bytes = plausible_voxel_count(header.sizes) * bytes;
+    } catch (const std::invalid_argument& error) {
+        throw ImagingError(path, error.what());
+    }
+}
+
+void require_numbers(const Stated& stated, const std::filesystem::path& path, NiftiHeader& header) {
+    for (std::size_t axis = 0; axis < 3 && axis < header.sizes.size(); ++axis) {
+        header.spacing_mm[axis] = stated.pixdim[axis + 1];
+        // A negative one is read as its amount.
+        if (!is_plausible_spacing(std::abs(header.spacing_mm[axis])))
+            throw ImagingError(path, implausible_spacing("spacing (pixdim)", header.spacing_mm[axis]));
+    }
+    if (!std::isfinite(stated.slope) || !std::isfinite(stated.intercept))
+        throw ImagingError(path, fmt::format("scl_slope {} and scl_inter {} are not numbers", stated.slope,
+                                             stated.intercept));
+    const auto plausible = [](double number) { return std::abs(number) <= farthest_position_mm; };
+    if (stated.qform > 0 &&
+        !(std::all_of(stated.quaternion_and_offset.begin(), stated.quaternion_and_offset.end(), plausible) &&
+          plausible(stated.pixdim[0])))
+        throw ImagingError(path, implausible_position("its qform (quatern, qoffset)"));
+    if (stated.sform > 0 && !std::all_of(stated.rows.begin(), stated.rows.end(), plausible))
+        throw ImagingError(path, implausible_position("its sform (srow_x, srow_y, srow_z)"));
+    for (std::size_t axis = 0; stated.sform > 0 && axis < 3; ++axis) {
+        const double length_mm = std::hypot(stated.rows[axis], stated.rows[4 + axis], stated.rows[8 + axis]);
+        if (!is_plausible_spacing(length_mm))
+            throw ImagingError(path, implausible_spacing("spacing of its sform (srow)", length_mm));
+    }
+}
+
+void require_beginning(const Stated& stated, const std::filesystem::path& path, double header_bytes,
+                       NiftiHeader& header) {
+    const double least = header.voxels_follow ? header_bytes : 0.0;
+    if (!(stated.voxels_begin >= least && stated.voxels_begin <= most_voxels_begin))
+        throw ImagingError(path, fmt::format("its voxels begin at byte {} (vox_offset); it must be {} to {}",
+                                             stated.voxels_begin, least, most_voxels_begin));
+    header.voxels_begin = static_cast<std::uint64_t>(stated.voxels_begin);
+}
 
 struct CloseGzip {
     void operator()(gzFile_s* file) const { gzclose(file); }
 };
-using GzipFile = std::unique_ptr<gzFile_s, CloseGzip>;
-
-/// A value at an offset, from either byte order.
-template <typename T>
-T value_at(const std::vector<unsigned char>& bytes, std::size_t offset, bool swapped) {
-    std::array<unsigned char, sizeof(T)> raw{};
-    std::copy_n(bytes.begin() + static_cast<std::ptrdiff_t>(offset), sizeof(T), raw.begin());
-    if (swapped) std::reverse(raw.begin(), raw.end());
-    T value{};
-    std::memcpy(&value, raw.data(), sizeof(T));
-    return value;
-}
-
-struct NiftiHeader {
-    std::array<double, 3> spacing_mm{};
-    std::uint64_t voxels_begin = 0;
-};
 
 /// zlib reads plain files as they are.
-NiftiHeader read_nifti_header(const std::filesystem::path& path) {
-    const GzipFile file(gzopen(path.c_str(), "rb"));
-    std::vector<unsigned char> bytes(nifti2_header_bytes);
+std::vector<std::uint8_t> first_bytes_inflated(const std::filesystem::path& path) {
+    { const RegularFile is_one(path); }
+    const std::unique_ptr<gzFile_s, CloseGzip> file(gzopen(path.c_str(), "rb"));
+    std::vector<std::uint8_t> bytes(most_nifti_header_bytes);
     const int read = file ? gzread(file.get(), bytes.data(), static_cast<unsigned>(bytes.size())) : -1;
-    const auto cut_off = [&] { return ImagingError(path, "cannot be read as NIfTI: cut off or damaged"); };
-    if (read < nifti1_header_bytes) throw cut_off();
-    for (const bool swapped : {false, true}) {
-        const auto size = value_at<std::int32_t>(bytes, 0, swapped);
-        NiftiHeader header;
-        if (size == nifti1_header_bytes) {
-            for (std::size_t axis = 0; axis < 3; ++axis)
-                header.spacing_mm[axis] = value_at<float>(bytes, 80 + 4 * axis, swapped);
-            header.voxels_begin =
-                static_cast<std::uint64_t>(std::clamp(value_at<float>(bytes, 108, swapped), 0.0F, 1e9F));
-            return header;
-        }
-        if (size == nifti2_header_bytes && read == nifti2_header_bytes) {
-            for (std::size_t axis = 0; axis < 3; ++axis)
-                header.spacing_mm[axis] = value_at<double>(bytes, 112 + 8 * axis, swapped);
-            header.voxels_begin = static_cast<std::uint64_t>(
-                std::max<std::int64_t>(value_at<std::int64_t>(bytes, 168, swapped), 0));
-            return header;
-        }
+    bytes.resize(static_cast<std::size_t>(std::max(read, 0)));
+    return bytes;
+}
+
+bool is_gzip(const std::filesystem::path& path) {
+    const std::vector<std::uint8_t> bytes = RegularFile(path).first_bytes(2);
+    return bytes == std::vector<std::uint8_t>{0x1f, 0x8b};
+}
+
+/// The .hdr or .img that belongs to the other; the NIfTI library takes the first of these.
+std::filesystem::path other_of_pair(const std::filesystem::path& path, const char* suffix) {
+    std::filesystem::path stem = path;
+    if (stem.extension() == ".gz") stem.replace_extension();
+    stem.replace_extension();
+    std::filesystem::path found;
+    for (const std::string& ending : {std::string(suffix), std::string(suffix) + ".gz"}) {
+        const std::filesystem::path candidate = stem.string() + ending;
+        if (!std::filesystem::exists(candidate)) continue;
+        if (!found.empty())
+            throw ImagingError(path, fmt::format("has both {} and {} beside it; which is meant?",
+                                                 found.filename().string(), candidate.filename().string()));
+        found = candidate;
     }
-    throw cut_off();
+    if (found.empty())
+        throw ImagingError(path,
+                           fmt::format("its other half, {}{}, is missing", stem.filename().string(), suffix));
+    return data_file_beside(path, found.filename().string());
 }
 
-/// Bytes of a file when inflated; std::nullopt where its gzip stream breaks off.
-std::optional<std::uint64_t> inflated_bytes(const std::filesystem::path& path) {
-    const GzipFile file(gzopen(path.c_str(), "rb"));
-    if (!file) return std::nullopt;
-    std::vector<unsigned char> buffer(1u << 20);
-    std::uint64_t total = 0;
-    int read = 0;
-    while ((read = gzread(file.get(), buffer.data(), static_cast<unsigned>(buffer.size()))) > 0)
-        total += static_cast<std::uint64_t>(read);
-    int error = Z_OK;
-    gzerror(file.get(), &error);
-    if (read < 0 || error == Z_BUF_ERROR || error == Z_DATA_ERROR) return std::nullopt;
-    return total;
-}
-
-bool holds_its_voxels(const std::filesystem::path& path) {
-    return path.string().find(".nii") != std::string::npos;
+bool is_half(const std::filesystem::path& path, const char* half) {
+    std::string name = path.filename().string();
+    std::transform(name.begin(), name.end(), name.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    return name.ends_with(half) || name.ends_with(std::string(half) + ".gz");
 }
 
 }  // namespace
 
-void require_nifti_spacing(const std::filesystem::path& path) {
-    if (!holds_its_voxels(path)) return;
-    const NiftiHeader header = read_nifti_header(path);
-    for (const double spacing_mm : header.spacing_mm)
-        if (!(std::abs(spacing_mm) > 0.0) || !std::isfinite(spacing_mm))
-            throw ImagingError(
-                path, fmt::format("spacing (pixdim) {} x {} x {} mm: every axis needs a number above 0",
-                                  header.spacing_mm[0], header.spacing_mm[1], header.spacing_mm[2]));
+NiftiHeader parse_nifti_header(std::span<const std::uint8_t> bytes, const std::filesystem::path& path) {
+    const auto cut_off = [&] { return ImagingError(path, "cannot be read as NIfTI: cut off or damaged"); };
+    if (bytes.size() < static_cast<std::size_t>(nifti1_header_bytes)) throw cut_off();
+    for (const bool swapped : {false, true}) {
+        const Fields fields(bytes, swapped);
+        const auto size = fields.at<std::int32_t>(0);
+        const bool is_second = size == nifti2_header_bytes && bytes.size() >= most_nifti_header_bytes;
+        if (size != nifti1_header_bytes && !is_second) continue;
+        Stated stated = is_second ? read_nifti2(fields) : read_nifti1(fields);
+        NiftiHeader header;
+        header.voxels_follow = stated.magic.starts_with("n+");
+        // Analyze 7.5 has other things where NIfTI has these.
+        if (!header.voxels_follow && !stated.magic.starts_with("ni"))
+            stated.qform = stated.sform = 0, stated.slope = stated.intercept = 0.0;
+        require_sizes(stated, path, header);
+        require_numbers(stated, path, header);
+        require_beginning(stated, path, size, header);
+        return header;
+    }
+    throw cut_off();
 }
 
-void require_whole_nifti(const std::filesystem::path& path, std::uint64_t voxel_bytes) {
-    if (!holds_its_voxels(path)) return;
-    const std::uint64_t expected = read_nifti_header(path).voxels_begin + voxel_bytes;
-    const std::optional<std::uint64_t> found = inflated_bytes(path);
-    if (!found) throw ImagingError(path, "is cut off or damaged: its gzip stream breaks off");
-    if (*found < expected)
-        throw ImagingError(path, fmt::format("is cut off: {} of {} bytes are there", *found, expected));
+std::uint64_t require_sound_nifti(const std::filesystem::path& path) {
+    const bool is_image_half = is_half(path, ".img");
+    const std::filesystem::path header_file = is_image_half ? other_of_pair(path, ".hdr") : path;
+    const NiftiHeader header = parse_nifti_header(first_bytes_inflated(header_file), header_file);
+    std::filesystem::path voxel_file = path;
+    if (is_half(path, ".hdr")) voxel_file = other_of_pair(path, ".img");
+    if (voxel_file == header_file && !header.voxels_follow)
+        throw ImagingError(path,
+                           "is a header of NIfTI or Analyze whose voxels are in a file of their own, "
+                           "but is not called .hdr");
+    if (voxel_file != header_file && header.voxels_follow)
+        throw ImagingError(header_file, "says that its voxels follow it; call it .nii");
+    VoxelData data;
+    VoxelPart part{.file = voxel_file, .begin = header.voxels_begin, .bytes = header.voxel_bytes};
+    if (is_gzip(voxel_file)) {
+        data.encoding = VoxelEncoding::gzip;
+        part.begin = 0;
+        part.bytes += header.voxels_begin;
+    }
+    data.parts.push_back(part);
+    return require_whole(data);
 }
 
 }  // namespace osteomill

@@ -1,17 +1,36 @@
-// What the NIfTI library lets pass: it takes a spacing that is zero or no number for 1 mm, and fills up
-// voxels that a cut-off file lacks.
+// The header of a NIfTI-1 or -2 (or Analyze 7.5) image, held against what it may say before ITK's reader sees
+// it: that one takes a spacing that is zero or no number for 1 mm, hangs on an orientation that is no number,
+// begins to read before the voxels begin, and fills up voxels that a cut-off file lacks.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <filesystem>
+#include <span>
+#include <vector>
 
 namespace osteomill {
 
-/// Throws ImagingError where a spacing (pixdim) of the three axes is zero or no number, or the header is cut.
-void require_nifti_spacing(const std::filesystem::path& path);
+/// So much of a file is its header.
+inline constexpr std::size_t most_nifti_header_bytes = 540;
 
-/// Throws ImagingError where a .nii or .nii.gz holds fewer than `voxel_bytes` bytes of voxels. A .hdr with
-/// its .img is left to ITK.
-void require_whole_nifti(const std::filesystem::path& path, std::uint64_t voxel_bytes);
+struct NiftiHeader {
+    bool voxels_follow = true;  ///< in one file; otherwise in an .img beside the .hdr
+    std::vector<std::uint64_t> sizes;
+    std::uint64_t voxel_bytes = 0;  ///< of all voxels
+    std::uint64_t voxels_begin = 0;
+    std::array<double, 3> spacing_mm{};
+};
+
+/// Takes the first bytes of a file (inflated) apart; pure. `path` is for messages. Throws ImagingError for a
+/// header that is cut off, for sizes or a type of voxels that cannot be, for a spacing, offset, orientation
+/// or rescale that is not a number or that no scan has, and for voxels that begin within the header or
+/// beyond all reason.
+NiftiHeader parse_nifti_header(std::span<const std::uint8_t> bytes, const std::filesystem::path& path);
+
+/// Holds header and voxels against each other: sizes, gzip's own checksum, nothing behind compressed voxels.
+/// Throws ImagingError. `path` is a .nii, .nii.gz, or either of a .hdr with its .img (.img.gz). Bytes that
+/// follow plain voxels, which nobody reads, are counted in the result.
+std::uint64_t require_sound_nifti(const std::filesystem::path& path);
 
 }  // namespace osteomill

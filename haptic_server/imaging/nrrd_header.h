@@ -1,18 +1,54 @@
-// The fields of a NRRD header as they stand in the file. ITK's reader takes a missing orientation, or a
-// spacing that is not a number, for a default without a word; here they can be told apart.
+// The header of a NRRD as it stands in the file, held against what it may say before ITK's reader sees it:
+// that one takes a missing orientation, or a spacing that is not a number, for a default without a word, and
+// hands the names of data files to printf.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <map>
+#include <span>
 #include <string>
+#include <vector>
+
+#include "haptic_server/imaging/voxel_data.h"
 
 namespace osteomill {
 
-/// Field name in lower case to its text ("space" to "left-posterior-superior"); comments and key-values left
-/// out. Throws ImagingError unless the file can be opened and begins with "NRRD".
+/// A header must end within so many bytes.
+inline constexpr std::size_t most_nrrd_header_bytes = 1u << 20;
+
+struct NrrdHeader {
+    /// Field name in lower case to its text ("space" to "left-posterior-superior").
+    std::map<std::string, std::string> fields;
+    std::vector<std::string> listed_files;  ///< of "data file: LIST"
+    std::size_t bytes = 0;                  ///< up to and with the blank line
+};
+
+/// What the header says of the voxels.
+struct NrrdLayout {
+    VoxelEncoding encoding = VoxelEncoding::raw;
+    std::uint64_t voxel_bytes = 0;        ///< of all voxels, decoded
+    std::int64_t byte_skip = 0;           ///< -1: the voxels are the end of the file
+    std::uint64_t line_skip = 0;          ///< lines between the header (or the file's start) and the voxels
+    std::vector<std::string> data_files;  ///< empty: the voxels follow the header
+};
+
+/// Takes the first bytes of a file apart; pure. `path` is for messages. Throws ImagingError unless they
+/// begin with "NRRD", and for a field that stands there twice, a zero byte, or a header without end.
+NrrdHeader parse_nrrd_header(std::span<const std::uint8_t> bytes, const std::filesystem::path& path);
+
+/// Throws ImagingError for sizes, a type, an encoding or data files that cannot be, or that are not read; for
+/// a number of `spacings`, `space directions`, `space origin`, `axis mins` or `axis maxs` that no scan has.
+NrrdLayout nrrd_layout(const NrrdHeader& header, const std::filesystem::path& path);
+
+/// The fields alone. Throws as parse_nrrd_header does, and where the file cannot be opened.
 std::map<std::string, std::string> read_nrrd_header(const std::filesystem::path& path);
 
 /// Throws ImagingError where `spacings` or `space directions` hold a zero or something that is not a number.
 void require_spacing(const std::filesystem::path& path, const std::map<std::string, std::string>& header);
+
+/// Holds header, data files and, where they are compressed, the voxels' checksum against each other; throws
+/// ImagingError. Bytes that follow raw voxels, which nobody reads, are counted in the result.
+std::uint64_t require_sound_nrrd(const std::filesystem::path& path);
 
 }  // namespace osteomill

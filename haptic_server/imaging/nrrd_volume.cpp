@@ -102,7 +102,7 @@ NrrdVolume<Voxel> read_nrrd_volume(const std::filesystem::path& path) {
         throw ImagingError(path,
                            std::string("is not a file") + (std::filesystem::is_directory(path) ? hint : ""));
     const std::map<std::string, std::string> header = read_nrrd_header(path);
-    require_spacing(path, header);
+    require_sound_nrrd(path);
     if (!header.contains("space") || !header.contains("space directions"))
         throw ImagingError(path, std::string("does not say how it lies in the patient (space)") + hint);
 

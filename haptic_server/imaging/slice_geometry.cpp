@@ -9,7 +9,7 @@
 #include <numeric>
 #include <stdexcept>
 
-#include "common/bone/finite.h"
+#include "haptic_server/imaging/plausible_geometry.h"
 
 namespace osteomill {
 
@@ -27,10 +27,10 @@ constexpr double gap_tolerance_mm = 0.02;
 
 void require_sound(const SlicePlacement& slice) {
     for (const double pitch_mm : {slice.column_pitch_mm, slice.row_pitch_mm})
-        if (!(pitch_mm > 0.0) || !std::isfinite(pitch_mm))
-            refuse(fmt::format("pixel spacing {} x {} mm of {}: it must be above 0", slice.row_pitch_mm,
-                               slice.column_pitch_mm, slice.name));
-    if (!is_finite(slice.position_mm)) refuse(fmt::format("the position of {} is not a number", slice.name));
+        if (!is_plausible_spacing(pitch_mm))
+            refuse(implausible_spacing("pixel spacing of " + slice.name, pitch_mm));
+    if (!is_plausible_position(slice.position_mm))
+        refuse(implausible_position("the position of " + slice.name));
     const bool unit = std::abs(glm::length(slice.along_row) - 1.0) < direction_tolerance &&
                       std::abs(glm::length(slice.along_column) - 1.0) < direction_tolerance;
     if (!unit || !(std::abs(glm::dot(slice.along_row, slice.along_column)) < direction_tolerance))

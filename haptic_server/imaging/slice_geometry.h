@@ -30,11 +30,11 @@ struct SliceStack {
 };
 
 /// Stacks the slices along their common normal (row x column). Throws std::invalid_argument, in words that
-/// name the slices, for: fewer than two slices; sizes, orientations or pixel spacings that differ; a spacing
-/// or a direction that is not a number; row and column not perpendicular; two slices at one position; slices
-/// that shift sideways by more than half a pixel over the stack (gantry tilt, its angle in the message);
-/// missing slices; uneven spacing (a gap further from the median gap than 2 % and 0.02 mm, which is the
-/// rounding that scanners print).
+/// name the slices, for: fewer than two slices; sizes, orientations or pixel spacings that differ; a spacing,
+/// a position or a direction that is not a number or that no scan has (plausible_geometry.h); row and column
+/// not perpendicular; two slices at one position; slices that shift sideways by more than half a pixel over
+/// the stack (gantry tilt, its angle in the message); missing slices; uneven spacing (a gap further from the
+/// median gap than 2 % and 0.02 mm, which is the rounding that scanners print).
 SliceStack stack_slices(const std::vector<SlicePlacement>& slices);
 
 }  // namespace osteomill

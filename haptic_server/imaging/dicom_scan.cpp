@@ -1,0 +1,473 @@
+#include "haptic_server/imaging/dicom_scan.h"
+
+#include <fmt/format.h>
+#include <zlib.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <new>
+#include <stdexcept>
+#include <string_view>
+
+#include "haptic_server/imaging/plausible_geometry.h"
+
+namespace osteomill {
+
+namespace {
+
+using Bytes = std::span<const std::uint8_t>;
+
+constexpr std::uint32_t undefined_length = 0xffffffff;
+constexpr std::uint32_t tag(std::uint32_t group, std::uint32_t element) {
+    return group << 16U | element;
+}
+constexpr std::uint32_t item_tag = tag(0xfffe, 0xe000);
+constexpr std::uint32_t item_end_tag = tag(0xfffe, 0xe00d);
+constexpr std::uint32_t sequence_end_tag = tag(0xfffe, 0xe0dd);
+constexpr std::uint32_t pixel_data_tag = tag(0x7fe0, 0x0010);
+/// A value that is not taken apart here may be by GDCM. How deep that may go is bounded by the items that
+/// could be in it; so many are far from filling a stack.
+constexpr std::uint64_t most_items_in_values = 1000;
+constexpr std::uint64_t most_frames = 65536;
+constexpr std::uint64_t most_inflated_bytes = std::uint64_t{1} << 30U;
+
+struct Damaged : std::invalid_argument {
+    Damaged() : std::invalid_argument("is DICOM but cannot be parsed: cut off or damaged") {}
+};
+
+struct Syntax {
+    bool is_explicit = true;
+    bool big_endian = false;
+};
+
+struct Element {
+    std::uint32_t tag = 0;
+    std::array<char, 2> representation{};  ///< "SQ"; zeros when implicit
+    std::uint32_t length = 0;
+    std::size_t value = 0;  ///< where it begins
+};
+
+class Walker {
+  public:
+    explicit Walker(Bytes bytes) : bytes_(bytes) {}
+
+    DicomScan scan;
+
+    /// Elements of the file itself, from an offset on, up to one of another group where `only_group` is one.
+    std::size_t walk_file(std::size_t at, const Syntax& syntax, std::optional<std::uint32_t> only_group) {
+        while (at < bytes_.size()) {
+            // What follows the pixels, such as a filled-up block, is GDCM's to judge.
+            if (scan.has_pixel_data && bytes_.size() - at < 8) break;
+            if (only_group && number<std::uint16_t>(at, false) != *only_group) break;
+            const Element element = element_at(at, syntax);
+            at = after(element, syntax, 0);
+            note(element, syntax);
+        }
+        return at;
+    }
+    void require_few_hidden_items() const {
+        if (items_in_values_ > most_items_in_values)
+            throw std::invalid_argument(fmt::format(
+                "is DICOM with {} items within values that are no sequences; damaged", items_in_values_));
+    }
+
+  private:
+    template <typename T>
+    T number(std::size_t at, bool big_endian) const {
+        if (at > bytes_.size() || bytes_.size() - at < sizeof(T)) throw Damaged();
+        T value = 0;
+        for (std::size_t i = 0; i < sizeof(T); ++i)
+            value = static_cast<T>(value | static_cast<T>(bytes_[at + i])
+                                               << (8U * (big_endian ? sizeof(T) - 1 - i : i)));
+        return value;
+    }
+
+    Element element_at(std::size_t at, const Syntax& syntax) const {
+        Element element;
+        element.tag = tag(number<std::uint16_t>(at, syntax.big_endian),
+                          number<std::uint16_t>(at + 2, syntax.big_endian));
+        const bool is_item = element.tag >> 16U == 0xfffe;
+        if (!syntax.is_explicit || is_item) {
+            element.length = number<std::uint32_t>(at + 4, syntax.big_endian);
+            element.value = at + 8;
+            return element;
+        }
+        element.representation = {static_cast<char>(number<std::uint8_t>(at + 4, false)),
+                                  static_cast<char>(number<std::uint8_t>(at + 5, false))};
+        const std::string_view name(element.representation.data(), 2);
+        for (const char letter : name)
+            if (letter < 'A' || letter > 'Z') throw Damaged();
+        constexpr std::array<std::string_view, 13> with_long_length{"OB", "OD", "OF", "OL", "OV", "OW", "SQ",
+                                                                    "SV", "UC", "UN", "UR", "UT", "UV"};
+        if (std::find(with_long_length.begin(), with_long_length.end(), name) != with_long_length.end()) {
+            element.length = number<std::uint32_t>(at + 8, syntax.big_endian);
+            element.value = at + 12;
+        } else {
+            element.length = number<std::uint16_t>(at + 6, syntax.big_endian);
+            element.value = at + 8;
+        }
+        return element;
+    }
+
+    std::size_t end_of(const Element& element) const {
+        if (element.value > bytes_.size() || bytes_.size() - element.value < element.length) throw Damaged();
+        return element.value + element.length;
+    }
+
+    bool is(const Element& element, std::string_view representation) const {
+        return std::string_view(element.representation.data(), 2) == representation;
+    }
+
+    /// Where the element ends; goes through what is nested in it.
+    std::size_t after(const Element& element, const Syntax& syntax, int depth) {
+        if (element.length == undefined_length) {
+            // Also of a picture within a sequence, an icon.
+            if (element.tag == pixel_data_tag) return after_fragments(element, syntax, depth == 0);
+            // Of unknown form and length: coded as implicit, whatever the file is.
+            const Syntax inner =
+                is(element, "UN") ? Syntax{.is_explicit = false, .big_endian = false} : syntax;
+            return after_items(element.value, std::nullopt, inner, depth);
+        }
+        const std::size_t end = end_of(element);
+        // An implicit file does not say what is a sequence; what begins with an item is taken for one.
+        const bool may_be_items = element.length >= 8 && element.tag != pixel_data_tag &&
+                                  number<std::uint16_t>(element.value, syntax.big_endian) == 0xfffe &&
+                                  number<std::uint16_t>(element.value + 2, syntax.big_endian) == 0xe000;
+        if (is(element, "SQ") || (may_be_items && !syntax.is_explicit)) {
+            const std::uint64_t before = items_in_values_;
+            try {
+                if (after_items(element.value, end, syntax, depth) == end) return end;
+            } catch (const Damaged&) {
+                // Its length says where it ends, whatever is in it.
+            }
+            items_in_values_ = before;
+        }
+        count_items(element.value, end, syntax.big_endian);
+        return end;
+    }
+
+    std::size_t after_items(std::size_t at, std::optional<std::size_t> end, const Syntax& syntax, int depth) {
+        if (depth >= most_dicom_nesting)
+            throw std::invalid_argument(
+                fmt::format("is DICOM with more than {} sequences within one another", most_dicom_nesting));
+        while (!end || at < *end) {
+            const Element item = element_at(at, syntax);
+            if (item.tag == sequence_end_tag) return item.value;
+            if (item.tag != item_tag) throw Damaged();
+            const bool open = item.length == undefined_length;
+            const std::size_t item_end = open ? bytes_.size() : end_of(item);
+            if (end && !open && item_end > *end) throw Damaged();
+            at = item.value;
+            bool closed = !open;
+            while (at < item_end) {
+                const Element element = element_at(at, syntax);
+                if (element.tag == item_end_tag) {
+                    at = element.value;
+                    closed = true;
+                    break;
+                }
+                if (element.tag >> 16U == 0xfffe) throw Damaged();
+                at = after(element, syntax, depth + 1);
+            }
+            if (!closed || (!open && at > item_end)) throw Damaged();
+        }
+        return at;
+    }
+
+    std::size_t after_fragments(const Element& element, const Syntax& syntax, bool is_noted) {
+        std::size_t at = element.value;
+        for (bool is_table = true;; is_table = false) {
+            const Element fragment = element_at(at, syntax);
+            if (fragment.tag == sequence_end_tag) return fragment.value;
+            if (fragment.tag != item_tag) throw Damaged();
+            at = end_of(fragment);
+            if (is_table || !is_noted) continue;
+            if (scan.pixel_bytes == 0) first_fragment_ = bytes_.subspan(fragment.value, fragment.length);
+            scan.pixel_bytes += fragment.length;
+        }
+    }
+
+    void count_items(std::size_t begin, std::size_t end, bool big_endian) {
+        const std::array<std::uint8_t, 4> little{0xfe, 0xff, 0x00, 0xe0};
+        const std::array<std::uint8_t, 4> big{0xff, 0xfe, 0xe0, 0x00};
+        const auto& pattern = big_endian ? big : little;
+        const Bytes value = bytes_.subspan(begin, end - begin);
+        auto at = value.begin();
+        while ((at = std::search(at, value.end(), pattern.begin(), pattern.end())) != value.end()) {
+            ++items_in_values_;
+            at += 4;
+        }
+    }
+
+    std::string text(const Element& element) const {
+        const std::size_t length = std::min<std::size_t>(element.length, 64);
+        std::string text(reinterpret_cast<const char*>(bytes_.data()) + element.value, length);
+        while (!text.empty() && (text.back() == ' ' || text.back() == '\0')) text.pop_back();
+        return text;
+    }
+
+    void note(const Element& element, const Syntax& syntax) {
+        if (element.tag == pixel_data_tag) {
+            scan.is_encapsulated = element.length == undefined_length;
+            if (!scan.is_encapsulated) scan.pixel_bytes = element.length;
+            scan.has_pixel_data = scan.is_encapsulated || element.length > 0;
+            if (scan.is_encapsulated) scan.codestream = codestream_of(first_fragment_);
+            return;
+        }
+        if (element.length == undefined_length) return;
+        const auto set_text = [&](std::string& into) {
+            if (into.empty()) into = text(element);
+        };
+        const auto set_number = [&](std::optional<int>& into) {
+            if (!into && element.length >= 2) into = number<std::uint16_t>(element.value, syntax.big_endian);
+        };
+        switch (element.tag) {
+            case tag(0x0002, 0x0010):
+                return set_text(scan.transfer_syntax);
+            case tag(0x0008, 0x0016):
+                return set_text(scan.sop_class);
+            case tag(0x0008, 0x0060):
+                return set_text(scan.modality);
+            case tag(0x0028, 0x0002):
+                return set_number(scan.samples_per_pixel);
+            case tag(0x0028, 0x0008):
+                return set_text(scan.frames);
+            case tag(0x0028, 0x0010):
+                return set_number(scan.rows);
+            case tag(0x0028, 0x0011):
+                return set_number(scan.columns);
+            case tag(0x0028, 0x0100):
+                return set_number(scan.bits_allocated);
+            case tag(0x0028, 0x0101):
+                return set_number(scan.bits_stored);
+            case tag(0x0028, 0x0102):
+                return set_number(scan.high_bit);
+            case tag(0x0028, 0x0103):
+                if (!scan.pixel_representation) scan.pixel_representation_begin = element.value;
+                return set_number(scan.pixel_representation);
+            default:
+                return;
+        }
+    }
+
+    static std::optional<Codestream> codestream_of(Bytes bytes);
+
+    Bytes bytes_;
+    Bytes first_fragment_;
+    std::uint64_t items_in_values_ = 0;
+};
+
+std::uint32_t big_endian_at(Bytes bytes, std::size_t at, std::size_t count) {
+    std::uint32_t value = 0;
+    for (std::size_t i = 0; i < count; ++i) value = value << 8U | bytes[at + i];
+    return value;
+}
+
+std::optional<Codestream> jpeg2000(Bytes bytes) {
+    // SOC, SIZ: length, capabilities, size, offset, tiles, number of components, depth of the first.
+    constexpr std::size_t most_wrapping = 4096;  // of the boxes of a JP2 file, which some write around it
+    for (std::size_t at = 0; at + 43 <= std::min(bytes.size(), most_wrapping); ++at) {
+        if (big_endian_at(bytes, at, 4) != 0xff4fff51) continue;
+        return Codestream{.columns = big_endian_at(bytes, at + 8, 4) - big_endian_at(bytes, at + 16, 4),
+                          .rows = big_endian_at(bytes, at + 12, 4) - big_endian_at(bytes, at + 20, 4),
+                          .components = big_endian_at(bytes, at + 40, 2),
+                          .is_signed = (bytes[at + 42] & 0x80U) != 0};
+    }
+    return std::nullopt;
+}
+
+std::optional<Codestream> jpeg(Bytes bytes) {
+    std::size_t at = 2;
+    while (at + 10 <= bytes.size()) {
+        if (bytes[at] != 0xff) return std::nullopt;
+        const std::uint8_t marker = bytes[at + 1];
+        if (marker == 0xff) {
+            ++at;
+            continue;
+        }
+        const bool is_frame =
+            (marker >= 0xc0 && marker <= 0xcf && marker != 0xc4 && marker != 0xc8 && marker != 0xcc) ||
+            marker == 0xf7;
+        if (is_frame)
+            return Codestream{.columns = big_endian_at(bytes, at + 7, 2),
+                              .rows = big_endian_at(bytes, at + 5, 2),
+                              .components = bytes[at + 9]};
+        at += 2 + big_endian_at(bytes, at + 2, 2);
+    }
+    return std::nullopt;
+}
+
+std::optional<Codestream> Walker::codestream_of(Bytes bytes) {
+    if (bytes.size() >= 4 && bytes[0] == 0xff && bytes[1] == 0xd8) return jpeg(bytes);
+    return jpeg2000(bytes);
+}
+
+std::vector<std::uint8_t> inflated(Bytes bytes) {
+    z_stream stream{};
+    if (inflateInit2(&stream, -15) != Z_OK) throw std::bad_alloc();
+    struct End {
+        z_stream* stream;
+        ~End() { inflateEnd(stream); }
+    } const end{&stream};
+    std::vector<std::uint8_t> out;
+    std::array<std::uint8_t, 1u << 16> piece{};
+    std::size_t taken = 0;
+    for (int result = Z_OK; result != Z_STREAM_END;) {
+        if (stream.avail_in == 0) {
+            const std::size_t count = std::min<std::size_t>(bytes.size() - taken, 1u << 16);
+            stream.next_in = const_cast<std::uint8_t*>(bytes.data() + taken);  // zlib only reads
+            stream.avail_in = static_cast<unsigned>(count);
+            taken += count;
+        }
+        stream.next_out = piece.data();
+        stream.avail_out = static_cast<unsigned>(piece.size());
+        result = inflate(&stream, Z_NO_FLUSH);
+        const std::size_t made = piece.size() - stream.avail_out;
+        if (result != Z_OK && result != Z_STREAM_END) throw Damaged();
+        if (out.size() + made > most_inflated_bytes)
+            throw std::invalid_argument("is deflated DICOM of more than a gibibyte");
+        out.insert(out.end(), piece.begin(), piece.begin() + static_cast<std::ptrdiff_t>(made));
+    }
+    return out;
+}
+
+constexpr std::string_view implicit_little = "1.2.840.10008.1.2";
+constexpr std::string_view implicit_of_ge = "1.2.840.113619.5.2";
+constexpr std::string_view explicit_big = "1.2.840.10008.1.2.2";
+constexpr std::string_view deflated = "1.2.840.10008.1.2.1.99";
+
+Syntax syntax_of(const std::string& uid) {
+    return {.is_explicit = uid != implicit_little && uid != implicit_of_ge,
+            .big_endian = uid == explicit_big};
+}
+
+/// A file of before 1993, without anything that says how it is coded.
+std::optional<DicomScan> scan_bare(Bytes bytes) {
+    for (const bool is_explicit : {true, false}) {
+        try {
+            Walker walker(bytes);
+            std::size_t at = 0;
+            Syntax syntax{.is_explicit = is_explicit};
+            if (bytes[0] == 0x02) {
+                at = walker.walk_file(0, syntax, 0x0002);
+                if (!walker.scan.transfer_syntax.empty()) syntax = syntax_of(walker.scan.transfer_syntax);
+            }
+            walker.walk_file(at, syntax, std::nullopt);
+            walker.require_few_hidden_items();
+            return walker.scan;
+        } catch (const Damaged&) {
+            // Then it is coded in the other way, or it is none.
+        }
+    }
+    return std::nullopt;
+}
+
+bool has_mark(Bytes bytes) {
+    constexpr std::array<std::uint8_t, 4> mark{'D', 'I', 'C', 'M'};
+    return bytes.size() >= dicom_mark_bytes && std::equal(mark.begin(), mark.end(), bytes.begin() + 128);
+}
+
+}  // namespace
+
+bool may_be_dicom(Bytes bytes) {
+    return has_mark(bytes) ||
+           (bytes.size() >= 8 && (bytes[0] == 0x02 || bytes[0] == 0x08) && bytes[1] == 0 && bytes[3] == 0);
+}
+
+std::optional<DicomScan> scan_dicom(Bytes bytes) {
+    if (!may_be_dicom(bytes)) return std::nullopt;
+    if (!has_mark(bytes)) return scan_bare(bytes);
+    Walker walker(bytes);
+    const std::size_t body = walker.walk_file(dicom_mark_bytes, {}, 0x0002);
+    const std::string uid = walker.scan.transfer_syntax;
+    if (uid == deflated) {
+        const std::vector<std::uint8_t> plain = inflated(bytes.subspan(body));
+        Walker inner(plain);
+        inner.scan.transfer_syntax = uid;
+        inner.walk_file(0, {}, std::nullopt);
+        inner.require_few_hidden_items();
+        return inner.scan;
+    }
+    walker.walk_file(body, syntax_of(uid), std::nullopt);
+    walker.require_few_hidden_items();
+    return walker.scan;
+}
+
+void require_sound_pixels(const DicomScan& scan) {
+    const int rows = scan.rows.value_or(0);
+    const int columns = scan.columns.value_or(0);
+    const auto refuse = [](const std::string& reason) { throw std::invalid_argument(reason); };
+    std::uint64_t frames = 1;
+    if (!scan.frames.empty()) {
+        const std::string_view text =
+            std::string_view(scan.frames)
+                .substr(std::min(scan.frames.find_first_not_of(" +"), scan.frames.size()));
+        const char* last = text.data() + text.size();
+        const auto [end, error] = std::from_chars(text.data(), last, frames);
+        if (error != std::errc() || end != last || frames < 1 || frames > most_frames)
+            refuse(fmt::format("Number of Frames (0028,0008) is '{}'", scan.frames));
+    }
+    if (!scan.has_pixel_data || rows == 0 || columns == 0) return;
+    const int bits = scan.bits_allocated.value_or(0);
+    if (bits != 8 && bits != 16 && bits != 32)
+        refuse(fmt::format("Bits Allocated (0028,0100) is {}; pixels of 8, 16 or 32 bits are read", bits));
+    if (const int stored = scan.bits_stored.value_or(bits); stored < 1 || stored > bits)
+        refuse(fmt::format("Bits Stored (0028,0101) is {} of {}", stored, bits));
+    if (const int high = scan.high_bit.value_or(bits - 1); high >= bits)
+        refuse(fmt::format("High Bit (0028,0102) is {} of {} bits", high, bits));
+    if (scan.pixel_representation.value_or(0) > 1)
+        refuse(fmt::format("Pixel Representation (0028,0103) is {}; 0 and 1 are known",
+                           *scan.pixel_representation));
+    const std::uint64_t expected =
+        frames * static_cast<std::uint64_t>(rows) * static_cast<std::uint64_t>(columns) *
+        static_cast<std::uint64_t>(scan.samples_per_pixel.value_or(1)) * static_cast<std::uint64_t>(bits) / 8;
+    if (!scan.is_encapsulated) {
+        if (scan.pixel_bytes < expected)
+            refuse(fmt::format("is cut off: {} of {} bytes of pixel data are there", scan.pixel_bytes,
+                               expected));
+        return;
+    }
+    // A JPEG may leave its height to its end.
+    if (scan.codestream &&
+        (scan.codestream->columns != static_cast<std::uint32_t>(columns) ||
+         (scan.codestream->rows != static_cast<std::uint32_t>(rows) && scan.codestream->rows != 0)))
+        refuse(fmt::format("says {} x {} pixels, but its compressed pixel data say {} x {}", columns, rows,
+                           scan.codestream->columns, scan.codestream->rows));
+    // An empty picture shrinks to almost nothing; more than one is suspicious.
+    constexpr std::uint64_t always_allowed = std::uint64_t{64} << 20U;
+    constexpr std::uint64_t most_shrunk = 1000;
+    if (expected > always_allowed && expected / most_shrunk > scan.pixel_bytes)
+        refuse(fmt::format("says that {} bytes hold {} bytes of pixels; no scan compresses so",
+                           scan.pixel_bytes, expected));
+}
+
+std::string why_no_grey_image(const DicomScan& scan) {
+    struct Kind {
+        std::string_view sop_class;  ///< or the beginning of several, then with a dot at its end
+        const char* name;
+    };
+    constexpr std::array kinds{
+        Kind{"1.2.840.10008.5.1.4.1.1.66.4", "a segmentation (SEG)"},
+        Kind{"1.2.840.10008.5.1.4.1.1.66.5", "a segmentation of surfaces (SEG)"},
+        Kind{"1.2.840.10008.5.1.4.1.1.66.7", "a segmentation (label map)"},
+        Kind{"1.2.840.10008.5.1.4.1.1.66", "raw data or a registration"},
+        Kind{"1.2.840.10008.5.1.4.1.1.66.", "raw data or a registration"},
+        Kind{"1.2.840.10008.5.1.4.1.1.30", "a parametric map"},
+        Kind{"1.2.840.10008.5.1.4.1.1.481.", "an object of radiotherapy (RT dose, structures or plan)"},
+        Kind{"1.2.840.10008.5.1.4.1.1.88.", "a report (SR)"},
+        Kind{"1.2.840.10008.5.1.4.1.1.11.", "a presentation state"},
+        Kind{"1.2.840.10008.5.1.4.1.1.104.", "an encapsulated document"}};
+    constexpr std::string_view rt_image = "1.2.840.10008.5.1.4.1.1.481.1";
+    const auto fits = [&](const Kind& kind) {
+        return kind.sop_class.ends_with('.') ? scan.sop_class.starts_with(kind.sop_class)
+                                             : scan.sop_class == kind.sop_class;
+    };
+    const auto found = std::find_if(kinds.begin(), kinds.end(), fits);
+    if (found != kinds.end() && scan.sop_class != rt_image) return std::string("is ") + found->name;
+    for (const char* modality : {"SEG", "RTSTRUCT", "RTDOSE", "RTPLAN", "SR", "PR", "KO", "DOC", "REG"})
+        if (scan.modality == modality) return fmt::format("is of modality {}", modality);
+    return {};
+}
+
+}  // namespace osteomill
