@@ -4,12 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 #include <set>
 #include <sstream>
 
+#include "common/scene/shallow_toml.h"
 #include "common/scene/toml_reader.h"
 
 namespace osteomill {
@@ -249,6 +249,7 @@ SceneError::SceneError(const std::string& message) : std::runtime_error(on_one_l
 Scene parse_scene(std::string_view text, const std::string& name_for_messages,
                   const std::filesystem::path& folder) {
     try {
+        require_shallow_toml(text, name_for_messages);
         const toml::table root = toml::parse(text, name_for_messages);
         return read_all(TomlReader(root, name_for_messages, "the scene"), folder);
     } catch (const toml::parse_error& error) {
@@ -258,12 +259,7 @@ Scene parse_scene(std::string_view text, const std::string& name_for_messages,
 }
 
 Scene read_scene(const std::filesystem::path& path) {
-    std::ifstream file(path, std::ios::binary);
-    if (!file || std::filesystem::is_directory(path))
-        throw SceneError(fmt::format("{}: cannot read this scene file", path.string()));
-    std::ostringstream text;
-    text << file.rdbuf();
-    return parse_scene(text.str(), path.string(), path.parent_path());
+    return parse_scene(read_toml_text(path, "scene file"), path.string(), path.parent_path());
 }
 
 std::string write_scene(const Scene& scene) {

@@ -4,13 +4,12 @@
 #include <fmt/ranges.h>
 
 #include <cmath>
-#include <fstream>
 #include <glm/geometric.hpp>
-#include <sstream>
 #include <stdexcept>
 
 #include "common/scene/nearest_name.h"
 #include "common/scene/scene_file.h"
+#include "common/scene/shallow_toml.h"
 #include "common/scene/toml_reader.h"
 #include "haptic_server/device/hid/shipped_profiles.h"
 
@@ -146,6 +145,7 @@ void read_stylus(TomlReader reader, ArmProfile& profile) {
 ArmProfile parse_arm_profile(std::string_view toml, const std::string& name) {
     toml::table root;
     try {
+        require_shallow_toml(toml, name);
         root = toml::parse(toml);
     } catch (const toml::parse_error& error) {
         throw SceneError(fmt::format("{}:{}: {}", name, error.source().begin.line, error.description()));
@@ -184,11 +184,7 @@ ArmProfile load_arm_profile(const std::string& name_or_file) {
             "there is no profile '{}'; {}choose one of {}, or name a .toml file", name_or_file,
             meant ? fmt::format("did you mean {}? ", *meant) : "", fmt::join(shipped_profile_names(), ", ")));
     }
-    std::ifstream in(name_or_file);
-    std::stringstream text;
-    text << in.rdbuf();
-    if (!in) throw std::runtime_error(fmt::format("{}: cannot read the device profile", name_or_file));
-    return parse_arm_profile(text.str(), name_or_file);
+    return parse_arm_profile(read_toml_text(name_or_file, "device profile"), name_or_file);
 }
 
 }  // namespace osteomill

@@ -1,0 +1,24 @@
+// What is looked at before a TOML file is parsed: toml++ makes a table within a table for every dot of a key,
+// and calls itself to take them down again, which a key of many dots turns into a crash.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+namespace osteomill {
+
+/// Keys are written with two or three parts, values with two or three brackets.
+inline constexpr int most_toml_key_parts = 32;
+inline constexpr int most_toml_brackets = 32;
+inline constexpr std::size_t most_toml_bytes = 1u << 20;
+
+/// Throws SceneError, with `name` and the line, for a text of more than most_toml_bytes, a key of more than
+/// most_toml_key_parts, and brackets (lists and inline tables) deeper than most_toml_brackets.
+void require_shallow_toml(std::string_view text, const std::string& name);
+
+/// A file's text. Throws SceneError for what is not there or no file (a pipe, a device), and for what is
+/// larger than most_toml_bytes. `what` it is goes into the message: "scene file".
+std::string read_toml_text(const std::filesystem::path& path, const char* what);
+
+}  // namespace osteomill

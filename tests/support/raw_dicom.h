@@ -1,0 +1,109 @@
+// DICOM as bytes, element by element, for tests that need what no library writes.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+namespace osteomill::testing {
+
+inline std::string little(std::uint32_t value, int bytes) {
+    std::string out;
+    for (int i = 0; i < bytes; ++i) out += static_cast<char>(value >> (8 * i) & 0xffU);
+    return out;
+}
+
+inline std::string dicom_tag(std::uint32_t group, std::uint32_t element) {
+    return little(group, 2) + little(element, 2);
+}
+
+/// Explicit, little endian. `length` stands in for the value's where it is not that.
+inline std::string dicom_element(std::uint32_t group, std::uint32_t element,
+                                 const std::string& representation, std::string value,
+                                 std::int64_t length = -1) {
+    if (value.size() % 2 != 0) value += representation == "UI" ? '\0' : ' ';
+    const auto stated = static_cast<std::uint32_t>(length >= 0 ? length : static_cast<long>(value.size()));
+    const bool is_long =
+        representation == "OB" || representation == "OW" || representation == "SQ" || representation == "UN";
+    return dicom_tag(group, element) + representation +
+           (is_long ? std::string(2, '\0') + little(stated, 4) : little(stated, 2)) + value;
+}
+
+inline std::string dicom_number(std::uint32_t group, std::uint32_t element, std::uint32_t value) {
+    return dicom_element(group, element, "US", little(value, 2));
+}
+
+inline constexpr std::int64_t undefined_dicom_length = 0xffffffff;
+inline const std::string dicom_open_item = dicom_tag(0xfffe, 0xe000) + little(0xffffffff, 4);
+inline const std::string dicom_item_end = dicom_tag(0xfffe, 0xe00d) + little(0, 4);
+inline const std::string dicom_sequence_end = dicom_tag(0xfffe, 0xe0dd) + little(0, 4);
+inline const std::string ct_image_storage = "1.2.840.10008.5.1.4.1.1.2";
+inline const std::string explicit_little_endian = "1.2.840.10008.1.2.1";
+inline const std::string implicit_little_endian = "1.2.840.10008.1.2";
+inline const std::string jpeg2000_lossless = "1.2.840.10008.1.2.4.90";
+
+inline std::string dicom_item(const std::string& content) {
+    return dicom_tag(0xfffe, 0xe000) + little(static_cast<std::uint32_t>(content.size()), 4) + content;
+}
+
+/// Preamble and meta information.
+inline std::string dicom_start(const std::string& transfer_syntax) {
+    return std::string(128, '\0') + "DICM" + dicom_element(0x0002, 0x0010, "UI", transfer_syntax);
+}
+
+/// Sequences within one another, `depth` deep, without lengths.
+inline std::string nested_sequences(int depth) {
+    std::string open;
+    std::string close;
+    for (int i = 0; i < depth; ++i) {
+        open += dicom_element(0x0040, 0xa730, "SQ", "", undefined_dicom_length) + dicom_open_item;
+        close += dicom_item_end + dicom_sequence_end;
+    }
+    return open + close;
+}
+
+/// What a raw CT slice of 4 x 3 pixels states; each may be spoiled.
+struct RawSlice {
+    std::string transfer_syntax = explicit_little_endian;
+    std::string sop_class = ct_image_storage;
+    std::string modality = "CT";
+    std::string before_image{};  ///< elements between groups 0020 and 0028
+    std::uint32_t rows = 3;
+    std::uint32_t columns = 4;
+    std::uint32_t bits = 16;
+    std::uint32_t pixel_representation = 1;
+    std::string position = "0\\0\\0";
+    std::string pixels = std::string(24, '\0');
+    bool is_encapsulated = false;  ///< the pixels are one fragment
+};
+
+inline std::string raw_dicom(const RawSlice& slice) {
+    std::string file = dicom_start(slice.transfer_syntax) +
+                       dicom_element(0x0008, 0x0016, "UI", slice.sop_class) +
+                       dicom_element(0x0008, 0x0060, "CS", slice.modality) +
+                       dicom_element(0x0020, 0x000e, "UI", "1.2.3") +
+                       dicom_element(0x0020, 0x0032, "DS", slice.position) +
+                       dicom_element(0x0020, 0x0037, "DS", "1\\0\\0\\0\\1\\0") + slice.before_image +
+                       dicom_number(0x0028, 0x0002, 1) + dicom_element(0x0028, 0x0004, "CS", "MONOCHROME2") +
+                       dicom_number(0x0028, 0x0010, slice.rows) +
+                       dicom_number(0x0028, 0x0011, slice.columns) +
+                       dicom_element(0x0028, 0x0030, "DS", "1\\1") +
+                       dicom_number(0x0028, 0x0100, slice.bits) + dicom_number(0x0028, 0x0101, slice.bits) +
+                       dicom_number(0x0028, 0x0102, slice.bits - 1) +
+                       dicom_number(0x0028, 0x0103, slice.pixel_representation);
+    if (!slice.is_encapsulated) return file + dicom_element(0x7fe0, 0x0010, "OW", slice.pixels);
+    return file + dicom_element(0x7fe0, 0x0010, "OB", "", undefined_dicom_length) + dicom_item("") +
+           dicom_item(slice.pixels) + dicom_sequence_end;
+}
+
+/// The start of a JPEG 2000 codestream that says this of its image: SOC and SIZ.
+inline std::string jpeg2000_start(std::uint32_t columns, std::uint32_t rows, bool is_signed) {
+    const auto big = [](std::uint32_t value, int bytes) {
+        const std::string reversed = little(value, bytes);
+        return std::string(reversed.rbegin(), reversed.rend());
+    };
+    return big(0xff4fff51, 4) + big(41, 2) + big(0, 2) + big(columns, 4) + big(rows, 4) + big(0, 4) +
+           big(0, 4) + big(columns, 4) + big(rows, 4) + big(0, 4) + big(0, 4) + big(1, 2) +
+           static_cast<char>(15 | (is_signed ? 0x80 : 0)) + "\x01\x01";
+}
+
+}  // namespace osteomill::testing
