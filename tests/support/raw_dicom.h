@@ -72,24 +72,22 @@ struct RawSlice {
     std::uint32_t bits = 16;
     std::uint32_t pixel_representation = 1;
     std::string position = "0\\0\\0";
+    std::string spacing = "1\\1";
     std::string pixels = std::string(24, '\0');
     bool is_encapsulated = false;  ///< the pixels are one fragment
 };
 
 inline std::string raw_dicom(const RawSlice& slice) {
-    std::string file = dicom_start(slice.transfer_syntax) +
-                       dicom_element(0x0008, 0x0016, "UI", slice.sop_class) +
-                       dicom_element(0x0008, 0x0060, "CS", slice.modality) +
-                       dicom_element(0x0020, 0x000e, "UI", "1.2.3") +
-                       dicom_element(0x0020, 0x0032, "DS", slice.position) +
-                       dicom_element(0x0020, 0x0037, "DS", "1\\0\\0\\0\\1\\0") + slice.before_image +
-                       dicom_number(0x0028, 0x0002, 1) + dicom_element(0x0028, 0x0004, "CS", "MONOCHROME2") +
-                       dicom_number(0x0028, 0x0010, slice.rows) +
-                       dicom_number(0x0028, 0x0011, slice.columns) +
-                       dicom_element(0x0028, 0x0030, "DS", "1\\1") +
-                       dicom_number(0x0028, 0x0100, slice.bits) + dicom_number(0x0028, 0x0101, slice.bits) +
-                       dicom_number(0x0028, 0x0102, slice.bits - 1) +
-                       dicom_number(0x0028, 0x0103, slice.pixel_representation);
+    std::string file =
+        dicom_start(slice.transfer_syntax) + dicom_element(0x0008, 0x0016, "UI", slice.sop_class) +
+        dicom_element(0x0008, 0x0060, "CS", slice.modality) + dicom_element(0x0020, 0x000e, "UI", "1.2.3") +
+        dicom_element(0x0020, 0x0032, "DS", slice.position) +
+        dicom_element(0x0020, 0x0037, "DS", "1\\0\\0\\0\\1\\0") + slice.before_image +
+        dicom_number(0x0028, 0x0002, 1) + dicom_element(0x0028, 0x0004, "CS", "MONOCHROME2") +
+        dicom_number(0x0028, 0x0010, slice.rows) + dicom_number(0x0028, 0x0011, slice.columns) +
+        dicom_element(0x0028, 0x0030, "DS", slice.spacing) + dicom_number(0x0028, 0x0100, slice.bits) +
+        dicom_number(0x0028, 0x0101, slice.bits) + dicom_number(0x0028, 0x0102, slice.bits - 1) +
+        dicom_number(0x0028, 0x0103, slice.pixel_representation);
     if (!slice.is_encapsulated) return file + dicom_element(0x7fe0, 0x0010, "OW", slice.pixels);
     return file + dicom_element(0x7fe0, 0x0010, "OB", "", undefined_dicom_length) + dicom_item("") +
            dicom_item(slice.pixels) + dicom_sequence_end;

@@ -1,6 +1,9 @@
 #include "tests/support/synthetic_dicom.h"
 
 #include <fmt/format.h>
+#include <gdcmImageChangeTransferSyntax.h>
+#include <gdcmImageReader.h>
+#include <gdcmImageWriter.h>
 #include <gdcmWriter.h>
 
 #include <stdexcept>
@@ -93,6 +96,21 @@ void write_series(const std::filesystem::path& folder, const std::vector<Synthet
     std::filesystem::create_directories(folder);
     for (std::size_t i = 0; i < slices.size(); ++i)
         write_slice(folder / fmt::format("{:02}.dcm", i), slices[i]);
+}
+
+void compress_as_jpeg2000(const std::filesystem::path& from, const std::filesystem::path& to) {
+    gdcm::ImageReader reader;
+    reader.SetFileName(from.c_str());
+    if (!reader.Read()) throw std::runtime_error("cannot read " + from.string());
+    gdcm::ImageChangeTransferSyntax change;
+    change.SetTransferSyntax(gdcm::TransferSyntax::JPEG2000Lossless);
+    change.SetInput(reader.GetImage());
+    if (!change.Change()) throw std::runtime_error("cannot compress " + from.string());
+    gdcm::ImageWriter writer;
+    writer.SetFile(reader.GetFile());
+    writer.SetImage(change.GetOutput());
+    writer.SetFileName(to.c_str());
+    if (!writer.Write()) throw std::runtime_error("cannot write " + to.string());
 }
 
 }  // namespace osteomill::testing

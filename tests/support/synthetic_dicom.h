@@ -35,4 +35,7 @@ std::vector<SyntheticSlice> synthetic_series(int count);
 /// Writes 00.dcm, 01.dcm, ... into the folder, which it makes.
 void write_series(const std::filesystem::path& folder, const std::vector<SyntheticSlice>& slices);
 
+/// The same image, its pixels coded in JPEG 2000 without loss.
+void compress_as_jpeg2000(const std::filesystem::path& from, const std::filesystem::path& to);
+
 }  // namespace osteomill::testing

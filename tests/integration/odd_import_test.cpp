@@ -1,0 +1,183 @@
+// Odd files that are sound, or follow from what may be mended, and the real bone_import: what it makes of
+// them and what it says. And hostile files for the server.
+#include <gmock/gmock.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <fstream>
+#include <iterator>
+
+#include "haptic_server/imaging/hu_file.h"
+#include "tests/support/child_process.h"
+#include "tests/support/raw_dicom.h"
+#include "tests/support/raw_images.h"
+#include "tests/support/synthetic_dicom.h"
+#include "tests/support/temporary_folder.h"
+
+namespace osteomill {
+namespace {
+
+using namespace testing;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+std::string ramp(std::size_t voxels) {
+    std::string bytes;
+    for (std::size_t i = 0; i < voxels; ++i) bytes += little(static_cast<std::uint32_t>(i), 2);
+    return bytes;
+}
+
+class OddImport : public ::testing::Test {
+  protected:
+    /// The HU of what is imported at its own spacing of 1 mm, which changes none of them.
+    std::vector<std::int16_t> import(const std::filesystem::path& input) {
+        said_ =
+            run_program({BONE_IMPORT, input.string(), (folder_ / "bone.nrrd").string(), "--spacing-mm", "1"});
+        EXPECT_EQ(said_.status, 0) << said_.err;
+        if (said_.status != 0) return {};
+        return read_bone_file(folder_ / "bone.nrrd").volume.hu;
+    }
+    void expect_ramp(const std::vector<std::int16_t>& hu) {
+        ASSERT_EQ(hu.size(), 60u);
+        for (int i = 0; i < 60; ++i) EXPECT_NEAR(hu[static_cast<std::size_t>(i)], i, 1) << i;
+    }
+    TemporaryFolder folder_;
+    Finished said_;
+};
+
+TEST_F(OddImport, ReadsAMetaImageOfOneFileForEachSlice) {
+    const std::string all = ramp(60);
+    std::string list = "LIST";
+    for (int i = 0; i < 5; ++i) {
+        const std::string number = std::to_string(10 + 2 * i);
+        write_bytes(folder_ / ("s" + number + ".raw"), all.substr(24u * static_cast<unsigned>(i), 24));
+        list += "\ns" + number + ".raw";
+    }
+    const auto one_mm = [](const std::string& header) { return with(header, "1 1 2", "1 1 1"); };
+    write_bytes(folder_ / "pattern.mhd", one_mm(meta_header("s%d.raw 10 18 2")));
+    expect_ramp(import(folder_ / "pattern.mhd"));
+    write_bytes(folder_ / "list.mhd", one_mm(meta_header(list)));
+    expect_ramp(import(folder_ / "list.mhd"));
+    write_bytes(folder_ / "pattern.nhdr",
+                with(nrrd_header("data file: s%d.raw 10 18 2\n"), "(0,0,2)", "(0,0,1)"));
+    expect_ramp(import(folder_ / "pattern.nhdr"));
+}
+
+TEST_F(OddImport, ReadsWhatIsCompressedAndWhatIsBigEndian) {
+    const std::string all = ramp(60);
+    write_bytes(folder_ / "zlib.mha",
+                with(meta_header("LOCAL", "CompressedData = True\n"), "1 1 2", "1 1 1") + deflated(all, 15));
+    expect_ramp(import(folder_ / "zlib.mha"));
+    std::string big = all;
+    for (std::size_t i = 0; i < big.size(); i += 2) std::swap(big[i], big[i + 1]);
+    write_bytes(folder_ / "big.mha",
+                with(with(meta_header(), "MSB = False", "MSB = True"), "1 1 2", "1 1 1") + big);
+    expect_ramp(import(folder_ / "big.mha"));
+    const std::string two_members = deflated(all.substr(0, 50)) + deflated(all.substr(50));
+    write_bytes(folder_ / "members.nrrd",
+                with(with(nrrd_header(), "raw", "gzip"), "(0,0,2)", "(0,0,1)") + deflated(all));
+    expect_ramp(import(folder_ / "members.nrrd"));
+}
+
+TEST_F(OddImport, SaysThatBytesFollowTheVoxels) {
+    write_bytes(folder_ / "more.mha", meta_header() + std::string(raw_image_bytes + 3, '\0'));
+    import(folder_ / "more.mha");
+    EXPECT_THAT(said_.err, HasSubstr("3 bytes follow its voxels; they are not read"));
+}
+
+TEST_F(OddImport, TakesTheScanBesideItsSegmentation) {
+    write_series(folder_ / "series", synthetic_series(3));
+    RawSlice segmentation;
+    segmentation.sop_class = "1.2.840.10008.5.1.4.1.1.66.4";
+    segmentation.modality = "SEG";
+    for (int i = 0; i < 9; ++i)
+        write_bytes(folder_ / "series" / ("seg" + std::to_string(i)), raw_dicom(segmentation));
+    EXPECT_FALSE(import(folder_ / "series").empty());
+}
+
+TEST_F(OddImport, WarnsOfAModalityThatIsNotCt) {
+    RawSlice slice;
+    slice.modality = "MR";
+    for (const char* z : {"0", "1", "2"}) {
+        slice.position = std::string("0\\0\\") + z;
+        write_bytes(folder_ / "series" / z, raw_dicom(slice));
+    }
+    import(folder_ / "series");
+    EXPECT_THAT(said_.err, HasSubstr("its modality is MR, not CT"));
+}
+
+TEST_F(OddImport, FollowsTheSignOfAJpeg2000Codestream) {
+    std::vector<SyntheticSlice> slices = synthetic_series(3);
+    for (SyntheticSlice& slice : slices) {
+        slice.intercept = 0.0;
+        for (std::size_t i = 0; i < slice.stored.size(); ++i)
+            slice.stored[i] = static_cast<std::int16_t>(static_cast<int>(i) * 20 - 1000);
+    }
+    write_series(folder_ / "right", slices);
+    std::filesystem::create_directory(folder_ / "wrong");
+    for (const char* name : {"00.dcm", "01.dcm", "02.dcm"}) {
+        compress_as_jpeg2000(folder_ / "right" / name, folder_ / "right" / name);
+        std::ifstream in(folder_ / "right" / name, std::ios::binary);
+        const std::string bytes{std::istreambuf_iterator<char>(in), {}};
+        write_bytes(folder_ / "wrong" / name,
+                    with(bytes, dicom_number(0x0028, 0x0103, 1), dicom_number(0x0028, 0x0103, 0)));
+    }
+    const std::vector<std::int16_t> right = import(folder_ / "right");
+    EXPECT_THAT(said_.err, Not(HasSubstr("codestream")));
+    EXPECT_EQ(right.at(0), -1000);
+    EXPECT_EQ(import(folder_ / "wrong"), right);
+    EXPECT_THAT(said_.err,
+                HasSubstr("warning: 3 file(s) say unsigned pixels (0028,0103) where their JPEG 2000 "
+                          "codestream says signed; the codestream is followed"));
+}
+
+TEST_F(OddImport, RefusesAFileThatMayNotBeRead) {
+    if (::geteuid() == 0) GTEST_SKIP() << "root reads everything";
+    write_series(folder_ / "series", synthetic_series(3));
+    std::filesystem::permissions(folder_ / "series/02.dcm", std::filesystem::perms::none);
+    const Finished said =
+        run_program({BONE_IMPORT, (folder_ / "series").string(), (folder_ / "bone.nrrd").string()});
+    EXPECT_EQ(said.status, 1);
+    EXPECT_THAT(said.err, HasSubstr("02.dcm: cannot be opened"));
+}
+
+class HostileServer : public ::testing::Test {
+  protected:
+    void expect_refused(const std::vector<std::string>& options, const std::string& reason) {
+        std::vector<std::string> command{HAPTIC_SERVER, "--duration-s", "0.1"};
+        command.insert(command.end(), options.begin(), options.end());
+        const Finished said = run_program(command, std::chrono::seconds(60));
+        EXPECT_EQ(said.status, 1) << said.err;
+        EXPECT_EQ(std::count(said.err.begin(), said.err.end(), '\n'), 1) << said.err;
+        EXPECT_THAT(said.err, HasSubstr(reason));
+    }
+    TemporaryFolder folder_;
+};
+
+TEST_F(HostileServer, RefusesAKeyOfManyDots) {
+    std::string key = "a";
+    for (int i = 0; i < 100'000; ++i) key += ".a";
+    write_bytes(folder_ / "x.toml", key + " = 1\n");
+    expect_refused({"--scene", (folder_ / "x.toml").string()}, "x.toml:1: a key of more than 32 parts");
+    expect_refused({"--device", "hid", "--device-profile", (folder_ / "x.toml").string()},
+                   "x.toml:1: a key of more than 32 parts");
+}
+
+TEST_F(HostileServer, RefusesPipesAndDevices) {
+    ASSERT_EQ(::mkfifo((folder_ / "x.toml").c_str(), 0600), 0);
+    expect_refused({"--scene", (folder_ / "x.toml").string()}, "cannot read this scene file");
+    expect_refused({"--scene", "/dev/zero"}, "cannot read this scene file");
+    ASSERT_EQ(::mkfifo((folder_ / "x.nrrd").c_str(), 0600), 0);
+    expect_refused({"--bone", (folder_ / "x.nrrd").string()}, "is not a file");
+}
+
+TEST_F(HostileServer, RefusesABoneWhoseGzipChecksumIsWrong) {
+    std::string bytes = with(with(nrrd_header(), "raw", "gzip"), "(0,0,2)", "(0,0,1)") +
+                        deflated(std::string(raw_image_bytes, '\1'));
+    bytes[bytes.size() - 6] = static_cast<char>(bytes[bytes.size() - 6] ^ 1);
+    write_bytes(folder_ / "x.nrrd", bytes);
+    expect_refused({"--bone", (folder_ / "x.nrrd").string()}, "its compressed voxels are damaged");
+}
+
+}  // namespace
+}  // namespace osteomill
