@@ -24,9 +24,9 @@ struct Codestream {
 };
 
 struct DicomScan {
-    std::string transfer_syntax;  ///< UID; empty where the file states none
-    std::string sop_class;        ///< UID
-    std::string modality;         ///< CT, MR, SEG, ...
+    std::string transfer_syntax{};  ///< UID; empty where the file states none
+    std::string sop_class{};        ///< UID
+    std::string modality{};         ///< CT, MR, SEG, ...
     std::optional<int> rows{};
     std::optional<int> columns{};
     std::optional<int> samples_per_pixel{};

@@ -25,7 +25,7 @@ bool is_plausible_position(const glm::dvec3& position_mm) {
 }
 
 std::string implausible_spacing(const std::string& what, double spacing_mm) {
-    return fmt::format("{} {} mm: it must be a number above 0, from {} to {} mm", what, spacing_mm,
+    return fmt::format("{} {} mm: it must be above 0, from {} to {} mm", what, spacing_mm,
                        least_spacing_mm, greatest_spacing_mm);
 }
 

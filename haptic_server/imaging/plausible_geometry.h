@@ -23,7 +23,7 @@ inline constexpr std::uint64_t most_voxels = std::uint64_t{1} << 36U;
 bool is_plausible_spacing(double spacing_mm);
 bool is_plausible_position(const glm::dvec3& position_mm);
 
-/// "spacing 1e-09 mm: it must lie within 0.001 and 100 mm"; `what` is the field's name.
+/// "spacing 1e-09 mm: it must be above 0, from 0.001 to 100 mm"; `what` is the field's name.
 std::string implausible_spacing(const std::string& what, double spacing_mm);
 std::string implausible_position(const std::string& what);
 

@@ -8,6 +8,7 @@
 #include "common/recording/packet_writer.h"
 #include "common/wire/frame.h"
 #include "haptic_server/streaming/client_feed.h"
+#include "tests/fuzz/image_seeds.h"
 #include "tests/fuzz/small_session.h"
 
 namespace osteomill::fuzz {
@@ -189,6 +190,8 @@ void write_seeds(const std::filesystem::path& folder) {
     write_recording(folder / "recording/session.pcap", {frames});
     write_recording(folder / "recording/varied.pcap", {varied});
     write_recording(folder / "recording/joined.pcap", {frames, varied});
+
+    write_image_seeds(folder);
 }
 
 }  // namespace

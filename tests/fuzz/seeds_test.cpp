@@ -58,13 +58,14 @@ TEST_P(FuzzSeeds, BreakNoneWhenTheyAreDamaged) {
         }
 }
 
-INSTANTIATE_TEST_SUITE_P(Of, FuzzSeeds,
-                         ::testing::Values(Target{"frame_decoder", frame_decoder},
-                                           Target{"server_session", server_session},
-                                           Target{"client_session", client_session},
-                                           Target{"recording", recording},
-                                           Target{"scene", scene, {OSTEOMILL_SCENES}}),
-                         [](const auto& instance) { return instance.param.name; });
+INSTANTIATE_TEST_SUITE_P(
+    Of, FuzzSeeds,
+    ::testing::Values(Target{"frame_decoder", frame_decoder}, Target{"server_session", server_session},
+                      Target{"client_session", client_session}, Target{"recording", recording},
+                      Target{"scene", scene, {OSTEOMILL_SCENES}}, Target{"nrrd_header", nrrd_header},
+                      Target{"meta_image_header", meta_image_header}, Target{"nifti_header", nifti_header},
+                      Target{"dicom_header", dicom_header}),
+    [](const auto& instance) { return instance.param.name; });
 
 }  // namespace
 }  // namespace osteomill::fuzz

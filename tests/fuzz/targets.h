@@ -42,4 +42,12 @@ void recording(Bytes input);
 /// come back from write_scene as it was.
 void scene(Bytes input);
 
+/// The first bytes of an image file, against our own readers of headers (ITK and GDCM never see what these
+/// refuse). Finding: any exception but a complaint of one line; voxels, files, sizes or a geometry beyond
+/// the limits that were to be held.
+void nrrd_header(Bytes input);
+void meta_image_header(Bytes input);
+void nifti_header(Bytes input);
+void dicom_header(Bytes input);
+
 }  // namespace osteomill::fuzz

@@ -82,7 +82,7 @@ TEST_F(BoneImport, RefusesAnImportThatDoesNotFitInMemory) {
     std::vector<testing::SyntheticSlice> slices = testing::synthetic_series(3);
     for (std::size_t i = 0; i < slices.size(); ++i) {
         slices[i].pixel_spacing_mm = {50.0, 50.0};
-        slices[i].position_mm.z = 300.0 * static_cast<double>(i);
+        slices[i].position_mm.z = 100.0 * static_cast<double>(i);
     }
     testing::write_series(folder_ / "series", slices);
     const Outcome outcome = import(folder_ / "series", "--spacing-mm 0.02");
