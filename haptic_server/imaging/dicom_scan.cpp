@@ -9,6 +9,7 @@
 #include <new>
 #include <stdexcept>
 #include <string_view>
+#include <vector>
 
 #include "haptic_server/imaging/plausible_geometry.h"
 
@@ -130,21 +131,41 @@ class Walker {
             return after_items(element.value, std::nullopt, inner, depth);
         }
         const std::size_t end = end_of(element);
-        // An implicit file does not say what is a sequence; what begins with an item is taken for one.
-        const bool may_be_items = element.length >= 8 && element.tag != pixel_data_tag &&
-                                  number<std::uint16_t>(element.value, syntax.big_endian) == 0xfffe &&
-                                  number<std::uint16_t>(element.value + 2, syntax.big_endian) == 0xe000;
-        if (is(element, "SQ") || (may_be_items && !syntax.is_explicit)) {
-            const std::uint64_t before = items_in_values_;
+        const bool is_sequence = is(element, "SQ");
+        if (element.tag == pixel_data_tag || (!is_sequence && !begins_with_item(element))) {
+            items_in_values_ += items_between(element.value, end);
+            return end;
+        }
+        // What begins with an item GDCM takes for a sequence when it is asked for one, in either coding.
+        std::vector<Syntax> codings{is_sequence ? syntax : Syntax{.is_explicit = false}};
+        if (!is_sequence && depth == 0) codings.push_back({.is_explicit = true});
+        const std::uint64_t before = items_in_values_;
+        for (const Syntax& coding : codings) {
             try {
-                if (after_items(element.value, end, syntax, depth) == end) return end;
+                if (after_items(element.value, end, coding, depth) == end) {
+                    require_few_hidden(element, items_in_values_ - before);
+                    return end;
+                }
             } catch (const Damaged&) {
                 // Its length says where it ends, whatever is in it.
             }
             items_in_values_ = before;
         }
-        count_items(element.value, end, syntax.big_endian);
+        items_in_values_ += items_between(element.value, end);
+        require_few_hidden(element, items_in_values_ - before);
         return end;
+    }
+
+    bool begins_with_item(const Element& element) const {
+        return element.length >= 8 && items_between(element.value, element.value + 4) == 1;
+    }
+
+    /// GDCM looks into no private element.
+    static void require_few_hidden(const Element& element, std::uint64_t items) {
+        if ((element.tag >> 16U) % 2 == 0 && items > most_dicom_nesting)
+            throw std::invalid_argument(fmt::format(
+                "is DICOM with {} items in ({:04x},{:04x}) that are no readable sequence; damaged", items,
+                element.tag >> 16U, element.tag & 0xffffU));
     }
 
     std::size_t after_items(std::size_t at, std::optional<std::size_t> end, const Syntax& syntax, int depth) {
@@ -188,16 +209,20 @@ class Walker {
         }
     }
 
-    void count_items(std::size_t begin, std::size_t end, bool big_endian) {
+    /// In either byte order.
+    std::uint64_t items_between(std::size_t begin, std::size_t end) const {
         const std::array<std::uint8_t, 4> little{0xfe, 0xff, 0x00, 0xe0};
         const std::array<std::uint8_t, 4> big{0xff, 0xfe, 0xe0, 0x00};
-        const auto& pattern = big_endian ? big : little;
         const Bytes value = bytes_.subspan(begin, end - begin);
-        auto at = value.begin();
-        while ((at = std::search(at, value.end(), pattern.begin(), pattern.end())) != value.end()) {
-            ++items_in_values_;
-            at += 4;
+        std::uint64_t items = 0;
+        for (const auto& pattern : {little, big}) {
+            auto at = value.begin();
+            while ((at = std::search(at, value.end(), pattern.begin(), pattern.end())) != value.end()) {
+                ++items;
+                at += 4;
+            }
         }
+        return items;
     }
 
     std::string text(const Element& element) const {

@@ -1,7 +1,7 @@
 // Walks through a DICOM file element by element, before GDCM reads it. GDCM calls itself for every sequence
-// within a sequence, makes room for whatever length an element claims, and decodes pixels of any format; so
-// what it is given has been seen to nest little, to hold the bytes that it claims, and to be an image that it
-// decodes. Pure functions over bytes.
+// within a sequence, some of it twice, makes room for whatever length an element claims, and decodes pixels
+// of any format; so what it is given has been seen to nest little, to hold the bytes that it claims, and to
+// be an image that it decodes. Pure functions over bytes.
 #pragma once
 
 #include <cstdint>
@@ -12,8 +12,8 @@
 
 namespace osteomill {
 
-/// Sequences within sequences; reports nest a dozen deep.
-inline constexpr int most_dicom_nesting = 64;
+/// Sequences within sequences; reports nest a dozen deep. GDCM takes twice as long for each.
+inline constexpr int most_dicom_nesting = 16;
 
 /// What JPEG 2000, JPEG and JPEG-LS say of the image in their own header.
 struct Codestream {

@@ -234,6 +234,10 @@ const std::vector<Attack> attacks{
     // DICOM.
     {"dicom_nested_sequences", series(spoiled([](RawSlice& one) { one.before_image = nested_sequences(20'000); })), "sequences within one another"},
     {"dicom_hidden_sequences", series(spoiled([](RawSlice& one) { one.before_image = dicom_element(0x0021, 0x1001, "UN", nested_sequences(20'000)); })), "no sequences"},
+    {"dicom_sequences_of_doubling_time", series(spoiled([](RawSlice& one) {
+         one.after_image = dicom_element(0x5200, 0x9229, "UN", dicom_item(nested_sequences(63)));
+     })),
+     "sequences within one another"},
     {"dicom_implicit_nested", file("x.dcm", dicom_start(implicit_little_endian) + [] {
          std::string bytes;
          for (int i = 0; i < 20'000; ++i) bytes += dicom_tag(0x0040, 0xa730) + little(0xffffffff, 4) + dicom_open_item;

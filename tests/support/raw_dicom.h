@@ -67,6 +67,7 @@ struct RawSlice {
     std::string sop_class = ct_image_storage;
     std::string modality = "CT";
     std::string before_image{};  ///< elements between groups 0020 and 0028
+    std::string after_image{};   ///< elements between group 0028 and the pixels
     std::uint32_t rows = 3;
     std::uint32_t columns = 4;
     std::uint32_t bits = 16;
@@ -87,7 +88,7 @@ inline std::string raw_dicom(const RawSlice& slice) {
         dicom_number(0x0028, 0x0010, slice.rows) + dicom_number(0x0028, 0x0011, slice.columns) +
         dicom_element(0x0028, 0x0030, "DS", slice.spacing) + dicom_number(0x0028, 0x0100, slice.bits) +
         dicom_number(0x0028, 0x0101, slice.bits) + dicom_number(0x0028, 0x0102, slice.bits - 1) +
-        dicom_number(0x0028, 0x0103, slice.pixel_representation);
+        dicom_number(0x0028, 0x0103, slice.pixel_representation) + slice.after_image;
     if (!slice.is_encapsulated) return file + dicom_element(0x7fe0, 0x0010, "OW", slice.pixels);
     return file + dicom_element(0x7fe0, 0x0010, "OB", "", undefined_dicom_length) + dicom_item("") +
            dicom_item(slice.pixels) + dicom_sequence_end;

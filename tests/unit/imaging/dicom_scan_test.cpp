@@ -72,16 +72,21 @@ TEST(DicomScan, ReadsSequencesWithAndWithoutLengths) {
          {dicom_element(0x0021, 0x1001, "SQ", dicom_item(inner)),
           dicom_element(0x0021, 0x1001, "SQ", dicom_open_item + inner + dicom_item_end + dicom_sequence_end,
                         undefined_dicom_length),
-          dicom_element(0x0021, 0x1001, "SQ", "damaged within its length "), nested_sequences(64)})
+          dicom_element(0x0021, 0x1001, "SQ", "damaged within its length "), nested_sequences(16)})
         EXPECT_EQ(scan(with_elements(sequence))->rows, 3) << "not what stands within";
 }
 
 TEST(DicomScan, RefusesDeepNestingWhereverItHides) {
-    EXPECT_THAT(refusal(with_elements(nested_sequences(65))), HasSubstr("more than 64 sequences"));
-    EXPECT_THAT(refusal(with_elements(nested_sequences(200'000))), HasSubstr("more than 64 sequences"));
+    EXPECT_THAT(refusal(with_elements(nested_sequences(17))), HasSubstr("more than 16 sequences"));
+    EXPECT_THAT(refusal(with_elements(nested_sequences(200'000))), HasSubstr("more than 16 sequences"));
     std::string closed;
     for (int i = 0; i < 70; ++i) closed = dicom_element(0x0021, 0x1001, "SQ", dicom_item(closed));
-    EXPECT_THAT(refusal(with_elements(closed)), HasSubstr("more than 64 sequences"));
+    EXPECT_THAT(refusal(with_elements(closed)), HasSubstr("more than 16 sequences"));
+    const std::string hidden = dicom_item(nested_sequences(17));
+    EXPECT_THAT(refusal(with_elements(dicom_element(0x5200, 0x9229, "UN", hidden))),
+                HasSubstr("more than 16 sequences"));
+    EXPECT_THAT(refusal(with_elements(dicom_element(0x5200, 0x9229, "UN", hidden + "spoiled "))),
+                HasSubstr("more than 16 sequences"));
     for (const char* representation : {"UN", "OB"})
         EXPECT_THAT(
             refusal(with_elements(dicom_element(0x0021, 0x1001, representation, nested_sequences(2000)))),
