@@ -31,6 +31,11 @@ constexpr std::uint32_t pixel_data_tag = tag(0x7fe0, 0x0010);
 /// could be in it; so many are far from filling a stack.
 constexpr std::uint64_t most_items_in_values = 1000;
 constexpr std::uint64_t most_frames = 65536;
+/// Within an item that states its length GDCM computes the length of what does not, several times over at
+/// every level; where no item states its length it need not. Files state all lengths or none.
+constexpr std::uint64_t most_effort = std::uint64_t{1} << 21U;
+constexpr std::uint64_t effort_of_level = 6;
+constexpr int none_open = -1;
 constexpr std::uint64_t most_inflated_bytes = std::uint64_t{1} << 30U;
 
 struct Damaged : std::invalid_argument {
@@ -62,7 +67,7 @@ class Walker {
             if (scan.has_pixel_data && bytes_.size() - at < 8) break;
             if (only_group && number<std::uint16_t>(at, false) != *only_group) break;
             const Element element = element_at(at, syntax);
-            at = after(element, syntax, 0);
+            at = after(element, syntax, 0, none_open);
             note(element, syntax);
         }
         return at;
@@ -121,14 +126,15 @@ class Walker {
     }
 
     /// Where the element ends; goes through what is nested in it.
-    std::size_t after(const Element& element, const Syntax& syntax, int depth) {
+    std::size_t after(const Element& element, const Syntax& syntax, int depth, int open_levels) {
         if (element.length == undefined_length) {
             // Also of a picture within a sequence, an icon.
             if (element.tag == pixel_data_tag) return after_fragments(element, syntax, depth == 0);
             // Of unknown form and length: coded as implicit, whatever the file is.
             const Syntax inner =
                 is(element, "UN") ? Syntax{.is_explicit = false, .big_endian = false} : syntax;
-            return after_items(element.value, std::nullopt, inner, depth);
+            return after_items(element.value, std::nullopt, inner, depth,
+                               open_levels == none_open ? none_open : open_levels + 1);
         }
         const std::size_t end = end_of(element);
         const bool is_sequence = is(element, "SQ");
@@ -142,7 +148,7 @@ class Walker {
         const std::uint64_t before = items_in_values_;
         for (const Syntax& coding : codings) {
             try {
-                if (after_items(element.value, end, coding, depth) == end) {
+                if (after_items(element.value, end, coding, depth, none_open) == end) {
                     require_few_hidden(element, items_in_values_ - before);
                     return end;
                 }
@@ -154,6 +160,12 @@ class Walker {
         items_in_values_ += items_between(element.value, end);
         require_few_hidden(element, items_in_values_ - before);
         return end;
+    }
+
+    static std::uint64_t effort_of_item(int open_levels) {
+        std::uint64_t effort = 1;
+        for (int level = 0; level < open_levels; ++level) effort *= effort_of_level;
+        return effort;
     }
 
     bool begins_with_item(const Element& element) const {
@@ -168,7 +180,8 @@ class Walker {
                 element.tag >> 16U, element.tag & 0xffffU));
     }
 
-    std::size_t after_items(std::size_t at, std::optional<std::size_t> end, const Syntax& syntax, int depth) {
+    std::size_t after_items(std::size_t at, std::optional<std::size_t> end, const Syntax& syntax, int depth,
+                            int open_levels) {
         if (depth >= most_dicom_nesting)
             throw std::invalid_argument(
                 fmt::format("is DICOM with more than {} sequences within one another", most_dicom_nesting));
@@ -176,6 +189,10 @@ class Walker {
             const Element item = element_at(at, syntax);
             if (item.tag == sequence_end_tag) return item.value;
             if (item.tag != item_tag) throw Damaged();
+            effort_ += effort_of_item(open_levels);
+            if (effort_ > most_effort)
+                throw std::invalid_argument(
+                    "is DICOM with too many sequences within one another to be a scan");
             const bool open = item.length == undefined_length;
             const std::size_t item_end = open ? bytes_.size() : end_of(item);
             if (end && !open && item_end > *end) throw Damaged();
@@ -189,7 +206,7 @@ class Walker {
                     break;
                 }
                 if (element.tag >> 16U == 0xfffe) throw Damaged();
-                at = after(element, syntax, depth + 1);
+                at = after(element, syntax, depth + 1, open ? open_levels : 0);
             }
             if (!closed || (!open && at > item_end)) throw Damaged();
         }
@@ -281,6 +298,7 @@ class Walker {
     Bytes bytes_;
     Bytes first_fragment_;
     std::uint64_t items_in_values_ = 0;
+    std::uint64_t effort_ = 0;
 };
 
 std::uint32_t big_endian_at(Bytes bytes, std::size_t at, std::size_t count) {
