@@ -51,7 +51,39 @@ bool reaches_past_grid(const Grid& grid, const glm::ivec3& brick, const ByteBric
     return false;
 }
 
+/// 64 MiB: malloc asks the system for so much at once and gives it back when it is freed.
+constexpr std::size_t bricks_of_piece = 16384;
+
 }  // namespace
+
+void BrickPieces::reserve(std::size_t count) {
+    if (pieces_.empty()) pieces_.emplace_back();
+    if (pieces_.size() == 1) pieces_.front().reserve(count);
+}
+
+void BrickPieces::push_back(const ByteBrick& brick) {
+    if (pieces_.empty() || pieces_.back().size() == pieces_.back().capacity())
+        pieces_.emplace_back().reserve(bricks_of_piece);
+    pieces_.back().push_back(brick);
+}
+
+std::vector<ByteBrick> BrickPieces::take() {
+    if (pieces_.empty()) return {};
+    std::vector<ByteBrick> all;
+    if (pieces_.size() == 1) {
+        all = std::move(pieces_.front());
+    } else {
+        std::size_t count = 0;
+        for (const std::vector<ByteBrick>& piece : pieces_) count += piece.size();
+        all.reserve(count);
+        for (std::vector<ByteBrick>& piece : pieces_) {
+            all.insert(all.end(), piece.begin(), piece.end());
+            std::vector<ByteBrick>().swap(piece);
+        }
+    }
+    pieces_.clear();
+    return all;
+}
 
 BoneBuilder::BoneBuilder(const Grid& grid) {
     require_valid(grid);
@@ -79,8 +111,8 @@ BoneBuilder BoneBuilder::heterogeneous(const Grid& grid, double stiffness_per_co
 void BoneBuilder::reserve_bricks(std::size_t count) {
     content_.brick_of_slot.reserve(count);
     fraction_.reserve(count);
-    if (heterogeneous_) content_.stiffness.reserve(count);
-    if (labelled_) content_.tissue.reserve(count);
+    if (heterogeneous_) stiffness_.reserve(count);
+    if (labelled_) tissue_.reserve(count);
 }
 
 void BoneBuilder::add_brick(const glm::ivec3& brick, const ByteBrick& fraction, const ByteBrick* stiffness,
@@ -98,20 +130,37 @@ void BoneBuilder::add_brick(const glm::ivec3& brick, const ByteBrick& fraction, 
 
     content_.brick_of_slot.push_back(brick_index(content_.size_bricks, brick));
     fraction_.push_back(fraction);
-    if (heterogeneous_) content_.stiffness.push_back(*stiffness);
-    if (labelled_) content_.tissue.push_back(*tissue);
+    if (heterogeneous_) stiffness_.push_back(*stiffness);
+    if (labelled_) tissue_.push_back(*tissue);
+}
+
+void BoneBuilder::make_heterogeneous(double stiffness_per_code, std::uint8_t code) {
+    require_positive(stiffness_per_code, "stiffness per code");
+    if (heterogeneous_) throw std::logic_error("the bone is heterogeneous already");
+    heterogeneous_ = true;
+    content_.homogeneous_stiffness = BoneContent{}.homogeneous_stiffness;
+    content_.stiffness_per_code = stiffness_per_code;
+    fraction_.for_each([&](const ByteBrick& fraction) {
+        ByteBrick codes{};
+        for (std::size_t voxel = 0; voxel < brick_voxel_count; ++voxel)
+            codes[voxel] = fraction[voxel] == 0 ? std::uint8_t{0} : code;
+        stiffness_.push_back(codes);
+    });
 }
 
 Bone BoneBuilder::build() && {
+    std::vector<ByteBrick> fraction = fraction_.take();
+    content_.stiffness = stiffness_.take();
+    content_.tissue = tissue_.take();
     if (!std::is_sorted(content_.brick_of_slot.begin(), content_.brick_of_slot.end())) {
         const std::vector<std::size_t> order = ascending(content_.brick_of_slot);
-        reorder(fraction_, order);
+        reorder(fraction, order);
         reorder(content_.stiffness, order);
         reorder(content_.tissue, order);
         reorder(content_.brick_of_slot, order);
     }
     content_.slot_of_brick = BrickTable(content_.brick_of_slot);
-    return Bone(std::make_shared<const BoneContent>(std::move(content_)), std::move(fraction_));
+    return Bone(std::make_shared<const BoneContent>(std::move(content_)), std::move(fraction));
 }
 
 }  // namespace osteomill

@@ -1,10 +1,30 @@
-// Builds a bone brick by brick, so that no dense copy of the grid is ever needed. With room reserved, what is
-// built costs no more memory on the way than the bone that comes out.
+// Builds a bone brick by brick, so that no dense copy of the grid is ever needed, and what is built costs no
+// more memory on the way than the bone that comes out: bricks are kept in pieces, which never move while they
+// grow in number, and are let go one by one as the bone is put together.
 #pragma once
 
 #include "common/bone/bone.h"
 
 namespace osteomill {
+
+/// Bricks of one channel in the order in which they came.
+class BrickPieces {
+  public:
+    /// Room for that many in one piece, which then becomes the channel itself.
+    void reserve(std::size_t count);
+    void push_back(const ByteBrick& brick);
+    /// All of them, in one; nothing stays behind.
+    std::vector<ByteBrick> take();
+
+    template <typename Visit>
+    void for_each(const Visit& visit) const {
+        for (const std::vector<ByteBrick>& piece : pieces_)
+            for (const ByteBrick& brick : piece) visit(brick);
+    }
+
+  private:
+    std::vector<std::vector<ByteBrick>> pieces_;
+};
 
 class BoneBuilder {
   public:
@@ -14,9 +34,8 @@ class BoneBuilder {
     /// A bone with a stiffness code for each voxel: relative stiffness = code * stiffness_per_code.
     static BoneBuilder heterogeneous(const Grid& grid, double stiffness_per_code, bool labelled);
 
-    /// Makes room for that many bricks in all, so that none has to move when more come. An upper bound will
-    /// do: room that stays unused costs addresses, not memory. Throws std::bad_alloc where even those are
-    /// short.
+    /// Makes room for that many bricks in all. An upper bound will do: room that stays unused costs
+    /// addresses, not memory. Throws std::bad_alloc where even those are short.
     void reserve_bricks(std::size_t count);
 
     /// Adds a brick. Bricks may come in any order, each once; in ascending order build() need not sort them.
@@ -26,6 +45,11 @@ class BoneBuilder {
     void add_brick(const glm::ivec3& brick, const ByteBrick& fraction, const ByteBrick* stiffness,
                    const ByteBrick* tissue);
 
+    /// From now on each voxel has a code of its own; so far all bone had `code`, which is what a homogeneous
+    /// builder's relative stiffness must have been: code * stiffness_per_code. Throws std::invalid_argument
+    /// for a bad stiffness per code, std::logic_error where the bone is heterogeneous already.
+    void make_heterogeneous(double stiffness_per_code, std::uint8_t code);
+
     /// The finished bone; the builder is spent. Throws std::invalid_argument for a brick that came twice.
     Bone build() &&;
 
@@ -34,7 +58,9 @@ class BoneBuilder {
     BoneContent content_;
     bool heterogeneous_ = false;
     bool labelled_ = false;
-    std::vector<ByteBrick> fraction_;
+    BrickPieces fraction_;
+    BrickPieces stiffness_;
+    BrickPieces tissue_;
 };
 
 }  // namespace osteomill

@@ -82,5 +82,36 @@ TEST(BoneBuilder, RefusesBadBricks) {
     EXPECT_THROW(BoneBuilder::homogeneous(odd_grid, 0.0, false), std::invalid_argument);
 }
 
+TEST(BoneBuilder, BecomesHeterogeneousOnTheWay) {
+    auto late = BoneBuilder::homogeneous(odd_grid, 7 * 0.02, false);
+    auto early = BoneBuilder::heterogeneous(odd_grid, 0.02, false);
+    ByteBrick half = filled(0);
+    std::fill_n(half.begin(), 100, std::uint8_t{200});
+    ByteBrick codes = filled(0);
+    std::fill_n(codes.begin(), 100, std::uint8_t{7});
+    const ByteBrick other = filled(9);
+    late.add_brick({0, 0, 0}, half, nullptr, nullptr);
+    late.make_heterogeneous(0.02, 7);
+    late.add_brick({0, 0, 1}, filled(255), &other, nullptr);
+    EXPECT_THROW(late.make_heterogeneous(0.02, 7), std::logic_error);
+    early.add_brick({0, 0, 0}, half, &codes, nullptr);
+    early.add_brick({0, 0, 1}, filled(255), &other, nullptr);
+    const Bone bone = std::move(late).build();
+    const Bone expected = std::move(early).build();
+    EXPECT_EQ(bone.content().stiffness, expected.content().stiffness);
+    EXPECT_EQ(bone.content().stiffness_per_code, expected.content().stiffness_per_code);
+    EXPECT_EQ(checksum(bone), checksum(expected));
+}
+
+TEST(BrickPieces, ComeBackInTheirOrder) {
+    BrickPieces pieces;
+    constexpr std::size_t count = 40'000;  // more than a piece holds
+    for (std::size_t i = 0; i < count; ++i) pieces.push_back(filled(static_cast<std::uint8_t>(i % 251)));
+    const std::vector<ByteBrick> bricks = pieces.take();
+    ASSERT_EQ(bricks.size(), count);
+    for (std::size_t i = 0; i < count; ++i) ASSERT_EQ(bricks[i][4095], i % 251);
+    EXPECT_TRUE(pieces.take().empty());
+}
+
 }  // namespace
 }  // namespace osteomill
