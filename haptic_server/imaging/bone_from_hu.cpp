@@ -3,8 +3,11 @@
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <glm/vec2.hpp>
 #include <optional>
+#include <span>
 #include <stdexcept>
+#include <utility>
 
 #include "common/bone/bone_builder.h"
 #include "haptic_server/imaging/hu_volume.h"
@@ -17,44 +20,95 @@ constexpr std::array<glm::ivec3, 6> face_neighbours{glm::ivec3(-1, 0, 0), glm::i
                                                     glm::ivec3(0, -1, 0), glm::ivec3(0, 1, 0),
                                                     glm::ivec3(0, 0, -1), glm::ivec3(0, 0, 1)};
 
-/// Reads the dense volume; beyond its edge the outermost voxels repeat.
-class HuField {
+/// The slices of one layer of bricks, and one below and above; beyond the grid's edge the outermost voxels
+/// repeat.
+class HuLayer {
   public:
-    explicit HuField(const HuVolume& volume) : volume_(volume) {}
+    explicit HuLayer(const HuSlices& slices)
+        : slices_(slices),
+          size_(slices.grid.size_voxels),
+          slice_(static_cast<std::size_t>(size_.x) * static_cast<std::size_t>(size_.y)),
+          hu_(slice_ * std::min(held_slices, static_cast<std::size_t>(size_.z) + 1)),
+          label_(slices.labelled ? hu_.size() : 0),
+          lowest_(static_cast<std::size_t>(size_.x)),
+          highest_(lowest_) {}
+
+    /// To be called for each layer, ascending.
+    void read(int layer) {
+        const int first = layer * brick_edge_voxels;
+        if (layer > 0) {
+            keep_last_two(hu_);
+            keep_last_two(label_);
+        }
+        base_z_ = first - 1;
+        const int from = layer == 0 ? 0 : first + 1;
+        const int end = std::min(first + brick_edge_voxels + 1, size_.z);
+        if (from >= end) return;
+        const std::size_t offset = slice_ * static_cast<std::size_t>(from - base_z_);
+        const std::size_t count = slice_ * static_cast<std::size_t>(end - from);
+        slices_.read(std::span(hu_).subspan(offset, count),
+                     slices_.labelled ? std::span(label_).subspan(offset, count) : std::span<std::uint8_t>());
+    }
 
     std::size_t index(const glm::ivec3& voxel) const {
-        const glm::ivec3 size = volume_.grid.size_voxels;
-        const glm::ivec3 within = glm::clamp(voxel, glm::ivec3(0), size - 1);
+        const glm::ivec3 within = glm::clamp(voxel, glm::ivec3(0), size_ - 1);
         return static_cast<std::size_t>(within.x) +
-               static_cast<std::size_t>(size.x) *
-                   (static_cast<std::size_t>(within.y) + static_cast<std::size_t>(size.y) * within.z);
+               static_cast<std::size_t>(size_.x) * static_cast<std::size_t>(within.y) +
+               slice_ * static_cast<std::size_t>(within.z - base_z_);
     }
-    double hu(const glm::ivec3& voxel) const { return volume_.hu[index(voxel)]; }
-    std::uint8_t label(const glm::ivec3& voxel) const { return volume_.tissue[index(voxel)]; }
+    double hu(const glm::ivec3& voxel) const { return hu_[index(voxel)]; }
+    std::uint8_t label(const glm::ivec3& voxel) const { return label_[index(voxel)]; }
 
-    /// Smallest and largest HU of a brick and the voxels around it.
-    std::pair<double, double> range_around_brick(const glm::ivec3& brick) const {
-        const glm::ivec3 first = glm::max(brick * brick_edge_voxels - 1, glm::ivec3(0));
-        const glm::ivec3 end = glm::min((brick + 1) * brick_edge_voxels + 1, volume_.grid.size_voxels);
-        std::int16_t lowest = volume_.hu[index(first)];
-        std::int16_t highest = lowest;
-        for (int z = first.z; z < end.z; ++z)
-            for (int y = first.y; y < end.y; ++y) {
-                const std::int16_t* row = &volume_.hu[index({first.x, y, z})];
-                for (int i = 0; i < end.x - first.x; ++i) {
-                    lowest = std::min(lowest, row[i]);
-                    highest = std::max(highest, row[i]);
+    /// To be called for each row of bricks before its bricks are asked for: the extremes over y and z, for
+    /// each x. Whole rows, since that is what a compiler makes fast.
+    void look_at_row(int brick_y, int brick_z) {
+        const glm::ivec2 first =
+            glm::max(glm::ivec2(brick_y, brick_z) * brick_edge_voxels - 1, glm::ivec2(0));
+        const glm::ivec2 end = glm::min((glm::ivec2(brick_y, brick_z) + 1) * brick_edge_voxels + 1,
+                                        glm::ivec2(size_.y, size_.z));
+        std::copy_n(&hu_[index({0, first.x, first.y})], size_.x, lowest_.begin());
+        highest_ = lowest_;
+        for (int z = first.y; z < end.y; ++z)
+            for (int y = first.x; y < end.x; ++y) {
+                const std::int16_t* row = &hu_[index({0, y, z})];
+                std::int16_t* low = lowest_.data();
+                std::int16_t* high = highest_.data();
+                for (int x = 0; x < size_.x; ++x) {
+                    low[x] = std::min(low[x], row[x]);
+                    high[x] = std::max(high[x], row[x]);
                 }
             }
-        return {lowest, highest};
+    }
+
+    /// Smallest and largest HU of a brick of that row and the voxels around it.
+    std::pair<double, double> range_around_brick(int brick_x) const {
+        const int first = std::max(brick_x * brick_edge_voxels - 1, 0);
+        const int end = std::min((brick_x + 1) * brick_edge_voxels + 1, size_.x);
+        return {*std::min_element(lowest_.begin() + first, lowest_.begin() + end),
+                *std::max_element(highest_.begin() + first, highest_.begin() + end)};
     }
 
   private:
-    const HuVolume& volume_;
+    static constexpr std::size_t held_slices = brick_edge_voxels + 2;
+
+    template <typename Voxel>
+    void keep_last_two(std::vector<Voxel>& channel) const {
+        if (channel.empty()) return;
+        const auto last_two = channel.begin() + static_cast<std::ptrdiff_t>(slice_ * brick_edge_voxels);
+        std::copy(last_two, channel.end(), channel.begin());
+    }
+
+    const HuSlices& slices_;
+    glm::ivec3 size_;
+    std::size_t slice_;
+    int base_z_ = 0;  // of the first slice held
+    std::vector<std::int16_t> hu_;
+    std::vector<std::uint8_t> label_;
+    std::vector<std::int16_t> lowest_, highest_;  // see look_at_row
 };
 
 /// Part of a voxel that lies on the bone's side of the surface HU = threshold.
-double cover(const HuField& field, const glm::ivec3& voxel, double threshold_hu) {
+double cover(const HuLayer& field, const glm::ivec3& voxel, double threshold_hu) {
     bool any_above = false;
     bool any_below = false;
     const auto look = [&](double hu) { (hu >= threshold_hu ? any_above : any_below) = true; };
@@ -84,24 +138,6 @@ std::vector<std::uint8_t> code_table(const StiffnessRelation& relation) {
     return codes;
 }
 
-/// A brick that may hold bone.
-struct Candidate {
-    glm::ivec3 brick;
-    bool is_all_bone = false;  ///< of its voxels and those around it
-};
-
-std::vector<Candidate> candidates(const HuField& field, const Grid& grid, double threshold_hu) {
-    const glm::ivec3 size_bricks = size_in_bricks(grid);
-    std::vector<Candidate> found;
-    for (int z = 0; z < size_bricks.z; ++z)
-        for (int y = 0; y < size_bricks.y; ++y)
-            for (int x = 0; x < size_bricks.x; ++x) {
-                const auto [lowest, highest] = field.range_around_brick({x, y, z});
-                if (highest >= threshold_hu) found.push_back({{x, y, z}, lowest >= threshold_hu});
-            }
-    return found;
-}
-
 struct BrickChannels {
     ByteBrick fraction{};
     ByteBrick stiffness{};
@@ -110,7 +146,7 @@ struct BrickChannels {
 
 /// A voxel on the surface is a mixture with what lies outside: its stiffness and label are those of the bone
 /// beside it.
-void fill_voxel(const HuField& field, const std::vector<std::uint8_t>& codes, bool labelled,
+void fill_voxel(const HuLayer& field, const std::vector<std::uint8_t>& codes, bool labelled,
                 const glm::ivec3& voxel, double covered, BrickChannels& out) {
     const std::size_t offset = offset_in_brick(voxel);
     const auto code_at = [&](const glm::ivec3& place) {
@@ -127,11 +163,10 @@ void fill_voxel(const HuField& field, const std::vector<std::uint8_t>& codes, bo
     }
 }
 
-BrickChannels channels_of(const HuField& field, const std::vector<std::uint8_t>& codes, bool labelled,
-                          const Grid& grid, double threshold_hu, const Candidate& candidate) {
+BrickChannels channels_of(const HuLayer& field, const std::vector<std::uint8_t>& codes, bool labelled,
+                          const Grid& grid, double threshold_hu, const glm::ivec3& brick, bool is_all_bone) {
     BrickChannels channels;
-    const bool is_all_bone = candidate.is_all_bone;
-    const glm::ivec3 first = candidate.brick * brick_edge_voxels;
+    const glm::ivec3 first = brick * brick_edge_voxels;
     const glm::ivec3 end = glm::min(first + brick_edge_voxels, grid.size_voxels);
     for (int z = first.z; z < end.z; ++z)
         for (int y = first.y; y < end.y; ++y)
@@ -143,63 +178,86 @@ BrickChannels channels_of(const HuField& field, const std::vector<std::uint8_t>&
     return channels;
 }
 
-/// The bone, if all its voxels have one code; gives up at the first that has another, which in CT is soon.
-template <typename ChannelsOf>
-std::optional<Bone> homogeneous_bone(const Grid& grid, bool labelled, const std::vector<Candidate>& bricks,
-                                     const ChannelsOf& channels) {
-    std::optional<std::uint8_t> common;
-    std::optional<BoneBuilder> builder;
-    for (const Candidate& brick : bricks) {
-        const BrickChannels filled = channels(brick);
-        for (std::size_t voxel = 0; voxel < brick_voxel_count; ++voxel) {
-            if (filled.fraction[voxel] == 0) continue;
-            if (common && *common != filled.stiffness[voxel]) return std::nullopt;
-            common = filled.stiffness[voxel];
-        }
-        if (!common) continue;
-        if (!builder) {
-            builder = BoneBuilder::homogeneous(grid, *common * stiffness_per_code, labelled);
-            builder->reserve_bricks(bricks.size());
-        }
-        builder->add_brick(brick.brick, filled.fraction, nullptr, &filled.tissue);
-    }
-    if (!builder) return std::nullopt;
-    return std::move(*builder).build();
-}
+/// Takes bricks in; keeps no stiffness channel until a second code comes, which in CT is soon.
+class BrickCollector {
+  public:
+    BrickCollector(const Grid& grid, bool labelled) : grid_(grid), labelled_(labelled) {}
 
-template <typename ChannelsOf>
-Bone heterogeneous_bone(const Grid& grid, bool labelled, const std::vector<Candidate>& bricks,
-                        const ChannelsOf& channels) {
-    BoneBuilder builder = BoneBuilder::heterogeneous(grid, stiffness_per_code, labelled);
-    builder.reserve_bricks(bricks.size());
-    for (const Candidate& brick : bricks) {
-        const BrickChannels filled = channels(brick);
-        builder.add_brick(brick.brick, filled.fraction, &filled.stiffness, &filled.tissue);
+    void add(const glm::ivec3& brick, const BrickChannels& filled) {
+        for (std::size_t voxel = 0; voxel < brick_voxel_count; ++voxel)
+            if (filled.fraction[voxel] != 0) look_at(filled.stiffness[voxel]);
+        if (builder_) builder_->add_brick(brick, filled.fraction, &filled.stiffness, &filled.tissue);
     }
-    return std::move(builder).build();
-}
+
+    Bone build() && {
+        if (!builder_) return BoneBuilder::heterogeneous(grid_, stiffness_per_code, labelled_).build();
+        return std::move(*builder_).build();
+    }
+
+  private:
+    void look_at(std::uint8_t code) {
+        if (is_heterogeneous_ || (builder_ && code == first_code_)) return;
+        if (builder_) {
+            builder_->make_heterogeneous(stiffness_per_code, first_code_);
+            is_heterogeneous_ = true;
+        } else {
+            builder_ = BoneBuilder::homogeneous(grid_, code * stiffness_per_code, labelled_);
+            first_code_ = code;
+        }
+    }
+
+    Grid grid_;
+    bool labelled_;
+    bool is_heterogeneous_ = false;
+    std::uint8_t first_code_ = 0;
+    std::optional<BoneBuilder> builder_{};
+};
 
 }  // namespace
 
-Bone bone_from_hu(const HuVolume& volume, double threshold_hu, const StiffnessRelation& relation) {
-    require_valid(volume.grid);
+HuSlices slices_of(const HuVolume& volume) {
+    return {.grid = volume.grid,
+            .labelled = !volume.tissue.empty(),
+            .read = [&volume, at = std::size_t{0}](std::span<std::int16_t> hu,
+                                                   std::span<std::uint8_t> tissue) mutable {
+                std::copy_n(volume.hu.begin() + static_cast<std::ptrdiff_t>(at), hu.size(), hu.begin());
+                if (!tissue.empty())
+                    std::copy_n(volume.tissue.begin() + static_cast<std::ptrdiff_t>(at), tissue.size(),
+                                tissue.begin());
+                at += hu.size();
+            }};
+}
+
+Bone bone_from_hu(const HuSlices& slices, double threshold_hu, const StiffnessRelation& relation) {
+    require_valid(slices.grid);
     require_valid(relation);
     if (!std::isfinite(threshold_hu)) throw std::invalid_argument("the bone threshold is not a finite HU");
+    const std::vector<std::uint8_t> codes = code_table(relation);
+    HuLayer layer(slices);
+    BrickCollector collector(slices.grid, slices.labelled);
+    const glm::ivec3 size_bricks = size_in_bricks(slices.grid);
+    for (int z = 0; z < size_bricks.z; ++z) {
+        layer.read(z);
+        for (int y = 0; y < size_bricks.y; ++y) {
+            layer.look_at_row(y, z);
+            for (int x = 0; x < size_bricks.x; ++x) {
+                const auto [lowest, highest] = layer.range_around_brick(x);
+                if (highest < threshold_hu) continue;
+                collector.add({x, y, z}, channels_of(layer, codes, slices.labelled, slices.grid, threshold_hu,
+                                                     {x, y, z}, lowest >= threshold_hu));
+            }
+        }
+    }
+    return std::move(collector).build();
+}
+
+Bone bone_from_hu(const HuVolume& volume, double threshold_hu, const StiffnessRelation& relation) {
+    require_valid(volume.grid);
     const glm::ivec3 size = volume.grid.size_voxels;
     const std::size_t voxels = static_cast<std::size_t>(size.x) * size.y * size.z;
-    const bool labelled = !volume.tissue.empty();
-    if (volume.hu.size() != voxels || (labelled && volume.tissue.size() != voxels))
+    if (volume.hu.size() != voxels || (!volume.tissue.empty() && volume.tissue.size() != voxels))
         throw std::invalid_argument("the HU volume's channels do not fit its grid");
-
-    const HuField field(volume);
-    const std::vector<std::uint8_t> codes = code_table(relation);
-    const std::vector<Candidate> bricks = candidates(field, volume.grid, threshold_hu);
-    const auto channels = [&](const Candidate& brick) {
-        return channels_of(field, codes, labelled, volume.grid, threshold_hu, brick);
-    };
-
-    if (auto bone = homogeneous_bone(volume.grid, labelled, bricks, channels)) return *std::move(bone);
-    return heterogeneous_bone(volume.grid, labelled, bricks, channels);
+    return bone_from_hu(slices_of(volume), threshold_hu, relation);
 }
 
 }  // namespace osteomill

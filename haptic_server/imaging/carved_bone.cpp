@@ -4,183 +4,260 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <memory>
+#include <optional>
 #include <stdexcept>
+#include <utility>
 #include <vector>
 
 #include "common/bone/bone_builder.h"
 #include "haptic_server/imaging/imaging_error.h"
-#include "haptic_server/imaging/nrrd_volume.h"
+#include "haptic_server/imaging/saved_set.h"
 
 namespace osteomill {
 
 namespace {
 
-constexpr const char* fraction_key = "osteomill_fraction_file";
-constexpr const char* stiffness_key = "osteomill_stiffness_file";
-constexpr const char* tissue_key = "osteomill_tissue_file";
-constexpr const char* checksum_key = "osteomill_bone_checksum";
-constexpr const char* stiffness_per_code_key = "osteomill_stiffness_per_code";
-constexpr const char* homogeneous_stiffness_key = "osteomill_homogeneous_stiffness";
+constexpr const char* bricks_key = "osteomill_carved_bricks";
+constexpr const char* fraction_digest_key = "osteomill_fraction_digest";
+constexpr const char* stiffness_digest_key = "osteomill_stiffness_digest";
+constexpr const char* tissue_digest_key = "osteomill_tissue_digest";
 
 using KeyValues = std::map<std::string, std::string>;
-using Bytes = std::vector<std::uint8_t>;
 
-std::filesystem::path companion(const std::filesystem::path& path, const char* channel) {
-    std::filesystem::path name = path;
-    return name.replace_extension(fmt::format(".{}.nrrd", channel));
+bool has_fraction(std::span<const std::uint8_t, brick_voxel_count> fractions) {
+    return std::any_of(fractions.begin(), fractions.end(), [](std::uint8_t f) { return f != 0; });
 }
 
-std::string checksum_text(const Bone& bone) {
-    return fmt::format("{:016x}", checksum(bone));
-}
+/// What stands before the voxels for one brick.
+struct BrickRecord {
+    BrickIndex brick = 0;
+    ByteBrick fraction{};
+    ByteBrick stiffness{};
+    ByteBrick tissue{};
+};
 
-/// Calls visit(offset in the dense volume, offset in the brick) for the voxels of a brick that lie in the
-/// grid.
-template <typename Visit>
-void for_voxels_of_brick(const Grid& grid, const glm::ivec3& brick, const Visit& visit) {
-    const glm::ivec3 first = brick * brick_edge_voxels;
-    const auto nx = static_cast<std::size_t>(grid.size_voxels.x);
-    const auto ny = static_cast<std::size_t>(grid.size_voxels.y);
-    for (int z = first.z; z < std::min(first.z + brick_edge_voxels, grid.size_voxels.z); ++z)
-        for (int y = first.y; y < std::min(first.y + brick_edge_voxels, grid.size_voxels.y); ++y)
-            for (int x = first.x; x < std::min(first.x + brick_edge_voxels, grid.size_voxels.x); ++x)
-                visit(static_cast<std::size_t>(x) +
-                          nx * (static_cast<std::size_t>(y) + ny * static_cast<std::size_t>(z)),
-                      offset_in_brick({x, y, z}));
-}
+/// Which of the channels are there; calls visit with the bytes of each, in their order in the file.
+struct RecordLayout {
+    bool has_stiffness = false;
+    bool has_tissue = false;
 
-/// A channel as a dense volume; 0 where no brick is stored.
-template <typename BrickOfSlot>
-Bytes dense(const Bone& bone, const BrickOfSlot& brick_of_slot) {
-    const glm::ivec3 size = bone.grid().size_voxels;
-    Bytes voxels(static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y) *
-                 static_cast<std::size_t>(size.z));
-    const BoneContent& content = bone.content();
-    for (std::size_t slot = 0; slot < bone.stored_bricks(); ++slot) {
-        const auto& bytes = brick_of_slot(slot);
-        for_voxels_of_brick(bone.grid(), brick_position(content.size_bricks, content.brick_of_slot[slot]),
-                            [&](std::size_t voxel, std::size_t offset) { voxels[voxel] = bytes[offset]; });
+    std::uint64_t bytes() const {
+        return sizeof(BrickIndex) +
+               brick_voxel_count * (1u + (has_stiffness ? 1u : 0u) + (has_tissue ? 1u : 0u));
     }
-    return voxels;
+    template <typename Record, typename Visit>
+    void for_each_part(Record& record, const Visit& visit) const {
+        visit(std::span(&record.brick, 1));
+        visit(std::span(record.fraction));
+        if (has_stiffness) visit(std::span(record.stiffness));
+        if (has_tissue) visit(std::span(record.tissue));
+    }
+};
+
+struct ChannelDigests {
+    Digest fraction;  ///< and which bricks they belong to
+    Digest stiffness;
+    Digest tissue;
+
+    void add(const BrickRecord& record, const RecordLayout& layout) {
+        fraction.add(std::as_bytes(std::span(&record.brick, 1)));
+        fraction.add(std::as_bytes(std::span(record.fraction)));
+        if (layout.has_stiffness) stiffness.add(std::as_bytes(std::span(record.stiffness)));
+        if (layout.has_tissue) tissue.add(std::as_bytes(std::span(record.tissue)));
+    }
+};
+
+/// Calls visit(record) for every brick of which anything is left, ascending.
+template <typename Visit>
+void for_each_record(const Bone& bone, const RecordLayout& layout, const Visit& visit) {
+    const BoneContent& content = bone.content();
+    BrickRecord record;
+    for (std::size_t slot = 0; slot < bone.stored_bricks(); ++slot) {
+        const auto left = bone.fractions(static_cast<std::int32_t>(slot));
+        if (!has_fraction(left)) continue;
+        record.brick = content.brick_of_slot[slot];
+        std::copy(left.begin(), left.end(), record.fraction.begin());
+        if (layout.has_stiffness) record.stiffness = content.stiffness[slot];
+        if (layout.has_tissue) record.tissue = content.tissue[slot];
+        visit(std::as_const(record));
+    }
 }
 
-const std::string& value_of(const std::filesystem::path& path, const KeyValues& key_values, const char* key) {
-    const auto found = key_values.find(key);
-    if (found == key_values.end())
-        throw ImagingError(path, fmt::format("key {} is missing, which a carved bone must have", key));
-    return found->second;
+/// Keys of all but the HU.
+KeyValues describe(const Bone& bone, const RecordLayout& layout, std::uint64_t& bricks) {
+    ChannelDigests digests;
+    bricks = 0;
+    for_each_record(bone, layout, [&](const BrickRecord& record) {
+        digests.add(record, layout);
+        ++bricks;
+    });
+    KeyValues keys{{bricks_key, fmt::format("{}", bricks)},
+                   {bone_checksum_key, bone_checksum_text(bone)},
+                   {fraction_digest_key, digests.fraction.text()}};
+    if (layout.has_stiffness) {
+        keys[stiffness_per_code_key] = fmt::format("{}", bone.content().stiffness_per_code);
+        keys[stiffness_digest_key] = digests.stiffness.text();
+    } else {
+        keys[homogeneous_stiffness_key] = fmt::format("{}", bone.content().homogeneous_stiffness);
+    }
+    if (layout.has_tissue) keys[tissue_digest_key] = digests.tissue.text();
+    return keys;
 }
 
-double number_of(const std::filesystem::path& path, const KeyValues& key_values, const char* key) {
-    const std::string& text = value_of(path, key_values, key);
-    char* end = nullptr;
-    const double number = std::strtod(text.c_str(), &end);
-    if (text.empty() || *end != '\0' || !(number > 0.0))
-        throw ImagingError(path, fmt::format("{}:={} is not a number above 0", key, text));
-    return number;
-}
-
-/// A companion file that `key` names; empty where the key is absent.
-Bytes channel_of(const std::filesystem::path& path, const BoneFile& file, const char* key) {
-    const auto found = file.key_values.find(key);
-    if (found == file.key_values.end()) return {};
-    const std::filesystem::path beside = path.parent_path() / found->second;
-    if (!std::filesystem::exists(beside))
-        throw ImagingError(path,
-                           fmt::format("the carved bone's file {} is missing beside it", found->second));
-    NrrdVolume<std::uint8_t> channel = read_nrrd_volume<std::uint8_t>(beside);
-    if (channel.grid != file.volume.grid)
-        throw ImagingError(beside,
-                           fmt::format("its grid is not that of {}, to which it belongs", path.string()));
-    return std::move(channel.voxels);
-}
-
-ByteBrick brick_of(const Grid& grid, const glm::ivec3& brick, const Bytes& voxels) {
-    ByteBrick bytes{};
-    if (!voxels.empty())
-        for_voxels_of_brick(grid, brick,
-                            [&](std::size_t voxel, std::size_t offset) { bytes[offset] = voxels[voxel]; });
-    return bytes;
+/// Sets what was milled away to air in the layer of slices from `first_z` on, which bricks begin with.
+///
+/// Only bone can have been milled away: air and soft tissue have no fraction to lose, and what is stored with
+/// fraction 0 outside bone is told from it by the stiffness code that only bone has.
+void clear_milled(const Bone& bone, int first_z, std::span<std::int16_t> hu) {
+    const Grid& grid = bone.grid();
+    const BoneContent& content = bone.content();
+    const auto per_layer =
+        static_cast<BrickIndex>(content.size_bricks.x) * static_cast<BrickIndex>(content.size_bricks.y);
+    const BrickIndex first = per_layer * static_cast<BrickIndex>(first_z / brick_edge_voxels);
+    auto slot = static_cast<std::size_t>(
+        std::lower_bound(content.brick_of_slot.begin(), content.brick_of_slot.end(), first) -
+        content.brick_of_slot.begin());
+    for (; slot < bone.stored_bricks() && content.brick_of_slot[slot] - first < per_layer; ++slot) {
+        const auto left = bone.fractions(static_cast<std::int32_t>(slot));
+        const glm::ivec3 corner =
+            brick_position(content.size_bricks, content.brick_of_slot[slot]) * brick_edge_voxels;
+        for (std::size_t offset = 0; offset < brick_voxel_count; ++offset) {
+            const bool was_bone = content.stiffness.empty() || content.stiffness[slot][offset] != 0;
+            if (left[offset] != 0 || !was_bone) continue;
+            const glm::ivec3 voxel = corner + voxel_in_brick(offset);
+            if (!contains(grid, voxel)) continue;
+            hu[static_cast<std::size_t>(voxel.x) +
+               static_cast<std::size_t>(grid.size_voxels.x) *
+                   (static_cast<std::size_t>(voxel.y) + static_cast<std::size_t>(grid.size_voxels.y) *
+                                                            static_cast<std::size_t>(voxel.z - first_z))] =
+                milled_away_hu;
+        }
+    }
 }
 
 }  // namespace
 
-void save_carved_bone(const std::filesystem::path& path, const HuVolume& source, const Bone& bone,
+void save_carved_bone(const std::filesystem::path& path, const HuSlices& source, const Bone& bone,
                       const KeyValues& source_key_values) {
     if (source.grid != bone.grid())
         throw std::invalid_argument(
             "the carved bone does not lie on the grid of the volume it was built from");
-    const BoneContent& content = bone.content();
-    KeyValues key_values = source_key_values;
-    key_values[checksum_key] = checksum_text(bone);
-    key_values[fraction_key] = companion(path, "fraction").filename().string();
+    const RecordLayout layout{.has_stiffness = !bone.content().stiffness.empty(),
+                              .has_tissue = !bone.content().tissue.empty()};
+    std::uint64_t bricks = 0;
+    KeyValues key_values = describe(bone, layout, bricks);
+    key_values.insert(source_key_values.begin(), source_key_values.end());
 
-    // Only bone can have been milled away: air and soft tissue have no fraction to lose, and what is stored
-    // with fraction 0 outside bone is told from it by the stiffness code that only bone has.
-    HuVolume carved{.grid = source.grid, .hu = source.hu, .tissue = {}};
-    for (std::size_t slot = 0; slot < bone.stored_bricks(); ++slot) {
-        const auto left = bone.fractions(static_cast<std::int32_t>(slot));
-        for_voxels_of_brick(bone.grid(), brick_position(content.size_bricks, content.brick_of_slot[slot]),
-                            [&](std::size_t voxel, std::size_t offset) {
-                                const bool was_bone =
-                                    content.stiffness.empty() || content.stiffness[slot][offset] != 0;
-                                if (left[offset] == 0 && was_bone) carved.hu[voxel] = milled_away_hu;
-                            });
+    const std::vector<std::filesystem::path> outdated = files_of_saved_set(path);
+    BoneFileWriter writer(path, bone.grid(), std::move(key_values), bricks * layout.bytes());
+    for_each_record(bone, layout, [&](const BrickRecord& record) {
+        layout.for_each_part(record,
+                             [&](const auto& part) { writer.add_before_voxels(std::as_bytes(part)); });
+    });
+    const auto slice = static_cast<std::size_t>(voxels_of_slice(bone.grid()));
+    const int slices = bone.grid().size_voxels.z;
+    const auto layer_slices = static_cast<std::size_t>(std::min(slices, brick_edge_voxels));
+    std::vector<std::int16_t> layer(slice * layer_slices);
+    std::vector<std::uint8_t> labels(source.labelled ? layer.size() : 0);  // which are made with the HU
+    for (int z = 0; z < slices; z += brick_edge_voxels) {
+        const std::size_t voxels = slice * static_cast<std::size_t>(std::min(slices - z, brick_edge_voxels));
+        const auto hu = std::span(layer).first(voxels);
+        source.read(hu, std::span(labels).first(source.labelled ? voxels : 0));
+        clear_milled(bone, z, hu);
+        writer.add(hu);
     }
+    writer.commit();
+    for (const std::filesystem::path& file : outdated) {
+        std::error_code ignored;
+        std::filesystem::remove(file, ignored);
+    }
+}
 
-    write_nrrd_volume(
-        companion(path, "fraction"), bone.grid(),
-        dense(bone, [&](std::size_t slot) { return bone.fractions(static_cast<std::int32_t>(slot)); }), {});
-    if (content.stiffness.empty()) {
-        key_values[homogeneous_stiffness_key] = fmt::format("{}", content.homogeneous_stiffness);
-    } else {
-        key_values[stiffness_key] = companion(path, "stiffness").filename().string();
-        key_values[stiffness_per_code_key] = fmt::format("{}", content.stiffness_per_code);
-        write_nrrd_volume(companion(path, "stiffness"), bone.grid(),
-                          dense(bone, [&](std::size_t slot) { return content.stiffness[slot]; }), {});
-    }
-    if (!content.tissue.empty()) {
-        key_values[tissue_key] = companion(path, "tissue").filename().string();
-        write_nrrd_volume(companion(path, "tissue"), bone.grid(),
-                          dense(bone, [&](std::size_t slot) { return content.tissue[slot]; }), {});
-    }
-    // Last, so that a file of this name always has its companions.
-    write_hu_nrrd(path, carved, key_values);
+HuSlices slices_of_bone(const Bone& bone) {
+    return {
+        .grid = bone.grid(),
+        .labelled = false,
+        .read = [&bone, z = 0](std::span<std::int16_t> hu, std::span<std::uint8_t>) mutable {
+            const Grid& grid = bone.grid();
+            const auto slice = static_cast<std::size_t>(voxels_of_slice(grid));
+            std::fill(hu.begin(), hu.end(), air_hu);
+            const int end = z + static_cast<int>(hu.size() / slice);
+            const BoneContent& content = bone.content();
+            for (std::size_t slot = 0; slot < bone.stored_bricks(); ++slot) {
+                const glm::ivec3 corner =
+                    brick_position(content.size_bricks, content.brick_of_slot[slot]) * brick_edge_voxels;
+                if (corner.z >= end || corner.z + brick_edge_voxels <= z) continue;
+                const auto left = bone.fractions(static_cast<std::int32_t>(slot));
+                for (std::size_t offset = 0; offset < brick_voxel_count; ++offset) {
+                    const glm::ivec3 voxel = corner + voxel_in_brick(offset);
+                    if (left[offset] == 0 || voxel.z < z || voxel.z >= end) continue;
+                    hu[static_cast<std::size_t>(voxel.x) +
+                       static_cast<std::size_t>(grid.size_voxels.x) * static_cast<std::size_t>(voxel.y) +
+                       slice * static_cast<std::size_t>(voxel.z - z)] =
+                        static_cast<std::int16_t>(air_hu + (reference_bone_hu - air_hu) * left[offset] / 255);
+                }
+            }
+            z = end;
+        }};
 }
 
 bool is_carved(const BoneFile& file) {
-    return file.key_values.contains(fraction_key);
+    return file.key_values().contains(bricks_key) || is_saved_set(file);
 }
 
-Bone restore_carved_bone(const std::filesystem::path& path, const BoneFile& file) {
-    const Grid& grid = file.volume.grid;
-    value_of(path, file.key_values, fraction_key);
-    const std::string& expected = value_of(path, file.key_values, checksum_key);
-    const Bytes fraction = channel_of(path, file, fraction_key);
-    const Bytes stiffness = channel_of(path, file, stiffness_key);
-    const Bytes tissue = channel_of(path, file, tissue_key);
+namespace {
 
-    BoneBuilder builder =
-        stiffness.empty()
-            ? BoneBuilder::homogeneous(grid, number_of(path, file.key_values, homogeneous_stiffness_key),
-                                       !tissue.empty())
-            : BoneBuilder::heterogeneous(grid, number_of(path, file.key_values, stiffness_per_code_key),
-                                         !tissue.empty());
-    const glm::ivec3 size_bricks = size_in_bricks(grid);
-    for (int z = 0; z < size_bricks.z; ++z)
-        for (int y = 0; y < size_bricks.y; ++y)
-            for (int x = 0; x < size_bricks.x; ++x) {
-                const ByteBrick codes = brick_of(grid, {x, y, z}, stiffness);
-                const ByteBrick labels = brick_of(grid, {x, y, z}, tissue);
-                builder.add_brick({x, y, z}, brick_of(grid, {x, y, z}, fraction), &codes, &labels);
-            }
-    Bone bone = std::move(builder).build();
-    if (checksum_text(bone) != expected)
-        throw ImagingError(
-            path, fmt::format("its fractions have checksum {}, not the {} that was saved: {} is "
-                              "of another carving",
-                              checksum_text(bone), expected, file.key_values.find(fraction_key)->second));
-    return bone;
+BoneBuilder builder_for(const BoneFile& file, const RecordLayout& layout) {
+    return layout.has_stiffness
+               ? BoneBuilder::heterogeneous(file.grid(), number_of_key(file, stiffness_per_code_key),
+                                            layout.has_tissue)
+               : BoneBuilder::homogeneous(file.grid(), number_of_key(file, homogeneous_stiffness_key),
+                                          layout.has_tissue);
+}
+
+}  // namespace
+
+RestoredBone restore_carved_bone(const BoneFile& file) {
+    if (is_saved_set(file)) return restore_saved_set(file);
+    const RecordLayout layout{.has_stiffness = file.key_values().contains(stiffness_digest_key),
+                              .has_tissue = file.key_values().contains(tissue_digest_key)};
+    const auto bricks =
+        static_cast<std::uint64_t>(std::strtoull(file.value(bricks_key).c_str(), nullptr, 10));
+    if (bricks * layout.bytes() != file.form().bytes_before_voxels)
+        throw ImagingError(file.path(), fmt::format("damaged: {}:={} does not fit its byte skip of {}",
+                                                    bricks_key, bricks, file.form().bytes_before_voxels));
+    NrrdData data = file.data();
+    ChannelDigests digests;
+    BoneBuilder builder = builder_for(file, layout);
+    const glm::ivec3 size_bricks = size_in_bricks(file.grid());
+    std::string misplaced;
+    for (std::uint64_t i = 0; i < bricks; ++i) {
+        BrickRecord record;
+        layout.for_each_part(
+            record, [&](const auto& part) { data.read_before_voxels(std::as_writable_bytes(part)); });
+        digests.add(record, layout);
+        try {
+            builder.add_brick(brick_position(size_bricks, record.brick), record.fraction, &record.stiffness,
+                              &record.tissue);
+        } catch (const std::invalid_argument& error) {
+            misplaced = error.what();  // the digest says it better
+        }
+    }
+    require_digest(file, fraction_digest_key, digests.fraction, "fractions (what is left of each voxel) are");
+    if (layout.has_stiffness)
+        require_digest(file, stiffness_digest_key, digests.stiffness, "stiffness codes are");
+    if (layout.has_tissue) require_digest(file, tissue_digest_key, digests.tissue, "tissue labels are");
+    if (!misplaced.empty()) throw ImagingError(file.path(), "damaged: " + misplaced);
+    HuReader hu(file, std::move(data));
+    hu.read_to_end();
+    try {
+        Bone bone = std::move(builder).build();
+        require_bone_checksum(file, bone);
+        return {std::move(bone), hu.digest()};
+    } catch (const std::invalid_argument& error) {
+        throw ImagingError(file.path(), std::string("damaged: ") + error.what());
+    }
 }
 
 }  // namespace osteomill

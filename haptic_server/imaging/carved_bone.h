@@ -1,39 +1,55 @@
-// A carved bone as files: what is left of it can be looked at in 3D Slicer, and loaded again bit for bit.
-//
-//   FILE.nrrd            HU of the source; -1000 where a voxel was milled away entirely
-//   FILE.fraction.nrrd   what is left of each voxel, 0 to 255
-//   FILE.stiffness.nrrd  stiffness codes, only of a heterogeneous bone
-//   FILE.tissue.nrrd     labels, only of a labelled bone
+// A carved bone as one file: what is left of it can be looked at in 3D Slicer, and loaded again bit for bit.
 //
 // HU alone cannot give the bone back: fractions have 255 steps that no HU tells, and the stiffness of a voxel
-// on the surface was taken from neighbours that may be gone. So the codes are kept as they were. Keys of
-// FILE.nrrd name the other files (relative to its folder), the bone's checksum and the scale of the codes.
+// on the surface was taken from neighbours that may be gone. So the codes are kept as they were, in the same
+// file, since two files can be parted, and cannot be renamed at once. NRRD has room for them: "byte skip"
+// says how many decoded bytes of the gzip stream stand before the voxels, and readers (teem, which is what
+// ITK and 3D Slicer read with, pynrrd) pass over them.
+//
+//   before the voxels   for each brick of which anything is left, ascending: its index (32 bits, little
+//                       endian), 4096 fractions, 4096 stiffness codes if the bone is heterogeneous, 4096
+//                       labels if it is labelled
+//   voxels              HU of the source; -1000 where a voxel was milled away entirely
+//   keys                how many bricks, the scale of the codes, the bone's checksum, and a digest of each
+//                       channel besides those of every bone file (hu_file.h)
+//
+// What 0.1 saved is read, too: FILE.nrrd with the HU, and beside it what its keys name, as dense volumes:
+// FILE.fraction.nrrd, FILE.stiffness.nrrd of a heterogeneous bone, FILE.tissue.nrrd of a labelled one.
 #pragma once
 
 #include <filesystem>
+#include <map>
+#include <string>
 
 #include "common/bone/bone.h"
 #include "haptic_server/imaging/hu_file.h"
+#include "haptic_server/imaging/hu_slices.h"
 #include "haptic_server/imaging/hu_volume.h"
+#include "haptic_server/imaging/saved_set.h"
 
 namespace osteomill {
 
 /// HU of a voxel of which nothing is left.
 inline constexpr std::int16_t milled_away_hu = air_hu;
 
-/// Writes the files. `source` is the volume that `bone` was built from; its key-values go with it (the
-/// threshold among them). Throws std::invalid_argument where the grids differ, ImagingError where a file
-/// cannot be written.
-void save_carved_bone(const std::filesystem::path& path, const HuVolume& source, const Bone& bone,
+/// Writes the file beside `path` and switches to it at once; what a 0.1 set held besides is removed then.
+/// `source` gives what `bone` was built from; `source_key_values` go with it (the threshold among them).
+/// Throws std::invalid_argument where the grids differ, ImagingError where the file cannot be written; what
+/// stood under the name is then as it was, as it is when `source` throws.
+void save_carved_bone(const std::filesystem::path& path, const HuSlices& source, const Bone& bone,
                       const std::map<std::string, std::string>& source_key_values = {});
+
+/// For a bone that no CT numbers were made for, or whose source is gone: from -1000 where there is no bone to
+/// 1600 (the reference bone) where all of a voxel is left. To look at, no more. `bone` must outlive it.
+HuSlices slices_of_bone(const Bone& bone);
 
 /// Whether a bone file was written by save_carved_bone.
 bool is_carved(const BoneFile& file);
 
 /// The bone that was saved: equal checksum, and equal stiffness and labels wherever anything is left. The
-/// scene's threshold and stiffness relation play no part: what was carved keeps the codes that it had.
-/// `file` is what read_bone_file(path) gave. Throws ImagingError in one line where a file is missing, has
-/// another grid, or the fractions do not have the checksum that was saved.
-Bone restore_carved_bone(const std::filesystem::path& path, const BoneFile& file);
+/// scene's threshold and stiffness relation play no part: what was carved keeps the codes that it had. Reads
+/// all of the file, the HU, too. Throws ImagingError in one line that names the channel where a digest is not
+/// the one saved, and where a 0.1 set lacks a file or has one of another grid or carving.
+RestoredBone restore_carved_bone(const BoneFile& file);
 
 }  // namespace osteomill

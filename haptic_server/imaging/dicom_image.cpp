@@ -91,12 +91,11 @@ void note_doubts(const std::filesystem::path& folder, const DicomSeries& series,
                         folder.string(), modality));
 }
 
-std::vector<float> read_stack(const std::vector<DicomSlice>& slices, const std::vector<std::size_t>& order,
-                              const std::map<std::filesystem::path, DicomHeader>& header_of_file,
-                              const ReportProgress& report) {
+void read_stack(const std::vector<DicomSlice>& slices, const std::vector<std::size_t>& order,
+                const std::map<std::filesystem::path, DicomHeader>& header_of_file, const TakeSlice& take,
+                const ReportProgress& report) {
     const auto per_slice = static_cast<std::size_t>(slices.front().placement.columns) *
                            static_cast<std::size_t>(slices.front().placement.rows);
-    std::vector<float> values(per_slice * slices.size());
     FloatImage::Pointer frames;
     std::filesystem::path held;
     for (std::size_t place = 0; place < order.size(); ++place) {
@@ -106,11 +105,10 @@ std::vector<float> read_stack(const std::vector<DicomSlice>& slices, const std::
         const auto size = frames->GetBufferedRegion().GetSize();
         if (size[0] * size[1] != per_slice || slice.frame >= size[2])
             throw ImagingError(slice.file, "its pixel data has not the size that its header says");
-        std::copy_n(frames->GetBufferPointer() + slice.frame * per_slice, per_slice,
-                    values.begin() + static_cast<std::ptrdiff_t>(place * per_slice));
+        take(static_cast<int>(place),
+             std::span(frames->GetBufferPointer() + slice.frame * per_slice, per_slice));
         report(static_cast<double>(place + 1) / static_cast<double>(order.size()));
     }
-    return values;
 }
 
 }  // namespace
@@ -140,9 +138,11 @@ OpenedImage open_series(const std::filesystem::path& folder, const DicomSeries& 
         throw ImagingError(folder, error.what());
     }
     note_doubts(folder, series, opened.image);
-    opened.read_values = [slices, order = stack.order, header_of_file](const ReportProgress& report) {
-        return read_stack(slices, order, header_of_file, report);
+    opened.read_slices = [slices, order = stack.order, header_of_file](const TakeSlice& take,
+                                                                       const ReportProgress& report) {
+        read_stack(slices, order, header_of_file, take, report);
     };
+    opened.is_read_by_slice = series.files.size() == slices.size();
     return opened;
 }
 

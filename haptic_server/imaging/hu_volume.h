@@ -1,5 +1,5 @@
-// CT numbers on the bone's own grid, with an optional label per voxel: what importers and phantoms produce
-// and what the bone is built from. Dense and short-lived.
+// CT numbers on the bone's own grid, with an optional label per voxel, and the bone that is built from them.
+// Dense where that is small; else slice by slice (hu_slices.h).
 #pragma once
 
 #include <cstdint>
@@ -7,6 +7,7 @@
 
 #include "common/bone/bone.h"
 #include "common/scene/stiffness_relation.h"
+#include "haptic_server/imaging/hu_slices.h"
 
 namespace osteomill {
 
@@ -19,13 +20,19 @@ struct HuVolume {
     std::vector<std::uint8_t> tissue;  ///< labels in the same order, or empty
 };
 
+/// The volume's slices; it must outlive them.
+HuSlices slices_of(const HuVolume& volume);
+
 /// Bone is where HU reaches the threshold. A voxel that the surface HU = threshold passes through is filled
 /// in part: fraction = clamp(1/2 + (HU - threshold) / (|grad HU| h), 0, 1), the same cover as the burr's, so
 /// that the surface is smooth and its volume right to a fraction of a voxel. Stiffness comes from the
 /// relation; a voxel on the surface, whose HU is a mixture with what lies outside, takes the stiffest of its
 /// six neighbours if that is stiffer. The bone is stored homogeneous (no stiffness channel) where every code
-/// is the same, and unlabelled where `tissue` is empty. Throws std::invalid_argument where sizes do not
-/// agree.
+/// is the same, and unlabelled where the slices are. Holds 18 slices at a time beside the bone. Throws
+/// std::invalid_argument for a bad grid, threshold or relation, and what reading the slices throws.
+Bone bone_from_hu(const HuSlices& slices, double threshold_hu, const StiffnessRelation& relation);
+
+/// The same; std::invalid_argument, too, where the volume's channels do not fit its grid.
 Bone bone_from_hu(const HuVolume& volume, double threshold_hu, const StiffnessRelation& relation);
 
 }  // namespace osteomill

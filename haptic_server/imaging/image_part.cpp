@@ -60,34 +60,54 @@ bool is_axis_aligned(const SourceImage& image) {
     return true;
 }
 
-SourceImage cut(const SourceImage& image, const VoxelBox& box) {
+SourceImage part_of(const SourceImage& image, const VoxelBox& box) {
     const bool aligned = is_axis_aligned(image);
     const Turn turn = aligned ? turn_to_lps(image) : Turn{};
     const glm::ivec3 box_size = box.last - box.first + 1;
-    const glm::dvec3 steps{1.0, image.size_voxels.x,
-                           static_cast<double>(image.size_voxels.x) * image.size_voxels.y};
-
     SourceImage part;
     glm::ivec3 start{0};  // the part's voxel (0, 0, 0) in the source
-    std::ptrdiff_t step[3];
     for (int axis = 0; axis < 3; ++axis) {
         const int source = turn.axis[axis];
         part.size_voxels[axis] = box_size[source];
         part.spacing_mm[axis] = image.spacing_mm[source];
         start[source] = turn.sign[axis] > 0 ? box.first[source] : box.last[source];
-        step[axis] = static_cast<std::ptrdiff_t>(steps[source]) * turn.sign[axis];
     }
     part.direction = aligned ? glm::dmat3(1.0) : image.direction;
     part.origin_mm = position_mm(image, glm::dvec3(start));
-    part.values.reserve(voxel_count(part));
-    const std::ptrdiff_t first =
-        start.x + static_cast<std::ptrdiff_t>(image.size_voxels.x) *
-                      (start.y + static_cast<std::ptrdiff_t>(image.size_voxels.y) * start.z);
-    for (int z = 0; z < part.size_voxels.z; ++z)
-        for (int y = 0; y < part.size_voxels.y; ++y)
-            for (int x = 0; x < part.size_voxels.x; ++x)
-                part.values.push_back(
-                    image.values[static_cast<std::size_t>(first + x * step[0] + y * step[1] + z * step[2])]);
+    return part;
+}
+
+void put_slice(const SourceImage& image, const VoxelBox& box, int k, std::span<const float> slice,
+               std::span<float> part_values) {
+    if (k < box.first.z || k > box.last.z) return;
+    const Turn turn = is_axis_aligned(image) ? turn_to_lps(image) : Turn{};
+    const glm::ivec3 box_size = box.last - box.first + 1;
+    std::ptrdiff_t step[3];  // in the part, of a step along each axis of the source
+    std::ptrdiff_t origin = 0;
+    std::ptrdiff_t stride = 1;
+    for (int axis = 0; axis < 3; ++axis) {
+        const int source = turn.axis[axis];
+        step[source] = stride * turn.sign[axis];
+        if (turn.sign[axis] < 0) origin += stride * (box_size[source] - 1);
+        stride *= box_size[source];
+    }
+    origin += step[2] * (k - box.first.z);
+    for (int j = 0; j < box_size.y; ++j) {
+        const float* from =
+            slice.data() + static_cast<std::ptrdiff_t>(image.size_voxels.x) * (box.first.y + j) + box.first.x;
+        float* to = part_values.data() + origin + step[1] * j;
+        for (int i = 0; i < box_size.x; ++i) to[step[0] * i] = from[i];
+    }
+}
+
+SourceImage cut(const SourceImage& image, const VoxelBox& box) {
+    SourceImage part = part_of(image, box);
+    part.values.resize(voxel_count(part));
+    const auto slice =
+        static_cast<std::size_t>(image.size_voxels.x) * static_cast<std::size_t>(image.size_voxels.y);
+    for (int k = box.first.z; k <= box.last.z; ++k)
+        put_slice(image, box, k, std::span(image.values).subspan(static_cast<std::size_t>(k) * slice, slice),
+                  part.values);
     return part;
 }
 

@@ -2,6 +2,8 @@
 // swapping and reversing them.
 #pragma once
 
+#include <span>
+
 #include "haptic_server/imaging/region.h"
 #include "haptic_server/imaging/source_image.h"
 
@@ -21,8 +23,16 @@ std::uint64_t voxel_count(const VoxelBox& box);
 /// Whether every axis of the image runs along one of patient LPS, to or fro.
 bool is_axis_aligned(const SourceImage& image);
 
-/// The voxels of the box. Where the image is axis-aligned the part's direction is the identity: its voxels
-/// run left, posterior, superior.
+/// The part that a box becomes, without values. Where the image is axis-aligned the part's direction is the
+/// identity: its voxels run left, posterior, superior.
+SourceImage part_of(const SourceImage& image, const VoxelBox& box);
+
+/// Puts what slice k of the image has within the box into the part's values, which is where it belongs in the
+/// part that part_of gives; nothing for a slice outside.
+void put_slice(const SourceImage& image, const VoxelBox& box, int k, std::span<const float> slice,
+               std::span<float> part_values);
+
+/// The part with the voxels of the box, of an image that has values.
 SourceImage cut(const SourceImage& image, const VoxelBox& box);
 
 }  // namespace osteomill

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <optional>
 #include <stdexcept>
 
 #include "haptic_server/imaging/dicom_image.h"
@@ -16,6 +17,8 @@
 #include "haptic_server/imaging/nrrd_header.h"
 #include "haptic_server/imaging/plausible_geometry.h"
 #include "haptic_server/imaging/quiet_libraries.h"
+#include "haptic_server/imaging/regular_file.h"
+#include "haptic_server/imaging/value_slices.h"
 
 namespace osteomill {
 
@@ -114,6 +117,60 @@ std::vector<float> read_file_values(const std::filesystem::path& path, const Sou
     }
 }
 
+/// All values at once, slice by slice.
+void hand_on(std::vector<float> values, const SourceImage& geometry, const TakeSlice& take) {
+    const auto slice =
+        static_cast<std::size_t>(geometry.size_voxels.x) * static_cast<std::size_t>(geometry.size_voxels.y);
+    for (int k = 0; k < geometry.size_voxels.z; ++k)
+        take(k, std::span(values).subspan(static_cast<std::size_t>(k) * slice, slice));
+}
+
+std::optional<MetaElement> element_of(itk::IOComponentEnum component) {
+    switch (component) {
+        case itk::IOComponentEnum::CHAR:
+            return MetaElement::int8;
+        case itk::IOComponentEnum::UCHAR:
+            return MetaElement::uint8;
+        case itk::IOComponentEnum::SHORT:
+            return MetaElement::int16;
+        case itk::IOComponentEnum::USHORT:
+            return MetaElement::uint16;
+        case itk::IOComponentEnum::INT:
+            return MetaElement::int32;
+        case itk::IOComponentEnum::UINT:
+            return MetaElement::uint32;
+        case itk::IOComponentEnum::FLOAT:
+            return MetaElement::float32;
+        case itk::IOComponentEnum::DOUBLE:
+            return MetaElement::float64;
+        default:
+            return std::nullopt;
+    }
+}
+
+/// Whether a NRRD's voxels can be read as they lie, slice by slice; ITK reads the others, as a whole.
+bool read_nrrd_by_slice(const std::filesystem::path& path, const itk::ImageIOBase& io, OpenedImage& opened) {
+    const NrrdHeader header = parse_nrrd_header(RegularFile(path).first_bytes(most_nrrd_header_bytes), path);
+    const NrrdLayout layout = nrrd_layout(header, path);
+    const std::optional<MetaElement> element = element_of(io.GetComponentType());
+    const bool is_zipped = layout.encoding == VoxelEncoding::gzip;
+    if (!element || (layout.encoding != VoxelEncoding::raw && !is_zipped)) return false;
+    if (is_zipped && (layout.byte_skip < 0 || (layout.byte_skip > 0 && layout.data_files.size() > 1)))
+        return false;
+    const VoxelLayout voxels{
+        .element = *element,
+        .big_endian = header.fields.contains("endian") && header.fields.at("endian") == "big",
+        .skipped_bytes =
+            is_zipped ? static_cast<std::uint64_t>(std::max<std::int64_t>(layout.byte_skip, 0)) : 0};
+    opened.read_slices = [data = nrrd_voxel_data(header, layout, path), voxels,
+                          size = opened.image.size_voxels](const TakeSlice& take,
+                                                           const ReportProgress& report) {
+        read_value_slices(data, voxels, size, take, report);
+    };
+    opened.is_read_by_slice = true;
+    return true;
+}
+
 /// Header and data are held against each other before ITK reads either.
 OpenedImage open_nrrd_or_nifti(const std::filesystem::path& path) {
     const bool is_nrrd = kind_of(path) == FileKind::nrrd;
@@ -135,8 +192,10 @@ OpenedImage open_nrrd_or_nifti(const std::filesystem::path& path) {
     if (more > 0)
         opened.image.notes.push_back(
             fmt::format("{}: {} bytes follow its voxels; they are not read", path.string(), more));
-    opened.read_values = [path, geometry = opened.image](const ReportProgress& report) {
-        return read_file_values(path, geometry, report);
+    if (is_nrrd && read_nrrd_by_slice(path, *io, opened)) return opened;
+    opened.read_slices = [path, geometry = opened.image](const TakeSlice& take,
+                                                         const ReportProgress& report) {
+        hand_on(read_file_values(path, geometry, report), geometry, take);
     };
     return opened;
 }
@@ -146,11 +205,12 @@ OpenedImage open_meta_image_file(const std::filesystem::path& path) {
     OpenedImage opened;
     opened.image = image.header.image;
     require_thickness(path, opened.image.size_voxels);
-    opened.read_values = [image = std::move(image)](const ReportProgress& report) {
-        std::vector<float> values = read_meta_image_values(image);
-        report(1.0);
-        return values;
+    opened.read_slices = [image = std::move(image)](const TakeSlice& take, const ReportProgress& report) {
+        read_value_slices(image.data,
+                          {.element = image.header.element, .big_endian = image.header.big_endian},
+                          image.header.image.size_voxels, take, report);
     };
+    opened.is_read_by_slice = true;
     return opened;
 }
 
@@ -165,6 +225,14 @@ OpenedImage open_folder(const std::filesystem::path& folder, const std::optional
 }
 
 }  // namespace
+
+std::vector<float> OpenedImage::read_values(const ReportProgress& report) const {
+    std::vector<float> values;
+    values.reserve(voxel_count(image));
+    read_slices([&](int, std::span<float> slice) { values.insert(values.end(), slice.begin(), slice.end()); },
+                report);
+    return values;
+}
 
 OpenedImage open_image(const std::filesystem::path& path, const std::optional<std::string>& series_uid) {
     std::error_code failed;

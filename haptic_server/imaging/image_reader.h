@@ -4,19 +4,29 @@
 #include <filesystem>
 #include <functional>
 #include <optional>
+#include <span>
 #include <string>
+#include <vector>
 
 #include "haptic_server/imaging/progress.h"
 #include "haptic_server/imaging/source_image.h"
 
 namespace osteomill {
 
+/// Takes slice k of an image; the values are changed at will.
+using TakeSlice = std::function<void(int k, std::span<float> values)>;
+
 /// What is known before the voxels are read.
 struct OpenedImage {
     SourceImage image;  ///< without values
-    /// Reads image.values, with the file's own rescale (slice by slice in DICOM) applied. Throws
-    /// ImagingError.
-    std::function<std::vector<float>(const ReportProgress&)> read_values;
+    /// Reads the values slice by slice and hands on each, k ascending, with the file's own rescale (slice by
+    /// slice in DICOM) applied. Throws ImagingError.
+    std::function<void(const TakeSlice&, const ReportProgress&)> read_slices;
+    /// Whether no more than a slice is in memory at once then; else it is all of the file.
+    bool is_read_by_slice = false;
+
+    /// All of them, as image.values has them.
+    std::vector<float> read_values(const ReportProgress& report) const;
 };
 
 /// Reads headers only. `series_uid` picks a series of a DICOM folder; the largest otherwise. Throws

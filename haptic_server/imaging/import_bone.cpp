@@ -3,17 +3,24 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <atomic>
+#include <limits>
+#include <map>
 #include <ostream>
+#include <span>
 #include <stdexcept>
+#include <vector>
 
 #include "haptic_server/imaging/hu_file.h"
 #include "haptic_server/imaging/image_part.h"
 #include "haptic_server/imaging/image_reader.h"
 #include "haptic_server/imaging/imaging_error.h"
+#include "haptic_server/imaging/in_parallel.h"
 #include "haptic_server/imaging/memory_estimate.h"
 #include "haptic_server/imaging/near_bone.h"
 #include "haptic_server/imaging/progress.h"
 #include "haptic_server/imaging/refine.h"
+#include "haptic_server/imaging/scratch_values.h"
 
 namespace osteomill {
 
@@ -49,9 +56,12 @@ ImportPlan plan(const ImportOptions& options, const SourceImage& image, std::ost
     }
 }
 
-void require_memory(const ImportOptions& options, const SourceImage& image, const ImportPlan& work,
+void require_memory(const ImportOptions& options, const OpenedImage& opened, const ImportPlan& work,
                     const ImportSurroundings& surroundings) {
-    const std::uint64_t needed = import_memory_bytes(voxel_count(image), voxel_count(work.needed), work.grid);
+    const SourceImage& image = opened.image;
+    const std::uint64_t read_at_once =
+        voxel_count(image) / (opened.is_read_by_slice ? static_cast<std::uint64_t>(image.size_voxels.z) : 1);
+    const std::uint64_t needed = import_memory_bytes(read_at_once, voxel_count(work.needed), work.grid);
     const glm::ivec3 from = image.size_voxels;
     const glm::ivec3 to = work.grid.size_voxels;
     surroundings.messages << fmt::format(
@@ -69,54 +79,113 @@ void require_memory(const ImportOptions& options, const SourceImage& image, cons
                         to_text(extent_of(image))));
 }
 
-void make_hu(const ImportOptions& options, SourceImage& image, std::ostream& messages) {
-    if (const std::size_t replaced = replace_not_finite(image.values); replaced > 0)
-        messages << fmt::format("{}: {} voxels are not numbers; taken as air\n", options.input.string(),
-                                replaced);
-    if (const auto* rescale = std::get_if<Rescale>(&options.to_hu)) rescale_values(*rescale, image.values);
-    if (const auto* window = std::get_if<IntensityWindow>(&options.to_hu))
-        window_values(*window, image.values);
+std::size_t make_hu(const ImportOptions& options, std::span<float> values) {
+    const std::size_t replaced = replace_not_finite(values);
+    if (const auto* rescale = std::get_if<Rescale>(&options.to_hu)) rescale_values(*rescale, values);
+    if (const auto* window = std::get_if<IntensityWindow>(&options.to_hu)) window_values(*window, values);
+    return replaced;
 }
 
-/// The region's part in HU. The rest of the scan is let go.
-SourceImage read_part(const ImportOptions& options, OpenedImage opened, const VoxelBox& needed,
-                      const ImportSurroundings& surroundings) {
-    ProgressLine progress(surroundings.messages, surroundings.is_terminal, "reading");
-    SourceImage image = std::move(opened.image);
-    image.values = opened.read_values(progress.reporter());
-    make_hu(options, image, surroundings.messages);
-    return cut(image, needed);
+/// The region's part in HU; of the rest of the scan no more than a slice is looked at.
+void read_part(const ImportOptions& options, const OpenedImage& opened, const VoxelBox& needed,
+               const ScratchValues& part, const ImportSurroundings& surroundings) {
+    std::size_t replaced = 0;
+    {
+        ProgressLine progress(surroundings.messages, surroundings.is_terminal, "reading");
+        opened.read_slices(
+            [&](int k, std::span<float> slice) {
+                replaced += make_hu(options, slice);
+                put_slice(opened.image, needed, k, slice, part.values());
+                part.let_go();
+            },
+            progress.reporter());
+    }
+    if (replaced > 0)
+        surroundings.messages << fmt::format("{}: {} voxels are not numbers; taken as air\n",
+                                             options.input.string(), replaced);
 }
 
-void keep_bone(const ImportOptions& options, HuVolume& volume,
-               std::map<std::string, std::string>& key_values) {
-    if (!options.threshold_hu) return;
-    const std::int16_t highest = *std::max_element(volume.hu.begin(), volume.hu.end());
-    if (clear_far_from_bone(volume, *options.threshold_hu) == 0)
+/// Slices of the result that are at work, by their number.
+class SliceRing {
+  public:
+    SliceRing(const Grid& grid, int held)
+        : slice_(static_cast<std::size_t>(voxels_of_slice(grid))),
+          held_(static_cast<std::size_t>(held)),
+          hu_(slice_ * held_) {}
+    std::span<std::int16_t> slice(int z) {
+        return std::span(hu_).subspan(slice_ * (static_cast<std::size_t>(z) % held_), slice_);
+    }
+
+  private:
+    std::size_t slice_;
+    std::size_t held_;
+    std::vector<std::int16_t> hu_;
+};
+
+/// Refines, clears what is far from bone if there is a threshold, writes: a few slices at a time, on all
+/// cores.
+void write_refined(const ImportOptions& options, const Refiner& refiner, const ScratchValues& part,
+                   const Grid& grid, BoneFileWriter& writer, const ReportProgress& report) {
+    const int slices = grid.size_voxels.z;
+    const int at_once = slices_at_once(grid);
+    const int reach = options.threshold_hu ? kept_voxels_around_bone : 0;
+    const int held = at_once + 2 * reach;
+    SliceRing ring(grid, held);
+    std::optional<NearBone> near;
+    if (options.threshold_hu) near.emplace(grid, *options.threshold_hu, held);
+    std::atomic<int> highest{std::numeric_limits<std::int16_t>::min()};
+    const auto note_highest = [&](std::span<const std::int16_t> hu) {
+        const int here = *std::max_element(hu.begin(), hu.end());
+        int before = highest;
+        while (here > before && !highest.compare_exchange_weak(before, here)) continue;
+    };
+    int written = 0;
+    for (int refined = 0; refined < slices;) {
+        const int now = std::min(at_once, slices - refined);
+        in_parallel(now, [&](int i) {
+            const std::span<std::int16_t> hu = ring.slice(refined + i);
+            refiner.slice(refined + i, hu);
+            note_highest(hu);
+            if (near) near->look_at(refined + i, hu);
+        });
+        part.let_go();
+        refined += now;
+        // The last ones wait for what comes above them.
+        const int ready = (refined == slices ? slices : refined - reach) - written;
+        if (near) in_parallel(ready, [&](int i) { near->clear_far(written + i, ring.slice(written + i)); });
+        for (const int end = written + std::max(ready, 0); written < end; ++written)
+            writer.add(ring.slice(written));
+        report(static_cast<double>(written) / slices);
+    }
+    if (near && near->bone_voxels() == 0)
         throw ImagingError(options.input,
                            fmt::format("no voxel reaches --threshold-hu {}; the highest has {} HU",
-                                       *options.threshold_hu, highest));
-    key_values[threshold_key] = threshold_text(*options.threshold_hu);
+                                       *options.threshold_hu, highest.load()));
+}
+
+/// Where the file will lie there is room for what is larger.
+std::filesystem::path scratch_folder(const ImportOptions& options) {
+    return options.output.has_parent_path() ? options.output.parent_path() : std::filesystem::path(".");
 }
 
 }  // namespace
 
 void import_bone(const ImportOptions& options, const ImportSurroundings& surroundings) {
     try {
-        OpenedImage opened = open_image(options.input, options.series_uid);
+        const OpenedImage opened = open_image(options.input, options.series_uid);
         for (const std::string& note : opened.image.notes) surroundings.messages << note << '\n';
         const ImportPlan work = plan(options, opened.image, surroundings.messages);
-        require_memory(options, opened.image, work, surroundings);
-        SourceImage part = read_part(options, std::move(opened), work.needed, surroundings);
-        HuVolume volume;
-        {
-            ProgressLine progress(surroundings.messages, surroundings.is_terminal, "refining");
-            volume = refine(std::move(part), work.grid, progress.reporter());
-        }
+        require_memory(options, opened, work, surroundings);
         std::map<std::string, std::string> key_values;
-        keep_bone(options, volume, key_values);
-        surroundings.messages << fmt::format("writing {}\n", options.output.string()) << std::flush;
-        write_hu_nrrd(options.output, volume, key_values);
+        if (options.threshold_hu) key_values[threshold_key] = threshold_text(*options.threshold_hu);
+        const ScratchValues part(voxel_count(work.needed), most_scan_bytes, scratch_folder(options));
+        read_part(options, opened, work.needed, part, surroundings);
+        ProgressLine progress(surroundings.messages, surroundings.is_terminal, "refining");
+        const Refiner refiner(part_of(opened.image, work.needed), part.values(), work.grid,
+                              [&] { part.let_go(); });
+        BoneFileWriter writer(options.output, work.grid, std::move(key_values));
+        write_refined(options, refiner, part, work.grid, writer, progress.reporter());
+        writer.commit();
     } catch (const std::bad_alloc&) {
         throw ImagingError(options.input,
                            "does not fit in memory; take a smaller --region or a larger --spacing-mm");

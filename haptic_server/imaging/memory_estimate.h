@@ -1,4 +1,4 @@
-// How much memory an import will take, told before it starts.
+// How much memory an import takes, known before it starts.
 #pragma once
 
 #include <cstdint>
@@ -9,10 +9,16 @@
 
 namespace osteomill {
 
-/// Peak bytes of an import: the larger of reading (the file's own voxels beside their copy as float), cutting
-/// out the region, and refining (smoothed copies, spline coefficients and the result).
-std::uint64_t import_memory_bytes(std::uint64_t source_voxels, std::uint64_t region_source_voxels,
-                                  const Grid& result);
+/// A scan that takes more than this as float lies in a scratch file while it is refined.
+inline constexpr std::uint64_t most_scan_bytes = std::uint64_t{512} << 20;
+
+/// Slices of the result that are refined at once: as many as bricks are thick, fewer where they are large.
+int slices_at_once(const Grid& result);
+
+/// Peak bytes of an import. `read_at_once`: voxels of the file that are held together while it is read (a
+/// slice, or all of it), as the file has them and as float; `part_voxels`: of the region, which is held until
+/// the end.
+std::uint64_t import_memory_bytes(std::uint64_t read_at_once, std::uint64_t part_voxels, const Grid& result);
 
 /// MemAvailable of /proc/meminfo, in bytes; std::nullopt where the text has none.
 std::optional<std::uint64_t> available_memory_bytes(std::istream& meminfo);

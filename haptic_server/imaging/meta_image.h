@@ -2,7 +2,6 @@
 #pragma once
 
 #include <filesystem>
-#include <vector>
 
 #include "haptic_server/imaging/meta_image_header.h"
 
@@ -16,8 +15,5 @@ struct MetaImage {
 /// Reads the header, counts and sizes every file of voxels and checks what is compressed. Throws
 /// ImagingError. What had to be assumed joins the notes of header.image.
 MetaImage open_meta_image(const std::filesystem::path& path);
-
-/// The voxels, x fastest. Throws ImagingError.
-std::vector<float> read_meta_image_values(const MetaImage& image);
 
 }  // namespace osteomill

@@ -1,15 +1,40 @@
 // Clears what lies far from bone, so that a bone file is small.
 #pragma once
 
-#include "haptic_server/imaging/hu_volume.h"
+#include <atomic>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "common/bone/grid.h"
 
 namespace osteomill {
 
 /// HU within this many voxels of bone stay as they are: what the surface's gradient and cover are made from.
 inline constexpr int kept_voxels_around_bone = 2;
 
-/// Sets every voxel that is further than kept_voxels_around_bone (along any axis) from one that reaches the
-/// threshold to air, -1000 HU. Returns how many voxels reach it.
-std::uint64_t clear_far_from_bone(HuVolume& volume, double threshold_hu);
+class NearBone {
+  public:
+    /// Remembers the `held_slices` slices that were looked at last, and no more.
+    NearBone(const Grid& grid, double threshold_hu, int held_slices);
+
+    /// Takes note of slice z's bone. Different slices may be looked at from different threads at once.
+    void look_at(int z, std::span<const std::int16_t> hu);
+    /// Sets every voxel of slice z that is further than kept_voxels_around_bone (along any axis) from one
+    /// that reaches the threshold to air, -1000 HU. All slices within that of z must have been looked at, and
+    /// be remembered. Different slices may be cleared at once.
+    void clear_far(int z, std::span<std::int16_t> hu) const;
+    /// Voxels that reach the threshold, so far.
+    std::uint64_t bone_voxels() const { return bone_voxels_; }
+
+  private:
+    using Mask = std::vector<std::uint8_t>;
+    const Mask& mask(int z) const { return masks_[static_cast<std::size_t>(z) % masks_.size()]; }
+
+    Grid grid_;
+    double threshold_hu_;
+    std::vector<Mask> masks_;  // of the bone of a slice, widened within it
+    std::atomic<std::uint64_t> bone_voxels_{0};
+};
 
 }  // namespace osteomill

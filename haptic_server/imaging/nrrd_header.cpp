@@ -321,16 +321,20 @@ void require_spacing(const std::filesystem::path& path, const std::map<std::stri
     }
 }
 
-std::uint64_t require_sound_nrrd(const std::filesystem::path& path) {
-    const NrrdHeader header = parse_nrrd_header(RegularFile(path).first_bytes(most_nrrd_header_bytes), path);
-    const NrrdLayout layout = nrrd_layout(header, path);
+VoxelData nrrd_voxel_data(const NrrdHeader& header, const NrrdLayout& layout,
+                          const std::filesystem::path& path) {
     VoxelData data{.encoding = layout.encoding, .parts = {}};
     if (layout.data_files.empty())
         data.parts.push_back(part_in(path, header.bytes, layout.voxel_bytes, layout));
     for (const std::string& name : layout.data_files)
         data.parts.push_back(
             part_in(data_file_beside(path, name), 0, layout.voxel_bytes / layout.data_files.size(), layout));
-    return require_whole(data);
+    return data;
+}
+
+std::uint64_t require_sound_nrrd(const std::filesystem::path& path) {
+    const NrrdHeader header = parse_nrrd_header(RegularFile(path).first_bytes(most_nrrd_header_bytes), path);
+    return require_whole(nrrd_voxel_data(header, nrrd_layout(header, path), path));
 }
 
 }  // namespace osteomill

@@ -41,6 +41,11 @@ NrrdHeader parse_nrrd_header(std::span<const std::uint8_t> bytes, const std::fil
 /// a number of `spacings`, `space directions`, `space origin`, `axis mins` or `axis maxs` that no scan has.
 NrrdLayout nrrd_layout(const NrrdHeader& header, const std::filesystem::path& path);
 
+/// Where the voxels lie. Bytes to skip in compressed data are part of it, and stand before the voxels of each
+/// file. Throws ImagingError for files that are missing or no files.
+VoxelData nrrd_voxel_data(const NrrdHeader& header, const NrrdLayout& layout,
+                          const std::filesystem::path& path);
+
 /// The fields alone. Throws as parse_nrrd_header does, and where the file cannot be opened.
 std::map<std::string, std::string> read_nrrd_header(const std::filesystem::path& path);
 

@@ -26,11 +26,11 @@ enum class ToothTissue : std::uint8_t {
 /// pulp, cortical and trabecular bone, a nerve canal and a carious lesion that opens on the occlusal surface.
 /// The roots are shorter than life, so that crown, roots and jaw fit into 12.8 mm, and the canal runs beside
 /// their tips instead of below.
-HuVolume make_tooth_phantom();
+HuSlices make_tooth_phantom();
 
 /// The homogeneous cube of the polishing experiment: 50 x 50 x 12 mm at 0.1 mm, relative stiffness 1, top
 /// face exactly at z = 0, bone below.
-HuVolume make_cube_phantom();
+HuSlices make_cube_phantom();
 
 /// Threshold at which each phantom's HU becomes bone.
 inline constexpr double phantom_threshold_hu = 150.0;
@@ -44,8 +44,8 @@ std::vector<std::string> phantom_names();
 /// its top with the 3 mm burr. Throws std::invalid_argument for an unknown name, listing the known ones.
 Scene phantom_scene(const std::string& name);
 
-/// A phantom: CT numbers to make bone from, or, where they would not fit in memory, the bone itself. Throws
-/// like phantom_scene.
-std::variant<HuVolume, Bone> make_phantom(const std::string& name);
+/// A phantom: CT numbers to make bone from, or, where making them would take too long, the bone itself.
+/// Throws like phantom_scene.
+std::variant<HuSlices, Bone> make_phantom(const std::string& name);
 
 }  // namespace osteomill

@@ -87,7 +87,7 @@ Scene phantom_scene(const std::string& name) {
     refuse(name);
 }
 
-std::variant<HuVolume, Bone> make_phantom(const std::string& name) {
+std::variant<HuSlices, Bone> make_phantom(const std::string& name) {
     if (name == "tooth") return make_tooth_phantom();
     if (name == "cube") return make_cube_phantom();
     if (name == "head") return make_braincase(head_braincase());

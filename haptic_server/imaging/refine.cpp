@@ -1,15 +1,14 @@
 #include "haptic_server/imaging/refine.h"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/vector_relational.hpp>
 #include <limits>
-#include <thread>
+#include <vector>
 
 #include "haptic_server/imaging/cubic_spline.h"
-#include "haptic_server/imaging/image_part.h"
+#include "haptic_server/imaging/hu_volume.h"
 
 namespace osteomill {
 
@@ -18,20 +17,18 @@ namespace {
 struct HuRange {
     float low = 0.0F;
     float high = 0.0F;
+    /// To the nearest, halves away from 0, as std::lround has it but in a loop that vectorises.
     std::int16_t whole(float value) const {
-        return static_cast<std::int16_t>(std::lround(std::clamp(value, low, high)));
+        const double clamped = std::clamp(value, low, high);
+        return static_cast<std::int16_t>(clamped + std::copysign(0.5, clamped));
     }
 };
 
-HuRange range_of(const std::vector<float>& values) {
+HuRange range_of(std::span<const float> values) {
     constexpr float lowest = std::numeric_limits<std::int16_t>::min();
     constexpr float highest = std::numeric_limits<std::int16_t>::max();
     const auto [low, high] = std::minmax_element(values.begin(), values.end());
     return {.low = std::clamp(*low, lowest, highest), .high = std::clamp(*high, lowest, highest)};
-}
-
-std::size_t voxels_of_slice(const Grid& grid) {
-    return static_cast<std::size_t>(grid.size_voxels.x) * static_cast<std::size_t>(grid.size_voxels.y);
 }
 
 float blend(const SplineTaps& taps, const float* values, std::size_t step) {
@@ -61,22 +58,32 @@ std::vector<SplineTaps> taps_along(const SourceImage& part, const Grid& grid, in
     return taps;
 }
 
-/// Axes of scan and grid agree, so the spline separates: a slice costs three passes of four taps.
-class AlignedSampler {
+}  // namespace
+
+class Refiner::Sampler {
   public:
-    AlignedSampler(const SourceImage& part, const Grid& grid, HuRange range)
+    virtual ~Sampler() = default;
+    virtual void slice(int z, std::int16_t* out) const = 0;
+};
+
+/// Axes of scan and grid agree, so the spline separates: a slice costs three passes of four taps.
+class Refiner::AlignedSampler : public Sampler {
+  public:
+    AlignedSampler(const SourceImage& part, std::span<const float> coefficients, const Grid& grid,
+                   HuRange range)
         : part_(part),
+          coefficients_(coefficients),
           range_(range),
           x_(taps_along(part, grid, 0)),
           y_(taps_along(part, grid, 1)),
           z_(taps_along(part, grid, 2)) {}
 
-    void slice(int z, std::int16_t* out) const {
+    void slice(int z, std::int16_t* out) const override {
         const auto row_length = static_cast<std::size_t>(part_.size_voxels.x);
         const std::size_t slice_length = row_length * static_cast<std::size_t>(part_.size_voxels.y);
         std::vector<float> plane(slice_length);
         std::vector<float> row(row_length);
-        blend_rows(z_[static_cast<std::size_t>(z)], part_.values.data(), slice_length, plane);
+        blend_rows(z_[static_cast<std::size_t>(z)], coefficients_.data(), slice_length, plane);
         for (const SplineTaps& y : y_) {
             blend_rows(y, plane.data(), row_length, row);
             for (const SplineTaps& x : x_) *out++ = range_.whole(blend(x, row.data(), 1));
@@ -84,18 +91,20 @@ class AlignedSampler {
     }
 
   private:
-    const SourceImage& part_;
+    SourceImage part_;
+    std::span<const float> coefficients_;
     HuRange range_;
     std::vector<SplineTaps> x_, y_, z_;
 };
 
 /// A turned scan: 64 taps a voxel.
-class ObliqueSampler {
+class Refiner::ObliqueSampler : public Sampler {
   public:
-    ObliqueSampler(const SourceImage& part, const Grid& grid, HuRange range)
-        : part_(part), grid_(grid), range_(range) {}
+    ObliqueSampler(const SourceImage& part, std::span<const float> coefficients, const Grid& grid,
+                   HuRange range)
+        : part_(part), coefficients_(coefficients), grid_(grid), range_(range) {}
 
-    void slice(int z, std::int16_t* out) const {
+    void slice(int z, std::int16_t* out) const override {
         for (int y = 0; y < grid_.size_voxels.y; ++y)
             for (int x = 0; x < grid_.size_voxels.x; ++x) {
                 const glm::dvec3 at = voxel_at(part_, centre_of_voxel_mm(grid_, {x, y, z}));
@@ -119,51 +128,40 @@ class ObliqueSampler {
             for (std::size_t j = 0; j < 4; ++j)
                 sum += z.weight[k] * y.weight[j] *
                        blend(x,
-                             &part_.values[static_cast<std::size_t>(z.index[k]) * slice +
-                                           static_cast<std::size_t>(y.index[j]) * row],
+                             &coefficients_[static_cast<std::size_t>(z.index[k]) * slice +
+                                            static_cast<std::size_t>(y.index[j]) * row],
                              1);
         return sum;
     }
 
-    const SourceImage& part_;
-    const Grid& grid_;
+    SourceImage part_;
+    std::span<const float> coefficients_;
+    Grid grid_;
     HuRange range_;
 };
 
-/// Every thread takes the next slice that is left; the calling thread reports.
-template <typename Sampler>
-void sample_slices(const Sampler& sampler, HuVolume& volume, const ReportProgress& report) {
-    const int slices = volume.grid.size_voxels.z;
-    const std::size_t length = voxels_of_slice(volume.grid);
-    std::atomic<int> next{0};
-    const auto work = [&](bool reports) {
-        for (int z = next++; z < slices; z = next++) {
-            sampler.slice(z, volume.hu.data() + static_cast<std::size_t>(z) * length);
-            if (reports) report(static_cast<double>(z) / slices);
-        }
-    };
-    {
-        std::vector<std::jthread> helpers;
-        for (unsigned i = 1; i < std::thread::hardware_concurrency(); ++i) helpers.emplace_back(work, false);
-        work(true);
-    }
-    report(1.0);
+Refiner::Refiner(const SourceImage& part, std::span<float> values, const Grid& grid,
+                 const std::function<void()>& pause) {
+    require_valid(grid);
+    const HuRange range = range_of(values);
+    const Lattice lattice{
+        .size_voxels = part.size_voxels, .spacing_mm = part.spacing_mm, .values = values, .pause = pause};
+    smooth_for_spacing(lattice, grid.spacing_mm);
+    values_to_coefficients(lattice);
+    SourceImage geometry{.size_voxels = part.size_voxels,
+                         .spacing_mm = part.spacing_mm,
+                         .origin_mm = part.origin_mm,
+                         .direction = part.direction};
+    if (part.direction == glm::dmat3(1.0))
+        sampler_ = std::make_unique<AlignedSampler>(geometry, values, grid, range);
+    else
+        sampler_ = std::make_unique<ObliqueSampler>(geometry, values, grid, range);
 }
 
-}  // namespace
+Refiner::~Refiner() = default;
 
-HuVolume refine(SourceImage part, const Grid& grid, const ReportProgress& report) {
-    require_valid(grid);
-    const HuRange range = range_of(part.values);
-    smooth_for_spacing(part, grid.spacing_mm);
-    values_to_coefficients(part);
-    HuVolume volume{.grid = grid, .hu = {}, .tissue = {}};
-    volume.hu.resize(voxels_of_slice(grid) * static_cast<std::size_t>(grid.size_voxels.z));
-    if (part.direction == glm::dmat3(1.0))
-        sample_slices(AlignedSampler(part, grid, range), volume, report);
-    else
-        sample_slices(ObliqueSampler(part, grid, range), volume, report);
-    return volume;
+void Refiner::slice(int z, std::span<std::int16_t> hu) const {
+    sampler_->slice(z, hu.data());
 }
 
 }  // namespace osteomill

@@ -1,8 +1,12 @@
 // From a scan's lattice to the bone's: isotropic, fine, along patient LPS.
 #pragma once
 
-#include "haptic_server/imaging/hu_volume.h"
-#include "haptic_server/imaging/progress.h"
+#include <cstdint>
+#include <memory>
+#include <span>
+
+#include "common/bone/grid.h"
+#include "haptic_server/imaging/cubic_spline.h"
 #include "haptic_server/imaging/source_image.h"
 
 namespace osteomill {
@@ -11,10 +15,28 @@ namespace osteomill {
 /// eight leave 3e-5.
 inline constexpr int refine_margin_voxels = 8;
 
-/// Samples `part` (as `cut` leaves it) at the centres of the grid's voxels by its cubic B-spline, smoothed
-/// first along axes where the grid is coarser. Results are clamped to the range of the part's own values: a
-/// spline overshoots beside steep edges, and HU that no voxel had would be bone that is not there. Outside
-/// the part (corners of a turned scan) there is air. Rounded to whole HU. Uses all cores.
-HuVolume refine(SourceImage part, const Grid& grid, const ReportProgress& report);
+/// Samples a part of a scan (as image_part.h leaves it) at the centres of the grid's voxels by its cubic
+/// B-spline, smoothed first along axes where the grid is coarser. Results are clamped to the range of the
+/// part's own values: a spline overshoots beside steep edges, and HU that no voxel had would be bone that is
+/// not there. Outside the part (corners of a turned scan) there is air. Rounded to whole HU.
+class Refiner {
+  public:
+    /// Turns `values`, the part's, into the spline's coefficients, on all cores; they must outlive it.
+    /// `part.values` are not looked at. `pause`: see filter_lines. Throws std::invalid_argument for a bad
+    /// grid.
+    Refiner(
+        const SourceImage& part, std::span<float> values, const Grid& grid,
+        const std::function<void()>& pause = [] {});
+    ~Refiner();
+
+    /// One slice of the grid, x fastest. From any number of threads.
+    void slice(int z, std::span<std::int16_t> hu) const;
+
+  private:
+    class Sampler;
+    class AlignedSampler;
+    class ObliqueSampler;
+    std::unique_ptr<const Sampler> sampler_;
+};
 
 }  // namespace osteomill

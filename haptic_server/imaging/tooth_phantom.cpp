@@ -2,6 +2,7 @@
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <span>
 
 #include "haptic_server/imaging/distance_fields.h"
 #include "haptic_server/imaging/phantom.h"
@@ -144,39 +145,43 @@ double across_surface(double material_hu, double outside_hu, double distance_vox
                : phantom_threshold_hu + (outside_hu - phantom_threshold_hu) * std::min(1.0, distance_voxels);
 }
 
+void fill_slice(const Grid& grid, int z, std::span<std::int16_t> hu, std::span<std::uint8_t> tissue) {
+    std::fill(hu.begin(), hu.end(), air_hu);
+    std::fill(tissue.begin(), tissue.end(), std::uint8_t{0});
+    const double h = grid.spacing_mm;
+    for (int y = 0; y < grid.size_voxels.y; ++y)
+        for (int x = 0; x < grid.size_voxels.x; ++x) {
+            const glm::dvec3 p = centre_of_voxel_mm(grid, {x, y, z});
+            if (std::abs(p.y) > 7.7 || std::abs(p.x) > 23.2) continue;
+            const bool near_tooth = std::abs(p.x) < 7.0 && std::abs(p.y) < 6.5;
+            const double tooth = near_tooth ? tooth_mm(p) : 1.0;
+            const double socket = std::max(jaw_mm(p), ligament_mm - tooth);
+            const double nearest = std::min(tooth, socket);
+            const auto index = static_cast<std::size_t>(x + grid.size_voxels.x * y);
+            if (nearest >= h) {
+                if (near_tooth && jaw_mm(p) < 0.0) hu[index] = static_cast<std::int16_t>(ligament_hu);
+                continue;
+            }
+            const Material material =
+                tooth <= socket ? material_of_tooth(p, tooth) : material_of_jaw(p, jaw_mm(p), tooth);
+            const double outside_hu = jaw_mm(p) < 0.0 ? ligament_hu : air_hu;
+            hu[index] =
+                static_cast<std::int16_t>(std::lround(across_surface(material.hu, outside_hu, nearest / h)));
+            tissue[index] = static_cast<std::uint8_t>(material.tissue);
+        }
+}
+
 }  // namespace
 
-HuVolume make_tooth_phantom() {
+HuSlices make_tooth_phantom() {
     const Grid grid{.size_voxels = {512, 512, 128}, .spacing_mm = 0.1, .origin_mm = {-25.55, -25.55, -8.45}};
-    const auto voxels = static_cast<std::size_t>(512) * 512 * 128;
-    HuVolume volume{.grid = grid,
-                    .hu = std::vector<std::int16_t>(voxels, air_hu),
-                    .tissue = std::vector<std::uint8_t>(voxels, 0)};
-    const double h = grid.spacing_mm;
-    for (int z = 0; z < 128; ++z)
-        for (int y = 0; y < 512; ++y)
-            for (int x = 0; x < 512; ++x) {
-                const glm::dvec3 p = centre_of_voxel_mm(grid, {x, y, z});
-                if (std::abs(p.y) > 7.7 || std::abs(p.x) > 23.2) continue;
-                const bool near_tooth = std::abs(p.x) < 7.0 && std::abs(p.y) < 6.5;
-                const double tooth = near_tooth ? tooth_mm(p) : 1.0;
-                const double socket = std::max(jaw_mm(p), ligament_mm - tooth);
-                const double nearest = std::min(tooth, socket);
-                if (nearest >= h) {
-                    if (near_tooth && jaw_mm(p) < 0.0)
-                        volume.hu[static_cast<std::size_t>(x + 512 * (y + 512 * z))] =
-                            static_cast<std::int16_t>(ligament_hu);
-                    continue;
-                }
-                const Material material =
-                    tooth <= socket ? material_of_tooth(p, tooth) : material_of_jaw(p, jaw_mm(p), tooth);
-                const double outside_hu = jaw_mm(p) < 0.0 ? ligament_hu : air_hu;
-                const auto index = static_cast<std::size_t>(x + 512 * (y + 512 * z));
-                volume.hu[index] = static_cast<std::int16_t>(
-                    std::lround(across_surface(material.hu, outside_hu, nearest / h)));
-                volume.tissue[index] = static_cast<std::uint8_t>(material.tissue);
-            }
-    return volume;
+    return {.grid = grid,
+            .labelled = true,
+            .read = [grid, z = 0](std::span<std::int16_t> hu, std::span<std::uint8_t> tissue) mutable {
+                const std::size_t slice = 512 * 512;
+                for (std::size_t at = 0; at < hu.size(); at += slice)
+                    fill_slice(grid, z++, hu.subspan(at, slice), tissue.subspan(at, slice));
+            }};
 }
 
 }  // namespace osteomill

@@ -2,27 +2,39 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <optional>
+#include <string>
 
 #include "common/scene/scene.h"
+#include "haptic_server/imaging/hu_file.h"
 #include "haptic_server/imaging/hu_volume.h"
 
 namespace osteomill {
 
-/// What a bone was built from. Dense: keep it no longer than needed.
+/// What a bone was built from: not kept, but read or made once more where it is needed.
 struct BoneSource {
-    HuVolume volume;
+    std::string phantom;                   ///< its name; empty: a file, or a bone without CT numbers
+    std::shared_ptr<const BoneFile> file;  ///< stays open, so that another under its name is not taken for it
+    std::string hu_digest;                 ///< of the file's CT numbers when the bone was loaded
     double threshold_hu = 0.0;
 };
 
 struct LoadedBone {
     Bone bone;
-    std::optional<BoneSource> source;  ///< none for a bone that no CT numbers were made for
+    BoneSource source;
 };
 
-/// Makes the phantom or reads the file. For a file the threshold is the scene's, or the file's own, or the
-/// default of 300 HU. Throws std::runtime_error with one line naming the file.
+/// Makes the phantom or reads the file, slice by slice. For a file the threshold is the scene's, or the
+/// file's own, or the default of 300 HU. Throws std::runtime_error with one line naming the file, also where
+/// it holds no bone at all.
 LoadedBone load_bone(const Scene& scene);
+
+/// Saves what is left of a bone together with the CT numbers of its source (carved_bone.h), which may be the
+/// file that is saved over. Where the source can no longer be read, or is not what was loaded, the bone is
+/// saved with CT numbers made from it (slices_of_bone), and then std::runtime_error says so. Throws
+/// ImagingError where it cannot be written.
+void save_bone(const std::filesystem::path& path, const BoneSource& source, const Bone& bone);
 
 /// Where neither scene nor file says from which HU on a voxel is bone: about what separates trabecular bone
 /// from soft tissue in CT.

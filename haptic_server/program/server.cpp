@@ -20,7 +20,6 @@
 #include "haptic_server/device/hid/profile_file.h"
 #include "haptic_server/device/hid/space_mouse.h"
 #include "haptic_server/device/simulated_device.h"
-#include "haptic_server/imaging/carved_bone.h"
 #include "haptic_server/imaging/phantom.h"
 #include "haptic_server/loop/clock.h"
 #include "haptic_server/loop/force_log.h"
@@ -199,13 +198,7 @@ void run_server(const ServerOptions& options, const std::string& version, const 
     Scene scene = load_scene(options);
     LoadedBone loaded = load_bone(scene);
     if (options.bone && !options.scene) place_on_bone(scene, loaded.bone);
-    // Saving needs what the bone was built from; nothing else does.
-    if (!options.save_bone) loaded.source.reset();
-    if (options.save_bone && !loaded.source)
-        throw std::runtime_error(fmt::format(
-            "--save-bone: the scene '{}' has a bone without CT numbers, too large to write them all",
-            scene.name));
-    const std::optional<BoneSource> source = std::move(loaded.source);
+    const BoneSource source = std::move(loaded.source);
     Bone bone = std::move(loaded.bone);
     BoneCost cost{.memory_bytes = memory_bytes(bone), .bone_mm3 = bone_volume_mm3(bone)};
     const DeviceParts device = make_device(options, scene);
@@ -251,9 +244,7 @@ void run_server(const ServerOptions& options, const std::string& version, const 
     const MillingSessionReport report = session->report();
     Leftovers leftovers;
     leftovers.write([&] {
-        if (!options.save_bone) return;
-        save_carved_bone(*options.save_bone, source->volume, session->bone(),
-                         {{threshold_key, threshold_text(source->threshold_hu)}});
+        if (options.save_bone) save_bone(*options.save_bone, source, session->bone());
     });
     leftovers.write([&] { close_log(log); });
     leftovers.write([&] { close_log(milling_log); });

@@ -31,7 +31,7 @@ class Nobody final : public RemovalSink {
 }  // namespace
 
 Bone tooth_phantom_bone() {
-    return bone_from_hu(std::get<HuVolume>(make_phantom("tooth")), phantom_threshold_hu,
+    return bone_from_hu(std::get<HuSlices>(make_phantom("tooth")), phantom_threshold_hu,
                         default_stiffness_relation());
 }
 

@@ -7,14 +7,16 @@
 #include <fstream>
 #include <sstream>
 
-#include "haptic_server/imaging/hu_file.h"
+#include "tests/support/dense_bone_file.h"
 #include "tests/support/synthetic_dicom.h"
 #include "tests/support/temporary_folder.h"
 
 namespace osteomill {
 namespace {
 
+using testing::DenseBoneFile;
 using ::testing::HasSubstr;
+using testing::read_bone_file;
 
 struct Outcome {
     int exit_status = -1;
@@ -54,7 +56,7 @@ TEST_F(BoneImport, MakesABoneFileOfADicomSeries) {
     ASSERT_EQ(outcome.exit_status, 0) << outcome.last();
     EXPECT_THAT(outcome.lines.front(), HasSubstr("GiB of memory")) << "the estimate comes first";
     EXPECT_THAT(outcome.lines, ::testing::Contains("refining 100 %"));
-    const BoneFile file = read_bone_file(output_);
+    const DenseBoneFile file = read_bone_file(output_);
     EXPECT_EQ(file.threshold_hu, 250.0);
     EXPECT_EQ(file.volume.grid,
               (Grid{.size_voxels = {23, 19, 17}, .spacing_mm = 0.5, .origin_mm = {-5.0, -4.0, 0.0}}));

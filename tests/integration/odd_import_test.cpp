@@ -7,7 +7,7 @@
 #include <fstream>
 #include <iterator>
 
-#include "haptic_server/imaging/hu_file.h"
+#include "tests/support/dense_bone_file.h"
 #include "tests/support/child_process.h"
 #include "tests/support/raw_dicom.h"
 #include "tests/support/raw_images.h"
@@ -35,7 +35,7 @@ class OddImport : public ::testing::Test {
             run_program({BONE_IMPORT, input.string(), (folder_ / "bone.nrrd").string(), "--spacing-mm", "1"});
         EXPECT_EQ(said_.status, 0) << said_.err;
         if (said_.status != 0) return {};
-        return read_bone_file(folder_ / "bone.nrrd").volume.hu;
+        return testing::read_bone_file(folder_ / "bone.nrrd").volume.hu;
     }
     void expect_ramp(const std::vector<std::int16_t>& hu) {
         ASSERT_EQ(hu.size(), 60u);

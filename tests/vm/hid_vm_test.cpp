@@ -14,7 +14,7 @@
 #include <string>
 #include <vector>
 
-#include "haptic_server/imaging/hu_file.h"
+#include "tests/support/dense_bone_file.h"
 #include "tests/support/child_process.h"
 #include "tests/support/temporary_folder.h"
 
@@ -124,7 +124,7 @@ void write_block(const std::filesystem::path& file) {
     HuVolume volume;
     volume.grid = {.size_voxels = {90, 50, 40}, .spacing_mm = 0.1, .origin_mm = {-4.45, -2.45, -3.95}};
     volume.hu.assign(std::size_t{90} * 50 * 40, 1600);
-    write_hu_nrrd(file, volume, {{threshold_key, "300"}});
+    testing::write_bone_file(file, volume, {{threshold_key, "300"}});
 }
 
 /// The faults that follow one another in a log, each once.

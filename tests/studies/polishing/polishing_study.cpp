@@ -24,7 +24,7 @@ namespace osteomill::study {
 namespace {
 
 Bone bone_of_cube() {
-    return bone_from_hu(std::get<HuVolume>(make_phantom("cube")), phantom_threshold_hu,
+    return bone_from_hu(std::get<HuSlices>(make_phantom("cube")), phantom_threshold_hu,
                         phantom_scene("cube").stiffness);
 }
 

@@ -4,8 +4,26 @@
 
 #include <cstdlib>
 
+#include "haptic_server/imaging/hu_volume.h"
+
 namespace osteomill {
 namespace {
+
+std::uint64_t clear_far_from_bone(HuVolume& volume, double threshold_hu) {
+    const glm::ivec3 size = volume.grid.size_voxels;
+    // As many as are needed: a slice is cleared as soon as those above it have been looked at.
+    NearBone near(volume.grid, threshold_hu, 2 * kept_voxels_around_bone + 1);
+    const auto slice = [&](int z) {
+        return std::span(volume.hu).subspan(static_cast<std::size_t>(size.x * size.y * z),
+                                            static_cast<std::size_t>(size.x * size.y));
+    };
+    for (int z = 0; z < size.z + kept_voxels_around_bone; ++z) {
+        if (z < size.z) near.look_at(z, slice(z));
+        if (z >= kept_voxels_around_bone)
+            near.clear_far(z - kept_voxels_around_bone, slice(z - kept_voxels_around_bone));
+    }
+    return near.bone_voxels();
+}
 
 TEST(NearBone, KeepsTwoVoxelsAroundBoneAndClearsTheRest) {
     const Grid grid{.size_voxels = {11, 9, 8}, .spacing_mm = 0.1, .origin_mm = {}};

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "haptic_server/imaging/hu_volume.h"
 #include "haptic_server/imaging/image_part.h"
 
 namespace osteomill {
@@ -48,10 +49,21 @@ glm::dvec3 found_marker(const HuVolume& volume) {
     return sum / weight;
 }
 
+HuVolume refine(SourceImage part, const Grid& grid) {
+    const Refiner refiner(part, part.values, grid);
+    HuVolume volume{.grid = grid, .hu = {}, .tissue = {}};
+    const auto slice =
+        static_cast<std::size_t>(grid.size_voxels.x) * static_cast<std::size_t>(grid.size_voxels.y);
+    volume.hu.resize(slice * static_cast<std::size_t>(grid.size_voxels.z));
+    for (int z = 0; z < grid.size_voxels.z; ++z)
+        refiner.slice(z, std::span(volume.hu).subspan(slice * static_cast<std::size_t>(z), slice));
+    return volume;
+}
+
 HuVolume refined(const SourceImage& image, double spacing_mm) {
     const Region extent = extent_of(image);
     const VoxelBox all{.first = {0, 0, 0}, .last = image.size_voxels - 1};
-    return refine(cut(image, all), grid_over(extent, spacing_mm), [](double) {});
+    return refine(cut(image, all), grid_over(extent, spacing_mm));
 }
 
 void expect_marker_in_place(const glm::dmat3& direction) {
@@ -124,9 +136,8 @@ TEST(Refine, AgreesWithTheWholeWhereOnlyARegionIsCut) {
     const Region region{.low_mm = {1.0, -3.0, 0.5}, .high_mm = {5.0, 1.0, 4.0}};
     const Grid grid = grid_over(region, 0.25);
     const VoxelBox all{.first = {0, 0, 0}, .last = image.size_voxels - 1};
-    const HuVolume whole = refine(cut(image, all), grid, [](double) {});
-    const HuVolume part =
-        refine(cut(image, voxels_for(image, region, refine_margin_voxels)), grid, [](double) {});
+    const HuVolume whole = refine(cut(image, all), grid);
+    const HuVolume part = refine(cut(image, voxels_for(image, region, refine_margin_voxels)), grid);
     for (std::size_t i = 0; i < whole.hu.size(); ++i) ASSERT_NEAR(whole.hu[i], part.hu[i], 1) << i;
 }
 

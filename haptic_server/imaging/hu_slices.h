@@ -1,0 +1,21 @@
+// CT numbers slice after slice, z ascending: what a bone is built from where the whole would not fit in
+// memory.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <span>
+
+#include "common/bone/grid.h"
+
+namespace osteomill {
+
+struct HuSlices {
+    Grid grid;
+    bool labelled = false;
+    /// Fills `hu` with the next slices, as many as it has room for (x fastest, then y, then z; never more
+    /// than are left), and `tissue`, as long, with their labels where there are labels; else it is empty.
+    std::function<void(std::span<std::int16_t> hu, std::span<std::uint8_t> tissue)> read;
+};
+
+}  // namespace osteomill
