@@ -12,6 +12,12 @@
 
 namespace osteomill {
 
+class Refiner::Sampler {
+  public:
+    virtual ~Sampler() = default;
+    virtual void slice(int z, std::int16_t* out) const = 0;
+};
+
 namespace {
 
 struct HuRange {
@@ -58,16 +64,8 @@ std::vector<SplineTaps> taps_along(const SourceImage& part, const Grid& grid, in
     return taps;
 }
 
-}  // namespace
-
-class Refiner::Sampler {
-  public:
-    virtual ~Sampler() = default;
-    virtual void slice(int z, std::int16_t* out) const = 0;
-};
-
 /// Axes of scan and grid agree, so the spline separates: a slice costs three passes of four taps.
-class Refiner::AlignedSampler : public Sampler {
+class AlignedSampler : public Refiner::Sampler {
   public:
     AlignedSampler(const SourceImage& part, std::span<const float> coefficients, const Grid& grid,
                    HuRange range)
@@ -98,7 +96,7 @@ class Refiner::AlignedSampler : public Sampler {
 };
 
 /// A turned scan: 64 taps a voxel.
-class Refiner::ObliqueSampler : public Sampler {
+class ObliqueSampler : public Refiner::Sampler {
   public:
     ObliqueSampler(const SourceImage& part, std::span<const float> coefficients, const Grid& grid,
                    HuRange range)
@@ -139,6 +137,8 @@ class Refiner::ObliqueSampler : public Sampler {
     Grid grid_;
     HuRange range_;
 };
+
+}  // namespace
 
 Refiner::Refiner(const SourceImage& part, std::span<float> values, const Grid& grid,
                  const std::function<void()>& pause) {

@@ -32,10 +32,9 @@ class Refiner {
     /// One slice of the grid, x fastest. From any number of threads.
     void slice(int z, std::span<std::int16_t> hu) const;
 
+    class Sampler;  ///< one for scans along the grid's axes, one for turned ones
+
   private:
-    class Sampler;
-    class AlignedSampler;
-    class ObliqueSampler;
     std::unique_ptr<const Sampler> sampler_;
 };
 
