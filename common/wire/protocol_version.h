@@ -16,5 +16,8 @@ inline constexpr std::uint32_t first_minor_that_is_greeted = 3;
 /// From here on a client knows that a guessed sweep can be smoothed: see GuessedSweep. An older one would
 /// take it for sharp, and guess wrongly.
 inline constexpr std::uint32_t first_minor_that_smooths_guesses = 4;
+/// From here on an operator's input names the newest state that its client has seen, and a server moves the
+/// tool for no other: see OperatorInput.
+inline constexpr std::uint32_t first_minor_that_names_states = 5;
 
 }  // namespace osteomill

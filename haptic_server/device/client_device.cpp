@@ -14,35 +14,38 @@ ClientDevice::ClientDevice(TripleBuffer<OperatorInput>& input, const ToolPose& s
       arm_(arm),
       held_arm_(arm, hand, position_in_device_mm(mapping, start_pose.position_mm)),
       wanted_(start_pose),
-      target_(start_pose) {}
+      target_(start_pose),
+      limit_(start_pose.position_mm) {}
 
-void ClientDevice::take_over_input() noexcept {
+void ClientDevice::take_over_input(double now_s) noexcept {
     if (!input_.refresh()) return;
     const OperatorInput& input = input_.front();
-    pedal_ = false;
-    if (!input.present) {
-        wanted_ = target_;
+    const double axis_length = glm::length(input.hand_target.spindle_axis);
+    if (!input.present || !is_finite(input.hand_target.position_mm) || !std::isfinite(axis_length) ||
+        axis_length < 1e-6) {
+        permission_.withdraw();
         return;
     }
-    const double axis_length = glm::length(input.hand_target.spindle_axis);
-    if (!is_finite(input.hand_target.position_mm) || !std::isfinite(axis_length) || axis_length < 1e-6)
-        return;
-    wanted_ = {input.hand_target.position_mm, input.hand_target.spindle_axis / axis_length};
+    const glm::dvec3 burr_mm = position_in_patient_mm(mapping_, held_arm_.truth().position_mm());
+    wanted_ = {limit_.limited(input.hand_target.position_mm, burr_mm, now_s),
+               input.hand_target.spindle_axis / axis_length};
     pedal_ = input.pedal;
     burr_ = input.burr;
+    permission_.renew(now_s);
 }
 
 DeviceState ClientDevice::read(double now_s) noexcept {
-    take_over_input();
+    take_over_input(now_s);
+    if (!permission_.holds(now_s)) {
+        pedal_ = false;
+        wanted_ = target_;
+        limit_.resume_at(target_.position_mm);
+    }
     const double elapsed_s = now_s - read_at_s_;
     read_at_s_ = now_s;
 
     const double share = elapsed_s / (target_filter_s + elapsed_s);
-    glm::dvec3 step_mm = share * (wanted_.position_mm - target_.position_mm);
-    const double step_length_mm = glm::length(step_mm);
-    const double longest_mm = target_limit_mm_per_s * elapsed_s;
-    if (step_length_mm > longest_mm) step_mm *= longest_mm / step_length_mm;
-    target_.position_mm += step_mm;
+    target_.position_mm += share * (wanted_.position_mm - target_.position_mm);
 
     const glm::dvec3 axis = target_.spindle_axis + share * (wanted_.spindle_axis - target_.spindle_axis);
     // Two opposite axes have no direction between them; the old one stays until the operator turns on.

@@ -1,10 +1,16 @@
 // An arm that is not there, moved by an operator over the network: the mouse moves the hand's target, the
 // hand and arm model do the rest, so that the operator's tool yields to bone as an arm in a hand would.
+//
+// What an operator says is good for Permission::by_message_s of session time: without a fresh message the
+// tick lifts the pedal and the hand stands still, whatever the network's threads do. And it is held to what a
+// hand does (TargetLimit): one message moves the tool by longest_reach_mm at the most.
 #pragma once
 
 #include "common/scene/scene.h"
 #include "haptic_server/device/haptic_device.h"
 #include "haptic_server/device/held_arm.h"
+#include "haptic_server/device/permission.h"
+#include "haptic_server/device/target_limit.h"
 #include "haptic_server/exchange/operator_input.h"
 #include "haptic_server/exchange/triple_buffer.h"
 
@@ -12,14 +18,12 @@ namespace osteomill {
 
 class ClientDevice final : public HapticDevice {
   public:
-    /// Mouse positions come some 30 times a second: the target follows them with this time constant...
+    /// Mouse positions come some 60 times a second: the target follows them with this time constant.
     static constexpr double target_filter_s = 0.04;
-    /// ...and no faster than a hand moves a handpiece.
-    static constexpr double target_limit_mm_per_s = 200.0;
 
     /// Reads `input` as its only reader. The arm starts at rest at `start_pose` (patient LPS). While no
-    /// operator is present the hand holds its target and the pedal is up; an input that is not finite is
-    /// passed over.
+    /// operator is heard the hand holds its target and the pedal is up. An input that is not finite counts
+    /// as none. The burr that targets are kept near is the arm's tip, but for what the coupling yields.
     ClientDevice(TripleBuffer<OperatorInput>& input, const ToolPose& start_pose, const DeviceMapping& mapping,
                  const ArmModel& arm, const HandModel& hand);
 
@@ -29,9 +33,11 @@ class ClientDevice final : public HapticDevice {
     DeviceState read(double now_s) noexcept override;
     void write(const glm::dvec3& force_n) noexcept override { held_arm_.set_motor_force(force_n); }
     void stop() noexcept override { held_arm_.set_motor_force(glm::dvec3(0.0)); }
+    /// What was clamped, once for each kind.
+    const char* notice() const noexcept override { return limit_.notice(); }
 
   private:
-    void take_over_input() noexcept;
+    void take_over_input(double now_s) noexcept;
 
     TripleBuffer<OperatorInput>& input_;
     DeviceMapping mapping_;
@@ -39,6 +45,8 @@ class ClientDevice final : public HapticDevice {
     HeldArm held_arm_;
     ToolPose wanted_;  // patient LPS
     ToolPose target_;  // on the way to wanted_
+    TargetLimit limit_;
+    Permission permission_;
     bool pedal_ = false;
     std::optional<std::size_t> burr_;
     double read_at_s_ = 0.0;

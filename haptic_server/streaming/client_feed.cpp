@@ -79,6 +79,7 @@ std::optional<std::string> ClientFeed::next(std::size_t most_state_bytes) {
         case Stage::live:
             if (wants_state_) {
                 fill_state(frame, most_state_bytes);
+                newest_state_ = frame.sequence();
             } else if (goodbye_) {
                 frame.mutable_goodbye()->set_reason(*goodbye_);
                 stage_ = Stage::finished;

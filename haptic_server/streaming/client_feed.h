@@ -54,6 +54,11 @@ class ClientFeed {
     /// Whether goodbye has been said.
     bool is_finished() const { return stage_ == Stage::finished; }
 
+    /// The number of the newest state frame; 0: none yet.
+    std::uint64_t newest_state() const { return newest_state_; }
+    /// Whether that frame tells all there was to tell when a state was last requested.
+    bool has_told_all() const { return newest_state_ > 0 && !wants_state_; }
+
     /// What it remembers for the client.
     const UntoldVoxels& untold() const { return untold_; }
 
@@ -76,6 +81,7 @@ class ClientFeed {
     SnapshotPacker& packer_;
     Stage stage_ = Stage::hello;
     std::uint64_t sequence_ = 0;
+    std::uint64_t newest_state_ = 0;
 
     std::size_t next_slot_ = 0;  // bricks of lower slots have been sent
     std::uint64_t snapshot_checksum_ = 0;

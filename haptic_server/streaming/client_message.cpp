@@ -1,26 +1,55 @@
 #include "haptic_server/streaming/client_message.h"
 
-#include <variant>
+#include <fmt/format.h>
 
 #include "common/wire/protocol_version.h"
 #include "common/wire/scene_messages.h"
 
 namespace osteomill {
 
-std::optional<WireError> take_client_message(const v1::ClientFrame& frame, const MessagingClient& client,
-                                             OperatorSeat::Time now) {
+std::variant<std::optional<Answer>, WireError> take_client_message(const v1::ClientFrame& frame,
+                                                                   const MessagingClient& client,
+                                                                   OperatorSeat::Time now) {
     if (frame.has_hello()) {
         if (frame.hello().takes_guessed_edits() &&
             frame.hello().protocol_minor() >= first_minor_that_smooths_guesses)
             client.feed.guess_edits(client.guesser);
         return std::nullopt;
     }
-    if (frame.has_compare_bone()) return client.feed.compare(frame.compare_bone());
+    if (frame.has_compare_bone()) {
+        if (auto error = client.feed.compare(frame.compare_bone())) return *std::move(error);
+        return std::nullopt;
+    }
     if (!frame.has_operator_input()) return WireError{"it sent a frame without a body that is known"};
     const auto intent = intent_from(frame.operator_input(), client.burr_count);
     if (const auto* error = std::get_if<WireError>(&intent)) return *error;
-    if (client.seat != nullptr) client.seat->take_input(client.id, std::get<OperatorIntent>(intent), now);
-    return std::nullopt;
+    if (client.seat == nullptr) return std::nullopt;
+    const v1::OperatorInput& input = frame.operator_input();
+    const Answer answer = client.answers.judge(input.number(), input.answers_state(), now);
+    if (answer == Answer::unsent)
+        return WireError{fmt::format("its input answers state {}, which it was not sent", input.answers_state())};
+    if (answer == Answer::fresh)
+        client.seat->take_input(client.id, std::get<OperatorIntent>(intent), now);
+    return client.answers.is_news() ? std::optional(answer) : std::nullopt;
+}
+
+std::string reason_to_ignore(Answer answer) {
+    switch (answer) {
+        case Answer::stale:
+            return fmt::format("moves nothing: its input answers what was so more than {} ms ago; its link "
+                               "is slow or late",
+                               AnsweredStates::longest_age.count());
+        case Answer::unnamed:
+            return fmt::format(
+                "looks on and moves nothing: its input does not say which state it has seen, as from "
+                "protocol {}.{} on it has to; update it",
+                protocol_major, first_minor_that_names_states);
+        case Answer::fresh:
+        case Answer::repeated:
+        case Answer::unsent:
+            return {};
+    }
+    return {};
 }
 
 }  // namespace osteomill

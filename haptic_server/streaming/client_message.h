@@ -2,8 +2,11 @@
 #pragma once
 
 #include <optional>
+#include <string>
+#include <variant>
 
 #include "common/wire/wire_error.h"
+#include "haptic_server/streaming/answered_states.h"
 #include "haptic_server/streaming/client_feed.h"
 #include "haptic_server/streaming/operator_seat.h"
 #include "osteomill/v1/session.pb.h"
@@ -14,15 +17,27 @@ namespace osteomill {
 struct MessagingClient {
     OperatorSeat::ClientId id = 0;
     ClientFeed& feed;              ///< may have something to say afterwards
+    AnsweredStates& answers;       ///< of what the client has been told
     EditGuesser& guesser;          ///< of all clients that take guessed edits; outlives the feed
     OperatorSeat* seat = nullptr;  ///< null: nobody may move the tool now, and input changes nothing
     std::size_t burr_count = 0;    ///< of the session
 };
 
-/// A client is told of edits as guesses if it takes them and is of protocol 1.4 or later.
+/// What became of an operator's input that was let through, or not; see AnsweredStates.
+using Answer = AnsweredStates::Answer;
+
+/// A client is told of edits as guesses if it takes them and is of protocol 1.4 or later. An operator's input
+/// is given to the seat if it is fresh.
 /// An error if the message makes no sense, which drops the client: no body, numbers that are not finite, a
-/// burr that is not there, a comparison that ClientFeed refuses. It has then changed nothing.
-std::optional<WireError> take_client_message(const v1::ClientFrame& frame, const MessagingClient& client,
-                                             OperatorSeat::Time now);
+/// burr that is not there, an answer to a state that was not sent, a comparison that ClientFeed refuses. It
+/// has then changed nothing. Otherwise what became of an operator's input where that is news: it is otherwise
+/// than the one before, or the first that is not fresh.
+std::variant<std::optional<Answer>, WireError> take_client_message(const v1::ClientFrame& frame,
+                                                                   const MessagingClient& client,
+                                                                   OperatorSeat::Time now);
+
+/// Why such input moves nothing, as what a log says of its client; empty where it does, and of repeated ones,
+/// which do no harm.
+std::string reason_to_ignore(Answer answer);
 
 }  // namespace osteomill

@@ -25,7 +25,6 @@ void OperatorSeat::vacate() {
 }
 
 void OperatorSeat::check_silence(Time now) {
-    if (input_.present && now - last_heard_ > longest_silence) publish(false);
     if (holder_ && now - last_heard_ > lease) vacate();
 }
 

@@ -1,6 +1,8 @@
 // Which client drives the device, and what it wants: the first that sends input, until it leaves or its lease
 // runs out. Its input renews the lease; but one that brings nothing new for half a minute, see
 // OperatorActivity, gives the seat to the next who asks.
+// That a silent operator's pedal comes up is not for the seat to see to: the device does, see
+// haptic_server/device/permission.h.
 #pragma once
 
 #include <chrono>
@@ -18,10 +20,6 @@ class OperatorSeat {
   public:
     using Time = std::chrono::steady_clock::time_point;
     using ClientId = std::uint64_t;
-
-    /// An operator silent for this long counts as gone, pedal up, until heard again: a turning burr must not
-    /// outlive a pulled cable. Long enough for a slow picture of a loaded machine.
-    static constexpr std::chrono::milliseconds longest_silence{500};
 
     /// So long after its last input the seat is the next one's. Long enough to reconnect after a hiccup of
     /// the network, short enough for a colleague who waits.

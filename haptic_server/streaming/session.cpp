@@ -60,10 +60,19 @@ void Session::serve() {
     pump();
 }
 
+void Session::show(const ToolView& tool, bool with_checksum) {
+    feed_.request_state(tool, with_checksum);
+    if (feed_.has_told_all()) answers_.still_true(std::chrono::steady_clock::now());
+    pump();
+}
+
 void Session::pump() {
     if (is_closed_ || is_writing_ || (has_said_hello_ && !is_served_)) return;
     has_said_hello_ = true;
+    const std::uint64_t told = feed_.newest_state();
     std::optional<std::string> frame = feed_.next(pace_.most_bytes());
+    if (feed_.newest_state() != told)
+        answers_.sent(feed_.newest_state(), std::chrono::steady_clock::now());
     if (!frame) {
         // The client closes when it has read goodbye. Closing first could reset the connection and destroy
         // what it has not read yet.

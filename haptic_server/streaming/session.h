@@ -9,6 +9,7 @@
 
 #include "common/net/stream.h"
 #include "common/wire/frame.h"
+#include "haptic_server/streaming/answered_states.h"
 #include "haptic_server/streaming/client_feed.h"
 #include "haptic_server/streaming/token_bucket.h"
 
@@ -37,6 +38,9 @@ class Session : public std::enable_shared_from_this<Session> {
     /// Writes whatever the feed has to say, from now on.
     void serve();
     ClientFeed& feed() { return feed_; }
+    AnsweredStates& answers() { return answers_; }
+    /// Asks the feed for a state frame (ClientFeed::request_state) and writes it, as pump() does.
+    void show(const ToolView& tool, bool with_checksum);
     /// Writes the next frame, unless one is under way; call after the feed has been given something to say.
     void pump();
     /// Cuts the connection.
@@ -52,6 +56,7 @@ class Session : public std::enable_shared_from_this<Session> {
 
     std::shared_ptr<Stream> stream_;
     ClientFeed feed_;
+    AnsweredStates answers_;
     Callbacks callbacks_;
     std::string peer_;
     FramePace pace_;

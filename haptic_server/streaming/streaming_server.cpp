@@ -17,6 +17,7 @@
 #include <stdexcept>
 #include <thread>
 #include <utility>
+#include <variant>
 
 #include "common/wire/frame.h"
 #include "common/wire/scene_messages.h"
@@ -188,8 +189,7 @@ class StreamingServer::Impl {
         for (const auto& [id, session] : std::map(sessions_)) {  // a session may close and leave the map
             ToolView stamped = view_for(id);
             stamped.taken_unix_ns = now_unix_ns;
-            session->feed().request_state(stamped, with_checksum);
-            session->pump();
+            session->show(stamped, with_checksum);
         }
         if (options_.listens && !is_accepting_) accept();
         client_log_.tell_left_out(Clock::now());
@@ -308,10 +308,11 @@ class StreamingServer::Impl {
             welcome(*session);
             session->serve();
         }
-        auto error = take_client_message(
+        auto taken = take_client_message(
             frame,
             {.id = id,
              .feed = session->feed(),
+             .answers = session->answers(),
              .guesser = guesser_,
              .seat = seat_ && !is_finishing_ && !watchers_.contains(id) ? &*seat_ : nullptr,
              .burr_count = burr_count_},
@@ -320,8 +321,13 @@ class StreamingServer::Impl {
         if (frame.has_operator_input() && watchers_.contains(id) && refused_input_.insert(id).second)
             log_client(fmt::format("client {} may only watch; what it asks of the tool is refused",
                                    session->peer()));
-        if (!error) session->pump();
-        return error;
+        if (auto* error = std::get_if<WireError>(&taken)) return std::move(*error);
+        session->pump();
+        const auto& answer = std::get<std::optional<Answer>>(taken);
+        if (const std::string reason = answer ? reason_to_ignore(*answer) : ""; !reason.empty())
+            client_log_.write(spdlog::level::warn, fmt::format("client {} {}", session->peer(), reason),
+                              Clock::now());
+        return std::nullopt;
     }
 
     void finish() {

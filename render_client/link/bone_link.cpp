@@ -34,10 +34,9 @@ class BoneLink::Impl {
     const SessionInfo* session() const { return copy_.session(); }
 
     void send(const OperatorIntent& intent) {
-        if (session() == nullptr || !session()->accepts_operator) return;
-        const auto checked = intent_from(to_message(intent), session()->burrs.size());
-        if (const auto* good = std::get_if<OperatorIntent>(&checked)) connection_.send(*good);
+        connection_.send(intent);
     }
+    std::optional<ToolView> newest_tool() const { return connection_.newest_tool(); }
 
     std::string finish_recording() {
         connection_.finish_recording();
@@ -134,6 +133,9 @@ const SessionInfo* BoneLink::session() const {
 }
 void BoneLink::send_operator(const OperatorIntent& intent) {
     impl_->send(intent);
+}
+std::optional<ToolView> BoneLink::newest_tool() const {
+    return impl_->newest_tool();
 }
 std::string BoneLink::finish_recording() {
     return impl_->finish_recording();

@@ -1,4 +1,4 @@
-// The connection to the haptic server, for the UI thread: keeps a copy of the bone equal to the server's.
+// The connection to the haptic server: keeps a copy of the bone equal to the server's.
 //
 // A thread of its own receives frames; poll() applies them, so the bone changes only inside poll(). Losing
 // the server is a status, never an exception: the link tries again after 0.2 s, then ever less often up to 2
@@ -87,10 +87,15 @@ class BoneLink {
     /// UI thread. Null until a server has said hello.
     const SessionInfo* session() const;
 
-    /// UI thread. Sends what the operator wants; dropped while not connected, and while an earlier one is
-    /// still under way only the newest is kept. Call it every frame while the operator is at the controls:
-    /// the server takes half a second of silence for an operator who has gone, and lifts the pedal.
+    /// Any thread. Sends what the operator wants, as an answer to newest_tool(); dropped before that is known,
+    /// while not connected, and where it makes no sense. While an earlier one is still under way only the
+    /// newest is kept. Call it 50 times a second while the operator is at the controls, from the thread that
+    /// reads them: the server takes 0.2 s of silence for an operator who has gone, and lifts the pedal.
     void send_operator(const OperatorIntent& intent);
+
+    /// Any thread. The newest that has come of the tool, be it applied by poll() or not; nothing while not
+    /// connected.
+    std::optional<ToolView> newest_tool() const;
 
     /// UI thread. Ends the recording and waits until it is written; one line where some of it is not, else
     /// nothing.

@@ -51,11 +51,27 @@ ServerConnection::~ServerConnection() {
 }
 
 void ServerConnection::send(const OperatorIntent& intent) {
-    asio::post(io_, [this, intent] {
-        if (!accepts_operator_) return;
-        newest_intent_ = intent;
+    v1::OperatorInput input = to_message(intent);
+    std::uint64_t connection = 0;
+    {
+        // What it answers is what was before the operator now, however late it is written.
+        const std::scoped_lock lock(seen_mutex_);
+        if (seen_state_ == 0) return;
+        input.set_answers_state(seen_state_);
+        connection = seen_generation_;
+    }
+    asio::post(io_, [this, input = std::move(input), connection]() mutable {
+        if (!accepts_operator_ || connection != generation_) return;
+        if (!std::holds_alternative<OperatorIntent>(intent_from(input, burr_count_))) return;
+        input.set_number(++input_number_);
+        newest_input_ = std::move(input);
         write_newest();
     });
+}
+
+std::optional<ToolView> ServerConnection::newest_tool() const {
+    const std::scoped_lock lock(seen_mutex_);
+    return seen_tool_;
 }
 
 void ServerConnection::send(const v1::CompareBone& request, std::uint64_t session_number) {
@@ -147,8 +163,10 @@ void ServerConnection::disconnect() {
     receiver_ = SessionReceiver(gaps());
     is_paused_ = false;
     accepts_operator_ = false;
+    forget_seen();
     owes_hello_ = false;
-    newest_intent_.reset();
+    newest_input_.reset();
+    input_number_ = 0;
     newest_request_.reset();
     sent_sequence_ = 0;
     is_writing_ = false;
@@ -221,6 +239,7 @@ void ServerConnection::take_event(SnapshotGoesOn) {
 
 void ServerConnection::take_event(SessionInfo session) {
     accepts_operator_ = session.accepts_operator;
+    burr_count_ = session.burrs.size();
     owes_hello_ = session.protocol_minor >= first_minor_that_is_greeted;
     write_newest();
     ++counters_.connections;
@@ -237,7 +256,23 @@ void ServerConnection::take_event(BoneArrived arrived) {
 }
 
 void ServerConnection::take_event(StateArrived arrived) {
+    see(arrived);
     events_.push(std::move(arrived));
+}
+
+void ServerConnection::see(const StateArrived& arrived) {
+    auto tool = tool_from(arrived.frame.tool(), burr_count_);
+    if (!std::holds_alternative<ToolView>(tool)) return;  // whoever applies the frame says what is wrong
+    const std::scoped_lock lock(seen_mutex_);
+    seen_generation_ = generation_;
+    seen_state_ = receiver_.last_sequence();
+    seen_tool_ = std::get<ToolView>(std::move(tool));
+}
+
+void ServerConnection::forget_seen() {
+    const std::scoped_lock lock(seen_mutex_);
+    seen_state_ = 0;
+    seen_tool_.reset();
 }
 
 void ServerConnection::take_event(const SaidGoodbye& goodbye) {
@@ -252,7 +287,7 @@ void ServerConnection::take_event(const SpeaksOtherProtocol& other) {
 }
 
 void ServerConnection::write_newest() {
-    if (is_writing_ || !(owes_hello_ || newest_intent_ || newest_request_)) return;
+    if (is_writing_ || !(owes_hello_ || newest_input_ || newest_request_)) return;
     v1::ClientFrame frame;
     frame.set_sequence(++sent_sequence_);
     if (std::exchange(owes_hello_, false)) {
@@ -262,7 +297,7 @@ void ServerConnection::write_newest() {
     } else if (newest_request_) {
         *frame.mutable_compare_bone() = *std::exchange(newest_request_, std::nullopt);
     } else {
-        *frame.mutable_operator_input() = to_message(*std::exchange(newest_intent_, std::nullopt));
+        *frame.mutable_operator_input() = *std::exchange(newest_input_, std::nullopt);
     }
     std::string bytes;
     append_frame(frame, bytes);

@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <span>
 #include <string>
@@ -49,7 +50,11 @@ class ServerConnection {
     const LinkCounters& counters() const { return counters_; }
 
     // Any thread.
+    /// As the answer to newest_tool(). Dropped while nothing has been seen, and where the server would not
+    /// take it.
     void send(const OperatorIntent& intent);
+    /// Of the newest state frame that came on this connection; nothing before the first.
+    std::optional<ToolView> newest_tool() const;
     /// Dropped if that session is over.
     void send(const v1::CompareBone& request, std::uint64_t session_number);
     /// There is room in the queue again.
@@ -80,6 +85,8 @@ class ServerConnection {
     void take_event(SessionInfo session);
     void take_event(BoneArrived arrived);
     void take_event(StateArrived arrived);
+    void see(const StateArrived& arrived);
+    void forget_seen();
     void take_event(const SaidGoodbye& goodbye);
     void take_event(const SpeaksOtherProtocol& other);
     void write_newest();
@@ -117,9 +124,17 @@ class ServerConnection {
     SessionReceiver receiver_;
     bool is_paused_ = false;
     bool accepts_operator_ = false;
+    std::size_t burr_count_ = 0;
+
+    // What whoever reads the operator's mouse has before it: the newest state, though it may not be drawn yet.
+    mutable std::mutex seen_mutex_;
+    std::uint64_t seen_generation_ = 0;
+    std::uint64_t seen_state_ = 0;  // 0: none
+    std::optional<ToolView> seen_tool_;
 
     bool owes_hello_ = false;
-    std::optional<OperatorIntent> newest_intent_;
+    std::optional<v1::OperatorInput> newest_input_;
+    std::uint64_t input_number_ = 0;  // of this connection
     std::optional<v1::CompareBone> newest_request_;
     std::uint64_t sent_sequence_ = 0;
     bool is_writing_ = false;

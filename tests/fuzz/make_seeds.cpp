@@ -95,12 +95,15 @@ void write_recording(const std::filesystem::path& file,
 }
 
 v1::ClientFrame operator_input(double x_mm, std::uint32_t burr) {
+    static std::uint64_t number = 0;
     v1::ClientFrame frame;
     v1::OperatorInput& input = *frame.mutable_operator_input();
     input.mutable_hand_target_mm()->set_x(x_mm);
     input.mutable_spindle_axis()->set_z(2.0);
     input.set_pedal(true);
     input.set_burr(burr);
+    input.set_number(++number);
+    input.set_answers_state(5);  // the first that a session of this bone sends
     return frame;
 }
 

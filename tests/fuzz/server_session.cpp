@@ -96,13 +96,16 @@ void server_session(Bytes input) {
     session->start({.on_message =
                         [&](const v1::ClientFrame& frame) {
                             if (messages++ == 0) session->serve();
-                            return take_client_message(frame,
-                                                       {.id = id,
-                                                        .feed = session->feed(),
-                                                        .guesser = guesser,
-                                                        .seat = &seat,
-                                                        .burr_count = info.burrs.size()},
-                                                       {});
+                            const auto taken = take_client_message(frame,
+                                                                   {.id = id,
+                                                                    .feed = session->feed(),
+                                                                    .answers = session->answers(),
+                                                                    .guesser = guesser,
+                                                                    .seat = &seat,
+                                                                    .burr_count = info.burrs.size()},
+                                                                   {});
+                            const auto* error = std::get_if<WireError>(&taken);
+                            return error != nullptr ? std::optional(*error) : std::nullopt;
                         },
                     .on_closed = [&](const std::string& line, bool) { ended = line; }});
     stream->let_write();
@@ -116,8 +119,7 @@ void server_session(Bytes input) {
         apply(milled, carved);
         mirror.apply(milled);
         session->feed().note(mirror.take_changes());
-        session->feed().request_state({.time_s = 0.03 * static_cast<double>(states)}, states % 30 == 0);
-        session->pump();
+        session->show({.time_s = 0.03 * static_cast<double>(states)}, states % 30 == 0);
         if (reads_all) stream->let_write();
     }
     require(checksum(mirror.bone()) == checksum(carved), "a client changed the bone");

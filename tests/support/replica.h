@@ -30,6 +30,8 @@ class Replica {
 
     const std::optional<Bone>& bone() const { return bone_; }
     std::size_t states() const { return states_; }
+    /// The sequence of the last frame.
+    std::uint64_t sequence() const { return sequence_; }
     std::size_t edits_of_last_state() const { return edits_of_last_state_; }
     std::size_t checksums() const { return checksums_; }
     bool has_goodbye() const { return has_goodbye_; }

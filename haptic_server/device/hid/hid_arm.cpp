@@ -79,12 +79,9 @@ DeviceLimits HidArm::limits() const {
 }
 
 DeviceState HidArm::read(double now_s) noexcept {
-    if (readings_.refresh()) {
-        has_reading_ = true;
-        reading_s_ = now_s;
-    }
+    if (readings_.refresh()) permission_.renew(now_s);
     DeviceState newest = readings_.front();
-    if (!has_reading_ || now_s - reading_s_ > longest_reading_age_s) newest.connected = false;
+    if (!permission_.holds(now_s)) newest.connected = false;
     return newest;
 }
 

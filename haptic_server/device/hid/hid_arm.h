@@ -8,6 +8,7 @@
 #include "haptic_server/device/haptic_device.h"
 #include "haptic_server/device/hid/arm_profile.h"
 #include "haptic_server/device/hid/hid_worker.h"
+#include "haptic_server/device/permission.h"
 #include "haptic_server/exchange/triple_buffer.h"
 
 namespace osteomill {
@@ -34,9 +35,8 @@ class HidArm final : public HapticDevice {
     ArmProfile profile_;
     TripleBuffer<DeviceState> readings_;  // thread to loop
     TripleBuffer<glm::dvec3> forces_;     // loop to thread
-    bool has_reading_ = false;
-    double reading_s_ = 0.0;  // session time at which the newest came
-    HidWorker worker_;        // last: its thread uses the others
+    Permission permission_{longest_reading_age_s};
+    HidWorker worker_;  // last: its thread uses the others
 };
 
 /// Where the tip is at the calibration position, device space.

@@ -90,22 +90,25 @@ void SpaceMouse::move_target(const SpaceMouseState& mouse, double elapsed_s) noe
 }
 
 DeviceState SpaceMouse::read(double now_s) noexcept {
-    readings_.refresh();
+    if (readings_.refresh()) permission_.renew(now_s);
     const SpaceMouseReading& mouse = readings_.front();
+    const bool is_heard = mouse.is_plugged && permission_.holds(now_s);
     const double elapsed_s = now_s - read_at_s_;
     read_at_s_ = now_s;
-    if (mouse.is_plugged) move_target(mouse.state, elapsed_s);
+    if (is_heard) move_target(mouse.state, elapsed_s);
     held_arm_.advance(now_s, target_mm_, spindle_axis_);
 
-    const bool next_pressed = mouse.is_plugged && (mouse.state.buttons & next_burr_button) != 0;
-    if (next_pressed && !was_next_pressed_) burr_ = (burr_ + 1) % burr_count_;
-    was_next_pressed_ = next_pressed;
+    if (is_heard) {
+        const bool next_pressed = (mouse.state.buttons & next_burr_button) != 0;
+        if (next_pressed && !was_next_pressed_) burr_ = (burr_ + 1) % burr_count_;
+        was_next_pressed_ = next_pressed;
+    }
     return {.position_mm = held_arm_.sensor().position_mm(),
             .velocity_mm_per_s = held_arm_.sensor().velocity_mm_per_s(),
             .spindle_axis = spindle_axis_,
-            .pedal = mouse.is_plugged && (mouse.state.buttons & pedal_button) != 0,
+            .pedal = is_heard && (mouse.state.buttons & pedal_button) != 0,
             .burr = burr_,
-            .connected = mouse.is_plugged};
+            .connected = is_heard};
 }
 
 }  // namespace osteomill

@@ -5,6 +5,9 @@
 //     d(target)/dt = fastest_mm_per_s |u| u,  u: deflection, a share of the full one     (fine about the
 //     centre)
 //
+// Where the thread that reads the mouse says nothing for Permission::by_message_s the mouse counts as lost: a
+// button that was down must not stay down because a USB bus hangs.
+//
 // The left button is the pedal, the right one goes on to the next burr of the scene's set.
 #pragma once
 
@@ -15,6 +18,7 @@
 #include "haptic_server/device/held_arm.h"
 #include "haptic_server/device/hid/hid_worker.h"
 #include "haptic_server/device/hid/space_mouse_report.h"
+#include "haptic_server/device/permission.h"
 #include "haptic_server/exchange/triple_buffer.h"
 
 namespace osteomill {
@@ -60,6 +64,7 @@ class SpaceMouse final : public HapticDevice {
     std::size_t burr_;
     std::size_t burr_count_;
     bool was_next_pressed_ = false;
+    Permission permission_;
     double read_at_s_ = 0.0;
     TripleBuffer<SpaceMouseReading> readings_;
     HidWorker worker_;  // last: its thread uses the readings

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 
@@ -24,6 +25,15 @@ struct Desk {
         for (int i = 0; i < ticks; ++i) state = device.read(0.001 * tick++);
         return state;
     }
+    /// Says it again every 20 ms, as a client does.
+    DeviceState run_while_saying(const OperatorInput& what, int ticks) {
+        DeviceState state;
+        for (int i = 0; i < ticks; ++i) {
+            if (i % 20 == 0) say(what);
+            state = run(1);
+        }
+        return state;
+    }
 };
 
 OperatorInput wants(const glm::dvec3& position_mm) {
@@ -40,8 +50,7 @@ TEST(ClientDevice, RestsAtTheStartPoseUntilAnOperatorComes) {
 
 TEST(ClientDevice, GoesWhereTheOperatorPoints) {
     Desk desk;
-    desk.say(wants({11.0, 2.0, 3.0}));
-    const DeviceState state = desk.run(3000);
+    const DeviceState state = desk.run_while_saying(wants({11.0, 2.0, 3.0}), 3000);
     EXPECT_NEAR(state.position_mm.x, 11.0, 1.0);
     EXPECT_TRUE(state.pedal);
     EXPECT_EQ(state.burr, 2u);
@@ -50,19 +59,48 @@ TEST(ClientDevice, GoesWhereTheOperatorPoints) {
 TEST(ClientDevice, MovesNoFasterThanAHandHoweverFarTheMouseJumps) {
     Desk desk;
     desk.run(1);
-    desk.say(wants({1000.0, 2.0, 3.0}));
     double before_mm = desk.run(1).position_mm.x;
     for (int i = 0; i < 2000; ++i) {
-        const double now_mm = desk.run(1).position_mm.x;
-        ASSERT_LT(now_mm - before_mm, 1.0) << "per ms, at tick " << i;
+        const double now_mm = desk.run_while_saying(wants({1000.0, 2.0, 3.0}), 1).position_mm.x;
+        ASSERT_LT(now_mm - before_mm, 0.5) << "per ms, at tick " << i;
         before_mm = now_mm;
     }
 }
 
+TEST(ClientDevice, GoesNoFartherThanAReachForOneMessage) {
+    Desk desk;
+    desk.run(1);
+    EXPECT_STREQ(desk.device.notice(), "");
+    desk.say(wants(start.position_mm + glm::dvec3(100.0, 0.0, 0.0)));
+    double farthest_mm = 0.0;
+    for (int i = 0; i < 3000; ++i)
+        farthest_mm = std::max(farthest_mm, glm::distance(desk.run(1).position_mm, start.position_mm));
+    EXPECT_LT(farthest_mm, 1.5 * longest_reach_mm) << "a hand swings beyond where it stops";
+    EXPECT_STRNE(desk.device.notice(), "");
+}
+
+TEST(ClientDevice, LiftsThePedalAndStandsStill200MsAfterTheNewestMessage) {
+    Desk desk;
+    ASSERT_TRUE(desk.run_while_saying(wants({5.0, 2.0, 3.0}), 101).pedal);  // the last at 100 ms
+    EXPECT_TRUE(desk.run(199).pedal);
+    EXPECT_FALSE(desk.run(2).pedal) << "though nobody says that the operator has gone";
+    desk.run(1000);
+    const double rests_mm = desk.run(1).position_mm.x;
+    EXPECT_NEAR(desk.run(500).position_mm.x, rests_mm, 0.06);
+    desk.say(wants({5.0, 2.0, 3.0}));
+    EXPECT_TRUE(desk.run(1).pedal) << "heard again";
+}
+
+TEST(ClientDevice, GoesByTheTimeOfTheTickHoweverFewTicksThereAre) {
+    Desk desk;
+    desk.say(wants({5.0, 2.0, 3.0}));
+    ASSERT_TRUE(desk.device.read(1.0).pedal);
+    EXPECT_FALSE(desk.device.read(1.3).pedal);
+}
+
 TEST(ClientDevice, LiftsThePedalAndHoldsStillWhenTheOperatorIsLost) {
     Desk desk;
-    desk.say(wants({50.0, 2.0, 3.0}));
-    desk.run(100);
+    desk.run_while_saying(wants({50.0, 2.0, 3.0}), 100);
     OperatorInput gone = wants({50.0, 2.0, 3.0});
     gone.present = false;
     desk.say(gone);
@@ -92,8 +130,7 @@ TEST(ClientDevice, TurnsTheSpindleOverSmoothly) {
     Desk desk;
     OperatorInput tilted = wants(start.position_mm);
     tilted.hand_target.spindle_axis = {3.0, 0.0, 3.0};  // any length
-    desk.say(tilted);
-    const DeviceState state = desk.run(1000);
+    const DeviceState state = desk.run_while_saying(tilted, 1000);
     EXPECT_NEAR(state.spindle_axis.x, std::sqrt(0.5), 1e-6);
     EXPECT_NEAR(glm::length(state.spindle_axis), 1.0, 1e-12);
 }

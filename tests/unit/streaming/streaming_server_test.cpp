@@ -72,10 +72,13 @@ class RawClient {
     FrameDecoder decoder_;
 };
 
-v1::ClientFrame input_frame(std::uint64_t sequence, const OperatorIntent& intent) {
+v1::ClientFrame input_frame(std::uint64_t sequence, const OperatorIntent& intent,
+                            std::uint64_t answers_state = 0) {
     v1::ClientFrame frame;
     frame.set_sequence(sequence);
     *frame.mutable_operator_input() = to_message(intent);
+    frame.mutable_operator_input()->set_number(sequence);
+    frame.mutable_operator_input()->set_answers_state(answers_state);
     return frame;
 }
 
@@ -163,7 +166,15 @@ TEST(StreamingServer, DropsAClientThatSaysMoreThanAnyoneHasToSay) {
     std::string flood;
     for (std::uint64_t i = 1; i <= 5000; ++i) append_frame(input_frame(i, {.pedal = true}), flood);
     RawClient steady(served.port()), loud(served.port()), long_winded(served.port());
-    steady.send(flood.substr(0, flood.size() / 5));
+    std::string wordy;
+    for (std::uint64_t i = 1; i <= 1000; ++i) append_frame(input_frame(i, {.pedal = true}), wordy);
+    steady.send(wordy);
+    testing::Replica seen;
+    EXPECT_TRUE(eventually([&] {
+        steady.read_into(seen);
+        return seen.states() > 0;
+    }));
+    steady.send(input_frame(1001, {.pedal = true}, seen.sequence()));
     EXPECT_TRUE(eventually([&] { return served.operator_input().pedal; }));
     loud.send(flood);
     EXPECT_TRUE(loud.is_dropped());
@@ -173,6 +184,47 @@ TEST(StreamingServer, DropsAClientThatSaysMoreThanAnyoneHasToSay) {
     EXPECT_TRUE(long_winded.is_dropped());
     BoneLink link("127.0.0.1", served.port());
     EXPECT_TRUE(reaches(link, LinkStatus::live));
+}
+
+TEST(StreamingServer, MovesTheToolOnlyForWhoAnswersWhatIsNow) {
+    ServedBone served(0, true);
+    RawClient client(served.port());
+    client.send(input_frame(1, {.pedal = true}));  // of protocol 1.4, say
+    testing::Replica seen;
+    ASSERT_TRUE(eventually([&] {
+        client.read_into(seen);
+        return seen.states() > 0;
+    }));
+    EXPECT_FALSE(served.operator_input().present) << "it named no state";
+    const std::uint64_t first_state = seen.sequence();
+    client.send(input_frame(2, {.pedal = true, .burr = 1}, first_state));
+    EXPECT_TRUE(eventually([&] { return served.operator_input().burr == 1; }));
+
+    served.start_carving();  // so that there is something newer to tell
+    ASSERT_TRUE(eventually([&] {
+        client.read_into(seen);
+        return seen.states() > 20;
+    }));
+    client.send(input_frame(3, {.burr = 0}, first_state));                          // old news
+    client.send(input_frame(4, {.burr = 0}, seen.sequence() - 12));                 // 0.4 s old
+    v1::ClientFrame again = input_frame(5, {.burr = 0}, seen.sequence());
+    again.mutable_operator_input()->set_number(2);
+    client.send(again);
+    const std::size_t by_then = seen.states();
+    ASSERT_TRUE(eventually([&] {
+        client.read_into(seen);
+        return seen.states() > by_then + 5;
+    }));
+    EXPECT_EQ(served.operator_input().burr, 1U);
+    EXPECT_TRUE(eventually([&, number = std::uint64_t{6}]() mutable {
+        client.read_into(seen);
+        client.send(input_frame(number++, {.burr = 0}, seen.sequence()));
+        return served.operator_input().burr == 0;
+    })) << "what is now";
+
+    RawClient clairvoyant(served.port());
+    clairvoyant.send(input_frame(1, {.pedal = true}, 1'000'000));
+    EXPECT_TRUE(clairvoyant.is_dropped());
 }
 
 TEST(StreamingServer, IsNotHeldUpByAClientThatNeverReads) {

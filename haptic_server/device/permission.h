@@ -1,0 +1,32 @@
+// Leave to act on what came by message, as the haptic tick sees it: good for so long after the newest
+// message, by the tick's own time. It ends by itself: no network thread, no log and no other program has to
+// be alive for it to end.
+#pragma once
+
+namespace osteomill {
+
+class Permission {
+  public:
+    /// What comes over a network, or from a thread that may hang. With 50 messages a second nine in a row may
+    /// be lost; and a spindle stops within a quarter of a second of the last one, the way here included.
+    static constexpr double by_message_s = 0.2;
+
+    /// Not given yet; lasts for `lasts_s` (session time) after each renewal.
+    explicit constexpr Permission(double lasts_s = by_message_s) : lasts_s_(lasts_s) {}
+
+    /// A fresh message was taken at `now_s`. These are real-time safe.
+    void renew(double now_s) noexcept {
+        is_given_ = true;
+        renewed_s_ = now_s;
+    }
+    void withdraw() noexcept { is_given_ = false; }
+    /// Also false where the time is no number.
+    bool holds(double now_s) const noexcept { return is_given_ && now_s - renewed_s_ <= lasts_s_; }
+
+  private:
+    double lasts_s_;
+    double renewed_s_ = 0.0;
+    bool is_given_ = false;
+};
+
+}  // namespace osteomill
