@@ -1,5 +1,5 @@
-// Holds the targets that come by message to what a hand does: each within reach of the burr, and their path no
-// longer than a hand could have gone.
+// Holds the targets that come by message to what a hand does: each within reach of the burr, and their path
+// no longer than a hand could have gone.
 //
 //     path since time 0  <=  room_mm + fastest_hand_mm_per_s * time,    room_mm = 2 longest_reach_mm
 //

@@ -27,18 +27,19 @@ std::variant<std::optional<Answer>, WireError> take_client_message(const v1::Cli
     const v1::OperatorInput& input = frame.operator_input();
     const Answer answer = client.answers.judge(input.number(), input.answers_state(), now);
     if (answer == Answer::unsent)
-        return WireError{fmt::format("its input answers state {}, which it was not sent", input.answers_state())};
-    if (answer == Answer::fresh)
-        client.seat->take_input(client.id, std::get<OperatorIntent>(intent), now);
+        return WireError{
+            fmt::format("its input answers state {}, which it was not sent", input.answers_state())};
+    if (answer == Answer::fresh) client.seat->take_input(client.id, std::get<OperatorIntent>(intent), now);
     return client.answers.is_news() ? std::optional(answer) : std::nullopt;
 }
 
 std::string reason_to_ignore(Answer answer) {
     switch (answer) {
         case Answer::stale:
-            return fmt::format("moves nothing: its input answers what was so more than {} ms ago; its link "
-                               "is slow or late",
-                               AnsweredStates::longest_age.count());
+            return fmt::format(
+                "moves nothing: its input answers what was so more than {} ms ago; its link "
+                "is slow or late",
+                AnsweredStates::longest_age.count());
         case Answer::unnamed:
             return fmt::format(
                 "looks on and moves nothing: its input does not say which state it has seen, as from "

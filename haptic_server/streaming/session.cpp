@@ -71,8 +71,7 @@ void Session::pump() {
     has_said_hello_ = true;
     const std::uint64_t told = feed_.newest_state();
     std::optional<std::string> frame = feed_.next(pace_.most_bytes());
-    if (feed_.newest_state() != told)
-        answers_.sent(feed_.newest_state(), std::chrono::steady_clock::now());
+    if (feed_.newest_state() != told) answers_.sent(feed_.newest_state(), std::chrono::steady_clock::now());
     if (!frame) {
         // The client closes when it has read goodbye. Closing first could reset the connection and destroy
         // what it has not read yet.

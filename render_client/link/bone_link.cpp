@@ -33,9 +33,7 @@ class BoneLink::Impl {
     const Bone* bone() const { return copy_.bone(); }
     const SessionInfo* session() const { return copy_.session(); }
 
-    void send(const OperatorIntent& intent) {
-        connection_.send(intent);
-    }
+    void send(const OperatorIntent& intent) { connection_.send(intent); }
     std::optional<ToolView> newest_tool() const { return connection_.newest_tool(); }
 
     std::string finish_recording() {

@@ -87,10 +87,10 @@ class BoneLink {
     /// UI thread. Null until a server has said hello.
     const SessionInfo* session() const;
 
-    /// Any thread. Sends what the operator wants, as an answer to newest_tool(); dropped before that is known,
-    /// while not connected, and where it makes no sense. While an earlier one is still under way only the
-    /// newest is kept. Call it 50 times a second while the operator is at the controls, from the thread that
-    /// reads them: the server takes 0.2 s of silence for an operator who has gone, and lifts the pedal.
+    /// Any thread. Sends what the operator wants, as an answer to newest_tool(); dropped before that is
+    /// known, while not connected, and where it makes no sense. While an earlier one is still under way only
+    /// the newest is kept. Call it 50 times a second while the operator is at the controls, from the thread
+    /// that reads them: the server takes 0.2 s of silence for an operator who has gone, and lifts the pedal.
     void send_operator(const OperatorIntent& intent);
 
     /// Any thread. The newest that has come of the tool, be it applied by poll() or not; nothing while not

@@ -126,7 +126,8 @@ class ServerConnection {
     bool accepts_operator_ = false;
     std::size_t burr_count_ = 0;
 
-    // What whoever reads the operator's mouse has before it: the newest state, though it may not be drawn yet.
+    // What whoever reads the operator's mouse has before it: the newest state, though it may not be drawn
+    // yet.
     mutable std::mutex seen_mutex_;
     std::uint64_t seen_generation_ = 0;
     std::uint64_t seen_state_ = 0;  // 0: none

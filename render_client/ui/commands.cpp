@@ -12,10 +12,10 @@ constexpr double notice_s = 4.0;
 
 }  // namespace
 
-Commands::Commands(SessionPicture& session, OperatorHand& hand, RecordingPlayer* player,
+Commands::Commands(SessionPicture& session, OperatorDesk& desk, RecordingPlayer* player,
                    const std::filesystem::path& pictures_folder)
     : session_(session),
-      hand_(hand),
+      desk_(desk),
       player_(player),
       pictures_(pictures_folder.empty() ? std::filesystem::path(".") : pictures_folder) {}
 
@@ -59,10 +59,10 @@ void Commands::take(Action action) {
             end_wanted_ = true;
             break;
         case Action::next_burr:
-            hand_.choose_next_burr();
+            desk_.choose_next_burr();
             break;
         case Action::previous_burr:
-            hand_.choose_previous_burr();
+            desk_.choose_previous_burr();
             break;
         case Action::play_or_pause:
             player_->is_playing() ? player_->pause() : player_->play();

@@ -1,11 +1,12 @@
-// Carries out what keys ask for once: of the view, the hand, the player, and for pictures in files.
+// Carries out what keys ask for once: of the view, the operator's desk, the player, and for pictures in
+// files.
 #pragma once
 
 #include <filesystem>
 #include <string>
 
 #include "render_client/ui/key_bindings.h"
-#include "render_client/ui/operator_hand.h"
+#include "render_client/ui/operator_desk.h"
 #include "render_client/ui/picture_export.h"
 #include "render_client/ui/session_picture.h"
 
@@ -15,7 +16,7 @@ class Commands {
   public:
     /// Pictures go into `pictures_folder`; an empty one is the current folder. `player` is null where no
     /// recording is shown.
-    Commands(SessionPicture& session, OperatorHand& hand, RecordingPlayer* player,
+    Commands(SessionPicture& session, OperatorDesk& desk, RecordingPlayer* player,
              const std::filesystem::path& pictures_folder);
 
     void take(Action action);
@@ -23,12 +24,14 @@ class Commands {
     void write_pictures(const gl::Framebuffer& picture, double now_s);
 
     bool end_wanted() const { return end_wanted_; }
+    /// Whether every frame is written, so that they have to come.
+    bool is_exporting() const { return export_wanted_; }
 
   private:
     void say(std::string notice, double now_s);
 
     SessionPicture& session_;
-    OperatorHand& hand_;
+    OperatorDesk& desk_;
     RecordingPlayer* player_;
     PictureExport pictures_;
     bool picture_wanted_ = false;

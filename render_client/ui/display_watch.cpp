@@ -5,13 +5,13 @@
 
 namespace osteomill {
 
-void watch_display(bool* is_gone) {
+void watch_display(std::atomic<bool>* is_gone) {
     // A GLFW for Wayland has no such function; calling it by name would end the program there.
     const auto display_of_glfw = reinterpret_cast<Display* (*)()>(::dlsym(RTLD_DEFAULT, "glfwGetX11Display"));
     Display* display = display_of_glfw ? display_of_glfw() : nullptr;
     if (!display) return;
     XSetIOErrorExitHandler(
-        display, [](Display*, void* gone) { *static_cast<bool*>(gone) = true; }, is_gone);
+        display, [](Display*, void* gone) { *static_cast<std::atomic<bool>*>(gone) = true; }, is_gone);
     XSetIOErrorHandler([](Display*) { return 0; });
 }
 

@@ -4,19 +4,18 @@
 // never makes it jump. No clock, no window: the caller says what moved.
 #pragma once
 
+#include "common/scene/hand_limits.h"
 #include "common/wire/tool_view.h"
 #include "render_client/volume/camera.h"
 
 namespace osteomill {
 
-/// How far the target may be from the burr. Beyond it a hand could not feel where it is any more; the spring
-/// of the coupling is long saturated.
-inline constexpr double longest_reach_mm = 6.0;
-
 class OperatorHand {
   public:
-    /// Call every frame: before the hand is taken up it rests on the tool; afterwards the target is kept
-    /// within reach of the burr, and a burr index beyond `burr_count` is lowered to the last.
+    /// Call before and after it is moved: before the hand is taken up it rests on the tool; afterwards the
+    /// target is kept within longest_reach_mm of the burr, so that a mouse that comes back moves the tool at
+    /// once (that the tool goes no farther the server sees to), and a burr index beyond `burr_count` is
+    /// lowered to the last.
     void follow(const ToolView& tool, std::size_t burr_count);
 
     /// Moves the target in the plane that faces the camera by what the pointer moved (pixels, y down).

@@ -1,11 +1,7 @@
 #include "render_client/ui/panels.h"
 
-#include <backends/imgui_impl_glfw.h>
 #include <backends/imgui_impl_opengl3.h>
 #include <imgui.h>
-
-#define GLFW_INCLUDE_NONE
-#include <GLFW/glfw3.h>
 
 #include <algorithm>
 #include <cmath>
@@ -73,15 +69,6 @@ std::vector<PixelBox> boxes_of(const ImDrawData& drawn) {
 }  // namespace
 
 Panels::Panels() {
-    start();
-}
-
-Panels::Panels(GLFWwindow* window) : window_(window) {
-    start();
-    ImGui_ImplGlfw_InitForOpenGL(window, true);
-}
-
-void Panels::start() {
     ImGui::CreateContext();
     // No file is written beside the program.
     ImGui::GetIO().IniFilename = nullptr;
@@ -92,7 +79,6 @@ void Panels::start() {
 
 Panels::~Panels() {
     ImGui_ImplOpenGL3_Shutdown();
-    if (window_) ImGui_ImplGlfw_Shutdown();
     ImGui::DestroyContext();
 }
 
@@ -125,18 +111,30 @@ void Panels::load_letters(float scale) {
     ImGui_ImplOpenGL3_DestroyDeviceObjects();
 }
 
+void Panels::feed(const WindowInput& input) {
+    ImGuiIO& io = ImGui::GetIO();
+    constexpr float nowhere = -std::numeric_limits<float>::max();
+    const glm::vec2 at(input.cursor * input.px_per_unit());
+    io.MousePos = input.has_cursor ? ImVec2(at.x, at.y) : ImVec2(nowhere, nowhere);
+    // A click that is shorter than a frame is one all the same.
+    const auto is_down = [&](WindowInput::Button button) {
+        return input.is_down[button] || input.went_down[button];
+    };
+    io.MouseDown[ImGuiMouseButton_Left] = is_down(WindowInput::left);
+    io.MouseDown[ImGuiMouseButton_Right] = is_down(WindowInput::right);
+    io.MouseDown[ImGuiMouseButton_Middle] = is_down(WindowInput::middle);
+    io.MouseWheel += static_cast<float>(input.wheel.y);
+    io.MouseWheelH += static_cast<float>(input.wheel.x);
+    io.KeyShift = input.shift;
+    io.KeyCtrl = input.ctrl;
+    io.KeyAlt = input.alt;
+}
+
 void Panels::begin(const glm::ivec2& size_px, double elapsed_s, ThemeName theme, float scale) {
     if (theme != theme_ || scale != scale_) set_style(theme, scale);
     ImGui_ImplOpenGL3_NewFrame();
     ImGuiIO& io = ImGui::GetIO();
-    if (window_) {
-        ImGui_ImplGlfw_NewFrame();
-        const ImVec2 units = io.DisplaySize;
-        io.MousePos = {io.MousePos.x * static_cast<float>(size_px.x) / std::max(units.x, 1.0f),
-                       io.MousePos.y * static_cast<float>(size_px.y) / std::max(units.y, 1.0f)};
-    } else {
-        io.DeltaTime = static_cast<float>(std::max(elapsed_s, 1e-4));
-    }
+    io.DeltaTime = static_cast<float>(std::max(elapsed_s, 1e-4));
     io.DisplaySize = {static_cast<float>(size_px.x), static_cast<float>(size_px.y)};
     io.DisplayFramebufferScale = {1.0f, 1.0f};
     ImGui::NewFrame();

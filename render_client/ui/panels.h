@@ -1,26 +1,28 @@
 // Dear ImGui's context and its OpenGL 3 back end, as one RAII value. Needs a current OpenGL context. All
 // lengths are pixels of the picture, also where a window counts in larger units.
+//
+// Takes the window's input as data instead of by Dear ImGui's own back end for GLFW, which reads it where it
+// draws: reading is another thread's business, see operator_desk.h.
 #pragma once
 
 #include <glm/vec2.hpp>
 #include <vector>
 
 #include "render_client/ui/theme.h"
+#include "render_client/ui/window_input.h"
 #include "render_client/volume/pixel_box.h"
-
-struct GLFWwindow;
 
 namespace osteomill {
 
 class Panels {
   public:
-    /// Without a window, for offscreen pictures: panels are drawn but take no input.
     Panels();
-    /// Takes mouse and keys of this window; installs its callbacks.
-    explicit Panels(GLFWwindow* window);
     Panels(const Panels&) = delete;
     Panels& operator=(const Panels&) = delete;
     ~Panels();
+
+    /// Mouse and keys for the next frame. Without it, as in offscreen pictures, panels take no input.
+    void feed(const WindowInput& input);
 
     /// Opens an ImGui frame, in the colours of `theme` and with letters and controls `scale` times as large
     /// as on an ordinary display. `elapsed_s` is the time since the last one.
@@ -32,11 +34,9 @@ class Panels {
     float wheel_notches() const { return wheel_notches_; }
 
   private:
-    void start();
     void set_style(ThemeName theme, float scale);
     void load_letters(float scale);
 
-    GLFWwindow* window_ = nullptr;
     ThemeName theme_ = ThemeName::dark;
     float scale_ = 0.0f;  // none yet
     float wheel_notches_ = 0.0f;

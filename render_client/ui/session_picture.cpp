@@ -10,6 +10,8 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "common/wire/tool_look.h"
+
 namespace osteomill {
 
 namespace {
@@ -22,6 +24,10 @@ constexpr double shown_rev_per_s = 0.8;
 /// radius that it shows at least, so that one still sees where in the bone one is.
 constexpr double closest_first_view_mm = 10.0;
 constexpr double tool_part_of_first_view = 0.45;
+
+/// A burr of which nothing has been heard for so long is not shown to turn: its session has ended, or is
+/// played no further. One that turns is told of thirty times a second.
+constexpr double longest_turning_s = 0.25;
 
 /// A hand's target this close to the burr is where the burr is.
 constexpr double nearest_shown_target_mm = 0.05;
@@ -50,15 +56,21 @@ SessionPicture::SessionPicture(SessionSource& source, Panels& panels, const glm:
     view_.transfer = TransferEditor(look.transfer);
 }
 
-void SessionPicture::take_in() {
+SessionPicture::News SessionPicture::take_in() {
     link_ = source_.poll();
     const bool first_of_tool = link_.tool && !tool_;
     if (link_.tool) {
         tool_ = link_.tool;
+        tool_age_s_ = 0.0;
         history_.add(*tool_);
     }
+    if (source_.bone()) take_in_bone(first_of_tool);
+    return news();
+}
+
+void SessionPicture::take_in_bone(bool first_of_tool) {
+    has_undrawn_bone_ = has_undrawn_bone_ || link_.bone_replaced || !link_.dirty_bricks.empty();
     const Bone* bone = source_.bone();
-    if (!bone) return;
     if (link_.bone_replaced || (!textures_ && bone_problem_.empty())) {
         replace_bone();
     } else if (textures_ && !link_.dirty_bricks.empty()) {
@@ -66,6 +78,27 @@ void SessionPicture::take_in() {
         dirty_bricks_uploaded_ += link_.dirty_bricks.size();
     }
     if (first_of_tool && camera_ == first_view_) reset_camera();
+}
+
+SessionPicture::News SessionPicture::news() const {
+    const LinkUpdate& was = drawn_link_;
+    const bool has_moved = tool_ && !(drawn_tool_view_ && looks_the_same(*drawn_tool_view_, *tool_));
+    const auto is_as_drawn = [](const OperatorIntent& drawn, const OperatorIntent& now) {
+        return drawn.pedal == now.pedal &&
+               glm::distance(drawn.hand_target_mm, now.hand_target_mm) <= quiet_motion_mm;
+    };
+    const bool hand_has_moved = operator_intent_.has_value() != drawn_intent_.has_value() ||
+                                (operator_intent_ && !is_as_drawn(*drawn_intent_, *operator_intent_));
+    if (has_undrawn_bone_ || has_moved || hand_has_moved || has_turning_burr() || !quality().refined ||
+        link_.status != was.status || link_.status_line != was.status_line ||
+        link_.recording_error != was.recording_error || link_.snapshot_bricks != was.snapshot_bricks ||
+        link_.checksum_mismatches != was.checksum_mismatches ||
+        link_.rejected_frames != was.rejected_frames || link_.bricks_repaired != was.bricks_repaired)
+        return News::change;
+    const bool time_goes_on = tool_ && tool_->time_s != drawn_tool_view_->time_s;
+    const bool is_figure_new =
+        time_goes_on || link_.frames_per_s != was.frames_per_s || link_.bytes_per_s != was.bytes_per_s;
+    return is_figure_new ? News::figures : News::none;
 }
 
 void SessionPicture::replace_bone() {
@@ -139,11 +172,20 @@ const gl::Framebuffer& SessionPicture::draw(double elapsed_s) {
                   .has_bone = has_bone()},
                  size_px_);
     picture_.cover(panels_.end());
+    drawn_link_ = link_;
+    drawn_tool_view_ = tool_;
+    drawn_intent_ = operator_intent_;
+    has_undrawn_bone_ = false;
     return picture;
 }
 
+bool SessionPicture::has_turning_burr() const {
+    return tool_ && tool_->spindle_on && tool_age_s_ < longest_turning_s;
+}
+
 void SessionPicture::turn_burr(double elapsed_s) {
-    if (!tool_ || !tool_->spindle_on) return;
+    tool_age_s_ += elapsed_s;
+    if (!has_turning_burr()) return;
     const SessionInfo* session = source_.session();
     const bool clockwise = !session || tool_->burr >= session->burrs.size() ||
                            session->burrs[tool_->burr].sense == SpindleSense::clockwise;

@@ -29,8 +29,15 @@ class SessionPicture {
     /// Of the bones that come from now on.
     void limit_textures(const TextureLimits& limits) { texture_limits_ = limits; }
 
-    /// Polls the source and brings the textures up to date.
-    void take_in();
+    /// What a poll of the source brought, or what has to be drawn for another reason.
+    enum class News {
+        none,
+        figures,  ///< only the time, the rates, the delay
+        change    ///< something that moves, appears or goes; also a picture that is to be refined
+    };
+
+    /// Polls the source and brings the textures up to date. What is new is so since the last draw.
+    News take_in();
     /// Draws bone, tool and panels; leaves the framebuffer bound. `elapsed_s`: since the last frame.
     const gl::Framebuffer& draw(double elapsed_s);
 
@@ -51,6 +58,8 @@ class SessionPicture {
     void show_operator(const std::optional<OperatorIntent>& intent) { operator_intent_ = intent; }
 
     bool has_bone() const { return textures_.has_value(); }
+    /// Whether a burr turns in the picture: it does for as long as the source tells of it.
+    bool has_turning_burr() const;
     /// Why the bone that is there cannot be drawn; empty while it can.
     const std::string& bone_problem() const { return bone_problem_; }
     const LinkUpdate& link() const { return link_; }
@@ -62,7 +71,9 @@ class SessionPicture {
     RenderReport report() const;
 
   private:
+    void take_in_bone(bool first_of_tool);
     void replace_bone();
+    News news() const;
     DrawnTool drawn_tool() const;
     void turn_burr(double elapsed_s);
 
@@ -80,6 +91,13 @@ class SessionPicture {
     std::string bone_problem_;
     LinkUpdate link_;
     std::optional<ToolView> tool_;
+    double tool_age_s_ = 0.0;  ///< since it came, as far as frames were drawn since
+
+    // What the last frame showed.
+    LinkUpdate drawn_link_;
+    std::optional<ToolView> drawn_tool_view_;
+    std::optional<OperatorIntent> drawn_intent_;
+    bool has_undrawn_bone_ = true;
     ToolHistory history_;
     std::optional<OperatorIntent> operator_intent_;
     ViewSettings view_;

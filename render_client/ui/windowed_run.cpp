@@ -5,12 +5,16 @@
 #include <GLFW/glfw3.h>
 #include <imgui.h>
 
+#include <atomic>
 #include <chrono>
 #include <cmath>
+#include <exception>
 #include <thread>
 
 #include "render_client/ui/commands.h"
-#include "render_client/ui/operator_hand.h"
+#include "render_client/ui/input_mailbox.h"
+#include "render_client/ui/operator_desk.h"
+#include "render_client/ui/redraw.h"
 #include "render_client/ui/screenshots.h"
 #include "render_client/ui/session_picture.h"
 #include "render_client/ui/window.h"
@@ -24,12 +28,17 @@ using Clock = std::chrono::steady_clock;
 constexpr glm::ivec2 default_size_px(1280, 800);
 constexpr double orbit_rad_per_px = 0.008;
 constexpr double zoom_per_notch = 0.88;
-constexpr double advance_mm_per_s = 2.0;
-constexpr double advance_mm_per_notch = 0.1;
 constexpr double cut_mm_per_notch = 0.5;
 /// A display without vertical synchronisation must not take the cores from a server beside it: twice the
-/// rate of its frames is smooth.
+/// rate of its frames is smooth. So often the link is looked at, too, where nothing is drawn.
 constexpr std::chrono::milliseconds shortest_frame(16);
+
+/// How often the mouse is read, and what it asks for sent, while the operator has the tool: four in five
+/// messages may be lost before the server takes that for silence.
+constexpr std::chrono::milliseconds driving_period(10);
+/// Otherwise events wake the thread, but a mouse that reports a thousand times a second no oftener than this.
+constexpr std::chrono::milliseconds shortest_period(4);
+constexpr double longest_wait_s = 0.1;
 
 void move_camera(SessionPicture& session, float wheel_notches, bool left_turns) {
     const ImGuiIO& io = ImGui::GetIO();
@@ -47,104 +56,186 @@ void move_camera(SessionPicture& session, float wheel_notches, bool left_turns) 
         zoom(session.camera(), std::pow(zoom_per_notch, wheel_notches));
 }
 
-void move_hand(OperatorHand& hand, const Window& window, SessionPicture& session, float wheel_notches,
-               double elapsed_s) {
-    const ImGuiIO& io = ImGui::GetIO();
-    if (!window.focused()) {
-        hand.let_go();
-        return;
+/// What the two threads of a window share.
+struct Shared {
+    InputMailbox mailbox{};
+    OperatorDesk desk;
+    std::atomic<bool> is_over{false};  ///< asked for by either thread
+};
+
+/// The thread that draws: takes in what the source brings, and shows it where it has changed.
+class Drawing {
+  public:
+    /// The window's context is current here, for as long as this lives.
+    Drawing(const RenderOptions& options, SessionSource& source, Window& window, Shared& shared)
+        : options_(options),
+          source_(source),
+          window_(window),
+          shared_(shared),
+          session_(source, panels_, shared.mailbox.take().framebuffer_size_px, FrameQuality::on_demand,
+                   options.renderer, options.look),
+          commands_(session_, shared.desk, source.player(), options.screenshots),
+          screenshots_(options.screenshots, screenshot_interval(options)) {
+        session_.limit_textures({.budget_bytes = options.texture_budget_bytes});
+        session_.view().theme = options.theme;
+        session_.view().cuts = options.cuts;
+        session_.view().panels_shown = options.panels;
+        redraw_.note_change(began_);
     }
-    if (!io.WantCaptureMouse) {
-        if (io.MouseDown[ImGuiMouseButton_Left] && (io.MouseDelta.x != 0.0f || io.MouseDelta.y != 0.0f))
-            hand.move_in_picture({io.MouseDelta.x, io.MouseDelta.y}, session.camera(), session.size_px());
-        if (io.KeyCtrl && wheel_notches != 0.0f) hand.advance(advance_mm_per_notch * wheel_notches);
+
+    RenderReport run() {
+        while (!shared_.is_over && !commands_.end_wanted() && !session_over_) {
+            const Clock::time_point start = Clock::now();
+            window_.require_drawable();
+            take_in(start);
+            const bool draws = !input_.is_minimised && (redraw_.is_due(start) || session_over_);
+            if (draws) draw(start);
+            // At rest an input is shown at once, but the mouse may report a thousand times a second.
+            if (draws)
+                std::this_thread::sleep_until(start + shortest_frame);
+            else
+                shared_.mailbox.wait_until(start + shortest_frame);
+        }
+        RenderReport report = session_.report();
+        report.frame_times = std::move(frame_times_);
+        return report;
     }
-    if (window.key_down(GLFW_KEY_W)) hand.advance(advance_mm_per_s * elapsed_s);
-    if (window.key_down(GLFW_KEY_S)) hand.advance(-advance_mm_per_s * elapsed_s);
-    for (const int key : window.presses())
-        if (key >= GLFW_KEY_1 && key <= GLFW_KEY_9)
-            hand.choose_burr(static_cast<std::size_t>(key - GLFW_KEY_1));
-    hand.set_pedal(window.key_down(GLFW_KEY_SPACE));
-    hand.follow(*session.tool(), session.session()->burrs.size());
-}
+
+  private:
+    void take_in(Clock::time_point now) {
+        WindowInput happened = shared_.mailbox.take();
+        if (happened.has_news) redraw_.note_change(now);
+        input_.append(happened);
+
+        const SessionPicture::News news = session_.take_in();
+        const LinkUpdate& link = session_.link();
+        session_over_ = options_.until_server_ends && link.status == LinkStatus::finished;
+        drills_ = link.status == LinkStatus::live && session_.tool() && session_.session() &&
+                  session_.session()->accepts_operator;
+        shared_.desk.show({.drills = drills_,
+                           .burr_count = session_.session() ? session_.session()->burrs.size() : 0,
+                           .camera = session_.camera(),
+                           .size_px = session_.size_px(),
+                           .panels_have_mouse = ImGui::GetIO().WantCaptureMouse});
+        session_.show_operator(shared_.desk.intent());
+
+        const RecordingPlayer* player = source_.player();
+        if (news == SessionPicture::News::change || commands_.is_exporting() ||
+            (player != nullptr && player->is_playing()))
+            redraw_.note_change(now);
+        // A notice goes after some seconds.
+        if (news == SessionPicture::News::figures || !session_.view().notice.empty()) redraw_.note_figures();
+    }
+
+    void draw(Clock::time_point start) {
+        const double elapsed_s = std::chrono::duration<double>(start - drawn_).count();
+        drawn_ = start;
+        redraw_.drew(start);
+        session_.resize(input_.framebuffer_size_px);
+        session_.view().scale = static_cast<float>(options_.ui_scale.value_or(input_.content_scale));
+        panels_.feed(input_);
+        const gl::Framebuffer& framebuffer = session_.draw(elapsed_s);
+        // Dear ImGui took the input in while the panels were drawn; it takes effect in the next frame.
+        move_camera(session_, panels_.wheel_notches(), !drills_);
+        for (const Action action :
+             actions_of(input_.presses, situation_of(drills_, source_.player() != nullptr)))
+            commands_.take(action);
+        input_.forget_events();
+        const std::string notice = session_.view().notice;
+        commands_.write_pictures(framebuffer, std::chrono::duration<double>(start - began_).count());
+        if (session_.view().notice != notice) redraw_.note_change(start);
+
+        if (session_.has_bone()) screenshots_.after_frame(framebuffer);
+        if (session_over_) screenshots_.after_last_frame(framebuffer);
+        framebuffer.copy_colour_to_window();
+        window_.show_frame();
+        const double took_s = std::chrono::duration<double>(Clock::now() - start).count();
+        session_.frame_took(took_s);
+        frame_times_.add(1e3 * took_s);
+    }
+
+    const RenderOptions& options_;
+    SessionSource& source_;
+    Window& window_;
+    Shared& shared_;
+    const Clock::time_point began_ = Clock::now();
+    Panels panels_;
+    SessionPicture session_;
+    Commands commands_;
+    Screenshots screenshots_;
+    FrameTimes frame_times_;
+    Redraw redraw_;
+    WindowInput input_;
+    Clock::time_point drawn_ = began_;
+    bool drills_ = false;
+    bool session_over_ = false;
+};
+
+/// Runs `draw` on a thread of its own; whatever becomes of the caller, it ends that thread first.
+class DrawingThread {
+  public:
+    template <typename Draw>
+    DrawingThread(std::atomic<bool>& is_over, Draw&& draw) : is_over_(is_over) {
+        thread_ = std::thread([this, draw = std::forward<Draw>(draw)] {
+            try {
+                draw();
+            } catch (...) {
+                failure_ = std::current_exception();
+            }
+            is_over_ = true;
+        });
+    }
+    ~DrawingThread() { end(); }
+    DrawingThread(const DrawingThread&) = delete;
+    DrawingThread& operator=(const DrawingThread&) = delete;
+
+    /// Throws what `draw` threw.
+    void finish() {
+        end();
+        if (failure_) std::rethrow_exception(failure_);
+    }
+
+  private:
+    void end() {
+        is_over_ = true;
+        if (thread_.joinable()) thread_.join();
+    }
+
+    std::atomic<bool>& is_over_;
+    std::exception_ptr failure_;
+    std::thread thread_;
+};
 
 }  // namespace
 
 RenderReport run_in_window(const RenderOptions& options, SessionSource& source,
                            const std::function<bool()>& stop_asked) {
     Window window(options.window_size_px.value_or(default_size_px), "Osteomill");
-    gl::require_opengl_3_3();
-    Panels panels(window.handle());
-    SessionPicture session(source, panels, window.framebuffer_size_px(), FrameQuality::on_demand,
-                           options.renderer, options.look);
-    session.limit_textures({.budget_bytes = options.texture_budget_bytes});
-    OperatorHand hand;
-    session.view().theme = options.theme;
-    session.view().cuts = options.cuts;
-    session.view().panels_shown = options.panels;
-    Commands commands(session, hand, source.player(), options.screenshots);
-    FrameTimes frame_times;
-    Screenshots screenshots(options.screenshots, screenshot_interval(options));
-
-    const Clock::time_point began = Clock::now();
-    Clock::time_point previous = began;
-    bool session_over = false;
-    bool had_tool = false;
-    while (!window.close_asked() && !stop_asked() && !commands.end_wanted() && !session_over) {
-        const Clock::time_point start = Clock::now();
-        const double elapsed_s = std::chrono::duration<double>(start - previous).count();
-        previous = start;
-        window.clear_presses();
-        glfwPollEvents();
-        window.require_alive();
-        session.take_in();
-        session_over = options.until_server_ends && session.link().status == LinkStatus::finished;
-
-        // Without a session of this kind there is nobody who could be sent an operator's wishes.
-        const bool drills = session.link().status == LinkStatus::live && session.tool() &&
-                            session.session() && session.session()->accepts_operator;
-        if (drills) {
-            // What the hand wants is only known once it rests on the tool: an intent of its own making would
-            // drag the tool away.
-            hand.follow(*session.tool(), session.session()->burrs.size());
-            // What is sent last lifts the pedal; then the tool is free for others.
-            if (hand.wants_tool() || had_tool) source.send_operator(hand.intent());
-            // It may be asked for, but must not jump to where this hand has gone meanwhile.
-            if (session.tool()->driver == ToolDriver::another) hand.let_go();
+    Shared shared{.desk = OperatorDesk(source)};
+    shared.mailbox.post(window.take_input());
+    RenderReport report;
+    DrawingThread drawing(shared.is_over, [&] {
+        window.make_context_current();
+        gl::require_opengl_3_3();
+        report = Drawing(options, source, window, shared).run();
+        window.release_context();
+    });
+    for (Clock::time_point previous = Clock::now();
+         !shared.is_over && !window.close_asked() && !stop_asked();) {
+        if (shared.desk.is_driving()) {
+            std::this_thread::sleep_until(previous + driving_period);
+            window.read_events(0.0);
+        } else {
+            window.read_events(longest_wait_s);
+            std::this_thread::sleep_until(previous + shortest_period);
         }
-        had_tool = drills && hand.wants_tool();
-        session.show_operator(drills ? std::optional(hand.intent()) : std::nullopt);
-        if (!drills) hand.let_go();
-
-        if (window.minimised()) {
-            if (drills) hand.let_go();
-            std::this_thread::sleep_for(shortest_frame);
-            continue;
-        }
-        session.resize(window.framebuffer_size_px());
-        session.view().scale = static_cast<float>(options.ui_scale.value_or(window.content_scale()));
-        const gl::Framebuffer& framebuffer = session.draw(elapsed_s);
-        // ImGui took the input in while the panels were drawn; it takes effect in the next frame.
-        move_camera(session, panels.wheel_notches(), !drills);
-        if (drills) move_hand(hand, window, session, panels.wheel_notches(), elapsed_s);
-        // Letters that are typed into a panel are no commands.
-        const std::span<const int> presses =
-            ImGui::GetIO().WantTextInput ? std::span<const int>() : window.presses();
-        for (const Action action : actions_of(presses, situation_of(drills, source.player() != nullptr)))
-            commands.take(action);
-        commands.write_pictures(framebuffer, std::chrono::duration<double>(start - began).count());
-
-        if (session.has_bone()) screenshots.after_frame(framebuffer);
-        if (session_over) screenshots.after_last_frame(framebuffer);
-        framebuffer.copy_colour_to_window();
-        window.show_frame();
-        const double took_s = std::chrono::duration<double>(Clock::now() - start).count();
-        session.frame_took(took_s);
-        frame_times.add(1e3 * took_s);
-        std::this_thread::sleep_until(start + shortest_frame);
+        const Clock::time_point now = Clock::now();
+        const WindowInput input = window.take_input();
+        shared.desk.step(input, std::chrono::duration<double>(now - previous).count());
+        shared.mailbox.post(input);
+        previous = now;
     }
-    RenderReport report = session.report();
-    report.frame_times = std::move(frame_times);
+    drawing.finish();
     return report;
 }
 

@@ -44,6 +44,12 @@ class LinkProxy {
     std::uint16_t port() const { return port_; }
     std::uint64_t bytes_to_clients() const { return bytes_to_clients_; }
 
+    /// What comes from now on passes so late, from client to server and back.
+    void delay(std::chrono::milliseconds to_server, std::chrono::milliseconds to_client) {
+        delay_to_server_ms_ = to_server.count();
+        delay_to_client_ms_ = to_client.count();
+    }
+
     /// Nothing passes any more, in silence; what is sent waits.
     void cut() { is_cut_ = true; }
     void heal() { is_cut_ = false; }
@@ -113,7 +119,9 @@ class LinkProxy {
                 std::max(free_at_, Clock::now()) + std::chrono::duration_cast<Clock::duration>(on_the_wire);
             std::uniform_int_distribution<std::int64_t> jitter_ms(0, proxy_.quality_.jitter.count());
             const std::chrono::milliseconds jitter(jitter_ms(proxy_.random_));
-            last_due_ = std::max(last_due_, free_at_ + proxy_.quality_.delay + jitter);
+            const std::chrono::milliseconds delay(is_to_client_ ? proxy_.delay_to_client_ms_
+                                                                : proxy_.delay_to_server_ms_);
+            last_due_ = std::max(last_due_, free_at_ + delay + jitter);
             waiting_.push_back({last_due_, {arrived_.begin(), arrived_.begin() + static_cast<long>(bytes)}});
             waiting_bytes_ += bytes;
             if (waiting_.size() == 1) pass();
@@ -171,6 +179,8 @@ class LinkProxy {
 
     std::uint16_t server_port_;
     LinkQuality quality_;
+    std::atomic<std::int64_t> delay_to_server_ms_{quality_.delay.count()};
+    std::atomic<std::int64_t> delay_to_client_ms_{quality_.delay.count()};
     std::mt19937 random_{1};
     std::atomic<bool> is_cut_{false};
     std::atomic<std::uint64_t> bytes_to_clients_{0};

@@ -205,8 +205,8 @@ TEST(StreamingServer, MovesTheToolOnlyForWhoAnswersWhatIsNow) {
         client.read_into(seen);
         return seen.states() > 20;
     }));
-    client.send(input_frame(3, {.burr = 0}, first_state));                          // old news
-    client.send(input_frame(4, {.burr = 0}, seen.sequence() - 12));                 // 0.4 s old
+    client.send(input_frame(3, {.burr = 0}, first_state));           // old news
+    client.send(input_frame(4, {.burr = 0}, seen.sequence() - 12));  // 0.4 s old
     v1::ClientFrame again = input_frame(5, {.burr = 0}, seen.sequence());
     again.mutable_operator_input()->set_number(2);
     client.send(again);

@@ -1,0 +1,17 @@
+// Whether two states of a tool look the same to whoever is shown them.
+#pragma once
+
+#include "common/wire/tool_view.h"
+
+namespace osteomill {
+
+/// Less than a pixel shows, and about what a good arm's encoders tremble by.
+inline constexpr double quiet_motion_mm = 0.002;
+/// Less than a plot shows.
+inline constexpr double quiet_force_n = 0.002;
+
+/// Whether a viewer who was told of `told` would see nothing new in `now`, except for the time. Compare with
+/// what was told last, not with the frame before: then slow motion is told, too.
+bool looks_the_same(const ToolView& told, const ToolView& now);
+
+}  // namespace osteomill

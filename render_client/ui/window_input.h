@@ -1,0 +1,43 @@
+// What mouse and keyboard do to a window, and what has become of the window: plain data, for a thread that
+// draws and one that drills. Mouse in units of the window, y down.
+#pragma once
+
+#include <array>
+#include <bitset>
+#include <cstddef>
+#include <glm/vec2.hpp>
+#include <vector>
+
+namespace osteomill {
+
+struct WindowInput {
+    static constexpr std::size_t most_keys = 512;  ///< GLFW numbers fewer
+    enum Button : std::size_t { left, right, middle, buttons };
+
+    // As it is now.
+    glm::dvec2 cursor{0.0};
+    bool has_cursor = false;  ///< over the window, or dragged out of it
+    std::array<bool, buttons> is_down{};
+    std::bitset<most_keys> keys_down;
+    bool shift = false, ctrl = false, alt = false;
+    bool is_focused = false;
+    bool is_minimised = false;
+    glm::dvec2 size{1.0};
+    glm::ivec2 framebuffer_size_px{1, 1};
+    double content_scale = 1.0;
+
+    // Since it was last taken.
+    std::array<bool, buttons> went_down{};  ///< though it may be up again
+    std::vector<int> presses;               ///< keys of GLFW that went down, even if they are up again
+    glm::dvec2 wheel{0.0};                  ///< notches
+    bool has_news = false;                  ///< anything happened, or part of the window has to be shown anew
+
+    /// Pixels of the picture in a unit of the window.
+    glm::dvec2 px_per_unit() const { return glm::dvec2(framebuffer_size_px) / size; }
+    /// What happened after this: its state, and both their events.
+    void append(const WindowInput& later);
+    /// The state stays, the events go.
+    void forget_events();
+};
+
+}  // namespace osteomill

@@ -1,0 +1,361 @@
+// Nothing turns without leave, with the real programs: what a client that is cut, frozen, late or hostile can
+// make a real server do. Times are the server's own: see spindle_log.h.
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+
+#include <array>
+#include <boost/asio/buffer.hpp>
+#include <boost/asio/io_context.hpp>
+#include <boost/asio/ip/tcp.hpp>
+#include <boost/asio/write.hpp>
+#include <chrono>
+#include <cmath>
+#include <csignal>
+#include <memory>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "common/wire/frame.h"
+#include "common/wire/scene_messages.h"
+#include "render_client/link/bone_link.h"
+#include "tests/support/child_process.h"
+#include "tests/support/eventually.h"
+#include "tests/support/link_proxy.h"
+#include "tests/support/spindle_log.h"
+#include "tests/support/temporary_folder.h"
+#include "tests/support/virtual_display.h"
+
+namespace osteomill::testing {
+namespace {
+
+using namespace std::chrono_literals;
+using boost::asio::ip::tcp;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+/// The spindle's longest run without leave.
+constexpr double off_within_s = 0.25;
+
+int count_of(const std::string& text, const std::string& what) {
+    int count = 0;
+    for (auto at = text.find(what); at != std::string::npos; at = text.find(what, at + 1)) ++count;
+    return count;
+}
+
+/// Speaks the protocol, and says whatever it likes.
+class HostileClient {
+  public:
+    explicit HostileClient(std::uint16_t port) {
+        socket_.connect({boost::asio::ip::address_v4::loopback(), port});
+        socket_.non_blocking(true);
+        v1::ClientFrame greeting;
+        greeting.mutable_hello()->set_protocol_minor(protocol_minor);
+        send(std::move(greeting));
+    }
+
+    /// Reads what has come; whether a state has.
+    bool reads_state() {
+        std::array<std::uint8_t, 65536> bytes;
+        boost::system::error_code error;
+        while (const std::size_t count = socket_.read_some(boost::asio::buffer(bytes), error)) {
+            decoder_.append(std::span(bytes).first(count));
+            while (const auto message = decoder_.next()) {
+                v1::ServerFrame frame;
+                EXPECT_TRUE(frame.ParseFromArray(message->data(), static_cast<int>(message->size())));
+                if (!frame.has_state()) continue;
+                newest_state_ = frame.sequence();
+                tool_ = std::get<ToolView>(tool_from(frame.state().tool(), 100));
+            }
+        }
+        return newest_state_ > 0;
+    }
+    const ToolView& tool() const { return tool_; }
+
+    struct Lie {
+        bool names_state = true;
+        std::uint64_t number = 0;  // 0: one higher than before
+    };
+    void want(const OperatorIntent& intent) { want(intent, Lie{}); }
+    void want(const OperatorIntent& intent, const Lie& lie) {
+        v1::ClientFrame frame;
+        *frame.mutable_operator_input() = to_message(intent);
+        frame.mutable_operator_input()->set_number(lie.number != 0 ? lie.number : ++number_);
+        if (lie.names_state) frame.mutable_operator_input()->set_answers_state(newest_state_);
+        send(std::move(frame));
+    }
+
+  private:
+    void send(v1::ClientFrame frame) {
+        frame.set_sequence(++sequence_);
+        std::string bytes;
+        append_frame(frame, bytes);
+        boost::system::error_code ignored;
+        boost::asio::write(socket_, boost::asio::buffer(bytes), ignored);
+    }
+
+    boost::asio::io_context io_;
+    tcp::socket socket_{io_};
+    FrameDecoder decoder_;
+    std::uint64_t sequence_ = 0, number_ = 0, newest_state_ = 0;
+    ToolView tool_;
+};
+
+class Permissions : public ::testing::Test {
+  protected:
+    Permissions()
+        : server_({HAPTIC_SERVER, "--scene", "cube", "--device", "client", "--listen", "127.0.0.1:0",
+                   "--log-csv", (folder_ / "log.csv").string()}) {
+        const auto address = server_.line_after("listening on ", 60s);
+        if (!address) throw std::runtime_error(server_.err());
+        address_ = *address;
+        port_ = static_cast<std::uint16_t>(std::stoi(address->substr(address->rfind(':') + 1)));
+    }
+
+    /// Ends the session; what the spindle did in it.
+    std::vector<SpindleSample> log_of_session() {
+        server_.send_signal(SIGINT);
+        EXPECT_EQ(server_.wait(60s), 0) << server_.err();
+        return read_spindle_log(folder_ / "log.csv");
+    }
+
+    /// An operator whose pedal is down, where the tool is.
+    void drive(BoneLink& link, bool pedal = true) {
+        if (const auto update = link.poll(); update.tool) clock_.note(*update.tool);
+        if (const auto tool = link.newest_tool())
+            link.send_operator({.hand_target_mm = tool->hand_position_mm, .pedal = pedal});
+    }
+    /// Drives until so, or for so long.
+    template <typename Condition>
+    bool drive_until(BoneLink& link, Condition&& condition, std::chrono::milliseconds at_most = 60s) {
+        const auto end = std::chrono::steady_clock::now() + at_most;
+        while (!condition()) {
+            if (std::chrono::steady_clock::now() > end) return false;
+            drive(link);
+            std::this_thread::sleep_for(10ms);
+        }
+        return true;
+    }
+    void drive_for(BoneLink& link, std::chrono::milliseconds time) {
+        drive_until(
+            link, [] { return false; }, time);
+    }
+    bool gets_spindle(BoneLink& link, std::chrono::milliseconds at_most = 60s) {
+        return drive_until(
+            link, [&] { return link.newest_tool() && link.newest_tool()->spindle_on; }, at_most);
+    }
+
+    TemporaryFolder folder_;
+    ChildProcess server_;
+    std::string address_;
+    std::uint16_t port_ = 0;
+    SessionClock clock_;
+};
+
+TEST_F(Permissions, EndsWhenAClientIsCutOff) {
+    BoneLink watching("127.0.0.1", port_);
+    double cut_s = 0.0;
+    {
+        LinkProxy cable(port_);
+        BoneLink link("127.0.0.1", cable.port());
+        ASSERT_TRUE(gets_spindle(link));
+        drive_for(link, 500ms);
+        cable.cut();  // in silence
+        cut_s = clock_.now_s();
+        drive_for(link, 1s);
+    }
+    const auto off_s = spindle_off_after_s(log_of_session(), cut_s);
+    ASSERT_TRUE(off_s);
+    EXPECT_LE(*off_s, off_within_s);
+}
+
+TEST_F(Permissions, EndsBehindAnUpstreamThatTurnsLateAndIsNotHadBehindOneThatIs) {
+    LinkProxy cable(port_);
+    BoneLink link("127.0.0.1", cable.port());
+    ASSERT_TRUE(gets_spindle(link));
+    drive_for(link, 500ms);
+    cable.delay(5s, 0ms);
+    const double late_s = clock_.now_s();  // the pedal comes up, too
+    for (const auto end = std::chrono::steady_clock::now() + 1s; std::chrono::steady_clock::now() < end;
+         std::this_thread::sleep_for(10ms))
+        drive(link, false);
+    // Now it is down again, and everything arrives, five seconds late.
+    drive_for(link, 7s);
+    const double end_s = clock_.now_s();
+    const auto log = log_of_session();
+    const auto off_s = spindle_off_after_s(log, late_s);
+    ASSERT_TRUE(off_s);
+    EXPECT_LE(*off_s, off_within_s);
+    for (const SpindleSample& sample : log) {
+        const bool is_late = sample.time_s > late_s + off_within_s && sample.time_s < end_s;
+        ASSERT_FALSE(is_late && sample.turns) << sample.time_s - late_s << " s behind the delay";
+    }
+    EXPECT_THAT(server_.err(), HasSubstr("answers what was so more than 250 ms ago"));
+    EXPECT_LE(count_of(server_.err(), "answers what was so"), 3);
+}
+
+TEST_F(Permissions, IsNotHadByAClientWhosePictureIsASecondOld) {
+    LinkProxy cable(port_);
+    cable.delay(0ms, 1s);
+    BoneLink link("127.0.0.1", cable.port());
+    EXPECT_FALSE(gets_spindle(link, 4s));
+    for (const SpindleSample& sample : log_of_session()) ASSERT_FALSE(sample.turns) << sample.time_s;
+}
+
+TEST_F(Permissions, IsKeptOverALinkWithADelayOf100Ms) {
+    LinkProxy cable(port_);
+    cable.delay(50ms, 50ms);
+    BoneLink link("127.0.0.1", cable.port());
+    ASSERT_TRUE(gets_spindle(link));
+    const double on_s = clock_.now_s();
+    drive_for(link, 3s);
+    const double end_s = clock_.now_s();
+    const auto log = log_of_session();
+    double off_s = 0.0;
+    for (const SpindleSample& sample : log)
+        if (sample.time_s > on_s && sample.time_s < end_s && !sample.turns) off_s += 0.001;
+    EXPECT_LT(off_s, 0.3) << "a machine with much to do may hold back a message or two";
+}
+
+TEST_F(Permissions, OfOneMessageReachesNoFartherThanAHand) {
+    HostileClient client(port_);
+    ASSERT_TRUE(eventually([&] { return client.reads_state(); }));
+    const ToolView before = client.tool();
+    client.want({.hand_target_mm = before.hand_position_mm + glm::dvec3(100.0, 0.0, 0.0), .pedal = true});
+    std::this_thread::sleep_for(2s);
+    const auto log = log_of_session();
+    double travelled_mm = 0.0, turned_s = 0.0;
+    for (const SpindleSample& sample : log) {
+        travelled_mm = std::max(travelled_mm, std::abs(sample.burr_mm[0] - log.front().burr_mm[0]));
+        if (sample.turns) turned_s += 0.001;
+    }
+    // A hand's reach, and as far as a hand swings that is stopped.
+    EXPECT_LT(travelled_mm, 10.0);
+    EXPECT_LE(turned_s, off_within_s);
+    EXPECT_EQ(count_of(server_.err(), "more than 6 mm from the burr"), 1) << server_.err();
+}
+
+TEST_F(Permissions, OfAHostileClientIsHeldToAHandAndNamedOnce) {
+    HostileClient client(port_);
+    ASSERT_TRUE(eventually([&] { return client.reads_state(); }));
+    const auto began = std::chrono::steady_clock::now();
+    for (int i = 0; i < 400; ++i) {  // from side to side 400 times a second, each a metre away
+        client.reads_state();
+        client.want({.hand_target_mm = {i % 2 == 0 ? 1000.0 : -1000.0, 0.0, 25.0}, .pedal = true});
+        std::this_thread::sleep_until(began + i * 2500us);
+    }
+    const auto log = log_of_session();
+    for (std::size_t i = 1; i < log.size(); ++i) {
+        const double speed = std::abs(log[i].burr_mm[0] - log[i - 1].burr_mm[0]) /
+                             std::max(log[i].time_s - log[i - 1].time_s, 0.001);
+        ASSERT_LT(speed, 500.0) << "mm/s at " << log[i].time_s;
+    }
+    EXPECT_THAT(server_.err(), HasSubstr("faster than a hand (500 mm/s)"));
+    EXPECT_LE(count_of(server_.err(), "6 mm from the burr"), 2) << "alone, then both together";
+}
+
+TEST_F(Permissions, IsNotHadByRepeatingMessagesNorByClientsThatNameNoState) {
+    HostileClient old(port_);
+    ASSERT_TRUE(eventually([&] { return old.reads_state(); }));
+    for (int i = 0; i < 50; ++i) {
+        old.reads_state();
+        old.want({.hand_target_mm = old.tool().hand_position_mm, .pedal = true}, {.names_state = false});
+        std::this_thread::sleep_for(10ms);
+    }
+    HostileClient repeating(port_);
+    ASSERT_TRUE(eventually([&] { return repeating.reads_state(); }));
+    for (int i = 0; i < 100; ++i) {
+        repeating.reads_state();
+        repeating.want({.hand_target_mm = repeating.tool().hand_position_mm, .pedal = true}, {.number = 1});
+        std::this_thread::sleep_for(10ms);
+    }
+    double turned_s = 0.0;
+    for (const SpindleSample& sample : log_of_session()) turned_s += sample.turns ? 0.001 : 0.0;
+    EXPECT_LE(turned_s, off_within_s) << "for the first of them";
+    EXPECT_GT(turned_s, 0.1);
+    EXPECT_EQ(count_of(server_.err(), "looks on and moves nothing"), 1) << server_.err();
+}
+
+/// render_client in a window, with its pedal down.
+class WindowPermissions : public Permissions {
+  protected:
+    void SetUp() override {
+        if (const std::string missing = VirtualDisplay::missing(); !missing.empty())
+            GTEST_SKIP() << "needs " << missing;
+    }
+    void press_pedal(const glm::ivec2& size_px, const std::vector<std::string>& more = {}) {
+        display_.emplace(size_px);
+        std::vector<std::string> command{RENDER_CLIENT, "--connect", address_, "--window-size",
+                                         fmt::format("{}x{}", size_px.x, size_px.y)};
+        command.insert(command.end(), more.begin(), more.end());
+        window_.emplace(display_->shown_here(command));
+        ASSERT_TRUE(
+            display_->xdotool({"search", "--sync", "--onlyvisible", "--name", "^Osteomill$", "windowfocus"}));
+        ASSERT_TRUE(eventually([&] {
+            display_->xdotool({"keydown", "space"});
+            return watch_for(500ms, [](const ToolView& tool) { return tool.spindle_on; });
+        })) << window_->err();
+    }
+    /// Whether that comes true while it watches; at the longest for so long.
+    template <typename Condition>
+    bool watch_for(std::chrono::milliseconds time, Condition&& condition) {
+        const auto end = std::chrono::steady_clock::now() + time;
+        while (std::chrono::steady_clock::now() < end) {
+            if (const auto update = watching_.poll(); update.tool) {
+                clock_.note(*update.tool);
+                if (condition(*update.tool)) return true;
+            }
+            std::this_thread::sleep_for(5ms);
+        }
+        return false;
+    }
+    static bool never(const ToolView&) { return false; }
+
+    BoneLink watching_{"127.0.0.1", port_};
+    std::optional<VirtualDisplay> display_;
+    std::optional<ChildProcess> window_;
+};
+
+TEST_F(WindowPermissions, EndWhenTheClientIsFrozen) {
+    press_pedal({480, 360});
+    std::vector<double> frozen_s;
+    for (int i = 0; i < 3; ++i) {
+        watch_for(500ms, never);
+        frozen_s.push_back(clock_.now_s());
+        window_->send_signal(SIGSTOP);
+        EXPECT_TRUE(watch_for(5s, [](const ToolView& tool) { return !tool.spindle_on; }));
+        window_->send_signal(SIGCONT);
+        ASSERT_TRUE(watch_for(10s, [](const ToolView& tool) { return tool.spindle_on; })) << "it comes back";
+    }
+    const auto log = log_of_session();
+    int in_time = 0;
+    for (const double at_s : frozen_s) {
+        const auto off_s = spindle_off_after_s(log, at_s);
+        if (off_s && *off_s <= off_within_s) ++in_time;
+    }
+    // A signal takes its time on a machine with much to do: one of three may come late.
+    EXPECT_GE(in_time, 2);
+}
+
+TEST_F(WindowPermissions, AreKeptWhileTheWindowDrawsSlowlyAndEndWithThePedal) {
+    // Each picture is written into a file: so large a one takes most of a second.
+    press_pedal({2800, 2000}, {"--screenshots", (folder_ / "pictures").string(), "--screenshot-every", "1"});
+    watch_for(1s, never);
+    const double on_s = clock_.now_s();
+    watch_for(4s, never);
+    const double up_s = clock_.now_s();
+    ASSERT_TRUE(display_->xdotool({"keyup", "space"}));
+    const double is_up_s = clock_.now_s();
+    EXPECT_TRUE(watch_for(5s, [](const ToolView& tool) { return !tool.spindle_on; }));
+    const auto log = log_of_session();
+    double off_s = 0.0;
+    for (const SpindleSample& sample : log)
+        if (sample.time_s > on_s && sample.time_s < up_s && !sample.turns) off_s += 0.001;
+    EXPECT_LT(off_s, 0.4) << "of 4 s; a machine with much to do may hold back the mouse, too";
+    const auto after_s = spindle_off_after_s(log, up_s);
+    ASSERT_TRUE(after_s);
+    EXPECT_LE(*after_s, off_within_s + is_up_s - up_s) << "though a picture is being drawn";
+}
+
+}  // namespace
+}  // namespace osteomill::testing
