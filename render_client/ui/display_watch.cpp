@@ -11,7 +11,14 @@ void watch_display(std::atomic<bool>* is_gone) {
     Display* display = display_of_glfw ? display_of_glfw() : nullptr;
     if (!display) return;
     XSetIOErrorExitHandler(
-        display, [](Display*, void* gone) { *static_cast<std::atomic<bool>*>(gone) = true; }, is_gone);
+        display,
+        [](Display* lost, void* gone) {
+            *static_cast<std::atomic<bool>*>(gone) = true;
+            // Xlib has locked it for good, for a program that ends here: another thread that speaks to the
+            // display would wait for ever.
+            XUnlockDisplay(lost);
+        },
+        is_gone);
     XSetIOErrorHandler([](Display*) { return 0; });
 }
 

@@ -23,7 +23,7 @@ namespace osteomill {
 struct DeskPicture {
     bool drills = false;  ///< there is a session that an operator may drill in
     std::size_t burr_count = 0;
-    Camera camera;
+    Camera camera{};
     glm::ivec2 size_px{1, 1};
     bool panels_have_mouse = false;
 };

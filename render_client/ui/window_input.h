@@ -18,7 +18,7 @@ struct WindowInput {
     glm::dvec2 cursor{0.0};
     bool has_cursor = false;  ///< over the window, or dragged out of it
     std::array<bool, buttons> is_down{};
-    std::bitset<most_keys> keys_down;
+    std::bitset<most_keys> keys_down{};
     bool shift = false, ctrl = false, alt = false;
     bool is_focused = false;
     bool is_minimised = false;
@@ -28,7 +28,7 @@ struct WindowInput {
 
     // Since it was last taken.
     std::array<bool, buttons> went_down{};  ///< though it may be up again
-    std::vector<int> presses;               ///< keys of GLFW that went down, even if they are up again
+    std::vector<int> presses{};             ///< keys of GLFW that went down, even if they are up again
     glm::dvec2 wheel{0.0};                  ///< notches
     bool has_news = false;                  ///< anything happened, or part of the window has to be shown anew
 

@@ -2,10 +2,15 @@
 // happens when the display fails. Needs Xvfb and xdotool.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <csignal>
 #include <cstdlib>
+#include <fstream>
 #include <functional>
+#include <iterator>
+#include <sstream>
 #include <thread>
 
 #include "render_client/volume/png_file.h"
@@ -85,6 +90,23 @@ class WindowTest : public ::testing::Test {
     }
     bool shows_otherwise_than(const Picture& before, double at_least) const {
         return comes_true([&] { return difference(display_->screen(), before) >= at_least; });
+    }
+    /// The part of a core that the window takes over so long. Processor time, which a machine that is busy
+    /// with other things does not lengthen much.
+    double share_of_core(std::chrono::seconds time) const {
+        const auto used_s = [this] {
+            std::ifstream stat("/proc/" + std::to_string(window_->pid()) + "/stat");
+            const std::string text((std::istreambuf_iterator<char>(stat)), std::istreambuf_iterator<char>());
+            std::istringstream words(text.substr(text.rfind(')') + 2));  // from the third field on
+            std::string skipped;
+            for (int field = 3; field < 14; ++field) words >> skipped;
+            double user = 0.0, system = 0.0;
+            words >> user >> system;
+            return (user + system) / static_cast<double>(sysconf(_SC_CLK_TCK));
+        };
+        const double before_s = used_s();
+        std::this_thread::sleep_for(time);
+        return (used_s() - before_s) / static_cast<double>(time.count());
     }
     void press(const std::string& key) const { ASSERT_TRUE(display_->xdotool({"key", key})) << key; }
 
@@ -169,6 +191,40 @@ TEST_F(WindowTest, AnswersMouseAndKeysAndShowsWhatAnOffscreenRunDraws) {
     EXPECT_TRUE(shows_otherwise_than(first, 0.01)) << "the burr moves";
     ASSERT_TRUE(display_->xdotool({"keyup", "w"}));
 
+    press("Escape");
+    EXPECT_EQ(window_->wait(60s), 0) << window_->err();
+}
+
+TEST_F(WindowTest, DrawsOnlyWhatChanges) {
+    // On this machine's processors a picture takes milliseconds: sixty a second would be most of one.
+    open_window({});
+    std::this_thread::sleep_for(2s);
+    EXPECT_LT(share_of_core(6s), 0.05) << "in a session that stands still";
+    const Picture before = display_->screen();
+
+    press("F1");
+    EXPECT_TRUE(shows_otherwise_than(before, 0.2)) << "help";
+    press("F1");
+    EXPECT_TRUE(shows(before, 0.02)) << "help goes again";
+    ASSERT_TRUE(display_->xdotool({"mousemove", "240", "180", "mousedown", "3"}));
+    EXPECT_TRUE(comes_true([&] {
+        display_->xdotool({"mousemove_relative", "7", "2"});
+        return difference(display_->screen(), before) >= 0.1;
+    })) << "the view turns";
+    ASSERT_TRUE(display_->xdotool({"mouseup", "3"}));
+    const Picture turned = display_->screen();
+    std::this_thread::sleep_for(1s);
+    ASSERT_TRUE(display_->xdotool({"search", "--sync", "--name", "^Osteomill$", "windowunmap", "--sync",
+                                   "windowmap", "--sync", "windowfocus"}));
+    EXPECT_TRUE(comes_true([&] { return shows_bone(display_->screen()); }));
+    EXPECT_TRUE(shows_otherwise_than(before, 0.05)) << "the view that was turned";
+
+    server_->send_signal(SIGINT);
+    ASSERT_EQ(server_->wait(60s), 0);
+    std::this_thread::sleep_for(3s);
+    EXPECT_LT(share_of_core(6s), 0.02) << "after the session has ended";
+    press("F1");
+    EXPECT_TRUE(shows_otherwise_than(turned, 0.1)) << "and still answers";
     press("Escape");
     EXPECT_EQ(window_->wait(60s), 0) << window_->err();
 }

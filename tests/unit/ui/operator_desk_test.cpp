@@ -1,0 +1,119 @@
+#include "render_client/ui/operator_desk.h"
+
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
+#include <gtest/gtest.h>
+
+#include <glm/geometric.hpp>
+#include <vector>
+
+namespace osteomill {
+namespace {
+
+/// A link without a server: tells of a tool, and keeps what is sent.
+class DeskSource final : public SessionSource {
+  public:
+    LinkUpdate poll() override { return {}; }
+    const Bone* bone() const override { return nullptr; }
+    const SessionInfo* session() const override { return nullptr; }
+    void send_operator(const OperatorIntent& intent) override { sent.push_back(intent); }
+    std::optional<ToolView> newest_tool() const override { return tool; }
+
+    std::optional<ToolView> tool = ToolView{.driver = ToolDriver::nobody};
+    std::vector<OperatorIntent> sent;
+};
+
+struct Desk {
+    Desk() { desk.show(picture); }
+    void step() {
+        desk.step(input, 0.01);
+        input.forget_events();
+    }
+
+    DeskSource source;
+    OperatorDesk desk{source};
+    DeskPicture picture{.drills = true, .burr_count = 3, .size_px = {640, 480}};
+    WindowInput input{.is_focused = true, .size = {640.0, 480.0}, .framebuffer_size_px = {640, 480}};
+};
+
+TEST(OperatorDesk, LeavesTheToolToOthersUntilItIsUsed) {
+    Desk desk;
+    desk.step();
+    desk.input.cursor = {50.0, 50.0};
+    desk.step();
+    EXPECT_TRUE(desk.source.sent.empty());
+    EXPECT_FALSE(desk.desk.is_driving());
+}
+
+TEST(OperatorDesk, SendsAtEveryStepWhileThePedalIsDownAndOnceThatItIsUp) {
+    Desk desk;
+    desk.input.keys_down[GLFW_KEY_SPACE] = true;
+    for (int i = 0; i < 5; ++i) desk.step();
+    ASSERT_EQ(desk.source.sent.size(), 5u);
+    EXPECT_TRUE(desk.source.sent.back().pedal);
+    desk.input.keys_down[GLFW_KEY_SPACE] = false;
+    desk.step();
+    desk.step();
+    ASSERT_EQ(desk.source.sent.size(), 6u);
+    EXPECT_FALSE(desk.source.sent.back().pedal);
+}
+
+TEST(OperatorDesk, LiftsThePedalWhenTheWindowLosesTheKeyboard) {
+    Desk desk;
+    desk.input.keys_down[GLFW_KEY_SPACE] = true;
+    desk.step();
+    desk.input.is_focused = false;
+    desk.step();
+    ASSERT_EQ(desk.source.sent.size(), 2u);
+    EXPECT_FALSE(desk.source.sent.back().pedal);
+}
+
+TEST(OperatorDesk, DragsTheHandButNotWithAMouseThatAPanelHas) {
+    Desk desk;
+    desk.step();
+    desk.input.is_down[WindowInput::left] = desk.input.went_down[WindowInput::left] = true;
+    desk.step();
+    desk.input.cursor = {20.0, 0.0};
+    desk.step();
+    ASSERT_TRUE(desk.desk.is_driving());
+    EXPECT_GT(glm::length(desk.source.sent.back().hand_target_mm), 0.0);
+
+    Desk other;
+    other.picture.panels_have_mouse = true;
+    other.desk.show(other.picture);
+    other.step();
+    other.input.is_down[WindowInput::left] = other.input.went_down[WindowInput::left] = true;
+    other.step();
+    other.input.cursor = {20.0, 0.0};
+    other.step();
+    EXPECT_TRUE(other.source.sent.empty());
+}
+
+TEST(OperatorDesk, AsksForAToolThatAnotherHasButDoesNotHoldOnToIt) {
+    Desk desk;
+    desk.source.tool->driver = ToolDriver::another;
+    desk.input.presses = {GLFW_KEY_2};
+    desk.step();
+    ASSERT_EQ(desk.source.sent.size(), 1u);
+    EXPECT_EQ(desk.source.sent.back().burr, 1u);
+    EXPECT_FALSE(desk.desk.is_driving());
+}
+
+TEST(OperatorDesk, FallsSilentWhereThereIsNoSessionToDrillIn) {
+    Desk desk;
+    desk.input.keys_down[GLFW_KEY_SPACE] = true;
+    desk.step();
+    desk.source.tool.reset();
+    desk.step();
+    EXPECT_EQ(desk.source.sent.size(), 1u);
+    EXPECT_FALSE(desk.desk.is_driving());
+    desk.source.tool = ToolView{};
+    desk.picture.drills = false;
+    desk.desk.show(desk.picture);
+    desk.step();
+    EXPECT_EQ(desk.source.sent.size(), 1u);
+    EXPECT_FALSE(desk.desk.intent());
+}
+
+}  // namespace
+}  // namespace osteomill

@@ -1,0 +1,49 @@
+#include "render_client/ui/redraw.h"
+
+#include <gtest/gtest.h>
+
+namespace osteomill {
+namespace {
+
+using std::chrono::milliseconds;
+
+/// Frames drawn in a second that is looked at sixty times, where this happens each time.
+template <typename Happens>
+int frames_in_a_second(Redraw& redraw, Redraw::Time began, Happens&& happens) {
+    int frames = 0;
+    for (int i = 0; i < 60; ++i) {
+        const Redraw::Time now = began + milliseconds(1000 * i / 60);
+        happens(now);
+        if (!redraw.is_due(now)) continue;
+        redraw.drew(now);
+        ++frames;
+    }
+    return frames;
+}
+
+const Redraw::Time start = Redraw::Time{} + std::chrono::hours(1);
+
+TEST(Redraw, DrawsWhileThingsChangeAndALittleLonger) {
+    Redraw redraw;
+    EXPECT_EQ(frames_in_a_second(redraw, start, [&](Redraw::Time now) { redraw.note_change(now); }), 60);
+    const int settling = frames_in_a_second(redraw, start + milliseconds(1000), [](Redraw::Time) {});
+    EXPECT_GE(settling, 3);
+    EXPECT_LE(settling, 16);
+}
+
+TEST(Redraw, DrawsNothingWhereNothingChanges) {
+    Redraw redraw;
+    EXPECT_EQ(frames_in_a_second(redraw, start, [](Redraw::Time) {}), 0);
+}
+
+TEST(Redraw, DrawsFiguresOnceASecond) {
+    Redraw redraw;
+    const auto figures = [&](Redraw::Time) { redraw.note_figures(); };
+    EXPECT_EQ(frames_in_a_second(redraw, start, figures), 1);
+    EXPECT_EQ(frames_in_a_second(redraw, start + milliseconds(1000), figures), 1);
+    EXPECT_EQ(frames_in_a_second(redraw, start + milliseconds(2000), [](Redraw::Time) {}), 1)
+        << "the last ones, too";
+}
+
+}  // namespace
+}  // namespace osteomill
