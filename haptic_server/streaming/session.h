@@ -18,8 +18,8 @@ namespace osteomill {
 /// Lives until its stream is closed. All calls and callbacks are on the thread of the stream's io_context.
 class Session : public std::enable_shared_from_this<Session> {
   public:
-    /// An operator's window sends one a frame. After a network that stood still for seconds they come at
-    /// once.
+    /// An operator's window sends a hundred a second. After a network that stood still for seconds they come
+    /// at once.
     static constexpr double most_messages_per_s = 1000.0;
     static constexpr double most_messages_at_once = 2000.0;
 

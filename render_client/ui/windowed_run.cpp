@@ -171,6 +171,18 @@ class Drawing {
     bool session_over_ = false;
 };
 
+/// Has the window's context on this thread, whatever becomes of what is drawn.
+class CurrentContext {
+  public:
+    explicit CurrentContext(Window& window) : window_(window) { window_.make_context_current(); }
+    ~CurrentContext() { window_.release_context(); }
+    CurrentContext(const CurrentContext&) = delete;
+    CurrentContext& operator=(const CurrentContext&) = delete;
+
+  private:
+    Window& window_;
+};
+
 /// Runs `draw` on a thread of its own; whatever becomes of the caller, it ends that thread first.
 class DrawingThread {
   public:
@@ -215,10 +227,9 @@ RenderReport run_in_window(const RenderOptions& options, SessionSource& source,
     shared.mailbox.post(window.take_input());
     RenderReport report;
     DrawingThread drawing(shared.is_over, [&] {
-        window.make_context_current();
+        const CurrentContext context(window);
         gl::require_opengl_3_3();
         report = Drawing(options, source, window, shared).run();
-        window.release_context();
     });
     for (Clock::time_point previous = Clock::now();
          !shared.is_over && !window.close_asked() && !stop_asked();) {

@@ -169,7 +169,7 @@ void write_seeds(const std::filesystem::path& folder) {
     Bone carved = bone;
     carved.fractions(0)[5] = 0;
     write_file(folder / "server_session/operator",
-               '\xff' + numbered({operator_input(1.0, 0), operator_input(-3.5, 1), goodbye()}));
+               '\x8f' + numbered({hello(), operator_input(1.0, 0), operator_input(-3.5, 1), goodbye()}));
     write_file(folder / "server_session/comparison",
                '\xff' + numbered({comparison(carved), operator_input(0.0, 1), comparison(bone)}));
     write_file(folder / "server_session/hello",

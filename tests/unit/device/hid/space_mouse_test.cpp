@@ -104,6 +104,23 @@ TEST_F(PluggedMouse, IsLetGoWhereItSaysNothingMore) {
     }));
 }
 
+TEST_F(PluggedMouse, IsLostWhenTheThreadThatReadsItHangs) {
+    mouse.start();
+    const std::array<std::uint8_t, 2> left_button{3, 1};
+    send(left_button);
+    ASSERT_TRUE(eventually([&] { return step().pedal; }));
+    hid.with(
+        [&](FakeHidDevice&) {  // the thread waits for it
+            EXPECT_TRUE(eventually([&] {
+                for (int i = 0; i < 250; ++i) step();
+                const DeviceState state = step();
+                return !state.pedal && !state.connected;
+            }));
+        },
+        path);
+    EXPECT_TRUE(eventually([&] { return step().pedal; })) << "it is heard again";
+}
+
 TEST_F(PluggedMouse, IsLostWhenUnplugged) {
     mouse.start();
     ASSERT_TRUE(eventually([&] { return step().connected; }));
