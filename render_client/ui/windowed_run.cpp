@@ -130,7 +130,6 @@ class Drawing {
     void draw(Clock::time_point start) {
         const double elapsed_s = std::chrono::duration<double>(start - drawn_).count();
         drawn_ = start;
-        redraw_.drew(start);
         session_.resize(input_.framebuffer_size_px);
         session_.view().scale = static_cast<float>(options_.ui_scale.value_or(input_.content_scale));
         panels_.feed(input_);
@@ -143,13 +142,16 @@ class Drawing {
         input_.forget_events();
         const std::string notice = session_.view().notice;
         commands_.write_pictures(framebuffer, std::chrono::duration<double>(start - began_).count());
-        if (session_.view().notice != notice) redraw_.note_change(start);
+        const bool has_new_notice = session_.view().notice != notice;
 
         if (session_.has_bone()) screenshots_.after_frame(framebuffer);
         if (session_over_) screenshots_.after_last_frame(framebuffer);
         framebuffer.copy_colour_to_window();
         window_.show_frame();
-        const double took_s = std::chrono::duration<double>(Clock::now() - start).count();
+        const Clock::duration took = Clock::now() - start;
+        const double took_s = std::chrono::duration<double>(took).count();
+        redraw_.drew(start, took);
+        if (has_new_notice) redraw_.note_change(start + took);
         session_.frame_took(took_s);
         frame_times_.add(1e3 * took_s);
     }

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <utility>
+
 namespace osteomill {
 namespace {
 
@@ -9,13 +11,14 @@ using std::chrono::milliseconds;
 
 /// Frames drawn in a second that is looked at sixty times, where this happens each time.
 template <typename Happens>
-int frames_in_a_second(Redraw& redraw, Redraw::Time began, Happens&& happens) {
+int frames_in_a_second(Redraw& redraw, Redraw::Time began, Happens&& happens,
+                       milliseconds frame = milliseconds(5)) {
     int frames = 0;
     for (int i = 0; i < 60; ++i) {
         const Redraw::Time now = began + milliseconds(1000 * i / 60);
         happens(now);
         if (!redraw.is_due(now)) continue;
-        redraw.drew(now);
+        redraw.drew(now, frame);
         ++frames;
     }
     return frames;
@@ -43,6 +46,19 @@ TEST(Redraw, DrawsFiguresOnceASecond) {
     EXPECT_EQ(frames_in_a_second(redraw, start + milliseconds(1000), figures), 1);
     EXPECT_EQ(frames_in_a_second(redraw, start + milliseconds(2000), [](Redraw::Time) {}), 1)
         << "the last ones, too";
+}
+
+TEST(Redraw, DrawsFiguresLessOftenWhereAFrameIsDear) {
+    for (const auto& [frame_ms, most_in_ten_s] : {std::pair(25, 4), {5000, 2}}) {
+        Redraw redraw;
+        int frames = 0;
+        for (int s = 0; s < 10; ++s)
+            frames += frames_in_a_second(
+                redraw, start + std::chrono::seconds(s), [&](Redraw::Time) { redraw.note_figures(); },
+                milliseconds(frame_ms));
+        EXPECT_LE(frames, most_in_ten_s) << frame_ms;
+        EXPECT_GE(frames, 2) << frame_ms;
+    }
 }
 
 }  // namespace
