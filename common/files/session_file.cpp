@@ -33,7 +33,7 @@ fs::path part_beside(const fs::path& path) {
     return file.part();
 }
 
-[[noreturn]] void fail(const fs::path& path, int reason) {
+[[noreturn]] void cannot_begin(const fs::path& path, int reason) {
     throw std::runtime_error(path.string() + ": cannot be written: " + std::strerror(reason));
 }
 
@@ -45,7 +45,7 @@ SessionFile::SessionFile(const fs::path& path) {
     while (!is_written_directly && lock_ < 0) {
         lock_ = ::open(part.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
         if (lock_ >= 0) break;
-        if (errno != EEXIST) fail(path, errno);
+        if (errno != EEXIST) cannot_begin(path, errno);
         const int left = ::open(part.c_str(), O_RDONLY | O_CLOEXEC);
         const bool is_locked = left >= 0 && ::flock(left, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK;
         if (left >= 0) ::close(left);
@@ -54,7 +54,7 @@ SessionFile::SessionFile(const fs::path& path) {
         torn_ = free_torn_name(part);
         std::error_code failed;
         fs::rename(part, *torn_, failed);
-        if (failed) fail(part, failed.value());
+        if (failed) cannot_begin(part, failed.value());
     }
     if (lock_ >= 0) ::flock(lock_, LOCK_EX | LOCK_NB);
     file_.emplace(path);
