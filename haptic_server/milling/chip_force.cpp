@@ -3,7 +3,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "common/bone/bone.h"
 #include "haptic_server/milling/axis_means.h"
 #include "haptic_server/milling/burr_frame.h"
 #include "haptic_server/milling/lanes.h"
@@ -62,14 +61,10 @@ struct EightPlaces {
 struct EightForces {
     Floats x, y, z;
     Floats force_x, force_y, force_z;
-    bool any_near;
 };
 
-/// `near_squared`: how near to the axis, squared, a voxel is for which the means of axis_means.h are asked.
 [[gnu::always_inline]] inline EightForces forces_of(const Constants& c, const EightPlaces& places,
-                                                    const Floats& weight,
-                                                    float near_squared = axis_disc_voxels *
-                                                                         axis_disc_voxels) {
+                                                    const Floats& weight) {
     const Floats& x = places.x;
     const Floats& y = places.y;
     const Floats& z = places.z;
@@ -83,7 +78,7 @@ struct EightForces {
     const Floats per_distance = per_both * r;
     const Floats cos_kappa = -z * per_distance;
     const Floats per_r = per_both * distance;
-    const bool any_near = lanes::any(r_squared < near_squared);  // few are
+    const bool any_near = lanes::any(r_squared < axis_disc_voxels * axis_disc_voxels);  // few are
     const AxisMeans<Floats> mean = any_near ? axis_means(r_squared, per_r) : far_axis_means(per_r);
 
     const Floats swirl = weight * mean.swirl;
@@ -93,8 +88,7 @@ struct EightForces {
             z,
             c.tangential * swirl * y - outward * x,
             -c.tangential * swirl * x - outward * y,
-            weight * (c.radial * cos_kappa * mean.inverse - c.axial * per_distance),
-            any_near};
+            weight * (c.radial * cos_kappa * mean.inverse - c.axial * per_distance)};
 }
 
 [[gnu::always_inline]] inline void fill_with(const Constants& constants, std::size_t count, const float* vx,
@@ -130,150 +124,7 @@ struct EightForces {
     return {lanes::sum(x), lanes::sum(y), lanes::sum(z)};
 }
 
-/// TipSearch as plain floats.
-struct TipConstants {
-    float radius;
-    float reach_squared;
-    float per_level_x, per_level_y;
-    float per_depth_x, per_depth_y;
-    bool moves;
-};
-
-TipConstants tip_constants(const CuttingStep& step, const TipSearch& tip) {
-    const auto radius = static_cast<float>(step.radius_voxels);
-    // As far off the axis as a voxel can be that is within the disc once it is moved to the burr's surface.
-    const float reach = tip_disc_voxels * (1.0f + 2.0f / radius);
-    return {radius,
-            reach * reach,
-            tip.per_level.x,
-            tip.per_level.y,
-            tip.per_depth.x,
-            tip.per_depth.y,
-            tip.per_level != glm::vec2(0.0f)};
-}
-
-struct EightTipSums {
-    Floats volume{};
-    Floats stiffness{};
-    Floats x{};
-    Floats y{};
-    Floats force_x{};
-    Floats force_y{};
-    Floats force_z{};
-    Floats moved_x{};
-    Floats moved_y{};
-    Floats moved_z{};
-};
-
-/// What the voxels from `first` on kept, in 255 steps; 0 for those that lost nothing.
-[[gnu::always_inline]] inline Floats kept_by(const RemovedVoxels& removed, std::size_t first) {
-    Floats kept{};
-    for (std::size_t lane = 0; lane < lanes::width; ++lane) {
-        const std::size_t i = first + lane;
-        if (removed.codes[i] > 0.0f)
-            kept[lane] = static_cast<float>(
-                removed.bone->fractions(removed.slot[i])[static_cast<std::size_t>(removed.offset[i])]);
-    }
-    return kept;
-}
-
-/// Adds the voxels from `first` on to the sums over the disc.
-[[gnu::always_inline]] inline void search_tip(const Constants& c, const TipConstants& tip,
-                                              const RemovedVoxels& removed, std::size_t first,
-                                              const EightPlaces& places, const Floats& weight,
-                                              EightTipSums& sums) {
-    constexpr float per_code = 1.0f / 255.0f;
-    constexpr float per_disc_squared = 1.0f / (tip_disc_voxels * tip_disc_voxels);
-    const Floats r_squared = places.x * places.x + places.y * places.y;
-    const Floats distance_squared = r_squared + places.z * places.z;
-    const Floats per_distance =
-        1.0f / lanes::square_root(distance_squared < 0.25f ? lanes::floats(0.25f) : distance_squared);
-    const Floats to_surface = tip.radius * per_distance;
-    const Floats in_disc = 1.0f - r_squared * to_surface * to_surface * per_disc_squared;
-    const auto is_in_disc = (in_disc > 0.0f) & (places.z < 0.0f);
-
-    const Floats counted = is_in_disc ? in_disc : Floats{};
-    const Floats lost = lanes::load<Floats>(&removed.codes[first]);
-    const Floats volume = counted * (per_code * lost);
-    sums.volume += volume;
-    sums.stiffness += counted * weight;
-    sums.x += volume * (places.x * to_surface);
-    sums.y += volume * (places.y * to_surface);
-    const EightForces listed = forces_of(c, places, weight);
-    sums.force_x += counted * listed.force_x;
-    sums.force_y += counted * listed.force_y;
-    sums.force_z += counted * listed.force_z;
-    if (!tip.moves) return;
-
-    const Floats level = is_in_disc ? per_code * (kept_by(removed, first) + 0.5f * lost) - 0.5f : Floats{};
-    // Only a leap has deeper ones.
-    constexpr float deepest = 1.5f;
-    Floats depth = is_in_disc ? tip.radius - distance_squared * per_distance : Floats{};
-    depth = depth > deepest ? lanes::floats(deepest) : depth;
-    depth = depth < -deepest ? lanes::floats(-deepest) : depth;
-    const EightForces moved =
-        forces_of(c,
-                  {places.x + tip.per_level_x * level + tip.per_depth_x * depth,
-                   places.y + tip.per_level_y * level + tip.per_depth_y * depth, places.z},
-                  weight);
-    sums.moved_x += moved.force_x - listed.force_x;
-    sums.moved_y += moved.force_y - listed.force_y;
-    sums.moved_z += moved.force_z - listed.force_z;
-}
-
-[[gnu::always_inline]] inline ChipSums sum_and_search_with(const Constants& constants,
-                                                           const TipConstants& tip_constants,
-                                                           const RemovedVoxels& removed,
-                                                           const float* weights) {
-    const Constants c = constants;
-    Floats x{};
-    Floats y{};
-    Floats z{};
-    Floats all{};
-    Floats place_x{};
-    Floats place_y{};
-    Floats place_z{};
-    std::array<std::uint16_t, RemovedVoxels::capacity / lanes::width> near_tip;  // first voxels of eights
-    std::size_t near_count = 0;
-    const float reach_squared = tip_constants.reach_squared;
-    for (std::size_t i = 0; i < removed.padded_count(); i += lanes::width) {
-        const EightPlaces places = places_of(c, &removed.x[i], &removed.y[i], &removed.z[i]);
-        const Floats weight = lanes::load<Floats>(weights + i);
-        const EightForces f = forces_of(c, places, weight, reach_squared);
-        near_tip[near_count] = static_cast<std::uint16_t>(i);
-        near_count += f.any_near ? 1 : 0;
-        x += f.force_x;
-        y += f.force_y;
-        z += f.force_z;
-        const Floats lost = lanes::load<Floats>(&removed.codes[i]);
-        all += weight;
-        place_x += lost * places.x;
-        place_y += lost * places.y;
-        place_z += lost * places.z;
-    }
-    const TipConstants tip = tip_constants;
-    EightTipSums seen;
-    for (std::size_t n = 0; n < near_count; ++n) {
-        const std::size_t i = near_tip[n];
-        const EightPlaces places = places_of(c, &removed.x[i], &removed.y[i], &removed.z[i]);
-        search_tip(c, tip, removed, i, places, lanes::load<Floats>(weights + i), seen);
-    }
-    return {{lanes::sum(x), lanes::sum(y), lanes::sum(z)},
-            {.volume = lanes::sum(seen.volume),
-             .moment = {lanes::sum(seen.x), lanes::sum(seen.y)},
-             .stiffness = lanes::sum(seen.stiffness),
-             .force = {lanes::sum(seen.force_x), lanes::sum(seen.force_y), lanes::sum(seen.force_z)},
-             .moved = {lanes::sum(seen.moved_x), lanes::sum(seen.moved_y), lanes::sum(seen.moved_z)},
-             .all = lanes::sum(all),
-             .places = glm::dvec3(lanes::sum(place_x), lanes::sum(place_y), lanes::sum(place_z)) / 255.0}};
-}
-
 #if defined(__x86_64__)
-[[gnu::target("avx2")]] ChipSums sum_and_search_avx2(const Constants& c, const TipConstants& tip,
-                                                     const RemovedVoxels& removed, const float* weights) {
-    return sum_and_search_with(c, tip, removed, weights);
-}
-
 [[gnu::target("avx2")]] void fill_avx2(const Constants& c, std::size_t count, const float* x, const float* y,
                                        const float* z, const float* weights, ChipForces& out) {
     fill_with(c, count, x, y, z, weights, out);
@@ -321,17 +172,6 @@ glm::dvec3 sum_of_chip_forces(const CuttingStep& step, const RemovedVoxels& remo
         return sum_avx2(c, count, removed.x.data(), removed.y.data(), removed.z.data(), weights.data());
 #endif
     return sum_with(c, count, removed.x.data(), removed.y.data(), removed.z.data(), weights.data());
-}
-
-ChipSums sum_of_chip_forces(const CuttingStep& step, const RemovedVoxels& removed,
-                            std::span<const float> weights, [[maybe_unused]] InstructionSet instructions,
-                            const TipSearch& tip) noexcept {
-    const Constants c = constants(step, removed.base);
-    const TipConstants t = tip_constants(step, tip);
-#if defined(__x86_64__)
-    if (instructions == InstructionSet::avx2) return sum_and_search_avx2(c, t, removed, weights.data());
-#endif
-    return sum_and_search_with(c, t, removed, weights.data());
 }
 
 }  // namespace osteomill

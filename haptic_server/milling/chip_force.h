@@ -17,7 +17,7 @@
 // moved there first, to r = R sin kappa, would add up to too much by the ramp's variance over R^2, 0.5 % for
 // a burr of ten voxels. With K_r n + K_a e_kappa written out, sin kappa / r = 1 / d leaves only e_psi / r,
 // e_r / r, e_r and 1 / r that vary quickly near the spindle's axis: of these the means of axis_means.h are
-// taken. Where the chip ends near the axis, tip_edge.h puts them right.
+// taken.
 #pragma once
 
 #include <array>
@@ -28,7 +28,6 @@
 #include "common/scene/burr.h"
 #include "haptic_server/milling/instruction_set.h"
 #include "haptic_server/milling/removed_voxels.h"
-#include "haptic_server/milling/tip_edge.h"
 
 namespace osteomill {
 
@@ -68,23 +67,5 @@ void chip_forces(const CuttingStep& step, const RemovedVoxels& removed, std::spa
 /// Sum of the same forces; burr axes, in units of CuttingStep::newton_per_unit. Real-time safe.
 glm::dvec3 sum_of_chip_forces(const CuttingStep& step, const RemovedVoxels& removed,
                               std::span<const float> weights, InstructionSet instructions) noexcept;
-
-/// Force, in the same axes and units, of chips at the tip of which the sum of weight times e / r is x and y
-/// of `at_tip`, and that of weight times cos kappa / r is z.
-inline glm::dvec3 force_at_tip(const CuttingStep& step, const glm::dvec3& at_tip) {
-    const glm::dvec3 k(step.coefficients);
-    return {k.x * at_tip.y - k.z * at_tip.x, -k.x * at_tip.x - k.z * at_tip.y, k.y * at_tip.z};
-}
-
-struct ChipSums {
-    glm::dvec3 force{0.0};
-    TipSums tip{};
-};
-
-/// The same, and what shows where the chip ends near the tip. What `removed` lists is in its bone as it is
-/// now.
-ChipSums sum_of_chip_forces(const CuttingStep& step, const RemovedVoxels& removed,
-                            std::span<const float> weights, InstructionSet instructions,
-                            const TipSearch& tip) noexcept;
 
 }  // namespace osteomill

@@ -29,14 +29,6 @@ struct SweepForLanes {
           radius(static_cast<float>(sweep.radius)),
           margin(static_cast<float>(0x1p-24 * 8.0 * (sweep.radius + 6.0))) {}
 
-    /// The ball where it begins.
-    SweepForLanes beginning() const {
-        SweepForLanes ball = *this;
-        ball.along = glm::vec3(0.0f);
-        ball.inverse_length_squared = 0.0f;
-        return ball;
-    }
-
     glm::vec3 from_whole;
     glm::vec3 from_rest;
     glm::vec3 along;

@@ -5,7 +5,6 @@
 
 #include "haptic_server/milling/cover_lanes.h"
 #include "haptic_server/milling/crescent_lanes.h"
-#include "haptic_server/milling/unrounded_loss.h"
 
 namespace osteomill {
 
@@ -16,18 +15,8 @@ static_assert(lanes::width == RemovedVoxels::lanes);
 
 Lowering::Lowering(Bone& bone, const glm::ivec3& base, const SweepSeenFrom& sweep,
                    InstructionSet instructions, EditSink& edits, RemovalSink& removed) noexcept
-    : bone_(bone),
-      sweep_(sweep),
-      instructions_(instructions),
-      edits_(edits),
-      sink_(removed),
-      wants_unrounded_(removed.wants_unrounded()) {
-    unrounded_.base = base;
-    voxels_.bone = &bone;
+    : bone_(bone), sweep_(sweep), instructions_(instructions), edits_(edits), sink_(removed) {
     voxels_.base = base;
-    awaiting_.base = base;
-    awaiting_.from = sweep.from;
-    awaiting_.along = sweep.along;
 }
 
 struct Lowering::Kernel {
@@ -127,25 +116,6 @@ struct Lowering::Kernel {
         }
     }
 
-    /// Lists those of eight voxels that await the burr, each a bit that is set: few, and where they are there
-    /// is little to lower.
-    [[gnu::noinline]] void list_awaiting(const EightVoxels& voxels, unsigned awaiting, std::int32_t slot) {
-        AwaitingVoxels& out = to.awaiting_;
-        if (out.count + lanes::width > AwaitingVoxels::capacity) to.hand_on_awaiting();
-        std::size_t n = out.count;
-        for (unsigned bits = awaiting; bits != 0; bits &= bits - 1) {
-            const int lane = std::countr_zero(bits);
-            out.x[n] = voxels.x[lane];
-            out.y[n] = voxels.y[lane];
-            out.z[n] = voxels.z[lane];
-            out.left[n] = static_cast<float>(voxels.old[lane]);
-            out.slot[n] = slot;
-            out.offset[n] = voxels.offset[lane];
-            ++n;
-        }
-        out.count = n;
-    }
-
     /// Adds eight voxels and what they lose to a batch that has room for them.
     [[gnu::always_inline]] static void append(RemovedVoxels& out, const EightVoxels& voxels,
                                               const Floats& codes, std::int32_t slot) {
@@ -157,17 +127,6 @@ struct Lowering::Kernel {
         lanes::store(&out.slot[n], lanes::ints(slot));
         lanes::store(&out.offset[n], voxels.offset);
         out.count += lanes::width;
-    }
-
-    /// Lists what eight voxels lose between two of their 255 steps.
-    template <VoxelEdges edges>
-    [[gnu::always_inline]] void list_unrounded(const SweepForLanes& from, const SweepForLanes& sweep,
-                                               const EightVoxels& voxels, const Ints& most_left,
-                                               std::int32_t slot) {
-        if (to.unrounded_.count == RemovedVoxels::capacity) to.hand_on_unrounded();
-        const Ints left = lanes::smaller(voxels.old, most_left);
-        append(to.unrounded_, voxels,
-               loss_between_steps<edges>(from, sweep, voxels.x, voxels.y, voxels.z, voxels.old, left), slot);
     }
 
     /// Writes what is left of eight voxels and lists those that lost something. Says which did.
@@ -212,19 +171,6 @@ struct Lowering::Kernel {
             if (lanes::any(left_a.is_unsure | left_b.is_unsure)) [[unlikely]] {
                 make_sure<edges>(sweep, a, left_a);
                 make_sure<edges>(sweep, b, left_b);
-            }
-            const Ints awaits_a = (a.old > 0) & (a.old < left_a.left);
-            const Ints awaits_b = (b.old > 0) & (b.old < left_b.left);
-            if (lanes::any(awaits_a | awaits_b)) [[unlikely]] {
-                list_awaiting(a, lanes::bits_of(awaits_a), slot);
-                list_awaiting(b, lanes::bits_of(awaits_b), slot);
-            }
-            if constexpr (edges != VoxelEdges::whole) {
-                if (to.wants_unrounded_) [[unlikely]] {
-                    const SweepForLanes from = fast.beginning();
-                    list_unrounded<edges>(from, fast, a, left_a.left, slot);
-                    list_unrounded<edges>(from, fast, b, left_b.left, slot);
-                }
             }
             changed[0] = lower_eight(a, left_a.left, fractions, slot, i, count);
             if (i + lanes::width < count)
@@ -346,23 +292,9 @@ void Lowering::hand_on_voxels() noexcept {
     voxels_.count = 0;
 }
 
-void Lowering::hand_on_awaiting() noexcept {
-    hand_on_voxels();
-    awaiting_.pad();
-    if (awaiting_.count > 0) sink_.await(awaiting_);
-    awaiting_.count = 0;
-}
-
-void Lowering::hand_on_unrounded() noexcept {
-    hand_on_voxels();
-    if (unrounded_.count > 0) sink_.take_unrounded(unrounded_);
-    unrounded_.count = 0;
-}
-
 void Lowering::flush() noexcept {
     report_changes();
-    hand_on_awaiting();
-    hand_on_unrounded();
+    hand_on_voxels();
 }
 
 }  // namespace osteomill

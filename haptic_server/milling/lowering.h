@@ -8,7 +8,6 @@
 
 #include "common/bone/bone.h"
 #include "common/bone/edit.h"
-#include "haptic_server/milling/awaiting_voxels.h"
 #include "haptic_server/milling/brick_layer.h"
 #include "haptic_server/milling/cover.h"
 #include "haptic_server/milling/crescent_rows.h"
@@ -43,8 +42,6 @@ class Lowering {
     void report_changes() noexcept;
     void report_run(std::size_t first_voxel, std::size_t last_voxel) noexcept;
     void hand_on_voxels() noexcept;
-    void hand_on_awaiting() noexcept;
-    void hand_on_unrounded() noexcept;
 
     Bone& bone_;
     SweepSeenFrom sweep_;
@@ -72,9 +69,6 @@ class Lowering {
     alignas(
         64) std::array<std::int32_t, brick_voxel_count + 2 * RemovedVoxels::lanes> list_;  // offsets in it
     RemovedVoxels voxels_;
-    AwaitingVoxels awaiting_;
-    bool wants_unrounded_;
-    RemovedVoxels unrounded_;
 };
 
 }  // namespace osteomill

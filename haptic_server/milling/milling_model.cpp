@@ -9,7 +9,6 @@
 #include "haptic_server/milling/carve.h"
 #include "haptic_server/milling/crescent_rows.h"
 #include "haptic_server/milling/cutting_force.h"
-#include "haptic_server/milling/onsets.h"
 #include "haptic_server/milling/stiffness_weights.h"
 #include "haptic_server/milling/usable_burr.h"
 
@@ -30,59 +29,23 @@ constexpr double longest_wait_s = 0.001 - 1e-7;
 /// Nobody feels the direction of a step that crosses the whole bone.
 constexpr double most_stretches = 64.0;
 
-/// Slower, force is counted from what voxels lose between their 255 steps (unrounded_loss.h), which takes
-/// half as long again; faster, whole steps say as much.
-constexpr double slow_voxels_per_s = 30.0;
-/// What was removed fades from the memory within so much of the way.
-constexpr double lately_voxels = 0.5;
-
-/// Weighs each removed voxel by its stiffness, enters it into the account and hands it to the force, and
-/// afterwards what smooths the moments at which voxels are met and the steps of their fractions.
+/// Weighs each removed voxel by its stiffness, enters it into the account and hands it to the force.
 template <typename Force>
 class ForceOfRemoved final : public RemovalSink {
   public:
-    /// `lately_removed_codes` grows by what is removed.
-    ForceOfRemoved(const BoneContent& content, RemovalAccount& account, Onsets& onsets, bool is_slow,
-                   double& lately_removed_codes, Force& force) noexcept
-        : content_(content),
-          account_(account),
-          onsets_(onsets),
-          is_slow_(is_slow),
-          lately_removed_codes_(lately_removed_codes),
-          force_(force) {}
+    ForceOfRemoved(const BoneContent& content, RemovalAccount& account, Force& force) noexcept
+        : content_(content), account_(account), force_(force) {}
 
     void take(const RemovedVoxels& removed) noexcept override {
         enter(removed);
-        add(removed, 1.0);
-    }
-
-    void await(const AwaitingVoxels& awaiting) noexcept override {
-        onsets_.take(awaiting);
-        if (onsets_.voxels().count > 0) force_.add(onsets_.voxels(), onsets_.weights());
-    }
-
-    bool wants_unrounded() const noexcept override { return is_slow_; }
-
-    void take_unrounded(const RemovedVoxels& more) noexcept override {
-        double codes = 0.0;
-        for (std::size_t i = 0; i < more.count; ++i) codes += static_cast<double>(std::abs(more.codes[i]));
-        if (!(codes > 0.0)) return;
-        add(more, std::min(1.0, lately_removed_codes_ / codes));
-    }
-
-  private:
-    /// Hands `share` of what voxels lose to the force.
-    void add(const RemovedVoxels& removed, double share) noexcept {
-        weigh_by_stiffness(content_, removed, share, weights_);
+        weigh_by_stiffness(content_, removed, weights_);
         force_.add(removed, {weights_.data(), removed.padded_count()});
     }
 
+  private:
     void enter(const RemovedVoxels& removed) noexcept {
-        const double codes = removed.lost_codes();
-        onsets_.removed(codes);
-        lately_removed_codes_ += codes;
         if (content_.tissue.empty()) {
-            account_.take(0, codes);
+            account_.take(0, removed.lost_codes());
             return;
         }
         for (std::size_t i = 0; i < removed.count; ++i)
@@ -92,9 +55,6 @@ class ForceOfRemoved final : public RemovalSink {
 
     const BoneContent& content_;
     RemovalAccount& account_;
-    Onsets& onsets_;
-    bool is_slow_;
-    double& lately_removed_codes_;
     Force& force_;
     alignas(64) std::array<float, RemovedVoxels::capacity> weights_;
 };
@@ -108,7 +68,6 @@ MillingModel::MillingModel(Bone bone, std::vector<Burr> burrs, const std::vector
       settings_(settings),
       chips_(settings.bins),
       tooth_(settings.instants_per_tooth, settings.instructions),
-      tip_(settings.instructions),
       account_(bone_.grid(), tissues) {
     if (burrs_.empty()) throw std::invalid_argument("the milling model needs at least one burr");
     probes_.reserve(burrs_.size());
@@ -121,11 +80,7 @@ MillingModel::MillingModel(Bone bone, std::vector<Burr> burrs, const std::vector
 template <typename Force>
 void MillingModel::carve_and_sum(const Sweep& sweep, double share, EditSink& edits, Force& force,
                                  MillingResult& result) noexcept {
-    Onsets onsets(sweep.radius, settings_.edges, bone_.content(), settings_.instructions);
-    const double way_voxels = glm::length(sweep.to - sweep.from);
-    const bool is_slow = way_voxels < slow_voxels_per_s * share * since_milled_s_;
-    lately_removed_codes_ *= std::exp(-way_voxels / lately_voxels);
-    ForceOfRemoved removed(bone_.content(), account_, onsets, is_slow, lately_removed_codes_, force);
+    ForceOfRemoved removed(bone_.content(), account_, force);
     carve(bone_, sweep, carved_at_position_ ? CarveHistory::carved_at_from : CarveHistory::none,
           {.edges = settings_.edges, .instructions = settings_.instructions}, edits, removed);
     result.force_n += share * force.force_n();
@@ -140,10 +95,7 @@ void MillingModel::cut(const BurrCommand& command, const glm::dvec3& to_mm, doub
     const CuttingStep cutting(burr, command.pose.spindle_axis, 0.5 * (sweep.from + sweep.to), grid.spacing_mm,
                               share * since_milled_s_);
     if (settings_.summation == ForceSummation::voxels) {
-        // The first stretch of all clears a whole ball, which shows no face.
-        tip_.begin_step(cutting.frame, cutting.radius_voxels,
-                        carved_at_position_ ? sweep.to - sweep.from : glm::dvec3(0.0));
-        CuttingForce force(cutting, settings_.instructions, tip_);
+        CuttingForce force(cutting, settings_.instructions);
         carve_and_sum(sweep, share, edits, force, result);
     } else if (settings_.summation == ForceSummation::bins) {
         chips_.begin_step(burr, cutting);
@@ -184,10 +136,7 @@ void MillingModel::mill(const BurrCommand& command, EditSink& edits, MillingResu
             edits, result);
     }
     // A spindle that starts within bone clears a whole ball at once, which no later step does again.
-    if (is_first) {
-        lately_removed_codes_ = 0.0;
-        tooth_.forget();
-    }
+    if (is_first) tooth_.forget();
     milled_force_n_ = is_first ? glm::dvec3(0.0) : result.force_n;
     since_milled_s_ = 0.0;
 }

@@ -56,7 +56,6 @@ class MillingModel final : public ContactModel {
     MillingSettings settings_;
     ChipMap chips_;
     ToothForce tooth_;
-    TipEdge tip_;
     RemovalAccount account_;
 
     bool has_position_ = false;        // position_mm_ holds where the burr last milled, or was
@@ -64,7 +63,6 @@ class MillingModel final : public ContactModel {
     glm::dvec3 position_mm_{0.0};
     std::size_t burr_ = 0;
     double since_milled_s_ = 0.0;
-    double lately_removed_codes_ = 0.0;
     glm::dvec3 milled_force_n_{0.0};  // of the way that was last milled
 };
 

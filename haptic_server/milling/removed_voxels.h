@@ -7,11 +7,7 @@
 #include <cstdint>
 #include <glm/vec3.hpp>
 
-#include "haptic_server/milling/awaiting_voxels.h"
-
 namespace osteomill {
-
-class Bone;
 
 /// Structure of arrays, scratch of a carve: entries beyond the count are not set, except that pad() fills the
 /// last group of `lanes`.
@@ -19,8 +15,7 @@ struct RemovedVoxels {
     static constexpr std::size_t capacity = 512;
     static constexpr std::size_t lanes = 8;
 
-    const Bone* bone = nullptr;  ///< that they were lowered in; none where they only stand for a loss
-    glm::ivec3 base{0};          ///< voxel that x, y, z are counted from
+    glm::ivec3 base{0};  ///< voxel that x, y, z are counted from
     std::size_t count = 0;
     alignas(64) std::array<float, capacity> x;  ///< whole numbers of 0 to a few hundred
     alignas(64) std::array<float, capacity> y;
@@ -52,13 +47,6 @@ class RemovalSink {
   public:
     virtual ~RemovalSink() = default;
     virtual void take(const RemovedVoxels& removed) noexcept = 0;
-    /// Voxels that the same sweep has not met (awaiting_voxels.h), for sums that look ahead.
-    virtual void await(const AwaitingVoxels&) noexcept {}
-    /// Whether take_unrounded() is to be told anything: it takes time.
-    virtual bool wants_unrounded() const noexcept { return false; }
-    /// By how much more than whole steps voxels would lose if nothing were rounded (unrounded_loss.h); of no
-    /// bone.
-    virtual void take_unrounded(const RemovedVoxels&) noexcept {}
 };
 
 }  // namespace osteomill

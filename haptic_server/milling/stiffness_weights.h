@@ -9,16 +9,16 @@
 
 namespace osteomill {
 
-/// `share` of relative stiffness times the fraction that each voxel lost; zero for padding. `weights` has
-/// room for removed.padded_count(). Real-time safe.
-inline void weigh_by_stiffness(const BoneContent& content, const RemovedVoxels& removed, double share,
+/// Relative stiffness times the fraction that each voxel lost; zero for padding. `weights` has room for
+/// removed.padded_count(). Real-time safe.
+inline void weigh_by_stiffness(const BoneContent& content, const RemovedVoxels& removed,
                                std::span<float> weights) noexcept {
     if (content.stiffness.empty()) {
-        const auto per_code = static_cast<float>(share * content.homogeneous_stiffness / 255.0);
+        const auto per_code = static_cast<float>(content.homogeneous_stiffness / 255.0);
         for (std::size_t i = 0; i < removed.padded_count(); ++i) weights[i] = per_code * removed.codes[i];
         return;
     }
-    const auto per_code = static_cast<float>(share * content.stiffness_per_code / 255.0);
+    const auto per_code = static_cast<float>(content.stiffness_per_code / 255.0);
     for (std::size_t i = 0; i < removed.count; ++i) {
         const ByteBrick& stiffness = content.stiffness[static_cast<std::size_t>(removed.slot[i])];
         weights[i] = per_code * static_cast<float>(stiffness[static_cast<std::size_t>(removed.offset[i])]) *

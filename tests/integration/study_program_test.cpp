@@ -103,9 +103,9 @@ TEST_F(StudyProgram, DrawsItsChartsQuickly) {
     const Outcome outcome = run("force --quick --out " + out_);
     ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
     EXPECT_THAT(outcome.out, HasSubstr(out_)) << "says where the files are";
-    EXPECT_THAT(outcome.err, HasSubstr("survey 100 %\n"));
+    EXPECT_THAT(outcome.err, HasSubstr("random 100 %\n"));
     const auto found = nlohmann::json::parse(text_of(out_ + "/force.json"));
-    EXPECT_LT(found.at("survey").at("all").at("error_percent").at("p50"), 1.0);
+    EXPECT_LT(found.at("random").at("median_error_percent"), 1.0);
     EXPECT_GE(found.at("convergence").at("soft_slope"), 1.0) << "at least linear";
     for (const auto& row : found.at("cost").at("by_diameter"))
         EXPECT_GT(row.at("times_faster").at("100_hz"), 0.0);

@@ -7,6 +7,7 @@
 #include <exception>
 #include <filesystem>
 #include <iostream>
+#include <optional>
 #include <string>
 
 #include "haptic_server/imaging/progress.h"
@@ -28,6 +29,8 @@ struct ForceOptions {
     std::filesystem::path out = "study/force";
     std::filesystem::path cases{};
     osteomill::study::SteadyRun run{};
+    std::optional<int> random{};
+    std::uint64_t seed = 1;
     bool quick = false;
 };
 
@@ -40,9 +43,19 @@ void add_force(CLI::App& app, ForceOptions& options) {
         "--cases", options.cases,
         "run the steady motions of this JSON file (the schema of tests/data/milling_forces.json) and "
         "write OUT/cases.json; nothing else is run");
-    force->add_flag("--quick", options.quick, "fewer points, shorter runs: under a minute")->excludes(cases);
-    force->add_option("--voxel-mm", options.run.voxel_mm, "edge of a voxel")
-        ->needs(cases)
+    CLI::Option* random =
+        force
+            ->add_option(
+                "--random", options.random,
+                "run so many steady motions drawn at random and write OUT/random.json and random.csv; "
+                "nothing else is run")
+            ->excludes(cases)
+            ->check(CLI::Range(1, 1'000'000));
+    force->add_option("--seed", options.seed, "of the random motions")->needs(random)->capture_default_str();
+    force->add_flag("--quick", options.quick, "fewer points, shorter runs: under a minute")
+        ->excludes(cases)
+        ->excludes(random);
+    force->add_option("--voxel-mm", options.run.voxel_mm, "edge of a voxel, of --cases and --random")
         ->capture_default_str()
         ->check(CLI::Range(0.01, 1.0));
     force->add_option("--milling-rate-hz", options.run.milling_rate_hz, "steps of the voxel model a second")
@@ -76,6 +89,12 @@ void run(const ForceOptions& options) {
     osteomill::study::make_folder(options.out);
     if (!options.cases.empty())
         run_cases(options);
+    else if (options.random)
+        osteomill::study::run_random_motions({.out = options.out,
+                                              .count = *options.random,
+                                              .seed = options.seed,
+                                              .voxel_mm = options.run.voxel_mm},
+                                             surroundings());
     else
         osteomill::study::run_force_study({.out = options.out, .quick = options.quick}, surroundings());
 }
@@ -128,6 +147,9 @@ int main(int argc, char** argv) {
     const CLI::App* const is_realtime = osteomill::study::add_realtime(app, realtime);
     try {
         app.parse(argc, argv);
+        if (app.got_subcommand("force") && app.get_subcommand("force")->count("--voxel-mm") > 0 &&
+            force.cases.empty() && !force.random)
+            throw CLI::RequiresError("--voxel-mm", "--cases or --random");
         if (app.get_subcommands().empty())
             throw CLI::RequiredError("a study to run: force, stability, polishing, render or realtime");
     } catch (const CLI::ParseError& error) {

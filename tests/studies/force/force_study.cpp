@@ -15,8 +15,8 @@
 #include "tests/studies/force/force_curves.h"
 #include "tests/studies/force/memory.h"
 #include "tests/studies/force/pareto.h"
+#include "tests/studies/force/random_motions.h"
 #include "tests/studies/force/scaling.h"
-#include "tests/studies/force/survey.h"
 #include "tests/studies/report/chart.h"
 #include "tests/studies/report/output_files.h"
 
@@ -26,6 +26,30 @@ namespace {
 
 using nlohmann::ordered_json;
 
+/// Measures random motions, writes their table and says how they did.
+ordered_json measure_random(const RandomStudyOptions& options, const std::string& name,
+                            const MillingSettings& settings, const StudySurroundings& surroundings) {
+    ProgressLine line(surroundings.progress, surroundings.is_terminal, name);
+    const Progress progress = line.reporter();
+    std::vector<RandomResult> results;
+    for (const RandomMotion& motion : random_motions(options.count, options.seed, options.voxel_mm)) {
+        results.push_back(measure(motion, voxel_model(settings)));
+        progress(static_cast<double>(results.size()) / options.count);
+    }
+    write_text(csv_of(results), options.out / (name + ".csv"));
+    ordered_json summary{{"seed", options.seed}, {"voxel_mm", options.voxel_mm}};
+    summary.update(summary_of(results));
+    surroundings.said << fmt::format(
+        "{}: {} motions of seed {}: error median {:.2f} %, 95 % within {:.2f}, 99 % within {:.2f}, worst "
+        "{:.2f} %; "
+        "ripple along the surface 90 % within {:.2f}, worst {:.2f} %\n",
+        name, results.size(), options.seed, summary["median_error_percent"].get<double>(),
+        summary["p95_error_percent"].get<double>(), summary["p99_error_percent"].get<double>(),
+        summary["max_error_percent"].get<double>(), summary["ripple_p90_percent"].get<double>(),
+        summary["ripple_max_percent"].get<double>());
+    return summary;
+}
+
 /// One run of the study: what was asked, where it goes.
 class ForceStudy {
   public:
@@ -34,8 +58,10 @@ class ForceStudy {
 
     void run() {
         ordered_json found;
-        found["survey"] = survey("survey", {});
-        found["survey_partial"] = survey("survey_partial", {.edges = VoxelEdges::partial});
+        const RandomStudyOptions random{.out = options_.out, .count = options_.quick ? 60 : 500};
+        found["random"] = measure_random(random, "random", {}, surroundings_);
+        found["random_partial"] =
+            measure_random(random, "random_partial", {.edges = VoxelEdges::partial}, surroundings_);
         found["pareto"] = pareto();
         found["convergence"] = convergence();
         curves();
@@ -63,29 +89,6 @@ class ForceStudy {
 
     void write(const std::string& table, const std::string& name) const {
         write_text(table, options_.out / name);
-    }
-
-    ordered_json survey(const std::string& name, const MillingSettings& settings) const {
-        const auto points = survey_points(options_.quick);
-        const auto results = with_progress(name, [&](const Progress& progress) {
-            std::vector<SurveyResult> measured;
-            for (const SurveyPoint& point : points) {
-                measured.push_back(measure(point, voxel_model(settings)));
-                progress(static_cast<double>(measured.size()) / static_cast<double>(points.size()));
-            }
-            return measured;
-        });
-        write(csv_of(results), name + ".csv");
-        std::size_t misses = 0;
-        for (const SurveyResult& r : results) {
-            if (r.meets_error() && r.meets_ripple()) continue;
-            ++misses;
-            say("{} misses: {}: error {:.2f} % (target {:.0f} %), ripple {:.2f} %{}", name,
-                r.point.motion.name, 100.0 * r.error, 100.0 * r.point.most_error, 100.0 * r.ripple,
-                r.point.most_ripple ? fmt::format(" (target {:.0f} %)", 100.0 * *r.point.most_ripple) : "");
-        }
-        say("{}: {} of {} motions meet their targets", name, results.size() - misses, results.size());
-        return summary_of(results);
     }
 
     ordered_json pareto() const {
@@ -225,6 +228,11 @@ class ForceStudy {
 };
 
 }  // namespace
+
+void run_random_motions(const RandomStudyOptions& options, const StudySurroundings& surroundings) {
+    const ordered_json summary = measure_random(options, "random", {}, surroundings);
+    write_json(summary, options.out / "random.json");
+}
 
 void run_force_study(const ForceStudyOptions& options, const StudySurroundings& surroundings) {
     ForceStudy(options, surroundings).run();

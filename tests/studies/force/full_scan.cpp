@@ -12,7 +12,6 @@
 #include "haptic_server/milling/burr_frame.h"
 #include "haptic_server/milling/crescent_rows.h"
 #include "haptic_server/milling/cutting_force.h"
-#include "haptic_server/milling/onsets.h"
 
 namespace osteomill::study {
 
@@ -45,13 +44,9 @@ std::vector<ToolVoxel> tool_voxels(double reach) {
 template <typename Force>
 class MetBone {
   public:
-    MetBone(Bone& bone, const Sweep& sweep, const glm::ivec3& base, VoxelEdges edges, Onsets& onsets,
-            Force& force)
-        : bone_(bone), sweep_(sweep, glm::dvec3(base), edges), onsets_(onsets), force_(force) {
-        met_.bone = &bone;
-        met_.base = awaiting_.base = base;
-        awaiting_.from = sweep_.from;
-        awaiting_.along = sweep_.along;
+    MetBone(Bone& bone, const Sweep& sweep, const glm::ivec3& base, VoxelEdges edges, Force& force)
+        : bone_(bone), sweep_(sweep, glm::dvec3(base), edges), force_(force) {
+        met_.base = base;
     }
 
     void add(const glm::ivec3& voxel, std::int32_t slot) {
@@ -73,7 +68,6 @@ class MetBone {
         const std::size_t met_count = std::exchange(met_.count, 0);
         for (std::size_t i = 0; i < met_count; ++i) {
             std::uint8_t& fraction = bone_.fractions(met_.slot[i])[static_cast<std::size_t>(met_.offset[i])];
-            if (left_[i] > fraction) await(i, fraction);
             if (left_[i] >= fraction) continue;
             const int codes = fraction - left_[i];
             fraction = static_cast<std::uint8_t>(left_[i]);
@@ -91,44 +85,17 @@ class MetBone {
         met_.pad();
         for (std::size_t i = met_.count; i < met_.padded_count(); ++i) weights_[i] = 0.0f;
         if (met_.count > 0) force_.add(met_, {weights_.data(), met_.padded_count()});
-        onsets_.removed(met_.lost_codes());
         met_.count = 0;
-    }
-
-    void finish() {
-        lower();
-        smooth_onsets();
     }
 
     double removed_codes() const { return removed_codes_; }
 
   private:
-    /// A voxel that was met keeps its `left`: it awaits the burr.
-    void await(std::size_t i, std::uint8_t left) {
-        if (awaiting_.count == AwaitingVoxels::capacity) smooth_onsets();
-        const std::size_t n = awaiting_.count++;
-        awaiting_.x[n] = met_.x[i];
-        awaiting_.y[n] = met_.y[i];
-        awaiting_.z[n] = met_.z[i];
-        awaiting_.left[n] = static_cast<float>(left);
-        awaiting_.slot[n] = met_.slot[i];
-        awaiting_.offset[n] = met_.offset[i];
-    }
-
-    void smooth_onsets() {
-        awaiting_.pad();
-        onsets_.take(awaiting_);
-        if (onsets_.voxels().count > 0) force_.add(onsets_.voxels(), onsets_.weights());
-        awaiting_.count = 0;
-    }
-
     Bone& bone_;
     SweepSeenFrom sweep_;
-    Onsets& onsets_;
     Force& force_;
     double removed_codes_ = 0.0;
     RemovedVoxels met_;
-    AwaitingVoxels awaiting_;
     alignas(64) std::array<std::int32_t, RemovedVoxels::capacity> left_;
     alignas(64) std::array<float, RemovedVoxels::capacity> weights_;
 };
@@ -142,8 +109,7 @@ class FullScan final : public StudiedModel {
           radius_voxels_(burr.radius_mm() / bone_.grid().spacing_mm),
           tool_(tool_voxels(radius_voxels_ + rim_voxels(settings.edges) + 1.0 +
                             0.5 * CrescentRows::longest_step_voxels)),
-          chips_(settings.bins),
-          tip_(InstructionSet::plain) {
+          chips_(settings.bins) {
         if (settings.summation == ForceSummation::instants)
             throw std::invalid_argument("the full scan sums over voxels or bins, not over instants");
     }
@@ -160,13 +126,10 @@ class FullScan final : public StudiedModel {
                 chips_.begin_step(burr_, cutting);
                 outcome = mill(sweep, cutting, chips_);
             } else {
-                tip_.begin_step(cutting.frame, radius_voxels_,
-                                was_on_ ? sweep.to - sweep.from : glm::dvec3(0.0));
-                CuttingForce force(cutting, InstructionSet::plain, tip_);
+                CuttingForce force(cutting, InstructionSet::plain);
                 outcome = mill(sweep, cutting, force);
             }
         }
-        was_on_ = command.spindle_on;
         position_mm_ = command.pose.position_mm;
         has_position_ = true;
         return outcome;
@@ -181,19 +144,18 @@ class FullScan final : public StudiedModel {
     StepOutcome mill(const Sweep& sweep, const CuttingStep& cutting, Force& force) {
         const glm::dvec3 along = sweep.to - sweep.from;
         const double parts = std::max(1.0, std::ceil(glm::length(along) / CrescentRows::longest_step_voxels));
-        Onsets onsets(sweep.radius, settings_.edges, bone_.content(), InstructionSet::plain);
         glm::dvec3 from = sweep.from;
         double codes = 0.0;
         for (double part = 1.0; part <= parts; part += 1.0) {
             const glm::dvec3 to = part == parts ? sweep.to : sweep.from + along * (part / parts);
-            codes += scan({from, to, sweep.radius}, cutting, onsets, force);
+            codes += scan({from, to, sweep.radius}, cutting, force);
             from = to;
         }
         return {force.force_n(), codes / 255.0 * voxel_volume_mm3(bone_.grid())};
     }
 
     template <typename Force>
-    double scan(const Sweep& sweep, const CuttingStep& cutting, Onsets& onsets, Force& force) {
+    double scan(const Sweep& sweep, const CuttingStep& cutting, Force& force) {
         const glm::dvec3 middle = 0.5 * (sweep.from + sweep.to);
         const glm::ivec3 centre(glm::round(middle));
         const double reach =
@@ -201,7 +163,7 @@ class FullScan final : public StudiedModel {
         const double to_centre = glm::length(middle - glm::dvec3(centre));
         const glm::dmat3 into_burr_frame = glm::transpose(cutting.frame);
         const auto base = centre - static_cast<int>(std::ceil(reach)) - 2;
-        MetBone<Force> met(bone_, sweep, base, settings_.edges, onsets, force);
+        MetBone<Force> met(bone_, sweep, base, settings_.edges, force);
         for (const ToolVoxel& tool : tool_) {
             if (tool.distance_voxels > reach + to_centre) break;
             const glm::ivec3 voxel = centre + tool.offset;
@@ -212,7 +174,7 @@ class FullScan final : public StudiedModel {
             if (slot == BoneContent::no_slot || bone_.fractions(slot)[offset_in_brick(voxel)] == 0) continue;
             met.add(voxel, slot);
         }
-        met.finish();
+        met.lower();
         return met.removed_codes();
     }
 
@@ -222,8 +184,6 @@ class FullScan final : public StudiedModel {
     double radius_voxels_;
     std::vector<ToolVoxel> tool_;
     ChipMap chips_;
-    TipEdge tip_;
-    bool was_on_ = false;
     bool has_position_ = false;
     glm::dvec3 position_mm_{0.0};
 };

@@ -2,8 +2,7 @@
 // of them, some 65 000 for a 5 mm burr at 0.1 mm, turns it into the burr's frame, tests it against the tool's
 // shape and the bone, and lowers what is left. No bricks are passed over, no crescent is known. It follows
 // the same rule of what a sweep leaves of a voxel (cover.h) and sums force with the same sums (chip_map.h,
-// cutting_force.h, onsets.h), so that bone and force are those of MillingModel, but for what unrounded_loss.h
-// puts right in slow feeds, and only the way of finding voxels differs.
+// cutting_force.h), so that bone and force are those of MillingModel, and only how voxels are found differs.
 #pragma once
 
 #include "tests/studies/force/studied_model.h"

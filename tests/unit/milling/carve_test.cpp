@@ -157,46 +157,6 @@ TEST(Carve, LeavesOfEachVoxelWhatTheFormulaSays) {
             }
 }
 
-/// Checks each of the voxels that await the burr.
-class Awaiting final : public RemovalSink {
-  public:
-    Awaiting(const Bone& bone, const Sweep& sweep) : bone_(bone), sweep_(sweep) {}
-
-    void take(const RemovedVoxels&) noexcept override {}
-    void await(const AwaitingVoxels& awaiting) noexcept override {
-        const SweepSeenFrom seen(sweep_, glm::dvec3(awaiting.base), VoxelEdges::soft);
-        EXPECT_LT(glm::distance(awaiting.from + glm::dvec3(awaiting.base), sweep_.from), 1e-9);
-        EXPECT_LT(glm::distance(awaiting.along, sweep_.to - sweep_.from), 1e-9);
-        for (std::size_t i = 0; i < awaiting.count; ++i, ++count) {
-            const glm::vec3 place(awaiting.x[i], awaiting.y[i], awaiting.z[i]);
-            const glm::ivec3 voxel = awaiting.base + glm::ivec3(place);
-            const auto left = static_cast<int>(awaiting.left[i]);
-            EXPECT_GT(left, 0);
-            EXPECT_EQ(left, bone_.fraction_at(voxel));
-            EXPECT_LT(left, fraction_left<VoxelEdges::soft>(seen, place.x, place.y, place.z));
-            EXPECT_EQ(bone_.fractions(awaiting.slot[i])[static_cast<std::size_t>(awaiting.offset[i])], left);
-        }
-    }
-
-    int count = 0;
-
-  private:
-    const Bone& bone_;
-    Sweep sweep_;
-};
-
-TEST(Carve, HandsOnTheVoxelsThatAwaitTheBurr) {
-    Bone bone = block();
-    carve_path(bone, {{-2.0, 0.0, 0.05}, {2.0, 0.0, 0.05}});
-    carve_path(bone, {{-1.0, 0.0, 0.0}});
-    NoEdits edits;
-    const Sweep sweep = in_voxels(bone, {-1.0, 0.0, 0.0}, {-0.95, 0.0, 0.01});
-    Awaiting awaiting(bone, sweep);
-    carve(bone, sweep, CarveHistory::carved_at_from, {}, edits, awaiting);
-    EXPECT_GT(awaiting.count, 10);
-    EXPECT_LT(awaiting.count, 1000) << "those that the burr is near";
-}
-
 TEST(Carve, EditsRebuildTheBoneInAnotherCopy) {
     class Apply final : public EditSink {
       public:

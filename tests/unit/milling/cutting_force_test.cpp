@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include "tests/studies/force/studied_motion.h"
-#include "tests/studies/force/survey.h"
 #include "tests/support/removed_voxel.h"
 #include "tests/support/steady_motion.h"
 
@@ -93,40 +92,6 @@ TEST(CuttingForce, TakesEachLayersShareAndFollowsACurvedPath) {
     }
 }
 
-TEST(CuttingForce, HoldsWhereTheTipOfASmallTiltedBurrCuts) {
-    // The spindle's axis lies within the cut, ten voxels are all there are of the burr, and the force of one
-    // side of the axis nearly cancels that of the other.
-    int tried = 0;
-    for (const study::SurveyPoint& point : study::survey_points(false)) {
-        const bool cuts_with_its_tip = point.motion.burr.diameter_mm == 1.0 &&
-                                       (point.group == "tip" || point.group == "tip at the face" ||
-                                        (point.group == "plunge" && point.tilt_deg == 30.0) ||
-                                        (point.group == "tilt" && point.azimuth_deg == 180.0));
-        if (!cuts_with_its_tip) continue;
-        ++tried;
-        EXPECT_LT(study::measure(point, study::voxel_model()).error, 0.02) << point.motion.name;
-    }
-    EXPECT_GT(tried, 80);
-}
-
-TEST(CuttingForce, OfATipAtTheBonesFaceDoesNotDependOnTheTickRate) {
-    for (const study::SurveyPoint& point : study::survey_points(false)) {
-        // The axis in the face: without tip_edge.h 15 % off.
-        if (point.group != "tip at the face" || point.tilt_deg != 30.0 || point.azimuth_deg != 145.0 ||
-            point.motion.burr.diameter_mm != 1.5)
-            continue;
-        const glm::dvec3 reference =
-            mean_reference_force_n(study::motion_of(point.motion), study::bone_of(point.motion));
-        for (const double rate_hz : {100.0, 1000.0, 10'000.0}) {
-            const study::ForceSeries series = study::run_steady(
-                point.motion, {.milling_rate_hz = rate_hz, .travel_mm = 1.0}, study::voxel_model());
-            EXPECT_LT(relative_error(study::mean_force_n(series), reference), 0.02) << rate_hz << " Hz";
-        }
-        return;
-    }
-    FAIL() << "no such motion";
-}
-
 TEST(CuttingForce, ErrsLessTheFinerTheVoxels) {
     double coarser = 1.0;
     for (const double voxel_mm : {0.4, 0.2, 0.1}) {
@@ -147,30 +112,6 @@ TEST(CuttingForce, OfASlotIsSteadyFromStepToStep) {
             continue;
         const auto series = study::run_steady(c, {}, study::voxel_model());
         EXPECT_LT(study::ripple(series), 0.02) << c.name;
-    }
-}
-
-TEST(CuttingForce, OfASecondPassIsSteadyThoughItMeetsRowsOfVoxelsAtOnce) {
-    // Half a voxel deeper, along the lattice: 3.2 % without onsets.h, at every rate.
-    study::SteadyCase c{.burr = {.diameter_mm = 5.0}, .velocity_mm_per_s = {6.0, 0.0, 0.0}};
-    c.depth_mm = 0.5;
-    c.previous_groove_mm_higher = 0.05;
-    for (const double rate_hz : {100.0, 1000.0}) {
-        const auto series = study::run_steady(c, {.milling_rate_hz = rate_hz}, study::voxel_model());
-        EXPECT_LT(study::ripple(series), 0.015) << rate_hz;
-    }
-}
-
-TEST(CuttingForce, OfASlowSecondPassIsSteadyThoughVoxelsLoseAStepAtATime) {
-    // 9.7 % without unrounded_loss.h.
-    study::SteadyCase c{.burr = {.diameter_mm = 5.0}, .velocity_mm_per_s = {0.5, 0.0, 0.0}};
-    c.depth_mm = 0.5;
-    c.previous_groove_mm_higher = 0.05;
-    const double whole_way_mm = 0.3;
-    for (const double rate_hz : {100.0, 1000.0}) {
-        const auto series = study::run_steady(c, {.milling_rate_hz = rate_hz, .travel_mm = whole_way_mm},
-                                              study::voxel_model());
-        EXPECT_LT(study::ripple(series), 0.02) << rate_hz;
     }
 }
 

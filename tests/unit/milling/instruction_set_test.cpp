@@ -67,29 +67,6 @@ TEST_F(InstructionSets, SumForcesAlike) {
     EXPECT_GT(glm::length(sum[0]), 0.0);
 }
 
-TEST_F(InstructionSets, LookForTheTipsEdgeAlike) {
-    RemovedVoxels voxels = random_voxels();
-    const Bone bone = testing::make_block(glm::dvec3(0.0), glm::dvec3(1.6), 0.1);
-    voxels.bone = &bone;
-    voxels.slot.fill(0);
-    for (std::size_t i = 0; i < voxels.count; ++i) voxels.offset[i] = static_cast<std::int32_t>(i);
-    const CuttingStep step(Burr{}, glm::normalize(glm::dvec3(0.3, -0.2, 0.9)), {70.3, 80.1, 90.7}, 0.1,
-                           0.001);
-    const TipSearch search{.is_on = true, .per_level = {0.3f, 0.4f}, .per_depth = {0.1f, 0.2f}};
-    const ChipSums plain = sum_of_chip_forces(step, voxels, voxels.codes, InstructionSet::plain, search);
-    const ChipSums best = sum_of_chip_forces(step, voxels, voxels.codes, best_instruction_set(), search);
-    EXPECT_EQ(plain.force, best.force);
-    EXPECT_EQ(plain.tip.volume, best.tip.volume);
-    EXPECT_EQ(plain.tip.stiffness, best.tip.stiffness);
-    EXPECT_EQ(plain.tip.moment, best.tip.moment);
-    EXPECT_EQ(plain.tip.force, best.tip.force);
-    EXPECT_EQ(plain.tip.moved, best.tip.moved);
-    EXPECT_EQ(plain.tip.all, best.tip.all);
-    EXPECT_EQ(plain.tip.places, best.tip.places);
-    EXPECT_GT(plain.tip.volume, 0.0);
-    EXPECT_GT(glm::length(plain.tip.moved), 0.0);
-}
-
 TEST_F(InstructionSets, MillAlike) {
     const auto cases = testing::reference_cases();
     for (const std::size_t i : {std::size_t{2}, cases.size() - 1}) {
