@@ -12,7 +12,9 @@ namespace {
 TEST(RandomMotions, CoverWhatIsPromised) {
     const auto motions = random_motions(2000, 5);
     ASSERT_EQ(motions.size(), 2000u);
-    const auto count = [&](auto&& is) { return std::count_if(motions.begin(), motions.end(), is); };
+    const auto count = [&](auto&& is) {
+        return static_cast<double>(std::count_if(motions.begin(), motions.end(), is));
+    };
     for (const RandomMotion& m : motions) {
         const SteadyCase& c = m.motion;
         EXPECT_GE(c.burr.diameter_mm, 1.0);
