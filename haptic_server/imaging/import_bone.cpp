@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <limits>
 #include <map>
@@ -18,6 +19,7 @@
 #include "haptic_server/imaging/in_parallel.h"
 #include "haptic_server/imaging/memory_estimate.h"
 #include "haptic_server/imaging/near_bone.h"
+#include "haptic_server/imaging/plausible_geometry.h"
 #include "haptic_server/imaging/progress.h"
 #include "haptic_server/imaging/refine.h"
 #include "haptic_server/imaging/scratch_values.h"
@@ -36,6 +38,20 @@ struct ImportPlan {
     VoxelBox needed;
 };
 
+/// As few voxels as a scan may have, a bone may have.
+void require_plausible_size(const Grid& grid) {
+    const std::array<std::uint64_t, 3> sizes{static_cast<std::uint64_t>(grid.size_voxels.x),
+                                             static_cast<std::uint64_t>(grid.size_voxels.y),
+                                             static_cast<std::uint64_t>(grid.size_voxels.z)};
+    try {
+        plausible_voxel_count(sizes);
+    } catch (const std::invalid_argument& error) {
+        throw std::invalid_argument(fmt::format(
+            "would become {} x {} x {} voxels: {}; take a smaller --region or a larger --spacing-mm",
+            sizes[0], sizes[1], sizes[2], error.what()));
+    }
+}
+
 ImportPlan plan(const ImportOptions& options, const SourceImage& image, std::ostream& messages) {
     const Region extent = extent_of(image);
     Region region = extent;
@@ -50,7 +66,9 @@ ImportPlan plan(const ImportOptions& options, const SourceImage& image, std::ost
         const double finest_mm = std::min({image.spacing_mm.x, image.spacing_mm.y, image.spacing_mm.z});
         const int margin =
             refine_margin_voxels + static_cast<int>(std::min(2.0 * options.spacing_mm / finest_mm, 1e6));
-        return {.grid = grid_over(region, options.spacing_mm), .needed = voxels_for(image, region, margin)};
+        const Grid grid = grid_over(region, options.spacing_mm);
+        require_plausible_size(grid);
+        return {.grid = grid, .needed = voxels_for(image, region, margin)};
     } catch (const std::invalid_argument& error) {
         throw ImagingError(options.input, error.what());
     }

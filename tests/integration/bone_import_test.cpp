@@ -80,7 +80,7 @@ TEST_F(BoneImport, RefusesInOneLine) {
     expect_refused(folder_ / "series", "1 missing slice");
 }
 
-TEST_F(BoneImport, RefusesAnImportThatDoesNotFitInMemory) {
+TEST_F(BoneImport, RefusesAnImportOfMoreVoxelsThanABoneMayHave) {
     std::vector<testing::SyntheticSlice> slices = testing::synthetic_series(3);
     for (std::size_t i = 0; i < slices.size(); ++i) {
         slices[i].pixel_spacing_mm = {50.0, 50.0};

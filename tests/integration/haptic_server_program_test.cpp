@@ -114,13 +114,6 @@ TEST_F(HapticServerProgram, TakesUpACarvedBoneWhereItWasLeft) {
     EXPECT_EQ(measured("b.json").at("removed_mm3").at("total"), 0.0);
 }
 
-TEST_F(HapticServerProgram, SavesNoBoneThatHasNoCtNumbers) {
-    if (!is_optimised) GTEST_SKIP() << "the head takes its time unless optimised";
-    const Outcome outcome = run("--scene head --save-bone " + file("head.nrrd"));
-    EXPECT_EQ(outcome.exit_code, 1);
-    EXPECT_THAT(outcome.err, StartsWith("haptic_server: --save-bone: "));
-}
-
 TEST_F(HapticServerProgram, MillsAHeadInMemoryThatFollowsItsBone) {
     if (!is_optimised) GTEST_SKIP() << "the head takes its time unless optimised";
     constexpr double gibibyte = 1024.0 * 1024.0 * 1024.0;

@@ -6,6 +6,7 @@
 
 #include <array>
 #include <cerrno>
+#include <csignal>
 #include <string>
 #include <system_error>
 
@@ -13,7 +14,9 @@ namespace osteomill::testing {
 
 class UnreadPipe {
   public:
+    /// Who writes to it when it has gone is to be told so, as in the programs, and not killed.
     UnreadPipe() {
+        std::signal(SIGPIPE, SIG_IGN);
         if (::pipe2(ends_.data(), O_CLOEXEC) != 0)
             throw std::system_error(errno, std::generic_category(), "pipe");
     }

@@ -242,7 +242,7 @@ TEST(BoneLink, SaysThatItsRecordingEndedAndGoesOnWithoutIt) {
         EXPECT_TRUE(eventually([&] { return !link->poll().recording_error.empty(); }));
     }
     EXPECT_TRUE(verifies(*link, 2));
-    EXPECT_THAT(link->finish_recording(), ::testing::HasSubstr("a.pcap: no more than "));
+    EXPECT_THAT(link->finish_recording(), ::testing::HasSubstr("a.part.pcap: no more than "));
     EXPECT_THROW(BoneLink("127.0.0.1", served.port(), "/nowhere/a.pcap"), RecordingError);
 }
 

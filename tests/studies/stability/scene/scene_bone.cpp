@@ -47,7 +47,7 @@ Bone full_block(const glm::dvec3& low_mm, const glm::dvec3& high_mm, double rela
 
 }  // namespace
 
-Bone scene_bone(const ScenePlan& plan) {
+Bone scene_bone(const ScenePlan& plan, bool has_encoders) {
     const double beside_mm = plan.burr.radius_mm() + astray_mm + margin_mm;
     const double travel_mm =
         plan.feed_mm_per_s * tick_s * static_cast<double>(plan.timing.guided + plan.timing.released());
@@ -59,9 +59,8 @@ Bone scene_bone(const ScenePlan& plan) {
 
     MillingModel model(std::move(block), {plan.burr}, {});
     const glm::dvec3 end_mm = guided_position_mm(plan, plan.timing.guided);
-    // Also where an arm's encoders read the start: a burr that starts inside the bone is without force.
     const double step_mm = ArmModel{}.resolution_mm;
-    const glm::dvec3 end_as_read_mm = step_mm * glm::round(end_mm / step_mm);
+    const glm::dvec3 end_as_read_mm = has_encoders ? step_mm * glm::round(end_mm / step_mm) : end_mm;
     const std::array slot_mm{end_mm - glm::dvec3(2.0 * beside_mm, 0.0, 0.0), end_mm, end_as_read_mm};
     NoEdits edits;
     const auto result = std::make_unique<MillingResult>();

@@ -11,6 +11,8 @@ inline constexpr double scene_voxel_mm = 0.1;
 /// Farther off the truth than this a run has gone astray. The block reaches beyond it.
 inline constexpr double astray_mm = 2.0;
 
-Bone scene_bone(const ScenePlan& plan);
+/// `has_encoders`: the slot is cut, too, where an arm's encoders read the start, up to half a step deeper: a
+/// burr that starts inside the bone is without force.
+Bone scene_bone(const ScenePlan& plan, bool has_encoders);
 
 }  // namespace osteomill::study

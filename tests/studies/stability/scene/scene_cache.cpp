@@ -10,7 +10,7 @@ SceneCache::BoneKey SceneCache::bone_key(const MapCase& c) {
 }
 
 const Bone& SceneCache::bone(const MapCase& c, const ScenePlan& plan) {
-    return bones_.get(bone_key(c), [&] { return scene_bone(plan); });
+    return bones_.get({bone_key(c), c.is_ideal_device}, [&] { return scene_bone(plan, !c.is_ideal_device); });
 }
 
 const std::vector<TruthTick>& SceneCache::truth(const MapCase& c) {

@@ -9,6 +9,7 @@
 #include <memory>
 #include <mutex>
 #include <tuple>
+#include <utility>
 #include <vector>
 
 #include "common/bone/bone.h"
@@ -63,7 +64,7 @@ class SceneCache {
 
     static BoneKey bone_key(const MapCase& c);
 
-    MadeOnce<BoneKey, Bone> bones_;
+    MadeOnce<std::pair<BoneKey, bool>, Bone> bones_;  // and whether the device is ideal
     MadeOnce<TruthKey, std::vector<TruthTick>> truths_;
 };
 
