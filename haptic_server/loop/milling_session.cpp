@@ -115,6 +115,8 @@ MillingSession::MillingSession(const Scene& scene, Bone bone, HapticDevice& devi
 
 void MillingSession::run(const std::atomic<bool>& stop,
                          const std::function<void(const ToolSnapshot&)>& on_progress) {
+    // Before the device: it takes a while, in which a device would have nobody who watches it.
+    if (options_.clock == ClockKind::real) is_memory_locked_ = lock_memory();
     device_.start();
     if (options_.clock == ClockKind::real) {
         run_in_threads(stop, on_progress);
@@ -130,7 +132,6 @@ void MillingSession::run(const std::atomic<bool>& stop,
 void MillingSession::run_in_threads(const std::atomic<bool>& stop,
                                     const std::function<void(const ToolSnapshot&)>& on_progress) {
     std::atomic<bool> is_over{false};
-    is_memory_locked_ = lock_memory();
     // With memory locked a thread's whole stack is brought in before it starts, which takes milliseconds: the
     // session begins when both threads are there, or its first ticks would be late.
     std::latch prepared(2);
