@@ -155,7 +155,12 @@ TEST_F(SavedBone, OnAFullDiskTheOldOneStays) {
     write_block(file("block.nrrd"), 64, 0.1, 60);
     const std::string old = saved(file("block.nrrd"), file("carved.nrrd"), "0.5");
     const auto files_before = std::distance(std::filesystem::directory_iterator(folder_.path()), {});
-    for (const char* blocks : {"0", "1", "40", "300"}) {
+#if defined(__SANITIZE_THREAD__)
+    const std::vector<const char*> limits{"1", "40", "300"};  // its own runtime does not live with none
+#else
+    const std::vector<const char*> limits{"0", "1", "40", "300"};
+#endif
+    for (const char* blocks : limits) {
         const Finished run =
             testing::run_program({"/bin/bash", "-c",
                                   std::string("ulimit -f ") + blocks +
