@@ -1,7 +1,7 @@
 // The one place that decides whether the hand may feel a force and the burr may turn. It looks (watchdog.h),
 // limits and fades the force (force_guard.h), keeps the force off while the tool has come back inside the
-// bone or starts there, and the spindle off where nobody can have meant the bone that it is in. Nothing reaches the device
-// but through it.
+// bone or starts there, and the spindle off where nobody can have meant the bone that it is in. Nothing
+// reaches the device but through it.
 //
 // Two machines, stepped together once a tick. The force:
 //
