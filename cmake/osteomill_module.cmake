@@ -29,3 +29,11 @@ function(osteomill_program name)
     target_compile_definitions(${name} PRIVATE OSTEOMILL_VERSION="${PROJECT_VERSION}")
     install(TARGETS ${name} RUNTIME)
 endfunction()
+
+# osteomill_vector_loops(SOURCES...): sources of this folder whose inner loops the compiler shall turn into vectors. Square roots
+# without errno and comparisons without traps are what lets it; no fused multiply-add, so that every instruction set gives the same
+# bits. Vectors are passed only to what is inlined, so that how they would be passed (-Wpsabi) does not matter.
+function(osteomill_vector_loops)
+    set_source_files_properties(${ARGN} PROPERTIES
+        COMPILE_OPTIONS "-fno-math-errno;-fno-trapping-math;-ffp-contract=off;-Wno-psabi" SKIP_PRECOMPILE_HEADERS ON)
+endfunction()

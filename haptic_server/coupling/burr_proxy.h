@@ -29,7 +29,7 @@
 #include <glm/vec3.hpp>
 
 #include "haptic_server/coupling/force_correction.h"
-#include "haptic_server/milling/milling_step.h"
+#include "haptic_server/exchange/milling_step.h"
 
 namespace osteomill {
 

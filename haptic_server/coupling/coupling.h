@@ -9,7 +9,7 @@
 
 #include "common/scene/scene.h"
 #include "haptic_server/device/haptic_device.h"
-#include "haptic_server/milling/milling_step.h"
+#include "haptic_server/exchange/milling_step.h"
 
 namespace osteomill {
 

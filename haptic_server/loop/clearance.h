@@ -3,7 +3,7 @@
 
 #include <glm/vec3.hpp>
 
-#include "haptic_server/milling/milling_step.h"
+#include "haptic_server/exchange/milling_step.h"
 #include "haptic_server/safety/watchdog.h"
 
 namespace osteomill {

@@ -18,10 +18,10 @@
 #include "common/scene/scene.h"
 #include "haptic_server/coupling/coupling.h"
 #include "haptic_server/device/haptic_device.h"
+#include "haptic_server/exchange/milling_step.h"
 #include "haptic_server/exchange/triple_buffer.h"
 #include "haptic_server/loop/exchange.h"
 #include "haptic_server/loop/force_log.h"
-#include "haptic_server/milling/milling_step.h"
 #include "haptic_server/safety/safety_monitor.h"
 
 namespace osteomill {

@@ -7,11 +7,11 @@
 
 #include <algorithm>
 
+#include "haptic_server/contact_models/contact_model.h"
+#include "haptic_server/exchange/milling_step.h"
 #include "haptic_server/exchange/triple_buffer.h"
 #include "haptic_server/loop/edit_queue.h"
 #include "haptic_server/loop/milling_log.h"
-#include "haptic_server/milling/contact_model.h"
-#include "haptic_server/milling/milling_step.h"
 
 namespace osteomill {
 

@@ -16,6 +16,8 @@
 
 #include "common/bone/bone.h"
 #include "common/scene/scene.h"
+#include "haptic_server/contact_models/contact_model.h"
+#include "haptic_server/contact_models/force_models.h"
 #include "haptic_server/coupling/coupling.h"
 #include "haptic_server/device/haptic_device.h"
 #include "haptic_server/loop/edit_queue.h"
@@ -23,8 +25,6 @@
 #include "haptic_server/loop/haptic_loop.h"
 #include "haptic_server/loop/milling_loop.h"
 #include "haptic_server/loop/periodic.h"
-#include "haptic_server/milling/contact_model.h"
-#include "haptic_server/milling/force_models.h"
 
 namespace osteomill {
 

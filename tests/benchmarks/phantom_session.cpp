@@ -5,8 +5,8 @@
 #include <utility>
 #include <variant>
 
+#include "haptic_server/carving/carve.h"
 #include "haptic_server/imaging/phantom.h"
-#include "haptic_server/milling/carve.h"
 
 namespace osteomill {
 

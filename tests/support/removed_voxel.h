@@ -3,7 +3,7 @@
 
 #include <array>
 
-#include "haptic_server/milling/removed_voxels.h"
+#include "haptic_server/carving/removed_voxels.h"
 
 namespace osteomill::testing {
 

@@ -4,8 +4,8 @@
 
 #include <glm/geometric.hpp>
 
-#include "haptic_server/milling/force_models.h"
-#include "haptic_server/milling/reference_force.h"
+#include "haptic_server/contact_models/force_models.h"
+#include "haptic_server/cutting_force/reference_force.h"
 #include "tests/studies/force/bone_block.h"
 #include "tests/studies/force/path_run.h"
 

@@ -9,9 +9,9 @@
 #include <utility>
 #include <vector>
 
-#include "haptic_server/milling/burr_frame.h"
-#include "haptic_server/milling/crescent_rows.h"
-#include "haptic_server/milling/cutting_force.h"
+#include "common/scene/burr_frame.h"
+#include "haptic_server/carving/crescent_rows.h"
+#include "haptic_server/cutting_force/cutting_force.h"
 
 namespace osteomill::study {
 

@@ -9,7 +9,7 @@
 #include <numbers>
 #include <random>
 
-#include "haptic_server/milling/burr_frame.h"
+#include "common/scene/burr_frame.h"
 
 namespace osteomill::study {
 

@@ -7,7 +7,7 @@
 #include <memory>
 
 #include "common/bone/bone.h"
-#include "haptic_server/milling/milling_model.h"
+#include "haptic_server/contact_models/milling_model.h"
 
 namespace osteomill::study {
 

@@ -7,7 +7,7 @@
 #include <numbers>
 #include <span>
 
-#include "haptic_server/milling/reference_force.h"
+#include "haptic_server/cutting_force/reference_force.h"
 #include "tests/studies/force/path_run.h"
 
 namespace osteomill::study {

@@ -7,11 +7,11 @@
 #include <utility>
 #include <vector>
 
+#include "haptic_server/contact_models/force_models.h"
 #include "haptic_server/device/client_device.h"
 #include "haptic_server/device/simulated_device.h"
 #include "haptic_server/loop/haptic_loop.h"
 #include "haptic_server/loop/milling_loop.h"
-#include "haptic_server/milling/force_models.h"
 #include "tests/support/block.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/unit/loop/counting_new.h"

@@ -6,7 +6,7 @@
 #include <memory>
 #include <string>
 
-#include "haptic_server/milling/milling_model.h"
+#include "haptic_server/contact_models/milling_model.h"
 #include "tests/support/block.h"
 
 namespace osteomill {

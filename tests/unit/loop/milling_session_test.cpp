@@ -8,9 +8,9 @@
 #include <stdexcept>
 #include <thread>
 
+#include "haptic_server/contact_models/force_models.h"
 #include "haptic_server/device/simulated_device.h"
 #include "haptic_server/loop/real_time.h"
-#include "haptic_server/milling/force_models.h"
 #include "tests/support/block.h"
 #include "tests/unit/loop/scripted_parts.h"
 

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "haptic_server/contact_models/force_models.h"
 #include "haptic_server/loop/milling_session.h"
-#include "haptic_server/milling/force_models.h"
 #include "tests/support/block.h"
 #include "tests/unit/loop/scripted_parts.h"
 

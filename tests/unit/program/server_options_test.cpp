@@ -7,7 +7,7 @@
 #include <stdexcept>
 #include <vector>
 
-#include "haptic_server/milling/force_models.h"
+#include "haptic_server/contact_models/force_models.h"
 
 namespace osteomill {
 namespace {

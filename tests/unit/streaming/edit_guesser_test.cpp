@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "haptic_server/milling/carve.h"
+#include "haptic_server/carving/carve.h"
 #include "tests/support/block.h"
 #include "tests/support/mirror_sink.h"
 

@@ -7,8 +7,8 @@
 
 #include "common/bone/bone_builder.h"
 #include "common/bone/edit.h"
+#include "haptic_server/contact_models/milling_model.h"
 #include "haptic_server/device/arm_model.h"
-#include "haptic_server/milling/milling_model.h"
 
 namespace osteomill::study {
 namespace {

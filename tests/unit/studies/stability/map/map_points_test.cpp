@@ -6,7 +6,7 @@
 #include <glm/geometric.hpp>
 #include <set>
 
-#include "haptic_server/milling/reference_force.h"
+#include "haptic_server/cutting_force/reference_force.h"
 #include "tests/studies/stability/map/map_text.h"
 
 namespace osteomill::study {

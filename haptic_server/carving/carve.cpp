@@ -1,0 +1,87 @@
+#include "haptic_server/carving/carve.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include "haptic_server/carving/brick_layer.h"
+#include "haptic_server/carving/crescent_rows.h"
+#include "haptic_server/carving/lowering.h"
+
+namespace osteomill {
+
+namespace {
+
+/// A sweep of at most CrescentRows::longest_step_voxels.
+void carve_short(Bone& bone, const Sweep& ball, bool crescent_only, const CarveSettings& settings,
+                 EditSink& edits, RemovalSink& sink) noexcept {
+    const glm::ivec3 size = bone.grid().size_voxels;
+    const auto reach = static_cast<int>(std::ceil(ball.radius)) + 3;
+    const glm::ivec3 near(glm::floor(0.5 * (ball.from + ball.to)));
+    const glm::ivec3 base = ((near - reach) >> 4) * brick_edge_voxels;  // rounded down to a brick
+    const glm::dvec3 origin(base);
+    CrescentRows rows({ball.from - origin, ball.to - origin, ball.radius}, rim_voxels(settings.edges),
+                      crescent_only, glm::max(-base, glm::ivec3(0)), size - base);
+    const VoxelRange slices = rows.slices();
+    if (rows.columns().empty() || rows.rows().empty() || slices.empty()) return;
+
+    Lowering lowering(bone, base, SweepSeenFrom(ball, origin, settings.edges), settings.instructions, edits,
+                      sink);
+    for (int first = slices.first; first < slices.end;) {
+        const int end = std::min(slices.end, (first / brick_edge_voxels + 1) * brick_edge_voxels);
+        const BrickLayer layer(bone, base, rows, first);
+        for (int brick_y = layer.first_y(); brick_y < layer.end_y(); ++brick_y)
+            if (layer.row_holds_any(brick_y)) lowering.lower_bricks(rows, layer, brick_y, {first, end});
+        first = end;
+    }
+    lowering.flush();
+}
+
+/// The part of a sweep near which the grid has voxels, or nothing.
+bool cut_to_grid(Sweep& sweep, const glm::ivec3& size) {
+    const glm::dvec3 along = sweep.to - sweep.from;
+    const double margin = sweep.radius + 1.0;
+    double first = 0.0;
+    double last = 1.0;
+    for (int axis = 0; axis < 3; ++axis) {
+        const double low = -margin - sweep.from[axis];
+        const double high = size[axis] - 1 + margin - sweep.from[axis];
+        if (along[axis] == 0.0) {
+            if (low > 0.0 || high < 0.0) return false;
+            continue;
+        }
+        const double a = low / along[axis];
+        const double b = high / along[axis];
+        first = std::max(first, std::min(a, b));
+        last = std::min(last, std::max(a, b));
+    }
+    if (!(first <= last)) return false;
+    const glm::dvec3 from = sweep.from;
+    if (first > 0.0) sweep.from = from + first * along;
+    if (last < 1.0) sweep.to = from + last * along;
+    return true;
+}
+
+}  // namespace
+
+void carve(Bone& bone, const Sweep& ball, CarveHistory history, const CarveSettings& settings,
+           EditSink& edits, RemovalSink& removed) noexcept {
+    Sweep sweep = ball;
+    if (!cut_to_grid(sweep, bone.grid().size_voxels)) return;
+    if (history == CarveHistory::none)
+        carve_short(bone, {sweep.from, sweep.from, sweep.radius}, false, settings, edits, removed);
+    const glm::dvec3 along = sweep.to - sweep.from;
+    const double length = glm::length(along);
+    if (length == 0.0) return;
+    // A long sweep is a chain of short ones: each looks only at its own crescent.
+    const double parts = std::ceil(length / CrescentRows::longest_step_voxels);
+    glm::dvec3 from = sweep.from;
+    for (double part = 1.0; part <= parts; part += 1.0) {
+        const glm::dvec3 to = part == parts ? sweep.to : sweep.from + along * (part / parts);
+        carve_short(bone, {from, to, sweep.radius}, true, settings, edits, removed);
+        from = to;
+    }
+}
+
+}  // namespace osteomill

@@ -1,0 +1,34 @@
+// Removes from the bone what a sweep of the burr passes through, and tells what went. Idempotent: what is
+// left of a voxel depends on the nearest approach of the burr alone (cover.h), so neither order nor number of
+// steps matters and what a step removed is old minus new.
+#pragma once
+
+#include "common/bone/bone.h"
+#include "common/bone/edit.h"
+#include "haptic_server/carving/cover.h"
+#include "haptic_server/carving/removed_voxels.h"
+#include "haptic_server/carving/sweep.h"
+
+namespace osteomill {
+
+/// What a carve may take for granted about the bone.
+enum class CarveHistory {
+    none,           ///< nothing: every voxel of the sweep is looked at
+    carved_at_from  ///< the same ball has already carved at `from`: only the crescent ahead of it can hold
+                    ///< bone
+};
+
+struct CarveSettings {
+    VoxelEdges edges = VoxelEdges::soft;
+    InstructionSet instructions = best_instruction_set();
+};
+
+/// Carves a sweep given in voxel coordinates (whole numbers are voxel centres, radius in voxels). Hands each
+/// voxel that lost something to `removed` and an edit for each row of a brick that changed to `edits`, both
+/// in a fixed order. Looks only at stored bricks and, where the ball has carved at `from`, only at the
+/// crescent between the two positions: not the ball's inside, and nothing behind the plane through `from`
+/// across the motion, where the nearest point of the path is `from` itself. Real-time safe.
+void carve(Bone& bone, const Sweep& ball, CarveHistory history, const CarveSettings& settings,
+           EditSink& edits, RemovalSink& removed) noexcept;
+
+}  // namespace osteomill

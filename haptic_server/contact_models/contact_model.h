@@ -1,0 +1,32 @@
+// What the milling loop runs: something that owns the bone, follows the burr, takes bone away and says with
+// what force the bone pushes back. The milling model is one; the older contact models are others.
+// force_models.h makes one by its name.
+#pragma once
+
+#include "common/bone/bone.h"
+#include "common/bone/edit.h"
+#include "haptic_server/exchange/milling_step.h"
+
+namespace osteomill {
+
+/// One thread at a time.
+class ContactModel {
+  public:
+    virtual ~ContactModel() = default;
+
+    /// Moves the burr to the command's pose at session time `time_s`, takes away the bone that goes (none
+    /// while the spindle is off), pushes the edits and overwrites `result`. A command that is not finite, of
+    /// no duration or of an unknown burr leaves bone and burr alone and makes the result invalid. Real-time
+    /// safe.
+    virtual void step(const BurrCommand& command, double time_s, EditSink& edits,
+                      MillingResult& result) noexcept = 0;
+
+    virtual const Bone& bone() const = 0;
+    /// Since the start.
+    virtual const RemovedByTissue& removed_mm3() const = 0;
+    /// What the edges that it leaves are smoothed over, voxels, as in cover.h; 0 where it does not carve by
+    /// that law.
+    virtual double edge_smoothing_voxels() const { return 0.0; }
+};
+
+}  // namespace osteomill

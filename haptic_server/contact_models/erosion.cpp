@@ -1,0 +1,65 @@
+#include "haptic_server/contact_models/erosion.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+namespace osteomill {
+
+namespace {
+
+constexpr double steps_per_code = 65536.0;
+/// What every voxel starts with, so that codes are rounded to the nearest rather than down.
+constexpr std::uint16_t half_a_code = 32768;
+
+int edge_around(double radius_voxels) {
+    return static_cast<int>(std::bit_ceil(static_cast<unsigned>(std::ceil(2.0 * radius_voxels)) + 2u));
+}
+
+}  // namespace
+
+Erosion::Erosion(double largest_radius_voxels)
+    : edge_(edge_around(largest_radius_voxels)),
+      remainders_(static_cast<std::size_t>(edge_) * edge_ * edge_, half_a_code) {}
+
+void Erosion::erode(Bone& bone, const Ball& ball, double dose, EditSink& edits,
+                    ErosionSink& removed) noexcept {
+    const BoneContent& content = bone.content();
+    // A dose of more than a whole voxel takes no more than the voxel.
+    const double steps = std::min(dose, 1.0 / least_stiffness) * 255.0 * steps_per_code;
+    visit_rows(bone, ball, [&](const BallRow& row) {
+        const auto fractions = bone.fractions(row.slot).subspan(row.row_offset, brick_edge_voxels);
+        const glm::dvec3 from_centre = glm::dvec3(row.first) - ball.centre;
+        const double across_squared = from_centre.y * from_centre.y + from_centre.z * from_centre.z;
+        int changed_first = brick_edge_voxels;
+        int changed_last = -1;
+        for (int i = 0; i < row.count; ++i) {
+            const int place = (row.first.x & 15) + i;
+            std::uint8_t& fraction = fractions[static_cast<std::size_t>(place)];
+            if (fraction == 0) continue;
+            const double x = from_centre.x + i;
+            const double cover = cover_of(ball, x * x + across_squared);
+            if (cover <= 0.0) continue;
+            const std::size_t offset = row.row_offset + static_cast<std::size_t>(place);
+            const double stiffness = std::max(content.stiffness_in(row.slot, offset), least_stiffness);
+            std::uint16_t& left_over = remainder(row.first + glm::ivec3(i, 0, 0));
+            const std::uint64_t lost = left_over + static_cast<std::uint64_t>(steps * cover / stiffness);
+            left_over = static_cast<std::uint16_t>(lost & 0xffffu);
+            const int codes = static_cast<int>(std::min<std::uint64_t>(lost >> 16, fraction));
+            if (codes == 0) continue;
+            fraction = static_cast<std::uint8_t>(fraction - codes);
+            changed_first = std::min(changed_first, place);
+            changed_last = place;
+            removed.take(row.slot, offset, codes);
+        }
+        if (changed_last < 0) return;
+        EditRun run{.brick = content.brick_of_slot[static_cast<std::size_t>(row.slot)],
+                    .first_voxel =
+                        static_cast<std::uint16_t>(row.row_offset + static_cast<std::size_t>(changed_first)),
+                    .count = static_cast<std::uint8_t>(changed_last - changed_first + 1)};
+        std::copy_n(fractions.begin() + changed_first, run.count, run.fraction.begin());
+        edits.push(run);
+    });
+}
+
+}  // namespace osteomill

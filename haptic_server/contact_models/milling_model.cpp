@@ -1,0 +1,169 @@
+#include "haptic_server/contact_models/milling_model.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <stdexcept>
+#include <utility>
+
+#include "haptic_server/carving/carve.h"
+#include "haptic_server/carving/crescent_rows.h"
+#include "haptic_server/contact_models/usable_burr.h"
+#include "haptic_server/cutting_force/cutting_force.h"
+#include "haptic_server/cutting_force/stiffness_weights.h"
+
+namespace osteomill {
+
+static_assert(most_voxels_across_burr <= 2.0 * CrescentRows::largest_radius_voxels);
+
+namespace {
+
+/// Directions are taken from the middle of a stretch of the way: the force of a stretch as long as the burr's
+/// radius would be 10 % off, that of an eighth of it 0.2 %.
+constexpr double longest_stretch_radii = 0.125;
+/// At 10 kHz a burr moves by less than one of a voxel's 255 steps at a time. Below five of them, and for no
+/// longer than a haptic tick, milling waits: the bone comes out the same and so does the mean force.
+constexpr double shortest_way_voxels = 0.02;
+constexpr double longest_wait_s = 0.001 - 1e-7;
+
+/// Nobody feels the direction of a step that crosses the whole bone.
+constexpr double most_stretches = 64.0;
+
+/// Weighs each removed voxel by its stiffness, enters it into the account and hands it to the force.
+template <typename Force>
+class ForceOfRemoved final : public RemovalSink {
+  public:
+    ForceOfRemoved(const BoneContent& content, RemovalAccount& account, Force& force) noexcept
+        : content_(content), account_(account), force_(force) {}
+
+    void take(const RemovedVoxels& removed) noexcept override {
+        enter(removed);
+        weigh_by_stiffness(content_, removed, weights_);
+        force_.add(removed, {weights_.data(), removed.padded_count()});
+    }
+
+  private:
+    void enter(const RemovedVoxels& removed) noexcept {
+        if (content_.tissue.empty()) {
+            account_.take(0, removed.lost_codes());
+            return;
+        }
+        for (std::size_t i = 0; i < removed.count; ++i)
+            account_.take(content_.tissue_in(removed.slot[i], static_cast<std::size_t>(removed.offset[i])),
+                          static_cast<double>(removed.codes[i]));
+    }
+
+    const BoneContent& content_;
+    RemovalAccount& account_;
+    Force& force_;
+    alignas(64) std::array<float, RemovedVoxels::capacity> weights_;
+};
+
+}  // namespace
+
+MillingModel::MillingModel(Bone bone, std::vector<Burr> burrs, const std::vector<Tissue>& tissues,
+                           const MillingSettings& settings)
+    : bone_(std::move(bone)),
+      burrs_(std::move(burrs)),
+      settings_(settings),
+      chips_(settings.bins),
+      tooth_(settings.instants_per_tooth, settings.instructions),
+      account_(bone_.grid(), tissues) {
+    if (burrs_.empty()) throw std::invalid_argument("the milling model needs at least one burr");
+    probes_.reserve(burrs_.size());
+    for (const Burr& burr : burrs_) {
+        require_valid(burr, bone_.grid().spacing_mm);
+        probes_.emplace_back(burr, bone_.grid().spacing_mm);
+    }
+}
+
+template <typename Force>
+void MillingModel::carve_and_sum(const Sweep& sweep, double share, EditSink& edits, Force& force,
+                                 MillingResult& result) noexcept {
+    ForceOfRemoved removed(bone_.content(), account_, force);
+    carve(bone_, sweep, carved_at_position_ ? CarveHistory::carved_at_from : CarveHistory::none,
+          {.edges = settings_.edges, .instructions = settings_.instructions}, edits, removed);
+    result.force_n += share * force.force_n();
+}
+
+void MillingModel::cut(const BurrCommand& command, const glm::dvec3& to_mm, double share, EditSink& edits,
+                       MillingResult& result) noexcept {
+    const Burr& burr = burrs_[burr_];
+    const Grid& grid = bone_.grid();
+    const Sweep sweep{to_voxel_coordinates(grid, position_mm_), to_voxel_coordinates(grid, to_mm),
+                      burr.radius_mm() / grid.spacing_mm};
+    const CuttingStep cutting(burr, command.pose.spindle_axis, 0.5 * (sweep.from + sweep.to), grid.spacing_mm,
+                              share * since_milled_s_);
+    if (settings_.summation == ForceSummation::voxels) {
+        CuttingForce force(cutting, settings_.instructions);
+        carve_and_sum(sweep, share, edits, force, result);
+    } else if (settings_.summation == ForceSummation::bins) {
+        chips_.begin_step(burr, cutting);
+        carve_and_sum(sweep, share, edits, chips_, result);
+    } else {
+        tooth_.turn(burr, share * command.elapsed_s);
+        tooth_.begin_step(cutting);
+        carve_and_sum(sweep, share, edits, tooth_, result);
+    }
+    carved_at_position_ = true;
+    position_mm_ = to_mm;
+}
+
+bool MillingModel::can_wait(const BurrCommand& command) const noexcept {
+    const double way_voxels = glm::length(command.pose.position_mm - position_mm_) / bone_.grid().spacing_mm;
+    return carved_at_position_ && !command.wants_engagement && since_milled_s_ < longest_wait_s &&
+           way_voxels < shortest_way_voxels;
+}
+
+void MillingModel::mill(const BurrCommand& command, EditSink& edits, MillingResult& result) noexcept {
+    since_milled_s_ += command.elapsed_s;
+    if (can_wait(command)) {
+        result.force_n = milled_force_n_;
+        if (settings_.summation == ForceSummation::instants) {
+            tooth_.turn(burrs_[burr_], command.elapsed_s);
+            result.force_n = tooth_.force_n();
+        }
+        return;
+    }
+    const bool is_first = !carved_at_position_;
+    const glm::dvec3 from_mm = position_mm_;
+    const glm::dvec3 way_mm = command.pose.position_mm - from_mm;
+    const double longest_mm = longest_stretch_radii * burrs_[burr_].radius_mm();
+    const double stretches = std::clamp(std::ceil(glm::length(way_mm) / longest_mm), 1.0, most_stretches);
+    for (double i = 1.0; i <= stretches; i += 1.0) {
+        const bool is_last = i == stretches;
+        cut(command, is_last ? command.pose.position_mm : from_mm + way_mm * (i / stretches), 1.0 / stretches,
+            edits, result);
+    }
+    // A spindle that starts within bone clears a whole ball at once, which no later step does again.
+    if (is_first) tooth_.forget();
+    milled_force_n_ = is_first ? glm::dvec3(0.0) : result.force_n;
+    since_milled_s_ = 0.0;
+}
+
+void MillingModel::step(const BurrCommand& command, double time_s, EditSink& edits,
+                        MillingResult& result) noexcept {
+    account_.begin_step(time_s, result);
+    result.valid = is_usable(command, burrs_.size());
+    if (!result.valid) return;
+
+    if (!has_position_ || command.burr != burr_) {
+        position_mm_ = command.pose.position_mm;
+        burr_ = command.burr;
+        has_position_ = true;
+        carved_at_position_ = false;
+        since_milled_s_ = 0.0;
+    }
+    if (command.spindle_on) {
+        mill(command, edits, result);
+    } else {
+        carved_at_position_ = false;
+        position_mm_ = command.pose.position_mm;
+        since_milled_s_ = 0.0;
+    }
+    account_.end_step(command, result);
+    if (command.wants_engagement)
+        probes_[burr_].sample(bone_, command.pose.position_mm, command.pose.spindle_axis, result.engagement);
+}
+
+}  // namespace osteomill

@@ -1,0 +1,69 @@
+// The milling model behind the milling loop: owns the bone, moves the burr, removes bone, computes force and
+// engagement. One thread at a time.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "common/bone/bone.h"
+#include "common/bone/edit.h"
+#include "common/scene/scene.h"
+#include "haptic_server/contact_models/contact_model.h"
+#include "haptic_server/contact_models/milling_settings.h"
+#include "haptic_server/contact_models/removal_account.h"
+#include "haptic_server/cutting_force/tooth_force.h"
+#include "haptic_server/exchange/milling_step.h"
+
+namespace osteomill {
+
+class MillingModel final : public ContactModel {
+  public:
+    /// `burrs` and `tissues` as in the scene. Throws std::invalid_argument for an empty burr set, a burr
+    /// whose values are not finite and positive or that is more than 500 voxels across, and settings out of
+    /// range.
+    MillingModel(Bone bone, std::vector<Burr> burrs, const std::vector<Tissue>& tissues,
+                 const MillingSettings& settings = {});
+
+    /// Moves the burr, carves what it passes through (only while the spindle is on), reports the edits and
+    /// overwrites `result`. The first step, and the first with another burr, starts at the command's pose
+    /// without a sweep. A command that is not finite, of no duration or of an unknown burr leaves bone and
+    /// burr alone and makes the result invalid. Real-time safe.
+    void step(const BurrCommand& command, double time_s, EditSink& edits,
+              MillingResult& result) noexcept override;
+
+    const Bone& bone() const override { return bone_; }
+    const RemovedByTissue& removed_mm3() const override { return account_.removed_mm3(); }
+    double edge_smoothing_voxels() const override { return smoothing_voxels(settings_.edges); }
+
+  private:
+    /// Whether so little lies between position_mm_ and the command's place that it can wait for the next
+    /// step.
+    bool can_wait(const BurrCommand& command) const noexcept;
+    /// From position_mm_ to the command's place, in stretches.
+    void mill(const BurrCommand& command, EditSink& edits, MillingResult& result) noexcept;
+    /// One stretch, from position_mm_ to `to_mm`, which becomes position_mm_; adds to `result`, force weighed
+    /// by `share` of the way.
+    void cut(const BurrCommand& command, const glm::dvec3& to_mm, double share, EditSink& edits,
+             MillingResult& result) noexcept;
+    template <typename Force>
+    void carve_and_sum(const Sweep& sweep, double share, EditSink& edits, Force& force,
+                       MillingResult& result) noexcept;
+
+    Bone bone_;
+    std::vector<Burr> burrs_;
+    std::vector<EngagementProbe> probes_;  // by burr
+    MillingSettings settings_;
+    ChipMap chips_;
+    ToothForce tooth_;
+    RemovalAccount account_;
+
+    bool has_position_ = false;        // position_mm_ holds where the burr last milled, or was
+    bool carved_at_position_ = false;  // the burr_ carved at position_mm_
+    glm::dvec3 position_mm_{0.0};
+    std::size_t burr_ = 0;
+    double since_milled_s_ = 0.0;
+    glm::dvec3 milled_force_n_{0.0};  // of the way that was last milled
+};
+
+}  // namespace osteomill

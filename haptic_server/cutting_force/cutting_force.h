@@ -1,0 +1,31 @@
+// Ways to sum the forces of the bone that a step removed into the force on the burr.
+#pragma once
+
+#include <glm/vec3.hpp>
+#include <span>
+
+#include "haptic_server/cutting_force/chip_force.h"
+
+namespace osteomill {
+
+/// The mean over a step: equation (2), directly over voxels. Real-time safe.
+class CuttingForce {
+  public:
+    CuttingForce(const CuttingStep& step, InstructionSet instructions) noexcept
+        : step_(step), instructions_(instructions) {}
+
+    /// `weights`: relative stiffness times the fraction removed, padded with zeros like the batch.
+    void add(const RemovedVoxels& removed, std::span<const float> weights) noexcept {
+        sum_ += sum_of_chip_forces(step_, removed, weights, instructions_);
+    }
+
+    /// Mean force of the bone on the burr during the step, N, patient axes.
+    glm::dvec3 force_n() const noexcept { return step_.frame * (step_.newton_per_unit * sum_); }
+
+  private:
+    CuttingStep step_;
+    InstructionSet instructions_;
+    glm::dvec3 sum_{0.0};
+};
+
+}  // namespace osteomill

@@ -1,0 +1,166 @@
+#include "haptic_server/cutting_force/reference_force.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <numbers>
+
+#include "common/scene/burr_frame.h"
+
+namespace osteomill {
+
+namespace {
+
+constexpr double two_pi = 2.0 * std::numbers::pi;
+
+/// One point of the burr's surface, patient axes.
+struct SurfacePoint {
+    glm::dvec3 normal;
+    glm::dvec3 e_psi;
+    glm::dvec3 e_kappa;
+    double sin_kappa;
+};
+
+SurfacePoint surface_point(const glm::dmat3& frame, double kappa, double psi) {
+    const double sk = std::sin(kappa);
+    const double ck = std::cos(kappa);
+    const double sp = std::sin(psi);
+    const double cp = std::cos(psi);
+    return {frame * glm::dvec3(cp * sk, sp * sk, -ck), frame * glm::dvec3(-sp, cp, 0.0),
+            frame * glm::dvec3(cp * ck, sp * ck, sk), sk};
+}
+
+/// Force on the burr for each mm of an edge's length at a point: chip and edge forces. t dz = f_t (n . v/|v|)
+/// R dkappa.
+glm::dvec3 force_per_edge_length(const SteadyMotion& motion, const SurfacePoint& point, double stiffness,
+                                 double feed_per_tooth_mm, const glm::dvec3& direction,
+                                 const EdgeDetails& details) {
+    const double chip_mm = feed_per_tooth_mm * std::max(0.0, glm::dot(point.normal, direction));
+    if (chip_mm <= 0.0 || stiffness <= 0.0) return glm::dvec3(0.0);
+    const glm::dvec3 per_length =
+        stiffness * (motion.burr.cutting_coefficients_n_per_mm2 * chip_mm) + details.edge_force_n_per_mm;
+    return -(motion.burr.sigma() * per_length.x * point.e_psi + per_length.y * point.normal +
+             per_length.z * point.e_kappa);
+}
+
+double feed_per_tooth_mm(const SteadyMotion& motion) {
+    return glm::length(motion.velocity_mm_per_s) / (motion.burr.edges * motion.burr.spindle_rev_per_s);
+}
+
+/// Integrates along kappa from tip to shank: calls `visit(point, stiffness, dkappa)` for each stretch of a
+/// cell. `psi_at` gives the psi of a kappa. Where the bone changes within a cell, the place is found by
+/// bisection and the cell split there: without that a sum over 1440 cells is no better than 0.2 %.
+template <typename PsiAt, typename Visit>
+void along_meridian(const SteadyMotion& motion, const glm::dmat3& frame, const BoneFunction& bone, int cells,
+                    PsiAt&& psi_at, Visit&& visit) {
+    const double radius = motion.burr.radius_mm();
+    const auto stiffness_at = [&](double kappa) {
+        return bone(motion.position_mm + radius * surface_point(frame, kappa, psi_at(kappa)).normal);
+    };
+    const auto stretch = [&](double from, double to) {
+        if (to <= from) return;
+        const double middle = 0.5 * (from + to);
+        const double stiffness = stiffness_at(middle);
+        if (stiffness > 0.0) visit(surface_point(frame, middle, psi_at(middle)), stiffness, to - from);
+    };
+    constexpr int bisections = 24;
+    double from = 0.0;
+    double stiffness_from = stiffness_at(from);
+    for (int cell = 0; cell < cells; ++cell) {
+        const double to = std::numbers::pi * (cell + 1) / cells;
+        const double stiffness_to = stiffness_at(to);
+        if (stiffness_from == stiffness_to) {
+            stretch(from, to);
+        } else {
+            double low = from;
+            double high = to;
+            for (int i = 0; i < bisections; ++i) {
+                const double middle = 0.5 * (low + high);
+                (stiffness_at(middle) == stiffness_from ? low : high) = middle;
+            }
+            stretch(from, low);
+            stretch(high, to);
+        }
+        from = to;
+        stiffness_from = stiffness_to;
+    }
+}
+
+}  // namespace
+
+glm::dvec3 mean_reference_force_n(const SteadyMotion& motion, const BoneFunction& bone,
+                                  const EdgeDetails& details, const Quadrature& quadrature) {
+    const double speed = glm::length(motion.velocity_mm_per_s);
+    if (speed == 0.0) return glm::dvec3(0.0);
+    const glm::dmat3 frame = burr_frame(motion.spindle_axis);
+    const glm::dvec3 direction = motion.velocity_mm_per_s / speed;
+    const double feed = feed_per_tooth_mm(motion);
+    glm::dvec3 sum(0.0);
+    for (int j = 0; j < quadrature.psi; ++j) {
+        const double psi = two_pi * (j + 0.5) / quadrature.psi;
+        along_meridian(
+            motion, frame, bone, quadrature.kappa, [&](double) { return psi; },
+            [&](const SurfacePoint& point, double stiffness, double dkappa) {
+                sum += dkappa * force_per_edge_length(motion, point, stiffness, feed, direction, details);
+            });
+    }
+    // Each edge is at every psi for an equal share of a revolution; helix lag shifts that, not the mean.
+    return sum * (motion.burr.edges * motion.burr.radius_mm() / quadrature.psi);
+}
+
+glm::dvec3 instantaneous_reference_force_n(const SteadyMotion& motion, const BoneFunction& bone,
+                                           double turned_rad, const EdgeDetails& details,
+                                           const Quadrature& quadrature) {
+    const double speed = glm::length(motion.velocity_mm_per_s);
+    if (speed == 0.0) return glm::dvec3(0.0);
+    const glm::dmat3 frame = burr_frame(motion.spindle_axis);
+    const glm::dvec3 direction = motion.velocity_mm_per_s / speed;
+    const double feed = feed_per_tooth_mm(motion);
+    const double radius = motion.burr.radius_mm();
+    glm::dvec3 sum(0.0);
+    for (int edge = 0; edge < motion.burr.edges; ++edge) {
+        const auto psi_at = [&](double kappa) {
+            const double above_tip_mm = radius * (1.0 - std::cos(kappa));
+            return motion.burr.sigma() * (turned_rad - details.helix_lag_rad_per_mm * above_tip_mm +
+                                          two_pi * edge / motion.burr.edges);
+        };
+        along_meridian(motion, frame, bone, quadrature.kappa, psi_at,
+                       [&](const SurfacePoint& point, double stiffness, double dkappa) {
+                           sum += dkappa *
+                                  force_per_edge_length(motion, point, stiffness, feed, direction, details);
+                       });
+    }
+    return sum * radius;
+}
+
+double reference_removal_mm3_per_s(const SteadyMotion& motion, const BoneFunction& bone,
+                                   const Quadrature& quadrature) {
+    const glm::dmat3 frame = burr_frame(motion.spindle_axis);
+    double sum = 0.0;
+    for (int j = 0; j < quadrature.psi; ++j) {
+        const double psi = two_pi * (j + 0.5) / quadrature.psi;
+        along_meridian(
+            motion, frame, bone, quadrature.kappa, [&](double) { return psi; },
+            [&](const SurfacePoint& point, double, double dkappa) {
+                sum += dkappa * point.sin_kappa *
+                       std::max(0.0, glm::dot(point.normal, motion.velocity_mm_per_s));
+            });
+    }
+    return sum * motion.burr.radius_mm() * motion.burr.radius_mm() * two_pi / quadrature.psi;
+}
+
+BoneFunction flat_bone() {
+    return [](const glm::dvec3& p) { return p.z <= 0.0 ? 1.0 : 0.0; };
+}
+
+BoneFunction flat_bone_with_groove(const glm::dvec3& position_mm, const glm::dvec3& direction,
+                                   double radius_mm) {
+    return [=](const glm::dvec3& p) {
+        if (p.z > 0.0) return 0.0;
+        const glm::dvec3 w = p - position_mm;
+        const glm::dvec3 across = w - glm::dot(w, direction) * direction;
+        return glm::length(across) > radius_mm ? 1.0 : 0.0;
+    };
+}
+
+}  // namespace osteomill

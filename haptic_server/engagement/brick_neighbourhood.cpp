@@ -1,0 +1,77 @@
+#include "haptic_server/engagement/brick_neighbourhood.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/vector_relational.hpp>
+
+namespace osteomill {
+
+BrickNeighbourhood::BrickNeighbourhood(double largest_radius_voxels)
+    : edge_(static_cast<int>(std::ceil((2.0 * largest_radius_voxels + 2.0) / brick_edge_voxels)) + 1),
+      slots_(static_cast<std::size_t>(edge_) * edge_ * edge_, BoneContent::no_slot) {}
+
+bool BrickNeighbourhood::gather(const Bone& bone, const glm::dvec3& centre_voxels,
+                                double radius_voxels) noexcept {
+    bone_ = &bone;
+    const glm::dvec3 low = centre_voxels - radius_voxels;
+    const glm::dvec3 high = centre_voxels + radius_voxels;
+    const glm::dvec3 last_voxel(bone.grid().size_voxels - 1);
+    if (glm::any(glm::lessThan(high, glm::dvec3(0.0))) || glm::any(glm::greaterThan(low, last_voxel)))
+        return false;
+
+    const glm::ivec3 first_brick = glm::ivec3(glm::floor(low)) >> 4;
+    const glm::ivec3 end_brick =
+        glm::min((glm::ivec3(glm::floor(high)) + 1) >> 4, first_brick + edge_ - 1) + 1;
+    base_ = first_brick * brick_edge_voxels;
+    const glm::ivec3 size = bone.content().size_bricks;
+    bool any = false;
+    for (int z = first_brick.z; z < end_brick.z; ++z)
+        for (int y = first_brick.y; y < end_brick.y; ++y)
+            for (int x = first_brick.x; x < end_brick.x; ++x) {
+                const glm::ivec3 brick(x, y, z);
+                const bool exists = x >= 0 && y >= 0 && z >= 0 && x < size.x && y < size.y && z < size.z;
+                const std::int32_t slot = exists ? bone.slot(brick) : BoneContent::no_slot;
+                const glm::ivec3 place = brick - first_brick;
+                slots_[static_cast<std::size_t>(place.x + edge_ * (place.y + edge_ * place.z))] = slot;
+                any |= slot != BoneContent::no_slot;
+            }
+    return any;
+}
+
+double BrickNeighbourhood::stiffness(const glm::vec3& place) const {
+    const glm::ivec3 nearest(place + 0.5f);
+    const std::int32_t at = slot(nearest);
+    return at == BoneContent::no_slot ? 0.0 : bone_->content().stiffness_in(at, offset_in_brick(nearest));
+}
+
+float BrickNeighbourhood::fraction(const glm::vec3& place) const {
+    const glm::ivec3 first(place);
+    const glm::vec3 w = place - glm::vec3(first);
+    const std::uint64_t bytes = corners(first);
+    std::array<float, 8> c;
+    for (std::size_t i = 0; i < c.size(); ++i) c[i] = static_cast<float>(bytes >> (8 * i) & 255u);
+    return detail::trilinear(c, w.x, w.y, w.z);
+}
+
+std::uint64_t BrickNeighbourhood::corners_across_bricks(const glm::ivec3& first) const {
+    const bool within_x = (first.x & 15) != 15;
+    const auto byte_at = [&](const glm::ivec3& place) -> std::uint64_t {
+        const std::int32_t at = slot(place);
+        return at == BoneContent::no_slot ? 0 : bone_->fractions(at)[offset_in_brick(place)];
+    };
+    std::uint64_t bytes = 0;
+    for (int i = 0; i < 4; ++i) {
+        const glm::ivec3 place = first + glm::ivec3(0, i & 1, i >> 1);
+        std::uint64_t pair = 0;
+        if (!within_x) {
+            pair = byte_at(place) | byte_at(place + glm::ivec3(1, 0, 0)) << 8;
+        } else if (const std::int32_t at = slot(place); at != BoneContent::no_slot) {
+            pair = detail::pair_at(bone_->fractions(at).data() + offset_in_brick(place));
+        }
+        bytes |= pair << (16 * i);
+    }
+    return bytes;
+}
+
+}  // namespace osteomill

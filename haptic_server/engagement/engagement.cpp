@@ -1,0 +1,171 @@
+#include "haptic_server/engagement/engagement.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <numbers>
+
+#include "common/scene/burr_frame.h"
+#include "haptic_server/cutting_force/axis_means.h"
+
+namespace osteomill {
+
+namespace {
+
+/// Interleaves the bits of a direction's eighths, so that neighbours in the list are neighbours on the
+/// sphere.
+unsigned place_on_sphere(const glm::dvec3& normal) {
+    const glm::uvec3 eighth(glm::min(glm::floor(4.0 * (normal + 1.0)), glm::dvec3(7.0)));
+    unsigned place = 0;
+    for (unsigned bit = 0; bit < 3; ++bit)
+        place |= (eighth.x >> bit & 1u) << (3 * bit) | (eighth.y >> bit & 1u) << (3 * bit + 1) |
+                 (eighth.z >> bit & 1u) << (3 * bit + 2);
+    return place;
+}
+
+/// Where along a patch's normal the bone is looked at, from the burr's surface.
+constexpr std::array<float, 4> offsets_voxels{-static_cast<float>(EngagementProbe::reach_voxels), -0.5f, 0.5f,
+                                              static_cast<float>(EngagementProbe::reach_voxels)};
+/// Half of a voxel's 255 steps: the bone's surface.
+constexpr float half = 127.5f;
+
+}  // namespace
+
+EngagementProbe::EngagementProbe(const Burr& burr, double spacing_mm)
+    : radius_mm_(burr.radius_mm()), bricks_(burr.radius_mm() / spacing_mm + reach_voxels + 2.0) {
+    const double sphere_area_mm2 = 4.0 * std::numbers::pi * radius_mm_ * radius_mm_;
+    const double patch_edge_mm = 2.0 * spacing_mm;
+    const auto count = static_cast<std::size_t>(std::clamp(sphere_area_mm2 / (patch_edge_mm * patch_edge_mm),
+                                                           128.0, double{Engagement::max_patches}));
+    patch_area_mm2_ = sphere_area_mm2 / static_cast<double>(count);
+
+    const glm::dvec3 k = burr.cutting_coefficients_n_per_mm2;
+    const double golden_angle_rad = std::numbers::pi * (3.0 - std::sqrt(5.0));
+    patches_.reserve(count);
+    for (std::size_t i = 0; i < count; ++i) {
+        const double z = -1.0 + (2.0 * static_cast<double>(i) + 1.0) / static_cast<double>(count);
+        const double sin_kappa = std::sqrt(1.0 - z * z);
+        const double psi = golden_angle_rad * static_cast<double>(i);
+        const glm::dvec3 normal(std::cos(psi) * sin_kappa, std::sin(psi) * sin_kappa, z);
+        const glm::dvec3 e_psi(-std::sin(psi), std::cos(psi), 0.0);
+        const glm::dvec3 e_kappa(std::cos(psi) * -z, std::sin(psi) * -z, sin_kappa);
+        const double r_mm = std::max(radius_mm_ * sin_kappa, 0.5 * disc_radius_voxels * spacing_mm);
+        const glm::dvec3 cutting = -(burr.sigma() * k.x * e_psi + k.y * normal + k.z * e_kappa) *
+                                   patch_area_mm2_ / (2.0 * std::numbers::pi * r_mm * burr.spindle_rev_per_s);
+        patches_.push_back({normal, cutting});
+    }
+    // Samples of neighbours read the same bricks.
+    std::stable_sort(patches_.begin(), patches_.end(), [](const Patch& a, const Patch& b) {
+        return place_on_sphere(a.normal) < place_on_sphere(b.normal);
+    });
+    // Filled up to whole fours with the last one.
+    const std::size_t padded = (count + four - 1) / four * four;
+    for (int axis = 0; axis < 3; ++axis)
+        for (std::size_t i = 0; i < padded; ++i)
+            normals_[static_cast<std::size_t>(axis)].push_back(
+                static_cast<float>(patches_[std::min(i, count - 1)].normal[axis]));
+}
+
+void EngagementProbe::sample(const Bone& bone, const glm::dvec3& position_mm, const glm::dvec3& spindle_axis,
+                             Engagement& out) noexcept {
+    out.burr_position_mm = position_mm;
+    out.count = 0;
+    const double h = bone.grid().spacing_mm;
+    out.spacing_mm = h;
+    const glm::dvec3 centre = to_voxel_coordinates(bone.grid(), position_mm);
+    const double radius = radius_mm_ / h;
+    // Stiffness is read one voxel farther in than the surface may be.
+    if (!bricks_.gather(bone, centre, radius + reach_voxels + 1.0)) return;
+
+    const glm::dmat3 frame = burr_frame(spindle_axis);
+    const glm::vec3 place_of_centre(centre - glm::dvec3(bricks_.base()));
+    const auto radius_voxels = static_cast<float>(radius);
+    for (std::size_t first = 0; first < patches_.size(); first += four) {
+        const FourFractions along = sample_four(first, glm::mat3(frame), place_of_centre, radius_voxels);
+        for (std::size_t lane = 0; lane < four && first + lane < patches_.size(); ++lane) {
+            const Crossing crossing = first_crossing(along, lane);
+            if (!crossing.found) continue;
+            const Patch& patch = patches_[first + lane];
+            const glm::dvec3 normal = frame * patch.normal;
+            const glm::vec3 outward(normal);
+            const glm::vec3 surface = place_of_centre + radius_voxels * outward;
+            // Stiffness one voxel into the bone, where no partial voxel dilutes it.
+            double stiffness = bricks_.stiffness(surface + (crossing.offset_voxels + 1.0f) * outward);
+            if (stiffness == 0.0)
+                stiffness = bricks_.stiffness(surface + crossing.bone_offset_voxels * outward);
+            out.patches[out.count++] = {normal, static_cast<double>(crossing.offset_voxels) * h,
+                                        stiffness * (frame * patch.cutting_n_s_per_mm), patch_area_mm2_};
+        }
+    }
+}
+
+EngagementProbe::FourFractions EngagementProbe::sample_four(std::size_t first, const glm::mat3& frame,
+                                                            const glm::vec3& centre,
+                                                            float radius_voxels) const noexcept {
+    using Floats [[gnu::vector_size(16)]] = float;
+    using Ints [[gnu::vector_size(16)]] = std::int32_t;
+    std::array<Floats, 3> normal;
+    for (std::size_t axis = 0; axis < 3; ++axis)
+        std::memcpy(&normal[axis], &normals_[axis][first], sizeof normal[axis]);
+    std::array<Floats, 3> outward;
+    std::array<Floats, 3> surface;
+    for (int axis = 0; axis < 3; ++axis) {
+        const auto at = static_cast<std::size_t>(axis);
+        outward[at] = frame[0][axis] * normal[0] + frame[1][axis] * normal[1] + frame[2][axis] * normal[2];
+        surface[at] = centre[axis] + radius_voxels * outward[at];
+    }
+    FourFractions along;
+    for (std::size_t i = 0; i < offsets_voxels.size(); ++i) {
+        std::array<Floats, 3> place;
+        std::array<Ints, 3> voxel;
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            place[axis] = surface[axis] + offsets_voxels[i] * outward[axis];
+            voxel[axis] = __builtin_convertvector(place[axis], Ints);
+            place[axis] -= __builtin_convertvector(voxel[axis], Floats);
+        }
+        // The low and the high four corners of each.
+        Ints low{};
+        Ints high{};
+        bool any = false;
+        for (int lane = 0; lane < 4; ++lane) {
+            const std::uint64_t corners = bricks_.corners({voxel[0][lane], voxel[1][lane], voxel[2][lane]});
+            low[lane] = static_cast<std::int32_t>(corners & 0xffffffffu);
+            high[lane] = static_cast<std::int32_t>(corners >> 32);
+            any |= corners != 0;
+        }
+        Floats fraction{};
+        if (any) {
+            std::array<Floats, 8> c;
+            for (int corner = 0; corner < 4; ++corner) {
+                c[static_cast<std::size_t>(corner)] =
+                    __builtin_convertvector(low >> (8 * corner) & 255, Floats);
+                c[static_cast<std::size_t>(corner) + 4] =
+                    __builtin_convertvector(high >> (8 * corner) & 255, Floats);
+            }
+            fraction = detail::trilinear(c, place[0], place[1], place[2]);
+        }
+        std::memcpy(along[i].data(), &fraction, sizeof fraction);
+        // Farther out than bone nobody looks.
+        if (any && fraction[0] >= half && fraction[1] >= half && fraction[2] >= half && fraction[3] >= half)
+            break;
+    }
+    return along;
+}
+
+EngagementProbe::Crossing EngagementProbe::first_crossing(const FourFractions& along, std::size_t lane) {
+    for (std::size_t i = 0; i < offsets_voxels.size(); ++i) {
+        const float fraction = along[i][lane];
+        if (fraction < half) continue;
+        const float offset = offsets_voxels[i];
+        if (i == 0) return {true, offset, offset};
+        const float inner = along[i - 1][lane];
+        const float inner_offset = offsets_voxels[i - 1];
+        return {true, inner_offset + (offset - inner_offset) * (half - inner) / (fraction - inner), offset};
+    }
+    return {};
+}
+
+}  // namespace osteomill

@@ -1,0 +1,195 @@
+#include "haptic_server/carving/carve.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <random>
+#include <vector>
+
+#include "tests/support/block.h"
+
+namespace osteomill {
+namespace {
+
+using testing::make_block;
+using testing::NoEdits;
+
+constexpr double spacing_mm = 0.1;
+constexpr double radius_mm = 1.0;
+
+Bone block() {
+    return make_block({-3.0, -3.0, -3.0}, {3.0, 3.0, 3.0}, spacing_mm);
+}
+
+Sweep in_voxels(const Bone& bone, const glm::dvec3& from_mm, const glm::dvec3& to_mm) {
+    return {to_voxel_coordinates(bone.grid(), from_mm), to_voxel_coordinates(bone.grid(), to_mm),
+            radius_mm / spacing_mm};
+}
+
+/// Forgets what was removed, but counts its codes.
+class Count final : public RemovalSink {
+  public:
+    void take(const RemovedVoxels& removed) noexcept override {
+        for (std::size_t i = 0; i < removed.count; ++i) codes += static_cast<int>(removed.codes[i]);
+    }
+    int codes = 0;
+};
+
+void carve_path(Bone& bone, const std::vector<glm::dvec3>& path_mm) {
+    NoEdits edits;
+    Count removed;
+    for (std::size_t i = 0; i + 1 < path_mm.size(); ++i)
+        carve(bone, in_voxels(bone, path_mm[i], path_mm[i + 1]),
+              i == 0 ? CarveHistory::none : CarveHistory::carved_at_from, {}, edits, removed);
+}
+
+std::vector<glm::dvec3> subdivided(const std::vector<glm::dvec3>& path, int parts) {
+    std::vector<glm::dvec3> fine{path.front()};
+    for (std::size_t i = 0; i + 1 < path.size(); ++i)
+        for (int part = 1; part <= parts; ++part)
+            fine.push_back(path[i] + (path[i + 1] - path[i]) * (static_cast<double>(part) / parts));
+    return fine;
+}
+
+const std::vector<glm::dvec3> zigzag{{-1.5, -1.0, 0.3}, {1.2, -0.4, 0.0}, {-0.6, 1.1, -0.8}, {0.9, 1.3, 1.1}};
+
+TEST(Carve, RemovesTheSweptVolumeWithinAHalfPercent) {
+    for (const glm::dvec3 to : {glm::dvec3(0.0), glm::dvec3(1.5, 0.0, 0.0), glm::dvec3(0.7, -1.1, 0.9)}) {
+        Bone bone = block();
+        const double before = bone_volume_mm3(bone);
+        NoEdits edits;
+        Count removed;
+        const glm::dvec3 from(-0.033, 0.021, 0.017);
+        carve(bone, in_voxels(bone, from, to), CarveHistory::none, {}, edits, removed);
+        const double swept = volume(Sweep{from, to, radius_mm});
+        EXPECT_NEAR((before - bone_volume_mm3(bone)) / swept, 1.0, 0.005);
+    }
+}
+
+TEST(Carve, DoesNotDependOnTheNumberOfSteps) {
+    Bone coarse = block();
+    carve_path(coarse, zigzag);
+    for (const int parts : {2, 10, 137}) {
+        Bone fine = block();
+        carve_path(fine, subdivided(zigzag, parts));
+        EXPECT_EQ(checksum(fine), checksum(coarse)) << parts << " steps for one";
+    }
+}
+
+TEST(Carve, DoesNotDependOnTheOrderOfSteps) {
+    Bone forward = block();
+    carve_path(forward, zigzag);
+    Bone backward = block();
+    carve_path(backward, {zigzag.rbegin(), zigzag.rend()});
+    EXPECT_EQ(checksum(forward), checksum(backward));
+}
+
+TEST(Carve, DoneTwiceRemovesNothingMore) {
+    Bone bone = block();
+    carve_path(bone, zigzag);
+    const std::uint64_t once = checksum(bone);
+    carve_path(bone, zigzag);
+    EXPECT_EQ(checksum(bone), once);
+}
+
+TEST(Carve, CrescentAloneEqualsTheFullSearch) {
+    std::mt19937 random(3);
+    std::uniform_real_distribution<double> step(-0.15, 0.15);
+    Bone crescent = block();
+    Bone full = block();
+    NoEdits edits;
+    Count removed;
+    glm::dvec3 from(0.0);
+    carve(crescent, in_voxels(crescent, from, from), CarveHistory::none, {}, edits, removed);
+    carve(full, in_voxels(full, from, from), CarveHistory::none, {}, edits, removed);
+    for (int i = 0; i < 400; ++i) {
+        const glm::dvec3 to =
+            glm::clamp(from + glm::dvec3(step(random), step(random), i % 3 ? step(random) : 0.0), -3.5, 3.5);
+        carve(crescent, in_voxels(crescent, from, to), CarveHistory::carved_at_from, {}, edits, removed);
+        carve(full, in_voxels(full, from, to), CarveHistory::none, {}, edits, removed);
+        from = to;
+    }
+    EXPECT_EQ(checksum(crescent), checksum(full));
+}
+
+/// What the formula of cover.h says of every voxel, asked one by one in double precision.
+void carve_voxel_by_voxel(Bone& bone, const Sweep& sweep, VoxelEdges edges) {
+    const SweepSeenFrom seen(sweep, glm::dvec3(0.0), edges);
+    const glm::ivec3 size = bone.grid().size_voxels;
+    glm::ivec3 v;
+    for (v.z = 0; v.z < size.z; ++v.z)
+        for (v.y = 0; v.y < size.y; ++v.y)
+            for (v.x = 0; v.x < size.x; ++v.x) {
+                std::uint8_t& fraction = bone.fractions(bone.slot(v >> 4))[offset_in_brick(v)];
+                const glm::vec3 place(v);
+                const std::int32_t left =
+                    edges == VoxelEdges::partial
+                        ? fraction_left<VoxelEdges::partial>(seen, place.x, place.y, place.z)
+                    : edges == VoxelEdges::soft
+                        ? fraction_left<VoxelEdges::soft>(seen, place.x, place.y, place.z)
+                        : fraction_left<VoxelEdges::whole>(seen, place.x, place.y, place.z);
+                fraction = static_cast<std::uint8_t>(std::min<int>(fraction, left));
+            }
+}
+
+TEST(Carve, LeavesOfEachVoxelWhatTheFormulaSays) {
+    std::mt19937 random(7);
+    std::uniform_real_distribution<double> part(0.0, 1.0);
+    std::uniform_real_distribution<double> step(-1.1, 1.1);
+    // The larger the burr, the less single precision knows of its surface.
+    for (const double radius : {0.4, 5.0, 25.0, 249.0})
+        for (const VoxelEdges edges : {VoxelEdges::partial, VoxelEdges::soft, VoxelEdges::whole})
+            for (const InstructionSet instructions : {InstructionSet::plain, best_instruction_set()}) {
+                Bone bone = make_block({0.0, 0.0, 0.0}, {3.5, 3.3, 3.4}, spacing_mm);
+                Bone expected = bone;
+                NoEdits edits;
+                Count removed;
+                for (int i = 0; i < 6; ++i) {
+                    const glm::dvec3 hit = glm::dvec3(part(random), part(random), part(random)) * 33.0;
+                    const glm::dvec3 from = hit - radius * glm::normalize(glm::dvec3(1.0, 2.0, part(random)));
+                    const glm::dvec3 to = from + glm::dvec3(step(random), step(random), step(random));
+                    carve(bone, {from, to, radius}, CarveHistory::none,
+                          {.edges = edges, .instructions = instructions}, edits, removed);
+                    carve_voxel_by_voxel(expected, {from, to, radius}, edges);
+                }
+                EXPECT_EQ(checksum(bone), checksum(expected)) << "radius " << radius << " voxels";
+                EXPECT_GT(removed.codes, 0);
+            }
+}
+
+TEST(Carve, EditsRebuildTheBoneInAnotherCopy) {
+    class Apply final : public EditSink {
+      public:
+        explicit Apply(Bone& copy) : copy_(copy) {}
+        void push(const EditRun& run) noexcept override {
+            refused_ += apply(run, copy_) != EditOutcome::applied;
+        }
+        int refused() const { return refused_; }
+
+      private:
+        Bone& copy_;
+        int refused_ = 0;
+    };
+    Bone bone = block();
+    Bone copy = bone;
+    Apply edits(copy);
+    const auto fine = subdivided(zigzag, 40);
+    Count removed_codes;
+    for (std::size_t i = 0; i + 1 < fine.size(); ++i)
+        carve(bone, in_voxels(bone, fine[i], fine[i + 1]), CarveHistory::carved_at_from, {}, edits,
+              removed_codes);
+    EXPECT_EQ(edits.refused(), 0);
+    EXPECT_EQ(checksum(copy), checksum(bone));
+    const double removed = bone_volume_mm3(block()) - bone_volume_mm3(bone);
+    EXPECT_NEAR(removed_codes.codes / 255.0 * voxel_volume_mm3(bone.grid()), removed, 1e-9);
+}
+
+TEST(Carve, OutsideTheGridDoesNothing) {
+    Bone bone = block();
+    const std::uint64_t before = checksum(bone);
+    carve_path(bone, {{50.0, 0.0, 0.0}, {60.0, 0.0, 0.0}, {1e12, -1e12, 4.2}});
+    EXPECT_EQ(checksum(bone), before);
+}
+
+}  // namespace
+}  // namespace osteomill

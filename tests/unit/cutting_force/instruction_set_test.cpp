@@ -1,0 +1,91 @@
+// Every instruction set gives the same bits.
+#include "haptic_server/carving/instruction_set.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "haptic_server/carving/cover.h"
+#include "haptic_server/cutting_force/chip_force.h"
+#include "tests/support/steady_motion.h"
+
+namespace osteomill {
+namespace {
+
+class InstructionSets : public ::testing::Test {
+  protected:
+    void SetUp() override {
+        if (best_instruction_set() == InstructionSet::plain)
+            GTEST_SKIP() << "this processor has no other set";
+    }
+};
+
+RemovedVoxels random_voxels() {
+    RemovedVoxels voxels;
+    voxels.base = {40, 50, 60};
+    voxels.count = 509;
+    std::mt19937 random(1);
+    std::uniform_int_distribution<int> place(0, 60);
+    for (std::size_t i = 0; i < voxels.count; ++i) {
+        voxels.x[i] = static_cast<float>(place(random));
+        voxels.y[i] = static_cast<float>(place(random));
+        voxels.z[i] = static_cast<float>(place(random));
+        voxels.codes[i] = static_cast<float>(place(random));
+    }
+    voxels.pad();
+    return voxels;
+}
+
+TEST_F(InstructionSets, CoverVoxelsAlike) {
+    const RemovedVoxels voxels = random_voxels();
+    const std::size_t count = voxels.padded_count();
+    for (const VoxelEdges edges : {VoxelEdges::partial, VoxelEdges::soft, VoxelEdges::whole}) {
+        const SweepSeenFrom sweep({{70.3, 80.1, 90.7}, {70.9, 80.0, 90.5}, 25.0}, glm::dvec3(voxels.base),
+                                  edges);
+        std::array<std::vector<std::int32_t>, 2> left;
+        for (const InstructionSet set : {InstructionSet::plain, best_instruction_set()}) {
+            auto& out = left[set == InstructionSet::plain ? 0 : 1];
+            out.resize(count);
+            fractions_left(sweep, {voxels.x.data(), count}, {voxels.y.data(), count},
+                           {voxels.z.data(), count}, out, set);
+        }
+        EXPECT_EQ(left[0], left[1]);
+        EXPECT_NE(std::count(left[0].begin(), left[0].end(), 0), 0);
+        EXPECT_NE(std::count(left[0].begin(), left[0].end(), 255), 0);
+    }
+}
+
+TEST_F(InstructionSets, SumForcesAlike) {
+    const RemovedVoxels voxels = random_voxels();
+    const CuttingStep step(Burr{}, glm::normalize(glm::dvec3(0.3, -0.2, 0.9)), {70.3, 80.1, 90.7}, 0.1,
+                           0.001);
+    std::array<glm::dvec3, 2> sum{};
+    for (const InstructionSet set : {InstructionSet::plain, best_instruction_set()}) {
+        sum[set == InstructionSet::plain ? 0 : 1] = sum_of_chip_forces(step, voxels, voxels.codes, set);
+    }
+    EXPECT_EQ(sum[0], sum[1]);
+    EXPECT_GT(glm::length(sum[0]), 0.0);
+}
+
+TEST_F(InstructionSets, MillAlike) {
+    const auto cases = testing::reference_cases();
+    for (const std::size_t i : {std::size_t{2}, cases.size() - 1}) {
+        const auto plain =
+            testing::run_steady(cases[i], 0.1, 0.002, 0.5, {.instructions = InstructionSet::plain});
+        const auto best =
+            testing::run_steady(cases[i], 0.1, 0.002, 0.5, {.instructions = best_instruction_set()});
+        EXPECT_EQ(plain.mean_force_n, best.mean_force_n) << cases[i].name;
+        EXPECT_EQ(plain.removal_mm3_per_s, best.removal_mm3_per_s) << cases[i].name;
+    }
+}
+
+TEST_F(InstructionSets, MillSlowlyAlike) {
+    auto slow = testing::reference_cases().front();
+    slow.velocity_mm_per_s *= 0.5 / glm::length(slow.velocity_mm_per_s);
+    const auto plain = testing::run_steady(slow, 0.1, 0.01, 0.1, {.instructions = InstructionSet::plain});
+    const auto best = testing::run_steady(slow, 0.1, 0.01, 0.1, {.instructions = best_instruction_set()});
+    EXPECT_EQ(plain.mean_force_n, best.mean_force_n);
+}
+
+}  // namespace
+}  // namespace osteomill

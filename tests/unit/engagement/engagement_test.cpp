@@ -1,0 +1,80 @@
+#include "haptic_server/engagement/engagement.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <glm/geometric.hpp>
+#include <memory>
+
+#include "tests/support/block.h"
+
+namespace osteomill {
+namespace {
+
+const glm::dvec3 up(0.0, 0.0, 1.0);
+
+/// Flat bone below z = 0.
+Bone flat_block() {
+    return testing::make_block({-4.0, -4.0, -3.0}, {4.0, 4.0, 0.0}, 0.1);
+}
+
+TEST(Engagement, IsEmptyInFreeAir) {
+    const Bone bone = flat_block();
+    EngagementProbe probe(Burr{.diameter_mm = 2.0}, 0.1);
+    auto engagement = std::make_unique<Engagement>();
+    for (const glm::dvec3 place : {glm::dvec3(0, 0, 1.5), glm::dvec3(0, 0, 100), glm::dvec3(-1e9, 0, 0)}) {
+        probe.sample(bone, place, up, *engagement);
+        EXPECT_EQ(engagement->count, 0U);
+    }
+}
+
+TEST(Engagement, GapIsTheDistanceToAFlatSurface) {
+    const Bone bone = flat_block();
+    const Burr burr{.diameter_mm = 5.0};
+    EngagementProbe probe(burr, 0.1);
+    auto engagement = std::make_unique<Engagement>();
+    for (const double height : {0.08, 0.02, -0.06}) {
+        probe.sample(bone, {0.0, 0.0, 2.5 + height}, up, *engagement);
+        ASSERT_GT(engagement->count, 0U) << height;
+        double smallest = 1.0;
+        for (std::size_t i = 0; i < engagement->count; ++i) {
+            const EngagedPatch& patch = engagement->patches[i];
+            smallest = std::min(smallest, patch.gap_mm);
+            // Along its normal a patch meets the plane z = 0 at (2.5 + height) / -n.z from the centre.
+            const double expected = (2.5 + height) / -patch.normal.z - 2.5;
+            if (expected > -0.1) {
+                EXPECT_NEAR(patch.gap_mm, expected, 0.02);
+            }
+        }
+        EXPECT_NEAR(smallest, height, 0.02);
+    }
+}
+
+TEST(Engagement, PatchesCoverTheSphereTheyTouch) {
+    const Bone bone = testing::make_block({-3.0, -3.0, -3.0}, {3.0, 3.0, 3.0}, 0.1);
+    const Burr burr{.diameter_mm = 2.0};
+    auto engagement = std::make_unique<Engagement>();
+    EngagementProbe(burr, 0.1).sample(bone, glm::dvec3(0.0), up, *engagement);
+    double area = 0.0;
+    for (std::size_t i = 0; i < engagement->count; ++i) area += engagement->patches[i].area_mm2;
+    EXPECT_NEAR(area, 4.0 * 3.14159265 * 1.0, 0.01);
+}
+
+TEST(Engagement, AdvancingIntoAFreshSlotPredictsTheReferenceForce) {
+    // Fully immersed and moving along x, patches with n . v > 0 cut: reference case "polish upright d=5.0".
+    const Bone bone = testing::make_block({-4.0, -4.0, -4.0}, {4.0, 4.0, 4.0}, 0.1);
+    Burr burr;
+    burr.sense = SpindleSense::counter_clockwise;
+    auto engagement = std::make_unique<Engagement>();
+    EngagementProbe(burr, 0.1).sample(bone, glm::dvec3(0.0), up, *engagement);
+    glm::dvec3 force(0.0);
+    const glm::dvec3 velocity_mm_per_s(6.0, 0.0, 0.0);
+    for (std::size_t i = 0; i < engagement->count; ++i)
+        force += engagement->patches[i].cutting_n_s_per_mm *
+                 std::max(0.0, glm::dot(engagement->patches[i].normal, velocity_mm_per_s));
+    const glm::dvec3 reference(-1.413717, -10.350001, -0.9);
+    EXPECT_LT(glm::length(force - reference) / glm::length(reference), 0.02);
+}
+
+}  // namespace
+}  // namespace osteomill
