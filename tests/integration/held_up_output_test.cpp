@@ -19,6 +19,7 @@
 #include "tests/support/child_process.h"
 #include "tests/support/eventually.h"
 #include "tests/support/force_log_file.h"
+#include "tests/support/milling_motion.h"
 #include "tests/support/stopped_terminal.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/unread_pipe.h"
@@ -53,9 +54,7 @@ class HeldUp : public ::testing::Test {
   protected:
     HeldUp() {
         write_block(file("block.nrrd"));
-        std::ofstream(file("motion.csv"))
-            << "t_s,x_mm,y_mm,z_mm,axis_x,axis_y,axis_z,pedal\n0,-3,0,3.5,0,0,1,0\n0.4,-3,0,2.5,0,0,1,1\n"
-               "1,-3,0,1.5,0,0,1,1\n300,3,0,1,0,0,1,1\n";
+        write_milling_motion(file("motion.csv"));
         std::ofstream(file("rest.csv"))
             << "t_s,x_mm,y_mm,z_mm,axis_x,axis_y,axis_z,pedal\n0,0,0,20,0,0,1,0\n";
     }

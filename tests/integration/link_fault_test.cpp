@@ -20,6 +20,7 @@
 #include "tests/support/child_process.h"
 #include "tests/support/eventually.h"
 #include "tests/support/link_proxy.h"
+#include "tests/support/milling_motion.h"
 #include "tests/support/private_network.h"
 #include "tests/support/stranger.h"
 #include "tests/support/temporary_folder.h"
@@ -45,9 +46,7 @@ class LinkFaults : public ::testing::Test {
 
     /// Mills slowly for minutes, until it is told to end; leaves server.json.
     void start_server(const Command& options = {"--listen", "127.0.0.1:0"}) {
-        std::ofstream(file("motion.csv"))
-            << "t_s,x_mm,y_mm,z_mm,axis_x,axis_y,axis_z,pedal\n0,-3,0,3.5,0,0,1,0\n0.4,-3,0,2.5,0,0,1,1\n"
-               "1,-3,0,1.5,0,0,1,1\n300,3,0,1,0,0,1,1\n";
+        write_milling_motion(file("motion.csv"));
         Command command{HAPTIC_SERVER,      "--bone", file("block.nrrd"), "--trajectory",
                         file("motion.csv"), "--json", file("server.json")};
         command.insert(command.end(), options.begin(), options.end());
@@ -75,12 +74,13 @@ class LinkFaults : public ::testing::Test {
 
     /// Ends the session once bone has been cut, and all of them with it.
     void expect_equal_bones_at_the_end(const Links& links) {
-        EXPECT_TRUE(poll_until(
-            links, [](const LinkUpdate& update) { return update.tool && update.tool->removed_mm3 > 0.1; }));
+        const bool has_cut = poll_until(
+            links, [](const LinkUpdate& update) { return update.tool && update.tool->removed_mm3 > 0.1; });
         server_->send_signal(SIGINT);
         EXPECT_TRUE(poll_until(
             links, [](const LinkUpdate& update) { return update.status == LinkStatus::finished; }));
         ASSERT_EQ(server_->wait(60s), 0) << server_->err();
+        EXPECT_TRUE(has_cut) << server_->err();
         const std::string served = json("server.json").at("bone_checksum");
         for (const auto& link : links) {
             EXPECT_EQ(fmt::format("{:016x}", checksum(*link->bone())), served);
