@@ -235,7 +235,7 @@ std::optional<double> off_after_ms(const Fault& fault, const Programs& programs)
     session.server.send_signal(SIGINT);
     session.server.wait(60s);
     if (!fault_s) return std::nullopt;
-    const auto off_s = spindle_off_after_s(read_spindle_log(session.csv), *fault_s);
+    const auto off_s = spindle_off_after_s(read_force_log(session.csv), *fault_s);
     return off_s ? std::optional(1e3 * *off_s) : std::nullopt;
 }
 

@@ -113,10 +113,10 @@ class Permissions : public ::testing::Test {
     }
 
     /// Ends the session; what the spindle did in it.
-    std::vector<SpindleSample> log_of_session() {
+    std::vector<ForceLogLine> log_of_session() {
         server_.send_signal(SIGINT);
         EXPECT_EQ(server_.wait(60s), 0) << server_.err();
-        return read_spindle_log(folder_ / "log.csv");
+        return read_force_log(folder_ / "log.csv");
     }
 
     /// An operator whose pedal is down, where the tool is.
@@ -186,9 +186,9 @@ TEST_F(Permissions, EndsBehindAnUpstreamThatTurnsLateAndIsNotHadBehindOneThatIs)
     const auto off_s = spindle_off_after_s(log, late_s);
     ASSERT_TRUE(off_s);
     EXPECT_LE(*off_s, off_within_s);
-    for (const SpindleSample& sample : log) {
+    for (const ForceLogLine& sample : log) {
         const bool is_late = sample.time_s > late_s + off_within_s && sample.time_s < end_s;
-        ASSERT_FALSE(is_late && sample.turns) << sample.time_s - late_s << " s behind the delay";
+        ASSERT_FALSE(is_late && sample.spindle_on) << sample.time_s - late_s << " s behind the delay";
     }
     EXPECT_THAT(server_.err(), HasSubstr("answers what was so more than 250 ms ago"));
     EXPECT_LE(count_of(server_.err(), "answers what was so"), 3);
@@ -199,7 +199,7 @@ TEST_F(Permissions, IsNotHadByAClientWhosePictureIsASecondOld) {
     cable.delay(0ms, 1s);
     BoneLink link("127.0.0.1", cable.port());
     EXPECT_FALSE(gets_spindle(link, 4s));
-    for (const SpindleSample& sample : log_of_session()) ASSERT_FALSE(sample.turns) << sample.time_s;
+    for (const ForceLogLine& sample : log_of_session()) ASSERT_FALSE(sample.spindle_on) << sample.time_s;
 }
 
 TEST_F(Permissions, IsKeptOverALinkWithADelayOf100Ms) {
@@ -212,8 +212,8 @@ TEST_F(Permissions, IsKeptOverALinkWithADelayOf100Ms) {
     const double end_s = clock_.now_s();
     const auto log = log_of_session();
     double off_s = 0.0;
-    for (const SpindleSample& sample : log)
-        if (sample.time_s > on_s && sample.time_s < end_s && !sample.turns) off_s += 0.001;
+    for (const ForceLogLine& sample : log)
+        if (sample.time_s > on_s && sample.time_s < end_s && !sample.spindle_on) off_s += 0.001;
     EXPECT_LT(off_s, 0.3) << "a machine with much to do may hold back a message or two";
 }
 
@@ -225,9 +225,9 @@ TEST_F(Permissions, OfOneMessageReachesNoFartherThanAHand) {
     std::this_thread::sleep_for(2s);
     const auto log = log_of_session();
     double travelled_mm = 0.0, turned_s = 0.0;
-    for (const SpindleSample& sample : log) {
+    for (const ForceLogLine& sample : log) {
         travelled_mm = std::max(travelled_mm, std::abs(sample.burr_mm[0] - log.front().burr_mm[0]));
-        if (sample.turns) turned_s += 0.001;
+        if (sample.spindle_on) turned_s += 0.001;
     }
     // A hand's reach, and as far as a hand swings that is stopped.
     EXPECT_LT(travelled_mm, 10.0);
@@ -270,7 +270,7 @@ TEST_F(Permissions, IsNotHadByRepeatingMessagesNorByClientsThatNameNoState) {
         std::this_thread::sleep_for(10ms);
     }
     double turned_s = 0.0;
-    for (const SpindleSample& sample : log_of_session()) turned_s += sample.turns ? 0.001 : 0.0;
+    for (const ForceLogLine& sample : log_of_session()) turned_s += sample.spindle_on ? 0.001 : 0.0;
     EXPECT_LE(turned_s, off_within_s) << "for the first of them";
     EXPECT_GT(turned_s, 0.1);
     EXPECT_EQ(count_of(server_.err(), "looks on and moves nothing"), 1) << server_.err();
@@ -349,8 +349,8 @@ TEST_F(WindowPermissions, AreKeptWhileTheWindowDrawsSlowlyAndEndWithThePedal) {
     EXPECT_TRUE(watch_for(5s, [](const ToolView& tool) { return !tool.spindle_on; }));
     const auto log = log_of_session();
     double off_s = 0.0;
-    for (const SpindleSample& sample : log)
-        if (sample.time_s > on_s && sample.time_s < up_s && !sample.turns) off_s += 0.001;
+    for (const ForceLogLine& sample : log)
+        if (sample.time_s > on_s && sample.time_s < up_s && !sample.spindle_on) off_s += 0.001;
     EXPECT_LT(off_s, 0.4) << "of 4 s; a machine with much to do may hold back the mouse, too";
     const auto after_s = spindle_off_after_s(log, up_s);
     ASSERT_TRUE(after_s);

@@ -1,4 +1,4 @@
-// What a server wrote with --log-csv.
+// What a server wrote with --log-csv, and other files of numbers.
 #pragma once
 
 #include <cstdlib>
@@ -10,6 +10,23 @@
 
 namespace osteomill::testing {
 
+/// The lines of a CSV file behind its header.
+inline std::vector<std::vector<double>> read_csv_numbers(const std::filesystem::path& csv) {
+    std::ifstream in(csv);
+    std::vector<std::vector<double>> rows;
+    std::string text;
+    std::getline(in, text);
+    while (std::getline(in, text)) {
+        std::vector<double>& row = rows.emplace_back();
+        for (const char* at = text.c_str(); *at != '\0';) {
+            char* end = nullptr;
+            row.push_back(std::strtod(at, &end));
+            at = *end == ',' ? end + 1 : end;
+        }
+    }
+    return rows;
+}
+
 struct ForceLogLine {
     double time_s = 0.0;
     glm::dvec3 burr_mm{0.0};
@@ -19,20 +36,11 @@ struct ForceLogLine {
     int fault = 0;
 };
 
-/// Columns as force_log.h says.
+/// Columns as force_log.h says; a line that is torn at the end of a log is none.
 inline std::vector<ForceLogLine> read_force_log(const std::filesystem::path& csv) {
-    std::ifstream in(csv);
     std::vector<ForceLogLine> lines;
-    std::string text;
-    std::getline(in, text);
-    while (std::getline(in, text)) {
-        std::vector<double> column;
-        for (const char* at = text.c_str(); *at != '\0';) {
-            char* end = nullptr;
-            column.push_back(std::strtod(at, &end));
-            at = *end == ',' ? end + 1 : end;
-        }
-        column.resize(14);
+    for (const std::vector<double>& column : read_csv_numbers(csv)) {
+        if (column.size() < 14) continue;
         lines.push_back({.time_s = column[0],
                          .burr_mm = {column[4], column[5], column[6]},
                          .force_n = {column[7], column[8], column[9]},

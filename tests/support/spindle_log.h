@@ -4,17 +4,13 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <chrono>
-#include <filesystem>
-#include <fstream>
 #include <limits>
 #include <optional>
-#include <sstream>
-#include <string>
 #include <vector>
 
 #include "common/wire/tool_view.h"
+#include "tests/support/force_log_file.h"
 
 namespace osteomill::testing {
 
@@ -35,40 +31,16 @@ class SessionClock {
     double began_s_ = std::numeric_limits<double>::infinity();
 };
 
-/// A line of the server's --log-csv, as far as this needs it.
-struct SpindleSample {
-    double time_s = 0.0;
-    std::array<double, 3> burr_mm{};
-    double removed_mm3 = 0.0;
-    bool turns = false;
-};
-
-inline std::vector<SpindleSample> read_spindle_log(const std::filesystem::path& csv) {
-    std::vector<SpindleSample> samples;
-    std::ifstream in(csv);
-    std::string line;
-    std::getline(in, line);
-    while (std::getline(in, line)) {
-        std::replace(line.begin(), line.end(), ',', ' ');
-        std::istringstream words(line);
-        std::array<double, 14> value{};
-        bool is_whole = true;
-        for (double& number : value) is_whole = is_whole && static_cast<bool>(words >> number);
-        if (is_whole)
-            samples.push_back({value[0], {value[4], value[5], value[6]}, value[11], value[12] != 0.0});
-    }
-    return samples;
-}
-
 /// How long after `event_s` the spindle turned last before it stood still; nothing where it did not turn then
 /// or did not stop.
-inline std::optional<double> spindle_off_after_s(const std::vector<SpindleSample>& log, double event_s) {
+inline std::optional<double> spindle_off_after_s(const std::vector<ForceLogLine>& log, double event_s) {
     const auto after = [&](double time_s) {
-        return std::ranges::lower_bound(log, time_s, {}, &SpindleSample::time_s);
+        return std::ranges::lower_bound(log, time_s, {}, &ForceLogLine::time_s);
     };
     const auto at = after(event_s);
-    if (at == log.end() || !at->turns) return std::nullopt;
-    const auto off = std::find_if(at, log.end(), [](const SpindleSample& sample) { return !sample.turns; });
+    if (at == log.end() || !at->spindle_on) return std::nullopt;
+    const auto off =
+        std::find_if(at, log.end(), [](const ForceLogLine& sample) { return !sample.spindle_on; });
     if (off == log.end()) return std::nullopt;
     return off->time_s - event_s;
 }

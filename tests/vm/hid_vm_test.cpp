@@ -14,8 +14,9 @@
 #include <string>
 #include <vector>
 
-#include "tests/support/dense_bone_file.h"
 #include "tests/support/child_process.h"
+#include "tests/support/dense_bone_file.h"
+#include "tests/support/force_log_file.h"
 #include "tests/support/temporary_folder.h"
 
 namespace osteomill {
@@ -34,41 +35,7 @@ std::string obstacle() {
     return "";
 }
 
-/// A line of --log-csv.
-struct Tick {
-    double time_s = 0.0;
-    glm::dvec3 burr_mm{0.0};
-    glm::dvec3 force_n{0.0};
-    double removed_mm3 = 0.0;
-    bool spindle_on = false;
-    int fault = 0;
-};
-
-std::vector<std::vector<double>> numbers_of(const std::filesystem::path& file) {
-    std::ifstream in(file);
-    std::string line;
-    std::getline(in, line);
-    std::vector<std::vector<double>> rows;
-    while (std::getline(in, line)) {
-        std::istringstream cells(line);
-        rows.emplace_back();
-        for (std::string cell; std::getline(cells, cell, ',');) rows.back().push_back(std::stod(cell));
-    }
-    return rows;
-}
-
-std::vector<Tick> log_of(const std::filesystem::path& file) {
-    std::vector<Tick> log;
-    for (const auto& c : numbers_of(file)) {
-        log.push_back({.time_s = c.at(0),
-                       .burr_mm = {c.at(4), c.at(5), c.at(6)},
-                       .force_n = {c.at(7), c.at(8), c.at(9)},
-                       .removed_mm3 = c.at(11),
-                       .spindle_on = c.at(12) != 0.0,
-                       .fault = static_cast<int>(c.at(13))});
-    }
-    return log;
-}
+using Tick = testing::ForceLogLine;
 
 std::string text_of(const std::filesystem::path& file) {
     std::ifstream in(file);
@@ -169,9 +136,9 @@ TEST(HidArmInAVirtualMachine, MillsAsTheSimulatedOneAndSurvivesNonsenseAndAPulle
 
     // Path, force and bone removed are those of the same motion on the simulated arm.
     constexpr double two_encoder_steps_mm = 0.11;
-    const std::vector<Tick> log = log_of(out / "server.csv");
+    const std::vector<Tick> log = testing::read_force_log(out / "server.csv");
     const std::vector<Tick> real = milling_of(log, 2.6);
-    const std::vector<Tick> simulated = milling_of(log_of(folder / "simulated.csv"), 2.6);
+    const std::vector<Tick> simulated = milling_of(testing::read_force_log(folder / "simulated.csv"), 2.6);
     const double apart_mm = rms_distance_mm(simulated, real);
     const double real_n = mean_force_n(real, 1.0, 2.2);
     const double simulated_n = mean_force_n(simulated, 1.0, 2.2);
@@ -213,7 +180,7 @@ TEST(HidArmInAVirtualMachine, MillsAsTheSimulatedOneAndSurvivesNonsenseAndAPulle
 
     // What the motors did, as the arm saw it: they pushed, and had no current while the cable was out.
     double strongest_n = 0.0;
-    for (const auto& c : numbers_of(out / "arm.csv")) {
+    for (const auto& c : testing::read_csv_numbers(out / "arm.csv")) {
         const double force_n = glm::length(glm::dvec3(c.at(4), c.at(5), c.at(6)));
         strongest_n = std::max(strongest_n, force_n);
     }
