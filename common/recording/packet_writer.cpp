@@ -35,6 +35,9 @@ PacketWriter::PacketWriter(std::filesystem::path file)
     std::FILE* stream = std::fopen(file_.c_str(), "wbe");
     if (stream == nullptr)
         throw RecordingError(file_.string() + ": cannot write the recording: " + std::strerror(errno));
+    // Each packet is flushed anyway. What stdio holds for a disk that does not answer it would try to write
+    // once more when the program ends, for ever.
+    std::setvbuf(stream, nullptr, _IONBF, 0);
     output_.reset(pcap_dump_fopen(format_.get(), stream));
     if (!output_ || pcap_dump_flush(output_.get()) != 0) {
         const int reason = errno;

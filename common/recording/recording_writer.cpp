@@ -1,7 +1,13 @@
 #include "common/recording/recording_writer.h"
 
+#include <condition_variable>
+#include <deque>
+#include <mutex>
 #include <stdexcept>
 #include <utility>
+
+#include "common/files/session_file.h"
+#include "common/recording/packet_writer.h"
 
 namespace osteomill {
 
@@ -15,123 +21,221 @@ SessionFile begun(const std::filesystem::path& file) try {
 
 }  // namespace
 
+/// What the thread and its owner share; it lives as long as either of them.
+struct RecordingWriter::Shared {
+    struct Waiting {
+        Stamp stamp;
+        std::string message;
+    };
+
+    Shared(const std::filesystem::path& path, OnNews its_on_news, WhenDiskIsFull its_when_full)
+        : file(begun(path)), packets(file.part()), on_news(std::move(its_on_news)), when_full(its_when_full) {
+        report.file = packets.file();
+        report.bytes = packets.bytes();
+    }
+    ~Shared() {
+        if (is_worth_keeping && packets.packets() > 0) file.keep_part();
+    }
+    Shared(const Shared&) = delete;
+    Shared& operator=(const Shared&) = delete;
+
+    // All with the mutex locked.
+
+    bool has_room() const { return waiting_bytes < capacity_bytes; }
+    bool has_failed() const { return !report.error.empty(); }
+    bool has_ended() const { return is_given_up || (when_full == WhenDiskIsFull::end && has_failed()); }
+    void forget_waiting() {
+        waiting.clear();
+        waiting_bytes = 0;
+    }
+    void give_up() {
+        is_given_up = true;
+        report.error = report.file.string() + ": the disk does not answer; the recording ends there";
+        forget_waiting();
+    }
+    /// Waits until `condition` holds; gives up once nothing has been written for longest_standstill.
+    template <typename Condition>
+    void wait_or_give_up(std::unique_lock<std::mutex>& lock, const Condition& condition) {
+        while (!condition()) {
+            const auto has_moved = [&, frames = report.frames] {
+                return condition() || report.frames != frames;
+            };
+            if (!changed.wait_for(lock, longest_standstill, has_moved)) return give_up();
+        }
+    }
+
+    // The thread's.
+
+    void run();
+    /// One line why not; empty if it has been written.
+    std::string write(const Waiting& frame);
+    std::string make_whole();
+
+    SessionFile file;
+    PacketWriter packets;  // the thread's
+    const OnNews on_news;
+    const WhenDiskIsFull when_full;
+    std::mutex mutex;
+    std::condition_variable changed;
+    std::deque<Waiting> waiting;
+    std::size_t waiting_bytes = 0;  // with what is being written
+    bool is_closing = false;
+    bool is_to_be_whole = false;  // once all is written
+    bool is_syncing = false;
+    bool has_thread = true;
+    bool is_worth_keeping = true;
+    bool is_given_up = false;  // the thread may be there, but what it does is nobody's business any more
+    RecordingReport report;
+};
+
 RecordingWriter::RecordingWriter(const std::filesystem::path& file, OnNews on_news, WhenDiskIsFull when_full)
-    : file_(begun(file)), packets_(file_.part()), on_news_(std::move(on_news)), when_full_(when_full) {
-    report_.file = packets_.file();
-    report_.bytes = packets_.bytes();
-    thread_ = std::thread([this] { run(); });
-}
+    : shared_(std::make_shared<Shared>(file, std::move(on_news), when_full)),
+      thread_([shared = shared_] { shared->run(); }) {}
 
 RecordingWriter::~RecordingWriter() {
     close();
-    if (is_worth_keeping_ && packets_.packets() > 0) file_.keep_part();
 }
 
 bool RecordingWriter::has_room() const {
-    const std::scoped_lock lock(mutex_);
-    return waiting_bytes_ < capacity_bytes;
+    const std::scoped_lock lock(shared_->mutex);
+    return shared_->has_room();
 }
 
 void RecordingWriter::wait_for_room() const {
-    std::unique_lock lock(mutex_);
-    changed_.wait(lock, [this] { return waiting_bytes_ < capacity_bytes || !report_.error.empty(); });
+    std::unique_lock lock(shared_->mutex);
+    shared_->changed.wait(lock, [this] { return shared_->has_room() || shared_->has_failed(); });
+}
+
+void RecordingWriter::wait_for_last_room() {
+    std::unique_lock lock(shared_->mutex);
+    shared_->wait_or_give_up(lock, [this] { return shared_->has_room() || shared_->has_failed(); });
 }
 
 void RecordingWriter::wait_until_written() const {
-    std::unique_lock lock(mutex_);
-    changed_.wait(lock, [this] { return waiting_bytes_ == 0 || !report_.error.empty(); });
+    std::unique_lock lock(shared_->mutex);
+    shared_->changed.wait(lock, [this] { return shared_->waiting_bytes == 0 || shared_->has_failed(); });
 }
 
 void RecordingWriter::push(Stamp stamp, std::string message) {
     {
-        const std::scoped_lock lock(mutex_);
-        if (is_closing_ || has_ended()) return;
-        waiting_bytes_ += message.size();
-        waiting_.push_back({stamp, std::move(message)});
+        const std::scoped_lock lock(shared_->mutex);
+        if (shared_->is_closing || shared_->has_ended()) return;
+        shared_->waiting_bytes += message.size();
+        shared_->waiting.push_back({stamp, std::move(message)});
     }
-    changed_.notify_all();
+    shared_->changed.notify_all();
 }
 
 bool RecordingWriter::has_failed() const {
-    const std::scoped_lock lock(mutex_);
-    return !report_.error.empty();
+    const std::scoped_lock lock(shared_->mutex);
+    return shared_->has_failed();
 }
 
 void RecordingWriter::close() {
     if (!thread_.joinable()) return;
-    {
-        const std::scoped_lock lock(mutex_);
-        is_closing_ = true;
+    std::unique_lock lock(shared_->mutex);
+    shared_->is_closing = true;
+    shared_->changed.notify_all();
+    const auto has_ended = [this] { return !shared_->has_thread || shared_->is_given_up; };
+    shared_->wait_or_give_up(lock, [&] { return has_ended() || shared_->is_syncing; });
+    if (!shared_->changed.wait_for(lock, longest_sync, has_ended)) shared_->give_up();
+    const bool is_given_up = shared_->is_given_up;
+    lock.unlock();
+    if (is_given_up) {
+        thread_.detach();
+    } else {
+        thread_.join();
     }
-    changed_.notify_all();
-    thread_.join();
 }
 
 void RecordingWriter::commit() {
-    close();
-    if (has_failed()) return;
-    std::string error;
-    try {
-        file_.commit();
-    } catch (const std::runtime_error& failure) {
-        error = failure.what();
+    {
+        const std::scoped_lock lock(shared_->mutex);
+        shared_->is_to_be_whole = true;
     }
-    const std::scoped_lock lock(mutex_);
-    report_.error = error;
-    if (error.empty()) report_.file = file_.path();
+    close();
 }
 
 void RecordingWriter::discard() {
+    {
+        const std::scoped_lock lock(shared_->mutex);
+        shared_->is_worth_keeping = false;
+    }
     close();
-    is_worth_keeping_ = false;
 }
 
 RecordingReport RecordingWriter::report() const {
-    const std::scoped_lock lock(mutex_);
-    return report_;
+    const std::scoped_lock lock(shared_->mutex);
+    return shared_->report;
 }
 
-void RecordingWriter::run() {
-    std::unique_lock lock(mutex_);
+const std::optional<std::filesystem::path>& RecordingWriter::torn() const {
+    return shared_->file.torn();
+}
+
+void RecordingWriter::Shared::run() {
+    std::unique_lock lock(mutex);
     for (bool stands_still = false;;) {
-        changed_.wait(lock, [this] { return is_closing_ || !waiting_.empty(); });
-        if (waiting_.empty()) return;
-        const bool is_last_attempt = is_closing_;
-        // Others only append behind it, which leaves it where it is.
-        const Waiting& next = waiting_.front();
+        changed.wait(lock, [this] { return is_closing || is_given_up || !waiting.empty(); });
+        if (waiting.empty()) break;
+        const bool is_last_attempt = is_closing;
+        Waiting next = std::move(waiting.front());
+        waiting.pop_front();
         lock.unlock();
         const std::string error = write(next);
-        if (on_news_ && error.empty() && stands_still)
-            on_news_(
-                RecordingNews::goes_on,
-                packets_.file().string() + ": the recording goes on, with all that its bone lost meanwhile");
-        if (on_news_ && !error.empty() && !stands_still) on_news_(RecordingNews::stands_still, error);
         lock.lock();
-        report_.frames = packets_.packets();
-        report_.bytes = packets_.bytes();
-        report_.error = error;
+        if (is_given_up) return;
+        if (on_news && error.empty() && stands_still)
+            on_news(
+                RecordingNews::goes_on,
+                packets.file().string() + ": the recording goes on, with all that its bone lost meanwhile");
+        if (on_news && !error.empty() && !stands_still) on_news(RecordingNews::stands_still, error);
+        report.frames = packets.packets();
+        report.bytes = packets.bytes();
+        report.error = error;
         if (error.empty()) {
-            waiting_bytes_ -= next.message.size();
-            waiting_.pop_front();
-            if (stands_still) ++report_.pauses;
+            waiting_bytes -= next.message.size();
+            if (stands_still) ++report.pauses;
         } else if (has_ended()) {
-            waiting_.clear();
-            waiting_bytes_ = 0;
+            forget_waiting();
+        } else {
+            waiting.push_front(std::move(next));
         }
         stands_still = !error.empty();
-        changed_.notify_all();
+        changed.notify_all();
         if (!stands_still) continue;
-        if (has_ended() || is_last_attempt) return;
-        changed_.wait_for(lock, retry_period, [this] { return is_closing_; });
+        if (has_ended() || is_last_attempt) break;
+        changed.wait_for(lock, retry_period, [this] { return is_closing; });
     }
+    if (is_to_be_whole && !has_failed()) {
+        is_syncing = true;
+        changed.notify_all();
+        lock.unlock();
+        const std::string error = make_whole();
+        lock.lock();
+        if (is_given_up) return;
+        report.error = error;
+        if (error.empty()) report.file = file.path();
+    }
+    has_thread = false;
+    changed.notify_all();
 }
 
-std::string RecordingWriter::write(const Waiting& frame) {
+std::string RecordingWriter::Shared::write(const Waiting& frame) {
     try {
-        packets_.write(frame.stamp, frame.message);
+        packets.write(frame.stamp, frame.message);
     } catch (const std::exception& failure) {
         return std::string(failure.what()) +
-               (when_full_ == WhenDiskIsFull::end ? "; the recording ends there" : "");
+               (when_full == WhenDiskIsFull::end ? "; the recording ends there" : "");
+    }
+    return {};
+}
+
+std::string RecordingWriter::Shared::make_whole() {
+    try {
+        file.commit();
+    } catch (const std::runtime_error& failure) {
+        return failure.what();
     }
     return {};
 }

@@ -6,23 +6,24 @@
 // stood. Who cannot, because its frames come from elsewhere and would wait for ever, ends the recording
 // there.
 //
+// A disk that does not answer at all (a pulled drive, a server that is away, a pipe whose reader has stopped)
+// holds up that thread alone: who ends the recording waits a bounded time. Then the thread, which cannot be
+// joined, is left behind, and touches nothing but what it owns until it ends with the program.
+//
 // Until the recording is whole its file is the part beside the one that was asked for (session_file.h). That
 // can be read at any time, and stays where the recording is torn.
 #pragma once
 
 #include <chrono>
-#include <condition_variable>
 #include <cstdint>
-#include <deque>
 #include <filesystem>
 #include <functional>
-#include <mutex>
+#include <memory>
 #include <optional>
 #include <string>
 #include <thread>
 
-#include "common/files/session_file.h"
-#include "common/recording/packet_writer.h"
+#include "common/recording/packet.h"
 
 namespace osteomill {
 
@@ -51,12 +52,16 @@ class RecordingWriter {
   public:
     /// Between two attempts to go on. A full disk costs a system call in that time.
     static constexpr std::chrono::milliseconds retry_period{500};
+    /// How long the end waits for a disk that takes nothing,
+    static constexpr std::chrono::seconds longest_standstill{2};
+    /// and for all that is in the system's memory to reach it.
+    static constexpr std::chrono::seconds longest_sync{30};
 
     /// What may wait for the disk. A second of the fastest loopback snapshot; whoever finds it full tells
     /// later what it has to tell, as it would a slow client.
     static constexpr std::size_t capacity_bytes = 8 * 1024 * 1024;
 
-    /// Called on the writing thread, with one line for people.
+    /// Called on the writing thread, with one line for people; must not call the writer.
     using OnNews = std::function<void(RecordingNews, const std::string&)>;
 
     /// Begins the file; throws RecordingError.
@@ -70,6 +75,8 @@ class RecordingWriter {
     bool has_room() const;
     /// Waits until there is room, or the disk is full: for who may wait for a disk.
     void wait_for_room() const;
+    /// The same at a recording's end: the recording is given up where the disk stands still.
+    void wait_for_last_room();
     /// Waits until all that was pushed is in the file, or the disk is full.
     void wait_until_written() const;
     /// Never waits for the disk. Call only with room.
@@ -77,8 +84,8 @@ class RecordingWriter {
     /// Whether the last attempt to write has failed.
     bool has_failed() const;
 
-    /// Writes what still waits, with one last attempt where the disk is full, and ends the thread. What is
-    /// pushed later is forgotten.
+    /// Writes what still waits, with one last attempt where the disk is full, and ends the thread; gives the
+    /// recording up where the disk stands still. What is pushed later is forgotten.
     void close();
     /// Closes first, and makes the part the file, unless frames are missing. What goes wrong shows in the
     /// report.
@@ -87,29 +94,12 @@ class RecordingWriter {
     void discard();
     RecordingReport report() const;
     /// Where a recording is now that an earlier session, which was killed, left under the part's name.
-    const std::optional<std::filesystem::path>& torn() const { return file_.torn(); }
+    const std::optional<std::filesystem::path>& torn() const;
 
   private:
-    struct Waiting {
-        Stamp stamp;
-        std::string message;
-    };
-    void run();
-    /// One line why not; empty if it has been written.
-    std::string write(const Waiting& frame);
-    bool has_ended() const { return when_full_ == WhenDiskIsFull::end && !report_.error.empty(); }
+    struct Shared;
 
-    SessionFile file_;
-    bool is_worth_keeping_ = true;
-    PacketWriter packets_;  // the writing thread's
-    const OnNews on_news_;
-    const WhenDiskIsFull when_full_;
-    mutable std::mutex mutex_;
-    mutable std::condition_variable changed_;
-    std::deque<Waiting> waiting_;
-    std::size_t waiting_bytes_ = 0;
-    bool is_closing_ = false;
-    RecordingReport report_;
+    std::shared_ptr<Shared> shared_;
     std::thread thread_;
 };
 

@@ -34,7 +34,7 @@ SessionRecorder::SessionRecorder(const std::filesystem::path& file, Stamp began,
                   spdlog::error("{}; the session goes on, and the recording, too, once there is room", line);
           },
           WhenDiskIsFull::try_again) {
-    hand_over(true);
+    hand_over(Wait::for_the_disk);
     writer_.wait_until_written();
     if (writer_.has_failed()) {
         writer_.discard();
@@ -47,14 +47,14 @@ SessionRecorder::SessionRecorder(const std::filesystem::path& file, Stamp began,
 void SessionRecorder::record(const ToolView& tool, bool with_checksum, bool may_wait) {
     time_s_ = tool.time_s;
     feed_.request_state(tool, with_checksum);
-    hand_over(may_wait);
+    hand_over(may_wait ? Wait::for_the_disk : Wait::never);
 }
 
 void SessionRecorder::finish(const ToolView& tool, const std::string& reason) {
     time_s_ = tool.time_s;
     feed_.request_state(tool, true);
     feed_.finish(reason);
-    hand_over(true);
+    hand_over(Wait::a_moment);
     if (feed_.is_finished()) writer_.commit();
     writer_.close();
 }
@@ -66,11 +66,12 @@ RecordingReport SessionRecorder::report() const {
     return report;
 }
 
-void SessionRecorder::hand_over(bool may_wait) {
+void SessionRecorder::hand_over(Wait wait) {
     const Stamp stamp =
         began_ + std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::duration<double>(time_s_));
     for (;;) {
-        if (may_wait) writer_.wait_for_room();
+        if (wait == Wait::for_the_disk) writer_.wait_for_room();
+        if (wait == Wait::a_moment) writer_.wait_for_last_room();
         if (!writer_.has_room()) return;
         const std::optional<std::string> frame = feed_.next();
         if (!frame) return;

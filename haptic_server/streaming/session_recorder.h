@@ -25,14 +25,16 @@ class SessionRecorder {
     void note(const ChangedVoxels& changes) { feed_.note(changes); }
     /// Hands over a state frame; without waiting, unless `may_wait`.
     void record(const ToolView& tool, bool with_checksum, bool may_wait);
-    /// Hands over the end, waits until all is written and makes it the file that was asked for.
+    /// Hands over the end, waits until all is written and makes it the file that was asked for. Gives up on a
+    /// disk that does not answer (see RecordingWriter).
     void finish(const ToolView& tool, const std::string& reason);
 
     /// Its error also says where the end is missing. Then what there is stays in the part.
     RecordingReport report() const;
 
   private:
-    void hand_over(bool may_wait);
+    enum class Wait { never, a_moment, for_the_disk };
+    void hand_over(Wait wait);
 
     const Stamp began_;
     std::atomic<bool> is_under_way_{false};

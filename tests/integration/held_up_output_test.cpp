@@ -28,6 +28,7 @@ namespace osteomill::testing {
 namespace {
 
 using namespace std::chrono_literals;
+using ::testing::HasSubstr;
 using Clock = std::chrono::steady_clock;
 using Command = std::vector<std::string>;
 
@@ -212,6 +213,21 @@ TEST_P(HeldUpLog, DoesNotKeepTheProgramsFromBeginningNorFromEnding) {
 
 INSTANTIATE_TEST_SUITE_P(On, HeldUpLog, ::testing::Values("terminal", "pipe"),
                          [](const auto& tested) { return tested.param; });
+
+TEST_F(HeldUp, ARecordingOnADiskThatDoesNotAnswerCostsNothingElse) {
+    const UnreadPipe disk(file("a.pcap"));
+    Command command = milling();
+    command.insert(command.end(), {"--record", file("a.pcap")});
+    ChildProcess server(command);
+    ASSERT_TRUE(server.line_after("listening on ", 60s)) << server.err();
+    disk.fill();
+    std::this_thread::sleep_for(1s);
+    server.send_signal(SIGINT);
+    EXPECT_EQ(server.wait(20s), 1) << server.err();
+    EXPECT_THAT(server.err(), HasSubstr("the disk does not answer; the recording ends there\n"));
+    expect_saved();
+    EXPECT_GT(read_force_log(file("force.csv")).size(), 100U);
+}
 
 TEST_F(HeldUp, NobodyReadsWhereTheServerListens) {
     const UnreadPipe out;

@@ -2,11 +2,13 @@
 #pragma once
 
 #include <fcntl.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <array>
 #include <cerrno>
 #include <csignal>
+#include <filesystem>
 #include <string>
 #include <system_error>
 
@@ -19,6 +21,14 @@ class UnreadPipe {
         std::signal(SIGPIPE, SIG_IGN);
         if (::pipe2(ends_.data(), O_CLOEXEC) != 0)
             throw std::system_error(errno, std::generic_category(), "pipe");
+    }
+    /// One with a name, for programs that open it by that.
+    explicit UnreadPipe(const std::filesystem::path& name) {
+        std::signal(SIGPIPE, SIG_IGN);
+        if (::mkfifo(name.c_str(), 0600) != 0)
+            throw std::system_error(errno, std::generic_category(), name.string());
+        ends_ = {::open(name.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC), -1};
+        ends_[1] = ::open(name.c_str(), O_WRONLY | O_CLOEXEC);
     }
     ~UnreadPipe() {
         close_reader();

@@ -11,6 +11,7 @@
 #include "tests/support/eventually.h"
 #include "tests/support/file_size_limit.h"
 #include "tests/support/temporary_folder.h"
+#include "tests/support/unread_pipe.h"
 
 namespace osteomill {
 namespace {
@@ -170,6 +171,19 @@ TEST(RecordingWriter, NeverWaitsForASlowDiskAndHoldsNoMoreThanItMay) {
         EXPECT_EQ(writer.report().error, "");
     }
     ::close(reader);
+}
+
+TEST(RecordingWriter, GivesUpAtTheEndOnADiskThatDoesNotAnswer) {
+    const testing::TemporaryFolder folder;
+    const auto pipe = folder / "pipe";
+    const testing::UnreadPipe disk(pipe);
+    RecordingWriter writer(pipe, {}, WhenDiskIsFull::try_again);
+    while (writer.has_room()) writer.push(Stamp{}, std::string(100'000, 'x'));
+    writer.wait_for_last_room();
+    EXPECT_TRUE(writer.has_room()) << "for what is forgotten";
+    writer.commit();
+    EXPECT_EQ(writer.report().frames, 0U);
+    EXPECT_EQ(writer.report().error, pipe.string() + ": the disk does not answer; the recording ends there");
 }
 
 }  // namespace
