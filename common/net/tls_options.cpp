@@ -29,4 +29,12 @@ std::optional<TlsFiles> TlsOptions::files() const {
     return TlsFiles{.certificate = certificate_, .key = key_, .ca = ca_, .crl = crl_};
 }
 
+std::vector<NamedFile> TlsOptions::files_read() const {
+    std::vector<NamedFile> files;
+    for (const auto& [option, file] : {std::pair("--tls-cert", &certificate_), std::pair("--tls-key", &key_),
+                                       std::pair("--tls-ca", &ca_), std::pair("--tls-crl", &crl_)})
+        if (!file->empty()) files.push_back({option, *file, false});
+    return files;
+}
+
 }  // namespace osteomill

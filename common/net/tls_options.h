@@ -3,7 +3,9 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
+#include "common/files/distinct_files.h"
 #include "common/net/tls_files.h"
 
 namespace CLI {
@@ -22,6 +24,8 @@ class TlsOptions {
     /// After parsing. Throws std::invalid_argument, in one line, unless there are the first three or
     /// none.
     std::optional<TlsFiles> files() const;
+    /// Likewise: those that were named, for require_distinct.
+    std::vector<NamedFile> files_read() const;
 
   private:
     std::string certificate_;

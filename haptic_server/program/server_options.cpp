@@ -188,8 +188,8 @@ double default_milling_rate_hz(const MillingSessionOptions& session) {
 }
 
 /// A bone may be saved over the one that was loaded: it is replaced when all of the new one is there.
-void require_distinct_files(const ServerOptions& options) {
-    std::vector<NamedFile> files;
+void require_distinct_files(const ServerOptions& options, const AccessOptions& access) {
+    std::vector<NamedFile> files = access.files_read();
     const auto add = [&files](const char* option, const std::optional<std::filesystem::path>& path,
                               bool is_written) {
         if (path) files.push_back({option, *path, is_written});
@@ -266,7 +266,7 @@ ServerOptions checked(const Typed& typed, const AccessOptions& access) {
     options.json = path_if_given(typed.json);
     options.log_csv = path_if_given(typed.log_csv);
     options.log_milling_csv = path_if_given(typed.log_milling_csv);
-    require_distinct_files(options);
+    require_distinct_files(options, access);
     return options;
 }
 

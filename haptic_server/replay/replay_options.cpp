@@ -46,7 +46,8 @@ ReplayCommandLine parse_replay_command_line(int argc, const char* const* argv, c
     if (auto text = parse_or_text(app, argc, argv)) return {std::nullopt, *std::move(text)};
     if (!json.empty()) options.json = json;
     if (!csv.empty()) options.csv = csv;
-    std::vector<NamedFile> files{{"FILE", options.recording, false}};
+    std::vector<NamedFile> files = access.files_read();
+    files.push_back({"FILE", options.recording, false});
     if (options.json) files.push_back({"--json", *options.json});
     if (options.csv) files.push_back({"--csv", *options.csv});
     require_distinct(files);

@@ -3,6 +3,7 @@
 
 #include <memory>
 #include <optional>
+#include <vector>
 
 #include "common/net/tls_options.h"
 #include "haptic_server/streaming/listen_address.h"
@@ -23,6 +24,8 @@ class AccessOptions {
     /// After parsing. Throws std::invalid_argument, in one line, where the files of TLS are not all named, or
     /// where other machines would be served in the clear without being asked for.
     Access access_to(const ListenAddress& where) const;
+    /// After parsing, for require_distinct.
+    std::vector<NamedFile> files_read() const { return tls_.files_read(); }
 
   private:
     TlsOptions tls_;

@@ -142,8 +142,8 @@ std::string contradiction(const RenderOptions& options) {
 }
 
 /// Says which two are one; empty where none are.
-std::string same_files(const RenderOptions& options) {
-    std::vector<NamedFile> files;
+std::string same_files(const RenderOptions& options, const TlsOptions& tls) {
+    std::vector<NamedFile> files = tls.files_read();
     if (options.replay) files.push_back({"--replay", *options.replay, false});
     if (options.record) files.push_back({"--record", *options.record});
     if (!options.json.empty()) files.push_back({"--json", options.json});
@@ -254,7 +254,7 @@ ParsedOptions parse_options(int argument_count, const char* const* arguments, co
         wrong = error.what();
     }
     if (wrong.empty() && options.tls && options.replay) wrong = "--tls-cert: a --replay needs no TLS";
-    if (wrong.empty()) wrong = same_files(options);
+    if (wrong.empty()) wrong = same_files(options, tls);
     if (wrong.empty() && speed->count() > 0 && !options.replay) wrong = "--speed needs --replay FILE";
     if (!wrong.empty()) parsed.no_run = wrong_usage(wrong);
     return parsed;

@@ -170,6 +170,26 @@ TEST_F(OutputFiles, AreRefusedWhereTheyWouldDestroyWhatIsRead) {
     EXPECT_EQ(run_program(server({"--trajectory", file("motion.csv"), "--clock", "virtual"})).status, 0);
 }
 
+TEST_F(OutputFiles, AreRefusedWhereTheyWouldDestroyAKeyOrACertificate) {
+    const Command tls{"--tls-cert", file("own.pem"), "--tls-key", file("key.pem"),
+                      "--tls-ca",   file("ca.pem"),  "--tls-crl", file("crl.pem")};
+    for (const std::string name : {"own.pem", "key.pem", "ca.pem", "crl.pem", "a.pcap"}) put(name);
+    const auto with = [&](Command command, const Command& more) {
+        command.insert(command.end(), tls.begin(), tls.end());
+        command.insert(command.end(), more.begin(), more.end());
+        return command;
+    };
+    for (std::size_t i = 0; i < tls.size(); i += 2) {
+        const std::string& option = tls[i];
+        const std::string& path = tls[i + 1];
+        expect_refused(with(server({}), {"--json", path}), option, "--json");
+        expect_refused(with(server({"--listen", "none"}), {"--log-csv", path}), option, "--log-csv");
+        expect_refused(with({PACKET_REPLAY, file("a.pcap")}, {"--csv", path}), option, "--csv");
+        expect_refused(with({RENDER_CLIENT, "--offscreen"}, {"--record", path}), option, "--record");
+    }
+    EXPECT_EQ(text_of("key.pem"), "old");
+}
+
 TEST_F(OutputFiles, OfTwoSessionsAtATimeDoNotMix) {
     ChildProcess first(server({"--listen", "127.0.0.1:0", "--record", file("a.pcap")}));
     ASSERT_TRUE(first.line_after("listening on ", 60s));
