@@ -29,18 +29,24 @@ void ClientDevice::take_over_input(double now_s) noexcept {
     const glm::dvec3 burr_mm = position_in_patient_mm(mapping_, held_arm_.truth().position_mm());
     wanted_ = {limit_.limited(input.hand_target.position_mm, burr_mm, now_s),
                input.hand_target.spindle_axis / axis_length};
-    pedal_ = input.pedal;
+    if (!input.pedal) must_be_pressed_anew_ = false;
+    pedal_ = input.pedal && !must_be_pressed_anew_;
     burr_ = input.burr;
     permission_.renew(now_s);
 }
 
+void ClientDevice::end_permission() noexcept {
+    must_be_pressed_anew_ = must_be_pressed_anew_ || pedal_;
+    pedal_ = false;
+    wanted_ = target_;
+    limit_.resume_at(target_.position_mm);
+}
+
 DeviceState ClientDevice::read(double now_s) noexcept {
+    // Also before a message is taken that comes with a tick that is late itself.
+    if (!permission_.holds(now_s)) end_permission();
     take_over_input(now_s);
-    if (!permission_.holds(now_s)) {
-        pedal_ = false;
-        wanted_ = target_;
-        limit_.resume_at(target_.position_mm);
-    }
+    if (!permission_.holds(now_s)) end_permission();
     const double elapsed_s = now_s - read_at_s_;
     read_at_s_ = now_s;
 

@@ -2,8 +2,10 @@
 // hand and arm model do the rest, so that the operator's tool yields to bone as an arm in a hand would.
 //
 // What an operator says is good for Permission::by_message_s of session time: without a fresh message the
-// tick lifts the pedal and the hand stands still, whatever the network's threads do. And it is held to what a
-// hand does (TargetLimit): one message moves the tool by longest_reach_mm at the most.
+// tick lifts the pedal and the hand stands still, whatever the network's threads do. A pedal that was down
+// then has to be lifted and pressed anew: whoever held it while nothing turned may not mean the bone that the
+// burr is at when the messages come back. And it is held to what a hand does (TargetLimit): one message moves
+// the tool by longest_reach_mm at the most.
 #pragma once
 
 #include "common/scene/scene.h"
@@ -38,6 +40,7 @@ class ClientDevice final : public HapticDevice {
 
   private:
     void take_over_input(double now_s) noexcept;
+    void end_permission() noexcept;
 
     TripleBuffer<OperatorInput>& input_;
     DeviceMapping mapping_;
@@ -48,6 +51,7 @@ class ClientDevice final : public HapticDevice {
     TargetLimit limit_;
     Permission permission_;
     bool pedal_ = false;
+    bool must_be_pressed_anew_ = false;
     std::optional<std::size_t> burr_;
     double read_at_s_ = 0.0;
 };

@@ -119,11 +119,17 @@ class Permissions : public ::testing::Test {
         return read_force_log(folder_ / "log.csv");
     }
 
-    /// An operator whose pedal is down, where the tool is.
+    /// An operator where the tool is, whose pedal is down: who lifts it for a message where the spindle has
+    /// stood for a while, as it does after a pause of a machine with much to do.
     void drive(BoneLink& link, bool pedal = true) {
         if (const auto update = link.poll(); update.tool) clock_.note(*update.tool);
-        if (const auto tool = link.newest_tool())
-            link.send_operator({.hand_target_mm = tool->hand_position_mm, .pedal = pedal});
+        const auto tool = link.newest_tool();
+        if (!tool) return;
+        const auto now = std::chrono::steady_clock::now();
+        if (tool->spindle_on) turned_ = now;
+        const bool lifts = now > turned_ + 300ms;
+        if (lifts) turned_ = now;
+        link.send_operator({.hand_target_mm = tool->hand_position_mm, .pedal = pedal && !lifts});
     }
     /// Drives until so, or for so long.
     template <typename Condition>
@@ -150,6 +156,7 @@ class Permissions : public ::testing::Test {
     std::string address_;
     std::uint16_t port_ = 0;
     SessionClock clock_;
+    std::chrono::steady_clock::time_point turned_ = std::chrono::steady_clock::now();
 };
 
 TEST_F(Permissions, EndsWhenAClientIsCutOff) {
@@ -167,6 +174,31 @@ TEST_F(Permissions, EndsWhenAClientIsCutOff) {
     const auto off_s = spindle_off_after_s(log_of_session(), cut_s);
     ASSERT_TRUE(off_s);
     EXPECT_LE(*off_s, off_within_s);
+}
+
+TEST_F(Permissions, IsHadAgainOnlyByThePedalPressedAnew) {
+    BoneLink link("127.0.0.1", port_);
+    ASSERT_TRUE(gets_spindle(link));
+    const auto say_for = [&](std::chrono::milliseconds time, bool pedal) {
+        const double began_s = clock_.now_s();
+        for (const auto end = std::chrono::steady_clock::now() + time; std::chrono::steady_clock::now() < end;
+             std::this_thread::sleep_for(10ms)) {
+            if (const auto update = link.poll(); update.tool) clock_.note(*update.tool);
+            link.send_operator({.hand_target_mm = link.newest_tool()->hand_position_mm, .pedal = pedal});
+        }
+        return began_s;
+    };
+    std::this_thread::sleep_for(1s);  // not a word
+    const double held_s = say_for(1s, true);
+    const double lifted_s = say_for(300ms, false);
+    EXPECT_TRUE(gets_spindle(link)) << "pressed anew";
+    int heard = 0;
+    for (const ForceLogLine& tick : log_of_session()) {
+        if (tick.time_s < held_s || tick.time_s > lifted_s) continue;
+        ++heard;
+        ASSERT_FALSE(tick.spindle_on) << tick.time_s - held_s << " s after the messages came back";
+    }
+    EXPECT_GT(heard, 500);
 }
 
 TEST_F(Permissions, EndsBehindAnUpstreamThatTurnsLateAndIsNotHadBehindOneThatIs) {
@@ -291,10 +323,16 @@ class WindowPermissions : public Permissions {
         window_.emplace(display_->shown_here(command));
         ASSERT_TRUE(
             display_->xdotool({"search", "--sync", "--onlyvisible", "--name", "^Osteomill$", "windowfocus"}));
-        ASSERT_TRUE(eventually([&] {
+        ASSERT_TRUE(gets_spindle_by_key()) << window_->err();
+    }
+    bool gets_spindle_by_key() {
+        return eventually([&] {
             display_->xdotool({"keydown", "space"});
-            return watch_for(500ms, [](const ToolView& tool) { return tool.spindle_on; });
-        })) << window_->err();
+            if (watch_for(500ms, [](const ToolView& tool) { return tool.spindle_on; })) return true;
+            display_->xdotool({"keyup", "space"});
+            watch_for(100ms, never);
+            return false;
+        });
     }
     /// Whether that comes true while it watches; at the longest for so long.
     template <typename Condition>
@@ -325,7 +363,10 @@ TEST_F(WindowPermissions, EndWhenTheClientIsFrozen) {
         window_->send_signal(SIGSTOP);
         EXPECT_TRUE(watch_for(5s, [](const ToolView& tool) { return !tool.spindle_on; }));
         window_->send_signal(SIGCONT);
-        ASSERT_TRUE(watch_for(10s, [](const ToolView& tool) { return tool.spindle_on; })) << "it comes back";
+        EXPECT_FALSE(watch_for(500ms, [](const ToolView& tool) { return tool.spindle_on; }))
+            << "the pedal is held";
+        display_->xdotool({"keyup", "space"});
+        ASSERT_TRUE(gets_spindle_by_key()) << "it comes back";
     }
     const auto log = log_of_session();
     int in_time = 0;

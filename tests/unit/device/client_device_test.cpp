@@ -87,8 +87,11 @@ TEST(ClientDevice, LiftsThePedalAndStandsStill200MsAfterTheNewestMessage) {
     desk.run(1000);
     const double rests_mm = desk.run(1).position_mm.x;
     EXPECT_NEAR(desk.run(500).position_mm.x, rests_mm, 0.06);
-    desk.say(wants({5.0, 2.0, 3.0}));
-    EXPECT_TRUE(desk.run(1).pedal) << "heard again";
+    EXPECT_FALSE(desk.run_while_saying(wants({5.0, 2.0, 3.0}), 500).pedal) << "heard again, and still held";
+    OperatorInput lifted = wants({5.0, 2.0, 3.0});
+    lifted.pedal = false;
+    EXPECT_FALSE(desk.run_while_saying(lifted, 20).pedal);
+    EXPECT_TRUE(desk.run_while_saying(wants({5.0, 2.0, 3.0}), 20).pedal) << "pressed anew";
 }
 
 TEST(ClientDevice, GoesByTheTimeOfTheTickHoweverFewTicksThereAre) {
@@ -96,6 +99,12 @@ TEST(ClientDevice, GoesByTheTimeOfTheTickHoweverFewTicksThereAre) {
     desk.say(wants({5.0, 2.0, 3.0}));
     ASSERT_TRUE(desk.device.read(1.0).pedal);
     EXPECT_FALSE(desk.device.read(1.3).pedal);
+
+    Desk stalled;
+    stalled.say(wants({5.0, 2.0, 3.0}));
+    ASSERT_TRUE(stalled.device.read(1.0).pedal);
+    stalled.say(wants({5.0, 2.0, 3.0}));
+    EXPECT_FALSE(stalled.device.read(1.3).pedal) << "no tick saw that it had ended";
 }
 
 TEST(ClientDevice, LiftsThePedalAndHoldsStillWhenTheOperatorIsLost) {
