@@ -4,6 +4,7 @@
 
 #include <utility>
 
+#include "common/files/session_file.h"
 #include "common/wire/frame.h"
 #include "common/wire/sealed_frame.h"
 

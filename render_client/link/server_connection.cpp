@@ -8,6 +8,7 @@
 #include <boost/asio/post.hpp>
 #include <utility>
 
+#include "common/files/session_file.h"
 #include "common/net/tls_failure.h"
 #include "common/wire/scene_messages.h"
 #include "common/wire/sealed_frame.h"
