@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "common/files/whole_file.h"
 #include "common/recording/packet_reader.h"
 #include "common/wire/scene_messages.h"
 #include "haptic_server/streaming/session_recorder.h"
