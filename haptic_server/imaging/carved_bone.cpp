@@ -4,13 +4,16 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <functional>
 #include <memory>
 #include <optional>
+#include <sstream>
 #include <stdexcept>
 #include <utility>
 #include <vector>
 
 #include "common/bone/bone_builder.h"
+#include "haptic_server/imaging/bone_picture.h"
 #include "haptic_server/imaging/imaging_error.h"
 #include "haptic_server/imaging/saved_set.h"
 
@@ -19,6 +22,7 @@ namespace osteomill {
 namespace {
 
 constexpr const char* bricks_key = "osteomill_carved_bricks";
+constexpr const char* bone_grid_key = "osteomill_bone_grid";
 constexpr const char* fraction_digest_key = "osteomill_fraction_digest";
 constexpr const char* stiffness_digest_key = "osteomill_stiffness_digest";
 constexpr const char* tissue_digest_key = "osteomill_tissue_digest";
@@ -136,70 +140,87 @@ void clear_milled(const Bone& bone, int first_z, std::span<std::int16_t> hu) {
     }
 }
 
-}  // namespace
+/// What is done to slices that were read, from `first_z` on.
+using ChangeSlices = std::function<void(int first_z, std::span<std::int16_t> hu)>;
 
-void save_carved_bone(const std::filesystem::path& path, const HuSlices& source, const Bone& bone,
-                      const KeyValues& source_key_values) {
-    if (source.grid != bone.grid())
-        throw std::invalid_argument(
-            "the carved bone does not lie on the grid of the volume it was built from");
+/// The bone, and behind it the slices as `change` leaves them.
+void save(const std::filesystem::path& path, const Bone& bone, const HuSlices& slices,
+          const ChangeSlices& change, const KeyValues& more_keys, const ReportProgress& report) {
     const RecordLayout layout{.has_stiffness = !bone.content().stiffness.empty(),
                               .has_tissue = !bone.content().tissue.empty()};
     std::uint64_t bricks = 0;
     KeyValues key_values = describe(bone, layout, bricks);
-    key_values.insert(source_key_values.begin(), source_key_values.end());
+    key_values.insert(more_keys.begin(), more_keys.end());
 
     const std::vector<std::filesystem::path> outdated = files_of_saved_set(path);
-    BoneFileWriter writer(path, bone.grid(), std::move(key_values), bricks * layout.bytes());
+    BoneFileWriter writer(path, slices.grid, std::move(key_values), bricks * layout.bytes());
     for_each_record(bone, layout, [&](const BrickRecord& record) {
         layout.for_each_part(record,
                              [&](const auto& part) { writer.add_before_voxels(std::as_bytes(part)); });
     });
-    const auto slice = static_cast<std::size_t>(voxels_of_slice(bone.grid()));
-    const int slices = bone.grid().size_voxels.z;
-    const auto layer_slices = static_cast<std::size_t>(std::min(slices, brick_edge_voxels));
+    const auto slice = static_cast<std::size_t>(voxels_of_slice(slices.grid));
+    const int end = slices.grid.size_voxels.z;
+    const auto layer_slices = static_cast<std::size_t>(std::min(end, brick_edge_voxels));
     std::vector<std::int16_t> layer(slice * layer_slices);
-    std::vector<std::uint8_t> labels(source.labelled ? layer.size() : 0);  // which are made with the HU
-    for (int z = 0; z < slices; z += brick_edge_voxels) {
-        const std::size_t voxels = slice * static_cast<std::size_t>(std::min(slices - z, brick_edge_voxels));
+    std::vector<std::uint8_t> labels(slices.labelled ? layer.size() : 0);  // which are made with the HU
+    for (int z = 0; z < end; z += brick_edge_voxels) {
+        const std::size_t voxels = slice * static_cast<std::size_t>(std::min(end - z, brick_edge_voxels));
         const auto hu = std::span(layer).first(voxels);
-        source.read(hu, std::span(labels).first(source.labelled ? voxels : 0));
-        clear_milled(bone, z, hu);
+        slices.read(hu, std::span(labels).first(slices.labelled ? voxels : 0));
+        change(z, hu);
         writer.add(hu);
+        report(static_cast<double>(z) / end);
     }
     writer.commit();
+    report(1.0);
     for (const std::filesystem::path& file : outdated) {
         std::error_code ignored;
         std::filesystem::remove(file, ignored);
     }
 }
 
-HuSlices slices_of_bone(const Bone& bone) {
-    return {
-        .grid = bone.grid(),
-        .labelled = false,
-        .read = [&bone, z = 0](std::span<std::int16_t> hu, std::span<std::uint8_t>) mutable {
-            const Grid& grid = bone.grid();
-            const auto slice = static_cast<std::size_t>(voxels_of_slice(grid));
-            std::fill(hu.begin(), hu.end(), air_hu);
-            const int end = z + static_cast<int>(hu.size() / slice);
-            const BoneContent& content = bone.content();
-            for (std::size_t slot = 0; slot < bone.stored_bricks(); ++slot) {
-                const glm::ivec3 corner =
-                    brick_position(content.size_bricks, content.brick_of_slot[slot]) * brick_edge_voxels;
-                if (corner.z >= end || corner.z + brick_edge_voxels <= z) continue;
-                const auto left = bone.fractions(static_cast<std::int32_t>(slot));
-                for (std::size_t offset = 0; offset < brick_voxel_count; ++offset) {
-                    const glm::ivec3 voxel = corner + voxel_in_brick(offset);
-                    if (left[offset] == 0 || voxel.z < z || voxel.z >= end) continue;
-                    hu[static_cast<std::size_t>(voxel.x) +
-                       static_cast<std::size_t>(grid.size_voxels.x) * static_cast<std::size_t>(voxel.y) +
-                       slice * static_cast<std::size_t>(voxel.z - z)] =
-                        static_cast<std::int16_t>(air_hu + (reference_bone_hu - air_hu) * left[offset] / 255);
-                }
-            }
-            z = end;
-        }};
+std::string text_of(const Grid& grid) {
+    return fmt::format("{} {} {} {} {} {} {}", grid.size_voxels.x, grid.size_voxels.y, grid.size_voxels.z,
+                       grid.spacing_mm, grid.origin_mm.x, grid.origin_mm.y, grid.origin_mm.z);
+}
+
+/// Of the bone, which is finer than that of the file's voxels where those are a picture of it.
+Grid bone_grid_of(const BoneFile& file) {
+    if (!file.key_values().contains(bone_grid_key)) return file.grid();
+    Grid grid;
+    std::istringstream text(file.value(bone_grid_key));
+    text >> grid.size_voxels.x >> grid.size_voxels.y >> grid.size_voxels.z >> grid.spacing_mm >>
+        grid.origin_mm.x >> grid.origin_mm.y >> grid.origin_mm.z;
+    try {
+        require_valid(grid);
+    } catch (const std::invalid_argument& error) {
+        throw ImagingError(file.path(), fmt::format("damaged: {}: {}", bone_grid_key, error.what()));
+    }
+    if (text.fail() || picture_grid(grid).size_voxels != file.grid().size_voxels)
+        throw ImagingError(file.path(), fmt::format("damaged: {}:={} is not the grid of a bone that its "
+                                                    "voxels show",
+                                                    bone_grid_key, file.value(bone_grid_key)));
+    return grid;
+}
+
+}  // namespace
+
+void save_carved_bone(const std::filesystem::path& path, const HuSlices& source, const Bone& bone,
+                      const KeyValues& key_values, const ReportProgress& report) {
+    if (source.grid != bone.grid())
+        throw std::invalid_argument(
+            "the carved bone does not lie on the grid of the volume it was built from");
+    save(
+        path, bone, source, [&](int z, std::span<std::int16_t> hu) { clear_milled(bone, z, hu); }, key_values,
+        report);
+}
+
+void save_carved_bone(const std::filesystem::path& path, const Bone& bone, KeyValues key_values,
+                      const ReportProgress& report) {
+    const HuSlices picture = picture_of(bone);
+    if (picture.grid != bone.grid()) key_values[bone_grid_key] = text_of(bone.grid());
+    save(
+        path, bone, picture, [](int, std::span<std::int16_t>) {}, key_values, report);
 }
 
 bool is_carved(const BoneFile& file) {
@@ -208,11 +229,11 @@ bool is_carved(const BoneFile& file) {
 
 namespace {
 
-BoneBuilder builder_for(const BoneFile& file, const RecordLayout& layout) {
+BoneBuilder builder_for(const BoneFile& file, const Grid& grid, const RecordLayout& layout) {
     return layout.has_stiffness
-               ? BoneBuilder::heterogeneous(file.grid(), number_of_key(file, stiffness_per_code_key),
+               ? BoneBuilder::heterogeneous(grid, number_of_key(file, stiffness_per_code_key),
                                             layout.has_tissue)
-               : BoneBuilder::homogeneous(file.grid(), number_of_key(file, homogeneous_stiffness_key),
+               : BoneBuilder::homogeneous(grid, number_of_key(file, homogeneous_stiffness_key),
                                           layout.has_tissue);
 }
 
@@ -229,8 +250,9 @@ RestoredBone restore_carved_bone(const BoneFile& file) {
                                                     bricks_key, bricks, file.form().bytes_before_voxels));
     NrrdData data = file.data();
     ChannelDigests digests;
-    BoneBuilder builder = builder_for(file, layout);
-    const glm::ivec3 size_bricks = size_in_bricks(file.grid());
+    const Grid grid = bone_grid_of(file);
+    BoneBuilder builder = builder_for(file, grid, layout);
+    const glm::ivec3 size_bricks = size_in_bricks(grid);
     std::string misplaced;
     for (std::uint64_t i = 0; i < bricks; ++i) {
         BrickRecord record;

@@ -9,9 +9,11 @@
 //   before the voxels   for each brick of which anything is left, ascending: its index (32 bits, little
 //                       endian), 4096 fractions, 4096 stiffness codes if the bone is heterogeneous, 4096
 //                       labels if it is labelled
-//   voxels              HU of the source; -1000 where a voxel was milled away entirely
-//   keys                how many bricks, the scale of the codes, the bone's checksum, and a digest of each
-//                       channel besides those of every bone file (hu_file.h)
+//   voxels              HU of the source; -1000 where a voxel was milled away entirely. Without a source, a
+//                       picture of the bone, whose voxels may be longer than the bone's
+//   keys                how many bricks, the scale of the codes, the bone's checksum, its grid where that is
+//                       not the voxels', and a digest of each channel besides those of every bone file
+//                       (hu_file.h)
 //
 // What 0.1 saved is read, too: FILE.nrrd with the HU, and beside it what its keys name, as dense volumes:
 // FILE.fraction.nrrd, FILE.stiffness.nrrd of a heterogeneous bone, FILE.tissue.nrrd of a labelled one.
@@ -25,6 +27,7 @@
 #include "haptic_server/imaging/hu_file.h"
 #include "haptic_server/imaging/hu_slices.h"
 #include "haptic_server/imaging/hu_volume.h"
+#include "haptic_server/imaging/progress.h"
 #include "haptic_server/imaging/saved_set.h"
 
 namespace osteomill {
@@ -33,15 +36,19 @@ namespace osteomill {
 inline constexpr std::int16_t milled_away_hu = air_hu;
 
 /// Writes the file beside `path` and switches to it at once; what a 0.1 set held besides is removed then.
-/// `source` gives what `bone` was built from; `source_key_values` go with it (the threshold among them).
-/// Throws std::invalid_argument where the grids differ, ImagingError where the file cannot be written; what
-/// stood under the name is then as it was, as it is when `source` throws.
-void save_carved_bone(const std::filesystem::path& path, const HuSlices& source, const Bone& bone,
-                      const std::map<std::string, std::string>& source_key_values = {});
+/// `source` gives what `bone` was built from; `key_values` go with it (the threshold among them). Throws
+/// std::invalid_argument where the grids differ, ImagingError where the file cannot be written; what stood
+/// under the name is then as it was, as it is when `source` throws.
+void save_carved_bone(
+    const std::filesystem::path& path, const HuSlices& source, const Bone& bone,
+    const std::map<std::string, std::string>& key_values = {},
+    const ReportProgress& report = [](double) {});
 
-/// For a bone that no CT numbers were made for, or whose source is gone: from -1000 where there is no bone to
-/// 1600 (the reference bone) where all of a voxel is left. To look at, no more. `bone` must outlive it.
-HuSlices slices_of_bone(const Bone& bone);
+/// The same for a bone that no CT numbers were made for, or whose source is gone: the voxels are a picture of
+/// it, on a grid of longer voxels where its own is large (bone_picture.h).
+void save_carved_bone(
+    const std::filesystem::path& path, const Bone& bone, std::map<std::string, std::string> key_values = {},
+    const ReportProgress& report = [](double) {});
 
 /// Whether a bone file was written by save_carved_bone.
 bool is_carved(const BoneFile& file);

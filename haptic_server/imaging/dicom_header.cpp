@@ -10,7 +10,7 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "haptic_server/imaging/dicom_scan.h"
+#include "haptic_server/imaging/dicom_pixels.h"
 #include "haptic_server/imaging/imaging_error.h"
 #include "haptic_server/imaging/quiet_libraries.h"
 #include "haptic_server/imaging/regular_file.h"
@@ -41,8 +41,8 @@ const Tag intercept_tag(0x0028, 0x1052);
 const Tag slope_tag(0x0028, 0x1053);
 const Tag pixel_measures_tag(0x0028, 0x9110);
 
-/// An element's length has 32 bits.
-constexpr std::uint64_t most_file_bytes = std::uint64_t{1} << 32U;
+/// They are read whole, twice, and an import may take 1.5 GiB.
+constexpr std::uint64_t most_file_bytes = std::uint64_t{1} << 30U;
 
 /// An element's bytes as text, without padding; empty where absent.
 std::string text_of(const DataSet& data, const Tag& tag) {
@@ -153,7 +153,8 @@ void place_frames(const DataSet& data, std::size_t count, DicomHeader& header) {
 std::optional<DicomScan> scan_file(const std::filesystem::path& path) {
     const RegularFile file(path);
     if (!may_be_dicom(file.first_bytes(dicom_mark_bytes))) return std::nullopt;
-    if (file.size() > most_file_bytes) throw ImagingError(path, "is DICOM of more than 4 GiB");
+    if (file.size() > most_file_bytes) throw ImagingError(
+            path, "is a DICOM file of more than 1 GiB; save the scan as one file a slice, or as NRRD");
     try {
         std::optional<DicomScan> scan = scan_dicom(file.first_bytes(most_file_bytes));
         if (scan) require_sound_pixels(*scan);

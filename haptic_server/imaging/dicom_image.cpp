@@ -111,6 +111,14 @@ void read_stack(const std::vector<DicomSlice>& slices, const std::vector<std::si
     }
 }
 
+/// What GDCM and ITK hold at once of a file: its bytes, and its frames as stored, rescaled and as float.
+std::uint64_t bytes_to_read(const DicomFile& file) {
+    constexpr std::uint64_t bytes_of_a_pixel = 10;
+    return RegularFile(file.path).size() + file.header.frames.size() * bytes_of_a_pixel *
+                                               static_cast<std::uint64_t>(file.header.rows) *
+                                               static_cast<std::uint64_t>(file.header.columns);
+}
+
 }  // namespace
 
 OpenedImage open_series(const std::filesystem::path& folder, const DicomSeries& series) {
@@ -142,7 +150,8 @@ OpenedImage open_series(const std::filesystem::path& folder, const DicomSeries& 
                                                                        const ReportProgress& report) {
         read_stack(slices, order, header_of_file, take, report);
     };
-    opened.is_read_by_slice = series.files.size() == slices.size();
+    for (const DicomFile& file : series.files)
+        opened.reading_bytes = std::max(opened.reading_bytes, bytes_to_read(file));
     return opened;
 }
 

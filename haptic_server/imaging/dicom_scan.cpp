@@ -11,8 +11,6 @@
 #include <string_view>
 #include <vector>
 
-#include "haptic_server/imaging/plausible_geometry.h"
-
 namespace osteomill {
 
 namespace {
@@ -30,13 +28,12 @@ constexpr std::uint32_t pixel_data_tag = tag(0x7fe0, 0x0010);
 /// A value that is not taken apart here may be by GDCM. How deep that may go is bounded by the items that
 /// could be in it; so many are far from filling a stack.
 constexpr std::uint64_t most_items_in_values = 1000;
-constexpr std::uint64_t most_frames = 65536;
 /// Within an item that states its length GDCM computes the length of what does not, several times over at
 /// every level; where no item states its length it need not. Files state all lengths or none.
 constexpr std::uint64_t most_effort = std::uint64_t{1} << 21U;
 constexpr std::uint64_t effort_of_level = 6;
 constexpr int none_open = -1;
-constexpr std::uint64_t most_inflated_bytes = std::uint64_t{1} << 30U;
+constexpr std::uint64_t most_inflated_bytes = std::uint64_t{1} << 28U;
 
 struct Damaged : std::invalid_argument {
     Damaged() : std::invalid_argument("is DICOM but cannot be parsed: cut off or damaged") {}
@@ -293,58 +290,11 @@ class Walker {
         }
     }
 
-    static std::optional<Codestream> codestream_of(Bytes bytes);
-
     Bytes bytes_;
     Bytes first_fragment_;
     std::uint64_t items_in_values_ = 0;
     std::uint64_t effort_ = 0;
 };
-
-std::uint32_t big_endian_at(Bytes bytes, std::size_t at, std::size_t count) {
-    std::uint32_t value = 0;
-    for (std::size_t i = 0; i < count; ++i) value = value << 8U | bytes[at + i];
-    return value;
-}
-
-std::optional<Codestream> jpeg2000(Bytes bytes) {
-    // SOC, SIZ: length, capabilities, size, offset, tiles, number of components, depth of the first.
-    constexpr std::size_t most_wrapping = 4096;  // of the boxes of a JP2 file, which some write around it
-    for (std::size_t at = 0; at + 43 <= std::min(bytes.size(), most_wrapping); ++at) {
-        if (big_endian_at(bytes, at, 4) != 0xff4fff51) continue;
-        return Codestream{.columns = big_endian_at(bytes, at + 8, 4) - big_endian_at(bytes, at + 16, 4),
-                          .rows = big_endian_at(bytes, at + 12, 4) - big_endian_at(bytes, at + 20, 4),
-                          .components = big_endian_at(bytes, at + 40, 2),
-                          .is_signed = (bytes[at + 42] & 0x80U) != 0};
-    }
-    return std::nullopt;
-}
-
-std::optional<Codestream> jpeg(Bytes bytes) {
-    std::size_t at = 2;
-    while (at + 10 <= bytes.size()) {
-        if (bytes[at] != 0xff) return std::nullopt;
-        const std::uint8_t marker = bytes[at + 1];
-        if (marker == 0xff) {
-            ++at;
-            continue;
-        }
-        const bool is_frame =
-            (marker >= 0xc0 && marker <= 0xcf && marker != 0xc4 && marker != 0xc8 && marker != 0xcc) ||
-            marker == 0xf7;
-        if (is_frame)
-            return Codestream{.columns = big_endian_at(bytes, at + 7, 2),
-                              .rows = big_endian_at(bytes, at + 5, 2),
-                              .components = bytes[at + 9]};
-        at += 2 + big_endian_at(bytes, at + 2, 2);
-    }
-    return std::nullopt;
-}
-
-std::optional<Codestream> Walker::codestream_of(Bytes bytes) {
-    if (bytes.size() >= 4 && bytes[0] == 0xff && bytes[1] == 0xd8) return jpeg(bytes);
-    return jpeg2000(bytes);
-}
 
 std::vector<std::uint8_t> inflated(Bytes bytes) {
     z_stream stream{};
@@ -369,7 +319,7 @@ std::vector<std::uint8_t> inflated(Bytes bytes) {
         const std::size_t made = piece.size() - stream.avail_out;
         if (result != Z_OK && result != Z_STREAM_END) throw Damaged();
         if (out.size() + made > most_inflated_bytes)
-            throw std::invalid_argument("is deflated DICOM of more than a gibibyte");
+            throw std::invalid_argument("is deflated DICOM of more than 256 MiB; save it without (transfer syntax explicit little endian)");
         out.insert(out.end(), piece.begin(), piece.begin() + static_cast<std::ptrdiff_t>(made));
     }
     return out;
@@ -435,82 +385,6 @@ std::optional<DicomScan> scan_dicom(Bytes bytes) {
     walker.walk_file(body, syntax_of(uid), std::nullopt);
     walker.require_few_hidden_items();
     return walker.scan;
-}
-
-void require_sound_pixels(const DicomScan& scan) {
-    const int rows = scan.rows.value_or(0);
-    const int columns = scan.columns.value_or(0);
-    const auto refuse = [](const std::string& reason) { throw std::invalid_argument(reason); };
-    std::uint64_t frames = 1;
-    if (!scan.frames.empty()) {
-        const std::string_view text =
-            std::string_view(scan.frames)
-                .substr(std::min(scan.frames.find_first_not_of(" +"), scan.frames.size()));
-        const char* last = text.data() + text.size();
-        const auto [end, error] = std::from_chars(text.data(), last, frames);
-        if (error != std::errc() || end != last || frames < 1 || frames > most_frames)
-            refuse(fmt::format("Number of Frames (0028,0008) is '{}'", scan.frames));
-    }
-    if (!scan.has_pixel_data || rows == 0 || columns == 0) return;
-    const int bits = scan.bits_allocated.value_or(0);
-    if (bits != 8 && bits != 16 && bits != 32)
-        refuse(fmt::format("Bits Allocated (0028,0100) is {}; pixels of 8, 16 or 32 bits are read", bits));
-    if (const int stored = scan.bits_stored.value_or(bits); stored < 1 || stored > bits)
-        refuse(fmt::format("Bits Stored (0028,0101) is {} of {}", stored, bits));
-    if (const int high = scan.high_bit.value_or(bits - 1); high >= bits)
-        refuse(fmt::format("High Bit (0028,0102) is {} of {} bits", high, bits));
-    if (scan.pixel_representation.value_or(0) > 1)
-        refuse(fmt::format("Pixel Representation (0028,0103) is {}; 0 and 1 are known",
-                           *scan.pixel_representation));
-    const std::uint64_t expected =
-        frames * static_cast<std::uint64_t>(rows) * static_cast<std::uint64_t>(columns) *
-        static_cast<std::uint64_t>(scan.samples_per_pixel.value_or(1)) * static_cast<std::uint64_t>(bits) / 8;
-    if (!scan.is_encapsulated) {
-        if (scan.pixel_bytes < expected)
-            refuse(fmt::format("is cut off: {} of {} bytes of pixel data are there", scan.pixel_bytes,
-                               expected));
-        return;
-    }
-    // A JPEG may leave its height to its end.
-    if (scan.codestream &&
-        (scan.codestream->columns != static_cast<std::uint32_t>(columns) ||
-         (scan.codestream->rows != static_cast<std::uint32_t>(rows) && scan.codestream->rows != 0)))
-        refuse(fmt::format("says {} x {} pixels, but its compressed pixel data say {} x {}", columns, rows,
-                           scan.codestream->columns, scan.codestream->rows));
-    // An empty picture shrinks to almost nothing; more than one is suspicious.
-    constexpr std::uint64_t always_allowed = std::uint64_t{64} << 20U;
-    constexpr std::uint64_t most_shrunk = 1000;
-    if (expected > always_allowed && expected / most_shrunk > scan.pixel_bytes)
-        refuse(fmt::format("says that {} bytes hold {} bytes of pixels; no scan compresses so",
-                           scan.pixel_bytes, expected));
-}
-
-std::string why_no_grey_image(const DicomScan& scan) {
-    struct Kind {
-        std::string_view sop_class;  ///< or the beginning of several, then with a dot at its end
-        const char* name;
-    };
-    constexpr std::array kinds{
-        Kind{"1.2.840.10008.5.1.4.1.1.66.4", "a segmentation (SEG)"},
-        Kind{"1.2.840.10008.5.1.4.1.1.66.5", "a segmentation of surfaces (SEG)"},
-        Kind{"1.2.840.10008.5.1.4.1.1.66.7", "a segmentation (label map)"},
-        Kind{"1.2.840.10008.5.1.4.1.1.66", "raw data or a registration"},
-        Kind{"1.2.840.10008.5.1.4.1.1.66.", "raw data or a registration"},
-        Kind{"1.2.840.10008.5.1.4.1.1.30", "a parametric map"},
-        Kind{"1.2.840.10008.5.1.4.1.1.481.", "an object of radiotherapy (RT dose, structures or plan)"},
-        Kind{"1.2.840.10008.5.1.4.1.1.88.", "a report (SR)"},
-        Kind{"1.2.840.10008.5.1.4.1.1.11.", "a presentation state"},
-        Kind{"1.2.840.10008.5.1.4.1.1.104.", "an encapsulated document"}};
-    constexpr std::string_view rt_image = "1.2.840.10008.5.1.4.1.1.481.1";
-    const auto fits = [&](const Kind& kind) {
-        return kind.sop_class.ends_with('.') ? scan.sop_class.starts_with(kind.sop_class)
-                                             : scan.sop_class == kind.sop_class;
-    };
-    const auto found = std::find_if(kinds.begin(), kinds.end(), fits);
-    if (found != kinds.end() && scan.sop_class != rt_image) return std::string("is ") + found->name;
-    for (const char* modality : {"SEG", "RTSTRUCT", "RTDOSE", "RTPLAN", "SR", "PR", "KO", "DOC", "REG"})
-        if (scan.modality == modality) return fmt::format("is of modality {}", modality);
-    return {};
 }
 
 }  // namespace osteomill

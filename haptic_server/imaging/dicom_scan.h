@@ -1,27 +1,20 @@
 // Walks through a DICOM file element by element, before GDCM reads it. GDCM calls itself for every sequence
 // within a sequence, some of it twice, makes room for whatever length an element claims, and decodes pixels
 // of any format; so what it is given has been seen to nest little, to hold the bytes that it claims, and to
-// be an image that it decodes. Pure functions over bytes.
+// be an image that it decodes (dicom_pixels.h). Pure functions over bytes.
 #pragma once
 
 #include <cstdint>
 #include <optional>
 #include <span>
 #include <string>
-#include <vector>
+
+#include "haptic_server/imaging/codestream.h"
 
 namespace osteomill {
 
 /// Sequences within sequences; reports nest a dozen deep. GDCM takes twice as long for each.
 inline constexpr int most_dicom_nesting = 16;
-
-/// What JPEG 2000, JPEG and JPEG-LS say of the image in their own header.
-struct Codestream {
-    std::uint32_t columns = 0;
-    std::uint32_t rows = 0;
-    std::uint32_t components = 0;
-    std::optional<bool> is_signed{};  ///< only JPEG 2000 says
-};
 
 struct DicomScan {
     std::string transfer_syntax{};  ///< UID; empty where the file states none
@@ -51,17 +44,7 @@ bool may_be_dicom(std::span<const std::uint8_t> bytes);
 
 /// std::nullopt for what is not DICOM. Throws std::invalid_argument, in words, for what begins as DICOM but
 /// is cut off or damaged, for sequences nested deeper than most_dicom_nesting, and for values that hide
-/// nested sequences. Implicit and explicit, little and big endian, deflated (up to a gibibyte).
+/// nested sequences. Implicit and explicit, little and big endian, deflated (up to 256 MiB).
 std::optional<DicomScan> scan_dicom(std::span<const std::uint8_t> bytes);
-
-/// Throws std::invalid_argument, in words, where the file has an image that cannot be decoded or that does
-/// not hold its pixels: bits, frames or sizes that cannot be; fewer bytes of pixel data than the header's
-/// size takes; a codestream of another size; compressed pixels that no codec shrinks so. Nothing for a file
-/// without an image.
-void require_sound_pixels(const DicomScan& scan);
-
-/// Why an object holds no CT numbers though it may have pixels ("is a segmentation (SEG)"); empty where it
-/// may hold some.
-std::string why_no_grey_image(const DicomScan& scan);
 
 }  // namespace osteomill

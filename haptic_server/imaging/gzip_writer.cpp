@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstring>
 #include <new>
 #include <thread>
 #include <utility>
@@ -20,12 +21,26 @@ constexpr int raw_deflate = -15;  // window bits without a header of zlib's own
 constexpr int memory_level = 8;   // zlib's default
 constexpr std::size_t piece_bytes = 1u << 20;
 
-struct Piece {
-    std::vector<std::byte> deflated;
+/// Whether the same two bytes, a voxel, stand there again and again.
+bool is_uniform(std::span<const std::byte> bytes) {
+    return bytes.size() > 2 && std::memcmp(bytes.data(), bytes.data() + 2, bytes.size() - 2) == 0;
+}
+
+}  // namespace
+
+struct GzipWriter::Piece {
+    std::vector<std::byte> deflated{};
     std::uint32_t crc = 0;
 };
 
-Piece deflated(std::span<const std::byte> bytes) {
+/// Most of a scan is air: it is deflated once.
+struct GzipWriter::UniformPiece {
+    std::array<std::byte, 2> voxel{};
+    std::size_t bytes = 0;
+    Piece piece{};
+};
+
+GzipWriter::Piece GzipWriter::deflated(std::span<const std::byte> bytes) {
     z_stream stream{};
     if (deflateInit2(&stream, gzip_level, Z_DEFLATED, raw_deflate, memory_level, Z_DEFAULT_STRATEGY) != Z_OK)
         throw std::bad_alloc();
@@ -48,8 +63,10 @@ Piece deflated(std::span<const std::byte> bytes) {
     return piece;
 }
 
+namespace {
+
 std::size_t pieces_at_once() {
-    return 2 * std::max<std::size_t>(1, std::thread::hardware_concurrency());
+    return 2 * std::clamp<std::size_t>(std::thread::hardware_concurrency(), 1, 16);
 }
 
 std::array<std::byte, 4> little_endian(std::uint32_t value) {
@@ -57,6 +74,8 @@ std::array<std::byte, 4> little_endian(std::uint32_t value) {
 }
 
 }  // namespace
+
+GzipWriter::~GzipWriter() = default;
 
 GzipWriter::GzipWriter(Write write) : write_(std::move(write)) {
     // Magic, deflate, no flags, no time stamp, fast, Unix.
@@ -77,6 +96,14 @@ void GzipWriter::add(std::span<const std::byte> bytes) {
     }
 }
 
+const GzipWriter::Piece& GzipWriter::uniform(std::span<const std::byte> bytes) {
+    const std::array<std::byte, 2> voxel{bytes[0], bytes[1]};
+    if (!uniform_ || uniform_->voxel != voxel || uniform_->bytes != bytes.size())
+        uniform_ = std::make_unique<UniformPiece>(
+            UniformPiece{.voxel = voxel, .bytes = bytes.size(), .piece = deflated(bytes)});
+    return uniform_->piece;
+}
+
 void GzipWriter::compress_waiting() {
     const std::size_t count = (waiting_.size() + piece_bytes - 1) / piece_bytes;
     std::vector<Piece> pieces(count);
@@ -84,8 +111,17 @@ void GzipWriter::compress_waiting() {
         return std::span<const std::byte>(waiting_).subspan(
             i * piece_bytes, std::min(piece_bytes, waiting_.size() - i * piece_bytes));
     };
-    in_parallel(static_cast<int>(count), [&](int i) {
-        pieces[static_cast<std::size_t>(i)] = deflated(bytes_of(static_cast<std::size_t>(i)));
+    std::vector<std::size_t> various;
+    for (std::size_t i = 0; i < count; ++i) {
+        if (is_uniform(bytes_of(i))) {
+            pieces[i] = uniform(bytes_of(i));
+        } else {
+            various.push_back(i);
+        }
+    }
+    in_parallel(static_cast<int>(various.size()), [&](int i) {
+        const std::size_t at = various[static_cast<std::size_t>(i)];
+        pieces[at] = deflated(bytes_of(at));
     });
     for (std::size_t i = 0; i < count; ++i) {
         crc_ = static_cast<std::uint32_t>(

@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -20,17 +21,25 @@ class GzipWriter {
     /// `write` is called with what belongs in the file, in order, from the thread that calls add and finish.
     explicit GzipWriter(Write write);
 
+    ~GzipWriter();
+
     void add(std::span<const std::byte> bytes);
     /// Ends the stream with its CRC; once, and nothing may be added after it.
     void finish();
 
   private:
+    struct Piece;
+    struct UniformPiece;
+
+    static Piece deflated(std::span<const std::byte> bytes);
+    const Piece& uniform(std::span<const std::byte> bytes);
     void compress_waiting();
 
     Write write_;
     std::vector<std::byte> waiting_{};
     std::uint32_t crc_ = 0;
     std::uint64_t length_ = 0;
+    std::unique_ptr<UniformPiece> uniform_{};  // the last that was met
 };
 
 }  // namespace osteomill

@@ -1,7 +1,6 @@
 #include "haptic_server/imaging/image_reader.h"
 
 #include <fmt/format.h>
-#include <itkImageFileReader.h>
 #include <itkNiftiImageIO.h>
 #include <itkNrrdImageIO.h>
 
@@ -96,85 +95,41 @@ void note_nrrd_orientation(const std::filesystem::path& path, SourceImage& image
         image.notes.push_back(path.string() + ": its header has no spacing; taken as 1 mm");
 }
 
-std::vector<float> read_file_values(const std::filesystem::path& path, const SourceImage& geometry,
-                                    const ReportProgress& report) {
-    using FileImage = itk::Image<float, 3>;
-    try {
-        const QuietLibraries quiet;
-        const auto reader = itk::ImageFileReader<FileImage>::New();
-        reader->SetImageIO(io_for(path));
-        reader->SetFileName(path.string());
-        reader->Update();
-        const FileImage* image = reader->GetOutput();
-        if (image->GetBufferedRegion().GetNumberOfPixels() != voxel_count(geometry))
-            throw ImagingError(path, "changed while it was read");
-        std::vector<float> values(image->GetBufferPointer(),
-                                  image->GetBufferPointer() + voxel_count(geometry));
-        report(1.0);
-        return values;
-    } catch (const itk::ExceptionObject&) {
-        throw ImagingError(path, "its voxels cannot be read: cut off or damaged, or their file is missing");
+/// Where and how the voxels of a file lie.
+struct FileVoxels {
+    VoxelData data;
+    VoxelLayout layout;
+};
+
+FileVoxels voxels_of(const std::filesystem::path& path) {
+    if (kind_of(path) == FileKind::nifti) {
+        NiftiImage image = open_nifti(path);
+        return {.data = std::move(image.data), .layout = image.header.voxels};
     }
-}
-
-/// All values at once, slice by slice.
-void hand_on(std::vector<float> values, const SourceImage& geometry, const TakeSlice& take) {
-    const auto slice =
-        static_cast<std::size_t>(geometry.size_voxels.x) * static_cast<std::size_t>(geometry.size_voxels.y);
-    for (int k = 0; k < geometry.size_voxels.z; ++k)
-        take(k, std::span(values).subspan(static_cast<std::size_t>(k) * slice, slice));
-}
-
-std::optional<MetaElement> element_of(itk::IOComponentEnum component) {
-    switch (component) {
-        case itk::IOComponentEnum::CHAR:
-            return MetaElement::int8;
-        case itk::IOComponentEnum::UCHAR:
-            return MetaElement::uint8;
-        case itk::IOComponentEnum::SHORT:
-            return MetaElement::int16;
-        case itk::IOComponentEnum::USHORT:
-            return MetaElement::uint16;
-        case itk::IOComponentEnum::INT:
-            return MetaElement::int32;
-        case itk::IOComponentEnum::UINT:
-            return MetaElement::uint32;
-        case itk::IOComponentEnum::FLOAT:
-            return MetaElement::float32;
-        case itk::IOComponentEnum::DOUBLE:
-            return MetaElement::float64;
-        default:
-            return std::nullopt;
-    }
-}
-
-/// Whether a NRRD's voxels can be read as they lie, slice by slice; ITK reads the others, as a whole.
-bool read_nrrd_by_slice(const std::filesystem::path& path, const itk::ImageIOBase& io, OpenedImage& opened) {
     const NrrdHeader header = parse_nrrd_header(RegularFile(path).first_bytes(most_nrrd_header_bytes), path);
     const NrrdLayout layout = nrrd_layout(header, path);
-    const std::optional<MetaElement> element = element_of(io.GetComponentType());
-    const bool is_zipped = layout.encoding == VoxelEncoding::gzip;
-    if (!element || (layout.encoding != VoxelEncoding::raw && !is_zipped)) return false;
-    if (is_zipped && (layout.byte_skip < 0 || (layout.byte_skip > 0 && layout.data_files.size() > 1)))
-        return false;
-    const VoxelLayout voxels{
-        .element = *element,
-        .big_endian = header.fields.contains("endian") && header.fields.at("endian") == "big",
-        .skipped_bytes =
-            is_zipped ? static_cast<std::uint64_t>(std::max<std::int64_t>(layout.byte_skip, 0)) : 0};
-    opened.read_slices = [data = nrrd_voxel_data(header, layout, path), voxels,
-                          size = opened.image.size_voxels](const TakeSlice& take,
-                                                           const ReportProgress& report) {
-        read_value_slices(data, voxels, size, take, report);
-    };
-    opened.is_read_by_slice = true;
-    return true;
+    return {.data = nrrd_voxel_data(header, layout, path), .layout = layout.voxels};
 }
 
-/// Header and data are held against each other before ITK reads either.
+/// What reading slice by slice holds.
+std::uint64_t bytes_of_slice(const SourceImage& image) {
+    return sizeof(float) * static_cast<std::uint64_t>(image.size_voxels.x) *
+           static_cast<std::uint64_t>(image.size_voxels.y);
+}
+
+void read_by_slice(FileVoxels voxels, OpenedImage& opened) {
+    opened.reading_bytes = bytes_of_slice(opened.image);
+    opened.read_slices = [voxels = std::move(voxels), size = opened.image.size_voxels](
+                             const TakeSlice& take, const ReportProgress& report) {
+        read_value_slices(voxels.data, voxels.layout, size, take, report);
+    };
+}
+
+/// ITK says how the image lies in the patient; header and files are held against each other before.
 OpenedImage open_nrrd_or_nifti(const std::filesystem::path& path) {
     const bool is_nrrd = kind_of(path) == FileKind::nrrd;
-    const std::uint64_t more = is_nrrd ? require_sound_nrrd(path) : require_sound_nifti(path);
+    FileVoxels voxels = voxels_of(path);
+    const std::uint64_t more = require_room(voxels.data);
     OpenedImage opened;
     const itk::ImageIOBase::Pointer io = io_for(path);
     try {
@@ -192,11 +147,7 @@ OpenedImage open_nrrd_or_nifti(const std::filesystem::path& path) {
     if (more > 0)
         opened.image.notes.push_back(
             fmt::format("{}: {} bytes follow its voxels; they are not read", path.string(), more));
-    if (is_nrrd && read_nrrd_by_slice(path, *io, opened)) return opened;
-    opened.read_slices = [path, geometry = opened.image](const TakeSlice& take,
-                                                         const ReportProgress& report) {
-        hand_on(read_file_values(path, geometry, report), geometry, take);
-    };
+    read_by_slice(std::move(voxels), opened);
     return opened;
 }
 
@@ -205,12 +156,7 @@ OpenedImage open_meta_image_file(const std::filesystem::path& path) {
     OpenedImage opened;
     opened.image = image.header.image;
     require_thickness(path, opened.image.size_voxels);
-    opened.read_slices = [image = std::move(image)](const TakeSlice& take, const ReportProgress& report) {
-        read_value_slices(image.data,
-                          {.element = image.header.element, .big_endian = image.header.big_endian},
-                          image.header.image.size_voxels, take, report);
-    };
-    opened.is_read_by_slice = true;
+    read_by_slice({.data = std::move(image.data), .layout = image.header.voxels}, opened);
     return opened;
 }
 

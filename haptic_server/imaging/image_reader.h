@@ -1,6 +1,7 @@
 // Opens an image of any kind that is read: a DICOM folder or file, NRRD, NIfTI or MetaImage.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <optional>
@@ -20,10 +21,10 @@ using TakeSlice = std::function<void(int k, std::span<float> values)>;
 struct OpenedImage {
     SourceImage image;  ///< without values
     /// Reads the values slice by slice and hands on each, k ascending, with the file's own rescale (slice by
-    /// slice in DICOM) applied. Throws ImagingError.
+    /// slice in DICOM) applied. Throws ImagingError, too, where what was compressed is damaged.
     std::function<void(const TakeSlice&, const ReportProgress&)> read_slices;
-    /// Whether no more than a slice is in memory at once then; else it is all of the file.
-    bool is_read_by_slice = false;
+    /// What that takes of memory at most.
+    std::uint64_t reading_bytes = 0;
 
     /// All of them, as image.values has them.
     std::vector<float> read_values(const ReportProgress& report) const;
@@ -32,8 +33,8 @@ struct OpenedImage {
 /// Reads headers only. `series_uid` picks a series of a DICOM folder; the largest otherwise. Throws
 /// ImagingError, in one line, for all that is no three-dimensional grey image placed in the patient: a path
 /// that does not exist, an unknown kind of file, a damaged header, 2 or 4 dimensions, a single slice, colour,
-/// a geometry that no scan has (plausible_geometry.h), voxels that are not all there or whose checksum is
-/// wrong, and what the headers, dicom_series.h and slice_geometry.h refuse.
+/// a geometry that no scan has (plausible_geometry.h), voxels for which the files are too short, and what the
+/// headers, dicom_series.h and slice_geometry.h refuse.
 OpenedImage open_image(const std::filesystem::path& path, const std::optional<std::string>& series_uid);
 
 }  // namespace osteomill

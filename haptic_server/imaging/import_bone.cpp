@@ -77,9 +77,18 @@ ImportPlan plan(const ImportOptions& options, const SourceImage& image, std::ost
 void require_memory(const ImportOptions& options, const OpenedImage& opened, const ImportPlan& work,
                     const ImportSurroundings& surroundings) {
     const SourceImage& image = opened.image;
-    const std::uint64_t read_at_once =
-        voxel_count(image) / (opened.is_read_by_slice ? static_cast<std::uint64_t>(image.size_voxels.z) : 1);
-    const std::uint64_t needed = import_memory_bytes(read_at_once, voxel_count(work.needed), work.grid);
+    const std::uint64_t needed =
+        import_memory_bytes(opened.reading_bytes, voxel_count(work.needed), work.grid);
+    if (needed > most_import_bytes && opened.reading_bytes > most_import_bytes / 3)
+        throw ImagingError(options.input,
+                           fmt::format("has pixels of which {:.1f} GiB would be held at once, more than an "
+                                       "import may take; save the scan as one file a slice, or as NRRD",
+                                       gibibytes(opened.reading_bytes)));
+    if (needed > most_import_bytes)
+        throw ImagingError(options.input,
+                           fmt::format("needs about {:.1f} GiB of memory, where an import may take {:.1f}; "
+                                       "take a smaller --region or a larger --spacing-mm",
+                                       gibibytes(needed), gibibytes(most_import_bytes)));
     const glm::ivec3 from = image.size_voxels;
     const glm::ivec3 to = work.grid.size_voxels;
     surroundings.messages << fmt::format(

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <sstream>
 #include <string>
-#include <thread>
 
 #include "common/bone/brick.h"
 #include "haptic_server/imaging/near_bone.h"
@@ -12,10 +11,9 @@
 namespace osteomill {
 
 namespace {
-constexpr std::uint64_t file_voxel_bytes = 4;  // the widest type that scanners write
 constexpr std::uint64_t float_bytes = 4;
 constexpr std::uint64_t refined_bytes = 3;                // HU, and whether bone is near
-constexpr std::uint64_t most_refined_bytes = 384u << 20;  // slices take no more, but one for each core
+constexpr std::uint64_t most_refined_bytes = 640u << 20;  // but for one slice, and those around it
 constexpr int slices_around = 2 * kept_voxels_around_bone;
 constexpr std::uint64_t program_bytes = 128u << 20;  // libraries, buffers of compression
 
@@ -25,17 +23,17 @@ std::uint64_t slice_bytes(const Grid& result) {
 }  // namespace
 
 int slices_at_once(const Grid& result) {
-    const auto cores = static_cast<int>(std::thread::hardware_concurrency());
     const auto fit =
         static_cast<int>(std::min<std::uint64_t>(most_refined_bytes / slice_bytes(result), 1024));
-    return std::clamp(fit - slices_around, std::clamp(cores, 1, brick_edge_voxels), brick_edge_voxels);
+    return std::clamp(fit - slices_around, 1, brick_edge_voxels);
 }
 
-std::uint64_t import_memory_bytes(std::uint64_t read_at_once, std::uint64_t part_voxels, const Grid& result) {
-    const std::uint64_t reading = read_at_once * (file_voxel_bytes + float_bytes);
+std::uint64_t import_memory_bytes(std::uint64_t reading_bytes, std::uint64_t part_voxels,
+                                  const Grid& result) {
     const std::uint64_t refining =
         slice_bytes(result) * static_cast<std::uint64_t>(slices_at_once(result) + slices_around);
-    return program_bytes + std::min(part_voxels * float_bytes, most_scan_bytes) + std::max(reading, refining);
+    return program_bytes + std::min(part_voxels * float_bytes, most_scan_bytes) + 
+           std::max(reading_bytes, refining);
 }
 
 std::optional<std::uint64_t> available_memory_bytes(std::istream& meminfo) {

@@ -15,7 +15,7 @@ MetaImage open_meta_image(const std::filesystem::path& path) {
         .data = {}};
     const MetaImageHeader& header = image.header;
     image.data.encoding = header.encoding;
-    const std::uint64_t all_bytes = voxel_count(header.image) * element_bytes(header.element);
+    const std::uint64_t all_bytes = voxel_count(header.image) * bytes_of(header.voxels.type);
     const auto add = [&](const std::filesystem::path& file, std::uint64_t begin, std::uint64_t bytes) {
         const std::uint64_t size = RegularFile(file).size();
         const std::uint64_t voxels_begin = header.header_size >= 0
@@ -28,7 +28,7 @@ MetaImage open_meta_image(const std::filesystem::path& path) {
         image.data.parts.push_back({.file = path, .begin = header.bytes, .bytes = all_bytes});
     for (const std::string& name : header.data_files)
         add(data_file_beside(path, name), 0, all_bytes / header.data_files.size());
-    if (const std::uint64_t more = require_whole(image.data); more > 0)
+    if (const std::uint64_t more = require_room(image.data); more > 0)
         image.header.image.notes.push_back(
             fmt::format("{}: {} bytes follow its voxels; they are not read", path.string(), more));
     return image;

@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "haptic_server/imaging/meta_image_header.h"
+#include "haptic_server/imaging/voxel_data.h"
 
 namespace osteomill {
 
@@ -12,8 +13,8 @@ struct MetaImage {
     VoxelData data;
 };
 
-/// Reads the header, counts and sizes every file of voxels and checks what is compressed. Throws
-/// ImagingError. What had to be assumed joins the notes of header.image.
+/// Reads the header, counts and sizes every file of voxels. Throws ImagingError. What had to be assumed joins
+/// the notes of header.image.
 MetaImage open_meta_image(const std::filesystem::path& path);
 
 }  // namespace osteomill

@@ -17,6 +17,7 @@
 #include "haptic_server/imaging/imaging_error.h"
 #include "haptic_server/imaging/plausible_geometry.h"
 #include "haptic_server/imaging/regular_file.h"
+#include "haptic_server/imaging/voxel_data.h"
 
 namespace osteomill {
 
@@ -24,14 +25,13 @@ namespace {
 
 struct Element {
     const char* name;
-    MetaElement element;
-    std::uint64_t bytes;
+    VoxelType type;
 };
 constexpr std::array elements{
-    Element{"MET_CHAR", MetaElement::int8, 1},     Element{"MET_UCHAR", MetaElement::uint8, 1},
-    Element{"MET_SHORT", MetaElement::int16, 2},   Element{"MET_USHORT", MetaElement::uint16, 2},
-    Element{"MET_INT", MetaElement::int32, 4},     Element{"MET_UINT", MetaElement::uint32, 4},
-    Element{"MET_FLOAT", MetaElement::float32, 4}, Element{"MET_DOUBLE", MetaElement::float64, 8}};
+    Element{"MET_CHAR", VoxelType::int8},     Element{"MET_UCHAR", VoxelType::uint8},
+    Element{"MET_SHORT", VoxelType::int16},   Element{"MET_USHORT", VoxelType::uint16},
+    Element{"MET_INT", VoxelType::int32},     Element{"MET_UINT", VoxelType::uint32},
+    Element{"MET_FLOAT", VoxelType::float32}, Element{"MET_DOUBLE", VoxelType::float64}};
 
 std::string trimmed(std::string_view text) {
     const std::size_t first = text.find_first_not_of(" \t\r");
@@ -159,19 +159,19 @@ void read_element(const Fields& fields, MetaImageHeader& header) {
         fields.refuse("ElementType",
                       "is not read; it must be MET_CHAR, UCHAR, SHORT, USHORT, INT, UINT, "
                       "FLOAT or DOUBLE");
-    header.element = known->element;
+    header.voxels.type = known->type;
     if (fields.whole("ElementNumberOfChannels", 1) != 1)
         fields.refuse("ElementNumberOfChannels", "means colour or vectors; CT has one value a voxel");
     if (!fields.truth("BinaryData", false))
         fields.refuse("BinaryData", "means voxels as text, which is not read; it must be True");
     const std::string order = fields.name_of({"BinaryDataByteOrderMSB", "ElementByteOrderMSB"});
-    header.big_endian = !order.empty() && fields.truth(order, false);
+    header.voxels.big_endian = !order.empty() && fields.truth(order, false);
     header.encoding =
-        fields.truth("CompressedData", false) ? VoxelEncoding::zlib_or_gzip : VoxelEncoding::raw;
+        fields.truth("CompressedData", false) ? Encoding::zlib_or_gzip : Encoding::raw;
     header.header_size = fields.whole("HeaderSize", 0);
     constexpr std::int64_t most_skipped = std::int64_t{1} << 40;
     if (header.header_size > most_skipped ||
-        header.header_size < (header.encoding == VoxelEncoding::raw ? -1 : 0))
+        header.header_size < (header.encoding == Encoding::raw ? -1 : 0))
         fields.refuse("HeaderSize", "must be 0 or more, or -1 for voxels that end a file");
     for (const char* name : {"ElementToIntensityFunctionSlope", "ElementToIntensityFunctionOffset"})
         if (fields.text(name))
@@ -245,12 +245,6 @@ void read_data_files(const Fields& fields, std::string_view rest, MetaImageHeade
 }
 
 }  // namespace
-
-std::uint64_t element_bytes(MetaElement element) {
-    return std::find_if(elements.begin(), elements.end(),
-                        [&](const Element& known) { return known.element == element; })
-        ->bytes;
-}
 
 MetaImageHeader parse_meta_image_header(std::span<const std::uint8_t> bytes,
                                         const std::filesystem::path& path) {

@@ -10,26 +10,22 @@
 #include <vector>
 
 #include "haptic_server/imaging/source_image.h"
-#include "haptic_server/imaging/voxel_data.h"
+#include "haptic_server/imaging/byte_source.h"
+#include "haptic_server/imaging/voxel_layout.h"
 
 namespace osteomill {
 
 /// A header must end within so many bytes.
 inline constexpr std::size_t most_meta_image_header_bytes = 1u << 20;
 
-enum class MetaElement { int8, uint8, int16, uint16, int32, uint32, float32, float64 };
-
 struct MetaImageHeader {
     SourceImage image;  ///< without values; what had to be assumed is in its notes
-    MetaElement element = MetaElement::int16;
-    bool big_endian = false;
-    VoxelEncoding encoding = VoxelEncoding::raw;
+    VoxelLayout voxels;
+    Encoding encoding = Encoding::raw;
     std::int64_t header_size = 0;         ///< bytes before the voxels of each data file; -1: they are its end
     std::vector<std::string> data_files;  ///< empty: the voxels follow the header
     std::size_t bytes = 0;                ///< of the header
 };
-
-std::uint64_t element_bytes(MetaElement element);
 
 /// Takes the first bytes of a file apart; pure. `path` is for messages. Throws ImagingError for a header
 /// that is cut off or has no end, a field that stands there twice, a number of dimensions other than 3,

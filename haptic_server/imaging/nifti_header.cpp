@@ -4,6 +4,7 @@
 #include <zlib.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstring>
 #include <memory>
@@ -101,43 +102,33 @@ Stated read_nifti2(const Fields& fields) {
     return stated;
 }
 
-/// Bytes of a voxel; 0 for what is no plain number.
-std::uint64_t bytes_of_datatype(int datatype) {
-    switch (datatype) {
-        case 2:
-        case 256:
-            return 1;  // uint8, int8
-        case 4:
-        case 512:
-            return 2;  // int16, uint16
-        case 8:
-        case 768:
-        case 16:
-            return 4;  // int32, uint32, float
-        case 64:
-        case 1024:
-        case 1280:
-            return 8;  // double, int64, uint64
-        case 128:
-            return 3;  // colour, which is refused later, by its name
-        case 2304:
-            return 4;
-        default:
-            return 0;
-    }
-}
+struct DataType {
+    int number = 0;
+    std::uint64_t bytes = 0;
+    VoxelType type = VoxelType::uint8;
+};
+constexpr std::array data_types{DataType{2, 1, VoxelType::uint8},    DataType{256, 1, VoxelType::int8},
+                                DataType{4, 2, VoxelType::int16},    DataType{512, 2, VoxelType::uint16},
+                                DataType{8, 4, VoxelType::int32},    DataType{768, 4, VoxelType::uint32},
+                                DataType{1024, 8, VoxelType::int64}, DataType{1280, 8, VoxelType::uint64},
+                                DataType{16, 4, VoxelType::float32}, DataType{64, 8, VoxelType::float64},
+                                DataType{128, 3},  // colour, which is refused later, by its name
+                                DataType{2304, 4}};
 
 void require_sizes(const Stated& stated, const std::filesystem::path& path, NiftiHeader& header) {
     if (stated.dim[0] < 1 || stated.dim[0] > 7)
         throw ImagingError(path, fmt::format("has {} dimensions (dim[0]); a volume has 3", stated.dim[0]));
     for (std::size_t axis = 1; axis <= static_cast<std::size_t>(stated.dim[0]); ++axis)
         header.sizes.push_back(static_cast<std::uint64_t>(std::max<std::int64_t>(stated.dim[axis], 0)));
-    const std::uint64_t bytes = bytes_of_datatype(stated.datatype);
-    if (bytes == 0 || stated.bits != static_cast<int>(8 * bytes))
+    const auto known = std::find_if(data_types.begin(), data_types.end(), [&](const DataType& type) {
+        return type.number == stated.datatype && static_cast<int>(8 * type.bytes) == stated.bits;
+    });
+    if (known == data_types.end())
         throw ImagingError(path, fmt::format("datatype {} of {} bits (datatype, bitpix) is not read",
                                              stated.datatype, stated.bits));
     try {
-        header.voxel_bytes = plausible_voxel_count(header.sizes) * bytes;
+        header.voxels.type = known->type;
+        header.voxel_bytes = plausible_voxel_count(header.sizes) * known->bytes;
     } catch (const std::invalid_argument& error) {
         throw ImagingError(path, error.what());
     }
@@ -153,6 +144,9 @@ void require_numbers(const Stated& stated, const std::filesystem::path& path, Ni
     if (!std::isfinite(stated.slope) || !std::isfinite(stated.intercept))
         throw ImagingError(path, fmt::format("scl_slope {} and scl_inter {} are not numbers", stated.slope,
                                              stated.intercept));
+    // A slope of 0 stands for none.
+    header.voxels.slope = stated.slope == 0.0 ? 1.0 : stated.slope;
+    header.voxels.intercept = stated.intercept;
     const auto plausible = [](double number) { return std::abs(number) <= farthest_position_mm; };
     if (stated.qform > 0 &&
         !(std::all_of(stated.quaternion_and_offset.begin(), stated.quaternion_and_offset.end(), plausible) &&
@@ -234,6 +228,7 @@ NiftiHeader parse_nifti_header(std::span<const std::uint8_t> bytes, const std::f
         if (size != nifti1_header_bytes && !is_second) continue;
         Stated stated = is_second ? read_nifti2(fields) : read_nifti1(fields);
         NiftiHeader header;
+        header.voxels.big_endian = swapped != (std::endian::native == std::endian::big);
         header.voxels_follow = stated.magic.starts_with("n+");
         // Analyze 7.5 has other things where NIfTI has these.
         if (!header.voxels_follow && !stated.magic.starts_with("ni"))
@@ -246,7 +241,7 @@ NiftiHeader parse_nifti_header(std::span<const std::uint8_t> bytes, const std::f
     throw cut_off();
 }
 
-std::uint64_t require_sound_nifti(const std::filesystem::path& path) {
+NiftiImage open_nifti(const std::filesystem::path& path) {
     const bool is_image_half = is_half(path, ".img");
     const std::filesystem::path header_file = is_image_half ? other_of_pair(path, ".hdr") : path;
     const NiftiHeader header = parse_nifti_header(first_bytes_inflated(header_file), header_file);
@@ -261,12 +256,12 @@ std::uint64_t require_sound_nifti(const std::filesystem::path& path) {
     VoxelData data;
     VoxelPart part{.file = voxel_file, .begin = header.voxels_begin, .bytes = header.voxel_bytes};
     if (is_gzip(voxel_file)) {
-        data.encoding = VoxelEncoding::gzip;
+        data.encoding = Encoding::gzip;
         part.begin = 0;
-        part.bytes += header.voxels_begin;
+        part.skipped_bytes = header.voxels_begin;
     }
     data.parts.push_back(part);
-    return require_whole(data);
+    return {.header = header, .data = data};
 }
 
 }  // namespace osteomill

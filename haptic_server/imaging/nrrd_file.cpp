@@ -166,9 +166,9 @@ std::string unescaped(std::string_view text) {
 }
 
 /// Key-values, and where the data begin. The fields are nrrd_header's.
-std::uint64_t read_key_values(const OpenFile& file, std::map<std::string, std::string>& key_values) {
+std::uint64_t read_key_values(const RegularFile& file, std::map<std::string, std::string>& key_values) {
     std::string text(static_cast<std::size_t>(std::min<std::uint64_t>(file.size(), most_header_bytes)), '\0');
-    text.resize(file.read(0, std::as_writable_bytes(std::span(text))));
+    text.resize(file.read_at(0, std::as_writable_bytes(std::span(text))));
     std::size_t begin = 0;
     while (true) {
         const std::size_t end = text.find('\n', begin);
@@ -222,7 +222,7 @@ NrrdFile::NrrdFile(const std::filesystem::path& path, NrrdVoxel voxel) {
     if (!std::filesystem::is_regular_file(path))
         throw ImagingError(path,
                            std::string("is not a file") + (std::filesystem::is_directory(path) ? hint : ""));
-    file_ = std::make_shared<const OpenFile>(path);
+    file_ = std::make_shared<const RegularFile>(path);
     const Fields fields = read_nrrd_header(path);
     require_spacing(path, fields);
     require_data_in_this_file(path, fields);

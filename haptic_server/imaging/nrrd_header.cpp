@@ -96,25 +96,30 @@ std::vector<std::string> words_of(const std::string& text) {
     return {std::istream_iterator<std::string>(line), {}};
 }
 
-/// Bytes of a voxel; 0 for a type that is not known.
-std::uint64_t type_bytes(std::string type) {
-    std::transform(type.begin(), type.end(), type.begin(),
+std::optional<VoxelType> type_of(std::string name) {
+    std::transform(name.begin(), name.end(), name.begin(),
                    [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
     struct Type {
-        std::uint64_t bytes;
+        VoxelType type;
         std::vector<std::string_view> names;
     };
     static const std::vector<Type> types{
-        {1, {"signed char", "int8", "int8_t", "uchar", "unsigned char", "uint8", "uint8_t"}},
-        {2, {"short", "short int", "signed short", "signed short int", "int16", "int16_t"}},
-        {2, {"ushort", "unsigned short", "unsigned short int", "uint16", "uint16_t"}},
-        {4, {"int", "signed int", "int32", "int32_t", "uint", "unsigned int", "uint32", "uint32_t", "float"}},
-        {8, {"longlong", "long long", "long long int", "signed long long", "signed long long int", "int64"}},
-        {8, {"int64_t", "ulonglong", "unsigned long long", "unsigned long long int", "uint64", "uint64_t"}},
-        {8, {"double"}}};
+        {VoxelType::int8, {"signed char", "int8", "int8_t"}},
+        {VoxelType::uint8, {"uchar", "unsigned char", "uint8", "uint8_t"}},
+        {VoxelType::int16, {"short", "short int", "signed short", "signed short int", "int16", "int16_t"}},
+        {VoxelType::uint16, {"ushort", "unsigned short", "unsigned short int", "uint16", "uint16_t"}},
+        {VoxelType::int32, {"int", "signed int", "int32", "int32_t"}},
+        {VoxelType::uint32, {"uint", "unsigned int", "uint32", "uint32_t"}},
+        {VoxelType::int64,
+         {"longlong", "long long", "long long int", "signed long long", "signed long long int", "int64",
+          "int64_t"}},
+        {VoxelType::uint64,
+         {"ulonglong", "unsigned long long", "unsigned long long int", "uint64", "uint64_t"}},
+        {VoxelType::float32, {"float"}},
+        {VoxelType::float64, {"double"}}};
     for (const Type& known : types)
-        if (std::find(known.names.begin(), known.names.end(), type) != known.names.end()) return known.bytes;
-    return 0;
+        if (std::find(known.names.begin(), known.names.end(), name) != known.names.end()) return known.type;
+    return std::nullopt;
 }
 
 std::vector<std::uint64_t> sizes_of(const NrrdHeader& header, const std::filesystem::path& path) {
@@ -130,15 +135,14 @@ std::vector<std::uint64_t> sizes_of(const NrrdHeader& header, const std::filesys
     return sizes;
 }
 
-std::pair<VoxelEncoding, std::uint64_t> encoding_of(const NrrdHeader& header,
-                                                    const std::filesystem::path& path) {
+Encoding encoding_of(const NrrdHeader& header, const std::filesystem::path& path) {
     std::string name = field(header, "encoding").value_or("");
     std::transform(name.begin(), name.end(), name.begin(),
                    [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    if (name == "raw") return {VoxelEncoding::raw, 1};
-    if (name == "gzip" || name == "gz") return {VoxelEncoding::gzip, 1};
-    if (name == "txt" || name == "text" || name == "ascii") return {VoxelEncoding::text, 0};
-    if (name == "hex") return {VoxelEncoding::text, 2};
+    if (name == "raw") return Encoding::raw;
+    if (name == "gzip" || name == "gz") return Encoding::gzip;
+    if (name == "txt" || name == "text" || name == "ascii") return Encoding::text;
+    if (name == "hex") return Encoding::hex;
     throw ImagingError(path,
                        fmt::format("encoding '{}' is not read; save it as raw or gzip", shortened(name)));
 }
@@ -197,7 +201,7 @@ void require_numbers(const NrrdHeader& header, const std::filesystem::path& path
 std::uint64_t after_lines(const RegularFile& file, std::uint64_t begin, std::uint64_t lines) {
     if (lines == 0) return begin;
     std::vector<std::uint8_t> bytes(most_nrrd_header_bytes);
-    bytes.resize(file.read_at(begin, bytes));
+    bytes.resize(file.read_at(begin, std::as_writable_bytes(std::span(bytes))));
     std::size_t at = 0;
     for (std::uint64_t line = 0; line < lines; ++line) {
         const auto found = std::find(bytes.begin() + static_cast<std::ptrdiff_t>(at), bytes.end(), '\n');
@@ -216,8 +220,8 @@ VoxelPart part_in(const std::filesystem::path& path, std::uint64_t begin, std::u
     VoxelPart part{.file = path, .begin = after_lines(file, begin, layout.line_skip), .bytes = bytes};
     if (layout.byte_skip < 0) {
         part.begin = std::max(part.begin, file.size() - std::min(file.size(), bytes));
-    } else if (layout.encoding == VoxelEncoding::gzip) {
-        part.bytes += static_cast<std::uint64_t>(layout.byte_skip);  // they are skipped once inflated
+    } else if (layout.encoding == Encoding::gzip) {
+        part.skipped_bytes = static_cast<std::uint64_t>(layout.byte_skip);
     } else {
         part.begin += static_cast<std::uint64_t>(layout.byte_skip);
     }
@@ -268,18 +272,19 @@ NrrdLayout nrrd_layout(const NrrdHeader& header, const std::filesystem::path& pa
     require_numbers(header, path);
     const std::vector<std::uint64_t> sizes = sizes_of(header, path);
     const std::string type = field(header, "type").value_or("");
-    const std::uint64_t bytes_of_one = type_bytes(type);
-    if (bytes_of_one == 0)
+    const std::optional<VoxelType> voxel_type = type_of(type);
+    if (!voxel_type)
         throw ImagingError(
             path, fmt::format("type '{}' is none of a grey image, such as int16 or float", shortened(type)));
     NrrdLayout layout;
-    const auto [encoding, digits_of_a_byte] = encoding_of(header, path);
-    layout.encoding = encoding;
+    layout.voxels.type = *voxel_type;
+    layout.voxels.big_endian = field(header, "endian") == "big";
+    layout.encoding = encoding_of(header, path);
     const std::string lines = field(header, "line skip").value_or("0");
     const std::string skip = field(header, "byte skip").value_or("0");
     const auto line_skip = whole_number<std::uint64_t>(lines);
     const auto byte_skip = whole_number<std::int64_t>(skip);
-    const bool at_end_allowed = encoding == VoxelEncoding::raw;
+    const bool at_end_allowed = layout.encoding == Encoding::raw;
     constexpr std::int64_t most_skipped = std::int64_t{1} << 40;
     if (!line_skip || *line_skip > most_nrrd_header_bytes || !byte_skip || *byte_skip > most_skipped ||
         *byte_skip < (at_end_allowed ? -1 : 0))
@@ -289,10 +294,9 @@ NrrdLayout nrrd_layout(const NrrdHeader& header, const std::filesystem::path& pa
     layout.byte_skip = *byte_skip;
     try {
         const std::uint64_t voxels = plausible_voxel_count(sizes);
-        // A number in decimal takes a digit and a blank, in hexadecimal two digits for each of its bytes.
-        layout.voxel_bytes = encoding != VoxelEncoding::text ? voxels * bytes_of_one
-                             : digits_of_a_byte == 0         ? 2 * voxels - 1
-                                                             : voxels * bytes_of_one * digits_of_a_byte;
+        // A number in decimal takes a digit, and a blank from the next.
+        layout.voxel_bytes =
+            layout.encoding == Encoding::text ? 2 * voxels - 1 : voxels * bytes_of(*voxel_type);
         layout.data_files = data_files_of(header);
     } catch (const std::invalid_argument& error) {
         throw ImagingError(path, error.what());
@@ -330,11 +334,6 @@ VoxelData nrrd_voxel_data(const NrrdHeader& header, const NrrdLayout& layout,
         data.parts.push_back(
             part_in(data_file_beside(path, name), 0, layout.voxel_bytes / layout.data_files.size(), layout));
     return data;
-}
-
-std::uint64_t require_sound_nrrd(const std::filesystem::path& path) {
-    const NrrdHeader header = parse_nrrd_header(RegularFile(path).first_bytes(most_nrrd_header_bytes), path);
-    return require_whole(nrrd_voxel_data(header, nrrd_layout(header, path), path));
 }
 
 }  // namespace osteomill

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "haptic_server/imaging/voxel_data.h"
+#include "haptic_server/imaging/voxel_layout.h"
 
 namespace osteomill {
 
@@ -26,8 +27,9 @@ struct NrrdHeader {
 
 /// What the header says of the voxels.
 struct NrrdLayout {
-    VoxelEncoding encoding = VoxelEncoding::raw;
-    std::uint64_t voxel_bytes = 0;        ///< of all voxels, decoded
+    Encoding encoding = Encoding::raw;
+    VoxelLayout voxels;
+    std::uint64_t voxel_bytes = 0;        ///< of all voxels, decoded; of text, the least that they take
     std::int64_t byte_skip = 0;           ///< -1: the voxels are the end of the file
     std::uint64_t line_skip = 0;          ///< lines between the header (or the file's start) and the voxels
     std::vector<std::string> data_files;  ///< empty: the voxels follow the header
@@ -41,8 +43,7 @@ NrrdHeader parse_nrrd_header(std::span<const std::uint8_t> bytes, const std::fil
 /// a number of `spacings`, `space directions`, `space origin`, `axis mins` or `axis maxs` that no scan has.
 NrrdLayout nrrd_layout(const NrrdHeader& header, const std::filesystem::path& path);
 
-/// Where the voxels lie. Bytes to skip in compressed data are part of it, and stand before the voxels of each
-/// file. Throws ImagingError for files that are missing or no files.
+/// Where the voxels lie. Throws ImagingError for files that are missing or no files.
 VoxelData nrrd_voxel_data(const NrrdHeader& header, const NrrdLayout& layout,
                           const std::filesystem::path& path);
 
@@ -51,9 +52,5 @@ std::map<std::string, std::string> read_nrrd_header(const std::filesystem::path&
 
 /// Throws ImagingError where `spacings` or `space directions` hold a zero or something that is not a number.
 void require_spacing(const std::filesystem::path& path, const std::map<std::string, std::string>& header);
-
-/// Holds header, data files and, where they are compressed, the voxels' checksum against each other; throws
-/// ImagingError. Bytes that follow raw voxels, which nobody reads, are counted in the result.
-std::uint64_t require_sound_nrrd(const std::filesystem::path& path);
 
 }  // namespace osteomill

@@ -40,7 +40,7 @@ RegularFile::~RegularFile() {
     ::close(descriptor_);
 }
 
-std::size_t RegularFile::read_at(std::uint64_t offset, std::span<std::uint8_t> bytes) const {
+std::size_t RegularFile::read_at(std::uint64_t offset, std::span<std::byte> bytes) const {
     std::size_t done = 0;
     while (done < bytes.size()) {
         const ssize_t count =
@@ -55,7 +55,7 @@ std::size_t RegularFile::read_at(std::uint64_t offset, std::span<std::uint8_t> b
 
 std::vector<std::uint8_t> RegularFile::first_bytes(std::uint64_t most) const {
     std::vector<std::uint8_t> bytes(static_cast<std::size_t>(std::min(most, size_)));
-    bytes.resize(read_at(0, bytes));
+    bytes.resize(read_at(0, std::as_writable_bytes(std::span(bytes))));
     return bytes;
 }
 

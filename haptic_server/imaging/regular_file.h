@@ -1,7 +1,8 @@
 // A file opened for reading that is a file: opening never waits, as it would for a pipe, and never asks a
-// device for bytes.
+// device for bytes. It stays the one that was opened, although another takes its name.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <span>
@@ -24,7 +25,7 @@ class RegularFile {
 
     /// Reads into `bytes` from an offset; how many there were, fewer only at the file's end. Throws
     /// ImagingError where the disk fails.
-    std::size_t read_at(std::uint64_t offset, std::span<std::uint8_t> bytes) const;
+    std::size_t read_at(std::uint64_t offset, std::span<std::byte> bytes) const;
 
     /// The file's first bytes, at most so many.
     std::vector<std::uint8_t> first_bytes(std::uint64_t most) const;

@@ -1,10 +1,10 @@
 #include "haptic_server/imaging/voxel_data.h"
 
 #include <fmt/format.h>
-#include <zlib.h>
 
 #include <algorithm>
 #include <charconv>
+#include <memory>
 #include <stdexcept>
 
 #include "haptic_server/imaging/imaging_error.h"
@@ -19,83 +19,15 @@ constexpr std::size_t piece_bytes = 1u << 18;
 constexpr std::uint64_t most_shrunk = 500;
 constexpr std::uint64_t suspicious_bytes = std::uint64_t{1} << 30U;
 
-/// zlib's stream of one file, from an offset to its end.
-class Inflater {
-  public:
-    Inflater(const RegularFile& file, const VoxelPart& part, VoxelEncoding encoding)
-        : file_(file), part_(part), offset_(part.begin), encoded_(piece_bytes), decoded_(piece_bytes) {
-        // 15 bits of window; 16 more: gzip only, 32 more: zlib or gzip, whichever begins.
-        const int window = 15 + (encoding == VoxelEncoding::gzip ? 16 : 32);
-        if (inflateInit2(&stream_, window) != Z_OK) throw std::bad_alloc();
-    }
-    ~Inflater() { inflateEnd(&stream_); }
-    Inflater(const Inflater&) = delete;
-    Inflater& operator=(const Inflater&) = delete;
-
-    void run(const TakeBytes& take) {
-        std::uint64_t total = 0;
-        for (bool ended = false; !ended;) {
-            refill();
-            stream_.next_out = decoded_.data();
-            stream_.avail_out = static_cast<unsigned>(decoded_.size());
-            const int result = inflate(&stream_, Z_NO_FLUSH);
-            const std::size_t made = decoded_.size() - stream_.avail_out;
-            if (result == Z_DATA_ERROR || result == Z_NEED_DICT || result == Z_STREAM_ERROR)
-                throw ImagingError(part_.file,
-                                   "its compressed voxels are damaged (their checksum or their coding)");
-            if (result == Z_MEM_ERROR) throw std::bad_alloc();
-            if (result == Z_BUF_ERROR && made == 0)
-                throw ImagingError(part_.file, fmt::format("is cut off: its compressed voxels end after {} "
-                                                           "of {} bytes",
-                                                           total, part_.bytes));
-            total += made;
-            if (total > part_.bytes)
-                throw ImagingError(
-                    part_.file,
-                    fmt::format("holds more than the {} bytes of voxels that its header says", part_.bytes));
-            if (made > 0 && take) take({decoded_.data(), made});
-            if (result == Z_STREAM_END) ended = !another_member();
-        }
-        if (total < part_.bytes)
-            throw ImagingError(part_.file, fmt::format("is cut off: {} of {} bytes of voxels are there",
-                                                       total, part_.bytes));
-    }
-
-  private:
-    void refill() {
-        if (stream_.avail_in > 0) return;
-        const std::size_t count = file_.read_at(offset_, encoded_);
-        offset_ += count;
-        stream_.next_in = encoded_.data();
-        stream_.avail_in = static_cast<unsigned>(count);
-    }
-    /// gzip allows one member behind the other; anything else there is refused.
-    bool another_member() {
-        refill();
-        if (stream_.avail_in == 0) return false;
-        if (*stream_.next_in != 0x1f)
-            throw ImagingError(part_.file, fmt::format("has {} bytes of something else behind its voxels",
-                                                       stream_.avail_in + file_.size() - offset_));
-        if (inflateReset(&stream_) != Z_OK) throw std::bad_alloc();
-        return true;
-    }
-
-    const RegularFile& file_;
-    const VoxelPart& part_;
-    std::uint64_t offset_;
-    std::vector<std::uint8_t> encoded_;
-    std::vector<std::uint8_t> decoded_;
-    z_stream stream_{};
-};
-
 std::uint64_t bytes_there(const RegularFile& file, const VoxelPart& part) {
     return file.size() - std::min(file.size(), part.begin);
 }
 
-void require_raw(const RegularFile& file, const VoxelPart& part) {
-    if (bytes_there(file, part) < part.bytes)
+void require_bytes(const RegularFile& file, const VoxelPart& part, Encoding encoding) {
+    const std::uint64_t bytes = encoding == Encoding::hex ? 2 * part.bytes : part.bytes;
+    if (bytes_there(file, part) < bytes)
         throw ImagingError(part.file, fmt::format("is cut off: {} of {} bytes of voxels are there",
-                                                  bytes_there(file, part), part.bytes));
+                                                  bytes_there(file, part), bytes));
 }
 
 void require_no_bomb(const RegularFile& file, const VoxelPart& part) {
@@ -103,19 +35,6 @@ void require_no_bomb(const RegularFile& file, const VoxelPart& part) {
         throw ImagingError(part.file, fmt::format("says that {} bytes hold {} bytes of voxels; no scan "
                                                   "compresses so",
                                                   bytes_there(file, part), part.bytes));
-}
-
-void copy_raw(const RegularFile& file, const VoxelPart& part, const TakeBytes& take) {
-    require_raw(file, part);
-    std::vector<std::uint8_t> piece(piece_bytes);
-    for (std::uint64_t done = 0; done < part.bytes;) {
-        const auto wanted =
-            static_cast<std::size_t>(std::min<std::uint64_t>(piece.size(), part.bytes - done));
-        if (file.read_at(part.begin + done, {piece.data(), wanted}) != wanted)
-            throw ImagingError(part.file, "was cut off while it was read");
-        take({piece.data(), wanted});
-        done += wanted;
-    }
 }
 
 }  // namespace
@@ -168,31 +87,36 @@ std::filesystem::path data_file_beside(const std::filesystem::path& header, cons
 }
 
 void read_voxel_data(const VoxelData& data, const TakeBytes& take) {
+    std::vector<std::byte> piece(piece_bytes);
     for (const VoxelPart& part : data.parts) {
-        const RegularFile file(part.file);
-        switch (data.encoding) {
-            case VoxelEncoding::raw:
-                copy_raw(file, part, take);
-                break;
-            case VoxelEncoding::text:
-                throw ImagingError(part.file, "its voxels are text, which is not read");
-            default:
-                Inflater(file, part, data.encoding).run(take);
+        ByteSource source(std::make_shared<const RegularFile>(part.file), part.begin, data.encoding);
+        source.skip(part.skipped_bytes);
+        if (data.encoding == Encoding::text) {
+            while (const std::size_t read = source.read_some(piece)) take(std::span(piece).first(read));
+            take(std::as_bytes(std::span(" ", 1)));
+            continue;
         }
+        for (std::uint64_t left = part.bytes; left > 0;) {
+            const auto now = std::span(piece).first(static_cast<std::size_t>(
+                std::min<std::uint64_t>(piece.size(), left)));
+            source.read(now);
+            take(now);
+            left -= now.size();
+        }
+        source.finish();
     }
 }
 
-std::uint64_t require_whole(const VoxelData& data) {
+std::uint64_t require_room(const VoxelData& data) {
     std::uint64_t more = 0;
     for (const VoxelPart& part : data.parts) {
         const RegularFile file(part.file);
-        if (data.encoding == VoxelEncoding::gzip || data.encoding == VoxelEncoding::zlib_or_gzip) {
+        if (is_compressed(data.encoding)) {
             require_no_bomb(file, part);
-            Inflater(file, part, data.encoding).run({});
             continue;
         }
-        require_raw(file, part);
-        if (data.encoding == VoxelEncoding::text) continue;
+        require_bytes(file, part, data.encoding);
+        if (data.encoding != Encoding::raw) continue;
         more = bytes_there(file, part) - part.bytes;
         if (more > 0 && data.parts.size() > 1)
             throw ImagingError(part.file, fmt::format("holds {} bytes, where {} make its slice of the image",

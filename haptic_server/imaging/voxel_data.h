@@ -10,24 +10,20 @@
 #include <string_view>
 #include <vector>
 
-namespace osteomill {
+#include "haptic_server/imaging/byte_source.h"
 
-enum class VoxelEncoding {
-    raw,
-    gzip,          ///< one member or several, each with its CRC
-    zlib_or_gzip,  ///< MetaImage's
-    text,          ///< numbers in decimal (or in hexadecimal), which only says how many there are at least
-};
+namespace osteomill {
 
 /// A run of bytes of a file that holds voxels.
 struct VoxelPart {
     std::filesystem::path file;
     std::uint64_t begin = 0;
-    std::uint64_t bytes = 0;  ///< when decoded
+    std::uint64_t bytes = 0;          ///< when decoded; of text, the least that its numbers take
+    std::uint64_t skipped_bytes = 0;  ///< decoded bytes before them
 };
 
 struct VoxelData {
-    VoxelEncoding encoding = VoxelEncoding::raw;
+    Encoding encoding = Encoding::raw;
     std::vector<VoxelPart> parts;
 };
 
@@ -41,15 +37,16 @@ std::string numbered_name(std::string_view pattern, std::int64_t number);
 std::filesystem::path data_file_beside(const std::filesystem::path& header, const std::string& name);
 
 /// What is read and decoded, a piece after the other, in order.
-using TakeBytes = std::function<void(std::span<const std::uint8_t>)>;
+using TakeBytes = std::function<void(std::span<const std::byte>)>;
 
-/// Reads all parts, decoded, and hands them on. Throws ImagingError, naming the file, where one is missing,
-/// cut off or damaged (checksums of gzip and zlib included), or where compressed voxels are followed by more.
+/// Reads all parts, decoded, and hands them on; of text all that the files hold, with a blank behind each.
+/// Throws ImagingError, naming the file, where one is missing, cut off or damaged (checksums of gzip and zlib
+/// included), or where compressed voxels are followed by more.
 void read_voxel_data(const VoxelData& data, const TakeBytes& take);
 
-/// As read_voxel_data, for nothing but to see whether it throws; of raw voxels only the sizes are looked at.
-/// Says by how many bytes the last part's file is longer than it need be (0 for compressed voxels). A part of
-/// several must have its size exactly.
-std::uint64_t require_whole(const VoxelData& data);
+/// Looks at the files' sizes alone: throws ImagingError where one is missing, too short for its voxels, or
+/// too short to be their compressed form. Says by how many bytes the last part's file is longer than it need
+/// be (0 where they are encoded). A raw part of several must have its size exactly.
+std::uint64_t require_room(const VoxelData& data);
 
 }  // namespace osteomill

@@ -99,20 +99,18 @@ LoadedBone load_bone(const Scene& scene) {
     }
 }
 
-void save_bone(const std::filesystem::path& path, const BoneSource& source, const Bone& bone) {
+void save_bone(const std::filesystem::path& path, const BoneSource& source, const Bone& bone,
+               const ReportProgress& report) {
     const std::map<std::string, std::string> keys{{threshold_key, threshold_text(source.threshold_hu)}};
-    if (!source.file) {
-        save_carved_bone(
-            path,
-            source.phantom.empty() ? slices_of_bone(bone) : std::get<HuSlices>(make_phantom(source.phantom)),
-            bone, keys);
-        return;
-    }
+    if (!source.phantom.empty())
+        return save_carved_bone(path, std::get<HuSlices>(make_phantom(source.phantom)), bone, keys, report);
+    // A file may itself hold no more than a coarse picture of its bone.
+    if (!source.file || source.file->grid() != bone.grid()) return save_carved_bone(path, bone, keys, report);
     try {
         HuReader reader(*source.file);
-        save_carved_bone(path, slices_again(source, reader), bone, keys);
+        save_carved_bone(path, slices_again(source, reader), bone, keys, report);
     } catch (const SourceLost& lost) {
-        save_carved_bone(path, slices_of_bone(bone), bone, keys);
+        save_carved_bone(path, bone, keys, report);
         throw std::runtime_error(fmt::format(
             "{}; {} is saved with CT numbers that only say where bone is left", lost.what(), path.string()));
     }

@@ -9,6 +9,7 @@
 #include "common/scene/scene.h"
 #include "haptic_server/imaging/hu_file.h"
 #include "haptic_server/imaging/hu_volume.h"
+#include "haptic_server/imaging/progress.h"
 
 namespace osteomill {
 
@@ -32,9 +33,11 @@ LoadedBone load_bone(const Scene& scene);
 
 /// Saves what is left of a bone together with the CT numbers of its source (carved_bone.h), which may be the
 /// file that is saved over. Where the source can no longer be read, or is not what was loaded, the bone is
-/// saved with CT numbers made from it (slices_of_bone), and then std::runtime_error says so. Throws
+/// saved with a picture of it in their place, and then std::runtime_error says so. Throws
 /// ImagingError where it cannot be written.
-void save_bone(const std::filesystem::path& path, const BoneSource& source, const Bone& bone);
+void save_bone(
+    const std::filesystem::path& path, const BoneSource& source, const Bone& bone,
+    const ReportProgress& report = [](double) {});
 
 /// Where neither scene nor file says from which HU on a voxel is bone: about what separates trabecular bone
 /// from soft tissue in CT.

@@ -12,6 +12,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "common/log/line_stream.h"
 #include "common/scene/scene_file.h"
 #include "haptic_server/device/client_device.h"
 #include "haptic_server/device/hid/device_list.h"
@@ -21,6 +22,7 @@
 #include "haptic_server/device/hid/space_mouse.h"
 #include "haptic_server/device/simulated_device.h"
 #include "haptic_server/imaging/phantom.h"
+#include "haptic_server/imaging/progress.h"
 #include "haptic_server/loop/clock.h"
 #include "haptic_server/loop/force_log.h"
 #include "haptic_server/loop/real_time.h"
@@ -179,6 +181,20 @@ void close_log(std::optional<Log>& log) {
     }
 }
 
+/// A bone of which saving takes long says how far it has come.
+void save_and_tell(const std::filesystem::path& path, const BoneSource& source, const Bone& bone,
+                   LineStream& out) {
+    constexpr std::uint64_t many_voxels = std::uint64_t{1} << 28;
+    const bool takes_long = source.file && voxel_count(bone.grid()) > many_voxels;
+    LineStreamBuffer buffer(out);
+    std::ostream messages(&buffer);
+    messages << std::unitbuf;
+    ProgressLine progress(messages, out.is_terminal(), "saving");
+    save_bone(path, source, bone, [&](double done) {
+        if (takes_long) progress.report(done);
+    });
+}
+
 }  // namespace
 
 void run_server(const ServerOptions& options, const std::string& version, const std::atomic<bool>& stop,
@@ -245,7 +261,7 @@ void run_server(const ServerOptions& options, const std::string& version, const 
     const MillingSessionReport report = session->report();
     Leftovers leftovers;
     leftovers.write([&] {
-        if (options.save_bone) save_bone(*options.save_bone, source, session->bone());
+        if (options.save_bone) save_and_tell(*options.save_bone, source, session->bone(), *output.err);
     });
     leftovers.write([&] { close_log(log); });
     leftovers.write([&] { close_log(milling_log); });

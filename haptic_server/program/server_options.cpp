@@ -144,7 +144,9 @@ void declare(CLI::App& app, Typed& typed) {
     app.add_option("--record", typed.record,
                    "Write what a client is sent, for packet_replay and render_client --replay; a pcap file")
         ->type_name("FILE");
-    app.add_option("--save-bone", typed.save_bone, "Write what is left of the bone")->type_name("FILE.nrrd");
+    app.add_option("--save-bone", typed.save_bone, "Write what is left of the bone, at the end or on a signal; a large CT takes a minute and says how "
+                   "far it has come")
+        ->type_name("FILE.nrrd");
     app.add_option("--json", typed.json, "Write what was measured")->type_name("FILE");
     app.add_option("--log-csv", typed.log_csv, "Write force and depth, a line a millisecond")
         ->type_name("FILE");

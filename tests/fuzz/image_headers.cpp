@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "haptic_server/imaging/dicom_scan.h"
+#include "haptic_server/imaging/dicom_pixels.h"
 #include "haptic_server/imaging/imaging_error.h"
 #include "haptic_server/imaging/meta_image_header.h"
 #include "haptic_server/imaging/nifti_header.h"
@@ -56,7 +56,7 @@ void meta_image_header(Bytes input) {
         const auto files = header.data_files.size();
         require(files <= 1 || files == static_cast<std::size_t>(header.image.size_voxels.z),
                 "files for other slices than there are");
-        require(header.header_size >= -1 && element_bytes(header.element) <= most_bytes_of_a_voxel,
+        require(header.header_size >= -1 && bytes_of(header.voxels.type) <= most_bytes_of_a_voxel,
                 "voxels that cannot be");
         require_names(header.data_files);
     } catch (const ImagingError& error) {

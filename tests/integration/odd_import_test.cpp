@@ -1,5 +1,6 @@
 // Odd files that are sound, or follow from what may be mended, and the real bone_import: what it makes of
 // them and what it says. And hostile files for the server.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -77,6 +78,43 @@ TEST_F(OddImport, ReadsWhatIsCompressedAndWhatIsBigEndian) {
     write_bytes(folder_ / "members.nrrd",
                 with(with(nrrd_header(), "raw", "gzip"), "(0,0,2)", "(0,0,1)") + two_members);
     expect_ramp(import(folder_ / "members.nrrd"));
+}
+
+TEST_F(OddImport, ReadsEveryEncodingAndTypeOfANrrd) {
+    const auto one_mm = [](const std::string& header) { return with(header, "(0,0,2)", "(0,0,1)"); };
+    std::string text;
+    std::string hex;
+    std::string wide;
+    for (int i = 0; i < 60; ++i) {
+        text += std::to_string(i) + (i % 7 == 6 ? "\n" : " ");
+        hex += fmt::format("{:02x}00{}", i, i % 7 == 6 ? "\n" : "");
+        wide += little(static_cast<std::uint32_t>(i), 4) + std::string(4, '\0');
+    }
+    const std::string raw = one_mm(nrrd_header());
+    write_bytes(folder_ / "text.nrrd", with(raw, "raw", "ascii") + text);
+    expect_ramp(import(folder_ / "text.nrrd"));
+    write_bytes(folder_ / "hex.nrrd", with(raw, "raw", "hex") + hex);
+    expect_ramp(import(folder_ / "hex.nrrd"));
+    write_bytes(folder_ / "wide.nrrd", with(raw, "int16", "int64") + wide);
+    expect_ramp(import(folder_ / "wide.nrrd"));
+    write_bytes(folder_ / "wide_gzip.nrrd",
+                with(with(raw, "int16", "uint64"), "raw", "gzip") + deflated(wide));
+    expect_ramp(import(folder_ / "wide_gzip.nrrd"));
+}
+
+TEST_F(OddImport, RefusesTextThatIsNoNumbers) {
+    const std::string header = with(nrrd_header(), "raw", "ascii");
+    const auto refusal = [&](const std::string& text) {
+        write_bytes(folder_ / "x.nrrd", header + text);
+        said_ = run_program({BONE_IMPORT, (folder_ / "x.nrrd").string(), (folder_ / "bone.nrrd").string()});
+        EXPECT_EQ(said_.status, 1);
+        return said_.err;
+    };
+    std::string ones;
+    for (int i = 0; i < 59; ++i) ones += "10 ";
+    EXPECT_THAT(refusal(ones), HasSubstr("fewer numbers than voxels"));
+    EXPECT_THAT(refusal(ones + "1x"), HasSubstr("'1x' is no number"));
+    EXPECT_THAT(refusal(ones + std::string(1000, '1')), HasSubstr("is no number"));
 }
 
 TEST_F(OddImport, SaysThatBytesFollowTheVoxels) {

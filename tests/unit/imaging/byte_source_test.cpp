@@ -1,8 +1,8 @@
 #include "haptic_server/imaging/byte_source.h"
 
 #include <gmock/gmock.h>
-#include <sys/stat.h>
 
+#include <array>
 #include <cstdlib>
 #include <cstring>
 #include <fstream>
@@ -40,7 +40,7 @@ class ByteSourceOfFile : public ::testing::Test {
   protected:
     ByteSource source(const std::string& text, Encoding encoding = Encoding::gzip) {
         std::ofstream(path_, std::ios::binary) << "head" << text;
-        return {std::make_shared<const OpenFile>(path_), 4, encoding};
+        return {std::make_shared<const RegularFile>(path_), 4, encoding};
     }
     std::string refusal(ByteSource source, std::size_t bytes) {
         try {
@@ -86,7 +86,7 @@ TEST_F(ByteSourceOfFile, ReadsSeveralMembersAndPlainBytes) {
 TEST_F(ByteSourceOfFile, RefusesWhatIsCutOffOrDamagedOrTooLong) {
     const std::string text = zipped(small_);
     EXPECT_THAT(refusal(source(text), 1001), HasSubstr("cut off"));
-    EXPECT_THAT(refusal(source(text), 999), HasSubstr("more data than"));
+    EXPECT_THAT(refusal(source(text), 999), HasSubstr("more than the 999 bytes"));
     EXPECT_THAT(refusal(source(text.substr(0, text.size() - 1)), 1000), HasSubstr("cut off"));
     EXPECT_THAT(refusal(source(text.substr(0, text.size() - 9)), 1000), HasSubstr("cut off"));
     EXPECT_THAT(refusal(source(std::string(999, 'x'), Encoding::raw), 1000), HasSubstr("cut off"));
@@ -95,21 +95,16 @@ TEST_F(ByteSourceOfFile, RefusesWhatIsCutOffOrDamagedOrTooLong) {
     EXPECT_THAT(refusal(source(flipped), 1000), HasSubstr("damaged (gzip: incorrect data check)"));
 }
 
-TEST_F(ByteSourceOfFile, OpensNothingButFiles) {
-    EXPECT_THROW(OpenFile(folder_.path()), ImagingError);
-    EXPECT_THROW(OpenFile(folder_ / "nowhere"), ImagingError);
-    ASSERT_EQ(::mkfifo((folder_ / "pipe").c_str(), 0600), 0);
-    EXPECT_THROW(OpenFile(folder_ / "pipe"), ImagingError) << "and does not wait for its other end";
-}
-
-TEST_F(ByteSourceOfFile, StaysWithTheFileThatWasOpened) {
-    std::ofstream(path_) << "old";
-    const OpenFile file(path_);
-    std::ofstream(folder_ / "new") << "new";
-    std::filesystem::rename(folder_ / "new", path_);
-    std::string text(3, ' ');
-    EXPECT_EQ(file.read(0, std::as_writable_bytes(std::span(text))), 3u);
-    EXPECT_EQ(text, "old");
+TEST_F(ByteSourceOfFile, ReadsHexadecimalDigitsAcrossBlanksAndPieces) {
+    ByteSource digits = source("00 fF\n1\t2ab", Encoding::hex);
+    std::array<std::byte, 3> first{};
+    std::array<std::byte, 1> second{};
+    digits.read(first);
+    digits.read(second);
+    EXPECT_THAT(first, ::testing::ElementsAre(std::byte{0}, std::byte{0xff}, std::byte{0x12}));
+    EXPECT_EQ(second[0], std::byte{0xab});
+    EXPECT_THAT(refusal(source("00f", Encoding::hex), 2), HasSubstr("cut off"));
+    EXPECT_THAT(refusal(source("00g0", Encoding::hex), 2), HasSubstr("hexadecimal digits"));
 }
 
 TEST(CanHold, KnowsThatDeflateHasALimit) {
@@ -117,6 +112,7 @@ TEST(CanHold, KnowsThatDeflateHasALimit) {
     EXPECT_FALSE(can_hold(1000, 1001, Encoding::raw));
     EXPECT_TRUE(can_hold(1000, 1'000'000, Encoding::gzip));
     EXPECT_FALSE(can_hold(1000, 2'000'000, Encoding::gzip));
+    EXPECT_FALSE(can_hold(1000, 501, Encoding::hex));
 }
 
 }  // namespace

@@ -6,6 +6,8 @@
 #include <fstream>
 #include <random>
 
+#include "common/bone/bone_builder.h"
+#include "haptic_server/imaging/bone_picture.h"
 #include "haptic_server/imaging/image_reader.h"
 #include "haptic_server/imaging/imaging_error.h"
 #include "tests/support/dense_bone_file.h"
@@ -222,7 +224,8 @@ TEST(CarvedBoneHomogeneous, KeepsItsStiffness) {
 TEST(CarvedBoneWithoutSource, ShowsWhereBoneIsLeft) {
     const HuVolume volume = ball(false);
     const Bone bone = carved(volume);
-    const HuSlices slices = slices_of_bone(bone);
+    const HuSlices slices = picture_of(bone);
+    EXPECT_EQ(slices.grid, bone.grid()) << "it is small";
     std::vector<std::int16_t> hu(volume.hu.size());
     slices.read(hu, {});
     const auto at = [&](int x, int y, int z) { return hu[static_cast<std::size_t>(x + 37 * (y + 35 * z))]; };
@@ -230,6 +233,35 @@ TEST(CarvedBoneWithoutSource, ShowsWhereBoneIsLeft) {
     EXPECT_NEAR(at(20, 17, 16), -1000 + 2600 * 77 / 255, 1);
     EXPECT_EQ(at(21, 17, 16), -1000);
     EXPECT_EQ(at(0, 0, 0), -1000);
+}
+
+/// A bone of one brick in a corner of a large grid, one layer of its voxels gone.
+Bone small_in_large(const Grid& grid) {
+    ByteBrick fractions{};
+    for (std::size_t i = 0; i < fractions.size(); ++i) fractions[i] = voxel_in_brick(i).z == 0 ? 0 : 255;
+    BoneBuilder builder = BoneBuilder::homogeneous(grid, 1.0, false);
+    builder.add_brick({2, 1, 3}, fractions, nullptr, nullptr);
+    return std::move(builder).build();
+}
+
+TEST(CarvedBoneWithoutSource, ShowsALargeOneInLongerVoxels) {
+    const Grid grid{.size_voxels = {1026, 1024, 1024}, .spacing_mm = 0.1, .origin_mm = {1.0, 2.0, 3.0}};
+    const Bone bone = small_in_large(grid);
+    const testing::TemporaryFolder folder;
+    save_carved_bone(folder / "large.nrrd", bone);
+    const BoneFile file(folder / "large.nrrd");
+    EXPECT_EQ(file.grid(),
+              (Grid{.size_voxels = {257, 256, 256}, .spacing_mm = 0.4, .origin_mm = {1.15, 2.15, 3.15}}));
+    const std::vector<std::int16_t> hu = testing::read_bone_file(folder / "large.nrrd").volume.hu;
+    const auto at = [&](int x, int y, int z) { return hu[static_cast<std::size_t>(x + 257 * (y + 256 * z))]; };
+    EXPECT_EQ(at(8, 4, 13), 1600);
+    EXPECT_EQ(at(11, 7, 12), 950) << "three quarters are left";
+    EXPECT_EQ(at(7, 4, 13), -1000);
+    const Bone again = restore_carved_bone(file).bone;
+    EXPECT_EQ(again.grid(), grid);
+    EXPECT_EQ(checksum(again), checksum(bone));
+    save_carved_bone(folder / "again.nrrd", again);
+    EXPECT_EQ(checksum(restore_carved_bone(BoneFile(folder / "again.nrrd")).bone), checksum(bone));
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-#include "haptic_server/imaging/dicom_scan.h"
+#include "haptic_server/imaging/dicom_pixels.h"
 
 #include <gmock/gmock.h>
 

@@ -36,8 +36,8 @@ TEST(MetaImageHeader, SaysWhereTheImageLiesAndItsVoxels) {
     EXPECT_EQ(header.image.direction[0], glm::dvec3(0.0, 1.0, 0.0));
     EXPECT_EQ(header.image.direction[2], glm::dvec3(0.0, 0.0, -1.0));
     EXPECT_EQ(header.bytes, text.size());
-    EXPECT_EQ(header.element, MetaElement::int16);
-    EXPECT_FALSE(header.big_endian);
+    EXPECT_EQ(header.voxels.type, VoxelType::int16);
+    EXPECT_FALSE(header.voxels.big_endian);
     EXPECT_TRUE(header.data_files.empty());
 }
 

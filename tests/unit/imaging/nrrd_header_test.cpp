@@ -46,7 +46,7 @@ TEST(NrrdHeader, SaysWhatVoxelsThereAre) {
     const NrrdLayout layout = layout_of(testing::nrrd_header("byte skip: -1\n"));
     EXPECT_EQ(layout.voxel_bytes, 120u);
     EXPECT_EQ(layout.byte_skip, -1);
-    EXPECT_EQ(layout_of(with_line("raw", "GZ")).encoding, VoxelEncoding::gzip);
+    EXPECT_EQ(layout_of(with_line("raw", "GZ")).encoding, Encoding::gzip);
     EXPECT_EQ(layout_of(with_line("raw", "ascii")).voxel_bytes, 119u) << "digits and blanks between";
     EXPECT_THAT(layout_of(testing::nrrd_header("data file: s%02d.raw 8 4 -2\n")).data_files,
                 ElementsAre("s08.raw", "s06.raw", "s04.raw"));

@@ -24,13 +24,22 @@ TEST(RegularFile, ReadsFromAnyOffsetAndStopsAtTheEnd) {
     testing::write_bytes(folder / "x", "abcdef");
     const RegularFile file(folder / "x");
     EXPECT_EQ(file.size(), 6u);
-    std::vector<std::uint8_t> bytes(4);
+    std::vector<std::byte> bytes(4);
     EXPECT_EQ(file.read_at(1, bytes), 4u);
-    EXPECT_EQ(bytes.front(), 'b');
+    EXPECT_EQ(bytes.front(), std::byte{'b'});
     EXPECT_EQ(file.read_at(4, bytes), 2u);
     EXPECT_EQ(file.read_at(9, bytes), 0u);
     EXPECT_EQ(file.first_bytes(3).size(), 3u);
     EXPECT_EQ(file.first_bytes(~std::uint64_t{0}).size(), 6u);
+}
+
+TEST(RegularFile, StaysTheOneThatWasOpened) {
+    testing::TemporaryFolder folder;
+    testing::write_bytes(folder / "x", "old");
+    const RegularFile file(folder / "x");
+    testing::write_bytes(folder / "new", "new");
+    std::filesystem::rename(folder / "new", folder / "x");
+    EXPECT_EQ(file.first_bytes(3), (std::vector<std::uint8_t>{'o', 'l', 'd'}));
 }
 
 TEST(RegularFile, OpensNeitherPipesNorDevicesNorFolders) {

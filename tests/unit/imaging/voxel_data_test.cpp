@@ -36,56 +36,72 @@ TEST(NumberedName, FillsOneNumberInAndNothingElse) {
 
 class VoxelFiles : public ::testing::Test {
   protected:
-    /// What require_whole says of 100 bytes of this encoding, from the file's 3rd byte on.
-    std::string whole(const std::string& bytes, VoxelEncoding encoding) {
+    /// What is said of 100 bytes of this encoding, from the file's 3rd byte on: of their room, or as they are
+    /// read.
+    std::string reading(const std::string& bytes, Encoding encoding) {
         write_bytes(folder_ / "x.raw", "ab" + bytes);
         data_ = {.encoding = encoding, .parts = {{.file = folder_ / "x.raw", .begin = 2, .bytes = 100}}};
-        return refusal([&] { more_ = require_whole(data_); });
+        read_.clear();
+        return refusal([&] {
+            more_ = require_room(data_);
+            read_voxel_data(data_, [&](std::span<const std::byte> piece) {
+                for (const std::byte byte : piece) read_ += static_cast<char>(byte);
+            });
+        });
     }
     testing::TemporaryFolder folder_;
     VoxelData data_;
     std::uint64_t more_ = 0;
+    std::string read_;
     const std::string hundred_ = std::string(50, 'x') + std::string(50, 'y');
 };
 
-TEST_F(VoxelFiles, AreWholeWhenTheyHaveTheirBytesAndTheirChecksum) {
+TEST_F(VoxelFiles, AreReadWhenTheyHaveTheirBytesAndTheirChecksum) {
     for (const auto& [bytes, encoding] :
-         {std::pair{hundred_, VoxelEncoding::raw}, std::pair{deflated(hundred_), VoxelEncoding::gzip},
-          std::pair{deflated(hundred_.substr(0, 7)) + deflated(hundred_.substr(7)), VoxelEncoding::gzip},
-          std::pair{deflated(hundred_), VoxelEncoding::zlib_or_gzip},
-          std::pair{deflated(hundred_, 15), VoxelEncoding::zlib_or_gzip}}) {
-        EXPECT_EQ(whole(bytes, encoding), "accepted");
-        std::string read;
-        read_voxel_data(
-            data_, [&](std::span<const std::uint8_t> piece) { read.append(piece.begin(), piece.end()); });
-        EXPECT_EQ(read, hundred_);
+         {std::pair{hundred_, Encoding::raw}, std::pair{deflated(hundred_), Encoding::gzip},
+          std::pair{deflated(hundred_.substr(0, 7)) + deflated(hundred_.substr(7)), Encoding::gzip},
+          std::pair{deflated(hundred_), Encoding::zlib_or_gzip},
+          std::pair{deflated(hundred_, 15), Encoding::zlib_or_gzip}}) {
+        EXPECT_EQ(reading(bytes, encoding), "accepted");
+        EXPECT_EQ(read_, hundred_);
     }
-    EXPECT_EQ(whole(hundred_ + "more", VoxelEncoding::raw), "accepted");
+    EXPECT_EQ(reading(hundred_ + "more", Encoding::raw), "accepted");
     EXPECT_EQ(more_, 4u);
 }
 
+TEST_F(VoxelFiles, SkipDecodedBytesBeforeThem) {
+    write_bytes(folder_ / "x.gz", deflated("skipped" + hundred_));
+    const VoxelData data{.encoding = Encoding::gzip,
+                         .parts = {{.file = folder_ / "x.gz", .bytes = 100, .skipped_bytes = 7}}};
+    read_voxel_data(data, [&](std::span<const std::byte> piece) {
+        for (const std::byte byte : piece) read_ += static_cast<char>(byte);
+    });
+    EXPECT_EQ(read_, hundred_);
+}
+
 TEST_F(VoxelFiles, AreRefusedWhenCutOffOrDamagedOrFollowedByMore) {
-    EXPECT_THAT(whole(hundred_.substr(1), VoxelEncoding::raw), HasSubstr("99 of 100 bytes"));
+    EXPECT_THAT(reading(hundred_.substr(1), Encoding::raw), HasSubstr("99 of 100 bytes"));
+    EXPECT_THAT(reading(hundred_, Encoding::hex), HasSubstr("100 of 200 bytes"));
     for (const int window : {31, 15}) {
-        const auto encoding = window == 31 ? VoxelEncoding::gzip : VoxelEncoding::zlib_or_gzip;
+        const auto encoding = window == 31 ? Encoding::gzip : Encoding::zlib_or_gzip;
         const std::string good = deflated(hundred_, window);
         for (std::size_t length = 0; length < good.size(); ++length)
-            EXPECT_THAT(whole(good.substr(0, length), encoding), HasSubstr("x.raw")) << length;
+            EXPECT_THAT(reading(good.substr(0, length), encoding), HasSubstr("x.raw")) << length;
         std::string flipped = good;
         flipped[good.size() - (window == 31 ? 7 : 1)] ^= 1;
-        EXPECT_THAT(whole(flipped, encoding), HasSubstr("damaged"));
-        EXPECT_THAT(whole(good + "1", encoding), HasSubstr("has 1 bytes of something else"));
-        EXPECT_THAT(whole(deflated(hundred_ + "z", window), encoding), HasSubstr("more than the 100 bytes"));
-        EXPECT_THAT(whole(deflated(hundred_.substr(1), window), encoding), HasSubstr("99 of 100 bytes"));
+        EXPECT_THAT(reading(flipped, encoding), HasSubstr("damaged"));
+        EXPECT_THAT(reading(good + "1", encoding), HasSubstr("has 1 bytes of something else"));
+        EXPECT_THAT(reading(deflated(hundred_ + "z", window), encoding), HasSubstr("more than the 100 bytes"));
+        EXPECT_THAT(reading(deflated(hundred_.substr(1), window), encoding), HasSubstr("end after 99 bytes"));
     }
-    EXPECT_THAT(whole(deflated(hundred_, 15), VoxelEncoding::gzip), HasSubstr("damaged"));
+    EXPECT_THAT(reading(deflated(hundred_, 15), Encoding::gzip), HasSubstr("damaged"));
 }
 
 TEST_F(VoxelFiles, StopReadingABombAtWhatTheHeaderSays) {
-    EXPECT_THAT(whole(deflated(std::string(50'000'000, '\0')), VoxelEncoding::gzip),
+    EXPECT_THAT(reading(deflated(std::string(50'000'000, '\0')), Encoding::gzip),
                 HasSubstr("more than the 100 bytes"));
     data_.parts[0].bytes = std::uint64_t{1} << 36U;
-    EXPECT_THAT(refusal([&] { require_whole(data_); }), HasSubstr("no scan compresses so"));
+    EXPECT_THAT(refusal([&] { require_room(data_); }), HasSubstr("no scan compresses so"));
 }
 
 TEST_F(VoxelFiles, OfSeveralSlicesHaveTheirSizesExactly) {
@@ -93,7 +109,7 @@ TEST_F(VoxelFiles, OfSeveralSlicesHaveTheirSizesExactly) {
     write_bytes(folder_ / "b", hundred_ + "z");
     const VoxelData data{
         .parts = {{.file = folder_ / "a", .bytes = 100}, {.file = folder_ / "b", .bytes = 100}}};
-    EXPECT_THAT(refusal([&] { require_whole(data); }), HasSubstr("b: holds 101 bytes, where 100"));
+    EXPECT_THAT(refusal([&] { require_room(data); }), HasSubstr("b: holds 101 bytes, where 100"));
 }
 
 TEST_F(VoxelFiles, LieBesideTheirHeader) {

@@ -1,0 +1,20 @@
+// What JPEG 2000, JPEG and JPEG-LS say of an image in their own header, beside what the DICOM around them says.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+
+namespace osteomill {
+
+struct Codestream {
+    std::uint32_t columns = 0;
+    std::uint32_t rows = 0;  ///< 0: a JPEG that says so at its end
+    std::uint32_t components = 0;
+    std::optional<bool> is_signed{};  ///< only JPEG 2000 says
+};
+
+/// std::nullopt where the bytes begin as none of these.
+std::optional<Codestream> codestream_of(std::span<const std::uint8_t> bytes);
+
+}  // namespace osteomill
