@@ -32,7 +32,7 @@ std::uint64_t import_memory_bytes(std::uint64_t reading_bytes, std::uint64_t par
                                   const Grid& result) {
     const std::uint64_t refining =
         slice_bytes(result) * static_cast<std::uint64_t>(slices_at_once(result) + slices_around);
-    return program_bytes + std::min(part_voxels * float_bytes, most_scan_bytes) + 
+    return program_bytes + std::min(part_voxels * float_bytes, most_scan_bytes) +
            std::max(reading_bytes, refining);
 }
 
