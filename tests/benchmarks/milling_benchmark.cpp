@@ -18,9 +18,9 @@
 #include <vector>
 
 #include "haptic_server/loop/milling_loop.h"
-#include "tests/studies/force/bone_block.h"
-#include "tests/studies/force/full_scan.h"
-#include "tests/studies/force/studied_model.h"
+#include "studies/force/bone_block.h"
+#include "studies/force/full_scan.h"
+#include "studies/force/studied_model.h"
 
 namespace osteomill {
 namespace {

@@ -1,7 +1,7 @@
 // Runs the milling model through a steady motion of the reference and averages what it reports.
 #pragma once
 
-#include "tests/studies/force/steady_run.h"
+#include "studies/force/steady_run.h"
 #include "tests/support/block.h"
 #include "tests/support/reference_cases.h"
 

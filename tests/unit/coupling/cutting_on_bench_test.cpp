@@ -7,7 +7,7 @@
 #include <memory>
 
 #include "haptic_server/coupling/implicit_coupling.h"
-#include "tests/studies/stability/bench_run.h"
+#include "studies/stability/bench_run.h"
 
 namespace osteomill {
 namespace {

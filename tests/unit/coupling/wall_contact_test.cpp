@@ -6,8 +6,8 @@
 #include <ostream>
 #include <string>
 
-#include "tests/studies/stability/largest_stable.h"
-#include "tests/studies/stability/lifted_system.h"
+#include "studies/stability/largest_stable.h"
+#include "studies/stability/lifted_system.h"
 #include "tests/unit/coupling/wall_on_bench.h"
 
 namespace osteomill {

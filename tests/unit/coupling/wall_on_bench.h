@@ -5,7 +5,7 @@
 #include <string>
 
 #include "haptic_server/coupling/coupling.h"
-#include "tests/studies/stability/bench_run.h"
+#include "studies/stability/bench_run.h"
 
 namespace osteomill::testing {
 

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/studies/force/studied_motion.h"
+#include "studies/force/studied_motion.h"
 #include "tests/support/removed_voxel.h"
 #include "tests/support/steady_motion.h"
 

@@ -1,4 +1,4 @@
-#include "tests/studies/force/bone_block.h"
+#include "studies/force/bone_block.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "tests/studies/force/force_series.h"
+#include "studies/force/force_series.h"
 
 #include <gtest/gtest.h>
 

@@ -1,12 +1,12 @@
-#include "tests/studies/force/full_scan.h"
+#include "studies/force/full_scan.h"
 
 #include <gtest/gtest.h>
 
 #include <glm/geometric.hpp>
 #include <stdexcept>
 
-#include "tests/studies/force/bone_block.h"
-#include "tests/studies/force/force_series.h"
+#include "studies/force/bone_block.h"
+#include "studies/force/force_series.h"
 
 namespace osteomill::study {
 namespace {

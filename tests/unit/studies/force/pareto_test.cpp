@@ -1,4 +1,4 @@
-#include "tests/studies/force/pareto.h"
+#include "studies/force/pareto.h"
 
 #include <gmock/gmock.h>
 

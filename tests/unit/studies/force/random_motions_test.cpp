@@ -1,4 +1,4 @@
-#include "tests/studies/force/random_motions.h"
+#include "studies/force/random_motions.h"
 
 #include <gtest/gtest.h>
 

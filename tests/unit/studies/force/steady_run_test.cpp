@@ -1,4 +1,4 @@
-#include "tests/studies/force/steady_run.h"
+#include "studies/force/steady_run.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "tests/studies/force/studied_motion.h"
+#include "studies/force/studied_motion.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "tests/studies/polishing/force_measures.h"
+#include "studies/polishing/force_measures.h"
 
 #include <gtest/gtest.h>
 

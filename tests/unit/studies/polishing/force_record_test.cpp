@@ -1,4 +1,4 @@
-#include "tests/studies/polishing/force_record.h"
+#include "studies/polishing/force_record.h"
 
 #include <gmock/gmock.h>
 

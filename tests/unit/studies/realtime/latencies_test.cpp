@@ -1,4 +1,4 @@
-#include "tests/studies/realtime/latencies.h"
+#include "studies/realtime/latencies.h"
 
 #include <gtest/gtest.h>
 

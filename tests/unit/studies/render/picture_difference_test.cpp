@@ -1,4 +1,4 @@
-#include "tests/studies/render/picture_difference.h"
+#include "studies/render/picture_difference.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "tests/studies/render/reference_image.h"
+#include "studies/render/reference_image.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include "render_client/volume/gl/framebuffer.h"
 #include "render_client/volume/raycast_renderer.h"
 #include "render_client/volume/slice_renderer.h"
-#include "tests/studies/render/picture_difference.h"
+#include "studies/render/picture_difference.h"
 #include "tests/unit/volume/made_bone.h"
 #include "tests/unit/volume/offscreen_test.h"
 

@@ -1,4 +1,4 @@
-#include "tests/studies/report/chart.h"
+#include "studies/report/chart.h"
 
 #include <gmock/gmock.h>
 

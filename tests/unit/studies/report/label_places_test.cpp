@@ -1,4 +1,4 @@
-#include "tests/studies/report/label_places.h"
+#include "studies/report/label_places.h"
 
 #include <gmock/gmock.h>
 

@@ -1,4 +1,4 @@
-#include "tests/studies/report/time_left.h"
+#include "studies/report/time_left.h"
 
 #include <gtest/gtest.h>
 

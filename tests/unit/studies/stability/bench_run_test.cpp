@@ -1,4 +1,4 @@
-#include "tests/studies/stability/bench_run.h"
+#include "studies/stability/bench_run.h"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "haptic_server/device/arm_model.h"
-#include "tests/studies/stability/sampled_force.h"
+#include "studies/stability/sampled_force.h"
 
 namespace osteomill::study {
 namespace {

@@ -1,4 +1,4 @@
-#include "tests/studies/stability/bone_front.h"
+#include "studies/stability/bone_front.h"
 
 #include <gtest/gtest.h>
 

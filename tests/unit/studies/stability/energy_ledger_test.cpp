@@ -1,4 +1,4 @@
-#include "tests/studies/stability/energy_ledger.h"
+#include "studies/stability/energy_ledger.h"
 
 #include <gtest/gtest.h>
 
@@ -6,9 +6,9 @@
 #include <numbers>
 #include <vector>
 
-#include "tests/studies/stability/bench_run.h"
-#include "tests/studies/stability/lifted_system.h"
-#include "tests/studies/stability/sampled_force.h"
+#include "studies/stability/bench_run.h"
+#include "studies/stability/lifted_system.h"
+#include "studies/stability/sampled_force.h"
 
 namespace osteomill::study {
 namespace {

@@ -1,4 +1,4 @@
-#include "tests/studies/stability/exact_motion.h"
+#include "studies/stability/exact_motion.h"
 
 #include <gtest/gtest.h>
 

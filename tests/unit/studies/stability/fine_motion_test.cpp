@@ -1,10 +1,10 @@
-#include "tests/studies/stability/fine_motion.h"
+#include "studies/stability/fine_motion.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "tests/studies/stability/exact_motion.h"
+#include "studies/stability/exact_motion.h"
 
 namespace osteomill::study {
 namespace {

@@ -1,4 +1,4 @@
-#include "tests/studies/stability/guided_work.h"
+#include "studies/stability/guided_work.h"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 #include <random>
 #include <vector>
 
-#include "tests/studies/stability/needed_damping.h"
+#include "studies/stability/needed_damping.h"
 
 namespace osteomill::study {
 namespace {

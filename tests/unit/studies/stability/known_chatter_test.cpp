@@ -7,9 +7,9 @@
 #include <cmath>
 #include <cstddef>
 
-#include "tests/studies/stability/bench_run.h"
-#include "tests/studies/stability/bone_front.h"
-#include "tests/studies/stability/sampled_force.h"
+#include "studies/stability/bench_run.h"
+#include "studies/stability/bone_front.h"
+#include "studies/stability/sampled_force.h"
 
 namespace osteomill::study {
 namespace {

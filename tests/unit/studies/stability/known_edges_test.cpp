@@ -7,10 +7,10 @@
 #include <string>
 #include <vector>
 
-#include "tests/studies/stability/bench_run.h"
-#include "tests/studies/stability/largest_stable.h"
-#include "tests/studies/stability/lifted_system.h"
-#include "tests/studies/stability/sampled_force.h"
+#include "studies/stability/bench_run.h"
+#include "studies/stability/largest_stable.h"
+#include "studies/stability/lifted_system.h"
+#include "studies/stability/sampled_force.h"
 
 namespace osteomill::study {
 namespace {

@@ -1,4 +1,4 @@
-#include "tests/studies/stability/largest_stable.h"
+#include "studies/stability/largest_stable.h"
 
 #include <gtest/gtest.h>
 

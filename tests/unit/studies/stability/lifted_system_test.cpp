@@ -1,12 +1,12 @@
-#include "tests/studies/stability/lifted_system.h"
+#include "studies/stability/lifted_system.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "tests/studies/stability/bench_run.h"
-#include "tests/studies/stability/exact_motion.h"
-#include "tests/studies/stability/sampled_force.h"
+#include "studies/stability/bench_run.h"
+#include "studies/stability/exact_motion.h"
+#include "studies/stability/sampled_force.h"
 
 namespace osteomill::study {
 namespace {

@@ -1,4 +1,4 @@
-#include "tests/studies/stability/linear_hold.h"
+#include "studies/stability/linear_hold.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "tests/studies/stability/needed_damping.h"
+#include "studies/stability/needed_damping.h"
 
 #include <gtest/gtest.h>
 

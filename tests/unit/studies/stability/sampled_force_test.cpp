@@ -1,4 +1,4 @@
-#include "tests/studies/stability/sampled_force.h"
+#include "studies/stability/sampled_force.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "tests/studies/stability/map/case_file.h"
+#include "studies/stability/map/case_file.h"
 
 #include <gmock/gmock.h>
 

@@ -1,4 +1,4 @@
-#include "tests/studies/stability/map/map_points.h"
+#include "studies/stability/map/map_points.h"
 
 #include <gmock/gmock.h>
 
@@ -7,7 +7,7 @@
 #include <set>
 
 #include "haptic_server/cutting_force/reference_force.h"
-#include "tests/studies/stability/map/map_text.h"
+#include "studies/stability/map/map_text.h"
 
 namespace osteomill::study {
 namespace {

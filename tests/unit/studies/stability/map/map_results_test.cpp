@@ -3,11 +3,11 @@
 
 #include <algorithm>
 
-#include "tests/studies/stability/map/implicit_bars.h"
-#include "tests/studies/stability/map/map_summary.h"
-#include "tests/studies/stability/map/map_table.h"
-#include "tests/studies/stability/map/method_score.h"
-#include "tests/studies/stability/map/region_table.h"
+#include "studies/stability/map/implicit_bars.h"
+#include "studies/stability/map/map_summary.h"
+#include "studies/stability/map/map_table.h"
+#include "studies/stability/map/method_score.h"
+#include "studies/stability/map/region_table.h"
 #include "tests/unit/studies/stability/map/whole_map.h"
 
 namespace osteomill::study {

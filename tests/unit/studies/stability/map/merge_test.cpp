@@ -1,4 +1,4 @@
-#include "tests/studies/stability/map/merge.h"
+#include "studies/stability/map/merge.h"
 
 #include <gmock/gmock.h>
 
@@ -6,7 +6,7 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "tests/studies/stability/map/case_file.h"
+#include "studies/stability/map/case_file.h"
 #include "tests/support/temporary_folder.h"
 
 namespace osteomill::study {

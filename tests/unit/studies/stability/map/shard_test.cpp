@@ -1,4 +1,4 @@
-#include "tests/studies/stability/map/shard.h"
+#include "studies/stability/map/shard.h"
 
 #include <gmock/gmock.h>
 

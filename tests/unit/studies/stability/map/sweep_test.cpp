@@ -1,4 +1,4 @@
-#include "tests/studies/stability/map/sweep.h"
+#include "studies/stability/map/sweep.h"
 
 #include <gmock/gmock.h>
 

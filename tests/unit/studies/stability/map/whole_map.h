@@ -3,7 +3,7 @@
 
 #include <functional>
 
-#include "tests/studies/stability/map/merge.h"
+#include "studies/stability/map/merge.h"
 
 namespace osteomill::study {
 

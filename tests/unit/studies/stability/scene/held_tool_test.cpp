@@ -1,4 +1,4 @@
-#include "tests/studies/stability/scene/held_tool.h"
+#include "studies/stability/scene/held_tool.h"
 
 #include <gtest/gtest.h>
 

@@ -1,8 +1,8 @@
-#include "tests/studies/stability/scene/map_run.h"
+#include "studies/stability/scene/map_run.h"
 
 #include <gtest/gtest.h>
 
-#include "tests/studies/stability/scene/bench_device.h"
+#include "studies/stability/scene/bench_device.h"
 
 namespace osteomill::study {
 namespace {

@@ -1,4 +1,4 @@
-#include "tests/studies/stability/scene/swept_bone.h"
+#include "studies/stability/scene/swept_bone.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "tests/studies/stability/scene/truth.h"
+#include "studies/stability/scene/truth.h"
 
 #include <gtest/gtest.h>
 

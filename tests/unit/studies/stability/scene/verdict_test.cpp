@@ -1,4 +1,4 @@
-#include "tests/studies/stability/scene/verdict.h"
+#include "studies/stability/scene/verdict.h"
 
 #include <gtest/gtest.h>
 
@@ -7,10 +7,10 @@
 #include <numbers>
 #include <vector>
 
-#include "tests/studies/stability/bench_run.h"
-#include "tests/studies/stability/bone_front.h"
-#include "tests/studies/stability/sampled_force.h"
-#include "tests/studies/stability/scene/fast_part.h"
+#include "studies/stability/bench_run.h"
+#include "studies/stability/bone_front.h"
+#include "studies/stability/sampled_force.h"
+#include "studies/stability/scene/fast_part.h"
 
 namespace osteomill::study {
 namespace {

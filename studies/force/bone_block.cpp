@@ -1,0 +1,74 @@
+#include "studies/force/bone_block.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <utility>
+
+#include "common/bone/bone_builder.h"
+
+namespace osteomill::study {
+
+namespace {
+
+/// Volume of the part of a unit cube about the origin that lies below the plane {p . n = height}, n a unit
+/// vector: a cube cut by a plane is a corner tetrahedron less those that stick out of it.
+double volume_below(double height, const glm::dvec3& n) {
+    // A plane along an edge would divide by zero; this much off the cube's volume changes by less.
+    constexpr double least = 1e-4;
+    const glm::dvec3 a = glm::max(glm::abs(n), glm::dvec3(least));
+    const double span = a.x + a.y + a.z;
+    const double top = std::clamp(height + 0.5 * span, 0.0, span);
+    const auto cubed = [](double t) { return t > 0.0 ? t * t * t : 0.0; };
+    const double sum = cubed(top) - cubed(top - a.x) - cubed(top - a.y) - cubed(top - a.z) +
+                       cubed(top - a.x - a.y) + cubed(top - a.y - a.z) + cubed(top - a.z - a.x);
+    return std::clamp(sum / (6.0 * a.x * a.y * a.z), 0.0, 1.0);
+}
+
+/// Part of the voxel that lies below the plane through the origin, 0 to 255.
+std::uint8_t fraction_below(const glm::dvec3& centre_mm, const glm::dvec3& up, double spacing_mm) {
+    return static_cast<std::uint8_t>(
+        std::lround(255.0 * volume_below(-glm::dot(centre_mm, up) / spacing_mm, up)));
+}
+
+}  // namespace
+
+Bone voxelised(const BoneBlock& block, double spacing_mm) {
+    // A hair of slack, so that 0.3 / 0.1 counts as 3 multiples.
+    const glm::dvec3 first = glm::floor(block.low_mm / spacing_mm + 1e-6);
+    const glm::dvec3 last = glm::ceil(block.high_mm / spacing_mm - 1e-6);
+    const Grid grid{.size_voxels = glm::ivec3(last - first),
+                    .spacing_mm = spacing_mm,
+                    .origin_mm = (first + 0.5) * spacing_mm};
+    constexpr double stiffness_per_code = 0.02;
+    const auto code_of = [&](const glm::dvec3& centre_mm) {
+        const bool in_layer = block.layer && -glm::dot(centre_mm, block.up) < block.layer->thickness_mm;
+        return static_cast<std::uint8_t>(
+            std::lround((in_layer ? block.layer->stiffness : 1.0) / stiffness_per_code));
+    };
+    BoneBuilder builder = block.layer ? BoneBuilder::heterogeneous(grid, stiffness_per_code, false)
+                                      : BoneBuilder::homogeneous(grid, 1.0, false);
+    const glm::ivec3 bricks = size_in_bricks(grid);
+    for (int z = 0; z < bricks.z; ++z)
+        for (int y = 0; y < bricks.y; ++y)
+            for (int x = 0; x < bricks.x; ++x) {
+                ByteBrick fraction{};
+                ByteBrick stiffness{};
+                for (int k = 0; k < brick_edge_voxels; ++k)
+                    for (int j = 0; j < brick_edge_voxels; ++j)
+                        for (int i = 0; i < brick_edge_voxels; ++i) {
+                            const glm::ivec3 voxel =
+                                glm::ivec3(x, y, z) * brick_edge_voxels + glm::ivec3(i, j, k);
+                            if (!contains(grid, voxel)) continue;
+                            const glm::dvec3 centre_mm = centre_of_voxel_mm(grid, voxel);
+                            const std::size_t offset = offset_in_brick(voxel);
+                            fraction[offset] = fraction_below(centre_mm, block.up, spacing_mm);
+                            if (block.layer) stiffness[offset] = code_of(centre_mm);
+                        }
+                builder.add_brick({x, y, z}, fraction, &stiffness, nullptr);
+            }
+    return std::move(builder).build();
+}
+
+}  // namespace osteomill::study

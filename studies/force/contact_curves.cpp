@@ -1,0 +1,115 @@
+#include "studies/force/contact_curves.h"
+
+#include <fmt/format.h>
+
+#include <glm/geometric.hpp>
+
+#include "haptic_server/contact_models/force_models.h"
+#include "haptic_server/cutting_force/reference_force.h"
+#include "studies/force/bone_block.h"
+#include "studies/force/path_run.h"
+
+namespace osteomill::study {
+
+namespace {
+
+constexpr double block_voxel_mm = 0.1;
+constexpr double curve_travel_mm = 1.0;
+
+Burr five_millimetres() {
+    return {.diameter_mm = 5.0, .sense = SpindleSense::counter_clockwise};
+}
+
+/// Any model of force_models.h.
+class NamedModel final : public StudiedModel {
+  public:
+    NamedModel(const std::string& name, Bone bone, const Burr& burr)
+        : model_(make_contact_model(name, std::move(bone), {burr}, {})) {}
+
+    StepOutcome step(const BurrCommand& command) override {
+        model_->step(command, 0.0, edits_, *result_);
+        return {result_->force_n, result_->removed_mm3};
+    }
+    const Bone& bone() const override { return model_->bone(); }
+
+  private:
+    class NoEdits final : public EditSink {
+      public:
+        void push(const EditRun&) noexcept override {}
+    };
+
+    std::unique_ptr<ContactModel> model_;
+    NoEdits edits_;
+    std::unique_ptr<MillingResult> result_ = std::make_unique<MillingResult>();
+};
+
+Bone flat_block() {
+    const double reach_mm = 3.0 + curve_travel_mm;
+    return voxelised({.low_mm = {-reach_mm, -3.0, -5.5}, .high_mm = {reach_mm, 3.0, 0.0}}, block_voxel_mm);
+}
+
+glm::dvec3 place_at(double depth_mm, double x_mm) {
+    return {x_mm, 0.017, five_millimetres().radius_mm() - depth_mm};
+}
+
+double resting_force_n(const std::string& name, const Bone& bone, double depth_mm) {
+    NamedModel model(name, bone, five_millimetres());
+    const BurrCommand rest{.pose = {place_at(depth_mm, 0.031), {0.0, 0.0, 1.0}}, .elapsed_s = 0.001};
+    return glm::length(model.step(rest).force_n);
+}
+
+double sliding_step_us(const std::string& name, const Bone& bone, bool quick) {
+    NamedModel model(name, bone, five_millimetres());
+    const double step_s = 0.001;
+    const double step_mm = 6.0 * step_s;
+    const int steps = quick ? 20 : static_cast<int>(curve_travel_mm / step_mm);
+    std::vector<glm::dvec3> positions;
+    for (int i = 0; i <= steps; ++i) positions.push_back(place_at(1.0, -0.5 * curve_travel_mm + i * step_mm));
+    return percentile(run_path(model, {0.0, 0.0, 1.0}, step_s, positions).step_us, 0.5);
+}
+
+double milling_force_n(double depth_mm, double feed_mm_per_s) {
+    return glm::length(mean_reference_force_n({.burr = five_millimetres(),
+                                               .position_mm = place_at(depth_mm, 0.0),
+                                               .velocity_mm_per_s = {feed_mm_per_s, 0.0, 0.0}},
+                                              flat_bone()));
+}
+
+}  // namespace
+
+ContactCurves measure_contact(bool quick, const Progress& progress) {
+    ContactCurves curves{.feeds_mm_per_s = {2.0, 6.0}};
+    for (const ForceModel& model : force_models())
+        if (!model.has_cutting_law) curves.models.push_back(model.name);
+    const Bone bone = flat_block();
+    const double step_mm = quick ? 0.5 : 0.1;
+    const int steps = static_cast<int>(2.5 / step_mm + 0.5);
+    for (int i = 1; i <= steps; ++i) {
+        ContactRow row{.depth_mm = i * step_mm};
+        for (const std::string& name : curves.models)
+            row.force_n.push_back(resting_force_n(name, bone, row.depth_mm));
+        for (const double feed : curves.feeds_mm_per_s)
+            row.milling_force_n.push_back(milling_force_n(row.depth_mm, feed));
+        curves.rows.push_back(row);
+        progress(static_cast<double>(i) / steps);
+    }
+    for (const std::string& name : curves.models)
+        curves.step_us.push_back(sliding_step_us(name, bone, quick));
+    return curves;
+}
+
+std::string csv_of(const ContactCurves& curves) {
+    std::string csv = "depth_mm";
+    for (const std::string& name : curves.models) csv += "," + name;
+    for (const double feed : curves.feeds_mm_per_s) csv += fmt::format(",milling {} mm/s", feed);
+    csv += '\n';
+    for (const ContactRow& row : curves.rows) {
+        csv += fmt::format("{:.2f}", row.depth_mm);
+        for (const double force_n : row.force_n) csv += fmt::format(",{:.5f}", force_n);
+        for (const double force_n : row.milling_force_n) csv += fmt::format(",{:.5f}", force_n);
+        csv += '\n';
+    }
+    return csv;
+}
+
+}  // namespace osteomill::study

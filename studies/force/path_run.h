@@ -1,0 +1,16 @@
+// Moves a model along a path, step by step, and keeps what it reports and how long it took.
+#pragma once
+
+#include <span>
+
+#include "studies/force/force_series.h"
+#include "studies/force/studied_model.h"
+
+namespace osteomill::study {
+
+/// Puts the burr down at the first position, starts the spindle there and goes on to each of the others in a
+/// step of `step_s`; the series holds these steps.
+ForceSeries run_path(StudiedModel& model, const glm::dvec3& spindle_axis, double step_s,
+                     std::span<const glm::dvec3> positions_mm);
+
+}  // namespace osteomill::study

@@ -1,0 +1,171 @@
+#include "studies/force/random_motions.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <numbers>
+#include <random>
+
+#include "common/scene/burr_frame.h"
+
+namespace osteomill::study {
+
+namespace {
+
+constexpr double degree = std::numbers::pi / 180.0;
+
+/// Numbers from a seed. The distributions of the standard library differ from one to the next, so these are
+/// made of the generator's bits, which do not.
+class Draw {
+  public:
+    explicit Draw(std::uint64_t seed) : bits_(seed) {}
+
+    double uniform(double low, double high) {
+        return low + (high - low) * static_cast<double>(bits_() >> 11U) * 0x1p-53;
+    }
+    bool one_in(double count) { return uniform(0.0, count) < 1.0; }
+    /// Evenly over the sphere.
+    glm::dvec3 direction() {
+        const double z = uniform(-1.0, 1.0);
+        const double angle = uniform(0.0, 2.0 * std::numbers::pi);
+        const double across = std::sqrt(1.0 - z * z);
+        return {across * std::cos(angle), across * std::sin(angle), z};
+    }
+
+  private:
+    std::mt19937_64 bits_;
+};
+
+RandomMotion draw_motion(Draw& draw, double voxel_mm) {
+    RandomMotion drawn;
+    SteadyCase& c = drawn.motion;
+    c.burr = {.diameter_mm = draw.uniform(1.0, 5.0),
+              .edges = static_cast<int>(draw.uniform(4.0, 13.0)),
+              .spindle_rev_per_s = draw.uniform(5'000.0, 80'000.0) / 60.0,
+              .sense = draw.one_in(2.0) ? SpindleSense::clockwise : SpindleSense::counter_clockwise};
+    c.up = draw.direction();
+    c.depth_mm = draw.uniform(voxel_mm, c.burr.radius_mm());
+    const double feed_mm_per_s = draw.uniform(0.5, 50.0);
+    const double heading_deg = draw.uniform(0.0, 360.0);
+    drawn.tilt_deg = draw.uniform(0.0, 70.0);
+    drawn.azimuth_deg = draw.uniform(0.0, 360.0);
+    drawn.dives = draw.one_in(3.0);
+
+    const glm::dmat3 surface = burr_frame(c.up);
+    const auto along_surface = [&](double angle_deg) {
+        return surface * glm::dvec3(std::cos(angle_deg * degree), std::sin(angle_deg * degree), 0.0);
+    };
+    const double dive_deg = drawn.dives ? draw.uniform(5.0, 90.0) : 0.0;
+    c.velocity_mm_per_s = feed_mm_per_s * (std::cos(dive_deg * degree) * along_surface(heading_deg) -
+                                           std::sin(dive_deg * degree) * c.up);
+    c.spindle_axis =
+        glm::normalize(std::cos(drawn.tilt_deg * degree) * c.up +
+                       std::sin(drawn.tilt_deg * degree) * along_surface(heading_deg + drawn.azimuth_deg));
+    if (!drawn.dives && draw.one_in(3.0))
+        c.previous_groove_mm_higher = draw.uniform(0.5 * voxel_mm, c.depth_mm);
+    drawn.run = {.voxel_mm = voxel_mm, .milling_rate_hz = draw.one_in(2.0) ? 100.0 : 1000.0};
+    c.name = fmt::format(
+        "{:.2f} mm {}, {:.2f} deep{}, spindle {:.0f}/{:.0f} deg, up {:.3f} {:.3f} {:.3f}, {}{:.3g} mm/s, "
+        "{:.0f} rpm, {} edges, {:.0f} Hz",
+        c.burr.diameter_mm, c.burr.sense == SpindleSense::clockwise ? "clockwise" : "counter-clockwise",
+        c.depth_mm,
+        c.previous_groove_mm_higher ? fmt::format(" after {:.2f} less", *c.previous_groove_mm_higher) : "",
+        drawn.tilt_deg, drawn.azimuth_deg, c.up.x, c.up.y, c.up.z,
+        drawn.dives ? fmt::format("diving at {:.0f} deg ", dive_deg) : "", feed_mm_per_s,
+        60.0 * c.burr.spindle_rev_per_s, c.burr.edges, drawn.run.milling_rate_hz);
+    return drawn;
+}
+
+/// Along a path that dives the force changes with the depth: its mean by Gauss's five points.
+glm::dvec3 reference_over_path_n(const RandomMotion& drawn) {
+    if (!drawn.dives) return mean_reference_force_n(motion_of(drawn.motion), bone_of(drawn.motion));
+    constexpr std::array<double, 5> points{0.046910077030668, 0.230765344947158, 0.5, 0.769234655052841,
+                                           0.953089922969332};
+    constexpr std::array<double, 5> weights{0.118463442528095, 0.239314335249683, 0.284444444444444,
+                                            0.239314335249683, 0.118463442528095};
+    const SteadyPath path = path_of(drawn.motion, drawn.run);
+    const double depth_at_start_mm = drawn.motion.burr.radius_mm() - glm::dot(path.start_mm, drawn.motion.up);
+    const double deeper_mm = glm::dot(path.start_mm - path.end_mm, drawn.motion.up);
+    glm::dvec3 force_n(0.0);
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        SteadyCase c = drawn.motion;
+        c.depth_mm = depth_at_start_mm + points[i] * deeper_mm;
+        force_n += weights[i] * mean_reference_force_n(motion_of(c), bone_of(c));
+    }
+    return force_n;
+}
+
+}  // namespace
+
+std::vector<RandomMotion> random_motions(int count, std::uint64_t seed, double voxel_mm) {
+    Draw draw(seed);
+    std::vector<RandomMotion> motions;
+    for (int i = 0; i < count; ++i) motions.push_back(draw_motion(draw, voxel_mm));
+    return motions;
+}
+
+RandomResult measure(const RandomMotion& motion, const MakeModel& make_model) {
+    const ForceSeries series = run_steady(motion.motion, motion.run, make_model);
+    RandomResult result{.motion = motion,
+                        .reference_n = reference_over_path_n(motion),
+                        .force_n = mean_force_n(series),
+                        .ripple = ripple(series),
+                        .step_us = percentile(series.step_us, 0.5)};
+    result.error = relative_error(result.force_n, result.reference_n);
+    return result;
+}
+
+std::string csv_of(const std::vector<RandomResult>& results) {
+    std::string csv =
+        "name,diameter_mm,depth_mm,spindle_tilt_deg,spindle_azimuth_deg,dives,feed_mm_per_s,rpm,edges,"
+        "clockwise,groove_mm_higher,milling_rate_hz,voxel_mm,reference_x_n,reference_y_n,reference_z_n,"
+        "force_x_n,force_y_n,force_z_n,error_percent,ripple_percent,step_us\n";
+    for (const RandomResult& r : results) {
+        const SteadyCase& c = r.motion.motion;
+        csv += fmt::format(
+            "\"{}\",{:.4f},{:.4f},{:.2f},{:.2f},{:d},{:.5f},{:.0f},{},{:d},{},{:.0f},{},{:.6f},{:.6f},{:.6f},"
+            "{:.6f},{:.6f},{:.6f},{:.4f},{:.4f},{:.2f}\n",
+            c.name, c.burr.diameter_mm, c.depth_mm, r.motion.tilt_deg, r.motion.azimuth_deg, r.motion.dives,
+            glm::length(c.velocity_mm_per_s), 60.0 * c.burr.spindle_rev_per_s, c.burr.edges,
+            c.burr.sense == SpindleSense::clockwise,
+            c.previous_groove_mm_higher ? fmt::format("{:.4f}", *c.previous_groove_mm_higher) : "",
+            r.motion.run.milling_rate_hz, r.motion.run.voxel_mm, r.reference_n.x, r.reference_n.y,
+            r.reference_n.z, r.force_n.x, r.force_n.y, r.force_n.z, 100.0 * r.error, 100.0 * r.ripple,
+            r.step_us);
+    }
+    return csv;
+}
+
+nlohmann::ordered_json summary_of(const std::vector<RandomResult>& results) {
+    std::vector<double> errors, ripples, steps_us;
+    std::vector<const RandomResult*> worst;
+    for (const RandomResult& r : results) {
+        errors.push_back(100.0 * r.error);
+        if (!r.motion.dives) ripples.push_back(100.0 * r.ripple);
+        steps_us.push_back(r.step_us);
+        worst.push_back(&r);
+    }
+    std::sort(worst.begin(), worst.end(),
+              [](const RandomResult* a, const RandomResult* b) { return a->error > b->error; });
+    constexpr std::size_t most_named = 10;
+    worst.resize(std::min(worst.size(), most_named));
+    nlohmann::ordered_json summary{{"cases", results.size()},
+                                   {"median_error_percent", percentile(errors, 0.5)},
+                                   {"p95_error_percent", percentile(errors, 0.95)},
+                                   {"p99_error_percent", percentile(errors, 0.99)},
+                                   {"max_error_percent", percentile(errors, 1.0)},
+                                   {"ripple_p90_percent", percentile(ripples, 0.9)},
+                                   {"ripple_max_percent", percentile(ripples, 1.0)},
+                                   {"step_us_p50", percentile(steps_us, 0.5)},
+                                   {"worst", nlohmann::ordered_json::array()}};
+    for (const RandomResult* r : worst)
+        summary["worst"].push_back({{"name", r->motion.motion.name},
+                                    {"error_percent", 100.0 * r->error},
+                                    {"ripple_percent", 100.0 * r->ripple}});
+    return summary;
+}
+
+}  // namespace osteomill::study

@@ -1,0 +1,48 @@
+// Steady motions drawn at random, and the accuracy of the voxel model over them: the check of what the
+// documents promise, on motions that nothing was tuned to.
+#pragma once
+
+#include <cstdint>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "studies/force/steady_run.h"
+
+namespace osteomill::study {
+
+/// A motion of a burr of 1 to 5 mm, 4 to 12 edges, either sense of rotation, 5 000 to 80 000 rpm, its spindle
+/// leaning by up to 70 degrees in any direction, at 0.5 to 50 mm/s, one voxel to the equator deep, over a
+/// surface that lies anyhow. One in three dives, at 5 to 90 degrees; a third of the others follow a groove
+/// that the same burr cut before. Steps of 100 Hz or 1 kHz. All evenly over their ranges.
+struct RandomMotion {
+    SteadyCase motion{};
+    SteadyRun run{};
+    double tilt_deg = 0.0;     ///< of the spindle from the surface's normal
+    double azimuth_deg = 0.0;  ///< of that tilt, from the feed
+    bool dives = false;
+};
+
+/// The same for the same seed on every machine.
+std::vector<RandomMotion> random_motions(int count, std::uint64_t seed, double voxel_mm = 0.1);
+
+struct RandomResult {
+    RandomMotion motion;
+    glm::dvec3 reference_n{0.0};  ///< of a dive: its mean over the path
+    glm::dvec3 force_n{0.0};
+    double error = 0.0;    ///< of the mean force, a share of the reference
+    double ripple = 0.0;   ///< rms about the mean, a share of it
+    double step_us = 0.0;  ///< median
+};
+
+RandomResult measure(const RandomMotion& motion, const MakeModel& make_model);
+
+/// Table with a header, a line a motion.
+std::string csv_of(const std::vector<RandomResult>& results);
+
+/// cases, median_error_percent, p95_error_percent, p99_error_percent, max_error_percent; ripple_p90_percent
+/// and ripple_max_percent of motions along the surface; step_us_p50; worst: the motions farthest off, by
+/// name.
+nlohmann::ordered_json summary_of(const std::vector<RandomResult>& results);
+
+}  // namespace osteomill::study

@@ -1,0 +1,176 @@
+// osteomill_study: what the simulator's choices cost and what they are worth. Parses, runs a study, says
+// where its files are.
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <chrono>
+#include <exception>
+#include <filesystem>
+#include <iostream>
+#include <optional>
+#include <string>
+
+#include "haptic_server/imaging/progress.h"
+#include "studies/force/case_report.h"
+#include "studies/force/force_study.h"
+#include "studies/polishing/polishing_options.h"
+#include "studies/realtime/realtime_options.h"
+#include "studies/render/render_options.h"
+#include "studies/report/output_files.h"
+#include "studies/stability/map/stability_options.h"
+#include "studies/stability/scene/map_run.h"
+
+namespace {
+
+constexpr int exit_failure = 1;
+constexpr int exit_usage = 2;
+
+struct ForceOptions {
+    std::filesystem::path out = "study/force";
+    std::filesystem::path cases{};
+    osteomill::study::SteadyRun run{};
+    std::optional<int> random{};
+    std::uint64_t seed = 1;
+    bool quick = false;
+};
+
+void add_force(CLI::App& app, ForceOptions& options) {
+    CLI::App* force =
+        app.add_subcommand("force", "the milling force: voxel model against analytical reference");
+    force->add_option("--out", options.out, "folder for what the study writes; made if it is not there")
+        ->capture_default_str();
+    CLI::Option* cases = force->add_option(
+        "--cases", options.cases,
+        "run the steady motions of this JSON file (the schema of tests/data/milling_forces.json) and "
+        "write OUT/cases.json; nothing else is run");
+    CLI::Option* random =
+        force
+            ->add_option(
+                "--random", options.random,
+                "run so many steady motions drawn at random and write OUT/random.json and random.csv; "
+                "nothing else is run")
+            ->excludes(cases)
+            ->check(CLI::Range(1, 1'000'000));
+    force->add_option("--seed", options.seed, "of the random motions")->needs(random)->capture_default_str();
+    force->add_flag("--quick", options.quick, "fewer points, shorter runs: under a minute")
+        ->excludes(cases)
+        ->excludes(random);
+    force->add_option("--voxel-mm", options.run.voxel_mm, "edge of a voxel, of --cases and --random")
+        ->capture_default_str()
+        ->check(CLI::Range(0.01, 1.0));
+    force->add_option("--milling-rate-hz", options.run.milling_rate_hz, "steps of the voxel model a second")
+        ->needs(cases)
+        ->capture_default_str()
+        ->check(CLI::Range(1.0, 100'000.0));
+    force
+        ->add_option("--travel-mm", options.run.travel_mm,
+                     "way over which force is averaged, for motions along the surface (20 steps at least)")
+        ->needs(cases)
+        ->capture_default_str()
+        ->check(CLI::Range(0.01, 100.0));
+}
+
+osteomill::study::StudySurroundings surroundings() {
+    return {.said = std::cout, .progress = std::cerr, .is_terminal = ::isatty(STDERR_FILENO) != 0};
+}
+
+void run_cases(const ForceOptions& options) {
+    using namespace osteomill;
+    const auto cases = study::read_steady_cases(options.cases);
+    const std::filesystem::path file = options.out / "cases.json";
+    {
+        ProgressLine line(std::cerr, ::isatty(STDERR_FILENO) != 0, "cases");
+        study::write_json(study::report_of(cases, options.run, study::voxel_model(), line.reporter()), file);
+    }
+    std::cout << cases.size() << " cases in " << file.string() << '\n';
+}
+
+void run(const ForceOptions& options) {
+    osteomill::study::make_folder(options.out);
+    if (!options.cases.empty())
+        run_cases(options);
+    else if (options.random)
+        osteomill::study::run_random_motions({.out = options.out,
+                                              .count = *options.random,
+                                              .seed = options.seed,
+                                              .voxel_mm = options.run.voxel_mm},
+                                             surroundings());
+    else
+        osteomill::study::run_force_study({.out = options.out, .quick = options.quick}, surroundings());
+}
+
+void run(const osteomill::study::StabilityCommand& command) {
+    using namespace osteomill;
+    study::make_folder(command.run.out);
+    if (!command.merge.empty()) {
+        study::merge_stability_study(command.merge, command.run.out, surroundings());
+        return;
+    }
+    const auto now_s = [] {
+        return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+    };
+    study::SceneCache cache;
+    study::run_stability_study(
+        command.run, [&](const study::MapCase& c) { return study::run_map_case(c, cache); }, now_s,
+        surroundings());
+}
+
+void run(const osteomill::study::PolishingStudyOptions& options) {
+    osteomill::study::make_folder(options.out);
+    osteomill::study::run_polishing_study(options, surroundings());
+}
+
+void run(const osteomill::study::RenderStudyOptions& options) {
+    osteomill::study::make_folder(options.out);
+    osteomill::study::run_render_study(options, surroundings());
+}
+
+void run(const osteomill::study::RealtimeStudyOptions& options) {
+    osteomill::study::make_folder(options.out);
+    osteomill::study::run_realtime_study(options, surroundings());
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    CLI::App app("Studies of the simulator: numbers and charts.", "osteomill_study");
+    app.set_version_flag("--version", OSTEOMILL_VERSION);
+    ForceOptions force;
+    add_force(app, force);
+    osteomill::study::StabilityCommand stability;
+    const CLI::App* const is_stability = osteomill::study::add_stability(app, stability);
+    osteomill::study::PolishingStudyOptions polishing;
+    const CLI::App* const is_polishing = osteomill::study::add_polishing(app, polishing);
+    osteomill::study::RenderStudyOptions render;
+    const CLI::App* const is_render = osteomill::study::add_render(app, render);
+    osteomill::study::RealtimeStudyOptions realtime;
+    const CLI::App* const is_realtime = osteomill::study::add_realtime(app, realtime);
+    try {
+        app.parse(argc, argv);
+        if (app.got_subcommand("force") && app.get_subcommand("force")->count("--voxel-mm") > 0 &&
+            force.cases.empty() && !force.random)
+            throw CLI::RequiresError("--voxel-mm", "--cases or --random");
+        if (app.get_subcommands().empty())
+            throw CLI::RequiredError("a study to run: force, stability, polishing, render or realtime");
+    } catch (const CLI::ParseError& error) {
+        if (error.get_exit_code() == 0) return app.exit(error);
+        std::cerr << "osteomill_study: " << error.what() << " (see --help)\n";
+        return exit_usage;
+    }
+    try {
+        if (is_stability->parsed())
+            run(stability);
+        else if (is_polishing->parsed())
+            run(polishing);
+        else if (is_render->parsed())
+            run(render);
+        else if (is_realtime->parsed())
+            run(realtime);
+        else
+            run(force);
+        return 0;
+    } catch (const std::exception& error) {
+        std::cerr << "osteomill_study: " << error.what() << '\n';
+        return exit_failure;
+    }
+}

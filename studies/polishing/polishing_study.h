@@ -1,0 +1,20 @@
+// The published polishing experiment: figures 6, 7 and 8, the paper's claims, and where its method is stable.
+#pragma once
+
+#include <filesystem>
+
+#include "studies/report/surroundings.h"
+
+namespace osteomill::study {
+
+struct PolishingStudyOptions {
+    std::filesystem::path out;
+    bool quick = false;  ///< fewer runs: half a minute at most
+};
+
+/// Writes claims.json, tables (CSV) and charts (SVG) into `options.out`, a folder that is there, and the logs
+/// of the sessions into its folder `runs`. Throws std::runtime_error in one line naming what cannot be
+/// written.
+void run_polishing_study(const PolishingStudyOptions& options, const StudySurroundings& surroundings);
+
+}  // namespace osteomill::study

@@ -1,0 +1,77 @@
+#include "studies/polishing/published_figures.h"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+namespace osteomill::study {
+
+namespace {
+
+/// Of the windows that chatter is looked for in: a few of its cycles, a small part of a stroke.
+constexpr double window_s = 0.1;
+/// Of the charts' tables: six points in a cycle of 20 Hz.
+constexpr std::size_t ticks_a_line = 8;
+
+std::vector<PolishingSetup> setups_of_figures(bool quick) {
+    const auto published = [](const char* force_model, const char* coupling) {
+        return PolishingSetup{
+            .force_model = force_model, .coupling = coupling, .milling_rate_hz = published_milling_rate_hz};
+    };
+    std::vector<PolishingSetup> setups;
+    for (const char* model : {"milling", "point-spring"}) {
+        for (const char* coupling : {"interpolate", "sample-estimate-interpolate", "sample-estimate-hold"})
+            setups.push_back(published(model, coupling));
+        if (!quick) setups.push_back(published(model, "hold"));
+    }
+    setups.push_back({});
+    return setups;
+}
+
+}  // namespace
+
+FigureRun judged(PolishingSetup setup, PolishingRun run) {
+    FigureRun figure{.setup = std::move(setup), .run = std::move(run)};
+    figure.windows = windows_of(figure.run.record, window_s);
+    figure.mean_force_n = mean_force_n(figure.run.record);
+    figure.limit_cycle_n = limit_cycle_n(figure.windows);
+    figure.onset_mm = onset_of_chatter_mm(figure.windows);
+    return figure;
+}
+
+std::vector<FigureRun> run_figures(const Bone& cube, bool quick, const std::filesystem::path& folder,
+                                   const Progress& progress) {
+    const std::vector<PolishingSetup> setups = setups_of_figures(quick);
+    std::vector<FigureRun> figures;
+    for (const PolishingSetup& setup : setups) {
+        const std::string log = fmt::format("{}_{}.csv", setup.force_model, setup.coupling);
+        figures.push_back(judged(setup, run_by_hand(cube, setup, folder / log)));
+        progress(static_cast<double>(figures.size()) / static_cast<double>(setups.size()));
+    }
+    return figures;
+}
+
+std::string series_csv(const ForceRecord& record) {
+    std::string csv = "t_s,depth_mm,force_x_n,force_y_n,force_z_n\n";
+    for (std::size_t i = 0; i < record.size(); i += ticks_a_line) {
+        const RecordedForce& sample = record[i];
+        csv += fmt::format("{:.3f},{:.4f},{:.4f},{:.4f},{:.4f}\n", sample.time_s - record.front().time_s,
+                           sample.depth_mm, sample.force_n.x, sample.force_n.y, sample.force_n.z);
+    }
+    return csv;
+}
+
+std::string csv_of(const std::vector<FigureRun>& figures) {
+    std::string csv =
+        "force_model,coupling,milling_rate_hz,reached_end,slide_s,largest_depth_mm,stray_mm,mean_force_n,"
+        "limit_cycle_n,onset_depth_mm,faults\n";
+    for (const FigureRun& f : figures)
+        csv +=
+            fmt::format("{},{},{:.0f},{:d},{:.2f},{:.3f},{:.3f},{:.4f},{:.4f},{},{}\n", f.setup.force_model,
+                        f.setup.coupling, f.setup.milling_rate_hz, f.run.reached_end ? 1 : 0, f.run.slide_s,
+                        f.run.depth_mm, f.run.stray_mm, f.mean_force_n, f.limit_cycle_n,
+                        f.onset_mm ? fmt::format("{:.3f}", *f.onset_mm) : "", f.run.faults);
+    return csv;
+}
+
+}  // namespace osteomill::study

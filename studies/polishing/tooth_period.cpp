@@ -1,0 +1,106 @@
+#include "studies/polishing/tooth_period.h"
+
+#include <fmt/format.h>
+
+#include <glm/geometric.hpp>
+
+#include "studies/polishing/force_measures.h"
+#include "studies/polishing/polishing_run.h"
+
+namespace osteomill::study {
+
+namespace {
+
+constexpr double feed_mm_per_s = 6.0;
+/// Slow, so that a tooth period is long beside what resolves it: the model lets steps of a few tenths of a
+/// millisecond wait for one another at this feed, and even twelve edges take 2 ms to the next.
+constexpr double resolved_rpm = 2'500.0;
+/// Of the same, and whole revolutions at the other speeds, too: whole tooth periods for any number of edges.
+constexpr double revolution_s = 60.0 / resolved_rpm;
+
+/// Mean over whole revolutions first, length after: equation (2) is the mean of a vector.
+double mean_of_averaged_n(const ForceRecord& record, double around_s) {
+    double sum = 0.0;
+    std::size_t count = 0;
+    for (std::size_t first = 0; first < record.size();) {
+        glm::dvec3 force(0.0);
+        std::size_t end = first;
+        for (; end < record.size() && record[end].time_s < record[first].time_s + around_s - 1e-9; ++end)
+            force += record[end].force_n;
+        sum += glm::length(force) / static_cast<double>(end - first);
+        ++count;
+        first = end;
+    }
+    return count > 0 ? sum / static_cast<double>(count) : 0.0;
+}
+
+/// A revolution from the record's middle on.
+ForceRecord clip_of(const ForceRecord& record) {
+    const auto middle = record.begin() + static_cast<std::ptrdiff_t>(record.size() / 2);
+    ForceRecord clip;
+    for (auto sample = middle; sample != record.end() && sample->time_s <= middle->time_s + revolution_s;
+         ++sample)
+        clip.push_back(*sample);
+    return clip;
+}
+
+ToothPeriodForce measure(const Bone& cube, const PolishingSetup& setup, const std::filesystem::path& log) {
+    const PolishingRun run = run_on_rails(cube, setup, log);
+    const double mean_n = mean_of_averaged_n(run.record, revolution_s);
+    return {.setup = setup,
+            .mean_n = mean_n,
+            .one_tooth_n = mean_n / setup.edges,
+            .peak_over_mean = peak_over_mean(run.record, revolution_s),
+            .clip = clip_of(run.record),
+            .chip_um = 1000.0 * feed_mm_per_s / (setup.edges * setup.spindle_rpm / 60.0)};
+}
+
+}  // namespace
+
+std::vector<ToothPeriodForce> vary_edges(const Bone& cube, bool quick, const std::filesystem::path& folder,
+                                         const Progress& progress) {
+    const std::vector<int> edges = quick ? std::vector{1, 3, 6} : std::vector{1, 2, 3, 4, 6, 8, 12};
+    std::vector<ToothPeriodForce> forces;
+    for (const int count : edges) {
+        PolishingSetup setup{.force_model = "milling-instants",
+                             .milling_rate_hz = 10'000.0,
+                             .spindle_rpm = resolved_rpm,
+                             .edges = count};
+        if (quick) setup.longest_s = 2.5;
+        forces.push_back(measure(cube, setup, folder / fmt::format("edges_{}.csv", count)));
+        progress(static_cast<double>(forces.size()) / static_cast<double>(edges.size()));
+    }
+    return forces;
+}
+
+std::vector<ToothPeriodForce> vary_speed(const Bone& cube, bool quick, const std::filesystem::path& folder,
+                                         const Progress& progress) {
+    const std::vector<double> speeds_rpm =
+        quick ? std::vector{10'000.0, 40'000.0} : std::vector{10'000.0, 20'000.0, 40'000.0, 80'000.0};
+    std::vector<ToothPeriodForce> forces;
+    for (const double rpm : speeds_rpm) {
+        const std::string log = fmt::format("rails_{:.0f}rpm.csv", rpm);
+        forces.push_back(measure(cube, {.spindle_rpm = rpm}, folder / log));
+        progress(static_cast<double>(forces.size()) / static_cast<double>(speeds_rpm.size()));
+    }
+    return forces;
+}
+
+std::string csv_of(const std::vector<ToothPeriodForce>& forces) {
+    std::string csv = "rpm,edges,milling_rate_hz,mean_n,one_tooth_n,peak_over_mean,chip_um\n";
+    for (const ToothPeriodForce& f : forces)
+        csv +=
+            fmt::format("{:.0f},{},{:.0f},{:.4f},{:.4f},{:.3f},{:.3f}\n", f.setup.spindle_rpm, f.setup.edges,
+                        f.setup.milling_rate_hz, f.mean_n, f.one_tooth_n, f.peak_over_mean, f.chip_um);
+    return csv;
+}
+
+std::string clip_csv(const ToothPeriodForce& force) {
+    std::string csv = "t_s,force_n\n";
+    for (const RecordedForce& sample : force.clip)
+        csv += fmt::format("{:.5f},{:.4f}\n", sample.time_s - force.clip.front().time_s,
+                           glm::length(sample.force_n));
+    return csv;
+}
+
+}  // namespace osteomill::study

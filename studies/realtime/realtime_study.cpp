@@ -1,0 +1,199 @@
+#include "studies/realtime/realtime_study.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <csignal>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <ostream>
+#include <stdexcept>
+#include <string>
+
+#include "haptic_server/imaging/progress.h"
+#include "studies/realtime/installed_program.h"
+#include "studies/realtime/slices.h"
+#include "studies/report/chart.h"
+#include "studies/report/output_files.h"
+#include "tests/support/child_process.h"
+
+namespace osteomill::study {
+
+namespace {
+
+using nlohmann::ordered_json;
+using osteomill::testing::ChildProcess;
+
+constexpr double most_times_cyclictest = 1.5;
+constexpr double more_late_ticks_share = 1e-5;
+constexpr double bar_quantile = 0.999;
+constexpr double period_us = 1000.0;
+
+/// Everybody's ordinary work: every processor, memory and the network, until it is gone.
+class Stress {
+  public:
+    Stress(const std::filesystem::path& stress_ng, double longest_s)
+        : child_({stress_ng.string(), "--quiet", "--cpu", "0", "--vm", "1", "--vm-bytes", "128M", "--sock",
+                  "1", "--timeout", fmt::format("{:.0f}", longest_s)}) {}
+    ~Stress() {
+        child_.send_signal(SIGTERM);
+        child_.wait(std::chrono::seconds(10));
+    }
+    Stress(const Stress&) = delete;
+    Stress& operator=(const Stress&) = delete;
+
+    bool is_running() { return !child_.wait(std::chrono::seconds(0)); }
+
+  private:
+    ChildProcess child_;
+};
+
+/// What was measured without load, or under it.
+struct Measured {
+    std::string load;
+    Served served;
+    Latencies cyclictest;  ///< none where that is not installed
+};
+
+ordered_json json_of(const Latencies& latencies) {
+    ordered_json json;
+    json["count"] = latencies.count();
+    for (const auto& [name, share] :
+         {std::pair{"p50", 0.5}, {"p99", 0.99}, {"p999", 0.999}, {"p9999", 0.9999}})
+        json[name] = latencies.quantile_us(share);
+    json["max"] = latencies.max_us();
+    json["over_1_ms"] = latencies.over(period_us);
+    return json;
+}
+
+/// Wakes of cyclictest over a millisecond, of as many as there were ticks, and one tick in a hundred
+/// thousand.
+double allowed_late_ticks(const Measured& m) {
+    const auto ticks = static_cast<double>(m.served.ticks);
+    const double over = static_cast<double>(m.cyclictest.over(period_us));
+    return over * ticks / static_cast<double>(m.cyclictest.count()) + more_late_ticks_share * ticks;
+}
+
+ordered_json json_of(const Measured& m) {
+    ordered_json json{{"load", m.load},
+                      {"wakeup_latency_us", json_of(m.served.wakeup)},
+                      {"haptic_tick_us", json_of(m.served.haptic_tick)},
+                      {"milling_step_us", json_of(m.served.milling_step)},
+                      {"ticks", m.served.ticks},
+                      {"late_ticks", m.served.late_ticks},
+                      {"missed_deadlines", m.served.missed_deadlines},
+                      {"missed_milling_steps", m.served.missed_milling_steps},
+                      {"page_faults", m.served.page_faults},
+                      {"overrun_faults", m.served.overruns},
+                      {"client_frames", m.served.client_frames},
+                      {"removed_mm3", m.served.removed_mm3},
+                      {"real_time_priority", m.served.has_priority},
+                      {"memory_locked", m.served.has_locked_memory}};
+    json["cyclictest_us"] = nullptr;
+    if (m.cyclictest.count() == 0) return json;
+    json["cyclictest_us"] = json_of(m.cyclictest);
+    json["p999_times_cyclictest"] =
+        m.served.wakeup.quantile_us(bar_quantile) / m.cyclictest.quantile_us(bar_quantile);
+    json["allowed_late_ticks"] = allowed_late_ticks(m);
+    return json;
+}
+
+class RealtimeStudy {
+  public:
+    RealtimeStudy(const RealtimeStudyOptions& options, const StudySurroundings& surroundings)
+        : options_(options),
+          surroundings_(surroundings),
+          haptic_server_(std::filesystem::read_symlink("/proc/self/exe").parent_path() / "haptic_server"),
+          cyclictest_(installed_program("cyclictest")),
+          stress_ng_(installed_program("stress-ng")),
+          slice_s_(options.quick ? 3.0 : 10.0),
+          slices_(static_cast<int>(std::ceil((options.quick ? 9.0 : options.duration_s) / slice_s_))) {
+        if (!std::filesystem::exists(haptic_server_))
+            throw std::runtime_error(haptic_server_.string() + ": is not there; build it, too");
+    }
+
+    void run() {
+        if (!cyclictest_) say("cyclictest is not installed (package rt-tests): nothing to compare with");
+        std::string csv = "load,what,from_us,up_to_us,share,share_above\n";
+        ordered_json found = ordered_json::array();
+        const auto take = [&](const Measured& measured) {
+            report(measured);
+            found.push_back(json_of(measured));
+            csv += csv_of(measured.served.wakeup, measured.load + ",wakeup");
+            csv += csv_of(measured.served.haptic_tick, measured.load + ",haptic tick");
+            csv += csv_of(measured.served.milling_step, measured.load + ",milling step");
+            csv += csv_of(measured.cyclictest, measured.load + ",cyclictest");
+        };
+        take(measure("no load", nullptr));
+        if (stress_ng_) {
+            Stress stress(*stress_ng_, 2.0 * slices_ * (slice_s_ + 60.0));
+            take(measure("stress-ng", &stress));
+        } else {
+            say("stress-ng is not installed (package stress-ng): not measured under load");
+        }
+        write_text(csv, options_.out / "latencies.csv");
+        write_json(found, options_.out / "realtime.json");
+        draw_chart(chart_scripts(), "realtime", options_.out);
+        say("realtime.json, latencies.csv and realtime.svg are in {}", options_.out.string());
+    }
+
+  private:
+    template <typename... Arguments>
+    void say(fmt::format_string<Arguments...> format, Arguments&&... arguments) const {
+        surroundings_.said << fmt::format(format, std::forward<Arguments>(arguments)...) << '\n';
+    }
+
+    Measured measure(const std::string& load, Stress* stress) const {
+        ProgressLine line(surroundings_.progress, surroundings_.is_terminal, load);
+        const auto progress = line.reporter();
+        const std::filesystem::path work = options_.out / "slices";
+        make_folder(work);
+        Measured measured{.load = load, .served = {}, .cyclictest = {}};
+        for (int slice = 0; slice < slices_; ++slice) {
+            measured.served.add(serve(haptic_server_, slice_s_, work));
+            if (cyclictest_)
+                measured.cyclictest.add(cycle(*cyclictest_, slice_s_, measured.served.has_priority, work));
+            if (stress != nullptr && !stress->is_running())
+                throw std::runtime_error("stress-ng ended by itself: the load was not there");
+            progress(static_cast<double>(slice + 1) / slices_);
+        }
+        std::filesystem::remove_all(work);
+        return measured;
+    }
+
+    void report(const Measured& m) const {
+        if (!m.served.has_priority)
+            say("{}: without real-time priority, so cyclictest as well; see README on how to grant it",
+                m.load);
+        say("{}: {} ticks, wake-up p99.9 {:.1f} us, tick p99.9 {:.1f} us; {} late by 1 ms, {} deadlines "
+            "missed, {} page faults",
+            m.load, m.served.ticks, m.served.wakeup.quantile_us(bar_quantile),
+            m.served.haptic_tick.quantile_us(bar_quantile), m.served.late_ticks, m.served.missed_deadlines,
+            m.served.page_faults);
+        if (m.cyclictest.count() == 0) return;
+        say("{}: cyclictest {} wake-ups, p99.9 {:.1f} us, {} over 1 ms; wake-up p99.9 is {:.2f} times that "
+            "(bar: {}), late ticks {} (bar: {:.1f})",
+            m.load, m.cyclictest.count(), m.cyclictest.quantile_us(bar_quantile),
+            m.cyclictest.over(period_us),
+            m.served.wakeup.quantile_us(bar_quantile) / m.cyclictest.quantile_us(bar_quantile),
+            most_times_cyclictest, m.served.late_ticks, allowed_late_ticks(m));
+    }
+
+    const RealtimeStudyOptions& options_;
+    const StudySurroundings& surroundings_;
+    std::filesystem::path haptic_server_;
+    std::optional<std::filesystem::path> cyclictest_;
+    std::optional<std::filesystem::path> stress_ng_;
+    double slice_s_;
+    int slices_;
+};
+
+}  // namespace
+
+void run_realtime_study(const RealtimeStudyOptions& options, const StudySurroundings& surroundings) {
+    RealtimeStudy(options, surroundings).run();
+}
+
+}  // namespace osteomill::study

@@ -1,0 +1,153 @@
+#include "studies/render/accuracy.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <memory>
+#include <set>
+#include <thread>
+
+#include "render_client/volume/slice_renderer.h"
+#include "studies/render/picture_difference.h"
+
+namespace osteomill::study {
+
+namespace {
+
+const BoneLook by_gradient{};
+const BoneLook by_surface_voxels{.shading = Shading::surface_voxels};
+
+std::unique_ptr<BoneRenderer> renderer_of(const DrawingSetting& setting) {
+    if (setting.renderer == RendererChoice::slices)
+        return std::make_unique<SliceRenderer>(SliceSettings{.spacing_voxels = setting.step_voxels});
+    return std::make_unique<RaycastRenderer>(RaycastSettings{
+        .skipping = setting.skips ? EmptySpaceSkipping::distance_map : EmptySpaceSkipping::none,
+        .step_voxels = setting.step_voxels});
+}
+
+/// Both references of one view in one look.
+struct References {
+    Picture model;
+    Picture trilinear;
+};
+
+References references_of(const TrialBone& trial, const Camera& camera, const BoneLook& look,
+                         const glm::ivec2& size_px) {
+    const ReferenceVolume volume(trial.bone, trial.tissues, look);
+    ReferenceSettings settings{.threads = std::max(1u, std::thread::hardware_concurrency())};
+    Picture model = reference_image(volume, camera, size_px, settings);
+    if (look.shading == Shading::surface_voxels) return {model, model};
+    settings.gradient = ReferenceGradient::trilinear;
+    return {std::move(model), reference_image(volume, camera, size_px, settings)};
+}
+
+/// Points of the same bone and view together, in the order in which these first come; so a chart has a panel
+/// for each.
+std::vector<DrawingPoint> by_panel(std::vector<DrawingPoint> points) {
+    const auto first_like = [all = points](const DrawingPoint& point) {
+        return std::find_if(all.begin(), all.end(),
+                            [&](const DrawingPoint& other) {
+                                return other.bone == point.bone && other.view == point.view;
+                            }) -
+               all.begin();
+    };
+    std::stable_sort(points.begin(), points.end(), [&](const DrawingPoint& a, const DrawingPoint& b) {
+        return first_like(a) < first_like(b);
+    });
+    return points;
+}
+
+}  // namespace
+
+std::vector<DrawingSetting> drawing_settings(bool quick) {
+    std::vector<DrawingSetting> settings;
+    const float usual = RaycastSettings{}.step_voxels;
+    for (const float step : std::set{0.25f, 0.5f, usual, 1.0f, 2.0f}) {
+        if (quick && step == 0.25f) continue;
+        settings.push_back({.family = "rays shaded by gradient",
+                            .label = fmt::format("step {}", step),
+                            .look = by_gradient,
+                            .step_voxels = step,
+                            .is_default = step == usual});
+        settings.push_back({.family = "rays to surface voxels",
+                            .label = fmt::format("step {}", step),
+                            .look = by_surface_voxels,
+                            .step_voxels = step});
+    }
+    for (const float step : quick ? std::set{usual} : std::set{usual, 1.0f, 2.0f})
+        settings.push_back({.family = "rays without skipping",
+                            .label = fmt::format("step {}", step),
+                            .step_voxels = step,
+                            .skips = false});
+    for (const int divisor : {2, 3, 4})
+        settings.push_back({.family = "rays at lower resolution",
+                            .label = fmt::format("1 / {}", divisor),
+                            .divisor = divisor});
+    for (const float spacing : quick ? std::set{1.0f} : std::set{0.5f, 1.0f, 2.0f}) {
+        settings.push_back({.family = "slices shaded by gradient",
+                            .label = fmt::format("spacing {}", spacing),
+                            .renderer = RendererChoice::slices,
+                            .step_voxels = spacing});
+        settings.push_back({.family = "slices of surface voxels (published)",
+                            .label = fmt::format("spacing {}", spacing),
+                            .renderer = RendererChoice::slices,
+                            .look = by_surface_voxels,
+                            .step_voxels = spacing});
+    }
+    return settings;
+}
+
+std::vector<DrawingPoint> measure(const TrialBone& trial, const std::vector<DrawingSetting>& settings,
+                                  const glm::ivec2& size_px, bool quick, const Progress& progress) {
+    std::vector<std::pair<std::string, Camera>> views{{"overview", trial.overview}};
+    if (!quick) views.emplace_back("close-up", trial.close_up);
+    const double all = static_cast<double>(2 * views.size() + views.size() * settings.size());
+    double done = 0.0;
+    std::vector<DrawingPoint> points;
+    for (const BoneLook& look : {by_gradient, by_surface_voxels}) {
+        const BoneTextures textures(trial.bone, trial.tissues, look);
+        for (const auto& [view, camera] : views) {
+            const References references = references_of(trial, camera, look, size_px);
+            progress(++done / all);
+            for (const DrawingSetting& setting : settings) {
+                if (!(setting.look == look)) continue;
+                // What takes seconds a frame is steady enough.
+                const bool is_slow = setting.renderer == RendererChoice::slices || !setting.skips;
+                const auto renderer = renderer_of(setting);
+                const TimedPicture drawn =
+                    timed_drawing(*renderer, textures, camera, glm::max(size_px / setting.divisor, 1),
+                                  is_slow ? 0 : (quick ? 3 : 7));
+                const Picture shown = setting.divisor == 1 ? drawn.picture : scaled(drawn.picture, size_px);
+                points.push_back({.bone = trial.name,
+                                  .view = view,
+                                  .setting = setting,
+                                  .frame = drawn.cost,
+                                  .psnr_db = psnr_db(shown, references.model),
+                                  .ssim = ssim(shown, references.model),
+                                  .psnr_trilinear_db = psnr_db(shown, references.trilinear)});
+                progress(++done / all);
+            }
+        }
+    }
+    return points;
+}
+
+std::string csv_of(const std::vector<DrawingPoint>& points) {
+    std::string csv =
+        "panel_number,panel,bone,view,family,label,step_voxels,skips,divisor,frame_ms,frame_cpu_ms,psnr_db,"
+        "ssim,"
+        "psnr_trilinear_db,is_default\n";
+    std::string panel;
+    int panel_number = 0;
+    for (const DrawingPoint& p : by_panel(points)) {
+        if (panel != p.bone + " " + p.view) ++panel_number;
+        panel = p.bone + " " + p.view;
+        csv += fmt::format("{},{},{},{},{},{},{},{},{},{:.3f},{:.3f},{:.3f},{:.5f},{:.3f},{}\n", panel_number,
+                           panel, p.bone, p.view, p.setting.family, p.setting.label, p.setting.step_voxels,
+                           p.setting.skips ? 1 : 0, p.setting.divisor, p.frame.wall_ms, p.frame.cpu_ms,
+                           p.psnr_db, p.ssim, p.psnr_trilinear_db, p.setting.is_default ? 1 : 0);
+    }
+    return csv;
+}
+
+}  // namespace osteomill::study

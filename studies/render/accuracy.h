@@ -1,0 +1,50 @@
+// Speed against accuracy of pictures: for each way to draw a bone the time of a frame and how far the picture
+// is from the reference image.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "render_client/volume/raycast_renderer.h"
+#include "render_client/volume/renderer_choice.h"
+#include "studies/render/reference_image.h"
+#include "studies/render/timed_drawing.h"
+#include "studies/render/trial_bone.h"
+#include "studies/report/progress.h"
+
+namespace osteomill::study {
+
+/// A way to draw.
+struct DrawingSetting {
+    std::string family{};  ///< what it belongs to in the chart: "raycast, gradient" ...
+    std::string label{};   ///< what tells it from the others of its family: "step 0.75" ...
+    RendererChoice renderer = RendererChoice::raycast;
+    BoneLook look{};
+    float step_voxels = RaycastSettings{}.step_voxels;  ///< of rays, or between slices
+    bool skips = true;                                  ///< of rays: empty space
+    int divisor = 1;          ///< width and height are divided by it and the picture is scaled up again
+    bool is_default = false;  ///< what render_client does unless told otherwise
+};
+
+/// Every axis of choice by itself, from the default; fewer where `quick`.
+std::vector<DrawingSetting> drawing_settings(bool quick);
+
+struct DrawingPoint {
+    std::string bone{};
+    std::string view{};  ///< "overview" or "close-up"
+    DrawingSetting setting{};
+    Cost frame{};
+    double psnr_db = 0.0;
+    double ssim = 0.0;
+    /// Against a reference whose normals are the derivative of the trilinear fraction, where normals matter.
+    double psnr_trilinear_db = 0.0;
+};
+
+/// Draws a bone's views in all settings.
+std::vector<DrawingPoint> measure(const TrialBone& trial, const std::vector<DrawingSetting>& settings,
+                                  const glm::ivec2& size_px, bool quick, const Progress& progress);
+
+/// Table with a header.
+std::string csv_of(const std::vector<DrawingPoint>& points);
+
+}  // namespace osteomill::study

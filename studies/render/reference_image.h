@@ -1,0 +1,28 @@
+// The picture that render_client would draw if time were no object: rays in steps of a tenth of a voxel in
+// double precision on the CPU, no skipping, no texture units. The model is that of the shaders: where bone
+// begins, its colours and opacities, the lights, the background. What they approximate it does exactly; what
+// is part of the model (ambient occlusion from a coarse map, surface voxels) it takes from the same bytes.
+#pragma once
+
+#include "render_client/volume/camera.h"
+#include "render_client/volume/picture.h"
+#include "studies/render/reference_volume.h"
+
+namespace osteomill::study {
+
+/// Where a surface's normal comes from.
+enum class ReferenceGradient {
+    trilinear,     ///< the derivative of the interpolated fraction itself
+    eight_corners  ///< the shaders' wider differences, in double precision
+};
+
+struct ReferenceSettings {
+    double step_voxels = 0.1;
+    ReferenceGradient gradient = ReferenceGradient::eight_corners;
+    unsigned threads = 2;  ///< at least 1
+};
+
+Picture reference_image(const ReferenceVolume& volume, const Camera& camera, const glm::ivec2& size_px,
+                        const ReferenceSettings& settings = {});
+
+}  // namespace osteomill::study

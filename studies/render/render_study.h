@@ -1,0 +1,24 @@
+// The study of the pictures: speed against accuracy, frame time against sizes, upload against carve.
+#pragma once
+
+#include <filesystem>
+#include <glm/vec2.hpp>
+#include <optional>
+
+#include "studies/report/surroundings.h"
+
+namespace osteomill::study {
+
+struct RenderStudyOptions {
+    std::filesystem::path out;
+    bool quick = false;                            ///< fewer settings, smaller pictures: under a minute
+    std::optional<glm::ivec2> size_px{};           ///< of the pictures; none: 640 x 480, 240 x 180 if quick
+    std::optional<std::filesystem::path> scans{};  ///< a folder of trial scans; none: the phantom alone
+};
+
+/// Writes render.json, the tables (CSV), the charts (SVG) and pictures (PNG) into `options.out`, a folder
+/// that is there. Throws std::runtime_error in one line naming what cannot be written or read, and
+/// gl::NoOpenGl.
+void run_render_study(const RenderStudyOptions& options, const StudySurroundings& surroundings);
+
+}  // namespace osteomill::study

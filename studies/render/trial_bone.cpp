@@ -1,0 +1,108 @@
+#include "studies/render/trial_bone.h"
+
+#include <cmath>
+#include <fstream>
+#include <glm/geometric.hpp>
+#include <numbers>
+#include <sstream>
+#include <stdexcept>
+
+#include "haptic_server/imaging/import_bone.h"
+#include "haptic_server/imaging/memory_estimate.h"
+#include "haptic_server/imaging/phantom.h"
+#include "haptic_server/program/bone_source.h"
+#include "render_client/volume/voxel_box.h"
+#include "tests/unit/volume/made_bone.h"
+
+namespace osteomill::study {
+
+namespace {
+
+glm::dvec3 middle_mm(const Bone& bone) {
+    const VoxelBox box = stored_box(bone.content());
+    return 0.5 * (centre_of_voxel_mm(bone.grid(), box.first) +
+                  centre_of_voxel_mm(bone.grid(), box.first + box.size - 1));
+}
+
+double radius_mm(const Bone& bone) {
+    const VoxelBox box = stored_box(bone.content());
+    return 0.5 * bone.grid().spacing_mm * glm::length(glm::dvec3(box.size));
+}
+
+/// A view of what is in the middle of another, from there.
+Camera closer(const Camera& view, const glm::dvec3& target_mm, double shown_radius_mm) {
+    Camera camera = camera_on(target_mm, shown_radius_mm);
+    camera.azimuth_rad = view.azimuth_rad;
+    camera.elevation_rad = view.elevation_rad;
+    return camera;
+}
+
+TrialBone with_views(const std::string& name, Bone bone, std::vector<TissueColour> tissues,
+                     double close_radius_mm) {
+    const Camera overview = camera_on(middle_mm(bone), radius_mm(bone));
+    const Camera close_up = closer(overview, seen_point_mm(bone, overview), close_radius_mm);
+    return {name, std::move(bone), std::move(tissues), overview, close_up};
+}
+
+}  // namespace
+
+TrialBone tooth_trial() {
+    const Scene scene = phantom_scene("tooth");
+    std::vector<TissueColour> tissues;
+    for (const Tissue& tissue : scene.tissues) tissues.push_back({tissue.label, tissue.colour_rgb});
+    return with_views("tooth phantom", load_bone(scene).bone, tissues, 7.0);
+}
+
+TrialBone skull_trial(const std::filesystem::path& scans, const std::filesystem::path& folder) {
+    const std::filesystem::path file = folder / "skull.nrrd";
+    std::ostringstream unheard;
+    std::ifstream meminfo("/proc/meminfo");
+    import_bone({.input = scans / "head_ct",
+                 .output = file,
+                 .spacing_mm = 0.1,
+                 .threshold_hu = 300.0,
+                 .region = parse_region("-60,10,730,-20,50,770")},
+                {.messages = unheard, .available_memory_bytes = available_memory_bytes(meminfo)});
+    Scene scene;
+    scene.bone = FileSource{.path = file};
+    Bone bone = load_bone(scene).bone;
+    std::filesystem::remove(file);
+    return with_views("skull CT", std::move(bone), {}, 9.0);
+}
+
+TrialBone gyroid_trial(int edge_voxels) {
+    constexpr double spacing_mm = 0.1;
+    const double half_mm = 0.5 * spacing_mm * edge_voxels;
+    const Grid grid{.size_voxels = glm::ivec3(edge_voxels),
+                    .spacing_mm = spacing_mm,
+                    .origin_mm = glm::dvec3(0.5 * spacing_mm - half_mm)};
+    const double wave_mm = half_mm / std::numbers::pi;  // of a period over 2 pi: one period to the half edge
+    const auto depth = [&](const glm::dvec3& p) {
+        const glm::dvec3 q = p / wave_mm;
+        const double level =
+            std::sin(q.x) * std::cos(q.y) + std::sin(q.y) * std::cos(q.z) + std::sin(q.z) * std::cos(q.x);
+        // About 1.2 is the mean slope of the level there.
+        const double sheet_mm = (0.35 - std::abs(level)) * wave_mm / 1.2;
+        return std::min(sheet_mm, 0.95 * half_mm - glm::length(p));
+    };
+    Bone bone = made_bone(grid, depth);
+    const Camera overview = camera_on(glm::dvec3(0.0), 1.1 * half_mm);
+    return {"gyroid", std::move(bone), {}, overview, overview};
+}
+
+glm::dvec3 seen_point_mm(const Bone& bone, const Camera& camera) {
+    const double step_mm = 0.5 * bone.grid().spacing_mm;
+    for (double distance = 0.0; distance < camera.far_mm; distance += step_mm) {
+        const glm::dvec3 place = camera.eye_mm() + distance * camera.forward();
+        const glm::ivec3 voxel(glm::round(to_voxel_coordinates(bone.grid(), place)));
+        if (bone.fraction_at(voxel) >= 128) return place;
+    }
+    throw std::runtime_error("the view's middle shows no bone");
+}
+
+std::vector<BrickIndex> carve_in_view(TrialBone& trial, double diameter_mm) {
+    const glm::dvec3 centre_mm = seen_point_mm(trial.bone, trial.close_up);
+    return carve_sphere(trial.bone, centre_mm, 0.5 * diameter_mm);
+}
+
+}  // namespace osteomill::study

@@ -1,0 +1,19 @@
+// The regions of stability as boxes for a chart: a panel for each method, resistance (or a wall's stiffness)
+// along x, milling rate and delay along y, and in each row a strip for each grip.
+#pragma once
+
+#include <string>
+
+#include "studies/stability/map/merge.h"
+
+namespace osteomill::study {
+
+/// number,method,grip,x_low,x_high,y,stable: a box for each run of neighbouring points of the map's part in
+/// that scene that are alike. x in N s/m or N/mm, boxes meeting halfway (on a logarithmic scale) between
+/// points; y is the strip's middle, strips of a row 0.3 apart; grip 1 to 3 in the order of map_grips().
+std::string region_csv_of(const WholeMap& map, MapScene scene);
+
+/// y,label: of the rows above.
+std::string region_rows_csv(const WholeMap& map);
+
+}  // namespace osteomill::study

@@ -1,0 +1,57 @@
+#include "studies/stability/map/shard.h"
+
+#include <fmt/format.h>
+#include <xxhash.h>
+
+#include <algorithm>
+#include <charconv>
+#include <numeric>
+#include <stdexcept>
+#include <string_view>
+
+#include "studies/stability/map/map_text.h"
+
+namespace osteomill::study {
+
+namespace {
+
+std::size_t whole_number(std::string_view text) {
+    std::size_t value = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    return error == std::errc() && end == text.data() + text.size() ? value : 0;
+}
+
+XXH64_hash_t hash_of(const std::string& text) {
+    return XXH3_64bits(text.data(), text.size());
+}
+
+}  // namespace
+
+Shard shard_named(const std::string& text) {
+    const std::size_t slash = std::min(text.find('/'), text.size());
+    const std::string_view of = std::string_view(text).substr(std::min(slash + 1, text.size()));
+    const Shard shard{whole_number(std::string_view(text).substr(0, slash)), whole_number(of)};
+    if (shard.number < 1 || shard.number > shard.of)
+        throw std::invalid_argument("'" + text + "' is no part I/N with 1 <= I <= N, such as 2/8");
+    return shard;
+}
+
+std::vector<std::size_t> cases_of(const Shard& shard, const std::vector<MapPoint>& points) {
+    std::vector<XXH64_hash_t> lots;
+    for (const MapPoint& point : points) lots.push_back(hash_of(json_of(point).dump()));
+    std::vector<std::size_t> drawn(points.size());
+    std::iota(drawn.begin(), drawn.end(), std::size_t{0});
+    std::stable_sort(drawn.begin(), drawn.end(),
+                     [&](std::size_t a, std::size_t b) { return lots[a] < lots[b]; });
+    std::vector<std::size_t> mine;
+    for (std::size_t i = shard.number - 1; i < drawn.size(); i += shard.of) mine.push_back(drawn[i]);
+    return mine;
+}
+
+std::string fingerprint_of(const std::vector<MapPoint>& points) {
+    std::string all = json_of(MapOutcome{}).dump();
+    for (const MapPoint& point : points) all += json_of(point).dump();
+    return fmt::format("{:016x}", hash_of(all));
+}
+
+}  // namespace osteomill::study

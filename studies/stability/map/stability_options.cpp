@@ -1,0 +1,78 @@
+#include "studies/stability/map/stability_options.h"
+
+#include <algorithm>
+#include <stdexcept>
+#include <string>
+#include <thread>
+
+#include "studies/stability/map/map_text.h"
+
+namespace osteomill::study {
+
+namespace {
+
+std::vector<std::string> grip_names() {
+    std::vector<std::string> names;
+    for (const MapGrip grip : map_grips()) names.push_back(name_of(grip));
+    return names;
+}
+
+void set_shard(Shard& shard, const std::string& text) {
+    try {
+        shard = shard_named(text);
+    } catch (const std::invalid_argument& error) {
+        throw CLI::ValidationError("--shard", error.what());
+    }
+}
+
+void set_grips(std::vector<MapGrip>& grips, const std::vector<std::string>& names) {
+    for (const std::string& name : names) grips.push_back(grip_named(name));
+}
+
+}  // namespace
+
+CLI::App* add_stability(CLI::App& app, StabilityCommand& command) {
+    StabilityStudyOptions& run = command.run;
+    MapSelection& selection = run.selection;
+    run.jobs = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+    CLI::App* const stability = app.add_subcommand(
+        "stability", "the stability map: which coupling holds where, and how true it is there");
+    stability
+        ->add_option("--out", run.out,
+                     "folder for what the study writes; made if it is not there. Cases that an earlier run "
+                     "left there are not run again")
+        ->capture_default_str();
+    CLI::Option* const merge = stability->add_option(
+        "--merge", command.merge,
+        "join parts that ran apart, files of cases or folders that hold them, and write the results");
+    merge->expected(1, -1);
+    // What is run is known from the parts when they are joined.
+    const auto of_a_run = [&](CLI::Option* option) { return option->excludes(merge); };
+    of_a_run(stability->add_flag("--quick", selection.quick, "a coarser map: a minute on two cores"));
+    of_a_run(stability->add_option("--jobs", run.jobs, "cases that run at a time"))
+        ->capture_default_str()
+        ->check(CLI::Range(1, 1024));
+    of_a_run(stability->add_option_function<std::string>(
+        "--shard", [&run](const std::string& text) { set_shard(run.shard, text); },
+        "run part I of N only: I/N"));
+    of_a_run(stability->add_option("--methods", selection.methods,
+                                   "only these couplings of the map, with commas between"))
+        ->delimiter(',')
+        ->check(CLI::IsMember(map_methods()));
+    of_a_run(stability->add_option_function<std::vector<std::string>>(
+                 "--grips",
+                 [&selection](const std::vector<std::string>& names) { set_grips(selection.grips, names); },
+                 "only these grips"))
+        ->delimiter(',')
+        ->check(CLI::IsMember(grip_names()));
+    of_a_run(stability->add_option("--milling-rates-hz", selection.milling_rates_hz,
+                                   "only these rates of the milling loop"))
+        ->delimiter(',')
+        ->check(CLI::IsMember(map_milling_rates_hz()));
+    of_a_run(stability->add_option("--delays", selection.delays_ticks, "only these delays, in haptic ticks"))
+        ->delimiter(',')
+        ->check(CLI::IsMember(map_delays_ticks()));
+    return stability;
+}
+
+}  // namespace osteomill::study

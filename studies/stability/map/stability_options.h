@@ -1,0 +1,20 @@
+// `osteomill_study stability` on the command line.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <vector>
+
+#include "studies/stability/map/stability_study.h"
+
+namespace osteomill::study {
+
+struct StabilityCommand {
+    StabilityStudyOptions run{};
+    std::vector<std::filesystem::path> merge{};  ///< empty: run; else join these
+};
+
+/// The subcommand, which fills in `command`; both outlive parsing.
+CLI::App* add_stability(CLI::App& app, StabilityCommand& command);
+
+}  // namespace osteomill::study

@@ -1,0 +1,80 @@
+#include "studies/stability/map/stability_study.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <ostream>
+#include <stdexcept>
+
+#include "haptic_server/imaging/progress.h"
+#include "studies/report/chart.h"
+#include "studies/report/output_files.h"
+#include "studies/report/time_left.h"
+#include "studies/stability/map/case_file.h"
+#include "studies/stability/map/map_summary.h"
+#include "studies/stability/map/map_table.h"
+#include "studies/stability/map/merge.h"
+#include "studies/stability/map/method_score.h"
+#include "studies/stability/map/region_table.h"
+
+namespace osteomill::study {
+
+namespace {
+
+void write_results(const WholeMap& map, const std::filesystem::path& out,
+                   const StudySurroundings& surroundings) {
+    write_text(map_csv_of(map), out / "map.csv");
+    write_json(summary_of(map), out / "map.json");
+    write_text(region_csv_of(map, MapScene::cutting), out / "regions_cutting.csv");
+    write_text(region_csv_of(map, MapScene::wall), out / "regions_wall.csv");
+    write_text(region_rows_csv(map), out / "region_rows.csv");
+    write_text(pareto_csv_of(method_scores(map, MapPart::map, MapScene::cutting)),
+               out / "pareto_cutting.csv");
+    write_text(pareto_csv_of(method_scores(map, MapPart::map, MapScene::wall)), out / "pareto_wall.csv");
+    write_text(error_csv_of(map), out / "errors.csv");
+    const std::filesystem::path scripts = chart_scripts();
+    for (const char* chart : {"map_cutting", "map_wall", "map_pareto", "map_errors"})
+        draw_chart(scripts, chart, out);
+    surroundings.said << summary_text_of(map)
+                      << fmt::format("map.json, tables (CSV) and charts (SVG) are in {}\n", out.string());
+}
+
+}  // namespace
+
+void run_stability_study(const StabilityStudyOptions& options, const RunCase& run, const StudyClock& now_s,
+                         const StudySurroundings& surroundings) {
+    const std::vector<MapPoint> points = map_points(options.selection);
+    if (points.empty()) throw std::runtime_error("nothing of the map is selected");
+    const std::filesystem::path file = case_file_of(options.shard, options.out);
+    {
+        CaseFileWriter writer(file, options.selection, points, options.shard);
+        std::vector<std::size_t> to_do = cases_of(options.shard, points);
+        const std::size_t all = to_do.size();
+        std::erase_if(to_do, [&](std::size_t index) { return writer.done_before().contains(index); });
+        const std::size_t done_before = all - to_do.size();
+        if (done_before > 0)
+            surroundings.said << fmt::format("{} of {} cases are done in {}\n", done_before, all,
+                                             file.string());
+        ProgressLine line(surroundings.progress, surroundings.is_terminal, "cases");
+        const double start_s = now_s();
+        std::size_t done = 0;
+        sweep(points, to_do, options.jobs, run, [&](std::size_t index, const MapOutcome& outcome) {
+            writer.append(index, outcome);
+            ++done;
+            line.report(static_cast<double>(done_before + done) / static_cast<double>(all),
+                        time_left(done, to_do.size(), now_s() - start_s));
+        });
+    }
+    if (options.shard.of == 1)
+        write_results(merge({file}), options.out, surroundings);
+    else
+        surroundings.said << fmt::format("part {} of {} is in {}; join the parts with --merge\n",
+                                         options.shard.number, options.shard.of, file.string());
+}
+
+void merge_stability_study(const std::vector<std::filesystem::path>& parts, const std::filesystem::path& out,
+                           const StudySurroundings& surroundings) {
+    write_results(merge(parts), out, surroundings);
+}
+
+}  // namespace osteomill::study
