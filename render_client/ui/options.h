@@ -11,8 +11,8 @@
 #include "render_client/ui/cut_settings.h"
 #include "render_client/ui/theme.h"
 #include "render_client/volume/bone_look.h"
-#include "render_client/volume/renderer_choice.h"
-#include "render_client/volume/texture_plan.h"
+#include "render_client/volume/passes/renderer_choice.h"
+#include "render_client/volume/textures/texture_plan.h"
 
 namespace osteomill {
 

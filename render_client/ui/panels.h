@@ -10,7 +10,7 @@
 
 #include "render_client/ui/theme.h"
 #include "render_client/ui/window_input.h"
-#include "render_client/volume/pixel_box.h"
+#include "render_client/volume/passes/pixel_box.h"
 
 namespace osteomill {
 

@@ -7,7 +7,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
-#include "render_client/volume/tool_renderer.h"
+#include "render_client/volume/tool/tool_renderer.h"
 
 namespace osteomill {
 

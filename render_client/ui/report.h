@@ -7,7 +7,7 @@
 #include <string>
 
 #include "render_client/ui/frame_times.h"
-#include "render_client/volume/texture_plan.h"
+#include "render_client/volume/textures/texture_plan.h"
 
 namespace osteomill {
 

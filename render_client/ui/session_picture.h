@@ -10,8 +10,8 @@
 #include "render_client/ui/session_source.h"
 #include "render_client/volume/gl/draw_timer.h"
 #include "render_client/volume/gl/offscreen_context.h"
-#include "render_client/volume/renderer_choice.h"
-#include "render_client/volume/scene_picture.h"
+#include "render_client/volume/passes/renderer_choice.h"
+#include "render_client/volume/passes/scene_picture.h"
 
 namespace osteomill {
 

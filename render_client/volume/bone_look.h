@@ -7,7 +7,7 @@
 
 #include "render_client/volume/bone_colours.h"
 #include "render_client/volume/transfer_function.h"
-#include "render_client/volume/voxel_box.h"
+#include "render_client/volume/textures/voxel_box.h"
 
 namespace osteomill {
 

@@ -5,7 +5,7 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
-#include "render_client/volume/voxel_box.h"
+#include "render_client/volume/textures/voxel_box.h"
 
 namespace osteomill {
 

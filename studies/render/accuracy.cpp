@@ -7,7 +7,7 @@
 #include <set>
 #include <thread>
 
-#include "render_client/volume/slice_renderer.h"
+#include "render_client/volume/passes/slice_renderer.h"
 #include "studies/render/picture_difference.h"
 
 namespace osteomill::study {

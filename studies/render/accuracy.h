@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "render_client/volume/raycast_renderer.h"
-#include "render_client/volume/renderer_choice.h"
+#include "render_client/volume/passes/raycast_renderer.h"
+#include "render_client/volume/passes/renderer_choice.h"
 #include "studies/render/reference_image.h"
 #include "studies/render/timed_drawing.h"
 #include "studies/render/trial_bone.h"

@@ -4,7 +4,7 @@
 
 #include "render_client/volume/gl/framebuffer.h"
 #include "render_client/volume/png_file.h"
-#include "render_client/volume/renderer_choice.h"
+#include "render_client/volume/passes/renderer_choice.h"
 
 namespace osteomill::study {
 

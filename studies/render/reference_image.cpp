@@ -10,7 +10,7 @@
 #include <thread>
 #include <vector>
 
-#include "render_client/volume/lighting.h"
+#include "render_client/volume/shaders/lighting.h"
 
 namespace osteomill::study {
 

@@ -5,7 +5,7 @@
 #include <glm/geometric.hpp>
 #include <stdexcept>
 
-#include "render_client/volume/visible_bone.h"
+#include "render_client/volume/textures/visible_bone.h"
 
 namespace osteomill::study {
 

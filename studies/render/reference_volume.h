@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "render_client/volume/bone_look.h"
-#include "render_client/volume/empty_space.h"
-#include "render_client/volume/surface_voxels.h"
+#include "render_client/volume/textures/empty_space.h"
+#include "render_client/volume/textures/surface_voxels.h"
 
 namespace osteomill::study {
 

@@ -4,7 +4,7 @@
 #include <functional>
 #include <glm/vec2.hpp>
 
-#include "render_client/volume/bone_renderer.h"
+#include "render_client/volume/passes/bone_renderer.h"
 #include "render_client/volume/gl/framebuffer.h"
 
 namespace osteomill::study {

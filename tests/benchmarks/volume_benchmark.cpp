@@ -17,7 +17,7 @@
 #include "haptic_server/imaging/phantom.h"
 #include "render_client/volume/gl/framebuffer.h"
 #include "render_client/volume/gl/offscreen_context.h"
-#include "render_client/volume/raycast_renderer.h"
+#include "render_client/volume/passes/raycast_renderer.h"
 
 namespace osteomill {
 namespace {

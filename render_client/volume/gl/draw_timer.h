@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <chrono>
 
-#include "render_client/volume/stopwatch.h"
+#include "render_client/volume/passes/stopwatch.h"
 
 namespace osteomill::gl {
 

@@ -6,7 +6,7 @@
 #include <glm/vec2.hpp>
 
 #include "render_client/volume/picture.h"
-#include "render_client/volume/pixel_box.h"
+#include "render_client/volume/passes/pixel_box.h"
 
 namespace osteomill::gl {
 

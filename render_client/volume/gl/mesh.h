@@ -3,7 +3,7 @@
 
 #include <epoxy/gl.h>
 
-#include "render_client/volume/triangles.h"
+#include "render_client/volume/tool/triangles.h"
 
 namespace osteomill::gl {
 

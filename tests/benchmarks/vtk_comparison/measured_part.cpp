@@ -7,7 +7,7 @@
 #include <stdexcept>
 
 #include "render_client/volume/png_file.h"
-#include "render_client/volume/voxel_box.h"
+#include "render_client/volume/textures/voxel_box.h"
 #include "tests/benchmarks/phantom_session.h"
 #include "tests/benchmarks/vtk_comparison/measured_picture.h"
 

@@ -1,6 +1,6 @@
 #include "render_client/volume/gl/offscreen_context.h"
-#include "render_client/volume/raycast_renderer.h"
-#include "render_client/volume/scene_picture.h"
+#include "render_client/volume/passes/raycast_renderer.h"
+#include "render_client/volume/passes/scene_picture.h"
 #include "tests/benchmarks/vtk_comparison/measured_picture.h"
 
 namespace osteomill {

@@ -16,7 +16,7 @@
 #include <algorithm>
 #include <glm/trigonometric.hpp>
 
-#include "render_client/volume/voxel_box.h"
+#include "render_client/volume/textures/voxel_box.h"
 #include "tests/benchmarks/vtk_comparison/measured_picture.h"
 
 namespace osteomill {

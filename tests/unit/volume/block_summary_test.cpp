@@ -1,4 +1,4 @@
-#include "render_client/volume/block_summary.h"
+#include "render_client/volume/textures/block_summary.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "render_client/volume/bone_textures.h"
+#include "render_client/volume/textures/bone_textures.h"
 
 #include "tests/unit/volume/made_bone.h"
 #include "tests/unit/volume/offscreen_test.h"

@@ -1,4 +1,4 @@
-#include "render_client/volume/changed_voxels.h"
+#include "render_client/volume/textures/changed_voxels.h"
 
 #include <gtest/gtest.h>
 

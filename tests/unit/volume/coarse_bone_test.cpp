@@ -1,4 +1,4 @@
-#include "render_client/volume/coarse_bone.h"
+#include "render_client/volume/textures/coarse_bone.h"
 
 #include <gtest/gtest.h>
 

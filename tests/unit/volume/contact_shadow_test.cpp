@@ -1,6 +1,6 @@
-#include "render_client/volume/contact_shadow.h"
+#include "render_client/volume/passes/contact_shadow.h"
 
-#include "render_client/volume/raycast_renderer.h"
+#include "render_client/volume/passes/raycast_renderer.h"
 #include "tests/unit/volume/made_bone.h"
 #include "tests/unit/volume/offscreen_test.h"
 

@@ -1,4 +1,4 @@
-#include "render_client/volume/detail_control.h"
+#include "render_client/volume/passes/detail_control.h"
 
 #include <gtest/gtest.h>
 

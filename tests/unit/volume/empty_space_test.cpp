@@ -1,4 +1,4 @@
-#include "render_client/volume/empty_space.h"
+#include "render_client/volume/textures/empty_space.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "render_client/volume/raycast_renderer.h"
+#include "render_client/volume/passes/raycast_renderer.h"
 
 #include <cmath>
 #include <cstdlib>

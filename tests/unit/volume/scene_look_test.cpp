@@ -2,8 +2,8 @@
 
 #include <cmath>
 
-#include "render_client/volume/raycast_renderer.h"
-#include "render_client/volume/scene_picture.h"
+#include "render_client/volume/passes/raycast_renderer.h"
+#include "render_client/volume/passes/scene_picture.h"
 #include "tests/unit/volume/made_bone.h"
 #include "tests/unit/volume/offscreen_test.h"
 

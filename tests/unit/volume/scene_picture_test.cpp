@@ -1,11 +1,11 @@
-#include "render_client/volume/scene_picture.h"
+#include "render_client/volume/passes/scene_picture.h"
 
 #include <array>
 #include <cmath>
 
-#include "render_client/volume/pixel_box.h"
-#include "render_client/volume/raycast_renderer.h"
-#include "render_client/volume/renderer_choice.h"
+#include "render_client/volume/passes/pixel_box.h"
+#include "render_client/volume/passes/raycast_renderer.h"
+#include "render_client/volume/passes/renderer_choice.h"
 #include "tests/unit/volume/made_bone.h"
 #include "tests/unit/volume/offscreen_test.h"
 

@@ -1,4 +1,4 @@
-#include "render_client/volume/slice_renderer.h"
+#include "render_client/volume/passes/slice_renderer.h"
 
 #include <array>
 #include <cmath>
@@ -6,7 +6,7 @@
 #include <memory>
 
 #include "render_client/volume/gl/framebuffer.h"
-#include "render_client/volume/renderer_choice.h"
+#include "render_client/volume/passes/renderer_choice.h"
 #include "tests/unit/volume/made_bone.h"
 #include "tests/unit/volume/offscreen_test.h"
 

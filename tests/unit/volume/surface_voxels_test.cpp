@@ -1,11 +1,11 @@
-#include "render_client/volume/surface_voxels.h"
+#include "render_client/volume/textures/surface_voxels.h"
 
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "render_client/volume/changed_voxels.h"
-#include "render_client/volume/lighting.h"
-#include "render_client/volume/surface_texture.h"
+#include "render_client/volume/textures/changed_voxels.h"
+#include "render_client/volume/shaders/lighting.h"
+#include "render_client/volume/textures/surface_texture.h"
 #include "tests/unit/volume/made_bone.h"
 #include "tests/unit/volume/offscreen_test.h"
 

@@ -1,8 +1,8 @@
-#include "render_client/volume/texture_plan.h"
+#include "render_client/volume/textures/texture_plan.h"
 
 #include <gtest/gtest.h>
 
-#include "render_client/volume/coarse_bone.h"
+#include "render_client/volume/textures/coarse_bone.h"
 #include "tests/unit/volume/made_bone.h"
 
 namespace osteomill {

@@ -1,4 +1,4 @@
-#include "render_client/volume/tile_mask.h"
+#include "render_client/volume/passes/tile_mask.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "render_client/volume/tool_shape.h"
+#include "render_client/volume/tool/tool_shape.h"
 
 #include <gtest/gtest.h>
 

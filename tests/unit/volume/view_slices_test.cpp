@@ -1,4 +1,4 @@
-#include "render_client/volume/view_slices.h"
+#include "render_client/volume/passes/view_slices.h"
 
 #include <gtest/gtest.h>
 

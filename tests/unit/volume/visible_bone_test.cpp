@@ -1,4 +1,4 @@
-#include "render_client/volume/visible_bone.h"
+#include "render_client/volume/textures/visible_bone.h"
 
 #include <gtest/gtest.h>
 

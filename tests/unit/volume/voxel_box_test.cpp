@@ -1,4 +1,4 @@
-#include "render_client/volume/voxel_box.h"
+#include "render_client/volume/textures/voxel_box.h"
 
 #include <gtest/gtest.h>
 

@@ -1,0 +1,208 @@
+#include "render_client/volume/passes/bone_layer.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
+
+#include "render_client/volume/textures/block_summary.h"
+#include "render_client/volume/shaders/bone_sampling_shader.h"
+
+namespace osteomill {
+
+namespace {
+
+/// Frames without motion before refining starts: while the view is being turned, some frames see no motion,
+/// and pieces that become sharp in them and blurred in the next would flicker.
+constexpr int frames_before_refining = 2;
+
+/// Coarse pixels drawn round those that are needed: interpolation reads them.
+constexpr int coarse_margin_px = 2;
+
+glm::ivec2 divided(const glm::ivec2& size_px, double divisor) {
+    return glm::max(glm::ivec2(glm::ceil(glm::dvec2(size_px) / divisor)), 1);
+}
+
+/// The pixels of a coarse picture that are needed to show a box of the fine one.
+PixelBox in_coarse(const PixelBox& box, const glm::ivec2& fine_px, const glm::ivec2& coarse_px) {
+    const glm::dvec2 ratio = glm::dvec2(coarse_px) / glm::dvec2(fine_px);
+    const glm::ivec2 low = glm::ivec2(glm::floor(glm::dvec2(box.first) * ratio)) - coarse_margin_px;
+    const glm::ivec2 high =
+        glm::ivec2(glm::ceil(glm::dvec2(box.first + box.size) * ratio)) + coarse_margin_px;
+    const glm::ivec2 first = glm::max(low, 0);
+    return {first, glm::min(high, coarse_px) - first};
+}
+
+/// A change is felt as far as its block is: what shading reads are means over blocks, counted from `origin`.
+VoxelBox in_whole_blocks(const VoxelBox& box, const glm::ivec3& origin) {
+    const glm::ivec3 first = (box.first - origin) / block_edge_voxels * block_edge_voxels;
+    const glm::ivec3 end = box.first + box.size - origin + (block_edge_voxels - 1);
+    return {origin + first, end / block_edge_voxels * block_edge_voxels - first};
+}
+
+}  // namespace
+
+BoneLayer::BoneLayer(BoneRenderer& renderer, const glm::ivec2& size_px, Stopwatch* stopwatch)
+    : renderer_(renderer), stopwatch_(stopwatch), layer_(size_px), coarse_({1, 1}), stale_(size_px) {}
+
+void BoneLayer::resize(const glm::ivec2& size_px) {
+    layer_ = gl::Framebuffer(size_px);
+    stale_ = TileMask(size_px);
+    camera_.reset();
+}
+
+void BoneLayer::set_look(const SceneLook& look) {
+    if (look == renderer_.look()) return;
+    renderer_.set_look(look);
+    forget();
+}
+
+void BoneLayer::forget() {
+    camera_.reset();
+    dirty_.clear();
+}
+
+void BoneLayer::mark_dirty(const BoneTextures& bone, std::span<const VoxelBox> changed) {
+    for (const VoxelBox& box : changed) dirty_.push_back(in_whole_blocks(box, bone.box().first));
+}
+
+TileMask BoneLayer::update(const BoneTextures& bone, const Camera& camera) {
+    learn();
+    drawn_this_frame_px_ = 0;
+    measures_this_frame_ = false;
+    const bool moved = camera_ != camera;
+    TileMask fresh(size_px());
+    TileMask misplaced(size_px());  // shows a surface where there is none any more
+    if (moved) {
+        fresh.mark_all();
+        misplaced = fresh;
+    } else {
+        fresh = tiles_of_changes(bone, camera, shading_reach_voxels);
+        misplaced = tiles_of_changes(bone, camera, surface_reach_voxels);
+    }
+    dirty_.clear();
+    camera_ = camera;
+    frames_at_rest_ = moved ? 0 : frames_at_rest_ + 1;
+    if (!stale_.any()) coarsest_divisor_ = 1.0;
+    stale_ |= fresh;
+    if (!stale_.any()) return stale_;
+
+    const Extent extent = moved ? Extent::whole : Extent::parts;
+    const bool fits = !stopwatch_ || (moved ? control_.divisor_for(extent, stale_.pixels()) == 1.0
+                                            : stale_.pixels() <= control_.affordable_pixels(extent));
+    if (fits) {
+        const TileMask drawn = stale_;
+        draw_exact(bone, camera, drawn, extent);
+        return drawn;
+    }
+    std::int64_t room_px = control_.affordable_pixels(extent);
+    TileMask exact(size_px());
+    if (misplaced.any()) {
+        const double divisor = control_.divisor_for(extent, misplaced.pixels());
+        if (divisor == 1.0)
+            exact = misplaced;
+        else
+            room_px -= draw_coarse(bone, camera, misplaced, extent, divisor);
+    }
+    // What was drawn coarsely just now is about to change again: not worth refining.
+    if (frames_at_rest_ >= frames_before_refining)
+        exact |= part_that_fits(TileMask(stale_) -= misplaced, room_px - exact.pixels());
+    draw_exact(bone, camera, exact, extent);
+    return exact |= misplaced;
+}
+
+void BoneLayer::learn() {
+    if (!stopwatch_ || !measured_) return;
+    const std::optional<double> took_s = stopwatch_->take_s();
+    if (!took_s) return;
+    control_.drew(measured_->extent, measured_->pixels, *took_s);
+    if (frame_s_) {
+        // What was drawn besides in that frame cost about as much a pixel.
+        const double all_drawing_s = *took_s * static_cast<double>(measured_->pixels_of_frame) /
+                                     static_cast<double>(measured_->pixels);
+        control_.frame_took(*frame_s_, all_drawing_s);
+    }
+    measured_.reset();
+}
+
+void BoneLayer::frame_took(double frame_s) {
+    if (measures_this_frame_) frame_s_ = frame_s;
+    if (drawn_this_frame_px_ == 0) control_.frame_took(frame_s, 0.0);
+}
+
+TileMask BoneLayer::tiles_of_changes(const BoneTextures& bone, const Camera& camera, int reach_voxels) const {
+    TileMask tiles(size_px());
+    const glm::dmat4 to_clip = camera.projection(size_px()) * camera.view();
+    const double reach = reach_voxels + 0.5;  // a voxel's faces are half a voxel from its centre
+    const Grid& grid = bone.grid();
+    for (const VoxelBox& box : dirty_) {
+        const glm::dvec3 low_mm = centre_of_voxel_mm(grid, box.first) - reach * grid.spacing_mm;
+        const glm::dvec3 high_mm =
+            centre_of_voxel_mm(grid, box.first + box.size - 1) + reach * grid.spacing_mm;
+        mark_box(tiles, low_mm, high_mm, to_clip);
+    }
+    return tiles;
+}
+
+void BoneLayer::draw_exact(const BoneTextures& bone, const Camera& camera, const TileMask& tiles,
+                           Extent extent) {
+    stale_ -= tiles;
+    draw_timed(bone, camera, layer_, tiles.rectangles(), extent);
+}
+
+std::int64_t BoneLayer::draw_coarse(const BoneTextures& bone, const Camera& camera, const TileMask& tiles,
+                                    Extent extent, double divisor) {
+    coarsest_divisor_ = tiles == stale_ ? divisor : std::max(coarsest_divisor_, divisor);
+    const glm::ivec2 size = divided(size_px(), divisor);
+    if (size != coarse_.size_px()) coarse_ = gl::Framebuffer(size);
+    const std::vector<PixelBox> boxes = tiles.rectangles();
+    std::vector<PixelBox> coarse_boxes;
+    for (const PixelBox& box : boxes) coarse_boxes.push_back(in_coarse(box, size_px(), size));
+    const std::int64_t drawn_px = draw_timed(bone, camera, coarse_, coarse_boxes, extent);
+    magnifier_.draw(coarse_, layer_, boxes);
+    return drawn_px;
+}
+
+std::int64_t BoneLayer::draw_timed(const BoneTextures& bone, const Camera& camera,
+                                   const gl::Framebuffer& target, std::span<const PixelBox> boxes,
+                                   Extent extent) {
+    if (boxes.empty()) return 0;
+    const bool measures = stopwatch_ && !measured_;
+    std::int64_t pixels = 0;
+    target.bind();
+    if (measures) stopwatch_->start();
+    glEnable(GL_SCISSOR_TEST);
+    for (const PixelBox& box : boxes) {
+        glScissor(box.first.x, box.first.y, box.size.x, box.size.y);
+        renderer_.draw(bone, camera, target.size_px());
+        pixels += box.count();
+    }
+    glDisable(GL_SCISSOR_TEST);
+    drawn_this_frame_px_ += pixels;
+    if (measures) {
+        stopwatch_->stop();
+        measured_ = Measured{.extent = extent, .pixels = pixels};
+        measures_this_frame_ = true;
+        frame_s_.reset();
+    }
+    if (measures_this_frame_) measured_->pixels_of_frame = drawn_this_frame_px_;
+    return pixels;
+}
+
+TileMask BoneLayer::part_that_fits(const TileMask& tiles, std::int64_t room_px) {
+    TileMask part(size_px());
+    std::vector<std::size_t> waiting = tiles.tiles();
+    std::rotate(waiting.begin(), std::lower_bound(waiting.begin(), waiting.end(), next_tile_), waiting.end());
+    for (const std::size_t tile : waiting) {
+        next_tile_ = tile;
+        if (room_px <= 0) break;
+        part.mark(tiles.box_of_tile(tile));
+        room_px -= tiles.box_of_tile(tile).count();
+    }
+    return part;
+}
+
+PictureQuality BoneLayer::quality() const {
+    return stale_.any() ? PictureQuality{1.0 / coarsest_divisor_, false} : PictureQuality{};
+}
+
+}  // namespace osteomill

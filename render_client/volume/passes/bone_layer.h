@@ -1,0 +1,86 @@
+// The bone's part of the picture, kept from frame to frame: only what a change can be seen in is drawn again.
+//
+// Each tile of the picture is either exact, as the renderer would draw it now, or stale. What turns stale
+// (all of it when the camera moves; under a still camera the tiles whose rays, or whose shading, can meet a
+// changed brick) is drawn again at once where time allows. Where it does not, what shows a surface
+// that is no longer there is drawn at a lower resolution and magnified; tiles in which a carve nearby changes
+// no more than the ambient light stay as they are; and all of them become exact piece by piece, as frames
+// have room, once the camera rests.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "render_client/volume/passes/bone_renderer.h"
+#include "render_client/volume/passes/detail_control.h"
+#include "render_client/volume/gl/framebuffer.h"
+#include "render_client/volume/passes/magnifier.h"
+#include "render_client/volume/picture_quality.h"
+#include "render_client/volume/passes/stopwatch.h"
+#include "render_client/volume/passes/tile_mask.h"
+
+namespace osteomill {
+
+class BoneLayer {
+  public:
+    /// `stopwatch` makes it draw on demand, at whatever quality keeps the rate of frames; null: always in
+    /// full, however long it takes. Both must outlive the layer. The size is at least one pixel each way.
+    BoneLayer(BoneRenderer& renderer, const glm::ivec2& size_px, Stopwatch* stopwatch);
+
+    void resize(const glm::ivec2& size_px);
+    /// Cuts and background; another look than before makes all of it stale.
+    void set_look(const SceneLook& look);
+    const SceneLook& look() const { return renderer_.look(); }
+    /// Another bone: all of it is stale.
+    void forget();
+    /// These voxels of `bone` changed since the last update: what its own update returned.
+    void mark_dirty(const BoneTextures& bone, std::span<const VoxelBox> changed);
+
+    /// Draws what is due. Returns the tiles that look different from before. Leaves some framebuffer bound.
+    TileMask update(const BoneTextures& bone, const Camera& camera);
+    /// How long a whole frame took, waiting excluded: what is not drawing of bone is not to be had for it.
+    void frame_took(double frame_s);
+
+    PictureQuality quality() const;
+    /// Background and bone of the last update, colour and depth.
+    const gl::Framebuffer& framebuffer() const { return layer_; }
+    const glm::ivec2& size_px() const { return layer_.size_px(); }
+
+  private:
+    struct Measured {
+        Extent extent;
+        std::int64_t pixels;
+        std::int64_t pixels_of_frame = 0;  ///< with what else was drawn in that frame
+    };
+
+    void learn();
+    TileMask tiles_of_changes(const BoneTextures& bone, const Camera& camera, int reach_voxels) const;
+    void draw_exact(const BoneTextures& bone, const Camera& camera, const TileMask& tiles, Extent extent);
+    /// These return the pixels that they drew.
+    std::int64_t draw_coarse(const BoneTextures& bone, const Camera& camera, const TileMask& tiles,
+                             Extent extent, double divisor);
+    std::int64_t draw_timed(const BoneTextures& bone, const Camera& camera, const gl::Framebuffer& target,
+                            std::span<const PixelBox> boxes, Extent extent);
+    /// Takes turns: what did not fit comes first the next time.
+    TileMask part_that_fits(const TileMask& tiles, std::int64_t room_px);
+
+    BoneRenderer& renderer_;
+    Stopwatch* stopwatch_;
+    Magnifier magnifier_;
+    DetailControl control_;
+    gl::Framebuffer layer_;
+    gl::Framebuffer coarse_;  ///< where stale parts are drawn before they are magnified
+    TileMask stale_;
+    double coarsest_divisor_ = 1.0;  ///< among the stale tiles
+    std::size_t next_tile_ = 0;      ///< whose turn it is to be refined
+    std::vector<VoxelBox> dirty_;  ///< voxels of the bone's grid, whole blocks: shading reads means over them
+    std::optional<Camera> camera_;  ///< that the layer shows; none: there is nothing in it yet
+    int frames_at_rest_ = 0;
+    std::int64_t drawn_this_frame_px_ = 0;
+    bool measures_this_frame_ = false;
+    std::optional<Measured> measured_;  ///< what the stopwatch runs, or ran, for
+    std::optional<double> frame_s_;     ///< how long that frame took
+};
+
+}  // namespace osteomill

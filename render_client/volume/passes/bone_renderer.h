@@ -1,0 +1,27 @@
+// What draws the bone into a picture: one interface for every way of doing it.
+#pragma once
+
+#include <glm/vec2.hpp>
+
+#include "render_client/volume/textures/bone_textures.h"
+#include "render_client/volume/camera.h"
+#include "render_client/volume/scene_look.h"
+
+namespace osteomill {
+
+class BoneRenderer {
+  public:
+    virtual ~BoneRenderer() = default;
+    /// Draws background and bone, colour and depth, over the whole viewport of `size_px` in the bound
+    /// framebuffer, or over the part of it that glScissor leaves. Depth is that of Camera::projection.
+    virtual void draw(const BoneTextures& bone, const Camera& camera, const glm::ivec2& size_px) = 0;
+
+    /// From the next draw on.
+    void set_look(const SceneLook& look) { look_ = look; }
+    const SceneLook& look() const { return look_; }
+
+  private:
+    SceneLook look_;
+};
+
+}  // namespace osteomill

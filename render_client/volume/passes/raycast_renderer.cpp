@@ -1,0 +1,51 @@
+#include "render_client/volume/passes/raycast_renderer.h"
+
+#include <glm/trigonometric.hpp>
+#include <string>
+
+#include "render_client/volume/shaders/bone_shading_shader.h"
+#include "render_client/volume/shaders/camera_rays_shader.h"
+#include "render_client/volume/shaders/lighting.h"
+#include "render_client/volume/shaders/look_shader.h"
+#include "render_client/volume/shaders/raycast_shader.h"
+
+namespace osteomill {
+
+namespace {
+
+/// Window depth as a function of the distance along the camera's axis, from the projection matrix.
+glm::vec2 depth_terms(const Camera& camera, double spacing_mm, const glm::ivec2& size_px) {
+    const glm::dmat4 projection = camera.projection(size_px);
+    return {0.5 - 0.5 * projection[2][2], 0.5 * projection[3][2] / spacing_mm};
+}
+
+}  // namespace
+
+RaycastRenderer::RaycastRenderer(const RaycastSettings& settings)
+    : bone_program_(camera_rays_vertex_glsl, std::string(lighting_glsl) + background_glsl +
+                                                 bone_shading_glsl + cut_shading_glsl +
+                                                 raycast_fragment_glsl),
+      settings_(settings) {}
+
+void RaycastRenderer::draw(const BoneTextures& bone, const Camera& camera, const glm::ivec2& size_px) {
+    background_.draw(look(), size_px);
+    const double half_height = glm::tan(0.5 * camera.field_of_view_rad);
+    const double half_width = half_height * size_px.x / size_px.y;
+    const gl::Program& program = bone_program_.use(bone, look());
+    program.set("step_length", settings_.step_voxels);
+    program.set("skips", settings_.skipping == EmptySpaceSkipping::distance_map ? 1 : 0);
+    program.set("forward", glm::vec3(camera.forward()));
+    program.set("right", glm::vec3(half_width * camera.right()));
+    program.set("up", glm::vec3(half_height * camera.up()));
+    program.set("eye", glm::vec3(bone.to_box_voxels(camera.eye_mm())));
+    program.set("picture_size", glm::vec2(size_px));
+    set_background_uniforms(program, look());
+    program.set("depth_terms", depth_terms(camera, bone.grid().spacing_mm, size_px));
+
+    // What one sees through has no depth, that is, the background's.
+    glDepthFunc(GL_LEQUAL);
+    full_screen_.draw();
+    glDepthFunc(GL_LESS);
+}
+
+}  // namespace osteomill

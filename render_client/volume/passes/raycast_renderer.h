@@ -1,0 +1,35 @@
+// Ray casting: every pixel's ray goes front to back, leaps over empty blocks, and ends where the trilinear
+// fraction reaches one half or, in translucent bone, where hardly any light comes through.
+#pragma once
+
+#include "render_client/volume/passes/background.h"
+#include "render_client/volume/shaders/bone_program.h"
+#include "render_client/volume/passes/bone_renderer.h"
+#include "render_client/volume/gl/full_screen.h"
+
+namespace osteomill {
+
+/// `none` visits every sample from where a ray enters the bone's box; it exists to show that `distance_map`
+/// changes no pixel.
+enum class EmptySpaceSkipping { distance_map, none };
+
+struct RaycastSettings {
+    EmptySpaceSkipping skipping = EmptySpaceSkipping::distance_map;
+    /// Distance of the samples along a ray, voxels, above 0. A chord through bone shorter than this may be
+    /// missed. Most of a frame's time goes into shading: 1.0 saves a tenth of it, and 3 to 5 dB.
+    float step_voxels = 0.5f;
+};
+
+class RaycastRenderer final : public BoneRenderer {
+  public:
+    explicit RaycastRenderer(const RaycastSettings& settings = {});
+    void draw(const BoneTextures& bone, const Camera& camera, const glm::ivec2& size_px) override;
+
+  private:
+    Background background_;
+    BoneProgram bone_program_;
+    gl::FullScreen full_screen_;
+    RaycastSettings settings_;
+};
+
+}  // namespace osteomill

@@ -1,0 +1,49 @@
+// The picture of one moment: bone, tool, force. The bone is a layer of its own (see BoneLayer); what the tool
+// and an overlay covered in one frame is restored from it in the next, and nothing else is copied.
+#pragma once
+
+#include <span>
+
+#include "render_client/volume/passes/bone_layer.h"
+#include "render_client/volume/passes/contact_shadow.h"
+#include "render_client/volume/tool/tool_renderer.h"
+
+namespace osteomill {
+
+class ScenePicture {
+  public:
+    /// `stopwatch` makes it draw on demand, at whatever quality keeps the rate of frames; null: always in
+    /// full. Renderer and stopwatch must outlive it.
+    ScenePicture(BoneRenderer& renderer, const glm::ivec2& size_px, Stopwatch* stopwatch = nullptr);
+
+    /// Sizes of less than one pixel count as one.
+    void resize(const glm::ivec2& size_px);
+    /// Cuts and background, from the next draw on.
+    void set_look(const SceneLook& look) { layer_.set_look(look); }
+    /// The bone was replaced: its layer is drawn anew.
+    void forget_bone() { layer_.forget(); }
+    /// These voxels of `bone` changed since the last draw: what its update returned.
+    void mark_dirty(const BoneTextures& bone, std::span<const VoxelBox> changed) {
+        layer_.mark_dirty(bone, changed);
+    }
+
+    /// Draws into its own framebuffer and leaves it bound, so that an overlay may follow. Null: there is no
+    /// bone, or no tool, yet.
+    const gl::Framebuffer& draw(const BoneTextures* bone, const DrawnTool* tool, const Camera& camera);
+    /// What an overlay drew over, after draw: without this call it would stay in the next frame.
+    void cover(std::span<const PixelBox> boxes);
+
+    /// How long the whole frame took, waiting excluded.
+    void frame_took(double frame_s) { layer_.frame_took(frame_s); }
+    PictureQuality quality() const { return layer_.quality(); }
+    const glm::ivec2& size_px() const { return picture_.size_px(); }
+
+  private:
+    BoneLayer layer_;
+    ToolRenderer tool_renderer_;
+    ContactShadow contact_shadow_;
+    gl::Framebuffer picture_;
+    TileMask covered_;  ///< where the picture does not show the layer
+};
+
+}  // namespace osteomill

@@ -1,0 +1,45 @@
+// View-aligned slices through the 3D texture, as the published system drew: polygons parallel to the picture,
+// front to back. A pixel of a slice in bone is shaded and hides what is behind it by its depth, which the
+// rasteriser tests before the next slice is sampled; translucent bone is blended.
+//
+// A slice stands for the half step before and behind it, so a depth is off by half the spacing at most. What
+// a pixel of it shows is found by halving the step before it, so that slices leave no rings.
+#pragma once
+
+#include <optional>
+
+#include "render_client/volume/passes/background.h"
+#include "render_client/volume/shaders/bone_program.h"
+#include "render_client/volume/passes/bone_renderer.h"
+#include "render_client/volume/gl/full_screen.h"
+#include "render_client/volume/gl/light_layer.h"
+#include "render_client/volume/gl/triangle_stream.h"
+
+namespace osteomill {
+
+struct SliceSettings {
+    /// Distance of the slices, voxels, above 0.
+    float spacing_voxels = 0.75f;
+};
+
+class SliceRenderer final : public BoneRenderer {
+  public:
+    explicit SliceRenderer(const SliceSettings& settings = {});
+    void draw(const BoneTextures& bone, const Camera& camera, const glm::ivec2& size_px) override;
+
+  private:
+    enum class Pass { solid, light, depth };
+
+    void draw_slices(const BoneTextures& bone, const Camera& camera, const glm::ivec2& size_px, Pass pass);
+    void draw_translucent(const BoneTextures& bone, const Camera& camera, const glm::ivec2& size_px);
+
+    SliceSettings settings_;
+    BoneProgram slice_program_;
+    Background background_;
+    gl::Program blend_program_;
+    gl::FullScreen full_screen_;
+    gl::TriangleStream slices_;
+    std::optional<gl::LightLayer> light_;  ///< of the size that was last drawn translucent
+};
+
+}  // namespace osteomill

@@ -1,0 +1,74 @@
+#include "render_client/volume/shaders/bone_program.h"
+
+#include <fmt/format.h>
+
+#include "render_client/volume/shaders/bone_sampling_shader.h"
+#include "render_client/volume/shaders/look_shader.h"
+
+namespace osteomill {
+
+namespace {
+
+enum TextureUnit { fraction_unit, blocks_unit, table_unit, code_unit, colours_unit, surface_unit };
+
+std::string constant(const char* name, bool value) {
+    return fmt::format("const bool {} = {};\n", name, value);
+}
+
+}  // namespace
+
+BoneProgram::BoneProgram(std::string vertex_source, std::string fragment_source)
+    : vertex_source_(std::move(vertex_source)), fragment_source_(std::move(fragment_source)) {}
+
+gl::Program BoneProgram::make(const Variant& variant) const {
+    const char* places = variant.layout == BoneLayout::dense ? dense_places_glsl : atlas_places_glsl;
+    gl::Program program(vertex_source_,
+                        "#version 330 core\n" + constant("bone_has_colour_code", variant.has_colour_code) +
+                            constant("bone_codes_are_tissues", variant.codes_are_tissues) +
+                            constant("bone_has_surface_colours", variant.has_surface_colours) +
+                            constant("bone_is_translucent", variant.is_translucent) + places +
+                            bone_sampling_glsl + cut_count_glsl(variant.cut_count) + cuts_glsl +
+                            fragment_source_);
+    program.use();
+    program.set("bone_fraction", fraction_unit);
+    program.set("bone_blocks", blocks_unit);
+    program.set("bone_tile_table", table_unit);
+    program.set("bone_colour_code", code_unit);
+    program.set("bone_colours", colours_unit);
+    program.set("bone_surface_colours", surface_unit);
+    return program;
+}
+
+const gl::Program& BoneProgram::program_for(const Variant& variant) {
+    for (const auto& [known, program] : programs_)
+        if (known == variant) return program;
+    return programs_.emplace_back(variant, make(variant)).second;
+}
+
+const gl::Program& BoneProgram::use(const BoneTextures& bone, const SceneLook& look) {
+    const gl::Program& program = program_for({.layout = bone.plan().layout,
+                                              .has_colour_code = bone.colour_code().has_value(),
+                                              .codes_are_tissues = bone.codes_are_tissues(),
+                                              .has_surface_colours = bone.surface_colours() != nullptr,
+                                              .is_translucent = bone.is_translucent(),
+                                              .cut_count = cut_count(look)});
+    program.use();
+    program.set("bone_size", glm::vec3(bone.box().size));
+    program.set("bone_texture_size", glm::vec3(bone.fraction().size()));
+    program.set("bone_mm_per_voxel", static_cast<float>(bone.grid().spacing_mm));
+    program.set("bone_colour_depth", static_cast<float>(bone.colour_depth_voxels()));
+    set_cut_uniforms(program, look, bone);
+    bone.fraction().bind(fraction_unit);
+    bone.blocks().bind(blocks_unit);
+    bone.colours().bind(colours_unit);
+    if (bone.tile_table()) bone.tile_table()->bind(table_unit);
+    if (bone.surface_colours() != nullptr) bone.surface_colours()->bind(surface_unit);
+    // A sampler that nothing is fetched from may not find a texture of another kind on its unit.
+    if (bone.colour_code())
+        bone.colour_code()->bind(code_unit);
+    else
+        gl::Texture3D::unbind(code_unit);
+    return program;
+}
+
+}  // namespace osteomill

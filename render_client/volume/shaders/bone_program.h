@@ -1,0 +1,50 @@
+// A shader program that samples the bone: a renderer's own shaders behind bone_sampling_glsl and cuts_glsl,
+// with the bone's textures and the uniforms of both bound.
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "render_client/volume/textures/bone_textures.h"
+#include "render_client/volume/gl/program.h"
+#include "render_client/volume/scene_look.h"
+
+namespace osteomill {
+
+class BoneProgram {
+  public:
+    /// Texture units from this one on are the renderer's own.
+    static constexpr int first_free_unit = 8;
+
+    /// `fragment_source` is GLSL 3.30 without its #version line.
+    BoneProgram(std::string vertex_source, std::string fragment_source);
+
+    /// glUseProgram, of a program for this bone's layout and looks, with its textures on units 0 to
+    /// first_free_unit - 1. The program that comes back is for the renderer's own uniforms: set them all
+    /// after every call, it may be another one next time. Throws std::runtime_error with the compiler's log
+    /// where the shaders do not compile.
+    const gl::Program& use(const BoneTextures& bone, const SceneLook& look);
+
+  private:
+    /// What is fixed when a program is compiled. A software rasteriser computes both sides of a branch on a
+    /// uniform for every pixel.
+    struct Variant {
+        BoneLayout layout = BoneLayout::dense;
+        bool has_colour_code = false;
+        bool codes_are_tissues = false;
+        bool has_surface_colours = false;
+        bool is_translucent = false;
+        int cut_count = 0;
+
+        bool operator==(const Variant&) const = default;
+    };
+    gl::Program make(const Variant& variant) const;
+    const gl::Program& program_for(const Variant& variant);
+
+    std::string vertex_source_;
+    std::string fragment_source_;
+    std::vector<std::pair<Variant, gl::Program>> programs_;  ///< made when a bone first needs them
+};
+
+}  // namespace osteomill

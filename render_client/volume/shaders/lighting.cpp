@@ -1,0 +1,34 @@
+#include "render_client/volume/shaders/lighting.h"
+
+#include <algorithm>
+#include <glm/common.hpp>
+#include <glm/exponential.hpp>
+#include <glm/geometric.hpp>
+
+#include "render_client/volume/scene_look.h"
+
+namespace osteomill {
+
+glm::dvec3 lit(const glm::dvec3& colour, const glm::dvec3& normal, double openness) {
+    constexpr glm::dvec3 key_direction(-0.4364, -0.5455, 0.7155);
+    constexpr glm::dvec3 fill_direction(0.8944, -0.2236, 0.3873);
+    const double key = std::max(glm::dot(normal, key_direction), 0.0);
+    const double fill = std::max(glm::dot(normal, fill_direction), 0.0);
+    const glm::dvec3 ambient =
+        glm::mix(glm::dvec3(0.13, 0.12, 0.12), glm::dvec3(0.27, 0.29, 0.32), 0.5 + 0.5 * normal.z);
+    return colour * (ambient * openness + glm::dvec3(0.66, 0.63, 0.58) * key * glm::mix(0.45, 1.0, openness) +
+                     glm::dvec3(0.15, 0.17, 0.20) * fill * openness);
+}
+
+glm::dvec3 display(const glm::dvec3& linear) {
+    return glm::pow(glm::clamp(linear, 0.0, 1.0), glm::dvec3(1.0 / 2.2));
+}
+
+glm::dvec3 background_at(const glm::dvec2& place) {
+    const SceneLook look;
+    const glm::dvec3 shade = glm::mix(glm::dvec3(look.background_low), glm::dvec3(look.background_high),
+                                      glm::smoothstep(0.0, 1.0, place.y));
+    return shade * (1.0 - 0.35 * glm::dot(place - 0.5, place - 0.5));
+}
+
+}  // namespace osteomill

@@ -1,0 +1,93 @@
+// The bone as 3D textures: its fractions, which are carved, without what its look hides; one byte a voxel of
+// what colours it (tissue label or stiffness code), only where the bone has such a channel; the colours of
+// its surface voxels, only where the look asks for them; and a map for skipping empty space and for ambient
+// light. Dense, as a brick atlas, or of a coarser copy, as memory allows.
+#pragma once
+
+#include <optional>
+#include <span>
+
+#include "common/bone/bone.h"
+#include "render_client/volume/bone_look.h"
+#include "render_client/volume/textures/changed_voxels.h"
+#include "render_client/volume/textures/coarse_bone.h"
+#include "render_client/volume/textures/empty_space.h"
+#include "render_client/volume/gl/lookup_table.h"
+#include "render_client/volume/gl/texture3d.h"
+#include "render_client/volume/textures/surface_texture.h"
+#include "render_client/volume/textures/texture_plan.h"
+#include "render_client/volume/textures/visible_bone.h"
+
+namespace osteomill {
+
+class BoneTextures {
+  public:
+    /// Uploads all of it, cropped to the stored bricks, by the first of texture_plans for which the driver
+    /// has memory. Another look takes other textures. Throws std::runtime_error where the bone has no brick
+    /// and, naming sizes, where nothing fits; std::invalid_argument where the look's transfer function is
+    /// none.
+    BoneTextures(const Bone& bone, std::span<const TissueColour> tissues, const BoneLook& look = {},
+                 const TextureLimits& limits = {});
+
+    /// Uploads what changed in these bricks, lowered or raised, and what follows from it: glTexSubImage3D,
+    /// region by region, never a union of what lies apart. `bone` is the bone of the constructor, changed
+    /// since. Call before drawing: a texture that a frame in flight uses makes the call wait for that frame.
+    /// Returns what changed, in voxels of grid(); valid until the next call.
+    std::span<const VoxelBox> update(const Bone& bone, std::span<const BrickIndex> dirty);
+
+    /// How the bone is held: in which layout, how much coarser than it is, in how many bytes.
+    const TexturePlan& plan() const { return plan_; }
+    /// The grid that is drawn: the bone's own or, of a coarser copy, the copy's.
+    const Grid& grid() const { return grid_; }
+    /// The part of grid() that the textures hold, in whole bricks.
+    const VoxelBox& box() const { return places_.box(); }
+    /// Where the bricks of grid() lie in fraction(), colour_code() and surface_colours().
+    const BrickPlaces& places() const { return places_; }
+
+    const gl::Texture3D& fraction() const { return fraction_; }
+    /// What `colours` is looked up by, placed as the fractions are; none for a homogeneous, unlabelled bone.
+    const std::optional<gl::Texture3D>& colour_code() const { return colour_code_; }
+    /// Whether they are labels, alike within a tissue, and not stiffness.
+    bool codes_are_tissues() const { return table_.channel == BoneChannel::tissue; }
+    const gl::LookupTable& colours() const { return colours_; }
+    /// Display RGB times alpha, and alpha, of the surface voxels; none unless the look shades them.
+    const gl::Texture3D* surface_colours() const { return surface_ ? &surface_->texture() : nullptr; }
+    /// Whether one sees through the bone: opacities are then per millimetre.
+    bool is_translucent() const { return table_.mode == TransferMode::translucent; }
+    /// Voxels below the surface at which its colour is taken.
+    double colour_depth_voxels() const { return osteomill::colour_depth_voxels(table_); }
+    /// BrickPlaces::tile_table; none in a dense layout.
+    const std::optional<gl::Texture3D>& tile_table() const { return tile_table_; }
+    /// For each block of EmptySpace, two bytes: its mean fraction and its distance.
+    const gl::Texture3D& blocks() const { return blocks_; }
+
+    /// A point of patient space in texture coordinates counted in voxels: (0, 0, 0) is the box's corner.
+    glm::dvec3 to_box_voxels(const glm::dvec3& position_mm) const;
+
+  private:
+    BoneTextures(const Bone& bone, std::optional<CoarseBone> copy, const LookTable& table, Shading shading,
+                 const TexturePlan& plan, int longest_edge_texels);
+    static BoneTextures first_that_fits(const Bone& bone, const LookTable& table, Shading shading,
+                                        const TextureLimits& limits);
+    const Bone& copied(const Bone& bone) const { return copy_ ? copy_->bone() : bone; }
+    const Bone& shown(const Bone& bone) const { return visible_ ? visible_->bone() : copied(bone); }
+    void upload_blocks(const VoxelBox& blocks);
+
+    TexturePlan plan_;
+    LookTable table_;
+    std::optional<CoarseBone> copy_;      ///< only where the bone itself exceeds the memory
+    std::optional<VisibleBone> visible_;  ///< of the copy, if any; only where the look hides bone
+    Grid grid_;
+    BrickPlaces places_;
+    EmptySpace empty_space_;
+    gl::Texture3D fraction_;
+    gl::Texture3D blocks_;
+    std::optional<gl::Texture3D> tile_table_;
+    std::optional<gl::Texture3D> colour_code_;
+    gl::LookupTable colours_;
+    std::optional<SurfaceTexture> surface_;
+    ChangedVoxels changed_;
+    std::vector<std::uint8_t> scratch_;
+};
+
+}  // namespace osteomill

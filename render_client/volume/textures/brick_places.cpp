@@ -1,0 +1,155 @@
+#include "render_client/volume/textures/brick_places.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
+#include <stdexcept>
+
+namespace osteomill {
+
+namespace {
+
+VoxelBox grown(const VoxelBox& box, int reach_voxels) {
+    return {box.first - reach_voxels, box.size + 2 * reach_voxels};
+}
+
+VoxelBox voxels_round_brick(const glm::ivec3& brick, int reach_voxels) {
+    return grown({brick * brick_edge_voxels, glm::ivec3(brick_edge_voxels)}, reach_voxels);
+}
+
+VoxelBox overlap(const VoxelBox& a, const VoxelBox& b) {
+    const glm::ivec3 low = glm::max(a.first, b.first);
+    const glm::ivec3 high = glm::min(a.first + a.size, b.first + b.size);
+    return {low, glm::max(high - low, 0)};
+}
+
+VoxelBox enclosing(const VoxelBox& a, const VoxelBox& b) {
+    const glm::ivec3 low = glm::min(a.first, b.first);
+    const glm::ivec3 high = glm::max(a.first + a.size, b.first + b.size);
+    return {low, high - low};
+}
+
+}  // namespace
+
+glm::ivec3 atlas_size_tiles(std::size_t stored_bricks, int longest_edge_texels) {
+    // The table of tiles counts them in bytes.
+    const int longest = std::min(longest_edge_texels / tile_edge_texels, 256);
+    const auto tiles = static_cast<double>(stored_bricks + 1);
+    const int edge = std::clamp(static_cast<int>(std::ceil(std::cbrt(tiles))), 1, std::max(longest, 1));
+    const double layers = std::ceil(tiles / (static_cast<double>(edge) * edge));
+    if (layers > longest) return {};
+    return {edge, edge, static_cast<int>(layers)};
+}
+
+BrickPlaces::BrickPlaces(const BoneContent& content, BoneLayout layout, int longest_edge_texels)
+    : layout_(layout), box_(stored_box(content)) {
+    if (layout == BoneLayout::dense) {
+        texture_size_ = box_.size;
+        return;
+    }
+    size_tiles_ = atlas_size_tiles(content.brick_of_slot.size(), longest_edge_texels);
+    if (size_tiles_.x == 0)
+        throw std::runtime_error(fmt::format("{} bricks do not fit into a 3D texture of {} texels an edge",
+                                             content.brick_of_slot.size(), longest_edge_texels));
+    texture_size_ = size_tiles_ * tile_edge_texels;
+    place_of_slot_.resize(content.brick_of_slot.size(), nowhere);
+}
+
+glm::ivec3 BrickPlaces::tile_of_slot(std::int32_t slot) const {
+    return brick_position(size_tiles_, static_cast<BrickIndex>(slot) + 1);
+}
+
+PlacedVoxels BrickPlaces::of_brick(const glm::ivec3& brick, std::int32_t slot) const {
+    if (layout_ == BoneLayout::dense)
+        return {voxels_round_brick(brick, 0), brick * brick_edge_voxels - box_.first};
+    return {voxels_round_brick(brick, tile_border_voxels), tile_of_slot(slot) * tile_edge_texels};
+}
+
+std::vector<PlacedVoxels> BrickPlaces::all(const BoneContent& content) const {
+    std::vector<PlacedVoxels> all;
+    if (layout_ == BoneLayout::dense) {
+        // Layers, so that no dense copy of the whole bone is ever made.
+        for (int z = 0; z < box_.size.z; z += brick_edge_voxels) {
+            const glm::ivec3 first(0, 0, z);
+            all.push_back({{box_.first + first, {box_.size.x, box_.size.y, brick_edge_voxels}}, first});
+        }
+        return all;
+    }
+    // No voxel lies before the grid: the empty tile comes out empty.
+    all.push_back({{glm::ivec3(-tile_edge_texels), glm::ivec3(tile_edge_texels)}, glm::ivec3(0)});
+    for (std::size_t slot = 0; slot < content.brick_of_slot.size(); ++slot)
+        all.push_back(of_brick(brick_position(content.size_bricks, content.brick_of_slot[slot]),
+                               static_cast<std::int32_t>(slot)));
+    return all;
+}
+
+std::span<const PlacedVoxels> BrickPlaces::that_show(const Bone& bone, std::span<const VoxelBox> changed,
+                                                     int reach_voxels) {
+    shown_.clear();
+    for (const VoxelBox& box : changed) {
+        const VoxelBox voxels = overlap(grown(box, reach_voxels), box_);
+        if (voxels.count() == 0) continue;
+        if (layout_ == BoneLayout::atlas)
+            add_atlas_changes(bone, voxels);
+        else
+            add_dense_change(voxels);
+    }
+    for (const std::int32_t slot : slots_shown_) place_of_slot_[static_cast<std::size_t>(slot)] = nowhere;
+    slots_shown_.clear();
+    return shown_;
+}
+
+void BrickPlaces::add_dense_change(VoxelBox voxels) {
+    // A quarter more texels are worth a region less, and what neighbours share is not shown twice.
+    while (!shown_.empty()) {
+        const VoxelBox& last = shown_.back().voxels;
+        const VoxelBox both = enclosing(voxels, last);
+        if (4 * both.count() > 5 * (voxels.count() + last.count())) break;
+        voxels = both;
+        shown_.pop_back();
+    }
+    shown_.push_back({voxels, voxels.first - box_.first});
+}
+
+void BrickPlaces::add_atlas_changes(const Bone& bone, const VoxelBox& changed) {
+    const glm::ivec3 end = changed.first + changed.size;
+    const glm::ivec3 low = glm::max(changed.first - tile_border_voxels, 0) / brick_edge_voxels;
+    const glm::ivec3 high =
+        glm::min((end - 1 + tile_border_voxels) / brick_edge_voxels, bone.content().size_bricks - 1);
+    for (int z = low.z; z <= high.z; ++z)
+        for (int y = low.y; y <= high.y; ++y)
+            for (int x = low.x; x <= high.x; ++x) {
+                const glm::ivec3 other(x, y, z);
+                const std::int32_t slot = bone.slot(other);
+                if (slot == BoneContent::no_slot) continue;
+                const PlacedVoxels tile = of_brick(other, slot);
+                VoxelBox voxels = overlap(changed, tile.voxels);
+                std::int32_t& place = place_of_slot_[static_cast<std::size_t>(slot)];
+                if (place == nowhere) {
+                    place = static_cast<std::int32_t>(shown_.size());
+                    slots_shown_.push_back(slot);
+                    shown_.emplace_back();
+                } else {
+                    voxels = enclosing(voxels, shown_[static_cast<std::size_t>(place)].voxels);
+                }
+                shown_[static_cast<std::size_t>(place)] = {
+                    voxels, tile.first_texel + voxels.first - tile.voxels.first};
+            }
+}
+
+std::vector<std::uint8_t> BrickPlaces::tile_table(const BoneContent& content) const {
+    const glm::ivec3 size = box_.size / brick_edge_voxels;
+    std::vector<std::uint8_t> table(4 * VoxelBox{{}, size}.count(), 0);
+    for (std::size_t slot = 0; slot < content.brick_of_slot.size(); ++slot) {
+        const glm::ivec3 brick = brick_position(content.size_bricks, content.brick_of_slot[slot]);
+        const glm::ivec3 tile = tile_of_slot(static_cast<std::int32_t>(slot));
+        const std::size_t entry = std::size_t{4} * brick_index(size, brick - box_.first / brick_edge_voxels);
+        for (int axis = 0; axis < 3; ++axis)
+            table[entry + static_cast<std::size_t>(axis)] = static_cast<std::uint8_t>(tile[axis]);
+    }
+    return table;
+}
+
+}  // namespace osteomill

@@ -1,0 +1,172 @@
+#include "render_client/volume/textures/empty_space.h"
+
+#include <algorithm>
+#include <bit>
+#include <glm/common.hpp>
+
+namespace osteomill {
+
+namespace {
+
+constexpr std::uint8_t farthest = 255;
+
+/// Changes are reported in cubes of so many blocks: a burr of 5 mm touches a few dozen of them.
+constexpr int tile_edge_blocks = 8;
+
+/// Lowers a row of distances to one more than the least of the neighbouring rows, at x - 1, x and x + 1.
+class RowRelaxation {
+  public:
+    explicit RowRelaxation(int length) : least_(static_cast<std::size_t>(length)) {}
+
+    void begin() { std::fill(least_.begin(), least_.end(), farthest); }
+    void neighbour(const std::uint8_t* row) {
+        for (std::size_t x = 0; x < least_.size(); ++x) least_[x] = std::min(least_[x], row[x]);
+    }
+    void apply(std::uint8_t* row) const {
+        const std::size_t last = least_.size() - 1;
+        for (std::size_t x = 1; x < last; ++x)
+            lower(row[x], std::min(std::min(least_[x - 1], least_[x + 1]), least_[x]));
+        lower(row[0], std::min(least_[0], least_[1]));
+        lower(row[last], std::min(least_[last - 1], least_[last]));
+    }
+    static void lower(std::uint8_t& distance, std::uint8_t neighbour) {
+        const auto further = static_cast<std::uint8_t>(std::min<std::uint8_t>(neighbour, farthest - 1) + 1);
+        distance = std::min(distance, further);
+    }
+
+  private:
+    std::vector<std::uint8_t> least_;
+};
+
+}  // namespace
+
+EmptySpace::EmptySpace(const Bone& bone, const VoxelBox& box)
+    : box_(box),
+      size_blocks_(box.size / block_edge_voxels + 2),
+      distance_(VoxelBox{{}, size_blocks_}.count(), farthest),
+      mean_fraction_(distance_.size(), 0),
+      reached_by_(distance_.size(), 0),
+      reach_of_slot_(bone.stored_bricks()),
+      size_tiles_((size_blocks_ + (tile_edge_blocks - 1)) / tile_edge_blocks) {
+    tile_is_changed_.resize(VoxelBox{{}, size_tiles_}.count(), 0);
+    for (std::size_t slot = 0; slot < bone.stored_bricks(); ++slot) {
+        const BrickIndex brick = bone.content().brick_of_slot[slot];
+        take_in(bone, brick_position(bone.content().size_bricks, brick), static_cast<std::int32_t>(slot));
+        for (const glm::ivec3& block : newly_reached_) distance_[index(block)] = 0;
+        newly_reached_.clear();
+    }
+    for (const VoxelBox& tile : changed_tiles_)
+        tile_is_changed_[brick_index(size_tiles_, tile.first / tile_edge_blocks)] = 0;
+    changed_tiles_.clear();
+    spread_everywhere();
+}
+
+std::span<const VoxelBox> EmptySpace::update(const Bone& bone, std::span<const BrickIndex> dirty) {
+    newly_reached_.clear();
+    newly_free_.clear();
+    changed_tiles_.clear();
+    for (const BrickIndex brick : dirty) {
+        const std::int32_t slot = bone.slot(brick);
+        if (slot == BoneContent::no_slot) continue;
+        take_in(bone, brick_position(bone.content().size_bricks, brick), slot);
+    }
+    // A block may have been left by one brick and reached by another; what counts is how it came out.
+    for (const glm::ivec3& block : newly_free_) {
+        if (reached_by_[index(block)] > 0 || distance_[index(block)] != 0) continue;
+        distance_[index(block)] = 1;
+        mark_changed(block);
+    }
+    spread_from_reached();
+    for (const VoxelBox& tile : changed_tiles_)
+        tile_is_changed_[brick_index(size_tiles_, tile.first / tile_edge_blocks)] = 0;
+    return changed_tiles_;
+}
+
+void EmptySpace::take_in(const Bone& bone, const glm::ivec3& brick, std::int32_t slot) {
+    const BrickSummary summary = summary_of_brick(bone.fractions(slot));
+    const glm::ivec3 first = (brick * brick_edge_voxels - box_.first) / block_edge_voxels + 1;
+    auto& known_reach = reach_of_slot_[static_cast<std::size_t>(slot)];
+    for (std::size_t number = 0; number < blocks_per_brick; ++number) {
+        const glm::ivec3 block =
+            first + glm::ivec3(number & 3, number >> 2 & 3, static_cast<int>(number >> 4));
+        std::uint8_t& mean = mean_fraction_[index(block)];
+        if (mean != summary.mean_fraction[number]) {
+            mean = summary.mean_fraction[number];
+            mark_changed(block);
+        }
+        const BlockReach reach = summary.reach[number];
+        for (BlockReach changed = reach ^ known_reach[number]; changed != 0; changed &= changed - 1) {
+            const int bit = std::countr_zero(changed);
+            const glm::ivec3 neighbour = block + neighbour_of_bit(bit);
+            std::uint8_t& reached_by = reached_by_[index(neighbour)];
+            if ((reach >> bit & 1U) != 0) {
+                if (reached_by++ == 0) newly_reached_.push_back(neighbour);
+            } else if (--reached_by == 0) {
+                newly_free_.push_back(neighbour);
+            }
+        }
+        known_reach[number] = reach;
+    }
+}
+
+void EmptySpace::spread_everywhere() {
+    // Two sweeps over half of the 26 neighbours each give the exact chessboard distance (Borgefors 1984).
+    RowRelaxation relaxation(size_blocks_.x);
+    const auto sweep_row = [&](int y, int z, int side) {
+        const auto row_at = [&](int row_y, int row_z) { return &distance_[index({0, row_y, row_z})]; };
+        relaxation.begin();
+        const int before = z - side;
+        if (before >= 0 && before < size_blocks_.z)
+            for (int row_y = std::max(y - 1, 0); row_y <= std::min(y + 1, size_blocks_.y - 1); ++row_y)
+                relaxation.neighbour(row_at(row_y, before));
+        if (y - side >= 0 && y - side < size_blocks_.y) relaxation.neighbour(row_at(y - side, z));
+        std::uint8_t* row = row_at(y, z);
+        relaxation.apply(row);
+        if (side > 0)
+            for (int x = 1; x < size_blocks_.x; ++x) RowRelaxation::lower(row[x], row[x - 1]);
+        else
+            for (int x = size_blocks_.x - 2; x >= 0; --x) RowRelaxation::lower(row[x], row[x + 1]);
+    };
+    for (int z = 0; z < size_blocks_.z; ++z)
+        for (int y = 0; y < size_blocks_.y; ++y) sweep_row(y, z, 1);
+    for (int z = size_blocks_.z - 1; z >= 0; --z)
+        for (int y = size_blocks_.y - 1; y >= 0; --y) sweep_row(y, z, -1);
+}
+
+void EmptySpace::spread_from_reached() {
+    // Breadth first, so that a distance is lowered but once or twice.
+    std::size_t next = 0;
+    std::erase_if(newly_reached_, [&](const glm::ivec3& block) {
+        return reached_by_[index(block)] == 0 || distance_[index(block)] == 0;
+    });
+    for (const glm::ivec3& block : newly_reached_) {
+        distance_[index(block)] = 0;
+        mark_changed(block);
+    }
+    for (; next < newly_reached_.size(); ++next) {
+        const glm::ivec3 block = newly_reached_[next];
+        const int further = std::min(distance_[index(block)] + 1, static_cast<int>(farthest));
+        const glm::ivec3 low = glm::max(block - 1, 0);
+        const glm::ivec3 high = glm::min(block + 1, size_blocks_ - 1);
+        for (int z = low.z; z <= high.z; ++z)
+            for (int y = low.y; y <= high.y; ++y)
+                for (int x = low.x; x <= high.x; ++x) {
+                    std::uint8_t& distance = distance_[index({x, y, z})];
+                    if (distance <= further) continue;
+                    distance = static_cast<std::uint8_t>(further);
+                    mark_changed({x, y, z});
+                    newly_reached_.emplace_back(x, y, z);
+                }
+    }
+}
+
+void EmptySpace::mark_changed(const glm::ivec3& block) {
+    const glm::ivec3 tile = block / tile_edge_blocks;
+    std::uint8_t& is_changed = tile_is_changed_[brick_index(size_tiles_, tile)];
+    if (is_changed != 0) return;
+    is_changed = 1;
+    const glm::ivec3 first = tile * tile_edge_blocks;
+    changed_tiles_.push_back({first, glm::min(glm::ivec3(tile_edge_blocks), size_blocks_ - first)});
+}
+
+}  // namespace osteomill

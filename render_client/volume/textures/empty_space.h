@@ -1,0 +1,65 @@
+// Where rays need not look: for each block of 4^3 voxels, how far away the nearest block is that can hold a
+// piece of the bone's surface.
+//
+// A block can hold a surface point if one of the voxels that trilinear interpolation reads within it (its own
+// and a border of one) is at least half full. Distances are counted in blocks, as a king moves (Chebyshev):
+// all blocks closer than the distance are empty. A block that has become empty has distance 1 from then on,
+// those around it keep theirs: carving leaves distances shorter than they might be, never longer. Where bone
+// comes back (undo, a recording played backwards) they are shortened at once, as far as it can be felt.
+// The method is that of Cohen and Sheffer, "Proximity clouds" (1994).
+//
+// A second map holds each block's mean fraction, a coarse copy of the bone, for ambient occlusion.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "render_client/volume/textures/block_summary.h"
+#include "render_client/volume/textures/voxel_box.h"
+
+namespace osteomill {
+
+/// Both maps cover the box and one block beyond it on every side: block (0, 0, 0) ends where the box begins.
+class EmptySpace {
+  public:
+    /// `box` is aligned to bricks (see stored_box).
+    EmptySpace(const Bone& bone, const VoxelBox& box);
+
+    /// Brings the maps up to date after fractions of these bricks were lowered or raised. Bricks that are not
+    /// stored change nothing. Returns boxes of blocks, none of which overlap, that hold every change; they
+    /// are valid until the next update.
+    std::span<const VoxelBox> update(const Bone& bone, std::span<const BrickIndex> dirty);
+
+    const glm::ivec3& size_blocks() const { return size_blocks_; }
+    const std::vector<std::uint8_t>& distance() const { return distance_; }
+    const std::vector<std::uint8_t>& mean_fraction() const { return mean_fraction_; }
+
+  private:
+    void take_in(const Bone& bone, const glm::ivec3& brick, std::int32_t slot);
+    void spread_everywhere();
+    void spread_from_reached();
+    void mark_changed(const glm::ivec3& block);
+    std::size_t index(const glm::ivec3& block) const {
+        return (static_cast<std::size_t>(block.z) * size_blocks_.y + block.y) * size_blocks_.x + block.x;
+    }
+
+    VoxelBox box_;
+    glm::ivec3 size_blocks_;
+    std::vector<std::uint8_t> distance_;
+    std::vector<std::uint8_t> mean_fraction_;
+
+    /// How many of the 27 blocks around (and including) a block reach into what is interpolated there, and
+    /// which those are, by the slot of the brick that they lie in: a change is then felt only where it is.
+    std::vector<std::uint8_t> reached_by_;
+    std::vector<std::array<BlockReach, blocks_per_brick>> reach_of_slot_;
+
+    // Of the update under way.
+    std::vector<glm::ivec3> newly_reached_;
+    std::vector<glm::ivec3> newly_free_;
+    std::vector<VoxelBox> changed_tiles_;
+    std::vector<std::uint8_t> tile_is_changed_;
+    glm::ivec3 size_tiles_;
+};
+
+}  // namespace osteomill

@@ -1,0 +1,30 @@
+// The texture of shaded surface voxels over a bone's box, kept up to date round what is carved.
+#pragma once
+
+#include <span>
+
+#include "render_client/volume/textures/brick_places.h"
+#include "render_client/volume/gl/texture3d.h"
+#include "render_client/volume/textures/surface_voxels.h"
+
+namespace osteomill {
+
+class SurfaceTexture {
+  public:
+    /// Shades all of the bone. Throws gl::NoTextureMemory where the driver has none for four bytes a voxel.
+    SurfaceTexture(const Bone& bone, const LookTable& table, const BrickPlaces& places);
+
+    /// Shades again what a change of these voxels can have changed: themselves and one voxel round them.
+    /// `places` are those of the constructor.
+    void update(const Bone& bone, BrickPlaces& places, std::span<const VoxelBox> changed);
+
+    const gl::Texture3D& texture() const { return texture_; }
+
+  private:
+    void shade(const Bone& bone, const PlacedVoxels& placed);
+
+    SurfaceShader shader_;
+    gl::Texture3D texture_;
+};
+
+}  // namespace osteomill

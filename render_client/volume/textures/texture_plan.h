@@ -1,0 +1,39 @@
+// How a bone is to be held in 3D textures within what the driver and the user allow.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "render_client/volume/textures/brick_places.h"
+
+namespace osteomill {
+
+/// A laptop's graphics share its memory: more than this for the bone alone would be felt elsewhere.
+inline constexpr std::size_t default_texture_budget_bytes = std::size_t{1} << 30;
+
+struct TextureLimits {
+    std::size_t budget_bytes = default_texture_budget_bytes;
+    std::optional<int> longest_edge_texels{};  ///< absent: what the driver allows
+    std::optional<BoneLayout> layout{};        ///< absent: dense where it fits, else an atlas
+};
+
+struct TexturePlan {
+    BoneLayout layout = BoneLayout::dense;
+    int coarsening = 1;     ///< voxels of the bone along an edge of a voxel that is drawn
+    std::size_t bytes = 0;  ///< of all textures together, as the driver is asked for them
+
+    bool operator==(const TexturePlan&) const = default;
+};
+
+/// Every way that keeps within the limits, best first: the bone itself before coarser copies of it (by 2, 4,
+/// 8), dense before atlas. `bytes_per_voxel` of all the textures that hold voxels; `longest_edge_texels` of
+/// the limits must be given.
+std::vector<TexturePlan> texture_plans(const BoneContent& content, std::size_t bytes_per_voxel,
+                                       const TextureLimits& limits);
+
+/// "a dense texture, 21 MiB", "a brick atlas, 412 MiB, of a copy 2 times coarser".
+std::string description(const TexturePlan& plan);
+
+}  // namespace osteomill

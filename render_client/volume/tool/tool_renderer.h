@@ -1,0 +1,54 @@
+// Draws what is not bone: the burr with its shank, the force on the hand as an arrow, the hand's target as a
+// ghost. All are meshes, tested against the depth that the bone left.
+#pragma once
+
+#include <glm/vec3.hpp>
+#include <optional>
+
+#include "render_client/volume/camera.h"
+#include "render_client/volume/gl/mesh.h"
+#include "render_client/volume/gl/program.h"
+#include "render_client/volume/passes/tile_mask.h"
+#include "render_client/volume/tool/tool_shape.h"
+
+namespace osteomill {
+
+/// What stands beside the bone in one frame; patient LPS.
+struct DrawnTool {
+    BurrShape burr;
+    glm::dvec3 position_mm{0.0};
+    glm::dvec3 spindle_axis{0.0, 0.0, 1.0};  ///< unit, tip to shank
+    double spin_rad = 0.0;
+    glm::dvec3 force_n{0.0};                   ///< on the hand
+    std::optional<glm::dvec3> hand_target_mm;  ///< drawn as a translucent burr where it is given
+};
+
+/// Length of the force arrow.
+inline constexpr double arrow_mm_per_n = 4.0;
+/// Less force than this shows no arrow.
+inline constexpr double shortest_arrow_n = 0.02;
+
+class ToolRenderer {
+  public:
+    ToolRenderer();
+    /// Draws over the bound framebuffer, whose depth is that of Camera::projection and whose size that of the
+    /// mask; marks the tiles that it may have drawn into.
+    void draw(const DrawnTool& tool, const Camera& camera, TileMask& covered);
+
+  private:
+    struct Finish {
+        float opacity = 1.0f;
+        float polish = 0.0f;  ///< 0 matt, 1 steel
+    };
+    /// The program must be in use.
+    void draw_mesh(const gl::Mesh& mesh, const glm::dmat4& model, const glm::dmat4& view_projection,
+                   const Finish& finish, TileMask& covered) const;
+
+    gl::Program program_;
+    gl::Mesh arrow_;
+    gl::Mesh ghost_;
+    BurrShape burr_shape_;
+    gl::Mesh burr_;
+};
+
+}  // namespace osteomill

@@ -1,0 +1,153 @@
+#include "render_client/volume/tool/tool_shape.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <glm/geometric.hpp>
+#include <numbers>
+
+namespace osteomill {
+
+namespace {
+
+constexpr glm::vec3 bright_steel(0.62f, 0.64f, 0.67f);
+constexpr glm::vec3 groove_steel(0.16f, 0.17f, 0.19f);
+constexpr glm::vec3 shank_steel(0.48f, 0.50f, 0.53f);
+
+// Shanks of dental burrs: 1.6 mm for the turbine, 2.35 mm for the straight handpiece (ISO 1797).
+constexpr double turbine_shank_radius_mm = 0.8;
+constexpr double handpiece_shank_radius_mm = 1.175;
+constexpr double shank_length_mm = 18.0;
+
+/// A closed grid of quads: `columns` round the z axis, one row a station, each point given by a function.
+Triangles wrap(int rows, int columns, const std::function<Vertex(int row, double angle_rad)>& point) {
+    Triangles triangles;
+    for (int row = 0; row < rows; ++row)
+        for (int column = 0; column < columns; ++column)
+            triangles.vertices.push_back(point(row, 2.0 * std::numbers::pi * column / columns));
+    const auto index = [&](int row, int column) {
+        return static_cast<std::uint32_t>(row * columns + column % columns);
+    };
+    for (int row = 0; row + 1 < rows; ++row)
+        for (int column = 0; column < columns; ++column) {
+            const std::uint32_t a = index(row, column), b = index(row, column + 1);
+            const std::uint32_t c = index(row + 1, column), d = index(row + 1, column + 1);
+            triangles.indices.insert(triangles.indices.end(), {a, b, d, a, d, c});
+        }
+    return triangles;
+}
+
+/// Normals by area-weighted averages of the triangles that meet in a vertex.
+void smooth_normals(Triangles& triangles) {
+    for (Vertex& vertex : triangles.vertices) vertex.normal = glm::vec3(0.0f);
+    for (std::size_t first = 0; first < triangles.indices.size(); first += 3) {
+        Vertex& a = triangles.vertices[triangles.indices[first]];
+        Vertex& b = triangles.vertices[triangles.indices[first + 1]];
+        Vertex& c = triangles.vertices[triangles.indices[first + 2]];
+        const glm::vec3 normal = glm::cross(b.position - a.position, c.position - a.position);
+        a.normal += normal;
+        b.normal += normal;
+        c.normal += normal;
+    }
+    for (Vertex& vertex : triangles.vertices) {
+        const float length = glm::length(vertex.normal);
+        vertex.normal = length > 0.0f ? vertex.normal / length : glm::vec3(0.0f, 0.0f, 1.0f);
+    }
+}
+
+void append(Triangles& whole, const Triangles& part) {
+    const auto offset = static_cast<std::uint32_t>(whole.vertices.size());
+    whole.vertices.insert(whole.vertices.end(), part.vertices.begin(), part.vertices.end());
+    for (const std::uint32_t index : part.indices) whole.indices.push_back(index + offset);
+}
+
+struct Station {
+    double z;
+    double radius;
+};
+
+using ColourRound = std::function<glm::vec3(double angle_rad)>;
+
+/// A body of revolution; each pair of stations is a band of its own, so that edges between bands stay sharp.
+Triangles lathe(const std::vector<Station>& stations, const ColourRound& colour) {
+    Triangles body;
+    for (std::size_t band = 0; band + 1 < stations.size(); ++band) {
+        Triangles part = wrap(2, 32, [&](int row, double angle_rad) {
+            const Station& station = stations[band + static_cast<std::size_t>(row)];
+            return Vertex{
+                {station.radius * std::cos(angle_rad), station.radius * std::sin(angle_rad), station.z},
+                {},
+                colour(angle_rad)};
+        });
+        smooth_normals(part);
+        append(body, part);
+    }
+    return body;
+}
+
+/// A smooth shank would not show that it turns: two dark marks do, also while the burr is out of sight.
+glm::vec3 marked_shank(double angle_rad) {
+    return std::abs(std::sin(angle_rad)) < 0.35 ? groove_steel : shank_steel;
+}
+
+/// 1 at the bottom of a flute, 0 on the land between two. Flutes wind round the axis and fade at the tip.
+double groove_depth(const BurrShape& burr, double angle_rad, double from_tip_rad) {
+    const double winding = burr.clockwise ? -1.0 : 1.0;
+    const double phase = burr.edges * (angle_rad + winding * 0.6 * from_tip_rad);
+    return std::pow(0.5 + 0.5 * std::cos(phase), 3.0) * std::sin(from_tip_rad);
+}
+
+Triangles fluted_sphere(const BurrShape& burr) {
+    constexpr int rows = 40;
+    const double radius = 0.5 * burr.diameter_mm;
+    Triangles sphere = wrap(rows, 120, [&](int row, double angle_rad) {
+        const double from_tip_rad = std::numbers::pi * row / (rows - 1);
+        const double groove = groove_depth(burr, angle_rad, from_tip_rad);
+        const double r = radius * (1.0 - 0.14 * groove);
+        const double around = r * std::sin(from_tip_rad);
+        return Vertex{
+            {around * std::cos(angle_rad), around * std::sin(angle_rad), -r * std::cos(from_tip_rad)},
+            {},
+            glm::mix(bright_steel, groove_steel, static_cast<float>(groove))};
+    });
+    smooth_normals(sphere);
+    return sphere;
+}
+
+}  // namespace
+
+Triangles burr_and_shank(const BurrShape& burr) {
+    const double radius = 0.5 * burr.diameter_mm;
+    const double neck = 0.45 * radius;
+    const double shank = radius > 1.0 ? handpiece_shank_radius_mm : turbine_shank_radius_mm;
+    const double neck_end = radius + std::max(2.0, 1.2 * radius);
+    const double taper_end = neck_end + 3.0;
+    Triangles tool = fluted_sphere(burr);
+    append(tool, lathe({{0.8 * radius, neck},
+                        {neck_end, neck},
+                        {taper_end, shank},
+                        {taper_end + shank_length_mm, shank},
+                        {taper_end + shank_length_mm, 0.0}},
+                       marked_shank));
+    return tool;
+}
+
+Triangles unit_arrow(const glm::vec3& linear_rgb) {
+    return lathe({{0.0, 0.0}, {0.0, 0.03}, {0.72, 0.03}, {0.72, 0.085}, {1.0, 0.0}},
+                 [&](double) { return linear_rgb; });
+}
+
+Triangles unit_sphere(const glm::vec3& linear_rgb) {
+    constexpr int rows = 20;
+    Triangles sphere = wrap(rows, 32, [&](int row, double angle_rad) {
+        const double from_tip_rad = std::numbers::pi * row / (rows - 1);
+        const double around = std::sin(from_tip_rad);
+        return Vertex{{around * std::cos(angle_rad), around * std::sin(angle_rad), -std::cos(from_tip_rad)},
+                      {},
+                      linear_rgb};
+    });
+    smooth_normals(sphere);
+    return sphere;
+}
+
+}  // namespace osteomill

@@ -1,0 +1,26 @@
+// The shapes of what is drawn beside the bone, as triangles: burr with shank, force arrow, sphere.
+#pragma once
+
+#include "render_client/volume/tool/triangles.h"
+
+namespace osteomill {
+
+struct BurrShape {
+    double diameter_mm = 5.0;
+    int edges = 6;
+    bool clockwise = true;  ///< which way the flutes wind
+
+    bool operator==(const BurrShape&) const = default;
+};
+
+/// Fluted sphere, tapered neck and cylindrical shank in the burr frame: origin at the sphere's centre, +z
+/// from tip to shank, mm. The flutes are cut into the sphere, so the outline is the burr's true radius.
+Triangles burr_and_shank(const BurrShape& burr);
+
+/// An arrow from the origin along +z of length 1 with a shaft and a head.
+Triangles unit_arrow(const glm::vec3& linear_rgb);
+
+/// A sphere of radius 1 round the origin.
+Triangles unit_sphere(const glm::vec3& linear_rgb);
+
+}  // namespace osteomill
