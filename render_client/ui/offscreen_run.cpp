@@ -7,8 +7,8 @@
 #include <stdexcept>
 #include <thread>
 
-#include "render_client/ui/screenshots.h"
-#include "render_client/ui/session_picture.h"
+#include "render_client/ui/view/screenshots.h"
+#include "render_client/ui/view/session_picture.h"
 #include "render_client/volume/gl/offscreen_context.h"
 
 namespace osteomill {

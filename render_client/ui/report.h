@@ -6,7 +6,7 @@
 #include <optional>
 #include <string>
 
-#include "render_client/ui/frame_times.h"
+#include "render_client/ui/view/frame_times.h"
 #include "render_client/volume/textures/texture_plan.h"
 
 namespace osteomill {

@@ -11,13 +11,13 @@
 #include <exception>
 #include <thread>
 
-#include "render_client/ui/commands.h"
-#include "render_client/ui/input_mailbox.h"
-#include "render_client/ui/operator_desk.h"
-#include "render_client/ui/redraw.h"
-#include "render_client/ui/screenshots.h"
-#include "render_client/ui/session_picture.h"
-#include "render_client/ui/window.h"
+#include "render_client/ui/input/commands.h"
+#include "render_client/ui/input/input_mailbox.h"
+#include "render_client/ui/input/operator_desk.h"
+#include "render_client/ui/view/redraw.h"
+#include "render_client/ui/view/screenshots.h"
+#include "render_client/ui/view/session_picture.h"
+#include "render_client/ui/view/window.h"
 
 namespace osteomill {
 

@@ -9,7 +9,7 @@
 #include <ctime>
 #include <vector>
 
-#include "render_client/ui/session_picture.h"
+#include "render_client/ui/view/session_picture.h"
 #include "tests/benchmarks/phantom_session.h"
 
 namespace osteomill {

@@ -1,4 +1,4 @@
-#include "render_client/ui/cut_settings.h"
+#include "render_client/ui/view/cut_settings.h"
 
 #include <gtest/gtest.h>
 

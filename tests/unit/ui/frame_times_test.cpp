@@ -1,4 +1,4 @@
-#include "render_client/ui/frame_times.h"
+#include "render_client/ui/view/frame_times.h"
 
 #include <gtest/gtest.h>
 

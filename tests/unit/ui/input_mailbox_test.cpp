@@ -1,4 +1,4 @@
-#include "render_client/ui/input_mailbox.h"
+#include "render_client/ui/input/input_mailbox.h"
 
 #include <gmock/gmock.h>
 

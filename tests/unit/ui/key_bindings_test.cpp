@@ -1,4 +1,4 @@
-#include "render_client/ui/key_bindings.h"
+#include "render_client/ui/input/key_bindings.h"
 
 #include <gmock/gmock.h>
 

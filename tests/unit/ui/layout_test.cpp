@@ -1,4 +1,4 @@
-#include "render_client/ui/layout.h"
+#include "render_client/ui/panels/layout.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "render_client/ui/operator_desk.h"
+#include "render_client/ui/input/operator_desk.h"
 
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>

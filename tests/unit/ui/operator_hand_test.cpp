@@ -1,4 +1,4 @@
-#include "render_client/ui/operator_hand.h"
+#include "render_client/ui/input/operator_hand.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "render_client/ui/orientation_cube.h"
+#include "render_client/ui/panels/orientation_cube.h"
 
 #include <gtest/gtest.h>
 

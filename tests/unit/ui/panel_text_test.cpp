@@ -1,4 +1,4 @@
-#include "render_client/ui/panel_text.h"
+#include "render_client/ui/panels/panel_text.h"
 
 #include <gmock/gmock.h>
 

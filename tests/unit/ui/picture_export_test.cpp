@@ -1,4 +1,4 @@
-#include "render_client/ui/picture_export.h"
+#include "render_client/ui/view/picture_export.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

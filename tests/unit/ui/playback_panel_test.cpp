@@ -1,4 +1,4 @@
-#include "render_client/ui/playback_panel.h"
+#include "render_client/ui/panels/playback_panel.h"
 
 #include <gtest/gtest.h>
 #include <imgui.h>

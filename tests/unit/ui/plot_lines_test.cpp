@@ -1,4 +1,4 @@
-#include "render_client/ui/plot_lines.h"
+#include "render_client/ui/panels/plot_lines.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "render_client/ui/redraw.h"
+#include "render_client/ui/view/redraw.h"
 
 #include <gtest/gtest.h>
 

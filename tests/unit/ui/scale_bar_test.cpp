@@ -1,4 +1,4 @@
-#include "render_client/ui/scale_bar.h"
+#include "render_client/ui/panels/scale_bar.h"
 
 #include <gtest/gtest.h>
 

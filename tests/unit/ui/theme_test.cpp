@@ -1,4 +1,4 @@
-#include "render_client/ui/theme.h"
+#include "render_client/ui/panels/theme.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "render_client/ui/tool_history.h"
+#include "render_client/ui/panels/tool_history.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "render_client/ui/transfer_editor.h"
+#include "render_client/ui/panels/transfer_editor.h"
 
 #include <gtest/gtest.h>
 

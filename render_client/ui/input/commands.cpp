@@ -1,0 +1,103 @@
+#include "render_client/ui/input/commands.h"
+
+#include <stdexcept>
+#include <utility>
+
+namespace osteomill {
+
+namespace {
+
+constexpr double seek_s = 5.0;
+constexpr double notice_s = 4.0;
+
+}  // namespace
+
+Commands::Commands(SessionPicture& session, OperatorDesk& desk, RecordingPlayer* player,
+                   const std::filesystem::path& pictures_folder)
+    : session_(session),
+      desk_(desk),
+      player_(player),
+      pictures_(pictures_folder.empty() ? std::filesystem::path(".") : pictures_folder) {}
+
+void Commands::take(Action action) {
+    ViewSettings& view = session_.view();
+    switch (action) {
+        case Action::none:
+            break;
+        case Action::help:
+            view.help_shown = !view.help_shown;
+            break;
+        case Action::theme:
+            view.theme = other_theme(view.theme);
+            break;
+        case Action::panels:
+            view.panels_shown = !view.panels_shown;
+            break;
+        case Action::cuts_panel:
+            view.cuts_panel_shown = !view.cuts_panel_shown;
+            break;
+        case Action::transfer_panel:
+            view.transfer_panel_shown = !view.transfer_panel_shown;
+            break;
+        case Action::cut_x:
+        case Action::cut_y:
+        case Action::cut_z:
+        case Action::cut_view:
+            view.cuts.step(static_cast<std::size_t>(action) - static_cast<std::size_t>(Action::cut_x),
+                           session_.camera());
+            break;
+        case Action::first_view:
+            session_.reset_camera();
+            break;
+        case Action::screenshot:
+            picture_wanted_ = true;
+            break;
+        case Action::export_frames:
+            export_wanted_ = !export_wanted_;
+            break;
+        case Action::end:
+            end_wanted_ = true;
+            break;
+        case Action::next_burr:
+            desk_.choose_next_burr();
+            break;
+        case Action::previous_burr:
+            desk_.choose_previous_burr();
+            break;
+        case Action::play_or_pause:
+            player_->is_playing() ? player_->pause() : player_->play();
+            break;
+        case Action::back_5_s:
+            player_->seek(player_->time_s() - seek_s);
+            break;
+        case Action::on_5_s:
+            player_->seek(player_->time_s() + seek_s);
+            break;
+    }
+}
+
+void Commands::write_pictures(const gl::Framebuffer& picture, double now_s) {
+    try {
+        if (std::exchange(picture_wanted_, false))
+            say("written: " + pictures_.write(picture.read_back()).string(), now_s);
+        if (export_wanted_ && !pictures_.is_exporting())
+            say("writing every frame into " + pictures_.begin_frames().string() + " until F11", now_s);
+        if (!export_wanted_ && pictures_.is_exporting()) {
+            pictures_.end_frames();
+            say("no more frames are written", now_s);
+        }
+        if (pictures_.is_exporting()) pictures_.add_frame(picture.read_back(), now_s);
+    } catch (const std::runtime_error& error) {
+        export_wanted_ = false;
+        pictures_.end_frames();
+        say(error.what(), now_s);
+    }
+    if (now_s > notice_until_s_) session_.view().notice.clear();
+}
+
+void Commands::say(std::string notice, double now_s) {
+    session_.view().notice = std::move(notice);
+    notice_until_s_ = now_s + notice_s;
+}
+
+}  // namespace osteomill

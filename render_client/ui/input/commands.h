@@ -1,0 +1,43 @@
+// Carries out what keys ask for once: of the view, the operator's desk, the player, and for pictures in
+// files.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "render_client/ui/input/key_bindings.h"
+#include "render_client/ui/input/operator_desk.h"
+#include "render_client/ui/view/picture_export.h"
+#include "render_client/ui/view/session_picture.h"
+
+namespace osteomill {
+
+class Commands {
+  public:
+    /// Pictures go into `pictures_folder`; an empty one is the current folder. `player` is null where no
+    /// recording is shown.
+    Commands(SessionPicture& session, OperatorDesk& desk, RecordingPlayer* player,
+             const std::filesystem::path& pictures_folder);
+
+    void take(Action action);
+    /// Call after each frame: writes what was asked for, and says so, or what went wrong, for a few seconds.
+    void write_pictures(const gl::Framebuffer& picture, double now_s);
+
+    bool end_wanted() const { return end_wanted_; }
+    /// Whether every frame is written, so that they have to come.
+    bool is_exporting() const { return export_wanted_; }
+
+  private:
+    void say(std::string notice, double now_s);
+
+    SessionPicture& session_;
+    OperatorDesk& desk_;
+    RecordingPlayer* player_;
+    PictureExport pictures_;
+    bool picture_wanted_ = false;
+    bool export_wanted_ = false;
+    bool end_wanted_ = false;
+    double notice_until_s_ = 0.0;
+};
+
+}  // namespace osteomill

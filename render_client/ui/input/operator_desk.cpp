@@ -1,0 +1,85 @@
+#include "render_client/ui/input/operator_desk.h"
+
+// GLFW's names of keys.
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
+
+#include <algorithm>
+#include <utility>
+
+namespace osteomill {
+
+namespace {
+
+constexpr double advance_mm_per_s = 2.0;
+constexpr double advance_mm_per_notch = 0.1;
+/// A key that is held does not move the hand by what a thread that stood still has missed.
+constexpr double longest_step_s = 0.1;
+
+}  // namespace
+
+void OperatorDesk::step(const WindowInput& input, double elapsed_s) {
+    // Without a session of this kind there is nobody who could be sent an operator's wishes.
+    const std::optional<ToolView> tool = source_.newest_tool();
+    std::optional<OperatorIntent> wish;
+    {
+        const std::scoped_lock lock(mutex_);
+        if (tool && picture_.drills) {
+            // What the hand wants is only known once it rests on the tool: an intent of its own making would
+            // drag the tool away.
+            hand_.follow(*tool, picture_.burr_count);
+            if (input.is_focused && !input.is_minimised)
+                move_hand(input, std::min(elapsed_s, longest_step_s));
+            else
+                hand_.let_go();
+            hand_.follow(*tool, picture_.burr_count);
+            // What is sent last lifts the pedal; then the tool is free for others.
+            if (hand_.wants_tool() || had_tool_) wish = hand_.intent();
+            // It may be asked for, but must not jump to where this hand has gone meanwhile.
+            if (tool->driver == ToolDriver::another) hand_.let_go();
+        } else {
+            hand_.let_go();
+        }
+        had_tool_ = hand_.wants_tool();
+    }
+    cursor_ = input.cursor;
+    if (wish) source_.send_operator(*wish);
+}
+
+void OperatorDesk::move_hand(const WindowInput& input, double elapsed_s) {
+    if (input.went_down[WindowInput::left]) drags_hand_ = !picture_.panels_have_mouse;
+    const glm::dvec2 moved_px = (input.cursor - cursor_) * input.px_per_unit();
+    if (drags_hand_ && input.is_down[WindowInput::left] && moved_px != glm::dvec2(0.0))
+        hand_.move_in_picture(moved_px, picture_.camera, picture_.size_px);
+    if (!input.is_down[WindowInput::left]) drags_hand_ = false;
+    if (input.ctrl && input.wheel.y != 0.0 && !picture_.panels_have_mouse)
+        hand_.advance(advance_mm_per_notch * input.wheel.y);
+    if (input.keys_down[GLFW_KEY_W]) hand_.advance(advance_mm_per_s * elapsed_s);
+    if (input.keys_down[GLFW_KEY_S]) hand_.advance(-advance_mm_per_s * elapsed_s);
+    for (const int key : input.presses)
+        if (key >= GLFW_KEY_1 && key <= GLFW_KEY_9)
+            hand_.choose_burr(static_cast<std::size_t>(key - GLFW_KEY_1));
+    hand_.set_pedal(input.keys_down[GLFW_KEY_SPACE]);
+}
+
+void OperatorDesk::show(const DeskPicture& picture) {
+    const std::scoped_lock lock(mutex_);
+    picture_ = picture;
+}
+
+void OperatorDesk::choose_next_burr() {
+    const std::scoped_lock lock(mutex_);
+    hand_.choose_next_burr();
+}
+
+void OperatorDesk::choose_previous_burr() {
+    const std::scoped_lock lock(mutex_);
+    hand_.choose_previous_burr();
+}
+
+std::optional<OperatorIntent> OperatorDesk::intent() const {
+    const std::scoped_lock lock(mutex_);
+    return picture_.drills ? std::optional(hand_.intent()) : std::nullopt;
+}
+
+}  // namespace osteomill

@@ -1,0 +1,63 @@
+// The operator's controls, on the thread that reads mouse and keyboard: turns what they do into wishes of the
+// hand and sends them, at a rate of its own.
+//
+// Why a thread of its own: the server gives an operator who is silent 0.2 s
+// (haptic_server/device/permission.h) before the spindle stops. A picture that takes half a second must not
+// count as silence, nor may a pedal that comes up wait for it; but a program that no longer reads its mouse
+// must fall silent, so nothing else may speak for it. So the window's thread, which alone may read events (a
+// rule of GLFW's), does nothing but that and sends what it read; another one draws.
+//
+// What the hand needs to know of the tool comes straight from the link, not from the last picture.
+#pragma once
+
+#include <mutex>
+#include <optional>
+
+#include "render_client/ui/input/operator_hand.h"
+#include "render_client/ui/session_source.h"
+#include "render_client/ui/input/window_input.h"
+
+namespace osteomill {
+
+/// What the hand needs to know of the picture.
+struct DeskPicture {
+    bool drills = false;  ///< there is a session that an operator may drill in
+    std::size_t burr_count = 0;
+    Camera camera{};
+    glm::ivec2 size_px{1, 1};
+    bool panels_have_mouse = false;
+};
+
+class OperatorDesk {
+  public:
+    /// The source outlives the desk.
+    explicit OperatorDesk(SessionSource& source) : source_(source) {}
+
+    /// Thread of the window, 50 times a second or more while is_driving(): takes what happened since the last
+    /// step, and sends what the hand wants.
+    void step(const WindowInput& input, double elapsed_s);
+    /// Thread of the window: whether the hand has asked for the tool.
+    bool is_driving() const { return had_tool_; }
+
+    /// These: any thread.
+    void show(const DeskPicture& picture);
+    void choose_next_burr();
+    void choose_previous_burr();
+    /// What the hand wants; nothing where nobody may drill.
+    std::optional<OperatorIntent> intent() const;
+
+  private:
+    void move_hand(const WindowInput& input, double elapsed_s);
+
+    SessionSource& source_;
+    mutable std::mutex mutex_;  // of the two below; held for microseconds
+    DeskPicture picture_;
+    OperatorHand hand_;
+
+    // Thread of the window.
+    glm::dvec2 cursor_{0.0};
+    bool drags_hand_ = false;
+    bool had_tool_ = false;
+};
+
+}  // namespace osteomill

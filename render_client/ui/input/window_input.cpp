@@ -1,0 +1,22 @@
+#include "render_client/ui/input/window_input.h"
+
+#include <utility>
+
+namespace osteomill {
+
+void WindowInput::append(const WindowInput& later) {
+    const WindowInput before = std::exchange(*this, later);
+    for (std::size_t i = 0; i < buttons; ++i) went_down[i] = went_down[i] || before.went_down[i];
+    presses.insert(presses.begin(), before.presses.begin(), before.presses.end());
+    wheel += before.wheel;
+    has_news = has_news || before.has_news;
+}
+
+void WindowInput::forget_events() {
+    went_down = {};
+    presses.clear();
+    wheel = glm::dvec2(0.0);
+    has_news = false;
+}
+
+}  // namespace osteomill

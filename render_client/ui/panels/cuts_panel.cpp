@@ -1,0 +1,52 @@
+#include "render_client/ui/panels/cuts_panel.h"
+
+#include <algorithm>
+#include <array>
+
+#include "render_client/ui/panels/input_panel.h"
+
+namespace osteomill {
+
+namespace {
+
+constexpr std::array<const char*, CutSettings::count> cut_names{"left/right (X)", "front/back (Y)",
+                                                                "above/below (Z)", "across the view (C)"};
+
+void draw_row(CutSettings& cuts, std::size_t index, const Camera& camera) {
+    const CutSettings::Cut& cut = cuts[index];
+    bool is_on = cut.is_on;
+    if (ImGui::Checkbox(cut_names[index], &is_on)) is_on ? cuts.step(index, camera) : cuts.switch_off(index);
+    auto position_mm = static_cast<float>(cut.position_mm);
+    // One that was never on has no direction yet, and so no reach.
+    const float reach_mm = std::max(static_cast<float>(cuts.reach_mm(index)), 0.1f);
+    ImGui::BeginDisabled(!cut.is_on);
+    const float flip_width = 5.0f * ImGui::GetFontSize();
+    ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x - flip_width - ImGui::GetStyle().ItemSpacing.x);
+    if (ImGui::SliderFloat("##position", &position_mm, -reach_mm, reach_mm, "%.1f mm",
+                           ImGuiSliderFlags_NoInput))
+        cuts.move_to(index, position_mm);
+    ImGui::SameLine();
+    if (ImGui::Button("turn over", {flip_width, 0.0f})) cuts.turn_over(index);
+    ImGui::EndDisabled();
+}
+
+}  // namespace
+
+glm::vec2 cuts_panel_size(const PanelPainter& painter) {
+    const float rows = 2.0f * CutSettings::count;
+    return {21.0f * ImGui::GetFontSize(), rows * ImGui::GetFrameHeightWithSpacing() +
+                                              2.0f * ImGui::GetStyle().WindowPadding.y +
+                                              painter.line_height()};
+}
+
+void draw_cuts_panel(CutSettings& cuts, const Camera& camera, const PanelPlace& place) {
+    const InputPanel window("cuts", place);
+    for (std::size_t index = 0; index < CutSettings::count; ++index) {
+        ImGui::PushID(static_cast<int>(index));
+        draw_row(cuts, index, camera);
+        ImGui::PopID();
+    }
+    ImGui::TextDisabled("alt + wheel moves the last; F4 closes");
+}
+
+}  // namespace osteomill

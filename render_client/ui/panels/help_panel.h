@@ -1,0 +1,13 @@
+// The help that F1 shows, printed from the table of key bindings; letters shrink until it fits the picture.
+#pragma once
+
+#include "render_client/ui/input/key_bindings.h"
+#include "render_client/ui/panels/panel_painter.h"
+
+namespace osteomill {
+
+/// At most as large as `room`.
+glm::vec2 help_size(const PanelPainter& painter, Situation situation, const glm::vec2& room);
+void draw_help(const PanelPainter& painter, Situation situation, const PanelPlace& place);
+
+}  // namespace osteomill

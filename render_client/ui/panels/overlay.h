@@ -1,0 +1,38 @@
+// Everything over the picture: panels, plots, legend, scale bar, orientation cube, warnings, help. Drawn with
+// Dear ImGui; needs an ImGui frame to be open.
+#pragma once
+
+#include <glm/vec2.hpp>
+#include <optional>
+#include <string>
+
+#include "render_client/ui/session_source.h"
+#include "render_client/ui/panels/tool_history.h"
+#include "render_client/ui/view/view_settings.h"
+#include "render_client/volume/camera.h"
+#include "render_client/volume/picture_quality.h"
+
+namespace osteomill {
+
+/// The pointers are never null but where it says so; what a panel changes, it changes through them.
+struct OverlayContent {
+    LinkUpdate link;
+    const SessionInfo* session = nullptr;  ///< null until a server has said hello
+    std::optional<ToolView> tool;
+    const ToolHistory* history = nullptr;
+    Camera* camera = nullptr;
+    ViewSettings* view = nullptr;
+    double render_frames_per_s = 0.0;
+    PictureQuality quality;
+    /// What the operator asks for, where one drills from here.
+    std::optional<OperatorIntent> operator_intent;
+    /// Null unless a recording is shown.
+    RecordingPlayer* player = nullptr;
+    /// Why there is no bone in the picture, where there is none for a reason.
+    std::string bone_problem;
+    bool has_bone = false;
+};
+
+void draw_overlay(const OverlayContent& content, const glm::ivec2& size_px);
+
+}  // namespace osteomill

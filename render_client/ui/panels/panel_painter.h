@@ -1,0 +1,47 @@
+// Paints panels of text and marks over the picture with Dear ImGui's draw lists; needs an ImGui frame to be
+// open. Lengths are pixels of the picture.
+#pragma once
+
+#include <imgui.h>
+
+#include "render_client/ui/panels/layout.h"
+#include "render_client/ui/panels/panel_text.h"
+
+namespace osteomill {
+
+inline ImU32 colour_of(const Rgba& colour) {
+    return IM_COL32(colour.r, colour.g, colour.b, colour.a);
+}
+inline ImVec2 to_imgui(const glm::vec2& point) {
+    return {point.x, point.y};
+}
+
+class PanelPainter {
+  public:
+    PanelPainter(const Theme& theme, float scale);
+
+    const Theme& theme() const { return theme_; }
+    float scale() const { return scale_; }
+    float line_height() const;
+    /// Between a panel's edge and its content.
+    float padding() const { return 8.0f * scale_; }
+    float width_of(const std::string& text) const;
+
+    /// The panel that holds the text, its lines wrapped to at most `widest`.
+    glm::vec2 size_of(const PanelText& text, float widest) const;
+    void draw(const PanelText& text, const PanelPlace& place) const;
+    /// A panel with nothing in it.
+    void draw_background(const PanelPlace& place) const;
+    void draw_text(const glm::vec2& place, const Rgba& colour, const std::string& text,
+                   float font_factor = 1.0f, float wrap_width = 0.0f) const;
+    /// Letters over the picture, legible on bone and on background.
+    void draw_on_picture(const glm::vec2& place, const std::string& text) const;
+    ImDrawList& canvas() const { return canvas_; }
+
+  private:
+    const Theme& theme_;
+    float scale_;
+    ImDrawList& canvas_;
+};
+
+}  // namespace osteomill

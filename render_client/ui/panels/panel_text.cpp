@@ -1,0 +1,86 @@
+#include "render_client/ui/panels/panel_text.h"
+
+#include <fmt/format.h>
+
+namespace osteomill {
+
+namespace {
+
+TextLine line(Tone tone, std::string text) {
+    return {{tone, std::move(text)}};
+}
+
+std::string quality_in_words(const PictureQuality& quality) {
+    if (quality.refined) return "full quality";
+    if (quality.scale == 1.0) return "refining";
+    return fmt::format("coarse, {:.0f} %", 100.0 * quality.scale);
+}
+
+bool has_problem(LinkStatus status) {
+    return status == LinkStatus::connecting || status == LinkStatus::lost || status == LinkStatus::refused;
+}
+
+}  // namespace
+
+PanelText session_text(const OverlayContent& content) {
+    PanelText text;
+    if (content.session) text.push_back(line(Tone::plain, content.session->scene_name));
+    text.push_back(
+        line(has_problem(content.link.status) ? Tone::warning : Tone::plain, content.link.status_line));
+    text.push_back(line(Tone::dim, fmt::format("picture {:.0f} frames/s, {}", content.render_frames_per_s,
+                                               quality_in_words(content.quality))));
+    text.push_back(
+        line(Tone::dim, fmt::format("{} {:.0f} frames/s, {:.1f} kB/s", content.player ? "file" : "link",
+                                    content.link.frames_per_s, 1e-3 * content.link.bytes_per_s)));
+    if (const auto& delay = content.link.delay)
+        text.push_back(line(Tone::dim, fmt::format("delay {:.0f} ms by the clocks, {:.0f} over the least",
+                                                   1e3 * delay->by_clocks_s, 1e3 * delay->over_least_s)));
+    if (const std::uint64_t bad = content.link.checksum_mismatches + content.link.rejected_frames; bad > 0)
+        text.push_back(line(Tone::warning, fmt::format("{} bad frames; {} bricks were repaired", bad,
+                                                       content.link.bricks_repaired)));
+    if (!content.view->help_shown) text.push_back(line(Tone::dim, "F1 help"));
+    return text;
+}
+
+PanelText tool_text(const OverlayContent& content) {
+    const ToolView& tool = *content.tool;
+    PanelText text;
+    if (content.session && tool.burr < content.session->burrs.size()) {
+        const Burr& burr = content.session->burrs[tool.burr];
+        text.push_back(
+            line(Tone::plain, fmt::format("burr {:.1f} mm, {} edges", burr.diameter_mm, burr.edges)));
+        text.push_back(tool.spindle_on ? line(Tone::good, fmt::format("spindle {:.0f} rpm",
+                                                                      60.0 * burr.spindle_rev_per_s))
+                                       : line(Tone::dim, "spindle off"));
+    }
+    text.push_back(line(Tone::plain, fmt::format("removed {:.2f} mm\u00b3", tool.removed_mm3)));
+    text.push_back(line(Tone::dim, fmt::format("time {:.1f} s", tool.time_s)));
+    return text;
+}
+
+PanelText warning_text(const OverlayContent& content) {
+    PanelText text;
+    if (!content.bone_problem.empty()) text.push_back(line(Tone::warning, content.bone_problem));
+    if (!content.link.recording_error.empty())
+        text.push_back(line(Tone::warning, content.link.recording_error));
+    if (content.tool && !content.tool->fault.empty())
+        text.push_back(line(Tone::warning, "FAULT: " + content.tool->fault));
+    if (content.tool && content.tool->driver == ToolDriver::others_only)
+        text.push_back(line(Tone::plain, "you watch: the server does not list this client as an operator"));
+    if (content.tool && content.tool->touches_protected)
+        text.push_back(line(Tone::warning, "PROTECTED TISSUE: the burr touches it"));
+    if (!content.view->notice.empty()) text.push_back(line(Tone::plain, content.view->notice));
+    return text;
+}
+
+PanelText operator_text(const OverlayContent& content) {
+    PanelText text;
+    if (content.tool && content.tool->driver == ToolDriver::another)
+        text.push_back(line(Tone::warning, "another client moves the tool; ask again when it has let go"));
+    text.push_back(content.operator_intent->pedal ? line(Tone::good, "pedal down")
+                                                  : line(Tone::dim, "pedal up (SPACE)"));
+    text.push_back(line(Tone::dim, "left drag: hand   W/S: in/out   1-9 [ ]: burr"));
+    return text;
+}
+
+}  // namespace osteomill

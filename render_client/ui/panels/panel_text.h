@@ -1,0 +1,27 @@
+// What the panels say, as coloured text: no drawing, no layout.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "render_client/ui/panels/overlay.h"
+
+namespace osteomill {
+
+struct TextPiece {
+    Tone tone = Tone::plain;
+    std::string text;
+};
+using TextLine = std::vector<TextPiece>;
+using PanelText = std::vector<TextLine>;
+
+/// Scene, connection, rates.
+PanelText session_text(const OverlayContent& content);
+/// Burr, spindle, removed volume; needs content.tool.
+PanelText tool_text(const OverlayContent& content);
+/// What must not be overlooked, and the notice; empty while there is nothing.
+PanelText warning_text(const OverlayContent& content);
+/// Pedal, and who has the tool; needs content.operator_intent.
+PanelText operator_text(const OverlayContent& content);
+
+}  // namespace osteomill

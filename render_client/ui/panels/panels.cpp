@@ -1,0 +1,151 @@
+#include "render_client/ui/panels/panels.h"
+
+#include <backends/imgui_impl_opengl3.h>
+#include <imgui.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <glm/common.hpp>
+#include <limits>
+#include <stdexcept>
+
+#include "render_client/ui/panels/panel_painter.h"
+
+namespace osteomill {
+
+namespace {
+
+/// Of Debian's fonts-dejavu-core. Where it is missing, Dear ImGui's own letters do: coarser, but there.
+constexpr const char* font_file = "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf";
+constexpr float letter_px = 14.0f;
+constexpr float built_in_letter_px = 13.0f;
+
+ImVec4 imgui_colour(const Rgba& colour) {
+    return ImGui::ColorConvertU32ToFloat4(colour_of(colour));
+}
+
+void set_colours(const Theme& theme, ImGuiStyle& style) {
+    const auto set = [&](std::initializer_list<ImGuiCol> places, const Rgba& colour) {
+        for (const ImGuiCol place : places) style.Colors[place] = imgui_colour(colour);
+    };
+    set({ImGuiCol_Text, ImGuiCol_CheckMark}, theme[Tone::plain]);
+    set({ImGuiCol_TextDisabled, ImGuiCol_SliderGrab}, theme[Tone::dim]);
+    set({ImGuiCol_WindowBg, ImGuiCol_PopupBg}, theme.panel);
+    set({ImGuiCol_Button, ImGuiCol_FrameBg, ImGuiCol_Header}, theme.control);
+    set({ImGuiCol_ButtonHovered, ImGuiCol_FrameBgHovered, ImGuiCol_HeaderHovered}, theme.control_hovered);
+    set({ImGuiCol_ButtonActive, ImGuiCol_FrameBgActive, ImGuiCol_HeaderActive, ImGuiCol_SliderGrabActive},
+        theme.control_active);
+}
+
+/// What a draw command covers, in pixels of the framebuffer, y up.
+PixelBox box_of(const ImDrawData& drawn, const ImDrawList& list, const ImDrawCmd& command) {
+    glm::vec2 low(std::numeric_limits<float>::max()), high(std::numeric_limits<float>::lowest());
+    for (unsigned int i = 0; i < command.ElemCount; ++i) {
+        const int index = list.IdxBuffer[static_cast<int>(command.IdxOffset + i)];
+        const ImVec2& place = list.VtxBuffer[static_cast<int>(command.VtxOffset) + index].pos;
+        low = glm::min(low, {place.x, place.y});
+        high = glm::max(high, {place.x, place.y});
+    }
+    low = glm::max(low, {command.ClipRect.x, command.ClipRect.y});
+    high = glm::min(high, {command.ClipRect.z, command.ClipRect.w});
+    if (low.x >= high.x || low.y >= high.y) return {};
+    const glm::vec2 origin(drawn.DisplayPos.x, drawn.DisplayPos.y);
+    const glm::vec2 scale(drawn.FramebufferScale.x, drawn.FramebufferScale.y);
+    const glm::ivec2 first(glm::floor((low - origin) * scale));
+    const glm::ivec2 end(glm::ceil((high - origin) * scale));
+    const int height = static_cast<int>(drawn.DisplaySize.y * scale.y);
+    return {{first.x, height - end.y}, end - first};
+}
+
+std::vector<PixelBox> boxes_of(const ImDrawData& drawn) {
+    std::vector<PixelBox> boxes;
+    for (int list = 0; list < drawn.CmdListsCount; ++list)
+        for (const ImDrawCmd& command : drawn.CmdLists[list]->CmdBuffer)
+            boxes.push_back(box_of(drawn, *drawn.CmdLists[list], command));
+    return boxes;
+}
+
+}  // namespace
+
+Panels::Panels() {
+    ImGui::CreateContext();
+    // No file is written beside the program.
+    ImGui::GetIO().IniFilename = nullptr;
+    if (ImGui_ImplOpenGL3_Init("#version 330 core")) return;
+    ImGui::DestroyContext();
+    throw std::runtime_error("Dear ImGui finds no OpenGL 3 (libGL.so.1); install it: apt-get install libgl1");
+}
+
+Panels::~Panels() {
+    ImGui_ImplOpenGL3_Shutdown();
+    ImGui::DestroyContext();
+}
+
+void Panels::set_style(ThemeName theme, float scale) {
+    if (scale != scale_) load_letters(scale);
+    theme_ = theme;
+    scale_ = scale;
+    ImGuiStyle style;
+    theme == ThemeName::dark ? ImGui::StyleColorsDark(&style) : ImGui::StyleColorsLight(&style);
+    set_colours(theme_of(theme), style);
+    style.WindowRounding = 4.0f;
+    style.FrameRounding = 3.0f;
+    style.WindowBorderSize = 0.0f;
+    style.WindowMinSize = {1.0f, 1.0f};
+    style.ScaleAllSizes(scale);
+    ImGui::GetStyle() = style;
+}
+
+void Panels::load_letters(float scale) {
+    ImFontAtlas& letters = *ImGui::GetIO().Fonts;
+    letters.Clear();
+    ImFontConfig config;
+    if (std::filesystem::exists(font_file)) {
+        letters.AddFontFromFileTTF(font_file, std::round(letter_px * scale));
+    } else {
+        config.SizePixels = std::round(built_in_letter_px * scale);
+        letters.AddFontDefault(&config);
+    }
+    // The back end uploads the new ones when the next frame begins.
+    ImGui_ImplOpenGL3_DestroyDeviceObjects();
+}
+
+void Panels::feed(const WindowInput& input) {
+    ImGuiIO& io = ImGui::GetIO();
+    constexpr float nowhere = -std::numeric_limits<float>::max();
+    const glm::vec2 at(input.cursor * input.px_per_unit());
+    io.MousePos = input.has_cursor ? ImVec2(at.x, at.y) : ImVec2(nowhere, nowhere);
+    // A click that is shorter than a frame is one all the same.
+    const auto is_down = [&](WindowInput::Button button) {
+        return input.is_down[button] || input.went_down[button];
+    };
+    io.MouseDown[ImGuiMouseButton_Left] = is_down(WindowInput::left);
+    io.MouseDown[ImGuiMouseButton_Right] = is_down(WindowInput::right);
+    io.MouseDown[ImGuiMouseButton_Middle] = is_down(WindowInput::middle);
+    io.MouseWheel += static_cast<float>(input.wheel.y);
+    io.MouseWheelH += static_cast<float>(input.wheel.x);
+    io.KeyShift = input.shift;
+    io.KeyCtrl = input.ctrl;
+    io.KeyAlt = input.alt;
+}
+
+void Panels::begin(const glm::ivec2& size_px, double elapsed_s, ThemeName theme, float scale) {
+    if (theme != theme_ || scale != scale_) set_style(theme, scale);
+    ImGui_ImplOpenGL3_NewFrame();
+    ImGuiIO& io = ImGui::GetIO();
+    io.DeltaTime = static_cast<float>(std::max(elapsed_s, 1e-4));
+    io.DisplaySize = {static_cast<float>(size_px.x), static_cast<float>(size_px.y)};
+    io.DisplayFramebufferScale = {1.0f, 1.0f};
+    ImGui::NewFrame();
+    wheel_notches_ = io.MouseWheel;
+}
+
+std::vector<PixelBox> Panels::end() {
+    ImGui::Render();
+    const ImDrawData* drawn = ImGui::GetDrawData();
+    ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
+    return boxes_of(*drawn);
+}
+
+}  // namespace osteomill

@@ -1,0 +1,45 @@
+// Dear ImGui's context and its OpenGL 3 back end, as one RAII value. Needs a current OpenGL context. All
+// lengths are pixels of the picture, also where a window counts in larger units.
+//
+// Takes the window's input as data instead of by Dear ImGui's own back end for GLFW, which reads it where it
+// draws: reading is another thread's business, see operator_desk.h.
+#pragma once
+
+#include <glm/vec2.hpp>
+#include <vector>
+
+#include "render_client/ui/panels/theme.h"
+#include "render_client/ui/input/window_input.h"
+#include "render_client/volume/passes/pixel_box.h"
+
+namespace osteomill {
+
+class Panels {
+  public:
+    Panels();
+    Panels(const Panels&) = delete;
+    Panels& operator=(const Panels&) = delete;
+    ~Panels();
+
+    /// Mouse and keys for the next frame. Without it, as in offscreen pictures, panels take no input.
+    void feed(const WindowInput& input);
+
+    /// Opens an ImGui frame, in the colours of `theme` and with letters and controls `scale` times as large
+    /// as on an ordinary display. `elapsed_s` is the time since the last one.
+    void begin(const glm::ivec2& size_px, double elapsed_s, ThemeName theme, float scale);
+    /// Draws what was put into the frame into the bound framebuffer; returns where that is.
+    std::vector<PixelBox> end();
+
+    /// Notches that the wheel was turned by in this frame: Dear ImGui forgets them when the frame ends.
+    float wheel_notches() const { return wheel_notches_; }
+
+  private:
+    void set_style(ThemeName theme, float scale);
+    void load_letters(float scale);
+
+    ThemeName theme_ = ThemeName::dark;
+    float scale_ = 0.0f;  // none yet
+    float wheel_notches_ = 0.0f;
+};
+
+}  // namespace osteomill

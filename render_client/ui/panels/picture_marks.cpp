@@ -1,0 +1,54 @@
+#include "render_client/ui/panels/picture_marks.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include "render_client/volume/tool/tool_renderer.h"
+
+namespace osteomill {
+
+ScaleBar scale_bar_of(const Camera& camera, const glm::ivec2& size_px) {
+    return scale_bar(mm_per_px_at(camera, camera.target_mm, size_px), std::max(0.2 * size_px.x, 1.0));
+}
+
+glm::vec2 scale_bar_size(const PanelPainter& painter, const ScaleBar& bar) {
+    const float width = std::max(static_cast<float>(bar.length_px), painter.width_of(bar.label));
+    return glm::ceil(glm::vec2(width, 1.7f * ImGui::GetFontSize()) + painter.padding());
+}
+
+void draw_scale_bar(const PanelPainter& painter, const ScaleBar& bar, const PanelPlace& place) {
+    ImDrawList& canvas = painter.canvas();
+    const ImU32 ink = colour_of(painter.theme().on_picture);
+    canvas.AddDrawCmd();
+    canvas.AddRectFilled(to_imgui(place.first), to_imgui(place.first + place.size),
+                         colour_of(painter.theme().behind_letter), 3.0f * painter.scale());
+    const float middle = place.first.x + 0.5f * place.size.x;
+    const float half = 0.5f * static_cast<float>(bar.length_px);
+    const float y = place.first.y + place.size.y - painter.padding();
+    const float tick = 4.0f * painter.scale();
+    const float thickness = 2.0f * painter.scale();
+    canvas.AddLine({middle - half, y}, {middle + half, y}, ink, thickness);
+    for (const float end : {middle - half, middle + half})
+        canvas.AddLine({end, y - tick}, {end, y + tick}, ink, thickness);
+    painter.draw_text(
+        {middle - 0.5f * painter.width_of(bar.label), place.first.y + 0.25f * painter.padding()},
+        painter.theme().on_picture, bar.label);
+}
+
+void draw_force_label(const PanelPainter& painter, const ToolView& tool, const Camera& camera,
+                      const glm::ivec2& size_px) {
+    const double force_n = glm::length(tool.force_n);
+    if (!std::isfinite(force_n) || force_n < shortest_arrow_n) return;
+    const glm::dvec3 head_mm = tool.burr_position_mm + arrow_mm_per_n * tool.force_n;
+    if (glm::dot(head_mm - camera.eye_mm(), camera.forward()) < camera.near_mm) return;
+    const glm::vec2 head(pixel_of(camera, head_mm, size_px));
+    const float beside = 8.0f * painter.scale();
+    painter.draw_on_picture({head.x + beside, head.y - 0.5f * ImGui::GetFontSize()},
+                            fmt::format("{:.2f} N", force_n));
+}
+
+}  // namespace osteomill

@@ -1,0 +1,18 @@
+// Marks that belong to the picture: a scale bar, and the force in newtons at the head of its arrow.
+#pragma once
+
+#include "render_client/ui/panels/panel_painter.h"
+#include "render_client/ui/panels/scale_bar.h"
+
+namespace osteomill {
+
+/// Right at the depth of the camera's target, at most a fifth of the picture wide.
+ScaleBar scale_bar_of(const Camera& camera, const glm::ivec2& size_px);
+glm::vec2 scale_bar_size(const PanelPainter& painter, const ScaleBar& bar);
+void draw_scale_bar(const PanelPainter& painter, const ScaleBar& bar, const PanelPlace& place);
+
+/// Nothing where there is no arrow.
+void draw_force_label(const PanelPainter& painter, const ToolView& tool, const Camera& camera,
+                      const glm::ivec2& size_px);
+
+}  // namespace osteomill

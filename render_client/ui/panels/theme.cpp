@@ -1,0 +1,55 @@
+#include "render_client/ui/panels/theme.h"
+
+namespace osteomill {
+
+namespace {
+
+constexpr Theme dark{.tones = {Rgba{235, 235, 235},
+                               {165, 168, 172},
+                               {0, 190, 140},
+                               {245, 120, 50},
+                               {230, 159, 0},
+                               {86, 180, 233},
+                               {0, 190, 140},
+                               {240, 228, 66},
+                               {224, 140, 187}},
+                     .panel = {16, 18, 21, 216},
+                     .control = {62, 68, 76},
+                     .control_hovered = {84, 92, 103},
+                     .control_active = {0, 114, 178},
+                     .grid = {150, 150, 150, 90},
+                     .on_picture = {240, 240, 240},
+                     .behind_letter = {0, 0, 0, 170},
+                     .background_low = {0.035f, 0.040f, 0.048f},
+                     .background_high = {0.115f, 0.130f, 0.150f}};
+
+constexpr Theme light{.tones = {Rgba{24, 24, 24},
+                                {92, 95, 99},
+                                {0, 110, 80},
+                                {176, 48, 0},
+                                {190, 90, 0},
+                                {0, 100, 165},
+                                {0, 120, 86},
+                                {60, 60, 60},
+                                {150, 60, 115}},
+                      .panel = {250, 250, 248, 224},
+                      .control = {208, 212, 217},
+                      .control_hovered = {186, 192, 199},
+                      .control_active = {86, 180, 233},
+                      .grid = {90, 90, 90, 90},
+                      .on_picture = {20, 20, 20},
+                      .behind_letter = {255, 255, 255, 180},
+                      .background_low = {0.52f, 0.54f, 0.56f},
+                      .background_high = {0.80f, 0.82f, 0.84f}};
+
+}  // namespace
+
+const Theme& theme_of(ThemeName name) {
+    return name == ThemeName::dark ? dark : light;
+}
+
+ThemeName other_theme(ThemeName name) {
+    return name == ThemeName::dark ? ThemeName::light : ThemeName::dark;
+}
+
+}  // namespace osteomill

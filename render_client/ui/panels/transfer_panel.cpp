@@ -1,0 +1,150 @@
+#include "render_client/ui/panels/transfer_panel.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+
+#include "render_client/ui/panels/input_panel.h"
+
+namespace osteomill {
+
+namespace {
+
+constexpr float field_height = 7.0f;  // in letters
+constexpr double point_reach_px = 10.0;
+
+/// The field of points: from its pixels to values and back.
+class Field {
+  public:
+    Field(const glm::vec2& first, const glm::vec2& size) : first_(first), size_(size) {}
+
+    glm::vec2 pixel_of(double value, double opacity) const {
+        return first_ + size_ * glm::vec2(static_cast<float>(value / TransferEditor::highest_value),
+                                          static_cast<float>(1.0 - opacity));
+    }
+    double value_at(float x) const {
+        return TransferEditor::highest_value * static_cast<double>((x - first_.x) / size_.x);
+    }
+    double opacity_at(float y) const { return 1.0 - static_cast<double>((y - first_.y) / size_.y); }
+    double value_of_px(double px) const {
+        return TransferEditor::highest_value * px / static_cast<double>(size_.x);
+    }
+    double opacity_of_px(double px) const { return px / static_cast<double>(size_.y); }
+    const glm::vec2& first() const { return first_; }
+    const glm::vec2& size() const { return size_; }
+
+  private:
+    glm::vec2 first_;
+    glm::vec2 size_;
+};
+
+ImU32 display_colour(const glm::vec4& linear) {
+    const auto part = [](float value) {
+        return std::pow(std::min(std::max(value, 0.0f), 1.0f), 1.0f / 2.2f);
+    };
+    return ImGui::ColorConvertFloat4ToU32({part(linear.r), part(linear.g), part(linear.b), 1.0f});
+}
+
+void draw_field(const PanelPainter& painter, const TransferEditor& editor, const Field& field) {
+    ImDrawList& canvas = *ImGui::GetWindowDrawList();
+    const TransferFunction& function = *editor.function();
+    constexpr int strips = 60;
+    for (int strip = 0; strip < strips; ++strip) {
+        const double low = TransferEditor::highest_value * strip / strips;
+        const double high = TransferEditor::highest_value * (strip + 1) / strips;
+        const glm::vec4 look = look_of(function, 0.5 * (low + high));
+        canvas.AddRectFilled(to_imgui(field.pixel_of(low, static_cast<double>(look.a))),
+                             to_imgui(field.pixel_of(high, 0.0)), display_colour(look));
+    }
+    canvas.AddRect(to_imgui(field.first()), to_imgui(field.first() + field.size()),
+                   colour_of(painter.theme().grid));
+    std::vector<ImVec2> line{to_imgui(field.pixel_of(0.0, function.points.front().opacity))};
+    for (const TransferPoint& point : function.points)
+        line.push_back(to_imgui(field.pixel_of(point.value, point.opacity)));
+    line.push_back(to_imgui(field.pixel_of(TransferEditor::highest_value, function.points.back().opacity)));
+    canvas.AddPolyline(line.data(), static_cast<int>(line.size()), colour_of(painter.theme()[Tone::plain]),
+                       ImDrawFlags_None, painter.scale());
+    for (std::size_t i = 0; i < function.points.size(); ++i) {
+        const ImVec2 place = to_imgui(field.pixel_of(function.points[i].value, function.points[i].opacity));
+        const auto [red, green, blue] = function.points[i].srgb;
+        canvas.AddCircleFilled(place, 5.0f * painter.scale(), IM_COL32(red, green, blue, 255));
+        canvas.AddCircle(place, 5.0f * painter.scale(),
+                         colour_of(painter.theme()[editor.selected() == i ? Tone::left : Tone::plain]), 0,
+                         (editor.selected() == i ? 3.0f : 1.0f) * painter.scale());
+    }
+}
+
+/// A point is taken hold of, moved, or with a double click made.
+void edit_field(const PanelPainter& painter, TransferEditor& editor, const Field& field) {
+    const ImVec2 mouse = ImGui::GetIO().MousePos;
+    const double value = field.value_at(mouse.x), opacity = field.opacity_at(mouse.y);
+    const double reach_px = point_reach_px * static_cast<double>(painter.scale());
+    if (ImGui::IsItemActivated())
+        editor.select_near(value, opacity, field.value_of_px(reach_px), field.opacity_of_px(reach_px));
+    if (ImGui::IsItemHovered() && ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left) && !editor.selected())
+        editor.add(value);
+    else if (ImGui::IsItemActive() && ImGui::IsMouseDragging(ImGuiMouseButton_Left))
+        editor.move(value, opacity);
+}
+
+void draw_presets(TransferEditor& editor) {
+    const std::string current = editor.function() ? editor.function()->name : "own colours";
+    ImGui::SetNextItemWidth(-1.0f);
+    if (!ImGui::BeginCombo("##preset", current.c_str())) return;
+    if (ImGui::Selectable("own colours", !editor.function())) editor.choose(std::nullopt);
+    for (const TransferFunction& preset : transfer_presets())
+        if (ImGui::Selectable(preset.name.c_str(), current == preset.name)) editor.choose(preset);
+    ImGui::EndCombo();
+}
+
+void draw_point_controls(TransferEditor& editor) {
+    ImGui::BeginDisabled(!editor.selected());
+    std::array<float, 3> colour{};
+    if (editor.selected())
+        for (std::size_t i = 0; i < 3; ++i)
+            colour[i] = static_cast<float>(editor.function()->points[*editor.selected()].srgb[i]) / 255.0f;
+    if (ImGui::ColorEdit3("colour", colour.data(), ImGuiColorEditFlags_NoInputs)) {
+        std::array<std::uint8_t, 3> srgb{};
+        for (std::size_t i = 0; i < 3; ++i)
+            srgb[i] = static_cast<std::uint8_t>(std::lround(255.0f * colour[i]));
+        editor.set_colour(srgb);
+    }
+    ImGui::SameLine();
+    if (ImGui::Button("remove")) editor.remove();
+    ImGui::EndDisabled();
+    ImGui::SameLine();
+    bool is_translucent = editor.function()->mode == TransferMode::translucent;
+    if (ImGui::Checkbox("see through", &is_translucent))
+        editor.set_mode(is_translucent ? TransferMode::translucent : TransferMode::surface);
+}
+
+}  // namespace
+
+glm::vec2 transfer_panel_size(const PanelPainter& painter) {
+    const float letter = ImGui::GetFontSize();
+    return {21.0f * letter, 2.0f * ImGui::GetFrameHeightWithSpacing() + field_height * letter +
+                                2.0f * painter.line_height() + 2.0f * ImGui::GetStyle().ItemSpacing.y +
+                                2.0f * ImGui::GetStyle().WindowPadding.y};
+}
+
+void draw_transfer_panel(const PanelPainter& painter, TransferEditor& editor, const PanelPlace& place) {
+    const InputPanel window("transfer", place);
+    draw_presets(editor);
+    if (!editor.function()) {
+        ImGui::TextDisabled("tissues, or stiffness, in their own");
+        ImGui::TextDisabled("colours; choose a preset to edit it");
+        return;
+    }
+    const ImVec2 corner = ImGui::GetCursorScreenPos();
+    const Field field({corner.x, corner.y},
+                      {ImGui::GetContentRegionAvail().x, field_height * ImGui::GetFontSize()});
+    ImGui::InvisibleButton("field", to_imgui(field.size()));
+    edit_field(painter, editor, field);
+    draw_field(painter, editor, field);
+    ImGui::TextDisabled("stiffness 0 to %.0f; opacity upwards", TransferEditor::highest_value);
+    draw_point_controls(editor);
+    ImGui::TextDisabled("double click: new point; F5 closes");
+}
+
+}  // namespace osteomill

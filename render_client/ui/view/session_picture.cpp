@@ -1,0 +1,230 @@
+#include "render_client/ui/view/session_picture.h"
+
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <numbers>
+#include <stdexcept>
+
+#include "common/wire/tool_look.h"
+
+namespace osteomill {
+
+namespace {
+
+/// A real burr's 10,000 rpm would flicker at 30 frames a second; a turn a second shows that it turns and
+/// which way.
+constexpr double shown_rev_per_s = 0.8;
+
+/// Radius round the tool that the first view shows of a bone larger than that, and the part of the bone's
+/// radius that it shows at least, so that one still sees where in the bone one is.
+constexpr double closest_first_view_mm = 10.0;
+constexpr double tool_part_of_first_view = 0.45;
+
+/// A burr of which nothing has been heard for so long is not shown to turn: its session has ended, or is
+/// played no further. One that turns is told of thirty times a second.
+constexpr double longest_turning_s = 0.25;
+
+/// A hand's target this close to the burr is where the burr is.
+constexpr double nearest_shown_target_mm = 0.05;
+
+glm::dvec3 middle_of(const Grid& grid, const VoxelBox& box) {
+    return 0.5 * (centre_of_voxel_mm(grid, box.first) + centre_of_voxel_mm(grid, box.first + box.size - 1));
+}
+
+std::vector<TissueColour> tissue_colours(const SessionInfo* session) {
+    std::vector<TissueColour> colours;
+    if (!session) return colours;
+    for (const Tissue& tissue : session->tissues) colours.push_back({tissue.label, tissue.colour_rgb});
+    return colours;
+}
+
+}  // namespace
+
+SessionPicture::SessionPicture(SessionSource& source, Panels& panels, const glm::ivec2& size_px,
+                               FrameQuality quality, RendererChoice renderer, const BoneLook& look)
+    : source_(source),
+      panels_(panels),
+      renderer_(make_renderer(renderer)),
+      bone_look_(look),
+      picture_(*renderer_, size_px, quality == FrameQuality::on_demand ? &draw_timer_ : nullptr),
+      size_px_(picture_.size_px()) {
+    view_.transfer = TransferEditor(look.transfer);
+}
+
+SessionPicture::News SessionPicture::take_in() {
+    link_ = source_.poll();
+    const bool first_of_tool = link_.tool && !tool_;
+    if (link_.tool) {
+        tool_ = link_.tool;
+        tool_age_s_ = 0.0;
+        history_.add(*tool_);
+    }
+    if (source_.bone()) take_in_bone(first_of_tool);
+    return news();
+}
+
+void SessionPicture::take_in_bone(bool first_of_tool) {
+    has_undrawn_bone_ = has_undrawn_bone_ || link_.bone_replaced || !link_.dirty_bricks.empty();
+    const Bone* bone = source_.bone();
+    if (link_.bone_replaced || (!textures_ && bone_problem_.empty())) {
+        replace_bone();
+    } else if (textures_ && !link_.dirty_bricks.empty()) {
+        picture_.mark_dirty(*textures_, textures_->update(*bone, link_.dirty_bricks));
+        dirty_bricks_uploaded_ += link_.dirty_bricks.size();
+    }
+    if (first_of_tool && camera_ == first_view_) reset_camera();
+}
+
+SessionPicture::News SessionPicture::news() const {
+    const LinkUpdate& was = drawn_link_;
+    const bool has_moved = tool_ && !(drawn_tool_view_ && looks_the_same(*drawn_tool_view_, *tool_));
+    const auto is_as_drawn = [](const OperatorIntent& drawn, const OperatorIntent& now) {
+        return drawn.pedal == now.pedal &&
+               glm::distance(drawn.hand_target_mm, now.hand_target_mm) <= quiet_motion_mm;
+    };
+    const bool hand_has_moved = operator_intent_.has_value() != drawn_intent_.has_value() ||
+                                (operator_intent_ && !is_as_drawn(*drawn_intent_, *operator_intent_));
+    if (has_undrawn_bone_ || has_moved || hand_has_moved || has_turning_burr() || !quality().refined ||
+        link_.status != was.status || link_.status_line != was.status_line ||
+        link_.recording_error != was.recording_error || link_.snapshot_bricks != was.snapshot_bricks ||
+        link_.checksum_mismatches != was.checksum_mismatches ||
+        link_.rejected_frames != was.rejected_frames || link_.bricks_repaired != was.bricks_repaired)
+        return News::change;
+    const bool time_goes_on = tool_ && tool_->time_s != drawn_tool_view_->time_s;
+    const bool is_figure_new =
+        time_goes_on || link_.frames_per_s != was.frames_per_s || link_.bytes_per_s != was.bytes_per_s;
+    return is_figure_new ? News::figures : News::none;
+}
+
+void SessionPicture::replace_bone() {
+    const bool first = !textures_;
+    const std::vector<TissueColour> tissues = tissue_colours(source_.session());
+    bone_problem_.clear();
+    picture_.forget_bone();
+    // The old textures go first: both together might not fit.
+    textures_.reset();
+    try {
+        textures_.emplace(*source_.bone(), tissues, bone_look_, texture_limits_);
+    } catch (const std::runtime_error& error) {
+        bone_problem_ = error.what();
+        return;
+    }
+    if (textures_->plan().layout != BoneLayout::dense || textures_->plan().coarsening > 1)
+        spdlog::info("the bone is drawn from {}", description(textures_->plan()));
+    const glm::dvec3 half_mm = 0.5 * textures_->grid().spacing_mm * glm::dvec3(textures_->box().size);
+    const glm::dvec3 middle_mm = middle_of(textures_->grid(), textures_->box());
+    view_.cuts.set_bounds(middle_mm - half_mm, middle_mm + half_mm);
+    // After a reconnection the view stays where the user left it.
+    if (first) reset_camera();
+}
+
+void SessionPicture::set_bone_look(const BoneLook& look) {
+    if (look == bone_look_) return;
+    if (look.transfer) require_valid(*look.transfer);
+    bone_look_ = look;
+    if (textures_) replace_bone();
+}
+
+void SessionPicture::reset_camera() {
+    if (!textures_) return;
+    const glm::dvec3 half_mm = 0.5 * textures_->grid().spacing_mm * glm::dvec3(textures_->box().size);
+    const glm::dvec3 middle_mm = middle_of(textures_->grid(), textures_->box());
+    first_view_ = camera_on(middle_mm, glm::length(half_mm));
+    if (tool_ && glm::length(half_mm) > closest_first_view_mm) {
+        // All of a jaw would leave the drilled spot a few pixels wide.
+        first_view_.target_mm = glm::clamp(tool_->burr_position_mm, middle_mm - half_mm, middle_mm + half_mm);
+        zoom(first_view_, std::max(closest_first_view_mm / glm::length(half_mm), tool_part_of_first_view));
+    }
+    camera_ = first_view_;
+}
+
+const gl::Framebuffer& SessionPicture::draw(double elapsed_s) {
+    turn_burr(elapsed_s);
+    // The mean of times, not of rates: a few frames that come at once would count for hundreds a second.
+    frame_s_ = frame_s_ > 0.0 ? 0.9 * frame_s_ + 0.1 * elapsed_s : elapsed_s;
+    if (view_.transfer.take_change())
+        set_bone_look({.shading = bone_look_.shading, .transfer = view_.transfer.function()});
+    const Theme& theme = theme_of(view_.theme);
+    picture_.set_look({.cuts = view_.cuts.planes(),
+                       .background_low = theme.background_low,
+                       .background_high = theme.background_high});
+    std::optional<DrawnTool> tool;
+    if (tool_) tool = drawn_tool();
+    const gl::Framebuffer& picture =
+        picture_.draw(textures_ ? &*textures_ : nullptr, tool ? &*tool : nullptr, camera_);
+    panels_.begin(size_px_, elapsed_s, view_.theme, view_.scale);
+    draw_overlay({.link = link_,
+                  .session = source_.session(),
+                  .tool = tool_,
+                  .history = &history_,
+                  .camera = &camera_,
+                  .view = &view_,
+                  .render_frames_per_s = frame_s_ > 0.0 ? 1.0 / frame_s_ : 0.0,
+                  .quality = picture_.quality(),
+                  .operator_intent = operator_intent_,
+                  .player = source_.player(),
+                  .bone_problem = bone_problem_,
+                  .has_bone = has_bone()},
+                 size_px_);
+    picture_.cover(panels_.end());
+    drawn_link_ = link_;
+    drawn_tool_view_ = tool_;
+    drawn_intent_ = operator_intent_;
+    has_undrawn_bone_ = false;
+    return picture;
+}
+
+bool SessionPicture::has_turning_burr() const {
+    return tool_ && tool_->spindle_on && tool_age_s_ < longest_turning_s;
+}
+
+void SessionPicture::turn_burr(double elapsed_s) {
+    tool_age_s_ += elapsed_s;
+    if (!has_turning_burr()) return;
+    const SessionInfo* session = source_.session();
+    const bool clockwise = !session || tool_->burr >= session->burrs.size() ||
+                           session->burrs[tool_->burr].sense == SpindleSense::clockwise;
+    // Clockwise seen from the shank is negative about the axis from tip to shank.
+    const double change = (clockwise ? -1.0 : 1.0) * 2.0 * std::numbers::pi * shown_rev_per_s * elapsed_s;
+    spin_rad_ = std::remainder(spin_rad_ + change, 2.0 * std::numbers::pi);
+}
+
+DrawnTool SessionPicture::drawn_tool() const {
+    DrawnTool drawn;
+    const SessionInfo* session = source_.session();
+    if (session && tool_->burr < session->burrs.size()) {
+        const Burr& burr = session->burrs[tool_->burr];
+        drawn.burr = {burr.diameter_mm, burr.edges, burr.sense == SpindleSense::clockwise};
+    }
+    drawn.position_mm = tool_->burr_position_mm;
+    drawn.spindle_axis = tool_->spindle_axis;
+    drawn.spin_rad = spin_rad_;
+    drawn.force_n = tool_->force_n;
+    if (operator_intent_ &&
+        glm::distance(operator_intent_->hand_target_mm, drawn.position_mm) > nearest_shown_target_mm)
+        drawn.hand_target_mm = operator_intent_->hand_target_mm;
+    return drawn;
+}
+
+void SessionPicture::resize(const glm::ivec2& size_px) {
+    picture_.resize(size_px);
+    size_px_ = picture_.size_px();
+}
+
+RenderReport SessionPicture::report() const {
+    RenderReport report;
+    report.gl_renderer = gl::renderer_name();
+    if (const Bone* bone = source_.bone()) report.bone_checksum = checksum(*bone);
+    if (textures_) report.textures = textures_->plan();
+    report.dirty_bricks_uploaded = dirty_bricks_uploaded_;
+    report.checksum_mismatches = link_.checksum_mismatches;
+    report.link_status = link_.status_line;
+    return report;
+}
+
+}  // namespace osteomill

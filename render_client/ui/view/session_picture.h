@@ -1,0 +1,109 @@
+// A session made visible: takes in what a source brings, keeps textures and camera, draws picture and panels.
+// What a window and an offscreen run have in common.
+#pragma once
+
+#include <optional>
+
+#include "render_client/ui/panels/overlay.h"
+#include "render_client/ui/panels/panels.h"
+#include "render_client/ui/report.h"
+#include "render_client/ui/session_source.h"
+#include "render_client/volume/gl/draw_timer.h"
+#include "render_client/volume/gl/offscreen_context.h"
+#include "render_client/volume/passes/renderer_choice.h"
+#include "render_client/volume/passes/scene_picture.h"
+
+namespace osteomill {
+
+enum class FrameQuality {
+    full,      ///< every frame at full quality, however long it takes
+    on_demand  ///< coarser under motion where it must be to keep the rate of frames, full soon after
+};
+
+class SessionPicture {
+  public:
+    SessionPicture(SessionSource& source, Panels& panels, const glm::ivec2& size_px,
+                   FrameQuality quality = FrameQuality::full,
+                   RendererChoice renderer = RendererChoice::raycast, const BoneLook& look = {});
+
+    /// Of the bones that come from now on.
+    void limit_textures(const TextureLimits& limits) { texture_limits_ = limits; }
+
+    /// What a poll of the source brought, or what has to be drawn for another reason.
+    enum class News {
+        none,
+        figures,  ///< only the time, the rates, the delay
+        change    ///< something that moves, appears or goes; also a picture that is to be refined
+    };
+
+    /// Polls the source and brings the textures up to date. What is new is so since the last draw.
+    News take_in();
+    /// Draws bone, tool and panels; leaves the framebuffer bound. `elapsed_s`: since the last frame.
+    const gl::Framebuffer& draw(double elapsed_s);
+
+    /// How long the whole frame took, waiting excluded: what quality on demand goes by.
+    void frame_took(double frame_s) { picture_.frame_took(frame_s); }
+    PictureQuality quality() const { return picture_.quality(); }
+
+    void resize(const glm::ivec2& size_px);
+    const glm::ivec2& size_px() const { return size_px_; }
+
+    Camera& camera() { return camera_; }
+    /// The first view again: of the tool's surroundings, or of all the bone while there is no tool.
+    void reset_camera();
+    /// Another look takes new textures, as a new bone does; the view stays. Throws std::invalid_argument
+    /// where its transfer function is none.
+    void set_bone_look(const BoneLook& look);
+    ViewSettings& view() { return view_; }
+    void show_operator(const std::optional<OperatorIntent>& intent) { operator_intent_ = intent; }
+
+    bool has_bone() const { return textures_.has_value(); }
+    /// Whether a burr turns in the picture: it does for as long as the source tells of it.
+    bool has_turning_burr() const;
+    /// Why the bone that is there cannot be drawn; empty while it can.
+    const std::string& bone_problem() const { return bone_problem_; }
+    const LinkUpdate& link() const { return link_; }
+    /// Null until a server has said hello.
+    const SessionInfo* session() const { return source_.session(); }
+    const std::optional<ToolView>& tool() const { return tool_; }
+
+    /// What was measured so far, with the bone's checksum of now. Frame times are the caller's to add.
+    RenderReport report() const;
+
+  private:
+    void take_in_bone(bool first_of_tool);
+    void replace_bone();
+    News news() const;
+    DrawnTool drawn_tool() const;
+    void turn_burr(double elapsed_s);
+
+    SessionSource& source_;
+    Panels& panels_;
+    std::unique_ptr<BoneRenderer> renderer_;
+    BoneLook bone_look_;
+    gl::DrawTimer draw_timer_;
+    ScenePicture picture_;
+    glm::ivec2 size_px_;
+    Camera camera_;
+    Camera first_view_;
+    std::optional<BoneTextures> textures_;
+    TextureLimits texture_limits_;
+    std::string bone_problem_;
+    LinkUpdate link_;
+    std::optional<ToolView> tool_;
+    double tool_age_s_ = 0.0;  ///< since it came, as far as frames were drawn since
+
+    // What the last frame showed.
+    LinkUpdate drawn_link_;
+    std::optional<ToolView> drawn_tool_view_;
+    std::optional<OperatorIntent> drawn_intent_;
+    bool has_undrawn_bone_ = true;
+    ToolHistory history_;
+    std::optional<OperatorIntent> operator_intent_;
+    ViewSettings view_;
+    double spin_rad_ = 0.0;
+    double frame_s_ = 0.0;  ///< between frames, in the mean over the last ten or so
+    std::uint64_t dirty_bricks_uploaded_ = 0;
+};
+
+}  // namespace osteomill

@@ -1,0 +1,163 @@
+#include "render_client/ui/view/window.h"
+
+#include <epoxy/gl.h>
+// GLFW comes after libepoxy, which brings OpenGL's declarations.
+#include <GLFW/glfw3.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <glm/common.hpp>
+#include <stdexcept>
+
+#include "render_client/ui/view/display_watch.h"
+#include "render_client/volume/gl/offscreen_context.h"
+
+namespace osteomill {
+
+namespace {
+
+std::string last_glfw_error() {
+    const char* description = nullptr;
+    glfwGetError(&description);
+    return description ? description : "unknown reason";
+}
+
+/// What this display offers where it is not OpenGL 3.3, in words.
+std::string offered_opengl() {
+    glfwDefaultWindowHints();
+    glfwWindowHint(GLFW_VISIBLE, GLFW_FALSE);
+    GLFWwindow* window = glfwCreateWindow(16, 16, "", nullptr, nullptr);
+    if (!window) return "the display offers no OpenGL at all (" + last_glfw_error() + ")";
+    glfwMakeContextCurrent(window);
+    const std::string found = "the display offers " + gl::renderer_name();
+    glfwDestroyWindow(window);
+    return found;
+}
+
+}  // namespace
+
+Window::Window(const glm::ivec2& size_px, const std::string& title) {
+    if (!std::getenv("DISPLAY") && !std::getenv("WAYLAND_DISPLAY"))
+        throw gl::NoOpenGl("no display (neither DISPLAY nor WAYLAND_DISPLAY is set); use --offscreen");
+    if (!glfwInit()) throw gl::NoOpenGl("no window: " + last_glfw_error() + "; use --offscreen");
+    glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 3);
+    glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 3);
+    glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
+    glfwWindowHint(GLFW_OPENGL_FORWARD_COMPAT, GLFW_TRUE);
+    glfwWindowHint(GLFW_CONTEXT_ROBUSTNESS, GLFW_LOSE_CONTEXT_ON_RESET);
+    window_ = glfwCreateWindow(size_px.x, size_px.y, title.c_str(), nullptr, nullptr);
+    if (!window_) {
+        const std::string found = offered_opengl();
+        glfwTerminate();
+        throw gl::NoOpenGl("OpenGL 3.3 is needed; " + found +
+                           "; install a graphics driver, or Mesa's software one: apt-get install "
+                           "libgl1-mesa-dri libgl1");
+    }
+    watch_display(&is_display_gone_);
+    watch_input();
+}
+
+void Window::watch_input() {
+    glfwSetWindowUserPointer(window_, this);
+    static constexpr auto input_of = [](GLFWwindow* window) -> WindowInput& {
+        WindowInput& input = static_cast<Window*>(glfwGetWindowUserPointer(window))->input_;
+        input.has_news = true;
+        return input;
+    };
+    // Asking for a key's state now and then would miss a press in between.
+    glfwSetKeyCallback(window_, [](GLFWwindow* window, int key, int, int action, int) {
+        WindowInput& input = input_of(window);
+        if (key < 0 || static_cast<std::size_t>(key) >= WindowInput::most_keys) return;
+        input.keys_down[static_cast<std::size_t>(key)] = action != GLFW_RELEASE;
+        if (action == GLFW_PRESS) input.presses.push_back(key);
+    });
+    glfwSetMouseButtonCallback(window_, [](GLFWwindow* window, int button, int action, int) {
+        WindowInput& input = input_of(window);
+        if (button < 0 || static_cast<std::size_t>(button) >= WindowInput::buttons) return;
+        // GLFW counts left, right, middle, as WindowInput does.
+        input.is_down[static_cast<std::size_t>(button)] = action == GLFW_PRESS;
+        if (action == GLFW_PRESS) input.went_down[static_cast<std::size_t>(button)] = true;
+    });
+    glfwSetScrollCallback(
+        window_, [](GLFWwindow* window, double x, double y) { input_of(window).wheel += glm::dvec2(x, y); });
+    glfwSetCursorPosCallback(window_, [](GLFWwindow* window, double x, double y) {
+        input_of(window).cursor = {x, y};
+    });
+    glfwSetCursorEnterCallback(window_, [](GLFWwindow* window, int) { input_of(window); });
+    glfwSetWindowFocusCallback(window_, [](GLFWwindow* window, int) { input_of(window); });
+    glfwSetWindowIconifyCallback(window_, [](GLFWwindow* window, int) { input_of(window); });
+    glfwSetWindowRefreshCallback(window_, [](GLFWwindow* window) { input_of(window); });
+    glfwSetFramebufferSizeCallback(window_, [](GLFWwindow* window, int, int) { input_of(window); });
+    glfwSetWindowContentScaleCallback(window_, [](GLFWwindow* window, float, float) { input_of(window); });
+    input_.has_news = true;
+}
+
+Window::~Window() {
+    glfwDestroyWindow(window_);
+    glfwTerminate();
+}
+
+void Window::read_events(double at_most_s) {
+    if (at_most_s > 0.0)
+        glfwWaitEventsTimeout(at_most_s);
+    else
+        glfwPollEvents();
+}
+
+WindowInput Window::take_input() {
+    glm::ivec2 units(0), size_px(0);
+    glfwGetWindowSize(window_, &units.x, &units.y);
+    glfwGetFramebufferSize(window_, &size_px.x, &size_px.y);
+    float scale_x = 1.0f, scale_y = 1.0f;
+    glfwGetWindowContentScale(window_, &scale_x, &scale_y);
+    input_.is_focused = glfwGetWindowAttrib(window_, GLFW_FOCUSED) != 0;
+    input_.is_minimised = glfwGetWindowAttrib(window_, GLFW_ICONIFIED) != 0 || size_px.x < 1 || size_px.y < 1;
+    const bool is_over = glfwGetWindowAttrib(window_, GLFW_HOVERED) != 0;
+    // GLFW asks the display, and without an answer gives what lies on the stack.
+    require_display();
+    input_.has_cursor = is_over || input_.is_focused;
+    input_.size = glm::max(glm::dvec2(units), 1.0);
+    input_.framebuffer_size_px = size_px;
+    input_.content_scale = std::clamp(static_cast<double>(std::max(scale_x, scale_y)), 0.5, 4.0);
+    const auto is_either_down = [this](int left, int right) {
+        return input_.keys_down[static_cast<std::size_t>(left)] ||
+               input_.keys_down[static_cast<std::size_t>(right)];
+    };
+    input_.shift = is_either_down(GLFW_KEY_LEFT_SHIFT, GLFW_KEY_RIGHT_SHIFT);
+    input_.ctrl = is_either_down(GLFW_KEY_LEFT_CONTROL, GLFW_KEY_RIGHT_CONTROL);
+    input_.alt = is_either_down(GLFW_KEY_LEFT_ALT, GLFW_KEY_RIGHT_ALT);
+    WindowInput taken = input_;
+    input_.forget_events();
+    return taken;
+}
+
+bool Window::close_asked() const {
+    return glfwWindowShouldClose(window_) != 0;
+}
+
+void Window::make_context_current() {
+    glfwMakeContextCurrent(window_);
+    glfwSwapInterval(1);
+}
+
+void Window::release_context() {
+    glfwMakeContextCurrent(nullptr);
+}
+
+void Window::require_display() const {
+    if (is_display_gone_)
+        throw std::runtime_error("the display has gone: its server ended or closed the link");
+}
+
+void Window::require_drawable() const {
+    require_display();
+    if (epoxy_has_gl_extension("GL_ARB_robustness") && glGetGraphicsResetStatusARB() != GL_NO_ERROR)
+        throw std::runtime_error("the graphics card was reset and the picture is lost; start again");
+}
+
+void Window::show_frame() {
+    glfwSwapBuffers(window_);
+}
+
+}  // namespace osteomill

@@ -1,0 +1,50 @@
+// A window with an OpenGL 3.3 core context (GLFW). One thread reads its events, the one that made it; the
+// context may be another's, which draws.
+#pragma once
+
+#include <atomic>
+#include <glm/vec2.hpp>
+#include <string>
+
+#include "render_client/ui/input/window_input.h"
+
+struct GLFWwindow;
+
+namespace osteomill {
+
+class Window {
+  public:
+    /// Throws gl::NoOpenGl where there is no display or no OpenGL 3.3; the message says what to do. The
+    /// context is current on no thread.
+    Window(const glm::ivec2& size_px, const std::string& title);
+    Window(const Window&) = delete;
+    Window& operator=(const Window&) = delete;
+    ~Window();
+
+    // Thread of the window.
+
+    /// Reads what has happened, after waiting up to `at_most_s` for something to.
+    void read_events(double at_most_s);
+    /// The window as it is, and all that happened since the last call. Throws std::runtime_error where the
+    /// display has gone (its server ended or shut this program out): nothing more can be shown.
+    WindowInput take_input();
+    bool close_asked() const;
+
+    // Thread that draws.
+
+    void make_context_current();
+    void release_context();
+    /// Throws std::runtime_error where the display has gone or the graphics card was reset.
+    void require_drawable() const;
+    void show_frame();
+
+  private:
+    void require_display() const;
+    void watch_input();
+
+    GLFWwindow* window_ = nullptr;
+    WindowInput input_;
+    std::atomic<bool> is_display_gone_{false};
+};
+
+}  // namespace osteomill
