@@ -8,8 +8,8 @@
 #include <string>
 
 #include "common/net/tls_files.h"
-#include "render_client/ui/view/cut_settings.h"
 #include "render_client/ui/panels/theme.h"
+#include "render_client/ui/view/cut_settings.h"
 #include "render_client/volume/bone_look.h"
 #include "render_client/volume/passes/renderer_choice.h"
 #include "render_client/volume/textures/texture_plan.h"

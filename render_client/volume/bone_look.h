@@ -6,8 +6,8 @@
 #include <optional>
 
 #include "render_client/volume/bone_colours.h"
-#include "render_client/volume/transfer_function.h"
 #include "render_client/volume/textures/voxel_box.h"
+#include "render_client/volume/transfer_function.h"
 
 namespace osteomill {
 

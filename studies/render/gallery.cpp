@@ -3,8 +3,8 @@
 #include <algorithm>
 
 #include "render_client/volume/gl/framebuffer.h"
-#include "render_client/volume/png_file.h"
 #include "render_client/volume/passes/renderer_choice.h"
+#include "render_client/volume/png_file.h"
 
 namespace osteomill::study {
 

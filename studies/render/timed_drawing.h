@@ -4,8 +4,8 @@
 #include <functional>
 #include <glm/vec2.hpp>
 
-#include "render_client/volume/passes/bone_renderer.h"
 #include "render_client/volume/gl/framebuffer.h"
+#include "render_client/volume/passes/bone_renderer.h"
 
 namespace osteomill::study {
 

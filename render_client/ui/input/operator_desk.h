@@ -14,8 +14,8 @@
 #include <optional>
 
 #include "render_client/ui/input/operator_hand.h"
-#include "render_client/ui/session_source.h"
 #include "render_client/ui/input/window_input.h"
+#include "render_client/ui/session_source.h"
 
 namespace osteomill {
 

@@ -6,8 +6,8 @@
 #include <optional>
 #include <string>
 
-#include "render_client/ui/session_source.h"
 #include "render_client/ui/panels/tool_history.h"
+#include "render_client/ui/session_source.h"
 #include "render_client/ui/view/view_settings.h"
 #include "render_client/volume/camera.h"
 #include "render_client/volume/picture_quality.h"

@@ -8,8 +8,8 @@
 #include <glm/vec2.hpp>
 #include <vector>
 
-#include "render_client/ui/panels/theme.h"
 #include "render_client/ui/input/window_input.h"
+#include "render_client/ui/panels/theme.h"
 #include "render_client/volume/passes/pixel_box.h"
 
 namespace osteomill {

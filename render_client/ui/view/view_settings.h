@@ -3,9 +3,9 @@
 
 #include <string>
 
-#include "render_client/ui/view/cut_settings.h"
 #include "render_client/ui/panels/theme.h"
 #include "render_client/ui/panels/transfer_editor.h"
+#include "render_client/ui/view/cut_settings.h"
 
 namespace osteomill {
 

@@ -5,8 +5,8 @@
 
 #include <glm/vec2.hpp>
 
-#include "render_client/volume/picture.h"
 #include "render_client/volume/passes/pixel_box.h"
+#include "render_client/volume/picture.h"
 
 namespace osteomill::gl {
 

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <glm/common.hpp>
 
-#include "render_client/volume/textures/block_summary.h"
 #include "render_client/volume/shaders/bone_sampling_shader.h"
+#include "render_client/volume/textures/block_summary.h"
 
 namespace osteomill {
 

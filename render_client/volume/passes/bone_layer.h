@@ -12,13 +12,13 @@
 #include <span>
 #include <vector>
 
+#include "render_client/volume/gl/framebuffer.h"
 #include "render_client/volume/passes/bone_renderer.h"
 #include "render_client/volume/passes/detail_control.h"
-#include "render_client/volume/gl/framebuffer.h"
 #include "render_client/volume/passes/magnifier.h"
-#include "render_client/volume/picture_quality.h"
 #include "render_client/volume/passes/stopwatch.h"
 #include "render_client/volume/passes/tile_mask.h"
+#include "render_client/volume/picture_quality.h"
 
 namespace osteomill {
 

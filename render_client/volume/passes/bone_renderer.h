@@ -3,9 +3,9 @@
 
 #include <glm/vec2.hpp>
 
-#include "render_client/volume/textures/bone_textures.h"
 #include "render_client/volume/camera.h"
 #include "render_client/volume/scene_look.h"
+#include "render_client/volume/textures/bone_textures.h"
 
 namespace osteomill {
 

@@ -4,9 +4,9 @@
 
 #include <glm/trigonometric.hpp>
 
+#include "render_client/volume/passes/pixel_box.h"
 #include "render_client/volume/shaders/camera_rays_shader.h"
 #include "render_client/volume/shaders/lighting.h"
-#include "render_client/volume/passes/pixel_box.h"
 
 namespace osteomill {
 

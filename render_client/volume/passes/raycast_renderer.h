@@ -2,10 +2,10 @@
 // fraction reaches one half or, in translucent bone, where hardly any light comes through.
 #pragma once
 
-#include "render_client/volume/passes/background.h"
-#include "render_client/volume/shaders/bone_program.h"
-#include "render_client/volume/passes/bone_renderer.h"
 #include "render_client/volume/gl/full_screen.h"
+#include "render_client/volume/passes/background.h"
+#include "render_client/volume/passes/bone_renderer.h"
+#include "render_client/volume/shaders/bone_program.h"
 
 namespace osteomill {
 

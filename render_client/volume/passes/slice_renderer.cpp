@@ -3,11 +3,11 @@
 #include <glm/ext/matrix_transform.hpp>
 #include <string>
 
+#include "render_client/volume/passes/view_slices.h"
 #include "render_client/volume/shaders/bone_shading_shader.h"
 #include "render_client/volume/shaders/lighting.h"
 #include "render_client/volume/shaders/look_shader.h"
 #include "render_client/volume/shaders/slice_shader.h"
-#include "render_client/volume/passes/view_slices.h"
 
 namespace osteomill {
 

@@ -8,12 +8,12 @@
 
 #include <optional>
 
-#include "render_client/volume/passes/background.h"
-#include "render_client/volume/shaders/bone_program.h"
-#include "render_client/volume/passes/bone_renderer.h"
 #include "render_client/volume/gl/full_screen.h"
 #include "render_client/volume/gl/light_layer.h"
 #include "render_client/volume/gl/triangle_stream.h"
+#include "render_client/volume/passes/background.h"
+#include "render_client/volume/passes/bone_renderer.h"
+#include "render_client/volume/shaders/bone_program.h"
 
 namespace osteomill {
 

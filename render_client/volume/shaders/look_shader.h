@@ -21,9 +21,9 @@
 
 #include <string>
 
-#include "render_client/volume/textures/bone_textures.h"
 #include "render_client/volume/gl/program.h"
 #include "render_client/volume/scene_look.h"
+#include "render_client/volume/textures/bone_textures.h"
 
 namespace osteomill {
 

@@ -9,11 +9,11 @@
 
 #include "common/bone/bone.h"
 #include "render_client/volume/bone_look.h"
+#include "render_client/volume/gl/lookup_table.h"
+#include "render_client/volume/gl/texture3d.h"
 #include "render_client/volume/textures/changed_voxels.h"
 #include "render_client/volume/textures/coarse_bone.h"
 #include "render_client/volume/textures/empty_space.h"
-#include "render_client/volume/gl/lookup_table.h"
-#include "render_client/volume/gl/texture3d.h"
 #include "render_client/volume/textures/surface_texture.h"
 #include "render_client/volume/textures/texture_plan.h"
 #include "render_client/volume/textures/visible_bone.h"

@@ -3,8 +3,8 @@
 
 #include <span>
 
-#include "render_client/volume/textures/brick_places.h"
 #include "render_client/volume/gl/texture3d.h"
+#include "render_client/volume/textures/brick_places.h"
 #include "render_client/volume/textures/surface_voxels.h"
 
 namespace osteomill {

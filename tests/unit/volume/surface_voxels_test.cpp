@@ -3,8 +3,8 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "render_client/volume/textures/changed_voxels.h"
 #include "render_client/volume/shaders/lighting.h"
+#include "render_client/volume/textures/changed_voxels.h"
 #include "render_client/volume/textures/surface_texture.h"
 #include "tests/unit/volume/made_bone.h"
 #include "tests/unit/volume/offscreen_test.h"
