@@ -16,7 +16,7 @@ namespace osteomill::study {
 
 namespace {
 
-// Of the model; as in bone_shading_glsl.
+// Of the model; as in bone_shading.glsl.
 constexpr double bone_surface = 0.5;
 constexpr glm::dvec3 light_within(0.50, 0.49, 0.48);
 constexpr double darkest_seen = 0.0005;
@@ -91,7 +91,7 @@ class ReferenceRays {
         const double steepness = glm::length(gradient);
         const glm::dvec3 normal = steepness > 1e-5 ? -gradient / steepness : -direction;
         const glm::dvec3 colour(volume_.look_under(point, normal));
-        return display(lit(colour, normal, volume_.openness_at(point, normal)));
+        return display(lit(colour, normal, volume_.ambient_occlusion(point, normal)));
     }
 
     glm::dvec3 translucent(const Ray& ray, const glm::dvec3& behind) const {

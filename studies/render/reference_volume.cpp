@@ -193,7 +193,7 @@ double ReferenceVolume::mean_fraction_at(const glm::dvec3& point) const {
     return sum;
 }
 
-double ReferenceVolume::openness_at(const glm::dvec3& point, const glm::dvec3& normal) const {
+double ReferenceVolume::ambient_occlusion(const glm::dvec3& point, const glm::dvec3& normal) const {
     const glm::dvec3 helper = std::abs(normal.z) < 0.8 ? glm::dvec3(0, 0, 1) : glm::dvec3(1, 0, 0);
     const glm::dvec3 aside = glm::normalize(glm::cross(normal, helper));
     const glm::dvec3 across = glm::cross(normal, aside);

@@ -48,7 +48,7 @@ class ReferenceVolume {
     /// Display RGB times alpha, and alpha, of surface voxels.
     glm::dvec4 surface_colour_at(const glm::dvec3& point) const;
     /// How much of the sky above a surface is free of bone, as the shaders estimate it.
-    double openness_at(const glm::dvec3& point, const glm::dvec3& normal) const;
+    double ambient_occlusion(const glm::dvec3& point, const glm::dvec3& normal) const;
 
   private:
     double density_at(const glm::dvec3& point) const;

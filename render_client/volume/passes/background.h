@@ -10,13 +10,6 @@
 
 namespace osteomill {
 
-/// A triangle over the whole picture (gl::FullScreen), at the far end of its depth.
-inline constexpr const char* whole_picture_vertex_glsl = R"glsl(#version 330 core
-void main() {
-    gl_Position = vec4(gl_VertexID == 1 ? 3.0 : -1.0, gl_VertexID == 2 ? 3.0 : -1.0, 1.0, 1.0);
-}
-)glsl";
-
 class Background {
   public:
     Background();

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <glm/common.hpp>
 
-#include "render_client/volume/shaders/bone_sampling_shader.h"
+#include "render_client/volume/shaders/shading_reach.h"
 #include "render_client/volume/textures/block_summary.h"
 
 namespace osteomill {

@@ -1,32 +1,16 @@
 #include "render_client/volume/passes/magnifier.h"
 
+#include "render_client/volume/shaders/shader_files.h"
+
 namespace osteomill {
 
 namespace {
-
-constexpr const char* vertex_glsl = R"glsl(#version 330 core
-void main() {
-    gl_Position = vec4(gl_VertexID == 1 ? 3.0 : -1.0, gl_VertexID == 2 ? 3.0 : -1.0, 0.0, 1.0);
-}
-)glsl";
-
-constexpr const char* fragment_glsl = R"glsl(#version 330 core
-uniform sampler2D colour, depth;
-uniform vec2 picture_size;
-out vec4 pixel;
-
-void main() {
-    vec2 place = gl_FragCoord.xy / picture_size;
-    pixel = textureLod(colour, place, 0.0);
-    gl_FragDepth = textureLod(depth, place, 0.0).r;
-}
-)glsl";
 
 constexpr int colour_unit = 0;
 
 }  // namespace
 
-Magnifier::Magnifier() : program_(vertex_glsl, fragment_glsl) {}
+Magnifier::Magnifier() : program_(make_program(upscale_files)) {}
 
 void Magnifier::draw(const gl::Framebuffer& coarse, const gl::Framebuffer& fine,
                      std::span<const PixelBox> boxes) const {

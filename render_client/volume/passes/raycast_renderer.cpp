@@ -1,13 +1,8 @@
 #include "render_client/volume/passes/raycast_renderer.h"
 
 #include <glm/trigonometric.hpp>
-#include <string>
 
-#include "render_client/volume/shaders/bone_shading_shader.h"
-#include "render_client/volume/shaders/camera_rays_shader.h"
-#include "render_client/volume/shaders/lighting.h"
-#include "render_client/volume/shaders/look_shader.h"
-#include "render_client/volume/shaders/raycast_shader.h"
+#include "render_client/volume/shaders/look_uniforms.h"
 
 namespace osteomill {
 
@@ -22,10 +17,7 @@ glm::vec2 depth_terms(const Camera& camera, double spacing_mm, const glm::ivec2&
 }  // namespace
 
 RaycastRenderer::RaycastRenderer(const RaycastSettings& settings)
-    : bone_program_(camera_rays_vertex_glsl, std::string(lighting_glsl) + background_glsl +
-                                                 bone_shading_glsl + cut_shading_glsl +
-                                                 raycast_fragment_glsl),
-      settings_(settings) {}
+    : bone_program_(raycast_files), settings_(settings) {}
 
 void RaycastRenderer::draw(const BoneTextures& bone, const Camera& camera, const glm::ivec2& size_px) {
     background_.draw(look(), size_px);

@@ -1,23 +1,16 @@
 #include "render_client/volume/passes/slice_renderer.h"
 
 #include <glm/ext/matrix_transform.hpp>
-#include <string>
 
 #include "render_client/volume/passes/view_slices.h"
-#include "render_client/volume/shaders/bone_shading_shader.h"
-#include "render_client/volume/shaders/lighting.h"
-#include "render_client/volume/shaders/look_shader.h"
-#include "render_client/volume/shaders/slice_shader.h"
+#include "render_client/volume/shaders/look_uniforms.h"
+#include "render_client/volume/shaders/shader_files.h"
 
 namespace osteomill {
 
 namespace {
 
 constexpr int light_unit = 0;  // no bone is sampled beside it
-
-std::string lit_source(const char* fragment) {
-    return std::string("#version 330 core\n") + lighting_glsl + background_glsl + fragment;
-}
 
 /// From voxels of the textures to patient space.
 glm::dmat4 to_patient(const BoneTextures& bone) {
@@ -30,10 +23,7 @@ glm::dmat4 to_patient(const BoneTextures& bone) {
 }  // namespace
 
 SliceRenderer::SliceRenderer(const SliceSettings& settings)
-    : settings_(settings),
-      slice_program_(slice_vertex_glsl,
-                     std::string(lighting_glsl) + bone_shading_glsl + cut_shading_glsl + slice_fragment_glsl),
-      blend_program_(whole_picture_vertex_glsl, lit_source(blend_fragment_glsl)) {}
+    : settings_(settings), slice_program_(slice_files), blend_program_(make_program(gathered_light_files)) {}
 
 void SliceRenderer::draw(const BoneTextures& bone, const Camera& camera, const glm::ivec2& size_px) {
     // One voxel beyond the box on every side the fraction has fallen to zero.

@@ -2,8 +2,11 @@
 
 #include <fmt/format.h>
 
-#include "render_client/volume/shaders/bone_sampling_shader.h"
-#include "render_client/volume/shaders/look_shader.h"
+#include <string>
+#include <string_view>
+
+#include "render_client/volume/shaders/look_uniforms.h"
+#include "render_client/volume/shaders/shader_files.h"
 
 namespace osteomill {
 
@@ -17,18 +20,17 @@ std::string constant(const char* name, bool value) {
 
 }  // namespace
 
-BoneProgram::BoneProgram(std::string vertex_source, std::string fragment_source)
-    : vertex_source_(std::move(vertex_source)), fragment_source_(std::move(fragment_source)) {}
-
 gl::Program BoneProgram::make(const Variant& variant) const {
-    const char* places = variant.layout == BoneLayout::dense ? dense_places_glsl : atlas_places_glsl;
-    gl::Program program(vertex_source_,
-                        "#version 330 core\n" + constant("bone_has_colour_code", variant.has_colour_code) +
-                            constant("bone_codes_are_tissues", variant.codes_are_tissues) +
-                            constant("bone_has_surface_colours", variant.has_surface_colours) +
-                            constant("bone_is_translucent", variant.is_translucent) + places +
-                            bone_sampling_glsl + cut_count_glsl(variant.cut_count) + cuts_glsl +
-                            fragment_source_);
+    std::vector<std::string_view> files{variant.layout == BoneLayout::dense ? "dense_places.glsl"
+                                                                            : "atlas_places.glsl"};
+    files.insert(files.end(), bone_sampling_files.begin(), bone_sampling_files.end());
+    files.insert(files.end(), own_.fragment.begin(), own_.fragment.end());
+    const std::string constants = constant("bone_has_colour_code", variant.has_colour_code) +
+                                  constant("bone_codes_are_tissues", variant.codes_are_tissues) +
+                                  constant("bone_has_surface_colours", variant.has_surface_colours) +
+                                  constant("bone_is_translucent", variant.is_translucent) +
+                                  fmt::format("const int cut_count = {};\n", variant.cut_count);
+    gl::Program program = make_program(shader_text({&own_.vertex, 1}), shader_text(files, constants));
     program.use();
     program.set("bone_fraction", fraction_unit);
     program.set("bone_blocks", blocks_unit);

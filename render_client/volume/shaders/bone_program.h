@@ -1,13 +1,13 @@
-// A shader program that samples the bone: a renderer's own shaders behind bone_sampling_glsl and cuts_glsl,
+// A shader program that samples the bone: a renderer's own shaders behind bone_sampling.glsl and cuts.glsl,
 // with the bone's textures and the uniforms of both bound.
 #pragma once
 
-#include <string>
 #include <utility>
 #include <vector>
 
 #include "render_client/volume/gl/program.h"
 #include "render_client/volume/scene_look.h"
+#include "render_client/volume/shaders/shader_programs.h"
 #include "render_client/volume/textures/bone_textures.h"
 
 namespace osteomill {
@@ -17,8 +17,7 @@ class BoneProgram {
     /// Texture units from this one on are the renderer's own.
     static constexpr int first_free_unit = 8;
 
-    /// `fragment_source` is GLSL 3.30 without its #version line.
-    BoneProgram(std::string vertex_source, std::string fragment_source);
+    explicit BoneProgram(const ProgramFiles& own) : own_(own) {}
 
     /// glUseProgram, of a program for this bone's layout and looks, with its textures on units 0 to
     /// first_free_unit - 1. The program that comes back is for the renderer's own uniforms: set them all
@@ -42,8 +41,7 @@ class BoneProgram {
     gl::Program make(const Variant& variant) const;
     const gl::Program& program_for(const Variant& variant);
 
-    std::string vertex_source_;
-    std::string fragment_source_;
+    ProgramFiles own_;
     std::vector<std::pair<Variant, gl::Program>> programs_;  ///< made when a bone first needs them
 };
 

@@ -5,52 +5,13 @@
 #include <glm/ext/matrix_transform.hpp>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
-#include <string>
 
 #include "render_client/volume/bone_colours.h"
-#include "render_client/volume/shaders/lighting.h"
+#include "render_client/volume/shaders/shader_files.h"
 
 namespace osteomill {
 
 namespace {
-
-constexpr const char* vertex_glsl = R"glsl(#version 330 core
-layout(location = 0) in vec3 position;
-layout(location = 1) in vec3 normal;
-layout(location = 2) in vec3 colour;
-uniform mat4 to_clip;
-uniform mat4 to_patient;
-uniform mat3 normal_to_patient;
-out vec3 patient_position, patient_normal, surface_colour;
-
-void main() {
-    patient_position = vec3(to_patient * vec4(position, 1.0));
-    patient_normal = normal_to_patient * normal;
-    surface_colour = colour;
-    gl_Position = to_clip * vec4(position, 1.0);
-}
-)glsl";
-
-constexpr const char* fragment_glsl = R"glsl(
-uniform float opacity;
-uniform float polish;  // 0 matt, 1 steel
-uniform vec3 eye;
-in vec3 patient_position, patient_normal, surface_colour;
-out vec4 pixel;
-
-// Blinn's highlight of the two lamps.
-float highlight(vec3 normal, vec3 to_eye, vec3 lamp) {
-    return pow(max(dot(normal, normalize(to_eye + lamp)), 0.0), 48.0);
-}
-
-void main() {
-    vec3 normal = normalize(patient_normal);
-    vec3 to_eye = normalize(eye - patient_position);
-    float shine = highlight(normal, to_eye, key_direction) + 0.4 * highlight(normal, to_eye, fill_direction);
-    vec3 light = 1.25 * lit(surface_colour, normal, 1.0) + 0.55 * polish * shine;
-    pixel = vec4(display(light), opacity);
-}
-)glsl";
 
 /// Rotation that takes +z to `axis`.
 glm::dmat4 z_to(const glm::dvec3& axis) {
@@ -64,7 +25,7 @@ glm::dmat4 z_to(const glm::dvec3& axis) {
 }  // namespace
 
 ToolRenderer::ToolRenderer()
-    : program_(vertex_glsl, std::string("#version 330 core\n") + lighting_glsl + fragment_glsl),
+    : program_(make_program(tool_files)),
       // Orange and sky blue of Okabe and Ito's palette: told apart by every kind of colour vision.
       arrow_(unit_arrow(linear_from_srgb({230, 159, 0}))),
       ghost_(unit_sphere(linear_from_srgb({86, 180, 233}))),

@@ -1,4 +1,4 @@
-#include "render_client/volume/shaders/look_shader.h"
+#include "render_client/volume/shaders/look_uniforms.h"
 
 #include <fmt/format.h>
 
@@ -9,10 +9,6 @@ namespace osteomill {
 
 int cut_count(const SceneLook& look) {
     return static_cast<int>(std::min(look.cuts.size(), most_cut_planes));
-}
-
-std::string cut_count_glsl(int cut_count) {
-    return fmt::format("const int cut_count = {};\n", cut_count);
 }
 
 void set_background_uniforms(const gl::Program& program, const SceneLook& look) {

@@ -1,11 +1,6 @@
-// The ray caster's fragment shader, GLSL 3.30; follows cut_shading_glsl, behind camera_rays_vertex_glsl.
-// Lengths are in voxels, in texture coordinates of the bone's box (the first voxel spans 0 to 1), axes are
-// the patient's.
-#pragma once
+// Ray casting; follows cut_shading.glsl, behind camera_rays.vert.glsl. Lengths are in voxels, in texture coordinates of the
+// bone's box (the first voxel spans 0 to 1), axes are the patient's.
 
-namespace osteomill {
-
-inline constexpr const char* raycast_fragment_glsl = R"glsl(
 uniform vec3 eye;
 uniform vec3 forward;
 uniform vec2 depth_terms;      // window depth = x + y / distance along forward
@@ -31,9 +26,9 @@ bool find_bone(inout float index) {
         float distance_along = enter + index * step_length;
         if (distance_along > leave) return false;
         vec3 p = eye + distance_along * direction;
-        float leap = skips ? free_length(p, direction) : 0.0;
-        if (leap > 0.0) {
-            index += max(ceil(leap / step_length), 1.0);
+        float skip = skips ? skip_distance(p, direction) : 0.0;
+        if (skip > 0.0) {
+            index += max(ceil(skip / step_length), 1.0);
             continue;
         }
         if (fraction_at(p) >= bone_surface) return true;
@@ -91,6 +86,3 @@ void main() {
     if (bone_is_translucent) draw_translucent(index);
     else draw_surface(index);
 }
-)glsl";
-
-}  // namespace osteomill

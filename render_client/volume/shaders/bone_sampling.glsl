@@ -1,5 +1,5 @@
-// What a fragment shader can ask about the bone, GLSL 3.30: the part that every renderer shares. BoneProgram
-// puts it in front of a renderer's own shader and binds the textures behind it.
+// What a fragment shader can ask about the bone: the part that every renderer shares. BoneProgram puts it ahead of a
+// renderer's own and binds the textures behind it.
 //
 // Points are in voxels, in texture coordinates of the bone's box: the first voxel spans 0 to 1, axes are the
 // patient's. Every function takes any point; far outside the box there is no bone.
@@ -17,9 +17,9 @@
 //     vec4  look_under(vec3 point, vec3 normal)     smooth_look_at below a surface with that outward normal
 //     float density_at(vec3 point)                  the fraction times the opacity of the nearest voxel
 //     vec4  surface_colour_at(vec3 point)           of surface voxels nearby: display RGB times alpha, alpha
-//     float openness_at(vec3 point, vec3 normal)    0 to 1, how much of the sky above a surface is free of
+//     float ambient_occlusion(vec3 point, vec3 normal)    0 to 1, how much of the sky above a surface is free of
 //                                                   bone
-//     float free_length(vec3 point, vec3 direction) voxels along a unit direction (no component may be zero)
+//     float skip_distance(vec3 point, vec3 direction) voxels along a unit direction (no component may be zero)
 //                                                   in which the fraction stays below one half; 0 if unknown
 //     const bool, by variant of the program:
 //     bool  bone_has_colour_code                    else all bone looks alike
@@ -27,55 +27,7 @@
 //     bool  bone_is_translucent                     opacities are per mm, else bone is solid
 //     bool  bone_has_surface_colours                else surface_colour_at means nothing
 //     float bone_mm_per_voxel
-#pragma once
 
-namespace osteomill {
-
-/// How far from a voxel, along an axis, a surface can lie whose shading depends on it: openness_at looks 16
-/// voxels away into a map of 4-voxel blocks whose interpolation reads 2 voxels beyond each; one in reserve.
-inline constexpr int shading_reach_voxels = 19;
-/// The same for where a surface is and which way it faces, which is what a carve is seen by: gradient_at
-/// reads 2 voxels away; one in reserve.
-inline constexpr int surface_reach_voxels = 3;
-
-/// Where texels lie, one of two; bone_sampling_glsl follows.
-inline constexpr const char* dense_places_glsl = R"glsl(
-uniform vec3 bone_size;
-
-vec3 texture_place(vec3 point) { return point / bone_size; }
-ivec3 texel_shift(vec3 point) { return ivec3(0); }
-)glsl";
-
-inline constexpr const char* atlas_places_glsl = R"glsl(
-uniform vec3 bone_size;
-uniform usampler3D bone_tile_table;
-uniform vec3 bone_texture_size;
-
-const float brick_edge = 16.0;
-const int tile_edge = 18, tile_border = 1;
-
-ivec3 brick_at(vec3 point) {
-    return clamp(ivec3(floor(point / brick_edge)), ivec3(0), ivec3(bone_size / brick_edge) - 1);
-}
-
-ivec3 first_texel_of(ivec3 brick) {
-    return ivec3(texelFetch(bone_tile_table, brick, 0).xyz) * tile_edge + tile_border;
-}
-
-vec3 texture_place(vec3 point) {
-    ivec3 brick = brick_at(point);
-    // A point beyond the box gets what the outermost border holds: nothing.
-    vec3 within = clamp(point - vec3(brick) * brick_edge, -0.5, brick_edge + 0.5);
-    return (vec3(first_texel_of(brick)) + within) / bone_texture_size;
-}
-
-ivec3 texel_shift(vec3 point) {
-    ivec3 brick = brick_at(point);
-    return first_texel_of(brick) - brick * int(brick_edge);
-}
-)glsl";
-
-inline constexpr const char* bone_sampling_glsl = R"glsl(
 uniform sampler3D bone_fraction;
 uniform sampler3D bone_blocks;
 uniform usampler3D bone_colour_code;
@@ -206,7 +158,7 @@ float mean_fraction_at(vec3 point) {
 }
 
 // By the mean fractions of blocks near and far in four directions round the normal.
-float openness_at(vec3 point, vec3 normal) {
+float ambient_occlusion(vec3 point, vec3 normal) {
     vec3 aside = normalize(abs(normal.z) < 0.8 ? cross(normal, vec3(0, 0, 1)) : cross(normal, vec3(1, 0, 0)));
     vec3 across = cross(normal, aside);
     float taken = 0.0;
@@ -219,7 +171,7 @@ float openness_at(vec3 point, vec3 normal) {
 }
 
 // To the faces of the cube of blocks that the distance map says is empty.
-float free_length(vec3 point, vec3 direction) {
+float skip_distance(vec3 point, vec3 direction) {
     ivec3 block = ivec3(floor(point / block_edge)) + 1;
     ivec3 last = ivec3(bone_size / block_edge) + 1;
     int away = int(texelFetch(bone_blocks, clamp(block, ivec3(0), last), 0).g * 255.0 + 0.5);
@@ -229,6 +181,3 @@ float free_length(vec3 point, vec3 direction) {
     vec3 leave = (mix(low, high, greaterThan(direction, vec3(0.0))) - point) / direction;
     return max(min(leave.x, min(leave.y, leave.z)), 0.0);
 }
-)glsl";
-
-}  // namespace osteomill

@@ -1,4 +1,4 @@
-// What light makes of the bone at a point, GLSL 3.30; follows bone_sampling_glsl and lighting_glsl.
+// What light makes of the bone at a point; follows bone_sampling.glsl and lighting.glsl.
 //
 //     vec3  surface_pixel(vec3 point, vec3 direction)   display RGB of the bone's surface at a point, seen
 //                                                       along a unit direction
@@ -8,11 +8,7 @@
 //     const float bone_surface                          the fraction at which bone begins
 //     const float solid_opacity                         translucent bone counts for depth from this opacity
 //     on
-#pragma once
 
-namespace osteomill {
-
-inline constexpr const char* bone_shading_glsl = R"glsl(
 const float bone_surface = 0.5;
 const float solid_opacity = 0.5;
 
@@ -22,7 +18,7 @@ vec3 surface_pixel(vec3 point, vec3 direction) {
         return colour.rgb / max(colour.a, 1e-3);
     }
     vec3 normal = normal_at(point, -direction);
-    return display(lit(look_under(point, normal).rgb, normal, openness_at(point, normal)));
+    return display(lit(look_under(point, normal).rgb, normal, ambient_occlusion(point, normal)));
 }
 
 // Slope of the density, which also shows borders between tissues of different opacity.
@@ -61,6 +57,3 @@ vec4 translucent_piece(vec3 point, float length_voxels) {
     vec3 colour = alpha < 0.002 ? look.rgb * light_within : translucent_colour(point, look.rgb);
     return vec4(alpha * colour, alpha);
 }
-)glsl";
-
-}  // namespace osteomill

@@ -1,0 +1,6 @@
+// Places of texels where a texture holds the whole of the bone's box. One of two; bone_sampling.glsl follows.
+
+uniform vec3 bone_size;
+
+vec3 texture_place(vec3 point) { return point / bone_size; }
+ivec3 texel_shift(vec3 point) { return ivec3(0); }

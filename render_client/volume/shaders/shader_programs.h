@@ -1,0 +1,31 @@
+// Which files each shader program is made of: one table.
+#pragma once
+
+#include <array>
+#include <string_view>
+
+namespace osteomill {
+
+struct ProgramFiles {
+    std::string_view vertex;
+    std::array<std::string_view, 6> fragment;  ///< one after another
+};
+
+inline constexpr ProgramFiles background_files{"whole_picture.vert.glsl",
+                                               {"lighting.glsl", "background.glsl", "background.frag.glsl"}};
+inline constexpr ProgramFiles gathered_light_files{
+    "whole_picture.vert.glsl", {"lighting.glsl", "background.glsl", "gathered_light.frag.glsl"}};
+inline constexpr ProgramFiles contact_shadow_files{"camera_rays.vert.glsl",
+                                                   {"lighting.glsl", "contact_shadow.frag.glsl"}};
+inline constexpr ProgramFiles upscale_files{"upscale.vert.glsl", {"upscale.frag.glsl"}};
+inline constexpr ProgramFiles tool_files{"tool.vert.glsl", {"lighting.glsl", "tool.frag.glsl"}};
+
+/// Those of BoneProgram, which puts what samples the bone ahead of them.
+inline constexpr ProgramFiles raycast_files{
+    "camera_rays.vert.glsl",
+    {"lighting.glsl", "background.glsl", "bone_shading.glsl", "cut_shading.glsl", "raycast.frag.glsl"}};
+inline constexpr ProgramFiles slice_files{
+    "slice.vert.glsl", {"lighting.glsl", "bone_shading.glsl", "cut_shading.glsl", "slice.frag.glsl"}};
+inline constexpr std::array<std::string_view, 2> bone_sampling_files{"bone_sampling.glsl", "cuts.glsl"};
+
+}  // namespace osteomill
