@@ -70,7 +70,7 @@ std::optional<Packet> PacketReader::next() {
                     where(here) +
                     "its length is damaged: it would end behind the end of the file, and whole "
                     "packets follow it");
-            is_torn_ = true;
+            is_truncated_ = true;
             return std::nullopt;
         }
         throw RecordingError(where(here) + pcap_geterr(input_.get()));
@@ -125,7 +125,7 @@ void PacketReader::seek(const PacketPlace& place) {
     if (::fseeko(pcap_file(input_.get()), static_cast<off_t>(place.offset_bytes), SEEK_SET) != 0)
         throw RecordingError(where(place) + std::strerror(errno));
     next_number_ = place.number;
-    is_torn_ = false;
+    is_truncated_ = false;
 }
 
 std::string PacketReader::where(const PacketPlace& place) const {

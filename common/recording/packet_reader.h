@@ -19,13 +19,13 @@ class PacketReader {
     /// something else.
     explicit PacketReader(std::filesystem::path file);
 
-    /// The next packet, or nothing at the end: of the file, or of what is whole of it (see is_torn). Throws
-    /// RecordingError for what is no packet of a recording, and for a packet that claims to go beyond the
-    /// end of the file although whole ones follow it: its header is damaged.
+    /// The next packet, or nothing at the end: of the file, or of what is whole of it (see is_truncated).
+    /// Throws RecordingError for what is no packet of a recording, and for a packet that claims to go beyond
+    /// the end of the file although whole ones follow it: its header is damaged.
     std::optional<Packet> next();
 
     /// Once next() has come to the end: whether the file ends within a packet, as a crash leaves it.
-    bool is_torn() const { return is_torn_; }
+    bool is_truncated() const { return is_truncated_; }
 
     /// Where the next packet lies.
     PacketPlace place() const;
@@ -45,7 +45,7 @@ class PacketReader {
     std::uint64_t file_bytes_ = 0;
     std::unique_ptr<pcap, Close> input_;
     std::uint64_t next_number_ = 1;
-    bool is_torn_ = false;
+    bool is_truncated_ = false;
 };
 
 }  // namespace osteomill

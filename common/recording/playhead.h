@@ -49,7 +49,7 @@ class Playhead {
     std::uint64_t state_bytes() const { return state_bytes_; }
     std::uint64_t checksums_verified() const { return checksums_verified_; }
     /// At the end: whether the file ends within a packet.
-    bool is_torn() const { return reader_.is_torn(); }
+    bool is_truncated() const { return reader_.is_truncated(); }
 
     /// A place to come back to, as long as the session is the same.
     struct Mark {

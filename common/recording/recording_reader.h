@@ -28,7 +28,7 @@ class RecordingReader {
     std::optional<RecordedEvent> next();
 
     /// At the end: whether the file ends within a packet.
-    bool is_torn() const { return packets_.is_torn(); }
+    bool is_truncated() const { return packets_.is_truncated(); }
 
     /// Behind a state frame, to come back to within the same session.
     struct Mark {

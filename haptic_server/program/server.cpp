@@ -145,7 +145,7 @@ Streaming make_streaming(StreamingOptions wanted, const ServerOptions& options, 
 }
 
 /// Everything that a run leaves behind, written although one of them fails; the first failure is thrown.
-class Leftovers {
+class RunOutputs {
   public:
     template <typename Write>
     void write(Write&& write_one) {
@@ -259,32 +259,32 @@ void run_server(const ServerOptions& options, const std::string& version, const 
     const std::uint64_t peak_bytes = peak_resident_bytes(process).value_or(0);
     // What matters most first, and nothing waits for a client that is slow to read the end.
     const MillingSessionReport report = session->report();
-    Leftovers leftovers;
-    leftovers.write([&] {
+    RunOutputs outputs;
+    outputs.write([&] {
         if (options.save_bone) save_and_tell(*options.save_bone, source, session->bone(), *output.err);
     });
-    leftovers.write([&] { close_log(log); });
-    leftovers.write([&] { close_log(milling_log); });
+    outputs.write([&] { close_log(log); });
+    outputs.write([&] { close_log(milling_log); });
     if (streaming) streaming.server->finish_recording();
     const auto recording = streaming ? streaming.server->recording() : std::nullopt;
-    leftovers.write([&] {
+    outputs.write([&] {
         if (!options.json) return;
         auto json = measurements(report, cost, peak_bytes, scene, options);
         if (recording) json["recording"] = recorded(*recording);
         write_json(json, *options.json);
     });
     if (streaming) streaming.server->stop();
-    leftovers.write([&] {
+    outputs.write([&] {
         if (streaming && streaming.server->mirror_checksum() != report.bone_checksum) {
             throw std::runtime_error(
                 fmt::format("the bone that clients were shown ({:016x}) is not the one milled ({:016x})",
                             streaming.server->mirror_checksum(), report.bone_checksum));
         }
     });
-    leftovers.write([&] {
+    outputs.write([&] {
         if (recording && !recording->error.empty()) throw std::runtime_error(recording->error);
     });
-    leftovers.require_complete();
+    outputs.require_complete();
 }
 
 }  // namespace osteomill

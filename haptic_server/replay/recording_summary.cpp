@@ -86,7 +86,7 @@ RecordingSummary summarise(const std::filesystem::path& file,
     summary.state_bytes = playhead.state_bytes();
     summary.checksums_verified = playhead.checksums_verified();
     summary.bone_checksum = playhead.bone_checksum();
-    summary.is_torn = playhead.is_torn();
+    summary.is_truncated = playhead.is_truncated();
     return summary;
 }
 
@@ -120,7 +120,7 @@ nlohmann::ordered_json to_json(const RecordingSummary& summary) {
             {"grid", {{"size_voxels", {size.x, size.y, size.z}}, {"spacing_mm", summary.grid.spacing_mm}}},
             {"burrs", burrs},
             {"ends_with_goodbye", summary.has_goodbye},
-            {"is_torn", summary.is_torn}};
+            {"is_truncated", summary.is_truncated}};
 }
 
 std::string to_text(const RecordingSummary& summary) {
@@ -147,8 +147,9 @@ std::string to_text(const RecordingSummary& summary) {
     line("bone",
          fmt::format("{:016x}; {} checksums hold", summary.bone_checksum, summary.checksums_verified));
     if (!summary.has_goodbye)
-        line("end", summary.is_torn ? "within a frame, as after a crash or on a full disk"
-                                    : "without a goodbye: it goes on elsewhere, or the server was killed");
+        line("end", summary.is_truncated
+                        ? "within a frame, as after a crash or on a full disk"
+                        : "without a goodbye: it goes on elsewhere, or the server was killed");
     return text;
 }
 

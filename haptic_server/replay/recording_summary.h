@@ -28,7 +28,7 @@ struct RecordingSummary {
     std::map<std::string, double> by_tissue_mm3{};  ///< of these; by the scene's names, "unlabelled" the rest
     std::uint64_t bone_checksum = 0;                ///< of what is left
     bool has_goodbye = false;                       ///< the session ended before the recording did
-    bool is_torn = false;                           ///< the file ends within a packet
+    bool is_truncated = false;                      ///< the file ends within a packet
     std::string error{};                            ///< why it is not read further; empty at the end
 };
 

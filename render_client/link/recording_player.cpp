@@ -120,7 +120,7 @@ void RecordingPlayer::wind_back(LinkUpdate& update) {
 
 std::string RecordingPlayer::status_line() const {
     if (!error_.empty()) return error_;
-    const std::string torn = is_at_end_ && playhead_->is_torn() ? ", which ends within a frame" : "";
+    const std::string torn = is_at_end_ && playhead_->is_truncated() ? ", which ends within a frame" : "";
     return fmt::format("recording {}{}", file_.filename().string(), torn);
 }
 

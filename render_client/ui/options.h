@@ -10,8 +10,8 @@
 #include "common/net/tls_files.h"
 #include "render_client/ui/panels/theme.h"
 #include "render_client/ui/view/cut_settings.h"
-#include "render_client/volume/bone_look.h"
 #include "render_client/volume/passes/renderer_choice.h"
+#include "render_client/volume/shading_settings.h"
 #include "render_client/volume/textures/texture_plan.h"
 
 namespace osteomill {
@@ -24,7 +24,7 @@ struct RenderOptions {
     std::optional<std::filesystem::path> replay;  ///< a recording in place of a server
     double speed = 1.0;                           ///< of the recording: recorded seconds a second
     RendererChoice renderer = RendererChoice::raycast;
-    BoneLook look;
+    ShadingSettings look;
     CutSettings cuts;  ///< the bone's bounds are not known yet
     bool offscreen = false;
     int frames = 300;                   ///< offscreen: ends after so many

@@ -1,4 +1,4 @@
-// What a run measured, as the JSON file that --json asks for.
+// The JSON file of what a run measured (--json).
 #pragma once
 
 #include <cstdint>

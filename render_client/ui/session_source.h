@@ -1,4 +1,4 @@
-// Where sessions come from: a server (BoneLink), a recording of one, or a script in its place.
+// Sources of sessions: a server (BoneLink), a recording of one, or a script in its place.
 #pragma once
 
 #include <filesystem>

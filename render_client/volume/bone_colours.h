@@ -1,4 +1,4 @@
-// What bone looks like: a colour for each tissue label or, where the scene labels none, for each stiffness.
+// Colours of bone: one for each tissue label or, where the scene labels none, for each stiffness.
 #pragma once
 
 #include <array>

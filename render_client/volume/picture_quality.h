@@ -1,4 +1,4 @@
-// What the user sees of the bone: all that there is, or less for the sake of speed.
+// Quality of the picture on show: all that there is, or less for the sake of speed.
 #pragma once
 
 namespace osteomill {

@@ -1,4 +1,4 @@
-// How the scene is looked at, apart from bone and camera: what is cut away, and what is behind the bone.
+// Cuts and background: the look of the scene apart from bone and camera.
 #pragma once
 
 #include <cstddef>

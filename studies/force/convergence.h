@@ -1,4 +1,4 @@
-// How the error falls with the size of voxels.
+// Convergence of the error with the size of voxels.
 #pragma once
 
 #include <string>

@@ -1,4 +1,4 @@
-// What a run leaves behind, step by step, and the few numbers that say how good it was.
+// Series of forces of a run, step by step, and the few numbers that say how good it was.
 #pragma once
 
 #include <glm/vec3.hpp>

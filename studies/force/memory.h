@@ -1,4 +1,4 @@
-// What a bone costs in memory and at start: it must follow the bone, not the box around it.
+// Cost of a bone in memory and at start: it must follow the bone, not the box around it.
 #pragma once
 
 #include <filesystem>

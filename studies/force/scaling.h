@@ -1,4 +1,4 @@
-// What a step costs as the burr and the bone grow: the crescent beside the full scan. Half-immersed burrs,
+// Cost of a step as the burr and the bone grow: the crescent beside the full scan. Half-immersed burrs,
 // upright, 6 mm/s, 0.1 mm voxels.
 #pragma once
 

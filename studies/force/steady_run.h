@@ -1,4 +1,4 @@
-// Runs a model through a steady motion and keeps what it reports.
+// A run of a model through a steady motion, with what it reports.
 #pragma once
 
 #include "studies/force/force_series.h"

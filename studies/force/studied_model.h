@@ -1,5 +1,5 @@
-// What the study asks of a force model that carves: a step in, force and removal out. One small interface, so
-// that the voxel model, its settings and the published scan run through the same motions.
+// Interface of a force model under study, which carves: a step in, force and removal out. One small
+// interface, so that the voxel model, its settings and the published scan run through the same motions.
 #pragma once
 
 #include <functional>

@@ -1,4 +1,5 @@
-// What the paper says of its experiment, and whether it holds in ours. Each claim is decided by one number.
+// Claims of the paper about its experiment, and whether they hold in ours. Each claim is decided by one
+// number.
 #pragma once
 
 #include <nlohmann/json.hpp>

@@ -1,4 +1,4 @@
-// Which set-up makes the simulated slide take the time and reach the depth that was published.
+// Survey of the set-ups that make the simulated slide take the time and reach the depth that was published.
 #pragma once
 
 #include <filesystem>

@@ -14,8 +14,8 @@ namespace osteomill::study {
 
 namespace {
 
-const BoneLook by_gradient{};
-const BoneLook by_surface_voxels{.shading = Shading::surface_voxels};
+const ShadingSettings by_gradient{};
+const ShadingSettings by_surface_voxels{.shading = Shading::surface_voxels};
 
 std::unique_ptr<BoneRenderer> renderer_of(const DrawingSetting& setting) {
     if (setting.renderer == RendererChoice::slices)
@@ -31,7 +31,7 @@ struct References {
     Picture trilinear;
 };
 
-References references_of(const TrialBone& trial, const Camera& camera, const BoneLook& look,
+References references_of(const TrialBone& trial, const Camera& camera, const ShadingSettings& look,
                          const glm::ivec2& size_px) {
     const ReferenceVolume volume(trial.bone, trial.tissues, look);
     ReferenceSettings settings{.threads = std::max(1u, std::thread::hardware_concurrency())};
@@ -104,7 +104,7 @@ std::vector<DrawingPoint> measure(const TrialBone& trial, const std::vector<Draw
     const double all = static_cast<double>(2 * views.size() + views.size() * settings.size());
     double done = 0.0;
     std::vector<DrawingPoint> points;
-    for (const BoneLook& look : {by_gradient, by_surface_voxels}) {
+    for (const ShadingSettings& look : {by_gradient, by_surface_voxels}) {
         const BoneTextures textures(trial.bone, trial.tissues, look);
         for (const auto& [view, camera] : views) {
             const References references = references_of(trial, camera, look, size_px);

@@ -19,7 +19,7 @@ struct DrawingSetting {
     std::string family{};  ///< what it belongs to in the chart: "raycast, gradient" ...
     std::string label{};   ///< what tells it from the others of its family: "step 0.75" ...
     RendererChoice renderer = RendererChoice::raycast;
-    BoneLook look{};
+    ShadingSettings look{};
     float step_voxels = RaycastSettings{}.step_voxels;  ///< of rays, or between slices
     bool skips = true;                                  ///< of rays: empty space
     int divisor = 1;          ///< width and height are divided by it and the picture is scaled up again

@@ -1,4 +1,4 @@
-// How far a picture is from a reference: peak signal-to-noise ratio and structural similarity.
+// Difference of a picture from a reference: peak signal-to-noise ratio and structural similarity.
 #pragma once
 
 #include "render_client/volume/picture.h"

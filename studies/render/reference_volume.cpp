@@ -39,7 +39,7 @@ constexpr double corner_reach = 0.4;
 }  // namespace
 
 ReferenceVolume::ReferenceVolume(const Bone& whole, std::span<const TissueColour> tissues,
-                                 const BoneLook& look)
+                                 const ShadingSettings& look)
     : grid_(whole.grid()),
       box_(stored_box(whole.content())),
       table_(look_table(whole.content(), tissues, look)) {

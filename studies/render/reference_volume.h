@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "render_client/volume/bone_look.h"
+#include "render_client/volume/shading_settings.h"
 #include "render_client/volume/textures/empty_space.h"
 #include "render_client/volume/textures/surface_voxels.h"
 
@@ -24,7 +24,7 @@ class ReferenceVolume {
   public:
     /// The look as render_client would show it. Takes a dense copy of the stored box: a byte a voxel, two
     /// where bone has codes, six with surface voxels. Throws std::runtime_error for a bone without bricks.
-    ReferenceVolume(const Bone& bone, std::span<const TissueColour> tissues, const BoneLook& look);
+    ReferenceVolume(const Bone& bone, std::span<const TissueColour> tissues, const ShadingSettings& look);
 
     const VoxelBox& box() const { return box_; }
     const Grid& grid() const { return grid_; }

@@ -1,4 +1,4 @@
-// What it costs to bring the textures up to date after a carve.
+// Cost of bringing the textures up to date after a carve.
 #pragma once
 
 #include <string>

@@ -1,4 +1,4 @@
-// How a long piece of work says how far it has come.
+// Reports of how far a long piece of work has come.
 #pragma once
 
 #include <functional>

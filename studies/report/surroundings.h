@@ -1,4 +1,4 @@
-// Where a study says what it found and how far it has come.
+// Surroundings of a study: where it says what it found and how far it has come.
 #pragma once
 
 #include <iosfwd>

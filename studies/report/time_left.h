@@ -1,4 +1,4 @@
-// How long a sweep of like pieces of work will still take.
+// Estimate of the time that a sweep of like pieces of work still takes.
 #pragma once
 
 #include <cstddef>

@@ -1,4 +1,4 @@
-// What a model computes at its samples: a wall that is there on both sides, or a damper, or both.
+// Force that a model computes at its samples: a wall that is there on both sides, or a damper, or both.
 //
 //     F_n = K x_n + B (x_n - x_{n-1}) / (N T)
 //

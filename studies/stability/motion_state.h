@@ -1,4 +1,4 @@
-// Where a body in one dimension is and how fast it moves.
+// Position and velocity of a body in one dimension.
 #pragma once
 
 namespace osteomill::study {

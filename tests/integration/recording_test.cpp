@@ -148,7 +148,7 @@ TEST_F(Recording, OfAServerThatWasKilledIsReadableToItsLastWholeFrame) {
 
     // The disk of a machine that lost its power may have kept less.
     std::filesystem::resize_file(file("a.part.pcap"), size() - 3);
-    EXPECT_TRUE(info("a.part.pcap").at("is_torn"));
+    EXPECT_TRUE(info("a.part.pcap").at("is_truncated"));
     EXPECT_EQ(info("a.part.pcap").at("frames").get<int>(), read.at("frames").get<int>() - 1);
 
     // Nor is it lost with the next session of that name.

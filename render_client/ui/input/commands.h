@@ -1,5 +1,4 @@
-// Carries out what keys ask for once: of the view, the operator's desk, the player, and for pictures in
-// files.
+// Commands that a key gives once: to the view, the operator's desk, the player, and for pictures in files.
 #pragma once
 
 #include <filesystem>

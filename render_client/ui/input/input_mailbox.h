@@ -1,5 +1,5 @@
-// Where the thread of the window leaves what happened, and the one that draws finds it: nothing is lost
-// however seldom that looks, and neither waits for the other.
+// A mailbox from the thread of the window to the one that draws, for what happened: nothing is lost however
+// seldom that looks, and neither waits for the other.
 #pragma once
 
 #include <chrono>

@@ -1,4 +1,4 @@
-// What the keys and the mouse do: one table, from which the window acts and F1's help is printed.
+// Bindings of keys and mouse: one table, from which the window acts and F1's help is printed.
 #pragma once
 
 #include <span>

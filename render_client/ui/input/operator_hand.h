@@ -1,4 +1,4 @@
-// A hand without an arm: turns what the mouse and the keys do into where the hand wants the burr to be.
+// A hand without an arm, which turns what the mouse and the keys do into where the hand wants the burr to be.
 //
 // The hand holds still until it is taken up; until then its target follows the tool, so that taking it up
 // never makes it jump. No clock, no window: the caller says what moved.

@@ -1,4 +1,4 @@
-// What mouse and keyboard do to a window, and what has become of the window: plain data, for a thread that
+// State of a window's mouse and keyboard, and of the window itself: plain data, for a thread that
 // draws and one that drills. Mouse in units of the window, y down.
 #pragma once
 

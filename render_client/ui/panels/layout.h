@@ -1,4 +1,4 @@
-// Where panels go so that none covers another, whatever the size of the picture.
+// Layout of the panels, so that none covers another, whatever the size of the picture.
 #pragma once
 
 #include <glm/vec2.hpp>

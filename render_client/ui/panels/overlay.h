@@ -1,4 +1,4 @@
-// Everything over the picture: panels, plots, legend, scale bar, orientation cube, warnings, help. Drawn with
+// The overlay of the picture: panels, plots, legend, scale bar, orientation cube, warnings, help. Drawn with
 // Dear ImGui; needs an ImGui frame to be open.
 #pragma once
 

@@ -1,5 +1,5 @@
-// Paints panels of text and marks over the picture with Dear ImGui's draw lists; needs an ImGui frame to be
-// open. Lengths are pixels of the picture.
+// A painter of text panels and marks over the picture, with Dear ImGui's draw lists; needs an ImGui frame to
+// be open. Lengths are pixels of the picture.
 #pragma once
 
 #include <imgui.h>

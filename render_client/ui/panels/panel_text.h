@@ -1,4 +1,4 @@
-// What the panels say, as coloured text: no drawing, no layout.
+// The text of the panels, in colours: no drawing, no layout.
 #pragma once
 
 #include <string>

@@ -1,4 +1,4 @@
-// Which colour is which tissue, and which of them the burr must not touch.
+// A legend of the tissues: colours, and which of them the burr must not touch.
 #pragma once
 
 #include <span>

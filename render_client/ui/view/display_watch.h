@@ -1,4 +1,4 @@
-// Notices that the X server has gone. Xlib's own answer is to end the program on the spot, without a report.
+// A watch for an X server that goes. Xlib's own answer is to end the program on the spot, without a report.
 #pragma once
 
 #include <atomic>

@@ -1,4 +1,4 @@
-// How long frames took, as percentiles.
+// Percentiles of the time that frames took.
 #pragma once
 
 #include <vector>

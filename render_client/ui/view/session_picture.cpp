@@ -46,11 +46,11 @@ std::vector<TissueColour> tissue_colours(const SessionInfo* session) {
 }  // namespace
 
 SessionPicture::SessionPicture(SessionSource& source, Panels& panels, const glm::ivec2& size_px,
-                               FrameQuality quality, RendererChoice renderer, const BoneLook& look)
+                               FrameQuality quality, RendererChoice renderer, const ShadingSettings& look)
     : source_(source),
       panels_(panels),
       renderer_(make_renderer(renderer)),
-      bone_look_(look),
+      shading_(look),
       picture_(*renderer_, size_px, quality == FrameQuality::on_demand ? &draw_timer_ : nullptr),
       size_px_(picture_.size_px()) {
     view_.transfer = TransferEditor(look.transfer);
@@ -109,7 +109,7 @@ void SessionPicture::replace_bone() {
     // The old textures go first: both together might not fit.
     textures_.reset();
     try {
-        textures_.emplace(*source_.bone(), tissues, bone_look_, texture_limits_);
+        textures_.emplace(*source_.bone(), tissues, shading_, texture_limits_);
     } catch (const std::runtime_error& error) {
         bone_problem_ = error.what();
         return;
@@ -123,10 +123,10 @@ void SessionPicture::replace_bone() {
     if (first) reset_camera();
 }
 
-void SessionPicture::set_bone_look(const BoneLook& look) {
-    if (look == bone_look_) return;
+void SessionPicture::set_shading(const ShadingSettings& look) {
+    if (look == shading_) return;
     if (look.transfer) require_valid(*look.transfer);
-    bone_look_ = look;
+    shading_ = look;
     if (textures_) replace_bone();
 }
 
@@ -148,7 +148,7 @@ const gl::Framebuffer& SessionPicture::draw(double elapsed_s) {
     // The mean of times, not of rates: a few frames that come at once would count for hundreds a second.
     frame_s_ = frame_s_ > 0.0 ? 0.9 * frame_s_ + 0.1 * elapsed_s : elapsed_s;
     if (view_.transfer.take_change())
-        set_bone_look({.shading = bone_look_.shading, .transfer = view_.transfer.function()});
+        set_shading({.shading = shading_.shading, .transfer = view_.transfer.function()});
     const Theme& theme = theme_of(view_.theme);
     picture_.set_look({.cuts = view_.cuts.planes(),
                        .background_low = theme.background_low,

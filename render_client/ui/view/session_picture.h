@@ -24,7 +24,7 @@ class SessionPicture {
   public:
     SessionPicture(SessionSource& source, Panels& panels, const glm::ivec2& size_px,
                    FrameQuality quality = FrameQuality::full,
-                   RendererChoice renderer = RendererChoice::raycast, const BoneLook& look = {});
+                   RendererChoice renderer = RendererChoice::raycast, const ShadingSettings& look = {});
 
     /// Of the bones that come from now on.
     void limit_textures(const TextureLimits& limits) { texture_limits_ = limits; }
@@ -53,7 +53,7 @@ class SessionPicture {
     void reset_camera();
     /// Another look takes new textures, as a new bone does; the view stays. Throws std::invalid_argument
     /// where its transfer function is none.
-    void set_bone_look(const BoneLook& look);
+    void set_shading(const ShadingSettings& look);
     ViewSettings& view() { return view_; }
     void show_operator(const std::optional<OperatorIntent>& intent) { operator_intent_ = intent; }
 
@@ -80,7 +80,7 @@ class SessionPicture {
     SessionSource& source_;
     Panels& panels_;
     std::unique_ptr<BoneRenderer> renderer_;
-    BoneLook bone_look_;
+    ShadingSettings shading_;
     gl::DrawTimer draw_timer_;
     ScenePicture picture_;
     glm::ivec2 size_px_;

@@ -1,4 +1,4 @@
-// What the user has set about the view; keys, panels and the command line change it.
+// Settings of the view that the user has made; keys, panels and the command line change it.
 #pragma once
 
 #include <string>

@@ -1,4 +1,4 @@
-// How long the driver took for the commands between two points (GL_TIME_ELAPSED): the drawing's own time,
+// A timer of the driver's work between two points (GL_TIME_ELAPSED): the drawing's own time,
 // not that of the call, which returns long before. A software rasteriser counts, too: the wall-clock time
 // that its threads were at it.
 #pragma once

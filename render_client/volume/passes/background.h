@@ -1,5 +1,5 @@
-// What is behind the bone, drawn first over the whole picture: a renderer then leaves alone the pixels in
-// which it finds no bone.
+// The background of a picture, drawn first over all of it: a renderer then leaves alone the pixels in which
+// it finds no bone.
 #pragma once
 
 #include <glm/vec2.hpp>

@@ -1,4 +1,4 @@
-// What draws the bone into a picture: one interface for every way of doing it.
+// Interface of whatever draws the bone into a picture.
 #pragma once
 
 #include <glm/vec2.hpp>

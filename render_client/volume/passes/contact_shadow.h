@@ -1,4 +1,4 @@
-// Darkens the bone near the burr: a cue that tells how far away the burr is, which a single picture in
+// The shadow of the burr on the bone: a cue that tells how far away the burr is, which a single picture in
 // perspective does not show otherwise.
 //
 // Two parts, both computed from the depth of the bone that is already drawn, for a sphere (the burr) and a

@@ -1,4 +1,4 @@
-// How much may be drawn in a frame, so that frames keep their rate: what a pixel costs is learnt from what
+// Budget of what is drawn in a frame, so that frames keep their rate: what a pixel costs is learnt from what
 // the last ones cost, and from it how many can be afforded and how coarse a picture must be that is drawn
 // whole.
 //

@@ -1,11 +1,12 @@
-// The picture of one moment: bone, tool, force. The bone is a layer of its own (see BoneLayer); what the tool
-// and an overlay covered in one frame is restored from it in the next, and nothing else is copied.
+// The picture of one moment: bone, tool, force. The bone is a layer of its own (see IncrementalBonePass);
+// what the tool and an overlay covered in one frame is restored from it in the next, and nothing else is
+// copied.
 #pragma once
 
 #include <span>
 
-#include "render_client/volume/passes/bone_layer.h"
 #include "render_client/volume/passes/contact_shadow.h"
+#include "render_client/volume/passes/incremental_bone_pass.h"
 #include "render_client/volume/tool/tool_renderer.h"
 
 namespace osteomill {
@@ -39,7 +40,7 @@ class ScenePicture {
     const glm::ivec2& size_px() const { return picture_.size_px(); }
 
   private:
-    BoneLayer layer_;
+    IncrementalBonePass layer_;
     ToolRenderer tool_renderer_;
     ContactShadow contact_shadow_;
     gl::Framebuffer picture_;

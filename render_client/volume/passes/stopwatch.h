@@ -1,4 +1,4 @@
-// Measures how long drawing takes. An interface, so that tests can make time up.
+// A stopwatch for drawing. An interface, so that tests can make time up.
 #pragma once
 
 #include <optional>

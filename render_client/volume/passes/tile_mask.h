@@ -1,4 +1,4 @@
-// Which parts of a picture are meant, in square tiles of pixels: what a change can be seen in, what the tool
+// A set of square tiles of a picture: what a change can be seen in, what the tool
 // covers. A union of any regions costs no more than its tiles, however far apart they lie.
 #pragma once
 

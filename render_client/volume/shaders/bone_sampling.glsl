@@ -6,7 +6,7 @@
 //
 //     vec3  bone_size                               uniform: the box, voxels
 //     vec3  texture_place(vec3 point)               where a texture that is placed as the fractions are
-//                                                   (BrickPlaces) holds the point, 0 to 1 along each edge
+//                                                   (AtlasLayout) holds the point, 0 to 1 along each edge
 //     ivec3 texel_shift(vec3 point)                 texel less voxel number, for the voxels of the box within
 //                                                   one of the point
 //     float fraction_at(vec3 point)                 0 to 1, trilinear between voxels

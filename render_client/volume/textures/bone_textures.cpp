@@ -22,7 +22,7 @@ void upload_voxels(gl::Texture3D& texture, const Bone& bone, BoneChannel channel
     texture.upload(placed.first_texel, placed.voxels.size, scratch);
 }
 
-gl::Texture3D upload_channel(const Bone& bone, BoneChannel channel, const BrickPlaces& places,
+gl::Texture3D upload_channel(const Bone& bone, BoneChannel channel, const AtlasLayout& places,
                              gl::VoxelFormat format) {
     gl::Texture3D texture(format, places.texture_size());
     std::vector<std::uint8_t> scratch;
@@ -31,7 +31,7 @@ gl::Texture3D upload_channel(const Bone& bone, BoneChannel channel, const BrickP
     return texture;
 }
 
-std::optional<gl::Texture3D> upload_colour_code(const Bone& bone, const BrickPlaces& places,
+std::optional<gl::Texture3D> upload_colour_code(const Bone& bone, const AtlasLayout& places,
                                                 const LookTable& table) {
     if (!table.channel) return std::nullopt;
     return upload_channel(bone, *table.channel, places, gl::VoxelFormat::byte_code);
@@ -47,7 +47,7 @@ std::size_t bytes_per_voxel(const LookTable& table, Shading shading) {
            (shading == Shading::surface_voxels ? sizeof(SurfaceTexel) : 0);
 }
 
-std::optional<gl::Texture3D> upload_tile_table(const BoneContent& content, const BrickPlaces& places) {
+std::optional<gl::Texture3D> upload_tile_table(const BoneContent& content, const AtlasLayout& places) {
     if (places.layout() == BoneLayout::dense) return std::nullopt;
     const glm::ivec3 size = places.box().size / brick_edge_voxels;
     gl::Texture3D texture(gl::VoxelFormat::byte_codes, size);
@@ -57,8 +57,8 @@ std::optional<gl::Texture3D> upload_tile_table(const BoneContent& content, const
 
 }  // namespace
 
-BoneTextures::BoneTextures(const Bone& bone, std::span<const TissueColour> tissues, const BoneLook& look,
-                           const TextureLimits& limits)
+BoneTextures::BoneTextures(const Bone& bone, std::span<const TissueColour> tissues,
+                           const ShadingSettings& look, const TextureLimits& limits)
     : BoneTextures(
           first_that_fits(drawable(bone), look_table(bone.content(), tissues, look), look.shading, limits)) {}
 

@@ -8,9 +8,9 @@
 #include <span>
 
 #include "common/bone/bone.h"
-#include "render_client/volume/bone_look.h"
 #include "render_client/volume/gl/lookup_table.h"
 #include "render_client/volume/gl/texture3d.h"
+#include "render_client/volume/shading_settings.h"
 #include "render_client/volume/textures/changed_voxels.h"
 #include "render_client/volume/textures/coarse_bone.h"
 #include "render_client/volume/textures/empty_space.h"
@@ -26,7 +26,7 @@ class BoneTextures {
     /// has memory. Another look takes other textures. Throws std::runtime_error where the bone has no brick
     /// and, naming sizes, where nothing fits; std::invalid_argument where the look's transfer function is
     /// none.
-    BoneTextures(const Bone& bone, std::span<const TissueColour> tissues, const BoneLook& look = {},
+    BoneTextures(const Bone& bone, std::span<const TissueColour> tissues, const ShadingSettings& look = {},
                  const TextureLimits& limits = {});
 
     /// Uploads what changed in these bricks, lowered or raised, and what follows from it: glTexSubImage3D,
@@ -42,7 +42,7 @@ class BoneTextures {
     /// The part of grid() that the textures hold, in whole bricks.
     const VoxelBox& box() const { return places_.box(); }
     /// Where the bricks of grid() lie in fraction(), colour_code() and surface_colours().
-    const BrickPlaces& places() const { return places_; }
+    const AtlasLayout& places() const { return places_; }
 
     const gl::Texture3D& fraction() const { return fraction_; }
     /// What `colours` is looked up by, placed as the fractions are; none for a homogeneous, unlabelled bone.
@@ -56,7 +56,7 @@ class BoneTextures {
     bool is_translucent() const { return table_.mode == TransferMode::translucent; }
     /// Voxels below the surface at which its colour is taken.
     double colour_depth_voxels() const { return osteomill::colour_depth_voxels(table_); }
-    /// BrickPlaces::tile_table; none in a dense layout.
+    /// AtlasLayout::tile_table; none in a dense layout.
     const std::optional<gl::Texture3D>& tile_table() const { return tile_table_; }
     /// For each block of EmptySpace, two bytes: its mean fraction and its distance.
     const gl::Texture3D& blocks() const { return blocks_; }
@@ -78,7 +78,7 @@ class BoneTextures {
     std::optional<CoarseBone> copy_;      ///< only where the bone itself exceeds the memory
     std::optional<VisibleBone> visible_;  ///< of the copy, if any; only where the look hides bone
     Grid grid_;
-    BrickPlaces places_;
+    AtlasLayout places_;
     EmptySpace empty_space_;
     gl::Texture3D fraction_;
     gl::Texture3D blocks_;

@@ -1,6 +1,6 @@
-// Where in its bricks a bone changed: bricks that are reported dirty are compared, layer by layer along each
-// axis, with hashes of what they were. To upload, to shade and to draw again a whole brick for the few voxels
-// that a burr took something from costs more than to find them.
+// Boxes of voxels in which a bone changed: bricks that are reported dirty are compared, layer by layer along
+// each axis, with hashes of what they were. To upload, to shade and to draw again a whole brick for the few
+// voxels that a burr took something from costs more than to find them.
 #pragma once
 
 #include <array>

@@ -1,5 +1,5 @@
-// Where rays need not look: for each block of 4^3 voxels, how far away the nearest block is that can hold a
-// piece of the bone's surface.
+// Distance map of empty space, which rays skip: for each block of 4^3 voxels, how far away the nearest block
+// is that can hold a piece of the bone's surface.
 //
 // A block can hold a surface point if one of the voxels that trilinear interpolation reads within it (its own
 // and a border of one) is at least half full. Distances are counted in blocks, as a king moves (Chebyshev):

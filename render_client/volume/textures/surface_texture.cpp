@@ -4,12 +4,12 @@
 
 namespace osteomill {
 
-SurfaceTexture::SurfaceTexture(const Bone& bone, const LookTable& table, const BrickPlaces& places)
+SurfaceTexture::SurfaceTexture(const Bone& bone, const LookTable& table, const AtlasLayout& places)
     : shader_(table), texture_(gl::VoxelFormat::interpolated_rgba, places.texture_size()) {
     for (const PlacedVoxels& placed : places.all(bone.content())) shade(bone, placed);
 }
 
-void SurfaceTexture::update(const Bone& bone, BrickPlaces& places, std::span<const VoxelBox> changed) {
+void SurfaceTexture::update(const Bone& bone, AtlasLayout& places, std::span<const VoxelBox> changed) {
     constexpr int neighbours_reach_voxels = 1;
     for (const PlacedVoxels& placed : places.that_show(bone, changed, neighbours_reach_voxels))
         shade(bone, placed);

@@ -4,7 +4,7 @@
 #include <span>
 
 #include "render_client/volume/gl/texture3d.h"
-#include "render_client/volume/textures/brick_places.h"
+#include "render_client/volume/textures/atlas_layout.h"
 #include "render_client/volume/textures/surface_voxels.h"
 
 namespace osteomill {
@@ -12,11 +12,11 @@ namespace osteomill {
 class SurfaceTexture {
   public:
     /// Shades all of the bone. Throws gl::NoTextureMemory where the driver has none for four bytes a voxel.
-    SurfaceTexture(const Bone& bone, const LookTable& table, const BrickPlaces& places);
+    SurfaceTexture(const Bone& bone, const LookTable& table, const AtlasLayout& places);
 
     /// Shades again what a change of these voxels can have changed: themselves and one voxel round them.
     /// `places` are those of the constructor.
-    void update(const Bone& bone, BrickPlaces& places, std::span<const VoxelBox> changed);
+    void update(const Bone& bone, AtlasLayout& places, std::span<const VoxelBox> changed);
 
     const gl::Texture3D& texture() const { return texture_; }
 

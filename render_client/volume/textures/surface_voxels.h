@@ -17,7 +17,7 @@
 #include <optional>
 #include <vector>
 
-#include "render_client/volume/bone_look.h"
+#include "render_client/volume/shading_settings.h"
 #include "render_client/volume/textures/light_table.h"
 
 namespace osteomill {

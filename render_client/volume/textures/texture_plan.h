@@ -1,4 +1,4 @@
-// How a bone is to be held in 3D textures within what the driver and the user allow.
+// Plan of the 3D textures of a bone, within what the driver and the user allow.
 #pragma once
 
 #include <cstddef>
@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "render_client/volume/textures/brick_places.h"
+#include "render_client/volume/textures/atlas_layout.h"
 
 namespace osteomill {
 

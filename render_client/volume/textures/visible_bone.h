@@ -10,7 +10,7 @@
 
 #include <span>
 
-#include "render_client/volume/bone_look.h"
+#include "render_client/volume/shading_settings.h"
 
 namespace osteomill {
 

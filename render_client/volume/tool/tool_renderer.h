@@ -1,5 +1,5 @@
-// Draws what is not bone: the burr with its shank, the force on the hand as an arrow, the hand's target as a
-// ghost. All are meshes, tested against the depth that the bone left.
+// A renderer of what is not bone: the burr with its shank, the force on the hand as an arrow, the hand's
+// target as a ghost. All are meshes, tested against the depth that the bone left.
 #pragma once
 
 #include <glm/vec3.hpp>

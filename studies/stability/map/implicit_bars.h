@@ -1,5 +1,5 @@
-// What `implicit` promises over the range that a surgeon reaches, and the worst that the map has found of
-// each.
+// Bars that `implicit` promises over the range that a surgeon reaches, and the worst that the map has found
+// of each.
 #pragma once
 
 #include <string>

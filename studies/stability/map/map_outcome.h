@@ -1,4 +1,4 @@
-// What a run of a MapCase showed, beside the continuous-time truth of the same scene and hand.
+// Outcome of a run of a MapCase, beside the continuous-time truth of the same scene and hand.
 #pragma once
 
 namespace osteomill::study {

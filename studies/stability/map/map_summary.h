@@ -1,4 +1,4 @@
-// What the map says, in numbers.
+// Summary of the map, in numbers.
 #pragma once
 
 #include <nlohmann/json.hpp>

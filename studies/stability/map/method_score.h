@@ -1,4 +1,4 @@
-// What a coupling is worth in one scene: how much of the range it holds, and how true it is where it does.
+// Score of a coupling in one scene: how much of the range it holds, and how true it is where it does.
 #pragma once
 
 #include <string>

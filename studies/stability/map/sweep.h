@@ -1,4 +1,4 @@
-// Runs many independent cases on several threads.
+// A sweep of many independent cases over several threads.
 #pragma once
 
 #include <cstddef>

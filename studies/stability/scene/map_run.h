@@ -1,5 +1,5 @@
-// Runs one case of the stability map: the program's own loops, coupling and milling model (MillingSession on
-// its virtual clock) on the bench's device, beside the truth of the same scene and hand.
+// A run of one case of the stability map: the program's own loops, coupling and milling model (MillingSession
+// on its virtual clock) on the bench's device, beside the truth of the same scene and hand.
 #pragma once
 
 #include "studies/stability/map/map_case.h"

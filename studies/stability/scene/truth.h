@@ -1,6 +1,6 @@
-// What the hand would feel if nothing were sampled: the scene in continuous time, with the same hand, from
-// the release on. For a rigid mount the burr is the tool; for a compliant one it is a massless point on the
-// mount's spring and damper, which is what the implicit coupling renders.
+// The truth of a case, what the hand would feel if nothing were sampled: the scene in continuous time, with
+// the same hand, from the release on. For a rigid mount the burr is the tool; for a compliant one it is a
+// massless point on the mount's spring and damper, which is what the implicit coupling renders.
 //
 // Each substep is solved implicitly (backward Euler, the bone's force at its end): the bone reaches 3500 N
 // s/m, a time constant of 13 us on a bare arm. Halving the substep changes the force by less than 0.5 %, but

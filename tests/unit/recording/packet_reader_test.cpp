@@ -55,7 +55,7 @@ TEST_F(PacketReaderTest, TakesAFileTornAnywhereForWhatIsWholeOfIt) {
         int packets = 0;
         while (reader.next()) ++packets;
         EXPECT_EQ(packets, size == good_.size() ? 2 : 1) << size;
-        EXPECT_EQ(reader.is_torn(), size != second && size != good_.size()) << size;
+        EXPECT_EQ(reader.is_truncated(), size != second && size != good_.size()) << size;
     }
 }
 

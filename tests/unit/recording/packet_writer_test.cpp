@@ -60,7 +60,7 @@ TEST(PacketWriter, IsReadAsItWasWritten) {
     EXPECT_EQ(two->place.number, 2U);
     EXPECT_EQ(two->place.offset_bytes, 24U + 16U + 3U);
     EXPECT_FALSE(reader.next());
-    EXPECT_FALSE(reader.is_torn());
+    EXPECT_FALSE(reader.is_truncated());
 }
 
 TEST(PacketWriter, SaysInOneLineWhyItCannotWrite) {
@@ -86,7 +86,7 @@ TEST(PacketWriter, EndsWithTheLastWholePacketWhileTheDiskIsFullAndGoesOnBehindIt
     int packets = 0;
     while (reader.next()) ++packets;
     EXPECT_EQ(packets, 9);
-    EXPECT_FALSE(reader.is_torn());
+    EXPECT_FALSE(reader.is_truncated());
     writer.write(noon, "there is room again");
     PacketReader again(folder / "a.pcap");
     std::string last;

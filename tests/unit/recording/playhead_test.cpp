@@ -55,7 +55,7 @@ TEST_F(PlayheadTest, FollowsTheBoneFromTheFirstToTheLast) {
     EXPECT_EQ(playhead.checksums_verified(), 11U);
     EXPECT_NEAR(playhead.time_s(), made.duration_s(), 1e-6);
     EXPECT_NEAR(recording_duration_s(file_), made.duration_s(), 1e-6);
-    EXPECT_FALSE(playhead.is_torn());
+    EXPECT_FALSE(playhead.is_truncated());
 }
 
 TEST_F(PlayheadTest, StopsBeforeWhatIsLater) {

@@ -85,7 +85,7 @@ TEST(RecordingWriter, GoesOnWithoutAGapWhenADiskThatWasFullHasRoom) {
         ASSERT_EQ(std::string(packet->message.begin(), packet->message.end()), frame(i));
     }
     EXPECT_FALSE(reader.next());
-    EXPECT_FALSE(reader.is_torn());
+    EXPECT_FALSE(reader.is_truncated());
 }
 
 TEST(RecordingWriter, TriesOnceMoreWhenItIsClosedAndThenSaysWhatIsMissing) {

@@ -53,7 +53,7 @@ TEST_F(SessionRecorderTest, GoesOnWithTheWholeBoneAfterTheDiskWasFull) {
         const testing::FileSizeLimit disk(size() + 3'000);
         carve_and_record(200);
         ASSERT_TRUE(eventually([&] { return !recorder_->report().error.empty(); }));
-        EXPECT_FALSE(Playhead(part_).is_torn());
+        EXPECT_FALSE(Playhead(part_).is_truncated());
     }
     ASSERT_TRUE(eventually([&] { return recorder_->report().pauses == 1; }));
     carve_and_record(20);

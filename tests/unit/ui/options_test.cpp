@@ -30,7 +30,7 @@ TEST(Options, WorkWithAServerOnThisMachineByDefault) {
 
 TEST(Options, ChooseRendererShadingAndTransferFunctionByName) {
     EXPECT_EQ(parsed({}).options.renderer, RendererChoice::raycast);
-    EXPECT_EQ(parsed({}).options.look, BoneLook{});
+    EXPECT_EQ(parsed({}).options.look, ShadingSettings{});
     const ParsedOptions result =
         parsed({"--renderer", "slices", "--shading", "surface-voxels", "--transfer", "tooth"});
     ASSERT_FALSE(result.no_run.has_value()) << result.no_run->message;

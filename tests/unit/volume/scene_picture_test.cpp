@@ -189,9 +189,9 @@ TEST_F(ScenePictureTest, RestoresWhatToolAndOverlayCovered) {
 }
 
 TEST_F(ScenePictureTest, ShowsHazeWithNothingSolidInIt) {
-    const BoneLook haze{.transfer = TransferFunction{.name = "haze",
-                                                     .mode = TransferMode::translucent,
-                                                     .points = {{1.0, {255, 255, 255}, 0.3}}}};
+    const ShadingSettings haze{.transfer = TransferFunction{.name = "haze",
+                                                            .mode = TransferMode::translucent,
+                                                            .points = {{1.0, {255, 255, 255}, 0.3}}}};
     const BoneTextures textures(ball(), {}, haze);
     for (const RendererChoice choice : {RendererChoice::raycast, RendererChoice::slices}) {
         const auto renderer = make_renderer(choice);

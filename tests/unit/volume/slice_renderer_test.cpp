@@ -114,7 +114,7 @@ TEST_P(BothRenderers, ShowTheRimOfACarvedSphereWithinHalfAVoxel) {
 TEST_P(BothRenderers, DrawTheSameFromAnAtlasAfterCarvingInBothShadings) {
     for (const Shading shading : {Shading::gradient, Shading::surface_voxels}) {
         Bone bone = made_bone(grid, [](const glm::dvec3& p) { return 3.2 - glm::length(p); });
-        const BoneLook look{.shading = shading};
+        const ShadingSettings look{.shading = shading};
         BoneTextures dense(bone, {}, look, {.layout = BoneLayout::dense});
         BoneTextures atlas(bone, {}, look, {.layout = BoneLayout::atlas});
         const auto dirty = carve_sphere(bone, {0.4, -2.1, 2.2}, 1.1);

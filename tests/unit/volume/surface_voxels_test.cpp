@@ -130,7 +130,7 @@ TEST_F(SurfaceTextureTest, IsShadedAgainOnlyRoundTheChangeAndEqualsAFreshOne) {
     for (const BoneLayout layout : {BoneLayout::dense, BoneLayout::atlas}) {
         Bone bone = ball();
         const LookTable table = look_table(bone.content(), {}, {});
-        BrickPlaces places(bone.content(), layout, gl::max_texture3d_edge());
+        AtlasLayout places(bone.content(), layout, gl::max_texture3d_edge());
         SurfaceTexture updated(bone, table, places);
         // At the corner of bricks, so that neighbours' voxels become surface, too.
         ChangedVoxels changed(bone);

@@ -39,7 +39,8 @@ TEST(VisibleBone, LacksWhatIsHiddenAndFollowsCarving) {
 
 TEST(VisibleBone, IsPeeledSmoothlyByARampOfOpacity) {
     const Bone bone = made_bone(grid, [](const glm::dvec3& p) { return 2.55 - p.z; });
-    const BoneLook half{.transfer = TransferFunction{.name = "half", .points = {{1.0, {9, 9, 9}, 0.5}}}};
+    const ShadingSettings half{.transfer =
+                                   TransferFunction{.name = "half", .points = {{1.0, {9, 9, 9}, 0.5}}}};
     const VisibleBone visible(bone, look_table(bone.content(), {}, half));
     EXPECT_EQ(visible.bone().fraction_at({5, 5, 5}), 128);
 }
@@ -56,14 +57,14 @@ TEST(VisibleBone, KeepsTheSoftRimOfHardBoneAcrossBricks) {
                 builder.add_brick({x, y, z}, fraction, &stiffness, nullptr);
             }
     const Bone bone = std::move(builder).build();
-    const BoneLook hard{.transfer = ct_window(1600.0, 1500.0)};
+    const ShadingSettings hard{.transfer = ct_window(1600.0, 1500.0)};
     const VisibleBone visible(bone, look_table(bone.content(), {}, hard));
     EXPECT_EQ(visible.bone().fraction_at({5, 5, 15}), 255);
     EXPECT_EQ(visible.bone().fraction_at({5, 5, 16}), 255) << "beside hard bone";
     EXPECT_EQ(visible.bone().fraction_at({5, 5, 17}), 0);
 }
 
-TEST(BoneLook, TakesTissuesUnlessATransferFunctionIsGiven) {
+TEST(ShadingSettings, TakesTissuesUnlessATransferFunctionIsGiven) {
     const Bone bone = labelled();
     EXPECT_EQ(look_table(bone.content(), {}, {}).channel, BoneChannel::tissue);
     EXPECT_FALSE(hides_bone(look_table(bone.content(), {}, {})));
@@ -75,7 +76,7 @@ TEST(BoneLook, TakesTissuesUnlessATransferFunctionIsGiven) {
                  std::invalid_argument);
 }
 
-TEST(BoneLook, SeesThroughATissueThatLetsSomeLightPass) {
+TEST(ShadingSettings, SeesThroughATissueThatLetsSomeLightPass) {
     const std::array<TissueColour, 2> tissues{{{1, {255, 0, 0}, 0.4}, {2, {0, 255, 0}, 0.0}}};
     const LookTable table = look_table(labelled().content(), tissues, {});
     EXPECT_EQ(table.mode, TransferMode::translucent);

@@ -100,7 +100,7 @@ TEST(ReferenceImage, IsTheSameInOneThreadAndInSeveral) {
 struct HowDrawn {
     std::string name;
     bool slices;
-    BoneLook look;
+    ShadingSettings look;
 };
 
 class RendererAccuracy : public OffscreenTest, public testing::WithParamInterface<HowDrawn> {};

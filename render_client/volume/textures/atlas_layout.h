@@ -1,4 +1,4 @@
-// Where the voxels of each brick lie in the bone's 3D textures.
+// Layout of a bone's bricks in its 3D textures.
 //
 // Dense: one box, a texel for each of its voxels. Atlas: a tile for each stored brick, its 16^3 voxels and a
 // border of one that repeats those of its neighbours, so that interpolation within a brick needs no other
@@ -25,11 +25,11 @@ struct PlacedVoxels {
     glm::ivec3 first_texel{0};
 };
 
-class BrickPlaces {
+class AtlasLayout {
   public:
     /// Of a bone with at least one brick. In an atlas no edge of the texture exceeds `longest_edge_texels`.
     /// Throws std::runtime_error, naming sizes, where not all tiles fit into such a texture.
-    BrickPlaces(const BoneContent& content, BoneLayout layout, int longest_edge_texels);
+    AtlasLayout(const BoneContent& content, BoneLayout layout, int longest_edge_texels);
 
     BoneLayout layout() const { return layout_; }
     /// Whole bricks that enclose every stored one, voxels of the grid.

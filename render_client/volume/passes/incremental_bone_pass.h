@@ -3,7 +3,7 @@
 // Each tile of the picture is either exact, as the renderer would draw it now, or stale. What turns stale
 // (all of it when the camera moves; under a still camera the tiles whose rays, or whose shading, can meet a
 // changed brick) is drawn again at once where time allows. Where it does not, what shows a surface
-// that is no longer there is drawn at a lower resolution and magnified; tiles in which a carve nearby changes
+// that is no longer there is drawn at a lower resolution and upscaled; tiles in which a carve nearby changes
 // no more than the ambient light stay as they are; and all of them become exact piece by piece, as frames
 // have room, once the camera rests.
 #pragma once
@@ -15,18 +15,18 @@
 #include "render_client/volume/gl/framebuffer.h"
 #include "render_client/volume/passes/bone_renderer.h"
 #include "render_client/volume/passes/detail_control.h"
-#include "render_client/volume/passes/magnifier.h"
 #include "render_client/volume/passes/stopwatch.h"
 #include "render_client/volume/passes/tile_mask.h"
+#include "render_client/volume/passes/upscaler.h"
 #include "render_client/volume/picture_quality.h"
 
 namespace osteomill {
 
-class BoneLayer {
+class IncrementalBonePass {
   public:
     /// `stopwatch` makes it draw on demand, at whatever quality keeps the rate of frames; null: always in
     /// full, however long it takes. Both must outlive the layer. The size is at least one pixel each way.
-    BoneLayer(BoneRenderer& renderer, const glm::ivec2& size_px, Stopwatch* stopwatch);
+    IncrementalBonePass(BoneRenderer& renderer, const glm::ivec2& size_px, Stopwatch* stopwatch);
 
     void resize(const glm::ivec2& size_px);
     /// Cuts and background; another look than before makes all of it stale.
@@ -67,10 +67,10 @@ class BoneLayer {
 
     BoneRenderer& renderer_;
     Stopwatch* stopwatch_;
-    Magnifier magnifier_;
+    Upscaler upscaler_;
     DetailControl control_;
     gl::Framebuffer layer_;
-    gl::Framebuffer coarse_;  ///< where stale parts are drawn before they are magnified
+    gl::Framebuffer coarse_;  ///< where stale parts are drawn before they are upscaled
     TileMask stale_;
     double coarsest_divisor_ = 1.0;  ///< among the stale tiles
     std::size_t next_tile_ = 0;      ///< whose turn it is to be refined

@@ -1,4 +1,4 @@
-#include "render_client/volume/passes/magnifier.h"
+#include "render_client/volume/passes/upscaler.h"
 
 #include "render_client/volume/shaders/shader_files.h"
 
@@ -10,10 +10,10 @@ constexpr int colour_unit = 0;
 
 }  // namespace
 
-Magnifier::Magnifier() : program_(make_program(upscale_files)) {}
+Upscaler::Upscaler() : program_(make_program(upscale_files)) {}
 
-void Magnifier::draw(const gl::Framebuffer& coarse, const gl::Framebuffer& fine,
-                     std::span<const PixelBox> boxes) const {
+void Upscaler::draw(const gl::Framebuffer& coarse, const gl::Framebuffer& fine,
+                    std::span<const PixelBox> boxes) const {
     fine.bind();
     coarse.bind_textures(colour_unit);
     program_.use();

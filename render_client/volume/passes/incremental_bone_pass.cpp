@@ -1,4 +1,4 @@
-#include "render_client/volume/passes/bone_layer.h"
+#include "render_client/volume/passes/incremental_bone_pass.h"
 
 #include <algorithm>
 #include <cmath>
@@ -41,31 +41,32 @@ VoxelBox in_whole_blocks(const VoxelBox& box, const glm::ivec3& origin) {
 
 }  // namespace
 
-BoneLayer::BoneLayer(BoneRenderer& renderer, const glm::ivec2& size_px, Stopwatch* stopwatch)
+IncrementalBonePass::IncrementalBonePass(BoneRenderer& renderer, const glm::ivec2& size_px,
+                                         Stopwatch* stopwatch)
     : renderer_(renderer), stopwatch_(stopwatch), layer_(size_px), coarse_({1, 1}), stale_(size_px) {}
 
-void BoneLayer::resize(const glm::ivec2& size_px) {
+void IncrementalBonePass::resize(const glm::ivec2& size_px) {
     layer_ = gl::Framebuffer(size_px);
     stale_ = TileMask(size_px);
     camera_.reset();
 }
 
-void BoneLayer::set_look(const SceneLook& look) {
+void IncrementalBonePass::set_look(const SceneLook& look) {
     if (look == renderer_.look()) return;
     renderer_.set_look(look);
     forget();
 }
 
-void BoneLayer::forget() {
+void IncrementalBonePass::forget() {
     camera_.reset();
     dirty_.clear();
 }
 
-void BoneLayer::mark_dirty(const BoneTextures& bone, std::span<const VoxelBox> changed) {
+void IncrementalBonePass::mark_dirty(const BoneTextures& bone, std::span<const VoxelBox> changed) {
     for (const VoxelBox& box : changed) dirty_.push_back(in_whole_blocks(box, bone.box().first));
 }
 
-TileMask BoneLayer::update(const BoneTextures& bone, const Camera& camera) {
+TileMask IncrementalBonePass::update(const BoneTextures& bone, const Camera& camera) {
     learn();
     drawn_this_frame_px_ = 0;
     measures_this_frame_ = false;
@@ -110,7 +111,7 @@ TileMask BoneLayer::update(const BoneTextures& bone, const Camera& camera) {
     return exact |= misplaced;
 }
 
-void BoneLayer::learn() {
+void IncrementalBonePass::learn() {
     if (!stopwatch_ || !measured_) return;
     const std::optional<double> took_s = stopwatch_->take_s();
     if (!took_s) return;
@@ -124,12 +125,13 @@ void BoneLayer::learn() {
     measured_.reset();
 }
 
-void BoneLayer::frame_took(double frame_s) {
+void IncrementalBonePass::frame_took(double frame_s) {
     if (measures_this_frame_) frame_s_ = frame_s;
     if (drawn_this_frame_px_ == 0) control_.frame_took(frame_s, 0.0);
 }
 
-TileMask BoneLayer::tiles_of_changes(const BoneTextures& bone, const Camera& camera, int reach_voxels) const {
+TileMask IncrementalBonePass::tiles_of_changes(const BoneTextures& bone, const Camera& camera,
+                                               int reach_voxels) const {
     TileMask tiles(size_px());
     const glm::dmat4 to_clip = camera.projection(size_px()) * camera.view();
     const double reach = reach_voxels + 0.5;  // a voxel's faces are half a voxel from its centre
@@ -143,14 +145,14 @@ TileMask BoneLayer::tiles_of_changes(const BoneTextures& bone, const Camera& cam
     return tiles;
 }
 
-void BoneLayer::draw_exact(const BoneTextures& bone, const Camera& camera, const TileMask& tiles,
-                           Extent extent) {
+void IncrementalBonePass::draw_exact(const BoneTextures& bone, const Camera& camera, const TileMask& tiles,
+                                     Extent extent) {
     stale_ -= tiles;
     draw_timed(bone, camera, layer_, tiles.rectangles(), extent);
 }
 
-std::int64_t BoneLayer::draw_coarse(const BoneTextures& bone, const Camera& camera, const TileMask& tiles,
-                                    Extent extent, double divisor) {
+std::int64_t IncrementalBonePass::draw_coarse(const BoneTextures& bone, const Camera& camera,
+                                              const TileMask& tiles, Extent extent, double divisor) {
     coarsest_divisor_ = tiles == stale_ ? divisor : std::max(coarsest_divisor_, divisor);
     const glm::ivec2 size = divided(size_px(), divisor);
     if (size != coarse_.size_px()) coarse_ = gl::Framebuffer(size);
@@ -158,13 +160,13 @@ std::int64_t BoneLayer::draw_coarse(const BoneTextures& bone, const Camera& came
     std::vector<PixelBox> coarse_boxes;
     for (const PixelBox& box : boxes) coarse_boxes.push_back(in_coarse(box, size_px(), size));
     const std::int64_t drawn_px = draw_timed(bone, camera, coarse_, coarse_boxes, extent);
-    magnifier_.draw(coarse_, layer_, boxes);
+    upscaler_.draw(coarse_, layer_, boxes);
     return drawn_px;
 }
 
-std::int64_t BoneLayer::draw_timed(const BoneTextures& bone, const Camera& camera,
-                                   const gl::Framebuffer& target, std::span<const PixelBox> boxes,
-                                   Extent extent) {
+std::int64_t IncrementalBonePass::draw_timed(const BoneTextures& bone, const Camera& camera,
+                                             const gl::Framebuffer& target, std::span<const PixelBox> boxes,
+                                             Extent extent) {
     if (boxes.empty()) return 0;
     const bool measures = stopwatch_ && !measured_;
     std::int64_t pixels = 0;
@@ -188,7 +190,7 @@ std::int64_t BoneLayer::draw_timed(const BoneTextures& bone, const Camera& camer
     return pixels;
 }
 
-TileMask BoneLayer::part_that_fits(const TileMask& tiles, std::int64_t room_px) {
+TileMask IncrementalBonePass::part_that_fits(const TileMask& tiles, std::int64_t room_px) {
     TileMask part(size_px());
     std::vector<std::size_t> waiting = tiles.tiles();
     std::rotate(waiting.begin(), std::lower_bound(waiting.begin(), waiting.end(), next_tile_), waiting.end());
@@ -201,7 +203,7 @@ TileMask BoneLayer::part_that_fits(const TileMask& tiles, std::int64_t room_px) 
     return part;
 }
 
-PictureQuality BoneLayer::quality() const {
+PictureQuality IncrementalBonePass::quality() const {
     return stale_.any() ? PictureQuality{1.0 / coarsest_divisor_, false} : PictureQuality{};
 }
 

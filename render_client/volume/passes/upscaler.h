@@ -1,5 +1,5 @@
-// Shows a coarse picture in a finer one: colour interpolated, depth not, so that what is drawn on top later
-// is still hidden where it should be.
+// A coarse picture upscaled into a finer one: colour interpolated, depth not, so that what is drawn on top
+// later is still hidden where it should be.
 #pragma once
 
 #include <span>
@@ -10,9 +10,9 @@
 
 namespace osteomill {
 
-class Magnifier {
+class Upscaler {
   public:
-    Magnifier();
+    Upscaler();
     /// Fills these boxes of `fine` with what `coarse` shows there; both show the same view.
     void draw(const gl::Framebuffer& coarse, const gl::Framebuffer& fine,
               std::span<const PixelBox> boxes) const;

@@ -1,4 +1,4 @@
-#include "render_client/volume/bone_look.h"
+#include "render_client/volume/shading_settings.h"
 
 #include <algorithm>
 #include <cmath>
@@ -39,7 +39,7 @@ LookTable by_tissue(std::span<const TissueColour> tissues) {
 }  // namespace
 
 LookTable look_table(const BoneContent& content, std::span<const TissueColour> tissues,
-                     const BoneLook& look) {
+                     const ShadingSettings& look) {
     if (look.transfer) return by_stiffness(content, *look.transfer);
     if (!content.tissue.empty()) return by_tissue(tissues);
     if (!content.stiffness.empty())

@@ -1,4 +1,4 @@
-#include "render_client/volume/textures/brick_places.h"
+#include "render_client/volume/textures/atlas_layout.h"
 
 #include <fmt/format.h>
 
@@ -43,7 +43,7 @@ glm::ivec3 atlas_size_tiles(std::size_t stored_bricks, int longest_edge_texels) 
     return {edge, edge, static_cast<int>(layers)};
 }
 
-BrickPlaces::BrickPlaces(const BoneContent& content, BoneLayout layout, int longest_edge_texels)
+AtlasLayout::AtlasLayout(const BoneContent& content, BoneLayout layout, int longest_edge_texels)
     : layout_(layout), box_(stored_box(content)) {
     if (layout == BoneLayout::dense) {
         texture_size_ = box_.size;
@@ -57,17 +57,17 @@ BrickPlaces::BrickPlaces(const BoneContent& content, BoneLayout layout, int long
     place_of_slot_.resize(content.brick_of_slot.size(), nowhere);
 }
 
-glm::ivec3 BrickPlaces::tile_of_slot(std::int32_t slot) const {
+glm::ivec3 AtlasLayout::tile_of_slot(std::int32_t slot) const {
     return brick_position(size_tiles_, static_cast<BrickIndex>(slot) + 1);
 }
 
-PlacedVoxels BrickPlaces::of_brick(const glm::ivec3& brick, std::int32_t slot) const {
+PlacedVoxels AtlasLayout::of_brick(const glm::ivec3& brick, std::int32_t slot) const {
     if (layout_ == BoneLayout::dense)
         return {voxels_round_brick(brick, 0), brick * brick_edge_voxels - box_.first};
     return {voxels_round_brick(brick, tile_border_voxels), tile_of_slot(slot) * tile_edge_texels};
 }
 
-std::vector<PlacedVoxels> BrickPlaces::all(const BoneContent& content) const {
+std::vector<PlacedVoxels> AtlasLayout::all(const BoneContent& content) const {
     std::vector<PlacedVoxels> all;
     if (layout_ == BoneLayout::dense) {
         // Layers, so that no dense copy of the whole bone is ever made.
@@ -85,7 +85,7 @@ std::vector<PlacedVoxels> BrickPlaces::all(const BoneContent& content) const {
     return all;
 }
 
-std::span<const PlacedVoxels> BrickPlaces::that_show(const Bone& bone, std::span<const VoxelBox> changed,
+std::span<const PlacedVoxels> AtlasLayout::that_show(const Bone& bone, std::span<const VoxelBox> changed,
                                                      int reach_voxels) {
     shown_.clear();
     for (const VoxelBox& box : changed) {
@@ -101,7 +101,7 @@ std::span<const PlacedVoxels> BrickPlaces::that_show(const Bone& bone, std::span
     return shown_;
 }
 
-void BrickPlaces::add_dense_change(VoxelBox voxels) {
+void AtlasLayout::add_dense_change(VoxelBox voxels) {
     // A quarter more texels are worth a region less, and what neighbours share is not shown twice.
     while (!shown_.empty()) {
         const VoxelBox& last = shown_.back().voxels;
@@ -113,7 +113,7 @@ void BrickPlaces::add_dense_change(VoxelBox voxels) {
     shown_.push_back({voxels, voxels.first - box_.first});
 }
 
-void BrickPlaces::add_atlas_changes(const Bone& bone, const VoxelBox& changed) {
+void AtlasLayout::add_atlas_changes(const Bone& bone, const VoxelBox& changed) {
     const glm::ivec3 end = changed.first + changed.size;
     const glm::ivec3 low = glm::max(changed.first - tile_border_voxels, 0) / brick_edge_voxels;
     const glm::ivec3 high =
@@ -139,7 +139,7 @@ void BrickPlaces::add_atlas_changes(const Bone& bone, const VoxelBox& changed) {
             }
 }
 
-std::vector<std::uint8_t> BrickPlaces::tile_table(const BoneContent& content) const {
+std::vector<std::uint8_t> AtlasLayout::tile_table(const BoneContent& content) const {
     const glm::ivec3 size = box_.size / brick_edge_voxels;
     std::vector<std::uint8_t> table(4 * VoxelBox{{}, size}.count(), 0);
     for (std::size_t slot = 0; slot < content.brick_of_slot.size(); ++slot) {

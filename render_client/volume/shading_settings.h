@@ -1,5 +1,5 @@
-// How a bone is to be shown: how its surface is lit, and what colour and opacity its tissues or its stiffness
-// give it.
+// Settings of how a bone is shown: how its surface is lit, and what colour and opacity its tissues or its
+// stiffness give it.
 #pragma once
 
 #include <glm/vec4.hpp>
@@ -17,13 +17,13 @@ enum class Shading {
     surface_voxels  ///< as published: once for each surface voxel, into a texture (see surface_voxels.h)
 };
 
-struct BoneLook {
+struct ShadingSettings {
     Shading shading = Shading::gradient;
     /// Colour and opacity by stiffness. Absent: the colours and opacities of the tissues where the bone is
     /// labelled, else the colours of its stiffness.
     std::optional<TransferFunction> transfer{};
 
-    bool operator==(const BoneLook&) const = default;
+    bool operator==(const ShadingSettings&) const = default;
 };
 
 /// A look, worked out for one bone's codes.
@@ -34,7 +34,8 @@ struct LookTable {
 };
 
 /// Throws std::invalid_argument like require_valid where the look's transfer function is none.
-LookTable look_table(const BoneContent& content, std::span<const TissueColour> tissues, const BoneLook& look);
+LookTable look_table(const BoneContent& content, std::span<const TissueColour> tissues,
+                     const ShadingSettings& look);
 
 /// How far below bone's surface its colour is taken, voxels: one, which is below the steps of labels. What
 /// goes by stiffness is taken deeper, because CT blurs a surface over several voxels, and the mixture with
