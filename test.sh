@@ -25,7 +25,7 @@ for preset in "${presets[@]}"; do
     if [ "$preset" = fuzz ]; then
         tests/fuzz/run.sh 12  # seconds for each of the nine targets: a minute on two cores
     else
-        # Many tests wait more than they compute: half as many again as there are cores.
-        ctest --preset "$preset" -j "$(($(nproc) * 3 / 2))"
+        # Many tests wait more than they compute: twice as many as there are cores.
+        ctest --preset "$preset" -j "$(($(nproc) * 2))"
     fi
 done

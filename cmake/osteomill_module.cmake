@@ -1,6 +1,7 @@
 # osteomill_module(NAME SOURCES a.cpp ... LIBRARIES lib ... [LOOPS] [SEPARATE]): one static library per folder of the house.
 # Includes are written from the repository root ("common/bone/grid.h"). LOOPS: it has the inner loops that tests wait for, see
-# osteomill_loops_options. SEPARATE: see osteomill_join.
+# osteomill_loops_options. SEPARATE: its sources give one name to several things and cannot be compiled in one go
+# (CMAKE_UNITY_BUILD).
 function(osteomill_module name)
     cmake_parse_arguments(arg "LOOPS;SEPARATE" "" "SOURCES;LIBRARIES" ${ARGN})
     if(arg_SOURCES)
@@ -9,11 +10,10 @@ function(osteomill_module name)
         target_link_libraries(${name} PUBLIC ${arg_LIBRARIES} PRIVATE osteomill_warnings)
         if(arg_LOOPS)
             target_compile_options(${name} PRIVATE ${osteomill_loops_options})
-            target_precompile_headers(${name} REUSE_FROM osteomill_loops_precompiled)
-        else()
-            target_precompile_headers(${name} REUSE_FROM osteomill_precompiled)
         endif()
-        osteomill_join(${name} "${arg_SEPARATE}")
+        if(arg_SEPARATE)
+            set_target_properties(${name} PROPERTIES UNITY_BUILD OFF)
+        endif()
     else()
         add_library(${name} INTERFACE)
         target_include_directories(${name} INTERFACE ${CMAKE_SOURCE_DIR})
@@ -35,5 +35,5 @@ endfunction()
 # bits. Vectors are passed only to what is inlined, so that how they would be passed (-Wpsabi) does not matter.
 function(osteomill_vector_loops)
     set_source_files_properties(${ARGN} PROPERTIES
-        COMPILE_OPTIONS "-fno-math-errno;-fno-trapping-math;-ffp-contract=off;-Wno-psabi" SKIP_PRECOMPILE_HEADERS ON)
+        COMPILE_OPTIONS "-fno-math-errno;-fno-trapping-math;-ffp-contract=off;-Wno-psabi")
 endfunction()

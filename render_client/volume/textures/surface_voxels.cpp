@@ -11,7 +11,7 @@ namespace osteomill {
 namespace {
 
 constexpr int most_columns = 62;
-constexpr std::size_t word_bytes = 8;
+constexpr std::size_t row_word_bytes = 8;
 
 /// Step to a neighbour, numbered x fastest; number 13 is the voxel itself.
 glm::ivec3 step_to(int number) {
@@ -43,9 +43,9 @@ struct RowBits {
 RowBits bits_of_row(const std::uint8_t* fractions, std::size_t count) {
     static_assert(std::endian::native == std::endian::little);
     RowBits bits;
-    for (std::size_t x = 0; x < count; x += word_bytes) {
+    for (std::size_t x = 0; x < count; x += row_word_bytes) {
         std::uint64_t bytes = 0;
-        std::memcpy(&bytes, fractions + x, word_bytes);
+        std::memcpy(&bytes, fractions + x, row_word_bytes);
         const std::uint64_t below_half = ~bytes;
         const std::uint64_t not_empty = (bytes & ~top_bit_of_each) + ~top_bit_of_each;
         bits.outside |= top_bits(below_half) << x;
@@ -80,7 +80,7 @@ SurfaceShader::SurfaceShader(const LookTable& table) : channel_(table.channel) {
 
 const std::vector<SurfaceTexel>& SurfaceShader::shade(const Bone& bone, const VoxelBox& box) {
     const VoxelBox bordered{box.first - 1, box.size + 2};
-    fraction_.resize(bordered.count() + word_bytes);
+    fraction_.resize(bordered.count() + row_word_bytes);
     copy_channel(bone, BoneChannel::fraction, bordered, std::span(fraction_).first(bordered.count()));
     if (channel_) {
         code_.resize(box.count());

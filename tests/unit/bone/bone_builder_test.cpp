@@ -8,7 +8,7 @@
 #include <stdexcept>
 #include <vector>
 
-namespace osteomill {
+namespace osteomill::bone_builder_test {
 namespace {
 
 const Grid odd_grid{.size_voxels = {20, 16, 40}, .spacing_mm = 0.1};
@@ -114,4 +114,4 @@ TEST(BrickPieces, ComeBackInTheirOrder) {
 }
 
 }  // namespace
-}  // namespace osteomill
+}  // namespace osteomill::bone_builder_test

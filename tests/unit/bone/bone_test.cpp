@@ -4,7 +4,7 @@
 
 #include "common/bone/bone_builder.h"
 
-namespace osteomill {
+namespace osteomill::bone_test {
 namespace {
 
 ByteBrick filled(std::uint8_t value) {
@@ -109,4 +109,4 @@ TEST(Bone, RefusesChannelsThatDoNotAgree) {
 }
 
 }  // namespace
-}  // namespace osteomill
+}  // namespace osteomill::bone_test

@@ -8,7 +8,7 @@
 #include <stdexcept>
 #include <vector>
 
-namespace osteomill {
+namespace osteomill::brick_table_test {
 namespace {
 
 constexpr BrickIndex largest = std::numeric_limits<BrickIndex>::max();
@@ -61,4 +61,4 @@ TEST(BrickTable, TakesAtMost32BytesABrick) {
 }
 
 }  // namespace
-}  // namespace osteomill
+}  // namespace osteomill::brick_table_test

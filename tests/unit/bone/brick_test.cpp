@@ -5,7 +5,7 @@
 #include <limits>
 #include <stdexcept>
 
-namespace osteomill {
+namespace osteomill::brick_test {
 namespace {
 
 TEST(Brick, IndexAndPositionAreInverse) {
@@ -68,4 +68,4 @@ TEST(Grid, HoldsNoMoreBricksThanAnIndexCanNumber) {
 }
 
 }  // namespace
-}  // namespace osteomill
+}  // namespace osteomill::brick_test

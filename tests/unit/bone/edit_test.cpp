@@ -4,7 +4,7 @@
 
 #include "common/bone/bone_builder.h"
 
-namespace osteomill {
+namespace osteomill::edit_test {
 namespace {
 
 Bone half_stored_bone() {
@@ -48,4 +48,4 @@ TEST(Edit, RefusesWhatDoesNotFitAndLeavesTheBone) {
 }
 
 }  // namespace
-}  // namespace osteomill
+}  // namespace osteomill::edit_test

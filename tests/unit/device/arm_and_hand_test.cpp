@@ -8,7 +8,7 @@
 #include <numbers>
 #include <vector>
 
-namespace osteomill {
+namespace osteomill::arm_and_hand_test {
 namespace {
 
 constexpr double substep_s = ArmAndHand::substep_s;
@@ -153,4 +153,4 @@ TEST(ArmAndHand, TrailsLessWhenTheHandKnowsTheFriction) {
 }
 
 }  // namespace
-}  // namespace osteomill
+}  // namespace osteomill::arm_and_hand_test

@@ -7,7 +7,7 @@
 #include <glm/geometric.hpp>
 #include <stdexcept>
 
-namespace osteomill {
+namespace osteomill::built_in_trajectories_test {
 namespace {
 
 const ToolPose start_pose{{0.0, 0.0, 6.0}, {0.0, 0.0, 1.0}};
@@ -180,4 +180,4 @@ TEST(BuiltInTrajectories, RefuseSizesThatAreNotPositive) {
 }
 
 }  // namespace
-}  // namespace osteomill
+}  // namespace osteomill::built_in_trajectories_test

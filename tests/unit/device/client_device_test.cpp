@@ -6,7 +6,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-namespace osteomill {
+namespace osteomill::client_device_test {
 namespace {
 
 const ToolPose start{{1.0, 2.0, 3.0}, {0.0, 0.0, 1.0}};
@@ -145,4 +145,4 @@ TEST(ClientDevice, TurnsTheSpindleOverSmoothly) {
 }
 
 }  // namespace
-}  // namespace osteomill
+}  // namespace osteomill::client_device_test

@@ -7,7 +7,7 @@
 #include <sstream>
 #include <stdexcept>
 
-namespace osteomill {
+namespace osteomill::csv_trajectory_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -81,4 +81,4 @@ TEST(CsvTrajectory, NamesAFileThatIsNotThere) {
 }
 
 }  // namespace
-}  // namespace osteomill
+}  // namespace osteomill::csv_trajectory_test

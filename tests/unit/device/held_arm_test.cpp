@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-namespace osteomill {
+namespace osteomill::held_arm_test {
 namespace {
 
 const glm::dvec3 up(0.0, 0.0, 1.0);
@@ -60,4 +60,4 @@ TEST(HeldArm, MakesUpForALongPauseInBoundedTime) {
 }
 
 }  // namespace
-}  // namespace osteomill
+}  // namespace osteomill::held_arm_test

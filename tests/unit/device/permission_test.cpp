@@ -4,7 +4,7 @@
 
 #include <limits>
 
-namespace osteomill {
+namespace osteomill::permission_test {
 namespace {
 
 TEST(Permission, IsNotGivenBeforeTheFirstMessage) {
@@ -35,4 +35,4 @@ TEST(Permission, EndsAtOnceWhereItIsWithdrawn) {
 }
 
 }  // namespace
-}  // namespace osteomill
+}  // namespace osteomill::permission_test

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-namespace osteomill {
+namespace osteomill::position_sensor_test {
 namespace {
 
 TEST(PositionSensor, ReadsWholeEncoderSteps) {
@@ -48,4 +48,4 @@ TEST(PositionSensor, StartsAtRestWhereverItStarts) {
 }
 
 }  // namespace
-}  // namespace osteomill
+}  // namespace osteomill::position_sensor_test

@@ -4,7 +4,7 @@
 
 #include <glm/geometric.hpp>
 
-namespace osteomill {
+namespace osteomill::simulated_device_test {
 namespace {
 
 const glm::dvec3 up(0.0, 0.0, 1.0);
@@ -101,4 +101,4 @@ TEST(SimulatedDevice, ForgetsItsForceWhenStopped) {
 }
 
 }  // namespace
-}  // namespace osteomill
+}  // namespace osteomill::simulated_device_test

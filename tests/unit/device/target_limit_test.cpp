@@ -7,7 +7,7 @@
 #include <limits>
 #include <string>
 
-namespace osteomill {
+namespace osteomill::target_limit_test {
 namespace {
 
 const glm::dvec3 burr{1.0, 2.0, 3.0};
@@ -66,4 +66,4 @@ TEST(TargetLimit, NamesBothOnceBothWereClamped) {
 }
 
 }  // namespace
-}  // namespace osteomill
+}  // namespace osteomill::target_limit_test

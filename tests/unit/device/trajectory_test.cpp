@@ -6,7 +6,7 @@
 #include <glm/geometric.hpp>
 #include <stdexcept>
 
-namespace osteomill {
+namespace osteomill::trajectory_test {
 namespace {
 
 const glm::dvec3 up(0.0, 0.0, 1.0);
@@ -65,4 +65,4 @@ TEST(Trajectory, RefusesWaypointsThatMakeNoMotion) {
 }
 
 }  // namespace
-}  // namespace osteomill
+}  // namespace osteomill::trajectory_test

@@ -7,7 +7,7 @@
 #include <limits>
 #include <random>
 
-namespace osteomill {
+namespace osteomill::force_guard_test {
 namespace {
 
 constexpr double tick_s = 0.001;
@@ -158,4 +158,4 @@ TEST(ForceGuard, KeepsItsPromisesUnderAnySequenceOfFaults) {
 }
 
 }  // namespace
-}  // namespace osteomill
+}  // namespace osteomill::force_guard_test

@@ -11,7 +11,7 @@
 #include <tuple>
 #include <vector>
 
-namespace osteomill {
+namespace osteomill::safety_monitor_test {
 namespace {
 
 using State = ForceGuard::State;
@@ -262,4 +262,4 @@ TEST(SafetyMonitor, FindsEveryCombinationOfWhatCanBeWrong) {
 }
 
 }  // namespace
-}  // namespace osteomill
+}  // namespace osteomill::safety_monitor_test

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-namespace osteomill {
+namespace osteomill::watchdog_test {
 namespace {
 
 constexpr double tick_s = 0.001;
@@ -122,4 +122,4 @@ TEST(Watchdog, LetsSingleMissesPass) {
 }
 
 }  // namespace
-}  // namespace osteomill
+}  // namespace osteomill::watchdog_test

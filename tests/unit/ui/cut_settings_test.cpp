@@ -4,7 +4,7 @@
 
 #include <glm/geometric.hpp>
 
-namespace osteomill {
+namespace osteomill::cut_settings_test {
 namespace {
 
 class Cuts : public testing::Test {
@@ -80,4 +80,4 @@ TEST_F(Cuts, AreNoMoreThanARendererHeeds) {
 }
 
 }  // namespace
-}  // namespace osteomill
+}  // namespace osteomill::cut_settings_test

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace osteomill {
+namespace osteomill::frame_times_test {
 namespace {
 
 TEST(FrameTimes, GivesTheNearestRank) {
@@ -18,4 +18,4 @@ TEST(FrameTimes, IsZeroWithoutFrames) {
 }
 
 }  // namespace
-}  // namespace osteomill
+}  // namespace osteomill::frame_times_test

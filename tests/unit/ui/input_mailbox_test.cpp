@@ -2,7 +2,7 @@
 
 #include <gmock/gmock.h>
 
-namespace osteomill {
+namespace osteomill::input_mailbox_test {
 namespace {
 
 using ::testing::ElementsAre;
@@ -44,4 +44,4 @@ TEST(WindowInput, CountsPixelsOfDenseDisplays) {
 }
 
 }  // namespace
-}  // namespace osteomill
+}  // namespace osteomill::input_mailbox_test

@@ -5,7 +5,7 @@
 #include <array>
 #include <set>
 
-namespace osteomill {
+namespace osteomill::key_bindings_test {
 namespace {
 
 using testing::ElementsAre;
@@ -60,4 +60,4 @@ TEST(KeyBindings, DependOnTheKindOfSession) {
 }
 
 }  // namespace
-}  // namespace osteomill
+}  // namespace osteomill::key_bindings_test

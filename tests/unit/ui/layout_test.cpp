@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace osteomill {
+namespace osteomill::layout_test {
 namespace {
 
 constexpr float margin = 10.0f;
@@ -77,4 +77,4 @@ TEST(Layout, GivesALessImportantPanelItsSmallerSizeAndThenNone) {
 }
 
 }  // namespace
-}  // namespace osteomill
+}  // namespace osteomill::layout_test

@@ -6,7 +6,7 @@
 #include "tests/unit/ui/scripted_session.h"
 #include "tests/unit/volume/offscreen_test.h"
 
-namespace osteomill {
+namespace osteomill::offscreen_run_test {
 namespace {
 
 class OffscreenRunTest : public testing::Test {
@@ -75,4 +75,4 @@ TEST(ScreenshotInterval, SpreadsAboutThirtyOverTheFrames) {
 }
 
 }  // namespace
-}  // namespace osteomill
+}  // namespace osteomill::offscreen_run_test

@@ -7,7 +7,7 @@
 #include <glm/geometric.hpp>
 #include <vector>
 
-namespace osteomill {
+namespace osteomill::operator_desk_test {
 namespace {
 
 /// A link without a server: tells of a tool, and keeps what is sent.
@@ -116,4 +116,4 @@ TEST(OperatorDesk, FallsSilentWhereThereIsNoSessionToDrillIn) {
 }
 
 }  // namespace
-}  // namespace osteomill
+}  // namespace osteomill::operator_desk_test

@@ -6,7 +6,7 @@
 #include <glm/geometric.hpp>
 #include <vector>
 
-namespace osteomill {
+namespace osteomill::operator_hand_test {
 namespace {
 
 const glm::ivec2 size_px(800, 600);
@@ -92,4 +92,4 @@ TEST(OperatorHand, LetsGoOfPedalAndTarget) {
 }
 
 }  // namespace
-}  // namespace osteomill
+}  // namespace osteomill::operator_hand_test

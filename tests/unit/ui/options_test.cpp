@@ -4,7 +4,7 @@
 
 #include <vector>
 
-namespace osteomill {
+namespace osteomill::options_test {
 namespace {
 
 ParsedOptions parsed(std::vector<const char*> arguments) {
@@ -117,4 +117,4 @@ TEST(Options, TakeARecordingInPlaceOfAServer) {
 }
 
 }  // namespace
-}  // namespace osteomill
+}  // namespace osteomill::options_test

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <glm/geometric.hpp>
 
-namespace osteomill {
+namespace osteomill::orientation_cube_test {
 namespace {
 
 std::string letters(const Camera& camera) {
@@ -60,4 +60,4 @@ TEST(OrientationCube, TurnsTheViewToTheFaceThatIsClicked) {
 }
 
 }  // namespace
-}  // namespace osteomill
+}  // namespace osteomill::orientation_cube_test

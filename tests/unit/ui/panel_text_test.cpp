@@ -2,7 +2,7 @@
 
 #include <gmock/gmock.h>
 
-namespace osteomill {
+namespace osteomill::panel_text_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -76,4 +76,4 @@ TEST_F(PanelTexts, TellTheToolAndTheSession) {
 }
 
 }  // namespace
-}  // namespace osteomill
+}  // namespace osteomill::panel_text_test

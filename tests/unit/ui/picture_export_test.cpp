@@ -9,7 +9,7 @@
 #include "render_client/volume/png_file.h"
 #include "tests/support/temporary_folder.h"
 
-namespace osteomill {
+namespace osteomill::picture_export_test {
 namespace {
 
 Picture grey(std::uint8_t value) {
@@ -57,4 +57,4 @@ TEST(PictureExport, SaysWhichFolderItCannotWriteTo) {
 }
 
 }  // namespace
-}  // namespace osteomill
+}  // namespace osteomill::picture_export_test

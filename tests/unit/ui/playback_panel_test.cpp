@@ -6,7 +6,7 @@
 #include "tests/support/made_recording.h"
 #include "tests/support/temporary_folder.h"
 
-namespace osteomill {
+namespace osteomill::playback_panel_test {
 namespace {
 
 /// Dear ImGui without anything to draw on.
@@ -72,4 +72,4 @@ TEST_F(PlaybackPanel, ChangesTheSpeed) {
 }
 
 }  // namespace
-}  // namespace osteomill
+}  // namespace osteomill::playback_panel_test

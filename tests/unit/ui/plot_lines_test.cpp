@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace osteomill {
+namespace osteomill::plot_lines_test {
 namespace {
 
 TEST(PlotRange, IsRoundAndHoldsTheValuesAndZero) {
@@ -48,4 +48,4 @@ TEST(PlotPoints, AreAtMostTwoAPixelAndLoseNoPeak) {
 }
 
 }  // namespace
-}  // namespace osteomill
+}  // namespace osteomill::plot_lines_test

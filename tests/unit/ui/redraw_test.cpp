@@ -4,7 +4,7 @@
 
 #include <utility>
 
-namespace osteomill {
+namespace osteomill::redraw_test {
 namespace {
 
 using std::chrono::milliseconds;
@@ -62,4 +62,4 @@ TEST(Redraw, DrawsFiguresLessOftenWhereAFrameIsDear) {
 }
 
 }  // namespace
-}  // namespace osteomill
+}  // namespace osteomill::redraw_test

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace osteomill {
+namespace osteomill::scale_bar_test {
 namespace {
 
 TEST(ScaleBar, IsTheLongestRoundLengthThatFits) {
@@ -28,4 +28,4 @@ TEST(ScaleBar, FillsAtLeastTwoFifthsOfItsRoom) {
 }
 
 }  // namespace
-}  // namespace osteomill
+}  // namespace osteomill::scale_bar_test

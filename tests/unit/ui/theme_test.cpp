@@ -10,7 +10,7 @@
 
 #include "render_client/volume/bone_colours.h"
 
-namespace osteomill {
+namespace osteomill::theme_test {
 namespace {
 
 glm::dvec3 linear(const Rgba& colour) {
@@ -83,4 +83,4 @@ INSTANTIATE_TEST_SUITE_P(Themes, EveryTheme, testing::Values(ThemeName::dark, Th
                          });
 
 }  // namespace
-}  // namespace osteomill
+}  // namespace osteomill::theme_test

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace osteomill {
+namespace osteomill::tool_history_test {
 namespace {
 
 ToolView at_time(double time_s) {
@@ -39,4 +39,4 @@ TEST(ToolHistory, StartsAnewWithANewSession) {
 }
 
 }  // namespace
-}  // namespace osteomill
+}  // namespace osteomill::tool_history_test

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace osteomill {
+namespace osteomill::transfer_editor_test {
 namespace {
 
 TransferFunction ramp() {
@@ -65,4 +65,4 @@ TEST(TransferEditor, DoesNothingToOwnColours) {
 }
 
 }  // namespace
-}  // namespace osteomill
+}  // namespace osteomill::transfer_editor_test

@@ -4,7 +4,7 @@
 
 #include <random>
 
-namespace osteomill {
+namespace osteomill::block_summary_test {
 namespace {
 
 ByteBrick sparse_noise() {
@@ -52,4 +52,4 @@ TEST(BlockSummary, OfAFullBrickReachesAllAroundAndOfAnEmptyOneNowhere) {
 }
 
 }  // namespace
-}  // namespace osteomill
+}  // namespace osteomill::block_summary_test

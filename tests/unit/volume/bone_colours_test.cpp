@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-namespace osteomill {
+namespace osteomill::bone_colours_test {
 namespace {
 
 TEST(BoneColours, TurnsSrgbIntoLinearLightAsTheStandardSays) {
@@ -29,4 +29,4 @@ TEST(BoneColours, GrowLighterWithStiffnessAndStayWithinTheTable) {
 }
 
 }  // namespace
-}  // namespace osteomill
+}  // namespace osteomill::bone_colours_test

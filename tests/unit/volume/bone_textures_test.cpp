@@ -3,7 +3,7 @@
 #include "tests/unit/volume/made_bone.h"
 #include "tests/unit/volume/offscreen_test.h"
 
-namespace osteomill {
+namespace osteomill::bone_textures_test {
 namespace {
 
 using BoneTexturesTest = OffscreenTest;
@@ -129,4 +129,4 @@ TEST_F(BoneTexturesTest, RefuseABoneWithoutAnyVoxel) {
 }
 
 }  // namespace
-}  // namespace osteomill
+}  // namespace osteomill::bone_textures_test

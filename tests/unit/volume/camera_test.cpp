@@ -5,7 +5,7 @@
 #include <glm/geometric.hpp>
 #include <glm/vec4.hpp>
 
-namespace osteomill {
+namespace osteomill::camera_test {
 namespace {
 
 const glm::ivec2 size_px(800, 600);
@@ -55,4 +55,4 @@ TEST(Camera, NeverTipsOverAndNeverLeavesItsDepthRange) {
 }
 
 }  // namespace
-}  // namespace osteomill
+}  // namespace osteomill::camera_test

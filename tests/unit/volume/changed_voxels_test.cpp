@@ -4,7 +4,7 @@
 
 #include "tests/unit/volume/made_bone.h"
 
-namespace osteomill {
+namespace osteomill::changed_voxels_test {
 namespace {
 
 Bone block() {
@@ -41,4 +41,4 @@ TEST(ChangedVoxels, AreBoxedInEachBrickThatDiffersFromLastTime) {
 }
 
 }  // namespace
-}  // namespace osteomill
+}  // namespace osteomill::changed_voxels_test

@@ -4,7 +4,7 @@
 
 #include "tests/unit/volume/made_bone.h"
 
-namespace osteomill {
+namespace osteomill::coarse_bone_test {
 namespace {
 
 const Grid grid{.size_voxels = {67, 50, 35}, .origin_mm = {0.05, 0.05, 0.05}};
@@ -71,4 +71,4 @@ TEST(CoarseBone, TakesTheTissueOfTheFullestVoxel) {
 }
 
 }  // namespace
-}  // namespace osteomill
+}  // namespace osteomill::coarse_bone_test

@@ -4,7 +4,7 @@
 #include "tests/unit/volume/made_bone.h"
 #include "tests/unit/volume/offscreen_test.h"
 
-namespace osteomill {
+namespace osteomill::contact_shadow_test {
 namespace {
 
 /// A flat bone seen from above; its upper side is z = 0.
@@ -76,4 +76,4 @@ TEST_F(ContactShadowTest, LeavesBoneFarFromTheBurrAndTheBackgroundAlone) {
 }
 
 }  // namespace
-}  // namespace osteomill
+}  // namespace osteomill::contact_shadow_test

@@ -4,7 +4,7 @@
 
 #include <stdexcept>
 
-namespace osteomill {
+namespace osteomill::detail_control_test {
 namespace {
 
 constexpr std::int64_t pixels = 480'000;
@@ -109,4 +109,4 @@ TEST(DetailControl, LearnsNothingFromNoPixelsAndNoTime) {
 }
 
 }  // namespace
-}  // namespace osteomill
+}  // namespace osteomill::detail_control_test

@@ -7,7 +7,7 @@
 
 #include "tests/unit/volume/made_bone.h"
 
-namespace osteomill {
+namespace osteomill::empty_space_test {
 namespace {
 
 const Grid grid{.size_voxels = {64, 48, 48}, .origin_mm = {0.05, 0.05, 0.05}};
@@ -114,4 +114,4 @@ TEST(EmptySpace, FollowsBoneThatComesBack) {
 }
 
 }  // namespace
-}  // namespace osteomill
+}  // namespace osteomill::empty_space_test

@@ -4,7 +4,7 @@
 
 #include <filesystem>
 
-namespace osteomill {
+namespace osteomill::png_file_test {
 namespace {
 
 TEST(PngFile, ReadsBackWhatItWrote) {
@@ -27,4 +27,4 @@ TEST(PngFile, NamesTheFileThatItCannotWrite) {
 }
 
 }  // namespace
-}  // namespace osteomill
+}  // namespace osteomill::png_file_test

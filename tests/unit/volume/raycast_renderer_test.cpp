@@ -7,7 +7,7 @@
 #include "tests/unit/volume/made_bone.h"
 #include "tests/unit/volume/offscreen_test.h"
 
-namespace osteomill {
+namespace osteomill::raycast_renderer_test {
 namespace {
 
 using RaycastRendererTest = OffscreenTest;
@@ -195,4 +195,4 @@ TEST_F(RaycastRendererTest, ColoursCarvedWallsByTheTissueThatTheyCutThrough) {
 }
 
 }  // namespace
-}  // namespace osteomill
+}  // namespace osteomill::raycast_renderer_test

@@ -7,7 +7,7 @@
 #include "tests/unit/volume/made_bone.h"
 #include "tests/unit/volume/offscreen_test.h"
 
-namespace osteomill {
+namespace osteomill::scene_look_test {
 namespace {
 
 using SceneLookTest = OffscreenTest;
@@ -86,4 +86,4 @@ TEST_F(SceneLookTest, BackgroundIsTheLooks) {
 }
 
 }  // namespace
-}  // namespace osteomill
+}  // namespace osteomill::scene_look_test

@@ -9,7 +9,7 @@
 #include "tests/unit/volume/made_bone.h"
 #include "tests/unit/volume/offscreen_test.h"
 
-namespace osteomill {
+namespace osteomill::scene_picture_test {
 namespace {
 
 using ScenePictureTest = OffscreenTest;
@@ -239,4 +239,4 @@ TEST(PixelsOfBox, GiveUpWhereTheBoxReachesBehindTheCamera) {
 }
 
 }  // namespace
-}  // namespace osteomill
+}  // namespace osteomill::scene_picture_test

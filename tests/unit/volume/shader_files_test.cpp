@@ -10,7 +10,7 @@
 
 #include "tests/unit/volume/offscreen_test.h"
 
-namespace osteomill {
+namespace osteomill::shader_files_test {
 namespace {
 
 using testing::HasSubstr;
@@ -80,4 +80,4 @@ TEST(ShaderText, OfAnUnknownFileIsAMistakeOfTheProgram) {
 }
 
 }  // namespace
-}  // namespace osteomill
+}  // namespace osteomill::shader_files_test

@@ -10,7 +10,7 @@
 #include "tests/unit/volume/made_bone.h"
 #include "tests/unit/volume/offscreen_test.h"
 
-namespace osteomill {
+namespace osteomill::slice_renderer_test {
 namespace {
 
 const glm::ivec2 size_px(200, 150);
@@ -162,4 +162,4 @@ INSTANTIATE_TEST_SUITE_P(Each, BothRenderers,
                          });
 
 }  // namespace
-}  // namespace osteomill
+}  // namespace osteomill::slice_renderer_test

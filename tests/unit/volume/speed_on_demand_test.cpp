@@ -4,7 +4,7 @@
 #include "tests/unit/volume/made_bone.h"
 #include "tests/unit/volume/offscreen_test.h"
 
-namespace osteomill {
+namespace osteomill::speed_on_demand_test {
 namespace {
 
 const glm::ivec2 size_px(240, 180);
@@ -193,4 +193,4 @@ TEST_F(SpeedOnDemand, StartsAnewWhereTheSizeOrTheBoneChangesInTheMiddleOfRefinin
 }
 
 }  // namespace
-}  // namespace osteomill
+}  // namespace osteomill::speed_on_demand_test

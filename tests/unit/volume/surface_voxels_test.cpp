@@ -9,7 +9,7 @@
 #include "tests/unit/volume/made_bone.h"
 #include "tests/unit/volume/offscreen_test.h"
 
-namespace osteomill {
+namespace osteomill::surface_voxels_test {
 namespace {
 
 using SurfaceTextureTest = OffscreenTest;
@@ -163,4 +163,4 @@ TEST_F(SurfaceTextureTest, IsShadedAgainOnlyRoundTheChangeAndEqualsAFreshOne) {
 }
 
 }  // namespace
-}  // namespace osteomill
+}  // namespace osteomill::surface_voxels_test

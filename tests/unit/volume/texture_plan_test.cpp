@@ -5,7 +5,7 @@
 #include "render_client/volume/textures/coarse_bone.h"
 #include "tests/unit/volume/made_bone.h"
 
-namespace osteomill {
+namespace osteomill::texture_plan_test {
 namespace {
 
 constexpr std::size_t plenty = std::size_t{1} << 40;
@@ -60,4 +60,4 @@ TEST(TexturePlan, IsDescribedInOneLine) {
 }
 
 }  // namespace
-}  // namespace osteomill
+}  // namespace osteomill::texture_plan_test

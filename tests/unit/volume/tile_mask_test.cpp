@@ -8,7 +8,7 @@
 
 #include "render_client/volume/camera.h"
 
-namespace osteomill {
+namespace osteomill::tile_mask_test {
 namespace {
 
 const glm::ivec2 size_px(200, 150);  // no multiple of a tile either way
@@ -113,4 +113,4 @@ TEST(TileMask, MarksEverythingForABoxThatReachesBehindTheEye) {
 }
 
 }  // namespace
-}  // namespace osteomill
+}  // namespace osteomill::tile_mask_test

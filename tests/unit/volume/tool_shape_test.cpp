@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <glm/geometric.hpp>
 
-namespace osteomill {
+namespace osteomill::tool_shape_test {
 namespace {
 
 TEST(ToolShape, HasTheBurrsRadiusAndAShankTowardsPlusZ) {
@@ -32,4 +32,4 @@ TEST(ToolShape, TurnsEveryTriangleOutwards) {
 }
 
 }  // namespace
-}  // namespace osteomill
+}  // namespace osteomill::tool_shape_test

@@ -8,7 +8,7 @@
 #include "common/scene/stiffness_relation.h"
 #include "render_client/volume/bone_colours.h"
 
-namespace osteomill {
+namespace osteomill::transfer_function_test {
 namespace {
 
 const TransferFunction ramp{.name = "ramp", .points = {{0.5, {0, 0, 0}, 0.0}, {1.5, {255, 255, 255}, 1.0}}};
@@ -75,4 +75,4 @@ TEST(CtWindow, IsBlackBelowAndWhiteAbove) {
 }
 
 }  // namespace
-}  // namespace osteomill
+}  // namespace osteomill::transfer_function_test

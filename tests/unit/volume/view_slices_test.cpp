@@ -6,7 +6,7 @@
 #include <glm/geometric.hpp>
 #include <stdexcept>
 
-namespace osteomill {
+namespace osteomill::view_slices_test {
 namespace {
 
 const glm::dvec3 low(0.0), high(4.0, 6.0, 8.0);
@@ -53,4 +53,4 @@ TEST(ViewSlices, RefuseASpacingThatIsNotPositive) {
 }
 
 }  // namespace
-}  // namespace osteomill
+}  // namespace osteomill::view_slices_test

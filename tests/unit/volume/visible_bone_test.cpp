@@ -6,7 +6,7 @@
 
 #include "tests/unit/volume/made_bone.h"
 
-namespace osteomill {
+namespace osteomill::visible_bone_test {
 namespace {
 
 const Grid grid{.size_voxels = {32, 32, 32}};
@@ -87,4 +87,4 @@ TEST(ShadingSettings, SeesThroughATissueThatLetsSomeLightPass) {
 }
 
 }  // namespace
-}  // namespace osteomill
+}  // namespace osteomill::visible_bone_test

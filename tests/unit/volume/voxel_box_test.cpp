@@ -4,7 +4,7 @@
 
 #include "tests/unit/volume/made_bone.h"
 
-namespace osteomill {
+namespace osteomill::voxel_box_test {
 namespace {
 
 const Grid grid{.size_voxels = {70, 50, 40}, .origin_mm = {0.0, 0.0, 0.0}};
@@ -39,4 +39,4 @@ TEST(VoxelBox, CopiesWhatTheBoneHoldsAndZeroBeyondTheGrid) {
 }
 
 }  // namespace
-}  // namespace osteomill
+}  // namespace osteomill::voxel_box_test

@@ -8,7 +8,7 @@
 #include "haptic_server/device/arm_model.h"
 #include "studies/stability/sampled_force.h"
 
-namespace osteomill::study {
+namespace osteomill::study::bench_run_test {
 namespace {
 
 constexpr double tick_s = 1e-3;
@@ -96,4 +96,4 @@ TEST(SensorSteps, MakeADamperBuzzHarderThanTheArmRubs) {
 }
 
 }  // namespace
-}  // namespace osteomill::study
+}  // namespace osteomill::study::bench_run_test

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace osteomill::study {
+namespace osteomill::study::bone_front_test {
 namespace {
 
 TEST(BoneFront, ResistsNewGroundOnly) {
@@ -20,4 +20,4 @@ TEST(BoneFront, BeginsAtTheOrigin) {
 }
 
 }  // namespace
-}  // namespace osteomill::study
+}  // namespace osteomill::study::bone_front_test

@@ -10,7 +10,7 @@
 #include "studies/stability/lifted_system.h"
 #include "studies/stability/sampled_force.h"
 
-namespace osteomill::study {
+namespace osteomill::study::energy_ledger_test {
 namespace {
 
 constexpr double tick_s = 1e-3;
@@ -66,4 +66,4 @@ TEST(EnergyLedger, SeesWhatAnObserverWithBackwardVelocityDoesNot) {
 }
 
 }  // namespace
-}  // namespace osteomill::study
+}  // namespace osteomill::study::energy_ledger_test

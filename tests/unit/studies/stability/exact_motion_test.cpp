@@ -5,7 +5,7 @@
 #include <cmath>
 #include <stdexcept>
 
-namespace osteomill::study {
+namespace osteomill::study::exact_motion_test {
 namespace {
 
 TEST(ExactMotion, CoastsToRestAsAnExponentialWhenOnlyDamped) {
@@ -35,4 +35,4 @@ TEST(ExactMotion, RefusesABodyThatIsNotLinear) {
 }
 
 }  // namespace
-}  // namespace osteomill::study
+}  // namespace osteomill::study::exact_motion_test

@@ -6,7 +6,7 @@
 
 #include "studies/stability/exact_motion.h"
 
-namespace osteomill::study {
+namespace osteomill::study::fine_motion_test {
 namespace {
 
 MotionState after(const HeldBody& body, MotionState state, double force_n, double substep_s, int substeps) {
@@ -72,4 +72,4 @@ TEST(CoulombFriction, TakesTheSameLengthFromEveryHalfSwing) {
 }
 
 }  // namespace
-}  // namespace osteomill::study
+}  // namespace osteomill::study::fine_motion_test

@@ -8,7 +8,7 @@
 
 #include "studies/stability/needed_damping.h"
 
-namespace osteomill::study {
+namespace osteomill::study::guided_work_test {
 namespace {
 
 constexpr double tick_s = 1e-3;
@@ -71,4 +71,4 @@ TEST(GuidedWork, OfAHeldSpringPressedAndReleasedIsStiffnessTimesDepthTimesStride
 }
 
 }  // namespace
-}  // namespace osteomill::study
+}  // namespace osteomill::study::guided_work_test

@@ -11,7 +11,7 @@
 #include "studies/stability/bone_front.h"
 #include "studies/stability/sampled_force.h"
 
-namespace osteomill::study {
+namespace osteomill::study::known_chatter_test {
 namespace {
 
 constexpr double tick_s = 1e-3;
@@ -66,4 +66,4 @@ TEST(KnownChatter, OfACuttingForceHeldAt1000HzBeginsBetween60And110) {
 }
 
 }  // namespace
-}  // namespace osteomill::study
+}  // namespace osteomill::study::known_chatter_test

@@ -12,7 +12,7 @@
 #include "studies/stability/lifted_system.h"
 #include "studies/stability/sampled_force.h"
 
-namespace osteomill::study {
+namespace osteomill::study::known_edges_test {
 namespace {
 
 constexpr double tick_s = 1e-3;
@@ -143,4 +143,4 @@ TEST(EdgeRules, ASampledDamperIsStableUpToTwiceTheMassOverThePeriod) {
 }
 
 }  // namespace
-}  // namespace osteomill::study
+}  // namespace osteomill::study::known_edges_test

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace osteomill::study {
+namespace osteomill::study::largest_stable_test {
 namespace {
 
 TEST(LargestStable, FindsTheEdge) {
@@ -20,4 +20,4 @@ TEST(LargestStable, ReturnsTheEndsOfTheRangeWhereThereIsNoEdge) {
 }
 
 }  // namespace
-}  // namespace osteomill::study
+}  // namespace osteomill::study::largest_stable_test

@@ -8,7 +8,7 @@
 #include "studies/stability/exact_motion.h"
 #include "studies/stability/sampled_force.h"
 
-namespace osteomill::study {
+namespace osteomill::study::lifted_system_test {
 namespace {
 
 constexpr double tick_s = 1e-3;
@@ -68,4 +68,4 @@ TEST(IsStable, CallsABodyThatNothingHoldsUnstable) {
 }
 
 }  // namespace
-}  // namespace osteomill::study
+}  // namespace osteomill::study::lifted_system_test

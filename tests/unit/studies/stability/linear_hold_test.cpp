@@ -5,7 +5,7 @@
 #include <numeric>
 #include <stdexcept>
 
-namespace osteomill::study {
+namespace osteomill::study::linear_hold_test {
 namespace {
 
 /// The force of a tick when the model's forces have been F_n = n for long, at sample 0.
@@ -73,4 +73,4 @@ TEST(LinearHold, NeedsAWeightAndATick) {
 }
 
 }  // namespace
-}  // namespace osteomill::study
+}  // namespace osteomill::study::linear_hold_test

@@ -6,7 +6,7 @@
 #include <numbers>
 #include <stdexcept>
 
-namespace osteomill::study {
+namespace osteomill::study::needed_damping_test {
 namespace {
 
 constexpr double tick_s = 1e-3;
@@ -46,4 +46,4 @@ TEST(NeededDamping, DoesNotApplyWhereTheModelIsSlowerThanTheTicks) {
 }
 
 }  // namespace
-}  // namespace osteomill::study
+}  // namespace osteomill::study::needed_damping_test

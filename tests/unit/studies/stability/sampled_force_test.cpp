@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace osteomill::study {
+namespace osteomill::study::sampled_force_test {
 namespace {
 
 TEST(SampledForce, ResistsTheSampleUntilTheNext) {
@@ -34,4 +34,4 @@ TEST(SampledForce, ReachesTheNewestForceAtTheEndOfThePeriod) {
 }
 
 }  // namespace
-}  // namespace osteomill::study
+}  // namespace osteomill::study::sampled_force_test

@@ -9,7 +9,7 @@
 
 #include "tests/support/temporary_folder.h"
 
-namespace osteomill::study {
+namespace osteomill::study::case_file_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -98,4 +98,4 @@ TEST_F(CaseFileTest, RefusesWhatIsOfAnotherListOrNone) {
 }
 
 }  // namespace
-}  // namespace osteomill::study
+}  // namespace osteomill::study::case_file_test

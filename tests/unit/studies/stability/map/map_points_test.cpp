@@ -9,7 +9,7 @@
 #include "haptic_server/cutting_force/reference_force.h"
 #include "studies/stability/map/map_text.h"
 
-namespace osteomill::study {
+namespace osteomill::study::map_points_test {
 namespace {
 
 /// Of a burr on its way through flat bone, N s/m.
@@ -60,4 +60,4 @@ TEST(MapPoints, AreThoseThatAreSelected) {
 }
 
 }  // namespace
-}  // namespace osteomill::study
+}  // namespace osteomill::study::map_points_test

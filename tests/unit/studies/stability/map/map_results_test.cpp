@@ -10,7 +10,7 @@
 #include "studies/stability/map/region_table.h"
 #include "tests/unit/studies/stability/map/whole_map.h"
 
-namespace osteomill::study {
+namespace osteomill::study::map_results_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -95,4 +95,4 @@ TEST(MapResults, TablesHaveALineACase) {
 }
 
 }  // namespace
-}  // namespace osteomill::study
+}  // namespace osteomill::study::map_results_test

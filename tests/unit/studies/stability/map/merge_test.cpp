@@ -9,7 +9,7 @@
 #include "studies/stability/map/case_file.h"
 #include "tests/support/temporary_folder.h"
 
-namespace osteomill::study {
+namespace osteomill::study::merge_test {
 namespace {
 
 using ::testing::AllOf;
@@ -73,4 +73,4 @@ TEST_F(MergeTest, RefusesAPartOfAnotherVersionsList) {
 }
 
 }  // namespace
-}  // namespace osteomill::study
+}  // namespace osteomill::study::merge_test

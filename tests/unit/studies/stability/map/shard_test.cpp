@@ -5,7 +5,7 @@
 #include <set>
 #include <stdexcept>
 
-namespace osteomill::study {
+namespace osteomill::study::shard_test {
 namespace {
 
 TEST(Shard, PartsHaveEveryCaseOnceAndAreAlike) {
@@ -40,4 +40,4 @@ TEST(Shard, FingerprintKnowsAListFromAnother) {
 }
 
 }  // namespace
-}  // namespace osteomill::study
+}  // namespace osteomill::study::shard_test

@@ -5,7 +5,7 @@
 #include <map>
 #include <stdexcept>
 
-namespace osteomill::study {
+namespace osteomill::study::sweep_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -47,4 +47,4 @@ TEST(Sweep, EndsAtTheFirstFailureAndNamesTheCase) {
 }
 
 }  // namespace
-}  // namespace osteomill::study
+}  // namespace osteomill::study::sweep_test

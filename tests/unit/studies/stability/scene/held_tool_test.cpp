@@ -5,7 +5,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-namespace osteomill::study {
+namespace osteomill::study::held_tool_test {
 namespace {
 
 constexpr double substep_s = 1e-5;
@@ -85,4 +85,4 @@ TEST(HeldTool, KeepsItsHeightOnAGuideWhateverPushes) {
 }
 
 }  // namespace
-}  // namespace osteomill::study
+}  // namespace osteomill::study::held_tool_test

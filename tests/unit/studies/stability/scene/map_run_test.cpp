@@ -4,7 +4,7 @@
 
 #include "studies/stability/scene/bench_device.h"
 
-namespace osteomill::study {
+namespace osteomill::study::map_run_test {
 namespace {
 
 TEST(BenchDevice, GivesTheMotorsWhatTheyCanAfterTheDelay) {
@@ -61,4 +61,4 @@ TEST(MapRun, FindsTheKnownEdgeOfAWallThatIsHeldOneTickLate) {
 }
 
 }  // namespace
-}  // namespace osteomill::study
+}  // namespace osteomill::study::map_run_test

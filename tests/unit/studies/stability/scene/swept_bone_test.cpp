@@ -6,7 +6,7 @@
 
 #include "haptic_server/cutting_force/reference_force.h"
 
-namespace osteomill::study {
+namespace osteomill::study::swept_bone_test {
 namespace {
 
 constexpr double substep_s = 1e-5;
@@ -62,4 +62,4 @@ TEST(SweptBone, GivesNothingToABurrThatDrawsBackAndReturnsUntilItMeetsItsFront) 
 }
 
 }  // namespace
-}  // namespace osteomill::study
+}  // namespace osteomill::study::swept_bone_test

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-namespace osteomill::study {
+namespace osteomill::study::truth_test {
 namespace {
 
 ScenePlan short_plan(const MapCase& c, std::size_t ticks) {
@@ -83,4 +83,4 @@ TEST(Truth, OfAWallComesToRestUnderTheHandsPush) {
 }
 
 }  // namespace
-}  // namespace osteomill::study
+}  // namespace osteomill::study::truth_test

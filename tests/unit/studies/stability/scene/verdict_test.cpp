@@ -12,7 +12,7 @@
 #include "studies/stability/sampled_force.h"
 #include "studies/stability/scene/fast_part.h"
 
-namespace osteomill::study {
+namespace osteomill::study::verdict_test {
 namespace {
 
 using Signal = std::function<double(double time_s)>;
@@ -134,4 +134,4 @@ TEST(Verdict, FindsTheChatterOfHeldCuttingForces) {
 }
 
 }  // namespace
-}  // namespace osteomill::study
+}  // namespace osteomill::study::verdict_test
