@@ -10,7 +10,10 @@ namespace osteomill {
 
 namespace {
 
-/// The number by which a file goes in #line, which takes no name; 0 is what stands before all files.
+/// #line takes no name, and Mesa forgets the file's number that it does take. So a line is known by one
+/// number: thousands for the file, in the order of shader_files, and the line within it.
+constexpr std::size_t most_lines = 1000;
+
 std::size_t number_of(std::string_view name) {
     const auto files = shader_files();
     const auto found =
@@ -19,25 +22,23 @@ std::size_t number_of(std::string_view name) {
     return static_cast<std::size_t>(found - files.begin()) + 1;
 }
 
-/// "7:12" and "7(12)" at the beginning of a line, as drivers write a file's number and a line of it.
+/// "0:12" and "0(12)", as drivers write a line, by the file's name.
 std::string with_file_names(const std::string& log) {
-    static const std::regex place(R"((^|[\n ])(\d+)(:|\()(\d+)\b)");
+    const std::regex place(R"(\b\d+(:|\()(\d{4,6})\b)");
     const auto files = shader_files();
     std::string named;
-    std::sregex_iterator match(log.begin(), log.end(), place);
-    auto end = log.begin();
-    for (; match != std::sregex_iterator(); ++match) {
+    auto copied = log.begin();
+    for (std::sregex_iterator match(log.begin(), log.end(), place); match != std::sregex_iterator();
+         ++match) {
         const std::smatch& found = *match;
-        const std::size_t number = std::min<std::size_t>(std::stoul(found[2]), files.size() + 1);
-        named.append(end, found[0].first);
-        if (number >= 1 && number <= files.size())
-            named += fmt::format("{}{}{}{}", found[1].str(), files[number - 1].name, found[3].str(),
-                                 found[4].str());
-        else
-            named += found[0].str();
-        end = found[0].second;
+        const std::size_t number = std::stoul(found[2]);
+        if (number / most_lines > files.size()) continue;
+        named.append(copied, found[0].first);
+        named +=
+            fmt::format("{}{}{}", files[number / most_lines - 1].name, found[1].str(), number % most_lines);
+        copied = found[0].second;
     }
-    return named.append(end, log.end());
+    return named.append(copied, log.end());
 }
 
 }  // namespace
@@ -47,7 +48,7 @@ std::string shader_text(std::span<const std::string_view> names, const std::stri
     for (const std::string_view name : names) {
         if (name.empty()) continue;
         const std::size_t number = number_of(name);
-        text += fmt::format("#line 1 {}\n{}", number, shader_files()[number - 1].text);
+        text += fmt::format("#line {}\n{}", most_lines * number + 1, shader_files()[number - 1].text);
     }
     return text;
 }
