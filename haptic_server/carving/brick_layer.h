@@ -29,7 +29,7 @@ class BrickLayer {
                 if (slot != BoneContent::no_slot &&
                     rows.misses_cube(brick * brick_edge_voxels, brick_edge_voxels))
                     slot = BoneContent::no_slot;
-                slots_[place(x, y)] = slot;
+                slots_[index_of(x, y)] = slot;
                 any |= slot != BoneContent::no_slot;
             }
             holds_bone_[static_cast<std::size_t>(y - first_y_)] = any;
@@ -43,12 +43,12 @@ class BrickLayer {
     bool row_holds_any(int brick_y) const {
         return holds_bone_[static_cast<std::size_t>(brick_y - first_y_)];
     }
-    std::int32_t slot(int brick_x, int brick_y) const { return slots_[place(brick_x, brick_y)]; }
+    std::int32_t slot(int brick_x, int brick_y) const { return slots_[index_of(brick_x, brick_y)]; }
 
   private:
     static constexpr int most = CrescentRows::most_rows / brick_edge_voxels;
 
-    std::size_t place(int brick_x, int brick_y) const {
+    std::size_t index_of(int brick_x, int brick_y) const {
         return static_cast<std::size_t>((brick_y - first_y_) * most + (brick_x - first_x_));
     }
 

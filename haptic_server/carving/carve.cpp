@@ -6,8 +6,8 @@
 #include <glm/geometric.hpp>
 
 #include "haptic_server/carving/brick_layer.h"
+#include "haptic_server/carving/carve_kernel.h"
 #include "haptic_server/carving/crescent_rows.h"
-#include "haptic_server/carving/lowering.h"
 
 namespace osteomill {
 
@@ -21,21 +21,21 @@ void carve_short(Bone& bone, const Sweep& ball, bool crescent_only, const CarveS
     const glm::ivec3 near(glm::floor(0.5 * (ball.from + ball.to)));
     const glm::ivec3 base = ((near - reach) >> 4) * brick_edge_voxels;  // rounded down to a brick
     const glm::dvec3 origin(base);
-    CrescentRows rows({ball.from - origin, ball.to - origin, ball.radius}, rim_voxels(settings.edges),
+    CrescentRows rows({ball.from - origin, ball.to - origin, ball.radius}, rim_voxels(settings.coverage),
                       crescent_only, glm::max(-base, glm::ivec3(0)), size - base);
     const VoxelRange slices = rows.slices();
     if (rows.columns().empty() || rows.rows().empty() || slices.empty()) return;
 
-    Lowering lowering(bone, base, SweepSeenFrom(ball, origin, settings.edges), settings.instructions, edits,
-                      sink);
+    CarveKernel kernel(bone, base, SweepSeenFrom(ball, origin, settings.coverage), settings.instructions,
+                       edits, sink);
     for (int first = slices.first; first < slices.end;) {
         const int end = std::min(slices.end, (first / brick_edge_voxels + 1) * brick_edge_voxels);
         const BrickLayer layer(bone, base, rows, first);
         for (int brick_y = layer.first_y(); brick_y < layer.end_y(); ++brick_y)
-            if (layer.row_holds_any(brick_y)) lowering.lower_bricks(rows, layer, brick_y, {first, end});
+            if (layer.row_holds_any(brick_y)) kernel.carve_bricks(rows, layer, brick_y, {first, end});
         first = end;
     }
-    lowering.flush();
+    kernel.flush();
 }
 
 /// The part of a sweep near which the grid has voxels, or nothing.

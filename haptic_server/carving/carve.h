@@ -1,13 +1,13 @@
 // Removes from the bone what a sweep of the burr passes through, and tells what went. Idempotent: what is
-// left of a voxel depends on the nearest approach of the burr alone (cover.h), so neither order nor number of
-// steps matters and what a step removed is old minus new.
+// left of a voxel depends on the nearest approach of the burr alone (voxel_coverage.h), so neither order nor
+// number of steps matters and what a step removed is old minus new.
 #pragma once
 
 #include "common/bone/bone.h"
 #include "common/bone/edit.h"
-#include "haptic_server/carving/cover.h"
 #include "haptic_server/carving/removed_voxels.h"
 #include "haptic_server/carving/sweep.h"
+#include "haptic_server/carving/voxel_coverage.h"
 
 namespace osteomill {
 
@@ -19,7 +19,7 @@ enum class CarveHistory {
 };
 
 struct CarveSettings {
-    VoxelEdges edges = VoxelEdges::soft;
+    VoxelCoverage coverage = VoxelCoverage::smoothed;
     InstructionSet instructions = best_instruction_set();
 };
 

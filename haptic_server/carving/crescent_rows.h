@@ -5,7 +5,7 @@
 //     not within R - rim - L/2 of m   (there the ball at a has left nothing),
 //     ahead of the plane through a across the step
 //
-// with rim_voxels() of cover.h.
+// with rim_voxels() of voxel_coverage.h.
 #pragma once
 
 #include <glm/vec3.hpp>
@@ -22,7 +22,7 @@ struct VoxelRange {
     bool empty() const { return first >= end; }
 };
 
-/// Ranges of the rows of a sweep no longer than `longest_step_voxels`. All places are counted
+/// Ranges of the rows of a sweep no longer than `longest_step_voxels`. All positions are counted
 /// from a base voxel below and left of the sweep, so that they are positive.
 class CrescentRows {
   public:
@@ -45,7 +45,7 @@ class CrescentRows {
     /// Whether no voxel of the cube of `edge` voxels from `first` on can change.
     bool misses_cube(const glm::ivec3& first, int edge) const noexcept;
 
-    /// What eight_rows() (crescent_lanes.h) needs, in single precision.
+    /// What eight_rows() (crescent_rows_simd.h) needs, in single precision.
     struct Shape {
         glm::vec3 middle{0.0f};
         float outer_squared = 0.0f;
@@ -68,7 +68,7 @@ class CrescentRows {
     };
     const Shape& shape() const { return shape_; }
 
-    /// Slack for single precision, voxels: places of up to a few hundred, rounded a few times.
+    /// Slack for single precision, voxels: positions of up to a few hundred, rounded a few times.
     static constexpr double slack_voxels = 1e-3;
 
   private:

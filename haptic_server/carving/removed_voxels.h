@@ -20,17 +20,17 @@ struct RemovedVoxels {
     alignas(64) std::array<float, capacity> x;  ///< whole numbers of 0 to a few hundred
     alignas(64) std::array<float, capacity> y;
     alignas(64) std::array<float, capacity> z;
-    alignas(64) std::array<float, capacity> codes;  ///< how many of its 255 steps each voxel lost; 0: none
+    alignas(64) std::array<float, capacity> levels;  ///< how many of its 255 levels each voxel lost; 0: none
     alignas(64) std::array<std::int32_t, capacity> slot;    ///< brick that holds the voxel
     alignas(64) std::array<std::int32_t, capacity> offset;  ///< of the voxel in its brick
 
     std::size_t padded_count() const { return (count + lanes - 1) / lanes * lanes; }
 
-    /// Sum of the codes. Whole numbers: exact in any order.
-    double lost_codes() const {
+    /// Sum of the levels. Whole numbers: exact in any order.
+    double lost_levels() const {
         std::array<float, lanes> sum{};
         for (std::size_t first = 0; first < padded_count(); first += lanes)
-            for (std::size_t lane = 0; lane < lanes; ++lane) sum[lane] += codes[first + lane];
+            for (std::size_t lane = 0; lane < lanes; ++lane) sum[lane] += levels[first + lane];
         double total = 0.0;
         for (const float part : sum) total += static_cast<double>(part);
         return total;
@@ -38,7 +38,7 @@ struct RemovedVoxels {
 
     /// Fills up to padded_count() with voxels at the base that lost nothing.
     void pad() {
-        for (std::size_t i = count; i < padded_count(); ++i) x[i] = y[i] = z[i] = codes[i] = 0.0f;
+        for (std::size_t i = count; i < padded_count(); ++i) x[i] = y[i] = z[i] = levels[i] = 0.0f;
     }
 };
 

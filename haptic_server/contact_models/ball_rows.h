@@ -28,7 +28,7 @@ struct BallRow {
     int count;               ///< 1 to 16, along x, within the brick
 };
 
-/// The part of a voxel that a ball covers, 0 to 1: clamp(1/2 + R - distance, 0, 1), as in cover.h.
+/// The part of a voxel that a ball covers, 0 to 1: clamp(1/2 + R - distance, 0, 1), as in voxel_coverage.h.
 inline double cover_of(const Ball& ball, double distance_squared) {
     const double inner = ball.radius - 0.5;
     if (inner > 0.0 && distance_squared <= inner * inner) return 1.0;

@@ -17,12 +17,13 @@ float length_in_bone(const BrickNeighbourhood& bricks, const glm::vec3& start, c
     return longest;
 }
 
-glm::dvec3 outward_normal(const BrickNeighbourhood& bricks, const glm::vec3& place) noexcept {
+glm::dvec3 outward_normal(const BrickNeighbourhood& bricks, const glm::vec3& position) noexcept {
     glm::dvec3 downhill(0.0);
     for (int axis = 0; axis < 3; ++axis) {
         glm::vec3 step(0.0f);
         step[axis] = 1.0f;
-        downhill[axis] = static_cast<double>(bricks.fraction(place - step) - bricks.fraction(place + step));
+        downhill[axis] =
+            static_cast<double>(bricks.fraction(position - step) - bricks.fraction(position + step));
     }
     const double steepness = glm::length(downhill);
     return steepness > 0.0 ? downhill / steepness : glm::dvec3(0.0);

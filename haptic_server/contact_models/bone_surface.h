@@ -1,5 +1,5 @@
-// The bone's surface, to a fraction of a voxel: where the trilinear fraction is one half. Places are counted
-// from the base of the bricks, as BrickNeighbourhood takes them.
+// The bone's surface, to a fraction of a voxel: where the trilinear fraction is one half. Positions are
+// counted from the base of the bricks, as BrickNeighbourhood takes them.
 #pragma once
 
 #include <glm/vec3.hpp>
@@ -18,6 +18,6 @@ float length_in_bone(const BrickNeighbourhood& bricks, const glm::vec3& start, c
 
 /// Unit vector out of the bone, against the gradient of the fraction over two voxels; zero where there is
 /// none, as deep within bone. Real-time safe.
-glm::dvec3 outward_normal(const BrickNeighbourhood& bricks, const glm::vec3& place) noexcept;
+glm::dvec3 outward_normal(const BrickNeighbourhood& bricks, const glm::vec3& position) noexcept;
 
 }  // namespace osteomill

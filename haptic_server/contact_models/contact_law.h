@@ -21,12 +21,12 @@ struct BurrContact {
     glm::dvec3 spindle_axis;   ///< unit, patient axes
     bool spindle_on;
 
-    /// Laws may look at places in `bricks` up to this far beyond the burr's surface.
+    /// Laws may look at positions in `bricks` up to this far beyond the burr's surface.
     static constexpr double margin_voxels = 3.0;
 
     double spacing_mm() const { return bone.grid().spacing_mm; }
-    /// A place for `bricks` to be asked about.
-    glm::vec3 place(const glm::dvec3& voxel_coordinates) const {
+    /// A position for `bricks` to be asked about.
+    glm::vec3 in_bricks(const glm::dvec3& voxel_coordinates) const {
         return glm::vec3(voxel_coordinates - glm::dvec3(bricks.base()));
     }
 };

@@ -29,8 +29,8 @@ class ErosionEntry final : public ErosionSink {
     ErosionEntry(const BoneContent& content, RemovalAccount& account) noexcept
         : content_(content), account_(account) {}
 
-    void take(std::int32_t slot, std::size_t offset, int codes) noexcept override {
-        account_.take(content_.tissue_in(slot, offset), codes);
+    void take(std::int32_t slot, std::size_t offset, int levels) noexcept override {
+        account_.take(content_.tissue_in(slot, offset), levels);
     }
 
   private:

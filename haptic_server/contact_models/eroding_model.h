@@ -13,14 +13,14 @@
 
 #include "common/scene/scene.h"
 #include "haptic_server/contact_models/contact_law.h"
-#include "haptic_server/contact_models/contact_model.h"
 #include "haptic_server/contact_models/erosion.h"
+#include "haptic_server/contact_models/force_model.h"
 #include "haptic_server/contact_models/removal_account.h"
 #include "haptic_server/engagement/brick_neighbourhood.h"
 
 namespace osteomill {
 
-class ErodingModel final : public ContactModel {
+class ErodingModel final : public ForceModel {
   public:
     /// `burrs` and `tissues` as in the scene. Throws std::invalid_argument for an empty burr set or a burr
     /// that require_valid() (usable_burr.h) refuses.

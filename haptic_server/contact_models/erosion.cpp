@@ -9,7 +9,7 @@ namespace osteomill {
 namespace {
 
 constexpr double steps_per_code = 65536.0;
-/// What every voxel starts with, so that codes are rounded to the nearest rather than down.
+/// What every voxel starts with, so that levels are rounded to the nearest rather than down.
 constexpr std::uint16_t half_a_code = 32768;
 
 int edge_around(double radius_voxels) {
@@ -34,23 +34,23 @@ void Erosion::erode(Bone& bone, const Ball& ball, double dose, EditSink& edits,
         int changed_first = brick_edge_voxels;
         int changed_last = -1;
         for (int i = 0; i < row.count; ++i) {
-            const int place = (row.first.x & 15) + i;
-            std::uint8_t& fraction = fractions[static_cast<std::size_t>(place)];
+            const int x_in_brick = (row.first.x & 15) + i;
+            std::uint8_t& fraction = fractions[static_cast<std::size_t>(x_in_brick)];
             if (fraction == 0) continue;
             const double x = from_centre.x + i;
             const double cover = cover_of(ball, x * x + across_squared);
             if (cover <= 0.0) continue;
-            const std::size_t offset = row.row_offset + static_cast<std::size_t>(place);
+            const std::size_t offset = row.row_offset + static_cast<std::size_t>(x_in_brick);
             const double stiffness = std::max(content.stiffness_in(row.slot, offset), least_stiffness);
             std::uint16_t& left_over = remainder(row.first + glm::ivec3(i, 0, 0));
             const std::uint64_t lost = left_over + static_cast<std::uint64_t>(steps * cover / stiffness);
             left_over = static_cast<std::uint16_t>(lost & 0xffffu);
-            const int codes = static_cast<int>(std::min<std::uint64_t>(lost >> 16, fraction));
-            if (codes == 0) continue;
-            fraction = static_cast<std::uint8_t>(fraction - codes);
-            changed_first = std::min(changed_first, place);
-            changed_last = place;
-            removed.take(row.slot, offset, codes);
+            const int levels = static_cast<int>(std::min<std::uint64_t>(lost >> 16, fraction));
+            if (levels == 0) continue;
+            fraction = static_cast<std::uint8_t>(fraction - levels);
+            changed_first = std::min(changed_first, x_in_brick);
+            changed_last = x_in_brick;
+            removed.take(row.slot, offset, levels);
         }
         if (changed_last < 0) return;
         EditRun run{.brick = content.brick_of_slot[static_cast<std::size_t>(row.slot)],

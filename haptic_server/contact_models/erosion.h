@@ -4,12 +4,12 @@
 //     d fraction / dt = - (e / s) cover,
 //
 // with s the relative stiffness of the voxel (1: the bone of the burr's K_t) and cover the part of it that
-// the burr covers (cover.h). The published systems each have their own variant of this; here all share one,
-// so that their forces can be compared on the same bone. At the default e = 20 /s bone that is fully covered
-// lasts 50 ms: a burr fed at 6 mm/s, as published, carries a layer of 6 / 20 = 0.3 mm of bone within it, and
-// so feels about the newton that milling at that feed asks for.
+// the burr covers (voxel_coverage.h). The published systems each have their own variant of this; here all
+// share one, so that their forces can be compared on the same bone. At the default e = 20 /s bone that is
+// fully covered lasts 50 ms: a burr fed at 6 mm/s, as published, carries a layer of 6 / 20 = 0.3 mm of bone
+// within it, and so feels about the newton that milling at that feed asks for.
 //
-// A fraction has only 255 steps, and at 10 kHz a voxel loses half of one a step: what falls short of a whole
+// A fraction has only 255 levels, and at 10 kHz a voxel loses half of one a step: what falls short of a whole
 // one is kept and added the next time, so that what goes in a second does not depend on the number of steps.
 #pragma once
 
@@ -29,8 +29,8 @@ inline constexpr double default_erosion_per_s = 20.0;
 class ErosionSink {
   public:
     virtual ~ErosionSink() = default;
-    /// A voxel, by its brick's slot and its offset there, lost `codes` of its 255.
-    virtual void take(std::int32_t slot, std::size_t offset, int codes) noexcept = 0;
+    /// A voxel, by its brick's slot and its offset there, lost `levels` of its 255.
+    virtual void take(std::int32_t slot, std::size_t offset, int levels) noexcept = 0;
 };
 
 class Erosion {
@@ -47,13 +47,13 @@ class Erosion {
 
   private:
     std::uint16_t& remainder(const glm::ivec3& voxel) {
-        const glm::ivec3 place = voxel & (edge_ - 1);
-        return remainders_[static_cast<std::size_t>(place.x + edge_ * (place.y + edge_ * place.z))];
+        const glm::ivec3 wrapped = voxel & (edge_ - 1);
+        return remainders_[static_cast<std::size_t>(wrapped.x + edge_ * (wrapped.y + edge_ * wrapped.z))];
     }
 
     int edge_;  // a power of two, at least the ball's width
-    // 1/65536 of a code, by the voxel's coordinates modulo the edge. A burr that moves on leaves its
-    // remainders to voxels an edge farther: less than a code each, and none is lost.
+    // 1/65536 of a level, by the voxel's coordinates modulo the edge. A burr that moves on leaves its
+    // remainders to voxels an edge farther: less than a level each, and none is lost.
     std::vector<std::uint16_t> remainders_;
 };
 

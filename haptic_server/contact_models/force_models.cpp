@@ -12,7 +12,7 @@
 
 namespace osteomill {
 
-std::vector<ForceModel> force_models() {
+std::vector<ForceModelEntry> force_models() {
     return {
         {.name = "milling", .description = "the cutting law, summed over removed voxels"},
         {.name = "milling-partial", .description = "the same with voxels of sharper edges, faster"},
@@ -26,21 +26,21 @@ std::vector<ForceModel> force_models() {
 
 std::vector<std::string> force_model_names() {
     std::vector<std::string> names;
-    for (ForceModel& model : force_models()) names.push_back(std::move(model.name));
+    for (ForceModelEntry& model : force_models()) names.push_back(std::move(model.name));
     return names;
 }
 
-ForceModel force_model(const std::string& name) {
+ForceModelEntry find_force_model(const std::string& name) {
     std::string known;
-    for (ForceModel& model : force_models()) {
+    for (ForceModelEntry& model : force_models()) {
         if (model.name == name) return std::move(model);
         known += (known.empty() ? "" : ", ") + model.name;
     }
     throw std::invalid_argument("unknown force model '" + name + "'; choose one of " + known);
 }
 
-std::unique_ptr<ContactModel> make_contact_model(const std::string& name, Bone bone, std::vector<Burr> burrs,
-                                                 const std::vector<Tissue>& tissues) {
+std::unique_ptr<ForceModel> make_force_model(const std::string& name, Bone bone, std::vector<Burr> burrs,
+                                             const std::vector<Tissue>& tissues) {
     const auto milling = [&](const MillingSettings& settings) {
         return std::make_unique<MillingModel>(std::move(bone), std::move(burrs), tissues, settings);
     };
@@ -48,14 +48,14 @@ std::unique_ptr<ContactModel> make_contact_model(const std::string& name, Bone b
         return std::make_unique<ErodingModel>(std::move(bone), std::move(burrs), tissues, std::move(law));
     };
     if (name == "milling") return milling({});
-    if (name == "milling-partial") return milling({.edges = VoxelEdges::partial});
+    if (name == "milling-partial") return milling({.coverage = VoxelCoverage::linear});
     if (name == "milling-bins") return milling({.summation = ForceSummation::bins});
     if (name == "milling-instants") return milling({.summation = ForceSummation::instants});
     if (name == "point-spring") return eroding(std::make_unique<PointSpring>());
     if (name == "petersik") return eroding(std::make_unique<PetersikProbe>());
     if (name == "morris") return eroding(std::make_unique<VoxelTool>());
     if (name == "agus") return eroding(std::make_unique<HertzContact>());
-    (void)force_model(name);  // throws
+    (void)find_force_model(name);  // throws
     throw std::logic_error("force model '" + name + "' is listed but not made");
 }
 

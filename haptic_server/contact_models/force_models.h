@@ -6,11 +6,11 @@
 #include <vector>
 
 #include "common/scene/scene.h"
-#include "haptic_server/contact_models/contact_model.h"
+#include "haptic_server/contact_models/force_model.h"
 
 namespace osteomill {
 
-struct ForceModel {
+struct ForceModelEntry {
     std::string name;
     std::string description;  ///< a few words for --help
     /// It mills: its results carry an engagement and a cutting law, against which a coupling can solve, and
@@ -20,15 +20,15 @@ struct ForceModel {
 };
 
 /// In the order of --help; the first is the default.
-std::vector<ForceModel> force_models();
+std::vector<ForceModelEntry> force_models();
 std::vector<std::string> force_model_names();
 
 /// Throws std::invalid_argument for an unknown name, listing the known ones.
-ForceModel force_model(const std::string& name);
+ForceModelEntry find_force_model(const std::string& name);
 
 /// `burrs` and `tissues` as in the scene. Throws std::invalid_argument for an unknown name, listing the known
 /// ones, and for what the model refuses.
-std::unique_ptr<ContactModel> make_contact_model(const std::string& name, Bone bone, std::vector<Burr> burrs,
-                                                 const std::vector<Tissue>& tissues);
+std::unique_ptr<ForceModel> make_force_model(const std::string& name, Bone bone, std::vector<Burr> burrs,
+                                             const std::vector<Tissue>& tissues);
 
 }  // namespace osteomill

@@ -9,7 +9,7 @@
 #include "haptic_server/carving/carve.h"
 #include "haptic_server/carving/crescent_rows.h"
 #include "haptic_server/contact_models/usable_burr.h"
-#include "haptic_server/cutting_force/cutting_force.h"
+#include "haptic_server/cutting_force/mean_force.h"
 #include "haptic_server/cutting_force/stiffness_weights.h"
 
 namespace osteomill {
@@ -18,16 +18,16 @@ static_assert(most_voxels_across_burr <= 2.0 * CrescentRows::largest_radius_voxe
 
 namespace {
 
-/// Directions are taken from the middle of a stretch of the way: the force of a stretch as long as the burr's
+/// Directions are taken from the middle of a substep: the force of one as long as the burr's
 /// radius would be 10 % off, that of an eighth of it 0.2 %.
-constexpr double longest_stretch_radii = 0.125;
-/// At 10 kHz a burr moves by less than one of a voxel's 255 steps at a time. Below five of them, and for no
+constexpr double longest_substep_radii = 0.125;
+/// At 10 kHz a burr moves by less than one of a voxel's 255 levels at a time. Below five of them, and for no
 /// longer than a haptic tick, milling waits: the bone comes out the same and so does the mean force.
-constexpr double shortest_way_voxels = 0.02;
+constexpr double shortest_path_voxels = 0.02;
 constexpr double longest_wait_s = 0.001 - 1e-7;
 
 /// Nobody feels the direction of a step that crosses the whole bone.
-constexpr double most_stretches = 64.0;
+constexpr double most_substeps = 64.0;
 
 /// Weighs each removed voxel by its stiffness, enters it into the account and hands it to the force.
 template <typename Force>
@@ -45,12 +45,12 @@ class ForceOfRemoved final : public RemovalSink {
   private:
     void enter(const RemovedVoxels& removed) noexcept {
         if (content_.tissue.empty()) {
-            account_.take(0, removed.lost_codes());
+            account_.take(0, removed.lost_levels());
             return;
         }
         for (std::size_t i = 0; i < removed.count; ++i)
             account_.take(content_.tissue_in(removed.slot[i], static_cast<std::size_t>(removed.offset[i])),
-                          static_cast<double>(removed.codes[i]));
+                          static_cast<double>(removed.levels[i]));
     }
 
     const BoneContent& content_;
@@ -82,7 +82,7 @@ void MillingModel::carve_and_sum(const Sweep& sweep, double share, EditSink& edi
                                  MillingResult& result) noexcept {
     ForceOfRemoved removed(bone_.content(), account_, force);
     carve(bone_, sweep, carved_at_position_ ? CarveHistory::carved_at_from : CarveHistory::none,
-          {.edges = settings_.edges, .instructions = settings_.instructions}, edits, removed);
+          {.edges = settings_.coverage, .instructions = settings_.instructions}, edits, removed);
     result.force_n += share * force.force_n();
 }
 
@@ -95,7 +95,7 @@ void MillingModel::cut(const BurrCommand& command, const glm::dvec3& to_mm, doub
     const CuttingStep cutting(burr, command.pose.spindle_axis, 0.5 * (sweep.from + sweep.to), grid.spacing_mm,
                               share * since_milled_s_);
     if (settings_.summation == ForceSummation::voxels) {
-        CuttingForce force(cutting, settings_.instructions);
+        MeanForce force(cutting, settings_.instructions);
         carve_and_sum(sweep, share, edits, force, result);
     } else if (settings_.summation == ForceSummation::bins) {
         chips_.begin_step(burr, cutting);
@@ -110,9 +110,9 @@ void MillingModel::cut(const BurrCommand& command, const glm::dvec3& to_mm, doub
 }
 
 bool MillingModel::can_wait(const BurrCommand& command) const noexcept {
-    const double way_voxels = glm::length(command.pose.position_mm - position_mm_) / bone_.grid().spacing_mm;
+    const double path_voxels = glm::length(command.pose.position_mm - position_mm_) / bone_.grid().spacing_mm;
     return carved_at_position_ && !command.wants_engagement && since_milled_s_ < longest_wait_s &&
-           way_voxels < shortest_way_voxels;
+           path_voxels < shortest_path_voxels;
 }
 
 void MillingModel::mill(const BurrCommand& command, EditSink& edits, MillingResult& result) noexcept {
@@ -127,12 +127,12 @@ void MillingModel::mill(const BurrCommand& command, EditSink& edits, MillingResu
     }
     const bool is_first = !carved_at_position_;
     const glm::dvec3 from_mm = position_mm_;
-    const glm::dvec3 way_mm = command.pose.position_mm - from_mm;
-    const double longest_mm = longest_stretch_radii * burrs_[burr_].radius_mm();
-    const double stretches = std::clamp(std::ceil(glm::length(way_mm) / longest_mm), 1.0, most_stretches);
-    for (double i = 1.0; i <= stretches; i += 1.0) {
-        const bool is_last = i == stretches;
-        cut(command, is_last ? command.pose.position_mm : from_mm + way_mm * (i / stretches), 1.0 / stretches,
+    const glm::dvec3 path_mm = command.pose.position_mm - from_mm;
+    const double longest_mm = longest_substep_radii * burrs_[burr_].radius_mm();
+    const double substeps = std::clamp(std::ceil(glm::length(path_mm) / longest_mm), 1.0, most_substeps);
+    for (double i = 1.0; i <= substeps; i += 1.0) {
+        const bool is_last = i == substeps;
+        cut(command, is_last ? command.pose.position_mm : from_mm + path_mm * (i / substeps), 1.0 / substeps,
             edits, result);
     }
     // A spindle that starts within bone clears a whole ball at once, which no later step does again.

@@ -9,15 +9,15 @@
 #include "common/bone/bone.h"
 #include "common/bone/edit.h"
 #include "common/scene/scene.h"
-#include "haptic_server/contact_models/contact_model.h"
+#include "haptic_server/contact_models/force_model.h"
 #include "haptic_server/contact_models/milling_settings.h"
 #include "haptic_server/contact_models/removal_account.h"
-#include "haptic_server/cutting_force/tooth_force.h"
+#include "haptic_server/cutting_force/instantaneous_force.h"
 #include "haptic_server/exchange/milling_step.h"
 
 namespace osteomill {
 
-class MillingModel final : public ContactModel {
+class MillingModel final : public ForceModel {
   public:
     /// `burrs` and `tissues` as in the scene. Throws std::invalid_argument for an empty burr set, a burr
     /// whose values are not finite and positive or that is more than 500 voxels across, and settings out of
@@ -34,16 +34,16 @@ class MillingModel final : public ContactModel {
 
     const Bone& bone() const override { return bone_; }
     const RemovedByTissue& removed_mm3() const override { return account_.removed_mm3(); }
-    double edge_smoothing_voxels() const override { return smoothing_voxels(settings_.edges); }
+    double edge_smoothing_voxels() const override { return smoothing_voxels(settings_.coverage); }
 
   private:
-    /// Whether so little lies between position_mm_ and the command's place that it can wait for the next
+    /// Whether so little lies between position_mm_ and the command's position that it can wait for the next
     /// step.
     bool can_wait(const BurrCommand& command) const noexcept;
-    /// From position_mm_ to the command's place, in stretches.
+    /// From position_mm_ to the command's position, in substeps.
     void mill(const BurrCommand& command, EditSink& edits, MillingResult& result) noexcept;
-    /// One stretch, from position_mm_ to `to_mm`, which becomes position_mm_; adds to `result`, force weighed
-    /// by `share` of the way.
+    /// One substep, from position_mm_ to `to_mm`, which becomes position_mm_; adds to `result`, force weighed
+    /// by `share` of the path.
     void cut(const BurrCommand& command, const glm::dvec3& to_mm, double share, EditSink& edits,
              MillingResult& result) noexcept;
     template <typename Force>
@@ -54,8 +54,8 @@ class MillingModel final : public ContactModel {
     std::vector<Burr> burrs_;
     std::vector<EngagementProbe> probes_;  // by burr
     MillingSettings settings_;
-    ChipMap chips_;
-    ToothForce tooth_;
+    BinnedForce chips_;
+    InstantaneousForce tooth_;
     RemovalAccount account_;
 
     bool has_position_ = false;        // position_mm_ holds where the burr last milled, or was
@@ -63,7 +63,7 @@ class MillingModel final : public ContactModel {
     glm::dvec3 position_mm_{0.0};
     std::size_t burr_ = 0;
     double since_milled_s_ = 0.0;
-    glm::dvec3 milled_force_n_{0.0};  // of the way that was last milled
+    glm::dvec3 milled_force_n_{0.0};  // of the path that was last milled
 };
 
 }  // namespace osteomill

@@ -1,24 +1,24 @@
 // How the milling model carves and sums: what --force-model chooses, and what studies vary.
 #pragma once
 
-#include "haptic_server/carving/cover.h"
 #include "haptic_server/carving/instruction_set.h"
-#include "haptic_server/cutting_force/chip_map.h"
+#include "haptic_server/carving/voxel_coverage.h"
+#include "haptic_server/cutting_force/binned_force.h"
 
 namespace osteomill {
 
 /// How the force is summed over the bone that a step removed.
 enum class ForceSummation {
-    voxels,   ///< the mean over the step, directly over voxels (cutting_force.h)
-    bins,     ///< the same over bins [psi, z], as published (chip_map.h)
-    instants  ///< within the tooth period (tooth_force.h)
+    voxels,   ///< the mean over the step, directly over voxels (mean_force.h)
+    bins,     ///< the same over bins [psi, z], as published (binned_force.h)
+    instants  ///< within the tooth period (instantaneous_force.h)
 };
 
 struct MillingSettings {
     ForceSummation summation = ForceSummation::voxels;
     ChipBins bins{};              ///< of ForceSummation::bins
     int instants_per_tooth = 20;  ///< of ForceSummation::instants
-    VoxelEdges edges = VoxelEdges::soft;
+    VoxelCoverage edges = VoxelCoverage::smoothed;
     InstructionSet instructions = best_instruction_set();
 };
 

@@ -30,7 +30,7 @@ PetersikProbe::PetersikProbe(const PetersikSettings& settings) : settings_(setti
 ContactReaction PetersikProbe::react(const BurrContact& contact) noexcept {
     ContactReaction reaction{.erosion_per_s = settings_.erosion_per_s};
     const double radius = contact.radius_voxels;
-    const glm::vec3 centre = contact.place(contact.centre_voxels);
+    const glm::vec3 centre = contact.in_bricks(contact.centre_voxels);
     const auto point = [&](const glm::dvec3& normal) { return centre + glm::vec3(radius * normal); };
 
     immersed_.clear();

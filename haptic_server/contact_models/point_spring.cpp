@@ -48,9 +48,9 @@ ContactReaction PointSpring::react(const BurrContact& contact) noexcept {
     const glm::dvec3 to_centre = distance > 0.0 ? -nearest.from_centre / distance : glm::dvec3(0.0, 0.0, 1.0);
     const glm::dvec3 voxel = contact.centre_voxels + nearest.from_centre;
     const double within = static_cast<double>(length_in_bone(
-        contact.bricks, contact.place(voxel), glm::vec3(to_centre), static_cast<float>(distance)));
+        contact.bricks, contact.in_bricks(voxel), glm::vec3(to_centre), static_cast<float>(distance)));
     const glm::dvec3 surface = voxel + within * to_centre;
-    const glm::dvec3 normal = outward_normal(contact.bricks, contact.place(surface));
+    const glm::dvec3 normal = outward_normal(contact.bricks, contact.in_bricks(surface));
     const double depth_voxels = contact.radius_voxels - glm::dot(contact.centre_voxels - surface, normal);
     if (depth_voxels > 0.0)
         reaction.force_n = settings_.stiffness_n_per_mm * depth_voxels * contact.spacing_mm() * normal;

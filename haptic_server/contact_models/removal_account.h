@@ -17,13 +17,13 @@ class RemovalAccount {
   public:
     /// For a bone whose voxels are as large as `grid` says, in a scene with these tissues.
     RemovalAccount(const Grid& grid, const std::vector<Tissue>& tissues)
-        : mm3_per_code_(voxel_volume_mm3(grid) / 255.0) {
+        : mm3_per_level_(voxel_volume_mm3(grid) / 255.0) {
         for (const Tissue& tissue : tissues) protected_[tissue.label] = tissue.is_protected;
     }
 
     /// Numbers the step and empties `result` of what the last one left there. Real-time safe.
     void begin_step(double time_s, MillingResult& result) noexcept {
-        step_codes_ = 0.0;
+        step_levels_ = 0.0;
         step_touches_protected_ = false;
         result.step = ++step_;
         result.time_s = time_s;
@@ -35,16 +35,16 @@ class RemovalAccount {
         result.engagement.count = 0;
     }
 
-    /// Bone of a tissue lost `codes` of a voxel's 255. Real-time safe.
-    void take(std::uint8_t tissue, double codes) noexcept {
-        step_codes_ += codes;
-        removed_mm3_[tissue] += codes * mm3_per_code_;
+    /// Bone of a tissue lost `levels` of a voxel's 255. Real-time safe.
+    void take(std::uint8_t tissue, double levels) noexcept {
+        step_levels_ += levels;
+        removed_mm3_[tissue] += levels * mm3_per_level_;
         step_touches_protected_ |= protected_[tissue];
     }
 
     /// Enters the step into the total and into `result`, with where the burr now is. Real-time safe.
     void end_step(const BurrCommand& command, MillingResult& result) noexcept {
-        result.removed_mm3 = step_codes_ * mm3_per_code_;
+        result.removed_mm3 = step_levels_ * mm3_per_level_;
         total_removed_mm3_ += result.removed_mm3;
         result.total_removed_mm3 = total_removed_mm3_;
         result.touches_protected = step_touches_protected_;
@@ -56,12 +56,12 @@ class RemovalAccount {
     const RemovedByTissue& removed_mm3() const { return removed_mm3_; }
 
   private:
-    double mm3_per_code_;
+    double mm3_per_level_;
     std::array<bool, 256> protected_{};
     RemovedByTissue removed_mm3_{};
     double total_removed_mm3_ = 0.0;
     std::uint64_t step_ = 0;
-    double step_codes_ = 0.0;
+    double step_levels_ = 0.0;
     bool step_touches_protected_ = false;
 };
 

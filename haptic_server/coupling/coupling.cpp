@@ -63,8 +63,8 @@ std::optional<Composition> composition(const std::string& name) {
 
 }  // namespace
 
-std::vector<CouplingMethod> coupling_methods() {
-    std::vector<CouplingMethod> methods{
+std::vector<CouplingEntry> couplings() {
+    std::vector<CouplingEntry> methods{
         {.name = "implicit",
          .description = "a burr on a spring, solved with the milling force at the tick's end",
          .needs_cutting_law = true}};
@@ -82,7 +82,7 @@ std::vector<CouplingMethod> coupling_methods() {
 
 std::vector<std::string> coupling_names() {
     std::vector<std::string> names;
-    for (const CouplingMethod& method : coupling_methods()) names.push_back(method.name);
+    for (const CouplingEntry& method : couplings()) names.push_back(method.name);
     return names;
 }
 
@@ -92,8 +92,8 @@ std::string coupling_choices() {
     return choices + "or one that holds or interpolates followed by +damper or +passivity";
 }
 
-CouplingMethod coupling_method(const std::string& name) {
-    for (const CouplingMethod& method : coupling_methods())
+CouplingEntry find_coupling(const std::string& name) {
+    for (const CouplingEntry& method : couplings())
         if (method.name == name) return method;
     if (const auto parts = composition(name))
         return {.name = name,
@@ -103,7 +103,7 @@ CouplingMethod coupling_method(const std::string& name) {
 }
 
 std::unique_ptr<Coupling> make_coupling(const std::string& name, const CouplingOptions& options) {
-    if (coupling_method(name).needs_cutting_law && options.model_holds_wall)
+    if (find_coupling(name).needs_cutting_law && options.model_holds_wall)
         throw std::invalid_argument("the " + name +
                                     " coupling solves a cutting law, and the force model has none; choose "
                                     "another, such as interpolate");

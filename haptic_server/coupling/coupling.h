@@ -49,7 +49,7 @@ struct CouplingOptions {
     bool model_holds_wall = false;
 };
 
-struct CouplingMethod {
+struct CouplingEntry {
     std::string name;
     std::string description;         ///< a few words for --help
     bool needs_cutting_law = false;  ///< it solves one: not with a force model that has none
@@ -57,7 +57,7 @@ struct CouplingMethod {
 };
 
 /// In the order of --help; the first is the default.
-std::vector<CouplingMethod> coupling_methods();
+std::vector<CouplingEntry> couplings();
 std::vector<std::string> coupling_names();
 
 /// What --coupling takes, in one line: the names, and how those of direct_coupling.h are combined with a
@@ -65,7 +65,7 @@ std::vector<std::string> coupling_names();
 std::string coupling_choices();
 
 /// Of a name or a combination. Throws std::invalid_argument with the choices for what is neither.
-CouplingMethod coupling_method(const std::string& name);
+CouplingEntry find_coupling(const std::string& name);
 
 /// Throws as coupling_method does, and std::invalid_argument for a coupling that needs a cutting law with a
 /// model that has none.

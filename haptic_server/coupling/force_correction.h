@@ -32,7 +32,7 @@ class ForceCorrection {
     }
 
     /// The milling model's mean force over its step that ended at `time_s` (session time), for the bone
-    /// removed on the proxy's way since the last call; `axis` is the spindle (unit), patient axes. The first
+    /// removed on the proxy's path since the last call; `axis` is the spindle (unit), patient axes. The first
     /// call after a reset only tells when the next step began. Real-time safe.
     void compare(const glm::dvec3& model_n, double time_s, const glm::dvec3& axis) noexcept {
         const double step_s = time_s - time_s_;

@@ -6,7 +6,7 @@
 //     x^ = p + d,  v^ += b d / dt         (an alpha-beta filter with a dead zone)
 //
 // Within a cell nothing is proven, and the estimate is drawn to its middle, from which it strays by no more
-// than v^ tau. Left at the edge where the last motion brought it, it would have to leap a whole step when the
+// than v^ tau. Left at the edge where the last motion brought it, it would have to jump a whole step when the
 // hand leaves by the other one.
 //
 // A steadily moving hand reads as a staircase; rendered by a spring of 1.5 N/mm each step of 0.055 mm would

@@ -4,14 +4,14 @@
 #include <numbers>
 
 #include "common/scene/burr_frame.h"
-#include "haptic_server/carving/lanes.h"
-#include "haptic_server/cutting_force/axis_means.h"
+#include "haptic_server/carving/simd.h"
+#include "haptic_server/cutting_force/axis_singularity_kernel.h"
 
 namespace osteomill {
 
 namespace {
 
-using lanes::Floats;
+using simd::Floats;
 
 /// Inputs of the loop as plain floats: nothing in it may alias.
 struct Constants {
@@ -42,17 +42,17 @@ Constants constants(const CuttingStep& step, const glm::ivec3& base) {
             step.coefficients.z};
 }
 
-/// Eight places in burr axes.
-struct EightPlaces {
+/// Eight positions in burr axes.
+struct EightPositions {
     Floats x, y, z;
 };
 
 /// Of the voxels at (*vx, *vy, *vz) and the seven that follow.
-[[gnu::always_inline]] inline EightPlaces places_of(const Constants& c, const float* vx, const float* vy,
-                                                    const float* vz) {
-    const Floats wx = lanes::load<Floats>(vx) - c.middle_x;
-    const Floats wy = lanes::load<Floats>(vy) - c.middle_y;
-    const Floats wz = lanes::load<Floats>(vz) - c.middle_z;
+[[gnu::always_inline]] inline EightPositions positions_of(const Constants& c, const float* vx,
+                                                          const float* vy, const float* vz) {
+    const Floats wx = simd::load<Floats>(vx) - c.middle_x;
+    const Floats wy = simd::load<Floats>(vy) - c.middle_y;
+    const Floats wz = simd::load<Floats>(vz) - c.middle_z;
     return {c.xx * wx + c.xy * wy + c.xz * wz, c.yx * wx + c.yy * wy + c.yz * wz,
             c.zx * wx + c.zy * wy + c.zz * wz};
 }
@@ -63,23 +63,23 @@ struct EightForces {
     Floats force_x, force_y, force_z;
 };
 
-[[gnu::always_inline]] inline EightForces forces_of(const Constants& c, const EightPlaces& places,
+[[gnu::always_inline]] inline EightForces forces_of(const Constants& c, const EightPositions& positions,
                                                     const Floats& weight) {
-    const Floats& x = places.x;
-    const Floats& y = places.y;
-    const Floats& z = places.z;
+    const Floats& x = positions.x;
+    const Floats& y = positions.y;
+    const Floats& z = positions.z;
     const Floats r_squared = x * x + y * y;
     const Floats distance_squared = r_squared + z * z;
     // No voxel of a crescent is that near the centre; padding may be.
     const Floats distance =
-        lanes::square_root(distance_squared < 0.25f ? lanes::floats(0.25f) : distance_squared);
-    const Floats r = lanes::square_root(r_squared < 0.01f ? lanes::floats(0.01f) : r_squared);
+        simd::square_root(distance_squared < 0.25f ? simd::floats(0.25f) : distance_squared);
+    const Floats r = simd::square_root(r_squared < 0.01f ? simd::floats(0.01f) : r_squared);
     const Floats per_both = 1.0f / (distance * r);  // one division for two
     const Floats per_distance = per_both * r;
     const Floats cos_kappa = -z * per_distance;
     const Floats per_r = per_both * distance;
-    const bool any_near = lanes::any(r_squared < axis_disc_voxels * axis_disc_voxels);  // few are
-    const AxisMeans<Floats> mean = any_near ? axis_means(r_squared, per_r) : far_axis_means(per_r);
+    const bool any_near = simd::any(r_squared < axis_disc_voxels * axis_disc_voxels);  // few are
+    const AxisKernel<Floats> mean = any_near ? axis_kernel(r_squared, per_r) : far_axis_kernel(per_r);
 
     const Floats swirl = weight * mean.swirl;
     const Floats outward = c.axial * cos_kappa * swirl + c.radial * per_distance * weight * mean.outward;
@@ -95,15 +95,15 @@ struct EightForces {
                                              const float* vy, const float* vz, const float* weights,
                                              ChipForces& out) {
     const Constants c = constants;
-    for (std::size_t i = 0; i < count; i += lanes::width) {
+    for (std::size_t i = 0; i < count; i += simd::width) {
         const EightForces f =
-            forces_of(c, places_of(c, vx + i, vy + i, vz + i), lanes::load<Floats>(weights + i));
-        lanes::store(&out.x[i], f.x);
-        lanes::store(&out.y[i], f.y);
-        lanes::store(&out.z[i], f.z);
-        lanes::store(&out.force_x[i], f.force_x);
-        lanes::store(&out.force_y[i], f.force_y);
-        lanes::store(&out.force_z[i], f.force_z);
+            forces_of(c, positions_of(c, vx + i, vy + i, vz + i), simd::load<Floats>(weights + i));
+        simd::store(&out.x[i], f.x);
+        simd::store(&out.y[i], f.y);
+        simd::store(&out.z[i], f.z);
+        simd::store(&out.force_x[i], f.force_x);
+        simd::store(&out.force_y[i], f.force_y);
+        simd::store(&out.force_z[i], f.force_z);
     }
 }
 
@@ -114,14 +114,14 @@ struct EightForces {
     Floats x{};
     Floats y{};
     Floats z{};
-    for (std::size_t i = 0; i < count; i += lanes::width) {
+    for (std::size_t i = 0; i < count; i += simd::width) {
         const EightForces f =
-            forces_of(c, places_of(c, vx + i, vy + i, vz + i), lanes::load<Floats>(weights + i));
+            forces_of(c, positions_of(c, vx + i, vy + i, vz + i), simd::load<Floats>(weights + i));
         x += f.force_x;
         y += f.force_y;
         z += f.force_z;
     }
-    return {lanes::sum(x), lanes::sum(y), lanes::sum(z)};
+    return {simd::sum(x), simd::sum(y), simd::sum(z)};
 }
 
 #if defined(__x86_64__)

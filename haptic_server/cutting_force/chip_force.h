@@ -13,11 +13,11 @@
 //
 // A voxel of the crescent is up to a voxel off the burr's surface. Its force is taken where it is, at a
 // distance d from the burr's centre: r = d sin kappa. What a shell loses goes with d^2 and the force with 1 /
-// d, so that the mean over the ramp of cover.h, in which d is R on the mean, is that of the surface; voxels
-// moved there first, to r = R sin kappa, would add up to too much by the ramp's variance over R^2, 0.5 % for
-// a burr of ten voxels. With K_r n + K_a e_kappa written out, sin kappa / r = 1 / d leaves only e_psi / r,
-// e_r / r, e_r and 1 / r that vary quickly near the spindle's axis: of these the means of axis_means.h are
-// taken.
+// d, so that the mean over the ramp of voxel_coverage.h, in which d is R on the mean, is that of the surface;
+// voxels moved there first, to r = R sin kappa, would add up to too much by the ramp's variance over R^2, 0.5
+// % for a burr of ten voxels. With K_r n + K_a e_kappa written out, sin kappa / r = 1 / d leaves only e_psi /
+// r, e_r / r, e_r and 1 / r that vary quickly near the spindle's axis: of these the means of
+// axis_singularity_kernel.h are taken.
 #pragma once
 
 #include <array>

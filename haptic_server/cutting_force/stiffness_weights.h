@@ -15,14 +15,14 @@ inline void weigh_by_stiffness(const BoneContent& content, const RemovedVoxels& 
                                std::span<float> weights) noexcept {
     if (content.stiffness.empty()) {
         const auto per_code = static_cast<float>(content.homogeneous_stiffness / 255.0);
-        for (std::size_t i = 0; i < removed.padded_count(); ++i) weights[i] = per_code * removed.codes[i];
+        for (std::size_t i = 0; i < removed.padded_count(); ++i) weights[i] = per_code * removed.levels[i];
         return;
     }
     const auto per_code = static_cast<float>(content.stiffness_per_code / 255.0);
     for (std::size_t i = 0; i < removed.count; ++i) {
         const ByteBrick& stiffness = content.stiffness[static_cast<std::size_t>(removed.slot[i])];
         weights[i] = per_code * static_cast<float>(stiffness[static_cast<std::size_t>(removed.offset[i])]) *
-                     removed.codes[i];
+                     removed.levels[i];
     }
     for (std::size_t i = removed.count; i < removed.padded_count(); ++i) weights[i] = 0.0f;
 }

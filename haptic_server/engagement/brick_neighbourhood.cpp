@@ -32,22 +32,23 @@ bool BrickNeighbourhood::gather(const Bone& bone, const glm::dvec3& centre_voxel
                 const glm::ivec3 brick(x, y, z);
                 const bool exists = x >= 0 && y >= 0 && z >= 0 && x < size.x && y < size.y && z < size.z;
                 const std::int32_t slot = exists ? bone.slot(brick) : BoneContent::no_slot;
-                const glm::ivec3 place = brick - first_brick;
-                slots_[static_cast<std::size_t>(place.x + edge_ * (place.y + edge_ * place.z))] = slot;
+                const glm::ivec3 position = brick - first_brick;
+                slots_[static_cast<std::size_t>(position.x + edge_ * (position.y + edge_ * position.z))] =
+                    slot;
                 any |= slot != BoneContent::no_slot;
             }
     return any;
 }
 
-double BrickNeighbourhood::stiffness(const glm::vec3& place) const {
-    const glm::ivec3 nearest(place + 0.5f);
+double BrickNeighbourhood::stiffness(const glm::vec3& position) const {
+    const glm::ivec3 nearest(position + 0.5f);
     const std::int32_t at = slot(nearest);
     return at == BoneContent::no_slot ? 0.0 : bone_->content().stiffness_in(at, offset_in_brick(nearest));
 }
 
-float BrickNeighbourhood::fraction(const glm::vec3& place) const {
-    const glm::ivec3 first(place);
-    const glm::vec3 w = place - glm::vec3(first);
+float BrickNeighbourhood::fraction(const glm::vec3& position) const {
+    const glm::ivec3 first(position);
+    const glm::vec3 w = position - glm::vec3(first);
     const std::uint64_t bytes = corners(first);
     std::array<float, 8> c;
     for (std::size_t i = 0; i < c.size(); ++i) c[i] = static_cast<float>(bytes >> (8 * i) & 255u);
@@ -56,18 +57,18 @@ float BrickNeighbourhood::fraction(const glm::vec3& place) const {
 
 std::uint64_t BrickNeighbourhood::corners_across_bricks(const glm::ivec3& first) const {
     const bool within_x = (first.x & 15) != 15;
-    const auto byte_at = [&](const glm::ivec3& place) -> std::uint64_t {
-        const std::int32_t at = slot(place);
-        return at == BoneContent::no_slot ? 0 : bone_->fractions(at)[offset_in_brick(place)];
+    const auto byte_at = [&](const glm::ivec3& position) -> std::uint64_t {
+        const std::int32_t at = slot(position);
+        return at == BoneContent::no_slot ? 0 : bone_->fractions(at)[offset_in_brick(position)];
     };
     std::uint64_t bytes = 0;
     for (int i = 0; i < 4; ++i) {
-        const glm::ivec3 place = first + glm::ivec3(0, i & 1, i >> 1);
+        const glm::ivec3 position = first + glm::ivec3(0, i & 1, i >> 1);
         std::uint64_t pair = 0;
         if (!within_x) {
-            pair = byte_at(place) | byte_at(place + glm::ivec3(1, 0, 0)) << 8;
-        } else if (const std::int32_t at = slot(place); at != BoneContent::no_slot) {
-            pair = detail::pair_at(bone_->fractions(at).data() + offset_in_brick(place));
+            pair = byte_at(position) | byte_at(position + glm::ivec3(1, 0, 0)) << 8;
+        } else if (const std::int32_t at = slot(position); at != BoneContent::no_slot) {
+            pair = detail::pair_at(bone_->fractions(at).data() + offset_in_brick(position));
         }
         bytes |= pair << (16 * i);
     }

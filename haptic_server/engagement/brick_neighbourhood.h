@@ -25,25 +25,25 @@ class BrickNeighbourhood {
     /// asked. `bone` must outlive the questions. Real-time safe.
     bool gather(const Bone& bone, const glm::dvec3& centre_voxels, double radius_voxels) noexcept;
 
-    /// Voxel that places are counted from: the corner of the first brick, which may lie outside the grid.
+    /// Voxel that positions are counted from: the corner of the first brick, which may lie outside the grid.
     const glm::ivec3& base() const { return base_; }
 
     /// Slot of the brick that holds a voxel of the ball, or BoneContent::no_slot.
-    std::int32_t slot(const glm::ivec3& place) const {
-        return slots_[static_cast<std::size_t>((place.x >> 4) +
-                                               edge_ * ((place.y >> 4) + edge_ * (place.z >> 4)))];
+    std::int32_t slot(const glm::ivec3& position) const {
+        return slots_[static_cast<std::size_t>((position.x >> 4) +
+                                               edge_ * ((position.y >> 4) + edge_ * (position.z >> 4)))];
     }
 
     /// Fractions of a voxel within the ball and of its seven neighbours beyond it, a byte each: first along
     /// x, then y, then z, the first lowest.
     std::uint64_t corners(const glm::ivec3& first) const;
 
-    /// Fraction, 0 to 255, trilinear between the centres of voxels, at a place within the ball.
-    float fraction(const glm::vec3& place) const;
+    /// Fraction, 0 to 255, trilinear between the centres of voxels, at a position within the ball.
+    float fraction(const glm::vec3& position) const;
 
-    /// Relative stiffness of the bone of the voxel nearest to a place within the ball; 0 where no brick is
+    /// Relative stiffness of the bone of the voxel nearest to a position within the ball; 0 where no brick is
     /// stored.
-    double stiffness(const glm::vec3& place) const;
+    double stiffness(const glm::vec3& position) const;
 
   private:
     std::uint64_t corners_across_bricks(const glm::ivec3& first) const;
@@ -56,8 +56,8 @@ class BrickNeighbourhood {
 
 namespace detail {
 
-/// Between the corners of a cube in the order x, y, z, weighed by the place within it; `Real` is a number or
-/// a vector of numbers.
+/// Between the corners of a cube in the order x, y, z, weighed by the position within it; `Real` is a number
+/// or a vector of numbers.
 template <typename Real>
 [[gnu::always_inline]] inline Real trilinear(const std::array<Real, 8>& c, const Real& wx, const Real& wy,
                                              const Real& wz) {

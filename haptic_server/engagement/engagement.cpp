@@ -9,7 +9,7 @@
 #include <numbers>
 
 #include "common/scene/burr_frame.h"
-#include "haptic_server/cutting_force/axis_means.h"
+#include "haptic_server/cutting_force/axis_singularity_kernel.h"
 
 namespace osteomill {
 
@@ -17,19 +17,19 @@ namespace {
 
 /// Interleaves the bits of a direction's eighths, so that neighbours in the list are neighbours on the
 /// sphere.
-unsigned place_on_sphere(const glm::dvec3& normal) {
+unsigned order_on_sphere(const glm::dvec3& normal) {
     const glm::uvec3 eighth(glm::min(glm::floor(4.0 * (normal + 1.0)), glm::dvec3(7.0)));
-    unsigned place = 0;
+    unsigned order = 0;
     for (unsigned bit = 0; bit < 3; ++bit)
-        place |= (eighth.x >> bit & 1u) << (3 * bit) | (eighth.y >> bit & 1u) << (3 * bit + 1) |
+        order |= (eighth.x >> bit & 1u) << (3 * bit) | (eighth.y >> bit & 1u) << (3 * bit + 1) |
                  (eighth.z >> bit & 1u) << (3 * bit + 2);
-    return place;
+    return order;
 }
 
 /// Where along a patch's normal the bone is looked at, from the burr's surface.
 constexpr std::array<float, 4> offsets_voxels{-static_cast<float>(EngagementProbe::reach_voxels), -0.5f, 0.5f,
                                               static_cast<float>(EngagementProbe::reach_voxels)};
-/// Half of a voxel's 255 steps: the bone's surface.
+/// Half of a voxel's 255 levels: the bone's surface.
 constexpr float half = 127.5f;
 
 }  // namespace
@@ -59,7 +59,7 @@ EngagementProbe::EngagementProbe(const Burr& burr, double spacing_mm)
     }
     // Samples of neighbours read the same bricks.
     std::stable_sort(patches_.begin(), patches_.end(), [](const Patch& a, const Patch& b) {
-        return place_on_sphere(a.normal) < place_on_sphere(b.normal);
+        return order_on_sphere(a.normal) < order_on_sphere(b.normal);
     });
     // Filled up to whole fours with the last one.
     const std::size_t padded = (count + four - 1) / four * four;
@@ -81,17 +81,17 @@ void EngagementProbe::sample(const Bone& bone, const glm::dvec3& position_mm, co
     if (!bricks_.gather(bone, centre, radius + reach_voxels + 1.0)) return;
 
     const glm::dmat3 frame = burr_frame(spindle_axis);
-    const glm::vec3 place_of_centre(centre - glm::dvec3(bricks_.base()));
+    const glm::vec3 centre_in_bricks(centre - glm::dvec3(bricks_.base()));
     const auto radius_voxels = static_cast<float>(radius);
     for (std::size_t first = 0; first < patches_.size(); first += four) {
-        const FourFractions along = sample_four(first, glm::mat3(frame), place_of_centre, radius_voxels);
+        const FourFractions along = sample_four(first, glm::mat3(frame), centre_in_bricks, radius_voxels);
         for (std::size_t lane = 0; lane < four && first + lane < patches_.size(); ++lane) {
             const Crossing crossing = first_crossing(along, lane);
             if (!crossing.found) continue;
             const Patch& patch = patches_[first + lane];
             const glm::dvec3 normal = frame * patch.normal;
             const glm::vec3 outward(normal);
-            const glm::vec3 surface = place_of_centre + radius_voxels * outward;
+            const glm::vec3 surface = centre_in_bricks + radius_voxels * outward;
             // Stiffness one voxel into the bone, where no partial voxel dilutes it.
             double stiffness = bricks_.stiffness(surface + (crossing.offset_voxels + 1.0f) * outward);
             if (stiffness == 0.0)
@@ -119,12 +119,12 @@ EngagementProbe::FourFractions EngagementProbe::sample_four(std::size_t first, c
     }
     FourFractions along;
     for (std::size_t i = 0; i < offsets_voxels.size(); ++i) {
-        std::array<Floats, 3> place;
+        std::array<Floats, 3> position;
         std::array<Ints, 3> voxel;
         for (std::size_t axis = 0; axis < 3; ++axis) {
-            place[axis] = surface[axis] + offsets_voxels[i] * outward[axis];
-            voxel[axis] = __builtin_convertvector(place[axis], Ints);
-            place[axis] -= __builtin_convertvector(voxel[axis], Floats);
+            position[axis] = surface[axis] + offsets_voxels[i] * outward[axis];
+            voxel[axis] = __builtin_convertvector(position[axis], Ints);
+            position[axis] -= __builtin_convertvector(voxel[axis], Floats);
         }
         // The low and the high four corners of each.
         Ints low{};
@@ -145,7 +145,7 @@ EngagementProbe::FourFractions EngagementProbe::sample_four(std::size_t first, c
                 c[static_cast<std::size_t>(corner) + 4] =
                     __builtin_convertvector(high >> (8 * corner) & 255, Floats);
             }
-            fraction = detail::trilinear(c, place[0], place[1], place[2]);
+            fraction = detail::trilinear(c, position[0], position[1], position[2]);
         }
         std::memcpy(along[i].data(), &fraction, sizeof fraction);
         // Farther out than bone nobody looks.

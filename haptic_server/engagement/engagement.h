@@ -60,16 +60,17 @@ class EngagementProbe {
 
     /// Patches are looked at four at a time: a vector that every processor has.
     static constexpr std::size_t four = 4;
-    /// Fractions, 0 to 255, of four patches at each of four places along their normals, from within outward.
+    /// Fractions, 0 to 255, of four patches at each of four positions along their normals, from within
+    /// outward.
     using FourFractions = std::array<std::array<float, four>, 4>;
-    /// Where bone begins: between two such places, the outer of them in bone.
+    /// Where bone begins: between two such positions, the outer of them in bone.
     struct Crossing {
         bool found = false;
         float offset_voxels = 0.0f;
         float bone_offset_voxels = 0.0f;
     };
 
-    /// Patches `first` to `first` + 3; places farther out than bone in all four are not set. `centre` and
+    /// Patches `first` to `first` + 3; positions farther out than bone in all four are not set. `centre` and
     /// the bricks in voxels from the bricks' base.
     FourFractions sample_four(std::size_t first, const glm::mat3& frame, const glm::vec3& centre,
                               float radius_voxels) const noexcept;

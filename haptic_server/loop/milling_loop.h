@@ -7,7 +7,7 @@
 
 #include <algorithm>
 
-#include "haptic_server/contact_models/contact_model.h"
+#include "haptic_server/contact_models/force_model.h"
 #include "haptic_server/exchange/milling_step.h"
 #include "haptic_server/exchange/triple_buffer.h"
 #include "haptic_server/loop/edit_queue.h"
@@ -16,7 +16,7 @@
 namespace osteomill {
 
 struct MillingLoopParts {
-    ContactModel& model;
+    ForceModel& model;
     TripleBuffer<BurrCommand>& commands;   ///< read
     TripleBuffer<MillingResult>& results;  ///< written
     EditQueue& edits;                      ///< written

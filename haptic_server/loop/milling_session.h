@@ -16,7 +16,7 @@
 
 #include "common/bone/bone.h"
 #include "common/scene/scene.h"
-#include "haptic_server/contact_models/contact_model.h"
+#include "haptic_server/contact_models/force_model.h"
 #include "haptic_server/contact_models/force_models.h"
 #include "haptic_server/coupling/coupling.h"
 #include "haptic_server/device/haptic_device.h"
@@ -84,7 +84,7 @@ class MillingSession {
     /// edits in order (each one reader).
     TripleBuffer<ToolSnapshot>& tool() { return tool_; }
     EditQueue& edits() { return edits_; }
-    /// Likewise: what the edits' edges are smoothed over (ContactModel).
+    /// Likewise: what the edits' edges are smoothed over (ForceModel).
     double edge_smoothing_voxels() const { return model_->edge_smoothing_voxels(); }
 
     /// Starts the device, runs until the duration has passed or `stop` is set, stops the device. Calls
@@ -110,7 +110,7 @@ class MillingSession {
     HapticDevice& device_;
     ForceLog* log_;
     MillingLog* milling_log_;
-    std::unique_ptr<ContactModel> model_;
+    std::unique_ptr<ForceModel> model_;
     std::unique_ptr<Coupling> coupling_;
     EditQueue edits_;
     TripleBuffer<MillingResult> results_;

@@ -55,7 +55,7 @@ CLI::Validator a_coupling() {
     return CLI::Validator(
         [](std::string& value) {
             try {
-                (void)coupling_method(value);
+                (void)find_coupling(value);
                 return std::string();
             } catch (const std::invalid_argument& error) {
                 return std::string(error.what());
@@ -72,7 +72,7 @@ std::string default_coupling(bool has_cutting_law) {
 /// A line for each.
 std::string force_model_help() {
     std::string text = "How bone pushes back:";
-    for (const ForceModel& model : force_models())
+    for (const ForceModelEntry& model : force_models())
         text += fmt::format("\n  {}: {}", model.name, model.description);
     return text;
 }
@@ -81,7 +81,7 @@ std::string coupling_help() {
     std::string text = fmt::format(
         "What stands between the model and the hand ({}; {} with a force model that has no cutting law):",
         default_coupling(true), default_coupling(false));
-    for (const CouplingMethod& method : coupling_methods())
+    for (const CouplingEntry& method : couplings())
         text += fmt::format("\n  {}: {}", method.name, method.description);
     return text +
            "\n  BASE+damper, BASE+passivity: the same with another BASE of those that hold or interpolate";
@@ -169,9 +169,9 @@ std::optional<ListenAddress> listen_address(const Typed& typed) {
 }
 
 std::string checked_coupling(const Typed& typed) {
-    const bool has_cutting_law = force_model(typed.force_model).has_cutting_law;
+    const bool has_cutting_law = find_force_model(typed.force_model).has_cutting_law;
     if (typed.coupling.empty()) return default_coupling(has_cutting_law);
-    if (coupling_method(typed.coupling).needs_cutting_law && !has_cutting_law) {
+    if (find_coupling(typed.coupling).needs_cutting_law && !has_cutting_law) {
         throw std::invalid_argument(
             fmt::format("--coupling {}: solves the cutting law, and --force-model {} has none; take "
                         "--coupling {}",
@@ -184,8 +184,8 @@ std::string checked_coupling(const Typed& typed) {
 /// an arm in a light hand holds 0.2 N/mm at 100 Hz, 1.4 N/mm at 1 kHz.
 double default_milling_rate_hz(const MillingSessionOptions& session) {
     const double published_rate_hz = 100.0;
-    const bool is_as_published =
-        coupling_method(session.coupling).is_interpolated && force_model(session.force_model).has_cutting_law;
+    const bool is_as_published = find_coupling(session.coupling).is_interpolated &&
+                                 find_force_model(session.force_model).has_cutting_law;
     return is_as_published ? published_rate_hz : 1.0 / MillingSession::tick_s;
 }
 

@@ -24,7 +24,7 @@ Burr five_millimetres() {
 class NamedModel final : public StudiedModel {
   public:
     NamedModel(const std::string& name, Bone bone, const Burr& burr)
-        : model_(make_contact_model(name, std::move(bone), {burr}, {})) {}
+        : model_(make_force_model(name, std::move(bone), {burr}, {})) {}
 
     StepOutcome step(const BurrCommand& command) override {
         model_->step(command, 0.0, edits_, *result_);
@@ -38,7 +38,7 @@ class NamedModel final : public StudiedModel {
         void push(const EditRun&) noexcept override {}
     };
 
-    std::unique_ptr<ContactModel> model_;
+    std::unique_ptr<ForceModel> model_;
     NoEdits edits_;
     std::unique_ptr<MillingResult> result_ = std::make_unique<MillingResult>();
 };
@@ -79,7 +79,7 @@ double milling_force_n(double depth_mm, double feed_mm_per_s) {
 
 ContactCurves measure_contact(bool quick, const Progress& progress) {
     ContactCurves curves{.feeds_mm_per_s = {2.0, 6.0}};
-    for (const ForceModel& model : force_models())
+    for (const ForceModelEntry& model : force_models())
         if (!model.has_cutting_law) curves.models.push_back(model.name);
     const Bone bone = flat_block();
     const double step_mm = quick ? 0.5 : 0.1;

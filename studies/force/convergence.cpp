@@ -62,10 +62,11 @@ Convergence measure_convergence(const std::vector<StudiedMotion>& motions, bool 
     const int places = quick ? 2 : 4;
     Convergence convergence;
     for (const double voxel_mm : sizes_mm) {
-        convergence.rows.push_back({.voxel_mm = voxel_mm,
-                                    .soft_error = mean_error(motions, voxel_mm, places, voxel_model()),
-                                    .binary_error = mean_error(motions, voxel_mm, places,
-                                                               voxel_model({.edges = VoxelEdges::whole}))});
+        convergence.rows.push_back(
+            {.voxel_mm = voxel_mm,
+             .soft_error = mean_error(motions, voxel_mm, places, voxel_model()),
+             .binary_error =
+                 mean_error(motions, voxel_mm, places, voxel_model({.coverage = VoxelCoverage::binary}))});
         progress(static_cast<double>(convergence.rows.size()) / static_cast<double>(sizes_mm.size()));
     }
     const Columns columns = columns_of(convergence.rows);

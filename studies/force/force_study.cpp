@@ -61,7 +61,7 @@ class ForceStudy {
         const RandomStudyOptions random{.out = options_.out, .count = options_.quick ? 60 : 500};
         found["random"] = measure_random(random, "random", {}, surroundings_);
         found["random_partial"] =
-            measure_random(random, "random_partial", {.edges = VoxelEdges::partial}, surroundings_);
+            measure_random(random, "random_partial", {.coverage = VoxelCoverage::linear}, surroundings_);
         found["pareto"] = pareto();
         found["convergence"] = convergence();
         curves();

@@ -11,7 +11,7 @@
 
 #include "common/scene/burr_frame.h"
 #include "haptic_server/carving/crescent_rows.h"
-#include "haptic_server/cutting_force/cutting_force.h"
+#include "haptic_server/cutting_force/mean_force.h"
 
 namespace osteomill::study {
 
@@ -44,8 +44,8 @@ std::vector<ToolVoxel> tool_voxels(double reach) {
 template <typename Force>
 class MetBone {
   public:
-    MetBone(Bone& bone, const Sweep& sweep, const glm::ivec3& base, VoxelEdges edges, Force& force)
-        : bone_(bone), sweep_(sweep, glm::dvec3(base), edges), force_(force) {
+    MetBone(Bone& bone, const Sweep& sweep, const glm::ivec3& base, VoxelCoverage coverage, Force& force)
+        : bone_(bone), sweep_(sweep, glm::dvec3(base), coverage), force_(force) {
         met_.base = base;
     }
 
@@ -63,24 +63,24 @@ class MetBone {
     void lower() {
         met_.pad();
         const std::size_t padded = met_.padded_count();
-        fractions_left(sweep_, {met_.x.data(), padded}, {met_.y.data(), padded}, {met_.z.data(), padded},
-                       {left_.data(), padded}, InstructionSet::plain);
+        levels_left(sweep_, {met_.x.data(), padded}, {met_.y.data(), padded}, {met_.z.data(), padded},
+                    {left_.data(), padded}, InstructionSet::plain);
         const std::size_t met_count = std::exchange(met_.count, 0);
         for (std::size_t i = 0; i < met_count; ++i) {
             std::uint8_t& fraction = bone_.fractions(met_.slot[i])[static_cast<std::size_t>(met_.offset[i])];
             if (left_[i] >= fraction) continue;
-            const int codes = fraction - left_[i];
+            const int levels = fraction - left_[i];
             fraction = static_cast<std::uint8_t>(left_[i]);
             const std::size_t n = met_.count++;  // never past i: what was removed moves to the front
             met_.x[n] = met_.x[i];
             met_.y[n] = met_.y[i];
             met_.z[n] = met_.z[i];
-            met_.codes[n] = static_cast<float>(codes);
+            met_.levels[n] = static_cast<float>(levels);
             met_.slot[n] = met_.slot[i];
             met_.offset[n] = met_.offset[i];
             const glm::ivec3 voxel = met_.base + glm::ivec3(glm::vec3(met_.x[n], met_.y[n], met_.z[n]));
-            weights_[n] = static_cast<float>(codes / 255.0 * bone_.stiffness_at(voxel));
-            removed_codes_ += codes;
+            weights_[n] = static_cast<float>(levels / 255.0 * bone_.stiffness_at(voxel));
+            removed_levels_ += levels;
         }
         met_.pad();
         for (std::size_t i = met_.count; i < met_.padded_count(); ++i) weights_[i] = 0.0f;
@@ -88,13 +88,13 @@ class MetBone {
         met_.count = 0;
     }
 
-    double removed_codes() const { return removed_codes_; }
+    double removed_levels() const { return removed_levels_; }
 
   private:
     Bone& bone_;
     SweepSeenFrom sweep_;
     Force& force_;
-    double removed_codes_ = 0.0;
+    double removed_levels_ = 0.0;
     RemovedVoxels met_;
     alignas(64) std::array<std::int32_t, RemovedVoxels::capacity> left_;
     alignas(64) std::array<float, RemovedVoxels::capacity> weights_;
@@ -107,7 +107,7 @@ class FullScan final : public StudiedModel {
           burr_(burr),
           settings_(settings),
           radius_voxels_(burr.radius_mm() / bone_.grid().spacing_mm),
-          tool_(tool_voxels(radius_voxels_ + rim_voxels(settings.edges) + 1.0 +
+          tool_(tool_voxels(radius_voxels_ + rim_voxels(settings.coverage) + 1.0 +
                             0.5 * CrescentRows::longest_step_voxels)),
           chips_(settings.bins) {
         if (settings.summation == ForceSummation::instants)
@@ -126,7 +126,7 @@ class FullScan final : public StudiedModel {
                 chips_.begin_step(burr_, cutting);
                 outcome = mill(sweep, cutting, chips_);
             } else {
-                CuttingForce force(cutting, InstructionSet::plain);
+                MeanForce force(cutting, InstructionSet::plain);
                 outcome = mill(sweep, cutting, force);
             }
         }
@@ -145,13 +145,13 @@ class FullScan final : public StudiedModel {
         const glm::dvec3 along = sweep.to - sweep.from;
         const double parts = std::max(1.0, std::ceil(glm::length(along) / CrescentRows::longest_step_voxels));
         glm::dvec3 from = sweep.from;
-        double codes = 0.0;
+        double levels = 0.0;
         for (double part = 1.0; part <= parts; part += 1.0) {
             const glm::dvec3 to = part == parts ? sweep.to : sweep.from + along * (part / parts);
-            codes += scan({from, to, sweep.radius}, cutting, force);
+            levels += scan({from, to, sweep.radius}, cutting, force);
             from = to;
         }
-        return {force.force_n(), codes / 255.0 * voxel_volume_mm3(bone_.grid())};
+        return {force.force_n(), levels / 255.0 * voxel_volume_mm3(bone_.grid())};
     }
 
     template <typename Force>
@@ -159,11 +159,11 @@ class FullScan final : public StudiedModel {
         const glm::dvec3 middle = 0.5 * (sweep.from + sweep.to);
         const glm::ivec3 centre(glm::round(middle));
         const double reach =
-            sweep.radius + rim_voxels(settings_.edges) + 0.5 * glm::length(sweep.to - sweep.from);
+            sweep.radius + rim_voxels(settings_.coverage) + 0.5 * glm::length(sweep.to - sweep.from);
         const double to_centre = glm::length(middle - glm::dvec3(centre));
         const glm::dmat3 into_burr_frame = glm::transpose(cutting.frame);
         const auto base = centre - static_cast<int>(std::ceil(reach)) - 2;
-        MetBone<Force> met(bone_, sweep, base, settings_.edges, force);
+        MetBone<Force> met(bone_, sweep, base, settings_.coverage, force);
         for (const ToolVoxel& tool : tool_) {
             if (tool.distance_voxels > reach + to_centre) break;
             const glm::ivec3 voxel = centre + tool.offset;
@@ -175,7 +175,7 @@ class FullScan final : public StudiedModel {
             met.add(voxel, slot);
         }
         met.lower();
-        return met.removed_codes();
+        return met.removed_levels();
     }
 
     Bone bone_;
@@ -183,7 +183,7 @@ class FullScan final : public StudiedModel {
     MillingSettings settings_;
     double radius_voxels_;
     std::vector<ToolVoxel> tool_;
-    ChipMap chips_;
+    BinnedForce chips_;
     bool has_position_ = false;
     glm::dvec3 position_mm_{0.0};
 };

@@ -30,8 +30,8 @@ std::vector<ParetoSetting> pareto_settings(bool quick) {
     std::vector<ParetoSetting> settings;
     for (const double voxel_mm : {0.4, 0.2, 0.1, 0.05}) {
         const std::string label = millimetres(voxel_mm);
-        const MillingSettings binary{.edges = VoxelEdges::whole};
-        const MillingSettings published{.summation = ForceSummation::bins, .edges = VoxelEdges::whole};
+        const MillingSettings binary{.coverage = VoxelCoverage::binary};
+        const MillingSettings published{.summation = ForceSummation::bins, .coverage = VoxelCoverage::binary};
         settings.push_back({.family = "crescent of soft voxels",
                             .label = label,
                             .make = voxel_model(),
@@ -43,7 +43,7 @@ std::vector<ParetoSetting> pareto_settings(bool quick) {
                             .voxel_mm = voxel_mm});
         settings.push_back({.family = "crescent of partial voxels",
                             .label = label,
-                            .make = voxel_model({.edges = VoxelEdges::partial}),
+                            .make = voxel_model({.coverage = VoxelCoverage::linear}),
                             .voxel_mm = voxel_mm});
         if (quick && voxel_mm < 0.1) continue;
         settings.push_back({.family = "full scan of soft voxels",

@@ -14,7 +14,7 @@ void add_voxel(Force& force, const glm::ivec3& voxel, double weighted_fraction) 
     removed.base = voxel - 3;
     removed.count = 1;
     removed.x[0] = removed.y[0] = removed.z[0] = 3.0f;
-    removed.codes[0] = 1.0f;
+    removed.levels[0] = 1.0f;
     removed.pad();
     std::array<float, RemovedVoxels::lanes> weights{static_cast<float>(weighted_fraction)};
     force.add(removed, weights);

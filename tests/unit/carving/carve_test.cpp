@@ -26,13 +26,13 @@ Sweep in_voxels(const Bone& bone, const glm::dvec3& from_mm, const glm::dvec3& t
             radius_mm / spacing_mm};
 }
 
-/// Forgets what was removed, but counts its codes.
+/// Forgets what was removed, but counts its levels.
 class Count final : public RemovalSink {
   public:
     void take(const RemovedVoxels& removed) noexcept override {
-        for (std::size_t i = 0; i < removed.count; ++i) codes += static_cast<int>(removed.codes[i]);
+        for (std::size_t i = 0; i < removed.count; ++i) levels += static_cast<int>(removed.levels[i]);
     }
-    int codes = 0;
+    int levels = 0;
 };
 
 void carve_path(Bone& bone, const std::vector<glm::dvec3>& path_mm) {
@@ -112,22 +112,22 @@ TEST(Carve, CrescentAloneEqualsTheFullSearch) {
     EXPECT_EQ(checksum(crescent), checksum(full));
 }
 
-/// What the formula of cover.h says of every voxel, asked one by one in double precision.
-void carve_voxel_by_voxel(Bone& bone, const Sweep& sweep, VoxelEdges edges) {
-    const SweepSeenFrom seen(sweep, glm::dvec3(0.0), edges);
+/// What the formula of voxel_coverage.h says of every voxel, asked one by one in double precision.
+void carve_voxel_by_voxel(Bone& bone, const Sweep& sweep, VoxelCoverage coverage) {
+    const SweepSeenFrom seen(sweep, glm::dvec3(0.0), coverage);
     const glm::ivec3 size = bone.grid().size_voxels;
     glm::ivec3 v;
     for (v.z = 0; v.z < size.z; ++v.z)
         for (v.y = 0; v.y < size.y; ++v.y)
             for (v.x = 0; v.x < size.x; ++v.x) {
                 std::uint8_t& fraction = bone.fractions(bone.slot(v >> 4))[offset_in_brick(v)];
-                const glm::vec3 place(v);
+                const glm::vec3 position(v);
                 const std::int32_t left =
-                    edges == VoxelEdges::partial
-                        ? fraction_left<VoxelEdges::partial>(seen, place.x, place.y, place.z)
-                    : edges == VoxelEdges::soft
-                        ? fraction_left<VoxelEdges::soft>(seen, place.x, place.y, place.z)
-                        : fraction_left<VoxelEdges::whole>(seen, place.x, place.y, place.z);
+                    coverage == VoxelCoverage::linear
+                        ? level_left<VoxelCoverage::linear>(seen, position.x, position.y, position.z)
+                    : coverage == VoxelCoverage::smoothed
+                        ? level_left<VoxelCoverage::smoothed>(seen, position.x, position.y, position.z)
+                        : level_left<VoxelCoverage::binary>(seen, position.x, position.y, position.z);
                 fraction = static_cast<std::uint8_t>(std::min<int>(fraction, left));
             }
 }
@@ -138,7 +138,8 @@ TEST(Carve, LeavesOfEachVoxelWhatTheFormulaSays) {
     std::uniform_real_distribution<double> step(-1.1, 1.1);
     // The larger the burr, the less single precision knows of its surface.
     for (const double radius : {0.4, 5.0, 25.0, 249.0})
-        for (const VoxelEdges edges : {VoxelEdges::partial, VoxelEdges::soft, VoxelEdges::whole})
+        for (const VoxelCoverage coverage :
+             {VoxelCoverage::linear, VoxelCoverage::smoothed, VoxelCoverage::binary})
             for (const InstructionSet instructions : {InstructionSet::plain, best_instruction_set()}) {
                 Bone bone = make_block({0.0, 0.0, 0.0}, {3.5, 3.3, 3.4}, spacing_mm);
                 Bone expected = bone;
@@ -149,11 +150,11 @@ TEST(Carve, LeavesOfEachVoxelWhatTheFormulaSays) {
                     const glm::dvec3 from = hit - radius * glm::normalize(glm::dvec3(1.0, 2.0, part(random)));
                     const glm::dvec3 to = from + glm::dvec3(step(random), step(random), step(random));
                     carve(bone, {from, to, radius}, CarveHistory::none,
-                          {.edges = edges, .instructions = instructions}, edits, removed);
-                    carve_voxel_by_voxel(expected, {from, to, radius}, edges);
+                          {.coverage = coverage, .instructions = instructions}, edits, removed);
+                    carve_voxel_by_voxel(expected, {from, to, radius}, coverage);
                 }
                 EXPECT_EQ(checksum(bone), checksum(expected)) << "radius " << radius << " voxels";
-                EXPECT_GT(removed.codes, 0);
+                EXPECT_GT(removed.levels, 0);
             }
 }
 
@@ -174,14 +175,14 @@ TEST(Carve, EditsRebuildTheBoneInAnotherCopy) {
     Bone copy = bone;
     Apply edits(copy);
     const auto fine = subdivided(zigzag, 40);
-    Count removed_codes;
+    Count removed_levels;
     for (std::size_t i = 0; i + 1 < fine.size(); ++i)
         carve(bone, in_voxels(bone, fine[i], fine[i + 1]), CarveHistory::carved_at_from, {}, edits,
-              removed_codes);
+              removed_levels);
     EXPECT_EQ(edits.refused(), 0);
     EXPECT_EQ(checksum(copy), checksum(bone));
     const double removed = bone_volume_mm3(block()) - bone_volume_mm3(bone);
-    EXPECT_NEAR(removed_codes.codes / 255.0 * voxel_volume_mm3(bone.grid()), removed, 1e-9);
+    EXPECT_NEAR(removed_levels.levels / 255.0 * voxel_volume_mm3(bone.grid()), removed, 1e-9);
 }
 
 TEST(Carve, OutsideTheGridDoesNothing) {

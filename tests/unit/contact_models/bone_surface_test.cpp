@@ -15,7 +15,7 @@ using testing::make_block;
 class BoneSurfaceTest : public ::testing::Test {
   protected:
     BoneSurfaceTest() { bricks.gather(bone, centre, 8.0); }
-    glm::vec3 place(const glm::vec3& voxel) const { return voxel - glm::vec3(bricks.base()); }
+    glm::vec3 position(const glm::vec3& voxel) const { return voxel - glm::vec3(bricks.base()); }
 
     Bone bone = make_block({0.0, 0.0, 0.0}, {3.2, 3.2, 1.6}, 0.1);
     BrickNeighbourhood bricks{8.0};
@@ -24,25 +24,25 @@ class BoneSurfaceTest : public ::testing::Test {
 
 TEST_F(BoneSurfaceTest, LiesOnTheFaceOfTheOutermostVoxels) {
     for (const float z : {15.4f, 15.0f, 14.6f, 13.2f})
-        EXPECT_NEAR(length_in_bone(bricks, place({16.3f, 15.8f, z}), {0.0f, 0.0f, 1.0f}, 20.0f), 15.5f - z,
+        EXPECT_NEAR(length_in_bone(bricks, position({16.3f, 15.8f, z}), {0.0f, 0.0f, 1.0f}, 20.0f), 15.5f - z,
                     1e-3f);
 }
 
 TEST_F(BoneSurfaceTest, IsMetLaterByASlantedRay) {
     const glm::vec3 direction = glm::normalize(glm::vec3(1.0f, 0.0f, 1.0f));
-    EXPECT_NEAR(length_in_bone(bricks, place({14.0f, 16.0f, 13.0f}), direction, 20.0f),
+    EXPECT_NEAR(length_in_bone(bricks, position({14.0f, 16.0f, 13.0f}), direction, 20.0f),
                 2.5f * std::sqrt(2.0f), 0.02f);
 }
 
 TEST_F(BoneSurfaceTest, IsNotFoundBeyondTheLongestRay) {
-    EXPECT_EQ(length_in_bone(bricks, place({16.0f, 16.0f, 12.0f}), {0.0f, 0.0f, 1.0f}, 3.0f), 3.0f);
-    EXPECT_EQ(length_in_bone(bricks, place({16.0f, 16.0f, 15.4f}), {0.0f, 0.0f, 1.0f}, 0.0f), 0.0f);
+    EXPECT_EQ(length_in_bone(bricks, position({16.0f, 16.0f, 12.0f}), {0.0f, 0.0f, 1.0f}, 3.0f), 3.0f);
+    EXPECT_EQ(length_in_bone(bricks, position({16.0f, 16.0f, 15.4f}), {0.0f, 0.0f, 1.0f}, 0.0f), 0.0f);
 }
 
 TEST_F(BoneSurfaceTest, HasANormalOnlyNearIt) {
-    EXPECT_NEAR(glm::distance(outward_normal(bricks, place({16.2f, 16.4f, 15.5f})), {0.0, 0.0, 1.0}), 0.0,
+    EXPECT_NEAR(glm::distance(outward_normal(bricks, position({16.2f, 16.4f, 15.5f})), {0.0, 0.0, 1.0}), 0.0,
                 1e-6);
-    EXPECT_EQ(outward_normal(bricks, place({16.0f, 16.0f, 12.0f})), glm::dvec3(0.0));
+    EXPECT_EQ(outward_normal(bricks, position({16.0f, 16.0f, 12.0f})), glm::dvec3(0.0));
 }
 
 }  // namespace

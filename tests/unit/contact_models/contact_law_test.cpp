@@ -124,8 +124,8 @@ TEST_P(EveryContactLaw, FitsASmallBurr) {
 TEST_P(EveryContactLaw, LosesItsDirectionWhollyWithinBone) {
     ContactBench bench(wide_block(), {.name = "1 mm", .diameter_mm = 1.0});
     // What the lattice leaves of sums that cancel; at that depth in a flat face it would be 0.3 N and more.
-    for (const glm::dvec3& place : {glm::dvec3(0.0, 0.0, -1.1), glm::dvec3(0.031, 0.017, -1.123)})
-        EXPECT_LT(glm::length(bench.at(*law, place, true).force_n), 0.1);
+    for (const glm::dvec3& position : {glm::dvec3(0.0, 0.0, -1.1), glm::dvec3(0.031, 0.017, -1.123)})
+        EXPECT_LT(glm::length(bench.at(*law, position, true).force_n), 0.1);
 }
 
 INSTANTIATE_TEST_SUITE_P(ContactLaws, EveryContactLaw, ::testing::ValuesIn(laws),

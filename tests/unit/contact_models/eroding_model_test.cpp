@@ -24,24 +24,24 @@ Bone block() {
     return make_block({-2.4, -1.6, -1.6}, {2.4, 1.6, 0.0}, 0.1);
 }
 
-BurrCommand at(const glm::dvec3& place, bool spindle_on, double elapsed_s = 0.001) {
-    return {.pose = {place, {0.0, 0.0, 1.0}}, .spindle_on = spindle_on, .burr = 0, .elapsed_s = elapsed_s};
+BurrCommand at(const glm::dvec3& position, bool spindle_on, double elapsed_s = 0.001) {
+    return {.pose = {position, {0.0, 0.0, 1.0}}, .spindle_on = spindle_on, .burr = 0, .elapsed_s = elapsed_s};
 }
 
 std::vector<std::string> eroding_models() {
     std::vector<std::string> names;
-    for (const ForceModel& model : force_models())
+    for (const ForceModelEntry& model : force_models())
         if (!model.has_cutting_law) names.push_back(model.name);
     return names;
 }
 
 class EveryErodingModel : public ::testing::TestWithParam<std::string> {
   protected:
-    std::unique_ptr<ContactModel> make(Bone bone = block(), const std::vector<Tissue>& tissues = {}) const {
-        return make_contact_model(GetParam(), std::move(bone), {two_mm, {.name = "1 mm", .diameter_mm = 1.0}},
-                                  tissues);
+    std::unique_ptr<ForceModel> make(Bone bone = block(), const std::vector<Tissue>& tissues = {}) const {
+        return make_force_model(GetParam(), std::move(bone), {two_mm, {.name = "1 mm", .diameter_mm = 1.0}},
+                                tissues);
     }
-    void step(ContactModel& model, const BurrCommand& command) { model.step(command, 0.0, edits, *result); }
+    void step(ForceModel& model, const BurrCommand& command) { model.step(command, 0.0, edits, *result); }
 
     /// What a pass through the block removes in steps of that many a second, mm^3.
     double removed_by_a_pass(double rate_hz) {

@@ -21,7 +21,7 @@ Bone block(double stiffness = 1.0) {
 
 class Count final : public ErosionSink {
   public:
-    void take(std::int32_t, std::size_t, int codes) noexcept override { total += codes; }
+    void take(std::int32_t, std::size_t, int levels) noexcept override { total += levels; }
     long total = 0;
 };
 

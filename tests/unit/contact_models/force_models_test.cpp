@@ -21,7 +21,7 @@ Bone block() {
 
 TEST(ForceModels, AreMadeByEachOfTheirNames) {
     for (const std::string& name : force_model_names()) {
-        const auto model = make_contact_model(name, block(), {Burr{}}, {});
+        const auto model = make_force_model(name, block(), {Burr{}}, {});
         ASSERT_NE(model, nullptr) << name;
         EXPECT_EQ(checksum(model->bone()), checksum(block())) << name;
         EXPECT_EQ(model->removed_mm3(), RemovedByTissue{}) << name;
@@ -30,7 +30,7 @@ TEST(ForceModels, AreMadeByEachOfTheirNames) {
 
 TEST(ForceModels, RefuseAnUnknownNameAndListTheKnownOnes) {
     try {
-        (void)make_contact_model("wishful", block(), {Burr{}}, {});
+        (void)make_force_model("wishful", block(), {Burr{}}, {});
         FAIL() << "it was taken";
     } catch (const std::invalid_argument& error) {
         EXPECT_THAT(error.what(), HasSubstr("'wishful'"));
@@ -41,9 +41,9 @@ TEST(ForceModels, RefuseAnUnknownNameAndListTheKnownOnes) {
 TEST(ForceModels, SayWhetherACouplingCanSolveThem) {
     NoEdits edits;
     const auto result = std::make_unique<MillingResult>();
-    for (const ForceModel& listed : force_models()) {
-        EXPECT_EQ(force_model(listed.name).has_cutting_law, listed.has_cutting_law);
-        const auto model = make_contact_model(listed.name, block(), {Burr{.diameter_mm = 2.0}}, {});
+    for (const ForceModelEntry& listed : force_models()) {
+        EXPECT_EQ(find_force_model(listed.name).has_cutting_law, listed.has_cutting_law);
+        const auto model = make_force_model(listed.name, block(), {Burr{.diameter_mm = 2.0}}, {});
         model->step({.pose = {{0.0, 0.0, 0.7}, {0.0, 0.0, 1.0}}, .elapsed_s = 0.001}, 0.0, edits, *result);
         EXPECT_EQ(result->engagement.count > 0, listed.has_cutting_law) << listed.name;
         EXPECT_EQ(result->force_n == glm::dvec3(0.0), listed.has_cutting_law)
@@ -53,8 +53,8 @@ TEST(ForceModels, SayWhetherACouplingCanSolveThem) {
 
 TEST(ForceModels, RefuseABurrThatCannotCut) {
     for (const std::string& name : force_model_names()) {
-        EXPECT_THROW((void)make_contact_model(name, block(), {}, {}), std::invalid_argument) << name;
-        EXPECT_THROW((void)make_contact_model(name, block(), {Burr{.diameter_mm = 0.0}}, {}),
+        EXPECT_THROW((void)make_force_model(name, block(), {}, {}), std::invalid_argument) << name;
+        EXPECT_THROW((void)make_force_model(name, block(), {Burr{.diameter_mm = 0.0}}, {}),
                      std::invalid_argument)
             << name;
     }

@@ -20,8 +20,8 @@ Bone block() {
     return make_block({-4.0, -3.0, -3.0}, {4.0, 3.0, 0.0}, 0.1);
 }
 
-BurrCommand at(const glm::dvec3& place, bool spindle_on) {
-    return {.pose = {place, {0.0, 0.0, 1.0}}, .spindle_on = spindle_on, .burr = 0, .elapsed_s = 0.01};
+BurrCommand at(const glm::dvec3& position, bool spindle_on) {
+    return {.pose = {position, {0.0, 0.0, 1.0}}, .spindle_on = spindle_on, .burr = 0, .elapsed_s = 0.01};
 }
 
 class MillingModelTest : public ::testing::Test {
@@ -113,12 +113,12 @@ TEST_F(MillingModelTest, RefusesABurrThatCannotCut) {
 }
 
 TEST_F(MillingModelTest, SaysWhatTheEdgesThatItLeavesAreSmoothedOver) {
-    const auto smoothing_of = [this](VoxelEdges edges) {
-        return MillingModel(block(), {burr}, {}, {.edges = edges}).edge_smoothing_voxels();
+    const auto smoothing_of = [this](VoxelCoverage coverage) {
+        return MillingModel(block(), {burr}, {}, {.coverage = coverage}).edge_smoothing_voxels();
     };
-    EXPECT_DOUBLE_EQ(smoothing_of(VoxelEdges::soft), std::sqrt(0.5));
-    EXPECT_EQ(smoothing_of(VoxelEdges::partial), 0.0);
-    EXPECT_EQ(smoothing_of(VoxelEdges::whole), 0.0);
+    EXPECT_DOUBLE_EQ(smoothing_of(VoxelCoverage::smoothed), std::sqrt(0.5));
+    EXPECT_EQ(smoothing_of(VoxelCoverage::linear), 0.0);
+    EXPECT_EQ(smoothing_of(VoxelCoverage::binary), 0.0);
 }
 
 }  // namespace

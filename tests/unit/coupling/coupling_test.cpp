@@ -36,15 +36,15 @@ TEST(Coupling, AnUnknownNameIsRefusedInOneLineWithTheChoices) {
 
 TEST(Coupling, IsInterpolatedWhereItsForceIsALine) {
     for (const char* name : {"interpolate", "sample-estimate-interpolate", "interpolate+damper"})
-        EXPECT_TRUE(coupling_method(name).is_interpolated) << name;
+        EXPECT_TRUE(find_coupling(name).is_interpolated) << name;
     for (const char* name : {"implicit", "hold", "sample-estimate-hold+passivity", "virtual-coupling"})
-        EXPECT_FALSE(coupling_method(name).is_interpolated) << name;
+        EXPECT_FALSE(find_coupling(name).is_interpolated) << name;
 }
 
 TEST(Coupling, ThatSolvesTheCuttingLawIsRefusedWhereThereIsNone) {
     EXPECT_THROW((void)make_coupling("implicit", {.device = {}, .model_holds_wall = true}),
                  std::invalid_argument);
-    for (const CouplingMethod& method : coupling_methods()) {
+    for (const CouplingEntry& method : couplings()) {
         if (method.needs_cutting_law) continue;
         EXPECT_NE(make_coupling(method.name, {.device = {}, .model_holds_wall = true}), nullptr);
     }

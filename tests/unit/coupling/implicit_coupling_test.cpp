@@ -24,7 +24,7 @@ Burr five_mm_burr() {
 
 struct Steady {
     glm::dvec3 rendered_n{0.0};  ///< mean force on the hand
-    glm::dvec3 model_n{0.0};     ///< mean force of the milling model for the way that the burr really went
+    glm::dvec3 model_n{0.0};     ///< mean force of the milling model for the path that the burr really took
     double largest_jump_n = 0.0;
     double burr_depth_mm = 0.0;  ///< mean
     double noise_n = 0.0;        ///< rms of the change of force from tick to tick

@@ -5,7 +5,7 @@
 
 #include <random>
 
-#include "haptic_server/carving/cover.h"
+#include "haptic_server/carving/voxel_coverage.h"
 #include "haptic_server/cutting_force/chip_force.h"
 #include "tests/support/steady_motion.h"
 
@@ -25,12 +25,12 @@ RemovedVoxels random_voxels() {
     voxels.base = {40, 50, 60};
     voxels.count = 509;
     std::mt19937 random(1);
-    std::uniform_int_distribution<int> place(0, 60);
+    std::uniform_int_distribution<int> position(0, 60);
     for (std::size_t i = 0; i < voxels.count; ++i) {
-        voxels.x[i] = static_cast<float>(place(random));
-        voxels.y[i] = static_cast<float>(place(random));
-        voxels.z[i] = static_cast<float>(place(random));
-        voxels.codes[i] = static_cast<float>(place(random));
+        voxels.x[i] = static_cast<float>(position(random));
+        voxels.y[i] = static_cast<float>(position(random));
+        voxels.z[i] = static_cast<float>(position(random));
+        voxels.levels[i] = static_cast<float>(position(random));
     }
     voxels.pad();
     return voxels;
@@ -39,15 +39,16 @@ RemovedVoxels random_voxels() {
 TEST_F(InstructionSets, CoverVoxelsAlike) {
     const RemovedVoxels voxels = random_voxels();
     const std::size_t count = voxels.padded_count();
-    for (const VoxelEdges edges : {VoxelEdges::partial, VoxelEdges::soft, VoxelEdges::whole}) {
+    for (const VoxelCoverage coverage :
+         {VoxelCoverage::linear, VoxelCoverage::smoothed, VoxelCoverage::binary}) {
         const SweepSeenFrom sweep({{70.3, 80.1, 90.7}, {70.9, 80.0, 90.5}, 25.0}, glm::dvec3(voxels.base),
-                                  edges);
+                                  coverage);
         std::array<std::vector<std::int32_t>, 2> left;
         for (const InstructionSet set : {InstructionSet::plain, best_instruction_set()}) {
             auto& out = left[set == InstructionSet::plain ? 0 : 1];
             out.resize(count);
-            fractions_left(sweep, {voxels.x.data(), count}, {voxels.y.data(), count},
-                           {voxels.z.data(), count}, out, set);
+            levels_left(sweep, {voxels.x.data(), count}, {voxels.y.data(), count}, {voxels.z.data(), count},
+                        out, set);
         }
         EXPECT_EQ(left[0], left[1]);
         EXPECT_NE(std::count(left[0].begin(), left[0].end(), 0), 0);
@@ -61,7 +62,7 @@ TEST_F(InstructionSets, SumForcesAlike) {
                            0.001);
     std::array<glm::dvec3, 2> sum{};
     for (const InstructionSet set : {InstructionSet::plain, best_instruction_set()}) {
-        sum[set == InstructionSet::plain ? 0 : 1] = sum_of_chip_forces(step, voxels, voxels.codes, set);
+        sum[set == InstructionSet::plain ? 0 : 1] = sum_of_chip_forces(step, voxels, voxels.levels, set);
     }
     EXPECT_EQ(sum[0], sum[1]);
     EXPECT_GT(glm::length(sum[0]), 0.0);

@@ -36,12 +36,12 @@ TEST(BrickNeighbourhood, SamplesWhatTheBoneHoldsInsideAndOutsideTheGrid) {
         if (!bricks.gather(bone, centre, 10.0)) continue;
         for (int i = 0; i < 50; ++i) {
             const glm::dvec3 at = centre + glm::dvec3(offset(random), offset(random), offset(random));
-            const glm::vec3 place(at - glm::dvec3(bricks.base()));
-            EXPECT_NEAR(bricks.fraction(place), fraction_by_lookups(bone, at), 0.01);
-            const glm::ivec3 nearest = bricks.base() + glm::ivec3(place + 0.5f);
+            const glm::vec3 position(at - glm::dvec3(bricks.base()));
+            EXPECT_NEAR(bricks.fraction(position), fraction_by_lookups(bone, at), 0.01);
+            const glm::ivec3 nearest = bricks.base() + glm::ivec3(position + 0.5f);
             // Past the grid's edge a stored brick may hold anything: there is no bone to be stiff.
             if (contains(bone.grid(), nearest)) {
-                EXPECT_EQ(bricks.stiffness(place), bone.stiffness_at(nearest));
+                EXPECT_EQ(bricks.stiffness(position), bone.stiffness_at(nearest));
             }
             ++compared;
         }

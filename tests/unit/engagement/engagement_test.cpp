@@ -22,8 +22,8 @@ TEST(Engagement, IsEmptyInFreeAir) {
     const Bone bone = flat_block();
     EngagementProbe probe(Burr{.diameter_mm = 2.0}, 0.1);
     auto engagement = std::make_unique<Engagement>();
-    for (const glm::dvec3 place : {glm::dvec3(0, 0, 1.5), glm::dvec3(0, 0, 100), glm::dvec3(-1e9, 0, 0)}) {
-        probe.sample(bone, place, up, *engagement);
+    for (const glm::dvec3 position : {glm::dvec3(0, 0, 1.5), glm::dvec3(0, 0, 100), glm::dvec3(-1e9, 0, 0)}) {
+        probe.sample(bone, position, up, *engagement);
         EXPECT_EQ(engagement->count, 0U);
     }
 }

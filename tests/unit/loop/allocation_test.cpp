@@ -26,18 +26,19 @@ const ToolPose start{{-3.0, 0.0, 1.1}, {0.0, 0.0, 1.0}};
 /// Slides through a block with the spindle on: the loops are in the middle of their work.
 struct Rig {
     Rig(const std::string& force_model, const std::string& coupling_name, HapticDevice& device)
-        : model(make_contact_model(force_model, testing::make_block({-4.0, -4.0, -3.2}, {4.0, 4.0, 0.0}, 0.1),
-                                   {burr}, {})),
-          coupling(make_coupling(coupling_name,
-                                 {.device = device.limits(),
-                                  .milling_period_s = 0.001,
-                                  .model_holds_wall = !osteomill::force_model(force_model).has_cutting_law})),
+        : model(make_force_model(force_model, testing::make_block({-4.0, -4.0, -3.2}, {4.0, 4.0, 0.0}, 0.1),
+                                 {burr}, {})),
+          coupling(
+              make_coupling(coupling_name,
+                            {.device = device.limits(),
+                             .milling_period_s = 0.001,
+                             .model_holds_wall = !osteomill::find_force_model(force_model).has_cutting_law})),
           haptic({device, *coupling, *results, commands, tool, status, &log}, {.start_pose = start}) {}
 
     testing::TemporaryFolder folder;
     ForceLog log{folder / "forces.csv"};
     MillingLog milling_log{folder / "milling.csv"};
-    std::unique_ptr<ContactModel> model;
+    std::unique_ptr<ForceModel> model;
     std::unique_ptr<TripleBuffer<MillingResult>> results = std::make_unique<TripleBuffer<MillingResult>>();
     TripleBuffer<BurrCommand> commands;
     TripleBuffer<ToolSnapshot> tool;
@@ -67,7 +68,7 @@ void expect_no_allocation(
 TEST(RealTimeCode, AllocatesNothingWithASimulatedHand) {
     // Every model under the default coupling or what stands in for it, every coupling on the default model.
     std::vector<std::pair<std::string, std::string>> pairs;
-    for (const ForceModel& model : force_models())
+    for (const ForceModelEntry& model : force_models())
         pairs.emplace_back(model.name, model.has_cutting_law ? coupling_names().front() : "interpolate");
     for (const std::string& coupling : coupling_names())
         pairs.emplace_back(force_model_names().front(), coupling);

@@ -68,7 +68,7 @@ TEST(MillingSession, MillsOnTheVirtualClock) {
 }
 
 TEST(MillingSession, MillsWithEveryForceModel) {
-    for (const ForceModel& model : force_models()) {
+    for (const ForceModelEntry& model : force_models()) {
         MillingSessionOptions options = virtual_options(3.0);
         options.force_model = model.name;
         if (!model.has_cutting_law) options.coupling = "interpolate";
@@ -81,7 +81,7 @@ TEST(MillingSession, MillsWithEveryForceModel) {
 }
 
 TEST(MillingSession, IsPushedOutOfBoneByEveryModelThatHoldsTheWall) {
-    for (const ForceModel& model : force_models()) {
+    for (const ForceModelEntry& model : force_models()) {
         if (model.has_cutting_law) continue;
         testing::ScriptedDevice device;  // presses into the top face, the pedal up
         device.script = [](double t_s) {

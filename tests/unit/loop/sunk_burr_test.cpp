@@ -96,7 +96,7 @@ std::vector<SunkCase> sunk_cases() {
         std::erase(name, '-');
         cases.push_back({name, buried_mm, coupling});
     }
-    for (const ForceModel& model : force_models()) {
+    for (const ForceModelEntry& model : force_models()) {
         if (model.has_cutting_law) continue;
         std::string name = "Buried_" + model.name;
         std::erase(name, '-');

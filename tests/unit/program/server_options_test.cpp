@@ -124,7 +124,7 @@ TEST(ServerOptions, PrintHelpAndVersionAndAreDone) {
           "--trajectory", "--save-bone", "--json", "--log-csv"}) {
         EXPECT_THAT(help.text, HasSubstr(option));
     }
-    for (const ForceModel& model : force_models())
+    for (const ForceModelEntry& model : force_models())
         EXPECT_THAT(help.text, AllOf(HasSubstr(model.name), HasSubstr(model.description)));
     EXPECT_EQ(parse({"--version"}).text, "haptic_server 1.2.3\n");
 }

@@ -51,8 +51,8 @@ void expect_equal(const MillingSettings& settings) {
 
 TEST(FullScan, LeavesTheSameBoneAndFeelsTheSameForceAsTheCrescent) {
     expect_equal({});
-    expect_equal({.edges = VoxelEdges::partial});
-    expect_equal({.edges = VoxelEdges::whole});
+    expect_equal({.coverage = VoxelCoverage::linear});
+    expect_equal({.coverage = VoxelCoverage::binary});
     expect_equal({.summation = ForceSummation::bins});
 }
 

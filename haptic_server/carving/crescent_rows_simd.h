@@ -2,47 +2,47 @@
 #pragma once
 
 #include "haptic_server/carving/crescent_rows.h"
-#include "haptic_server/carving/lanes.h"
+#include "haptic_server/carving/simd.h"
 
 namespace osteomill {
 
 /// The voxels of eight neighbouring rows that may change: in each, first <= x < end left of the ball's inside
 /// and right of it. Either part may be empty (end <= first); they do not overlap.
 struct EightRows {
-    lanes::Ints left_first;
-    lanes::Ints left_end;
-    lanes::Ints right_first;
-    lanes::Ints right_end;
+    simd::Ints left_first;
+    simd::Ints left_end;
+    simd::Ints right_first;
+    simd::Ints right_end;
 };
 
 namespace detail {
 
-/// For places that are not negative: the conversion itself rounds down.
-[[gnu::always_inline]] inline lanes::Ints floor_of(const lanes::Floats& place) {
-    return __builtin_convertvector(place, lanes::Ints);
+/// For positions that are not negative: the conversion itself rounds down.
+[[gnu::always_inline]] inline simd::Ints floor_of(const simd::Floats& position) {
+    return __builtin_convertvector(position, simd::Ints);
 }
 
 /// The same, rounding up but for the slack: never beyond the ceiling.
-[[gnu::always_inline]] inline lanes::Ints ceiling_of(const lanes::Floats& place) {
-    return floor_of(place + static_cast<float>(1.0 - 0.1 * CrescentRows::slack_voxels));
+[[gnu::always_inline]] inline simd::Ints ceiling_of(const simd::Floats& position) {
+    return floor_of(position + static_cast<float>(1.0 - 0.1 * CrescentRows::slack_voxels));
 }
 
 }  // namespace detail
 
 /// Rows y to y + 7 of slice z.
 [[gnu::always_inline]] inline EightRows eight_rows(const CrescentRows::Shape& s, int first_y, int z) {
-    using lanes::Floats;
-    using lanes::Ints;
+    using simd::Floats;
+    using simd::Ints;
     constexpr auto slack = static_cast<float>(CrescentRows::slack_voxels);
     const Floats zero{};
     const float dz = static_cast<float>(z) - s.middle.z;
     const float ahead_z = (static_cast<float>(z) - s.from.z) * s.direction.z;
-    const Floats y = lanes::to_floats(first_y + lanes::counting());
+    const Floats y = simd::to_floats(first_y + simd::counting());
     const Floats dy = y - s.middle.y;
     const Floats outer_squared = (s.outer_squared - dz * dz) - dy * dy;
     const Floats inner_squared = (s.inner_squared - dz * dz) - dy * dy;
-    const Floats outer = lanes::square_root(outer_squared < 0.0f ? zero : outer_squared);
-    const Floats inner = lanes::square_root(inner_squared < 0.0f ? zero : inner_squared);
+    const Floats outer = simd::square_root(outer_squared < 0.0f ? zero : outer_squared);
+    const Floats inner = simd::square_root(inner_squared < 0.0f ? zero : inner_squared);
     const Floats ahead = ahead_z + (y - s.from.y) * s.direction.y;
     const Floats plane = s.plane_at + ahead * s.plane_per_ahead;
     const Floats row_ahead = s.row_weight * (ahead + std::abs(s.direction.x) * (outer + 2.0f) + slack);
@@ -64,10 +64,9 @@ namespace detail {
     // Where the row misses the inner ball the left part is all of it.
     const Ints misses = inner_squared < 0.0f;
     const Ints left_end =
-        lanes::smaller(misses ? whole_end : detail::floor_of(s.middle.x - inner) + 1, whole_end);
+        simd::smaller(misses ? whole_end : detail::floor_of(s.middle.x - inner) + 1, whole_end);
     const Ints right_first = misses ? whole_end : detail::ceiling_of(s.middle.x + inner);
-    return {whole_first, left_end, lanes::larger(right_first, lanes::larger(whole_first, left_end)),
-            whole_end};
+    return {whole_first, left_end, simd::larger(right_first, simd::larger(whole_first, left_end)), whole_end};
 }
 
 }  // namespace osteomill

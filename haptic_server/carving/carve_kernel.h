@@ -9,23 +9,23 @@
 #include "common/bone/bone.h"
 #include "common/bone/edit.h"
 #include "haptic_server/carving/brick_layer.h"
-#include "haptic_server/carving/cover.h"
 #include "haptic_server/carving/crescent_rows.h"
 #include "haptic_server/carving/removed_voxels.h"
+#include "haptic_server/carving/voxel_coverage.h"
 
 namespace osteomill {
 
-class Lowering {
+class CarveKernel {
   public:
-    /// `base`: the voxel that places are counted from, the first of a brick; `sweep` is seen from it. What
+    /// `base`: the voxel that positions are counted from, the first of a brick; `sweep` is seen from it. What
     /// voxels lose goes to `removed`, rows of bricks that changed to `edits`, in a fixed order, at the latest
     /// with flush(). Real-time safe, and so is all the rest.
-    Lowering(Bone& bone, const glm::ivec3& base, const SweepSeenFrom& sweep, InstructionSet instructions,
-             EditSink& edits, RemovalSink& removed) noexcept;
+    CarveKernel(Bone& bone, const glm::ivec3& base, const SweepSeenFrom& sweep, InstructionSet instructions,
+                EditSink& edits, RemovalSink& removed) noexcept;
 
     /// Lowers what the sweep covers of the bricks in row `brick_y` of a layer. `z`: the slices of the layer
     /// that there are.
-    void lower_bricks(const CrescentRows& rows, const BrickLayer& layer, int brick_y,
+    void carve_bricks(const CrescentRows& rows, const BrickLayer& layer, int brick_y,
                       const VoxelRange& z) noexcept;
 
     /// Hands on what has not been.
@@ -33,11 +33,11 @@ class Lowering {
 
   private:
     /// The inner loops; in the source, where vectors are at home.
-    struct Kernel;
+    struct Loops;
 
-    void lower_bricks_plain(const CrescentRows& rows, const BrickLayer& layer, int brick_y,
+    void carve_bricks_plain(const CrescentRows& rows, const BrickLayer& layer, int brick_y,
                             const VoxelRange& z) noexcept;
-    void lower_bricks_avx2(const CrescentRows& rows, const BrickLayer& layer, int brick_y,
+    void carve_bricks_avx2(const CrescentRows& rows, const BrickLayer& layer, int brick_y,
                            const VoxelRange& z) noexcept;
     void report_changes() noexcept;
     void report_run(std::size_t first_voxel, std::size_t last_voxel) noexcept;
@@ -52,7 +52,7 @@ class Lowering {
     struct Row {
         std::uint16_t first;  ///< offset in the brick
         std::uint16_t length;
-        std::uint16_t place;
+        std::uint16_t list_start;
     };
     /// Rows of a brick: left and right of the ball's inside.
     static constexpr std::size_t most_rows = 2 * std::size_t{brick_edge_voxels} * brick_edge_voxels;

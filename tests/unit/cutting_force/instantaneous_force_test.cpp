@@ -1,4 +1,4 @@
-#include "haptic_server/cutting_force/tooth_force.h"
+#include "haptic_server/cutting_force/instantaneous_force.h"
 
 #include <gtest/gtest.h>
 
@@ -51,7 +51,7 @@ std::vector<Instant> last_instants(const ReferenceCase& c, int count) {
     return instants;
 }
 
-TEST(ToothForce, FollowsTheReferenceThroughTheToothPeriod) {
+TEST(InstantaneousForce, FollowsTheReferenceThroughTheToothPeriod) {
     // With six edges three always cut in a slot and the force hardly varies; with two it goes up and down.
     ReferenceCase c = slot_1_mm_deep();
     c.burr.edges = 2;
@@ -79,7 +79,7 @@ TEST(ToothForce, FollowsTheReferenceThroughTheToothPeriod) {
     EXPECT_GT(swing / glm::length(c.mean_force_n), 0.1) << "nothing to resolve";
 }
 
-TEST(ToothForce, MeanOverItsInstantsIsTheMeanForce) {
+TEST(InstantaneousForce, MeanOverItsInstantsIsTheMeanForce) {
     const ReferenceCase c = slot_1_mm_deep();
     glm::dvec3 mean(0.0);
     const auto instants = last_instants(c, 100);
@@ -87,19 +87,19 @@ TEST(ToothForce, MeanOverItsInstantsIsTheMeanForce) {
     EXPECT_LT(relative_error(mean, c.mean_force_n), 0.01);
 }
 
-TEST(ToothForce, OfALongStepIsItsMean) {
+TEST(InstantaneousForce, OfALongStepIsItsMean) {
     const ReferenceCase c = slot_1_mm_deep();
     const auto mean = testing::run_steady(c, 0.1, 0.01, 1.0);
     const auto instants = testing::run_steady(c, 0.1, 0.01, 1.0, {.summation = ForceSummation::instants});
     EXPECT_LT(relative_error(instants.mean_force_n, mean.mean_force_n), 1e-9);
 }
 
-TEST(ToothForce, PutsBoneWhereItsEdgeIs) {
+TEST(InstantaneousForce, PutsBoneWhereItsEdgeIs) {
     // One voxel at psi = 80.1 degrees, 2.5 degrees wide: with six edges that is 20.1 degrees into the pitch,
     // within bin 1 of 5.
     Burr burr;
     burr.sense = SpindleSense::counter_clockwise;
-    ToothForce force(5, InstructionSet::plain);
+    InstantaneousForce force(5, InstructionSet::plain);
     force.turn(burr, 1e-4);
     force.begin_step(CuttingStep(burr, up, glm::dvec3(0.0), 0.1, 1e-4));
     testing::add_voxel(force, {4, 23, 0}, 1.0);
@@ -107,9 +107,9 @@ TEST(ToothForce, PutsBoneWhereItsEdgeIs) {
         EXPECT_EQ(glm::length(force.force_at_instant_n(i)) > 0.0, i == 1) << i;
 }
 
-TEST(ToothForce, RefusesNoInstants) {
-    EXPECT_THROW(ToothForce(0, InstructionSet::plain), std::invalid_argument);
-    EXPECT_THROW(ToothForce(65, InstructionSet::plain), std::invalid_argument);
+TEST(InstantaneousForce, RefusesNoInstants) {
+    EXPECT_THROW(InstantaneousForce(0, InstructionSet::plain), std::invalid_argument);
+    EXPECT_THROW(InstantaneousForce(65, InstructionSet::plain), std::invalid_argument);
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-#include "haptic_server/cutting_force/tooth_force.h"
+#include "haptic_server/cutting_force/instantaneous_force.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,7 +6,7 @@
 #include <numbers>
 #include <stdexcept>
 
-#include "haptic_server/cutting_force/axis_means.h"
+#include "haptic_server/cutting_force/axis_singularity_kernel.h"
 
 namespace osteomill {
 
@@ -16,7 +16,7 @@ constexpr double two_pi = 2.0 * std::numbers::pi;
 
 }  // namespace
 
-ToothForce::ToothForce(int instants, InstructionSet instructions)
+InstantaneousForce::InstantaneousForce(int instants, InstructionSet instructions)
     : instants_(instants),
       instructions_(instructions),
       step_(Burr{}, {0.0, 0.0, 1.0}, glm::dvec3(0.0), 0.1, 1.0) {
@@ -24,7 +24,7 @@ ToothForce::ToothForce(int instants, InstructionSet instructions)
         throw std::invalid_argument("a tooth period has 1 to 64 instants, not " + std::to_string(instants));
 }
 
-void ToothForce::turn(const Burr& burr, double elapsed_s) noexcept {
+void InstantaneousForce::turn(const Burr& burr, double elapsed_s) noexcept {
     if (burr.edges != edges_ || burr.sigma() != sigma_) {
         forget();
         turned_rad_ = 0.0;
@@ -41,18 +41,18 @@ void ToothForce::turn(const Burr& burr, double elapsed_s) noexcept {
     for (int i = 0; i < instants_; ++i) impulse_[static_cast<std::size_t>(i)] *= kept;
 }
 
-void ToothForce::begin_step(const CuttingStep& step) noexcept {
+void InstantaneousForce::begin_step(const CuttingStep& step) noexcept {
     step_ = step;
     step_sum_ = glm::dvec3(0.0);
 }
 
-void ToothForce::forget() noexcept {
+void InstantaneousForce::forget() noexcept {
     impulse_.fill(glm::dvec3(0.0));
     step_sum_ = glm::dvec3(0.0);
     window_s_ = 0.0;
 }
 
-void ToothForce::add(const RemovedVoxels& removed, std::span<const float> weights) noexcept {
+void InstantaneousForce::add(const RemovedVoxels& removed, std::span<const float> weights) noexcept {
     step_sum_ += sum_of_chip_forces(step_, removed, weights, instructions_);
     chip_forces(step_, removed, weights, instructions_, forces_);
     const double to_impulse = step_.newton_per_unit * step_.elapsed_s;
@@ -70,7 +70,7 @@ void ToothForce::add(const RemovedVoxels& removed, std::span<const float> weight
     }
 }
 
-void ToothForce::spread(const glm::dvec3& impulse, double first, double width) noexcept {
+void InstantaneousForce::spread(const glm::dvec3& impulse, double first, double width) noexcept {
     const double last = first + width;
     for (double bin = std::floor(first); bin < last; bin += 1.0) {
         const double share = (std::min(last, bin + 1.0) - std::max(first, bin)) / width;
@@ -79,12 +79,12 @@ void ToothForce::spread(const glm::dvec3& impulse, double first, double width) n
     }
 }
 
-glm::dvec3 ToothForce::force_at_instant_n(int instant) const noexcept {
+glm::dvec3 InstantaneousForce::force_at_instant_n(int instant) const noexcept {
     if (window_s_ <= 0.0) return glm::dvec3(0.0);
     return step_.frame * (impulse_[static_cast<std::size_t>(instant)] * (instants_ / window_s_));
 }
 
-glm::dvec3 ToothForce::force_n() const noexcept {
+glm::dvec3 InstantaneousForce::force_n() const noexcept {
     if (turn_rad_ >= pitch_rad_ * (1.0 - 1e-9)) return step_.frame * (step_.newton_per_unit * step_sum_);
     if (window_s_ <= 0.0) return glm::dvec3(0.0);
     // Between the middles of the bins the force is taken to vary linearly, which leaves its mean as it is.
@@ -93,9 +93,9 @@ glm::dvec3 ToothForce::force_n() const noexcept {
     const double last = turned_rad_ / pitch_rad_ * instants_;
     glm::dvec3 impulse(0.0);
     for (int i = 0; i < samples; ++i) {
-        const double place = last - bins_passed * (i + 0.5) / samples - 0.5 + 2 * instants_;
-        const auto bin = static_cast<std::size_t>(place);
-        const double share = place - static_cast<double>(bin);
+        const double at_bin = last - bins_passed * (i + 0.5) / samples - 0.5 + 2 * instants_;
+        const auto bin = static_cast<std::size_t>(at_bin);
+        const double share = at_bin - static_cast<double>(bin);
         const auto count = static_cast<std::size_t>(instants_);
         impulse += glm::mix(impulse_[bin % count], impulse_[(bin + 1) % count], share);
     }

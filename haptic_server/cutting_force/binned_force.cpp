@@ -1,4 +1,4 @@
-#include "haptic_server/cutting_force/chip_map.h"
+#include "haptic_server/cutting_force/binned_force.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,14 +7,14 @@
 
 namespace osteomill {
 
-ChipMap::ChipMap(const ChipBins& bins)
+BinnedForce::BinnedForce(const ChipBins& bins)
     : bins_(bins), step_(Burr{}, {0.0, 0.0, 1.0}, glm::dvec3(0.0), 0.1, 1.0) {
     if (bins.psi < 1 || bins.z < 1)
         throw std::invalid_argument("a chip map needs at least one bin in psi and in z");
     weighted_volume_mm3_.resize(static_cast<std::size_t>(bins.psi) * static_cast<std::size_t>(bins.z));
 }
 
-void ChipMap::begin_step(const Burr& burr, const CuttingStep& step) noexcept {
+void BinnedForce::begin_step(const Burr& burr, const CuttingStep& step) noexcept {
     step_ = step;
     radius_mm_ = burr.radius_mm();
     edges_ = burr.edges;
@@ -23,7 +23,7 @@ void ChipMap::begin_step(const Burr& burr, const CuttingStep& step) noexcept {
     holds_any_ = false;
 }
 
-void ChipMap::add(const RemovedVoxels& removed, std::span<const float> weights) noexcept {
+void BinnedForce::add(const RemovedVoxels& removed, std::span<const float> weights) noexcept {
     holds_any_ |= removed.count > 0;
     const double h = step_.spacing_mm;
     const glm::dvec3 middle = step_.middle_voxels - glm::dvec3(removed.base);
@@ -40,18 +40,18 @@ void ChipMap::add(const RemovedVoxels& removed, std::span<const float> weights) 
     }
 }
 
-double ChipMap::slice_radius_mm(int z) const {
+double BinnedForce::slice_radius_mm(int z) const {
     const double height = -radius_mm_ + (z + 0.5) * slice_height_mm();
     return std::sqrt(radius_mm_ * radius_mm_ - height * height);
 }
 
-double ChipMap::chip_thickness_mm(int psi, int z) const noexcept {
+double BinnedForce::chip_thickness_mm(int psi, int z) const noexcept {
     const double psi_width_rad = 2.0 * std::numbers::pi / bins_.psi;
     return weighted_volume_mm3_[static_cast<std::size_t>(z * bins_.psi + psi)] /
            (teeth_ * slice_radius_mm(z) * psi_width_rad * slice_height_mm());
 }
 
-glm::dvec3 ChipMap::force_n() const noexcept {
+glm::dvec3 BinnedForce::force_n() const noexcept {
     const glm::dvec3 k(step_.coefficients);
     glm::dvec3 force{0.0};
     if (!holds_any_) return force;

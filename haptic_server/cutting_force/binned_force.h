@@ -20,14 +20,14 @@ struct ChipBins {
 
 /// Chip thickness of one step, bin by bin. Allocates when constructed; begin_step, add and force_n are
 /// real-time safe.
-class ChipMap {
+class BinnedForce {
   public:
-    explicit ChipMap(const ChipBins& bins);
+    explicit BinnedForce(const ChipBins& bins);
 
     /// Empties the bins.
     void begin_step(const Burr& burr, const CuttingStep& step) noexcept;
 
-    /// As CuttingForce::add.
+    /// As MeanForce::add.
     void add(const RemovedVoxels& removed, std::span<const float> weights) noexcept;
 
     /// Stiffness-weighted chip thickness of one tooth in a bin, mm: t = sum(s V) / (M r_z dpsi dz), M = N_phi

@@ -27,7 +27,7 @@ inline constexpr float axis_disc_voxels = 1.93f;
 /// Means over the disc about a point at a distance r from the axis, voxels. `Real` is a number or the lanes
 /// of a vector.
 template <typename Real>
-struct AxisMeans {
+struct AxisKernel {
     Real swirl;    ///< mean of e / r = this * (x, y)
     Real outward;  ///< mean of e = this * (x, y)
     Real inverse;  ///< mean of 1 / r
@@ -35,7 +35,7 @@ struct AxisMeans {
 
 /// Where the disc does not reach the axis: r at least axis_disc_voxels. `per_r` is 1 / r.
 template <typename Real>
-[[gnu::always_inline]] inline AxisMeans<Real> far_axis_means(Real per_r) {
+[[gnu::always_inline]] inline AxisKernel<Real> far_axis_kernel(Real per_r) {
     const Real per_t = per_r * per_r * (axis_disc_voxels * axis_disc_voxels);
     return {per_r * per_r, per_r * (1.0f - 0.00125f * per_t),
             per_r * (1.0f + per_t * (0.0025f - per_t * (0.00893f + per_t * per_t * 0.01229f)))};
@@ -43,14 +43,14 @@ template <typename Real>
 
 /// Anywhere. `per_r`: 1 / r, which may be anything finite where r is below 0.1.
 template <typename Real>
-[[gnu::always_inline]] inline AxisMeans<Real> axis_means(Real r_squared, Real per_r) {
+[[gnu::always_inline]] inline AxisKernel<Real> axis_kernel(Real r_squared, Real per_r) {
     constexpr float per_a = 1.0f / axis_disc_voxels;
     const Real t = r_squared * (per_a * per_a);
     const Real swirl = (7.8f - t * (17.4f - t * (15.4f - t * 4.8f))) * (per_a * per_a);
     const Real outward = (2.69564f - t * (3.83297f - t * (3.14777f - t * 1.00984f))) * per_a;
     const Real inverse =
         (5.39530f - t * (15.56784f - t * (20.60255f - t * (11.68240f - t * 2.23097f)))) * per_a;
-    const AxisMeans<Real> far = far_axis_means(per_r);
+    const AxisKernel<Real> far = far_axis_kernel(per_r);
     return {t < 1.0f ? swirl : far.swirl, t < 1.0f ? outward : far.outward, t < 1.0f ? inverse : far.inverse};
 }
 

@@ -1,26 +1,26 @@
-#include "haptic_server/carving/lowering.h"
+#include "haptic_server/carving/carve_kernel.h"
 
 #include <algorithm>
 #include <bit>
 
-#include "haptic_server/carving/cover_lanes.h"
-#include "haptic_server/carving/crescent_lanes.h"
+#include "haptic_server/carving/crescent_rows_simd.h"
+#include "haptic_server/carving/voxel_coverage_simd.h"
 
 namespace osteomill {
 
-using lanes::Floats;
-using lanes::Ints;
+using simd::Floats;
+using simd::Ints;
 
-static_assert(lanes::width == RemovedVoxels::lanes);
+static_assert(simd::width == RemovedVoxels::lanes);
 
-Lowering::Lowering(Bone& bone, const glm::ivec3& base, const SweepSeenFrom& sweep,
-                   InstructionSet instructions, EditSink& edits, RemovalSink& removed) noexcept
+CarveKernel::CarveKernel(Bone& bone, const glm::ivec3& base, const SweepSeenFrom& sweep,
+                         InstructionSet instructions, EditSink& edits, RemovalSink& removed) noexcept
     : bone_(bone), sweep_(sweep), instructions_(instructions), edits_(edits), sink_(removed) {
     voxels_.base = base;
 }
 
-struct Lowering::Kernel {
-    Lowering& to;
+struct CarveKernel::Loops {
+    CarveKernel& to;
 
     static constexpr int eight = 8;
     /// Groups of eight rows in a row of bricks: two a slice.
@@ -50,9 +50,9 @@ struct Lowering::Kernel {
     [[gnu::always_inline]] static Group group_of(const Ints& first, const Ints& end) {
         Group group{first, end, {}};
         const Ints is_empty = first >= end;
-        if (!lanes::any(~is_empty)) return group;
-        const int last = lanes::largest(end & ~is_empty) - 1;
-        group.bricks = {lanes::smallest(is_empty ? lanes::ints(last) : first) / brick_edge_voxels,
+        if (!simd::any(~is_empty)) return group;
+        const int last = simd::largest(end & ~is_empty) - 1;
+        group.bricks = {simd::smallest(is_empty ? simd::ints(last) : first) / brick_edge_voxels,
                         last / brick_edge_voxels};
         return group;
     }
@@ -62,18 +62,18 @@ struct Lowering::Kernel {
         if (brick_x < group.bricks.first || brick_x > group.bricks.last) return;
         const Ints in_brick_first = group.first - brick_x * brick_edge_voxels;
         const Ints in_brick_end = group.end - brick_x * brick_edge_voxels;
-        const Ints end = lanes::smaller(in_brick_end, lanes::ints(brick_edge_voxels));
-        const Ints x = lanes::larger(in_brick_first, Ints{});
-        std::array<std::int32_t, lanes::width> first;
-        std::array<std::int32_t, lanes::width> length;
-        lanes::store(first.data(), x + (offset + brick_edge_voxels * lanes::counting()));
-        lanes::store(length.data(), lanes::larger(end - x, Ints{}));
-        const bool any_longer_than_eight = lanes::largest(end - x) > eight;
+        const Ints end = simd::smaller(in_brick_end, simd::ints(brick_edge_voxels));
+        const Ints x = simd::larger(in_brick_first, Ints{});
+        std::array<std::int32_t, simd::width> first;
+        std::array<std::int32_t, simd::width> length;
+        simd::store(first.data(), x + (offset + brick_edge_voxels * simd::counting()));
+        simd::store(length.data(), simd::larger(end - x, Ints{}));
+        const bool any_longer_than_eight = simd::largest(end - x) > eight;
         // Eight voxels are written for each row, of which the next row overwrites what is too many.
-        for (std::size_t row = 0; row < lanes::width; ++row) {
-            const Ints voxels = first[row] + lanes::counting();
-            lanes::store(&to.list_[count], voxels);
-            if (any_longer_than_eight) lanes::store(&to.list_[count + lanes::width], voxels + eight);
+        for (std::size_t row = 0; row < simd::width; ++row) {
+            const Ints voxels = first[row] + simd::counting();
+            simd::store(&to.list_[count], voxels);
+            if (any_longer_than_eight) simd::store(&to.list_[count + simd::width], voxels + eight);
             to.rows_[to.row_count_] = {static_cast<std::uint16_t>(first[row]),
                                        static_cast<std::uint16_t>(length[row]),
                                        static_cast<std::uint16_t>(count)};
@@ -97,92 +97,92 @@ struct Lowering::Kernel {
         Floats z;
     };
 
-    /// Those from place `i` of the list on, up to `count`. `corner`: the brick's first voxel.
+    /// Those from entry `i` of the list on, up to `count`. `corner`: the brick's first voxel.
     [[gnu::always_inline]] EightVoxels eight_voxels(const std::uint8_t* fractions, const glm::ivec3& corner,
                                                     std::size_t i, std::size_t count) const {
-        const Ints offset = lanes::load<Ints>(&to.list_[i]);
-        const Ints is_asked = lanes::counting() < static_cast<int>(count) - static_cast<int>(i);
+        const Ints offset = simd::load<Ints>(&to.list_[i]);
+        const Ints is_asked = simd::counting() < static_cast<int>(count) - static_cast<int>(i);
         return {offset, gathered(fractions, &to.list_[i]) & is_asked,
-                lanes::to_floats(corner.x + (offset & 15)), lanes::to_floats(corner.y + (offset >> 4 & 15)),
-                lanes::to_floats(corner.z + (offset >> 8))};
+                simd::to_floats(corner.x + (offset & 15)), simd::to_floats(corner.y + (offset >> 4 & 15)),
+                simd::to_floats(corner.z + (offset >> 8))};
     }
 
     /// Asks double precision where single precision is not sure.
-    template <VoxelEdges edges>
-    static void make_sure(const SweepSeenFrom& sweep, const EightVoxels& voxels, LeftLanes& left) {
-        for (unsigned unsure = lanes::bits_of(left.is_unsure); unsure != 0; unsure &= unsure - 1) {
+    template <VoxelCoverage coverage>
+    static void make_sure(const SweepSeenFrom& sweep, const EightVoxels& voxels, EightLevelsLeft& left) {
+        for (unsigned unsure = simd::bits_of(left.is_unsure); unsure != 0; unsure &= unsure - 1) {
             const int i = std::countr_zero(unsure);
-            left.left[i] = osteomill::fraction_left<edges>(sweep, voxels.x[i], voxels.y[i], voxels.z[i]);
+            left.left[i] = osteomill::level_left<coverage>(sweep, voxels.x[i], voxels.y[i], voxels.z[i]);
         }
     }
 
     /// Adds eight voxels and what they lose to a batch that has room for them.
     [[gnu::always_inline]] static void append(RemovedVoxels& out, const EightVoxels& voxels,
-                                              const Floats& codes, std::int32_t slot) {
+                                              const Floats& levels, std::int32_t slot) {
         const std::size_t n = out.count;
-        lanes::store(&out.x[n], voxels.x);
-        lanes::store(&out.y[n], voxels.y);
-        lanes::store(&out.z[n], voxels.z);
-        lanes::store(&out.codes[n], codes);
-        lanes::store(&out.slot[n], lanes::ints(slot));
-        lanes::store(&out.offset[n], voxels.offset);
-        out.count += lanes::width;
+        simd::store(&out.x[n], voxels.x);
+        simd::store(&out.y[n], voxels.y);
+        simd::store(&out.z[n], voxels.z);
+        simd::store(&out.levels[n], levels);
+        simd::store(&out.slot[n], simd::ints(slot));
+        simd::store(&out.offset[n], voxels.offset);
+        out.count += simd::width;
     }
 
     /// Writes what is left of eight voxels and lists those that lost something. Says which did.
-    [[gnu::always_inline]] std::uint8_t lower_eight(const EightVoxels& voxels, const Ints& most_left,
+    [[gnu::always_inline]] std::uint8_t carve_eight(const EightVoxels& voxels, const Ints& most_left,
                                                     std::uint8_t* fractions, std::int32_t slot, std::size_t i,
                                                     std::size_t count) {
-        const Ints left = lanes::smaller(voxels.old, most_left);
+        const Ints left = simd::smaller(voxels.old, most_left);
         const Ints lost = voxels.old - left;
-        const auto changed = static_cast<std::uint8_t>(lanes::bits_of(lost > 0));
+        const auto changed = static_cast<std::uint8_t>(simd::bits_of(lost > 0));
         if (changed == 0) return 0;
-        std::array<std::int32_t, lanes::width> lefts;
-        lanes::store(lefts.data(), left);
+        std::array<std::int32_t, simd::width> lefts;
+        simd::store(lefts.data(), left);
         const auto write = [&](std::size_t lane) {
             fractions[static_cast<std::size_t>(to.list_[i + lane])] = static_cast<std::uint8_t>(lefts[lane]);
         };
-        if (i + lanes::width <= count)  // of a known length the loop is none
-            for (std::size_t lane = 0; lane < lanes::width; ++lane) write(lane);
+        if (i + simd::width <= count)  // of a known length the loop is none
+            for (std::size_t lane = 0; lane < simd::width; ++lane) write(lane);
         else
             for (std::size_t lane = 0; i + lane < count; ++lane) write(lane);
         if (to.voxels_.count == RemovedVoxels::capacity) to.hand_on_voxels();
-        append(to.voxels_, voxels, lanes::to_floats(lost), slot);
+        append(to.voxels_, voxels, simd::to_floats(lost), slot);
         return changed;
     }
 
     /// Lowers the voxels of the list. Two times eight in turn: the roots of one are waited for while the
     /// other's are computed.
-    template <VoxelEdges edges>
-    [[gnu::always_inline]] void lower_list(const SweepSeenFrom& sweep, const SweepForLanes& fast,
+    template <VoxelCoverage coverage>
+    [[gnu::always_inline]] void carve_list(const SweepSeenFrom& sweep, const SimdSweep& fast,
                                            std::int32_t slot, const glm::ivec3& corner, std::size_t count) {
         std::uint8_t* const fractions = to.bone_.fractions(slot).data();
         // The last sixteen are filled up with a voxel that is not asked for.
-        lanes::store(&to.list_[count], lanes::ints(to.list_[0]));
-        lanes::store(&to.list_[count + lanes::width], lanes::ints(to.list_[0]));
-        for (std::size_t i = 0; i < count; i += 2 * lanes::width) {
-            std::uint8_t* const changed = &to.changed_[i / lanes::width];
+        simd::store(&to.list_[count], simd::ints(to.list_[0]));
+        simd::store(&to.list_[count + simd::width], simd::ints(to.list_[0]));
+        for (std::size_t i = 0; i < count; i += 2 * simd::width) {
+            std::uint8_t* const changed = &to.changed_[i / simd::width];
             changed[0] = changed[1] = 0;
             const EightVoxels a = eight_voxels(fractions, corner, i, count);
-            const EightVoxels b = eight_voxels(fractions, corner, i + lanes::width, count);
-            if (!lanes::any(a.old | b.old)) continue;  // the burr in its own groove
-            LeftLanes left_a = fraction_left<edges>(fast, a.x, a.y, a.z);
-            LeftLanes left_b = fraction_left<edges>(fast, b.x, b.y, b.z);
-            if (lanes::any(left_a.is_unsure | left_b.is_unsure)) [[unlikely]] {
-                make_sure<edges>(sweep, a, left_a);
-                make_sure<edges>(sweep, b, left_b);
+            const EightVoxels b = eight_voxels(fractions, corner, i + simd::width, count);
+            if (!simd::any(a.old | b.old)) continue;  // the burr in its own groove
+            EightLevelsLeft left_a = level_left<coverage>(fast, a.x, a.y, a.z);
+            EightLevelsLeft left_b = level_left<coverage>(fast, b.x, b.y, b.z);
+            if (simd::any(left_a.is_unsure | left_b.is_unsure)) [[unlikely]] {
+                make_sure<coverage>(sweep, a, left_a);
+                make_sure<coverage>(sweep, b, left_b);
             }
-            changed[0] = lower_eight(a, left_a.left, fractions, slot, i, count);
-            if (i + lanes::width < count)
-                changed[1] = lower_eight(b, left_b.left, fractions, slot, i + lanes::width, count);
+            changed[0] = carve_eight(a, left_a.left, fractions, slot, i, count);
+            if (i + simd::width < count)
+                changed[1] = carve_eight(b, left_b.left, fractions, slot, i + simd::width, count);
         }
     }
 
-    template <VoxelEdges edges>
-    [[gnu::always_inline]] void lower_bricks(const CrescentRows& rows, const BrickLayer& layer, int brick_y,
+    template <VoxelCoverage coverage>
+    [[gnu::always_inline]] void carve_bricks(const CrescentRows& rows, const BrickLayer& layer, int brick_y,
                                              const VoxelRange& slices) {
         const SweepSeenFrom sweep = to.sweep_;
-        const SweepForLanes fast(sweep);
+        const SimdSweep fast(sweep);
         const CrescentRows::Shape shape = rows.shape();
         const int first_y = brick_y * brick_edge_voxels;
         const int first_z = slices.first / brick_edge_voxels * brick_edge_voxels;
@@ -219,54 +219,54 @@ struct Lowering::Kernel {
             if (count == 0) continue;
             // By now what was written to the brick before has reached the cache.
             to.report_changes();
-            lower_list<edges>(sweep, fast, slot, {brick_x * brick_edge_voxels, first_y, first_z}, count);
+            carve_list<coverage>(sweep, fast, slot, {brick_x * brick_edge_voxels, first_y, first_z}, count);
             to.changed_slot_ = slot;
             std::copy_n(to.rows_.begin(), to.row_count_, to.changed_rows_.begin());
             to.changed_row_count_ = to.row_count_;
         }
     }
 
-    [[gnu::always_inline]] void lower_bricks(const CrescentRows& rows, const BrickLayer& layer, int brick_y,
+    [[gnu::always_inline]] void carve_bricks(const CrescentRows& rows, const BrickLayer& layer, int brick_y,
                                              const VoxelRange& slices) {
-        if (to.sweep_.edges == VoxelEdges::partial)
-            lower_bricks<VoxelEdges::partial>(rows, layer, brick_y, slices);
-        else if (to.sweep_.edges == VoxelEdges::soft)
-            lower_bricks<VoxelEdges::soft>(rows, layer, brick_y, slices);
+        if (to.sweep_.coverage == VoxelCoverage::linear)
+            carve_bricks<VoxelCoverage::linear>(rows, layer, brick_y, slices);
+        else if (to.sweep_.coverage == VoxelCoverage::smoothed)
+            carve_bricks<VoxelCoverage::smoothed>(rows, layer, brick_y, slices);
         else
-            lower_bricks<VoxelEdges::whole>(rows, layer, brick_y, slices);
+            carve_bricks<VoxelCoverage::binary>(rows, layer, brick_y, slices);
     }
 };
 
-void Lowering::lower_bricks_plain(const CrescentRows& rows, const BrickLayer& layer, int brick_y,
-                                  const VoxelRange& z) noexcept {
-    Kernel{*this}.lower_bricks(rows, layer, brick_y, z);
+void CarveKernel::carve_bricks_plain(const CrescentRows& rows, const BrickLayer& layer, int brick_y,
+                                     const VoxelRange& z) noexcept {
+    Loops{*this}.carve_bricks(rows, layer, brick_y, z);
 }
 
 #if defined(__x86_64__)
-[[gnu::target("avx2")]] void Lowering::lower_bricks_avx2(const CrescentRows& rows, const BrickLayer& layer,
-                                                         int brick_y, const VoxelRange& z) noexcept {
-    Kernel{*this}.lower_bricks(rows, layer, brick_y, z);
+[[gnu::target("avx2")]] void CarveKernel::carve_bricks_avx2(const CrescentRows& rows, const BrickLayer& layer,
+                                                            int brick_y, const VoxelRange& z) noexcept {
+    Loops{*this}.carve_bricks(rows, layer, brick_y, z);
 }
 #endif
 
-void Lowering::lower_bricks(const CrescentRows& rows, const BrickLayer& layer, int brick_y,
-                            const VoxelRange& z) noexcept {
+void CarveKernel::carve_bricks(const CrescentRows& rows, const BrickLayer& layer, int brick_y,
+                               const VoxelRange& z) noexcept {
 #if defined(__x86_64__)
     if (instructions_ == InstructionSet::avx2) {
-        lower_bricks_avx2(rows, layer, brick_y, z);
+        carve_bricks_avx2(rows, layer, brick_y, z);
         return;
     }
 #endif
-    lower_bricks_plain(rows, layer, brick_y, z);
+    carve_bricks_plain(rows, layer, brick_y, z);
 }
 
-void Lowering::report_changes() noexcept {
+void CarveKernel::report_changes() noexcept {
     if (changed_slot_ == BoneContent::no_slot) return;
     for (std::size_t i = 0; i < changed_row_count_; ++i) {
         const Row& row = changed_rows_[i];
-        const std::uint8_t* const stream = &changed_[row.place / 8];
-        const unsigned from_place = (stream[0] | stream[1] << 8u | stream[2] << 16u) >> row.place % 8;
-        const unsigned voxels = from_place & ((1u << row.length) - 1u);
+        const std::uint8_t* const stream = &changed_[row.list_start / 8];
+        const unsigned from_start = (stream[0] | stream[1] << 8u | stream[2] << 16u) >> row.list_start % 8;
+        const unsigned voxels = from_start & ((1u << row.length) - 1u);
         if (voxels == 0) continue;
         report_run(row.first + static_cast<std::size_t>(std::countr_zero(voxels)),
                    row.first + static_cast<std::size_t>(31 - std::countl_zero(voxels)));
@@ -274,7 +274,7 @@ void Lowering::report_changes() noexcept {
     changed_slot_ = BoneContent::no_slot;
 }
 
-void Lowering::report_run(std::size_t first_voxel, std::size_t last_voxel) noexcept {
+void CarveKernel::report_run(std::size_t first_voxel, std::size_t last_voxel) noexcept {
     const std::uint8_t* const fractions = bone_.fractions(changed_slot_).data() + first_voxel;
     EditRun run{.brick = bone_.content().brick_of_slot[static_cast<std::size_t>(changed_slot_)],
                 .first_voxel = static_cast<std::uint16_t>(first_voxel),
@@ -287,12 +287,12 @@ void Lowering::report_run(std::size_t first_voxel, std::size_t last_voxel) noexc
     edits_.push(run);
 }
 
-void Lowering::hand_on_voxels() noexcept {
+void CarveKernel::hand_on_voxels() noexcept {
     if (voxels_.count > 0) sink_.take(voxels_);
     voxels_.count = 0;
 }
 
-void Lowering::flush() noexcept {
+void CarveKernel::flush() noexcept {
     report_changes();
     hand_on_voxels();
 }

@@ -1,4 +1,4 @@
-#include "haptic_server/cutting_force/axis_means.h"
+#include "haptic_server/cutting_force/axis_singularity_kernel.h"
 
 #include <gtest/gtest.h>
 
@@ -17,11 +17,11 @@ double weight(double distance) {
 }
 
 /// The means about (r, 0) by quadrature in polar coordinates about the axis, where 1/r does no harm.
-AxisMeans<double> means_by_quadrature(double r) {
+AxisKernel<double> means_by_quadrature(double r) {
     constexpr int angles = 720;
     constexpr int radii = 2000;
     const double farthest = r + a;
-    AxisMeans<double> sum{};
+    AxisKernel<double> sum{};
     for (int i = 0; i < angles; ++i) {
         const double angle = 2.0 * std::numbers::pi * (i + 0.5) / angles;
         for (int j = 0; j < radii; ++j) {
@@ -36,18 +36,18 @@ AxisMeans<double> means_by_quadrature(double r) {
     return {sum.swirl * cell, sum.outward * cell, sum.inverse * cell};
 }
 
-TEST(AxisMeans, AreThoseOverTheWeightedDisc) {
+TEST(AxisKernel, AreThoseOverTheWeightedDisc) {
     for (const double r : {0.05, 0.2, 0.5, 0.9, 1.3, 1.7, 1.92, 1.94, 2.2, 3.5, 8.0}) {
-        const AxisMeans<double> exact = means_by_quadrature(r);
-        const AxisMeans<float> means =
-            axis_means(static_cast<float>(r * r), static_cast<float>(1.0 / std::max(r, 0.1)));
+        const AxisKernel<double> exact = means_by_quadrature(r);
+        const AxisKernel<float> means =
+            axis_kernel(static_cast<float>(r * r), static_cast<float>(1.0 / std::max(r, 0.1)));
         EXPECT_NEAR(r * static_cast<double>(means.swirl), exact.swirl, 2e-3) << "r " << r;
         EXPECT_NEAR(r * static_cast<double>(means.outward), exact.outward, 6e-3) << "r " << r;
         EXPECT_NEAR(static_cast<double>(means.inverse) / exact.inverse, 1.0, 1e-2) << "r " << r;
     }
 }
 
-TEST(AxisMeans, DoNotTellWhereThePlanesOfTheLatticeLie) {
+TEST(AxisKernel, DoNotTellWhereThePlanesOfTheLatticeLie) {
     constexpr double step = 0.01;                       // along the planes, where bone is the same
     for (const double spacing : {1.0, std::sqrt(2.0)})  // seen along the lattice, and aslant
         for (const double place : {0.0, 0.13, 0.25, 0.5}) {
@@ -59,7 +59,7 @@ TEST(AxisMeans, DoNotTellWhereThePlanesOfTheLatticeLie) {
         }
 }
 
-TEST(AxisMeans, AllButLeaveCurvaturesAsTheyAre) {
+TEST(AxisKernel, AllButLeaveCurvaturesAsTheyAre) {
     constexpr int steps = 10'000;
     double total = 0.0;
     double second_moment = 0.0;

@@ -1,4 +1,4 @@
-#include "haptic_server/cutting_force/cutting_force.h"
+#include "haptic_server/cutting_force/mean_force.h"
 
 #include <gtest/gtest.h>
 
@@ -43,15 +43,15 @@ ReferenceCase slot_1_mm_deep() {
     throw std::runtime_error("no such case");
 }
 
-TEST(CuttingForce, TangentialPowerIsKtTimesRemovalRate) {
+TEST(MeanForce, TangentialPowerIsKtTimesRemovalRate) {
     // One voxel's worth of bone on the burr's surface: power = F . e_psi * 2 pi r n_rev = K_t V / dt,
     // wherever it lay.
     Burr burr;
     burr.sense = SpindleSense::counter_clockwise;
     burr.cutting_coefficients_n_per_mm2 = {230.0, 0.0, 0.0};
     for (const glm::ivec3 voxel : {glm::ivec3(20, 0, -15), glm::ivec3(0, 7, -24), glm::ivec3(12, -9, 20)}) {
-        CuttingForce force(CuttingStep(burr, {0.0, 0.0, 1.0}, {0.0, 0.0, 0.0}, 0.1, 0.01),
-                           InstructionSet::plain);
+        MeanForce force(CuttingStep(burr, {0.0, 0.0, 1.0}, {0.0, 0.0, 0.0}, 0.1, 0.01),
+                        InstructionSet::plain);
         testing::add_voxel(force, voxel, 1.0);
         const double r_mm = 0.1 * std::hypot(voxel.x, voxel.y);
         const glm::dvec3 e_psi = glm::normalize(glm::dvec3(-voxel.y, voxel.x, 0.0));
@@ -61,7 +61,7 @@ TEST(CuttingForce, TangentialPowerIsKtTimesRemovalRate) {
     }
 }
 
-TEST(CuttingForce, IsProportionalToFeedAndToTheInverseOfSpindleSpeed) {
+TEST(MeanForce, IsProportionalToFeedAndToTheInverseOfSpindleSpeed) {
     ReferenceCase c = slot_1_mm_deep();
     const glm::dvec3 force = run_steady(c, 0.1, 0.01, 2.0).mean_force_n;
     ReferenceCase faster_feed = c;
@@ -72,7 +72,7 @@ TEST(CuttingForce, IsProportionalToFeedAndToTheInverseOfSpindleSpeed) {
     EXPECT_LT(relative_error(run_steady(faster_spindle, 0.1, 0.01, 2.0).mean_force_n, 0.25 * force), 1e-12);
 }
 
-TEST(CuttingForce, MeanAndRemovalDoNotDependOnTheTickRateNorOnTheNumberOfEdges) {
+TEST(MeanForce, MeanAndRemovalDoNotDependOnTheTickRateNorOnTheNumberOfEdges) {
     ReferenceCase c = slot_1_mm_deep();
     const SteadyResult at_100_hz = run_steady(c, 0.1, 0.01, 2.0);
     for (const double step_s : {0.002, 0.001, 0.0001}) {
@@ -84,7 +84,7 @@ TEST(CuttingForce, MeanAndRemovalDoNotDependOnTheTickRateNorOnTheNumberOfEdges) 
     EXPECT_LT(relative_error(run_steady(c, 0.1, 0.01, 2.0).mean_force_n, at_100_hz.mean_force_n), 1e-12);
 }
 
-TEST(CuttingForce, TakesEachLayersShareAndFollowsACurvedPath) {
+TEST(MeanForce, TakesEachLayersShareAndFollowsACurvedPath) {
     // Polishing, tilted, plunging, an arc, and a block whose upper 0.8 mm are softer.
     for (const study::StudiedMotion& motion : study::studied_motions(true)) {
         const auto series = study::run_motion(motion, {}, study::voxel_model());
@@ -92,7 +92,7 @@ TEST(CuttingForce, TakesEachLayersShareAndFollowsACurvedPath) {
     }
 }
 
-TEST(CuttingForce, ErrsLessTheFinerTheVoxels) {
+TEST(MeanForce, ErrsLessTheFinerTheVoxels) {
     double coarser = 1.0;
     for (const double voxel_mm : {0.4, 0.2, 0.1}) {
         double error = 0.0;
@@ -105,7 +105,7 @@ TEST(CuttingForce, ErrsLessTheFinerTheVoxels) {
     }
 }
 
-TEST(CuttingForce, OfASlotIsSteadyFromStepToStep) {
+TEST(MeanForce, OfASlotIsSteadyFromStepToStep) {
     // Ripple: rms about the mean of steps of 10 ms.
     for (const ReferenceCase& c : testing::reference_cases()) {
         if (c.burr.diameter_mm != 5.0 || c.velocity_mm_per_s.z != 0.0 || c.previous_groove_mm_higher)

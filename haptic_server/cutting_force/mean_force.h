@@ -9,9 +9,9 @@
 namespace osteomill {
 
 /// The mean over a step: equation (2), directly over voxels. Real-time safe.
-class CuttingForce {
+class MeanForce {
   public:
-    CuttingForce(const CuttingStep& step, InstructionSet instructions) noexcept
+    MeanForce(const CuttingStep& step, InstructionSet instructions) noexcept
         : step_(step), instructions_(instructions) {}
 
     /// `weights`: relative stiffness times the fraction removed, padded with zeros like the batch.

@@ -17,12 +17,12 @@
 
 namespace osteomill {
 
-class ToothForce {
+class InstantaneousForce {
   public:
     static constexpr int most_instants = 64;
 
     /// Throws std::invalid_argument unless 1 <= instants <= most_instants.
-    ToothForce(int instants, InstructionSet instructions);
+    InstantaneousForce(int instants, InstructionSet instructions);
 
     /// The edges turn on for `elapsed_s`, and the bins forget with time. Another burr starts with empty bins.
     /// Everything from here on is real-time safe.
@@ -31,7 +31,7 @@ class ToothForce {
     /// What add() takes from now on was cut in `step`, which may have lasted for several turns.
     void begin_step(const CuttingStep& step) noexcept;
 
-    /// As CuttingForce::add.
+    /// As MeanForce::add.
     void add(const RemovedVoxels& removed, std::span<const float> weights) noexcept;
 
     /// Empties the bins: what was cut so far says nothing of the teeth to come.

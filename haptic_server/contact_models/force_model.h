@@ -10,9 +10,9 @@
 namespace osteomill {
 
 /// One thread at a time.
-class ContactModel {
+class ForceModel {
   public:
-    virtual ~ContactModel() = default;
+    virtual ~ForceModel() = default;
 
     /// Moves the burr to the command's pose at session time `time_s`, takes away the bone that goes (none
     /// while the spindle is off), pushes the edits and overwrites `result`. A command that is not finite, of
@@ -24,8 +24,8 @@ class ContactModel {
     virtual const Bone& bone() const = 0;
     /// Since the start.
     virtual const RemovedByTissue& removed_mm3() const = 0;
-    /// What the edges that it leaves are smoothed over, voxels, as in cover.h; 0 where it does not carve by
-    /// that law.
+    /// What the edges that it leaves are smoothed over, voxels, as in voxel_coverage.h; 0 where it does not
+    /// carve by that law.
     virtual double edge_smoothing_voxels() const { return 0.0; }
 };
 

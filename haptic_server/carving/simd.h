@@ -11,7 +11,7 @@
 #include <cstdint>
 #include <cstring>
 
-namespace osteomill::lanes {
+namespace osteomill::simd {
 
 inline constexpr std::size_t width = 8;
 
@@ -99,4 +99,4 @@ template <typename Scalar, typename Lanes>
     return total;
 }
 
-}  // namespace osteomill::lanes
+}  // namespace osteomill::simd

@@ -1,4 +1,4 @@
-#include "haptic_server/cutting_force/chip_map.h"
+#include "haptic_server/cutting_force/binned_force.h"
 
 #include <gtest/gtest.h>
 
@@ -12,13 +12,13 @@ namespace {
 
 using testing::ReferenceCase;
 
-TEST(ChipMap, ThicknessIsTheFeedPerToothWhereTheSlotIsFullest) {
+TEST(BinnedForce, ThicknessIsTheFeedPerToothWhereTheSlotIsFullest) {
     // A burr that advances by f in dt cuts chips of f / (N_phi n_rev dt) straight ahead at its equator.
     Burr burr;
     burr.edges = 4;
     burr.spindle_rev_per_s = 250.0;
     const ChipBins bins{.psi = 36, .z = 10};
-    ChipMap chips(bins);
+    BinnedForce chips(bins);
     chips.begin_step(burr, CuttingStep(burr, {0.0, 0.0, 1.0}, {0.0, 0.0, 0.0}, 0.1, 0.01));
     // Slice 5 reaches from z = 0 to 0.5 mm; its middle has r = 2.4875 mm. Fill bin 0 (psi 0 to 10 degrees)
     // 0.06 mm thick.
@@ -29,7 +29,7 @@ TEST(ChipMap, ThicknessIsTheFeedPerToothWhereTheSlotIsFullest) {
     EXPECT_EQ(chips.chip_thickness_mm(1, 5), 0.0);
 }
 
-TEST(ChipMap, PublishedSumOverBinsComesNearTheReference) {
+TEST(BinnedForce, PublishedSumOverBinsComesNearTheReference) {
     for (const ReferenceCase& c : testing::reference_cases()) {
         // Bins are too coarse for a shallow cap, a thin shaving or the tip; the sum over voxels is not.
         if (c.depth_mm < 1.0 || c.previous_groove_mm_higher || c.velocity_mm_per_s.z != 0.0) continue;
@@ -38,8 +38,8 @@ TEST(ChipMap, PublishedSumOverBinsComesNearTheReference) {
     }
 }
 
-TEST(ChipMap, RefusesNoBins) {
-    EXPECT_THROW(ChipMap({.psi = 0, .z = 4}), std::invalid_argument);
+TEST(BinnedForce, RefusesNoBins) {
+    EXPECT_THROW(BinnedForce({.psi = 0, .z = 4}), std::invalid_argument);
 }
 
 }  // namespace
