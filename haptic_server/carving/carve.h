@@ -1,4 +1,4 @@
-// Removes from the bone what a sweep of the burr passes through, and tells what went. Idempotent: what is
+// Removal of the bone that a sweep of the burr passes through, with word of what went. Idempotent: what is
 // left of a voxel depends on the nearest approach of the burr alone (voxel_coverage.h), so neither order nor
 // number of steps matters and what a step removed is old minus new.
 #pragma once

@@ -70,14 +70,15 @@ struct CarveKernel::Loops {
         simd::store(length.data(), simd::larger(end - x, Ints{}));
         const bool any_longer_than_eight = simd::largest(end - x) > eight;
         // Eight voxels are written for each row, of which the next row overwrites what is too many.
-        for (std::size_t row = 0; row < simd::width; ++row) {
+        for (unsigned rows = simd::bits_of(end > x); rows != 0; rows &= rows - 1) {
+            const auto row = static_cast<std::size_t>(std::countr_zero(rows));
             const Ints voxels = first[row] + simd::counting();
             simd::store(&to.list_[count], voxels);
             if (any_longer_than_eight) simd::store(&to.list_[count + simd::width], voxels + eight);
             to.rows_[to.row_count_] = {static_cast<std::uint16_t>(first[row]),
                                        static_cast<std::uint16_t>(length[row]),
                                        static_cast<std::uint16_t>(count)};
-            to.row_count_ += length[row] > 0 ? 1 : 0;
+            ++to.row_count_;
             count += static_cast<std::size_t>(length[row]);
         }
     }

@@ -1,6 +1,6 @@
-// Lowers the voxels of a short sweep, brick by brick: lists those that may change, then does the list eight
-// at a time. Rows of the crescent are a few voxels long and nobody can predict where they end, so what is
-// done for each voxel runs over the list, without a branch.
+// Inner loops of carving one short sweep, brick by brick: they list the voxels that may change, then do the
+// list eight at a time. Rows of the crescent are a few voxels long and nobody can predict where they end, so
+// what is done for each voxel runs over the list, without a branch.
 #pragma once
 
 #include <array>

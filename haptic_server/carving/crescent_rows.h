@@ -1,4 +1,4 @@
-// Which voxels of a row can lie in the crescent that a burr cuts in one short step. A superset, quickly
+// Rows of voxels that can lie in the crescent that a burr cuts in one short step. A superset, quickly
 // found: for a step of length L from a to b about its middle m, what changes lies
 //
 //     within R + rim + L/2 of m       (beyond, no voxel is covered),

@@ -1,4 +1,4 @@
-// The rows of CrescentRows, eight at a time and without a branch.
+// Rows of a crescent (crescent_rows.h), eight at a time and without a branch.
 #pragma once
 
 #include "haptic_server/carving/crescent_rows.h"

@@ -1,5 +1,5 @@
-// Which instructions the inner loops of milling may use. The choice changes speed, never a result: every
-// variant does the same operations in the same order, and tests compare them bit for bit.
+// Instructions of the processor that the inner loops of milling may use. The choice changes speed, never a
+// result: every variant does the same operations in the same order, and tests compare them bit for bit.
 #pragma once
 
 namespace osteomill {

@@ -1,5 +1,5 @@
-// Voxels that a carve has just looked at and mostly lowered, handed on in batches so that what sums over them
-// can do so several at a time.
+// Voxels removed by one sweep, in batches for SIMD. Those of a batch that lost nothing are in it, too, so
+// that batches are filled eight voxels at a time.
 #pragma once
 
 #include <array>

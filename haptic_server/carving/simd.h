@@ -1,4 +1,4 @@
-// Eight numbers at a time, as the inner loops of milling do them. These are the compiler's own vectors: plain
+// Vectors of eight numbers for the inner loops of milling. These are the compiler's own vectors: plain
 // C++ operators act on each lane, every target has them, and a function with a wider instruction set does
 // them in fewer instructions. So one text serves every InstructionSet and gives the same bits in each.
 //
@@ -10,6 +10,10 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+
+#if defined(__SSE2__)
+#include <emmintrin.h>
+#endif
 
 namespace osteomill::simd {
 
@@ -66,17 +70,29 @@ template <typename Scalar, typename Lanes>
 
 /// Whether a bit is set in some lane.
 [[gnu::always_inline]] inline bool any(const Ints& v) {
-    using Words [[gnu::vector_size(32)]] = std::uint64_t;
-    const Words words = reinterpret_cast<const Words&>(v);
-    return (words[0] | words[1] | words[2] | words[3]) != 0;
+    const HalfInts four = low_half(v) | high_half(v);
+#if defined(__SSE2__)
+    const auto bytes_without = _mm_cmpeq_epi8(reinterpret_cast<const __m128i&>(four), _mm_setzero_si128());
+    return _mm_movemask_epi8(bytes_without) != 0xffff;
+#else
+    return (four[0] | four[1] | four[2] | four[3]) != 0;
+#endif
 }
 
 /// Bit i is set where lane i, 0 or -1, is -1.
 [[gnu::always_inline]] inline unsigned bits_of(const Ints& is) {
+#if defined(__SSE2__)
+    const HalfInts low = low_half(is);
+    const HalfInts high = high_half(is);
+    const __m128i words =
+        _mm_packs_epi32(reinterpret_cast<const __m128i&>(low), reinterpret_cast<const __m128i&>(high));
+    return static_cast<unsigned>(_mm_movemask_epi8(_mm_packs_epi16(words, _mm_setzero_si128())));
+#else
     const Ints bits = is & Ints{1, 2, 4, 8, 16, 32, 64, 128};
     const HalfInts four = low_half(bits) | high_half(bits);
     const HalfInts two = four | __builtin_shufflevector(four, four, 2, 3, 0, 1);
     return static_cast<unsigned>(two[0] | two[1]);
+#endif
 }
 
 /// Largest of the eight.

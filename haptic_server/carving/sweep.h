@@ -1,4 +1,5 @@
-// What a spherical burr passes through during one step: a capsule, the ball swept along a straight line.
+// Space that a spherical burr passes through during one step: a capsule, the ball swept along a straight
+// line.
 #pragma once
 
 #include <cmath>

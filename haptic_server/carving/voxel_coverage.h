@@ -1,5 +1,4 @@
-// How much of a voxel a sweep of the burr leaves: the fraction is at most one minus the part that the sweep
-// covers,
+// Part of a voxel that a sweep of the burr covers: the fraction that it leaves is at most one minus that,
 //
 //     cover = clamp(1/2 + (R - distance) / h, 0, 1)      linear
 //     cover = that, smoothed                             smoothed

@@ -1,4 +1,4 @@
-// What a sweep leaves of eight voxels at once: the formula of voxel_coverage.h in single precision, which is
+// Coverage of eight voxels at once: the formula of voxel_coverage.h in single precision, which is
 // twice as fast as double, and where its error could round to another of the 255 levels: there (one voxel in
 // a hundred) double precision must be asked.
 //

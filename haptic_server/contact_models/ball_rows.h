@@ -1,4 +1,4 @@
-// The voxels that a ball overlaps, row by row of the stored bricks.
+// Voxels that a ball overlaps, row by row of the stored bricks.
 #pragma once
 
 #include <algorithm>

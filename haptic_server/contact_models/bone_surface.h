@@ -1,4 +1,4 @@
-// The bone's surface, to a fraction of a voxel: where the trilinear fraction is one half. Positions are
+// Surface of the bone, to a fraction of a voxel: where the trilinear fraction is one half. Positions are
 // counted from the base of the bricks, as BrickNeighbourhood takes them.
 #pragma once
 

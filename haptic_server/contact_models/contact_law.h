@@ -1,4 +1,4 @@
-// How bone answers a burr that overlaps it, in the simulators that came before a milling law: a force from
+// Interface of the older contact models: how bone answers a burr that overlaps it. A force from
 // the overlap alone, and a rate at which bone wears off. eroding_model.h makes a contact model of it.
 #pragma once
 

@@ -1,5 +1,5 @@
-// Bone that wears off under a turning burr. The contact models from before the milling law know no chip:
-// their bone loses density as long as a burr covers it, the harder bone the more slowly,
+// Erosion: bone that wears off under a turning burr. The contact models from before the milling law know no
+// chip: their bone loses density as long as a burr covers it, the harder bone the more slowly,
 //
 //     d fraction / dt = - (e / s) cover,
 //

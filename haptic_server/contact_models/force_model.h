@@ -1,6 +1,6 @@
-// What the milling loop runs: something that owns the bone, follows the burr, takes bone away and says with
-// what force the bone pushes back. The milling model is one; the older contact models are others.
-// force_models.h makes one by its name.
+// Interface of the force models, which the milling loop runs. A force model owns the bone, follows the burr,
+// takes bone away and says with what force the bone pushes back. The milling model is one; the older contact
+// models are others. force_models.h makes one by its name.
 #pragma once
 
 #include "common/bone/bone.h"

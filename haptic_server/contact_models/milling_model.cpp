@@ -82,7 +82,7 @@ void MillingModel::carve_and_sum(const Sweep& sweep, double share, EditSink& edi
                                  MillingResult& result) noexcept {
     ForceOfRemoved removed(bone_.content(), account_, force);
     carve(bone_, sweep, carved_at_position_ ? CarveHistory::carved_at_from : CarveHistory::none,
-          {.edges = settings_.coverage, .instructions = settings_.instructions}, edits, removed);
+          {.coverage = settings_.coverage, .instructions = settings_.instructions}, edits, removed);
     result.force_n += share * force.force_n();
 }
 

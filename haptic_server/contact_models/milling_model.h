@@ -1,5 +1,5 @@
-// The milling model behind the milling loop: owns the bone, moves the burr, removes bone, computes force and
-// engagement. One thread at a time.
+// Milling model, the default force model: it owns the bone, carves it along the path of the burr and sums the
+// cutting force of what went, and samples the engagement. One thread at a time.
 #pragma once
 
 #include <memory>
@@ -13,6 +13,7 @@
 #include "haptic_server/contact_models/milling_settings.h"
 #include "haptic_server/contact_models/removal_account.h"
 #include "haptic_server/cutting_force/instantaneous_force.h"
+#include "haptic_server/engagement/engagement_probe.h"
 #include "haptic_server/exchange/milling_step.h"
 
 namespace osteomill {

@@ -1,4 +1,5 @@
-// How the milling model carves and sums: what --force-model chooses, and what studies vary.
+// Settings of the milling model, how it carves and how it sums: what --force-model chooses, and what studies
+// vary.
 #pragma once
 
 #include "haptic_server/carving/instruction_set.h"
@@ -18,7 +19,7 @@ struct MillingSettings {
     ForceSummation summation = ForceSummation::voxels;
     ChipBins bins{};              ///< of ForceSummation::bins
     int instants_per_tooth = 20;  ///< of ForceSummation::instants
-    VoxelCoverage edges = VoxelCoverage::smoothed;
+    VoxelCoverage coverage = VoxelCoverage::smoothed;
     InstructionSet instructions = best_instruction_set();
 };
 

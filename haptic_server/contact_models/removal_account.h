@@ -1,4 +1,4 @@
-// What has been taken from a bone: by tissue and in all, in this step and since the start, and whether
+// Account of the bone removed: by tissue and in all, in this step and since the start, and whether
 // protected tissue was among it. Every contact model keeps its account here and so reports alike.
 #pragma once
 

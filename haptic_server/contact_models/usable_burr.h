@@ -1,4 +1,4 @@
-// What every contact model asks of a burr and of a command.
+// Checks of a burr and of a command that every force model makes.
 #pragma once
 
 #include <cstddef>

@@ -1,4 +1,4 @@
-// The voxelised tool, after Morris, Sewell, Barbagli, Salisbury, Blevins and Girod, "Visuohaptic simulation
+// Voxelised tool, after Morris, Sewell, Barbagli, Salisbury, Blevins and Girod, "Visuohaptic simulation
 // of bone surgery for training and evaluation", IEEE Computer Graphics and Applications 26(6), 2006
 // (equations from general knowledge of the paper): the burr is a set of voxels; each that is immersed in bone
 // pushes toward the burr's centre with a unit vector, and the force grows with their number,

@@ -1,4 +1,4 @@
-// The burr as a massless proxy, tied to the device by a spring and held by the bone: backward Euler, solved
+// Burr as a massless proxy, tied to the device by a spring and held by the bone: backward Euler, solved
 // each tick against the engagement map that the milling loop last sampled.
 //
 //     K_c (x - p - d) + F(d) = 0      for the step d of the proxy p toward the device x

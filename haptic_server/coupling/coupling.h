@@ -1,11 +1,8 @@
-// What stands between the milling model and the hand: from model output and device state to the force of this
-// haptic tick, and to where the burr goes.
+// Interface of the couplings, which stand between the force model and the hand: from model output and device
+// state to the force of this haptic tick, and to where the burr goes.
 #pragma once
 
 #include <glm/vec3.hpp>
-#include <memory>
-#include <string>
-#include <vector>
 
 #include "common/scene/scene.h"
 #include "haptic_server/device/haptic_device.h"
@@ -48,27 +45,5 @@ struct CouplingOptions {
     /// that force, makes no wall of its own and leaves the burr where the hand is.
     bool model_holds_wall = false;
 };
-
-struct CouplingEntry {
-    std::string name;
-    std::string description;         ///< a few words for --help
-    bool needs_cutting_law = false;  ///< it solves one: not with a force model that has none
-    bool is_interpolated = false;    ///< a line between two model forces, as the published method has it
-};
-
-/// In the order of --help; the first is the default.
-std::vector<CouplingEntry> couplings();
-std::vector<std::string> coupling_names();
-
-/// What --coupling takes, in one line: the names, and how those of direct_coupling.h are combined with a
-/// virtual damper (BASE+damper) or passivity control (BASE+passivity).
-std::string coupling_choices();
-
-/// Of a name or a combination. Throws std::invalid_argument with the choices for what is neither.
-CouplingEntry find_coupling(const std::string& name);
-
-/// Throws as coupling_method does, and std::invalid_argument for a coupling that needs a cutting law with a
-/// model that has none.
-std::unique_ptr<Coupling> make_coupling(const std::string& name, const CouplingOptions& options);
 
 }  // namespace osteomill

@@ -1,4 +1,4 @@
-// The spring and damper between the hand and a burr that is not rigidly the device.
+// Spring and damper between the hand and a burr that is not rigidly the device.
 //
 //     F_hand = -K_c (x - p) - B_c (v - w)      x the hand, p the burr
 //     v, w: dx/dt and dp/dt through first-order filters of tau_x and tau_p

@@ -1,4 +1,4 @@
-// Direct couplings: the burr is rigidly the device, and the hand feels the model's force, reconstructed
+// Direct coupling: the burr is rigidly the device, and the hand feels the model's force, reconstructed
 // between its samples (force_reconstruction.h).
 //
 // In the loop as it runs, the force for the pose of tick k is visible at tick k + 1 at the earliest.

@@ -1,5 +1,5 @@
-// From the forces that a model gives once a period to the force of each haptic tick: an estimate at the
-// model's rate, then a shape over the period that follows.
+// Reconstruction of the force of each haptic tick from those that a model gives once a period: an estimate at
+// the model's rate, then a shape over the period that follows.
 //
 //     estimate   newest      u_k = F_k
 //                trapezoid   u_k = 1.5 F_k - 0.5 F_{k-1}

@@ -1,4 +1,4 @@
-// A passivity observer and controller around another coupling, in the time domain (Hannaford and Ryu, IEEE
+// Passivity observer and controller around another coupling, in the time domain (Hannaford and Ryu, IEEE
 // Trans. Robotics and Automation 18:1, 2002): watches the energy that the rendered force has taken from the
 // hand, and where it has given more than it took, damps for as long as that lasts.
 //

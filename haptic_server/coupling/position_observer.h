@@ -1,5 +1,5 @@
-// Where the hand is between the steps of its encoder: a predictor that is corrected only by what the reading
-// proves.
+// Observer of the hand's position between the steps of its encoder: a predictor that is corrected only by
+// what the reading proves.
 //
 //     p = x^ + v^ dt + (x - x^) dt / tau  prediction
 //     r = x - p,  d = r - clamp(r, -q/2, q/2)      how far p lies outside the encoder's cell around x

@@ -1,4 +1,4 @@
-// A virtual damper beside another coupling, felt in contact only: air stays free.
+// Virtual damper beside another coupling, felt in contact only: air stays free.
 //
 //     F = F_base - B min(1, |F_base| / F_full) v          v of the device, as its driver estimates it
 //

@@ -1,8 +1,9 @@
-// What a voxel near the spindle's axis stands for. The force of a chip grows toward the axis as 1/r: taken at
-// the voxel's middle it would be far too much or too little, and its mean over the voxel's cube is wrong
-// wherever the chip's thickness slopes at the axis, as it does under a tilted burr (by 2 to 4 % of the force
-// of a burr ten voxels thick). So its mean is taken over a disc about the voxel with weights that all but
-// leave slopes and curvatures of what the voxels hold as they are. With t = (r / a)^2:
+// Averaging kernel for voxels near the spindle's axis, where the law is singular. The force of a chip grows
+// toward the axis as 1/r: taken at the voxel's middle it would be far too much or too little, and its mean
+// over the voxel's cube is wrong wherever the chip's thickness slopes at the axis, as it does under a tilted
+// burr (by 2 to 4 % of the force of a burr ten voxels thick). So its mean is taken over a disc about the
+// voxel with weights that all but leave slopes and curvatures of what the voxels hold as they are. With t =
+// (r / a)^2:
 //
 //     w(t) = 0.6 (13 - 32 t) (1 - t)^2 / (pi a^2),   t < 1.
 //
@@ -16,10 +17,6 @@
 #pragma once
 
 namespace osteomill {
-
-/// Radius of a disc of a voxel's cross-section, 1/sqrt(pi): how near to the axis a voxel is taken to be at
-/// least, where no mean is.
-inline constexpr double disc_radius_voxels = 0.56418958354775628695;
 
 /// Radius a of the disc, voxels.
 inline constexpr float axis_disc_voxels = 1.93f;

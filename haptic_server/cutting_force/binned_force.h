@@ -1,4 +1,4 @@
-// The milling force by bins, as published: the bone that a step removed is sorted into bins [psi, z] of the
+// Milling force by bins, as published: the bone that a step removed is sorted into bins [psi, z] of the
 // burr, which gives each bin's chip thickness; equation (2) sums over bins. Slower and coarser than
 // chip_force.h, whose sum is the limit of fine bins; kept because it is the published method and because
 // it shows the chip.

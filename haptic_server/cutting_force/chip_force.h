@@ -1,4 +1,4 @@
-// The force of each bit of bone that a step removed, without bins:
+// Force of each voxel that a step removed, without bins:
 //
 //     f = s V (-sigma K_t e_psi - K_r n - K_a e_kappa) / (2 pi r n_rev dt)
 //

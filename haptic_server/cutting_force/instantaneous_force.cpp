@@ -6,13 +6,14 @@
 #include <numbers>
 #include <stdexcept>
 
-#include "haptic_server/cutting_force/axis_singularity_kernel.h"
-
 namespace osteomill {
 
 namespace {
 
 constexpr double two_pi = 2.0 * std::numbers::pi;
+/// Radius of a disc as large as a voxel's cross-section, 1/sqrt(pi): how near to the spindle's axis a voxel
+/// is taken to be at least.
+constexpr double disc_radius_voxels = 0.56418958354775628695;
 
 }  // namespace
 

@@ -1,7 +1,8 @@
-// The force within a tooth period: equation (1), F(j) = sum_i sum_k T(i,j,k) [K_t K_r K_a]^T t(i,j,k) dz, on
-// voxels. At the instant when the edges have turned by phi, edge i stands at psi = sigma (phi + 2 pi i /
-// N_phi); the bone at the same phase of its tooth pitch is what the edges cut then. So the chip forces of the
-// removed voxels, sorted by phase into N_theta bins, are the forces of N_theta instants:
+// Milling force at an instant within the tooth period: equation (1), F(j) = sum_i sum_k T(i,j,k) [K_t K_r
+// K_a]^T t(i,j,k) dz, on voxels. At the instant when the edges have turned by phi, edge i stands at psi =
+// sigma (phi + 2 pi i / N_phi); the bone at the same phase of its tooth pitch is what the edges cut then. So
+// the chip forces of the removed voxels, sorted by phase into N_theta bins, are the forces of N_theta
+// instants:
 //
 //     F(j) = N_theta * sum of the chip forces with phase in bin j,      their mean is equation (2)
 //

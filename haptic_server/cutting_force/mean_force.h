@@ -1,4 +1,4 @@
-// Ways to sum the forces of the bone that a step removed into the force on the burr.
+// Mean milling force over a step: equation (2) summed directly over the removed voxels, the default.
 #pragma once
 
 #include <glm/vec3.hpp>
@@ -8,7 +8,7 @@
 
 namespace osteomill {
 
-/// The mean over a step: equation (2), directly over voxels. Real-time safe.
+/// Real-time safe.
 class MeanForce {
   public:
     MeanForce(const CuttingStep& step, InstructionSet instructions) noexcept

@@ -1,5 +1,5 @@
-// The published force model without voxels: a burr in steady motion against bone that a function describes.
-// The yardstick for the voxel model, never a part of it.
+// Analytical reference force, the published model without voxels: a burr in steady motion against bone that a
+// function describes. The yardstick for the voxel model, never a part of it.
 //
 //     F(j) = sum_i sum_k T(i,j,k) [K_t K_r K_a]^T t(i,j,k) dz      (1) force at instant j
 //     F    = (1/N_theta) sum_j F(j)                                (2) mean over a tooth period

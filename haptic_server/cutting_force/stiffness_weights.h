@@ -1,4 +1,4 @@
-// What the force weighs a voxel's loss by.
+// Weight of each removed voxel in the force: relative stiffness times the fraction that it lost.
 #pragma once
 
 #include <cstddef>

@@ -1,4 +1,4 @@
-// The bricks around a ball, looked up once so that many samples near it need not.
+// Bricks around a ball, looked up once so that many samples near it need not.
 #pragma once
 
 #include <array>

@@ -1,4 +1,4 @@
-// What goes into one step of the milling loop and what comes out. Plain values.
+// Command and result of one step of the milling loop. Plain values, handed from thread to thread.
 #pragma once
 
 #include <array>

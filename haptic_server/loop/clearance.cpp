@@ -10,7 +10,7 @@ Clearance clearance_of(const MillingResult& latest, const glm::dvec3& position_m
     const Engagement& map = latest.engagement;
     const glm::dvec3 moved = position_mm - latest.pose.position_mm;
     // Written so that nothing is known of a position that is not finite.
-    if (!(glm::length(moved) <= EngagementProbe::reach_voxels * map.spacing_mm)) return Clearance::unknown;
+    if (!(glm::length(moved) <= Engagement::reach_voxels * map.spacing_mm)) return Clearance::unknown;
     if (latest.has_bone_inside) return Clearance::in_bone;
     const double allowed_mm = clearance_voxels * map.spacing_mm;
     const auto* const end = map.patches.begin() + map.count;

@@ -13,7 +13,7 @@ inline constexpr double clearance_voxels = 0.2;
 
 /// Of a burr at `position_mm` (patient LPS) with its spindle off. In bone: bone around `latest` reaches into
 /// it, or lies in it as a model without an engagement says. Unknown: it is farther from where the milling
-/// loop had it than the engagement map sees (EngagementProbe::reach_voxels), or there is no result yet.
+/// loop had it than the engagement map sees (Engagement::reach_voxels), or there is no result yet.
 /// Real-time safe.
 Clearance clearance_of(const MillingResult& latest, const glm::dvec3& position_mm) noexcept;
 

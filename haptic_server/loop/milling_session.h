@@ -18,7 +18,7 @@
 #include "common/scene/scene.h"
 #include "haptic_server/contact_models/force_model.h"
 #include "haptic_server/contact_models/force_models.h"
-#include "haptic_server/coupling/coupling.h"
+#include "haptic_server/coupling/couplings.h"
 #include "haptic_server/device/haptic_device.h"
 #include "haptic_server/loop/edit_queue.h"
 #include "haptic_server/loop/force_log.h"

@@ -73,7 +73,7 @@ std::string default_coupling(bool has_cutting_law) {
 std::string force_model_help() {
     std::string text = "How bone pushes back:";
     for (const ForceModelEntry& model : force_models())
-        text += fmt::format("\n  {}: {}", model.name, model.description);
+        text += fmt::format("\n  {}: {}", model.name, model.text);
     return text;
 }
 
@@ -81,8 +81,8 @@ std::string coupling_help() {
     std::string text = fmt::format(
         "What stands between the model and the hand ({}; {} with a force model that has no cutting law):",
         default_coupling(true), default_coupling(false));
-    for (const CouplingEntry& method : couplings())
-        text += fmt::format("\n  {}: {}", method.name, method.description);
+    for (const CouplingEntry& coupling : couplings())
+        text += fmt::format("\n  {}: {}", coupling.name, coupling.text);
     return text +
            "\n  BASE+damper, BASE+passivity: the same with another BASE of those that hold or interpolate";
 }

@@ -4,7 +4,7 @@
 #include <memory>
 #include <string>
 
-#include "haptic_server/coupling/coupling.h"
+#include "haptic_server/coupling/couplings.h"
 #include "studies/stability/bench_run.h"
 
 namespace osteomill::testing {

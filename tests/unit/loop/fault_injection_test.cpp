@@ -162,7 +162,7 @@ std::string without_hyphens(std::string name) {
 
 std::vector<std::string> names_of_couplings() {
     std::vector<std::string> names;
-    for (const CouplingEntry& method : couplings()) names.push_back(method.name);
+    for (const CouplingEntry& coupling : couplings()) names.push_back(coupling.name);
     return names;
 }
 

@@ -125,7 +125,7 @@ TEST(ServerOptions, PrintHelpAndVersionAndAreDone) {
         EXPECT_THAT(help.text, HasSubstr(option));
     }
     for (const ForceModelEntry& model : force_models())
-        EXPECT_THAT(help.text, AllOf(HasSubstr(model.name), HasSubstr(model.description)));
+        EXPECT_THAT(help.text, AllOf(HasSubstr(model.name), HasSubstr(model.text)));
     EXPECT_EQ(parse({"--version"}).text, "haptic_server 1.2.3\n");
 }
 

@@ -1,4 +1,4 @@
-#include "haptic_server/engagement/engagement.h"
+#include "haptic_server/engagement/engagement_probe.h"
 
 #include <algorithm>
 #include <cmath>
@@ -9,7 +9,6 @@
 #include <numbers>
 
 #include "common/scene/burr_frame.h"
-#include "haptic_server/cutting_force/axis_singularity_kernel.h"
 
 namespace osteomill {
 
@@ -27,15 +26,18 @@ unsigned order_on_sphere(const glm::dvec3& normal) {
 }
 
 /// Where along a patch's normal the bone is looked at, from the burr's surface.
-constexpr std::array<float, 4> offsets_voxels{-static_cast<float>(EngagementProbe::reach_voxels), -0.5f, 0.5f,
-                                              static_cast<float>(EngagementProbe::reach_voxels)};
+constexpr std::array<float, 4> offsets_voxels{-static_cast<float>(Engagement::reach_voxels), -0.5f, 0.5f,
+                                              static_cast<float>(Engagement::reach_voxels)};
+/// How near to the spindle's axis a patch is taken to be at least: half the radius of a disc as large as a
+/// voxel's cross-section.
+constexpr double least_axis_distance_voxels = 0.5 * 0.56418958354775628695;
 /// Half of a voxel's 255 levels: the bone's surface.
 constexpr float half = 127.5f;
 
 }  // namespace
 
 EngagementProbe::EngagementProbe(const Burr& burr, double spacing_mm)
-    : radius_mm_(burr.radius_mm()), bricks_(burr.radius_mm() / spacing_mm + reach_voxels + 2.0) {
+    : radius_mm_(burr.radius_mm()), bricks_(burr.radius_mm() / spacing_mm + Engagement::reach_voxels + 2.0) {
     const double sphere_area_mm2 = 4.0 * std::numbers::pi * radius_mm_ * radius_mm_;
     const double patch_edge_mm = 2.0 * spacing_mm;
     const auto count = static_cast<std::size_t>(std::clamp(sphere_area_mm2 / (patch_edge_mm * patch_edge_mm),
@@ -52,7 +54,7 @@ EngagementProbe::EngagementProbe(const Burr& burr, double spacing_mm)
         const glm::dvec3 normal(std::cos(psi) * sin_kappa, std::sin(psi) * sin_kappa, z);
         const glm::dvec3 e_psi(-std::sin(psi), std::cos(psi), 0.0);
         const glm::dvec3 e_kappa(std::cos(psi) * -z, std::sin(psi) * -z, sin_kappa);
-        const double r_mm = std::max(radius_mm_ * sin_kappa, 0.5 * disc_radius_voxels * spacing_mm);
+        const double r_mm = std::max(radius_mm_ * sin_kappa, least_axis_distance_voxels * spacing_mm);
         const glm::dvec3 cutting = -(burr.sigma() * k.x * e_psi + k.y * normal + k.z * e_kappa) *
                                    patch_area_mm2_ / (2.0 * std::numbers::pi * r_mm * burr.spindle_rev_per_s);
         patches_.push_back({normal, cutting});
@@ -78,7 +80,7 @@ void EngagementProbe::sample(const Bone& bone, const glm::dvec3& position_mm, co
     const glm::dvec3 centre = to_voxel_coordinates(bone.grid(), position_mm);
     const double radius = radius_mm_ / h;
     // Stiffness is read one voxel farther in than the surface may be.
-    if (!bricks_.gather(bone, centre, radius + reach_voxels + 1.0)) return;
+    if (!bricks_.gather(bone, centre, radius + Engagement::reach_voxels + 1.0)) return;
 
     const glm::dmat3 frame = burr_frame(spindle_axis);
     const glm::vec3 centre_in_bricks(centre - glm::dvec3(bricks_.base()));

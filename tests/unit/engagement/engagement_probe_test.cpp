@@ -1,4 +1,4 @@
-#include "haptic_server/engagement/engagement.h"
+#include "haptic_server/engagement/engagement_probe.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "haptic_server/coupling/coupling.h"
+#include "haptic_server/coupling/couplings.h"
 
 #include <gtest/gtest.h>
 
@@ -44,9 +44,9 @@ TEST(Coupling, IsInterpolatedWhereItsForceIsALine) {
 TEST(Coupling, ThatSolvesTheCuttingLawIsRefusedWhereThereIsNone) {
     EXPECT_THROW((void)make_coupling("implicit", {.device = {}, .model_holds_wall = true}),
                  std::invalid_argument);
-    for (const CouplingEntry& method : couplings()) {
-        if (method.needs_cutting_law) continue;
-        EXPECT_NE(make_coupling(method.name, {.device = {}, .model_holds_wall = true}), nullptr);
+    for (const CouplingEntry& coupling : couplings()) {
+        if (coupling.needs_cutting_law) continue;
+        EXPECT_NE(make_coupling(coupling.name, {.device = {}, .model_holds_wall = true}), nullptr);
     }
 }
 

@@ -1,0 +1,59 @@
+// Sampling of the bone around one burr into an engagement map (engagement.h).
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <glm/mat3x3.hpp>
+#include <glm/vec3.hpp>
+#include <vector>
+
+#include "common/bone/bone.h"
+#include "common/scene/burr.h"
+#include "haptic_server/engagement/brick_neighbourhood.h"
+#include "haptic_server/engagement/engagement.h"
+
+namespace osteomill {
+
+/// Samples the bone around one burr. Holds the burr's patches, equal in area and spread over the sphere by a
+/// Fibonacci lattice, about two voxels apart. Allocates when constructed.
+class EngagementProbe {
+  public:
+    EngagementProbe(const Burr& burr, double spacing_mm);
+
+    /// Fills `out` for a burr at `position_mm` with its spindle along `spindle_axis` (unit). The surface of
+    /// the bone is where the trilinear fraction crosses one half. Real-time safe.
+    void sample(const Bone& bone, const glm::dvec3& position_mm, const glm::dvec3& spindle_axis,
+                Engagement& out) noexcept;
+
+  private:
+    struct Patch {
+        glm::dvec3 normal;              ///< burr axes
+        glm::dvec3 cutting_n_s_per_mm;  ///< burr axes, for bone of relative stiffness 1
+    };
+
+    /// Patches are looked at four at a time: a vector that every processor has.
+    static constexpr std::size_t four = 4;
+    /// Fractions, 0 to 255, of four patches at each of four positions along their normals, from within
+    /// outward.
+    using FourFractions = std::array<std::array<float, four>, 4>;
+    /// Where bone begins: between two such positions, the outer of them in bone.
+    struct Crossing {
+        bool found = false;
+        float offset_voxels = 0.0f;
+        float bone_offset_voxels = 0.0f;
+    };
+
+    /// Patches `first` to `first` + 3; positions farther out than bone in all four are not set. `centre` and
+    /// the bricks in voxels from the bricks' base.
+    FourFractions sample_four(std::size_t first, const glm::mat3& frame, const glm::vec3& centre,
+                              float radius_voxels) const noexcept;
+    static Crossing first_crossing(const FourFractions& along, std::size_t lane);
+
+    double radius_mm_;
+    double patch_area_mm2_;
+    std::vector<Patch> patches_;
+    std::array<std::vector<float>, 3> normals_;  // of the patches, by axis
+    BrickNeighbourhood bricks_;
+};
+
+}  // namespace osteomill
