@@ -1,19 +1,11 @@
 // Averaging kernel for voxels near the spindle's axis, where the law is singular. The force of a chip grows
-// toward the axis as 1/r: taken at the voxel's middle it would be far too much or too little, and its mean
-// over the voxel's cube is wrong wherever the chip's thickness slopes at the axis, as it does under a tilted
-// burr (by 2 to 4 % of the force of a burr ten voxels thick). So its mean is taken over a disc about the
-// voxel with weights that all but leave slopes and curvatures of what the voxels hold as they are. With t =
-// (r / a)^2:
+// toward the axis as 1/r, so near it the means over a disc of radius a about the voxel are taken instead of
+// the values at its middle, with the weight
 //
-//     w(t) = 0.6 (13 - 32 t) (1 - t)^2 / (pi a^2),   t < 1.
+//     w(t) = 0.6 (13 - 32 t) (1 - t)^2 / (pi a^2),   t = (r / a)^2 < 1.
 //
-// The second moment of w is a fifth of a cube's: none would be right where edges are soft, a cube's where the
-// bone has a face along the lattice. a is such that the Fourier transform of w is zero at one wave a voxel,
-// and at one in a diagonal of a voxel's face: the sum over voxels then does not tell where the lattice lies,
-// nor does it under a burr that leans by 45 degrees. The weight within r is M(t) = 1 - (1 - t)^3 (1 - 4.8 t).
-// The components of e / r, e the unit vector away from the axis, are harmonic, so their mean is M(t) e / r.
-// The means over circles of e and of 1/r are complete elliptic integrals; of their means over w these are
-// least-squares fits, within 0.3 % of e and, but for 1 % at t = 1, within 0.1 % of 1/r.
+// The means are least-squares fits, within 0.3 % of e and, but for 1 % at t = 1, within 0.1 % of 1/r.
+// docs/milling-model.md derives the weight.
 #pragma once
 
 namespace osteomill {
