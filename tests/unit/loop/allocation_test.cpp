@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "haptic_server/contact_models/force_models.h"
+#include "haptic_server/coupling/couplings.h"
 #include "haptic_server/device/client_device.h"
 #include "haptic_server/device/simulated_device.h"
 #include "haptic_server/loop/haptic_loop.h"

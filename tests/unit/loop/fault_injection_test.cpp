@@ -10,6 +10,7 @@
 #include <string>
 #include <tuple>
 
+#include "haptic_server/coupling/couplings.h"
 #include "haptic_server/loop/haptic_loop.h"
 #include "tests/unit/loop/scripted_parts.h"
 
