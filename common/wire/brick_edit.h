@@ -6,7 +6,7 @@
 #include <variant>
 
 #include "common/bone/bone.h"
-#include "common/wire/voxel_mask.h"
+#include "common/bone/brick_change.h"
 #include "common/wire/wire_error.h"
 #include "osteomill/v1/bone.pb.h"
 

@@ -7,15 +7,12 @@
 namespace osteomill {
 
 inline constexpr std::uint32_t protocol_major = 1;
-inline constexpr std::uint32_t protocol_minor = 5;  // 1: each frame of a server carries its checksum
+inline constexpr std::uint32_t protocol_minor = 6;  // 1: each frame of a server carries its checksum
 
 /// From here on a server compares bones: see CompareBone.
 inline constexpr std::uint32_t first_minor_that_compares = 2;
 /// From here on a server wants to be greeted: see ClientHello. An older one would not understand it.
 inline constexpr std::uint32_t first_minor_that_is_greeted = 3;
-/// From here on a client knows that a guessed sweep can be smoothed: see GuessedSweep. An older one would
-/// take it for sharp, and guess wrongly.
-inline constexpr std::uint32_t first_minor_that_smooths_guesses = 4;
 /// From here on an operator's input names the newest state that its client has seen, and a server moves the
 /// tool for no other: see OperatorInput.
 inline constexpr std::uint32_t first_minor_that_names_states = 5;

@@ -108,7 +108,6 @@ v1::Hello to_message(const SessionInfo& session) {
     for (const Tissue& tissue : session.tissues) *hello.add_tissues() = to_message(tissue);
     hello.set_accepts_operator(session.accepts_operator);
     hello.set_force_limit_n(session.force_limit_n);
-    hello.set_edge_smoothing_voxels(session.edge_smoothing_voxels);
     return hello;
 }
 
@@ -165,8 +164,6 @@ std::variant<SessionInfo, WireError> session_info_from(const v1::Hello& hello) {
     if (auto* error = std::get_if<WireError>(&tissues)) return *error;
     if (!std::isfinite(hello.force_limit_n()) || hello.force_limit_n() < 0.0)
         return WireError{"the force limit is not a finite number of newtons"};
-    if (!(hello.edge_smoothing_voxels() >= 0.0 && hello.edge_smoothing_voxels() <= 1.0))
-        return WireError{"the edges of voxels are smoothed over what is not 0 to 1 voxel"};
     return SessionInfo{.protocol_major = hello.protocol_major(),
                        .protocol_minor = hello.protocol_minor(),
                        .scene_name = hello.scene_name(),
@@ -174,8 +171,7 @@ std::variant<SessionInfo, WireError> session_info_from(const v1::Hello& hello) {
                        .burrs = std::get<0>(std::move(burrs)),
                        .tissues = std::get<0>(std::move(tissues)),
                        .accepts_operator = hello.accepts_operator(),
-                       .force_limit_n = hello.force_limit_n(),
-                       .edge_smoothing_voxels = hello.edge_smoothing_voxels()};
+                       .force_limit_n = hello.force_limit_n()};
 }
 
 std::variant<ToolView, WireError> tool_from(const v1::ToolState& message, std::size_t burr_count) {

@@ -29,8 +29,8 @@ std::variant<std::vector<Burr>, WireError> burrs_from(
 std::variant<std::vector<Tissue>, WireError> tissues_from(
     const google::protobuf::RepeatedPtrField<v1::TissueDescription>& messages);
 
-/// Refuses what the above refuse, a force limit that is no finite number of newtons, and a smoothing that is
-/// not 0 to 1 voxel. The protocol's version is taken as it is.
+/// Refuses what the above refuse, and a force limit that is no finite number of newtons. The protocol's
+/// version is taken as it is.
 std::variant<SessionInfo, WireError> session_info_from(const v1::Hello& hello);
 
 /// Refuses numbers that are not finite and a burr that is not one of `burr_count`.

@@ -19,9 +19,6 @@ struct SessionInfo {
     std::vector<Tissue> tissues{};
     bool accepts_operator = false;  ///< the server runs with --device client
     double force_limit_n = 0.0;
-    /// What milling leaves of a voxel is a ramp's mean over so many voxels; 0 to 1, 0: the ramp itself, or
-    /// that is not known. See swept_guess.h.
-    double edge_smoothing_voxels = 0.0;
 };
 
 }  // namespace osteomill

@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "common/wire/guessed_edits.h"
+#include "common/wire/packed_changes.h"
 #include "common/wire/scene_messages.h"
 
 namespace osteomill {
@@ -78,12 +78,12 @@ SessionReceiver::Outcome SessionReceiver::take_snapshot_end(const v1::SnapshotEn
 }
 
 SessionReceiver::Outcome SessionReceiver::take_state(v1::StateFrame state, bool follows_gap) const {
-    if (state.has_guessed_edits()) {
-        auto unpacked = unpack(state.guessed_edits(), size_bricks_);
+    if (state.has_changes()) {
+        auto unpacked = unpack(state.changes(), size_bricks_);
         if (auto* error = std::get_if<WireError>(&unpacked)) return std::move(*error);
         for (v1::BrickEdit& edit : std::get<std::vector<v1::BrickEdit>>(unpacked))
             *state.add_edits() = std::move(edit);
-        state.clear_guessed_edits();
+        state.clear_changes();
     }
     return SessionEvent(StateArrived{std::move(state), follows_gap});
 }

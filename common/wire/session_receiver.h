@@ -25,8 +25,8 @@ struct BoneArrived {
     RunningChecksum checksum;
 };
 
-/// A state frame, as it came, but for guessed edits, which have become edits; checked when it is applied: see
-/// BoneFollower.
+/// A state frame, as it came, but for packed changes, which have become edits; checked when it is applied:
+/// see BoneFollower.
 struct StateArrived {
     v1::StateFrame frame;
     bool follows_gap = false;  ///< frames before it are missing, and with them what they told of the bone

@@ -24,9 +24,6 @@ class ForceModel {
     virtual const Bone& bone() const = 0;
     /// Since the start.
     virtual const RemovedByTissue& removed_mm3() const = 0;
-    /// What the edges that it leaves are smoothed over, voxels, as in voxel_coverage.h; 0 where it does not
-    /// carve by that law.
-    virtual double edge_smoothing_voxels() const { return 0.0; }
 };
 
 }  // namespace osteomill

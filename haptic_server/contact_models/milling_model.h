@@ -35,7 +35,6 @@ class MillingModel final : public ForceModel {
 
     const Bone& bone() const override { return bone_; }
     const RemovedByTissue& removed_mm3() const override { return account_.removed_mm3(); }
-    double edge_smoothing_voxels() const override { return smoothing_voxels(settings_.coverage); }
 
   private:
     /// Whether so little lies between position_mm_ and the command's position that it can wait for the next

@@ -84,8 +84,6 @@ class MillingSession {
     /// edits in order (each one reader).
     TripleBuffer<ToolSnapshot>& tool() { return tool_; }
     EditQueue& edits() { return edits_; }
-    /// Likewise: what the edits' edges are smoothed over (ForceModel).
-    double edge_smoothing_voxels() const { return model_->edge_smoothing_voxels(); }
 
     /// Starts the device, runs until the duration has passed or `stop` is set, stops the device. Calls
     /// `on_progress`, if given, on the caller's thread: about every 20 ms, on the virtual clock every 33 ms

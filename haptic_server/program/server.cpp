@@ -134,8 +134,7 @@ Streaming make_streaming(StreamingOptions wanted, const ServerOptions& options, 
     Streaming streaming;
     streaming.shown = std::make_unique<LiveSession>(session.tool(), session.edits());
     SessionInfo info =
-        session_info(scene, device.operator_input != nullptr, device.device->limits().max_force_n,
-                     session.edge_smoothing_voxels(), version);
+        session_info(scene, device.operator_input != nullptr, device.device->limits().max_force_n, version);
     streaming.server = std::make_unique<StreamingServer>(
         std::move(wanted), std::move(info), std::move(mirror), *streaming.shown, device.operator_input.get());
     streaming.server->start();

@@ -28,8 +28,6 @@ class BoneMirror {
     ChangedVoxels take_changes();
 
     const Bone& bone() const { return bone_; }
-    /// Another one whenever the bone may have changed.
-    std::uint64_t version() const { return version_; }
     /// As of the last take_changes().
     std::uint64_t checksum() const { return checksum_.value(); }
     const RunningChecksum& running_checksum() const { return checksum_; }
@@ -38,7 +36,6 @@ class BoneMirror {
     Bone bone_;
     RunningChecksum checksum_;
     ChangedVoxels changed_;
-    std::uint64_t version_ = 1;
 };
 
 }  // namespace osteomill

@@ -12,8 +12,8 @@ namespace osteomill {
 
 namespace {
 
-/// What edits shrink to where most of them are as guessed: a part of what is to be told of them, at least.
-constexpr std::size_t least_shrinking = 4;
+/// Masks and fractions shrink to less than half while a burr cuts.
+constexpr std::size_t least_shrinking = 2;
 
 }  // namespace
 
@@ -108,8 +108,8 @@ void ClientFeed::fill_state(v1::ServerFrame& frame, std::size_t most_bytes) {
     v1::StateFrame& state = *frame.mutable_state();
     *state.mutable_tool() = to_message(tool_);
     if (answer_) *state.mutable_comparison() = *std::exchange(answer_, std::nullopt);
-    if (guesser_ != nullptr && !untold_.empty())
-        add_guessed_edits(state, most_bytes);
+    if (change_packer_ != nullptr && !untold_.empty())
+        add_packed_changes(state, most_bytes);
     else
         add_edits(frame, most_bytes);
     told_tool_ = tool_;
@@ -121,7 +121,6 @@ void ClientFeed::fill_state(v1::ServerFrame& frame, std::size_t most_bytes) {
 void ClientFeed::add_edits(v1::ServerFrame& frame, std::size_t most_bytes) {
     constexpr std::size_t room_for_tags_and_checksums = 64;
     v1::StateFrame& state = *frame.mutable_state();
-    told_burr_.reset();
     std::size_t bytes = frame.ByteSizeLong() + room_for_tags_and_checksums;
     while (!untold_.empty()) {
         const auto [brick, mask] = untold_.next();
@@ -135,34 +134,16 @@ void ClientFeed::add_edits(v1::ServerFrame& frame, std::size_t most_bytes) {
     }
 }
 
-void ClientFeed::add_guessed_edits(v1::StateFrame& state, std::size_t most_bytes) {
-    const std::size_t most_told = std::min(least_shrinking * most_bytes, largest_guessed_edits_bytes);
-    std::vector<ChangedBrick> bricks;
+void ClientFeed::add_packed_changes(v1::StateFrame& state, std::size_t most_bytes) {
+    const std::size_t most_packed = std::min(least_shrinking * most_bytes, largest_packed_changes_bytes);
+    std::vector<BrickChange> changes;
     for (std::size_t bytes = 0; !untold_.empty(); untold_.told()) {
-        const auto [brick, mask] = untold_.next();
-        bytes += mask_bytes + mask.count();
-        if (bytes > most_told && !bricks.empty()) break;
-        bricks.push_back({brick, mask});
+        BrickChange change = untold_.next();
+        bytes += mask_bytes + change.voxels.count();
+        if (bytes > most_packed && !changes.empty()) break;
+        changes.push_back(std::move(change));
     }
-    const std::optional<BurrMotion> motion = burr_motion();
-    const EditGuesser::Guessed& guessed = guesser_->guess(mirror_, std::move(bricks), motion);
-    *state.mutable_guessed_edits() = guessed.edits;
-    told_burr_.reset();
-    // What is left for the next frame is of the same motion.
-    if (motion) told_burr_ = untold_.empty() ? guessed.burr : motion->from;
-}
-
-std::optional<BurrMotion> ClientFeed::burr_motion() const {
-    if (!told_tool_ || tool_.burr >= static_cast<std::size_t>(hello_.burrs_size())) return std::nullopt;
-    const double radius_mm = 0.5 * hello_.burrs(static_cast<int>(tool_.burr)).diameter_mm();
-    return BurrMotion{.from = told_burr_.value_or(burr_in_voxels(*told_tool_)),
-                      .to = burr_in_voxels(tool_),
-                      .radius = radius_mm / mirror_.bone().grid().spacing_mm,
-                      .smoothing = hello_.edge_smoothing_voxels()};
-}
-
-glm::dvec3 ClientFeed::burr_in_voxels(const ToolView& tool) const {
-    return to_voxel_coordinates(mirror_.bone().grid(), tool.burr_position_mm);
+    *state.mutable_changes() = change_packer_->pack(mirror_.bone(), changes);
 }
 
 }  // namespace osteomill

@@ -11,10 +11,10 @@
 #include <string>
 
 #include "common/wire/bone_comparison.h"
+#include "common/wire/packed_changes.h"
 #include "common/wire/snapshot.h"
 #include "common/wire/tool_view.h"
 #include "haptic_server/streaming/bone_mirror.h"
-#include "haptic_server/streaming/edit_guesser.h"
 #include "haptic_server/streaming/frame_pace.h"
 #include "haptic_server/streaming/untold_voxels.h"
 #include "osteomill/v1/session.pb.h"
@@ -26,8 +26,8 @@ class ClientFeed {
     /// `mirror` and `packer` outlive the feed; `hello` is what the client is greeted with.
     ClientFeed(v1::Hello hello, const BoneMirror& mirror, SnapshotPacker& packer);
 
-    /// The client takes edits as what differs from a guess, from now on. `guesser` outlives the feed.
-    void guess_edits(EditGuesser& guesser) { guesser_ = &guesser; }
+    /// The client takes packed changes, from now on. `packer` outlives the feed.
+    void pack_changes(ChangePacker& packer) { change_packer_ = &packer; }
 
     /// To be told of every change of the mirror, before the next frame is asked for.
     void note(const ChangedVoxels& changes);
@@ -71,10 +71,7 @@ class ClientFeed {
     void fill_snapshot_bricks(v1::SnapshotBricks& message);
     void fill_state(v1::ServerFrame& frame, std::size_t most_bytes);
     void add_edits(v1::ServerFrame& frame, std::size_t most_bytes);
-    void add_guessed_edits(v1::StateFrame& state, std::size_t most_bytes);
-    /// Since the client was told last; nothing where that is not known.
-    std::optional<BurrMotion> burr_motion() const;
-    glm::dvec3 burr_in_voxels(const ToolView& tool) const;
+    void add_packed_changes(v1::StateFrame& state, std::size_t most_bytes);
 
     v1::Hello hello_;
     const BoneMirror& mirror_;
@@ -90,8 +87,7 @@ class ClientFeed {
     std::optional<v1::Comparison> answer_;
     int comparisons_left_ = most_comparisons_at_once;
 
-    EditGuesser* guesser_ = nullptr;       // none: edits are told as they are
-    std::optional<glm::dvec3> told_burr_;  // in voxels, where the client has been told all
+    ChangePacker* change_packer_ = nullptr;  // none: edits are told as runs
 
     ToolView tool_;
     std::optional<ToolView> told_tool_;

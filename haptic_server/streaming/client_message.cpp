@@ -11,9 +11,7 @@ std::variant<std::optional<Answer>, WireError> take_client_message(const v1::Cli
                                                                    const MessagingClient& client,
                                                                    OperatorSeat::Time now) {
     if (frame.has_hello()) {
-        if (frame.hello().takes_guessed_edits() &&
-            frame.hello().protocol_minor() >= first_minor_that_smooths_guesses)
-            client.feed.guess_edits(client.guesser);
+        if (frame.hello().takes_packed_changes()) client.feed.pack_changes(client.packer);
         return std::nullopt;
     }
     if (frame.has_compare_bone()) {

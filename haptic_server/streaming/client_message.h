@@ -18,7 +18,7 @@ struct MessagingClient {
     OperatorSeat::ClientId id = 0;
     ClientFeed& feed;              ///< may have something to say afterwards
     AnsweredStates& answers;       ///< of what the client has been told
-    EditGuesser& guesser;          ///< of all clients that take guessed edits; outlives the feed
+    ChangePacker& packer;          ///< of all clients that take packed changes; outlives the feed
     OperatorSeat* seat = nullptr;  ///< null: nobody may move the tool now, and input changes nothing
     std::size_t burr_count = 0;    ///< of the session
 };
@@ -26,8 +26,7 @@ struct MessagingClient {
 /// What became of an operator's input that was let through, or not; see AnsweredStates.
 using Answer = AnsweredStates::Answer;
 
-/// A client is told of edits as guesses if it takes them and is of protocol 1.4 or later. An operator's input
-/// is given to the seat if it is fresh.
+/// An operator's input is given to the seat if it is fresh.
 /// An error if the message makes no sense, which drops the client: no body, numbers that are not finite, a
 /// burr that is not there, an answer to a state that was not sent, a comparison that ClientFeed refuses. It
 /// has then changed nothing. Otherwise what became of an operator's input where that is news: it is otherwise

@@ -25,14 +25,13 @@ ToolView view_of(const ToolSnapshot& tool) {
 }  // namespace
 
 SessionInfo session_info(const Scene& scene, bool accepts_operator, double force_limit_n,
-                         double edge_smoothing_voxels, std::string program_version) {
+                         std::string program_version) {
     return {.scene_name = scene.name,
             .server_version = std::move(program_version),
             .burrs = scene.burrs,
             .tissues = scene.tissues,
             .accepts_operator = accepts_operator,
-            .force_limit_n = force_limit_n,
-            .edge_smoothing_voxels = edge_smoothing_voxels};
+            .force_limit_n = force_limit_n};
 }
 
 ToolView LiveSession::update(BoneMirror& mirror, std::size_t) {

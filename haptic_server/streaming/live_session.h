@@ -9,10 +9,9 @@
 
 namespace osteomill {
 
-/// What clients are told of a scene. `edge_smoothing_voxels`: how the session's burr leaves the edges of
-/// voxels, see SessionInfo.
+/// What clients are told of a scene.
 SessionInfo session_info(const Scene& scene, bool accepts_operator, double force_limit_n,
-                         double edge_smoothing_voxels, std::string program_version);
+                         std::string program_version);
 
 /// The one reader of `tool` and the one consumer of `edits`; both outlive it. Never waits for the loops.
 class LiveSession final : public ShownSession {

@@ -313,7 +313,7 @@ class StreamingServer::Impl {
             {.id = id,
              .feed = session->feed(),
              .answers = session->answers(),
-             .guesser = guesser_,
+             .packer = change_packer_,
              .seat = seat_ && !is_finishing_ && !watchers_.contains(id) ? &*seat_ : nullptr,
              .burr_count = burr_count_},
             Clock::now());
@@ -358,7 +358,7 @@ class StreamingServer::Impl {
     const std::size_t burr_count_;
     BoneMirror mirror_;
     SnapshotPacker packer_;
-    EditGuesser guesser_;
+    ChangePacker change_packer_;
     ShownSession& shown_;
     ToolView last_view_;
     std::optional<SessionRecorder> recorder_;

@@ -20,7 +20,7 @@ void UntoldVoxels::add_whole(BrickIndex brick) {
     mask.reset();
 }
 
-UntoldVoxels::Turn UntoldVoxels::next() const {
+BrickChange UntoldVoxels::next() const {
     const auto& [brick, mask] = *turn();
     return {brick, mask ? *mask : VoxelMask().set()};
 }

@@ -28,12 +28,8 @@ class UntoldVoxels {
     std::size_t bricks() const { return waiting_.size(); }
     std::size_t masks() const { return masks_; }
 
-    struct Turn {
-        BrickIndex brick = 0;
-        VoxelMask voxels;
-    };
     /// Whose turn it is; not to be called on an empty set.
-    Turn next() const;
+    BrickChange next() const;
     /// The brick of next() has been told: the turn goes on.
     void told();
 

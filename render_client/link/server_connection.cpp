@@ -294,7 +294,7 @@ void ServerConnection::write_newest() {
     if (std::exchange(owes_hello_, false)) {
         frame.mutable_hello()->set_protocol_minor(protocol_minor);
         // A recording is to be read by older programs, too.
-        frame.mutable_hello()->set_takes_guessed_edits(!recorder_);
+        frame.mutable_hello()->set_takes_packed_changes(!recorder_);
     } else if (newest_request_) {
         *frame.mutable_compare_bone() = *std::exchange(newest_request_, std::nullopt);
     } else {

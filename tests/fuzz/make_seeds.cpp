@@ -28,12 +28,12 @@ std::string message_of(const std::string& stream) {
 }
 
 /// The frames of a session in which a run of voxels is milled, each behind its length.
-std::vector<std::string> session_frames(const Bone& bone, bool guessed = false) {
+std::vector<std::string> session_frames(const Bone& bone, bool packed = false) {
     BoneMirror mirror(bone);
     SnapshotPacker packer;
     ClientFeed feed(to_message(small_session_info()), mirror, packer);
-    EditGuesser guesser;
-    if (guessed) feed.guess_edits(guesser);
+    ChangePacker change_packer;
+    if (packed) feed.pack_changes(change_packer);
     std::vector<std::string> frames;
     const auto drain = [&] {
         while (auto frame = feed.next()) frames.push_back(*std::move(frame));
@@ -116,7 +116,7 @@ v1::ClientFrame comparison(const Bone& copy) {
 v1::ClientFrame hello() {
     v1::ClientFrame frame;
     frame.mutable_hello()->set_protocol_minor(protocol_minor);
-    frame.mutable_hello()->set_takes_guessed_edits(true);
+    frame.mutable_hello()->set_takes_packed_changes(true);
     return frame;
 }
 
@@ -178,7 +178,7 @@ void write_seeds(const std::filesystem::path& folder) {
     write_file(folder / "server_session/tls", std::string("\xff\x16\x03\x01\x02", 5));
 
     write_file(folder / "client_session/session", '\0' + joined(frames));
-    write_file(folder / "client_session/guessed", '\0' + joined(session_frames(bone, true)));
+    write_file(folder / "client_session/packed", '\0' + joined(session_frames(bone, true)));
     write_file(folder / "client_session/varied", '\0' + joined(varied));
     write_file(folder / "client_session/edits", '\x01' + state_of(5, edited(0, 3, "\x05\x04\x03")) +
                                                     state_of(6, edited(5, 16, "\x05\x04\x03")));

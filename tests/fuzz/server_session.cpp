@@ -85,7 +85,7 @@ void server_session(Bytes input) {
     static SnapshotPacker packer;
     TripleBuffer<OperatorInput> output;
     OperatorSeat seat(output);
-    EditGuesser guesser;
+    ChangePacker change_packer;
     constexpr OperatorSeat::ClientId id = 1;
     boost::asio::io_context io;
     const auto stream = std::make_shared<ScriptedStream>(io);
@@ -100,7 +100,7 @@ void server_session(Bytes input) {
                                                                    {.id = id,
                                                                     .feed = session->feed(),
                                                                     .answers = session->answers(),
-                                                                    .guesser = guesser,
+                                                                    .packer = change_packer,
                                                                     .seat = &seat,
                                                                     .burr_count = info.burrs.size()},
                                                                    {});

@@ -14,8 +14,7 @@ inline SessionInfo small_session_info() {
             .burrs = {Burr{.name = "round 1.5", .diameter_mm = 1.5}, Burr{.name = "round 5"}},
             .tissues = {Tissue{.label = 2, .name = "nerve", .is_protected = true}},
             .accepts_operator = true,
-            .force_limit_n = 3.3,
-            .edge_smoothing_voxels = 0.7};
+            .force_limit_n = 3.3};
 }
 
 inline Bone small_bone() {

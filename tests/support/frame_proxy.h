@@ -15,7 +15,7 @@
 #include <vector>
 
 #include "common/wire/frame.h"
-#include "common/wire/guessed_edits.h"
+#include "common/wire/packed_changes.h"
 #include "common/wire/sealed_frame.h"
 
 namespace osteomill::testing {
@@ -78,18 +78,18 @@ class FrameProxy {
             from_server();
         });
     }
-    /// Edits that differ from a guess become edits, to be meddled with.
+    /// Packed changes become edits, to be meddled with.
     void tell_plainly(v1::ServerFrame& frame) {
         if (frame.has_snapshot_begin()) {
             const v1::Grid& grid = frame.snapshot_begin().grid();
             size_bricks_ = size_in_bricks(
                 {.size_voxels = glm::ivec3(glm::uvec3(grid.size_x(), grid.size_y(), grid.size_z()))});
         }
-        if (!frame.has_state() || !frame.state().has_guessed_edits()) return;
-        auto edits = unpack(frame.state().guessed_edits(), size_bricks_);
+        if (!frame.has_state() || !frame.state().has_changes()) return;
+        auto edits = unpack(frame.state().changes(), size_bricks_);
         for (v1::BrickEdit& edit : std::get<std::vector<v1::BrickEdit>>(edits))
             *frame.mutable_state()->add_edits() = std::move(edit);
-        frame.mutable_state()->clear_guessed_edits();
+        frame.mutable_state()->clear_changes();
     }
     void hang_up() {
         error_code ignored;

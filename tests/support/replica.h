@@ -9,7 +9,7 @@
 
 #include "common/wire/brick_edit.h"
 #include "common/wire/frame.h"
-#include "common/wire/guessed_edits.h"
+#include "common/wire/packed_changes.h"
 #include "common/wire/snapshot.h"
 #include "osteomill/v1/session.pb.h"
 
@@ -35,8 +35,8 @@ class Replica {
     std::size_t edits_of_last_state() const { return edits_of_last_state_; }
     std::size_t checksums() const { return checksums_; }
     bool has_goodbye() const { return has_goodbye_; }
-    /// Whether any state told its edits as what differs from a guess.
-    bool has_guessed_edits() const { return has_guessed_edits_; }
+    /// Whether any state told its edits as packed changes.
+    bool has_packed_changes() const { return has_packed_changes_; }
 
   private:
     void take(const v1::ServerFrame& frame) {
@@ -54,9 +54,9 @@ class Replica {
             ASSERT_TRUE(bone_);
             ++states_;
             std::vector<v1::BrickEdit> edits(frame.state().edits().begin(), frame.state().edits().end());
-            if (frame.state().has_guessed_edits()) {
-                has_guessed_edits_ = true;
-                auto unpacked = unpack(frame.state().guessed_edits(), bone_->content().size_bricks);
+            if (frame.state().has_changes()) {
+                has_packed_changes_ = true;
+                auto unpacked = unpack(frame.state().changes(), bone_->content().size_bricks);
                 ASSERT_TRUE(std::holds_alternative<std::vector<v1::BrickEdit>>(unpacked))
                     << std::get<WireError>(unpacked).line;
                 edits = std::get<std::vector<v1::BrickEdit>>(std::move(unpacked));
@@ -83,7 +83,7 @@ class Replica {
     std::size_t edits_of_last_state_ = 0;
     std::size_t checksums_ = 0;
     bool has_goodbye_ = false;
-    bool has_guessed_edits_ = false;
+    bool has_packed_changes_ = false;
 };
 
 }  // namespace osteomill::testing

@@ -31,7 +31,7 @@ class ServedBone {
                              .handshake_deadline = std::chrono::milliseconds(300),
                              .places_for_strangers = 48,
                              .record = std::move(record)},
-            session_info(scene, takes_operator, 3.3, 0.0, "0.0.test"), bone_, shown_,
+            session_info(scene, takes_operator, 3.3, "0.0.test"), bone_, shown_,
             takes_operator ? &operator_ : nullptr);
         server_->start();
     }

@@ -112,14 +112,5 @@ TEST_F(MillingModelTest, RefusesABurrThatCannotCut) {
     EXPECT_THROW(MillingModel(block(), {Burr{.spindle_rev_per_s = -1.0}}, {}), std::invalid_argument);
 }
 
-TEST_F(MillingModelTest, SaysWhatTheEdgesThatItLeavesAreSmoothedOver) {
-    const auto smoothing_of = [this](VoxelCoverage coverage) {
-        return MillingModel(block(), {burr}, {}, {.coverage = coverage}).edge_smoothing_voxels();
-    };
-    EXPECT_DOUBLE_EQ(smoothing_of(VoxelCoverage::smoothed), std::sqrt(0.5));
-    EXPECT_EQ(smoothing_of(VoxelCoverage::linear), 0.0);
-    EXPECT_EQ(smoothing_of(VoxelCoverage::binary), 0.0);
-}
-
 }  // namespace
 }  // namespace osteomill

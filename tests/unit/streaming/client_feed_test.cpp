@@ -103,9 +103,9 @@ TEST_F(ClientFeedTest, SplitsEditsThatDoNotFitAFrame) {
 }
 
 TEST_F(ClientFeedTest, SaysLittleAtATimeOverASlowLink) {
-    EditGuesser guesser;
-    for (const bool guesses : {false, true}) {
-        if (guesses) feed_->guess_edits(guesser);
+    ChangePacker packer;
+    for (const bool packs : {false, true}) {
+        if (packs) feed_->pack_changes(packer);
         drain();
         carver_->carve(5'000);
         feed_->request_state({}, true);
@@ -121,9 +121,9 @@ TEST_F(ClientFeedTest, SaysLittleAtATimeOverASlowLink) {
     }
 }
 
-TEST_F(ClientFeedTest, TellsTheSameAsWhatDiffersFromAGuess) {
-    EditGuesser guesser;
-    feed_->guess_edits(guesser);
+TEST_F(ClientFeedTest, TellsTheSameInPackedChanges) {
+    ChangePacker packer;
+    feed_->pack_changes(packer);
     drain();
     for (int i = 0; i < 30; ++i) {
         carver_->carve(i < 10 ? 20 : 5'000);  // some in more than a frame
@@ -131,7 +131,7 @@ TEST_F(ClientFeedTest, TellsTheSameAsWhatDiffersFromAGuess) {
         drain();
     }
     EXPECT_EQ(replica_.checksums(), 3U);
-    EXPECT_TRUE(replica_.has_guessed_edits());
+    EXPECT_TRUE(replica_.has_packed_changes());
     expect_equal();
 }
 

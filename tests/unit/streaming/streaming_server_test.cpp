@@ -95,7 +95,7 @@ std::string failure_of(const StreamingOptions& options, const std::string& burr_
     scene.burrs = {Burr{.name = burr_name}};
     try {
         LiveSession shown(tool, edits);
-        StreamingServer server(options, session_info(scene, false, 3.3, 0.0, "0.0.test"), bone, shown);
+        StreamingServer server(options, session_info(scene, false, 3.3, "0.0.test"), bone, shown);
         server.start();
     } catch (const std::exception& error) {
         return error.what();
@@ -304,24 +304,23 @@ TEST(StreamingServer, ServesAClientOfBeforeProtocol13WhichDoesNotGreetInItsOwnTe
         return replica.checksums() > 1;
     }));
     EXPECT_GT(replica.edits_of_last_state(), 0U);
-    EXPECT_FALSE(replica.has_guessed_edits());
+    EXPECT_FALSE(replica.has_packed_changes());
 }
 
-TEST(StreamingServer, SendsGuessedEditsOnlyToAClientThatKnowsSmoothedSweeps) {
+TEST(StreamingServer, PacksChangesOnlyForAClientThatTakesThem) {
     ServedBone served;
     served.start_carving();
-    for (const std::uint32_t minor :
-         {first_minor_that_smooths_guesses - 1, first_minor_that_smooths_guesses}) {
+    for (const bool takes_packed_changes : {false, true}) {
         RawClient client(served.port());
-        v1::ClientFrame frame = greeting(minor);
-        frame.mutable_hello()->set_takes_guessed_edits(true);
+        v1::ClientFrame frame = greeting();
+        frame.mutable_hello()->set_takes_packed_changes(takes_packed_changes);
         client.send(frame);
         testing::Replica replica;
         EXPECT_TRUE(eventually([&] {
             client.read_into(replica);
             return replica.checksums() > 1;
         }));
-        EXPECT_EQ(replica.has_guessed_edits(), minor == first_minor_that_smooths_guesses) << minor;
+        EXPECT_EQ(replica.has_packed_changes(), takes_packed_changes);
     }
 }
 
@@ -361,7 +360,7 @@ TEST(StreamingServer, ShowsFramesWhenItIsToldToWhereTheSessionKeepsTheTime) {
     scene.burrs = {Burr{}};
     StreamingServer server(
         {.listens = false, .paced_by_session = true, .record = RecordTo{folder / "a.pcap", Stamp{}}},
-        session_info(scene, false, 3.3, 0.0, "0.0.test"), bone, shown);
+        session_info(scene, false, 3.3, "0.0.test"), bone, shown);
     server.start();
     for (int i = 0; i < 10; ++i) {
         tool.back().time_s = i;

@@ -61,19 +61,6 @@ TEST(SceneMessages, BringBackTissues) {
     EXPECT_TRUE(tissues[0].is_protected);
 }
 
-TEST(SceneMessages, BringBackHowTheEdgesOfVoxelsAreLeftOrRefuseIt) {
-    SessionInfo session{.burrs = {Burr{}}, .edge_smoothing_voxels = 0.75};
-    v1::Hello hello = to_message(session);
-    ASSERT_EQ(error_of(session_info_from(hello)), "");
-    EXPECT_EQ(std::get<SessionInfo>(session_info_from(hello)).edge_smoothing_voxels, 0.75);
-    for (const double impossible : {-0.5, 1.5, not_a_number}) {
-        hello.set_edge_smoothing_voxels(impossible);
-        EXPECT_THAT(error_of(session_info_from(hello)), HasSubstr("0 to 1 voxel")) << impossible;
-    }
-    hello.clear_edge_smoothing_voxels();
-    EXPECT_EQ(std::get<SessionInfo>(session_info_from(hello)).edge_smoothing_voxels, 0.0) << "before 1.4";
-}
-
 TEST(SceneMessages, BringBackTheTool) {
     const ToolView tool{.time_s = 12.5,
                         .burr_position_mm = {1, 2, 3},

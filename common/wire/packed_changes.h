@@ -1,0 +1,50 @@
+// Changes of several bricks in one message, compressed together. Exact: unpacked, they are the edits that
+// were packed, voxel by voxel.
+//
+// Packed: zstd of, for each brick in turn, its mask of 512 bytes (bit k of byte n: voxel 8 n + k is changed);
+// behind the last mask, brick by brick and voxel by voxel, the new fraction of each changed voxel. Two thirds
+// of what plain runs take while a burr cuts, and each message stands alone, so that one may be lost.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <variant>
+#include <vector>
+
+#include "common/bone/bone.h"
+#include "common/bone/brick_change.h"
+#include "common/wire/wire_error.h"
+#include "osteomill/v1/bone.pb.h"
+
+struct ZSTD_CCtx_s;
+
+namespace osteomill {
+
+/// Before compression. Even where nothing compresses they fit a frame, and half a second of a link of
+/// 1 Mbit/s.
+inline constexpr std::size_t largest_packed_changes_bytes = 64 * 1024;
+inline constexpr std::size_t mask_bytes = brick_voxel_count / 8;
+
+class ChangePacker {
+  public:
+    ChangePacker();
+
+    /// With the fractions that the bone has now. The bricks are stored; masks and fractions must not exceed
+    /// largest_packed_changes_bytes.
+    v1::PackedChanges pack(const Bone& bone, const std::vector<BrickChange>& changes);
+
+  private:
+    struct Free {
+        void operator()(ZSTD_CCtx_s* context) const;
+    };
+    std::unique_ptr<ZSTD_CCtx_s, Free> context_;
+    std::vector<std::uint8_t> content_;
+    std::vector<std::uint8_t> compressed_;
+};
+
+/// The edits that were packed, for a grid of so many bricks. Whether they fit a bone is seen when they are
+/// applied.
+std::variant<std::vector<v1::BrickEdit>, WireError> unpack(const v1::PackedChanges& message,
+                                                           const glm::ivec3& size_bricks);
+
+}  // namespace osteomill
