@@ -8,13 +8,13 @@
 #include <string>
 
 #include "common/recording/playhead.h"
-#include "haptic_server/streaming/shown_session.h"
+#include "haptic_server/streaming/stream_source.h"
 
 namespace osteomill {
 
 /// Shows one session, from where the playhead is to that session's end. It waits for its first viewer. What
 /// cannot be read ends it; see error().
-class RecordedSession final : public ShownSession {
+class RecordedSession final : public StreamSource {
   public:
     using Clock = std::chrono::steady_clock;
 

@@ -21,9 +21,15 @@ std::optional<WireError> BoneMirror::apply(const v1::BrickEdit& edit) {
     return std::nullopt;
 }
 
-ChangedVoxels BoneMirror::take_changes() {
-    for (const auto& [brick, mask] : changed_) checksum_.update(bone_, bone_.slot(brick));
-    return std::exchange(changed_, {});
+std::vector<BrickChange> BoneMirror::take_changes() {
+    std::vector<BrickChange> changes;
+    changes.reserve(changed_.size());
+    for (const auto& [brick, voxels] : changed_) {
+        checksum_.update(bone_, bone_.slot(brick));
+        changes.push_back({brick, voxels});
+    }
+    changed_.clear();
+    return changes;
 }
 
 }  // namespace osteomill

@@ -3,16 +3,15 @@
 
 #include <map>
 #include <optional>
+#include <vector>
 
 #include "common/bone/bone.h"
+#include "common/bone/brick_change.h"
 #include "common/bone/edit.h"
 #include "common/wire/brick_edit.h"
 #include "common/wire/running_checksum.h"
 
 namespace osteomill {
-
-/// Voxels that edits have covered, brick by brick. At most 512 bytes and a node for each stored brick.
-using ChangedVoxels = std::map<BrickIndex, VoxelMask>;
 
 class BoneMirror {
   public:
@@ -24,8 +23,9 @@ class BoneMirror {
     /// Likewise an edit as it came over the wire or out of a recording; says why not.
     std::optional<WireError> apply(const v1::BrickEdit& edit);
 
-    /// What has changed since the last call; brings the checksum up to date.
-    ChangedVoxels take_changes();
+    /// What edits have covered since the last call, brick by brick, ascending; brings the checksum up to
+    /// date.
+    std::vector<BrickChange> take_changes();
 
     const Bone& bone() const { return bone_; }
     /// As of the last take_changes().
@@ -35,7 +35,7 @@ class BoneMirror {
   private:
     Bone bone_;
     RunningChecksum checksum_;
-    ChangedVoxels changed_;
+    std::map<BrickIndex, VoxelMask> changed_;  // 512 bytes and a node for each of them
 };
 
 }  // namespace osteomill

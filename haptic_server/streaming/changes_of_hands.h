@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "haptic_server/streaming/operator_seat.h"
+#include "haptic_server/streaming/control_lease.h"
 
 namespace osteomill {
 
@@ -17,7 +17,7 @@ class ChangesOfHands {
     /// A line for who has let go since the last look, then one for who has it now; none where it is the same.
     /// `peer_of` gives the name of a client that is there.
     template <typename PeerOf>
-    std::vector<std::string> look(std::optional<OperatorSeat::ClientId> holder, PeerOf&& peer_of) {
+    std::vector<std::string> look(std::optional<ControlLease::ClientId> holder, PeerOf&& peer_of) {
         std::vector<std::string> lines;
         if (holder == holder_) return lines;
         if (holder_) lines.push_back(fmt::format("client {} no longer moves the tool", peer_));
@@ -28,7 +28,7 @@ class ChangesOfHands {
     }
 
   private:
-    std::optional<OperatorSeat::ClientId> holder_;
+    std::optional<ControlLease::ClientId> holder_;
     std::string peer_;  // theirs, who may have gone
 };
 

@@ -6,7 +6,7 @@
 #include "common/wire/frame.h"
 #include "common/wire/scene_messages.h"
 #include "common/wire/sealed_frame.h"
-#include "haptic_server/streaming/quiet_tool.h"
+#include "haptic_server/streaming/update_deadband.h"
 
 namespace osteomill {
 
@@ -20,14 +20,15 @@ constexpr std::size_t least_shrinking = 2;
 ClientFeed::ClientFeed(v1::Hello hello, const BoneMirror& mirror, SnapshotPacker& packer)
     : hello_(std::move(hello)), mirror_(mirror), packer_(packer) {}
 
-void ClientFeed::note(const ChangedVoxels& changes) {
-    for (const auto& [brick, mask] : changes)
-        if (static_cast<std::size_t>(mirror_.bone().slot(brick)) < next_slot_) untold_.add(brick, mask);
+void ClientFeed::note(std::span<const BrickChange> changes) {
+    for (const BrickChange& change : changes)
+        if (static_cast<std::size_t>(mirror_.bone().slot(change.brick)) < next_slot_) pending_.add(change);
 }
 
 void ClientFeed::request_state(const ToolView& tool, bool with_checksum) {
     tool_ = tool;
-    const bool is_news = with_checksum || !untold_.empty() || !told_tool_ || !is_quiet(*told_tool_, tool);
+    const bool is_news =
+        with_checksum || !pending_.empty() || !sent_tool_ || !is_within_deadband(*sent_tool_, tool);
     wants_state_ = wants_state_ || is_news;
     wants_checksum_ = wants_checksum_ || with_checksum;
     comparisons_left_ = std::min(comparisons_left_ + 1, most_comparisons_at_once);
@@ -42,7 +43,7 @@ std::optional<WireError> ClientFeed::compare(const v1::CompareBone& request) {
     auto compared = compare_bone(request, mirror_.bone(), mirror_.running_checksum());
     if (auto* error = std::get_if<WireError>(&compared)) return std::move(*error);
     auto& result = std::get<ComparedBone>(compared);
-    for (const BrickIndex brick : result.differing_bricks) untold_.add_whole(brick);
+    for (const BrickIndex brick : result.differing_bricks) pending_.add_whole(brick);
     answer_ = std::move(result.answer);
     wants_state_ = true;
     wants_checksum_ = true;
@@ -108,12 +109,12 @@ void ClientFeed::fill_state(v1::ServerFrame& frame, std::size_t most_bytes) {
     v1::StateFrame& state = *frame.mutable_state();
     *state.mutable_tool() = to_message(tool_);
     if (answer_) *state.mutable_comparison() = *std::exchange(answer_, std::nullopt);
-    if (change_packer_ != nullptr && !untold_.empty())
+    if (change_packer_ != nullptr && !pending_.empty())
         add_packed_changes(state, most_bytes);
     else
         add_edits(frame, most_bytes);
-    told_tool_ = tool_;
-    if (!untold_.empty()) return;  // the rest goes into the next frame
+    sent_tool_ = tool_;
+    if (!pending_.empty()) return;  // the rest goes into the next frame
     wants_state_ = false;
     if (std::exchange(wants_checksum_, false)) state.set_bone_checksum(mirror_.checksum());
 }
@@ -122,23 +123,23 @@ void ClientFeed::add_edits(v1::ServerFrame& frame, std::size_t most_bytes) {
     constexpr std::size_t room_for_tags_and_checksums = 64;
     v1::StateFrame& state = *frame.mutable_state();
     std::size_t bytes = frame.ByteSizeLong() + room_for_tags_and_checksums;
-    while (!untold_.empty()) {
-        const auto [brick, mask] = untold_.next();
+    while (!pending_.empty()) {
+        const auto [brick, mask] = pending_.next();
         const std::int32_t slot = mirror_.bone().slot(brick);
         v1::BrickEdit edit = brick_edit(brick, mirror_.bone().fractions(slot), mask);
         constexpr std::size_t tag_and_length = 4;
         bytes += edit.ByteSizeLong() + tag_and_length;
         if (bytes > most_bytes && state.edits_size() > 0) return;
         *state.add_edits() = std::move(edit);
-        untold_.told();
+        pending_.sent();
     }
 }
 
 void ClientFeed::add_packed_changes(v1::StateFrame& state, std::size_t most_bytes) {
     const std::size_t most_packed = std::min(least_shrinking * most_bytes, largest_packed_changes_bytes);
     std::vector<BrickChange> changes;
-    for (std::size_t bytes = 0; !untold_.empty(); untold_.told()) {
-        BrickChange change = untold_.next();
+    for (std::size_t bytes = 0; !pending_.empty(); pending_.sent()) {
+        BrickChange change = pending_.next();
         bytes += mask_bytes + change.voxels.count();
         if (bytes > most_packed && !changes.empty()) break;
         changes.push_back(std::move(change));

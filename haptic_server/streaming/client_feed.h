@@ -2,12 +2,13 @@
 //
 // The snapshot is taken from the mirror piece by piece, only as fast as the client reads, while milling goes
 // on. A change to a brick that has not been sent yet needs no mention: it will be sent as it then is. A
-// change to one that has been sent is remembered until a state frame tells of it. So a client ends up equal
+// change to one that has been sent is pending until a state frame tells of it. So a client ends up equal
 // to the mirror however slow it is, and costs no more than one mask of changed voxels for each brick, or
-// less: see UntoldVoxels.
+// less: see PendingChanges.
 #pragma once
 
 #include <optional>
+#include <span>
 #include <string>
 
 #include "common/wire/bone_comparison.h"
@@ -16,7 +17,7 @@
 #include "common/wire/tool_view.h"
 #include "haptic_server/streaming/bone_mirror.h"
 #include "haptic_server/streaming/frame_pace.h"
-#include "haptic_server/streaming/untold_voxels.h"
+#include "haptic_server/streaming/pending_changes.h"
 #include "osteomill/v1/session.pb.h"
 
 namespace osteomill {
@@ -30,10 +31,10 @@ class ClientFeed {
     void pack_changes(ChangePacker& packer) { change_packer_ = &packer; }
 
     /// To be told of every change of the mirror, before the next frame is asked for.
-    void note(const ChangedVoxels& changes);
+    void note(std::span<const BrickChange> changes);
 
     /// Asks for a state frame as soon as one can be sent; but where nothing is new and the tool rests, only
-    /// every quiet_period_s. One that has not been sent yet is replaced: what it
+    /// every deadband_period_s. One that has not been sent yet is replaced: what it
     /// would have told of the bone, the next one tells. A checksum once asked for is stated by the next frame
     /// after which the client knows all.
     void request_state(const ToolView& tool, bool with_checksum);
@@ -57,10 +58,10 @@ class ClientFeed {
     /// The number of the newest state frame; 0: none yet.
     std::uint64_t newest_state() const { return newest_state_; }
     /// Whether that frame tells all there was to tell when a state was last requested.
-    bool has_told_all() const { return newest_state_ > 0 && !wants_state_; }
+    bool has_sent_all() const { return newest_state_ > 0 && !wants_state_; }
 
     /// What it remembers for the client.
-    const UntoldVoxels& untold() const { return untold_; }
+    const PendingChanges& pending() const { return pending_; }
 
   private:
     /// Two searches of the longest kind; after that one for each state frame.
@@ -83,14 +84,14 @@ class ClientFeed {
     std::size_t next_slot_ = 0;  // bricks of lower slots have been sent
     std::uint64_t snapshot_checksum_ = 0;
 
-    UntoldVoxels untold_;
+    PendingChanges pending_;
     std::optional<v1::Comparison> answer_;
     int comparisons_left_ = most_comparisons_at_once;
 
     ChangePacker* change_packer_ = nullptr;  // none: edits are told as runs
 
     ToolView tool_;
-    std::optional<ToolView> told_tool_;
+    std::optional<ToolView> sent_tool_;
     bool wants_state_ = false;
     bool wants_checksum_ = false;
     std::optional<std::string> goodbye_;

@@ -9,7 +9,7 @@ namespace osteomill {
 
 std::variant<std::optional<Answer>, WireError> take_client_message(const v1::ClientFrame& frame,
                                                                    const MessagingClient& client,
-                                                                   OperatorSeat::Time now) {
+                                                                   ControlLease::Time now) {
     if (frame.has_hello()) {
         if (frame.hello().takes_packed_changes()) client.feed.pack_changes(client.packer);
         return std::nullopt;
@@ -21,13 +21,13 @@ std::variant<std::optional<Answer>, WireError> take_client_message(const v1::Cli
     if (!frame.has_operator_input()) return WireError{"it sent a frame without a body that is known"};
     const auto intent = intent_from(frame.operator_input(), client.burr_count);
     if (const auto* error = std::get_if<WireError>(&intent)) return *error;
-    if (client.seat == nullptr) return std::nullopt;
+    if (client.lease == nullptr) return std::nullopt;
     const v1::OperatorInput& input = frame.operator_input();
     const Answer answer = client.answers.judge(input.number(), input.answers_state(), now);
     if (answer == Answer::unsent)
         return WireError{
             fmt::format("its input answers state {}, which it was not sent", input.answers_state())};
-    if (answer == Answer::fresh) client.seat->take_input(client.id, std::get<OperatorIntent>(intent), now);
+    if (answer == Answer::fresh) client.lease->take_input(client.id, std::get<OperatorIntent>(intent), now);
     return client.answers.is_news() ? std::optional(answer) : std::nullopt;
 }
 

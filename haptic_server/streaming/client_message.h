@@ -8,32 +8,32 @@
 #include "common/wire/wire_error.h"
 #include "haptic_server/streaming/answered_states.h"
 #include "haptic_server/streaming/client_feed.h"
-#include "haptic_server/streaming/operator_seat.h"
+#include "haptic_server/streaming/control_lease.h"
 #include "osteomill/v1/session.pb.h"
 
 namespace osteomill {
 
 /// A client, as far as its messages reach.
 struct MessagingClient {
-    OperatorSeat::ClientId id = 0;
-    ClientFeed& feed;              ///< may have something to say afterwards
-    AnsweredStates& answers;       ///< of what the client has been told
-    ChangePacker& packer;          ///< of all clients that take packed changes; outlives the feed
-    OperatorSeat* seat = nullptr;  ///< null: nobody may move the tool now, and input changes nothing
-    std::size_t burr_count = 0;    ///< of the session
+    ControlLease::ClientId id = 0;
+    ClientFeed& feed;               ///< may have something to say afterwards
+    AnsweredStates& answers;        ///< of what the client has been told
+    ChangePacker& packer;           ///< of all clients that take packed changes; outlives the feed
+    ControlLease* lease = nullptr;  ///< null: nobody may move the tool now, and input changes nothing
+    std::size_t burr_count = 0;     ///< of the session
 };
 
 /// What became of an operator's input that was let through, or not; see AnsweredStates.
 using Answer = AnsweredStates::Answer;
 
-/// An operator's input is given to the seat if it is fresh.
+/// An operator's input is given to the lease if it is fresh.
 /// An error if the message makes no sense, which drops the client: no body, numbers that are not finite, a
 /// burr that is not there, an answer to a state that was not sent, a comparison that ClientFeed refuses. It
 /// has then changed nothing. Otherwise what became of an operator's input where that is news: it is otherwise
 /// than the one before, or the first that is not fresh.
 std::variant<std::optional<Answer>, WireError> take_client_message(const v1::ClientFrame& frame,
                                                                    const MessagingClient& client,
-                                                                   OperatorSeat::Time now);
+                                                                   ControlLease::Time now);
 
 /// Why such input moves nothing, as what a log says of its client; empty where it does, and of repeated ones,
 /// which do no harm.

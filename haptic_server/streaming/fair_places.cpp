@@ -48,7 +48,7 @@ void FairPlaces::clear() {
     holders_.clear();
 }
 
-std::size_t places_for_strangers() {
+std::size_t places_for_unidentified() {
     constexpr std::size_t plenty = 512;
     rlimit files{};
     if (::getrlimit(RLIMIT_NOFILE, &files) != 0) return plenty;

@@ -51,6 +51,6 @@ class FairPlaces {
 
 /// How many places there are: 512, or half of the files that the system lets this program open, so that
 /// clients, recordings and devices have theirs.
-std::size_t places_for_strangers();
+std::size_t places_for_unidentified();
 
 }  // namespace osteomill

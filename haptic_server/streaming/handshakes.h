@@ -30,7 +30,7 @@ class Handshakes {
 
     /// `tls`: null for none. It and `io` outlive this. `most_at_once`: places under TLS.
     Handshakes(boost::asio::io_context& io, TlsContext* tls, std::chrono::milliseconds deadline,
-               Callbacks callbacks, std::size_t most_at_once = places_for_strangers());
+               Callbacks callbacks, std::size_t most_at_once = places_for_unidentified());
 
     void begin(boost::asio::ip::tcp::socket socket);
     /// Hangs up on all that are under way; nobody is told.

@@ -5,7 +5,7 @@
 #include "haptic_server/exchange/triple_buffer.h"
 #include "haptic_server/loop/edit_queue.h"
 #include "haptic_server/loop/exchange.h"
-#include "haptic_server/streaming/shown_session.h"
+#include "haptic_server/streaming/stream_source.h"
 
 namespace osteomill {
 
@@ -14,7 +14,7 @@ SessionInfo session_info(const Scene& scene, bool accepts_operator, double force
                          std::string program_version);
 
 /// The one reader of `tool` and the one consumer of `edits`; both outlive it. Never waits for the loops.
-class LiveSession final : public ShownSession {
+class LiveSession final : public StreamSource {
   public:
     LiveSession(TripleBuffer<ToolSnapshot>& tool, EditQueue& edits) : tool_(tool), edits_(edits) {}
     ToolView update(BoneMirror& mirror, std::size_t viewers) override;

@@ -1,4 +1,4 @@
-// Whether the one who moves the tool does anything with it, or only keeps its seat.
+// Whether the one who moves the tool does anything with it, or only keeps its lease.
 #pragma once
 
 #include <chrono>
@@ -15,17 +15,17 @@ class OperatorActivity {
     /// Long enough to look at what one has milled, short enough for a colleague who waits.
     static constexpr std::chrono::seconds longest_rest{30};
 
-    /// Another sits down.
+    /// Another takes the lease.
     void begin() { newest_.reset(); }
 
-    /// What came of the one who has the seat. Anything new is an act: the target, the axis, the burr; and a
+    /// What came of the one who has the lease. Anything new is an act: the target, the axis, the burr; and a
     /// pedal that is down.
     void note(const OperatorIntent& intent, Time now) {
         if (!newest_ || intent.pedal || !is_same(*newest_, intent)) acted_ = now;
         newest_ = intent;
     }
 
-    /// Whether nothing new has come for so long that it must not keep the seat from another.
+    /// Whether nothing new has come for so long that it must not keep the tool from another.
     bool is_idle(Time now) const { return newest_ && now - acted_ > longest_rest; }
 
   private:

@@ -7,6 +7,7 @@
 
 #include <atomic>
 #include <filesystem>
+#include <span>
 #include <string>
 
 #include "common/recording/recording_writer.h"
@@ -22,7 +23,7 @@ class SessionRecorder {
                     SnapshotPacker& packer);
 
     /// As for a client: see ClientFeed.
-    void note(const ChangedVoxels& changes) { feed_.note(changes); }
+    void note(std::span<const BrickChange> changes) { feed_.note(changes); }
     /// Hands over a state frame; without waiting, unless `may_wait`.
     void record(const ToolView& tool, bool with_checksum, bool may_wait);
     /// Hands over the end, waits until all is written and makes it the file that was asked for. Gives up on a

@@ -23,16 +23,16 @@
 #include "common/wire/scene_messages.h"
 #include "haptic_server/streaming/bone_mirror.h"
 #include "haptic_server/streaming/changes_of_hands.h"
+#include "haptic_server/streaming/client_connection.h"
 #include "haptic_server/streaming/client_feed.h"
 #include "haptic_server/streaming/client_message.h"
+#include "haptic_server/streaming/control_lease.h"
 #include "haptic_server/streaming/fair_places.h"
 #include "haptic_server/streaming/handshakes.h"
 #include "haptic_server/streaming/limited_log.h"
 #include "haptic_server/streaming/listener.h"
-#include "haptic_server/streaming/newcomers.h"
-#include "haptic_server/streaming/operator_seat.h"
-#include "haptic_server/streaming/session.h"
 #include "haptic_server/streaming/session_recorder.h"
+#include "haptic_server/streaming/unidentified_connections.h"
 
 namespace osteomill {
 
@@ -72,19 +72,19 @@ std::int64_t unix_time_ns() {
 
 class StreamingServer::Impl {
   public:
-    Impl(StreamingOptions options, SessionInfo session, Bone mirror, ShownSession& shown,
+    Impl(StreamingOptions options, SessionInfo session, Bone mirror, StreamSource& source,
          TripleBuffer<OperatorInput>* operator_input)
         : options_(std::move(options)),
           hello_(to_message(session)),
           burr_count_(session.burrs.size()),
           mirror_(std::move(mirror)),
-          shown_(shown) {
+          source_(source) {
         if (!(std::isfinite(options_.frame_rate_hz) && options_.frame_rate_hz > 0.0))
             throw std::invalid_argument("the frame rate is " + std::to_string(options_.frame_rate_hz) +
                                         " Hz, not above zero");
         require_sendable(mirror_.bone());
         require_fits_frame(hello_);
-        if (operator_input != nullptr) seat_.emplace(*operator_input);
+        if (operator_input != nullptr) lease_.emplace(*operator_input);
         period_ = std::chrono::duration_cast<Clock::duration>(
             std::chrono::duration<double>(1.0 / options_.frame_rate_hz));
         frames_per_checksum_ = static_cast<std::uint64_t>(std::ceil(options_.frame_rate_hz));
@@ -157,9 +157,10 @@ class StreamingServer::Impl {
         } catch (const std::exception& error) {
             // Haptics go on without spectators.
             has_failed_ = true;
-            if (seat_) seat_->vacate();
+            if (lease_) lease_->end();
             spdlog::error("streaming has stopped: {}", error.what());
-            for (const auto& [id, session] : std::map(sessions_)) session->close("was cut off", false);
+            for (const auto& [id, connection] : std::map(connections_))
+                connection->close("was cut off", false);
             handshakes_.cancel();
         }
     }
@@ -176,29 +177,29 @@ class StreamingServer::Impl {
     }
 
     void send_frame() {
-        if (seat_) seat_->check_silence(Clock::now());
-        log_seat();
+        if (lease_) lease_->check_silence(Clock::now());
+        log_holder();
         drop_revoked();
-        for (const OperatorSeat::ClientId id : newcomers_.take_patient(Clock::now()))
-            sessions_.at(id)->serve();
+        for (const ControlLease::ClientId id : unidentified_.take_patient(Clock::now()))
+            connections_.at(id)->serve();
         update();
         const bool with_checksum = frames_++ % frames_per_checksum_ == 0;
         if (recorder_) recorder_->record(last_view_, with_checksum, options_.paced_by_session);
         // A recording's packets have stamps of their own.
         const std::int64_t now_unix_ns = unix_time_ns();
-        for (const auto& [id, session] : std::map(sessions_)) {  // a session may close and leave the map
+        for (const auto& [id, connection] : std::map(connections_)) {  // one may close and leave the map
             ToolView stamped = view_for(id);
             stamped.taken_unix_ns = now_unix_ns;
-            session->show(stamped, with_checksum);
+            connection->show(stamped, with_checksum);
         }
         if (options_.listens && !is_accepting_) accept();
         client_log_.tell_left_out(Clock::now());
-        stranger_log_.tell_left_out(Clock::now());
+        unidentified_log_.tell_left_out(Clock::now());
     }
 
-    ToolView view_for(OperatorSeat::ClientId id) const {
+    ToolView view_for(ControlLease::ClientId id) const {
         ToolView view = last_view_;
-        if (seat_) view.driver = watchers_.contains(id) ? ToolDriver::others_only : seat_->driver_for(id);
+        if (lease_) view.driver = watchers_.contains(id) ? ToolDriver::others_only : lease_->driver_for(id);
         return view;
     }
 
@@ -209,11 +210,11 @@ class StreamingServer::Impl {
         return hello;
     }
 
-    /// After the seat knows: nobody waits for a log.
-    void log_seat() {
-        if (!seat_) return;
-        const auto peer_of = [this](auto id) { return sessions_.at(id)->peer(); };
-        for (const auto& line : changes_of_hands_.look(seat_->holder(), peer_of)) log_client(line);
+    /// After the lease knows: nobody waits for a log.
+    void log_holder() {
+        if (!lease_) return;
+        const auto peer_of = [this](auto id) { return connections_.at(id)->peer(); };
+        for (const auto& line : changes_of_hands_.look(lease_->holder(), peer_of)) log_client(line);
     }
 
     /// Those who are in when their certificates are revoked are out.
@@ -222,15 +223,15 @@ class StreamingServer::Impl {
         const RevocationLists::Look look = options_.tls->refresh(Clock::now());
         if (!look.failure.empty()) spdlog::warn("{}", look.failure);
         if (!look.has_news) return;
-        for (const auto& [id, session] : std::map(sessions_))
-            if (session->is_revoked()) session->close("was dropped: its certificate is revoked", true);
+        for (const auto& [id, connection] : std::map(connections_))
+            if (connection->is_revoked()) connection->close("was dropped: its certificate is revoked", true);
     }
 
     void update() {
-        last_view_ = shown_.update(mirror_, sessions_.size());
-        const ChangedVoxels changes = mirror_.take_changes();
+        last_view_ = source_.update(mirror_, connections_.size());
+        const std::vector<BrickChange> changes = mirror_.take_changes();
         if (recorder_) recorder_->note(changes);
-        for (const auto& [id, session] : sessions_) session->feed().note(changes);
+        for (const auto& [id, connection] : connections_) connection->feed().note(changes);
     }
 
     void accept() {
@@ -239,7 +240,7 @@ class StreamingServer::Impl {
             is_accepting_ = false;
             if (is_finishing_) return;
             if (error) {  // such as too many open files; the next frame tries again
-                log_stranger("a client could not be accepted: " + error.message());
+                log_unidentified("a client could not be accepted: " + error.message());
                 return;
             }
             handshakes_.begin(std::move(socket));
@@ -249,83 +250,85 @@ class StreamingServer::Impl {
 
     void log_client(const std::string& line) { client_log_.write(spdlog::level::info, line, Clock::now()); }
 
-    void log_stranger(const std::string& line) {
-        stranger_log_.write(spdlog::level::warn, line, Clock::now());
+    void log_unidentified(const std::string& line) {
+        unidentified_log_.write(spdlog::level::warn, line, Clock::now());
     }
 
     /// Those who have said who they are, by certificate or greeting.
-    std::size_t clients() const { return sessions_.size() - newcomers_.size(); }
+    std::size_t clients() const { return connections_.size() - unidentified_.size(); }
 
     void admit(std::shared_ptr<Stream> stream) {
         if (clients() >= most_clients) {
-            log_stranger(fmt::format("client {} was turned away: {} are connected already", stream->peer(),
-                                     clients()));
+            log_unidentified(fmt::format("client {} was turned away: {} are connected already",
+                                         stream->peer(), clients()));
             return stream->close();
         }
-        const OperatorSeat::ClientId id = ++last_client_;
+        const ControlLease::ClientId id = ++last_client_;
         const bool may_operate = !options_.operators || options_.operators->names(stream->subject());
         if (!may_operate) watchers_.insert(id);
         error_code ignored;  // one who has gone already leaves as soon as it is read
         const Origin origin = origin_of(stream->socket().remote_endpoint(ignored).address());
-        const auto session = std::make_shared<Session>(std::move(stream),
-                                                       ClientFeed(hello_for(may_operate), mirror_, packer_));
-        sessions_.emplace(id, session);
+        const auto connection = std::make_shared<ClientConnection>(
+            std::move(stream), ClientFeed(hello_for(may_operate), mirror_, packer_));
+        connections_.emplace(id, connection);
         if (options_.tls) {
-            welcome(*session);
+            welcome(*connection);
         } else {
-            if (const auto oldest = newcomers_.in_the_way())
-                sessions_.at(*oldest)->close("gave way to others: it had not said a word", false);
-            newcomers_.add(id, origin, Clock::now());
+            if (const auto oldest = unidentified_.in_the_way())
+                connections_.at(*oldest)->close("gave way to others: it had not said a word", false);
+            unidentified_.add(id, origin, Clock::now());
         }
-        session->start({.on_message = [this, id](const v1::ClientFrame& frame) { return take(id, frame); },
-                        .on_closed = [this, id, peer = session->peer()](
-                                         const std::string& line,
-                                         bool is_fault) { dismiss(id, peer, line, is_fault); }});
-        if (options_.tls) session->serve();
+        connection->start({.on_message = [this, id](const v1::ClientFrame& frame) { return take(id, frame); },
+                           .on_closed = [this, id, peer = connection->peer()](
+                                            const std::string& line,
+                                            bool is_fault) { dismiss(id, peer, line, is_fault); }});
+        if (options_.tls) connection->serve();
     }
 
-    void welcome(const Session& session) { log_client(fmt::format("client {} joined", session.peer())); }
+    void welcome(const ClientConnection& connection) {
+        log_client(fmt::format("client {} joined", connection.peer()));
+    }
 
-    void dismiss(OperatorSeat::ClientId id, const std::string& peer, const std::string& line, bool is_fault) {
+    void dismiss(ControlLease::ClientId id, const std::string& peer, const std::string& line, bool is_fault) {
         // First of all: a hand that has gone must not keep the burr turning.
-        if (seat_) seat_->leave(id);
-        const bool was_newcomer = newcomers_.remove(id);
-        (was_newcomer ? stranger_log_ : client_log_)
+        if (lease_) lease_->leave(id);
+        const bool was_unidentified = unidentified_.remove(id);
+        (was_unidentified ? unidentified_log_ : client_log_)
             .write(is_fault ? spdlog::level::warn : spdlog::level::info,
                    fmt::format("client {} {}", peer, line), Clock::now());
-        sessions_.erase(id);
+        connections_.erase(id);
         watchers_.erase(id);
         refused_input_.erase(id);
-        log_seat();
-        if (is_finishing_ && sessions_.empty()) deadline_.cancel();
+        log_holder();
+        if (is_finishing_ && connections_.empty()) deadline_.cancel();
     }
 
-    std::optional<WireError> take(OperatorSeat::ClientId id, const v1::ClientFrame& frame) {
-        const std::shared_ptr<Session> session = sessions_.at(id);
-        if (newcomers_.remove(id)) {
+    std::optional<WireError> take(ControlLease::ClientId id, const v1::ClientFrame& frame) {
+        const std::shared_ptr<ClientConnection> connection = connections_.at(id);
+        if (unidentified_.remove(id)) {
             if (clients() > most_clients)
                 return WireError{fmt::format("{} clients are connected already", most_clients)};
-            welcome(*session);
-            session->serve();
+            welcome(*connection);
+            connection->serve();
         }
         auto taken = take_client_message(
             frame,
             {.id = id,
-             .feed = session->feed(),
-             .answers = session->answers(),
+             .feed = connection->feed(),
+             .answers = connection->answers(),
              .packer = change_packer_,
-             .seat = seat_ && !is_finishing_ && !watchers_.contains(id) ? &*seat_ : nullptr,
+             .lease = lease_ && !is_finishing_ && !watchers_.contains(id) ? &*lease_ : nullptr,
              .burr_count = burr_count_},
             Clock::now());
-        log_seat();
+        log_holder();
         if (frame.has_operator_input() && watchers_.contains(id) && refused_input_.insert(id).second)
             log_client(fmt::format("client {} may only watch; what it asks of the tool is refused",
-                                   session->peer()));
+                                   connection->peer()));
         if (auto* error = std::get_if<WireError>(&taken)) return std::move(*error);
-        session->pump();
+        connection->pump();
         const auto& answer = std::get<std::optional<Answer>>(taken);
         if (const std::string reason = answer ? reason_to_ignore(*answer) : ""; !reason.empty())
-            client_log_.write(spdlog::level::warn, fmt::format("client {} {}", session->peer(), reason),
+            client_log_.write(spdlog::level::warn, fmt::format("client {} {}", connection->peer(), reason),
                               Clock::now());
         return std::nullopt;
     }
@@ -336,20 +339,20 @@ class StreamingServer::Impl {
         if (acceptor_) acceptor_->close();
         handshakes_.cancel();
         work_.reset();
-        if (seat_) seat_->vacate();
-        log_seat();
+        if (lease_) lease_->end();
+        log_holder();
         update();
-        for (const auto& [id, session] : std::map(sessions_)) {
-            session->feed().request_state(view_for(id), true);
-            session->feed().finish(end_of_session);
-            session->serve();
+        for (const auto& [id, connection] : std::map(connections_)) {
+            connection->feed().request_state(view_for(id), true);
+            connection->feed().finish(end_of_session);
+            connection->serve();
         }
-        if (sessions_.empty()) return;
+        if (connections_.empty()) return;
         deadline_.expires_after(longest_goodbye);
         deadline_.async_wait([this](error_code error) {
             if (error) return;
-            for (const auto& [id, session] : std::map(sessions_))
-                session->close("was cut off: it did not read the end in time", false);
+            for (const auto& [id, connection] : std::map(connections_))
+                connection->close("was cut off: it did not read the end in time", false);
         });
     }
 
@@ -359,10 +362,10 @@ class StreamingServer::Impl {
     BoneMirror mirror_;
     SnapshotPacker packer_;
     ChangePacker change_packer_;
-    ShownSession& shown_;
+    StreamSource& source_;
     ToolView last_view_;
     std::optional<SessionRecorder> recorder_;
-    std::optional<OperatorSeat> seat_;
+    std::optional<ControlLease> lease_;
     Clock::duration period_{};
 
     asio::io_context io_{1};
@@ -370,7 +373,7 @@ class StreamingServer::Impl {
     asio::executor_work_guard<asio::io_context::executor_type> work_{io_.get_executor()};
     std::optional<tcp::acceptor> acceptor_;
     // Each with its share of the log.
-    LimitedLog stranger_log_;
+    LimitedLog unidentified_log_;
     LimitedLog client_log_;
     Handshakes handshakes_{io_,
                            options_.tls.get(),
@@ -378,17 +381,18 @@ class StreamingServer::Impl {
                            {.on_done = [this](std::shared_ptr<Stream> stream) { admit(std::move(stream)); },
                             .on_failed =
                                 [this](const std::string& peer, const std::string& why) {
-                                    log_stranger(fmt::format("client {} was refused: {}", peer, why));
+                                    log_unidentified(fmt::format("client {} was refused: {}", peer, why));
                                 }},
-                           options_.places_for_strangers};
+                           options_.places_for_unidentified};
     asio::steady_timer timer_{io_};
     asio::steady_timer deadline_{io_};
-    std::map<OperatorSeat::ClientId, std::shared_ptr<Session>> sessions_;
-    Newcomers newcomers_{options_.places_for_strangers};  // those of the sessions who are that
-    std::set<OperatorSeat::ClientId> watchers_;           // those of the sessions who may not move the tool
-    std::set<OperatorSeat::ClientId> refused_input_;  // and of these, who have been named in the log for it
+    std::map<ControlLease::ClientId, std::shared_ptr<ClientConnection>> connections_;
+    UnidentifiedConnections unidentified_{
+        options_.places_for_unidentified};            // those of the connections who are that
+    std::set<ControlLease::ClientId> watchers_;       // those of the connections who may not move the tool
+    std::set<ControlLease::ClientId> refused_input_;  // and of these, who have been named in the log for it
     ChangesOfHands changes_of_hands_;
-    OperatorSeat::ClientId last_client_ = 0;
+    ControlLease::ClientId last_client_ = 0;
     Clock::time_point next_frame_{};
     std::uint64_t frames_ = 0;
     std::uint64_t frames_per_checksum_ = 1;
@@ -402,8 +406,8 @@ class StreamingServer::Impl {
 };
 
 StreamingServer::StreamingServer(StreamingOptions options, SessionInfo session, Bone mirror,
-                                 ShownSession& shown, TripleBuffer<OperatorInput>* operator_input)
-    : impl_(std::make_unique<Impl>(std::move(options), std::move(session), std::move(mirror), shown,
+                                 StreamSource& source, TripleBuffer<OperatorInput>* operator_input)
+    : impl_(std::make_unique<Impl>(std::move(options), std::move(session), std::move(mirror), source,
                                    operator_input)) {}
 
 StreamingServer::~StreamingServer() = default;

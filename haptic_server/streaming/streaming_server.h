@@ -5,7 +5,7 @@
 // for each client there is one frame under way and a set of voxels that it has yet to be told of. A slow
 // client gets fewer frames and misses nothing; one that sends nonsense is dropped with one log line.
 // With TLS only those are clients whom the lab's CA vouches for; without it, only this machine is served
-// unless told otherwise, and who says nothing cannot take a client's place: see Newcomers.
+// unless told otherwise, and who says nothing cannot take a client's place: see UnidentifiedConnections.
 #pragma once
 
 #include <chrono>
@@ -23,7 +23,7 @@
 #include "haptic_server/exchange/triple_buffer.h"
 #include "haptic_server/streaming/fair_places.h"
 #include "haptic_server/streaming/operator_list.h"
-#include "haptic_server/streaming/shown_session.h"
+#include "haptic_server/streaming/stream_source.h"
 
 namespace osteomill {
 
@@ -45,7 +45,7 @@ struct StreamingOptions {
     /// 5 s gives up.
     std::chrono::milliseconds handshake_deadline{3000};
     /// Places for those who are not clients yet, see FairPlaces.
-    std::size_t places_for_strangers = osteomill::places_for_strangers();
+    std::size_t places_for_unidentified = osteomill::places_for_unidentified();
     double frame_rate_hz = 30.0;
     /// Frames go out when show_frame() is called instead, and a recording waits for its disk: for sessions
     /// that run on a clock of their own.
@@ -59,7 +59,7 @@ class StreamingServer {
     /// `operator_input`, which is null unless the device is driven by a client; both outlive it. Throws
     /// std::invalid_argument for a frame rate that is not above zero, a bone too large to send, or a scene
     /// whose names do not fit a frame.
-    StreamingServer(StreamingOptions options, SessionInfo session, Bone mirror, ShownSession& shown,
+    StreamingServer(StreamingOptions options, SessionInfo session, Bone mirror, StreamSource& source,
                     TripleBuffer<OperatorInput>* operator_input = nullptr);
     /// Stops first, if need be.
     ~StreamingServer();

@@ -6,8 +6,8 @@
 
 #include "common/bone/finite.h"
 #include "common/wire/sealed_frame.h"
+#include "haptic_server/streaming/client_connection.h"
 #include "haptic_server/streaming/client_message.h"
-#include "haptic_server/streaming/session.h"
 #include "tests/fuzz/small_session.h"
 #include "tests/fuzz/targets.h"
 
@@ -84,12 +84,13 @@ void server_session(Bytes input) {
     BoneMirror mirror(bone);
     static SnapshotPacker packer;
     TripleBuffer<OperatorInput> output;
-    OperatorSeat seat(output);
+    ControlLease lease(output);
     ChangePacker change_packer;
-    constexpr OperatorSeat::ClientId id = 1;
+    constexpr ControlLease::ClientId id = 1;
     boost::asio::io_context io;
     const auto stream = std::make_shared<ScriptedStream>(io);
-    const auto session = std::make_shared<Session>(stream, ClientFeed(to_message(info), mirror, packer));
+    const auto session =
+        std::make_shared<ClientConnection>(stream, ClientFeed(to_message(info), mirror, packer));
 
     std::optional<std::string> ended;
     std::size_t messages = 0;
@@ -101,7 +102,7 @@ void server_session(Bytes input) {
                                                                     .feed = session->feed(),
                                                                     .answers = session->answers(),
                                                                     .packer = change_packer,
-                                                                    .seat = &seat,
+                                                                    .lease = &lease,
                                                                     .burr_count = info.burrs.size()},
                                                                    {});
                             const auto* error = std::get_if<WireError>(&taken);

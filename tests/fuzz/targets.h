@@ -24,9 +24,9 @@ inline void require(bool holds, const std::string& what) {
 /// that they came from, or that are longer than allowed; a complaint that is not one line.
 void frame_decoder(Bytes input);
 
-/// What a client sends, against Session, ClientFeed and OperatorSeat. Finding: a bone changed by a client; a
-/// tool moved to where no number is; an answer that is no frame, or more frames than the client may cause; a
-/// client dropped without a line.
+/// What a client sends, against ClientConnection, ClientFeed and ControlLease. Finding: a bone changed by a
+/// client; a tool moved to where no number is; an answer that is no frame, or more frames than the client may
+/// cause; a client dropped without a line.
 void server_session(Bytes input);
 
 /// What a server sends, against the decoder, SessionReceiver and BoneCopy. Finding: a copy with bone outside

@@ -10,8 +10,8 @@ using ::testing::IsEmpty;
 
 TEST(ChangesOfHands, AreToldOnceByTheNamesOfThoseWhoWereThere) {
     ChangesOfHands changes;
-    const auto peer_of = [](OperatorSeat::ClientId id) { return "number " + std::to_string(id); };
-    const auto gone = [](OperatorSeat::ClientId) -> std::string { throw std::out_of_range("gone"); };
+    const auto peer_of = [](ControlLease::ClientId id) { return "number " + std::to_string(id); };
+    const auto gone = [](ControlLease::ClientId) -> std::string { throw std::out_of_range("gone"); };
     EXPECT_THAT(changes.look(std::nullopt, gone), IsEmpty());
     EXPECT_THAT(changes.look(1, peer_of), ElementsAre("client number 1 moves the tool"));
     EXPECT_THAT(changes.look(1, gone), IsEmpty());

@@ -158,8 +158,8 @@ TEST_F(ClientFeedTest, CostsNoMoreForAClientThatNeverReadsThanForItsDirtyBricks)
         carver_->carve(300);
         feed_->request_state({.time_s = 0.1 * i}, i % 30 == 0);
     }
-    EXPECT_LE(feed_->untold().bricks(), mirror_->bone().stored_bricks());
-    EXPECT_LE(feed_->untold().masks(), UntoldVoxels::most_masks);
+    EXPECT_LE(feed_->pending().bricks(), mirror_->bone().stored_bricks());
+    EXPECT_LE(feed_->pending().masks(), PendingChanges::most_masks);
     EXPECT_LT(drain(), 300) << "frames";
     expect_equal();
 }
@@ -193,7 +193,7 @@ TEST_F(ClientFeedTest, TellsBricksThatDifferWhole) {
     drain();
     EXPECT_EQ(replica_.edits_of_last_state(), 1U);
     EXPECT_EQ(replica_.checksums(), 2U);
-    EXPECT_TRUE(feed_->untold().empty());
+    EXPECT_TRUE(feed_->pending().empty());
 }
 
 TEST_F(ClientFeedTest, RefusesComparisonsThatNoHonestClientAsksFor) {

@@ -60,8 +60,8 @@ TEST(FairPlaces, ArePassedOnByAFloodFromOneAddressOnlyWhenAsManyHaveComeAsThereA
 }
 
 TEST(FairPlaces, LeaveRoomAmongTheFilesThatMayBeOpen) {
-    EXPECT_GE(places_for_strangers(), 16U);
-    EXPECT_LE(places_for_strangers(), 512U);
+    EXPECT_GE(places_for_unidentified(), 16U);
+    EXPECT_LE(places_for_unidentified(), 512U);
 }
 
 }  // namespace

@@ -1,27 +1,27 @@
-// What a client has yet to be told of the bone: voxels of bricks, told brick by brick, each in its turn.
+// Changes of the bone that a client has yet to be sent, brick by brick, each in its turn.
 //
 // The turn goes round the grid: after a brick comes the next above it that is waiting, and after the last
 // the first. So a brick waits for each other one at most once, even where bricks before it keep changing
 // faster than the client reads.
 //
 // Bounded: one entry of about 60 bytes for each stored brick that is waiting, and a mask of 512 bytes for
-// the first `most_masks` of them. Beyond these a brick is told whole.
+// the first `most_masks` of them. Beyond these a brick is sent whole.
 #pragma once
 
 #include <cstddef>
 #include <map>
 #include <memory>
 
-#include "common/wire/brick_edit.h"
+#include "common/bone/brick_change.h"
 
 namespace osteomill {
 
-class UntoldVoxels {
+class PendingChanges {
   public:
     /// 2 MiB of masks: far more bricks than a burr touches while a network hiccups.
     static constexpr std::size_t most_masks = 4096;
 
-    void add(BrickIndex brick, const VoxelMask& voxels);
+    void add(const BrickChange& change);
     void add_whole(BrickIndex brick);
 
     bool empty() const { return waiting_.empty(); }
@@ -30,8 +30,8 @@ class UntoldVoxels {
 
     /// Whose turn it is; not to be called on an empty set.
     BrickChange next() const;
-    /// The brick of next() has been told: the turn goes on.
-    void told();
+    /// The brick of next() has been sent: the turn goes on.
+    void sent();
 
   private:
     std::map<BrickIndex, std::unique_ptr<VoxelMask>>::const_iterator turn() const;

@@ -1,8 +1,7 @@
-// Which client drives the device, and what it wants: the first that sends input, until it leaves or its lease
-// runs out. Its input renews the lease; but one that brings nothing new for half a minute, see
-// OperatorActivity, gives the seat to the next who asks.
-// That a silent operator's pedal comes up is not for the seat to see to: the device does, see
-// haptic_server/device/permission.h.
+// The lease on the tool: which client moves it, and what it wants. The first that sends input has it, until
+// it leaves or the lease runs out. Its input renews the lease; but from one that brings nothing new for half
+// a minute, see OperatorActivity, the next who asks takes it. That a silent operator's pedal comes up is not
+// for the lease to see to: the device does, see haptic_server/device/permission.h.
 #pragma once
 
 #include <chrono>
@@ -16,24 +15,24 @@
 
 namespace osteomill {
 
-class OperatorSeat {
+class ControlLease {
   public:
     using Time = std::chrono::steady_clock::time_point;
     using ClientId = std::uint64_t;
 
-    /// So long after its last input the seat is the next one's. Long enough to reconnect after a hiccup of
+    /// So long after its last input it is the next one's. Long enough to reconnect after a hiccup of
     /// the network, short enough for a colleague who waits.
-    static constexpr std::chrono::milliseconds lease{3000};
+    static constexpr std::chrono::milliseconds duration{3000};
 
-    /// The seat is the one writer of `output`.
-    explicit OperatorSeat(TripleBuffer<OperatorInput>& output) : output_(output) {}
+    /// The lease is the one writer of `output`.
+    explicit ControlLease(TripleBuffer<OperatorInput>& output) : output_(output) {}
 
-    /// Input from a client, already checked. Ignored unless the seat is free or its own; false if ignored.
+    /// Input from a client, already checked. Ignored unless the tool is free or its own; false if ignored.
     bool take_input(ClientId client, const OperatorIntent& intent, Time now);
-    /// A client has gone; the seat is free if it was that client's.
+    /// A client has gone; the tool is free if it was that client's.
     void leave(ClientId client);
-    /// Nobody drives any more.
-    void vacate();
+    /// Nobody moves it any more.
+    void end();
     /// To be called regularly.
     void check_silence(Time now);
     /// Who has it, for the log.
@@ -43,7 +42,7 @@ class OperatorSeat {
 
   private:
     /// Whether the holder may keep it though another asks.
-    bool is_kept(Time now) const { return now - last_heard_ <= lease && !activity_.is_idle(now); }
+    bool is_kept(Time now) const { return now - last_heard_ <= duration && !activity_.is_idle(now); }
     void publish(bool present);
 
     TripleBuffer<OperatorInput>& output_;

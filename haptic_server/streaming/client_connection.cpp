@@ -1,4 +1,4 @@
-#include "haptic_server/streaming/session.h"
+#include "haptic_server/streaming/client_connection.h"
 
 #include <netinet/tcp.h>
 
@@ -39,10 +39,10 @@ bool is_tls_greeting(std::span<const std::uint8_t> bytes) {
 
 }  // namespace
 
-Session::Session(std::shared_ptr<Stream> stream, ClientFeed feed)
+ClientConnection::ClientConnection(std::shared_ptr<Stream> stream, ClientFeed feed)
     : stream_(std::move(stream)), feed_(std::move(feed)), peer_(stream_->peer()) {}
 
-void Session::start(Callbacks callbacks) {
+void ClientConnection::start(Callbacks callbacks) {
     callbacks_ = std::move(callbacks);
     error_code ignored;  // a socket without these still works
     asio::ip::tcp::socket& socket = stream_->socket();
@@ -55,23 +55,23 @@ void Session::start(Callbacks callbacks) {
     pump();
 }
 
-void Session::serve() {
+void ClientConnection::serve() {
     is_served_ = true;
     pump();
 }
 
-void Session::show(const ToolView& tool, bool with_checksum) {
+void ClientConnection::show(const ToolView& tool, bool with_checksum) {
     feed_.request_state(tool, with_checksum);
-    if (feed_.has_told_all()) answers_.still_true(std::chrono::steady_clock::now());
+    if (feed_.has_sent_all()) answers_.still_true(std::chrono::steady_clock::now());
     pump();
 }
 
-void Session::pump() {
+void ClientConnection::pump() {
     if (is_closed_ || is_writing_ || (has_said_hello_ && !is_served_)) return;
     has_said_hello_ = true;
-    const std::uint64_t told = feed_.newest_state();
+    const std::uint64_t sent = feed_.newest_state();
     std::optional<std::string> frame = feed_.next(pace_.most_bytes());
-    if (feed_.newest_state() != told) answers_.sent(feed_.newest_state(), std::chrono::steady_clock::now());
+    if (feed_.newest_state() != sent) answers_.sent(feed_.newest_state(), std::chrono::steady_clock::now());
     if (!frame) {
         // The client closes when it has read goodbye. Closing first could reset the connection and destroy
         // what it has not read yet.
@@ -93,7 +93,7 @@ void Session::pump() {
     });
 }
 
-void Session::close(const std::string& line, bool is_fault) {
+void ClientConnection::close(const std::string& line, bool is_fault) {
     if (is_closed_) return;
     is_closed_ = true;
     stream_->close();
@@ -102,7 +102,7 @@ void Session::close(const std::string& line, bool is_fault) {
     if (callbacks.on_closed) callbacks.on_closed(line, is_fault);
 }
 
-void Session::read() {
+void ClientConnection::read() {
     stream_->read([self = shared_from_this()](error_code error, std::span<const std::uint8_t> arrived) {
         if (self->is_closed_) return;
         if (error == asio::error::eof) return self->close("left", false);
@@ -111,7 +111,7 @@ void Session::read() {
     });
 }
 
-void Session::take(std::span<const std::uint8_t> arrived) {
+void ClientConnection::take(std::span<const std::uint8_t> arrived) {
     if (last_sequence_ == 0 && is_tls_greeting(arrived))
         return close("dropped: it speaks TLS, which this server was not told to", true);
     decoder_.append(arrived);

@@ -1,8 +1,8 @@
-#include "haptic_server/streaming/operator_seat.h"
+#include "haptic_server/streaming/control_lease.h"
 
 namespace osteomill {
 
-bool OperatorSeat::take_input(ClientId client, const OperatorIntent& intent, Time now) {
+bool ControlLease::take_input(ClientId client, const OperatorIntent& intent, Time now) {
     if (holder_ && *holder_ != client && is_kept(now)) return false;
     if (holder_ != client) activity_.begin();
     activity_.note(intent, now);
@@ -15,25 +15,25 @@ bool OperatorSeat::take_input(ClientId client, const OperatorIntent& intent, Tim
     return true;
 }
 
-void OperatorSeat::leave(ClientId client) {
-    if (holder_ == client) vacate();
+void ControlLease::leave(ClientId client) {
+    if (holder_ == client) end();
 }
 
-void OperatorSeat::vacate() {
+void ControlLease::end() {
     holder_.reset();
     publish(false);
 }
 
-void OperatorSeat::check_silence(Time now) {
-    if (holder_ && now - last_heard_ > lease) vacate();
+void ControlLease::check_silence(Time now) {
+    if (holder_ && now - last_heard_ > duration) end();
 }
 
-ToolDriver OperatorSeat::driver_for(ClientId client) const {
+ToolDriver ControlLease::driver_for(ClientId client) const {
     if (!holder_) return ToolDriver::nobody;
     return *holder_ == client ? ToolDriver::you : ToolDriver::another;
 }
 
-void OperatorSeat::publish(bool present) {
+void ControlLease::publish(bool present) {
     input_.present = present;
     if (!present) input_.pedal = false;
     output_.back() = input_;

@@ -16,16 +16,17 @@
 
 namespace osteomill {
 
-class Newcomers {
+class UnidentifiedConnections {
   public:
     using Id = FairPlaces::Id;  ///< ascending in the order in which they came
     using Time = std::chrono::steady_clock::time_point;
 
     static constexpr std::chrono::milliseconds patience{500};
-    /// So many silent ones are served at once: what a client is sent and has yet to be told takes memory.
+    /// So many silent ones are served at once: what a client is sent and has yet to be sent takes memory.
     static constexpr std::size_t most_served = 48;
 
-    explicit Newcomers(std::size_t most_at_once = places_for_strangers()) : places_(most_at_once) {}
+    explicit UnidentifiedConnections(std::size_t most_at_once = places_for_unidentified())
+        : places_(most_at_once) {}
 
     /// Who has to go before another can be added, if anyone.
     std::optional<Id> in_the_way() const { return places_.in_the_way(); }

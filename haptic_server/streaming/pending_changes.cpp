@@ -1,8 +1,9 @@
-#include "haptic_server/streaming/untold_voxels.h"
+#include "haptic_server/streaming/pending_changes.h"
 
 namespace osteomill {
 
-void UntoldVoxels::add(BrickIndex brick, const VoxelMask& voxels) {
+void PendingChanges::add(const BrickChange& change) {
+    const auto& [brick, voxels] = change;
     const auto found = waiting_.find(brick);
     if (found != waiting_.end()) {
         if (found->second) *found->second |= voxels;
@@ -14,25 +15,25 @@ void UntoldVoxels::add(BrickIndex brick, const VoxelMask& voxels) {
     }
 }
 
-void UntoldVoxels::add_whole(BrickIndex brick) {
+void PendingChanges::add_whole(BrickIndex brick) {
     std::unique_ptr<VoxelMask>& mask = waiting_[brick];
     if (mask) --masks_;
     mask.reset();
 }
 
-BrickChange UntoldVoxels::next() const {
+BrickChange PendingChanges::next() const {
     const auto& [brick, mask] = *turn();
     return {brick, mask ? *mask : VoxelMask().set()};
 }
 
-void UntoldVoxels::told() {
+void PendingChanges::sent() {
     const auto now = turn();
     turn_ = now->first + 1;  // past the last brick of all it is the first again
     if (now->second) --masks_;
     waiting_.erase(now);
 }
 
-std::map<BrickIndex, std::unique_ptr<VoxelMask>>::const_iterator UntoldVoxels::turn() const {
+std::map<BrickIndex, std::unique_ptr<VoxelMask>>::const_iterator PendingChanges::turn() const {
     const auto found = waiting_.lower_bound(turn_);
     return found != waiting_.end() ? found : waiting_.begin();
 }

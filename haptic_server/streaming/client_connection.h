@@ -16,7 +16,7 @@
 namespace osteomill {
 
 /// Lives until its stream is closed. All calls and callbacks are on the thread of the stream's io_context.
-class Session : public std::enable_shared_from_this<Session> {
+class ClientConnection : public std::enable_shared_from_this<ClientConnection> {
   public:
     /// An operator's window sends a hundred a second. After a network that stood still for seconds they come
     /// at once.
@@ -31,7 +31,7 @@ class Session : public std::enable_shared_from_this<Session> {
     };
 
     /// The stream's handshake is over.
-    Session(std::shared_ptr<Stream> stream, ClientFeed feed);
+    ClientConnection(std::shared_ptr<Stream> stream, ClientFeed feed);
 
     /// Reads, and writes the feed's first frame, its hello; the rest after serve().
     void start(Callbacks callbacks);

@@ -8,9 +8,9 @@
 
 namespace osteomill {
 
-class ShownSession {
+class StreamSource {
   public:
-    virtual ~ShownSession() = default;
+    virtual ~StreamSource() = default;
 
     /// Once a frame, on the streaming server's thread: writes into the mirror what has changed since the last
     /// call, and says where the tool is now. `viewers`: clients that look on.

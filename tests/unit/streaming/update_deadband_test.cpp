@@ -1,4 +1,4 @@
-#include "haptic_server/streaming/quiet_tool.h"
+#include "haptic_server/streaming/update_deadband.h"
 
 #include <gtest/gtest.h>
 
@@ -20,11 +20,11 @@ TEST(QuietTool, MayTrembleAndAge) {
     now.taken_unix_ns += 90'000'000;
     now.burr_position_mm.x += 0.001;
     now.force_n.y -= 0.001;
-    EXPECT_TRUE(is_quiet(told, now));
+    EXPECT_TRUE(is_within_deadband(told, now));
     now.time_s = 5.1;
-    EXPECT_FALSE(is_quiet(told, now)) << "now and then it is told of, anyway";
+    EXPECT_FALSE(is_within_deadband(told, now)) << "now and then it is told of, anyway";
     now.time_s = 4.9;
-    EXPECT_FALSE(is_quiet(told, now)) << "time went back: another session or place in a recording";
+    EXPECT_FALSE(is_within_deadband(told, now)) << "time went back: another session or place in a recording";
 }
 
 TEST(QuietTool, DoesNothingThatAViewerWouldSee) {

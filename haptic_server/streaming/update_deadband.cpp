@@ -1,0 +1,17 @@
+#include "haptic_server/streaming/update_deadband.h"
+
+namespace osteomill {
+
+namespace {
+
+/// Room for what a product of session time and frame rate rounds off.
+constexpr double rounding_s = 1e-6;
+
+}  // namespace
+
+bool is_within_deadband(const ToolView& sent, const ToolView& now) {
+    const double elapsed_s = now.time_s - sent.time_s;
+    return elapsed_s >= 0.0 && elapsed_s < deadband_period_s - rounding_s && looks_the_same(sent, now);
+}
+
+}  // namespace osteomill

@@ -1,0 +1,100 @@
+#include "haptic_server/streaming/control_lease.h"
+
+#include <gtest/gtest.h>
+
+namespace osteomill {
+namespace {
+
+using std::chrono::milliseconds;
+
+class ControlLeaseTest : public ::testing::Test {
+  protected:
+    const OperatorInput& newest() {
+        output_.refresh();
+        return output_.front();
+    }
+
+    TripleBuffer<OperatorInput> output_;
+    ControlLease lease_{output_};
+    const ControlLease::Time start_{};
+    const OperatorIntent pressed_{.hand_target_mm = {1, 2, 3}, .pedal = true, .burr = 2};
+};
+
+TEST_F(ControlLeaseTest, PublishesWhatTheOperatorWants) {
+    EXPECT_FALSE(newest().present);
+    EXPECT_TRUE(lease_.take_input(1, pressed_, start_));
+    EXPECT_TRUE(newest().present);
+    EXPECT_TRUE(newest().pedal);
+    EXPECT_EQ(newest().burr, 2U);
+    EXPECT_EQ(newest().hand_target.position_mm, glm::dvec3(1, 2, 3));
+}
+
+TEST_F(ControlLeaseTest, BelongsToTheFirstUntilItLeaves) {
+    EXPECT_TRUE(lease_.take_input(1, pressed_, start_));
+    EXPECT_FALSE(lease_.take_input(2, {.burr = 0}, start_));
+    EXPECT_EQ(newest().burr, 2U);
+    lease_.leave(2);
+    EXPECT_TRUE(newest().present);
+    lease_.leave(1);
+    EXPECT_FALSE(newest().present);
+    EXPECT_FALSE(newest().pedal);
+    EXPECT_TRUE(lease_.take_input(2, {.burr = 1}, start_));
+    EXPECT_EQ(newest().burr, 1U);
+}
+
+TEST_F(ControlLeaseTest, SaysNothingNewOnBehalfOfASilentOperator) {
+    lease_.take_input(1, pressed_, start_);
+    ASSERT_TRUE(output_.refresh());
+    lease_.check_silence(start_ + milliseconds(900));
+    EXPECT_FALSE(output_.refresh()) << "or the device would take it for fresh";
+    EXPECT_FALSE(lease_.take_input(2, pressed_, start_ + milliseconds(900))) << "the tool is not free";
+    lease_.check_silence(start_ + ControlLease::duration + milliseconds(1));
+    EXPECT_FALSE(newest().present);
+    EXPECT_FALSE(newest().pedal);
+}
+
+TEST_F(ControlLeaseTest, GoesToTheNextWhenItsLeaseRunsOut) {
+    EXPECT_EQ(lease_.driver_for(1), ToolDriver::nobody);
+    lease_.take_input(1, pressed_, start_);
+    lease_.take_input(1, pressed_, start_ + milliseconds(1000));  // renews it
+    EXPECT_EQ(lease_.driver_for(1), ToolDriver::you);
+    EXPECT_EQ(lease_.driver_for(2), ToolDriver::another);
+    const auto end = start_ + milliseconds(1000) + ControlLease::duration;
+    lease_.check_silence(end);
+    EXPECT_FALSE(lease_.take_input(2, pressed_, end));
+    lease_.check_silence(end + milliseconds(1));
+    EXPECT_EQ(lease_.driver_for(1), ToolDriver::nobody);
+    EXPECT_TRUE(lease_.take_input(2, {.burr = 1}, end + milliseconds(1)));
+    EXPECT_EQ(lease_.driver_for(1), ToolDriver::another);
+    EXPECT_FALSE(lease_.take_input(1, pressed_, end + milliseconds(2)));
+    EXPECT_EQ(newest().burr, 1U);
+}
+
+TEST_F(ControlLeaseTest, IsTakenOverAtTheEndOfTheLeaseWithoutWaitingForTheNextCheck) {
+    lease_.take_input(1, pressed_, start_);
+    EXPECT_TRUE(lease_.take_input(2, {.burr = 1}, start_ + ControlLease::duration + milliseconds(1)));
+    EXPECT_EQ(lease_.driver_for(2), ToolDriver::you);
+}
+
+TEST_F(ControlLeaseTest, IsKeptByOneWhoRestsUntilAnotherAsksForIt) {
+    const OperatorIntent resting{.hand_target_mm = {1, 2, 3}};
+    auto now = start_;
+    const auto rest_for = [&](std::chrono::seconds time) {
+        for (const auto end = now + time; now < end; now += milliseconds(100))
+            EXPECT_TRUE(lease_.take_input(1, resting, now));
+    };
+    rest_for(std::chrono::seconds(30));
+    EXPECT_FALSE(lease_.take_input(2, pressed_, now)) << "not yet";
+    rest_for(std::chrono::seconds(1));
+    EXPECT_EQ(lease_.holder(), 1U);
+    EXPECT_TRUE(lease_.take_input(2, pressed_, now));
+    EXPECT_EQ(lease_.holder(), 2U);
+    EXPECT_EQ(newest().burr, 2U);
+    EXPECT_FALSE(lease_.take_input(1, resting, now)) << "the new one has just begun";
+    now += ControlLease::duration;
+    EXPECT_TRUE(lease_.take_input(2, {.burr = 1}, now));
+    EXPECT_FALSE(lease_.take_input(1, resting, now + OperatorActivity::longest_rest / 10));
+}
+
+}  // namespace
+}  // namespace osteomill
