@@ -7,7 +7,7 @@
 
 #include "common/net/tls_options.h"
 #include "haptic_server/streaming/listen_address.h"
-#include "haptic_server/streaming/streaming_server.h"
+#include "haptic_server/streaming/streaming_options.h"
 
 namespace osteomill {
 

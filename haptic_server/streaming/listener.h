@@ -4,7 +4,7 @@
 #include <boost/asio/io_context.hpp>
 #include <boost/asio/ip/tcp.hpp>
 
-#include "haptic_server/streaming/streaming_server.h"
+#include "haptic_server/streaming/streaming_options.h"
 
 namespace osteomill {
 

@@ -1,0 +1,192 @@
+#include "haptic_server/streaming/connected_clients.h"
+
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+
+#include <boost/asio/ip/tcp.hpp>
+#include <utility>
+#include <variant>
+
+#include "haptic_server/streaming/client_message.h"
+#include "haptic_server/streaming/fair_places.h"
+
+namespace osteomill {
+
+namespace {
+
+/// Bounds what strangers can make the server hold; a class of students looks on through far fewer.
+constexpr std::size_t most_clients = 32;
+
+std::int64_t unix_time_ns() {
+    const auto since_1970 = std::chrono::system_clock::now().time_since_epoch();
+    return std::chrono::duration_cast<std::chrono::nanoseconds>(since_1970).count();
+}
+
+}  // namespace
+
+ConnectedClients::ConnectedClients(const StreamingOptions& options, const v1::Hello& hello,
+                                   const BoneMirror& mirror, SnapshotPacker& snapshot_packer,
+                                   TripleBuffer<OperatorInput>* operator_input)
+    : options_(options),
+      hello_(hello),
+      mirror_(mirror),
+      snapshot_packer_(snapshot_packer),
+      unidentified_(options.places_for_unidentified) {
+    if (operator_input != nullptr) lease_.emplace(*operator_input);
+}
+
+void ConnectedClients::admit(std::shared_ptr<Stream> stream) {
+    if (clients() >= most_clients) {
+        log_unidentified(
+            fmt::format("client {} was turned away: {} are connected already", stream->peer(), clients()));
+        return stream->close();
+    }
+    const Id id = ++last_client_;
+    const bool may_operate = !options_.operators || options_.operators->names(stream->subject());
+    if (!may_operate) watchers_.insert(id);
+    boost::system::error_code ignored;  // one who has gone already leaves as soon as it is read
+    const Origin origin = origin_of(stream->socket().remote_endpoint(ignored).address());
+    const auto connection = std::make_shared<ClientConnection>(
+        std::move(stream), ClientFeed(hello_for(may_operate), mirror_, snapshot_packer_));
+    connections_.emplace(id, connection);
+    if (options_.tls) {
+        welcome(*connection);
+    } else {
+        if (const auto oldest = unidentified_.in_the_way())
+            connections_.at(*oldest)->close("gave way to others: it had not said a word", false);
+        unidentified_.add(id, origin, std::chrono::steady_clock::now());
+    }
+    connection->start(
+        {.on_message = [this, id](const v1::ClientFrame& frame) { return take(id, frame); },
+         .on_closed = [this, id, peer = connection->peer()](
+                          const std::string& line, bool is_fault) { dismiss(id, peer, line, is_fault); }});
+    if (options_.tls) connection->serve();
+}
+
+void ConnectedClients::look_after(Time now) {
+    if (lease_) lease_->check_silence(now);
+    log_holder();
+    drop_revoked(now);
+    for (const Id id : unidentified_.take_patient(now)) connections_.at(id)->serve();
+    client_log_.tell_left_out(now);
+    unidentified_log_.tell_left_out(now);
+}
+
+void ConnectedClients::note(std::span<const BrickChange> changes) {
+    for (const auto& [id, connection] : connections_) connection->feed().note(changes);
+}
+
+void ConnectedClients::show(const ToolView& tool, bool with_checksum) {
+    // A recording's packets have stamps of their own.
+    const std::int64_t now_unix_ns = unix_time_ns();
+    for (const auto& [id, connection] : std::map(connections_)) {  // one may close and leave the map
+        ToolView stamped = view_for(id, tool);
+        stamped.taken_unix_ns = now_unix_ns;
+        connection->show(stamped, with_checksum);
+    }
+}
+
+void ConnectedClients::end_lease() {
+    if (lease_) lease_->end();
+    log_holder();
+}
+
+void ConnectedClients::say_goodbye(const ToolView& tool, const std::string& reason,
+                                   std::function<void()> when_gone) {
+    when_gone_ = std::move(when_gone);
+    for (const auto& [id, connection] : std::map(connections_)) {
+        connection->feed().request_state(view_for(id, tool), true);
+        connection->feed().finish(reason);
+        connection->serve();
+    }
+}
+
+void ConnectedClients::cut_off(const std::string& line) {
+    for (const auto& [id, connection] : std::map(connections_)) connection->close(line, false);
+}
+
+void ConnectedClients::log_unidentified(const std::string& line) {
+    unidentified_log_.write(spdlog::level::warn, line, std::chrono::steady_clock::now());
+}
+
+v1::Hello ConnectedClients::hello_for(bool may_operate) const {
+    v1::Hello hello = hello_;
+    hello.set_accepts_operator(hello.accepts_operator() && may_operate);
+    return hello;
+}
+
+ToolView ConnectedClients::view_for(Id id, const ToolView& tool) const {
+    ToolView view = tool;
+    if (lease_) view.driver = watchers_.contains(id) ? ToolDriver::others_only : lease_->driver_for(id);
+    return view;
+}
+
+std::optional<WireError> ConnectedClients::take(Id id, const v1::ClientFrame& frame) {
+    const std::shared_ptr<ClientConnection> connection = connections_.at(id);
+    if (unidentified_.remove(id)) {
+        if (clients() > most_clients)
+            return WireError{fmt::format("{} clients are connected already", most_clients)};
+        welcome(*connection);
+        connection->serve();
+    }
+    const bool may_operate = lease_ && !when_gone_ && !watchers_.contains(id);
+    auto taken = take_client_message(frame,
+                                     {.id = id,
+                                      .feed = connection->feed(),
+                                      .answers = connection->answers(),
+                                      .packer = change_packer_,
+                                      .lease = may_operate ? &*lease_ : nullptr,
+                                      .burr_count = static_cast<std::size_t>(hello_.burrs_size())},
+                                     std::chrono::steady_clock::now());
+    log_holder();
+    if (frame.has_operator_input() && watchers_.contains(id) && refused_input_.insert(id).second)
+        log_client(
+            fmt::format("client {} may only watch; what it asks of the tool is refused", connection->peer()));
+    if (auto* error = std::get_if<WireError>(&taken)) return std::move(*error);
+    connection->pump();
+    const auto& answer = std::get<std::optional<Answer>>(taken);
+    if (const std::string reason = answer ? reason_to_ignore(*answer) : ""; !reason.empty())
+        client_log_.write(spdlog::level::warn, fmt::format("client {} {}", connection->peer(), reason),
+                          std::chrono::steady_clock::now());
+    return std::nullopt;
+}
+
+void ConnectedClients::dismiss(Id id, const std::string& peer, const std::string& line, bool is_fault) {
+    // First of all: a hand that has gone must not keep the burr turning.
+    if (lease_) lease_->leave(id);
+    const bool was_unidentified = unidentified_.remove(id);
+    (was_unidentified ? unidentified_log_ : client_log_)
+        .write(is_fault ? spdlog::level::warn : spdlog::level::info, fmt::format("client {} {}", peer, line),
+               std::chrono::steady_clock::now());
+    connections_.erase(id);
+    watchers_.erase(id);
+    refused_input_.erase(id);
+    log_holder();
+    if (when_gone_ && connections_.empty()) when_gone_();
+}
+
+void ConnectedClients::welcome(const ClientConnection& connection) {
+    log_client(fmt::format("client {} joined", connection.peer()));
+}
+
+void ConnectedClients::drop_revoked(Time now) {
+    if (!options_.tls) return;
+    const RevocationLists::Look look = options_.tls->refresh(now);
+    if (!look.failure.empty()) spdlog::warn("{}", look.failure);
+    if (!look.has_news) return;
+    for (const auto& [id, connection] : std::map(connections_))
+        if (connection->is_revoked()) connection->close("was dropped: its certificate is revoked", true);
+}
+
+void ConnectedClients::log_client(const std::string& line) {
+    client_log_.write(spdlog::level::info, line, std::chrono::steady_clock::now());
+}
+
+void ConnectedClients::log_holder() {
+    // After the lease knows: nobody waits for a log.
+    if (!lease_) return;
+    const auto peer_of = [this](auto id) { return connections_.at(id)->peer(); };
+    for (const auto& line : changes_of_hands_.look(lease_->holder(), peer_of)) log_client(line);
+}
+
+}  // namespace osteomill

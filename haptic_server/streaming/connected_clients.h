@@ -1,0 +1,97 @@
+// Everybody who is connected to a streaming server: who they are, what they may do, and what they are sent.
+//
+// With TLS a certificate says who they are; without it they are unidentified until their first word. One of
+// them may move the tool, see ControlLease. All calls are on the thread of the connections' io_context.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <memory>
+#include <optional>
+#include <set>
+#include <span>
+#include <string>
+
+#include "common/bone/brick_change.h"
+#include "common/wire/packed_changes.h"
+#include "common/wire/snapshot.h"
+#include "common/wire/tool_view.h"
+#include "common/wire/wire_error.h"
+#include "haptic_server/streaming/bone_mirror.h"
+#include "haptic_server/streaming/changes_of_hands.h"
+#include "haptic_server/streaming/client_connection.h"
+#include "haptic_server/streaming/control_lease.h"
+#include "haptic_server/streaming/limited_log.h"
+#include "haptic_server/streaming/streaming_options.h"
+#include "haptic_server/streaming/unidentified_connections.h"
+
+namespace osteomill {
+
+class ConnectedClients {
+  public:
+    using Time = std::chrono::steady_clock::time_point;
+
+    /// `hello`: what they are greeted with. `operator_input`: null where no client can move the tool. All
+    /// references outlive this.
+    ConnectedClients(const StreamingOptions& options, const v1::Hello& hello, const BoneMirror& mirror,
+                     SnapshotPacker& snapshot_packer, TripleBuffer<OperatorInput>* operator_input);
+
+    /// One whose handshake is over.
+    void admit(std::shared_ptr<Stream> stream);
+
+    /// Once a frame, before it is made: leases that run out, certificates that are revoked, those who have
+    /// been silent for long enough.
+    void look_after(Time now);
+    /// To be told of every change of the mirror.
+    void note(std::span<const BrickChange> changes);
+    /// Sends everybody where the tool is.
+    void show(const ToolView& tool, bool with_checksum);
+
+    /// Nobody moves the tool any more.
+    void end_lease();
+    /// Sends everybody the last state and a goodbye. Calls `when_gone` as soon as nobody is left.
+    void say_goodbye(const ToolView& tool, const std::string& reason, std::function<void()> when_gone);
+    void cut_off(const std::string& line);
+
+    /// About those who have yet to say who they are; a few lines at a time.
+    void log_unidentified(const std::string& line);
+
+    std::size_t count() const { return connections_.size(); }
+
+  private:
+    using Id = ControlLease::ClientId;
+
+    /// Those who have said who they are, by certificate or greeting.
+    std::size_t clients() const { return connections_.size() - unidentified_.size(); }
+    v1::Hello hello_for(bool may_operate) const;
+    ToolView view_for(Id id, const ToolView& tool) const;
+    std::optional<WireError> take(Id id, const v1::ClientFrame& frame);
+    void dismiss(Id id, const std::string& peer, const std::string& line, bool is_fault);
+    void welcome(const ClientConnection& connection);
+    void drop_revoked(Time now);
+    void log_client(const std::string& line);
+    void log_holder();
+
+    const StreamingOptions& options_;
+    const v1::Hello& hello_;
+    const BoneMirror& mirror_;
+    SnapshotPacker& snapshot_packer_;
+    ChangePacker change_packer_;
+    std::optional<ControlLease> lease_;
+    ChangesOfHands changes_of_hands_;
+
+    std::map<Id, std::shared_ptr<ClientConnection>> connections_;
+    UnidentifiedConnections unidentified_;  // those of the connections who are that
+    std::set<Id> watchers_;                 // those of the connections who may not move the tool
+    std::set<Id> refused_input_;            // and of these, who have been named in the log for it
+    Id last_client_ = 0;
+    std::function<void()> when_gone_;  // says that goodbye has been said, too
+
+    // Each with its share of the log.
+    LimitedLog unidentified_log_;
+    LimitedLog client_log_;
+};
+
+}  // namespace osteomill

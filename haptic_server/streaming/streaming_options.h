@@ -1,0 +1,45 @@
+// Settings of a streaming server: where it listens, whom it serves, how often, and what it records.
+#pragma once
+
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "common/net/tls_context.h"
+#include "common/recording/packet.h"
+#include "haptic_server/streaming/fair_places.h"
+#include "haptic_server/streaming/operator_list.h"
+
+namespace osteomill {
+
+/// A recording that is made of what is shown.
+struct RecordTo {
+    std::filesystem::path file;
+    Stamp began;  ///< when the session's time is zero
+};
+
+struct StreamingOptions {
+    bool listens = true;  ///< false: nobody is served, there is only a recording
+    std::string address = "127.0.0.1";
+    std::uint16_t port = 7010;          ///< 0 lets the system choose; see StreamingServer::port
+    std::shared_ptr<TlsContext> tls{};  ///< null: clients are served in the clear
+    bool insecure_network = false;      ///< in the clear, and yet to other machines, too
+    /// Who may move the tool, where a client does; nothing: every client. Names nobody without TLS.
+    std::optional<OperatorList> operators{};
+    /// Two round trips and some milliseconds of arithmetic; a client that does not hear from its server for
+    /// 5 s gives up.
+    std::chrono::milliseconds handshake_deadline{3000};
+    /// Places for those who are not clients yet, see FairPlaces.
+    std::size_t places_for_unidentified = osteomill::places_for_unidentified();
+    double frame_rate_hz = 30.0;
+    /// Frames go out when show_frame() is called instead, and a recording waits for its disk: for sessions
+    /// that run on a clock of their own.
+    bool paced_by_session = false;
+    std::optional<RecordTo> record{};
+};
+
+}  // namespace osteomill
