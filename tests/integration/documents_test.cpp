@@ -1,0 +1,161 @@
+// The documents hold what they say: links lead somewhere, paths exist, and the programs have the options that
+// commands use.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <map>
+#include <regex>
+#include <set>
+#include <sstream>
+#include <stdexcept>
+
+#include "common/scene/scene_file.h"
+#include "tests/support/child_process.h"
+#include "tests/support/document_checks.h"
+#include "tests/support/temporary_folder.h"
+
+namespace osteomill::testing {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::UnorderedElementsAre;
+
+const std::filesystem::path repository = REPOSITORY;
+
+/// Needs a library that is not always there.
+const std::string built_on_demand = "vtk_comparison";
+
+/// What our programs say, each asked once. A benchmark that takes no options is not asked.
+std::string help_of_program(const std::string& program, const std::string& subcommand) {
+    static std::map<std::string, std::string> known;
+    if (program == built_on_demand) return "--rounds --frames";
+    const std::filesystem::path file = std::filesystem::path(PROGRAMS) / program;
+    if (!std::filesystem::exists(file)) throw std::runtime_error("there is no program " + program);
+    if (program == "link_benchmark" || program == "link_fault_benchmark" ||
+        program == "spindle_off_benchmark")
+        return {};
+    const auto [entry, is_new] = known.try_emplace(program + ' ' + subcommand);
+    if (is_new) {
+        std::vector<std::string> command{file.string()};
+        if (!subcommand.empty()) command.push_back(subcommand);
+        command.emplace_back("--help");
+        const Finished finished = run_program(command);
+        if (finished.status != 0) throw std::runtime_error(program + ' ' + subcommand + " is not understood");
+        entry->second = finished.out;
+    }
+    return entry->second;
+}
+
+template <typename Check>
+Findings findings_in_all(const Check& check) {
+    Findings all;
+    for (const Document& document : read_documents(repository))
+        for (std::string& line : check(document)) all.push_back(std::move(line));
+    return all;
+}
+
+TEST(Documents, LinkToWhatIsThere) {
+    EXPECT_THAT(findings_in_all([](const Document& document) { return dead_links(document, repository); }),
+                IsEmpty());
+}
+
+TEST(Documents, NamePathsThatExist) {
+    EXPECT_THAT(findings_in_all([](const Document& document) {
+                    // A changelog tells of what was.
+                    return document.file == "CHANGELOG.md" ? Findings{} : dead_paths(document, repository);
+                }),
+                IsEmpty());
+}
+
+TEST(Documents, ShowCommandsThatTheProgramsUnderstand) {
+    EXPECT_THAT(
+        findings_in_all([](const Document& document) { return bad_commands(document, help_of_program); }),
+        IsEmpty());
+}
+
+TEST(Documents, BeginWithAShortReadme) {
+    EXPECT_LT(std::filesystem::file_size(repository / "README.md"), 8000u);
+}
+
+std::string repository_text(const std::filesystem::path& file) {
+    std::ostringstream text;
+    text << std::ifstream(repository / file).rdbuf();
+    return text.str();
+}
+
+TEST(Documents, DescribeEveryMessageAndFieldOfTheProtocol) {
+    const std::string page = repository_text("docs/protocol.md");
+    const auto describes = [&](const std::string& word) {
+        return std::regex_search(page, std::regex("\\b" + word + "\\b"));
+    };
+    const std::regex field("(\\w+) ([a-z]\\w*) = \\d+;");
+    for (const char* file : {"bone.proto", "tool.proto", "session.proto"}) {
+        const std::string messages = repository_text(std::filesystem::path("proto/osteomill/v1") / file);
+        for (std::sregex_iterator match(messages.begin(), messages.end(), field), end; match != end; ++match)
+            EXPECT_TRUE(describes((*match)[2]) || describes((*match)[1])) << file << ": " << match->str();
+    }
+}
+
+TEST(Documents, DescribeEveryKeyOfAScene) {
+    const std::string page = repository_text("docs/scenes.md");
+    const std::regex key("([a-z]\\w*) = ");
+    Scene scene;
+    scene.burrs = default_burr_set(1.0);
+    scene.tissues.push_back({.label = 1, .name = "bone"});
+    std::set<std::string> keys{"phantom", "file", "motion"};  // of which a scene has one
+    scene.bone = FileSource{.path = "bone.nrrd", .threshold_hu = 300.0};
+    const std::string scene_text = write_scene(scene);
+    for (std::sregex_iterator match(scene_text.begin(), scene_text.end(), key), end; match != end; ++match)
+        keys.insert((*match)[1]);
+    EXPECT_GT(keys.size(), 20u);
+    for (const std::string& each : keys) EXPECT_THAT(page, HasSubstr("`" + each + "`"));
+}
+
+TEST(DocumentChecks, FindLinksThatLeadNowhere) {
+    const TemporaryFolder folder;
+    std::filesystem::create_directory(folder.path() / "docs");
+    std::ofstream(folder.path() / "docs/there.md") << "# A heading, with `code`\n";
+    const Document document{
+        "docs/page.md",
+        "# Here\n[good](there.md#a-heading-with-code) [dead](gone.md) [up](../docs/there.md)\n"
+        "[here](#here) [no such](there.md#lost) [web](https://example.org/x)\n"
+        "`[code](nothing.md)`\n```\n[block](nothing.md)\n```\n"};
+    EXPECT_THAT(dead_links(document, folder.path()),
+                ElementsAre(HasSubstr("leads to gone.md,"), HasSubstr("leads to there.md#lost, and")));
+}
+
+TEST(DocumentChecks, FindPathsThatAreNoMore) {
+    const TemporaryFolder folder;
+    std::filesystem::create_directories(folder.path() / "common/bone");
+    std::ofstream(folder.path() / "common/bone/grid.h") << "";
+    const Document document{
+        "page.md",
+        "`common/bone` and `common/gone`, `grid.h` and `lost.h`, `and/or`, `common/FOLDER`, `--json FILE`\n"
+        "```bash\nls common/bone/grid.h common/bone/grid.cpp  # common/not/read\n```\n"};
+    EXPECT_THAT(dead_paths(document, folder.path()),
+                UnorderedElementsAre(HasSubstr("common/gone"), HasSubstr("lost.h"),
+                                     HasSubstr("common/bone/grid.cpp")));
+}
+
+TEST(DocumentChecks, FindOptionsThatAProgramLacks) {
+    const auto help = [](const std::string& program, const std::string& subcommand) -> std::string {
+        if (program == "osteomill_study") return subcommand == "force" ? "--random INT" : "";
+        if (program == "haptic_server") return "  --log-csv FILE\n  --device TEXT";
+        throw std::runtime_error("there is no program " + program);
+    };
+    const Document document{
+        "page.md",
+        "```bash\nbuild/release/bin/haptic_server --device client --log \\\n    --log-csv=x &\n"
+        "sudo build/release/bin/osteomill_study force --random 5 --seed 1    # --comment\n"
+        "A=1 build/release/bin/gone --x | cat --y\n```\n"
+        "```\nbuild/release/bin/haptic_server --not-bash\n```\n"};
+    EXPECT_THAT(bad_commands(document, help), ElementsAre(HasSubstr("haptic_server has no option --log"),
+                                                          HasSubstr("osteomill_study has no option --seed"),
+                                                          HasSubstr("there is no program gone")));
+}
+
+}  // namespace
+}  // namespace osteomill::testing
