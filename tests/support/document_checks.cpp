@@ -27,7 +27,8 @@ Parts parts_of(const std::string& text) {
     for (std::string line; std::getline(lines, line);) {
         const std::size_t first = line.find_first_not_of(' ');
         if (first != std::string::npos && line.compare(first, 3, "```") == 0) {
-            is_bash = !is_in_block && line.substr(first + 3) == "bash";
+            const std::string language = line.substr(first + 3);
+            is_bash = !is_in_block && (language == "bash" || language == "sh");
             is_in_block = !is_in_block;
         } else if (!is_in_block) {
             parts.prose.push_back(line);
