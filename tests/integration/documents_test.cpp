@@ -23,7 +23,7 @@ using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::UnorderedElementsAre;
 
-const std::filesystem::path repository = REPOSITORY;
+const std::filesystem::path repository_folder = REPOSITORY;
 
 /// Needs a library that is not always there.
 const std::string built_on_demand = "vtk_comparison";
@@ -52,20 +52,22 @@ std::string help_of_program(const std::string& program, const std::string& subco
 template <typename Check>
 Findings findings_in_all(const Check& check) {
     Findings all;
-    for (const Document& document : read_documents(repository))
+    for (const Document& document : read_documents(repository_folder))
         for (std::string& line : check(document)) all.push_back(std::move(line));
     return all;
 }
 
 TEST(Documents, LinkToWhatIsThere) {
-    EXPECT_THAT(findings_in_all([](const Document& document) { return dead_links(document, repository); }),
-                IsEmpty());
+    EXPECT_THAT(
+        findings_in_all([](const Document& document) { return dead_links(document, repository_folder); }),
+        IsEmpty());
 }
 
 TEST(Documents, NamePathsThatExist) {
     EXPECT_THAT(findings_in_all([](const Document& document) {
                     // A changelog tells of what was.
-                    return document.file == "CHANGELOG.md" ? Findings{} : dead_paths(document, repository);
+                    return document.file == "CHANGELOG.md" ? Findings{}
+                                                           : dead_paths(document, repository_folder);
                 }),
                 IsEmpty());
 }
@@ -77,30 +79,30 @@ TEST(Documents, ShowCommandsThatTheProgramsUnderstand) {
 }
 
 TEST(Documents, BeginWithAShortReadme) {
-    EXPECT_LT(std::filesystem::file_size(repository / "README.md"), 8000u);
+    EXPECT_LT(std::filesystem::file_size(repository_folder / "README.md"), 8000u);
 }
 
-std::string repository_text(const std::filesystem::path& file) {
+std::string text_in_repository(const std::filesystem::path& file) {
     std::ostringstream text;
-    text << std::ifstream(repository / file).rdbuf();
+    text << std::ifstream(repository_folder / file).rdbuf();
     return text.str();
 }
 
 TEST(Documents, DescribeEveryMessageAndFieldOfTheProtocol) {
-    const std::string page = repository_text("docs/protocol.md");
+    const std::string page = text_in_repository("docs/protocol.md");
     const auto describes = [&](const std::string& word) {
         return std::regex_search(page, std::regex("\\b" + word + "\\b"));
     };
     const std::regex field("(\\w+) ([a-z]\\w*) = \\d+;");
     for (const char* file : {"bone.proto", "tool.proto", "session.proto"}) {
-        const std::string messages = repository_text(std::filesystem::path("proto/osteomill/v1") / file);
+        const std::string messages = text_in_repository(std::filesystem::path("proto/osteomill/v1") / file);
         for (std::sregex_iterator match(messages.begin(), messages.end(), field), end; match != end; ++match)
             EXPECT_TRUE(describes((*match)[2]) || describes((*match)[1])) << file << ": " << match->str();
     }
 }
 
 TEST(Documents, DescribeEveryKeyOfAScene) {
-    const std::string page = repository_text("docs/scenes.md");
+    const std::string page = text_in_repository("docs/scenes.md");
     const std::regex key("([a-z]\\w*) = ");
     Scene scene;
     scene.burrs = default_burr_set(1.0);
