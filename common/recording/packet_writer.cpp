@@ -40,9 +40,8 @@ PacketWriter::PacketWriter(std::filesystem::path file)
     std::setvbuf(stream, nullptr, _IONBF, 0);
     output_.reset(pcap_dump_fopen(format_.get(), stream));
     if (!output_ || pcap_dump_flush(output_.get()) != 0) {
-        const int reason = errno;
-        if (!output_) std::fclose(stream);
-        throw RecordingError(file_.string() + ": cannot write the recording: " + std::strerror(reason));
+        // Where it makes no output of the stream, libpcap has closed it.
+        throw RecordingError(file_.string() + ": cannot write the recording: " + std::strerror(errno));
     }
     whole_bytes_ = file_header_bytes;
 }
