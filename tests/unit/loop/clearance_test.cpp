@@ -5,6 +5,7 @@
 #include <cmath>
 #include <memory>
 
+#include "haptic_server/engagement/engagement_probe.h"
 #include "tests/support/block.h"
 
 namespace osteomill {
