@@ -9,7 +9,7 @@ namespace osteomill {
 
 Playhead::Playhead(std::filesystem::path file) : reader_(file) {
     read_ahead();
-    while (!follower_)
+    while (!replica_)
         if (step(std::numeric_limits<double>::infinity()) == Step::end)
             throw RecordingError(file.string() + ": ends before the bone is complete");
 }
@@ -71,21 +71,20 @@ Playhead::Step Playhead::take(RecordedEvent event) {
         announced_ = std::move(*info);
     } else if (auto* arrived = std::get_if<BoneArrived>(&event.event)) {
         session_ = announced_;
-        follower_.emplace(std::move(*arrived), session_.burrs.size());
+        replica_.emplace(std::move(arrived->bone), std::move(arrived->checksum));
         tool_.reset();
         return Step::new_bone;
     } else if (auto* state = std::get_if<StateArrived>(&event.event)) {
-        dirty_.clear();
-        auto outcome = follower_->apply(state->frame, dirty_);
+        auto outcome = follow(state->frame, session_.burrs.size(), *replica_);
         if (const auto* error = std::get_if<WireError>(&outcome))
             throw reader_.error_at(event.place, error->line);
-        auto& applied = std::get<BoneFollower::Applied>(outcome);
-        if (applied.check == CopyCheck::differs || applied.has_regained_bone)
+        auto& followed = std::get<FollowedState>(outcome);
+        if (followed.check == ReplicaCheck::differs || followed.has_regained_bone)
             throw reader_.error_at(event.place, "the bone differs from the one recorded");
         ++states_;
         state_bytes_ += event.bytes;
-        if (applied.check == CopyCheck::equal) ++checksums_verified_;
-        tool_ = std::move(applied.tool);
+        if (followed.check == ReplicaCheck::equal) ++checksums_verified_;
+        tool_ = std::move(followed.tool);
         frame_ = std::move(state->frame);
         return Step::state;
     } else if (std::holds_alternative<SaidGoodbye>(event.event)) {

@@ -7,7 +7,7 @@
 
 #include "common/recording/recorded_time.h"
 #include "common/recording/recording_reader.h"
-#include "common/wire/bone_follower.h"
+#include "common/wire/followed_state.h"
 
 namespace osteomill {
 
@@ -32,8 +32,10 @@ class Playhead {
     /// Of the frame that step() would take; nothing at the end, and where that cannot be read.
     std::optional<double> next_time_s() const;
     const SessionInfo& session() const { return session_; }
-    const Bone& bone() const { return follower_->bone(); }
-    std::uint64_t bone_checksum() const { return follower_->checksum(); }
+    const Bone& bone() const { return replica_->bone(); }
+    std::uint64_t bone_checksum() const { return replica_->checksum(); }
+    /// What has changed in the bone since the last call, or since it came.
+    std::vector<BrickChange> take_changes() { return replica_->take_changes(); }
     /// Nothing before the session's first state frame.
     const std::optional<ToolView>& tool() const { return tool_; }
     /// The state frame that was applied last; the one that would come next, if one would.
@@ -62,7 +64,7 @@ class Playhead {
     /// The bone is the caller's to put back, with set_fractions().
     void go_back_to(const Mark& mark);
     void set_fractions(BrickIndex brick, std::span<const std::uint8_t, brick_voxel_count> fractions) {
-        follower_->set_fractions(brick, fractions);
+        replica_->set_fractions(brick, fractions);
     }
 
   private:
@@ -79,10 +81,9 @@ class Playhead {
 
     SessionInfo announced_;  // becomes session_ when its bone has come
     SessionInfo session_;
-    std::optional<BoneFollower> follower_;
+    std::optional<BoneReplica> replica_;
     std::optional<ToolView> tool_;
     v1::StateFrame frame_;
-    std::vector<BrickIndex> dirty_;
 
     std::uint64_t frames_ = 0;
     std::uint64_t bytes_ = 0;

@@ -26,7 +26,7 @@ struct BoneArrived {
 };
 
 /// A state frame, as it came, but for packed changes, which have become edits; checked when it is applied:
-/// see BoneFollower.
+/// see followed_state.h.
 struct StateArrived {
     v1::StateFrame frame;
     bool follows_gap = false;  ///< frames before it are missing, and with them what they told of the bone

@@ -6,7 +6,7 @@
 
 namespace osteomill {
 
-ToolView RecordedSession::update(BoneMirror& mirror, std::size_t viewers) {
+ToolView RecordedSession::update(BoneReplica& mirror, std::size_t viewers) {
     if (!began_ && viewers > 0) began_ = now_();
     if (began_ && !is_over_) {
         const std::chrono::duration<double> elapsed = now_() - *began_;
@@ -30,7 +30,7 @@ ToolView RecordedSession::tool() const {
     return tool != nullptr ? *tool : ToolView{};
 }
 
-void RecordedSession::show(BoneMirror& mirror, double until_s) {
+void RecordedSession::show(BoneReplica& mirror, double until_s) {
     for (;;) {
         // The next session's bone is another server's to show.
         if (playhead_.next_begins_session()) {

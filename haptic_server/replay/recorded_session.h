@@ -23,7 +23,7 @@ class RecordedSession final : public StreamSource {
     RecordedSession(Playhead& playhead, double speed, std::function<Clock::time_point()> now)
         : playhead_(playhead), speed_(speed), now_(std::move(now)), begins_s_(playhead.time_s()) {}
 
-    ToolView update(BoneMirror& mirror, std::size_t viewers) override;
+    ToolView update(BoneReplica& mirror, std::size_t viewers) override;
 
     /// Any thread. Whether all was shown.
     bool is_over() const { return is_over_.load(); }
@@ -31,7 +31,7 @@ class RecordedSession final : public StreamSource {
     const std::string& error() const { return error_; }
 
   private:
-    void show(BoneMirror& mirror, double until_s);
+    void show(BoneReplica& mirror, double until_s);
     ToolView tool() const;
 
     Playhead& playhead_;

@@ -17,7 +17,7 @@ constexpr std::size_t least_shrinking = 2;
 
 }  // namespace
 
-ClientFeed::ClientFeed(v1::Hello hello, const BoneMirror& mirror, SnapshotPacker& packer)
+ClientFeed::ClientFeed(v1::Hello hello, const BoneReplica& mirror, SnapshotPacker& packer)
     : hello_(std::move(hello)), mirror_(mirror), packer_(packer) {}
 
 void ClientFeed::note(std::span<const BrickChange> changes) {

@@ -11,11 +11,12 @@
 #include <span>
 #include <string>
 
+#include "common/bone/brick_change.h"
 #include "common/wire/bone_comparison.h"
+#include "common/wire/bone_replica.h"
 #include "common/wire/packed_changes.h"
 #include "common/wire/snapshot.h"
 #include "common/wire/tool_view.h"
-#include "haptic_server/streaming/bone_mirror.h"
 #include "haptic_server/streaming/frame_pace.h"
 #include "haptic_server/streaming/pending_changes.h"
 #include "osteomill/v1/session.pb.h"
@@ -25,7 +26,7 @@ namespace osteomill {
 class ClientFeed {
   public:
     /// `mirror` and `packer` outlive the feed; `hello` is what the client is greeted with.
-    ClientFeed(v1::Hello hello, const BoneMirror& mirror, SnapshotPacker& packer);
+    ClientFeed(v1::Hello hello, const BoneReplica& mirror, SnapshotPacker& packer);
 
     /// The client takes packed changes, from now on. `packer` outlives the feed.
     void pack_changes(ChangePacker& packer) { change_packer_ = &packer; }
@@ -75,7 +76,7 @@ class ClientFeed {
     void add_packed_changes(v1::StateFrame& state, std::size_t most_bytes);
 
     v1::Hello hello_;
-    const BoneMirror& mirror_;
+    const BoneReplica& mirror_;
     SnapshotPacker& packer_;
     Stage stage_ = Stage::hello;
     std::uint64_t sequence_ = 0;

@@ -25,7 +25,7 @@ std::int64_t unix_time_ns() {
 }  // namespace
 
 ConnectedClients::ConnectedClients(const StreamingOptions& options, const v1::Hello& hello,
-                                   const BoneMirror& mirror, SnapshotPacker& snapshot_packer,
+                                   const BoneReplica& mirror, SnapshotPacker& snapshot_packer,
                                    TripleBuffer<OperatorInput>* operator_input)
     : options_(options),
       hello_(hello),

@@ -15,11 +15,11 @@
 #include <string>
 
 #include "common/bone/brick_change.h"
+#include "common/wire/bone_replica.h"
 #include "common/wire/packed_changes.h"
 #include "common/wire/snapshot.h"
 #include "common/wire/tool_view.h"
 #include "common/wire/wire_error.h"
-#include "haptic_server/streaming/bone_mirror.h"
 #include "haptic_server/streaming/changes_of_hands.h"
 #include "haptic_server/streaming/client_connection.h"
 #include "haptic_server/streaming/control_lease.h"
@@ -35,7 +35,7 @@ class ConnectedClients {
 
     /// `hello`: what they are greeted with. `operator_input`: null where no client can move the tool. All
     /// references outlive this.
-    ConnectedClients(const StreamingOptions& options, const v1::Hello& hello, const BoneMirror& mirror,
+    ConnectedClients(const StreamingOptions& options, const v1::Hello& hello, const BoneReplica& mirror,
                      SnapshotPacker& snapshot_packer, TripleBuffer<OperatorInput>* operator_input);
 
     /// One whose handshake is over.
@@ -76,7 +76,7 @@ class ConnectedClients {
 
     const StreamingOptions& options_;
     const v1::Hello& hello_;
-    const BoneMirror& mirror_;
+    const BoneReplica& mirror_;
     SnapshotPacker& snapshot_packer_;
     ChangePacker change_packer_;
     std::optional<ControlLease> lease_;

@@ -34,7 +34,7 @@ SessionInfo session_info(const Scene& scene, bool accepts_operator, double force
             .force_limit_n = force_limit_n};
 }
 
-ToolView LiveSession::update(BoneMirror& mirror, std::size_t) {
+ToolView LiveSession::update(BoneReplica& mirror, std::size_t) {
     std::size_t refused = 0;
     edits_.consume_all([&](const EditRun& run) { refused += mirror.apply(run) ? 0 : 1; });
     if (refused > 0) spdlog::error("{} edits do not fit the bone that clients are shown", refused);

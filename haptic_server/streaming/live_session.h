@@ -17,7 +17,7 @@ SessionInfo session_info(const Scene& scene, bool accepts_operator, double force
 class LiveSession final : public StreamSource {
   public:
     LiveSession(TripleBuffer<ToolSnapshot>& tool, EditQueue& edits) : tool_(tool), edits_(edits) {}
-    ToolView update(BoneMirror& mirror, std::size_t viewers) override;
+    ToolView update(BoneReplica& mirror, std::size_t viewers) override;
 
   private:
     TripleBuffer<ToolSnapshot>& tool_;

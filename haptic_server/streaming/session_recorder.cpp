@@ -22,7 +22,7 @@ std::string packet_of(const std::string& frame, Stamp stamp) {
 }  // namespace
 
 SessionRecorder::SessionRecorder(const std::filesystem::path& file, Stamp began, v1::Hello hello,
-                                 const BoneMirror& mirror, SnapshotPacker& packer)
+                                 const BoneReplica& mirror, SnapshotPacker& packer)
     : began_(began),
       feed_(std::move(hello), mirror, packer),
       writer_(

@@ -19,8 +19,8 @@ class SessionRecorder {
   public:
     /// Writes hello and snapshot before it returns, and throws RecordingError where that much cannot be
     /// written. `began`: when the session's time is zero. `mirror` and `packer` outlive the recorder.
-    SessionRecorder(const std::filesystem::path& file, Stamp began, v1::Hello hello, const BoneMirror& mirror,
-                    SnapshotPacker& packer);
+    SessionRecorder(const std::filesystem::path& file, Stamp began, v1::Hello hello,
+                    const BoneReplica& mirror, SnapshotPacker& packer);
 
     /// As for a client: see ClientFeed.
     void note(std::span<const BrickChange> changes) { feed_.note(changes); }

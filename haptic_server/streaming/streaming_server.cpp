@@ -17,9 +17,9 @@
 #include <utility>
 #include <vector>
 
+#include "common/wire/bone_replica.h"
 #include "common/wire/frame.h"
 #include "common/wire/scene_messages.h"
-#include "haptic_server/streaming/bone_mirror.h"
 #include "haptic_server/streaming/connected_clients.h"
 #include "haptic_server/streaming/handshakes.h"
 #include "haptic_server/streaming/listener.h"
@@ -205,7 +205,7 @@ class StreamingServer::Impl {
 
     const StreamingOptions options_;
     const v1::Hello hello_;
-    BoneMirror mirror_;
+    BoneReplica mirror_;
     SnapshotPacker packer_;
     StreamSource& source_;
     ToolView last_view_;

@@ -5,9 +5,9 @@
 #include <utility>
 
 #include "common/wire/scene_messages.h"
-#include "render_client/link/bone_copy.h"
 #include "render_client/link/rate_meter.h"
 #include "render_client/link/server_connection.h"
+#include "render_client/link/verified_replica.h"
 
 namespace osteomill {
 
@@ -30,8 +30,8 @@ class BoneLink::Impl {
         return update;
     }
 
-    const Bone* bone() const { return copy_.bone(); }
-    const SessionInfo* session() const { return copy_.session(); }
+    const Bone* bone() const { return replica_.bone(); }
+    const SessionInfo* session() const { return replica_.session(); }
 
     void send(const OperatorIntent& intent) { connection_.send(intent); }
     std::optional<ToolView> newest_tool() const { return connection_.newest_tool(); }
@@ -43,16 +43,15 @@ class BoneLink::Impl {
 
   private:
     void take(SessionBegan began, LinkUpdate&) {
-        copy_.begin(std::move(began.info));
+        replica_.begin(std::move(began.info));
         session_number_ = began.number;
         delay_meter_ = {};
         delay_.reset();
     }
 
     void take(BoneArrived arrived, LinkUpdate& update) {
-        copy_.take(std::move(arrived));
+        replica_.take(std::move(arrived));
         update.bone_replaced = true;
-        update.dirty_bricks.clear();
     }
 
     void take(StatusChanged changed, LinkUpdate&) {
@@ -61,8 +60,7 @@ class BoneLink::Impl {
     }
 
     void take(const StateArrived& arrived, LinkUpdate& update) {
-        auto outcome = copy_.take(arrived, update.dirty_bricks);
-        if (update.bone_replaced) update.dirty_bricks.clear();
+        auto outcome = replica_.take(arrived);
         if (const auto* error = std::get_if<WireError>(&outcome)) {
             status_ = LinkStatus::lost;
             line_ = error->line + "; asking for the bone afresh";
@@ -70,21 +68,20 @@ class BoneLink::Impl {
             connection_.reconnect();
             return;
         }
-        auto& applied = std::get<BoneCopy::Applied>(outcome);
+        auto& applied = std::get<VerifiedReplica::Applied>(outcome);
         update.tool = std::move(applied.tool);
         if (applied.ask) connection_.send(*applied.ask, session_number_);
     }
 
     void complete(LinkUpdate& update) {
         const LinkCounters& counters = connection_.counters();
-        std::ranges::sort(update.dirty_bricks);
-        const auto repeated = std::ranges::unique(update.dirty_bricks);
-        update.dirty_bricks.erase(repeated.begin(), repeated.end());
+        update.changes = replica_.take_changes();
+        if (update.bone_replaced) update.changes.clear();
         if (update.tool && update.tool->taken_unix_ns != 0)
             delay_ = delay_meter_.update(update.tool->taken_unix_ns, std::chrono::system_clock::now());
         update.delay = delay_;
         update.status = status_;
-        update.status_line = copy_.is_being_repaired()
+        update.status_line = replica_.is_being_repaired()
                                  ? "the bone differs from the server's; asking for the bricks that differ"
                                  : line_;
         update.recording_error = connection_.recording_error();
@@ -92,7 +89,7 @@ class BoneLink::Impl {
             update.snapshot_bricks = counters.snapshot_bricks;
             update.snapshot_bricks_total = counters.snapshot_bricks_total;
         }
-        const BoneCopy::Counters& copied = copy_.counters();
+        const VerifiedReplica::Counters& copied = replica_.counters();
         update.frames = copied.frames;
         update.checksums_verified = copied.verified;
         update.checksum_mismatches = copied.mismatches;
@@ -108,7 +105,7 @@ class BoneLink::Impl {
     ServerConnection connection_;
     LinkStatus status_ = LinkStatus::connecting;
     std::string line_;
-    BoneCopy copy_;
+    VerifiedReplica replica_;
     std::uint64_t session_number_ = 0;
     DelayMeter delay_meter_;
     std::optional<DelayMeter::Delay> delay_;

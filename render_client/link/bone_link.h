@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "common/bone/bone.h"
+#include "common/bone/brick_change.h"
 #include "common/net/tls_files.h"
 #include "common/wire/session_info.h"
 #include "common/wire/tool_view.h"
@@ -36,10 +37,10 @@ enum class LinkStatus {
 /// What happened since the last poll, and where the link stands.
 struct LinkUpdate {
     LinkStatus status = LinkStatus::connecting;
-    std::string status_line{};             ///< for people
-    bool bone_replaced = false;            ///< bone() is another bone: upload all of it
-    std::vector<BrickIndex> dirty_bricks;  ///< ascending, each once: edited since; empty if bone_replaced
-    std::optional<ToolView> tool;          ///< the newest since the last poll, if any came
+    std::string status_line{};         ///< for people
+    bool bone_replaced = false;        ///< bone() is another bone: upload all of it
+    std::vector<BrickChange> changes;  ///< of bone(), ascending; empty if bone_replaced
+    std::optional<ToolView> tool;      ///< the newest since the last poll, if any came
     /// How old the newest tool of this session was when a poll took it; nothing where the server does not
     /// say.
     std::optional<DelayMeter::Delay> delay{};

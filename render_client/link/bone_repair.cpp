@@ -16,32 +16,32 @@ const WireError failed{"the bone differs from the server's and cannot be repaire
 
 }  // namespace
 
-BoneRepair::Progress BoneRepair::begin(const BoneFollower& follower) {
+BoneRepair::Progress BoneRepair::begin(const BoneReplica& replica) {
     if (++searches_ > most_searches) return failed;
-    search_.emplace(follower.bone());
+    search_.emplace(replica.bone());
     has_found_all_ = false;
-    return ask_next(follower);
+    return ask_next(replica);
 }
 
-BoneRepair::Progress BoneRepair::take(const StateArrived& state, CopyCheck check,
-                                      const BoneFollower& follower) {
+BoneRepair::Progress BoneRepair::take(const StateArrived& state, ReplicaCheck check,
+                                      const BoneReplica& replica) {
     // The answer may be among what is missing.
     if (state.follows_gap) return WireError{"frames were lost while the bone was being repaired"};
     GoesOn next;
     if (state.frame.has_comparison()) {
         if (auto error = search_->take(state.frame.comparison())) return std::move(*error);
-        Progress progress = ask_next(follower);
+        Progress progress = ask_next(replica);
         if (std::holds_alternative<WireError>(progress)) return progress;
         next = std::get<GoesOn>(std::move(progress));
     }
-    if (has_found_all_ && check == CopyCheck::equal) return Done{search_->bricks_found()};
-    if (has_found_all_ && check == CopyCheck::differs) return begin(follower);
-    if (check == CopyCheck::differs && ++mismatches_ > most_mismatches) return failed;
+    if (has_found_all_ && check == ReplicaCheck::equal) return Done{search_->bricks_found()};
+    if (has_found_all_ && check == ReplicaCheck::differs) return begin(replica);
+    if (check == ReplicaCheck::differs && ++mismatches_ > most_mismatches) return failed;
     return next;
 }
 
-BoneRepair::Progress BoneRepair::ask_next(const BoneFollower& follower) {
-    GoesOn next{search_->next(follower.bone(), follower.running_checksum())};
+BoneRepair::Progress BoneRepair::ask_next(const BoneReplica& replica) {
+    GoesOn next{search_->next(replica.bone(), replica.running_checksum())};
     if (search_->requests() > most_requests_of_a_search)
         return WireError{"the bone differs from the server's almost everywhere"};
     has_found_all_ = !next.ask;

@@ -10,7 +10,8 @@
 #include <variant>
 
 #include "common/wire/bone_comparison.h"
-#include "common/wire/bone_follower.h"
+#include "common/wire/followed_state.h"
+#include "common/wire/session_receiver.h"
 #include "common/wire/wire_error.h"
 
 namespace osteomill {
@@ -26,14 +27,13 @@ class BoneRepair {
     /// An error: the repair has failed.
     using Progress = std::variant<GoesOn, Done, WireError>;
 
-    /// Of the copy that `follower` has.
-    Progress begin(const BoneFollower& follower);
+    Progress begin(const BoneReplica& replica);
 
     /// After a state frame has been applied.
-    Progress take(const StateArrived& state, CopyCheck check, const BoneFollower& follower);
+    Progress take(const StateArrived& state, ReplicaCheck check, const BoneReplica& replica);
 
   private:
-    Progress ask_next(const BoneFollower& follower);
+    Progress ask_next(const BoneReplica& replica);
 
     std::optional<DifferenceSearch> search_;
     bool has_found_all_ = false;

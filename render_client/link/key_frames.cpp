@@ -44,10 +44,9 @@ void KeyFrames::after_step(const Playhead& playhead) {
     changed_.clear();
 }
 
-std::vector<BrickIndex> KeyFrames::wind_back(Playhead& playhead, double time_s) const {
+void KeyFrames::wind_back(Playhead& playhead, double time_s) const {
     const auto later = std::ranges::upper_bound(marks_, time_s, {}, &Playhead::Mark::time_s);
     const auto key = static_cast<std::size_t>(std::max<std::ptrdiff_t>(later - marks_.begin(), 1) - 1);
-    std::vector<BrickIndex> touched;
     ByteBrick fractions;
     for (const auto& [brick, versions] : versions_) {
         const auto newer = std::ranges::upper_bound(versions, key, {}, &Version::key);
@@ -56,10 +55,8 @@ std::vector<BrickIndex> KeyFrames::wind_back(Playhead& playhead, double time_s) 
             ZSTD_decompress(fractions.data(), fractions.size(), compressed.data(), compressed.size());
         if (size != fractions.size()) throw std::logic_error("a key frame cannot be unpacked");
         playhead.set_fractions(brick, fractions);
-        touched.push_back(brick);
     }
     playhead.go_back_to(marks_[key]);
-    return touched;
 }
 
 void KeyFrames::keep(BrickIndex brick, std::span<const std::uint8_t, brick_voxel_count> fractions,

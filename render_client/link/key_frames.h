@@ -32,9 +32,9 @@ class KeyFrames {
     /// Behind a frame: makes a key frame if it is time for one. What is known already is not made again.
     void after_step(const Playhead& playhead);
 
-    /// Takes the playhead back to the last key frame that is not later than `time_s`. Returns the bricks that
-    /// may have changed.
-    std::vector<BrickIndex> wind_back(Playhead& playhead, double time_s) const;
+    /// Takes the playhead back to the last key frame that is not later than `time_s`; the bone changes where
+    /// it differs from what it was there.
+    void wind_back(Playhead& playhead, double time_s) const;
 
     std::size_t count() const { return marks_.size(); }
     std::size_t memory_bytes() const { return memory_bytes_; }

@@ -44,9 +44,8 @@ LinkUpdate RecordingPlayer::poll(Time now) {
         error_ = error.what();
         duration_s_ = target_s_ = playhead_->time_s();
     }
-    std::ranges::sort(update.dirty_bricks);
-    const auto repeated = std::ranges::unique(update.dirty_bricks);
-    update.dirty_bricks.erase(repeated.begin(), repeated.end());
+    update.changes = playhead_->take_changes();
+    if (update.bone_replaced) update.changes.clear();
     if (std::exchange(tool_is_news_, false)) update.tool = playhead_->tool();
 
     const bool has_ended = is_at_end_ && target_s_ >= duration_s_;
@@ -78,7 +77,7 @@ void RecordingPlayer::seek(double time_s) {
 }
 
 void RecordingPlayer::go_towards_target(LinkUpdate& update) {
-    if (target_s_ < playhead_->time_s()) wind_back(update);
+    if (target_s_ < playhead_->time_s()) wind_back();
     if (std::exchange(is_fresh_, false)) {
         // As it first was: textures are made for the most bone that there will be.
         update.bone_replaced = true;
@@ -89,8 +88,6 @@ void RecordingPlayer::go_towards_target(LinkUpdate& update) {
         keys_->before_step(*playhead_);
         switch (playhead_->step(target_s_)) {
             case Playhead::Step::state:
-                for (const v1::BrickEdit& edit : playhead_->frame().edits())
-                    update.dirty_bricks.push_back(edit.brick());
                 keys_->after_step(*playhead_);
                 tool_is_news_ = true;
                 break;
@@ -110,11 +107,11 @@ void RecordingPlayer::go_towards_target(LinkUpdate& update) {
     }
 }
 
-void RecordingPlayer::wind_back(LinkUpdate& update) {
+void RecordingPlayer::wind_back() {
     is_at_end_ = false;
     error_.clear();
     if (target_s_ < session_begins_s_) return open();
-    update.dirty_bricks = keys_->wind_back(*playhead_, target_s_);
+    keys_->wind_back(*playhead_, target_s_);
     tool_is_news_ = playhead_->tool().has_value();
 }
 

@@ -52,7 +52,7 @@ class RecordingPlayer {
   private:
     void open();
     void go_towards_target(LinkUpdate& update);
-    void wind_back(LinkUpdate& update);
+    void wind_back();
     std::string status_line() const;
 
     const std::filesystem::path file_;

@@ -100,7 +100,7 @@ glm::dvec3 seen_point_mm(const Bone& bone, const Camera& camera) {
     throw std::runtime_error("the view's middle shows no bone");
 }
 
-std::vector<BrickIndex> carve_in_view(TrialBone& trial, double diameter_mm) {
+std::vector<BrickChange> carve_in_view(TrialBone& trial, double diameter_mm) {
     const glm::dvec3 centre_mm = seen_point_mm(trial.bone, trial.close_up);
     return carve_sphere(trial.bone, centre_mm, 0.5 * diameter_mm);
 }

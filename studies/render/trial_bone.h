@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "common/bone/bone.h"
+#include "common/bone/brick_change.h"
 #include "render_client/volume/bone_colours.h"
 #include "render_client/volume/camera.h"
 
@@ -35,6 +36,6 @@ glm::dvec3 seen_point_mm(const Bone& bone, const Camera& camera);
 
 /// Takes away a ball of this diameter round the point in the close-up's middle; returns the bricks that
 /// changed.
-std::vector<BrickIndex> carve_in_view(TrialBone& trial, double diameter_mm);
+std::vector<BrickChange> carve_in_view(TrialBone& trial, double diameter_mm);
 
 }  // namespace osteomill::study

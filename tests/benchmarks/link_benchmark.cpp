@@ -45,7 +45,7 @@ double ms_between(Clock::time_point from, Clock::time_point to) {
 }
 
 void measure_snapshot(const Scene& scene, const Bone& bone) {
-    const BoneMirror mirror(bone);
+    const BoneReplica mirror(bone);
     SnapshotPacker packer;
     const auto began = Clock::now();
     ClientFeed feed(to_message(session_info(scene, false, 3.3, "")), mirror, packer);
@@ -105,7 +105,7 @@ Rate rate_of(const Scene& scene, const Bone& bone, HapticDevice& device, Edits e
         MillingSessionOptions{
             .clock = ClockKind::virtual_time, .duration_s = to_s, .edits_are_consumed = true});
     LiveSession shown(session->tool(), session->edits());
-    BoneMirror mirror(bone);
+    BoneReplica mirror(bone);
     SnapshotPacker packer;
     ClientFeed feed(to_message(session_info(scene, false, 3.3, "")), mirror, packer);
     while (feed.next()) {

@@ -1,7 +1,7 @@
 #include "tests/benchmarks/phantom_session.h"
 
-#include <algorithm>
 #include <cmath>
+#include <map>
 #include <utility>
 #include <variant>
 
@@ -17,10 +17,12 @@ constexpr double feed_mm_per_s = 6.0;
 constexpr double circle_radius_mm = 1.5;
 constexpr std::size_t five_mm_burr = 5;
 
-class DirtyBricks final : public EditSink {
+class CarvedVoxels final : public EditSink {
   public:
-    void push(const EditRun& run) noexcept override { bricks.push_back(run.brick); }
-    std::vector<BrickIndex> bricks;
+    void push(const EditRun& run) noexcept override {
+        for (std::size_t i = 0; i < run.count; ++i) by_brick[run.brick].set(run.first_voxel + i);
+    }
+    std::map<BrickIndex, VoxelMask> by_brick;
 };
 
 class Nobody final : public RemovalSink {
@@ -47,7 +49,7 @@ PhantomSession::PhantomSession() : bone_(tooth_phantom_bone()) {
 }
 
 void PhantomSession::step() {
-    dirty_.clear();
+    changes_.clear();
     tool_.time_s += frame_s;
     if (!mills_) return;
     const glm::dvec3 from_mm = tool_.burr_position_mm;
@@ -59,15 +61,13 @@ void PhantomSession::step() {
     tool_.burr_position_mm = middle_mm + glm::dvec3(circle_radius_mm * std::cos(angle_rad),
                                                     circle_radius_mm * std::sin(angle_rad), 2.0 - sunk_mm);
     const Grid& grid = bone_.grid();
-    DirtyBricks edits;
+    CarvedVoxels carved;
     Nobody nobody;
     carve(bone_,
           {to_voxel_coordinates(grid, from_mm), to_voxel_coordinates(grid, tool_.burr_position_mm),
            0.5 * info_.burrs[five_mm_burr].diameter_mm / grid.spacing_mm},
-          CarveHistory::none, {}, edits, nobody);
-    std::sort(edits.bricks.begin(), edits.bricks.end());
-    edits.bricks.erase(std::unique(edits.bricks.begin(), edits.bricks.end()), edits.bricks.end());
-    dirty_ = std::move(edits.bricks);
+          CarveHistory::none, {}, carved, nobody);
+    for (const auto& [brick, voxels] : carved.by_brick) changes_.push_back({brick, voxels});
 }
 
 LinkUpdate PhantomSession::poll() {
@@ -77,7 +77,7 @@ LinkUpdate PhantomSession::poll() {
     update.bone_replaced = std::exchange(first_, false);
     update.frames_per_s = 30.0;
     update.tool = tool_;
-    update.dirty_bricks = std::exchange(dirty_, {});
+    update.changes = std::exchange(changes_, {});
     return update;
 }
 

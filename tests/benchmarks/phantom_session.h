@@ -4,6 +4,7 @@
 
 #include <vector>
 
+#include "common/bone/brick_change.h"
 #include "render_client/ui/session_source.h"
 
 namespace osteomill {
@@ -32,7 +33,7 @@ class PhantomSession final : public SessionSource {
     bool mills_ = false;
     bool first_ = true;
     double way_mm_ = 0.0;
-    std::vector<BrickIndex> dirty_;
+    std::vector<BrickChange> changes_;
 };
 
 }  // namespace osteomill

@@ -14,6 +14,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
+#include "common/bone/brick_change.h"
 #include "haptic_server/imaging/phantom.h"
 #include "render_client/volume/gl/framebuffer.h"
 #include "render_client/volume/gl/offscreen_context.h"
@@ -54,13 +55,13 @@ double cpu_now_s() {
 }
 
 /// Lowers each voxel to what lies outside the ball; returns the bricks that it touched.
-std::vector<BrickIndex> cut_ball(Bone& bone, const glm::dvec3& centre_mm, double radius_mm) {
-    std::vector<BrickIndex> touched;
+std::vector<BrickChange> cut_ball(Bone& bone, const glm::dvec3& centre_mm, double radius_mm) {
+    std::vector<BrickChange> changes;
     const BoneContent& content = bone.content();
     for (std::size_t slot = 0; slot < bone.stored_bricks(); ++slot) {
         const glm::ivec3 first =
             brick_position(content.size_bricks, content.brick_of_slot[slot]) * brick_edge_voxels;
-        bool touches = false;
+        BrickChange change{.brick = content.brick_of_slot[slot]};
         const auto fractions = bone.fractions(static_cast<std::int32_t>(slot));
         for (std::size_t offset = 0; offset < brick_voxel_count; ++offset) {
             const glm::dvec3 place_mm = centre_of_voxel_mm(bone.grid(), first + voxel_in_brick(offset));
@@ -69,11 +70,11 @@ std::vector<BrickIndex> cut_ball(Bone& bone, const glm::dvec3& centre_mm, double
             const auto left = static_cast<std::uint8_t>(255.0 * std::clamp(0.5 + outside_voxels, 0.0, 1.0));
             if (left >= fractions[offset]) continue;
             fractions[offset] = left;
-            touches = true;
+            change.voxels.set(offset);
         }
-        if (touches) touched.push_back(content.brick_of_slot[slot]);
+        if (change.voxels.any()) changes.push_back(change);
     }
-    return touched;
+    return changes;
 }
 
 /// The middle of the whole bone's box.
@@ -83,16 +84,16 @@ glm::dvec3 middle_mm(const Grid& grid, const VoxelBox& box) {
 
 /// Uploads `after` in place of `before` again and again.
 void time_update(benchmark::State& state, BoneTextures& textures, const Bone& before, const Bone& after,
-                 std::span<const BrickIndex> dirty) {
+                 std::span<const BrickChange> changes) {
     for ([[maybe_unused]] auto _ : state) {
         const double start_s = cpu_now_s();
-        textures.update(after, dirty);
+        textures.update(after, changes);
         glFinish();
         state.SetIterationTime(cpu_now_s() - start_s);
-        textures.update(before, dirty);
+        textures.update(before, changes);
         glFinish();
     }
-    state.counters["bricks"] = static_cast<double>(dirty.size());
+    state.counters["bricks"] = static_cast<double>(changes.size());
 }
 
 /// Argument: burr diameter in tenths of a millimetre.
@@ -100,9 +101,9 @@ void update_after_carve(benchmark::State& state, BoneLayout layout, Shading shad
     const Bone& whole = tooth();
     Bone carved = whole;
     BoneTextures textures = textures_of(whole, layout, shading);
-    const auto dirty = cut_ball(carved, middle_mm(textures.grid(), textures.box()),
-                                0.05 * static_cast<double>(state.range(0)));
-    time_update(state, textures, whole, carved, dirty);
+    const auto changes = cut_ball(carved, middle_mm(textures.grid(), textures.box()),
+                                  0.05 * static_cast<double>(state.range(0)));
+    time_update(state, textures, whole, carved, changes);
 }
 
 /// Likewise.
@@ -113,9 +114,9 @@ void update_in_a_sweep(benchmark::State& state, BoneLayout layout, Shading shadi
     const glm::dvec3 middle = middle_mm(before.grid(), box);
     cut_ball(before, middle, radius_mm);
     Bone after = before;
-    const auto dirty = cut_ball(after, middle + glm::dvec3(0.2 * radius_mm, 0.0, 0.0), radius_mm);
+    const auto changes = cut_ball(after, middle + glm::dvec3(0.2 * radius_mm, 0.0, 0.0), radius_mm);
     BoneTextures textures = textures_of(before, layout, shading);
-    time_update(state, textures, before, after, dirty);
+    time_update(state, textures, before, after, changes);
 }
 
 /// Argument: which view, 0 of all of the bone, 1 of the crown.

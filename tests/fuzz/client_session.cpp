@@ -4,7 +4,7 @@
 #include "common/wire/frame.h"
 #include "common/wire/sealed_frame.h"
 #include "common/wire/session_receiver.h"
-#include "render_client/link/bone_copy.h"
+#include "render_client/link/verified_replica.h"
 #include "tests/fuzz/small_session.h"
 #include "tests/fuzz/targets.h"
 
@@ -47,13 +47,13 @@ class Client {
         return {};
     }
     Outcome take(StateArrived arrived) {
-        std::vector<BrickIndex> dirty;
-        auto outcome = copy_.take(arrived, dirty);
-        for (const BrickIndex brick : dirty)
-            require(copy_.bone()->slot(brick) != BoneContent::no_slot, "a brick changed that is not stored");
+        auto outcome = copy_.take(arrived);
+        for (const BrickChange& change : copy_.take_changes())
+            require(copy_.bone()->slot(change.brick) != BoneContent::no_slot,
+                    "a brick changed that is not stored");
         require_sound();
         if (auto* error = std::get_if<WireError>(&outcome)) return std::move(*error);
-        const auto& applied = std::get<BoneCopy::Applied>(outcome);
+        const auto& applied = std::get<VerifiedReplica::Applied>(outcome);
         require(applied.tool.burr < copy_.session()->burrs.size(), "a burr that is not there");
         if (applied.ask) require_answerable(*applied.ask);
         return {};
@@ -89,7 +89,7 @@ class Client {
     }
 
     SessionReceiver receiver_{Gaps::reported};
-    BoneCopy copy_;
+    VerifiedReplica copy_;
 };
 
 /// The frames that bring a client the small bone; nothing is random about them.

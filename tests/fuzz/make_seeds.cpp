@@ -29,7 +29,7 @@ std::string message_of(const std::string& stream) {
 
 /// The frames of a session in which a run of voxels is milled, each behind its length.
 std::vector<std::string> session_frames(const Bone& bone, bool packed = false) {
-    BoneMirror mirror(bone);
+    BoneReplica mirror(bone);
     SnapshotPacker packer;
     ClientFeed feed(to_message(small_session_info()), mirror, packer);
     ChangePacker change_packer;

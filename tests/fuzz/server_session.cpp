@@ -81,7 +81,7 @@ void server_session(Bytes input) {
     static const Bone bone = small_bone();
     Bone carved = bone;
     const SessionInfo info = small_session_info();
-    BoneMirror mirror(bone);
+    BoneReplica mirror(bone);
     static SnapshotPacker packer;
     TripleBuffer<OperatorInput> output;
     ControlLease lease(output);

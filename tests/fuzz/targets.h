@@ -29,9 +29,9 @@ void frame_decoder(Bytes input);
 /// cause; a client dropped without a line.
 void server_session(Bytes input);
 
-/// What a server sends, against the decoder, SessionReceiver and BoneCopy. Finding: a copy with bone outside
-/// its grid, a checksum that is not that of its voxels, dirty bricks that are not stored, a request that a
-/// server would refuse.
+/// What a server sends, against the decoder, SessionReceiver and VerifiedReplica. Finding: a copy with bone
+/// outside its grid, a checksum that is not that of its voxels, dirty bricks that are not stored, a request
+/// that a server would refuse.
 void client_session(Bytes input);
 
 /// A file, against Playhead. Finding: any exception but a RecordingError of one line; time that goes back; a

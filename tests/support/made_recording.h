@@ -47,14 +47,14 @@ inline SessionInfo recorded_session_info() {
 inline MadeRecording make_recording(const std::filesystem::path& file,
                                     const MadeRecordingOptions& options = {}) {
     struct ToMirror final : EditSink {
-        explicit ToMirror(BoneMirror& into) : mirror(into) {}
+        explicit ToMirror(BoneReplica& into) : mirror(into) {}
         void push(const EditRun& run) noexcept override { mirror.apply(run); }
-        BoneMirror& mirror;
+        BoneReplica& mirror;
     };
     std::mt19937 random(options.seed);
     Bone bone = make_speckled_bone(random, {.grid = {.size_voxels = {64, 48, 32}}});
     MadeRecording made{bone, bone, {}};
-    BoneMirror mirror(bone);
+    BoneReplica mirror(bone);
     ToMirror edits(mirror);
     SnapshotPacker packer;
     SessionInfo session = recorded_session_info();

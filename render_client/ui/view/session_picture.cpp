@@ -69,13 +69,13 @@ SessionPicture::News SessionPicture::take_in() {
 }
 
 void SessionPicture::take_in_bone(bool first_of_tool) {
-    has_undrawn_bone_ = has_undrawn_bone_ || link_.bone_replaced || !link_.dirty_bricks.empty();
+    has_undrawn_bone_ = has_undrawn_bone_ || link_.bone_replaced || !link_.changes.empty();
     const Bone* bone = source_.bone();
     if (link_.bone_replaced || (!textures_ && bone_problem_.empty())) {
         replace_bone();
-    } else if (textures_ && !link_.dirty_bricks.empty()) {
-        picture_.mark_dirty(*textures_, textures_->update(*bone, link_.dirty_bricks));
-        dirty_bricks_uploaded_ += link_.dirty_bricks.size();
+    } else if (textures_ && !link_.changes.empty()) {
+        picture_.mark_dirty(*textures_, textures_->update(*bone, link_.changes));
+        dirty_bricks_uploaded_ += link_.changes.size();
     }
     if (first_of_tool && camera_ == first_view_) reset_camera();
 }

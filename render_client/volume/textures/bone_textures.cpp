@@ -96,23 +96,22 @@ BoneTextures::BoneTextures(const Bone& bone, std::optional<CoarseBone> copy, con
       blocks_(gl::VoxelFormat::interpolated_bytes, empty_space_.size_blocks()),
       tile_table_(upload_tile_table(shown(bone).content(), places_)),
       colour_code_(upload_colour_code(shown(bone), places_, table_)),
-      colours_(table_.by_code),
-      changed_(shown(bone)) {
+      colours_(table_.by_code) {
     if (shading == Shading::surface_voxels) surface_.emplace(shown(bone), table_, places_);
     const glm::ivec3& size = empty_space_.size_blocks();
     for (int z = 0; z < size.z; ++z) upload_blocks({{0, 0, z}, {size.x, size.y, 1}});
 }
 
-std::span<const VoxelBox> BoneTextures::update(const Bone& bone, std::span<const BrickIndex> dirty) {
-    if (copy_) dirty = copy_->update(bone, dirty);
-    if (visible_) visible_->follow(copied(bone), dirty);
+std::span<const VoxelBox> BoneTextures::update(const Bone& bone, std::span<const BrickChange> changes) {
+    if (copy_) changes = copy_->update(bone, changes);
+    if (visible_) visible_->follow(copied(bone), changes);
     const Bone& drawn = shown(bone);
-    const std::span<const VoxelBox> changed = changed_.since_last(drawn, dirty);
-    for (const PlacedVoxels& placed : places_.that_show(drawn, changed))
+    changed_ = changed_boxes(drawn.content(), changes);
+    for (const PlacedVoxels& placed : places_.that_show(drawn, changed_))
         upload_voxels(fraction_, drawn, BoneChannel::fraction, placed, scratch_);
-    for (const VoxelBox& blocks : empty_space_.update(drawn, dirty)) upload_blocks(blocks);
-    if (surface_) surface_->update(drawn, places_, changed);
-    return changed;
+    for (const VoxelBox& blocks : empty_space_.update(drawn, changes)) upload_blocks(blocks);
+    if (surface_) surface_->update(drawn, places_, changed_);
+    return changed_;
 }
 
 void BoneTextures::upload_blocks(const VoxelBox& blocks) {

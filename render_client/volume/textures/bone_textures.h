@@ -11,7 +11,7 @@
 #include "render_client/volume/gl/lookup_table.h"
 #include "render_client/volume/gl/texture3d.h"
 #include "render_client/volume/shading_settings.h"
-#include "render_client/volume/textures/changed_voxels.h"
+#include "render_client/volume/textures/changed_boxes.h"
 #include "render_client/volume/textures/coarse_bone.h"
 #include "render_client/volume/textures/empty_space.h"
 #include "render_client/volume/textures/surface_texture.h"
@@ -29,11 +29,11 @@ class BoneTextures {
     BoneTextures(const Bone& bone, std::span<const TissueColour> tissues, const ShadingSettings& look = {},
                  const TextureLimits& limits = {});
 
-    /// Uploads what changed in these bricks, lowered or raised, and what follows from it: glTexSubImage3D,
+    /// Uploads what changed, lowered or raised, and what follows from it: glTexSubImage3D,
     /// region by region, never a union of what lies apart. `bone` is the bone of the constructor, changed
     /// since. Call before drawing: a texture that a frame in flight uses makes the call wait for that frame.
     /// Returns what changed, in voxels of grid(); valid until the next call.
-    std::span<const VoxelBox> update(const Bone& bone, std::span<const BrickIndex> dirty);
+    std::span<const VoxelBox> update(const Bone& bone, std::span<const BrickChange> changes);
 
     /// How the bone is held: in which layout, how much coarser than it is, in how many bytes.
     const TexturePlan& plan() const { return plan_; }
@@ -86,7 +86,7 @@ class BoneTextures {
     std::optional<gl::Texture3D> colour_code_;
     gl::LookupTable colours_;
     std::optional<SurfaceTexture> surface_;
-    ChangedVoxels changed_;
+    std::vector<VoxelBox> changed_;  ///< by the last update
     std::vector<std::uint8_t> scratch_;
 };
 

@@ -1,6 +1,7 @@
 #include "render_client/volume/textures/coarse_bone.h"
 
 #include <algorithm>
+#include <map>
 #include <memory>
 #include <utility>
 
@@ -108,20 +109,24 @@ std::vector<BrickIndex> coarse_bricks(const BoneContent& content, int coarsening
 CoarseBone::CoarseBone(const Bone& fine, int coarsening)
     : coarsening_(coarsening), bone_(coarse_copy(fine, coarsening)) {}
 
-std::span<const BrickIndex> CoarseBone::update(const Bone& fine, std::span<const BrickIndex> dirty) {
-    changed_.clear();
+std::span<const BrickChange> CoarseBone::update(const Bone& fine, std::span<const BrickChange> changes) {
     const BoneContent& content = fine.content();
-    for (const BrickIndex index : dirty) {
+    std::map<BrickIndex, VoxelMask> changed;
+    for (const auto& [index, voxels] : changes) {
         const std::int32_t fine_slot = fine.slot(index);
         if (fine_slot == BoneContent::no_slot) continue;
+        const glm::ivec3 brick = brick_position(content.size_bricks, index);
         const BrickIndex coarse =
             brick_index(bone_.content().size_bricks, coarse_brick_of(content, index, coarsening_));
-        average_fractions(fine, brick_position(content.size_bricks, index), fine_slot, coarsening_,
-                          bone_.fractions(bone_.slot(coarse)));
-        changed_.push_back(coarse);
+        average_fractions(fine, brick, fine_slot, coarsening_, bone_.fractions(bone_.slot(coarse)));
+        VoxelMask& coarse_voxels = changed[coarse];
+        for (std::size_t offset = voxels._Find_first(); offset < brick_voxel_count;
+             offset = voxels._Find_next(offset))
+            coarse_voxels.set(
+                offset_in_brick((brick * brick_edge_voxels + voxel_in_brick(offset)) / coarsening_));
     }
-    std::sort(changed_.begin(), changed_.end());
-    changed_.erase(std::unique(changed_.begin(), changed_.end()), changed_.end());
+    changed_.clear();
+    for (const auto& [brick, voxels] : changed) changed_.push_back({brick, voxels});
     return changed_;
 }
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "common/bone/bone.h"
+#include "common/bone/brick_change.h"
 
 namespace osteomill {
 
@@ -23,16 +24,16 @@ class CoarseBone {
     /// tissue are those of the voxel among them that was fullest.
     CoarseBone(const Bone& fine, int coarsening);
 
-    /// Follows changes of these bricks of the fine bone (that of the constructor, milled or refilled since).
-    /// Returns the coarse bricks that hold them, each once; valid until the next call.
-    std::span<const BrickIndex> update(const Bone& fine, std::span<const BrickIndex> dirty);
+    /// Follows changes of the fine bone (that of the constructor, milled or refilled since). Returns what
+    /// they change in this copy, ascending; valid until the next call.
+    std::span<const BrickChange> update(const Bone& fine, std::span<const BrickChange> changes);
 
     const Bone& bone() const { return bone_; }
 
   private:
     int coarsening_;
     Bone bone_;
-    std::vector<BrickIndex> changed_;
+    std::vector<BrickChange> changed_;
 };
 
 }  // namespace osteomill

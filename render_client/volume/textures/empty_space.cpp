@@ -61,14 +61,14 @@ EmptySpace::EmptySpace(const Bone& bone, const VoxelBox& box)
     spread_everywhere();
 }
 
-std::span<const VoxelBox> EmptySpace::update(const Bone& bone, std::span<const BrickIndex> dirty) {
+std::span<const VoxelBox> EmptySpace::update(const Bone& bone, std::span<const BrickChange> changes) {
     newly_reached_.clear();
     newly_free_.clear();
     changed_tiles_.clear();
-    for (const BrickIndex brick : dirty) {
-        const std::int32_t slot = bone.slot(brick);
+    for (const BrickChange& change : changes) {
+        const std::int32_t slot = bone.slot(change.brick);
         if (slot == BoneContent::no_slot) continue;
-        take_in(bone, brick_position(bone.content().size_bricks, brick), slot);
+        take_in(bone, brick_position(bone.content().size_bricks, change.brick), slot);
     }
     // A block may have been left by one brick and reached by another; what counts is how it came out.
     for (const glm::ivec3& block : newly_free_) {

@@ -15,6 +15,7 @@
 #include <span>
 #include <vector>
 
+#include "common/bone/brick_change.h"
 #include "render_client/volume/textures/block_summary.h"
 #include "render_client/volume/textures/voxel_box.h"
 
@@ -26,10 +27,10 @@ class EmptySpace {
     /// `box` is aligned to bricks (see stored_box).
     EmptySpace(const Bone& bone, const VoxelBox& box);
 
-    /// Brings the maps up to date after fractions of these bricks were lowered or raised. Bricks that are not
+    /// Brings the maps up to date after fractions were lowered or raised. Bricks that are not
     /// stored change nothing. Returns boxes of blocks, none of which overlap, that hold every change; they
     /// are valid until the next update.
-    std::span<const VoxelBox> update(const Bone& bone, std::span<const BrickIndex> dirty);
+    std::span<const VoxelBox> update(const Bone& bone, std::span<const BrickChange> changes);
 
     const glm::ivec3& size_blocks() const { return size_blocks_; }
     const std::vector<std::uint8_t>& distance() const { return distance_; }

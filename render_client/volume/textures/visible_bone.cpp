@@ -11,9 +11,10 @@ VisibleBone::VisibleBone(const Bone& bone, const LookTable& table)
         take_over(bone, static_cast<std::int32_t>(slot));
 }
 
-void VisibleBone::follow(const Bone& bone, std::span<const BrickIndex> dirty) {
-    for (const BrickIndex brick : dirty)
-        if (const std::int32_t slot = bone.slot(brick); slot != BoneContent::no_slot) take_over(bone, slot);
+void VisibleBone::follow(const Bone& bone, std::span<const BrickChange> changes) {
+    for (const BrickChange& change : changes)
+        if (const std::int32_t slot = bone.slot(change.brick); slot != BoneContent::no_slot)
+            take_over(bone, slot);
 }
 
 void VisibleBone::take_codes(const Bone& bone, std::int32_t slot) {

@@ -10,6 +10,7 @@
 
 #include <span>
 
+#include "common/bone/brick_change.h"
 #include "render_client/volume/shading_settings.h"
 
 namespace osteomill {
@@ -18,8 +19,8 @@ class VisibleBone {
   public:
     VisibleBone(const Bone& bone, const LookTable& table);
 
-    /// Takes over these bricks of `bone`, which is the bone of the constructor, carved since.
-    void follow(const Bone& bone, std::span<const BrickIndex> dirty);
+    /// Takes over the bricks that changed of `bone`, which is the bone of the constructor, carved since.
+    void follow(const Bone& bone, std::span<const BrickChange> changes);
 
     const Bone& bone() const { return visible_; }
 

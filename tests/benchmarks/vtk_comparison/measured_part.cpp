@@ -79,7 +79,7 @@ nlohmann::json measure_part(const std::string& part, int frames, const std::file
             session.step();
             const LinkUpdate update = session.poll();
             time(times[view]["after_change"], [&] {
-                picture->changed(*session.bone(), update.dirty_bricks);
+                picture->changed(*session.bone(), update.changes);
                 picture->draw_after_change();
             });
         }

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "common/bone/bone.h"
+#include "common/bone/brick_change.h"
 #include "render_client/volume/camera.h"
 #include "render_client/volume/picture.h"
 
@@ -18,7 +19,7 @@ class MeasuredPicture {
     /// From the next draw on.
     virtual void look_from(const Camera& camera) = 0;
     /// These bricks of the bone of the constructor were carved; the next draw shows it.
-    virtual void changed(const Bone& bone, std::span<const BrickIndex> dirty) = 0;
+    virtual void changed(const Bone& bone, std::span<const BrickChange> changes) = 0;
     /// Draws every pixel; returns when the picture is there.
     virtual void draw_all() = 0;
     /// Draws what is due after a change; returns when the picture is there.

@@ -19,8 +19,8 @@ class OurPicture final : public MeasuredPicture {
         : textures_(bone, {}), renderer_(settings_with(step_voxels)), scene_(renderer_, compared_size_px) {}
 
     void look_from(const Camera& camera) override { camera_ = camera; }
-    void changed(const Bone& bone, std::span<const BrickIndex> dirty) override {
-        scene_.mark_dirty(textures_, textures_.update(bone, dirty));
+    void changed(const Bone& bone, std::span<const BrickChange> changes) override {
+        scene_.mark_dirty(textures_, textures_.update(bone, changes));
     }
     void draw_all() override {
         scene_.forget_bone();

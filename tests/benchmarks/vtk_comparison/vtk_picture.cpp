@@ -100,9 +100,9 @@ class VtkPicture final : public MeasuredPicture {
         shown->SetViewAngle(glm::degrees(camera.field_of_view_rad));
         renderer_->ResetCameraClippingRange();
     }
-    void changed(const Bone& bone, std::span<const BrickIndex> dirty) override {
-        for (const BrickIndex index : dirty) {
-            const glm::ivec3 brick = brick_position(bone.content().size_bricks, index);
+    void changed(const Bone& bone, std::span<const BrickChange> changes) override {
+        for (const BrickChange& change : changes) {
+            const glm::ivec3 brick = brick_position(bone.content().size_bricks, change.brick);
             const auto fractions = bone.fractions(bone.slot(brick));
             const glm::ivec3 first = brick * brick_edge_voxels - box_.first;
             for (int row = 0; row < brick_edge_voxels * brick_edge_voxels; ++row)

@@ -87,10 +87,11 @@ TEST(BoneLink, NamesTheBricksThatChangedAndTheNewestTool) {
     const auto follow = [&] {
         const LinkUpdate update = link.poll();
         EXPECT_FALSE(update.bone_replaced);
-        EXPECT_TRUE(std::ranges::is_sorted(update.dirty_bricks));
-        for (const BrickIndex brick : update.dirty_bricks) {
+        EXPECT_TRUE(std::ranges::is_sorted(update.changes, {}, &BrickChange::brick));
+        for (const auto& [brick, voxels] : update.changes) {
             const std::int32_t slot = shown.slot(brick);
-            std::ranges::copy(link.bone()->fractions(slot), shown.fractions(slot).begin());
+            for (std::size_t voxel = 0; voxel < brick_voxel_count; ++voxel)
+                if (voxels[voxel]) shown.fractions(slot)[voxel] = link.bone()->fractions(slot)[voxel];
         }
         if (update.tool) tool = update.tool;
         return update;

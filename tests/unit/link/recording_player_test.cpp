@@ -21,9 +21,10 @@ class Viewer {
             std::chrono::duration<double>(elapsed_s));
         last_ = player_.poll(now_);
         if (last_.bone_replaced) shown_.emplace(*player_.bone());
-        for (const BrickIndex brick : last_.dirty_bricks) {
+        for (const auto& [brick, voxels] : last_.changes) {
             const std::int32_t slot = shown_->slot(brick);
-            std::ranges::copy(player_.bone()->fractions(slot), shown_->fractions(slot).begin());
+            for (std::size_t voxel = 0; voxel < brick_voxel_count; ++voxel)
+                if (voxels[voxel]) shown_->fractions(slot)[voxel] = player_.bone()->fractions(slot)[voxel];
         }
         if (last_.tool) tool_ = last_.tool;
         return last_;
@@ -92,7 +93,7 @@ TEST_F(RecordingPlayerTest, GoesToAnyTimeInBothDirections) {
         player.seek(time_s);
         viewer.arrive();
         ASSERT_EQ(checksum(*player.bone()), checksum_at(time_s)) << time_s;
-        ASSERT_EQ(viewer.shown_checksum(), checksum_at(time_s)) << "some brick was not said to be dirty";
+        ASSERT_EQ(viewer.shown_checksum(), checksum_at(time_s)) << "some voxel was not said to have changed";
         ASSERT_NEAR(viewer.tool()->time_s, time_s, MadeRecording::period_s + 1e-6);
     }
     EXPECT_EQ(player.error(), "") << "every checksum on the way held";

@@ -32,7 +32,7 @@ class RecordedSessionTest : public ::testing::Test {
 
 TEST_F(RecordedSessionTest, PlaysAtItsSpeedFromWhenTheFirstViewerComes) {
     Playhead playhead(folder_ / "a.pcap");
-    BoneMirror mirror(playhead.bone());
+    BoneReplica mirror(playhead.bone());
     RecordedSession session(playhead, 2.0, clock());
     pass(5.0);
     session.update(mirror, 0);
@@ -59,7 +59,7 @@ TEST_F(RecordedSessionTest, PlaysAtItsSpeedFromWhenTheFirstViewerComes) {
 TEST_F(RecordedSessionTest, ShowsTheFirstToolBeforeItsFirstState) {
     Playhead playhead(folder_ / "a.pcap");
     ASSERT_FALSE(playhead.tool());
-    BoneMirror mirror(playhead.bone());
+    BoneReplica mirror(playhead.bone());
     RecordedSession session(playhead, 1.0, clock());
     EXPECT_EQ(session.update(mirror, 0).burr, 1U) << "as recorded";
 }
@@ -68,7 +68,7 @@ TEST_F(RecordedSessionTest, BeginsWhereThePlayheadIs) {
     Playhead playhead(folder_ / "a.pcap");
     while (playhead.step(5.0) != Playhead::Step::nothing_due) {
     }
-    BoneMirror mirror(playhead.bone());
+    BoneReplica mirror(playhead.bone());
     EXPECT_EQ(mirror.checksum(), checksum_at(5.0));
     RecordedSession session(playhead, 1.0, clock());
     session.update(mirror, 1);
@@ -81,7 +81,7 @@ TEST_F(RecordedSessionTest, BeginsWhereThePlayheadIs) {
 TEST_F(RecordedSessionTest, EndsWithItsSessionOrWithWhatCannotBeRead) {
     testing::join(folder_ / "a.pcap", folder_ / "a.pcap", folder_ / "twice.pcap");
     Playhead twice(folder_ / "twice.pcap");
-    BoneMirror mirror(twice.bone());
+    BoneReplica mirror(twice.bone());
     RecordedSession first(twice, 1.0, clock());
     first.update(mirror, 1);
     pass(1000.0);
@@ -92,7 +92,7 @@ TEST_F(RecordedSessionTest, EndsWithItsSessionOrWithWhatCannotBeRead) {
 
     testing::spoil(folder_ / "a.pcap", 20);
     Playhead bad(folder_ / "a.pcap");
-    BoneMirror other(bad.bone());
+    BoneReplica other(bad.bone());
     RecordedSession second(bad, 1.0, clock());
     second.update(other, 1);
     pass(1000.0);

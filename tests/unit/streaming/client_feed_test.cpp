@@ -15,7 +15,7 @@ namespace {
 /// Carves the mirror and tells a feed, as the server does at every frame.
 class Carver final : public EditSink {
   public:
-    Carver(BoneMirror& mirror, ClientFeed& feed) : bone_(mirror.bone()), mirror_(mirror), feed_(feed) {}
+    Carver(BoneReplica& mirror, ClientFeed& feed) : bone_(mirror.bone()), mirror_(mirror), feed_(feed) {}
     void push(const EditRun& run) noexcept override { ASSERT_TRUE(mirror_.apply(run)); }
     void carve(int runs) {
         for (int i = 0; i < runs; ++i) testing::carve_somewhere(bone_, random_, *this);
@@ -35,7 +35,7 @@ class Carver final : public EditSink {
 
   private:
     Bone bone_;
-    BoneMirror& mirror_;
+    BoneReplica& mirror_;
     ClientFeed& feed_;
     std::mt19937 random_{5};
 };
@@ -62,7 +62,7 @@ class ClientFeedTest : public ::testing::Test {
     void expect_equal() { EXPECT_EQ(checksum(*replica_.bone()), mirror_->checksum()); }
 
     SnapshotPacker packer_;
-    std::optional<BoneMirror> mirror_;
+    std::optional<BoneReplica> mirror_;
     std::optional<ClientFeed> feed_;
     std::optional<Carver> carver_;
     testing::Replica replica_;
@@ -258,7 +258,7 @@ TEST_F(ClientFeedTest, EndsWithTheFinalChecksumAndGoodbyeEvenInTheMiddleOfASnaps
 }
 
 TEST(ClientFeed, ServesABoneWithoutBricks) {
-    const BoneMirror mirror(BoneBuilder::homogeneous({.size_voxels = {20, 20, 20}}, 1.0, false).build());
+    const BoneReplica mirror(BoneBuilder::homogeneous({.size_voxels = {20, 20, 20}}, 1.0, false).build());
     SnapshotPacker packer;
     ClientFeed feed({}, mirror, packer);
     feed.request_state({}, true);

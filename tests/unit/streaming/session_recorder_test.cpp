@@ -20,9 +20,9 @@ class SessionRecorderTest : public ::testing::Test {
   protected:
     void carve_and_record(int states) {
         struct ToMirror final : EditSink {
-            explicit ToMirror(BoneMirror& into) : mirror(into) {}
+            explicit ToMirror(BoneReplica& into) : mirror(into) {}
             void push(const EditRun& run) noexcept override { mirror.apply(run); }
-            BoneMirror& mirror;
+            BoneReplica& mirror;
         } edits(mirror_);
         for (int i = 0; i < states; ++i) {
             for (int run = 0; run < 10; ++run) testing::carve_somewhere(bone_, random_, edits);
@@ -38,7 +38,7 @@ class SessionRecorderTest : public ::testing::Test {
     const std::filesystem::path part_ = folder_ / "a.part.pcap";  // until it is whole
     std::mt19937 random_{4};
     Bone bone_ = testing::make_speckled_bone(random_, {.grid = {.size_voxels = {64, 48, 32}}});
-    BoneMirror mirror_{bone_};
+    BoneReplica mirror_{bone_};
     SnapshotPacker packer_;
     ToolView tool_;
     std::optional<SessionRecorder> recorder_{

@@ -44,7 +44,7 @@ class ScriptedSession final : public SessionSource {
         tool_.force_n = {0.4 * std::sin(20.0 * time_s_), 0.2, 0.9};
         tool_.removed_mm3 = 0.5 * time_s_;
         update.tool = tool_;
-        update.dirty_bricks = carve_sphere(bone_, tool_.burr_position_mm, 1.5);
+        update.changes = carve_sphere(bone_, tool_.burr_position_mm, 1.5);
         return update;
     }
     const Bone* bone() const override { return &bone_; }

@@ -45,14 +45,14 @@ TEST_F(BoneTexturesTest, AreTheSameByDirtyBricksAsByAFullUploadInBothLayouts) {
         const TextureLimits limits{.layout = layout};
         BoneTextures updated(bone, {}, {}, limits);
         const std::vector<std::uint8_t> before = texels(updated.fraction());
-        const auto dirty = carve_sphere(bone, {4.2, 3.5, 4.0}, 1.1);
-        ASSERT_FALSE(dirty.empty());
-        ASSERT_LT(dirty.size(), bone.stored_bricks());
-        updated.update(bone, dirty);
+        const auto changes = carve_sphere(bone, {4.2, 3.5, 4.0}, 1.1);
+        ASSERT_FALSE(changes.empty());
+        ASSERT_LT(changes.size(), bone.stored_bricks());
+        updated.update(bone, changes);
         const BoneTextures uploaded(bone, {}, {}, limits);
         EXPECT_EQ(texels(updated.fraction()), texels(uploaded.fraction()));
         EXPECT_EQ(mean_fractions(updated), mean_fractions(uploaded));
-        updated.update(whole, dirty);
+        updated.update(whole, changes);
         EXPECT_EQ(texels(updated.fraction()), before);
     }
 }

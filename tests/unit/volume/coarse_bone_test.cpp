@@ -55,12 +55,12 @@ TEST(CoarseBone, FollowsCarvingAndUndoing) {
     Bone fine = ball();
     const Bone whole = fine;
     CoarseBone coarse(fine, 2);
-    const auto dirty = carve_sphere(fine, {3.1, 2.0, 2.8}, 0.9);
-    const auto changed = coarse.update(fine, dirty);
+    const auto changes = carve_sphere(fine, {3.1, 2.0, 2.8}, 0.9);
+    const auto changed = coarse.update(fine, changes);
     EXPECT_FALSE(changed.empty());
-    EXPECT_LE(changed.size(), dirty.size());
+    EXPECT_LE(changed.size(), changes.size());
     expect_means(fine, coarse.bone(), 2);
-    coarse.update(whole, dirty);
+    coarse.update(whole, changes);
     expect_means(whole, coarse.bone(), 2);
 }
 

@@ -8,6 +8,7 @@
 #include <glm/geometric.hpp>
 
 #include "common/bone/bone_builder.h"
+#include "common/bone/brick_change.h"
 
 namespace osteomill {
 
@@ -38,26 +39,26 @@ inline Bone made_bone(const Grid& grid, const Depth& depth, const Label& label =
     return std::move(builder).build();
 }
 
-/// Lowers the bone to what lies outside a sphere; returns the bricks that changed.
-inline std::vector<BrickIndex> carve_sphere(Bone& bone, const glm::dvec3& centre_mm, double radius_mm) {
-    std::vector<BrickIndex> changed;
+/// Lowers the bone to what lies outside a sphere; returns what changed.
+inline std::vector<BrickChange> carve_sphere(Bone& bone, const glm::dvec3& centre_mm, double radius_mm) {
+    std::vector<BrickChange> changes;
     const BoneContent& content = bone.content();
     for (std::size_t slot = 0; slot < bone.stored_bricks(); ++slot) {
         const glm::ivec3 brick = brick_position(content.size_bricks, content.brick_of_slot[slot]);
         const auto fractions = bone.fractions(static_cast<std::int32_t>(slot));
-        bool changes = false;
+        BrickChange change{.brick = content.brick_of_slot[slot]};
         for (std::size_t offset = 0; offset < brick_voxel_count; ++offset) {
             const glm::ivec3 voxel = brick * brick_edge_voxels + voxel_in_brick(offset);
             const double outside_mm =
                 glm::length(centre_of_voxel_mm(bone.grid(), voxel) - centre_mm) - radius_mm;
             const std::uint8_t most = fraction_of_depth(outside_mm, bone.grid().spacing_mm);
             std::uint8_t& fraction = fractions[offset];
-            changes = changes || most < fraction;
+            if (most < fraction) change.voxels.set(offset);
             fraction = std::min(fraction, most);
         }
-        if (changes) changed.push_back(content.brick_of_slot[slot]);
+        if (change.voxels.any()) changes.push_back(change);
     }
-    return changed;
+    return changes;
 }
 
 }  // namespace osteomill

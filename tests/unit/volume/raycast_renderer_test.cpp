@@ -86,11 +86,11 @@ TEST_F(RaycastRendererTest, DrawsTheSamePictureAfterUpdatesAsAfterAFullUploadInB
         Bone bone = whole;
         BoneTextures updated(bone, {}, {}, {.layout = layout});
         const Picture before = drawn(updated, camera);
-        std::vector<BrickIndex> carved;
+        std::vector<BrickChange> carved;
         for (double x = -1.0; x < 1.0; x += 0.25) {
-            const auto dirty = carve_sphere(bone, {x, -2.0, 2.6}, 1.2);
-            updated.update(bone, dirty);
-            carved.insert(carved.end(), dirty.begin(), dirty.end());
+            const auto changes = carve_sphere(bone, {x, -2.0, 2.6}, 1.2);
+            updated.update(bone, changes);
+            carved.insert(carved.end(), changes.begin(), changes.end());
         }
         const BoneTextures uploaded(bone, {}, {}, {.layout = layout});
         EXPECT_EQ(drawn(updated, camera), drawn(uploaded, camera));

@@ -81,12 +81,12 @@ TEST_F(ScenePictureTest, RedrawsUnderAStillCameraWhatAFullDrawWouldShow) {
         kept.draw(&textures, nullptr, cameras[view]);
         for (int carve = 0; carve < 5; ++carve) {
             const auto step = static_cast<double>(5 * view + static_cast<std::size_t>(carve));
-            std::vector<BrickIndex> dirty;
+            std::vector<BrickChange> changes;
             for (const double side : {-1.0, 1.0})  // two at once, far apart
-                for (const BrickIndex brick :
+                for (const BrickChange& change :
                      carve_sphere(bone, {side * 3.0, -2.5 + 0.3 * step, 1.6 + 0.1 * side}, 0.5))
-                    dirty.push_back(brick);
-            kept.mark_dirty(textures, textures.update(bone, dirty));
+                    changes.push_back(change);
+            kept.mark_dirty(textures, textures.update(bone, changes));
             ScenePicture fresh(renderer, size_px);
             EXPECT_EQ(kept.draw(&textures, nullptr, cameras[view]).read_back(),
                       fresh.draw(&textures, nullptr, cameras[view]).read_back())
@@ -105,8 +105,8 @@ TEST_F(ScenePictureTest, RedrawsACoarserCopyAndAnAtlasAsExactly) {
         const Camera camera = camera_on({0.0, 0.0, 0.0}, 5.0);
         kept.draw(&textures, nullptr, camera);
         for (int carve = 0; carve < 4; ++carve) {
-            const auto dirty = carve_sphere(bone, {-2.0 + carve, 1.3 - carve, 1.4}, 0.6);
-            kept.mark_dirty(textures, textures.update(bone, dirty));
+            const auto changes = carve_sphere(bone, {-2.0 + carve, 1.3 - carve, 1.4}, 0.6);
+            kept.mark_dirty(textures, textures.update(bone, changes));
             ScenePicture fresh(renderer, size_px);
             EXPECT_EQ(kept.draw(&textures, nullptr, camera).read_back(),
                       fresh.draw(&textures, nullptr, camera).read_back())
@@ -126,8 +126,8 @@ TEST_F(ScenePictureTest, RedrawsSlicesAndSurfaceVoxelsAsExactly) {
             const Camera camera = camera_on({0.0, 0.0, 0.0}, 5.0);
             kept.draw(&textures, nullptr, camera);
             for (int carve = 0; carve < 3; ++carve) {
-                const auto dirty = carve_sphere(bone, {-2.0 + carve, 1.3 - carve, 1.4}, 0.6);
-                kept.mark_dirty(textures, textures.update(bone, dirty));
+                const auto changes = carve_sphere(bone, {-2.0 + carve, 1.3 - carve, 1.4}, 0.6);
+                kept.mark_dirty(textures, textures.update(bone, changes));
                 const BoneTextures uploaded(bone, {}, {.shading = shading});
                 ScenePicture fresh(*renderer, size_px);
                 const Picture redrawn = kept.draw(&textures, nullptr, camera).read_back();
@@ -149,10 +149,10 @@ TEST_F(ScenePictureTest, DrawsSeparateCarvesAndNotWhatLiesBetween) {
     const Camera camera{.distance_mm = 50.0, .elevation_rad = 1.0};
     picture.draw(&textures, nullptr, camera);
     const std::int64_t whole = renderer.pixels;
-    std::vector<BrickIndex> dirty;
+    std::vector<BrickChange> changes;
     for (const double x : {-21.0, 21.0})
-        for (const BrickIndex brick : carve_sphere(bone, {x, 0.0, 0.0}, 0.4)) dirty.push_back(brick);
-    picture.mark_dirty(textures, textures.update(bone, dirty));
+        for (const BrickChange& change : carve_sphere(bone, {x, 0.0, 0.0}, 0.4)) changes.push_back(change);
+    picture.mark_dirty(textures, textures.update(bone, changes));
     renderer.pixels = 0;
     picture.draw(&textures, nullptr, camera);
     EXPECT_GT(renderer.pixels, 0);

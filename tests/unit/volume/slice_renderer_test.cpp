@@ -117,9 +117,9 @@ TEST_P(BothRenderers, DrawTheSameFromAnAtlasAfterCarvingInBothShadings) {
         const ShadingSettings look{.shading = shading};
         BoneTextures dense(bone, {}, look, {.layout = BoneLayout::dense});
         BoneTextures atlas(bone, {}, look, {.layout = BoneLayout::atlas});
-        const auto dirty = carve_sphere(bone, {0.4, -2.1, 2.2}, 1.1);
-        dense.update(bone, dirty);
-        atlas.update(bone, dirty);
+        const auto changes = carve_sphere(bone, {0.4, -2.1, 2.2}, 1.1);
+        dense.update(bone, changes);
+        atlas.update(bone, changes);
         const BoneTextures fresh(bone, {}, look);
         const Camera camera = camera_on({0.0, 0.0, 0.0}, 5.0);
         const Picture picture = drawn(dense, camera).read_back();

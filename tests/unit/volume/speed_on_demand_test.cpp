@@ -61,9 +61,9 @@ class SpeedOnDemand : public OffscreenTest {
         }
     }
     void carve(ScenePicture& picture, const glm::dvec3& centre_mm, double radius_mm) {
-        const auto dirty = carve_sphere(*bone_, centre_mm, radius_mm);
-        ASSERT_FALSE(dirty.empty());
-        picture.mark_dirty(*textures_, textures_->update(*bone_, dirty));
+        const auto changes = carve_sphere(*bone_, centre_mm, radius_mm);
+        ASSERT_FALSE(changes.empty());
+        picture.mark_dirty(*textures_, textures_->update(*bone_, changes));
     }
 
     std::optional<Bone> bone_;

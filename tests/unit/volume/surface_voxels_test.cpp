@@ -4,7 +4,7 @@
 #include <glm/geometric.hpp>
 
 #include "render_client/volume/shaders/lighting.h"
-#include "render_client/volume/textures/changed_voxels.h"
+#include "render_client/volume/textures/changed_boxes.h"
 #include "render_client/volume/textures/surface_texture.h"
 #include "tests/unit/volume/made_bone.h"
 #include "tests/unit/volume/offscreen_test.h"
@@ -133,8 +133,8 @@ TEST_F(SurfaceTextureTest, IsShadedAgainOnlyRoundTheChangeAndEqualsAFreshOne) {
         AtlasLayout places(bone.content(), layout, gl::max_texture3d_edge());
         SurfaceTexture updated(bone, table, places);
         // At the corner of bricks, so that neighbours' voxels become surface, too.
-        ChangedVoxels changed(bone);
-        updated.update(bone, places, changed.since_last(bone, carve_sphere(bone, {0.75, 0.75, 1.2}, 0.8)));
+        const auto changes = carve_sphere(bone, {0.75, 0.75, 1.2}, 0.8);
+        updated.update(bone, places, changed_boxes(bone.content(), changes));
         const SurfaceTexture fresh(bone, table, places);
         const auto texels = [&](const SurfaceTexture& surface) {
             std::vector<std::uint8_t> bytes(4 * VoxelBox{{}, places.texture_size()}.count());

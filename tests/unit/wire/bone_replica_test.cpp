@@ -1,20 +1,20 @@
-#include "haptic_server/streaming/bone_mirror.h"
+#include "common/wire/bone_replica.h"
 
 #include <gtest/gtest.h>
 
 #include "tests/support/block.h"
-#include "tests/support/mirror_sink.h"
 #include "tests/support/random_carving.h"
+#include "tests/support/replica_sink.h"
 
 namespace osteomill {
 namespace {
 
-using testing::MirrorSink;
+using testing::ReplicaSink;
 
-TEST(BoneMirror, FollowsTheBoneAndKnowsItsChecksum) {
+TEST(BoneReplica, FollowsTheBoneAndKnowsItsChecksum) {
     Bone bone = testing::make_block({0, 0, 0}, {4, 4, 4}, 0.1);
-    BoneMirror mirror(bone);
-    MirrorSink sink(mirror);
+    BoneReplica mirror(bone);
+    ReplicaSink sink(mirror);
     std::mt19937 random(1);
     for (int round = 0; round < 20; ++round) {
         for (int i = 0; i < 100; ++i) testing::carve_somewhere(bone, random, sink);
@@ -23,8 +23,8 @@ TEST(BoneMirror, FollowsTheBoneAndKnowsItsChecksum) {
     }
 }
 
-TEST(BoneMirror, TellsOfChangesOnce) {
-    BoneMirror mirror(testing::make_block({0, 0, 0}, {4, 4, 4}, 0.1));
+TEST(BoneReplica, TellsOfChangesOnce) {
+    BoneReplica mirror(testing::make_block({0, 0, 0}, {4, 4, 4}, 0.1));
     EXPECT_TRUE(mirror.apply({.brick = 1, .first_voxel = 20, .count = 2, .fraction = {9, 8}}));
     EXPECT_TRUE(mirror.apply({.brick = 1, .first_voxel = 40, .count = 1, .fraction = {7}}));
     BrickChange expected{.brick = 1};
@@ -33,8 +33,8 @@ TEST(BoneMirror, TellsOfChangesOnce) {
     EXPECT_TRUE(mirror.take_changes().empty());
 }
 
-TEST(BoneMirror, RefusesARunThatDoesNotFit) {
-    BoneMirror mirror(testing::make_block({0, 0, 0}, {4, 4, 4}, 0.1));
+TEST(BoneReplica, RefusesARunThatDoesNotFit) {
+    BoneReplica mirror(testing::make_block({0, 0, 0}, {4, 4, 4}, 0.1));
     const std::uint64_t before = mirror.checksum();
     EXPECT_FALSE(mirror.apply({.brick = 1000, .first_voxel = 0, .count = 1}));
     EXPECT_TRUE(mirror.take_changes().empty());

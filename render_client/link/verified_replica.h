@@ -1,5 +1,6 @@
-// A client's copy of the server's bone through one session after another: follows the state frames, verifies
-// every checksum, and has the bricks that differ told again where one does not hold. No sockets, no clock.
+// A client's replica of the server's bone, verified and repaired, through one session after another: follows
+// the state frames, checks every checksum, and has the bricks that differ sent again where one does not hold.
+// No sockets, no clock.
 #pragma once
 
 #include <cstdint>
@@ -7,7 +8,7 @@
 #include <variant>
 #include <vector>
 
-#include "common/wire/bone_follower.h"
+#include "common/wire/followed_state.h"
 #include "common/wire/session_info.h"
 #include "common/wire/session_receiver.h"
 #include "common/wire/wire_error.h"
@@ -15,7 +16,7 @@
 
 namespace osteomill {
 
-class BoneCopy {
+class VerifiedReplica {
   public:
     struct Counters {
         std::uint64_t frames = 0;           ///< state frames applied
@@ -34,24 +35,29 @@ class BoneCopy {
     void begin(SessionInfo session);
     /// Of the session that began last.
     void take(BoneArrived arrived);
-    /// Appends the bricks that it changes to `dirty`. An error says why a fresh bone is needed: part of the
-    /// frame may have been applied, or the repair has failed. There must be a bone of this session.
-    std::variant<Applied, WireError> take(const StateArrived& arrived, std::vector<BrickIndex>& dirty);
+    /// An error says why a fresh bone is needed: part of the frame may have been applied, or the repair has
+    /// failed. There must be a bone of this session.
+    std::variant<Applied, WireError> take(const StateArrived& arrived);
 
-    const Bone* bone() const { return follower_ ? &follower_->bone() : nullptr; }
+    /// What has changed in the bone since the last call, or since it came.
+    std::vector<BrickChange> take_changes() {
+        return replica_ ? replica_->take_changes() : std::vector<BrickChange>();
+    }
+
+    const Bone* bone() const { return replica_ ? &replica_->bone() : nullptr; }
     const SessionInfo* session() const { return session_ ? &*session_ : nullptr; }
     /// Of bone(), which must be there.
-    std::uint64_t checksum() const { return follower_->checksum(); }
+    std::uint64_t checksum() const { return replica_->checksum(); }
     bool is_being_repaired() const { return repair_.has_value(); }
     const Counters& counters() const { return counters_; }
 
   private:
     using Asked = std::variant<std::optional<v1::CompareBone>, WireError>;
-    Asked check(const StateArrived& arrived, const BoneFollower::Applied& applied);
+    Asked check(const StateArrived& arrived, const FollowedState& state);
     Asked follow(BoneRepair::Progress progress);
 
     std::optional<SessionInfo> session_;
-    std::optional<BoneFollower> follower_;
+    std::optional<BoneReplica> replica_;
     std::optional<BoneRepair> repair_;
     Counters counters_;
 };

@@ -1,0 +1,61 @@
+#include "common/wire/bone_replica.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace osteomill {
+
+BoneReplica::BoneReplica(Bone bone) : bone_(std::move(bone)), checksum_(bone_) {}
+
+bool BoneReplica::apply(const EditRun& run) {
+    if (osteomill::apply(run, bone_) != EditOutcome::applied) return false;
+    Changed& changed = changed_[run.brick];
+    for (std::size_t i = 0; i < run.count; ++i) changed.voxels.set(run.first_voxel + i);
+    changed.awaits_checksum = true;
+    return true;
+}
+
+std::optional<WireError> BoneReplica::apply(const v1::BrickEdit& edit) {
+    if (auto error = apply_brick_edit(edit, bone_)) return error;
+    mark(edit);
+    return std::nullopt;
+}
+
+std::variant<EditEffect, WireError> BoneReplica::correct(const v1::BrickEdit& edit) {
+    auto effect = correct_with_brick_edit(edit, bone_);
+    if (std::holds_alternative<EditEffect>(effect)) mark(edit);
+    return effect;
+}
+
+void BoneReplica::set_fractions(BrickIndex brick,
+                                std::span<const std::uint8_t, brick_voxel_count> fractions) {
+    const std::int32_t slot = bone_.slot(brick);
+    const auto now = bone_.fractions(slot);
+    VoxelMask differing;
+    for (std::size_t voxel = 0; voxel < brick_voxel_count; ++voxel)
+        if (now[voxel] != fractions[voxel]) differing.set(voxel);
+    if (differing.none()) return;
+    std::ranges::copy(fractions, now.begin());
+    changed_[brick].voxels |= differing;
+    checksum_.update(bone_, slot);
+}
+
+std::vector<BrickChange> BoneReplica::take_changes() {
+    std::vector<BrickChange> changes;
+    changes.reserve(changed_.size());
+    for (const auto& [brick, changed] : changed_) {
+        if (changed.awaits_checksum) checksum_.update(bone_, bone_.slot(brick));
+        changes.push_back({brick, changed.voxels});
+    }
+    changed_.clear();
+    return changes;
+}
+
+void BoneReplica::mark(const v1::BrickEdit& edit) {
+    VoxelMask& voxels = changed_[edit.brick()].voxels;
+    for (int i = 0; i + 1 < edit.changed_size(); i += 2)
+        for (std::size_t k = 0; k < edit.changed(i + 1); ++k) voxels.set(edit.changed(i) + k);
+    checksum_.update(bone_, bone_.slot(edit.brick()));
+}
+
+}  // namespace osteomill

@@ -1,0 +1,25 @@
+#include "common/wire/followed_state.h"
+
+#include <utility>
+
+#include "common/wire/scene_messages.h"
+
+namespace osteomill {
+
+std::variant<FollowedState, WireError> follow(const v1::StateFrame& frame, std::size_t burr_count,
+                                              BoneReplica& replica) {
+    auto tool = tool_from(frame.tool(), burr_count);
+    if (auto* error = std::get_if<WireError>(&tool)) return std::move(*error);
+    FollowedState followed{.tool = std::get<ToolView>(std::move(tool))};
+    for (const v1::BrickEdit& edit : frame.edits()) {
+        auto written = replica.correct(edit);
+        if (auto* error = std::get_if<WireError>(&written)) return std::move(*error);
+        if (std::get<EditEffect>(written) == EditEffect::raises) followed.has_regained_bone = true;
+    }
+    if (frame.bone_checksum() != 0)
+        followed.check =
+            frame.bone_checksum() == replica.checksum() ? ReplicaCheck::equal : ReplicaCheck::differs;
+    return followed;
+}
+
+}  // namespace osteomill

@@ -1,0 +1,33 @@
+// A state frame, applied to a replica of the bone that is kept equal to the server's.
+#pragma once
+
+#include <cstddef>
+#include <variant>
+
+#include "common/wire/bone_replica.h"
+#include "common/wire/tool_view.h"
+#include "common/wire/wire_error.h"
+#include "osteomill/v1/session.pb.h"
+
+namespace osteomill {
+
+/// What the checksum of a frame shows of a replica.
+enum class ReplicaCheck {
+    none,     ///< the frame stated none
+    equal,    ///< the replica has it
+    differs,  ///< the replica has another
+};
+
+struct FollowedState {
+    ToolView tool;
+    ReplicaCheck check = ReplicaCheck::none;
+    /// An edit raised what was left, as milling cannot: the replica had lost bone, and has it again.
+    bool has_regained_bone = false;
+};
+
+/// `burr_count`: of the session, to check the tool against. After an error part of the frame may have been
+/// applied: a fresh bone is needed.
+std::variant<FollowedState, WireError> follow(const v1::StateFrame& frame, std::size_t burr_count,
+                                              BoneReplica& replica);
+
+}  // namespace osteomill

@@ -1,0 +1,17 @@
+// Boxes round what changed in each brick: to upload, to shade and to draw again a whole brick for the few
+// voxels that a burr took something from costs more.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "common/bone/brick_change.h"
+#include "render_client/volume/textures/voxel_box.h"
+
+namespace osteomill {
+
+/// The smallest box round each change, in voxels of the grid, along x in whole groups of four; in the order
+/// of the changes. A brick that is not stored has none, nor has a change of no voxel.
+std::vector<VoxelBox> changed_boxes(const BoneContent& content, std::span<const BrickChange> changes);
+
+}  // namespace osteomill
