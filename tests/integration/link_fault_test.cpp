@@ -166,7 +166,12 @@ TEST_F(LinkFaults, OfAServerKilledWhileItRecordsLeaveAFileAndClientsForTheNext) 
     start_server({"--listen", "127.0.0.1:0", "--record", file("a.pcap")});
     Links links;
     links.push_back(std::make_unique<BoneLink>("127.0.0.1", port_));
-    ASSERT_TRUE(poll_until(links, [](const LinkUpdate& update) { return update.checksums_verified >= 2; }));
+    ASSERT_TRUE(poll_until(
+        links, [](const LinkUpdate& update) { return update.tool && update.tool->removed_mm3 > 0.1; }));
+    // Two seconds on, what the client was told of that is in the file, too.
+    const auto seen = links[0]->poll().checksums_verified;
+    ASSERT_TRUE(
+        poll_until(links, [&](const LinkUpdate& update) { return update.checksums_verified >= seen + 2; }));
     const auto recorded = [&] { return std::filesystem::file_size(file("a.part.pcap")); };
     const auto by_then = recorded();
     ASSERT_TRUE(eventually([&] { return recorded() > by_then; }));
