@@ -3,8 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <regex>
 #include <stdexcept>
+#include <string>
+#include <string_view>
 
 namespace osteomill {
 
@@ -22,23 +23,37 @@ std::size_t number_of(std::string_view name) {
     return static_cast<std::size_t>(found - files.begin()) + 1;
 }
 
+std::size_t end_of_digits(std::string_view text, std::size_t from) {
+    return std::min(text.find_first_not_of("0123456789", from), text.size());
+}
+
 /// "0:12" and "0(12)", as drivers write a line, by the file's name.
-std::string with_file_names(const std::string& log) {
-    const std::regex place(R"(\b\d+(:|\()(\d{4,6})\b)");
+std::string with_file_names(std::string_view log) {
+    constexpr std::size_t most_digits = 6;
     const auto files = shader_files();
     std::string named;
-    auto copied = log.begin();
-    for (std::sregex_iterator match(log.begin(), log.end(), place); match != std::sregex_iterator();
-         ++match) {
-        const std::smatch& found = *match;
-        const std::size_t number = std::stoul(found[2]);
-        if (number / most_lines > files.size()) continue;
-        named.append(copied, found[0].first);
-        named +=
-            fmt::format("{}{}{}", files[number / most_lines - 1].name, found[1].str(), number % most_lines);
-        copied = found[0].second;
+    for (std::size_t at = 0; at < log.size();) {
+        const std::size_t source_end = end_of_digits(log, at);
+        if (source_end == at) {
+            named += log[at++];
+            continue;
+        }
+        const bool has_line = source_end < log.size() && (log[source_end] == ':' || log[source_end] == '(');
+        const std::size_t line_end = has_line ? end_of_digits(log, source_end + 1) : source_end;
+        const std::string_view line =
+            has_line ? log.substr(source_end + 1, line_end - source_end - 1) : std::string_view{};
+        const std::size_t number =
+            line.empty() || line.size() > most_digits ? 0 : std::stoul(std::string(line));
+        if (number >= most_lines && number / most_lines <= files.size()) {
+            named += fmt::format("{}{}{}", files[number / most_lines - 1].name, log[source_end],
+                                 number % most_lines);
+            at = line_end;
+        } else {
+            named += log.substr(at, source_end - at);
+            at = source_end;
+        }
     }
-    return named.append(copied, log.end());
+    return named;
 }
 
 }  // namespace
