@@ -52,14 +52,6 @@ bool lock_memory() noexcept {
     return mlockall(MCL_CURRENT | MCL_FUTURE) == 0;
 }
 
-void use_small_stacks() noexcept {
-    pthread_attr_t attributes;
-    if (pthread_attr_init(&attributes) != 0) return;
-    if (pthread_attr_setstacksize(&attributes, thread_stack_bytes) == 0)
-        pthread_setattr_default_np(&attributes);
-    pthread_attr_destroy(&attributes);
-}
-
 void touch_stack() noexcept {
     std::array<volatile unsigned char, touched_stack_bytes> stack;
     constexpr std::size_t page_bytes = 4096;

@@ -24,11 +24,6 @@ std::string advice_on_rights(const RealTimeRights& rights, const std::string& pr
 /// Returns whether it is so.
 bool lock_memory() noexcept;
 
-/// Gives every thread that begins from now on a stack of thread_stack_bytes: the system's eight megabytes
-/// each would all be locked.
-void use_small_stacks() noexcept;
-inline constexpr std::size_t thread_stack_bytes = 1024 * 1024;
-
 /// Touches as much of the calling thread's stack as its loop may ever use, so that its first deep call finds
 /// it there.
 void touch_stack() noexcept;

@@ -204,7 +204,6 @@ void run_server(const ServerOptions& options, const std::string& version, const 
         return;
     }
     const auto began = std::chrono::steady_clock::now();
-    use_small_stacks();
     for (const auto& file :
          {options.save_bone, options.json, options.log_csv, options.log_milling_csv, options.record})
         require_folder_of(file);

@@ -2,7 +2,6 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <pthread.h>
 
 #include <array>
 #include <functional>
@@ -46,18 +45,6 @@ TEST(TouchStack, LeavesNoPageOfItToBeWaitedFor) {
 #endif
     EXPECT_GT(faults_of([] {}, use_stack), 8u) << "it is worth it, and the count counts";
     EXPECT_LE(faults_of(touch_stack, use_stack), 2u) << "none but those of a sanitizer's own books";
-}
-
-TEST(UseSmallStacks, HoldsForThreadsThatBeginLater) {
-    use_small_stacks();
-    std::size_t bytes = 0;
-    std::thread([&] {
-        pthread_attr_t attributes;
-        ASSERT_EQ(pthread_getattr_np(pthread_self(), &attributes), 0);
-        pthread_attr_getstacksize(&attributes, &bytes);
-        pthread_attr_destroy(&attributes);
-    }).join();
-    EXPECT_EQ(bytes, thread_stack_bytes);
 }
 
 TEST(BindToCpu, KeepsAThreadWhereItIsPut) {
