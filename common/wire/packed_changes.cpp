@@ -2,9 +2,7 @@
 
 #include <zstd.h>
 
-#include <new>
 #include <span>
-#include <stdexcept>
 #include <string>
 #include <utility>
 
@@ -38,13 +36,7 @@ VoxelMask mask_at(std::span<const std::uint8_t> bytes) {
 
 }  // namespace
 
-void ChangePacker::Free::operator()(ZSTD_CCtx_s* context) const {
-    ZSTD_freeCCtx(context);
-}
-
-ChangePacker::ChangePacker()
-    : context_(ZSTD_createCCtx()), compressed_(ZSTD_compressBound(largest_packed_changes_bytes)) {
-    if (!context_) throw std::bad_alloc();
+ChangePacker::ChangePacker() : compressor_(frame_compression_level) {
     content_.reserve(largest_packed_changes_bytes);
 }
 
@@ -61,10 +53,8 @@ v1::PackedChanges ChangePacker::pack(const Bone& bone, const std::vector<BrickCh
              voxel = voxels._Find_next(voxel))
             content_.push_back(fractions[voxel]);
     }
-    const std::size_t size = ZSTD_compressCCtx(context_.get(), compressed_.data(), compressed_.size(),
-                                               content_.data(), content_.size(), frame_compression_level);
-    if (ZSTD_isError(size)) throw std::runtime_error(ZSTD_getErrorName(size));
-    message.set_zstd_masks_and_fractions(compressed_.data(), size);
+    const auto compressed = compressor_.compress(content_);
+    message.set_zstd_masks_and_fractions(compressed.data(), compressed.size());
     return message;
 }
 

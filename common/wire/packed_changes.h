@@ -7,16 +7,14 @@
 #pragma once
 
 #include <cstdint>
-#include <memory>
 #include <variant>
 #include <vector>
 
 #include "common/bone/bone.h"
 #include "common/bone/brick_change.h"
 #include "common/wire/wire_error.h"
+#include "common/wire/zstd_compressor.h"
 #include "osteomill/v1/bone.pb.h"
-
-struct ZSTD_CCtx_s;
 
 namespace osteomill {
 
@@ -34,12 +32,8 @@ class ChangePacker {
     v1::PackedChanges pack(const Bone& bone, const std::vector<BrickChange>& changes);
 
   private:
-    struct Free {
-        void operator()(ZSTD_CCtx_s* context) const;
-    };
-    std::unique_ptr<ZSTD_CCtx_s, Free> context_;
+    ZstdCompressor compressor_;
     std::vector<std::uint8_t> content_;
-    std::vector<std::uint8_t> compressed_;
 };
 
 /// The edits that were packed, for a grid of so many bricks. Whether they fit a bone is seen when they are

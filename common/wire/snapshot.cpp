@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <new>
 #include <stdexcept>
 #include <utility>
 
@@ -92,13 +91,7 @@ v1::SnapshotBegin snapshot_begin(const Bone& bone) {
     return message;
 }
 
-void SnapshotPacker::Free::operator()(ZSTD_CCtx_s* context) const {
-    ZSTD_freeCCtx(context);
-}
-
-SnapshotPacker::SnapshotPacker()
-    : context_(ZSTD_createCCtx()), compressed_(ZSTD_compressBound(largest_snapshot_piece_bytes)) {
-    if (!context_) throw std::bad_alloc();
+SnapshotPacker::SnapshotPacker() : compressor_(snapshot_compression_level) {
     channels_.reserve(largest_snapshot_piece_bytes);
 }
 
@@ -118,11 +111,8 @@ v1::SnapshotBricks SnapshotPacker::pack(const Bone& bone, std::size_t first_slot
             if (!channel->empty())
                 channels_.insert(channels_.end(), (*channel)[slot].begin(), (*channel)[slot].end());
     }
-    const std::size_t size =
-        ZSTD_compressCCtx(context_.get(), compressed_.data(), compressed_.size(), channels_.data(),
-                          channels_.size(), snapshot_compression_level);
-    if (ZSTD_isError(size)) throw std::runtime_error(ZSTD_getErrorName(size));
-    message.set_zstd_channels(compressed_.data(), size);
+    const auto compressed = compressor_.compress(channels_);
+    message.set_zstd_channels(compressed.data(), compressed.size());
     return message;
 }
 

@@ -12,9 +12,8 @@
 #include "common/bone/bone.h"
 #include "common/bone/bone_builder.h"
 #include "common/wire/wire_error.h"
+#include "common/wire/zstd_compressor.h"
 #include "osteomill/v1/bone.pb.h"
-
-struct ZSTD_CCtx_s;
 
 namespace osteomill {
 
@@ -41,12 +40,8 @@ class SnapshotPacker {
     v1::SnapshotBricks pack(const Bone& bone, std::size_t first_slot);
 
   private:
-    struct Free {
-        void operator()(ZSTD_CCtx_s* context) const;
-    };
-    std::unique_ptr<ZSTD_CCtx_s, Free> context_;
+    ZstdCompressor compressor_;
     std::vector<std::uint8_t> channels_;
-    std::vector<std::uint8_t> compressed_;
 };
 
 /// Puts a bone together from the messages of a snapshot.

@@ -3,7 +3,6 @@
 #include <zstd.h>
 
 #include <algorithm>
-#include <new>
 #include <stdexcept>
 #include <utility>
 
@@ -15,13 +14,7 @@ constexpr int compression_level = 1;
 
 }  // namespace
 
-void KeyFrames::Free::operator()(ZSTD_CCtx_s* context) const {
-    ZSTD_freeCCtx(context);
-}
-
-KeyFrames::KeyFrames(Playhead::Mark start) : marks_{std::move(start)}, context_(ZSTD_createCCtx()) {
-    if (!context_) throw std::bad_alloc();
-}
+KeyFrames::KeyFrames(Playhead::Mark start) : marks_{std::move(start)}, compressor_(compression_level) {}
 
 void KeyFrames::before_step(const Playhead& playhead) {
     const v1::StateFrame* next = playhead.next_frame();
@@ -61,14 +54,9 @@ void KeyFrames::wind_back(Playhead& playhead, double time_s) const {
 
 void KeyFrames::keep(BrickIndex brick, std::span<const std::uint8_t, brick_voxel_count> fractions,
                      std::size_t key) {
-    std::vector<std::uint8_t> compressed(ZSTD_compressBound(fractions.size()));
-    const std::size_t size = ZSTD_compressCCtx(context_.get(), compressed.data(), compressed.size(),
-                                               fractions.data(), fractions.size(), compression_level);
-    if (ZSTD_isError(size)) throw std::runtime_error(ZSTD_getErrorName(size));
-    compressed.resize(size);
-    compressed.shrink_to_fit();
-    memory_bytes_ += size + sizeof(Version);
-    versions_[brick].push_back({key, std::move(compressed)});
+    const auto compressed = compressor_.compress(fractions);
+    memory_bytes_ += compressed.size() + sizeof(Version);
+    versions_[brick].push_back({key, {compressed.begin(), compressed.end()}});
 }
 
 }  // namespace osteomill

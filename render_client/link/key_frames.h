@@ -7,15 +7,13 @@
 
 #include <cstdint>
 #include <map>
-#include <memory>
 #include <set>
 #include <span>
 #include <vector>
 
 #include "common/bone/bone.h"
 #include "common/recording/playhead.h"
-
-struct ZSTD_CCtx_s;
+#include "common/wire/zstd_compressor.h"
 
 namespace osteomill {
 
@@ -44,16 +42,13 @@ class KeyFrames {
         std::size_t key = 0;  // index in marks_
         std::vector<std::uint8_t> compressed;
     };
-    struct Free {
-        void operator()(ZSTD_CCtx_s* context) const;
-    };
     void keep(BrickIndex brick, std::span<const std::uint8_t, brick_voxel_count> fractions, std::size_t key);
 
     std::vector<Playhead::Mark> marks_;                    // ascending in time
     std::map<BrickIndex, std::vector<Version>> versions_;  // ascending in key
     std::set<BrickIndex> changed_;                         // since the last key frame
     std::size_t memory_bytes_ = 0;
-    std::unique_ptr<ZSTD_CCtx_s, Free> context_;
+    ZstdCompressor compressor_;
 };
 
 }  // namespace osteomill
