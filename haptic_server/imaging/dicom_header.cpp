@@ -25,6 +25,7 @@ using gdcm::Tag;
 const Tag rows_tag(0x0028, 0x0010);
 const Tag columns_tag(0x0028, 0x0011);
 const Tag samples_tag(0x0028, 0x0002);
+const Tag photometric_tag(0x0028, 0x0004);
 const Tag frames_tag(0x0028, 0x0008);
 const Tag spacing_tag(0x0028, 0x0030);
 const Tag position_tag(0x0020, 0x0032);
@@ -41,8 +42,10 @@ const Tag intercept_tag(0x0028, 0x1052);
 const Tag slope_tag(0x0028, 0x1053);
 const Tag pixel_measures_tag(0x0028, 0x9110);
 
-/// They are read whole, twice, and an import may take 1.5 GiB.
-constexpr std::uint64_t most_file_bytes = std::uint64_t{1} << 30U;
+/// Everything before the pixels is in here, but in odd files.
+constexpr std::uint64_t first_scanned_bytes = std::uint64_t{64} << 20U;
+/// What is held of a file whose pixels are compressed, or stand before other things.
+constexpr std::uint64_t most_scanned_bytes = std::uint64_t{1} << 30U;
 
 /// An element's bytes as text, without padding; empty where absent.
 std::string text_of(const DataSet& data, const Tag& tag) {
@@ -149,16 +152,28 @@ void place_frames(const DataSet& data, std::size_t count, DicomHeader& header) {
     }
 }
 
-/// What GDCM may be given the file for. Files are read whole: their parts may lie anywhere.
+std::optional<DicomScan> scan_first(const RegularFile& file, std::uint64_t bytes) {
+    std::optional<DicomScan> scan = scan_dicom(file.first_bytes(bytes), file.size());
+    if (scan) require_sound_pixels(*scan);
+    return scan;
+}
+
+/// What GDCM may be given the file for.
 std::optional<DicomScan> scan_file(const std::filesystem::path& path) {
     const RegularFile file(path);
     if (!may_be_dicom(file.first_bytes(dicom_mark_bytes))) return std::nullopt;
-    if (file.size() > most_file_bytes) throw ImagingError(
-            path, "is a DICOM file of more than 1 GiB; save the scan as one file a slice, or as NRRD");
     try {
-        std::optional<DicomScan> scan = scan_dicom(file.first_bytes(most_file_bytes));
-        if (scan) require_sound_pixels(*scan);
-        return scan;
+        return scan_first(file, first_scanned_bytes);
+    } catch (const std::invalid_argument& error) {
+        if (file.size() <= first_scanned_bytes) throw ImagingError(path, error.what());
+    }
+    if (file.size() > most_scanned_bytes)
+        throw ImagingError(
+            path,
+            "is DICOM of more than 1 GiB, and compressed or damaged; save the scan as one file "
+            "a slice, or as NRRD");
+    try {
+        return scan_first(file, most_scanned_bytes);
     } catch (const std::invalid_argument& error) {
         throw ImagingError(path, error.what());
     }
@@ -174,7 +189,7 @@ std::optional<DicomHeader> read_dicom_header(const std::filesystem::path& path) 
     reader.SetFileName(path.c_str());
     bool parsed = false;
     try {
-        parsed = reader.CanRead() && reader.Read();
+        parsed = reader.CanRead() && reader.ReadUpToTag(pixel_data_tag, {pixel_data_tag});
     } catch (const std::exception&) {
         parsed = false;
     }
@@ -188,8 +203,10 @@ std::optional<DicomHeader> read_dicom_header(const std::filesystem::path& path) 
     header.rows = number_of(data, rows_tag, 0);
     header.columns = number_of(data, columns_tag, 0);
     header.samples_per_pixel = number_of(data, samples_tag, 1);
-    header.has_pixel_data =
-        data.FindDataElement(pixel_data_tag) && !data.GetDataElement(pixel_data_tag).IsEmpty();
+    header.has_pixel_data = scan->has_pixel_data;
+    header.is_uncompressed = !scan->is_encapsulated && !syntax.IsEncapsulated() &&
+                             syntax != gdcm::TransferSyntax::DeflatedExplicitVRLittleEndian &&
+                             text_of(data, photometric_tag) == "MONOCHROME2";
     const std::string frames = text_of(data, frames_tag);
     const long count = frames.empty() ? 1 : std::strtol(frames.c_str(), nullptr, 10);
     if (count < 1 || count > 65536)

@@ -18,8 +18,9 @@ struct DicomHeader {
     int columns = 0;
     int samples_per_pixel = 1;
     bool has_pixel_data = false;
-    std::string modality;       ///< CT, MR, ...; empty where the file does not say
-    std::string no_grey_image;  ///< why it holds no CT numbers whatever its pixels, in words; or empty
+    bool is_uncompressed = false;  ///< the pixels stand in the file as they are
+    std::string modality;          ///< CT, MR, ...; empty where the file does not say
+    std::string no_grey_image;     ///< why it holds no CT numbers whatever its pixels, in words; or empty
     /// Where the file states the sign of its pixels, if its JPEG 2000 codestream states the other; GDCM would
     /// take the file's word and clamp.
     std::optional<std::uint64_t> wrong_sign_begin{};

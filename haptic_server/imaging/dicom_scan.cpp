@@ -53,7 +53,7 @@ struct Element {
 
 class Walker {
   public:
-    explicit Walker(Bytes bytes) : bytes_(bytes) {}
+    Walker(Bytes bytes, std::uint64_t file_bytes) : bytes_(bytes), file_bytes_(file_bytes) {}
 
     DicomScan scan;
 
@@ -64,7 +64,7 @@ class Walker {
             if (scan.has_pixel_data && bytes_.size() - at < 8) break;
             if (only_group && number<std::uint16_t>(at, false) != *only_group) break;
             const Element element = element_at(at, syntax);
-            at = after(element, syntax, 0, none_open);
+            at = reaches_beyond(element) ? bytes_.size() : after(element, syntax, 0, none_open);
             note(element, syntax);
         }
         return at;
@@ -111,6 +111,13 @@ class Walker {
             element.value = at + 8;
         }
         return element;
+    }
+
+    /// Whether these are uncompressed pixels that the file has and `bytes_` has not, or not all.
+    bool reaches_beyond(const Element& element) const {
+        const std::uint64_t end = element.value + std::uint64_t{element.length};
+        return element.tag == pixel_data_tag && element.length != undefined_length && end > bytes_.size() &&
+               end <= file_bytes_;
     }
 
     std::size_t end_of(const Element& element) const {
@@ -291,6 +298,7 @@ class Walker {
     }
 
     Bytes bytes_;
+    std::uint64_t file_bytes_;
     Bytes first_fragment_;
     std::uint64_t items_in_values_ = 0;
     std::uint64_t effort_ = 0;
@@ -319,7 +327,9 @@ std::vector<std::uint8_t> inflated(Bytes bytes) {
         const std::size_t made = piece.size() - stream.avail_out;
         if (result != Z_OK && result != Z_STREAM_END) throw Damaged();
         if (out.size() + made > most_inflated_bytes)
-            throw std::invalid_argument("is deflated DICOM of more than 256 MiB; save it without (transfer syntax explicit little endian)");
+            throw std::invalid_argument(
+                "is deflated DICOM of more than 256 MiB; save it without (transfer syntax explicit little "
+                "endian)");
         out.insert(out.end(), piece.begin(), piece.begin() + static_cast<std::ptrdiff_t>(made));
     }
     return out;
@@ -336,10 +346,10 @@ Syntax syntax_of(const std::string& uid) {
 }
 
 /// A file of before 1993, without anything that says how it is coded.
-std::optional<DicomScan> scan_bare(Bytes bytes) {
+std::optional<DicomScan> scan_bare(Bytes bytes, std::uint64_t file_bytes) {
     for (const bool is_explicit : {true, false}) {
         try {
-            Walker walker(bytes);
+            Walker walker(bytes, file_bytes);
             std::size_t at = 0;
             Syntax syntax{.is_explicit = is_explicit};
             if (bytes[0] == 0x02) {
@@ -368,15 +378,15 @@ bool may_be_dicom(Bytes bytes) {
            (bytes.size() >= 8 && (bytes[0] == 0x02 || bytes[0] == 0x08) && bytes[1] == 0 && bytes[3] == 0);
 }
 
-std::optional<DicomScan> scan_dicom(Bytes bytes) {
+std::optional<DicomScan> scan_dicom(Bytes bytes, std::uint64_t file_bytes) {
     if (!may_be_dicom(bytes)) return std::nullopt;
-    if (!has_mark(bytes)) return scan_bare(bytes);
-    Walker walker(bytes);
+    if (!has_mark(bytes)) return scan_bare(bytes, file_bytes);
+    Walker walker(bytes, file_bytes);
     const std::size_t body = walker.walk_file(dicom_mark_bytes, {}, 0x0002);
     const std::string uid = walker.scan.transfer_syntax;
     if (uid == deflated) {
         const std::vector<std::uint8_t> plain = inflated(bytes.subspan(body));
-        Walker inner(plain);
+        Walker inner(plain, plain.size());
         inner.scan.transfer_syntax = uid;
         inner.walk_file(0, {}, std::nullopt);
         inner.require_few_hidden_items();

@@ -44,7 +44,8 @@ bool may_be_dicom(std::span<const std::uint8_t> bytes);
 
 /// std::nullopt for what is not DICOM. Throws std::invalid_argument, in words, for what begins as DICOM but
 /// is cut off or damaged, for sequences nested deeper than most_dicom_nesting, and for values that hide
-/// nested sequences. Implicit and explicit, little and big endian, deflated (up to 256 MiB).
-std::optional<DicomScan> scan_dicom(std::span<const std::uint8_t> bytes);
+/// nested sequences. Implicit and explicit, little and big endian, deflated (up to 256 MiB). `bytes` may be
+/// the first of a file of `file_bytes` as long as they reach into pixels that are not compressed.
+std::optional<DicomScan> scan_dicom(std::span<const std::uint8_t> bytes, std::uint64_t file_bytes);
 
 }  // namespace osteomill

@@ -81,7 +81,7 @@ void nifti_header(Bytes input) {
 void dicom_header(Bytes input) {
     constexpr std::string_view deflated = "1.2.840.10008.1.2.1.99";
     try {
-        const std::optional<DicomScan> scan = scan_dicom(input);
+        const std::optional<DicomScan> scan = scan_dicom(input, input.size());
         require(may_be_dicom(input) || !scan, "DICOM that does not begin as such");
         if (!scan) return;
         require(scan->transfer_syntax == deflated || scan->pixel_bytes <= input.size(),

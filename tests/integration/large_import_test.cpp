@@ -1,11 +1,15 @@
-// Scans that are larger than what the importer may hold, and the real bone_import: it reads them slab by slab.
+// Scans that are larger than what the importer may hold, and the real bone_import: it reads them slab by
+// slab.
 #include <gmock/gmock.h>
 #include <sys/resource.h>
 
 #include <fstream>
+#include <string>
+#include <vector>
 
 #include "tests/support/child_process.h"
 #include "tests/support/dense_bone_file.h"
+#include "tests/support/raw_dicom.h"
 #include "tests/support/raw_images.h"
 #include "tests/support/temporary_folder.h"
 
@@ -13,6 +17,9 @@ namespace osteomill {
 namespace {
 
 using namespace testing;
+using ::testing::AllOf;
+using ::testing::Each;
+using ::testing::HasSubstr;
 
 constexpr std::int16_t columns = 720;
 constexpr std::int16_t rows = 720;
@@ -36,17 +43,28 @@ class LargeImport : public ::testing::Test {
         put(bytes, 112, std::array{2.0F, 300.0F});
         return bytes;
     }
-    /// Imports a corner of it.
-    void expect_import(const std::filesystem::path& input) {
-        const Finished said =
-            run_program({BONE_IMPORT, input.string(), (folder_ / "bone.nrrd").string(), "--spacing-mm", "2",
-                         "--region", "-30,-40,30,-10,-20,50"},
-                        std::chrono::seconds(120));
+    /// Imports a corner of it, mm.
+    void expect_import(const std::filesystem::path& input,
+                       const std::string& region = "-30,-40,30,-10,-20,50", int hu = 300) {
+        const Finished said = run_program({BONE_IMPORT, input.string(), (folder_ / "bone.nrrd").string(),
+                                           "--spacing-mm", "2", "--region", region},
+                                          std::chrono::seconds(120));
         ASSERT_EQ(said.status, 0) << said.err;
-        EXPECT_THAT(read_bone_file(folder_ / "bone.nrrd").volume.hu, ::testing::Each(300));
+        EXPECT_THAT(read_bone_file(folder_ / "bone.nrrd").volume.hu, Each(hu));
         if (BOUNDS_MEMORY) {
             EXPECT_LT(peak_of_children(), most_bytes);
         }
+    }
+    /// What is said of a file that must be refused before its pixels are read.
+    std::string refusal(const std::filesystem::path& input, const std::vector<std::string>& options) {
+        std::vector<std::string> command{BONE_IMPORT, input.string(), (folder_ / "bone.nrrd").string()};
+        command.insert(command.end(), options.begin(), options.end());
+        const Finished said = run_program(command, std::chrono::seconds(120));
+        EXPECT_EQ(said.status, 1);
+        if (BOUNDS_MEMORY) {
+            EXPECT_LT(peak_of_children(), most_bytes);
+        }
+        return said.err;
     }
     TemporaryFolder folder_;
 };
@@ -66,6 +84,48 @@ TEST_F(LargeImport, ReadsACompressedNiftiInBoundedMemory) {
         for (int k = 0; k < slices; ++k) file << member;
     }
     expect_import(folder_ / "large.nii.gz");
+}
+
+/// A multi-frame file, as cone-beam scanners write it.
+TEST_F(LargeImport, ReadsTheFramesOfADicomFileInBoundedMemory) {
+    std::vector<int> z_mm;
+    for (int k = 0; k < slices; ++k) z_mm.push_back(2 * k);
+    RawSlice file = multi_frame(z_mm);
+    file.columns = columns;
+    file.rows = rows;
+    file.pixels.clear();
+    file.pixel_bytes = voxel_bytes;
+    const std::string header = raw_dicom(file);
+    write_bytes(folder_ / "large.dcm", header);
+    std::filesystem::resize_file(folder_ / "large.dcm", header.size() + voxel_bytes);
+    expect_import(folder_ / "large.dcm", "100,100,100,120,120,120", -1000);
+}
+
+/// Compressed as one, they would be held as one.
+TEST_F(LargeImport, RefusesCompressedFramesOfMoreThanAnImportMayTake) {
+    RawSlice file = multi_frame(std::vector<int>(400));
+    file.transfer_syntax = jpeg2000_lossless;
+    file.columns = file.rows = 700;
+    file.is_encapsulated = true;
+    file.pixels = jpeg2000_start(700, 700, true) + std::string(1 << 20, '\0');
+    std::vector<int> z_mm;
+    for (int k = 0; k < 400; ++k) z_mm.push_back(k);
+    file.after_image = multi_frame(z_mm).after_image;
+    write_bytes(folder_ / "compressed.dcm", raw_dicom(file));
+    EXPECT_THAT(refusal(folder_ / "compressed.dcm", {"--spacing-mm", "1"}),
+                AllOf(HasSubstr("compressed.dcm: has pixels of which 1.8 GiB would be held at once"),
+                      HasSubstr("one file a slice")));
+}
+
+TEST_F(LargeImport, RefusesAGridWhoseSlicesAreMoreThanAnImportMayTake) {
+    std::string bytes = header();
+    put(bytes, 80, std::array{2.0F, 2.0F, 2.0F});
+    write_bytes(folder_ / "wide.nii", bytes);
+    std::filesystem::resize_file(folder_ / "wide.nii", 352 + voxel_bytes);
+    EXPECT_THAT(
+        refusal(folder_ / "wide.nii", {"--spacing-mm", "0.05", "--region", "-1e9,-1e9,30,1e9,1e9,31"}),
+        AllOf(HasSubstr("GiB of memory, where an import may take 1.5"),
+              HasSubstr("smaller --region or a larger --spacing-mm")));
 }
 
 }  // namespace

@@ -8,8 +8,8 @@
 #include <fstream>
 #include <iterator>
 
-#include "tests/support/dense_bone_file.h"
 #include "tests/support/child_process.h"
+#include "tests/support/dense_bone_file.h"
 #include "tests/support/raw_dicom.h"
 #include "tests/support/raw_images.h"
 #include "tests/support/synthetic_dicom.h"
@@ -167,6 +167,34 @@ TEST_F(OddImport, FollowsTheSignOfAJpeg2000Codestream) {
     EXPECT_THAT(said_.err,
                 HasSubstr("warning: 3 file(s) say unsigned pixels (0028,0103) where their JPEG 2000 "
                           "codestream says signed; the codestream is followed"));
+}
+
+TEST_F(OddImport, ReadsTheFramesOfAFileInTheOrderInWhichTheyLie) {
+    constexpr std::size_t pixels = 120;
+    const auto stored = [](std::size_t frame, std::size_t i) {
+        return static_cast<std::uint32_t>(400 + 200 * frame + i);
+    };
+    RawSlice file = multi_frame({2, 0, 1});
+    for (std::size_t i = 0; i < 3 * pixels; ++i)
+        file.pixels.replace(2 * i, 2, little(stored(i / pixels, i % pixels), 2));
+    write_bytes(folder_ / "frames.dcm", raw_dicom(file));
+    const std::vector<std::int16_t> hu = import(folder_ / "frames.dcm");
+    ASSERT_EQ(hu.size(), 3 * pixels);
+    for (std::size_t k = 0; k < 3; ++k)
+        for (std::size_t i = 0; i < pixels; ++i)
+            EXPECT_EQ(hu[pixels * k + i], 2 * static_cast<int>(stored((k + 1) % 3, i)) - 1000);
+    compress_as_jpeg2000(folder_ / "frames.dcm", folder_ / "compressed.dcm");
+    EXPECT_EQ(import(folder_ / "compressed.dcm"), hu);
+}
+
+TEST_F(OddImport, RefusesFramesThatAreCutOff) {
+    std::string bytes = raw_dicom(multi_frame({0, 1, 2}));
+    bytes.resize(bytes.size() - 2);
+    write_bytes(folder_ / "cut.dcm", bytes);
+    const Finished said =
+        run_program({BONE_IMPORT, (folder_ / "cut.dcm").string(), (folder_ / "bone.nrrd").string()});
+    EXPECT_EQ(said.status, 1);
+    EXPECT_THAT(said.err, HasSubstr("cut off"));
 }
 
 TEST_F(OddImport, RefusesAFileThatMayNotBeRead) {

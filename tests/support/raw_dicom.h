@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
 namespace osteomill::testing {
 
@@ -74,24 +75,52 @@ struct RawSlice {
     std::uint32_t pixel_representation = 1;
     std::string position = "0\\0\\0";
     std::string spacing = "1\\1";
+    std::string frames{};  ///< Number of Frames, where not empty
     std::string pixels = std::string(24, '\0');
-    bool is_encapsulated = false;  ///< the pixels are one fragment
+    std::int64_t pixel_bytes = -1;  ///< stated instead of the pixels' own, where not below 0
+    bool is_encapsulated = false;   ///< the pixels are one fragment
 };
 
 inline std::string raw_dicom(const RawSlice& slice) {
     std::string file =
         dicom_start(slice.transfer_syntax) + dicom_element(0x0008, 0x0016, "UI", slice.sop_class) +
-        dicom_element(0x0008, 0x0060, "CS", slice.modality) + dicom_element(0x0020, 0x000e, "UI", "1.2.3") +
-        dicom_element(0x0020, 0x0032, "DS", slice.position) +
+        dicom_element(0x0008, 0x0018, "UI", "1.2.3.4") + dicom_element(0x0008, 0x0060, "CS", slice.modality) +
+        dicom_element(0x0020, 0x000e, "UI", "1.2.3") + dicom_element(0x0020, 0x0032, "DS", slice.position) +
         dicom_element(0x0020, 0x0037, "DS", "1\\0\\0\\0\\1\\0") + slice.before_image +
         dicom_number(0x0028, 0x0002, 1) + dicom_element(0x0028, 0x0004, "CS", "MONOCHROME2") +
+        (slice.frames.empty() ? "" : dicom_element(0x0028, 0x0008, "IS", slice.frames)) +
         dicom_number(0x0028, 0x0010, slice.rows) + dicom_number(0x0028, 0x0011, slice.columns) +
         dicom_element(0x0028, 0x0030, "DS", slice.spacing) + dicom_number(0x0028, 0x0100, slice.bits) +
         dicom_number(0x0028, 0x0101, slice.bits) + dicom_number(0x0028, 0x0102, slice.bits - 1) +
         dicom_number(0x0028, 0x0103, slice.pixel_representation) + slice.after_image;
-    if (!slice.is_encapsulated) return file + dicom_element(0x7fe0, 0x0010, "OW", slice.pixels);
+    if (!slice.is_encapsulated)
+        return file + dicom_element(0x7fe0, 0x0010, "OW", slice.pixels, slice.pixel_bytes);
     return file + dicom_element(0x7fe0, 0x0010, "OB", "", undefined_dicom_length) + dicom_item("") +
            dicom_item(slice.pixels) + dicom_sequence_end;
+}
+
+/// A multi-frame CT, whose frames of 12 x 10 pixels lie at these z, mm, and say that HU are 2 * pixel - 1000.
+inline RawSlice multi_frame(const std::vector<int>& z_mm) {
+    const auto group = [](std::uint32_t element, const std::string& content) {
+        return dicom_element(element >> 16U, element & 0xffffU, "SQ", dicom_item(content));
+    };
+    std::string frames;
+    for (const int z : z_mm)
+        frames +=
+            dicom_item(group(0x00209113, dicom_element(0x0020, 0x0032, "DS", "0\\0\\" + std::to_string(z))) +
+                       group(0x00289145, dicom_element(0x0028, 0x1052, "DS", "-1000") +
+                                             dicom_element(0x0028, 0x1053, "DS", "2")));
+    const std::string shared = group(0x00289110, dicom_element(0x0028, 0x0030, "DS", "1\\1")) +
+                               group(0x00209116, dicom_element(0x0020, 0x0037, "DS", "1\\0\\0\\0\\1\\0"));
+    RawSlice file;
+    file.sop_class = "1.2.840.10008.5.1.4.1.1.2.1";
+    file.frames = std::to_string(z_mm.size());
+    file.after_image =
+        dicom_element(0x5200, 0x9229, "SQ", dicom_item(shared)) + dicom_element(0x5200, 0x9230, "SQ", frames);
+    file.columns = 12;
+    file.rows = 10;
+    file.pixels = std::string(z_mm.size() * 240, '\0');
+    return file;
 }
 
 /// The start of a JPEG 2000 codestream that says this of its image: SOC and SIZ.

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 #include <gdcmImageChangeTransferSyntax.h>
 #include <gdcmImageReader.h>
-#include <gdcmImageWriter.h>
 #include <gdcmWriter.h>
 
 #include <stdexcept>
@@ -106,9 +105,12 @@ void compress_as_jpeg2000(const std::filesystem::path& from, const std::filesyst
     change.SetTransferSyntax(gdcm::TransferSyntax::JPEG2000Lossless);
     change.SetInput(reader.GetImage());
     if (!change.Change()) throw std::runtime_error("cannot compress " + from.string());
-    gdcm::ImageWriter writer;
+    // Not ImageWriter, which would state other positions of frames.
+    gdcm::Writer writer;
     writer.SetFile(reader.GetFile());
-    writer.SetImage(change.GetOutput());
+    writer.GetFile().GetDataSet().Replace(
+        static_cast<const gdcm::Bitmap&>(change.GetOutput()).GetDataElement());
+    writer.GetFile().GetHeader().SetDataSetTransferSyntax(gdcm::TransferSyntax::JPEG2000Lossless);
     writer.SetFileName(to.c_str());
     if (!writer.Write()) throw std::runtime_error("cannot write " + to.string());
 }

@@ -1,10 +1,9 @@
-#include "haptic_server/imaging/dicom_pixels.h"
-
 #include <gmock/gmock.h>
 
 #include <functional>
 #include <stdexcept>
 
+#include "haptic_server/imaging/dicom_pixels.h"
 #include "tests/support/raw_dicom.h"
 #include "tests/support/raw_images.h"
 
@@ -15,7 +14,7 @@ using namespace testing;
 using ::testing::HasSubstr;
 
 std::optional<DicomScan> scan(const std::string& file) {
-    return scan_dicom({reinterpret_cast<const std::uint8_t*>(file.data()), file.size()});
+    return scan_dicom({reinterpret_cast<const std::uint8_t*>(file.data()), file.size()}, file.size());
 }
 
 std::string refusal(const std::string& file) {
