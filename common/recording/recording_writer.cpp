@@ -53,14 +53,15 @@ struct RecordingWriter::Shared {
         report.error = report.file.string() + ": the disk does not answer; the recording ends there";
         forget_waiting();
     }
-    /// Waits until `condition` holds; gives up once nothing has been written for longest_standstill.
+    /// Waits until `condition` holds; gives up once nothing has been written for so long.
     template <typename Condition>
-    void wait_or_give_up(std::unique_lock<std::mutex>& lock, const Condition& condition) {
+    void wait_or_give_up(std::unique_lock<std::mutex>& lock, std::chrono::milliseconds longest,
+                         const Condition& condition) {
         while (!condition()) {
             const auto has_moved = [&, frames = report.frames] {
                 return condition() || report.frames != frames;
             };
-            if (!changed.wait_for(lock, longest_standstill, has_moved)) return give_up();
+            if (!changed.wait_for(lock, longest, has_moved)) return give_up();
         }
     }
 
@@ -101,19 +102,15 @@ bool RecordingWriter::has_room() const {
     return shared_->has_room();
 }
 
-void RecordingWriter::wait_for_room() const {
+void RecordingWriter::wait_for_room(std::chrono::milliseconds longest) {
     std::unique_lock lock(shared_->mutex);
-    shared_->changed.wait(lock, [this] { return shared_->has_room() || shared_->has_failed(); });
+    shared_->wait_or_give_up(lock, longest, [this] { return shared_->has_room() || shared_->has_failed(); });
 }
 
-void RecordingWriter::wait_for_last_room() {
+void RecordingWriter::wait_until_written(std::chrono::milliseconds longest) {
     std::unique_lock lock(shared_->mutex);
-    shared_->wait_or_give_up(lock, [this] { return shared_->has_room() || shared_->has_failed(); });
-}
-
-void RecordingWriter::wait_until_written() const {
-    std::unique_lock lock(shared_->mutex);
-    shared_->changed.wait(lock, [this] { return shared_->waiting_bytes == 0 || shared_->has_failed(); });
+    shared_->wait_or_give_up(lock, longest,
+                             [this] { return shared_->waiting_bytes == 0 || shared_->has_failed(); });
 }
 
 void RecordingWriter::push(Stamp stamp, std::string message) {
@@ -137,8 +134,8 @@ void RecordingWriter::close() {
     shared_->is_closing = true;
     shared_->changed.notify_all();
     const auto has_ended = [this] { return !shared_->has_thread || shared_->is_given_up; };
-    shared_->wait_or_give_up(lock, [&] { return has_ended() || shared_->is_syncing; });
-    if (!shared_->changed.wait_for(lock, longest_sync, has_ended)) shared_->give_up();
+    shared_->wait_or_give_up(lock, longest_standstill, [&] { return has_ended() || shared_->is_syncing; });
+    if (!shared_->changed.wait_for(lock, longest_wait, has_ended)) shared_->give_up();
     const bool is_given_up = shared_->is_given_up;
     lock.unlock();
     if (is_given_up) {

@@ -7,8 +7,9 @@
 // there.
 //
 // A disk that does not answer at all (a pulled drive, a server that is away, a pipe whose reader has stopped)
-// holds up that thread alone: who ends the recording waits a bounded time. Then the thread, which cannot be
-// joined, is left behind, and touches nothing but what it owns until it ends with the program.
+// holds up that thread alone: who waits for it waits a bounded time, and then the recording is given up. The
+// thread, which cannot be joined, is left behind, and touches nothing but what it owns until it ends with the
+// program.
 //
 // Until the recording is whole its file is the part beside the one that was asked for (session_file.h). That
 // can be read at any time, and stays where the recording is torn.
@@ -54,8 +55,8 @@ class RecordingWriter {
     static constexpr std::chrono::milliseconds retry_period{500};
     /// How long the end waits for a disk that takes nothing,
     static constexpr std::chrono::seconds longest_standstill{2};
-    /// and for all that is in the system's memory to reach it.
-    static constexpr std::chrono::seconds longest_sync{30};
+    /// and how long before the end, and for what is in the system's memory to reach the disk.
+    static constexpr std::chrono::seconds longest_wait{30};
 
     /// What may wait for the disk. A second of the fastest loopback snapshot; whoever finds it full tells
     /// later what it has to tell, as it would a slow client.
@@ -73,12 +74,11 @@ class RecordingWriter {
 
     /// Whether push() would take a frame. Once the recording has ended it takes, and forgets, every one.
     bool has_room() const;
-    /// Waits until there is room, or the disk is full: for who may wait for a disk.
-    void wait_for_room() const;
-    /// The same at a recording's end: the recording is given up where the disk stands still.
-    void wait_for_last_room();
-    /// Waits until all that was pushed is in the file, or the disk is full.
-    void wait_until_written() const;
+    /// Waits until there is room, or the disk is full: for who may wait for a disk. Gives the recording up
+    /// once the disk has taken nothing for so long.
+    void wait_for_room(std::chrono::milliseconds longest = longest_wait);
+    /// Waits until all that was pushed is in the file, or the disk is full; gives up alike.
+    void wait_until_written(std::chrono::milliseconds longest = longest_wait);
     /// Never waits for the disk. Call only with room.
     void push(Stamp stamp, std::string message);
     /// Whether the last attempt to write has failed.

@@ -72,7 +72,7 @@ void SessionRecorder::hand_over(Wait wait) {
         began_ + std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::duration<double>(time_s_));
     for (;;) {
         if (wait == Wait::for_the_disk) writer_.wait_for_room();
-        if (wait == Wait::a_moment) writer_.wait_for_last_room();
+        if (wait == Wait::a_moment) writer_.wait_for_room(RecordingWriter::longest_standstill);
         if (!writer_.has_room()) return;
         const std::optional<std::string> frame = feed_.next();
         if (!frame) return;

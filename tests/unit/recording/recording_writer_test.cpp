@@ -179,11 +179,22 @@ TEST(RecordingWriter, GivesUpAtTheEndOnADiskThatDoesNotAnswer) {
     const testing::UnreadPipe disk(pipe);
     RecordingWriter writer(pipe, {}, WhenDiskIsFull::try_again);
     while (writer.has_room()) writer.push(Stamp{}, std::string(100'000, 'x'));
-    writer.wait_for_last_room();
+    writer.wait_for_room(RecordingWriter::longest_standstill);
     EXPECT_TRUE(writer.has_room()) << "for what is forgotten";
     writer.commit();
     EXPECT_EQ(writer.report().frames, 0U);
     EXPECT_EQ(writer.report().error, pipe.string() + ": the disk does not answer; the recording ends there");
+}
+
+TEST(RecordingWriter, GivesUpOnADiskThatDoesNotTakeTheFirstFrame) {
+    const testing::TemporaryFolder folder;
+    const auto pipe = folder / "pipe";
+    const testing::UnreadPipe disk(pipe);
+    RecordingWriter writer(pipe, {}, WhenDiskIsFull::try_again);
+    writer.push(Stamp{}, std::string(100'000, 'x'));
+    writer.wait_until_written(std::chrono::milliseconds(200));
+    EXPECT_TRUE(writer.has_failed());
+    EXPECT_THAT(writer.report().error, ::testing::HasSubstr("the disk does not answer"));
 }
 
 }  // namespace
