@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cstring>
 
 #include "haptic_server/imaging/hu_volume.h"
 #include "haptic_server/imaging/nrrd_form.h"
@@ -36,6 +37,11 @@ struct BrickSums {
     BrickSums(std::span<const std::uint8_t, brick_voxel_count> fractions, int times) {
         const int halvings = std::countr_zero(static_cast<unsigned>(times));
         const int edge = brick_edge_voxels >> halvings;
+        // Most bricks are whole.
+        if (std::memcmp(fractions.data(), fractions.data() + 1, fractions.size() - 1) == 0) {
+            left.fill(static_cast<std::uint32_t>(fractions[0]) << 3 * halvings);
+            return;
+        }
         for (std::size_t offset = 0; offset < brick_voxel_count; ++offset) {
             const glm::ivec3 voxel = voxel_in_brick(offset);
             left[static_cast<std::size_t>((voxel.x >> halvings) +

@@ -15,8 +15,8 @@ namespace osteomill {
 
 namespace {
 
-/// zlib's fast end: on CT it costs a tenth more space than the default and a third of the time.
-constexpr int gzip_level = 2;
+/// zlib's fast end: on CT it costs a seventh more space than the default and a fifth of the time.
+constexpr int gzip_level = 1;
 constexpr int raw_deflate = -15;  // window bits without a header of zlib's own
 constexpr int memory_level = 8;   // zlib's default
 constexpr std::size_t piece_bytes = 1u << 20;
@@ -77,22 +77,21 @@ std::array<std::byte, 4> little_endian(std::uint32_t value) {
 
 GzipWriter::~GzipWriter() = default;
 
-GzipWriter::GzipWriter(Write write) : write_(std::move(write)) {
+GzipWriter::GzipWriter(Write write) : write_(std::move(write)), room_bytes_(pieces_at_once() * piece_bytes) {
     // Magic, deflate, no flags, no time stamp, fast, Unix.
     constexpr std::array<std::byte, 10> header{std::byte{0x1f}, std::byte{0x8b}, std::byte{8}, std::byte{0},
                                                std::byte{0},    std::byte{0},    std::byte{0}, std::byte{0},
                                                std::byte{4},    std::byte{3}};
     write_(header);
-    waiting_.reserve(pieces_at_once() * piece_bytes);
+    waiting_.reserve(room_bytes_);
 }
 
 void GzipWriter::add(std::span<const std::byte> bytes) {
-    const std::size_t room = pieces_at_once() * piece_bytes;
     while (!bytes.empty()) {
-        const std::size_t taken = std::min(bytes.size(), room - waiting_.size());
+        const std::size_t taken = std::min(bytes.size(), room_bytes_ - waiting_.size());
         waiting_.insert(waiting_.end(), bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(taken));
         bytes = bytes.subspan(taken);
-        if (waiting_.size() == room) compress_waiting();
+        if (waiting_.size() == room_bytes_) compress_waiting();
     }
 }
 
