@@ -30,7 +30,7 @@ Turn turn_to_lps(const SourceImage& image) {
 
 }  // namespace
 
-VoxelBox voxels_for(const SourceImage& image, const Region& region, int margin_voxels) {
+ImageBox voxels_for(const SourceImage& image, const Region& region, int margin_voxels) {
     glm::dvec3 low(1e30);
     glm::dvec3 high(-1e30);
     for (int corner = 0; corner < 8; ++corner) {
@@ -45,7 +45,7 @@ VoxelBox voxels_for(const SourceImage& image, const Region& region, int margin_v
             .last = glm::ivec3(glm::clamp(glm::ceil(high) + double(margin_voxels), glm::dvec3(0.0), end))};
 }
 
-std::uint64_t voxel_count(const VoxelBox& box) {
+std::uint64_t voxel_count(const ImageBox& box) {
     const glm::ivec3 size = box.last - box.first + 1;
     return static_cast<std::uint64_t>(size.x) * static_cast<std::uint64_t>(size.y) *
            static_cast<std::uint64_t>(size.z);
@@ -60,7 +60,7 @@ bool is_axis_aligned(const SourceImage& image) {
     return true;
 }
 
-SourceImage part_of(const SourceImage& image, const VoxelBox& box) {
+SourceImage part_of(const SourceImage& image, const ImageBox& box) {
     const bool aligned = is_axis_aligned(image);
     const Turn turn = aligned ? turn_to_lps(image) : Turn{};
     const glm::ivec3 box_size = box.last - box.first + 1;
@@ -77,7 +77,7 @@ SourceImage part_of(const SourceImage& image, const VoxelBox& box) {
     return part;
 }
 
-void put_slice(const SourceImage& image, const VoxelBox& box, int k, std::span<const float> slice,
+void put_slice(const SourceImage& image, const ImageBox& box, int k, std::span<const float> slice,
                std::span<float> part_values) {
     if (k < box.first.z || k > box.last.z) return;
     const Turn turn = is_axis_aligned(image) ? turn_to_lps(image) : Turn{};
@@ -100,7 +100,7 @@ void put_slice(const SourceImage& image, const VoxelBox& box, int k, std::span<c
     }
 }
 
-SourceImage cut(const SourceImage& image, const VoxelBox& box) {
+SourceImage cut(const SourceImage& image, const ImageBox& box) {
     SourceImage part = part_of(image, box);
     part.values.resize(voxel_count(part));
     const auto slice =

@@ -35,7 +35,7 @@ double gibibytes(std::uint64_t bytes) {
 /// What is to be done, known before any voxel is read.
 struct ImportPlan {
     Grid grid;
-    VoxelBox needed;
+    ImageBox needed;
 };
 
 /// As few voxels as a scan may have, a bone may have.
@@ -114,7 +114,7 @@ std::size_t make_hu(const ImportOptions& options, std::span<float> values) {
 }
 
 /// The region's part in HU; of the rest of the scan no more than a slice is looked at.
-void read_part(const ImportOptions& options, const OpenedImage& opened, const VoxelBox& needed,
+void read_part(const ImportOptions& options, const OpenedImage& opened, const ImageBox& needed,
                const ScratchValues& part, const ImportSurroundings& surroundings) {
     std::size_t replaced = 0;
     {

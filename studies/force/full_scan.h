@@ -1,8 +1,9 @@
 // The published way to mill, the baseline of speed: the tool is a set of voxels; every step takes every one
 // of them, some 65 000 for a 5 mm burr at 0.1 mm, turns it into the burr's frame, tests it against the tool's
 // shape and the bone, and lowers what is left. No bricks are passed over, no crescent is known. It follows
-// the same rule of what a sweep leaves of a voxel (cover.h) and sums force with the same sums (chip_map.h,
-// cutting_force.h), so that bone and force are those of MillingModel, and only how voxels are found differs.
+// the same rule of what a sweep leaves of a voxel (voxel_coverage.h) and sums force with the same sums
+// (binned_force.h, chip_force.h), so that bone and force are those of MillingModel, and only how voxels are
+// found differs.
 #pragma once
 
 #include "studies/force/studied_model.h"

@@ -62,7 +62,7 @@ HuVolume refine(SourceImage part, const Grid& grid) {
 
 HuVolume refined(const SourceImage& image, double spacing_mm) {
     const Region extent = extent_of(image);
-    const VoxelBox all{.first = {0, 0, 0}, .last = image.size_voxels - 1};
+    const ImageBox all{.first = {0, 0, 0}, .last = image.size_voxels - 1};
     return refine(cut(image, all), grid_over(extent, spacing_mm));
 }
 
@@ -135,7 +135,7 @@ TEST(Refine, AgreesWithTheWholeWhereOnlyARegionIsCut) {
     const SourceImage image = scan_of_marker(glm::dmat3(1.0));
     const Region region{.low_mm = {1.0, -3.0, 0.5}, .high_mm = {5.0, 1.0, 4.0}};
     const Grid grid = grid_over(region, 0.25);
-    const VoxelBox all{.first = {0, 0, 0}, .last = image.size_voxels - 1};
+    const ImageBox all{.first = {0, 0, 0}, .last = image.size_voxels - 1};
     const HuVolume whole = refine(cut(image, all), grid);
     const HuVolume part = refine(cut(image, voxels_for(image, region, refine_margin_voxels)), grid);
     for (std::size_t i = 0; i < whole.hu.size(); ++i) ASSERT_NEAR(whole.hu[i], part.hu[i], 1) << i;
