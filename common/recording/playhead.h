@@ -37,7 +37,7 @@ class Playhead {
     /// What has changed in the bone since the last call, or since it came.
     std::vector<BrickChange> take_changes() { return replica_->take_changes(); }
     /// Nothing before the session's first state frame.
-    const std::optional<ToolView>& tool() const { return tool_; }
+    const std::optional<ToolState>& tool() const { return tool_; }
     /// The state frame that was applied last; the one that would come next, if one would.
     const v1::StateFrame& frame() const { return frame_; }
     const v1::StateFrame* next_frame() const;
@@ -58,7 +58,7 @@ class Playhead {
         RecordingReader::Mark place;
         RecordedTime time;
         double time_s = 0.0;
-        std::optional<ToolView> tool;
+        std::optional<ToolState> tool;
     };
     Mark mark() const { return {before_next_, before_next_time_, time_s_, tool_}; }
     /// The bone is the caller's to put back, with set_fractions().
@@ -82,7 +82,7 @@ class Playhead {
     SessionInfo announced_;  // becomes session_ when its bone has come
     SessionInfo session_;
     std::optional<BoneReplica> replica_;
-    std::optional<ToolView> tool_;
+    std::optional<ToolState> tool_;
     v1::StateFrame frame_;
 
     std::uint64_t frames_ = 0;

@@ -10,7 +10,7 @@ std::variant<FollowedState, WireError> follow(const v1::StateFrame& frame, std::
                                               BoneReplica& replica) {
     auto tool = tool_from(frame.tool(), burr_count);
     if (auto* error = std::get_if<WireError>(&tool)) return std::move(*error);
-    FollowedState followed{.tool = std::get<ToolView>(std::move(tool))};
+    FollowedState followed{.tool = std::get<ToolState>(std::move(tool))};
     for (const v1::BrickEdit& edit : frame.edits()) {
         auto written = replica.correct(edit);
         if (auto* error = std::get_if<WireError>(&written)) return std::move(*error);

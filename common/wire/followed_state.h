@@ -4,8 +4,8 @@
 #include <cstddef>
 #include <variant>
 
+#include "common/scene/tool_state.h"
 #include "common/wire/bone_replica.h"
-#include "common/wire/tool_view.h"
 #include "common/wire/wire_error.h"
 #include "osteomill/v1/session.pb.h"
 
@@ -19,7 +19,7 @@ enum class ReplicaCheck {
 };
 
 struct FollowedState {
-    ToolView tool;
+    ToolState tool;
     ReplicaCheck check = ReplicaCheck::none;
     /// An edit raised what was left, as milling cannot: the replica had lost bone, and has it again.
     bool has_regained_bone = false;

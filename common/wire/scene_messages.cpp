@@ -80,7 +80,7 @@ v1::TissueDescription to_message(const Tissue& tissue) {
     return message;
 }
 
-v1::ToolState to_message(const ToolView& tool) {
+v1::ToolState to_message(const ToolState& tool) {
     v1::ToolState message;
     message.set_time_s(tool.time_s);
     write(tool.burr_position_mm, *message.mutable_burr_position_mm());
@@ -91,7 +91,7 @@ v1::ToolState to_message(const ToolView& tool) {
     write(tool.force_n, *message.mutable_force_n());
     message.set_removed_mm3(tool.removed_mm3);
     message.set_touches_protected(tool.touches_protected);
-    message.set_fault(tool.fault);
+    message.set_fault(std::string(tool.fault.text()));
     message.set_taken_unix_ns(tool.taken_unix_ns);
     message.set_driver(to_message(tool.driver));
     if (tool.depth_mm) message.set_depth_mm(*tool.depth_mm);
@@ -174,19 +174,19 @@ std::variant<SessionInfo, WireError> session_info_from(const v1::Hello& hello) {
                        .force_limit_n = hello.force_limit_n()};
 }
 
-std::variant<ToolView, WireError> tool_from(const v1::ToolState& message, std::size_t burr_count) {
-    ToolView tool{.time_s = message.time_s(),
-                  .burr_position_mm = read(message.burr_position_mm()),
-                  .spindle_axis = read(message.spindle_axis()),
-                  .hand_position_mm = read(message.hand_position_mm()),
-                  .force_n = read(message.force_n()),
-                  .burr = message.burr(),
-                  .spindle_on = message.spindle_on(),
-                  .removed_mm3 = message.removed_mm3(),
-                  .touches_protected = message.touches_protected(),
-                  .fault = one_line(message.fault()),
-                  .taken_unix_ns = message.taken_unix_ns(),
-                  .driver = driver_from(message.driver())};
+std::variant<ToolState, WireError> tool_from(const v1::ToolState& message, std::size_t burr_count) {
+    ToolState tool{.time_s = message.time_s(),
+                   .burr_position_mm = read(message.burr_position_mm()),
+                   .spindle_axis = read(message.spindle_axis()),
+                   .hand_position_mm = read(message.hand_position_mm()),
+                   .force_n = read(message.force_n()),
+                   .burr = message.burr(),
+                   .spindle_on = message.spindle_on(),
+                   .removed_mm3 = message.removed_mm3(),
+                   .touches_protected = message.touches_protected(),
+                   .fault = one_line(message.fault()),
+                   .taken_unix_ns = message.taken_unix_ns(),
+                   .driver = driver_from(message.driver())};
     if (message.has_depth_mm()) tool.depth_mm = message.depth_mm();
     if (!std::isfinite(tool.time_s) || !std::isfinite(tool.removed_mm3) ||
         !std::isfinite(tool.depth_mm.value_or(0.0)) || !is_finite(tool.burr_position_mm) ||

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "common/scene/scene.h"
+#include "common/scene/tool_state.h"
 #include "common/wire/session_info.h"
-#include "common/wire/tool_view.h"
 #include "common/wire/wire_error.h"
 #include "osteomill/v1/session.pb.h"
 #include "osteomill/v1/tool.pb.h"
@@ -16,7 +16,7 @@ namespace osteomill {
 
 v1::BurrDescription to_message(const Burr& burr);
 v1::TissueDescription to_message(const Tissue& tissue);
-v1::ToolState to_message(const ToolView& tool);
+v1::ToolState to_message(const ToolState& tool);
 v1::Hello to_message(const SessionInfo& session);
 v1::OperatorInput to_message(const OperatorIntent& intent);
 
@@ -34,7 +34,7 @@ std::variant<std::vector<Tissue>, WireError> tissues_from(
 std::variant<SessionInfo, WireError> session_info_from(const v1::Hello& hello);
 
 /// Refuses numbers that are not finite and a burr that is not one of `burr_count`.
-std::variant<ToolView, WireError> tool_from(const v1::ToolState& message, std::size_t burr_count);
+std::variant<ToolState, WireError> tool_from(const v1::ToolState& message, std::size_t burr_count);
 
 /// Refuses numbers that are not finite, an axis of no length (any other is made a unit vector), and a burr
 /// that is not one of `burr_count`.

@@ -11,7 +11,7 @@ constexpr double quiet_turn_rad = quiet_motion_mm / 100.0;
 
 }  // namespace
 
-bool looks_the_same(const ToolView& told, const ToolView& now) {
+bool looks_the_same(const ToolState& told, const ToolState& now) {
     return told.burr == now.burr && told.spindle_on == now.spindle_on &&
            told.removed_mm3 == now.removed_mm3 && told.touches_protected == now.touches_protected &&
            told.fault == now.fault && told.driver == now.driver &&

@@ -1,7 +1,7 @@
 // Whether two states of a tool look the same to whoever is shown them.
 #pragma once
 
-#include "common/wire/tool_view.h"
+#include "common/scene/tool_state.h"
 
 namespace osteomill {
 
@@ -12,6 +12,6 @@ inline constexpr double quiet_force_n = 0.002;
 
 /// Whether a viewer who was told of `told` would see nothing new in `now`, except for the time. Compare with
 /// what was told last, not with the frame before: then slow motion is told, too.
-bool looks_the_same(const ToolView& told, const ToolView& now);
+bool looks_the_same(const ToolState& told, const ToolState& now);
 
 }  // namespace osteomill

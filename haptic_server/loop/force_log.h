@@ -5,8 +5,10 @@
 // removed_mm3 since the start; spindle 0 or 1; fault, the number of a Fault, 0 while all is well.
 #pragma once
 
+#include <glm/vec3.hpp>
+
 #include "haptic_server/loop/csv_log.h"
-#include "haptic_server/loop/exchange.h"
+#include "haptic_server/safety/fault.h"
 
 namespace osteomill {
 

@@ -67,26 +67,27 @@ void HapticLoop::tick(double now_s, std::uint64_t missed_periods) noexcept {
 
     const bool spindle_on = safety_.spindle_turns();
     const bool in_contact = latest.total_removed_mm3 > 0.0 || force_n != glm::dvec3(0.0);
-    const ToolSnapshot snapshot{.time_s = now_s,
-                                .burr_pose = burr_pose_,
-                                .hand_pose = hand_pose_,
-                                .burr = burr_,
-                                .spindle_on = spindle_on,
-                                .force_n = force_n,
-                                .removed_mm3 = latest.total_removed_mm3,
-                                .touches_protected = now_s < protected_until_s_,
-                                .fault = safety_.fault(),
-                                .depth_mm = depth_mm(in_contact)};
-    publish({.pose = burr_pose_, .spindle_on = spindle_on, .burr = burr_, .elapsed_s = elapsed_s}, snapshot);
-    log(snapshot);
+    const ToolState tool{.time_s = now_s,
+                         .burr_position_mm = burr_pose_.position_mm,
+                         .spindle_axis = burr_pose_.spindle_axis,
+                         .hand_position_mm = hand_pose_.position_mm,
+                         .force_n = force_n,
+                         .burr = burr_,
+                         .spindle_on = spindle_on,
+                         .removed_mm3 = latest.total_removed_mm3,
+                         .touches_protected = now_s < protected_until_s_,
+                         .fault = describe(safety_.fault()),
+                         .depth_mm = depth_mm(in_contact)};
+    publish({.pose = burr_pose_, .spindle_on = spindle_on, .burr = burr_, .elapsed_s = elapsed_s}, tool);
+    log(tool);
 }
 
-void HapticLoop::publish(const BurrCommand& command, const ToolSnapshot& snapshot) noexcept {
+void HapticLoop::publish(const BurrCommand& command, const ToolState& tool) noexcept {
     parts_.commands.back() = command;
     parts_.commands.publish();
-    parts_.tool.back() = snapshot;
+    parts_.tool.back() = tool;
     parts_.tool.publish();
-    parts_.status.back() = snapshot;
+    parts_.status.back() = tool;
     parts_.status.publish();
 }
 
@@ -99,16 +100,16 @@ double HapticLoop::depth_mm(bool in_contact) noexcept {
     return glm::dot(first_contact_.position_mm - burr_pose_.position_mm, first_contact_.spindle_axis);
 }
 
-void HapticLoop::log(const ToolSnapshot& snapshot) noexcept {
+void HapticLoop::log(const ToolState& tool) noexcept {
     if (parts_.log == nullptr) return;
-    parts_.log->push({.time_s = snapshot.time_s,
-                      .hand_mm = snapshot.hand_pose.position_mm,
-                      .burr_mm = snapshot.burr_pose.position_mm,
-                      .force_n = snapshot.force_n,
-                      .depth_mm = snapshot.depth_mm,
-                      .removed_mm3 = snapshot.removed_mm3,
-                      .spindle_on = snapshot.spindle_on,
-                      .fault = snapshot.fault});
+    parts_.log->push({.time_s = tool.time_s,
+                      .hand_mm = tool.hand_position_mm,
+                      .burr_mm = tool.burr_position_mm,
+                      .force_n = tool.force_n,
+                      .depth_mm = tool.depth_mm.value_or(0.0),
+                      .removed_mm3 = tool.removed_mm3,
+                      .spindle_on = tool.spindle_on,
+                      .fault = safety_.fault()});
 }
 
 }  // namespace osteomill

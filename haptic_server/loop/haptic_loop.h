@@ -16,11 +16,11 @@
 #include <cstdint>
 
 #include "common/scene/scene.h"
+#include "common/scene/tool_state.h"
 #include "haptic_server/coupling/coupling.h"
 #include "haptic_server/device/haptic_device.h"
 #include "haptic_server/exchange/milling_step.h"
 #include "haptic_server/exchange/triple_buffer.h"
-#include "haptic_server/loop/exchange.h"
 #include "haptic_server/loop/force_log.h"
 #include "haptic_server/safety/safety_monitor.h"
 
@@ -32,8 +32,8 @@ struct HapticLoopParts {
     Coupling& coupling;
     TripleBuffer<MillingResult>& results;  ///< read
     TripleBuffer<BurrCommand>& commands;   ///< written
-    TripleBuffer<ToolSnapshot>& tool;      ///< written, for the streaming loop
-    TripleBuffer<ToolSnapshot>& status;    ///< written, for whoever shows progress
+    TripleBuffer<ToolState>& tool;         ///< written, for the streaming loop
+    TripleBuffer<ToolState>& status;       ///< written, for whoever shows progress
     ForceLog* log = nullptr;               ///< written; null: no log
 };
 
@@ -63,9 +63,9 @@ class HapticLoop {
 
   private:
     HandState hand_state(double now_s, double elapsed_s, const DeviceState& device) noexcept;
-    void publish(const BurrCommand& command, const ToolSnapshot& snapshot) noexcept;
+    void publish(const BurrCommand& command, const ToolState& tool) noexcept;
     double depth_mm(bool in_contact) noexcept;
-    void log(const ToolSnapshot& snapshot) noexcept;
+    void log(const ToolState& tool) noexcept;
 
     HapticLoopParts parts_;
     HapticLoopOptions options_;

@@ -44,8 +44,11 @@ const MillingSessionOptions& validated(const MillingSessionOptions& options) {
 }
 
 /// What is shown before the first tick.
-ToolSnapshot tool_at_start(const Scene& scene) {
-    return {.burr_pose = scene.start_pose, .hand_pose = scene.start_pose, .burr = scene.start_burr};
+ToolState tool_at_start(const Scene& scene) {
+    return {.burr_position_mm = scene.start_pose.position_mm,
+            .spindle_axis = scene.start_pose.spindle_axis,
+            .hand_position_mm = scene.start_pose.position_mm,
+            .burr = scene.start_burr};
 }
 
 /// What a thread does before its loop, so that the loop finds all it needs.
@@ -114,7 +117,7 @@ MillingSession::MillingSession(const Scene& scene, Bone bone, HapticDevice& devi
           tick_s) {}
 
 void MillingSession::run(const std::atomic<bool>& stop,
-                         const std::function<void(const ToolSnapshot&)>& on_progress) {
+                         const std::function<void(const ToolState&)>& on_progress) {
     // Before the device: it takes a while, in which a device would have nobody who watches it.
     if (options_.clock == ClockKind::real) is_memory_locked_ = lock_memory();
     device_.start();
@@ -130,7 +133,7 @@ void MillingSession::run(const std::atomic<bool>& stop,
 }
 
 void MillingSession::run_in_threads(const std::atomic<bool>& stop,
-                                    const std::function<void(const ToolSnapshot&)>& on_progress) {
+                                    const std::function<void(const ToolState&)>& on_progress) {
     std::atomic<bool> is_over{false};
     // With memory locked a thread's whole stack is brought in before it starts, which takes milliseconds: the
     // session begins when both threads are there, or its first ticks would be late.
@@ -183,7 +186,7 @@ void MillingSession::run_in_threads(const std::atomic<bool>& stop,
 }
 
 void MillingSession::run_in_lock_step(const std::atomic<bool>& stop,
-                                      const std::function<void(const ToolSnapshot&)>& on_progress) {
+                                      const std::function<void(const ToolState&)>& on_progress) {
     RealClock stopwatch;  // measures how long the work takes; nothing depends on it
     const double period_s = 1.0 / options_.milling_rate_hz;
     for (std::uint64_t tick = 0; !stop.load(std::memory_order_relaxed); ++tick) {
@@ -209,7 +212,7 @@ void MillingSession::run_in_lock_step(const std::atomic<bool>& stop,
     }
 }
 
-void MillingSession::do_chores(const std::function<void(const ToolSnapshot&)>& on_progress) {
+void MillingSession::do_chores(const std::function<void(const ToolState&)>& on_progress) {
     const auto drain = [this](auto* log) {
         if (log == nullptr) return;
         options_.clock == ClockKind::real ? log->drain() : log->drain_all();
@@ -222,7 +225,7 @@ void MillingSession::do_chores(const std::function<void(const ToolSnapshot&)>& o
 }
 
 void MillingSession::wait_for_room_in_queue(const std::atomic<bool>& stop,
-                                            const std::function<void(const ToolSnapshot&)>& on_progress) {
+                                            const std::function<void(const ToolState&)>& on_progress) {
     do_chores(on_progress);
     wait_for_consumer(&stop, [this] {
         edits_.resend_overflowed(model_->bone());

@@ -82,13 +82,13 @@ class MillingSession {
 
     /// For the streaming server: the tool's newest state (the start pose before the first tick), and the
     /// edits in order (each one reader).
-    TripleBuffer<ToolSnapshot>& tool() { return tool_; }
+    TripleBuffer<ToolState>& tool() { return tool_; }
     EditQueue& edits() { return edits_; }
 
     /// Starts the device, runs until the duration has passed or `stop` is set, stops the device. Calls
     /// `on_progress`, if given, on the caller's thread: about every 20 ms, on the virtual clock every 33 ms
     /// of the session, where it may consume the edits. Throws what device.start() throws. Runs once.
-    void run(const std::atomic<bool>& stop, const std::function<void(const ToolSnapshot&)>& on_progress = {});
+    void run(const std::atomic<bool>& stop, const std::function<void(const ToolState&)>& on_progress = {});
 
     /// After run().
     MillingSessionReport report() const;
@@ -96,12 +96,12 @@ class MillingSession {
 
   private:
     void run_in_threads(const std::atomic<bool>& stop,
-                        const std::function<void(const ToolSnapshot&)>& on_progress);
+                        const std::function<void(const ToolState&)>& on_progress);
     void run_in_lock_step(const std::atomic<bool>& stop,
-                          const std::function<void(const ToolSnapshot&)>& on_progress);
-    void do_chores(const std::function<void(const ToolSnapshot&)>& on_progress);
+                          const std::function<void(const ToolState&)>& on_progress);
+    void do_chores(const std::function<void(const ToolState&)>& on_progress);
     void wait_for_room_in_queue(const std::atomic<bool>& stop,
-                                const std::function<void(const ToolSnapshot&)>& on_progress);
+                                const std::function<void(const ToolState&)>& on_progress);
     void send_what_overflowed();
 
     MillingSessionOptions options_;
@@ -113,8 +113,8 @@ class MillingSession {
     EditQueue edits_;
     TripleBuffer<MillingResult> results_;
     TripleBuffer<BurrCommand> commands_;
-    TripleBuffer<ToolSnapshot> tool_;
-    TripleBuffer<ToolSnapshot> status_;
+    TripleBuffer<ToolState> tool_;
+    TripleBuffer<ToolState> status_;
     HapticLoop haptic_loop_;
     MillingLoop milling_loop_;
     PeriodicStatistics haptic_statistics_;

@@ -244,7 +244,7 @@ void run_server(const ServerOptions& options, const std::string& version, const 
     }
     StatusLine status(*output.err, output.err->is_terminal());
     std::atomic<bool> is_over{false};
-    session->run(is_over, [&](const ToolSnapshot& tool) {
+    session->run(is_over, [&](const ToolState& tool) {
         status.show(tool, StatusLine::Clock::now());
         status.show_notice(tool, device.device->notice());
         if (streaming && options.session.clock == ClockKind::virtual_time) streaming.server->show_frame();

@@ -6,7 +6,7 @@
 
 namespace osteomill {
 
-void StatusLine::show(const ToolSnapshot& tool, Clock::time_point now) {
+void StatusLine::show(const ToolState& tool, Clock::time_point now) {
     show_fault(tool);
     if (now < next_ || !out_.has_caught_up()) return;
     next_ = now + (is_terminal_ ? std::chrono::seconds(1) : std::chrono::seconds(5));
@@ -19,15 +19,15 @@ void StatusLine::show(const ToolSnapshot& tool, Clock::time_point now) {
     is_line_open_ = is_terminal_;
 }
 
-void StatusLine::show_fault(const ToolSnapshot& tool) {
+void StatusLine::show_fault(const ToolState& tool) {
     if (tool.fault == fault_) return;
     finish();
     fault_ = tool.fault;
     out_.write(fmt::format("{:7.1f} s   {}\n", tool.time_s,
-                           fault_ == Fault::none ? "the force comes back" : describe(fault_)));
+                           fault_.empty() ? "the force comes back" : fault_.text()));
 }
 
-void StatusLine::show_notice(const ToolSnapshot& tool, std::string_view notice) {
+void StatusLine::show_notice(const ToolState& tool, std::string_view notice) {
     if (notice == notice_) return;
     finish();
     notice_ = notice;

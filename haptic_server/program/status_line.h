@@ -8,7 +8,7 @@
 #include <string_view>
 
 #include "common/log/line_stream.h"
-#include "haptic_server/loop/exchange.h"
+#include "common/scene/tool_state.h"
 
 namespace osteomill {
 
@@ -20,19 +20,19 @@ class StatusLine {
     StatusLine(LineStream& out, bool is_terminal) : out_(out), is_terminal_(is_terminal) {}
 
     /// To be called often; `now` is the time of people, not of the session.
-    void show(const ToolSnapshot& tool, Clock::time_point now);
+    void show(const ToolState& tool, Clock::time_point now);
     /// What the device says of itself, on a line of its own whenever that changes; empty: nothing.
-    void show_notice(const ToolSnapshot& tool, std::string_view notice);
+    void show_notice(const ToolState& tool, std::string_view notice);
     /// Ends the status line.
     void finish();
 
   private:
-    void show_fault(const ToolSnapshot& tool);
+    void show_fault(const ToolState& tool);
 
     LineStream& out_;
     bool is_terminal_;
     bool is_line_open_ = false;
-    Fault fault_ = Fault::none;
+    BoundedLine fault_;
     std::string notice_;
     Clock::time_point next_{};
 };

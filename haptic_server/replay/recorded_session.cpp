@@ -6,7 +6,7 @@
 
 namespace osteomill {
 
-ToolView RecordedSession::update(BoneReplica& mirror, std::size_t viewers) {
+ToolState RecordedSession::update(BoneReplica& mirror, std::size_t viewers) {
     if (!began_ && viewers > 0) began_ = now_();
     if (began_ && !is_over_) {
         const std::chrono::duration<double> elapsed = now_() - *began_;
@@ -20,14 +20,14 @@ ToolView RecordedSession::update(BoneReplica& mirror, std::size_t viewers) {
     return tool();
 }
 
-ToolView RecordedSession::tool() const {
+ToolState RecordedSession::tool() const {
     if (playhead_.tool()) return *playhead_.tool();
     // Before the first state: where that will have it.
     const v1::StateFrame* first = playhead_.next_frame();
     if (first == nullptr) return {};
     const auto read = tool_from(first->tool(), playhead_.session().burrs.size());
-    const auto* tool = std::get_if<ToolView>(&read);
-    return tool != nullptr ? *tool : ToolView{};
+    const auto* tool = std::get_if<ToolState>(&read);
+    return tool != nullptr ? *tool : ToolState{};
 }
 
 void RecordedSession::show(BoneReplica& mirror, double until_s) {

@@ -23,7 +23,7 @@ class RecordedSession final : public StreamSource {
     RecordedSession(Playhead& playhead, double speed, std::function<Clock::time_point()> now)
         : playhead_(playhead), speed_(speed), now_(std::move(now)), begins_s_(playhead.time_s()) {}
 
-    ToolView update(BoneReplica& mirror, std::size_t viewers) override;
+    ToolState update(BoneReplica& mirror, std::size_t viewers) override;
 
     /// Any thread. Whether all was shown.
     bool is_over() const { return is_over_.load(); }
@@ -32,7 +32,7 @@ class RecordedSession final : public StreamSource {
 
   private:
     void show(BoneReplica& mirror, double until_s);
-    ToolView tool() const;
+    ToolState tool() const;
 
     Playhead& playhead_;
     const double speed_;

@@ -31,7 +31,7 @@ RecordingCsv::RecordingCsv(const std::filesystem::path& file) : file_(file), out
 }
 
 void RecordingCsv::add(const Playhead& playhead) {
-    const ToolView& tool = *playhead.tool();
+    const ToolState& tool = *playhead.tool();
     out_ << fmt::format("{:.4f},{:.4f},{},{},{},{},{},{},{:.5f}\n", playhead.time_s(), tool.time_s,
                         xyz(tool.burr_position_mm, 4), xyz(tool.spindle_axis, 6),
                         xyz(tool.hand_position_mm, 4), xyz(tool.force_n, 5),

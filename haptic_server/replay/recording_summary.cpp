@@ -35,7 +35,7 @@ void read_through(RecordingSummary& summary, Playhead& playhead, RemovalCount& r
         switch (playhead.step(std::numeric_limits<double>::infinity())) {
             case Playhead::Step::state: {
                 removal.after(playhead.bone());
-                const ToolView& tool = *playhead.tool();
+                const ToolState& tool = *playhead.tool();
                 if (tool.spindle_on)
                     summary.milled_s[summary.session.burrs[tool.burr].name] += playhead.time_s() - before_s;
                 on_state(playhead);

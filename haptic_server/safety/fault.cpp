@@ -2,7 +2,7 @@
 
 namespace osteomill {
 
-const char* describe(Fault fault) {
+const char* describe(Fault fault) noexcept {
     switch (fault) {
         case Fault::none:
             return "";

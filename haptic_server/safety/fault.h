@@ -20,6 +20,6 @@ inline constexpr std::array all_faults{Fault::device_lost, Fault::model_stalled,
                                        Fault::overrun,     Fault::device_jumped, Fault::in_bone};
 
 /// One line for people; empty for Fault::none.
-const char* describe(Fault fault);
+const char* describe(Fault fault) noexcept;
 
 }  // namespace osteomill

@@ -25,7 +25,7 @@ void ClientFeed::note(std::span<const BrickChange> changes) {
         if (static_cast<std::size_t>(mirror_.bone().slot(change.brick)) < next_slot_) pending_.add(change);
 }
 
-void ClientFeed::request_state(const ToolView& tool, bool with_checksum) {
+void ClientFeed::request_state(const ToolState& tool, bool with_checksum) {
     tool_ = tool;
     const bool is_news =
         with_checksum || !pending_.empty() || !sent_tool_ || !is_within_deadband(*sent_tool_, tool);

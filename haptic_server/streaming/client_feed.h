@@ -12,11 +12,11 @@
 #include <string>
 
 #include "common/bone/brick_change.h"
+#include "common/scene/tool_state.h"
 #include "common/wire/bone_comparison.h"
 #include "common/wire/bone_replica.h"
 #include "common/wire/packed_changes.h"
 #include "common/wire/snapshot.h"
-#include "common/wire/tool_view.h"
 #include "haptic_server/streaming/frame_pace.h"
 #include "haptic_server/streaming/pending_changes.h"
 #include "osteomill/v1/session.pb.h"
@@ -38,7 +38,7 @@ class ClientFeed {
     /// every deadband_period_s. One that has not been sent yet is replaced: what it
     /// would have told of the bone, the next one tells. A checksum once asked for is stated by the next frame
     /// after which the client knows all.
-    void request_state(const ToolView& tool, bool with_checksum);
+    void request_state(const ToolState& tool, bool with_checksum);
 
     /// The client doubts its bone. The next state frame answers, and what differs is told like a change. An
     /// error says why the client is not served: it has no bone yet, or asks before it has been answered, more
@@ -91,8 +91,8 @@ class ClientFeed {
 
     ChangePacker* change_packer_ = nullptr;  // none: edits are told as runs
 
-    ToolView tool_;
-    std::optional<ToolView> sent_tool_;
+    ToolState tool_;
+    std::optional<ToolState> sent_tool_;
     bool wants_state_ = false;
     bool wants_checksum_ = false;
     std::optional<std::string> goodbye_;

@@ -76,11 +76,11 @@ void ConnectedClients::note(std::span<const BrickChange> changes) {
     for (const auto& [id, connection] : connections_) connection->feed().note(changes);
 }
 
-void ConnectedClients::show(const ToolView& tool, bool with_checksum) {
+void ConnectedClients::show(const ToolState& tool, bool with_checksum) {
     // A recording's packets have stamps of their own.
     const std::int64_t now_unix_ns = unix_time_ns();
     for (const auto& [id, connection] : std::map(connections_)) {  // one may close and leave the map
-        ToolView stamped = view_for(id, tool);
+        ToolState stamped = state_for(id, tool);
         stamped.taken_unix_ns = now_unix_ns;
         connection->show(stamped, with_checksum);
     }
@@ -91,11 +91,11 @@ void ConnectedClients::end_lease() {
     log_holder();
 }
 
-void ConnectedClients::say_goodbye(const ToolView& tool, const std::string& reason,
+void ConnectedClients::say_goodbye(const ToolState& tool, const std::string& reason,
                                    std::function<void()> when_gone) {
     when_gone_ = std::move(when_gone);
     for (const auto& [id, connection] : std::map(connections_)) {
-        connection->feed().request_state(view_for(id, tool), true);
+        connection->feed().request_state(state_for(id, tool), true);
         connection->feed().finish(reason);
         connection->serve();
     }
@@ -115,10 +115,10 @@ v1::Hello ConnectedClients::hello_for(bool may_operate) const {
     return hello;
 }
 
-ToolView ConnectedClients::view_for(Id id, const ToolView& tool) const {
-    ToolView view = tool;
-    if (lease_) view.driver = watchers_.contains(id) ? ToolDriver::others_only : lease_->driver_for(id);
-    return view;
+ToolState ConnectedClients::state_for(Id id, const ToolState& tool) const {
+    ToolState state = tool;
+    if (lease_) state.driver = watchers_.contains(id) ? ToolDriver::others_only : lease_->driver_for(id);
+    return state;
 }
 
 std::optional<WireError> ConnectedClients::take(Id id, const v1::ClientFrame& frame) {

@@ -15,10 +15,10 @@
 #include <string>
 
 #include "common/bone/brick_change.h"
+#include "common/scene/tool_state.h"
 #include "common/wire/bone_replica.h"
 #include "common/wire/packed_changes.h"
 #include "common/wire/snapshot.h"
-#include "common/wire/tool_view.h"
 #include "common/wire/wire_error.h"
 #include "haptic_server/streaming/changes_of_hands.h"
 #include "haptic_server/streaming/client_connection.h"
@@ -47,12 +47,12 @@ class ConnectedClients {
     /// To be told of every change of the mirror.
     void note(std::span<const BrickChange> changes);
     /// Sends everybody where the tool is.
-    void show(const ToolView& tool, bool with_checksum);
+    void show(const ToolState& tool, bool with_checksum);
 
     /// Nobody moves the tool any more.
     void end_lease();
     /// Sends everybody the last state and a goodbye. Calls `when_gone` as soon as nobody is left.
-    void say_goodbye(const ToolView& tool, const std::string& reason, std::function<void()> when_gone);
+    void say_goodbye(const ToolState& tool, const std::string& reason, std::function<void()> when_gone);
     void cut_off(const std::string& line);
 
     /// About those who have yet to say who they are; a few lines at a time.
@@ -66,7 +66,7 @@ class ConnectedClients {
     /// Those who have said who they are, by certificate or greeting.
     std::size_t clients() const { return connections_.size() - unidentified_.size(); }
     v1::Hello hello_for(bool may_operate) const;
-    ToolView view_for(Id id, const ToolView& tool) const;
+    ToolState state_for(Id id, const ToolState& tool) const;
     std::optional<WireError> take(Id id, const v1::ClientFrame& frame);
     void dismiss(Id id, const std::string& peer, const std::string& line, bool is_fault);
     void welcome(const ClientConnection& connection);

@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <optional>
 
-#include "common/wire/tool_view.h"
+#include "common/scene/tool_state.h"
 #include "haptic_server/exchange/operator_input.h"
 #include "haptic_server/exchange/triple_buffer.h"
 #include "haptic_server/streaming/operator_activity.h"

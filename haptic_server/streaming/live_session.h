@@ -1,10 +1,11 @@
 // The session of the haptic and milling loops, for a streaming server to show.
 #pragma once
 
+#include "common/scene/scene.h"
+#include "common/scene/tool_state.h"
 #include "common/wire/session_info.h"
 #include "haptic_server/exchange/triple_buffer.h"
 #include "haptic_server/loop/edit_queue.h"
-#include "haptic_server/loop/exchange.h"
 #include "haptic_server/streaming/stream_source.h"
 
 namespace osteomill {
@@ -16,11 +17,11 @@ SessionInfo session_info(const Scene& scene, bool accepts_operator, double force
 /// The one reader of `tool` and the one consumer of `edits`; both outlive it. Never waits for the loops.
 class LiveSession final : public StreamSource {
   public:
-    LiveSession(TripleBuffer<ToolSnapshot>& tool, EditQueue& edits) : tool_(tool), edits_(edits) {}
-    ToolView update(BoneReplica& mirror, std::size_t viewers) override;
+    LiveSession(TripleBuffer<ToolState>& tool, EditQueue& edits) : tool_(tool), edits_(edits) {}
+    ToolState update(BoneReplica& mirror, std::size_t viewers) override;
 
   private:
-    TripleBuffer<ToolSnapshot>& tool_;
+    TripleBuffer<ToolState>& tool_;
     EditQueue& edits_;
 };
 

@@ -4,7 +4,7 @@
 #include <chrono>
 #include <optional>
 
-#include "common/wire/tool_view.h"
+#include "common/scene/tool_state.h"
 
 namespace osteomill {
 

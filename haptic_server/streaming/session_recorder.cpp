@@ -45,13 +45,13 @@ SessionRecorder::SessionRecorder(const std::filesystem::path& file, Stamp began,
     if (writer_.torn()) spdlog::warn("{}", torn_line(file, *writer_.torn()));
 }
 
-void SessionRecorder::record(const ToolView& tool, bool with_checksum, bool may_wait) {
+void SessionRecorder::record(const ToolState& tool, bool with_checksum, bool may_wait) {
     time_s_ = tool.time_s;
     feed_.request_state(tool, with_checksum);
     hand_over(may_wait ? Wait::for_the_disk : Wait::never);
 }
 
-void SessionRecorder::finish(const ToolView& tool, const std::string& reason) {
+void SessionRecorder::finish(const ToolState& tool, const std::string& reason) {
     time_s_ = tool.time_s;
     feed_.request_state(tool, true);
     feed_.finish(reason);

@@ -25,10 +25,10 @@ class SessionRecorder {
     /// As for a client: see ClientFeed.
     void note(std::span<const BrickChange> changes) { feed_.note(changes); }
     /// Hands over a state frame; without waiting, unless `may_wait`.
-    void record(const ToolView& tool, bool with_checksum, bool may_wait);
+    void record(const ToolState& tool, bool with_checksum, bool may_wait);
     /// Hands over the end, waits until all is written and makes it the file that was asked for. Gives up on a
     /// disk that does not answer (see RecordingWriter).
-    void finish(const ToolView& tool, const std::string& reason);
+    void finish(const ToolState& tool, const std::string& reason);
 
     /// Its error also says where the end is missing. Then what there is stays in the part.
     RecordingReport report() const;

@@ -3,8 +3,8 @@
 
 #include <cstddef>
 
+#include "common/scene/tool_state.h"
 #include "common/wire/bone_replica.h"
-#include "common/wire/tool_view.h"
 
 namespace osteomill {
 
@@ -14,7 +14,7 @@ class StreamSource {
 
     /// Once a frame, on the streaming server's thread: writes into the mirror what has changed since the last
     /// call, and says where the tool is now. `viewers`: clients that look on.
-    virtual ToolView update(BoneReplica& mirror, std::size_t viewers) = 0;
+    virtual ToolState update(BoneReplica& mirror, std::size_t viewers) = 0;
 };
 
 }  // namespace osteomill

@@ -103,7 +103,7 @@ class StreamingServer::Impl {
     void finish_recording() {
         end();
         if (recorder_ && !std::exchange(has_finished_recording_, true))
-            recorder_->finish(last_view_, end_of_session);
+            recorder_->finish(tool_, end_of_session);
     }
 
     void stop() {
@@ -161,13 +161,13 @@ class StreamingServer::Impl {
         clients_.look_after(Clock::now());
         update();
         const bool with_checksum = frames_++ % frames_per_checksum_ == 0;
-        if (recorder_) recorder_->record(last_view_, with_checksum, options_.paced_by_session);
-        clients_.show(last_view_, with_checksum);
+        if (recorder_) recorder_->record(tool_, with_checksum, options_.paced_by_session);
+        clients_.show(tool_, with_checksum);
         if (options_.listens && !is_accepting_) accept();
     }
 
     void update() {
-        last_view_ = source_.update(mirror_, clients_.count());
+        tool_ = source_.update(mirror_, clients_.count());
         const std::vector<BrickChange> changes = mirror_.take_changes();
         if (recorder_) recorder_->note(changes);
         clients_.note(changes);
@@ -195,7 +195,7 @@ class StreamingServer::Impl {
         work_.reset();
         clients_.end_lease();
         update();
-        clients_.say_goodbye(last_view_, end_of_session, [this] { deadline_.cancel(); });
+        clients_.say_goodbye(tool_, end_of_session, [this] { deadline_.cancel(); });
         if (clients_.count() == 0) return;
         deadline_.expires_after(longest_goodbye);
         deadline_.async_wait([this](error_code error) {
@@ -208,7 +208,7 @@ class StreamingServer::Impl {
     BoneReplica mirror_;
     SnapshotPacker packer_;
     StreamSource& source_;
-    ToolView last_view_;
+    ToolState tool_;
     std::optional<SessionRecorder> recorder_;
     Clock::duration period_{};
 

@@ -9,7 +9,7 @@ constexpr double rounding_s = 1e-6;
 
 }  // namespace
 
-bool is_within_deadband(const ToolView& sent, const ToolView& now) {
+bool is_within_deadband(const ToolState& sent, const ToolState& now) {
     const double elapsed_s = now.time_s - sent.time_s;
     return elapsed_s >= 0.0 && elapsed_s < deadband_period_s - rounding_s && looks_the_same(sent, now);
 }

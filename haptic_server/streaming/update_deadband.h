@@ -10,6 +10,6 @@ namespace osteomill {
 inline constexpr double deadband_period_s = 0.1;
 
 /// Whether `now` need not be sent after `sent`: it looks the same and comes less than a period later.
-bool is_within_deadband(const ToolView& sent, const ToolView& now);
+bool is_within_deadband(const ToolState& sent, const ToolState& now);
 
 }  // namespace osteomill

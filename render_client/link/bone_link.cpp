@@ -34,7 +34,7 @@ class BoneLink::Impl {
     const SessionInfo* session() const { return replica_.session(); }
 
     void send(const OperatorIntent& intent) { connection_.send(intent); }
-    std::optional<ToolView> newest_tool() const { return connection_.newest_tool(); }
+    std::optional<ToolState> newest_tool() const { return connection_.newest_tool(); }
 
     std::string finish_recording() {
         connection_.finish_recording();
@@ -129,7 +129,7 @@ const SessionInfo* BoneLink::session() const {
 void BoneLink::send_operator(const OperatorIntent& intent) {
     impl_->send(intent);
 }
-std::optional<ToolView> BoneLink::newest_tool() const {
+std::optional<ToolState> BoneLink::newest_tool() const {
     return impl_->newest_tool();
 }
 std::string BoneLink::finish_recording() {

@@ -17,8 +17,8 @@
 #include "common/bone/bone.h"
 #include "common/bone/brick_change.h"
 #include "common/net/tls_files.h"
+#include "common/scene/tool_state.h"
 #include "common/wire/session_info.h"
-#include "common/wire/tool_view.h"
 #include "render_client/link/delay_meter.h"
 
 namespace osteomill {
@@ -40,7 +40,7 @@ struct LinkUpdate {
     std::string status_line{};         ///< for people
     bool bone_replaced = false;        ///< bone() is another bone: upload all of it
     std::vector<BrickChange> changes;  ///< of bone(), ascending; empty if bone_replaced
-    std::optional<ToolView> tool;      ///< the newest since the last poll, if any came
+    std::optional<ToolState> tool;     ///< the newest since the last poll, if any came
     /// How old the newest tool of this session was when a poll took it; nothing where the server does not
     /// say.
     std::optional<DelayMeter::Delay> delay{};
@@ -96,7 +96,7 @@ class BoneLink {
 
     /// Any thread. The newest that has come of the tool, be it applied by poll() or not; nothing while not
     /// connected.
-    std::optional<ToolView> newest_tool() const;
+    std::optional<ToolState> newest_tool() const;
 
     /// UI thread. Ends the recording and waits until it is written; one line where some of it is not, else
     /// nothing.

@@ -70,7 +70,7 @@ void ServerConnection::send(const OperatorIntent& intent) {
     });
 }
 
-std::optional<ToolView> ServerConnection::newest_tool() const {
+std::optional<ToolState> ServerConnection::newest_tool() const {
     const std::scoped_lock lock(seen_mutex_);
     return seen_tool_;
 }
@@ -263,11 +263,11 @@ void ServerConnection::take_event(StateArrived arrived) {
 
 void ServerConnection::see(const StateArrived& arrived) {
     auto tool = tool_from(arrived.frame.tool(), burr_count_);
-    if (!std::holds_alternative<ToolView>(tool)) return;  // whoever applies the frame says what is wrong
+    if (!std::holds_alternative<ToolState>(tool)) return;  // whoever applies the frame says what is wrong
     const std::scoped_lock lock(seen_mutex_);
     seen_generation_ = generation_;
     seen_state_ = receiver_.last_sequence();
-    seen_tool_ = std::get<ToolView>(std::move(tool));
+    seen_tool_ = std::get<ToolState>(std::move(tool));
 }
 
 void ServerConnection::forget_seen() {

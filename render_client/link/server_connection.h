@@ -54,7 +54,7 @@ class ServerConnection {
     /// take it.
     void send(const OperatorIntent& intent);
     /// Of the newest state frame that came on this connection; nothing before the first.
-    std::optional<ToolView> newest_tool() const;
+    std::optional<ToolState> newest_tool() const;
     /// Dropped if that session is over.
     void send(const v1::CompareBone& request, std::uint64_t session_number);
     /// There is room in the queue again.
@@ -131,7 +131,7 @@ class ServerConnection {
     mutable std::mutex seen_mutex_;
     std::uint64_t seen_generation_ = 0;
     std::uint64_t seen_state_ = 0;  // 0: none
-    std::optional<ToolView> seen_tool_;
+    std::optional<ToolState> seen_tool_;
 
     bool owes_hello_ = false;
     std::optional<v1::OperatorInput> newest_input_;

@@ -27,7 +27,7 @@ class VerifiedReplica {
         std::uint64_t bricks_repaired = 0;  ///< that differed
     };
     struct Applied {
-        ToolView tool;
+        ToolState tool;
         std::optional<v1::CompareBone> ask{};  ///< to be sent to the server
     };
 

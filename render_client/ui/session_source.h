@@ -20,7 +20,7 @@ class SessionSource {
     virtual const SessionInfo* session() const = 0;                ///< null until a server has said hello
     virtual void send_operator(const OperatorIntent& intent) = 0;  ///< any thread
     /// Any thread: of the session that an operator may be at; nothing where there is none.
-    virtual std::optional<ToolView> newest_tool() const { return std::nullopt; }
+    virtual std::optional<ToolState> newest_tool() const { return std::nullopt; }
     /// What plays the session, where it is a recording; null where it is not.
     virtual RecordingPlayer* player() { return nullptr; }
     /// Once, after the last poll: what the run failed at although it went on, in one line; mostly nothing.
@@ -37,7 +37,7 @@ class LinkedSession final : public SessionSource {
     const Bone* bone() const override { return link_.bone(); }
     const SessionInfo* session() const override { return link_.session(); }
     void send_operator(const OperatorIntent& intent) override { link_.send_operator(intent); }
-    std::optional<ToolView> newest_tool() const override { return link_.newest_tool(); }
+    std::optional<ToolState> newest_tool() const override { return link_.newest_tool(); }
     std::string finish() override { return link_.finish_recording(); }
 
   private:

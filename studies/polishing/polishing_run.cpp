@@ -25,7 +25,7 @@ void close(Log& log) {
 template <typename Device>
 void run_to_the_end(MillingSession& session, const Device& device) {
     std::atomic<bool> is_over{false};
-    session.run(is_over, [&](const ToolSnapshot&) {
+    session.run(is_over, [&](const ToolState&) {
         if (device.is_finished()) is_over.store(true);
     });
 }

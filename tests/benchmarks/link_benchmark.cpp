@@ -117,8 +117,8 @@ Rate rate_of(const Scene& scene, const Bone& bone, HapticDevice& device, Edits e
     double removed_before_mm3 = 0.0;
     double removed_mm3 = 0.0;
     std::uint64_t frames = 0;
-    session->run(std::atomic<bool>{false}, [&](const ToolSnapshot&) {
-        ToolView tool = shown.update(mirror, 1);
+    session->run(std::atomic<bool>{false}, [&](const ToolState&) {
+        ToolState tool = shown.update(mirror, 1);
         tool.taken_unix_ns = 1'700'000'000'000'000'000;  // as a server would
         feed.note(mirror.take_changes());
         feed.request_state(tool, frames++ % 30 == 0);

@@ -29,7 +29,7 @@ class PhantomSession final : public SessionSource {
   private:
     Bone bone_;
     SessionInfo info_;
-    ToolView tool_;
+    ToolState tool_;
     bool mills_ = false;
     bool first_ = true;
     double way_mm_ = 0.0;

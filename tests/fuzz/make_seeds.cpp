@@ -147,7 +147,7 @@ std::string state_of(std::uint64_t sequence, v1::StateFrame state) {
 
 v1::StateFrame edited(BrickIndex brick, std::uint32_t first, const std::string& fractions) {
     v1::StateFrame state;
-    *state.mutable_tool() = to_message(ToolView{});
+    *state.mutable_tool() = to_message(ToolState{});
     v1::BrickEdit& edit = *state.add_edits();
     edit.set_brick(brick);
     edit.add_changed(first);

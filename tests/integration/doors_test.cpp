@@ -161,7 +161,7 @@ TEST_F(Doors, LetOperatorsAloneMoveTheToolAndTellTheOthersThatTheyWatch) {
     EXPECT_TRUE(is_told(*surgeon, ToolDriver::nobody)) << "rascal has not got it";
     EXPECT_TRUE(eventually([&] {
         surgeon->send_operator(
-            {.hand_target_mm = watcher->poll().tool.value_or(ToolView{}).hand_position_mm});
+            {.hand_target_mm = watcher->poll().tool.value_or(ToolState{}).hand_position_mm});
         const auto tool = surgeon->poll().tool;
         return tool && tool->driver == ToolDriver::you;
     }));
@@ -179,7 +179,7 @@ TEST_F(Doors, TakeTheToolFromOneWhoOnlyKeepsItWhenAnotherAsks) {
     const auto awake = link(lab_->client("awake"));
     ASSERT_TRUE(is_live(*asleep));
     ASSERT_TRUE(is_live(*awake));
-    const glm::dvec3 rest_mm = asleep->poll().tool.value_or(ToolView{}).hand_position_mm;
+    const glm::dvec3 rest_mm = asleep->poll().tool.value_or(ToolState{}).hand_position_mm;
     const auto keep = [&] { asleep->send_operator({.hand_target_mm = rest_mm}); };
     ASSERT_TRUE(eventually([&] {
         keep();

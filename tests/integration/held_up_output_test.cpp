@@ -125,7 +125,7 @@ class Operator {
 
   private:
     std::unique_ptr<BoneLink> link_;
-    ToolView tool_;
+    ToolState tool_;
 };
 
 TEST_P(HeldUpLog, DoesNotKeepTheBurrOfAnOperatorTurningWhoHasLeft) {
@@ -136,11 +136,11 @@ TEST_P(HeldUpLog, DoesNotKeepTheBurrOfAnOperatorTurningWhoHasLeft) {
         const auto address = server.line_after("listening on ", 60s);
         ASSERT_TRUE(address);
         Operator operating(*address);
-        ASSERT_TRUE(operating.drill_until([](const ToolView& tool) { return tool.removed_mm3 > 0.05; }));
+        ASSERT_TRUE(operating.drill_until([](const ToolState& tool) { return tool.removed_mm3 > 0.05; }));
         log.hold_up();
         const auto held_up = Clock::now();
         ASSERT_TRUE(operating.drill_until(
-            [&](const ToolView& tool) { return tool.spindle_on && Clock::now() > held_up + 1500ms; }));
+            [&](const ToolState& tool) { return tool.spindle_on && Clock::now() > held_up + 1500ms; }));
         const double left_s = operating.leave();
         std::this_thread::sleep_for(1s);
         server.send_signal(SIGTERM);

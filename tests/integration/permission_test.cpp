@@ -65,12 +65,12 @@ class HostileClient {
                 EXPECT_TRUE(frame.ParseFromArray(message->data(), static_cast<int>(message->size())));
                 if (!frame.has_state()) continue;
                 newest_state_ = frame.sequence();
-                tool_ = std::get<ToolView>(tool_from(frame.state().tool(), 100));
+                tool_ = std::get<ToolState>(tool_from(frame.state().tool(), 100));
             }
         }
         return newest_state_ > 0;
     }
-    const ToolView& tool() const { return tool_; }
+    const ToolState& tool() const { return tool_; }
 
     struct Lie {
         bool names_state = true;
@@ -98,7 +98,7 @@ class HostileClient {
     tcp::socket socket_{io_};
     FrameDecoder decoder_;
     std::uint64_t sequence_ = 0, number_ = 0, newest_state_ = 0;
-    ToolView tool_;
+    ToolState tool_;
 };
 
 class Permissions : public ::testing::Test {
@@ -252,7 +252,7 @@ TEST_F(Permissions, IsKeptOverALinkWithADelayOf100Ms) {
 TEST_F(Permissions, OfOneMessageReachesNoFartherThanAHand) {
     HostileClient client(port_);
     ASSERT_TRUE(eventually([&] { return client.reads_state(); }));
-    const ToolView before = client.tool();
+    const ToolState before = client.tool();
     client.want({.hand_target_mm = before.hand_position_mm + glm::dvec3(100.0, 0.0, 0.0), .pedal = true});
     std::this_thread::sleep_for(2s);
     const auto log = log_of_session();
@@ -328,7 +328,7 @@ class WindowPermissions : public Permissions {
     bool gets_spindle_by_key() {
         return eventually([&] {
             display_->xdotool({"keydown", "space"});
-            if (watch_for(500ms, [](const ToolView& tool) { return tool.spindle_on; })) return true;
+            if (watch_for(500ms, [](const ToolState& tool) { return tool.spindle_on; })) return true;
             display_->xdotool({"keyup", "space"});
             watch_for(100ms, never);
             return false;
@@ -347,7 +347,7 @@ class WindowPermissions : public Permissions {
         }
         return false;
     }
-    static bool never(const ToolView&) { return false; }
+    static bool never(const ToolState&) { return false; }
 
     BoneLink watching_{"127.0.0.1", port_};
     std::optional<VirtualDisplay> display_;
@@ -361,9 +361,9 @@ TEST_F(WindowPermissions, EndWhenTheClientIsFrozen) {
         watch_for(500ms, never);
         frozen_s.push_back(clock_.now_s());
         window_->send_signal(SIGSTOP);
-        EXPECT_TRUE(watch_for(5s, [](const ToolView& tool) { return !tool.spindle_on; }));
+        EXPECT_TRUE(watch_for(5s, [](const ToolState& tool) { return !tool.spindle_on; }));
         window_->send_signal(SIGCONT);
-        EXPECT_FALSE(watch_for(500ms, [](const ToolView& tool) { return tool.spindle_on; }))
+        EXPECT_FALSE(watch_for(500ms, [](const ToolState& tool) { return tool.spindle_on; }))
             << "the pedal is held";
         display_->xdotool({"keyup", "space"});
         ASSERT_TRUE(gets_spindle_by_key()) << "it comes back";
@@ -387,7 +387,7 @@ TEST_F(WindowPermissions, AreKeptWhileTheWindowDrawsSlowlyAndEndWithThePedal) {
     const double up_s = clock_.now_s();
     ASSERT_TRUE(display_->xdotool({"keyup", "space"}));
     const double is_up_s = clock_.now_s();
-    EXPECT_TRUE(watch_for(5s, [](const ToolView& tool) { return !tool.spindle_on; }));
+    EXPECT_TRUE(watch_for(5s, [](const ToolState& tool) { return !tool.spindle_on; }));
     const auto log = log_of_session();
     double off_s = 0.0;
     for (const ForceLogLine& sample : log)

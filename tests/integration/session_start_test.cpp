@@ -54,7 +54,7 @@ TEST_F(SessionStart, ShowsTheStartPoseBeforeTheFirstTick) {
         Playhead playhead(recording);
         while (!playhead.tool())
             ASSERT_NE(playhead.step(std::numeric_limits<double>::infinity()), Playhead::Step::end);
-        const ToolView& first = *playhead.tool();
+        const ToolState& first = *playhead.tool();
         EXPECT_LT(glm::distance(first.burr_position_mm, {40.0, 30.0, 20.0}), 0.5);
         EXPECT_LT(glm::distance(first.hand_position_mm, {40.0, 30.0, 20.0}), 0.5);
         EXPECT_EQ(first.burr, 1U);

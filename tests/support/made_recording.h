@@ -61,7 +61,7 @@ inline MadeRecording make_recording(const std::filesystem::path& file,
     session.protocol_major = options.protocol_major;
     const Stamp began{std::chrono::seconds(1'700'000'000) + std::chrono::nanoseconds(7)};
     std::optional<SessionRecorder> recorder(std::in_place, file, began, to_message(session), mirror, packer);
-    ToolView tool;
+    ToolState tool;
     for (int i = 0; i < options.states; ++i) {
         if (i > 0)
             for (int run = 0; run < 10; ++run) carve_somewhere(made.after, random, edits);

@@ -56,7 +56,7 @@ class ServedBone {
     void carve(int runs) {
         for (int i = 0; i < runs; ++i) carve_somewhere(bone_, random_, edits_);
         edits_.resend_overflowed(bone_);
-        ToolSnapshot tool;
+        ToolState tool;
         tool.time_s = time_s_ += 0.001;
         tool.force_n = {0.5, 0.0, 0.0};
         tool_.back() = tool;
@@ -90,7 +90,7 @@ class ServedBone {
     std::mt19937 random_;
     Bone bone_;
     EditQueue edits_;
-    TripleBuffer<ToolSnapshot> tool_;
+    TripleBuffer<ToolState> tool_;
     LiveSession shown_{tool_, edits_};
     TripleBuffer<OperatorInput> operator_;
     double time_s_ = 0.0;

@@ -9,7 +9,7 @@
 #include <optional>
 #include <vector>
 
-#include "common/wire/tool_view.h"
+#include "common/scene/tool_state.h"
 #include "tests/support/force_log_file.h"
 
 namespace osteomill::testing {
@@ -17,7 +17,7 @@ namespace osteomill::testing {
 /// The session's time by the wall clock of this machine, learnt from the server's state frames.
 class SessionClock {
   public:
-    void note(const ToolView& tool) {
+    void note(const ToolState& tool) {
         if (tool.taken_unix_ns == 0 || tool.time_s <= 0.0) return;
         // A tool is up to a tick old when it is taken, never younger.
         began_s_ = std::min(began_s_, 1e-9 * static_cast<double>(tool.taken_unix_ns) - tool.time_s);

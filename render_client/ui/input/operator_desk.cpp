@@ -20,7 +20,7 @@ constexpr double longest_step_s = 0.1;
 
 void OperatorDesk::step(const WindowInput& input, double elapsed_s) {
     // Without a session of this kind there is nobody who could be sent an operator's wishes.
-    const std::optional<ToolView> tool = source_.newest_tool();
+    const std::optional<ToolState> tool = source_.newest_tool();
     std::optional<OperatorIntent> wish;
     {
         const std::scoped_lock lock(mutex_);

@@ -5,7 +5,7 @@
 
 namespace osteomill {
 
-void OperatorHand::follow(const ToolView& tool, std::size_t burr_count) {
+void OperatorHand::follow(const ToolState& tool, std::size_t burr_count) {
     intent_.spindle_axis = tool.spindle_axis;
     if (!burr_chosen_) intent_.burr = tool.burr;
     if (burr_count > 0) intent_.burr = std::min(intent_.burr, burr_count - 1);

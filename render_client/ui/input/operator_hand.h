@@ -5,7 +5,7 @@
 #pragma once
 
 #include "common/scene/hand_limits.h"
-#include "common/wire/tool_view.h"
+#include "common/scene/tool_state.h"
 #include "render_client/volume/camera.h"
 
 namespace osteomill {
@@ -16,7 +16,7 @@ class OperatorHand {
     /// target is kept within longest_reach_mm of the burr, so that a mouse that comes back moves the tool at
     /// once (that the tool goes no farther the server sees to), and a burr index beyond `burr_count` is
     /// lowered to the last.
-    void follow(const ToolView& tool, std::size_t burr_count);
+    void follow(const ToolState& tool, std::size_t burr_count);
 
     /// Moves the target in the plane that faces the camera by what the pointer moved (pixels, y down).
     void move_in_picture(const glm::dvec2& moved_px, const Camera& camera, const glm::ivec2& size_px);

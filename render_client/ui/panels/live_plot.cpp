@@ -151,7 +151,7 @@ glm::vec2 live_plot_size(const PanelPainter& painter, PlotDetail detail) {
     return glm::ceil(size + 2.0f * painter.padding());
 }
 
-void draw_live_plot(const PanelPainter& painter, const ToolHistory& history, const ToolView& tool,
+void draw_live_plot(const PanelPainter& painter, const ToolHistory& history, const ToolState& tool,
                     PlotDetail detail, const PanelPlace& place) {
     painter.draw_background(place);
     PlotColumn column(painter, place);

@@ -11,7 +11,7 @@ namespace osteomill {
 enum class PlotDetail { all, forces, numbers };
 
 glm::vec2 live_plot_size(const PanelPainter& painter, PlotDetail detail);
-void draw_live_plot(const PanelPainter& painter, const ToolHistory& history, const ToolView& tool,
+void draw_live_plot(const PanelPainter& painter, const ToolHistory& history, const ToolState& tool,
                     PlotDetail detail, const PanelPlace& place);
 
 }  // namespace osteomill

@@ -18,7 +18,7 @@ namespace osteomill {
 struct OverlayContent {
     LinkUpdate link;
     const SessionInfo* session = nullptr;  ///< null until a server has said hello
-    std::optional<ToolView> tool;
+    std::optional<ToolState> tool;
     const ToolHistory* history = nullptr;
     Camera* camera = nullptr;
     ViewSettings* view = nullptr;

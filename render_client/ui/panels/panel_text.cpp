@@ -43,7 +43,7 @@ PanelText session_text(const OverlayContent& content) {
 }
 
 PanelText tool_text(const OverlayContent& content) {
-    const ToolView& tool = *content.tool;
+    const ToolState& tool = *content.tool;
     PanelText text;
     if (content.session && tool.burr < content.session->burrs.size()) {
         const Burr& burr = content.session->burrs[tool.burr];
@@ -64,7 +64,7 @@ PanelText warning_text(const OverlayContent& content) {
     if (!content.link.recording_error.empty())
         text.push_back(line(Tone::warning, content.link.recording_error));
     if (content.tool && !content.tool->fault.empty())
-        text.push_back(line(Tone::warning, "FAULT: " + content.tool->fault));
+        text.push_back(line(Tone::warning, fmt::format("FAULT: {}", content.tool->fault.text())));
     if (content.tool && content.tool->driver == ToolDriver::others_only)
         text.push_back(line(Tone::plain, "you watch: the server does not list this client as an operator"));
     if (content.tool && content.tool->touches_protected)

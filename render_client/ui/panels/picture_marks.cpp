@@ -39,7 +39,7 @@ void draw_scale_bar(const PanelPainter& painter, const ScaleBar& bar, const Pane
         painter.theme().on_picture, bar.label);
 }
 
-void draw_force_label(const PanelPainter& painter, const ToolView& tool, const Camera& camera,
+void draw_force_label(const PanelPainter& painter, const ToolState& tool, const Camera& camera,
                       const glm::ivec2& size_px) {
     const double force_n = glm::length(tool.force_n);
     if (!std::isfinite(force_n) || force_n < shortest_arrow_n) return;

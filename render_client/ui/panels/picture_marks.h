@@ -12,7 +12,7 @@ glm::vec2 scale_bar_size(const PanelPainter& painter, const ScaleBar& bar);
 void draw_scale_bar(const PanelPainter& painter, const ScaleBar& bar, const PanelPlace& place);
 
 /// Nothing where there is no arrow.
-void draw_force_label(const PanelPainter& painter, const ToolView& tool, const Camera& camera,
+void draw_force_label(const PanelPainter& painter, const ToolState& tool, const Camera& camera,
                       const glm::ivec2& size_px);
 
 }  // namespace osteomill

@@ -2,7 +2,7 @@
 
 namespace osteomill {
 
-void ToolHistory::add(const ToolView& tool) {
+void ToolHistory::add(const ToolState& tool) {
     if (!samples_.empty() && tool.time_s < samples_.back().time_s) samples_.clear();
     if (!samples_.empty() && tool.time_s == samples_.back().time_s) return;
     samples_.push_back({tool.time_s, tool.force_n, tool.depth_mm, tool.removed_mm3});

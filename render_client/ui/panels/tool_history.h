@@ -4,7 +4,7 @@
 #include <deque>
 #include <optional>
 
-#include "common/wire/tool_view.h"
+#include "common/scene/tool_state.h"
 
 namespace osteomill {
 
@@ -21,7 +21,7 @@ class ToolHistory {
         double removed_mm3 = 0.0;
     };
 
-    void add(const ToolView& tool);
+    void add(const ToolState& tool);
     const std::deque<Sample>& samples() const { return samples_; }
 
   private:

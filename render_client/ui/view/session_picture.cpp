@@ -82,7 +82,7 @@ void SessionPicture::take_in_bone(bool first_of_tool) {
 
 SessionPicture::News SessionPicture::news() const {
     const LinkUpdate& was = drawn_link_;
-    const bool has_moved = tool_ && !(drawn_tool_view_ && looks_the_same(*drawn_tool_view_, *tool_));
+    const bool has_moved = tool_ && !(drawn_state_ && looks_the_same(*drawn_state_, *tool_));
     const auto is_as_drawn = [](const OperatorIntent& drawn, const OperatorIntent& now) {
         return drawn.pedal == now.pedal &&
                glm::distance(drawn.hand_target_mm, now.hand_target_mm) <= quiet_motion_mm;
@@ -95,7 +95,7 @@ SessionPicture::News SessionPicture::news() const {
         link_.checksum_mismatches != was.checksum_mismatches ||
         link_.rejected_frames != was.rejected_frames || link_.bricks_repaired != was.bricks_repaired)
         return News::change;
-    const bool time_goes_on = tool_ && tool_->time_s != drawn_tool_view_->time_s;
+    const bool time_goes_on = tool_ && tool_->time_s != drawn_state_->time_s;
     const bool is_figure_new =
         time_goes_on || link_.frames_per_s != was.frames_per_s || link_.bytes_per_s != was.bytes_per_s;
     return is_figure_new ? News::figures : News::none;
@@ -173,7 +173,7 @@ const gl::Framebuffer& SessionPicture::draw(double elapsed_s) {
                  size_px_);
     picture_.cover(panels_.end());
     drawn_link_ = link_;
-    drawn_tool_view_ = tool_;
+    drawn_state_ = tool_;
     drawn_intent_ = operator_intent_;
     has_undrawn_bone_ = false;
     return picture;
@@ -195,18 +195,14 @@ void SessionPicture::turn_burr(double elapsed_s) {
 }
 
 DrawnTool SessionPicture::drawn_tool() const {
-    DrawnTool drawn;
+    DrawnTool drawn{.state = *tool_, .spin_rad = spin_rad_};
     const SessionInfo* session = source_.session();
     if (session && tool_->burr < session->burrs.size()) {
         const Burr& burr = session->burrs[tool_->burr];
         drawn.burr = {burr.diameter_mm, burr.edges, burr.sense == SpindleSense::clockwise};
     }
-    drawn.position_mm = tool_->burr_position_mm;
-    drawn.spindle_axis = tool_->spindle_axis;
-    drawn.spin_rad = spin_rad_;
-    drawn.force_n = tool_->force_n;
     if (operator_intent_ &&
-        glm::distance(operator_intent_->hand_target_mm, drawn.position_mm) > nearest_shown_target_mm)
+        glm::distance(operator_intent_->hand_target_mm, tool_->burr_position_mm) > nearest_shown_target_mm)
         drawn.hand_target_mm = operator_intent_->hand_target_mm;
     return drawn;
 }

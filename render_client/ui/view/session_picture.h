@@ -65,7 +65,7 @@ class SessionPicture {
     const LinkUpdate& link() const { return link_; }
     /// Null until a server has said hello.
     const SessionInfo* session() const { return source_.session(); }
-    const std::optional<ToolView>& tool() const { return tool_; }
+    const std::optional<ToolState>& tool() const { return tool_; }
 
     /// What was measured so far, with the bone's checksum of now. Frame times are the caller's to add.
     RenderReport report() const;
@@ -90,12 +90,12 @@ class SessionPicture {
     TextureLimits texture_limits_;
     std::string bone_problem_;
     LinkUpdate link_;
-    std::optional<ToolView> tool_;
+    std::optional<ToolState> tool_;
     double tool_age_s_ = 0.0;  ///< since it came, as far as frames were drawn since
 
     // What the last frame showed.
     LinkUpdate drawn_link_;
-    std::optional<ToolView> drawn_tool_view_;
+    std::optional<ToolState> drawn_state_;
     std::optional<OperatorIntent> drawn_intent_;
     bool has_undrawn_bone_ = true;
     ToolHistory history_;

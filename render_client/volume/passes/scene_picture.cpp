@@ -33,8 +33,8 @@ const gl::Framebuffer& ScenePicture::draw(const BoneTextures* bone, const DrawnT
         covered_.mark_all();
     }
     if (bone && tool) {
-        contact_shadow_.draw(layer_.framebuffer(), tool->position_mm, 0.5 * tool->burr.diameter_mm,
-                             tool->spindle_axis, camera, covered_);
+        contact_shadow_.draw(layer_.framebuffer(), tool->state.burr_position_mm, 0.5 * tool->burr.diameter_mm,
+                             tool->state.spindle_axis, camera, covered_);
         tool_renderer_.draw(*tool, camera, covered_);
     }
     return picture_;

@@ -39,15 +39,17 @@ void ToolRenderer::draw(const DrawnTool& tool, const Camera& camera, TileMask& c
     const glm::dmat4 view_projection = camera.projection(covered.size_px()) * camera.view();
     program_.use();
     program_.set("eye", glm::vec3(camera.eye_mm()));
-    const glm::dmat4 at_burr = glm::translate(glm::dmat4(1.0), tool.position_mm) * z_to(tool.spindle_axis);
+    const glm::dmat4 at_burr =
+        glm::translate(glm::dmat4(1.0), tool.state.burr_position_mm) * z_to(tool.state.spindle_axis);
     glEnable(GL_DEPTH_TEST);
     draw_mesh(burr_, glm::rotate(at_burr, tool.spin_rad, glm::dvec3(0, 0, 1)), view_projection,
               {.polish = 1.0f}, covered);
 
-    const double force_n = glm::length(tool.force_n);
+    const double force_n = glm::length(tool.state.force_n);
     if (std::isfinite(force_n) && force_n > shortest_arrow_n) {
         const double length_mm = arrow_mm_per_n * force_n;
-        const glm::dmat4 at_force = glm::translate(glm::dmat4(1.0), tool.position_mm) * z_to(tool.force_n);
+        const glm::dmat4 at_force =
+            glm::translate(glm::dmat4(1.0), tool.state.burr_position_mm) * z_to(tool.state.force_n);
         // The arrow starts within the burr and may end in bone: it is information, not a thing, so it is
         // always seen. Back faces must not show through it.
         glDisable(GL_DEPTH_TEST);

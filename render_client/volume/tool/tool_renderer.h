@@ -5,6 +5,7 @@
 #include <glm/vec3.hpp>
 #include <optional>
 
+#include "common/scene/tool_state.h"
 #include "render_client/volume/camera.h"
 #include "render_client/volume/gl/mesh.h"
 #include "render_client/volume/gl/program.h"
@@ -15,12 +16,10 @@ namespace osteomill {
 
 /// What stands beside the bone in one frame; patient LPS.
 struct DrawnTool {
-    BurrShape burr;
-    glm::dvec3 position_mm{0.0};
-    glm::dvec3 spindle_axis{0.0, 0.0, 1.0};  ///< unit, tip to shank
+    ToolState state;
+    BurrShape burr{};  ///< of that state
     double spin_rad = 0.0;
-    glm::dvec3 force_n{0.0};                   ///< on the hand
-    std::optional<glm::dvec3> hand_target_mm;  ///< drawn as a translucent burr where it is given
+    std::optional<glm::dvec3> hand_target_mm{};  ///< drawn as a translucent burr where it is given
 };
 
 /// Length of the force arrow.

@@ -59,11 +59,11 @@ RunRecord run_session(const MapCase& c, const ScenePlan& plan, const Bone& bone,
     std::atomic<bool> stop{false};
     device.on_tick([&](const std::vector<DeviceTick>& record) {
         session.tool().refresh();
-        const ToolSnapshot& last = session.tool().front();
-        if (last.fault != Fault::none) run.is_astray = true;
+        const ToolState& last = session.tool().front();
+        if (!last.fault.empty()) run.is_astray = true;
         if (record.empty() || run.burr_mm.size() == record.size()) return;
         // What the loop made of the tick before.
-        run.burr_mm.push_back(last.burr_pose.position_mm);
+        run.burr_mm.push_back(last.burr_position_mm);
         run.removed_mm3.push_back(last.removed_mm3);
         const glm::dvec3 off_mm = record.back().tool_mm - truth[record.size() - 1].tool_mm;
         if (!(glm::length(off_mm) < most_off_mm)) run.is_astray = true;

@@ -82,7 +82,7 @@ TEST(BoneLink, NamesTheBricksThatChangedAndTheNewestTool) {
     EXPECT_TRUE(was_replaced);
 
     Bone shown = *link.bone();
-    std::optional<ToolView> tool;
+    std::optional<ToolState> tool;
     served.start_carving();
     const auto follow = [&] {
         const LinkUpdate update = link.poll();

@@ -76,7 +76,7 @@ class HostileServer : public ::testing::Test {
     }
     v1::ServerFrame state(std::uint64_t bone_checksum) {
         v1::ServerFrame frame;
-        *frame.mutable_state()->mutable_tool() = to_message(ToolView{});
+        *frame.mutable_state()->mutable_tool() = to_message(ToolState{});
         frame.mutable_state()->set_bone_checksum(bone_checksum);
         return frame;
     }

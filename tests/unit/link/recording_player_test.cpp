@@ -34,7 +34,7 @@ class Viewer {
         for (int i = 0; i < 100; ++i) look();
     }
     std::uint64_t shown_checksum() const { return checksum(*shown_); }
-    const std::optional<ToolView>& tool() const { return tool_; }
+    const std::optional<ToolState>& tool() const { return tool_; }
     const LinkUpdate& last() const { return last_; }
 
   private:
@@ -42,7 +42,7 @@ class Viewer {
     RecordingPlayer::Time now_{};
     LinkUpdate last_;
     std::optional<Bone> shown_;
-    std::optional<ToolView> tool_;
+    std::optional<ToolState> tool_;
 };
 
 class RecordingPlayerTest : public ::testing::Test {

@@ -42,8 +42,8 @@ struct Rig {
     std::unique_ptr<ForceModel> model;
     std::unique_ptr<TripleBuffer<MillingResult>> results = std::make_unique<TripleBuffer<MillingResult>>();
     TripleBuffer<BurrCommand> commands;
-    TripleBuffer<ToolSnapshot> tool;
-    TripleBuffer<ToolSnapshot> status;
+    TripleBuffer<ToolState> tool;
+    TripleBuffer<ToolState> status;
     EditQueue edits{512, model->bone().shared_content()};  // small: it overflows, too
     std::unique_ptr<Coupling> coupling;
     HapticLoop haptic;

@@ -69,8 +69,8 @@ class PressedHand {
     std::unique_ptr<Coupling> coupling_;
     std::unique_ptr<TripleBuffer<MillingResult>> results_ = std::make_unique<TripleBuffer<MillingResult>>();
     TripleBuffer<BurrCommand> commands_;
-    TripleBuffer<ToolSnapshot> tool_;
-    TripleBuffer<ToolSnapshot> status_;
+    TripleBuffer<ToolState> tool_;
+    TripleBuffer<ToolState> status_;
     std::unique_ptr<HapticLoop> loop_;
     std::uint64_t number_ = 0;
     std::uint64_t step_ = 0;

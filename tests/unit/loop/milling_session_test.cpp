@@ -162,7 +162,7 @@ TEST(MillingSession, RunsInThreadsOnTheRealClockAndStopsWhenTold) {
         }
     });
     std::atomic<bool> stop{false};
-    session->run(stop, [&](const ToolSnapshot& tool) {
+    session->run(stop, [&](const ToolState& tool) {
         if (tool.removed_mm3 > 0.01) stop.store(true);
     });
     done.store(true);
@@ -224,10 +224,10 @@ TEST(MillingSession, ShowsTheStartPoseBeforeTheFirstTick) {
     scene.start_burr = 1;
     const auto session = std::make_unique<MillingSession>(scene, block(), device, virtual_options(0.5));
     EXPECT_FALSE(session->tool().refresh());
-    const ToolSnapshot& tool = session->tool().front();
-    EXPECT_EQ(tool.burr_pose.position_mm, scene.start_pose.position_mm);
-    EXPECT_EQ(tool.burr_pose.spindle_axis, scene.start_pose.spindle_axis);
-    EXPECT_EQ(tool.hand_pose.position_mm, scene.start_pose.position_mm);
+    const ToolState& tool = session->tool().front();
+    EXPECT_EQ(tool.burr_position_mm, scene.start_pose.position_mm);
+    EXPECT_EQ(tool.spindle_axis, scene.start_pose.spindle_axis);
+    EXPECT_EQ(tool.hand_position_mm, scene.start_pose.position_mm);
     EXPECT_EQ(tool.burr, 1U);
 }
 

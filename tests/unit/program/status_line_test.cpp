@@ -7,6 +7,7 @@
 #include <string>
 #include <thread>
 
+#include "haptic_server/safety/fault.h"
 #include "tests/support/unread_pipe.h"
 
 namespace osteomill {
@@ -35,10 +36,10 @@ class Paper {
     LineStream stream_{pipe_.writer()};
 };
 
-ToolSnapshot tool_at(double time_s, Fault fault = Fault::none) {
-    ToolSnapshot tool;
+ToolState tool_at(double time_s, Fault fault = Fault::none) {
+    ToolState tool;
     tool.time_s = time_s;
-    tool.fault = fault;
+    tool.fault = describe(fault);
     return tool;
 }
 
@@ -89,7 +90,7 @@ TEST(StatusLine, SaysNothingOldWhenATerminalThatStoodStillGoesOn) {
 TEST(StatusLine, ShowsForceAndRemovedBone) {
     Paper paper;
     StatusLine status(paper.stream(), false);
-    ToolSnapshot tool = tool_at(1.5);
+    ToolState tool = tool_at(1.5);
     tool.spindle_on = true;
     tool.force_n = {0.0, 0.6, 0.8};
     tool.removed_mm3 = 12.5;

@@ -167,7 +167,7 @@ TEST_F(PlayheadTest, RefusesEditsThatDoNotFitTheBoneHoweverWellSealed) {
     while (packets.next()) ++sequence;
     v1::ServerFrame frame;
     frame.set_sequence(sequence + 1);
-    *frame.mutable_state()->mutable_tool() = to_message(ToolView{});
+    *frame.mutable_state()->mutable_tool() = to_message(ToolState{});
     const auto complaint_about = [&](const v1::BrickEdit& edit) {
         frame.mutable_state()->clear_edits();
         *frame.mutable_state()->add_edits() = edit;

@@ -90,7 +90,7 @@ bool reaches(BoneLink& link, LinkStatus status) {
 std::string failure_of(const StreamingOptions& options, const std::string& burr_name = "round") {
     const Bone bone = BoneBuilder::homogeneous({.size_voxels = {16, 16, 16}}, 1.0, false).build();
     EditQueue edits(16, bone.shared_content());
-    TripleBuffer<ToolSnapshot> tool;
+    TripleBuffer<ToolState> tool;
     Scene scene;
     scene.burrs = {Burr{.name = burr_name}};
     try {
@@ -354,7 +354,7 @@ TEST(StreamingServer, ShowsFramesWhenItIsToldToWhereTheSessionKeepsTheTime) {
     const testing::TemporaryFolder folder;
     const Bone bone = BoneBuilder::homogeneous({.size_voxels = {16, 16, 16}}, 1.0, false).build();
     EditQueue edits(16, bone.shared_content());
-    TripleBuffer<ToolSnapshot> tool;
+    TripleBuffer<ToolState> tool;
     LiveSession shown(tool, edits);
     Scene scene;
     scene.burrs = {Burr{}};

@@ -8,14 +8,14 @@
 namespace osteomill {
 namespace {
 
-const ToolView told{.time_s = 5.0,
-                    .burr_position_mm = {1, 2, 3},
-                    .hand_position_mm = {1, 2, 4},
-                    .force_n = {0, 0, 1},
-                    .burr = 1};
+const ToolState told{.time_s = 5.0,
+                     .burr_position_mm = {1, 2, 3},
+                     .hand_position_mm = {1, 2, 4},
+                     .force_n = {0, 0, 1},
+                     .burr = 1};
 
 TEST(QuietTool, MayTrembleAndAge) {
-    ToolView now = told;
+    ToolState now = told;
     now.time_s += 0.09;
     now.taken_unix_ns += 90'000'000;
     now.burr_position_mm.x += 0.001;
@@ -28,20 +28,20 @@ TEST(QuietTool, MayTrembleAndAge) {
 }
 
 TEST(QuietTool, DoesNothingThatAViewerWouldSee) {
-    const std::vector<std::function<void(ToolView&)>> changes{
-        [](ToolView& tool) { tool.burr_position_mm.z += 0.01; },
-        [](ToolView& tool) { tool.hand_position_mm.x += 0.01; },
-        [](ToolView& tool) {
+    const std::vector<std::function<void(ToolState&)>> changes{
+        [](ToolState& tool) { tool.burr_position_mm.z += 0.01; },
+        [](ToolState& tool) { tool.hand_position_mm.x += 0.01; },
+        [](ToolState& tool) {
             tool.spindle_axis = {0.001, 0, 1};
         },
-        [](ToolView& tool) { tool.force_n.x = 0.01; },
-        [](ToolView& tool) { tool.burr = 0; },
-        [](ToolView& tool) { tool.spindle_on = true; },
-        [](ToolView& tool) { tool.removed_mm3 = 1e-9; },
-        [](ToolView& tool) { tool.touches_protected = true; },
-        [](ToolView& tool) { tool.fault = "the device is gone"; }};
+        [](ToolState& tool) { tool.force_n.x = 0.01; },
+        [](ToolState& tool) { tool.burr = 0; },
+        [](ToolState& tool) { tool.spindle_on = true; },
+        [](ToolState& tool) { tool.removed_mm3 = 1e-9; },
+        [](ToolState& tool) { tool.touches_protected = true; },
+        [](ToolState& tool) { tool.fault = "the device is gone"; }};
     for (const auto& change : changes) {
-        ToolView now = told;
+        ToolState now = told;
         change(now);
         EXPECT_FALSE(looks_the_same(told, now)) << "change " << &change - changes.data();
     }

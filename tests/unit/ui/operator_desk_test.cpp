@@ -17,9 +17,9 @@ class DeskSource final : public SessionSource {
     const Bone* bone() const override { return nullptr; }
     const SessionInfo* session() const override { return nullptr; }
     void send_operator(const OperatorIntent& intent) override { sent.push_back(intent); }
-    std::optional<ToolView> newest_tool() const override { return tool; }
+    std::optional<ToolState> newest_tool() const override { return tool; }
 
-    std::optional<ToolView> tool = ToolView{.driver = ToolDriver::nobody};
+    std::optional<ToolState> tool = ToolState{.driver = ToolDriver::nobody};
     std::vector<OperatorIntent> sent;
 };
 
@@ -107,7 +107,7 @@ TEST(OperatorDesk, FallsSilentWhereThereIsNoSessionToDrillIn) {
     desk.step();
     EXPECT_EQ(desk.source.sent.size(), 1u);
     EXPECT_FALSE(desk.desk.is_driving());
-    desk.source.tool = ToolView{};
+    desk.source.tool = ToolState{};
     desk.picture.drills = false;
     desk.desk.show(desk.picture);
     desk.step();

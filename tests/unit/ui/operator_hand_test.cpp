@@ -11,8 +11,8 @@ namespace {
 
 const glm::ivec2 size_px(800, 600);
 
-ToolView tool_at(const glm::dvec3& position_mm) {
-    ToolView tool;
+ToolState tool_at(const glm::dvec3& position_mm) {
+    ToolState tool;
     tool.burr_position_mm = position_mm;
     tool.hand_position_mm = position_mm;
     return tool;
@@ -54,7 +54,7 @@ TEST(OperatorHand, KeepsTheTargetWithinReachOfTheBurr) {
 
 TEST(OperatorHand, ChoosesOnlyBurrsThatThereAre) {
     OperatorHand hand;
-    ToolView tool = tool_at({});
+    ToolState tool = tool_at({});
     tool.burr = 2;
     hand.follow(tool, 6);
     EXPECT_EQ(hand.intent().burr, 2u);

@@ -31,7 +31,7 @@ class PanelTexts : public ::testing::Test {
         session_.burrs = {{.name = "3 mm", .diameter_mm = 3.0, .edges = 8}};
         content_.session = &session_;
         content_.view = &view_;
-        content_.tool = ToolView{.removed_mm3 = 1.234};
+        content_.tool = ToolState{.removed_mm3 = 1.234};
         content_.link.status = LinkStatus::live;
         content_.link.status_line = "connected to 127.0.0.1:7010";
     }

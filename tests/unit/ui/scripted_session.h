@@ -59,7 +59,7 @@ class ScriptedSession final : public SessionSource {
     double time_s_ = 0.0;
     Bone bone_;
     SessionInfo scene_;
-    ToolView tool_;
+    ToolState tool_;
 };
 
 }  // namespace osteomill

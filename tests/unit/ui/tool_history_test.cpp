@@ -5,8 +5,8 @@
 namespace osteomill::tool_history_test {
 namespace {
 
-ToolView at_time(double time_s) {
-    ToolView tool;
+ToolState at_time(double time_s) {
+    ToolState tool;
     tool.time_s = time_s;
     return tool;
 }
@@ -23,7 +23,7 @@ TEST(ToolHistory, KeepsTheLastSecondsAndNoFrameTwice) {
 
 TEST(ToolHistory, KeepsWhatThePlotsShow) {
     ToolHistory history;
-    history.add(ToolView{.time_s = 1.0, .force_n = {1, 2, 3}, .removed_mm3 = 4.0, .depth_mm = 0.5});
+    history.add(ToolState{.time_s = 1.0, .force_n = {1, 2, 3}, .removed_mm3 = 4.0, .depth_mm = 0.5});
     history.add(at_time(1.1));
     EXPECT_EQ(history.samples().front().force_n, glm::dvec3(1, 2, 3));
     EXPECT_EQ(history.samples().front().removed_mm3, 4.0);

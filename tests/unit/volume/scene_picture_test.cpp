@@ -24,7 +24,7 @@ Bone ball() {
 DrawnTool burr_at(const glm::dvec3& position_mm) {
     DrawnTool tool;
     tool.burr.diameter_mm = 1.0;
-    tool.position_mm = position_mm;
+    tool.state.burr_position_mm = position_mm;
     return tool;
 }
 
@@ -169,8 +169,8 @@ TEST_F(ScenePictureTest, RestoresWhatToolAndOverlayCovered) {
     const Camera camera = camera_on({0.0, 0.0, 0.0}, 6.0);
     for (const double x : {-3.0, -2.6, 3.0, 40.0}) {
         DrawnTool tool = burr_at({x, -1.0, 2.9});
-        tool.spindle_axis = glm::normalize(glm::dvec3(0.5, 0.1, 1.0));
-        tool.force_n = {0.3, -0.4, 0.2 * x};
+        tool.state.spindle_axis = glm::normalize(glm::dvec3(0.5, 0.1, 1.0));
+        tool.state.force_n = {0.3, -0.4, 0.2 * x};
         tool.hand_target_mm = glm::dvec3(x, 0.0, 3.4);
         ScenePicture fresh(renderer, size_px);
         EXPECT_EQ(kept.draw(&textures, &tool, camera).read_back(),

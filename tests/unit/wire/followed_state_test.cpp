@@ -18,7 +18,7 @@ class FollowedStateTest : public ::testing::Test {
         VoxelMask changed;
         changed.set(0);
         v1::StateFrame frame;
-        *frame.mutable_tool() = to_message(ToolView{.time_s = 1.5});
+        *frame.mutable_tool() = to_message(ToolState{.time_s = 1.5});
         *frame.add_edits() = brick_edit(brick, servers_.fractions(3), changed);
         frame.set_bone_checksum(checksum(servers_));
         return frame;

@@ -62,21 +62,21 @@ TEST(SceneMessages, BringBackTissues) {
 }
 
 TEST(SceneMessages, BringBackTheTool) {
-    const ToolView tool{.time_s = 12.5,
-                        .burr_position_mm = {1, 2, 3},
-                        .spindle_axis = {0, 1, 0},
-                        .hand_position_mm = {4, 5, 6},
-                        .force_n = {0.1, -0.2, 0.3},
-                        .burr = 1,
-                        .spindle_on = true,
-                        .removed_mm3 = 7.25,
-                        .touches_protected = true,
-                        .fault = "the device is lost",
-                        .driver = ToolDriver::another,
-                        .depth_mm = -0.5};
+    const ToolState tool{.time_s = 12.5,
+                         .burr_position_mm = {1, 2, 3},
+                         .spindle_axis = {0, 1, 0},
+                         .hand_position_mm = {4, 5, 6},
+                         .force_n = {0.1, -0.2, 0.3},
+                         .burr = 1,
+                         .spindle_on = true,
+                         .removed_mm3 = 7.25,
+                         .touches_protected = true,
+                         .fault = "the device is lost",
+                         .driver = ToolDriver::another,
+                         .depth_mm = -0.5};
     const auto result = tool_from(to_message(tool), 2);
     ASSERT_EQ(error_of(result), "");
-    const ToolView& back = std::get<0>(result);
+    const ToolState& back = std::get<0>(result);
     EXPECT_EQ(back.time_s, tool.time_s);
     EXPECT_EQ(back.burr_position_mm, tool.burr_position_mm);
     EXPECT_EQ(back.spindle_axis, tool.spindle_axis);
@@ -90,13 +90,13 @@ TEST(SceneMessages, BringBackTheTool) {
     EXPECT_EQ(back.driver, ToolDriver::another);
     for (const ToolDriver driver :
          {ToolDriver::unknown, ToolDriver::nobody, ToolDriver::you, ToolDriver::others_only})
-        EXPECT_EQ(std::get<0>(tool_from(to_message(ToolView{.driver = driver}), 1)).driver, driver);
+        EXPECT_EQ(std::get<0>(tool_from(to_message(ToolState{.driver = driver}), 1)).driver, driver);
     EXPECT_EQ(back.depth_mm, -0.5);
-    EXPECT_EQ(std::get<0>(tool_from(to_message(ToolView{}), 1)).depth_mm, std::nullopt);
+    EXPECT_EQ(std::get<0>(tool_from(to_message(ToolState{}), 1)).depth_mm, std::nullopt);
     EXPECT_THAT(error_of(tool_from(to_message(tool), 1)), HasSubstr("burr 1 is not one of the scene's 1"));
-    EXPECT_THAT(error_of(tool_from(to_message(ToolView{.force_n = {0, not_a_number, 0}}), 1)),
+    EXPECT_THAT(error_of(tool_from(to_message(ToolState{.force_n = {0, not_a_number, 0}}), 1)),
                 HasSubstr("not finite"));
-    EXPECT_THAT(error_of(tool_from(to_message(ToolView{.depth_mm = not_a_number}), 1)),
+    EXPECT_THAT(error_of(tool_from(to_message(ToolState{.depth_mm = not_a_number}), 1)),
                 HasSubstr("not finite"));
 }
 

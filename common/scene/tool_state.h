@@ -1,13 +1,14 @@
-// The tool as a viewer needs it, and what an operator without an arm asks for. Plain data.
+// The state of the tool, the one type for it from the haptic loop to the picture. Plain data that holds all
+// it says within itself: the loop hands it on without allocating.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
 #include <glm/vec3.hpp>
 #include <optional>
-#include <string>
+#include <type_traits>
 
-#include "common/scene/scene.h"
+#include "common/scene/bounded_line.h"
 
 namespace osteomill {
 
@@ -20,32 +21,25 @@ enum class ToolDriver {
     others_only,  ///< whoever it is, not this client, which may only watch: input is ignored
 };
 
-/// What a state frame says about the tool. Positions and forces in patient LPS.
-struct ToolView {
+/// Positions and forces in patient LPS. On the wire it is the message of the same name.
+struct ToolState {
     double time_s = 0.0;                 ///< session time
     glm::dvec3 burr_position_mm{0.0};    ///< centre of the burr's sphere
     glm::dvec3 spindle_axis{0, 0, 1.0};  ///< unit, from tip to shank
     glm::dvec3 hand_position_mm{0.0};    ///< where the device is; leads the burr by what the coupling yields
-    glm::dvec3 force_n{0.0};             ///< on the hand
+    glm::dvec3 force_n{0.0};             ///< on the hand, as written to the device
     std::size_t burr = 0;                ///< index into the session's burrs
     bool spindle_on = false;
     double removed_mm3 = 0.0;  ///< since the server began
     bool touches_protected = false;
-    std::string fault{};  ///< one line; empty while all is well
+    BoundedLine fault{};  ///< why the force is off; empty while all is well
     /// The server's wall clock when it took this off the haptic loop, ns since 1970; 0: not said.
     std::int64_t taken_unix_ns = 0;
-    ToolDriver driver = ToolDriver::unknown;
-    /// Of the burr's tip below where it first met bone, along the spindle axis of that moment; nothing where
-    /// the server does not say.
+    ToolDriver driver = ToolDriver::unknown;  ///< said to each client by the streaming server
+    /// Of the burr's tip below where it first met bone, along the spindle axis of that moment; 0 before.
+    /// Nothing where the server does not say.
     std::optional<double> depth_mm{};
 };
-
-/// What the operator's mouse and keys say, for a server that runs with --device client.
-struct OperatorIntent {
-    glm::dvec3 hand_target_mm{0.0};      ///< patient LPS
-    glm::dvec3 spindle_axis{0, 0, 1.0};  ///< from tip to shank; any length above zero
-    bool pedal = false;                  ///< spindle on while true
-    std::size_t burr = 0;                ///< index into the session's burrs
-};
+static_assert(std::is_trivially_copyable_v<ToolState>);
 
 }  // namespace osteomill

@@ -1,0 +1,26 @@
+#include "common/scene/bounded_line.h"
+
+#include <gtest/gtest.h>
+
+#include <string>
+
+namespace osteomill {
+namespace {
+
+TEST(BoundedLine, HoldsWhatItWasMadeOf) {
+    EXPECT_TRUE(BoundedLine().empty());
+    const BoundedLine line = "the device is lost";
+    EXPECT_EQ(line.text(), "the device is lost");
+    EXPECT_EQ(line, std::string("the device is lost"));
+    EXPECT_FALSE(line == "the device is back");
+    EXPECT_FALSE(line == BoundedLine());
+}
+
+TEST(BoundedLine, CutsWhatIsTooLong) {
+    const std::string longest(BoundedLine::most_bytes, 'x');
+    EXPECT_EQ(BoundedLine(longest).text(), longest);
+    EXPECT_EQ(BoundedLine(longest + "y").text(), longest);
+}
+
+}  // namespace
+}  // namespace osteomill
