@@ -111,12 +111,12 @@ v1::Hello to_message(const SessionInfo& session) {
     return hello;
 }
 
-v1::OperatorInput to_message(const OperatorIntent& intent) {
+v1::OperatorInput to_message(const OperatorCommand& command) {
     v1::OperatorInput message;
-    write(intent.hand_target_mm, *message.mutable_hand_target_mm());
-    write(intent.spindle_axis, *message.mutable_spindle_axis());
-    message.set_pedal(intent.pedal);
-    message.set_burr(static_cast<std::uint32_t>(intent.burr));
+    write(command.hand_target_mm, *message.mutable_hand_target_mm());
+    write(command.spindle_axis, *message.mutable_spindle_axis());
+    message.set_pedal(command.pedal);
+    message.set_burr(static_cast<std::uint32_t>(command.burr));
     return message;
 }
 
@@ -196,19 +196,19 @@ std::variant<ToolState, WireError> tool_from(const v1::ToolState& message, std::
     return tool;
 }
 
-std::variant<OperatorIntent, WireError> intent_from(const v1::OperatorInput& message,
-                                                    std::size_t burr_count) {
-    OperatorIntent intent{.hand_target_mm = read(message.hand_target_mm()),
-                          .spindle_axis = read(message.spindle_axis()),
-                          .pedal = message.pedal(),
-                          .burr = message.burr()};
-    const double length = glm::length(intent.spindle_axis);
-    if (!is_finite(intent.hand_target_mm) || !std::isfinite(length))
+std::variant<OperatorCommand, WireError> operator_command_from(const v1::OperatorInput& message,
+                                                               std::size_t burr_count) {
+    OperatorCommand command{.hand_target_mm = read(message.hand_target_mm()),
+                            .spindle_axis = read(message.spindle_axis()),
+                            .pedal = message.pedal(),
+                            .burr = message.burr()};
+    const double length = glm::length(command.spindle_axis);
+    if (!is_finite(command.hand_target_mm) || !std::isfinite(length))
         return WireError{"the operator input holds a number that is not finite"};
     if (length < 1e-6) return WireError{"the operator input's spindle axis has no length"};
-    if (intent.burr >= burr_count) return unknown_burr(message.burr(), burr_count);
-    intent.spindle_axis /= length;
-    return intent;
+    if (command.burr >= burr_count) return unknown_burr(message.burr(), burr_count);
+    command.spindle_axis /= length;
+    return command;
 }
 
 }  // namespace osteomill

@@ -5,6 +5,7 @@
 #include <variant>
 #include <vector>
 
+#include "common/scene/operator_command.h"
 #include "common/scene/scene.h"
 #include "common/scene/tool_state.h"
 #include "common/wire/session_info.h"
@@ -18,7 +19,7 @@ v1::BurrDescription to_message(const Burr& burr);
 v1::TissueDescription to_message(const Tissue& tissue);
 v1::ToolState to_message(const ToolState& tool);
 v1::Hello to_message(const SessionInfo& session);
-v1::OperatorInput to_message(const OperatorIntent& intent);
+v1::OperatorInput to_message(const OperatorCommand& command);
 
 /// Burrs as a client knows them: the cutting coefficients are not sent, and zero here. Refuses a list without
 /// burrs and a size or speed that is not finite and above zero.
@@ -38,6 +39,7 @@ std::variant<ToolState, WireError> tool_from(const v1::ToolState& message, std::
 
 /// Refuses numbers that are not finite, an axis of no length (any other is made a unit vector), and a burr
 /// that is not one of `burr_count`.
-std::variant<OperatorIntent, WireError> intent_from(const v1::OperatorInput& message, std::size_t burr_count);
+std::variant<OperatorCommand, WireError> operator_command_from(const v1::OperatorInput& message,
+                                                               std::size_t burr_count);
 
 }  // namespace osteomill

@@ -7,9 +7,9 @@
 
 namespace osteomill {
 
-ClientDevice::ClientDevice(TripleBuffer<OperatorInput>& input, const ToolPose& start_pose,
+ClientDevice::ClientDevice(OperatorChannel& commands, const ToolPose& start_pose,
                            const DeviceMapping& mapping, const ArmModel& arm, const HandModel& hand)
-    : input_(input),
+    : commands_(commands),
       mapping_(mapping),
       arm_(arm),
       held_arm_(arm, hand, position_in_device_mm(mapping, start_pose.position_mm)),
@@ -17,21 +17,20 @@ ClientDevice::ClientDevice(TripleBuffer<OperatorInput>& input, const ToolPose& s
       target_(start_pose),
       limit_(start_pose.position_mm) {}
 
-void ClientDevice::take_over_input(double now_s) noexcept {
-    if (!input_.refresh()) return;
-    const OperatorInput& input = input_.front();
-    const double axis_length = glm::length(input.hand_target.spindle_axis);
-    if (!input.present || !is_finite(input.hand_target.position_mm) || !std::isfinite(axis_length) ||
+void ClientDevice::take_over_command(double now_s) noexcept {
+    if (!commands_.refresh()) return;
+    const std::optional<OperatorCommand>& command = commands_.front();
+    const double axis_length = command ? glm::length(command->spindle_axis) : 0.0;
+    if (!command || !is_finite(command->hand_target_mm) || !std::isfinite(axis_length) ||
         axis_length < 1e-6) {
         permission_.withdraw();
         return;
     }
     const glm::dvec3 burr_mm = position_in_patient_mm(mapping_, held_arm_.truth().position_mm());
-    wanted_ = {limit_.limited(input.hand_target.position_mm, burr_mm, now_s),
-               input.hand_target.spindle_axis / axis_length};
-    if (!input.pedal) must_be_pressed_anew_ = false;
-    pedal_ = input.pedal && !must_be_pressed_anew_;
-    burr_ = input.burr;
+    wanted_ = {limit_.limited(command->hand_target_mm, burr_mm, now_s), command->spindle_axis / axis_length};
+    if (!command->pedal) must_be_pressed_anew_ = false;
+    pedal_ = command->pedal && !must_be_pressed_anew_;
+    burr_ = command->burr;
     permission_.renew(now_s);
 }
 
@@ -45,7 +44,7 @@ void ClientDevice::end_permission() noexcept {
 DeviceState ClientDevice::read(double now_s) noexcept {
     // Also before a message is taken that comes with a tick that is late itself.
     if (!permission_.holds(now_s)) end_permission();
-    take_over_input(now_s);
+    take_over_command(now_s);
     if (!permission_.holds(now_s)) end_permission();
     const double elapsed_s = now_s - read_at_s_;
     read_at_s_ = now_s;

@@ -13,8 +13,7 @@
 #include "haptic_server/device/held_arm.h"
 #include "haptic_server/device/permission.h"
 #include "haptic_server/device/target_limit.h"
-#include "haptic_server/exchange/operator_input.h"
-#include "haptic_server/exchange/triple_buffer.h"
+#include "haptic_server/exchange/operator_channel.h"
 
 namespace osteomill {
 
@@ -23,10 +22,10 @@ class ClientDevice final : public HapticDevice {
     /// Mouse positions come some 60 times a second: the target follows them with this time constant.
     static constexpr double target_filter_s = 0.04;
 
-    /// Reads `input` as its only reader. The arm starts at rest at `start_pose` (patient LPS). While no
-    /// operator is heard the hand holds its target and the pedal is up. An input that is not finite counts
+    /// Reads `commands` as its only reader. The arm starts at rest at `start_pose` (patient LPS). While no
+    /// operator is heard the hand holds its target and the pedal is up. A command that is not finite counts
     /// as none. The burr that targets are kept near is the arm's tip, but for what the coupling yields.
-    ClientDevice(TripleBuffer<OperatorInput>& input, const ToolPose& start_pose, const DeviceMapping& mapping,
+    ClientDevice(OperatorChannel& commands, const ToolPose& start_pose, const DeviceMapping& mapping,
                  const ArmModel& arm, const HandModel& hand);
 
     std::string name() const override { return "operator over the network"; }
@@ -39,10 +38,10 @@ class ClientDevice final : public HapticDevice {
     const char* notice() const noexcept override { return limit_.notice(); }
 
   private:
-    void take_over_input(double now_s) noexcept;
+    void take_over_command(double now_s) noexcept;
     void end_permission() noexcept;
 
-    TripleBuffer<OperatorInput>& input_;
+    OperatorChannel& commands_;
     DeviceMapping mapping_;
     ArmModel arm_;
     HeldArm held_arm_;

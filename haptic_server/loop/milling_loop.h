@@ -8,9 +8,9 @@
 #include <algorithm>
 
 #include "haptic_server/contact_models/force_model.h"
+#include "haptic_server/exchange/edit_queue.h"
 #include "haptic_server/exchange/milling_step.h"
 #include "haptic_server/exchange/triple_buffer.h"
-#include "haptic_server/loop/edit_queue.h"
 #include "haptic_server/loop/milling_log.h"
 
 namespace osteomill {

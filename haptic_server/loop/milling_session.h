@@ -20,7 +20,7 @@
 #include "haptic_server/contact_models/force_models.h"
 #include "haptic_server/coupling/couplings.h"
 #include "haptic_server/device/haptic_device.h"
-#include "haptic_server/loop/edit_queue.h"
+#include "haptic_server/exchange/edit_queue.h"
 #include "haptic_server/loop/force_log.h"
 #include "haptic_server/loop/haptic_loop.h"
 #include "haptic_server/loop/milling_loop.h"

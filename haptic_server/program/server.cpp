@@ -64,8 +64,8 @@ void require_folder_of(const std::optional<std::filesystem::path>& file) {
 
 /// The device that the options ask for, and what it is driven by.
 struct DeviceParts {
-    std::unique_ptr<HidTransport> transport;                      // null: the device is not plugged in
-    std::unique_ptr<TripleBuffer<OperatorInput>> operator_input;  // null: nobody may drive
+    std::unique_ptr<HidTransport> transport;            // null: the device is not plugged in
+    std::unique_ptr<OperatorChannel> operator_channel;  // null: nobody may drive
     std::unique_ptr<HapticDevice> device;
     const SimulatedDevice* simulated = nullptr;  // `device`, if it is one
 
@@ -98,8 +98,8 @@ DeviceParts make_device(const ServerOptions& options, Scene& scene) {
         return parts;
     }
     if (options.device == DeviceKind::client) {
-        parts.operator_input = std::make_unique<TripleBuffer<OperatorInput>>();
-        parts.device = std::make_unique<ClientDevice>(*parts.operator_input, scene.start_pose, scene.device,
+        parts.operator_channel = std::make_unique<OperatorChannel>();
+        parts.device = std::make_unique<ClientDevice>(*parts.operator_channel, scene.start_pose, scene.device,
                                                       ArmModel{}, hand);
         return parts;
     }
@@ -134,9 +134,10 @@ Streaming make_streaming(StreamingOptions wanted, const ServerOptions& options, 
     Streaming streaming;
     streaming.shown = std::make_unique<LiveSession>(session.tool(), session.edits());
     SessionInfo info =
-        session_info(scene, device.operator_input != nullptr, device.device->limits().max_force_n, version);
-    streaming.server = std::make_unique<StreamingServer>(
-        std::move(wanted), std::move(info), std::move(mirror), *streaming.shown, device.operator_input.get());
+        session_info(scene, device.operator_channel != nullptr, device.device->limits().max_force_n, version);
+    streaming.server =
+        std::make_unique<StreamingServer>(std::move(wanted), std::move(info), std::move(mirror),
+                                          *streaming.shown, device.operator_channel.get());
     streaming.server->start();
     if (options.listen)
         out.write(fmt::format("listening on {}:{}\n", options.listen->address, streaming.server->port()));

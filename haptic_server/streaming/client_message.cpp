@@ -19,15 +19,15 @@ std::variant<std::optional<Answer>, WireError> take_client_message(const v1::Cli
         return std::nullopt;
     }
     if (!frame.has_operator_input()) return WireError{"it sent a frame without a body that is known"};
-    const auto intent = intent_from(frame.operator_input(), client.burr_count);
-    if (const auto* error = std::get_if<WireError>(&intent)) return *error;
+    const auto command = operator_command_from(frame.operator_input(), client.burr_count);
+    if (const auto* error = std::get_if<WireError>(&command)) return *error;
     if (client.lease == nullptr) return std::nullopt;
     const v1::OperatorInput& input = frame.operator_input();
     const Answer answer = client.answers.judge(input.number(), input.answers_state(), now);
     if (answer == Answer::unsent)
         return WireError{
             fmt::format("its input answers state {}, which it was not sent", input.answers_state())};
-    if (answer == Answer::fresh) client.lease->take_input(client.id, std::get<OperatorIntent>(intent), now);
+    if (answer == Answer::fresh) client.lease->take_input(client.id, std::get<OperatorCommand>(command), now);
     return client.answers.is_news() ? std::optional(answer) : std::nullopt;
 }
 

@@ -26,13 +26,13 @@ std::int64_t unix_time_ns() {
 
 ConnectedClients::ConnectedClients(const StreamingOptions& options, const v1::Hello& hello,
                                    const BoneReplica& mirror, SnapshotPacker& snapshot_packer,
-                                   TripleBuffer<OperatorInput>* operator_input)
+                                   OperatorChannel* operator_channel)
     : options_(options),
       hello_(hello),
       mirror_(mirror),
       snapshot_packer_(snapshot_packer),
       unidentified_(options.places_for_unidentified) {
-    if (operator_input != nullptr) lease_.emplace(*operator_input);
+    if (operator_channel != nullptr) lease_.emplace(*operator_channel);
 }
 
 void ConnectedClients::admit(std::shared_ptr<Stream> stream) {

@@ -33,10 +33,10 @@ class ConnectedClients {
   public:
     using Time = std::chrono::steady_clock::time_point;
 
-    /// `hello`: what they are greeted with. `operator_input`: null where no client can move the tool. All
+    /// `hello`: what they are greeted with. `operator_channel`: null where no client can move the tool. All
     /// references outlive this.
     ConnectedClients(const StreamingOptions& options, const v1::Hello& hello, const BoneReplica& mirror,
-                     SnapshotPacker& snapshot_packer, TripleBuffer<OperatorInput>* operator_input);
+                     SnapshotPacker& snapshot_packer, OperatorChannel* operator_channel);
 
     /// One whose handshake is over.
     void admit(std::shared_ptr<Stream> stream);

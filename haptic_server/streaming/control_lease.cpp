@@ -2,16 +2,13 @@
 
 namespace osteomill {
 
-bool ControlLease::take_input(ClientId client, const OperatorIntent& intent, Time now) {
+bool ControlLease::take_input(ClientId client, const OperatorCommand& command, Time now) {
     if (holder_ && *holder_ != client && is_kept(now)) return false;
     if (holder_ != client) activity_.begin();
-    activity_.note(intent, now);
+    activity_.note(command, now);
     holder_ = client;
     last_heard_ = now;
-    input_ = {.hand_target = {.position_mm = intent.hand_target_mm, .spindle_axis = intent.spindle_axis},
-              .pedal = intent.pedal,
-              .burr = intent.burr};
-    publish(true);
+    publish(command);
     return true;
 }
 
@@ -21,7 +18,7 @@ void ControlLease::leave(ClientId client) {
 
 void ControlLease::end() {
     holder_.reset();
-    publish(false);
+    publish(std::nullopt);
 }
 
 void ControlLease::check_silence(Time now) {
@@ -33,10 +30,8 @@ ToolDriver ControlLease::driver_for(ClientId client) const {
     return *holder_ == client ? ToolDriver::you : ToolDriver::another;
 }
 
-void ControlLease::publish(bool present) {
-    input_.present = present;
-    if (!present) input_.pedal = false;
-    output_.back() = input_;
+void ControlLease::publish(const std::optional<OperatorCommand>& command) {
+    output_.back() = command;
     output_.publish();
 }
 

@@ -8,9 +8,9 @@
 #include <cstdint>
 #include <optional>
 
+#include "common/scene/operator_command.h"
 #include "common/scene/tool_state.h"
-#include "haptic_server/exchange/operator_input.h"
-#include "haptic_server/exchange/triple_buffer.h"
+#include "haptic_server/exchange/operator_channel.h"
 #include "haptic_server/streaming/operator_activity.h"
 
 namespace osteomill {
@@ -25,10 +25,10 @@ class ControlLease {
     static constexpr std::chrono::milliseconds duration{3000};
 
     /// The lease is the one writer of `output`.
-    explicit ControlLease(TripleBuffer<OperatorInput>& output) : output_(output) {}
+    explicit ControlLease(OperatorChannel& output) : output_(output) {}
 
     /// Input from a client, already checked. Ignored unless the tool is free or its own; false if ignored.
-    bool take_input(ClientId client, const OperatorIntent& intent, Time now);
+    bool take_input(ClientId client, const OperatorCommand& command, Time now);
     /// A client has gone; the tool is free if it was that client's.
     void leave(ClientId client);
     /// Nobody moves it any more.
@@ -43,13 +43,12 @@ class ControlLease {
   private:
     /// Whether the holder may keep it though another asks.
     bool is_kept(Time now) const { return now - last_heard_ <= duration && !activity_.is_idle(now); }
-    void publish(bool present);
+    void publish(const std::optional<OperatorCommand>& command);
 
-    TripleBuffer<OperatorInput>& output_;
+    OperatorChannel& output_;
     std::optional<ClientId> holder_;
     OperatorActivity activity_;  // of the holder
     Time last_heard_{};
-    OperatorInput input_;
 };
 
 }  // namespace osteomill

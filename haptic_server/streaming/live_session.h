@@ -4,8 +4,8 @@
 #include "common/scene/scene.h"
 #include "common/scene/tool_state.h"
 #include "common/wire/session_info.h"
+#include "haptic_server/exchange/edit_queue.h"
 #include "haptic_server/exchange/triple_buffer.h"
-#include "haptic_server/loop/edit_queue.h"
 #include "haptic_server/streaming/stream_source.h"
 
 namespace osteomill {

@@ -4,7 +4,7 @@
 #include <chrono>
 #include <optional>
 
-#include "common/scene/tool_state.h"
+#include "common/scene/operator_command.h"
 
 namespace osteomill {
 
@@ -20,21 +20,16 @@ class OperatorActivity {
 
     /// What came of the one who has the lease. Anything new is an act: the target, the axis, the burr; and a
     /// pedal that is down.
-    void note(const OperatorIntent& intent, Time now) {
-        if (!newest_ || intent.pedal || !is_same(*newest_, intent)) acted_ = now;
-        newest_ = intent;
+    void note(const OperatorCommand& command, Time now) {
+        if (!newest_ || command.pedal || *newest_ != command) acted_ = now;
+        newest_ = command;
     }
 
     /// Whether nothing new has come for so long that it must not keep the tool from another.
     bool is_idle(Time now) const { return newest_ && now - acted_ > longest_rest; }
 
   private:
-    static bool is_same(const OperatorIntent& a, const OperatorIntent& b) {
-        return a.hand_target_mm == b.hand_target_mm && a.spindle_axis == b.spindle_axis &&
-               a.pedal == b.pedal && a.burr == b.burr;
-    }
-
-    std::optional<OperatorIntent> newest_;
+    std::optional<OperatorCommand> newest_;
     Time acted_{};
 };
 

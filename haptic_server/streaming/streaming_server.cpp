@@ -56,12 +56,12 @@ void require_fits_frame(const v1::Hello& hello) {
 class StreamingServer::Impl {
   public:
     Impl(StreamingOptions options, SessionInfo session, Bone mirror, StreamSource& source,
-         TripleBuffer<OperatorInput>* operator_input)
+         OperatorChannel* operator_channel)
         : options_(std::move(options)),
           hello_(to_message(session)),
           mirror_(std::move(mirror)),
           source_(source),
-          clients_(options_, hello_, mirror_, packer_, operator_input) {
+          clients_(options_, hello_, mirror_, packer_, operator_channel) {
         if (!(std::isfinite(options_.frame_rate_hz) && options_.frame_rate_hz > 0.0))
             throw std::invalid_argument("the frame rate is " + std::to_string(options_.frame_rate_hz) +
                                         " Hz, not above zero");
@@ -242,9 +242,9 @@ class StreamingServer::Impl {
 };
 
 StreamingServer::StreamingServer(StreamingOptions options, SessionInfo session, Bone mirror,
-                                 StreamSource& source, TripleBuffer<OperatorInput>* operator_input)
+                                 StreamSource& source, OperatorChannel* operator_channel)
     : impl_(std::make_unique<Impl>(std::move(options), std::move(session), std::move(mirror), source,
-                                   operator_input)) {}
+                                   operator_channel)) {}
 
 StreamingServer::~StreamingServer() = default;
 void StreamingServer::start() {

@@ -15,7 +15,7 @@
 #include "common/bone/bone.h"
 #include "common/recording/recording_writer.h"
 #include "common/wire/session_info.h"
-#include "haptic_server/exchange/operator_input.h"
+#include "haptic_server/exchange/operator_channel.h"
 #include "haptic_server/exchange/triple_buffer.h"
 #include "haptic_server/streaming/stream_source.h"
 #include "haptic_server/streaming/streaming_options.h"
@@ -25,11 +25,11 @@ namespace osteomill {
 class StreamingServer {
   public:
     /// `mirror` equals the bone of `shown` before the first update(). The server is the one writer of
-    /// `operator_input`, which is null unless the device is driven by a client; both outlive it. Throws
+    /// `operator_channel`, which is null unless the device is driven by a client; both outlive it. Throws
     /// std::invalid_argument for a frame rate that is not above zero, a bone too large to send, or a scene
     /// whose names do not fit a frame.
     StreamingServer(StreamingOptions options, SessionInfo session, Bone mirror, StreamSource& source,
-                    TripleBuffer<OperatorInput>* operator_input = nullptr);
+                    OperatorChannel* operator_channel = nullptr);
     /// Stops first, if need be.
     ~StreamingServer();
     StreamingServer(const StreamingServer&) = delete;

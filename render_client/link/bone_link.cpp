@@ -33,7 +33,7 @@ class BoneLink::Impl {
     const Bone* bone() const { return replica_.bone(); }
     const SessionInfo* session() const { return replica_.session(); }
 
-    void send(const OperatorIntent& intent) { connection_.send(intent); }
+    void send(const OperatorCommand& command) { connection_.send(command); }
     std::optional<ToolState> newest_tool() const { return connection_.newest_tool(); }
 
     std::string finish_recording() {
@@ -126,8 +126,8 @@ const Bone* BoneLink::bone() const {
 const SessionInfo* BoneLink::session() const {
     return impl_->session();
 }
-void BoneLink::send_operator(const OperatorIntent& intent) {
-    impl_->send(intent);
+void BoneLink::send_operator(const OperatorCommand& command) {
+    impl_->send(command);
 }
 std::optional<ToolState> BoneLink::newest_tool() const {
     return impl_->newest_tool();

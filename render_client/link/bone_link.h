@@ -17,6 +17,7 @@
 #include "common/bone/bone.h"
 #include "common/bone/brick_change.h"
 #include "common/net/tls_files.h"
+#include "common/scene/operator_command.h"
 #include "common/scene/tool_state.h"
 #include "common/wire/session_info.h"
 #include "render_client/link/delay_meter.h"
@@ -92,7 +93,7 @@ class BoneLink {
     /// known, while not connected, and where it makes no sense. While an earlier one is still under way only
     /// the newest is kept. Call it 50 times a second while the operator is at the controls, from the thread
     /// that reads them: the server takes 0.2 s of silence for an operator who has gone, and lifts the pedal.
-    void send_operator(const OperatorIntent& intent);
+    void send_operator(const OperatorCommand& command);
 
     /// Any thread. The newest that has come of the tool, be it applied by poll() or not; nothing while not
     /// connected.

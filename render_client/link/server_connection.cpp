@@ -51,8 +51,8 @@ ServerConnection::~ServerConnection() {
     thread_.join();
 }
 
-void ServerConnection::send(const OperatorIntent& intent) {
-    v1::OperatorInput input = to_message(intent);
+void ServerConnection::send(const OperatorCommand& command) {
+    v1::OperatorInput input = to_message(command);
     std::uint64_t connection = 0;
     {
         // What it answers is what was before the operator now, however late it is written.
@@ -63,7 +63,7 @@ void ServerConnection::send(const OperatorIntent& intent) {
     }
     asio::post(io_, [this, input = std::move(input), connection]() mutable {
         if (!accepts_operator_ || connection != generation_) return;
-        if (!std::holds_alternative<OperatorIntent>(intent_from(input, burr_count_))) return;
+        if (!std::holds_alternative<OperatorCommand>(operator_command_from(input, burr_count_))) return;
         input.set_number(++input_number_);
         newest_input_ = std::move(input);
         write_newest();

@@ -52,7 +52,7 @@ class ServerConnection {
     // Any thread.
     /// As the answer to newest_tool(). Dropped while nothing has been seen, and where the server would not
     /// take it.
-    void send(const OperatorIntent& intent);
+    void send(const OperatorCommand& command);
     /// Of the newest state frame that came on this connection; nothing before the first.
     std::optional<ToolState> newest_tool() const;
     /// Dropped if that session is over.

@@ -16,9 +16,9 @@ class SessionSource {
   public:
     virtual ~SessionSource() = default;
     virtual LinkUpdate poll() = 0;
-    virtual const Bone* bone() const = 0;                          ///< null until one has arrived
-    virtual const SessionInfo* session() const = 0;                ///< null until a server has said hello
-    virtual void send_operator(const OperatorIntent& intent) = 0;  ///< any thread
+    virtual const Bone* bone() const = 0;                            ///< null until one has arrived
+    virtual const SessionInfo* session() const = 0;                  ///< null until a server has said hello
+    virtual void send_operator(const OperatorCommand& command) = 0;  ///< any thread
     /// Any thread: of the session that an operator may be at; nothing where there is none.
     virtual std::optional<ToolState> newest_tool() const { return std::nullopt; }
     /// What plays the session, where it is a recording; null where it is not.
@@ -36,7 +36,7 @@ class LinkedSession final : public SessionSource {
     LinkUpdate poll() override { return link_.poll(); }
     const Bone* bone() const override { return link_.bone(); }
     const SessionInfo* session() const override { return link_.session(); }
-    void send_operator(const OperatorIntent& intent) override { link_.send_operator(intent); }
+    void send_operator(const OperatorCommand& command) override { link_.send_operator(command); }
     std::optional<ToolState> newest_tool() const override { return link_.newest_tool(); }
     std::string finish() override { return link_.finish_recording(); }
 
@@ -51,7 +51,7 @@ class ReplayedSession final : public SessionSource {
     LinkUpdate poll() override { return player_.poll(std::chrono::steady_clock::now()); }
     const Bone* bone() const override { return player_.bone(); }
     const SessionInfo* session() const override { return player_.session(); }
-    void send_operator(const OperatorIntent&) override {}
+    void send_operator(const OperatorCommand&) override {}
     RecordingPlayer* player() override { return &player_; }
     std::string finish() override { return player_.error(); }
 

@@ -117,7 +117,7 @@ class Drawing {
                            .camera = session_.camera(),
                            .size_px = session_.size_px(),
                            .panels_have_mouse = ImGui::GetIO().WantCaptureMouse});
-        session_.show_operator(shared_.desk.intent());
+        session_.show_operator(shared_.desk.command());
 
         const RecordingPlayer* player = source_.player();
         if (news == SessionPicture::News::change || commands_.is_exporting() ||

@@ -24,7 +24,7 @@ class PhantomSession final : public SessionSource {
     LinkUpdate poll() override;
     const Bone* bone() const override { return &bone_; }
     const SessionInfo* session() const override { return &info_; }
-    void send_operator(const OperatorIntent&) override {}
+    void send_operator(const OperatorCommand&) override {}
 
   private:
     Bone bone_;

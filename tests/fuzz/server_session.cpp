@@ -58,11 +58,10 @@ class ScriptedStream final : public Stream {
     std::size_t frames_written_ = 0;
 };
 
-void require_possible(const OperatorInput& input, std::size_t burrs) {
-    require(is_finite(input.hand_target.position_mm), "the tool is moved to where no number is");
-    require(std::abs(glm::length(input.hand_target.spindle_axis) - 1.0) < 1e-9,
-            "the spindle's axis is no unit vector");
-    require(input.burr < burrs, "a burr that is not there");
+void require_possible(const OperatorCommand& command, std::size_t burrs) {
+    require(is_finite(command.hand_target_mm), "the tool is moved to where no number is");
+    require(std::abs(glm::length(command.spindle_axis) - 1.0) < 1e-9, "the spindle's axis is no unit vector");
+    require(command.burr < burrs, "a burr that is not there");
 }
 
 /// What the milling loop tells meanwhile: the first brick goes, voxel by voxel.
@@ -83,7 +82,7 @@ void server_session(Bytes input) {
     const SessionInfo info = small_session_info();
     BoneReplica mirror(bone);
     static SnapshotPacker packer;
-    TripleBuffer<OperatorInput> output;
+    OperatorChannel output;
     ControlLease lease(output);
     ChangePacker change_packer;
     constexpr ControlLease::ClientId id = 1;
@@ -115,7 +114,7 @@ void server_session(Bytes input) {
         const Bytes piece = stream_bytes.first(std::min(piece_bytes, stream_bytes.size()));
         stream_bytes = stream_bytes.subspan(piece.size());
         stream->arrive(piece);
-        if (output.refresh()) require_possible(output.front(), info.burrs.size());
+        if (output.refresh() && output.front()) require_possible(*output.front(), info.burrs.size());
         const EditRun milled = run_milled_at(++states);
         apply(milled, carved);
         mirror.apply(milled);

@@ -76,10 +76,10 @@ class HostileClient {
         bool names_state = true;
         std::uint64_t number = 0;  // 0: one higher than before
     };
-    void want(const OperatorIntent& intent) { want(intent, Lie{}); }
-    void want(const OperatorIntent& intent, const Lie& lie) {
+    void want(const OperatorCommand& command) { want(command, Lie{}); }
+    void want(const OperatorCommand& command, const Lie& lie) {
         v1::ClientFrame frame;
-        *frame.mutable_operator_input() = to_message(intent);
+        *frame.mutable_operator_input() = to_message(command);
         frame.mutable_operator_input()->set_number(lie.number != 0 ? lie.number : ++number_);
         if (lie.names_state) frame.mutable_operator_input()->set_answers_state(newest_state_);
         send(std::move(frame));

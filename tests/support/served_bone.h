@@ -80,8 +80,8 @@ class ServedBone {
     std::uint64_t mirror_checksum() const { return mirror_checksum_; }
     /// While nobody carves.
     const Bone& bone() const { return bone_; }
-    /// Newest input of the operator.
-    const OperatorInput& operator_input() {
+    /// The operator's newest command; nothing while there is no operator.
+    const std::optional<OperatorCommand>& operator_command() {
         operator_.refresh();
         return operator_.front();
     }
@@ -92,7 +92,7 @@ class ServedBone {
     EditQueue edits_;
     TripleBuffer<ToolState> tool_;
     LiveSession shown_{tool_, edits_};
-    TripleBuffer<OperatorInput> operator_;
+    OperatorChannel operator_;
     double time_s_ = 0.0;
     std::unique_ptr<StreamingServer> server_;
     std::uint64_t mirror_checksum_ = 0;

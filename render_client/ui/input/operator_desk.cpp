@@ -21,7 +21,7 @@ constexpr double longest_step_s = 0.1;
 void OperatorDesk::step(const WindowInput& input, double elapsed_s) {
     // Without a session of this kind there is nobody who could be sent an operator's wishes.
     const std::optional<ToolState> tool = source_.newest_tool();
-    std::optional<OperatorIntent> wish;
+    std::optional<OperatorCommand> wish;
     {
         const std::scoped_lock lock(mutex_);
         if (tool && picture_.drills) {
@@ -34,7 +34,7 @@ void OperatorDesk::step(const WindowInput& input, double elapsed_s) {
                 hand_.let_go();
             hand_.follow(*tool, picture_.burr_count);
             // What is sent last lifts the pedal; then the tool is free for others.
-            if (hand_.wants_tool() || had_tool_) wish = hand_.intent();
+            if (hand_.wants_tool() || had_tool_) wish = hand_.command();
             // It may be asked for, but must not jump to where this hand has gone meanwhile.
             if (tool->driver == ToolDriver::another) hand_.let_go();
         } else {
@@ -77,9 +77,9 @@ void OperatorDesk::choose_previous_burr() {
     hand_.choose_previous_burr();
 }
 
-std::optional<OperatorIntent> OperatorDesk::intent() const {
+std::optional<OperatorCommand> OperatorDesk::command() const {
     const std::scoped_lock lock(mutex_);
-    return picture_.drills ? std::optional(hand_.intent()) : std::nullopt;
+    return picture_.drills ? std::optional(hand_.command()) : std::nullopt;
 }
 
 }  // namespace osteomill

@@ -44,7 +44,7 @@ class OperatorDesk {
     void choose_next_burr();
     void choose_previous_burr();
     /// What the hand wants; nothing where nobody may drill.
-    std::optional<OperatorIntent> intent() const;
+    std::optional<OperatorCommand> command() const;
 
   private:
     void move_hand(const WindowInput& input, double elapsed_s);

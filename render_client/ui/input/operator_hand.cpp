@@ -6,39 +6,39 @@
 namespace osteomill {
 
 void OperatorHand::follow(const ToolState& tool, std::size_t burr_count) {
-    intent_.spindle_axis = tool.spindle_axis;
-    if (!burr_chosen_) intent_.burr = tool.burr;
-    if (burr_count > 0) intent_.burr = std::min(intent_.burr, burr_count - 1);
+    command_.spindle_axis = tool.spindle_axis;
+    if (!burr_chosen_) command_.burr = tool.burr;
+    if (burr_count > 0) command_.burr = std::min(command_.burr, burr_count - 1);
     if (!taken_up_) {
-        intent_.hand_target_mm = tool.hand_position_mm;
+        command_.hand_target_mm = tool.hand_position_mm;
         return;
     }
-    const glm::dvec3 reach_mm = intent_.hand_target_mm - tool.burr_position_mm;
+    const glm::dvec3 reach_mm = command_.hand_target_mm - tool.burr_position_mm;
     const double length_mm = glm::length(reach_mm);
     if (length_mm > longest_reach_mm)
-        intent_.hand_target_mm = tool.burr_position_mm + longest_reach_mm / length_mm * reach_mm;
+        command_.hand_target_mm = tool.burr_position_mm + longest_reach_mm / length_mm * reach_mm;
 }
 
 void OperatorHand::move_in_picture(const glm::dvec2& moved_px, const Camera& camera,
                                    const glm::ivec2& size_px) {
     taken_up_ = true;
-    const double mm_per_px = mm_per_px_at(camera, intent_.hand_target_mm, size_px);
-    intent_.hand_target_mm += mm_per_px * (moved_px.x * camera.right() - moved_px.y * camera.up());
+    const double mm_per_px = mm_per_px_at(camera, command_.hand_target_mm, size_px);
+    command_.hand_target_mm += mm_per_px * (moved_px.x * camera.right() - moved_px.y * camera.up());
 }
 
 void OperatorHand::advance(double distance_mm) {
     taken_up_ = true;
-    intent_.hand_target_mm -= distance_mm * intent_.spindle_axis;
+    command_.hand_target_mm -= distance_mm * command_.spindle_axis;
 }
 
 void OperatorHand::choose_burr(std::size_t burr) {
     burr_chosen_ = true;
-    intent_.burr = burr;
+    command_.burr = burr;
 }
 
 void OperatorHand::let_go() {
     taken_up_ = false;
-    intent_.pedal = false;
+    command_.pedal = false;
     burr_chosen_ = false;
 }
 

@@ -5,6 +5,7 @@
 #pragma once
 
 #include "common/scene/hand_limits.h"
+#include "common/scene/operator_command.h"
 #include "common/scene/tool_state.h"
 #include "render_client/volume/camera.h"
 
@@ -22,20 +23,20 @@ class OperatorHand {
     void move_in_picture(const glm::dvec2& moved_px, const Camera& camera, const glm::ivec2& size_px);
     /// Moves the target along the spindle; positive is towards the tip, into the bone.
     void advance(double distance_mm);
-    void set_pedal(bool down) { intent_.pedal = down; }
+    void set_pedal(bool down) { command_.pedal = down; }
     void choose_burr(std::size_t burr);
-    void choose_next_burr() { choose_burr(intent_.burr + 1); }
-    void choose_previous_burr() { choose_burr(intent_.burr > 0 ? intent_.burr - 1 : 0); }
+    void choose_next_burr() { choose_burr(command_.burr + 1); }
+    void choose_previous_burr() { choose_burr(command_.burr > 0 ? command_.burr - 1 : 0); }
     /// Lets go: pedal up, target back on the tool. For when the window loses focus, the server goes, or the
     /// tool is another's.
     void let_go();
 
-    const OperatorIntent& intent() const { return intent_; }
+    const OperatorCommand& command() const { return command_; }
     /// Whether anything was asked of the tool since it was let go of: who only looks on leaves it to others.
-    bool wants_tool() const { return taken_up_ || intent_.pedal || burr_chosen_; }
+    bool wants_tool() const { return taken_up_ || command_.pedal || burr_chosen_; }
 
   private:
-    OperatorIntent intent_;
+    OperatorCommand command_;
     bool taken_up_ = false;
     bool burr_chosen_ = false;
 };

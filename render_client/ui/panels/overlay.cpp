@@ -70,7 +70,7 @@ void add_controls(PanelList& panels, const OverlayContent& content, const PanelP
         panels.add_asked_for(Anchor::upper_left, transfer_panel_size(painter), [&](const PanelPlace& place) {
             draw_transfer_panel(painter, view.transfer, place);
         });
-    if (content.operator_intent)
+    if (content.operator_command)
         panels.add_text(painter, Anchor::lower_left, operator_text(content), side_width);
     if (content.player != nullptr)
         panels.add(Anchor::lower_left, {playback_panel_size(painter, picture)},
@@ -111,7 +111,7 @@ void draw_overlay(const OverlayContent& content, const glm::ivec2& size_px) {
         panels.add_text(painter, Anchor::top, warnings, picture.x - 2.0f * margin);
     if (content.view->help_shown) {
         const Situation situation =
-            situation_of(content.operator_intent.has_value(), content.player != nullptr);
+            situation_of(content.operator_command.has_value(), content.player != nullptr);
         panels.add_asked_for(
             Anchor::middle, help_size(painter, situation, picture - 2.0f * margin),
             [&painter, situation](const PanelPlace& place) { draw_help(painter, situation, place); });

@@ -25,7 +25,7 @@ struct OverlayContent {
     double render_frames_per_s = 0.0;
     PictureQuality quality;
     /// What the operator asks for, where one drills from here.
-    std::optional<OperatorIntent> operator_intent;
+    std::optional<OperatorCommand> operator_command;
     /// Null unless a recording is shown.
     RecordingPlayer* player = nullptr;
     /// Why there is no bone in the picture, where there is none for a reason.

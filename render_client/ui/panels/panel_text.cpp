@@ -77,8 +77,8 @@ PanelText operator_text(const OverlayContent& content) {
     PanelText text;
     if (content.tool && content.tool->driver == ToolDriver::another)
         text.push_back(line(Tone::warning, "another client moves the tool; ask again when it has let go"));
-    text.push_back(content.operator_intent->pedal ? line(Tone::good, "pedal down")
-                                                  : line(Tone::dim, "pedal up (SPACE)"));
+    text.push_back(content.operator_command->pedal ? line(Tone::good, "pedal down")
+                                                   : line(Tone::dim, "pedal up (SPACE)"));
     text.push_back(line(Tone::dim, "left drag: hand   W/S: in/out   1-9 [ ]: burr"));
     return text;
 }

@@ -21,7 +21,7 @@ PanelText session_text(const OverlayContent& content);
 PanelText tool_text(const OverlayContent& content);
 /// What must not be overlooked, and the notice; empty while there is nothing.
 PanelText warning_text(const OverlayContent& content);
-/// Pedal, and who has the tool; needs content.operator_intent.
+/// Pedal, and who has the tool; needs content.operator_command.
 PanelText operator_text(const OverlayContent& content);
 
 }  // namespace osteomill

@@ -83,12 +83,12 @@ void SessionPicture::take_in_bone(bool first_of_tool) {
 SessionPicture::News SessionPicture::news() const {
     const LinkUpdate& was = drawn_link_;
     const bool has_moved = tool_ && !(drawn_state_ && looks_the_same(*drawn_state_, *tool_));
-    const auto is_as_drawn = [](const OperatorIntent& drawn, const OperatorIntent& now) {
+    const auto is_as_drawn = [](const OperatorCommand& drawn, const OperatorCommand& now) {
         return drawn.pedal == now.pedal &&
                glm::distance(drawn.hand_target_mm, now.hand_target_mm) <= quiet_motion_mm;
     };
-    const bool hand_has_moved = operator_intent_.has_value() != drawn_intent_.has_value() ||
-                                (operator_intent_ && !is_as_drawn(*drawn_intent_, *operator_intent_));
+    const bool hand_has_moved = operator_command_.has_value() != drawn_command_.has_value() ||
+                                (operator_command_ && !is_as_drawn(*drawn_command_, *operator_command_));
     if (has_undrawn_bone_ || has_moved || hand_has_moved || has_turning_burr() || !quality().refined ||
         link_.status != was.status || link_.status_line != was.status_line ||
         link_.recording_error != was.recording_error || link_.snapshot_bricks != was.snapshot_bricks ||
@@ -166,7 +166,7 @@ const gl::Framebuffer& SessionPicture::draw(double elapsed_s) {
                   .view = &view_,
                   .render_frames_per_s = frame_s_ > 0.0 ? 1.0 / frame_s_ : 0.0,
                   .quality = picture_.quality(),
-                  .operator_intent = operator_intent_,
+                  .operator_command = operator_command_,
                   .player = source_.player(),
                   .bone_problem = bone_problem_,
                   .has_bone = has_bone()},
@@ -174,7 +174,7 @@ const gl::Framebuffer& SessionPicture::draw(double elapsed_s) {
     picture_.cover(panels_.end());
     drawn_link_ = link_;
     drawn_state_ = tool_;
-    drawn_intent_ = operator_intent_;
+    drawn_command_ = operator_command_;
     has_undrawn_bone_ = false;
     return picture;
 }
@@ -201,9 +201,9 @@ DrawnTool SessionPicture::drawn_tool() const {
         const Burr& burr = session->burrs[tool_->burr];
         drawn.burr = {burr.diameter_mm, burr.edges, burr.sense == SpindleSense::clockwise};
     }
-    if (operator_intent_ &&
-        glm::distance(operator_intent_->hand_target_mm, tool_->burr_position_mm) > nearest_shown_target_mm)
-        drawn.hand_target_mm = operator_intent_->hand_target_mm;
+    if (operator_command_ &&
+        glm::distance(operator_command_->hand_target_mm, tool_->burr_position_mm) > nearest_shown_target_mm)
+        drawn.hand_target_mm = operator_command_->hand_target_mm;
     return drawn;
 }
 

@@ -55,7 +55,7 @@ class SessionPicture {
     /// where its transfer function is none.
     void set_shading(const ShadingSettings& look);
     ViewSettings& view() { return view_; }
-    void show_operator(const std::optional<OperatorIntent>& intent) { operator_intent_ = intent; }
+    void show_operator(const std::optional<OperatorCommand>& command) { operator_command_ = command; }
 
     bool has_bone() const { return textures_.has_value(); }
     /// Whether a burr turns in the picture: it does for as long as the source tells of it.
@@ -96,10 +96,10 @@ class SessionPicture {
     // What the last frame showed.
     LinkUpdate drawn_link_;
     std::optional<ToolState> drawn_state_;
-    std::optional<OperatorIntent> drawn_intent_;
+    std::optional<OperatorCommand> drawn_command_;
     bool has_undrawn_bone_ = true;
     ToolHistory history_;
-    std::optional<OperatorIntent> operator_intent_;
+    std::optional<OperatorCommand> operator_command_;
     ViewSettings view_;
     double spin_rad_ = 0.0;
     double frame_s_ = 0.0;  ///< between frames, in the mean over the last ten or so

@@ -12,11 +12,11 @@ namespace {
 const ToolPose start{{1.0, 2.0, 3.0}, {0.0, 0.0, 1.0}};
 
 struct Desk {
-    TripleBuffer<OperatorInput> input;
+    OperatorChannel input;
     ClientDevice device{input, start, DeviceMapping{}, ArmModel{}, hand_model(Grip::firm)};
     int tick = 0;
 
-    void say(const OperatorInput& what) {
+    void say(const std::optional<OperatorCommand>& what) {
         input.back() = what;
         input.publish();
     }
@@ -26,7 +26,7 @@ struct Desk {
         return state;
     }
     /// Says it again every 20 ms, as a client does.
-    DeviceState run_while_saying(const OperatorInput& what, int ticks) {
+    DeviceState run_while_saying(const std::optional<OperatorCommand>& what, int ticks) {
         DeviceState state;
         for (int i = 0; i < ticks; ++i) {
             if (i % 20 == 0) say(what);
@@ -36,8 +36,8 @@ struct Desk {
     }
 };
 
-OperatorInput wants(const glm::dvec3& position_mm) {
-    return {.hand_target = {position_mm, {0.0, 0.0, 1.0}}, .pedal = true, .burr = 2, .present = true};
+OperatorCommand wants(const glm::dvec3& position_mm) {
+    return {.hand_target_mm = position_mm, .pedal = true, .burr = 2};
 }
 
 TEST(ClientDevice, RestsAtTheStartPoseUntilAnOperatorComes) {
@@ -88,7 +88,7 @@ TEST(ClientDevice, LiftsThePedalAndStandsStill200MsAfterTheNewestMessage) {
     const double rests_mm = desk.run(1).position_mm.x;
     EXPECT_NEAR(desk.run(500).position_mm.x, rests_mm, 0.06);
     EXPECT_FALSE(desk.run_while_saying(wants({5.0, 2.0, 3.0}), 500).pedal) << "heard again, and still held";
-    OperatorInput lifted = wants({5.0, 2.0, 3.0});
+    OperatorCommand lifted = wants({5.0, 2.0, 3.0});
     lifted.pedal = false;
     EXPECT_FALSE(desk.run_while_saying(lifted, 20).pedal);
     EXPECT_TRUE(desk.run_while_saying(wants({5.0, 2.0, 3.0}), 20).pedal) << "pressed anew";
@@ -110,9 +110,7 @@ TEST(ClientDevice, GoesByTheTimeOfTheTickHoweverFewTicksThereAre) {
 TEST(ClientDevice, LiftsThePedalAndHoldsStillWhenTheOperatorIsLost) {
     Desk desk;
     desk.run_while_saying(wants({50.0, 2.0, 3.0}), 100);
-    OperatorInput gone = wants({50.0, 2.0, 3.0});
-    gone.present = false;
-    desk.say(gone);
+    desk.say(std::nullopt);
     EXPECT_FALSE(desk.run(1).pedal);
     desk.run(1000);
     const double rests_mm = desk.run(1).position_mm.x;
@@ -127,8 +125,8 @@ TEST(ClientDevice, PassesOverInputThatIsNotFinite) {
     EXPECT_FALSE(state.pedal);
     EXPECT_LT(glm::distance(state.position_mm, start.position_mm), 0.1);
 
-    OperatorInput no_axis = wants({20.0, 2.0, 3.0});
-    no_axis.hand_target.spindle_axis = glm::dvec3(0.0);
+    OperatorCommand no_axis = wants({20.0, 2.0, 3.0});
+    no_axis.spindle_axis = glm::dvec3(0.0);
     desk.say(no_axis);
     state = desk.run(100);
     EXPECT_FALSE(state.pedal);
@@ -137,8 +135,8 @@ TEST(ClientDevice, PassesOverInputThatIsNotFinite) {
 
 TEST(ClientDevice, TurnsTheSpindleOverSmoothly) {
     Desk desk;
-    OperatorInput tilted = wants(start.position_mm);
-    tilted.hand_target.spindle_axis = {3.0, 0.0, 3.0};  // any length
+    OperatorCommand tilted = wants(start.position_mm);
+    tilted.spindle_axis = {3.0, 0.0, 3.0};  // any length
     const DeviceState state = desk.run_while_saying(tilted, 1000);
     EXPECT_NEAR(state.spindle_axis.x, std::sqrt(0.5), 1e-6);
     EXPECT_NEAR(glm::length(state.spindle_axis), 1.0, 1e-12);

@@ -159,15 +159,15 @@ TEST(BoneLink, CarriesTheOperatorsWishes) {
     ServedBone served(0, true);
     auto link = std::make_unique<BoneLink>("127.0.0.1", served.port());
     ASSERT_TRUE(reaches(*link, LinkStatus::live));
-    const OperatorIntent intent{
+    const OperatorCommand command{
         .hand_target_mm = {1, 2, 3}, .spindle_axis = {0, 0, 2}, .pedal = true, .burr = 1};
     EXPECT_TRUE(eventually([&] {
         link->poll();
-        link->send_operator(intent);
-        return served.operator_input().present;
+        link->send_operator(command);
+        return served.operator_command().has_value();
     }));
-    EXPECT_EQ(served.operator_input().hand_target.position_mm, glm::dvec3(1, 2, 3));
-    EXPECT_EQ(served.operator_input().hand_target.spindle_axis, glm::dvec3(0, 0, 1));
+    EXPECT_EQ(served.operator_command()->hand_target_mm, glm::dvec3(1, 2, 3));
+    EXPECT_EQ(served.operator_command()->spindle_axis, glm::dvec3(0, 0, 1));
 
     link->send_operator({.burr = 7});  // not sent: it would cost the connection
     BoneLink second("127.0.0.1", served.port());
@@ -175,13 +175,13 @@ TEST(BoneLink, CarriesTheOperatorsWishes) {
     for (int i = 0; i < 10; ++i) second.send_operator({.burr = 0});
     // However long that takes: who asks for nothing for 3 s loses the seat.
     ASSERT_TRUE(eventually([&] {
-        link->send_operator(intent);
+        link->send_operator(command);
         return second.poll().checksums_verified >= 2;
     }));
-    EXPECT_EQ(served.operator_input().burr, 1U) << "the first holds the seat";
+    EXPECT_EQ(served.operator_command()->burr, 1U) << "the first holds the seat";
     const auto is_told = [&](BoneLink& client, ToolDriver driver) {
         return eventually([&] {
-            link->send_operator(intent);
+            link->send_operator(command);
             const auto tool = client.poll().tool;
             return tool && tool->driver == driver;
         });
@@ -191,11 +191,10 @@ TEST(BoneLink, CarriesTheOperatorsWishes) {
     EXPECT_EQ(link->poll().connections, 1U);
 
     link.reset();
-    EXPECT_TRUE(eventually([&] { return !served.operator_input().present; }));
-    EXPECT_FALSE(served.operator_input().pedal);
+    EXPECT_TRUE(eventually([&] { return !served.operator_command().has_value(); }));
     EXPECT_TRUE(eventually([&] {
         second.send_operator({.burr = 0});
-        return served.operator_input().present;
+        return served.operator_command().has_value();
     })) << "the seat is free again";
 }
 

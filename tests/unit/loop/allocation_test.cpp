@@ -84,11 +84,11 @@ TEST(RealTimeCode, AllocatesNothingWithASimulatedHand) {
 }
 
 TEST(RealTimeCode, AllocatesNothingWithAnOperator) {
-    TripleBuffer<OperatorInput> input;
+    OperatorChannel input;
     ClientDevice device(input, start, DeviceMapping{}, ArmModel{}, hand_model(Grip::firm));
     // What an operator says is good for a fifth of a second only.
     const auto say_again = [&input] {
-        input.back() = {.hand_target = {{2.0, 0.0, 0.2}, {0.0, 0.0, 1.0}}, .pedal = true, .present = true};
+        input.back() = OperatorCommand{.hand_target_mm = {2.0, 0.0, 0.2}, .pedal = true};
         input.publish();
     };
     expect_no_allocation(force_model_names().front(), coupling_names().front(), device, say_again);

@@ -10,7 +10,7 @@ using std::chrono::seconds;
 TEST(OperatorActivity, IsAnythingNewAndAPedalThatIsDown) {
     const OperatorActivity::Time start{};
     const auto rest = OperatorActivity::longest_rest;
-    const OperatorIntent still{.hand_target_mm = {1, 2, 3}, .burr = 1};
+    const OperatorCommand still{.hand_target_mm = {1, 2, 3}, .burr = 1};
     OperatorActivity activity;
     EXPECT_FALSE(activity.is_idle(start + 9 * rest)) << "nobody has begun";
     activity.note(still, start);
@@ -18,16 +18,17 @@ TEST(OperatorActivity, IsAnythingNewAndAPedalThatIsDown) {
     EXPECT_FALSE(activity.is_idle(start + rest));
     EXPECT_TRUE(activity.is_idle(start + rest + seconds(1)));
 
-    OperatorIntent moved = still;
+    OperatorCommand moved = still;
     auto now = start;
-    for (const auto& change : std::initializer_list<std::function<void(OperatorIntent&)>>{
-             [](OperatorIntent& intent) { intent.hand_target_mm.x += 0.01; },
-             [](OperatorIntent& intent) {
-                 intent.spindle_axis = {0, 1, 0};
+    for (const auto& change : std::initializer_list<std::function<void(OperatorCommand&)>>{
+             [](OperatorCommand& command) { command.hand_target_mm.x += 0.01; },
+             [](OperatorCommand& command) {
+                 command.spindle_axis = {0, 1, 0};
              },
-             [](OperatorIntent& intent) { intent.burr = 0; },
-             [](OperatorIntent& intent) { intent.pedal = true; }, [](OperatorIntent&) {},  // it is down still
-             [](OperatorIntent& intent) { intent.pedal = false; }}) {
+             [](OperatorCommand& command) { command.burr = 0; },
+             [](OperatorCommand& command) { command.pedal = true; },
+             [](OperatorCommand&) {},  // it is down still
+             [](OperatorCommand& command) { command.pedal = false; }}) {
         change(moved);
         activity.note(moved, now += 2 * rest);
         EXPECT_FALSE(activity.is_idle(now + rest));

@@ -72,11 +72,11 @@ class RawClient {
     FrameDecoder decoder_;
 };
 
-v1::ClientFrame input_frame(std::uint64_t sequence, const OperatorIntent& intent,
+v1::ClientFrame input_frame(std::uint64_t sequence, const OperatorCommand& command,
                             std::uint64_t answers_state = 0) {
     v1::ClientFrame frame;
     frame.set_sequence(sequence);
-    *frame.mutable_operator_input() = to_message(intent);
+    *frame.mutable_operator_input() = to_message(command);
     frame.mutable_operator_input()->set_number(sequence);
     frame.mutable_operator_input()->set_answers_state(answers_state);
     return frame;
@@ -151,7 +151,7 @@ TEST(StreamingServer, DropsClientsThatTalkNonsenseWhileOthersNoticeNothing) {
         for (RawClient* client : {&http, &oversize, &bodiless, &late, &nowhere, &burr, &doubter})
             EXPECT_TRUE(client->is_dropped());
     }
-    EXPECT_FALSE(served.operator_input().present);
+    EXPECT_FALSE(served.operator_command().has_value());
 
     const std::uint64_t verified = link.poll().checksums_verified;
     EXPECT_TRUE(eventually([&] { return link.poll().checksums_verified > verified; }));
@@ -175,7 +175,7 @@ TEST(StreamingServer, DropsAClientThatSaysMoreThanAnyoneHasToSay) {
         return seen.states() > 0;
     }));
     steady.send(input_frame(1001, {.pedal = true}, seen.sequence()));
-    EXPECT_TRUE(eventually([&] { return served.operator_input().pedal; }));
+    EXPECT_TRUE(eventually([&] { return served.operator_command() && served.operator_command()->pedal; }));
     loud.send(flood);
     EXPECT_TRUE(loud.is_dropped());
     std::string frame;
@@ -195,10 +195,11 @@ TEST(StreamingServer, MovesTheToolOnlyForWhoAnswersWhatIsNow) {
         client.read_into(seen);
         return seen.states() > 0;
     }));
-    EXPECT_FALSE(served.operator_input().present) << "it named no state";
+    EXPECT_FALSE(served.operator_command().has_value()) << "it named no state";
     const std::uint64_t first_state = seen.sequence();
     client.send(input_frame(2, {.pedal = true, .burr = 1}, first_state));
-    EXPECT_TRUE(eventually([&] { return served.operator_input().burr == 1; }));
+    EXPECT_TRUE(
+        eventually([&] { return served.operator_command() && served.operator_command()->burr == 1; }));
 
     served.start_carving();  // so that there is something newer to tell
     ASSERT_TRUE(eventually([&] {
@@ -215,11 +216,11 @@ TEST(StreamingServer, MovesTheToolOnlyForWhoAnswersWhatIsNow) {
         client.read_into(seen);
         return seen.states() > by_then + 5;
     }));
-    EXPECT_EQ(served.operator_input().burr, 1U);
+    EXPECT_EQ(served.operator_command()->burr, 1U);
     EXPECT_TRUE(eventually([&, number = std::uint64_t{6}]() mutable {
         client.read_into(seen);
         client.send(input_frame(number++, {.burr = 0}, seen.sequence()));
-        return served.operator_input().burr == 0;
+        return served.operator_command() && served.operator_command()->burr == 0;
     })) << "what is now";
 
     RawClient clairvoyant(served.port());

@@ -59,7 +59,7 @@ TEST_F(TlsServer, ServesTheLabAndTurnsAwayTheRestWhileTheLabNoticesNothing) {
     late->send_operator({.pedal = true});
     EXPECT_TRUE(eventually([&] {
         late->send_operator({.pedal = true});
-        return served_->operator_input().pedal;
+        return served_->operator_command() && served_->operator_command()->pedal;
     }));
 
     std::thread stopping([&] { served_->stop(); });

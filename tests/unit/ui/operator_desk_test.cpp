@@ -16,11 +16,11 @@ class DeskSource final : public SessionSource {
     LinkUpdate poll() override { return {}; }
     const Bone* bone() const override { return nullptr; }
     const SessionInfo* session() const override { return nullptr; }
-    void send_operator(const OperatorIntent& intent) override { sent.push_back(intent); }
+    void send_operator(const OperatorCommand& command) override { sent.push_back(command); }
     std::optional<ToolState> newest_tool() const override { return tool; }
 
     std::optional<ToolState> tool = ToolState{.driver = ToolDriver::nobody};
-    std::vector<OperatorIntent> sent;
+    std::vector<OperatorCommand> sent;
 };
 
 struct Desk {
@@ -112,7 +112,7 @@ TEST(OperatorDesk, FallsSilentWhereThereIsNoSessionToDrillIn) {
     desk.desk.show(desk.picture);
     desk.step();
     EXPECT_EQ(desk.source.sent.size(), 1u);
-    EXPECT_FALSE(desk.desk.intent());
+    EXPECT_FALSE(desk.desk.command());
 }
 
 }  // namespace

@@ -22,17 +22,17 @@ TEST(OperatorHand, RestsOnTheToolUntilItIsTakenUp) {
     OperatorHand hand;
     hand.follow(tool_at({1.0, 2.0, 3.0}), 6);
     hand.follow(tool_at({2.0, 2.0, 3.0}), 6);
-    EXPECT_EQ(hand.intent().hand_target_mm, glm::dvec3(2.0, 2.0, 3.0));
-    EXPECT_FALSE(hand.intent().pedal);
+    EXPECT_EQ(hand.command().hand_target_mm, glm::dvec3(2.0, 2.0, 3.0));
+    EXPECT_FALSE(hand.command().pedal);
 }
 
 TEST(OperatorHand, MovesTheTargetByThePixelsThatThePointerMoved) {
     OperatorHand hand;
     const Camera camera = camera_on({1.0, 2.0, 3.0}, 20.0);
     hand.follow(tool_at({1.0, 2.0, 3.0}), 6);
-    const glm::dvec2 before = pixel_of(camera, hand.intent().hand_target_mm, size_px);
+    const glm::dvec2 before = pixel_of(camera, hand.command().hand_target_mm, size_px);
     hand.move_in_picture({30.0, 12.0}, camera, size_px);
-    const glm::dvec2 after = pixel_of(camera, hand.intent().hand_target_mm, size_px);
+    const glm::dvec2 after = pixel_of(camera, hand.command().hand_target_mm, size_px);
     EXPECT_NEAR(glm::distance(after - before, glm::dvec2(30.0, 12.0)), 0.0, 1e-6);
 }
 
@@ -40,7 +40,7 @@ TEST(OperatorHand, AdvancesTowardsTheTip) {
     OperatorHand hand;
     hand.follow(tool_at({0.0, 0.0, 5.0}), 6);
     hand.advance(0.5);
-    EXPECT_EQ(hand.intent().hand_target_mm, glm::dvec3(0.0, 0.0, 4.5));
+    EXPECT_EQ(hand.command().hand_target_mm, glm::dvec3(0.0, 0.0, 4.5));
 }
 
 TEST(OperatorHand, KeepsTheTargetWithinReachOfTheBurr) {
@@ -48,7 +48,7 @@ TEST(OperatorHand, KeepsTheTargetWithinReachOfTheBurr) {
     hand.follow(tool_at({0.0, 0.0, 5.0}), 6);
     hand.advance(100.0);
     hand.follow(tool_at({0.0, 0.0, 5.0}), 6);
-    EXPECT_NEAR(glm::distance(hand.intent().hand_target_mm, glm::dvec3(0.0, 0.0, 5.0)), longest_reach_mm,
+    EXPECT_NEAR(glm::distance(hand.command().hand_target_mm, glm::dvec3(0.0, 0.0, 5.0)), longest_reach_mm,
                 1e-9);
 }
 
@@ -57,13 +57,13 @@ TEST(OperatorHand, ChoosesOnlyBurrsThatThereAre) {
     ToolState tool = tool_at({});
     tool.burr = 2;
     hand.follow(tool, 6);
-    EXPECT_EQ(hand.intent().burr, 2u);
+    EXPECT_EQ(hand.command().burr, 2u);
     hand.choose_burr(8);
     hand.follow(tool, 6);
-    EXPECT_EQ(hand.intent().burr, 5u);
+    EXPECT_EQ(hand.command().burr, 5u);
     hand.choose_burr(0);
     hand.choose_previous_burr();
-    EXPECT_EQ(hand.intent().burr, 0u);
+    EXPECT_EQ(hand.command().burr, 0u);
 }
 
 TEST(OperatorHand, WantsTheToolOnceItIsUsedAndUntilItLetsGo) {
@@ -87,8 +87,8 @@ TEST(OperatorHand, LetsGoOfPedalAndTarget) {
     hand.advance(1.0);
     hand.let_go();
     hand.follow(tool_at({0.0, 0.0, 5.0}), 6);
-    EXPECT_FALSE(hand.intent().pedal);
-    EXPECT_EQ(hand.intent().hand_target_mm, glm::dvec3(0.0, 0.0, 5.0));
+    EXPECT_FALSE(hand.command().pedal);
+    EXPECT_EQ(hand.command().hand_target_mm, glm::dvec3(0.0, 0.0, 5.0));
 }
 
 }  // namespace

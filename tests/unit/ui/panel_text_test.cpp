@@ -42,7 +42,7 @@ class PanelTexts : public ::testing::Test {
 };
 
 TEST_F(PanelTexts, SayInAWarningThatAnotherClientHasTheTool) {
-    content_.operator_intent = OperatorIntent{};
+    content_.operator_command = OperatorCommand{};
     EXPECT_FALSE(has_tone(operator_text(content_), Tone::warning));
     content_.tool->driver = ToolDriver::another;
     EXPECT_TRUE(has_tone(operator_text(content_), Tone::warning));

@@ -49,9 +49,9 @@ class ScriptedSession final : public SessionSource {
     }
     const Bone* bone() const override { return &bone_; }
     const SessionInfo* session() const override { return &scene_; }
-    void send_operator(const OperatorIntent& intent) override { sent = intent; }
+    void send_operator(const OperatorCommand& command) override { sent = command; }
 
-    std::optional<OperatorIntent> sent;
+    std::optional<OperatorCommand> sent;
 
   private:
     int polls_left_;

@@ -101,21 +101,23 @@ TEST(SceneMessages, BringBackTheTool) {
 }
 
 TEST(SceneMessages, MakeTheOperatorsAxisAUnitVector) {
-    const auto intent = std::get<0>(intent_from(
-        to_message(OperatorIntent{.hand_target_mm = {1, 2, 3}, .spindle_axis = {0, 0, 5}, .pedal = true}),
+    const auto command = std::get<0>(operator_command_from(
+        to_message(OperatorCommand{.hand_target_mm = {1, 2, 3}, .spindle_axis = {0, 0, 5}, .pedal = true}),
         1));
-    EXPECT_EQ(intent.spindle_axis, glm::dvec3(0, 0, 1));
-    EXPECT_EQ(intent.hand_target_mm, glm::dvec3(1, 2, 3));
-    EXPECT_TRUE(intent.pedal);
+    EXPECT_EQ(command.spindle_axis, glm::dvec3(0, 0, 1));
+    EXPECT_EQ(command.hand_target_mm, glm::dvec3(1, 2, 3));
+    EXPECT_TRUE(command.pedal);
 }
 
 TEST(SceneMessages, RefuseAnOperatorWhoAsksTheImpossible) {
-    EXPECT_THAT(error_of(intent_from(to_message(OperatorIntent{.hand_target_mm = {not_a_number, 0, 0}}), 1)),
+    EXPECT_THAT(error_of(operator_command_from(
+                    to_message(OperatorCommand{.hand_target_mm = {not_a_number, 0, 0}}), 1)),
                 HasSubstr("not finite"));
-    EXPECT_THAT(error_of(intent_from(to_message(OperatorIntent{.spindle_axis = {0, 0, 0}}), 1)),
+    EXPECT_THAT(error_of(operator_command_from(to_message(OperatorCommand{.spindle_axis = {0, 0, 0}}), 1)),
                 HasSubstr("no length"));
-    EXPECT_THAT(error_of(intent_from(v1::OperatorInput(), 1)), HasSubstr("no length"));
-    EXPECT_THAT(error_of(intent_from(to_message(OperatorIntent{.burr = 4}), 4)), HasSubstr("burr 4"));
+    EXPECT_THAT(error_of(operator_command_from(v1::OperatorInput(), 1)), HasSubstr("no length"));
+    EXPECT_THAT(error_of(operator_command_from(to_message(OperatorCommand{.burr = 4}), 4)),
+                HasSubstr("burr 4"));
 }
 
 }  // namespace

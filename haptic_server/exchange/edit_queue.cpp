@@ -1,4 +1,4 @@
-#include "haptic_server/loop/edit_queue.h"
+#include "haptic_server/exchange/edit_queue.h"
 
 #include <algorithm>
 #include <utility>
