@@ -14,6 +14,10 @@ struct Asked {
     std::string text;
 };
 
+/// Checks of an option's number, which name no limit that nobody could reach.
+CLI::Validator above_zero();
+CLI::Validator not_below_zero();
+
 /// Fills in what `app` has declared; returns the text where help or the version is asked for. Throws
 /// std::invalid_argument with one line for wrong usage.
 std::optional<std::string> parse_or_text(CLI::App& app, int argc, const char* const* argv);

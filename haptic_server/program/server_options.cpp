@@ -127,11 +127,11 @@ void declare(CLI::App& app, Typed& typed) {
         ->capture_default_str();
     app.add_option("--haptic-cpu", typed.haptic_cpu,
                    "Bind the haptic loop to this processor; best one that the kernel keeps free (isolcpus)")
-        ->check(CLI::NonNegativeNumber);
+        ->check(not_below_zero());
     app.add_option("--milling-cpu", typed.milling_cpu, "Bind the milling loop to this processor")
-        ->check(CLI::NonNegativeNumber);
+        ->check(not_below_zero());
     app.add_option("--duration-s", typed.duration_s, "Stop after this long (or at the trajectory's end)")
-        ->check(CLI::PositiveNumber);
+        ->check(above_zero());
     app.add_option("--listen", typed.listen,
                    "Where clients connect, port 0: any free one; \"none\": nobody does (127.0.0.1:7010; none "
                    "with --clock virtual)")
@@ -144,7 +144,9 @@ void declare(CLI::App& app, Typed& typed) {
     app.add_option("--record", typed.record,
                    "Write what a client is sent, for packet_replay and render_client --replay; a pcap file")
         ->type_name("FILE");
-    app.add_option("--save-bone", typed.save_bone, "Write what is left of the bone, at the end or on a signal; a large CT takes a minute and says how "
+    app.add_option("--save-bone", typed.save_bone,
+                   "Write what is left of the bone, at the end or on a signal; a large CT takes a minute and "
+                   "says how "
                    "far it has come")
         ->type_name("FILE.nrrd");
     app.add_option("--json", typed.json, "Write what was measured")->type_name("FILE");

@@ -36,7 +36,7 @@ ReplayCommandLine parse_replay_command_line(int argc, const char* const* argv, c
                       ->check(CLI::Range(slowest, fastest))
                       ->capture_default_str();
     auto* from = app.add_option("--from-s", options.from_s, "Begin so long after the recording's beginning")
-                     ->check(CLI::NonNegativeNumber);
+                     ->check(not_below_zero());
     app.add_flag("--info", options.info,
                  "Print duration, rates, burrs, removed volume by tissue, checksum; serve nobody");
     app.add_option("--json", json, "Write the same to this file; serve nobody")->type_name("FILE");

@@ -1,6 +1,7 @@
 #include "render_client/ui/offscreen_run.h"
 
 #include <fmt/format.h>
+#include <spdlog/spdlog.h>
 
 #include <algorithm>
 #include <chrono>
@@ -19,6 +20,7 @@ using Clock = std::chrono::steady_clock;
 
 constexpr auto frame_period =
     std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(1.0 / 30.0));
+constexpr double silent_wait_for_bone_s = 1.0;
 constexpr glm::ivec2 default_size_px(960, 600);
 
 double seconds(Clock::duration duration) {
@@ -28,8 +30,14 @@ double seconds(Clock::duration duration) {
 /// Polls until the first bone is there. False where the run was asked to stop before.
 bool wait_for_bone(SessionPicture& session, const std::function<bool()>& stop_asked) {
     const Clock::time_point start = Clock::now();
+    bool has_said = false;
     while (!stop_asked()) {
         session.take_in();
+        if (!has_said && seconds(Clock::now() - start) > silent_wait_for_bone_s) {
+            spdlog::info("waiting for a bone, at most {:.0f} s: {}", longest_wait_for_bone_s,
+                         session.link().status_line);
+            has_said = true;
+        }
         if (session.has_bone()) return true;
         if (!session.bone_problem().empty()) throw std::runtime_error(session.bone_problem());
         const LinkStatus status = session.link().status;

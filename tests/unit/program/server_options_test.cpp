@@ -104,7 +104,9 @@ TEST(ServerOptions, NameTheOptionAndTheChoicesInOneLine) {
     EXPECT_THAT(error_of({"--nonsense"}), HasSubstr("--nonsense"));
     EXPECT_THAT(error_of({"--milling-rate-hz", "5"}), HasSubstr("--milling-rate-hz"));
     EXPECT_THAT(error_of({"--milling-rate-hz", "fast"}), HasSubstr("--milling-rate-hz"));
-    EXPECT_THAT(error_of({"--duration-s", "-1"}), HasSubstr("--duration-s"));
+    EXPECT_EQ(error_of({"--duration-s", "-1"}), "--duration-s: -1 is not above 0; see --help");
+    EXPECT_THAT(error_of({"--duration-s", "nan"}), HasSubstr("is not above 0"));
+    EXPECT_THAT(error_of({"--haptic-cpu", "-1"}), HasSubstr("-1 is not 0 or more"));
     EXPECT_THAT(error_of({"--save-bone", "bone.stl"}), AllOf(HasSubstr("--save-bone"), HasSubstr(".nrrd")));
     EXPECT_THAT(error_of({"--listen", "here"}), Not(HasSubstr("\n")));
 }
