@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "haptic_server/imaging/hu_file.h"
+#include "haptic_server/imaging/hu_histogram.h"
 #include "haptic_server/imaging/image_part.h"
 #include "haptic_server/imaging/image_reader.h"
 #include "haptic_server/imaging/imaging_error.h"
@@ -117,11 +118,13 @@ std::size_t make_hu(const ImportOptions& options, std::span<float> values) {
 void read_part(const ImportOptions& options, const OpenedImage& opened, const ImageBox& needed,
                const ScratchValues& part, const ImportSurroundings& surroundings) {
     std::size_t replaced = 0;
+    HuHistogram histogram;
     {
         ProgressLine progress(surroundings.messages, surroundings.is_terminal, "reading");
         opened.read_slices(
             [&](int k, std::span<float> slice) {
                 replaced += make_hu(options, slice);
+                histogram.add(slice);
                 put_slice(opened.image, needed, k, slice, part.values());
                 part.let_go();
             },
@@ -130,6 +133,8 @@ void read_part(const ImportOptions& options, const OpenedImage& opened, const Im
     if (replaced > 0)
         surroundings.messages << fmt::format("{}: {} voxels are not numbers; taken as air\n",
                                              options.input.string(), replaced);
+    if (const std::string doubt = histogram.doubt(); !doubt.empty())
+        surroundings.messages << fmt::format("{}: warning: {}\n", options.input.string(), doubt);
 }
 
 /// Slices of the result that are at work, by their number.

@@ -1,0 +1,31 @@
+// Counts the values of a scan, and says where they do not look like HU.
+//
+// The scale of CT numbers is fixed by air (-1000) and water (0), and every scan of a patient has some air. A
+// file that was saved without its offset, a label map or an 8-bit picture becomes a bone as well as a CT
+// does, but a wrong one.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace osteomill {
+
+class HuHistogram {
+  public:
+    HuHistogram();
+
+    /// Values beyond -4096 to 8191 count as these. No value may be NaN.
+    void add(std::span<const float> values);
+
+    /// One line for people on what the values seem to be instead, and which option would make HU of them;
+    /// empty where they may be HU, or all are the same.
+    std::string doubt() const;
+
+  private:
+    std::vector<std::uint64_t> count_of_hu_;
+    std::uint64_t not_whole_ = 0;
+};
+
+}  // namespace osteomill
