@@ -36,6 +36,7 @@ class BrickLayer {
         }
     }
 
+    int first_x() const { return first_x_; }
     int end_x() const { return end_x_; }
     int first_y() const { return first_y_; }
     int end_y() const { return end_y_; }

@@ -13,16 +13,16 @@ namespace osteomill {
 
 namespace {
 
-/// A sweep of at most CrescentRows::longest_step_voxels.
-void carve_short(Bone& bone, const Sweep& ball, bool crescent_only, const CarveSettings& settings,
-                 EditSink& edits, RemovalSink& sink) noexcept {
+/// A sweep of at most CrescentRows::longest_step_voxels from where the ball has carved, or a ball at rest.
+void carve_short(Bone& bone, const Sweep& ball, const CarveSettings& settings, EditSink& edits,
+                 RemovalSink& sink) noexcept {
     const glm::ivec3 size = bone.grid().size_voxels;
     const auto reach = static_cast<int>(std::ceil(ball.radius)) + 3;
     const glm::ivec3 near(glm::floor(0.5 * (ball.from + ball.to)));
     const glm::ivec3 base = ((near - reach) >> 4) * brick_edge_voxels;  // rounded down to a brick
     const glm::dvec3 origin(base);
     CrescentRows rows({ball.from - origin, ball.to - origin, ball.radius}, rim_voxels(settings.coverage),
-                      crescent_only, glm::max(-base, glm::ivec3(0)), size - base);
+                      glm::max(-base, glm::ivec3(0)), size - base);
     const VoxelRange slices = rows.slices();
     if (rows.columns().empty() || rows.rows().empty() || slices.empty()) return;
 
@@ -35,7 +35,7 @@ void carve_short(Bone& bone, const Sweep& ball, bool crescent_only, const CarveS
             if (layer.row_holds_any(brick_y)) kernel.carve_bricks(rows, layer, brick_y, {first, end});
         first = end;
     }
-    kernel.flush();
+    kernel.hand_on_voxels();
 }
 
 /// The part of a sweep near which the grid has voxels, or nothing.
@@ -70,7 +70,7 @@ void carve(Bone& bone, const Sweep& ball, CarveHistory history, const CarveSetti
     Sweep sweep = ball;
     if (!cut_to_grid(sweep, bone.grid().size_voxels)) return;
     if (history == CarveHistory::none)
-        carve_short(bone, {sweep.from, sweep.from, sweep.radius}, false, settings, edits, removed);
+        carve_short(bone, {sweep.from, sweep.from, sweep.radius}, settings, edits, removed);
     const glm::dvec3 along = sweep.to - sweep.from;
     const double length = glm::length(along);
     if (length == 0.0) return;
@@ -79,7 +79,7 @@ void carve(Bone& bone, const Sweep& ball, CarveHistory history, const CarveSetti
     glm::dvec3 from = sweep.from;
     for (double part = 1.0; part <= parts; part += 1.0) {
         const glm::dvec3 to = part == parts ? sweep.to : sweep.from + along * (part / parts);
-        carve_short(bone, {from, to, sweep.radius}, true, settings, edits, removed);
+        carve_short(bone, {from, to, sweep.radius}, settings, edits, removed);
         from = to;
     }
 }

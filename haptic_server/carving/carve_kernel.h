@@ -1,6 +1,7 @@
-// Inner loops of carving one short sweep, brick by brick: they list the voxels that may change, then do the
-// list eight at a time. Rows of the crescent are a few voxels long and nobody can predict where they end, so
-// what is done for each voxel runs over the list, without a branch.
+// Inner loops of carving one short sweep, brick by brick: they list the voxels that may change with what is
+// left of each, lower the list eight at a time, then write it back row by row. Rows of the crescent are a few
+// voxels long and nobody can predict where they end, so what is done for each voxel runs over the list,
+// without a branch.
 #pragma once
 
 #include <array>
@@ -17,9 +18,9 @@ namespace osteomill {
 
 class CarveKernel {
   public:
-    /// `base`: the voxel that positions are counted from, the first of a brick; `sweep` is seen from it. What
-    /// voxels lose goes to `removed`, rows of bricks that changed to `edits`, in a fixed order, at the latest
-    /// with flush(). Real-time safe, and so is all the rest.
+    /// `base`: the voxel that positions are counted from, the first of a brick; `sweep` is seen from it. Rows
+    /// of bricks that changed go to `edits`, what voxels lose to `removed`, the last of it with
+    /// hand_on_voxels(); in a fixed order. Real-time safe, and so is all the rest.
     CarveKernel(Bone& bone, const glm::ivec3& base, const SweepSeenFrom& sweep, InstructionSet instructions,
                 EditSink& edits, RemovalSink& removed) noexcept;
 
@@ -28,8 +29,8 @@ class CarveKernel {
     void carve_bricks(const CrescentRows& rows, const BrickLayer& layer, int brick_y,
                       const VoxelRange& z) noexcept;
 
-    /// Hands on what has not been.
-    void flush() noexcept;
+    /// Hands on the lost voxels that have not been.
+    void hand_on_voxels() noexcept;
 
   private:
     /// The inner loops; in the source, where vectors are at home.
@@ -39,35 +40,37 @@ class CarveKernel {
                             const VoxelRange& z) noexcept;
     void carve_bricks_avx2(const CrescentRows& rows, const BrickLayer& layer, int brick_y,
                            const VoxelRange& z) noexcept;
-    void report_changes() noexcept;
-    void report_run(std::size_t first_voxel, std::size_t last_voxel) noexcept;
-    void hand_on_voxels() noexcept;
+    /// Writes what is left of the listed rows into their brick and reports those that changed.
+    void write_back(std::int32_t slot) noexcept;
+    std::uint8_t* left_of_list() { return &left_[brick_edge_voxels]; }
 
     Bone& bone_;
     SweepSeenFrom sweep_;
     InstructionSet instructions_;
     EditSink& edits_;
     RemovalSink& sink_;
-    /// Neighbouring voxels of a row of a brick, and where in the list they begin.
+    /// Neighbouring voxels of a row of a brick: offset of the first, and how many, in one number.
     struct Row {
-        std::uint16_t first;  ///< offset in the brick
-        std::uint16_t length;
-        std::uint16_t list_start;
+        std::int32_t number;
+
+        template <typename Numbers>
+        static Numbers packed(const Numbers& first, const Numbers& length) {
+            return first | length << 16;
+        }
+        std::size_t first() const { return static_cast<std::uint32_t>(number) & 0xffffu; }
+        std::size_t length() const { return static_cast<std::uint32_t>(number) >> 16u; }
     };
     /// Rows of a brick: left and right of the ball's inside.
     static constexpr std::size_t most_rows = 2 * std::size_t{brick_edge_voxels} * brick_edge_voxels;
+    /// Beyond its end a list is written to, for up to two more rows.
+    static constexpr std::size_t list_length = brick_voxel_count + 2 * brick_edge_voxels;
 
-    // Scratch, not cleared: a step starts with nothing to do. The rows of the brick that is being listed, and
-    // of the one that was last lowered and is not yet reported; of its list, bit i of the stream is set where
-    // voxel i lost something.
-    std::int32_t changed_slot_ = BoneContent::no_slot;
+    // Scratch, not cleared: of the brick that is being carved the rows of voxels, one after the other the
+    // offsets of these voxels, and what is left of each.
     std::size_t row_count_ = 0;
-    std::size_t changed_row_count_ = 0;
     std::array<Row, most_rows + RemovedVoxels::lanes> rows_;
-    std::array<Row, most_rows + RemovedVoxels::lanes> changed_rows_;
-    std::array<std::uint8_t, brick_voxel_count / 8 + 2> changed_;
-    alignas(
-        64) std::array<std::int32_t, brick_voxel_count + 2 * RemovedVoxels::lanes> list_;  // offsets in it
+    alignas(64) std::array<std::int32_t, list_length> list_;
+    alignas(64) std::array<std::uint8_t, brick_edge_voxels + list_length> left_;  // after room for a row
     RemovedVoxels voxels_;
 };
 

@@ -1,9 +1,9 @@
 // Rows of voxels that can lie in the crescent that a burr cuts in one short step. A superset, quickly
-// found: for a step of length L from a to b about its middle m, what changes lies
+// found: for a step of length L from a to b, what changes lies
 //
-//     within R + rim + L/2 of m       (beyond, no voxel is covered),
-//     not within R - rim - L/2 of m   (there the ball at a has left nothing),
-//     ahead of the plane through a across the step
+//     ahead of the plane through a across the step   (behind it, the nearest point of the step is a),
+//     within sqrt((R + rim)^2 + L^2) of b            (beyond, no voxel ahead of the plane is covered),
+//     not within R - rim of a                        (there the ball at a has left nothing)
 //
 // with rim_voxels() of voxel_coverage.h.
 #pragma once
@@ -33,9 +33,8 @@ class CrescentRows {
     static constexpr int most_rows = 528;
 
     /// `ball` and `rim` in voxels; the ball is counted from the base, and so are the voxels `first` <= v <
-    /// `end` that there are. With `crescent_only` false, all of the ball is looked at.
-    CrescentRows(const Sweep& ball, double rim, bool crescent_only, const glm::ivec3& first,
-                 const glm::ivec3& end) noexcept;
+    /// `end` that there are. A ball at rest has carved nothing yet: all of it is looked at.
+    CrescentRows(const Sweep& ball, double rim, const glm::ivec3& first, const glm::ivec3& end) noexcept;
 
     /// What the sweep can reach of the voxels that there are.
     VoxelRange columns() const { return columns_; }
@@ -47,11 +46,11 @@ class CrescentRows {
 
     /// What eight_rows() (crescent_rows_simd.h) needs, in single precision.
     struct Shape {
-        glm::vec3 middle{0.0f};
-        float outer_squared = 0.0f;
-        float inner_squared = 0.0f;
         glm::vec3 from{0.0f};
-        glm::vec3 direction{0.0f};  // unit, or zero for a ball at rest
+        glm::vec3 to{0.0f};
+        float outer_squared = 0.0f;  // about `to`
+        float inner_squared = 0.0f;  // about `from`; negative where there is no inner ball
+        glm::vec3 direction{0.0f};   // unit, or zero for a ball at rest
         // The plane through the step's start cuts the row whose points are `ahead` of it in y and z at x =
         // plane_at + ahead * plane_per_ahead. What lies ahead is right of it, left of it or, where the step
         // is nearly across x, all of the row or nothing; the weights (0 or 1) say which.
@@ -76,7 +75,6 @@ class CrescentRows {
     VoxelRange columns_;
     VoxelRange rows_;
     VoxelRange slices_;
-    bool crescent_only_ = false;
 };
 
 }  // namespace osteomill

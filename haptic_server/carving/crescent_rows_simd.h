@@ -35,24 +35,25 @@ namespace detail {
     using simd::Ints;
     constexpr auto slack = static_cast<float>(CrescentRows::slack_voxels);
     const Floats zero{};
-    const float dz = static_cast<float>(z) - s.middle.z;
-    const float ahead_z = (static_cast<float>(z) - s.from.z) * s.direction.z;
+    const float to_z = static_cast<float>(z) - s.to.z;
+    const float from_z = static_cast<float>(z) - s.from.z;
     const Floats y = simd::to_floats(first_y + simd::counting());
-    const Floats dy = y - s.middle.y;
-    const Floats outer_squared = (s.outer_squared - dz * dz) - dy * dy;
-    const Floats inner_squared = (s.inner_squared - dz * dz) - dy * dy;
+    const Floats to_y = y - s.to.y;
+    const Floats from_y = y - s.from.y;
+    const Floats outer_squared = (s.outer_squared - to_z * to_z) - to_y * to_y;
+    const Floats inner_squared = (s.inner_squared - from_z * from_z) - from_y * from_y;
     const Floats outer = simd::square_root(outer_squared < 0.0f ? zero : outer_squared);
     const Floats inner = simd::square_root(inner_squared < 0.0f ? zero : inner_squared);
-    const Floats ahead = ahead_z + (y - s.from.y) * s.direction.y;
+    const Floats ahead = from_z * s.direction.z + from_y * s.direction.y;
     const Floats plane = s.plane_at + ahead * s.plane_per_ahead;
     const Floats row_ahead = s.row_weight * (ahead + std::abs(s.direction.x) * (outer + 2.0f) + slack);
     const Floats right_of = s.right_weight * plane;
     const Floats left_of = s.left_weight * plane + (1.0f - s.left_weight) * s.last_x;
 
-    Floats first = s.middle.x - outer;
+    Floats first = s.to.x - outer;
     first = first < right_of ? right_of : first;
     first = first < s.first_x ? zero + s.first_x : first;
-    Floats last = s.middle.x + outer;
+    Floats last = s.to.x + outer;
     last = last > left_of ? left_of : last;
     last = last > s.last_x ? zero + s.last_x : last;
     const Ints is_empty =
@@ -64,8 +65,8 @@ namespace detail {
     // Where the row misses the inner ball the left part is all of it.
     const Ints misses = inner_squared < 0.0f;
     const Ints left_end =
-        simd::smaller(misses ? whole_end : detail::floor_of(s.middle.x - inner) + 1, whole_end);
-    const Ints right_first = misses ? whole_end : detail::ceiling_of(s.middle.x + inner);
+        simd::smaller(misses ? whole_end : detail::floor_of(s.from.x - inner) + 1, whole_end);
+    const Ints right_first = misses ? whole_end : detail::ceiling_of(s.from.x + inner);
     return {whole_first, left_end, simd::larger(right_first, simd::larger(whole_first, left_end)), whole_end};
 }
 

@@ -19,21 +19,21 @@ namespace osteomill {
 
 /// A sweep, for lanes.
 struct SimdSweep {
-    explicit SimdSweep(const SweepSeenFrom& sweep)
-        : from_whole(glm::floor(sweep.from)),
-          from_rest(sweep.from - glm::floor(sweep.from)),
-          along(sweep.along),
+    [[gnu::always_inline]] explicit SimdSweep(const SweepSeenFrom& sweep)
+        : from_whole(simd::floats3(glm::floor(sweep.from))),
+          from_rest(simd::floats3(sweep.from - glm::floor(sweep.from))),
+          along(simd::floats3(sweep.along)),
           // So short a step is none, and its inverse is no number of single precision.
-          inverse_length_squared(
-              sweep.inverse_length_squared > 1e20 ? 0.0f : static_cast<float>(sweep.inverse_length_squared)),
-          radius(static_cast<float>(sweep.radius)),
+          inverse_length_squared(simd::floats(
+              sweep.inverse_length_squared > 1e20 ? 0.0f : static_cast<float>(sweep.inverse_length_squared))),
+          radius(simd::floats(static_cast<float>(sweep.radius))),
           margin(static_cast<float>(0x1p-24 * 8.0 * (sweep.radius + 6.0))) {}
 
-    glm::vec3 from_whole;
-    glm::vec3 from_rest;
-    glm::vec3 along;
-    float inverse_length_squared;
-    float radius;
+    simd::Floats3 from_whole;
+    simd::Floats3 from_rest;
+    simd::Floats3 along;
+    simd::Floats inverse_length_squared;
+    simd::Floats radius;
     float margin;  // voxels
 };
 
@@ -43,76 +43,48 @@ struct EightLevelsLeft {
     simd::Ints is_unsure;  ///< -1 where double precision must be asked, else 0
 };
 
-namespace detail {
-/// A number of the 255 levels, known within `off`, rounded as in voxel_coverage.h.
-[[gnu::always_inline]] inline EightLevelsLeft rounded_level(const simd::Floats& level, float off) {
-    const simd::Floats raised = level + 0.5f;
-    const simd::Ints left = __builtin_convertvector(raised, simd::Ints);
-    const simd::Floats rest = raised - simd::to_floats(left);
-    return {left, (rest < off) | (rest > 1.0f - off)};
-}
-}  // namespace detail
-
 /// How far voxels at whole numbers, counted from the sweep's base, are from its path.
-[[gnu::always_inline]] inline simd::Floats distance_from(const SimdSweep& sweep, const simd::Floats& x,
-                                                         const simd::Floats& y, const simd::Floats& z) {
+[[gnu::always_inline]] inline simd::Floats distance_from(const SimdSweep& sweep,
+                                                         const simd::Floats3& voxels) {
     using simd::Floats;
-    const Floats zero{};
-    const Floats wx = x - sweep.from_whole.x - sweep.from_rest.x;
-    const Floats wy = y - sweep.from_whole.y - sweep.from_rest.y;
-    const Floats wz = z - sweep.from_whole.z - sweep.from_rest.z;
+    const Floats wx = voxels.x - sweep.from_whole.x - sweep.from_rest.x;
+    const Floats wy = voxels.y - sweep.from_whole.y - sweep.from_rest.y;
+    const Floats wz = voxels.z - sweep.from_whole.z - sweep.from_rest.z;
     Floats t =
         (wx * sweep.along.x + (wy * sweep.along.y + wz * sweep.along.z)) * sweep.inverse_length_squared;
-    t = t < 0.0f ? zero : t;
-    t = t > 1.0f ? zero + 1.0f : t;
+    t = simd::larger(t, Floats{});
+    t = simd::smaller(t, simd::floats(1.0f));
     const Floats dx = wx - t * sweep.along.x;
     const Floats dy = wy - t * sweep.along.y;
     const Floats dz = wz - t * sweep.along.z;
     return simd::square_root(dx * dx + dy * dy + dz * dz);
 }
 
-/// What is left of such voxels, 0 to 255, not rounded; within 255 margins. Not for binary coverage.
+/// What is left of such voxels, 0 to 255.
 template <VoxelCoverage coverage>
-[[gnu::always_inline]] inline simd::Floats level_left_unrounded(const SimdSweep& sweep, const simd::Floats& x,
-                                                                const simd::Floats& y,
-                                                                const simd::Floats& z) {
+[[gnu::always_inline]] inline EightLevelsLeft level_left(const SimdSweep& sweep,
+                                                         const simd::Floats3& voxels) {
     using simd::Floats;
-    static_assert(coverage != VoxelCoverage::binary);
-    const Floats zero{};
-    const Floats distance = distance_from(sweep, x, y, z);
-    Floats level;
+    using simd::Ints;
+    const Floats beyond = distance_from(sweep, voxels) - sweep.radius;
+    if constexpr (coverage == VoxelCoverage::binary)
+        return {(beyond > 0.0f) & 255, simd::magnitude(beyond) < sweep.margin};
+
+    Floats raised;  // the level before it is rounded down
     if constexpr (coverage == VoxelCoverage::smoothed) {
         constexpr auto rim = static_cast<float>(detail::smoothed_ramp_half);
         constexpr auto bend_from = static_cast<float>(0.5 - 0.5 * detail::smoothed_mean_over);
         constexpr auto bend = static_cast<float>(0.5 / detail::smoothed_mean_over);
-        const Floats beyond = distance - sweep.radius;
-        Floats off = beyond < 0.0f ? -beyond : beyond;
-        off = off > rim ? zero + rim : off;
-        Floats bent = off - bend_from;
-        bent = bent < 0.0f ? zero : bent;
-        const Floats rise = off - bent * bent * bend;
-        level = 127.5f + 255.0f * (beyond < 0.0f ? -rise : rise);
+        const Floats off = simd::smaller(simd::magnitude(beyond), simd::floats(rim));
+        const Floats bent = simd::larger(off - bend_from, Floats{});
+        raised = 128.0f + 255.0f * simd::with_sign_of(beyond, off - bent * bent * bend);
     } else {
-        level = 255.0f * (distance - (sweep.radius - 0.5f));
+        const Floats left = simd::larger(beyond + 0.5f, Floats{});
+        raised = 0.5f + 255.0f * simd::smaller(left, simd::floats(1.0f));
     }
-    level = level < 0.0f ? zero : level;
-    return level > 255.0f ? zero + 255.0f : level;
-}
-
-/// What is left of such voxels, 0 to 255.
-template <VoxelCoverage coverage>
-[[gnu::always_inline]] inline EightLevelsLeft level_left(const SimdSweep& sweep, const simd::Floats& x,
-                                                         const simd::Floats& y, const simd::Floats& z) {
-    using simd::Floats;
-    using simd::Ints;
-    if constexpr (coverage == VoxelCoverage::binary) {
-        const Floats distance = distance_from(sweep, x, y, z);
-        const Ints left = (distance > sweep.radius) & 255;
-        const Floats beyond = distance - sweep.radius;
-        return {left, (beyond < sweep.margin) & (beyond > -sweep.margin)};
-    } else {
-        return detail::rounded_level(level_left_unrounded<coverage>(sweep, x, y, z), 255.0f * sweep.margin);
-    }
+    const Ints left = __builtin_convertvector(raised, Ints);
+    const Floats from_middle = simd::magnitude(raised - simd::to_floats(left) - 0.5f);
+    return {left, from_middle > 0.5f - 255.0f * sweep.margin};
 }
 
 }  // namespace osteomill

@@ -12,62 +12,42 @@ namespace osteomill {
 namespace {
 
 using simd::Floats;
+using simd::Floats3;
 
-/// Inputs of the loop as plain floats: nothing in it may alias.
+/// Inputs of the loop: nothing in it may alias.
 struct Constants {
-    float xx, xy, xz, yx, yy, yz, zx, zy, zz;  // rows of the rotation into burr axes
-    float middle_x, middle_y, middle_z;        // counted from the batch's base
-    float tangential, radial, axial;
+    [[gnu::always_inline]] Constants(const CuttingStep& step, const glm::ivec3& base)
+        : x_axis(simd::floats3(step.frame[0])),
+          y_axis(simd::floats3(step.frame[1])),
+          z_axis(simd::floats3(step.frame[2])),
+          middle(simd::floats3(step.middle_voxels - glm::dvec3(base))),
+          tangential(simd::floats(step.coefficients.x)),
+          radial(simd::floats(step.coefficients.y)),
+          axial(simd::floats(step.coefficients.z)) {}
+
+    Floats3 x_axis, y_axis, z_axis;  // of the burr
+    Floats3 middle;                  // counted from the batch's base
+    Floats tangential, radial, axial;
 };
 
-Constants constants(const CuttingStep& step, const glm::ivec3& base) {
-    const glm::vec3 x(step.frame[0]);
-    const glm::vec3 y(step.frame[1]);
-    const glm::vec3 z(step.frame[2]);
-    const glm::vec3 middle(step.middle_voxels - glm::dvec3(base));
-    return {x.x,
-            x.y,
-            x.z,
-            y.x,
-            y.y,
-            y.z,
-            z.x,
-            z.y,
-            z.z,
-            middle.x,
-            middle.y,
-            middle.z,
-            step.coefficients.x,
-            step.coefficients.y,
-            step.coefficients.z};
+[[gnu::always_inline]] inline Floats dot(const Floats3& a, const Floats3& b) {
+    return a.x * b.x + a.y * b.y + a.z * b.z;
 }
 
-/// Eight positions in burr axes.
-struct EightPositions {
-    Floats x, y, z;
-};
-
-/// Of the voxels at (*vx, *vy, *vz) and the seven that follow.
-[[gnu::always_inline]] inline EightPositions positions_of(const Constants& c, const float* vx,
-                                                          const float* vy, const float* vz) {
-    const Floats wx = simd::load<Floats>(vx) - c.middle_x;
-    const Floats wy = simd::load<Floats>(vy) - c.middle_y;
-    const Floats wz = simd::load<Floats>(vz) - c.middle_z;
-    return {c.xx * wx + c.xy * wy + c.xz * wz, c.yx * wx + c.yy * wy + c.yz * wz,
-            c.zx * wx + c.zy * wy + c.zz * wz};
+/// Positions in burr axes of the voxels at (*vx, *vy, *vz) and the seven that follow.
+[[gnu::always_inline]] inline Floats3 positions_of(const Constants& c, const float* vx, const float* vy,
+                                                   const float* vz) {
+    const Floats3 from_middle{simd::load<Floats>(vx) - c.middle.x, simd::load<Floats>(vy) - c.middle.y,
+                              simd::load<Floats>(vz) - c.middle.z};
+    return {dot(c.x_axis, from_middle), dot(c.y_axis, from_middle), dot(c.z_axis, from_middle)};
 }
 
-/// And their forces.
-struct EightForces {
-    Floats x, y, z;
-    Floats force_x, force_y, force_z;
-};
-
-[[gnu::always_inline]] inline EightForces forces_of(const Constants& c, const EightPositions& positions,
-                                                    const Floats& weight) {
-    const Floats& x = positions.x;
-    const Floats& y = positions.y;
-    const Floats& z = positions.z;
+/// Forces of the voxels there.
+[[gnu::always_inline]] inline Floats3 forces_of(const Constants& c, const Floats3& position,
+                                                const Floats& weight) {
+    const Floats& x = position.x;
+    const Floats& y = position.y;
+    const Floats& z = position.z;
     const Floats r_squared = x * x + y * y;
     const Floats distance_squared = r_squared + z * z;
     // No voxel of a crescent is that near the centre; padding may be.
@@ -83,56 +63,48 @@ struct EightForces {
 
     const Floats swirl = weight * mean.swirl;
     const Floats outward = c.axial * cos_kappa * swirl + c.radial * per_distance * weight * mean.outward;
-    return {x,
-            y,
-            z,
-            c.tangential * swirl * y - outward * x,
-            -c.tangential * swirl * x - outward * y,
+    return {c.tangential * swirl * y - outward * x, -c.tangential * swirl * x - outward * y,
             weight * (c.radial * cos_kappa * mean.inverse - c.axial * per_distance)};
 }
 
-[[gnu::always_inline]] inline void fill_with(const Constants& constants, std::size_t count, const float* vx,
-                                             const float* vy, const float* vz, const float* weights,
-                                             ChipForces& out) {
-    const Constants c = constants;
-    for (std::size_t i = 0; i < count; i += simd::width) {
-        const EightForces f =
-            forces_of(c, positions_of(c, vx + i, vy + i, vz + i), simd::load<Floats>(weights + i));
-        simd::store(&out.x[i], f.x);
-        simd::store(&out.y[i], f.y);
-        simd::store(&out.z[i], f.z);
-        simd::store(&out.force_x[i], f.force_x);
-        simd::store(&out.force_y[i], f.force_y);
-        simd::store(&out.force_z[i], f.force_z);
+[[gnu::always_inline]] inline void fill_with(const CuttingStep& step, const RemovedVoxels& removed,
+                                             const float* weights, ChipForces& out) {
+    const Constants c(step, removed.base);
+    for (std::size_t i = 0; i < removed.padded_count(); i += simd::width) {
+        const Floats3 position = positions_of(c, &removed.x[i], &removed.y[i], &removed.z[i]);
+        const Floats3 force = forces_of(c, position, simd::load<Floats>(weights + i));
+        simd::store(&out.x[i], position.x);
+        simd::store(&out.y[i], position.y);
+        simd::store(&out.z[i], position.z);
+        simd::store(&out.force_x[i], force.x);
+        simd::store(&out.force_y[i], force.y);
+        simd::store(&out.force_z[i], force.z);
     }
 }
 
-[[gnu::always_inline]] inline glm::dvec3 sum_with(const Constants& constants, std::size_t count,
-                                                  const float* vx, const float* vy, const float* vz,
+[[gnu::always_inline]] inline glm::dvec3 sum_with(const CuttingStep& step, const RemovedVoxels& removed,
                                                   const float* weights) {
-    const Constants c = constants;
-    Floats x{};
-    Floats y{};
-    Floats z{};
-    for (std::size_t i = 0; i < count; i += simd::width) {
-        const EightForces f =
-            forces_of(c, positions_of(c, vx + i, vy + i, vz + i), simd::load<Floats>(weights + i));
-        x += f.force_x;
-        y += f.force_y;
-        z += f.force_z;
+    const Constants c(step, removed.base);
+    Floats3 sum{};
+    for (std::size_t i = 0; i < removed.padded_count(); i += simd::width) {
+        const Floats3 force = forces_of(c, positions_of(c, &removed.x[i], &removed.y[i], &removed.z[i]),
+                                        simd::load<Floats>(weights + i));
+        sum.x += force.x;
+        sum.y += force.y;
+        sum.z += force.z;
     }
-    return {simd::sum(x), simd::sum(y), simd::sum(z)};
+    return {simd::sum(sum.x), simd::sum(sum.y), simd::sum(sum.z)};
 }
 
 #if defined(__x86_64__)
-[[gnu::target("avx2")]] void fill_avx2(const Constants& c, std::size_t count, const float* x, const float* y,
-                                       const float* z, const float* weights, ChipForces& out) {
-    fill_with(c, count, x, y, z, weights, out);
+[[gnu::target("avx2")]] void fill_avx2(const CuttingStep& step, const RemovedVoxels& removed,
+                                       const float* weights, ChipForces& out) {
+    fill_with(step, removed, weights, out);
 }
 
-[[gnu::target("avx2")]] glm::dvec3 sum_avx2(const Constants& c, std::size_t count, const float* x,
-                                            const float* y, const float* z, const float* weights) {
-    return sum_with(c, count, x, y, z, weights);
+[[gnu::target("avx2")]] glm::dvec3 sum_avx2(const CuttingStep& step, const RemovedVoxels& removed,
+                                            const float* weights) {
+    return sum_with(step, removed, weights);
 }
 #endif
 
@@ -151,27 +123,19 @@ CuttingStep::CuttingStep(const Burr& burr, const glm::dvec3& spindle_axis, const
 
 void chip_forces(const CuttingStep& step, const RemovedVoxels& removed, std::span<const float> weights,
                  [[maybe_unused]] InstructionSet instructions, ChipForces& out) noexcept {
-    const Constants c = constants(step, removed.base);
-    const std::size_t count = removed.padded_count();
 #if defined(__x86_64__)
-    if (instructions == InstructionSet::avx2) {
-        fill_avx2(c, count, removed.x.data(), removed.y.data(), removed.z.data(), weights.data(), out);
-        return;
-    }
+    if (instructions == InstructionSet::avx2) return fill_avx2(step, removed, weights.data(), out);
 #endif
-    fill_with(c, count, removed.x.data(), removed.y.data(), removed.z.data(), weights.data(), out);
+    fill_with(step, removed, weights.data(), out);
 }
 
 glm::dvec3 sum_of_chip_forces(const CuttingStep& step, const RemovedVoxels& removed,
                               std::span<const float> weights,
                               [[maybe_unused]] InstructionSet instructions) noexcept {
-    const Constants c = constants(step, removed.base);
-    const std::size_t count = removed.padded_count();
 #if defined(__x86_64__)
-    if (instructions == InstructionSet::avx2)
-        return sum_avx2(c, count, removed.x.data(), removed.y.data(), removed.z.data(), weights.data());
+    if (instructions == InstructionSet::avx2) return sum_avx2(step, removed, weights.data());
 #endif
-    return sum_with(c, count, removed.x.data(), removed.y.data(), removed.z.data(), weights.data());
+    return sum_with(step, removed, weights.data());
 }
 
 }  // namespace osteomill
