@@ -1,7 +1,6 @@
-// Session time, and how to wait for it: a real clock for a hand, a virtual one for tests and studies.
+// Session time on the real clock, and how to wait for it. The virtual clock needs neither: see
+// MillingSession.
 #pragma once
-
-#include <atomic>
 
 namespace osteomill {
 
@@ -26,18 +25,6 @@ class RealClock final : public Clock {
 
   private:
     double began_s_;
-};
-
-/// Goes on only when someone sleeps, and then at once. One thread.
-class VirtualClock final : public Clock {
-  public:
-    double now_s() const noexcept override { return now_s_; }
-    void sleep_until(double time_s) noexcept override {
-        if (time_s > now_s_) now_s_ = time_s;
-    }
-
-  private:
-    double now_s_ = 0.0;
 };
 
 }  // namespace osteomill

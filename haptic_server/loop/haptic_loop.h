@@ -1,5 +1,5 @@
 // One tick of the haptic loop: read the device, couple, guard, write the force, and tell everybody else. Its
-// pace is somebody else's business (periodic.h), physics is the coupling's.
+// pace is somebody else's business (periodic_loop.h), physics is the coupling's.
 //
 //   device --pose--+---> safety monitor --may touch?--+
 //                  |            ^    |                v

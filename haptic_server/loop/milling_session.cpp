@@ -21,6 +21,8 @@ namespace {
 
 constexpr double chore_period_s = 0.02;
 constexpr std::uint64_t chore_ticks = 33;  // the rate of a streaming server's frames: 30 Hz
+/// For the rounding of a number of periods against one of ticks.
+constexpr double rounding_s = 1e-7;
 /// How long a session waits for whoever consumes its edits before it gives up on them.
 constexpr std::chrono::seconds longest_wait_for_consumer{10};
 
@@ -114,7 +116,18 @@ MillingSession::MillingSession(const Scene& scene, Bone bone, HapticDevice& devi
                     .start_pose = scene.start_pose}),
       milling_loop_(
           {.model = *model_, .commands = commands_, .results = results_, .edits = edits_, .log = milling_log},
-          tick_s) {}
+          tick_s),
+      haptic_ticks_(tick_s, 0.0,
+                    [this](double time_s, std::uint64_t missed) {
+                        haptic_loop_.tick(time_s, missed);
+                        now_s_ = time_s;
+                    }),
+      milling_steps_(1.0 / options.milling_rate_hz,
+                     // On the real clock it finds a fresh command, and is done before the next tick.
+                     options.clock == ClockKind::real ? 0.5 * tick_s : 0.0,
+                     [this, period_s = 1.0 / options.milling_rate_hz](double time_s, std::uint64_t missed) {
+                         milling_loop_.step(time_s, period_s * static_cast<double>(1 + missed));
+                     }) {}
 
 void MillingSession::run(const std::atomic<bool>& stop,
                          const std::function<void(const ToolState&)>& on_progress) {
@@ -124,7 +137,7 @@ void MillingSession::run(const std::atomic<bool>& stop,
     if (options_.clock == ClockKind::real) {
         run_in_threads(stop, on_progress);
     } else {
-        run_in_lock_step(stop, on_progress);
+        take_turns(stop, on_progress);
     }
     device_.stop();
     if (options_.clock == ClockKind::virtual_time) do_chores(on_progress);
@@ -140,37 +153,23 @@ void MillingSession::run_in_threads(const std::atomic<bool>& stop,
     std::latch prepared(2);
     std::latch begun(1);
     std::optional<RealClock> clock;
-    std::thread haptic([&] {
-        prepare_thread(options_.haptic_cpu);
+    const auto run_loop = [&](PeriodicLoop& loop, int priority, const std::optional<int>& cpu,
+                              LoopThread& thread) {
+        prepare_thread(cpu);
         PageFaultCount faults;
-        has_real_time_priority_.store(ask_for_real_time(haptic_priority));
+        thread.has_real_time_priority = ask_for_real_time(priority);
         prepared.count_down();
         begun.wait();
-        run_periodically(*clock, tick_s, 0.0, is_over, haptic_statistics_,
-                         [&](double time_s, std::uint64_t missed) {
-                             haptic_loop_.tick(time_s, missed);
-                             now_s_.store(time_s, std::memory_order_relaxed);
-                             faults.tick();
-                             return true;
-                         });
-        haptic_page_faults_ = faults.since_settled();
-    });
-    const double period_s = 1.0 / options_.milling_rate_hz;
-    std::thread milling([&] {
-        prepare_thread(options_.milling_cpu);
-        PageFaultCount faults;
-        ask_for_real_time(milling_priority);
-        prepared.count_down();
-        begun.wait();
-        // Half a tick after the haptic loop: it finds a fresh command and is done before the next tick.
-        run_periodically(*clock, period_s, 0.5 * tick_s, is_over, milling_statistics_,
-                         [&](double time_s, std::uint64_t missed) {
-                             milling_loop_.step(time_s, period_s * static_cast<double>(1 + missed));
-                             faults.tick();
-                             return true;
-                         });
-        milling_page_faults_ = faults.since_settled();
-    });
+        while (!is_over.load(std::memory_order_relaxed)) {
+            loop.wait_and_tick(*clock);
+            faults.tick();
+        }
+        thread.page_faults = faults.since_settled();
+    };
+    std::thread haptic(
+        [&] { run_loop(haptic_ticks_, haptic_priority, options_.haptic_cpu, haptic_thread_); });
+    std::thread milling(
+        [&] { run_loop(milling_steps_, milling_priority, options_.milling_cpu, milling_thread_); });
 
     prepared.wait();
     clock.emplace();
@@ -185,27 +184,14 @@ void MillingSession::run_in_threads(const std::atomic<bool>& stop,
     milling.join();
 }
 
-void MillingSession::run_in_lock_step(const std::atomic<bool>& stop,
-                                      const std::function<void(const ToolState&)>& on_progress) {
-    RealClock stopwatch;  // measures how long the work takes; nothing depends on it
-    const double period_s = 1.0 / options_.milling_rate_hz;
+void MillingSession::take_turns(const std::atomic<bool>& stop,
+                                const std::function<void(const ToolState&)>& on_progress) {
+    const RealClock stopwatch;  // measures how long the work takes; nothing depends on it
     for (std::uint64_t tick = 0; !stop.load(std::memory_order_relaxed); ++tick) {
-        const double time_s = static_cast<double>(tick) * tick_s;
-        if (time_s > options_.duration_s) break;
-
-        const double tick_began_s = stopwatch.now_s();
-        haptic_loop_.tick(time_s, 0);
-        haptic_statistics_.duration.add(stopwatch.now_s() - tick_began_s);
-        ++haptic_statistics_.ticks;
-        now_s_.store(time_s, std::memory_order_relaxed);
-
-        // A tenth of a microsecond for the rounding of k * period against tick * tick_s.
-        while (static_cast<double>(milling_statistics_.ticks) * period_s <= time_s + 1e-7) {
-            const double step_s = static_cast<double>(milling_statistics_.ticks) * period_s;
-            const double step_began_s = stopwatch.now_s();
-            milling_loop_.step(step_s, period_s);
-            milling_statistics_.duration.add(stopwatch.now_s() - step_began_s);
-            ++milling_statistics_.ticks;
+        if (haptic_ticks_.due_s() > options_.duration_s) break;
+        haptic_ticks_.tick_now(stopwatch);
+        while (milling_steps_.due_s() <= now_s_ + rounding_s) {
+            milling_steps_.tick_now(stopwatch);
             if (edits_.has_overflowed()) wait_for_room_in_queue(stop, on_progress);
         }
         if (tick % chore_ticks == 0) do_chores(on_progress);
@@ -242,18 +228,18 @@ void MillingSession::send_what_overflowed() {
 }
 
 MillingSessionReport MillingSession::report() const {
-    return {.duration_s = now_s_.load(std::memory_order_relaxed),
-            .haptic = haptic_statistics_,
-            .milling = milling_statistics_,
+    return {.duration_s = now_s_,
+            .haptic = haptic_ticks_.statistics(),
+            .milling = milling_steps_.statistics(),
             .removed_mm3 = model_->removed_mm3(),
             .peak_force_n = haptic_loop_.peak_force_n(),
             .fault_counts = haptic_loop_.fault_counts(),
             .edit_overflows = edits_.overflow_count(),
             .bone_checksum = checksum(model_->bone()),
-            .real_time_priority = has_real_time_priority_.load(),
+            .real_time_priority = haptic_thread_.has_real_time_priority,
             .memory_locked = is_memory_locked_,
-            .haptic_page_faults = haptic_page_faults_,
-            .milling_page_faults = milling_page_faults_};
+            .haptic_page_faults = haptic_thread_.page_faults,
+            .milling_page_faults = milling_thread_.page_faults};
 }
 
 }  // namespace osteomill

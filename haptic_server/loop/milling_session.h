@@ -1,9 +1,10 @@
 // A milling session: device, coupling, haptic loop, milling loop and clock, from start to stop.
 //
-// On the real clock: a thread for the haptic loop at 1 kHz, one for the milling loop, and the caller's for
-// what need not be in time. On the virtual clock: everything on the caller's thread, as fast as it can, in
-// lock-step. After each haptic tick run the milling steps that are due by then; the next tick sees their
-// result. So the session is a pure function of scene, bone and device: same in, bit-equal out.
+// There are two loops, haptic at 1 kHz and milling, the same on either clock; the clock only says who waits.
+// On the real one each has a thread that waits for its next tick, and the caller's does what need not be in
+// time. On the virtual one they take turns on the caller's thread, as fast as they can: after each haptic
+// tick run the milling steps that are due by then; the next tick sees their result. So the session is a pure
+// function of scene, bone and device: same in, bit-equal out.
 #pragma once
 
 #include <atomic>
@@ -24,7 +25,7 @@
 #include "haptic_server/loop/force_log.h"
 #include "haptic_server/loop/haptic_loop.h"
 #include "haptic_server/loop/milling_loop.h"
-#include "haptic_server/loop/periodic.h"
+#include "haptic_server/loop/periodic_loop.h"
 
 namespace osteomill {
 
@@ -95,10 +96,14 @@ class MillingSession {
     const Bone& bone() const { return model_->bone(); }
 
   private:
+    /// What the system gave the thread of a loop, on the real clock.
+    struct LoopThread {
+        bool has_real_time_priority = false;
+        std::uint64_t page_faults = 0;
+    };
     void run_in_threads(const std::atomic<bool>& stop,
                         const std::function<void(const ToolState&)>& on_progress);
-    void run_in_lock_step(const std::atomic<bool>& stop,
-                          const std::function<void(const ToolState&)>& on_progress);
+    void take_turns(const std::atomic<bool>& stop, const std::function<void(const ToolState&)>& on_progress);
     void do_chores(const std::function<void(const ToolState&)>& on_progress);
     void wait_for_room_in_queue(const std::atomic<bool>& stop,
                                 const std::function<void(const ToolState&)>& on_progress);
@@ -117,13 +122,12 @@ class MillingSession {
     TripleBuffer<ToolState> status_;
     HapticLoop haptic_loop_;
     MillingLoop milling_loop_;
-    PeriodicStatistics haptic_statistics_;
-    PeriodicStatistics milling_statistics_;
-    std::atomic<double> now_s_{0.0};
-    std::atomic<bool> has_real_time_priority_{false};
+    PeriodicLoop haptic_ticks_;
+    PeriodicLoop milling_steps_;
+    double now_s_ = 0.0;  // of the last haptic tick
     bool is_memory_locked_ = false;
-    std::uint64_t haptic_page_faults_ = 0;
-    std::uint64_t milling_page_faults_ = 0;
+    LoopThread haptic_thread_;
+    LoopThread milling_thread_;
 };
 
 }  // namespace osteomill

@@ -5,15 +5,6 @@
 namespace osteomill {
 namespace {
 
-TEST(VirtualClock, GoesOnOnlyWhenSomebodySleeps) {
-    VirtualClock clock;
-    EXPECT_EQ(clock.now_s(), 0.0);
-    clock.sleep_until(1e6);
-    EXPECT_EQ(clock.now_s(), 1e6);
-    clock.sleep_until(5.0);
-    EXPECT_EQ(clock.now_s(), 1e6) << "never back";
-}
-
 TEST(RealClock, NeverReturnsBeforeTheTimeAskedFor) {
     RealClock clock;
     for (const double time_s : {0.0005, 0.001, 0.004, 0.00405}) {
