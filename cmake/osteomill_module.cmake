@@ -1,18 +1,14 @@
-# osteomill_module(NAME SOURCES a.cpp ... LIBRARIES lib ... [LOOPS] [SEPARATE]): one static library per folder of the house.
+# osteomill_module(NAME SOURCES a.cpp ... LIBRARIES lib ... [LOOPS]): one static library per folder of the house.
 # Includes are written from the repository root ("common/bone/grid.h"). LOOPS: it has the inner loops that tests wait for, see
-# osteomill_loops_options. SEPARATE: its sources give one name to several things and cannot be compiled in one go
-# (CMAKE_UNITY_BUILD).
+# osteomill_loops_options.
 function(osteomill_module name)
-    cmake_parse_arguments(arg "LOOPS;SEPARATE" "" "SOURCES;LIBRARIES" ${ARGN})
+    cmake_parse_arguments(arg "LOOPS" "" "SOURCES;LIBRARIES" ${ARGN})
     if(arg_SOURCES)
         add_library(${name} STATIC ${arg_SOURCES})
         target_include_directories(${name} PUBLIC ${CMAKE_SOURCE_DIR})
         target_link_libraries(${name} PUBLIC ${arg_LIBRARIES} PRIVATE osteomill_warnings)
         if(arg_LOOPS)
             target_compile_options(${name} PRIVATE ${osteomill_loops_options})
-        endif()
-        if(arg_SEPARATE)
-            set_target_properties(${name} PROPERTIES UNITY_BUILD OFF)
         endif()
     else()
         add_library(${name} INTERFACE)

@@ -22,11 +22,12 @@ Grid coarser(const Grid& grid, int times) {
     return coarse;
 }
 
-/// How many times as long as the bone's own the picture's voxels are: a power of two, so that none lies in two
-/// bricks.
+/// How many times as long as the bone's own the picture's voxels are: a power of two, so that none lies in
+/// two bricks.
 int times_as_long(const Grid& bone) {
     int times = 1;
-    while (times < brick_edge_voxels && voxel_count(coarser(bone, times)) > most_voxels_of_picture) times *= 2;
+    while (times < brick_edge_voxels && voxel_count(coarser(bone, times)) > most_voxels_of_picture)
+        times *= 2;
     return times;
 }
 
@@ -65,7 +66,8 @@ HuSlices picture_of(const Bone& bone) {
         const auto slice = static_cast<std::size_t>(voxels_of_slice(grid));
         const int end = z + static_cast<int>(hu.size() / slice);
         const int edge = brick_edge_voxels / times;
-        const auto whole = static_cast<std::uint64_t>(255) * static_cast<std::uint64_t>(times * times * times);
+        const auto whole =
+            static_cast<std::uint64_t>(255) * static_cast<std::uint64_t>(times * times * times);
         constexpr auto span_hu = static_cast<std::uint64_t>(reference_bone_hu - air_hu);
         std::fill(hu.begin(), hu.end(), air_hu);
         const BoneContent& content = bone.content();
@@ -81,8 +83,9 @@ HuSlices picture_of(const Bone& bone) {
                         if (sums.left[i] == 0 || voxel.z < z || voxel.z >= end) continue;
                         hu[static_cast<std::size_t>(voxel.x) +
                            static_cast<std::size_t>(grid.size_voxels.x) * static_cast<std::size_t>(voxel.y) +
-                           slice * static_cast<std::size_t>(voxel.z - z)] = static_cast<std::int16_t>(
-                            air_hu + static_cast<int>(span_hu * sums.left[i] / whole));
+                           slice * static_cast<std::size_t>(voxel.z - z)] =
+                            static_cast<std::int16_t>(air_hu +
+                                                      static_cast<int>(span_hu * sums.left[i] / whole));
                     }
         }
         z = end;

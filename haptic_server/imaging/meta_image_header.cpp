@@ -23,15 +23,15 @@ namespace osteomill {
 
 namespace {
 
-struct Element {
+struct MetaElement {
     const char* name;
     VoxelType type;
 };
 constexpr std::array elements{
-    Element{"MET_CHAR", VoxelType::int8},     Element{"MET_UCHAR", VoxelType::uint8},
-    Element{"MET_SHORT", VoxelType::int16},   Element{"MET_USHORT", VoxelType::uint16},
-    Element{"MET_INT", VoxelType::int32},     Element{"MET_UINT", VoxelType::uint32},
-    Element{"MET_FLOAT", VoxelType::float32}, Element{"MET_DOUBLE", VoxelType::float64}};
+    MetaElement{"MET_CHAR", VoxelType::int8},     MetaElement{"MET_UCHAR", VoxelType::uint8},
+    MetaElement{"MET_SHORT", VoxelType::int16},   MetaElement{"MET_USHORT", VoxelType::uint16},
+    MetaElement{"MET_INT", VoxelType::int32},     MetaElement{"MET_UINT", VoxelType::uint32},
+    MetaElement{"MET_FLOAT", VoxelType::float32}, MetaElement{"MET_DOUBLE", VoxelType::float64}};
 
 std::string trimmed(std::string_view text) {
     const std::size_t first = text.find_first_not_of(" \t\r");
@@ -45,9 +45,9 @@ std::vector<std::string> words_in(const std::string& text) {
 }
 
 /// The fields, in whose terms every complaint is made.
-class Fields {
+class MetaFields {
   public:
-    explicit Fields(const std::filesystem::path& path) : path_(path) {}
+    explicit MetaFields(const std::filesystem::path& path) : path_(path) {}
 
     void add(const std::string& name, const std::string& value) {
         if (!fields_.emplace(name, value).second) refuse(name, "stands there twice");
@@ -107,7 +107,7 @@ class Fields {
     std::map<std::string, std::string> fields_;
 };
 
-void read_geometry(const Fields& fields, const std::filesystem::path& path, SourceImage& image) {
+void read_geometry(const MetaFields& fields, const std::filesystem::path& path, SourceImage& image) {
     if (const std::int64_t dimensions = fields.whole("NDims", 0); dimensions != 3)
         throw ImagingError(path, fmt::format("has {} dimensions (NDims); a volume has 3", dimensions));
     const std::array<double, 3> size = fields.numbers<3>("DimSize");
@@ -151,10 +151,10 @@ void read_geometry(const Fields& fields, const std::filesystem::path& path, Sour
     }
 }
 
-void read_element(const Fields& fields, MetaImageHeader& header) {
+void read_element(const MetaFields& fields, MetaImageHeader& header) {
     const std::string type = fields.text("ElementType").value_or("");
     const auto known = std::find_if(elements.begin(), elements.end(),
-                                    [&](const Element& element) { return type == element.name; });
+                                    [&](const MetaElement& element) { return type == element.name; });
     if (known == elements.end())
         fields.refuse("ElementType",
                       "is not read; it must be MET_CHAR, UCHAR, SHORT, USHORT, INT, UINT, "
@@ -166,12 +166,10 @@ void read_element(const Fields& fields, MetaImageHeader& header) {
         fields.refuse("BinaryData", "means voxels as text, which is not read; it must be True");
     const std::string order = fields.name_of({"BinaryDataByteOrderMSB", "ElementByteOrderMSB"});
     header.voxels.big_endian = !order.empty() && fields.truth(order, false);
-    header.encoding =
-        fields.truth("CompressedData", false) ? Encoding::zlib_or_gzip : Encoding::raw;
+    header.encoding = fields.truth("CompressedData", false) ? Encoding::zlib_or_gzip : Encoding::raw;
     header.header_size = fields.whole("HeaderSize", 0);
     constexpr std::int64_t most_skipped = std::int64_t{1} << 40;
-    if (header.header_size > most_skipped ||
-        header.header_size < (header.encoding == Encoding::raw ? -1 : 0))
+    if (header.header_size > most_skipped || header.header_size < (header.encoding == Encoding::raw ? -1 : 0))
         fields.refuse("HeaderSize", "must be 0 or more, or -1 for voxels that end a file");
     for (const char* name : {"ElementToIntensityFunctionSlope", "ElementToIntensityFunctionOffset"})
         if (fields.text(name))
@@ -181,7 +179,7 @@ void read_element(const Fields& fields, MetaImageHeader& header) {
 
 /// "name%03d.raw FIRST [LAST [STEP]]": as many files as slices, none more, none less.
 std::vector<std::string> numbered_slices(const std::vector<std::string>& words, int slices,
-                                         const Fields& fields) {
+                                         const MetaFields& fields) {
     std::array<std::int64_t, 3> number{1, 0, 1};
     if (words.size() > 4) fields.refuse("ElementDataFile", "must be 'name%03d.raw FIRST LAST STEP'");
     for (std::size_t i = 1; i < words.size(); ++i) {
@@ -211,7 +209,7 @@ std::vector<std::string> numbered_slices(const std::vector<std::string>& words, 
 }
 
 std::vector<std::string> listed_slices(const std::vector<std::string>& words, std::string_view rest,
-                                       int slices, const Fields& fields) {
+                                       int slices, const MetaFields& fields) {
     // "LIST 2": files of two dimensions, one a slice.
     if (words.size() > 2 || (words.size() == 2 && words[1] != "2" && words[1] != "2D"))
         fields.refuse("ElementDataFile", "lists files of other than two dimensions");
@@ -229,7 +227,7 @@ std::vector<std::string> listed_slices(const std::vector<std::string>& words, st
     return names;
 }
 
-void read_data_files(const Fields& fields, std::string_view rest, MetaImageHeader& header) {
+void read_data_files(const MetaFields& fields, std::string_view rest, MetaImageHeader& header) {
     const std::string text = fields.text("ElementDataFile").value_or("");
     const std::vector<std::string> words = words_in(text);
     const int slices = header.image.size_voxels.z;
@@ -249,7 +247,7 @@ void read_data_files(const Fields& fields, std::string_view rest, MetaImageHeade
 MetaImageHeader parse_meta_image_header(std::span<const std::uint8_t> bytes,
                                         const std::filesystem::path& path) {
     const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
-    Fields fields(path);
+    MetaFields fields(path);
     MetaImageHeader header;
     while (!fields.text("ElementDataFile")) {
         const std::size_t end = text.find('\n', header.bytes);

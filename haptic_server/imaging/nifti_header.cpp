@@ -27,9 +27,9 @@ constexpr double most_voxels_begin = 64.0 * 1024.0 * 1024.0;
 constexpr std::size_t matrix_numbers = 12;
 
 /// Values at offsets, in either byte order.
-class Fields {
+class NiftiFields {
   public:
-    Fields(std::span<const std::uint8_t> bytes, bool swapped) : bytes_(bytes), swapped_(swapped) {}
+    NiftiFields(std::span<const std::uint8_t> bytes, bool swapped) : bytes_(bytes), swapped_(swapped) {}
 
     template <typename T>
     T at(std::size_t offset) const {
@@ -63,7 +63,7 @@ struct Stated {
 };
 
 template <typename Dim, typename Real>
-void read_lists(const Fields& fields, Stated& stated, std::size_t dim, std::size_t pixdim,
+void read_lists(const NiftiFields& fields, Stated& stated, std::size_t dim, std::size_t pixdim,
                 std::size_t quaternion, std::size_t rows) {
     for (std::size_t i = 0; i < stated.dim.size(); ++i) stated.dim[i] = fields.at<Dim>(dim + sizeof(Dim) * i);
     for (std::size_t i = 0; i < stated.pixdim.size(); ++i)
@@ -74,7 +74,7 @@ void read_lists(const Fields& fields, Stated& stated, std::size_t dim, std::size
         stated.rows[i] = static_cast<double>(fields.at<Real>(rows + sizeof(Real) * i));
 }
 
-Stated read_nifti1(const Fields& fields) {
+Stated read_nifti1(const NiftiFields& fields) {
     Stated stated;
     read_lists<std::int16_t, float>(fields, stated, 40, 76, 256, 280);
     stated.voxels_begin = static_cast<double>(fields.at<float>(108));
@@ -88,7 +88,7 @@ Stated read_nifti1(const Fields& fields) {
     return stated;
 }
 
-Stated read_nifti2(const Fields& fields) {
+Stated read_nifti2(const NiftiFields& fields) {
     Stated stated;
     read_lists<std::int64_t, double>(fields, stated, 16, 104, 352, 400);
     stated.voxels_begin = static_cast<double>(fields.at<std::int64_t>(168));
@@ -107,11 +107,16 @@ struct DataType {
     std::uint64_t bytes = 0;
     VoxelType type = VoxelType::uint8;
 };
-constexpr std::array data_types{DataType{2, 1, VoxelType::uint8},    DataType{256, 1, VoxelType::int8},
-                                DataType{4, 2, VoxelType::int16},    DataType{512, 2, VoxelType::uint16},
-                                DataType{8, 4, VoxelType::int32},    DataType{768, 4, VoxelType::uint32},
-                                DataType{1024, 8, VoxelType::int64}, DataType{1280, 8, VoxelType::uint64},
-                                DataType{16, 4, VoxelType::float32}, DataType{64, 8, VoxelType::float64},
+constexpr std::array data_types{DataType{2, 1, VoxelType::uint8},
+                                DataType{256, 1, VoxelType::int8},
+                                DataType{4, 2, VoxelType::int16},
+                                DataType{512, 2, VoxelType::uint16},
+                                DataType{8, 4, VoxelType::int32},
+                                DataType{768, 4, VoxelType::uint32},
+                                DataType{1024, 8, VoxelType::int64},
+                                DataType{1280, 8, VoxelType::uint64},
+                                DataType{16, 4, VoxelType::float32},
+                                DataType{64, 8, VoxelType::float64},
                                 DataType{128, 3},  // colour, which is refused later, by its name
                                 DataType{2304, 4}};
 
@@ -222,7 +227,7 @@ NiftiHeader parse_nifti_header(std::span<const std::uint8_t> bytes, const std::f
     const auto cut_off = [&] { return ImagingError(path, "cannot be read as NIfTI: cut off or damaged"); };
     if (bytes.size() < static_cast<std::size_t>(nifti1_header_bytes)) throw cut_off();
     for (const bool swapped : {false, true}) {
-        const Fields fields(bytes, swapped);
+        const NiftiFields fields(bytes, swapped);
         const auto size = fields.at<std::int32_t>(0);
         const bool is_second = size == nifti2_header_bytes && bytes.size() >= most_nifti_header_bytes;
         if (size != nifti1_header_bytes && !is_second) continue;

@@ -25,8 +25,8 @@ bool is_plausible_position(const glm::dvec3& position_mm) {
 }
 
 std::string implausible_spacing(const std::string& what, double spacing_mm) {
-    return fmt::format("{} {} mm: it must be above 0, from {} to {} mm", what, spacing_mm,
-                       least_spacing_mm, greatest_spacing_mm);
+    return fmt::format("{} {} mm: it must be above 0, from {} to {} mm", what, spacing_mm, least_spacing_mm,
+                       greatest_spacing_mm);
 }
 
 std::string implausible_position(const std::string& what) {

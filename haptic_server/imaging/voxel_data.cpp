@@ -97,8 +97,8 @@ void read_voxel_data(const VoxelData& data, const TakeBytes& take) {
             continue;
         }
         for (std::uint64_t left = part.bytes; left > 0;) {
-            const auto now = std::span(piece).first(static_cast<std::size_t>(
-                std::min<std::uint64_t>(piece.size(), left)));
+            const auto now =
+                std::span(piece).first(static_cast<std::size_t>(std::min<std::uint64_t>(piece.size(), left)));
             source.read(now);
             take(now);
             left -= now.size();

@@ -5,9 +5,9 @@
 #include <glm/geometric.hpp>
 
 #include "haptic_server/contact_models/force_models.h"
-#include "haptic_server/cutting_force/reference_force.h"
 #include "studies/force/bone_block.h"
 #include "studies/force/path_run.h"
+#include "studies/force/reference_force.h"
 
 namespace osteomill::study {
 

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "common/scene/burr.h"
-#include "haptic_server/cutting_force/reference_force.h"
+#include "studies/force/reference_force.h"
 
 namespace osteomill::study {
 

@@ -15,7 +15,7 @@
 #include "tests/support/synthetic_dicom.h"
 #include "tests/support/temporary_folder.h"
 
-namespace osteomill {
+namespace osteomill::hostile_import_test {
 namespace {
 
 using namespace testing;
@@ -319,4 +319,4 @@ INSTANTIATE_TEST_SUITE_P(Of, HostileImport, ::testing::ValuesIn(attacks),
                          [](const auto& instance) { return std::string(instance.param.name); });
 
 }  // namespace
-}  // namespace osteomill
+}  // namespace osteomill::hostile_import_test

@@ -13,7 +13,7 @@
 #include "tests/support/raw_images.h"
 #include "tests/support/temporary_folder.h"
 
-namespace osteomill {
+namespace osteomill::large_import_test {
 namespace {
 
 using namespace testing;
@@ -129,4 +129,4 @@ TEST_F(LargeImport, RefusesAGridWhoseSlicesAreMoreThanAnImportMayTake) {
 }
 
 }  // namespace
-}  // namespace osteomill
+}  // namespace osteomill::large_import_test

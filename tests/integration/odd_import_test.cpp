@@ -15,7 +15,7 @@
 #include "tests/support/synthetic_dicom.h"
 #include "tests/support/temporary_folder.h"
 
-namespace osteomill {
+namespace osteomill::odd_import_test {
 namespace {
 
 using namespace testing;
@@ -246,4 +246,4 @@ TEST_F(HostileServer, RefusesABoneWhoseGzipChecksumIsWrong) {
 }
 
 }  // namespace
-}  // namespace osteomill
+}  // namespace osteomill::odd_import_test

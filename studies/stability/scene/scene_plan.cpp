@@ -4,8 +4,8 @@
 #include <glm/geometric.hpp>
 
 #include "haptic_server/coupling/coupling_spring.h"
-#include "haptic_server/cutting_force/reference_force.h"
 #include "haptic_server/device/arm_model.h"
+#include "studies/force/reference_force.h"
 
 namespace osteomill::study {
 namespace {

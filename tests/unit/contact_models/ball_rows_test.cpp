@@ -8,7 +8,7 @@
 
 #include "tests/support/block.h"
 
-namespace osteomill {
+namespace osteomill::ball_rows_test {
 namespace {
 
 using testing::make_block;
@@ -63,4 +63,4 @@ TEST(BallRows, AreNoneFarFromTheGrid) {
 }
 
 }  // namespace
-}  // namespace osteomill
+}  // namespace osteomill::ball_rows_test

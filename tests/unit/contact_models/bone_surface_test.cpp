@@ -6,7 +6,7 @@
 
 #include "tests/support/block.h"
 
-namespace osteomill {
+namespace osteomill::bone_surface_test {
 namespace {
 
 using testing::make_block;
@@ -46,4 +46,4 @@ TEST_F(BoneSurfaceTest, HasANormalOnlyNearIt) {
 }
 
 }  // namespace
-}  // namespace osteomill
+}  // namespace osteomill::bone_surface_test

@@ -15,7 +15,7 @@
 #include "haptic_server/contact_models/voxel_tool.h"
 #include "tests/unit/contact_models/contact_bench.h"
 
-namespace osteomill {
+namespace osteomill::contact_law_test {
 namespace {
 
 using testing::ContactBench;
@@ -132,4 +132,4 @@ INSTANTIATE_TEST_SUITE_P(ContactLaws, EveryContactLaw, ::testing::ValuesIn(laws)
                          [](const auto& named) { return named.param.name; });
 
 }  // namespace
-}  // namespace osteomill
+}  // namespace osteomill::contact_law_test

@@ -12,7 +12,7 @@
 #include "tests/support/block.h"
 #include "tests/support/bone_variants.h"
 
-namespace osteomill {
+namespace osteomill::eroding_model_test {
 namespace {
 
 using testing::make_block;
@@ -170,4 +170,4 @@ TEST(ErodingModel, LeavesCoveredBoneFiftyMilliseconds) {
 }
 
 }  // namespace
-}  // namespace osteomill
+}  // namespace osteomill::eroding_model_test

@@ -9,7 +9,7 @@
 #include "tests/support/block.h"
 #include "tests/support/bone_variants.h"
 
-namespace osteomill {
+namespace osteomill::erosion_test {
 namespace {
 
 using testing::make_block;
@@ -121,4 +121,4 @@ TEST_F(ErosionTest, OfNoDoseChangesNothing) {
 }
 
 }  // namespace
-}  // namespace osteomill
+}  // namespace osteomill::erosion_test

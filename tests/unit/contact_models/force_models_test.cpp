@@ -8,7 +8,7 @@
 
 #include "tests/support/block.h"
 
-namespace osteomill {
+namespace osteomill::force_models_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -61,4 +61,4 @@ TEST(ForceModels, RefuseABurrThatCannotCut) {
 }
 
 }  // namespace
-}  // namespace osteomill
+}  // namespace osteomill::force_models_test

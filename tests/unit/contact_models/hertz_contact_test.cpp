@@ -9,7 +9,7 @@
 #include "tests/support/bone_variants.h"
 #include "tests/unit/contact_models/contact_bench.h"
 
-namespace osteomill {
+namespace osteomill::hertz_contact_test {
 namespace {
 
 using testing::ContactBench;
@@ -104,4 +104,4 @@ TEST(HertzContact, SpendsAllItsFrictionOnErosion) {
 }
 
 }  // namespace
-}  // namespace osteomill
+}  // namespace osteomill::hertz_contact_test

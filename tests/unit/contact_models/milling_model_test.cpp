@@ -10,7 +10,7 @@
 #include "tests/support/block.h"
 #include "tests/support/bone_variants.h"
 
-namespace osteomill {
+namespace osteomill::milling_model_test {
 namespace {
 
 using testing::make_block;
@@ -113,4 +113,4 @@ TEST_F(MillingModelTest, RefusesABurrThatCannotCut) {
 }
 
 }  // namespace
-}  // namespace osteomill
+}  // namespace osteomill::milling_model_test

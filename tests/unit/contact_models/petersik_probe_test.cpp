@@ -7,7 +7,7 @@
 
 #include "tests/unit/contact_models/contact_bench.h"
 
-namespace osteomill {
+namespace osteomill::petersik_probe_test {
 namespace {
 
 using testing::ContactBench;
@@ -45,4 +45,4 @@ TEST(PetersikProbe, RefusesPointsThatAreNoPairs) {
 }
 
 }  // namespace
-}  // namespace osteomill
+}  // namespace osteomill::petersik_probe_test

@@ -6,7 +6,7 @@
 
 #include "tests/unit/contact_models/contact_bench.h"
 
-namespace osteomill {
+namespace osteomill::point_spring_test {
 namespace {
 
 using testing::ContactBench;
@@ -54,4 +54,4 @@ TEST(PointSpring, LosesItsDirectionOnceItsCentreLiesDeepInBone) {
 }
 
 }  // namespace
-}  // namespace osteomill
+}  // namespace osteomill::point_spring_test

@@ -5,7 +5,7 @@
 #include <limits>
 #include <stdexcept>
 
-namespace osteomill {
+namespace osteomill::usable_burr_test {
 namespace {
 
 TEST(UsableBurr, HasADiameterAndEdgesAndTurns) {
@@ -41,4 +41,4 @@ TEST(UsableCommand, IsFiniteLastsAndNamesABurr) {
 }
 
 }  // namespace
-}  // namespace osteomill
+}  // namespace osteomill::usable_burr_test

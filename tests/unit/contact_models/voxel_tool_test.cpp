@@ -7,7 +7,7 @@
 
 #include "tests/unit/contact_models/contact_bench.h"
 
-namespace osteomill {
+namespace osteomill::voxel_tool_test {
 namespace {
 
 using testing::ContactBench;
@@ -47,4 +47,4 @@ TEST(VoxelTool, FeelsAFifthOfABoneOfWhichAFifthIsLeft) {
 }
 
 }  // namespace
-}  // namespace osteomill
+}  // namespace osteomill::voxel_tool_test

@@ -6,7 +6,7 @@
 #include <glm/geometric.hpp>
 #include <memory>
 
-namespace osteomill {
+namespace osteomill::burr_proxy_test {
 namespace {
 
 /// One patch facing +x that resists like a damper of `resistance` N s/mm.
@@ -121,4 +121,4 @@ TEST(BurrProxy, LetsGoOverSomeTicksWhenTheBoneIsGone) {
 }
 
 }  // namespace
-}  // namespace osteomill
+}  // namespace osteomill::burr_proxy_test

@@ -4,7 +4,7 @@
 
 #include <stdexcept>
 
-namespace osteomill {
+namespace osteomill::couplings_test {
 namespace {
 
 TEST(Coupling, EveryNameMakesOneAndTheDefaultIsImplicit) {
@@ -51,4 +51,4 @@ TEST(Coupling, ThatSolvesTheCuttingLawIsRefusedWhereThereIsNone) {
 }
 
 }  // namespace
-}  // namespace osteomill
+}  // namespace osteomill::couplings_test

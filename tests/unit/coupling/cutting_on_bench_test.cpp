@@ -9,7 +9,7 @@
 #include "haptic_server/coupling/implicit_coupling.h"
 #include "studies/stability/bench_run.h"
 
-namespace osteomill {
+namespace osteomill::cutting_on_bench_test {
 namespace {
 
 constexpr double tick_s = 0.001;
@@ -58,4 +58,4 @@ TEST(ImplicitCouplingOnBench, CutsSteadilyWhateverTheResistance) {
 }
 
 }  // namespace
-}  // namespace osteomill
+}  // namespace osteomill::cutting_on_bench_test

@@ -4,7 +4,7 @@
 
 #include <memory>
 
-namespace osteomill {
+namespace osteomill::direct_coupling_test {
 namespace {
 
 constexpr ToolPose pressed{{0.4, 2.0, 3.0}, {0.0, 0.0, 1.0}};
@@ -72,4 +72,4 @@ TEST(DirectCoupling, ForgetsForceAndWallOnReset) {
 }
 
 }  // namespace
-}  // namespace osteomill
+}  // namespace osteomill::direct_coupling_test

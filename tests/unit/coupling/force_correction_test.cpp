@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-namespace osteomill {
+namespace osteomill::force_correction_test {
 namespace {
 
 const glm::dvec3 axis = glm::normalize(glm::dvec3(0.3, -0.2, 0.9));
@@ -59,4 +59,4 @@ TEST(ForceCorrection, StaysWithinItsBoundsWhateverTheModelSays) {
 }
 
 }  // namespace
-}  // namespace osteomill
+}  // namespace osteomill::force_correction_test

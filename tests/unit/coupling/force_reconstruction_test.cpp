@@ -4,7 +4,7 @@
 
 #include <vector>
 
-namespace osteomill {
+namespace osteomill::force_reconstruction_test {
 namespace {
 
 constexpr double tick_s = 0.001;
@@ -70,4 +70,4 @@ TEST(ForceReconstruction, ForgetsOnReset) {
 }
 
 }  // namespace
-}  // namespace osteomill
+}  // namespace osteomill::force_reconstruction_test

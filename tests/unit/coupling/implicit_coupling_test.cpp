@@ -10,7 +10,7 @@
 
 #include "tests/support/lockstep.h"
 
-namespace osteomill {
+namespace osteomill::implicit_coupling_test {
 namespace {
 
 using testing::Lockstep;
@@ -126,4 +126,4 @@ TEST(ImplicitCoupling, StartsWithoutAForceWhereverTheHandIs) {
 }
 
 }  // namespace
-}  // namespace osteomill
+}  // namespace osteomill::implicit_coupling_test

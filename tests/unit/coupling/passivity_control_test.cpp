@@ -4,7 +4,7 @@
 
 #include "tests/unit/coupling/scripted_coupling.h"
 
-namespace osteomill {
+namespace osteomill::passivity_control_test {
 namespace {
 
 using testing::Script;
@@ -69,4 +69,4 @@ TEST(PassivityControl, ForgetsCreditButNoDebtWhenContactEnds) {
 }
 
 }  // namespace
-}  // namespace osteomill
+}  // namespace osteomill::passivity_control_test

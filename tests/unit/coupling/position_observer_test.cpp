@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace osteomill {
+namespace osteomill::position_observer_test {
 namespace {
 
 constexpr double step_mm = 0.055;
@@ -63,4 +63,4 @@ TEST(PositionObserver, StartsAnewAfterAReset) {
 }
 
 }  // namespace
-}  // namespace osteomill
+}  // namespace osteomill::position_observer_test

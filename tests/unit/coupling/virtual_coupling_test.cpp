@@ -4,7 +4,7 @@
 
 #include <memory>
 
-namespace osteomill {
+namespace osteomill::virtual_coupling_test {
 namespace {
 
 constexpr DeviceLimits device{.max_stiffness_n_per_mm = 1.5, .apparent_mass_kg = 0.045};
@@ -48,4 +48,4 @@ TEST(VirtualCoupling, StartsAtTheHandAfterAReset) {
 }
 
 }  // namespace
-}  // namespace osteomill
+}  // namespace osteomill::virtual_coupling_test

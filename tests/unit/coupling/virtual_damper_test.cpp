@@ -4,7 +4,7 @@
 
 #include "tests/unit/coupling/scripted_coupling.h"
 
-namespace osteomill {
+namespace osteomill::virtual_damper_test {
 namespace {
 
 using testing::Script;
@@ -36,4 +36,4 @@ TEST(VirtualDamper, LeavesTheBurrAndPassesAResetOn) {
 }
 
 }  // namespace
-}  // namespace osteomill
+}  // namespace osteomill::virtual_damper_test

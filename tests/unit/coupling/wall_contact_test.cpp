@@ -10,7 +10,7 @@
 #include "studies/stability/lifted_system.h"
 #include "tests/unit/coupling/wall_on_bench.h"
 
-namespace osteomill {
+namespace osteomill::wall_contact_test {
 namespace {
 
 using study::arm_in_hand;
@@ -123,4 +123,4 @@ TEST(SpringsOnAWall, ImplicitRestsOnOneThatIsReadInStepsAndFeltThroughFriction) 
 }
 
 }  // namespace
-}  // namespace osteomill
+}  // namespace osteomill::wall_contact_test

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace osteomill {
+namespace osteomill::axis_singularity_kernel_test {
 namespace {
 
 constexpr double a = axis_disc_voxels;
@@ -74,4 +74,4 @@ TEST(AxisKernel, AllButLeaveCurvaturesAsTheyAre) {
 }
 
 }  // namespace
-}  // namespace osteomill
+}  // namespace osteomill::axis_singularity_kernel_test

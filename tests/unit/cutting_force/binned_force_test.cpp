@@ -7,7 +7,7 @@
 #include "tests/support/removed_voxel.h"
 #include "tests/support/steady_motion.h"
 
-namespace osteomill {
+namespace osteomill::binned_force_test {
 namespace {
 
 using testing::ReferenceCase;
@@ -43,4 +43,4 @@ TEST(BinnedForce, RefusesNoBins) {
 }
 
 }  // namespace
-}  // namespace osteomill
+}  // namespace osteomill::binned_force_test

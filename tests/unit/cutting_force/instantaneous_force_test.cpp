@@ -6,11 +6,11 @@
 #include <numbers>
 #include <stdexcept>
 
-#include "haptic_server/cutting_force/reference_force.h"
+#include "studies/force/reference_force.h"
 #include "tests/support/removed_voxel.h"
 #include "tests/support/steady_motion.h"
 
-namespace osteomill {
+namespace osteomill::instantaneous_force_test {
 namespace {
 
 using testing::ReferenceCase;
@@ -55,10 +55,10 @@ TEST(InstantaneousForce, FollowsTheReferenceThroughTheToothPeriod) {
     // With six edges three always cut in a slot and the force hardly varies; with two it goes up and down.
     ReferenceCase c = slot_1_mm_deep();
     c.burr.edges = 2;
-    const SteadyMotion motion{.burr = c.burr,
-                              .position_mm = {0.0, 0.0, c.burr.radius_mm() - c.depth_mm},
-                              .spindle_axis = up,
-                              .velocity_mm_per_s = c.velocity_mm_per_s};
+    const study::SteadyMotion motion{.burr = c.burr,
+                                     .position_mm = {0.0, 0.0, c.burr.radius_mm() - c.depth_mm},
+                                     .spindle_axis = up,
+                                     .velocity_mm_per_s = c.velocity_mm_per_s};
     const double step_angle = two_pi * c.burr.spindle_rev_per_s * 1e-4;
     double rms = 0.0;
     double swing = 0.0;
@@ -67,10 +67,10 @@ TEST(InstantaneousForce, FollowsTheReferenceThroughTheToothPeriod) {
         // Equation (1), averaged over the angle that the edges pass during the step.
         glm::dvec3 reference(0.0);
         for (int part = 0; part < 8; ++part)
-            reference +=
-                instantaneous_reference_force_n(
-                    motion, flat_bone(), instant.turned_rad + step_angle * ((part + 0.5) / 8.0 - 0.5)) /
-                8.0;
+            reference += study::instantaneous_reference_force_n(
+                             motion, study::flat_bone(),
+                             instant.turned_rad + step_angle * ((part + 0.5) / 8.0 - 0.5)) /
+                         8.0;
         const glm::dvec3 error = instant.force_n - reference;
         rms += glm::dot(error, error) / static_cast<double>(instants.size());
         swing = std::max(swing, glm::length(reference - c.mean_force_n));
@@ -113,4 +113,4 @@ TEST(InstantaneousForce, RefusesNoInstants) {
 }
 
 }  // namespace
-}  // namespace osteomill
+}  // namespace osteomill::instantaneous_force_test

@@ -9,7 +9,7 @@
 #include "haptic_server/cutting_force/chip_force.h"
 #include "tests/support/steady_motion.h"
 
-namespace osteomill {
+namespace osteomill::instruction_set_test {
 namespace {
 
 class InstructionSets : public ::testing::Test {
@@ -89,4 +89,4 @@ TEST_F(InstructionSets, MillSlowlyAlike) {
 }
 
 }  // namespace
-}  // namespace osteomill
+}  // namespace osteomill::instruction_set_test

@@ -6,7 +6,7 @@
 #include "tests/support/removed_voxel.h"
 #include "tests/support/steady_motion.h"
 
-namespace osteomill {
+namespace osteomill::mean_force_test {
 namespace {
 
 using testing::ReferenceCase;
@@ -116,4 +116,4 @@ TEST(MeanForce, OfASlotIsSteadyFromStepToStep) {
 }
 
 }  // namespace
-}  // namespace osteomill
+}  // namespace osteomill::mean_force_test

@@ -7,7 +7,7 @@
 
 #include "tests/support/speckled_bone.h"
 
-namespace osteomill {
+namespace osteomill::brick_neighbourhood_test {
 namespace {
 
 /// Trilinear between voxel centres, one lookup in the bone for each.
@@ -58,4 +58,4 @@ TEST(BrickNeighbourhood, SaysWhereThereIsNothing) {
 }
 
 }  // namespace
-}  // namespace osteomill
+}  // namespace osteomill::brick_neighbourhood_test

@@ -8,7 +8,7 @@
 
 #include "tests/support/block.h"
 
-namespace osteomill {
+namespace osteomill::engagement_probe_test {
 namespace {
 
 const glm::dvec3 up(0.0, 0.0, 1.0);
@@ -77,4 +77,4 @@ TEST(Engagement, AdvancingIntoAFreshSlotPredictsTheReferenceForce) {
 }
 
 }  // namespace
-}  // namespace osteomill
+}  // namespace osteomill::engagement_probe_test

@@ -253,7 +253,9 @@ TEST(CarvedBoneWithoutSource, ShowsALargeOneInLongerVoxels) {
     EXPECT_EQ(file.grid(),
               (Grid{.size_voxels = {257, 256, 256}, .spacing_mm = 0.4, .origin_mm = {1.15, 2.15, 3.15}}));
     const std::vector<std::int16_t> hu = testing::read_bone_file(folder / "large.nrrd").volume.hu;
-    const auto at = [&](int x, int y, int z) { return hu[static_cast<std::size_t>(x + 257 * (y + 256 * z))]; };
+    const auto at = [&](int x, int y, int z) {
+        return hu[static_cast<std::size_t>(x + 257 * (y + 256 * z))];
+    };
     EXPECT_EQ(at(8, 4, 13), 1600);
     EXPECT_EQ(at(11, 7, 12), 950) << "three quarters are left";
     EXPECT_EQ(at(7, 4, 13), -1000);

@@ -7,7 +7,7 @@
 #include "tests/support/raw_dicom.h"
 #include "tests/support/raw_images.h"
 
-namespace osteomill {
+namespace osteomill::dicom_scan_test {
 namespace {
 
 using namespace testing;
@@ -154,4 +154,4 @@ TEST(DicomScan, TellsWhatHoldsNoCtNumbers) {
 }
 
 }  // namespace
-}  // namespace osteomill
+}  // namespace osteomill::dicom_scan_test

@@ -5,7 +5,7 @@
 #include "haptic_server/imaging/imaging_error.h"
 #include "tests/support/raw_images.h"
 
-namespace osteomill {
+namespace osteomill::meta_image_header_test {
 namespace {
 
 using ::testing::ElementsAre;
@@ -79,4 +79,4 @@ TEST(MetaImageHeader, RefusesAGeometryThatNoScanHas) {
 }
 
 }  // namespace
-}  // namespace osteomill
+}  // namespace osteomill::meta_image_header_test

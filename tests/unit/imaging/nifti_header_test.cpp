@@ -9,7 +9,7 @@
 #include "tests/support/raw_images.h"
 #include "tests/support/temporary_folder.h"
 
-namespace osteomill {
+namespace osteomill::nifti_header_test {
 namespace {
 
 using ::testing::ElementsAre;
@@ -98,4 +98,4 @@ TEST(NiftiHeader, FindsItsVoxelsInAFileBeside) {
 }
 
 }  // namespace
-}  // namespace osteomill
+}  // namespace osteomill::nifti_header_test

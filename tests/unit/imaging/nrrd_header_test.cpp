@@ -5,7 +5,7 @@
 #include "haptic_server/imaging/imaging_error.h"
 #include "tests/support/raw_images.h"
 
-namespace osteomill {
+namespace osteomill::nrrd_header_test {
 namespace {
 
 using ::testing::ElementsAre;
@@ -85,4 +85,4 @@ TEST(NrrdHeader, RefusesNumbersThatNoScanHas) {
 }
 
 }  // namespace
-}  // namespace osteomill
+}  // namespace osteomill::nrrd_header_test

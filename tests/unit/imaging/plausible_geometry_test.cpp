@@ -7,7 +7,7 @@
 #include <stdexcept>
 #include <vector>
 
-namespace osteomill {
+namespace osteomill::plausible_geometry_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -64,4 +64,4 @@ TEST(PlausibleGeometry, CountsVoxelsWithoutOverflow) {
 }
 
 }  // namespace
-}  // namespace osteomill
+}  // namespace osteomill::plausible_geometry_test

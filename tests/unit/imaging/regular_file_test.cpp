@@ -7,7 +7,7 @@
 #include "tests/support/raw_images.h"
 #include "tests/support/temporary_folder.h"
 
-namespace osteomill {
+namespace osteomill::regular_file_test {
 namespace {
 
 std::string refusal(const std::filesystem::path& path) {
@@ -54,4 +54,4 @@ TEST(RegularFile, OpensNeitherPipesNorDevicesNorFolders) {
 }
 
 }  // namespace
-}  // namespace osteomill
+}  // namespace osteomill::regular_file_test

@@ -9,7 +9,7 @@
 #include "tests/support/raw_images.h"
 #include "tests/support/temporary_folder.h"
 
-namespace osteomill {
+namespace osteomill::voxel_data_test {
 namespace {
 
 using testing::deflated;
@@ -91,7 +91,8 @@ TEST_F(VoxelFiles, AreRefusedWhenCutOffOrDamagedOrFollowedByMore) {
         flipped[good.size() - (window == 31 ? 7 : 1)] ^= 1;
         EXPECT_THAT(reading(flipped, encoding), HasSubstr("damaged"));
         EXPECT_THAT(reading(good + "1", encoding), HasSubstr("has 1 bytes of something else"));
-        EXPECT_THAT(reading(deflated(hundred_ + "z", window), encoding), HasSubstr("more than the 100 bytes"));
+        EXPECT_THAT(reading(deflated(hundred_ + "z", window), encoding),
+                    HasSubstr("more than the 100 bytes"));
         EXPECT_THAT(reading(deflated(hundred_.substr(1), window), encoding), HasSubstr("end after 99 bytes"));
     }
     EXPECT_THAT(reading(deflated(hundred_, 15), Encoding::gzip), HasSubstr("damaged"));
@@ -132,4 +133,4 @@ TEST_F(VoxelFiles, LieBesideTheirHeader) {
 }
 
 }  // namespace
-}  // namespace osteomill
+}  // namespace osteomill::voxel_data_test

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "haptic_server/cutting_force/reference_force.h"
+#include "studies/force/reference_force.h"
 
 namespace osteomill::study {
 namespace {

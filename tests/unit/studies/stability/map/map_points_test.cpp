@@ -6,7 +6,7 @@
 #include <glm/geometric.hpp>
 #include <set>
 
-#include "haptic_server/cutting_force/reference_force.h"
+#include "studies/force/reference_force.h"
 #include "studies/stability/map/map_text.h"
 
 namespace osteomill::study::map_points_test {

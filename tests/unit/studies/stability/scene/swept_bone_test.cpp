@@ -4,7 +4,7 @@
 
 #include <glm/geometric.hpp>
 
-#include "haptic_server/cutting_force/reference_force.h"
+#include "studies/force/reference_force.h"
 
 namespace osteomill::study::swept_bone_test {
 namespace {

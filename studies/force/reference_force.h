@@ -15,7 +15,7 @@
 
 #include "common/scene/burr.h"
 
-namespace osteomill {
+namespace osteomill::study {
 
 /// A burr moving steadily; patient axes.
 struct SteadyMotion {
@@ -66,4 +66,4 @@ BoneFunction flat_bone();
 BoneFunction flat_bone_with_groove(const glm::dvec3& position_mm, const glm::dvec3& direction,
                                    double radius_mm);
 
-}  // namespace osteomill
+}  // namespace osteomill::study

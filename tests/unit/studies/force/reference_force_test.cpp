@@ -1,4 +1,4 @@
-#include "haptic_server/cutting_force/reference_force.h"
+#include "studies/force/reference_force.h"
 
 #include <gtest/gtest.h>
 
@@ -8,11 +8,9 @@
 
 #include "tests/support/reference_cases.h"
 
-namespace osteomill {
+namespace osteomill::study {
 namespace {
 
-using study::bone_of;
-using study::motion_of;
 using testing::ReferenceCase;
 
 class AgainstTable : public ::testing::TestWithParam<ReferenceCase> {};
@@ -112,4 +110,4 @@ TEST(ReferenceForceInstants, EdgeForcesPushOnlyWhereAnEdgeCuts) {
 }
 
 }  // namespace
-}  // namespace osteomill
+}  // namespace osteomill::study

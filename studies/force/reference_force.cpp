@@ -1,4 +1,4 @@
-#include "haptic_server/cutting_force/reference_force.h"
+#include "studies/force/reference_force.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,7 +7,7 @@
 
 #include "common/scene/burr_frame.h"
 
-namespace osteomill {
+namespace osteomill::study {
 
 namespace {
 
@@ -163,4 +163,4 @@ BoneFunction flat_bone_with_groove(const glm::dvec3& position_mm, const glm::dve
     };
 }
 
-}  // namespace osteomill
+}  // namespace osteomill::study
