@@ -84,7 +84,7 @@ Playhead::Step Playhead::take(RecordedEvent event) {
         ++states_;
         state_bytes_ += event.bytes;
         if (followed.check == ReplicaCheck::equal) ++checksums_verified_;
-        tool_ = std::move(followed.tool);
+        tool_ = followed.tool;
         frame_ = std::move(state->frame);
         return Step::state;
     } else if (std::holds_alternative<SaidGoodbye>(event.event)) {

@@ -44,6 +44,7 @@ class CarveKernel {
     void write_back(std::int32_t slot) noexcept;
     std::uint8_t* left_of_list() { return &left_[brick_edge_voxels]; }
 
+    RemovedVoxels voxels_;  // scratch, not cleared
     Bone& bone_;
     SweepSeenFrom sweep_;
     InstructionSet instructions_;
@@ -69,9 +70,8 @@ class CarveKernel {
     // offsets of these voxels, and what is left of each.
     std::size_t row_count_ = 0;
     std::array<Row, most_rows + RemovedVoxels::lanes> rows_;
-    alignas(64) std::array<std::int32_t, list_length> list_;
-    alignas(64) std::array<std::uint8_t, brick_edge_voxels + list_length> left_;  // after room for a row
-    RemovedVoxels voxels_;
+    std::array<std::int32_t, list_length> list_;
+    std::array<std::uint8_t, brick_edge_voxels + list_length> left_;  // after room for a row
 };
 
 }  // namespace osteomill
