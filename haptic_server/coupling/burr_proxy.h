@@ -22,16 +22,41 @@
 // and the hand would feel the spring let go all at once. A handpiece has mass: with the spindle on, the burr
 // slips past the hand no faster than most_slip_mm_per_s, and the spring lets go over some ticks. The hand
 // never gets more than the spring held.
+//
+// Each tick ends in one of three ways, and the counters say in which:
+//
+//   balanced   the residual is under 1 mN (contact_solve.h); so it is in all but rare ticks
+//   with mass  a ring of contacts whose edges pull sideways can leave a massless burr no balance: the law is
+//              not monotone, with eigenvalues down to about -B/2 for a resistance B. With a mass m and steps of h
+//              there is one as soon as m/h exceeds B/2. So the tick is done again with handpiece_kg, from the
+//              last tick's speed, in `substeps` that remember what each patch has cut.
+//   relaxed    a substep without a balance keeps the contacts' normal forces alone. That always has a solution,
+//              and only takes energy out.
+//
+// Bone that pulls the burr along (a climb cut at an edge) gives it energy, and the spring would hand that on to
+// the hand. A store counts what bone has given, less what it took, and forgets with energy_memory_s. While it holds
+// more than allowed_energy_mj, the tick is solved with a damper between burr and hand, which the hand does not
+// feel: the burr then follows the hand, rather than its teeth.
 #pragma once
 
 #include <array>
 #include <cstdint>
 #include <glm/vec3.hpp>
+#include <span>
 
+#include "haptic_server/coupling/contact_solve.h"
 #include "haptic_server/coupling/force_correction.h"
 #include "haptic_server/exchange/milling_step.h"
 
 namespace osteomill {
+
+/// How the solves of a session ended.
+struct SolveCounts {
+    double max_residual_n = 0.0;  ///< largest force left over after a tick
+    std::uint64_t fallbacks = 0;  ///< ticks that a burr without mass could not balance
+    std::uint64_t relaxed = 0;    ///< of these, ticks in which normal forces alone were kept
+    std::uint64_t damped = 0;     ///< ticks solved again, because bone had given the burr energy
+};
 
 class BurrProxy {
   public:
@@ -48,6 +73,7 @@ class BurrProxy {
     const glm::dvec3& position_mm() const { return position_mm_; }
     /// Iterations that the last advance took, for benchmarks.
     int iterations() const { return iterations_; }
+    const SolveCounts& counts() const { return counts_; }
 
     /// Between these gaps a patch counts as touching by a share.
     static constexpr double surely_touching_voxels = 0.1;
@@ -58,31 +84,49 @@ class BurrProxy {
     /// Above the hand's own speed. On a spring of 1.5 N/mm 0.15 N a tick, half of what is felt as a knock.
     static constexpr double most_slip_mm_per_s = 100.0;
 
+    /// Of the burr where it is solved with a mass: a light dental handpiece.
+    static constexpr double handpiece_kg = 0.1;
+    static constexpr int substeps = 10;
+    static constexpr double energy_memory_s = 0.05;
+    static constexpr double allowed_energy_mj = 0.1;
+    /// Between burr and hand while bone gives energy.
+    static constexpr double runaway_damping_n_s_per_mm = 1.0;
+
   private:
-    struct Contact {
-        glm::dvec3 normal;
-        glm::dvec3 force_n_per_mm;  // of the bone on the burr for each mm beyond `begins_mm`
-        double begins_mm;           // advance along the normal, from here, at which contact begins
+    /// What a step of the burr did, before and after it was held back.
+    struct Outcome {
+        glm::dvec3 step_mm{0.0};
+        glm::dvec3 bone_force_n{0.0};  // on the burr, mean over the tick
+        double energy_mj = 0.0;        // that bone gave the burr
+        double residual_n = 0.0;
+        bool is_relaxed = false;
     };
 
     void take_over(const MillingResult& latest) noexcept;
-    void gather_contacts(const glm::dvec3& pull_mm, double tick_s, bool spindle_on,
-                         const Engagement& engagement) noexcept;
-    glm::dvec3 solve(const glm::dvec3& pull_mm) noexcept;
-    /// A step no longer than the hand's and what may slip.
-    glm::dvec3 held_back(const glm::dvec3& step_mm, const glm::dvec3& target_mm,
-                         double tick_s) const noexcept;
+    /// Contacts that a step of `step_s` may meet that is no longer than `longest_mm`.
+    std::span<const Contact> gather_contacts(double longest_mm, double step_s, bool spindle_on,
+                                             const Engagement& engagement) noexcept;
+    void remember_cuts(const Engagement& engagement) noexcept;
+    Outcome step_without_mass(const glm::dvec3& pull_mm, const glm::dvec3& hand_step_mm, double tick_s,
+                              bool is_damped, const Engagement& engagement) noexcept;
+    Outcome step_with_mass(const glm::dvec3& pull_mm, const glm::dvec3& hand_step_mm, double tick_s,
+                           bool is_damped, const Engagement& engagement) noexcept;
+    /// With the spindle on; moves the burr and counts.
+    void cut_toward(const glm::dvec3& target_mm, double tick_s, const Engagement& engagement) noexcept;
+    void press_toward(const glm::dvec3& target_mm, double tick_s, const Engagement& engagement) noexcept;
 
     double spring_n_per_mm_;
     glm::dvec3 position_mm_{0.0};
-    glm::dvec3 target_mm_{0.0};  // of the last tick
+    glm::dvec3 target_mm_{0.0};           // of the last tick
+    glm::dvec3 velocity_mm_per_s_{0.0};   // over the last tick
+    double given_mj_ = 0.0;               // what bone has given lately
     std::uint64_t map_step_ = 0;
     ForceCorrection correction_;
+    SolveCounts counts_;
     int iterations_ = 0;
     std::array<double, Engagement::max_patches>
         cut_mm_{};  // by patch: advance from p_map to which the proxy has cut
     std::array<Contact, 2 * Engagement::max_patches> contacts_{};  // a patch may have two
-    std::size_t contact_count_ = 0;
 };
 
 }  // namespace osteomill

@@ -12,7 +12,7 @@
 //
 // Impulses are compared, not forces: at 300 Hz three haptic ticks make one of the model's steps here and four
 // there. re and along stay within [0.5, 1.5], im within +-0.3; where there is little force to compare, G
-// returns to 1.
+// returns to 1. What was learnt in one contact says nothing of the next: after 20 ms in air it is forgotten.
 #pragma once
 
 #include <algorithm>
@@ -47,6 +47,12 @@ class ForceCorrection {
         const glm::dvec3 m = model_n * (step_s / window_s);
         const double p_along = glm::dot(p, axis);
         const double m_along = glm::dot(m, axis);
+        if (glm::dot(p, p) + glm::dot(m, m) < quiet_n2) {
+            air_s_ += window_s;
+            if (air_s_ > longest_air_s) forget();
+            return;
+        }
+        air_s_ = 0.0;
         const double share = window_s / (memory_s + window_s);
         const auto follow = [share](double& mean, double now) { mean += share * (now - mean); };
         follow(agreement_across_, glm::dot(p, m) - p_along * m_along);
@@ -72,8 +78,15 @@ class ForceCorrection {
     static constexpr double most_turn = 0.3;
     /// Longer than any step of the milling loop: there was a pause.
     static constexpr double longest_step_s = 0.1;
+    static constexpr double longest_air_s = 0.02;
 
   private:
+    void forget() noexcept {
+        const double time_s = time_s_;
+        reset();
+        time_s_ = time_s;
+    }
+
     static double stretch(double agreement, double power) noexcept {
         return std::clamp((agreement + quiet_n2) / (power + quiet_n2), 0.5, 1.5);
     }
@@ -81,6 +94,7 @@ class ForceCorrection {
     glm::dvec3 predicted_n_s_{0.0};
     double window_s_ = 0.0;
     double time_s_ = -1.0;  // end of the model's last step
+    double air_s_ = 0.0;    // since there was a force to compare
     double agreement_across_ = 0.0;
     double turn_across_ = 0.0;
     double power_across_ = 0.0;

@@ -28,9 +28,10 @@ unsigned order_on_sphere(const glm::dvec3& normal) {
 /// Where along a patch's normal the bone is looked at, from the burr's surface.
 constexpr std::array<float, 4> offsets_voxels{-static_cast<float>(Engagement::reach_voxels), -0.5f, 0.5f,
                                               static_cast<float>(Engagement::reach_voxels)};
-/// How near to the spindle's axis a patch is taken to be at least: half the radius of a disc as large as a
-/// voxel's cross-section.
-constexpr double least_axis_distance_voxels = 0.5 * 0.56418958354775628695;
+/// A ring's forces across the spindle cancel where all of it touches: a plunge along the spindle feels none.
+constexpr int patches_a_ring = 24;
+constexpr int fewest_rings = 32;
+constexpr int most_rings = static_cast<int>(Engagement::max_patches) / patches_a_ring;
 /// Half of a voxel's 255 levels: the bone's surface.
 constexpr float half = 127.5f;
 
@@ -39,25 +40,33 @@ constexpr float half = 127.5f;
 EngagementProbe::EngagementProbe(const Burr& burr, double spacing_mm)
     : radius_mm_(burr.radius_mm()), bricks_(burr.radius_mm() / spacing_mm + Engagement::reach_voxels + 2.0) {
     const double sphere_area_mm2 = 4.0 * std::numbers::pi * radius_mm_ * radius_mm_;
-    const double patch_edge_mm = 2.0 * spacing_mm;
-    const auto count = static_cast<std::size_t>(std::clamp(sphere_area_mm2 / (patch_edge_mm * patch_edge_mm),
-                                                           128.0, double{Engagement::max_patches}));
+    const double wanted_edge_mm = 1.5 * spacing_mm;
+    const int rings = std::clamp(
+        static_cast<int>(std::lround(sphere_area_mm2 / (wanted_edge_mm * wanted_edge_mm) / patches_a_ring)),
+        fewest_rings, most_rings);
+    const auto count = static_cast<std::size_t>(rings * patches_a_ring);
     patch_area_mm2_ = sphere_area_mm2 / static_cast<double>(count);
 
     const glm::dvec3 k = burr.cutting_coefficients_n_per_mm2;
-    const double golden_angle_rad = std::numbers::pi * (3.0 - std::sqrt(5.0));
     patches_.reserve(count);
-    for (std::size_t i = 0; i < count; ++i) {
-        const double z = -1.0 + (2.0 * static_cast<double>(i) + 1.0) / static_cast<double>(count);
+    for (int ring = 0; ring < rings; ++ring) {
+        // Archimedes: rings of equal height are equal in area.
+        const double bottom = -1.0 + 2.0 * ring / rings;
+        const double top = -1.0 + 2.0 * (ring + 1) / rings;
+        const double z = 0.5 * (bottom + top);
         const double sin_kappa = std::sqrt(1.0 - z * z);
-        const double psi = golden_angle_rad * static_cast<double>(i);
-        const glm::dvec3 normal(std::cos(psi) * sin_kappa, std::sin(psi) * sin_kappa, z);
-        const glm::dvec3 e_psi(-std::sin(psi), std::cos(psi), 0.0);
-        const glm::dvec3 e_kappa(std::cos(psi) * -z, std::sin(psi) * -z, sin_kappa);
-        const double r_mm = std::max(radius_mm_ * sin_kappa, least_axis_distance_voxels * spacing_mm);
-        const glm::dvec3 cutting = -(burr.sigma() * k.x * e_psi + k.y * normal + k.z * e_kappa) *
-                                   patch_area_mm2_ / (2.0 * std::numbers::pi * r_mm * burr.spindle_rev_per_s);
-        patches_.push_back({normal, cutting});
+        const double mean_per_r = (std::asin(top) - std::asin(bottom)) / (top - bottom) / radius_mm_;
+        const double half_turn = ring % 2 == 0 ? 0.0 : 0.5;
+        for (int i = 0; i < patches_a_ring; ++i) {
+            const double psi = 2.0 * std::numbers::pi * (i + half_turn) / patches_a_ring;
+            const glm::dvec3 normal(std::cos(psi) * sin_kappa, std::sin(psi) * sin_kappa, z);
+            const glm::dvec3 e_psi(-std::sin(psi), std::cos(psi), 0.0);
+            const glm::dvec3 e_kappa(std::cos(psi) * -z, std::sin(psi) * -z, sin_kappa);
+            const glm::dvec3 cutting = -(burr.sigma() * k.x * e_psi + k.y * normal + k.z * e_kappa) *
+                                       patch_area_mm2_ * mean_per_r /
+                                       (2.0 * std::numbers::pi * burr.spindle_rev_per_s);
+            patches_.push_back({normal, cutting});
+        }
     }
     // Samples of neighbours read the same bricks.
     std::stable_sort(patches_.begin(), patches_.end(), [](const Patch& a, const Patch& b) {

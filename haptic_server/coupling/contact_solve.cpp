@@ -1,0 +1,108 @@
+#include "haptic_server/coupling/contact_solve.h"
+
+#include <algorithm>
+#include <glm/geometric.hpp>
+#include <glm/mat3x3.hpp>
+#include <glm/matrix.hpp>
+
+namespace osteomill {
+
+namespace {
+
+constexpr int most_iterations = 24;
+constexpr double smallest_share = 0.02;
+/// Where the iteration ends: far below balance_tolerance_n.
+constexpr double residual_goal_n = 1e-7;
+
+struct State {
+    glm::dvec3 step_mm{0.0};
+    glm::dvec3 bone_force_n{0.0};
+    glm::dvec3 residual_n{0.0};
+    glm::dmat3 resistance{0.0};  // minus the residual's derivative, N/mm
+};
+
+State state_at(const LinearPull& pull, std::span<const Contact> contacts, const glm::dvec3& step_mm) {
+    State state{.step_mm = step_mm, .resistance = glm::dmat3(pull.stiffness_n_per_mm)};
+    for (const Contact& contact : contacts) {
+        const double beyond_mm = glm::dot(contact.normal, step_mm) - contact.begins_mm;
+        if (beyond_mm <= 0.0) continue;
+        state.bone_force_n += contact.force_n_per_mm * beyond_mm;
+        state.resistance -= glm::outerProduct(contact.force_n_per_mm, contact.normal);
+    }
+    state.residual_n = pull.force_n(step_mm) + state.bone_force_n;
+    return state;
+}
+
+/// How much a contact resists along its normal, N/mm.
+double normal_resistance(const Contact& contact) {
+    return std::max(0.0, -glm::dot(contact.force_n_per_mm, contact.normal));
+}
+
+/// The relaxed problem's function with its derivatives.
+struct RelaxedState {
+    glm::dvec3 step_mm{0.0};
+    glm::dvec3 bone_force_n{0.0};
+    glm::dvec3 residual_n{0.0};
+    glm::dmat3 resistance{0.0};
+    double energy_mj = 0.0;  // minus the residual is its gradient
+};
+
+RelaxedState relaxed_at(const LinearPull& pull, std::span<const Contact> contacts, const glm::dvec3& step_mm) {
+    RelaxedState state{.step_mm = step_mm, .resistance = glm::dmat3(pull.stiffness_n_per_mm)};
+    state.energy_mj = 0.5 * pull.stiffness_n_per_mm * glm::dot(step_mm, step_mm) - glm::dot(pull.offset_n, step_mm);
+    for (const Contact& contact : contacts) {
+        const double beyond_mm = glm::dot(contact.normal, step_mm) - contact.begins_mm;
+        if (beyond_mm <= 0.0) continue;
+        const double resistance = normal_resistance(contact);
+        state.bone_force_n -= resistance * beyond_mm * contact.normal;
+        state.resistance += resistance * glm::outerProduct(contact.normal, contact.normal);
+        state.energy_mj += 0.5 * resistance * beyond_mm * beyond_mm;
+    }
+    state.residual_n = pull.force_n(step_mm) + state.bone_force_n;
+    return state;
+}
+
+}  // namespace
+
+ContactStep balance(const LinearPull& pull, std::span<const Contact> contacts) noexcept {
+    State state = state_at(pull, contacts, pull.free_step_mm());
+    int iterations = 1;
+    for (; iterations < most_iterations; ++iterations) {
+        if (glm::length(state.residual_n) < residual_goal_n) break;
+        const glm::dvec3 newton = glm::inverse(state.resistance) * state.residual_n;
+        bool has_descended = false;
+        for (double share = 1.0; share > smallest_share && !has_descended; share *= 0.5) {
+            const State trial = state_at(pull, contacts, state.step_mm + share * newton);
+            if (glm::length(trial.residual_n) < glm::length(state.residual_n)) {
+                state = trial;
+                has_descended = true;
+            }
+        }
+        if (!has_descended) break;
+    }
+    return {state.step_mm, state.bone_force_n, glm::length(state.residual_n), iterations};
+}
+
+ContactStep relaxed_step(const LinearPull& pull, std::span<const Contact> contacts) noexcept {
+    RelaxedState state = relaxed_at(pull, contacts, pull.free_step_mm());
+    int iterations = 1;
+    for (; iterations < most_iterations; ++iterations) {
+        if (glm::length(state.residual_n) < residual_goal_n) break;
+        const glm::dvec3 newton = glm::inverse(state.resistance) * state.residual_n;
+        // Along a Newton step of a convex function some share always reduces it by a part of the first-order gain.
+        const double gain_mj = glm::dot(newton, state.residual_n);
+        double share = 1.0;
+        RelaxedState trial = relaxed_at(pull, contacts, state.step_mm + newton);
+        while (trial.energy_mj > state.energy_mj - 1e-4 * share * gain_mj && share > 1e-6) {
+            share *= 0.5;
+            trial = relaxed_at(pull, contacts, state.step_mm + share * newton);
+        }
+        if (share <= 1e-6) break;  // as flat as numbers can tell
+        state = trial;
+    }
+    const double residual_n = glm::length(state.residual_n);
+    if (residual_n <= balance_tolerance_n) return {state.step_mm, state.bone_force_n, residual_n, iterations};
+    return {.iterations = iterations};
+}
+
+}  // namespace osteomill

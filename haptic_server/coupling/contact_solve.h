@@ -1,0 +1,54 @@
+// The balance of a burr between a linear pull and one-sided contacts with bone: which step d leaves no force over.
+//
+//     offset - stiffness d + sum of force_i max(0, n_i . d - begins_i) = 0
+//
+// The pull is a spring to the hand and, where a caller adds them, a mass and a damper: all are alike in every
+// direction, so a vector and a number hold them. A contact's force need not point along its normal: a cutting
+// edge pulls sideways. Then the balance is not the minimum of anything, and a burr without mass on a soft spring
+// may have none at all (the symmetric part of the sideways force has negative eigenvalues). balance() looks for
+// one and says what force is left over. relaxed_step() cannot fail.
+#pragma once
+
+#include <glm/vec3.hpp>
+#include <span>
+
+namespace osteomill {
+
+/// One patch of bone that the burr may meet.
+struct Contact {
+    glm::dvec3 normal{0.0};          ///< outward from the burr, unit, patient axes
+    glm::dvec3 force_n_per_mm{0.0};  ///< of the bone on the burr for each mm beyond `begins_mm`
+    double begins_mm = 0.0;          ///< advance along the normal at which contact begins
+};
+
+/// What moves the burr if there is no bone: `offset_n` less `stiffness_n_per_mm` (above 0) times its step.
+struct LinearPull {
+    glm::dvec3 offset_n{0.0};
+    double stiffness_n_per_mm = 1.0;
+
+    glm::dvec3 free_step_mm() const { return offset_n / stiffness_n_per_mm; }
+    glm::dvec3 force_n(const glm::dvec3& step_mm) const { return offset_n - stiffness_n_per_mm * step_mm; }
+};
+
+struct ContactStep {
+    glm::dvec3 step_mm{0.0};
+    glm::dvec3 bone_force_n{0.0};  ///< on the burr, at the step's end
+    double residual_n = 0.0;       ///< force that is left over
+    int iterations = 0;
+};
+
+/// A residual below this is a balance: a hundredth of what a hand can tell.
+inline constexpr double balance_tolerance_n = 1e-3;
+
+/// Newton's method on the set of contacts that touch, from the free step, halving a step that does not reduce
+/// the residual; at most 24 iterations. Where it ends without a balance, the residual says so. Real-time safe.
+ContactStep balance(const LinearPull& pull, std::span<const Contact> contacts) noexcept;
+
+/// The balance with each contact's force along its normal alone, and only resisting. That is the minimum of a
+/// strictly convex, piecewise quadratic function, which Newton's method with a line search that must reduce it
+/// reaches in a finite number of steps. Bone that only resists takes energy out of the burr: force . step <= 0,
+/// where no contact is entered at the start. Should 24 iterations not do, the burr stays (step 0).
+/// `residual_n` is of the relaxed contacts. Real-time safe.
+ContactStep relaxed_step(const LinearPull& pull, std::span<const Contact> contacts) noexcept;
+
+}  // namespace osteomill
