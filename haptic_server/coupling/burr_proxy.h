@@ -46,17 +46,10 @@
 
 #include "haptic_server/coupling/contact_solve.h"
 #include "haptic_server/coupling/force_correction.h"
+#include "haptic_server/coupling/solve_counts.h"
 #include "haptic_server/exchange/milling_step.h"
 
 namespace osteomill {
-
-/// How the solves of a session ended.
-struct SolveCounts {
-    double max_residual_n = 0.0;  ///< largest force left over after a tick
-    std::uint64_t fallbacks = 0;  ///< ticks that a burr without mass could not balance
-    std::uint64_t relaxed = 0;    ///< of these, ticks in which normal forces alone were kept
-    std::uint64_t damped = 0;     ///< ticks solved again, because bone had given the burr energy
-};
 
 class BurrProxy {
   public:

@@ -5,6 +5,7 @@
 #include <glm/vec3.hpp>
 
 #include "common/scene/scene.h"
+#include "haptic_server/coupling/solve_counts.h"
 #include "haptic_server/device/haptic_device.h"
 #include "haptic_server/exchange/milling_step.h"
 
@@ -31,6 +32,9 @@ class Coupling {
 
     /// One haptic tick. `latest` is the milling loop's newest result (step 0: none yet). Real-time safe.
     virtual CouplingOutput tick(const HandState& hand, const MillingResult& latest) noexcept = 0;
+
+    /// How the solves so far ended; of a coupling that solves none: nothing.
+    virtual SolveCounts solve_counts() const noexcept { return {}; }
 
     /// Forgets everything, as after a fault or a jump of the device: the next tick starts from the hand's
     /// pose.

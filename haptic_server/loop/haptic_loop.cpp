@@ -37,12 +37,15 @@ void HapticLoop::tick(double now_s, std::uint64_t missed_periods) noexcept {
     parts_.results.refresh();
     const MillingResult& latest = parts_.results.front();
 
+    energy_.add(device.position_mm, force_in_device_n_, elapsed_s,
+                Watchdog::jump_allowance_mm + Watchdog::fastest_hand_mm_per_s * elapsed_s);
     const glm::dvec3 reading_mm = position_in_patient_mm(options_.mapping, device.position_mm);
     safety_.observe({.now_s = now_s,
                      .device = device,
                      .model_step = latest.step,
                      .model_valid = latest.valid,
                      .missed_periods = missed_periods,
+                     .energy_to_hand_mj = energy_.lately_mj(),
                      .clearance = clearance_of(latest, reading_mm)});
 
     HandState hand{.now_s = now_s, .tick_s = elapsed_s, .pose = hand_pose_, .burr = burr_};
@@ -61,7 +64,8 @@ void HapticLoop::tick(double now_s, std::uint64_t missed_periods) noexcept {
     if (safety_.has_just_let_go()) parts_.coupling.reset();
     if (!safety_.holds_tool()) burr_pose_ = hand_pose_;
 
-    parts_.device.write(force_in_device_n(options_.mapping, force_n));
+    force_in_device_n_ = force_in_device_n(options_.mapping, force_n);
+    parts_.device.write(force_in_device_n_);
     peak_force_n_ = std::max(peak_force_n_, glm::length(force_n));
     if (latest.touches_protected) protected_until_s_ = now_s + protected_shown_s;
 

@@ -22,6 +22,7 @@
 #include "haptic_server/exchange/milling_step.h"
 #include "haptic_server/exchange/triple_buffer.h"
 #include "haptic_server/loop/force_log.h"
+#include "haptic_server/safety/energy_meter.h"
 #include "haptic_server/safety/safety_monitor.h"
 
 namespace osteomill {
@@ -58,6 +59,8 @@ class HapticLoop {
     void tick(double now_s, std::uint64_t missed_periods) noexcept;
 
     double peak_force_n() const { return peak_force_n_; }
+    /// Net energy that the force gave the hand, the most that it was.
+    double most_energy_to_hand_mj() const { return energy_.most_mj(); }
     /// How often each Fault turned the force off.
     const std::array<std::uint64_t, fault_kinds>& fault_counts() const { return safety_.fault_counts(); }
 
@@ -70,6 +73,8 @@ class HapticLoop {
     HapticLoopParts parts_;
     HapticLoopOptions options_;
     SafetyMonitor safety_;
+    EnergyMeter energy_;
+    glm::dvec3 force_in_device_n_{0.0};  // last written
 
     ToolPose hand_pose_;  // patient LPS; the last that was read
     ToolPose burr_pose_;

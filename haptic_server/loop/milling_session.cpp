@@ -233,6 +233,8 @@ MillingSessionReport MillingSession::report() const {
             .milling = milling_steps_.statistics(),
             .removed_mm3 = model_->removed_mm3(),
             .peak_force_n = haptic_loop_.peak_force_n(),
+            .most_energy_to_hand_mj = haptic_loop_.most_energy_to_hand_mj(),
+            .solve = coupling_->solve_counts(),
             .fault_counts = haptic_loop_.fault_counts(),
             .edit_overflows = edits_.overflow_count(),
             .bone_checksum = checksum(model_->bone()),

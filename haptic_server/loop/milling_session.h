@@ -57,6 +57,8 @@ struct MillingSessionReport {
     PeriodicStatistics milling;
     RemovedByTissue removed_mm3{};
     double peak_force_n = 0.0;
+    double most_energy_to_hand_mj = 0.0;  ///< net energy that the force gave the hand, the most that it was
+    SolveCounts solve;                    ///< of a coupling that solves
     std::array<std::uint64_t, HapticLoop::fault_kinds> fault_counts{};  ///< index = Fault
     std::uint64_t edit_overflows = 0;
     std::uint64_t bone_checksum = 0;

@@ -42,7 +42,9 @@ nlohmann::ordered_json faults(const MillingSessionReport& report) {
             {"model_stalled", count(Fault::model_stalled)},
             {"not_a_number", count(Fault::not_a_number)},
             {"overrun", count(Fault::overrun)},
-            {"device_jumped", count(Fault::device_jumped)}};
+            {"device_jumped", count(Fault::device_jumped)},
+            {"in_bone", count(Fault::in_bone)},
+            {"energy_to_hand", count(Fault::energy_to_hand)}};
 }
 
 nlohmann::ordered_json cost(const BoneCost& bone, std::uint64_t peak_resident_bytes) {
@@ -77,6 +79,11 @@ nlohmann::ordered_json measurements(const MillingSessionReport& report, const Bo
     json["milling_step_us"] = percentiles_us(report.milling.duration);
     json["removed_mm3"] = removed_by_name(report.removed_mm3, scene);
     json["peak_force_n"] = report.peak_force_n;
+    json["solve"] = {{"max_residual_n", report.solve.max_residual_n},
+                     {"fallbacks", report.solve.fallbacks},
+                     {"relaxed", report.solve.relaxed},
+                     {"damped", report.solve.damped}};
+    json["energy_to_hand_mj"] = {{"most", report.most_energy_to_hand_mj}};
     json["faults"] = faults(report);
     json["edit_overflows"] = report.edit_overflows;
     json["bone"] = cost(bone, peak_resident_bytes);

@@ -18,6 +18,8 @@ const char* describe(Fault fault) noexcept {
             return "the device jumped: force off";
         case Fault::in_bone:
             return "the burr is inside the bone: no force until it is held clear of it";
+        case Fault::energy_to_hand:
+            return "the force pushed the hand with more energy than bone has: force and spindle off";
     }
     return "unknown fault: force off";
 }

@@ -34,7 +34,7 @@
 //
 // The spindle:
 //
-//             the device was lost or jumped
+//             the device was lost or jumped, or the force gave the hand energy
 //   free ------------------------------------> locked
 //     ^                                          |
 //     +----- the pedal was up, device there -----+

@@ -31,6 +31,7 @@ Fault Watchdog::check(const Observation& seen) noexcept {
     if (jumped) return Fault::device_jumped;
     if (seen.now_s - model_changed_s_ > longest_model_age_s) return Fault::model_stalled;
     if (!seen.model_valid) return Fault::not_a_number;
+    if (seen.energy_to_hand_mj > most_energy_to_hand_mj) return Fault::energy_to_hand;
     if (static_cast<double>(overrun_periods_) * tick_s_ >= longest_overrun_s) return Fault::overrun;
     return Fault::none;
 }

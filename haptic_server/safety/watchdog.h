@@ -19,6 +19,7 @@ struct Observation {
     std::uint64_t model_step = 0;            ///< of the newest milling result; 0: none yet
     bool model_valid = true;                 ///< that result is one
     std::uint64_t missed_periods = 0;        ///< haptic deadlines that passed unserved just before this tick
+    double energy_to_hand_mj = 0.0;          ///< net, lately (energy_meter.h)
     Clearance clearance = Clearance::clear;  ///< of the burr, were it where the hand is
 };
 
@@ -28,6 +29,7 @@ struct Observation {
 ///   device_jumped   it moved farther than a hand can since the last tick
 ///   model_stalled   no new milling result for longest_model_age_s
 ///   not_a_number    the milling result is not valid
+///   energy_to_hand  the force gave the hand more than most_energy_to_hand_mj lately
 ///   overrun         longest_overrun_s of deadlines missed with no tick in time between them
 class Watchdog {
   public:
@@ -38,6 +40,9 @@ class Watchdog {
     static constexpr double jump_allowance_mm = 1.0;
     /// A force older than this is no longer an answer to what the hand does.
     static constexpr double longest_overrun_s = 0.02;
+
+    /// Net within EnergyMeter::window_s. The coupling's spring, drawn to the force of the device, holds 4 mJ.
+    static constexpr double most_energy_to_hand_mj = 15.0;
 
     explicit Watchdog(double tick_s) : tick_s_(tick_s) {}
 

@@ -1,0 +1,15 @@
+// How the solves of a session ended: what was left over, and how often the plain one did not do.
+#pragma once
+
+#include <cstdint>
+
+namespace osteomill {
+
+struct SolveCounts {
+    double max_residual_n = 0.0;  ///< largest force left over after a tick
+    std::uint64_t fallbacks = 0;  ///< ticks that a burr without mass could not balance
+    std::uint64_t relaxed = 0;    ///< of these, ticks in which normal forces alone were kept
+    std::uint64_t damped = 0;     ///< ticks solved again, because bone had given the burr energy
+};
+
+}  // namespace osteomill
