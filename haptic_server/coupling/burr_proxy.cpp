@@ -85,9 +85,12 @@ BurrProxy::Outcome BurrProxy::step_without_mass(const glm::dvec3& pull_mm, const
     // The force may turn the step sideways, but hardly makes it longer than the pull (K_r, K_a >= 0).
     const double longest_mm = glm::length(pull_mm) + 2.0 * engagement.spacing_mm;
     const auto contacts = gather_contacts(longest_mm, tick_s, true, engagement);
-    if (contacts.empty()) return {.step_mm = pull.free_step_mm()};
+    // Without bone exactly there, so that nothing is felt: k x / k need not be x.
+    const glm::dvec3 free_step_mm = is_damped ? pull.free_step_mm() : pull_mm;
+    if (contacts.empty()) return {.step_mm = free_step_mm};
     const ContactStep solved = balance(pull, contacts);
     iterations_ += solved.iterations;
+    if (solved.bone_force_n == glm::dvec3(0.0)) return {.step_mm = free_step_mm};
     return {.step_mm = solved.step_mm,
             .bone_force_n = solved.bone_force_n,
             .energy_mj = glm::dot(solved.bone_force_n, solved.step_mm),
@@ -118,8 +121,8 @@ BurrProxy::Outcome BurrProxy::step_with_mass(const glm::dvec3& pull_mm, const gl
             iterations_ += solved.iterations;
             outcome.is_relaxed = true;
         }
-        const glm::dvec3 step = no_longer_than(
-            solved.step_mm, glm::length(hand_substep_mm) + most_slip_mm_per_s * step_s);
+        const glm::dvec3 step =
+            no_longer_than(solved.step_mm, glm::length(hand_substep_mm) + most_slip_mm_per_s * step_s);
         velocity = step / step_s;
         position_mm_ += step;
         remember_cuts(engagement);
@@ -132,7 +135,8 @@ BurrProxy::Outcome BurrProxy::step_with_mass(const glm::dvec3& pull_mm, const gl
     return outcome;
 }
 
-void BurrProxy::cut_toward(const glm::dvec3& target_mm, double tick_s, const Engagement& engagement) noexcept {
+void BurrProxy::cut_toward(const glm::dvec3& target_mm, double tick_s,
+                           const Engagement& engagement) noexcept {
     const glm::dvec3 pull_mm = target_mm - position_mm_;
     const glm::dvec3 hand_step_mm = target_mm - target_mm_;
     const double remembered_mj = given_mj_ * std::max(0.0, 1.0 - tick_s / energy_memory_s);
@@ -164,7 +168,8 @@ void BurrProxy::cut_toward(const glm::dvec3& target_mm, double tick_s, const Eng
     remember_cuts(engagement);
 }
 
-void BurrProxy::press_toward(const glm::dvec3& target_mm, double tick_s, const Engagement& engagement) noexcept {
+void BurrProxy::press_toward(const glm::dvec3& target_mm, double tick_s,
+                             const Engagement& engagement) noexcept {
     const glm::dvec3 pull_mm = target_mm - position_mm_;
     const LinearPull pull{spring_n_per_mm_ * pull_mm, spring_n_per_mm_};
     const double longest_mm = glm::length(pull_mm) + 2.0 * engagement.spacing_mm;

@@ -27,16 +27,17 @@
 //
 //   balanced   the residual is under 1 mN (contact_solve.h); so it is in all but rare ticks
 //   with mass  a ring of contacts whose edges pull sideways can leave a massless burr no balance: the law is
-//              not monotone, with eigenvalues down to about -B/2 for a resistance B. With a mass m and steps of h
-//              there is one as soon as m/h exceeds B/2. So the tick is done again with handpiece_kg, from the
-//              last tick's speed, in `substeps` that remember what each patch has cut.
-//   relaxed    a substep without a balance keeps the contacts' normal forces alone. That always has a solution,
+//              not monotone, with eigenvalues down to about -B/2 for a resistance B. With a mass m and steps
+//              of h there is one as soon as m/h exceeds B/2. So the tick is done again with handpiece_kg,
+//              from the last tick's speed, in `substeps` that remember what each patch has cut.
+//   relaxed    a substep without a balance keeps the contacts' normal forces alone. That always has a
+//   solution,
 //              and only takes energy out.
 //
-// Bone that pulls the burr along (a climb cut at an edge) gives it energy, and the spring would hand that on to
-// the hand. A store counts what bone has given, less what it took, and forgets with energy_memory_s. While it holds
-// more than allowed_energy_mj, the tick is solved with a damper between burr and hand, which the hand does not
-// feel: the burr then follows the hand, rather than its teeth.
+// Bone that pulls the burr along (a climb cut at an edge) gives it energy, and the spring would hand that on
+// to the hand. A store counts what bone has given, less what it took, and forgets with energy_memory_s. While
+// it holds more than allowed_energy_mj, the tick is solved with a damper between burr and hand, which the
+// hand does not feel: the burr then follows the hand, rather than its teeth.
 #pragma once
 
 #include <array>
@@ -110,9 +111,9 @@ class BurrProxy {
 
     double spring_n_per_mm_;
     glm::dvec3 position_mm_{0.0};
-    glm::dvec3 target_mm_{0.0};           // of the last tick
-    glm::dvec3 velocity_mm_per_s_{0.0};   // over the last tick
-    double given_mj_ = 0.0;               // what bone has given lately
+    glm::dvec3 target_mm_{0.0};          // of the last tick
+    glm::dvec3 velocity_mm_per_s_{0.0};  // over the last tick
+    double given_mj_ = 0.0;              // what bone has given lately
     std::uint64_t map_step_ = 0;
     ForceCorrection correction_;
     SolveCounts counts_;

@@ -47,9 +47,11 @@ struct RelaxedState {
     double energy_mj = 0.0;  // minus the residual is its gradient
 };
 
-RelaxedState relaxed_at(const LinearPull& pull, std::span<const Contact> contacts, const glm::dvec3& step_mm) {
+RelaxedState relaxed_at(const LinearPull& pull, std::span<const Contact> contacts,
+                        const glm::dvec3& step_mm) {
     RelaxedState state{.step_mm = step_mm, .resistance = glm::dmat3(pull.stiffness_n_per_mm)};
-    state.energy_mj = 0.5 * pull.stiffness_n_per_mm * glm::dot(step_mm, step_mm) - glm::dot(pull.offset_n, step_mm);
+    state.energy_mj =
+        0.5 * pull.stiffness_n_per_mm * glm::dot(step_mm, step_mm) - glm::dot(pull.offset_n, step_mm);
     for (const Contact& contact : contacts) {
         const double beyond_mm = glm::dot(contact.normal, step_mm) - contact.begins_mm;
         if (beyond_mm <= 0.0) continue;
@@ -89,7 +91,8 @@ ContactStep relaxed_step(const LinearPull& pull, std::span<const Contact> contac
     for (; iterations < most_iterations; ++iterations) {
         if (glm::length(state.residual_n) < residual_goal_n) break;
         const glm::dvec3 newton = glm::inverse(state.resistance) * state.residual_n;
-        // Along a Newton step of a convex function some share always reduces it by a part of the first-order gain.
+        // Along a Newton step of a convex function some share always reduces it by a part of the first-order
+        // gain.
         const double gain_mj = glm::dot(newton, state.residual_n);
         double share = 1.0;
         RelaxedState trial = relaxed_at(pull, contacts, state.step_mm + newton);

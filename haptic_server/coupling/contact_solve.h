@@ -1,12 +1,13 @@
-// The balance of a burr between a linear pull and one-sided contacts with bone: which step d leaves no force over.
+// The balance of a burr between a linear pull and one-sided contacts with bone: which step d leaves no force
+// over.
 //
 //     offset - stiffness d + sum of force_i max(0, n_i . d - begins_i) = 0
 //
 // The pull is a spring to the hand and, where a caller adds them, a mass and a damper: all are alike in every
 // direction, so a vector and a number hold them. A contact's force need not point along its normal: a cutting
-// edge pulls sideways. Then the balance is not the minimum of anything, and a burr without mass on a soft spring
-// may have none at all (the symmetric part of the sideways force has negative eigenvalues). balance() looks for
-// one and says what force is left over. relaxed_step() cannot fail.
+// edge pulls sideways. Then the balance is not the minimum of anything, and a burr without mass on a soft
+// spring may have none at all (the symmetric part of the sideways force has negative eigenvalues). balance()
+// looks for one and says what force is left over. relaxed_step() cannot fail.
 #pragma once
 
 #include <glm/vec3.hpp>
@@ -41,13 +42,14 @@ struct ContactStep {
 inline constexpr double balance_tolerance_n = 1e-3;
 
 /// Newton's method on the set of contacts that touch, from the free step, halving a step that does not reduce
-/// the residual; at most 24 iterations. Where it ends without a balance, the residual says so. Real-time safe.
+/// the residual; at most 24 iterations. Where it ends without a balance, the residual says so. Real-time
+/// safe.
 ContactStep balance(const LinearPull& pull, std::span<const Contact> contacts) noexcept;
 
 /// The balance with each contact's force along its normal alone, and only resisting. That is the minimum of a
-/// strictly convex, piecewise quadratic function, which Newton's method with a line search that must reduce it
-/// reaches in a finite number of steps. Bone that only resists takes energy out of the burr: force . step <= 0,
-/// where no contact is entered at the start. Should 24 iterations not do, the burr stays (step 0).
+/// strictly convex, piecewise quadratic function, which Newton's method with a line search that must reduce
+/// it reaches in a finite number of steps. Bone that only resists takes energy out of the burr: force . step
+/// <= 0, where no contact is entered at the start. Should 24 iterations not do, the burr stays (step 0).
 /// `residual_n` is of the relaxed contacts. Real-time safe.
 ContactStep relaxed_step(const LinearPull& pull, std::span<const Contact> contacts) noexcept;
 

@@ -29,8 +29,8 @@ unsigned order_on_sphere(const glm::dvec3& normal) {
 constexpr std::array<float, 4> offsets_voxels{-static_cast<float>(Engagement::reach_voxels), -0.5f, 0.5f,
                                               static_cast<float>(Engagement::reach_voxels)};
 /// A ring's forces across the spindle cancel where all of it touches: a plunge along the spindle feels none.
-constexpr int patches_a_ring = 24;
-constexpr int fewest_rings = 32;
+constexpr int patches_a_ring = 16;
+constexpr int fewest_rings = 48;
 constexpr int most_rings = static_cast<int>(Engagement::max_patches) / patches_a_ring;
 /// Half of a voxel's 255 levels: the bone's surface.
 constexpr float half = 127.5f;
@@ -45,16 +45,17 @@ EngagementProbe::EngagementProbe(const Burr& burr, double spacing_mm)
         static_cast<int>(std::lround(sphere_area_mm2 / (wanted_edge_mm * wanted_edge_mm) / patches_a_ring)),
         fewest_rings, most_rings);
     const auto count = static_cast<std::size_t>(rings * patches_a_ring);
-    patch_area_mm2_ = sphere_area_mm2 / static_cast<double>(count);
 
     const glm::dvec3 k = burr.cutting_coefficients_n_per_mm2;
     patches_.reserve(count);
     for (int ring = 0; ring < rings; ++ring) {
-        // Archimedes: rings of equal height are equal in area.
-        const double bottom = -1.0 + 2.0 * ring / rings;
-        const double top = -1.0 + 2.0 * (ring + 1) / rings;
+        // Equal in angle, so that a shallow cut at the tip meets several.
+        const double bottom = -std::cos(std::numbers::pi * ring / rings);
+        const double top = -std::cos(std::numbers::pi * (ring + 1) / rings);
         const double z = 0.5 * (bottom + top);
         const double sin_kappa = std::sqrt(1.0 - z * z);
+        const double area_mm2 =
+            2.0 * std::numbers::pi * radius_mm_ * radius_mm_ * (top - bottom) / patches_a_ring;
         const double mean_per_r = (std::asin(top) - std::asin(bottom)) / (top - bottom) / radius_mm_;
         const double half_turn = ring % 2 == 0 ? 0.0 : 0.5;
         for (int i = 0; i < patches_a_ring; ++i) {
@@ -63,9 +64,9 @@ EngagementProbe::EngagementProbe(const Burr& burr, double spacing_mm)
             const glm::dvec3 e_psi(-std::sin(psi), std::cos(psi), 0.0);
             const glm::dvec3 e_kappa(std::cos(psi) * -z, std::sin(psi) * -z, sin_kappa);
             const glm::dvec3 cutting = -(burr.sigma() * k.x * e_psi + k.y * normal + k.z * e_kappa) *
-                                       patch_area_mm2_ * mean_per_r /
+                                       area_mm2 * mean_per_r /
                                        (2.0 * std::numbers::pi * burr.spindle_rev_per_s);
-            patches_.push_back({normal, cutting});
+            patches_.push_back({normal, cutting, area_mm2});
         }
     }
     // Samples of neighbours read the same bricks.
@@ -108,7 +109,7 @@ void EngagementProbe::sample(const Bone& bone, const glm::dvec3& position_mm, co
             if (stiffness == 0.0)
                 stiffness = bricks_.stiffness(surface + crossing.bone_offset_voxels * outward);
             out.patches[out.count++] = {normal, static_cast<double>(crossing.offset_voxels) * h,
-                                        stiffness * (frame * patch.cutting_n_s_per_mm), patch_area_mm2_};
+                                        stiffness * (frame * patch.cutting_n_s_per_mm), patch.area_mm2};
         }
     }
 }

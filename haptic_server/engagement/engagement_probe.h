@@ -14,10 +14,10 @@
 
 namespace osteomill {
 
-/// Samples the bone around one burr. Holds the burr's patches: rings about the spindle, each turned against the
-/// next by half a patch, all equal in area, about 1.5 voxels wide where 768 to 1008 of them suffice for that.
-/// 1/r is its mean over the patch, (asin z2 - asin z1) / (z2 - z1) / R for a ring from z1 to z2 on the unit
-/// sphere. Allocates when constructed.
+/// Samples the bone around one burr. Holds the burr's patches: rings about the spindle, equal in angle, 16
+/// patches a ring, each ring turned against the next by half a patch; 768 to 1024 of them, about 1.5 voxels
+/// wide where that suffices. 1/r is its mean over the patch, (asin z2 - asin z1) / (z2 - z1) / R for a ring
+/// from z1 to z2 on the unit sphere. Allocates when constructed.
 class EngagementProbe {
   public:
     EngagementProbe(const Burr& burr, double spacing_mm);
@@ -31,6 +31,7 @@ class EngagementProbe {
     struct Patch {
         glm::dvec3 normal;              ///< burr axes
         glm::dvec3 cutting_n_s_per_mm;  ///< burr axes, for bone of relative stiffness 1
+        double area_mm2;
     };
 
     /// Patches are looked at four at a time: a vector that every processor has.
@@ -52,7 +53,6 @@ class EngagementProbe {
     static Crossing first_crossing(const FourFractions& along, std::size_t lane);
 
     double radius_mm_;
-    double patch_area_mm2_;
     std::vector<Patch> patches_;
     std::array<std::vector<float>, 3> normals_;  // of the patches, by axis
     BrickNeighbourhood bricks_;

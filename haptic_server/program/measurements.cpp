@@ -38,12 +38,9 @@ nlohmann::ordered_json removed_by_name(const RemovedByTissue& removed_mm3, const
 
 nlohmann::ordered_json faults(const MillingSessionReport& report) {
     const auto count = [&](Fault fault) { return report.fault_counts[static_cast<std::size_t>(fault)]; };
-    return {{"device_lost", count(Fault::device_lost)},
-            {"model_stalled", count(Fault::model_stalled)},
-            {"not_a_number", count(Fault::not_a_number)},
-            {"overrun", count(Fault::overrun)},
-            {"device_jumped", count(Fault::device_jumped)},
-            {"in_bone", count(Fault::in_bone)},
+    return {{"device_lost", count(Fault::device_lost)},      {"model_stalled", count(Fault::model_stalled)},
+            {"not_a_number", count(Fault::not_a_number)},    {"overrun", count(Fault::overrun)},
+            {"device_jumped", count(Fault::device_jumped)},  {"in_bone", count(Fault::in_bone)},
             {"energy_to_hand", count(Fault::energy_to_hand)}};
 }
 

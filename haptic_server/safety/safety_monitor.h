@@ -12,10 +12,10 @@
 //     |                    +----------------------- fault -------------------------+  |
 //     +------------------------------- faded in --------------------------------------+
 //
-// It begins in `active`, but untried: until it is known whether there is bone in the burr (clearance.h), which
-// takes a milling result, no force is felt and no bone touched. A burr that is clear is tried then and there;
-// one in bone goes off, as if it had come back there. So a session that starts in air feels the first force
-// there is, and one that starts in bone none.
+// It begins in `active`, but untried: until it is known whether there is bone in the burr (clearance.h),
+// which takes a milling result, no force is felt and no bone touched. A burr that is clear is tried then and
+// there; one in bone goes off, as if it had come back there. So a session that starts in air feels the first
+// force there is, and one that starts in bone none.
 //
 //   state        the hand feels                              the tool
 //   untried      nothing                                     is out of the bone
