@@ -5,6 +5,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <memory>
+#include <numbers>
 
 namespace osteomill::burr_proxy_test {
 namespace {
@@ -118,6 +119,79 @@ TEST(BurrProxy, LetsGoOverSomeTicksWhenTheBoneIsGone) {
         lag_mm = next_mm;
     }
     EXPECT_NEAR(lag_mm, 0.0, 1e-12) << "and arrives";
+}
+
+/// A burr in a tunnel of its own width along z: patches all round it, edges that pull sideways six times as
+/// hard as they push back, as in bone.
+std::unique_ptr<MillingResult> tunnel(double resistance_n_s_per_mm) {
+    auto result = std::make_unique<MillingResult>();
+    result->step = 1;
+    Engagement& engagement = result->engagement;
+    engagement.count = 64;
+    for (std::size_t i = 0; i < engagement.count; ++i) {
+        const double psi = 2.0 * std::numbers::pi * static_cast<double>(i) / 64.0;
+        const glm::dvec3 normal(std::cos(psi), std::sin(psi), 0.0);
+        const glm::dvec3 along(-std::sin(psi), std::cos(psi), 0.0);
+        engagement.patches[i] = {.normal = normal,
+                                 .cutting_n_s_per_mm = resistance_n_s_per_mm * (-normal - 6.0 * along),
+                                 .area_mm2 = 0.1};
+    }
+    return result;
+}
+
+TEST(BurrProxy, EndsEveryTickInBalanceWhateverTheRingOfContacts) {
+    for (const double resistance : {1e-4, 1e-3, 0.01, 0.1}) {
+        BurrProxy proxy(1.5);
+        proxy.place(glm::dvec3(0.0));
+        const auto bone = tunnel(resistance);
+        for (int i = 0; i < 3000; ++i) {
+            // A hand that stirs, up to 1.5 N on the spring.
+            const double turn = 0.013 * i;
+            const glm::dvec3 hand(std::cos(turn) - 1.0, std::sin(1.7 * turn), 0.001 * i);
+            proxy.advance(hand, 0.001, true, *bone);
+            ASSERT_LE(glm::distance(proxy.position_mm(), hand), 3.0) << "nor does it run off";
+        }
+        EXPECT_LT(proxy.counts().max_residual_n, balance_tolerance_n) << resistance;
+    }
+}
+
+/// The energy that a burr's spring gives a hand in a fifth of a second of moving along x and y together,
+/// where bone before it (+x) pulls it along (+y).
+double energy_to_hand_of_a_climb_mj(BurrProxy& proxy, double feed_mm_per_s) {
+    auto bone = damper_along_x(0.01, 0.0);
+    bone->engagement.patches[0].cutting_n_s_per_mm = {-0.01, 0.08, 0.0};
+    const glm::dvec3 step_mm = 0.001 * feed_mm_per_s * glm::dvec3(1.0, 1.0, 0.0);
+    glm::dvec3 hand(0.0);
+    double energy_mj = 0.0;
+    proxy.place(hand);
+    for (int i = 0; i < 200; ++i) {
+        energy_mj += glm::dot(1.5 * (proxy.position_mm() - hand), step_mm);
+        hand += step_mm;
+        proxy.advance(hand, 0.001, true, *bone);
+    }
+    return energy_mj;
+}
+
+TEST(BurrProxy, HandsOnLittleOfTheEnergyThatBoneGivesIt) {
+    // By the law alone: (0.08 - 0.01) N s/mm times 50 mm/s, at 50 mm/s, for a fifth of a second: 35 mJ.
+    BurrProxy proxy(1.5);
+    const double energy_mj = energy_to_hand_of_a_climb_mj(proxy, 50.0);
+    EXPECT_GT(proxy.counts().damped, 100U);
+    EXPECT_LT(energy_mj, 7.0);
+    EXPECT_GT(energy_mj, 0.0) << "the first of it is felt";
+}
+
+TEST(BurrProxy, DampsNothingWhereBoneTakesEnergy) {
+    BurrProxy proxy(1.5);
+    proxy.place(glm::dvec3(0.0));
+    auto bone = damper_along_x(0.05, 0.0);
+    bone->engagement.patches[0].cutting_n_s_per_mm = {-0.05, -0.02, 0.0};
+    for (int i = 1; i <= 1000; ++i) proxy.advance({0.01 * i, 0.0, 0.0}, 0.001, true, *bone);
+    EXPECT_EQ(proxy.counts().damped, 0U);
+    EXPECT_EQ(proxy.counts().fallbacks, 0U);
+    // The spring holds the law's force, the damper none: F = (0.05, 0.02) N s/mm times 10 mm/s.
+    EXPECT_NEAR(1.5 * (10.0 - proxy.position_mm().x), 0.5, 1e-3);
+    EXPECT_NEAR(1.5 * proxy.position_mm().y, -0.2, 1e-3);
 }
 
 }  // namespace

@@ -58,5 +58,23 @@ TEST(ForceCorrection, StaysWithinItsBoundsWhateverTheModelSays) {
     EXPECT_NEAR(glm::dot(found_n, predicted_n), 0.5, 0.05);
 }
 
+TEST(ForceCorrection, ForgetsInTheAirWhatItLearntInBone) {
+    ForceCorrection correction;
+    const glm::dvec3 predicted_n(0.0, 1.0, 0.0);
+    double time_s = 0.0;
+    const auto tick = [&](const glm::dvec3& predicted, const glm::dvec3& model_n) {
+        correction.add_prediction(correction.gain() * predicted, tick_s);
+        correction.compare(model_n, time_s += tick_s, axis);
+    };
+    for (int i = 0; i < 1000; ++i) tick(predicted_n, 0.6 * predicted_n);
+    ASSERT_LT(glm::length(correction.gain() * predicted_n), 0.7);
+    for (int i = 0; i < 15; ++i) tick(glm::dvec3(0.0), glm::dvec3(0.0));
+    EXPECT_LT(glm::length(correction.gain() * predicted_n), 0.7) << "a burr that only skips over a gap";
+    for (int i = 0; i < 6; ++i) tick(glm::dvec3(0.0), glm::dvec3(0.0));
+    EXPECT_EQ(correction.gain(), glm::dmat3(1.0));
+    for (int i = 0; i < 1000; ++i) tick(predicted_n, 1.2 * predicted_n);
+    EXPECT_NEAR(glm::length(correction.gain() * predicted_n), 1.2, 1e-3) << "and learns anew";
+}
+
 }  // namespace
 }  // namespace osteomill::force_correction_test

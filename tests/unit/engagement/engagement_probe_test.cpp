@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <glm/geometric.hpp>
+#include <glm/vec2.hpp>
 #include <memory>
+#include <numbers>
 
 #include "tests/support/block.h"
 
@@ -74,6 +76,38 @@ TEST(Engagement, AdvancingIntoAFreshSlotPredictsTheReferenceForce) {
                  std::max(0.0, glm::dot(engagement->patches[i].normal, velocity_mm_per_s));
     const glm::dvec3 reference(-1.413717, -10.350001, -0.9);
     EXPECT_LT(glm::length(force - reference) / glm::length(reference), 0.02);
+}
+
+TEST(Engagement, PlungingAlongTheSpindlePushesNothingSideways) {
+    // Off the lattice, into flat bone: what touches are whole rings.
+    const Bone bone = flat_block();
+    auto engagement = std::make_unique<Engagement>();
+    for (const double diameter_mm : {1.0, 2.3, 5.0}) {
+        const Burr burr{.diameter_mm = diameter_mm};
+        EngagementProbe probe(burr, 0.1);
+        for (const double depth_mm : {0.12, 0.31, 0.45 * diameter_mm}) {
+            probe.sample(bone, {0.031, 0.017, burr.radius_mm() - depth_mm}, up, *engagement);
+            glm::dvec3 force(0.0);
+            for (std::size_t i = 0; i < engagement->count; ++i) {
+                const EngagedPatch& patch = engagement->patches[i];
+                if (patch.gap_mm < 0.02) force += patch.cutting_n_s_per_mm * std::max(0.0, -patch.normal.z);
+            }
+            EXPECT_GT(force.z, 0.0);
+            EXPECT_LT(glm::length(glm::dvec2(force)), 0.03 * force.z) << diameter_mm << ", " << depth_mm;
+        }
+    }
+}
+
+TEST(Engagement, SeesAShallowCutAtTheTipInSeveralRings) {
+    // A cap 0.12 mm deep of a 5 mm burr, all of it: its area, and how far up it reaches, within a ring.
+    const Bone bone = flat_block();
+    const Burr burr{.diameter_mm = 5.0};
+    auto engagement = std::make_unique<Engagement>();
+    EngagementProbe(burr, 0.1).sample(bone, {0.031, 0.017, 2.5 - 0.12}, up, *engagement);
+    double area_mm2 = 0.0;
+    for (std::size_t i = 0; i < engagement->count; ++i)
+        if (engagement->patches[i].gap_mm < 0.0) area_mm2 += engagement->patches[i].area_mm2;
+    EXPECT_NEAR(area_mm2, 2.0 * std::numbers::pi * 2.5 * 0.12, 0.3);
 }
 
 }  // namespace

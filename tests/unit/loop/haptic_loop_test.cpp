@@ -248,5 +248,48 @@ TEST(HapticLoop, MeasuresDepthFromWhereTheBurrFirstMetBone) {
     std::filesystem::remove(file);
 }
 
+TEST(HapticLoop, LetsGoOfAHandThatTheForceDrivesAndLocksTheSpindle) {
+    Bench bench;
+    double pushed_mm = 0.0;
+    bench.coupling.force = [](const HandState&) { return glm::dvec3(2.0, 0.0, 0.0); };
+    bench.device.script = [&](double now_s) {
+        pushed_mm = 150.0 * now_s;  // 0.3 W: 15 mJ in 50 ms
+        return DeviceState{.position_mm = {pushed_mm, 0.0, 0.0}, .pedal = true};
+    };
+    bench.run(45);
+    EXPECT_EQ(bench.shown().fault, Fault::none);
+    bench.run(ticks_to_fade() + 20);
+    EXPECT_EQ(bench.shown().force_n, glm::dvec3(0.0));
+    EXPECT_EQ(bench.loop().fault_counts()[static_cast<std::size_t>(Fault::energy_to_hand)], 1U);
+    EXPECT_GT(bench.loop().most_energy_to_hand_mj(), 15.0);
+
+    // The hand holds still, the pedal is down: the force may come back, the spindle not before the pedal was
+    // up.
+    bool pedal = true;
+    bench.coupling.force = [](const HandState&) { return glm::dvec3(0.0); };
+    bench.device.script = [&](double) {
+        return DeviceState{.position_mm = {pushed_mm, 0.0, 0.0}, .pedal = pedal};
+    };
+    bench.run(2000);
+    EXPECT_EQ(bench.shown().fault, Fault::none);
+    EXPECT_FALSE(bench.command().spindle_on);
+    pedal = false;
+    bench.run(5);
+    pedal = true;
+    bench.run(5);
+    EXPECT_TRUE(bench.command().spindle_on);
+}
+
+TEST(HapticLoop, DoesNotMistakeAHandThatPushesForOneThatIsPushed) {
+    Bench bench;
+    bench.coupling.force = [](const HandState&) { return glm::dvec3(-3.0, 0.0, 0.0); };
+    bench.device.script = [](double now_s) {
+        return DeviceState{.position_mm = {200.0 * now_s, 0.0, 0.0}, .pedal = true};
+    };
+    bench.run(500);
+    EXPECT_EQ(bench.shown().fault, Fault::none);
+    EXPECT_LT(bench.loop().most_energy_to_hand_mj(), 1e-9);
+}
+
 }  // namespace
 }  // namespace osteomill

@@ -156,15 +156,15 @@ TEST(SafetyMonitor, LeadsFromNoStateByAnyFaultToAForce) {
 
 TEST(SafetyMonitor, TurnsTheSpindleOnlyInAHandThatIsThereAndHasLetGoOfThePedal) {
     explore([](const Reached& from, const Event& event, const Reached& to) {
-        const bool is_lost_or_jumped =
-            event.fault == Fault::device_lost || event.fault == Fault::device_jumped;
+        const bool locks = event.fault == Fault::device_lost || event.fault == Fault::device_jumped ||
+                           event.fault == Fault::energy_to_hand;
         if (to.monitor.spindle_turns()) {
             ASSERT_TRUE(event.pedal && !event.is_fault());
             ASSERT_FALSE(from.monitor.is_spindle_locked());
             ASSERT_FALSE(to.monitor.is_untried());
             ASSERT_TRUE(to.monitor.state() == State::active || to.monitor.state() == State::fading_in);
         }
-        if (is_lost_or_jumped && event.pedal) {
+        if (locks && event.pedal) {
             ASSERT_TRUE(to.monitor.is_spindle_locked());
         }
         const bool unlocks = from.monitor.is_spindle_locked() && !to.monitor.is_spindle_locked();
