@@ -95,6 +95,10 @@ class MillingSession {
 
     /// After run().
     MillingSessionReport report() const;
+    SolveCounts solve_counts() const { return coupling_->solve_counts(); }
+    const std::array<std::uint64_t, HapticLoop::fault_kinds>& fault_counts() const {
+        return haptic_loop_.fault_counts();
+    }
     const Bone& bone() const { return model_->bone(); }
 
   private:

@@ -18,6 +18,7 @@ constexpr double most_rms_error_percent = 3.0;
 constexpr double most_mean_error_percent = 2.0;
 constexpr double most_jump_n = 0.3;
 constexpr double most_rate_dependence_percent = 2.0;
+constexpr double most_residual_n = 1e-3;
 
 /// The largest of a number over results; results of which it is NaN are passed over.
 Bar worst_of(const std::string& what, double bar, const std::vector<MapResult>& results,
@@ -67,6 +68,8 @@ std::vector<Bar> implicit_bars(const WholeMap& map) {
     if (results_where(map, [](const MapPoint& point) { return point.part == MapPart::bars; }).empty())
         return {};
     const auto all = within(MapScene::cutting, true);
+    const auto everything =
+        results_where(map, [](const MapPoint& point) { return point.run.method == map_methods().front(); });
     const double only_stable = std::numeric_limits<double>::quiet_NaN();
     return {
         unstable_among("cutting that is unstable, %", all),
@@ -88,6 +91,12 @@ std::vector<Bar> implicit_bars(const WholeMap& map) {
         worst_of("largest jump between ticks, cutting on a real device, N", most_jump_n,
                  within(MapScene::cutting, false),
                  [](const MapResult& r) { return r.outcome.largest_jump_n; }),
+        worst_of("force that a contact solve left over, N", most_residual_n, everything,
+                 [](const MapResult& r) { return r.outcome.max_residual_n; }),
+        worst_of("ticks without a balance on the spring alone", 0.0, everything,
+                 [](const MapResult& r) { return r.outcome.fallbacks; }),
+        worst_of("forces turned off for their energy", 0.0, everything,
+                 [](const MapResult& r) { return r.outcome.energy_faults; }),
     };
 }
 

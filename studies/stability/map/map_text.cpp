@@ -10,7 +10,7 @@ namespace osteomill::study {
 using nlohmann::json;
 using nlohmann::ordered_json;
 
-const std::array<OutcomeNumber, 10> outcome_numbers{{
+const std::array<OutcomeNumber, 13> outcome_numbers{{
     {"resistance_n_s_per_m", &MapOutcome::resistance_n_s_per_m},
     {"truth_mean_n", &MapOutcome::truth_mean_n},
     {"limit_cycle_n", &MapOutcome::limit_cycle_n},
@@ -21,6 +21,9 @@ const std::array<OutcomeNumber, 10> outcome_numbers{{
     {"largest_jump_n", &MapOutcome::largest_jump_n},
     {"depth_error_mm", &MapOutcome::depth_error_mm},
     {"removed_mm3", &MapOutcome::removed_mm3},
+    {"max_residual_n", &MapOutcome::max_residual_n},
+    {"fallbacks", &MapOutcome::fallbacks},
+    {"energy_faults", &MapOutcome::energy_faults},
 }};
 
 std::string name_of(MapPart part) {

@@ -32,7 +32,7 @@ struct OutcomeNumber {
     std::string_view name;
     double MapOutcome::*value;
 };
-extern const std::array<OutcomeNumber, 10> outcome_numbers;
+extern const std::array<OutcomeNumber, 13> outcome_numbers;
 
 /// To the last bit; a number that is not finite is null, and comes back as NaN.
 nlohmann::ordered_json json_of(const MapOutcome& outcome);

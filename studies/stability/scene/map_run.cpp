@@ -24,6 +24,8 @@ struct RunRecord {
     std::vector<glm::dvec3> force_n;
     std::vector<double> taken_mj;
     std::vector<double> removed_mm3;  ///< since the start
+    SolveCounts solve{};
+    std::uint64_t energy_faults = 0;
     bool is_astray = false;
 };
 
@@ -70,6 +72,8 @@ RunRecord run_session(const MapCase& c, const ScenePlan& plan, const Bone& bone,
         if (run.is_astray || record.size() == truth.size()) stop.store(true);
     });
     session.run(stop);
+    run.solve = session.solve_counts();
+    run.energy_faults = session.fault_counts()[static_cast<std::size_t>(Fault::energy_to_hand)];
 
     const std::size_t complete = run.burr_mm.size();
     for (std::size_t i = 0; i < complete; ++i) {
@@ -163,6 +167,9 @@ MapOutcome run_map_case(const MapCase& c, SceneCache& cache) {
     outcome.is_stable = verdict.is_stable;
     outcome.limit_cycle_n = verdict.limit_cycle_n;
     outcome.injected_mj = verdict.injected_mj;
+    outcome.max_residual_n = run.solve.max_residual_n;
+    outcome.fallbacks = static_cast<double>(run.solve.fallbacks);
+    outcome.energy_faults = static_cast<double>(run.energy_faults);
     return outcome;
 }
 

@@ -27,7 +27,10 @@ MapOutcome outcome(double seed) {
             .peak_n = seed,
             .largest_jump_n = seed / 7.0,
             .depth_error_mm = seed / 9.0,
-            .removed_mm3 = seed / 11.0};
+            .removed_mm3 = seed / 11.0,
+            .max_residual_n = seed / 13.0,
+            .fallbacks = seed,
+            .energy_faults = 2.0 * seed};
 }
 
 class CaseFileTest : public ::testing::Test {

@@ -56,7 +56,7 @@ TEST(MapResults, AMethodThatIsStableNowhereHasNoErrorToDraw) {
 TEST(MapResults, BarsAreHeldAgainstTheWorst) {
     const WholeMap map = whole_map({.quick = true, .methods = {"implicit"}}, outcome);
     const auto bars = implicit_bars(map);
-    ASSERT_EQ(bars.size(), 8U);
+    ASSERT_EQ(bars.size(), 11U);
     const auto in_range = [](const MapPoint& p) {
         return p.run.scene == MapScene::cutting && p.run.is_ideal_device && p.run.delay_ticks <= 1;
     };
@@ -72,6 +72,22 @@ TEST(MapResults, BarsAreHeldAgainstTheWorst) {
     EXPECT_DOUBLE_EQ(bars[3].worst, 6.0) << "force";
     EXPECT_NEAR(bars[5].worst, 1.0, 1e-9) << "bone carved at either rate";
     EXPECT_TRUE(bars[5].is_met());
+    EXPECT_TRUE(bars[8].is_met() && bars[9].is_met() && bars[10].is_met());
+}
+
+TEST(MapResults, AFallbackAnywhereMissesTheBar) {
+    const WholeMap map = whole_map({.quick = true, .methods = {"implicit"}}, [](const MapCase& c) {
+        MapOutcome fell_back = outcome(c);
+        if (c.scene == MapScene::wall && !c.is_ideal_device) {
+            fell_back.max_residual_n = 0.002;
+            fell_back.fallbacks = 3.0;
+            fell_back.energy_faults = 1.0;
+        }
+        return fell_back;
+    });
+    const auto bars = implicit_bars(map);
+    for (std::size_t i = 8; i < bars.size(); ++i) EXPECT_FALSE(bars[i].is_met()) << bars[i].what;
+    EXPECT_THAT(bars[9].where, HasSubstr("real device"));
 }
 
 TEST(MapResults, RegionsJoinNeighboursThatAreAlike) {
