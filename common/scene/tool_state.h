@@ -32,7 +32,8 @@ struct ToolState {
     bool spindle_on = false;
     double removed_mm3 = 0.0;  ///< since the server began
     bool touches_protected = false;
-    BoundedLine fault{};  ///< why the force is off; empty while all is well
+    BoundedLine fault{};   ///< why the force is off; empty while all is well
+    BoundedLine notice{};  ///< what something that was asked for waits for; empty: nothing does
     /// The server's wall clock when it took this off the haptic loop, ns since 1970; 0: not said.
     std::int64_t taken_unix_ns = 0;
     ToolDriver driver = ToolDriver::unknown;  ///< said to each client by the streaming server

@@ -92,6 +92,7 @@ v1::ToolState to_message(const ToolState& tool) {
     message.set_removed_mm3(tool.removed_mm3);
     message.set_touches_protected(tool.touches_protected);
     message.set_fault(std::string(tool.fault.text()));
+    message.set_notice(std::string(tool.notice.text()));
     message.set_taken_unix_ns(tool.taken_unix_ns);
     message.set_driver(to_message(tool.driver));
     if (tool.depth_mm) message.set_depth_mm(*tool.depth_mm);
@@ -185,6 +186,7 @@ std::variant<ToolState, WireError> tool_from(const v1::ToolState& message, std::
                    .removed_mm3 = message.removed_mm3(),
                    .touches_protected = message.touches_protected(),
                    .fault = one_line(message.fault()),
+                   .notice = one_line(message.notice()),
                    .taken_unix_ns = message.taken_unix_ns(),
                    .driver = driver_from(message.driver())};
     if (message.has_depth_mm()) tool.depth_mm = message.depth_mm();

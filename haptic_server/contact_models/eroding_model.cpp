@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "haptic_server/contact_models/ball_rows.h"
-#include "haptic_server/contact_models/bone_surface.h"
+#include "haptic_server/contact_models/bone_in_ball.h"
 #include "haptic_server/contact_models/usable_burr.h"
 
 namespace osteomill {
@@ -56,21 +56,6 @@ void ErodingModel::erode(const glm::dvec3& position_mm, double dose, EditSink& e
     erosion_.erode(bone_, ball, dose, edits, entry);
 }
 
-bool ErodingModel::has_bone_inside(const glm::dvec3& centre_voxels, double radius_voxels) const noexcept {
-    const Ball ball{centre_voxels, radius_voxels};
-    bool is_inside = false;
-    visit_rows(bone_, ball, [&](const BallRow& row) {
-        const auto fractions = bone_.fractions(row.slot).subspan(row.row_offset, brick_edge_voxels);
-        glm::dvec3 from_centre = glm::dvec3(row.first) - ball.centre;
-        for (int i = 0; i < row.count; ++i, from_centre.x += 1.0) {
-            is_inside = is_inside ||
-                        (fractions[static_cast<std::size_t>((row.first.x & 15) + i)] >= surface_fraction &&
-                         cover_of(ball, glm::dot(from_centre, from_centre)) >= 1.0);
-        }
-    });
-    return is_inside;
-}
-
 void ErodingModel::step(const BurrCommand& command, double time_s, EditSink& edits,
                         MillingResult& result) noexcept {
     account_.begin_step(time_s, result);
@@ -95,7 +80,7 @@ void ErodingModel::step(const BurrCommand& command, double time_s, EditSink& edi
                                                       .spindle_axis = command.pose.spindle_axis,
                                                       .spindle_on = command.spindle_on});
         result.force_n = reaction.force_n;
-        result.has_bone_inside = !command.spindle_on && has_bone_inside(centre, radius);
+        result.has_bone_inside = !command.spindle_on && has_bone_in(bone_, {centre, radius});
         if (command.spindle_on)
             erode(0.5 * (position_mm_ + position_mm), reaction.erosion_per_s * command.elapsed_s, edits);
     }

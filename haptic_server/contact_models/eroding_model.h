@@ -35,8 +35,6 @@ class ErodingModel final : public ForceModel {
 
   private:
     void erode(const glm::dvec3& position_mm, double dose, EditSink& edits) noexcept;
-    /// Whether a voxel that is at least half there lies within the burr, all of it.
-    bool has_bone_inside(const glm::dvec3& centre_voxels, double radius_voxels) const noexcept;
 
     Bone bone_;
     std::vector<Burr> burrs_;

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <glm/vec3.hpp>
+#include <optional>
 
 #include "common/scene/scene.h"
 #include "haptic_server/engagement/engagement.h"
@@ -18,6 +19,8 @@ struct BurrCommand {
     std::size_t burr = 0;          ///< index into the scene's set
     double elapsed_s = 0.0;        ///< duration of the step, positive
     bool wants_engagement = true;  ///< false: nobody will look at the result's engagement, save its time
+    /// The burr that shall be put in this one's place; nothing: none.
+    std::optional<std::size_t> wanted_burr{};
 };
 
 /// Removed bone per tissue label, mm^3; index = label.
@@ -37,7 +40,11 @@ struct MillingResult {
     bool valid = true;               ///< false: the command was refused (not finite), force is zero
     /// Only of models without an engagement, with the spindle off: bone lies inside the burr.
     bool has_bone_inside = false;
-    Engagement engagement;  ///< the bone around the burr after the step
+    /// How far the tool may move from `pose` with neither its burr nor the wanted one meeting bone; 0: that
+    /// is not known, or none is wanted.
+    double room_for_change_mm = 0.0;
+    std::optional<std::size_t> wanted_burr{};  ///< the command's
+    Engagement engagement;                     ///< the bone around the burr after the step
 };
 
 }  // namespace osteomill

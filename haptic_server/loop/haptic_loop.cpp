@@ -16,11 +16,10 @@ HapticLoop::HapticLoop(const HapticLoopParts& parts, const HapticLoopOptions& op
       safety_(options.tick_s, parts.device.limits().max_force_n),
       hand_pose_(options.start_pose),
       burr_pose_(options.start_pose),
-      burr_(options.start_burr) {}
+      burr_(options.start_burr, options.burr_count) {}
 
 HandState HapticLoop::hand_state(double now_s, double elapsed_s, const DeviceState& device) noexcept {
     const DeviceMapping& mapping = options_.mapping;
-    if (device.burr && *device.burr < options_.burr_count) burr_ = *device.burr;
     hand_pose_ = {position_in_patient_mm(mapping, device.position_mm),
                   direction_in_patient(mapping, device.spindle_axis)};
     return {.now_s = now_s,
@@ -28,7 +27,7 @@ HandState HapticLoop::hand_state(double now_s, double elapsed_s, const DeviceSta
             .pose = hand_pose_,
             .velocity_mm_per_s = velocity_in_patient_mm_per_s(mapping, device.velocity_mm_per_s),
             .spindle_on = safety_.wants_spindle(),
-            .burr = burr_};
+            .burr = burr_.burr()};
 }
 
 void HapticLoop::tick(double now_s, std::uint64_t missed_periods) noexcept {
@@ -48,7 +47,10 @@ void HapticLoop::tick(double now_s, std::uint64_t missed_periods) noexcept {
                      .energy_to_hand_mj = energy_.lately_mj(),
                      .clearance = clearance_of(latest, reading_mm)});
 
-    HandState hand{.now_s = now_s, .tick_s = elapsed_s, .pose = hand_pose_, .burr = burr_};
+    // From where the burr was: the room that the milling loop found reaches beyond this tick's motion.
+    burr_.tick(device.burr, spindle_turned_ || safety_.wants_spindle(), burr_pose_.position_mm, latest);
+
+    HandState hand{.now_s = now_s, .tick_s = elapsed_s, .pose = hand_pose_, .burr = burr_.burr()};
     if (safety_.has_hand()) hand = hand_state(now_s, elapsed_s, device);
 
     glm::dvec3 wanted_n(0.0);
@@ -69,20 +71,26 @@ void HapticLoop::tick(double now_s, std::uint64_t missed_periods) noexcept {
     peak_force_n_ = std::max(peak_force_n_, glm::length(force_n));
     if (latest.touches_protected) protected_until_s_ = now_s + protected_shown_s;
 
-    const bool spindle_on = safety_.spindle_turns();
+    const bool spindle_on = spindle_turned_ = safety_.spindle_turns();
     const bool in_contact = latest.total_removed_mm3 > 0.0 || force_n != glm::dvec3(0.0);
     const ToolState tool{.time_s = now_s,
                          .burr_position_mm = burr_pose_.position_mm,
                          .spindle_axis = burr_pose_.spindle_axis,
                          .hand_position_mm = hand_pose_.position_mm,
                          .force_n = force_n,
-                         .burr = burr_,
+                         .burr = burr_.burr(),
                          .spindle_on = spindle_on,
                          .removed_mm3 = latest.total_removed_mm3,
                          .touches_protected = now_s < protected_until_s_,
                          .fault = describe(safety_.fault()),
+                         .notice = describe(burr_.waits_for()),
                          .depth_mm = depth_mm(in_contact)};
-    publish({.pose = burr_pose_, .spindle_on = spindle_on, .burr = burr_, .elapsed_s = elapsed_s}, tool);
+    publish({.pose = burr_pose_,
+             .spindle_on = spindle_on,
+             .burr = burr_.burr(),
+             .elapsed_s = elapsed_s,
+             .wanted_burr = burr_.wanted()},
+            tool);
     log(tool);
 }
 

@@ -21,6 +21,7 @@
 #include "haptic_server/device/haptic_device.h"
 #include "haptic_server/exchange/milling_step.h"
 #include "haptic_server/exchange/triple_buffer.h"
+#include "haptic_server/loop/burr_change.h"
 #include "haptic_server/loop/force_log.h"
 #include "haptic_server/safety/energy_meter.h"
 #include "haptic_server/safety/safety_monitor.h"
@@ -78,7 +79,8 @@ class HapticLoop {
 
     ToolPose hand_pose_;  // patient LPS; the last that was read
     ToolPose burr_pose_;
-    std::size_t burr_;
+    BurrChanger burr_;
+    bool spindle_turned_ = false;  // in the last tick
     double protected_until_s_ = 0.0;
 
     bool has_met_bone_ = false;

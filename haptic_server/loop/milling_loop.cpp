@@ -3,6 +3,8 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
+#include "haptic_server/contact_models/bone_in_ball.h"
+
 namespace osteomill {
 
 namespace {
@@ -22,6 +24,20 @@ ToolPose MillingLoop::pose_on_the_way(double elapsed_s) noexcept {
     const double length = glm::length(axis);
     return {glm::mix(start_.position_mm, target.position_mm, share),
             length > 0.5 ? axis / length : target.spindle_axis};
+}
+
+double MillingLoop::room_for_change_mm(const BurrCommand& command) const noexcept {
+    const std::size_t count = parts_.burrs.size();
+    const std::size_t wanted = command.wanted_burr.value_or(count);
+    if (wanted >= count || command.burr >= count || command.spindle_on) return 0.0;
+    const Grid& grid = parts_.model.bone().grid();
+    const double room_mm = grid.spacing_mm + 2.0 * glm::distance(command.pose.position_mm, published_mm_);
+    if (!(room_mm <= most_room_mm)) return 0.0;
+    const double radius_mm =
+        std::max(parts_.burrs[wanted].radius_mm(), parts_.burrs[command.burr].radius_mm());
+    const Ball around{to_voxel_coordinates(grid, command.pose.position_mm),
+                      (radius_mm + room_mm) / grid.spacing_mm};
+    return has_bone_in(parts_.model.bone(), around) ? 0.0 : room_mm;
 }
 
 void MillingLoop::step(double time_s, double elapsed_s) noexcept {
@@ -62,6 +78,9 @@ void MillingLoop::step(double time_s, double elapsed_s) noexcept {
         result.removed_mm3 = removed_mm3_;
         result.touches_protected = touches_protected_;
     }
+    result.wanted_burr = command.wanted_burr;
+    result.room_for_change_mm = room_for_change_mm(command);
+    published_mm_ = command.pose.position_mm;
     parts_.results.publish();
     elapsed_s_ = removed_mm3_ = 0.0;
     impulse_n_s_ = glm::dvec3(0.0);

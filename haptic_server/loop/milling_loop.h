@@ -6,7 +6,9 @@
 #pragma once
 
 #include <algorithm>
+#include <span>
 
+#include "common/scene/burr.h"
 #include "haptic_server/contact_models/force_model.h"
 #include "haptic_server/exchange/edit_queue.h"
 #include "haptic_server/exchange/milling_step.h"
@@ -21,6 +23,7 @@ struct MillingLoopParts {
     TripleBuffer<MillingResult>& results;  ///< written
     EditQueue& edits;                      ///< written
     MillingLog* log = nullptr;             ///< written; null: no log
+    std::span<const Burr> burrs{};         ///< of the scene: what may be put in the burr's place
 };
 
 class MillingLoop {
@@ -33,16 +36,23 @@ class MillingLoop {
     /// command there is nothing to do. Real-time safe.
     void step(double time_s, double elapsed_s) noexcept;
 
+    /// A tool that moves so fast that more room is needed is not looked at: it would take too long.
+    static constexpr double most_room_mm = 2.0;
+
   private:
     /// Where the burr shall be at the end of this step.
     ToolPose pose_on_the_way(double elapsed_s) noexcept;
+    /// MillingResult::room_for_change_mm. Looks beyond the larger of both burrs by a voxel, and by twice what
+    /// the tool went since the last result: when this one is read it will have moved on.
+    double room_for_change_mm(const BurrCommand& command) const noexcept;
 
     MillingLoopParts parts_;
     double command_period_s_;
     bool has_command_ = false;
-    ToolPose start_;           // where the burr was when the newest command came
-    ToolPose pose_;            // where it is
-    double underway_s_ = 0.0;  // since then
+    ToolPose start_;                // where the burr was when the newest command came
+    ToolPose pose_;                 // where it is
+    double underway_s_ = 0.0;       // since then
+    glm::dvec3 published_mm_{0.0};  // where the burr was when the last result was published
 
     // Since the last result was published.
     double elapsed_s_ = 0.0;

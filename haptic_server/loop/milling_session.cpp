@@ -114,9 +114,14 @@ MillingSession::MillingSession(const Scene& scene, Bone bone, HapticDevice& devi
                     .burr_count = scene.burrs.size(),
                     .start_burr = scene.start_burr,
                     .start_pose = scene.start_pose}),
-      milling_loop_(
-          {.model = *model_, .commands = commands_, .results = results_, .edits = edits_, .log = milling_log},
-          tick_s),
+      burrs_(scene.burrs),
+      milling_loop_({.model = *model_,
+                     .commands = commands_,
+                     .results = results_,
+                     .edits = edits_,
+                     .log = milling_log,
+                     .burrs = burrs_},
+                    tick_s),
       haptic_ticks_(tick_s, 0.0,
                     [this](double time_s, std::uint64_t missed) {
                         haptic_loop_.tick(time_s, missed);

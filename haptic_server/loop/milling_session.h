@@ -127,6 +127,7 @@ class MillingSession {
     TripleBuffer<ToolState> tool_;
     TripleBuffer<ToolState> status_;
     HapticLoop haptic_loop_;
+    std::vector<Burr> burrs_;
     MillingLoop milling_loop_;
     PeriodicLoop haptic_ticks_;
     PeriodicLoop milling_steps_;

@@ -8,6 +8,7 @@ namespace osteomill {
 
 void StatusLine::show(const ToolState& tool, Clock::time_point now) {
     show_fault(tool);
+    show_wait(tool);
     if (now < next_ || !out_.has_caught_up()) return;
     next_ = now + (is_terminal_ ? std::chrono::seconds(1) : std::chrono::seconds(5));
     const std::string line =
@@ -25,6 +26,14 @@ void StatusLine::show_fault(const ToolState& tool) {
     fault_ = tool.fault;
     out_.write(fmt::format("{:7.1f} s   {}\n", tool.time_s,
                            fault_.empty() ? "the force comes back" : fault_.text()));
+}
+
+void StatusLine::show_wait(const ToolState& tool) {
+    if (tool.notice == wait_) return;
+    wait_ = tool.notice;
+    if (wait_.empty()) return;  // what was asked for is there to see
+    finish();
+    out_.write(fmt::format("{:7.1f} s   {}\n", tool.time_s, wait_.text()));
 }
 
 void StatusLine::show_notice(const ToolState& tool, std::string_view notice) {

@@ -1,6 +1,6 @@
 // Tells people how it goes: a status line a second on a terminal, a line every five seconds elsewhere, and a
-// line of its own whenever the force goes off or comes back. How it went while nobody could be told is old
-// news: there is no status line until what was said before has been taken.
+// line of its own whenever the force goes off or comes back, or a change of burr has to wait. How it went
+// while nobody could be told is old news: there is no status line until what was said before has been taken.
 #pragma once
 
 #include <chrono>
@@ -28,11 +28,13 @@ class StatusLine {
 
   private:
     void show_fault(const ToolState& tool);
+    void show_wait(const ToolState& tool);
 
     LineStream& out_;
     bool is_terminal_;
     bool is_line_open_ = false;
     BoundedLine fault_;
+    BoundedLine wait_;
     std::string notice_;
     Clock::time_point next_{};
 };

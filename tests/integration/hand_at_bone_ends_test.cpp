@@ -1,5 +1,6 @@
 // Motions out of a hand's day at which the default coupling once failed: where bone ends. Each is a scene and
 // a motion in tests/data/haptics, played by the real server on its virtual clock.
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -52,6 +53,7 @@ class HandAtBoneEnds : public ::testing::Test {
                                   "--trajectory", data + motion + ".csv", "--log-csv", folder_ / "force.csv",
                                   "--json", folder_ / "measured.json"});
         EXPECT_EQ(run.status, 0) << run.err;
+        said_ = run.err;
         log_ = testing::read_force_log(folder_ / "force.csv");
         Felt felt = felt_in(log_);
         felt.measured = nlohmann::json::parse(std::ifstream(folder_ / "measured.json"));
@@ -62,6 +64,7 @@ class HandAtBoneEnds : public ::testing::Test {
     }
 
     mutable std::vector<testing::ForceLogLine> log_;
+    mutable std::string said_;  // by the server, on standard error
     testing::TemporaryFolder folder_;
 };
 
@@ -83,6 +86,28 @@ TEST_F(HandAtBoneEnds, APassAlongAnEdgeDoesNotDriveTheHand) {
     EXPECT_LT(felt.largest_jump_n, 0.3);
     EXPECT_LE(felt.stuck_ms, 50);
     EXPECT_GT(felt.removed_mm3, 20.0);
+}
+
+TEST_F(HandAtBoneEnds, ALargerBurrIsNotPutIntoTheHoleOfASmallerOne) {
+    // 5 mm came to be in the hole of 1.5 mm: 3.3 N, and the hand was thrown 8 mm.
+    const Felt felt = play("change", "change");
+    EXPECT_LT(felt.peak_n, 1.0);
+    EXPECT_LT(felt.largest_jump_n, 0.3);
+    ASSERT_FALSE(log_.empty());
+    for (const testing::ForceLogLine& line : log_) {
+        if (line.time_s < 4.9) continue;  // 4.81 s is when it is asked for
+        ASSERT_LT(glm::distance(line.burr_mm, log_.back().burr_mm), 0.2) << line.time_s;
+        ASSERT_LT(glm::length(line.force_n), 0.1) << line.time_s;
+    }
+    EXPECT_THAT(said_, ::testing::HasSubstr("changed in the air"));
+}
+
+TEST_F(HandAtBoneEnds, ABurrThatTurnsIsNotChanged) {
+    // 60 mm^3 vanished in one step.
+    const Felt felt = play("change", "change_on");
+    EXPECT_LT(felt.removed_mm3, 6.0) << "the hole of 1.5 mm";
+    EXPECT_LT(felt.peak_n, 1.0);
+    EXPECT_THAT(said_, ::testing::HasSubstr("let go of the pedal"));
 }
 
 }  // namespace

@@ -65,6 +65,8 @@ PanelText warning_text(const OverlayContent& content) {
         text.push_back(line(Tone::warning, content.link.recording_error));
     if (content.tool && !content.tool->fault.empty())
         text.push_back(line(Tone::warning, fmt::format("FAULT: {}", content.tool->fault.text())));
+    if (content.tool && !content.tool->notice.empty())
+        text.push_back(line(Tone::plain, std::string(content.tool->notice.text())));
     if (content.tool && content.tool->driver == ToolDriver::others_only)
         text.push_back(line(Tone::plain, "you watch: the server does not list this client as an operator"));
     if (content.tool && content.tool->touches_protected)

@@ -68,8 +68,10 @@ std::vector<Bar> implicit_bars(const WholeMap& map) {
     if (results_where(map, [](const MapPoint& point) { return point.part == MapPart::bars; }).empty())
         return {};
     const auto all = within(MapScene::cutting, true);
-    const auto everything =
-        results_where(map, [](const MapPoint& point) { return point.run.method == map_methods().front(); });
+    const auto all_scenes = results_where(map, [](const MapPoint& point) {
+        return point.run.method == map_methods().front() &&
+               point.run.delay_ticks <= most_promised_delay_ticks;
+    });
     const double only_stable = std::numeric_limits<double>::quiet_NaN();
     return {
         unstable_among("cutting that is unstable, %", all),
@@ -91,11 +93,11 @@ std::vector<Bar> implicit_bars(const WholeMap& map) {
         worst_of("largest jump between ticks, cutting on a real device, N", most_jump_n,
                  within(MapScene::cutting, false),
                  [](const MapResult& r) { return r.outcome.largest_jump_n; }),
-        worst_of("force that a contact solve left over, N", most_residual_n, everything,
+        worst_of("force that a contact solve left over, N", most_residual_n, all_scenes,
                  [](const MapResult& r) { return r.outcome.max_residual_n; }),
-        worst_of("ticks without a balance on the spring alone", 0.0, everything,
+        worst_of("ticks without a balance on the spring alone", 0.0, all_scenes,
                  [](const MapResult& r) { return r.outcome.fallbacks; }),
-        worst_of("forces turned off for their energy", 0.0, everything,
+        worst_of("forces turned off for their energy", 0.0, all_scenes,
                  [](const MapResult& r) { return r.outcome.energy_faults; }),
     };
 }

@@ -26,8 +26,8 @@ inline constexpr int most_promised_delay_ticks = 1;
 /// on an ideal device: the share that is unstable; over what is stable, rms and mean error of the force; the
 /// largest force and jump; and over pairs of cases that differ in the milling rate alone, 100 and 1000 Hz, by
 /// how much what was carved differs. Then the share of walls that is unstable, and the largest jump on a real
-/// device. Last, over all of `implicit` however late: what contact solves left over, how often they had to
-/// fall back, and how often the safety monitor let go for the energy that the hand got.
+/// device. Last, over all scenes and devices: what contact solves left over, how often they had to fall back,
+/// and how often the safety monitor let go for the energy that the hand got.
 std::vector<Bar> implicit_bars(const WholeMap& map);
 
 }  // namespace osteomill::study

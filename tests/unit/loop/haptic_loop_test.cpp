@@ -37,6 +37,8 @@ class Bench {
             if (model_runs) {
                 ++next.step;
                 next.pose = commands.front().pose;
+                next.burr = commands.front().burr;
+                next.wanted_burr = commands.front().wanted_burr;
                 results->back() = next;
                 results->publish();
             }
@@ -109,12 +111,34 @@ TEST(HapticLoop, TellsTheCouplingHowLongTheTickReallyWas) {
 
 TEST(HapticLoop, ChangesTheBurrToOneOfTheSetOnly) {
     Bench bench;
+    bench.next.room_for_change_mm = 1.0;
     bench.device.script = [](double) { return DeviceState{.burr = 2}; };
-    bench.run(1);
+    bench.run(2);
     EXPECT_EQ(bench.command().burr, 2u);
     bench.device.script = [](double) { return DeviceState{.burr = 3}; };
-    bench.run(1);
+    bench.run(2);
     EXPECT_EQ(bench.command().burr, 2u);
+}
+
+TEST(HapticLoop, ChangesNoBurrThatTurnsOrTouchesBoneAndSaysWhy) {
+    Bench bench;
+    bool pedal = true;
+    bench.device.script = [&](double) { return DeviceState{.pedal = pedal, .burr = 2}; };
+    bench.next.room_for_change_mm = 1.0;
+    bench.run(20);
+    EXPECT_EQ(bench.command().burr, 1u);
+    EXPECT_EQ(bench.shown().notice, describe(BurrChange::spindle));
+    pedal = false;
+    bench.next.room_for_change_mm = 0.0;
+    bench.run(20);
+    EXPECT_EQ(bench.command().burr, 1u);
+    EXPECT_EQ(bench.command().wanted_burr, 2u);
+    EXPECT_EQ(bench.shown().notice, describe(BurrChange::bone));
+    bench.next.room_for_change_mm = 1.0;
+    bench.run(2);
+    EXPECT_EQ(bench.command().burr, 2u);
+    EXPECT_EQ(bench.shown().burr, 2u);
+    EXPECT_EQ(bench.shown().notice, describe(BurrChange::none));
 }
 
 TEST(HapticLoop, KeepsTheSpindleOffWithoutThePedal) {
@@ -257,7 +281,7 @@ TEST(HapticLoop, LetsGoOfAHandThatTheForceDrivesAndLocksTheSpindle) {
         return DeviceState{.position_mm = {pushed_mm, 0.0, 0.0}, .pedal = true};
     };
     bench.run(45);
-    EXPECT_EQ(bench.shown().fault, Fault::none);
+    EXPECT_EQ(bench.shown().fault, describe(Fault::none));
     bench.run(ticks_to_fade() + 20);
     EXPECT_EQ(bench.shown().force_n, glm::dvec3(0.0));
     EXPECT_EQ(bench.loop().fault_counts()[static_cast<std::size_t>(Fault::energy_to_hand)], 1U);
@@ -271,7 +295,7 @@ TEST(HapticLoop, LetsGoOfAHandThatTheForceDrivesAndLocksTheSpindle) {
         return DeviceState{.position_mm = {pushed_mm, 0.0, 0.0}, .pedal = pedal};
     };
     bench.run(2000);
-    EXPECT_EQ(bench.shown().fault, Fault::none);
+    EXPECT_EQ(bench.shown().fault, describe(Fault::none));
     EXPECT_FALSE(bench.command().spindle_on);
     pedal = false;
     bench.run(5);
@@ -287,7 +311,7 @@ TEST(HapticLoop, DoesNotMistakeAHandThatPushesForOneThatIsPushed) {
         return DeviceState{.position_mm = {200.0 * now_s, 0.0, 0.0}, .pedal = true};
     };
     bench.run(500);
-    EXPECT_EQ(bench.shown().fault, Fault::none);
+    EXPECT_EQ(bench.shown().fault, describe(Fault::none));
     EXPECT_LT(bench.loop().most_energy_to_hand_mj(), 1e-9);
 }
 

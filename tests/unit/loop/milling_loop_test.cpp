@@ -5,6 +5,7 @@
 #include <fstream>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "haptic_server/contact_models/milling_model.h"
 #include "tests/support/block.h"
@@ -109,6 +110,63 @@ TEST(MillingLoop, ShowsTheToothPeriodInItsLog) {
     }
     EXPECT_GT(swing, 5.0 * change);
     std::filesystem::remove(file);
+}
+
+TEST(MillingLoop, FindsRoomForAnotherBurrOnlyWhereNeitherTouchesBone) {
+    const std::vector<Burr> burrs{burr, {.name = "5 mm", .diameter_mm = 5.0}};
+    const auto rig = std::make_unique<Rig>();
+    MillingLoop loop({.model = rig->model,
+                      .commands = rig->commands,
+                      .results = *rig->results,
+                      .edits = rig->edits,
+                      .burrs = burrs},
+                     0.001);
+    int step = 0;
+    const auto room_mm = [&](double z_mm, std::optional<std::size_t> wanted, bool spindle_on = false) {
+        // Twice: at the first the tool has just come there.
+        for (int i = 0; i < 2; ++i) {
+            rig->commands.back() = {
+                .pose = {{0.031, 0.017, z_mm}, up}, .spindle_on = spindle_on, .wanted_burr = wanted};
+            rig->commands.publish();
+            loop.step(0.001 * step++, 0.001);
+            rig->results->refresh();
+        }
+        return rig->results->front().room_for_change_mm;
+    };
+    EXPECT_GT(room_mm(10.0, 1), 0.05) << "in the air";
+    EXPECT_GT(room_mm(2.8, 1), 0.05) << "just above";
+    EXPECT_EQ(room_mm(2.4, 1), 0.0) << "the larger would touch";
+    EXPECT_EQ(room_mm(1.0, 1), 0.0) << "both do";
+    EXPECT_EQ(room_mm(10.0, std::nullopt), 0.0) << "nobody asks";
+    EXPECT_EQ(room_mm(10.0, 7), 0.0) << "there is no such burr";
+    EXPECT_EQ(room_mm(10.0, 1, true), 0.0) << "it turns";
+    EXPECT_EQ(rig->results->front().wanted_burr, 1u);
+}
+
+TEST(MillingLoop, LooksAsFarAheadForAChangeAsTheToolMayGo) {
+    const std::vector<Burr> burrs{burr, {.name = "3 mm", .diameter_mm = 3.0}};
+    const auto rig = std::make_unique<Rig>();
+    MillingLoop loop({.model = rig->model,
+                      .commands = rig->commands,
+                      .results = *rig->results,
+                      .edits = rig->edits,
+                      .burrs = burrs},
+                     0.001);
+    double z_mm = 5.0;
+    for (int step = 0; step < 12; ++step, z_mm -= 0.3) {
+        rig->commands.back() = {.pose = {{0.031, 0.017, z_mm}, up}, .wanted_burr = 1};
+        rig->commands.publish();
+        loop.step(0.001 * step, 0.001);
+        rig->results->refresh();
+        if (step == 0) continue;  // before, the tool was nowhere
+        const double room_mm = rig->results->front().room_for_change_mm;
+        const double above_bone_mm = z_mm - 1.5;
+        if (above_bone_mm > 0.9) {
+            EXPECT_NEAR(room_mm, 0.7, 1e-9) << z_mm;
+        } else if (above_bone_mm < 0.6) {
+            EXPECT_EQ(room_mm, 0.0) << z_mm;
+        }
+    }
 }
 
 }  // namespace

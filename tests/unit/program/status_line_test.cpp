@@ -58,6 +58,21 @@ TEST(StatusLine, AddsALineEveryFiveSecondsWhereThereIsNoTerminal) {
     EXPECT_EQ(lines(paper.text()), 3);
 }
 
+TEST(StatusLine, SaysOnceWhatAChangeOfBurrWaitsFor) {
+    Paper paper;
+    StatusLine status(paper.stream(), false);
+    const StatusLine::Clock::time_point start{};
+    ToolState tool = tool_at(1.0);
+    tool.notice = "the burr is changed in the air";
+    for (int i = 0; i < 20; ++i) {
+        status.show(tool, start + milliseconds(100 * i));
+        paper.wait();
+    }
+    const std::string text = paper.text();
+    EXPECT_THAT(text, HasSubstr("changed in the air"));
+    EXPECT_EQ(lines(text), 2) << "and the first status line";
+}
+
 TEST(StatusLine, RewritesOneLineOnATerminal) {
     Paper paper;
     StatusLine status(paper.stream(), true);

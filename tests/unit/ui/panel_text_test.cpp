@@ -67,6 +67,12 @@ TEST_F(PanelTexts, WarnOnlyWhereThereIsSomethingToWarnOf) {
         EXPECT_THAT(text, HasSubstr(part));
 }
 
+TEST_F(PanelTexts, TellWhatTheServerWaitsFor) {
+    content_.tool->notice = "the burr is changed in the air";
+    EXPECT_THAT(plain(warning_text(content_)), HasSubstr("changed in the air"));
+    EXPECT_FALSE(has_tone(warning_text(content_), Tone::warning)) << "nothing is wrong";
+}
+
 TEST_F(PanelTexts, TellTheToolAndTheSession) {
     EXPECT_THAT(plain(tool_text(content_)), HasSubstr("burr 3.0 mm, 8 edges\nspindle off\nremoved 1.23 mm"));
     EXPECT_FALSE(has_tone(session_text(content_), Tone::warning));

@@ -72,6 +72,7 @@ TEST(SceneMessages, BringBackTheTool) {
                          .removed_mm3 = 7.25,
                          .touches_protected = true,
                          .fault = "the device is lost",
+                         .notice = "the burr waits",
                          .driver = ToolDriver::another,
                          .depth_mm = -0.5};
     const auto result = tool_from(to_message(tool), 2);
@@ -87,6 +88,7 @@ TEST(SceneMessages, BringBackTheTool) {
     EXPECT_EQ(back.removed_mm3, 7.25);
     EXPECT_TRUE(back.touches_protected);
     EXPECT_EQ(back.fault, tool.fault);
+    EXPECT_EQ(back.notice, tool.notice);
     EXPECT_EQ(back.driver, ToolDriver::another);
     for (const ToolDriver driver :
          {ToolDriver::unknown, ToolDriver::nobody, ToolDriver::you, ToolDriver::others_only})
