@@ -102,6 +102,15 @@ void run(const ForceOptions& options) {
 void run(const osteomill::study::StabilityCommand& command) {
     using namespace osteomill;
     study::make_folder(command.run.out);
+    if (command.runs_sites) {
+        study::SiteStudyOptions sites = command.sites;
+        sites.out = command.run.out;
+        sites.quick = command.run.selection.quick;
+        sites.jobs = command.run.jobs;
+        if (!command.run.selection.methods.empty()) sites.methods = command.run.selection.methods;
+        study::run_site_study(sites, surroundings());
+        return;
+    }
     if (!command.merge.empty()) {
         study::merge_stability_study(command.merge, command.run.out, surroundings());
         return;

@@ -29,6 +29,27 @@ void set_grips(std::vector<MapGrip>& grips, const std::vector<std::string>& name
     for (const std::string& name : names) grips.push_back(grip_named(name));
 }
 
+/// What is run in the map's place. Couplings, --out, --quick and --jobs are the map's.
+void add_sites(CLI::App& stability, StabilityCommand& command, CLI::Option* merge) {
+    CLI::Option* const sites =
+        stability
+            .add_flag("--sites", command.runs_sites,
+                      "instead of the map: sites where bone ends, such as plates, edges, holes and tunnels")
+            ->excludes(merge);
+    for (const char* of_the_map : {"--shard", "--grips", "--milling-rates-hz", "--delays"})
+        sites->excludes(stability.get_option(of_the_map));
+    stability.add_option("--walks", command.sites.walks, "so many random walks of a hand, too")
+        ->needs(sites)
+        ->check(CLI::Range(0, 100'000));
+    stability.add_option("--seed", command.sites.seed, "of the random walks")
+        ->needs(sites)
+        ->capture_default_str();
+    stability
+        .add_option("--only", command.sites.only,
+                    "only sites whose name holds this text; of one alone OUT/trace.csv has every tick")
+        ->needs(sites);
+}
+
 }  // namespace
 
 CLI::App* add_stability(CLI::App& app, StabilityCommand& command) {
@@ -72,6 +93,7 @@ CLI::App* add_stability(CLI::App& app, StabilityCommand& command) {
     of_a_run(stability->add_option("--delays", selection.delays_ticks, "only these delays, in haptic ticks"))
         ->delimiter(',')
         ->check(CLI::IsMember(map_delays_ticks()));
+    add_sites(*stability, command, merge);
     return stability;
 }
 

@@ -6,12 +6,15 @@
 #include <vector>
 
 #include "studies/stability/map/stability_study.h"
+#include "studies/stability/sites/site_study.h"
 
 namespace osteomill::study {
 
 struct StabilityCommand {
     StabilityStudyOptions run{};
     std::vector<std::filesystem::path> merge{};  ///< empty: run; else join these
+    bool runs_sites = false;                     ///< in place of the map
+    SiteStudyOptions sites{};                    ///< without what the map's options say
 };
 
 /// The subcommand, which fills in `command`; both outlive parsing.

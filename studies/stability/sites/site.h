@@ -1,0 +1,32 @@
+// A site where bone ends, and the motion of a hand there: what the stability study tries beside slots and
+// walls.
+#pragma once
+
+#include <functional>
+#include <glm/vec3.hpp>
+#include <string>
+#include <vector>
+
+#include "common/scene/burr.h"
+#include "haptic_server/device/trajectory.h"
+
+namespace osteomill::study {
+
+/// Bone as a function of position (patient LPS, mm), within a box.
+struct SiteShape {
+    std::function<double(const glm::dvec3&)> distance_mm;  ///< signed, negative in bone
+    glm::dvec3 low_mm{0.0};
+    glm::dvec3 high_mm{0.0};
+    /// Of the bone, 1 = that of K_t = 230 N/mm^2; empty: 1 everywhere.
+    std::function<double(const glm::dvec3&)> relative_stiffness{};
+};
+
+struct Site {
+    std::string kind;  ///< a panel of the chart
+    std::string name;  ///< without the burr
+    Burr burr{};
+    SiteShape shape;
+    std::vector<Waypoint> motion;  ///< of the hand's intent
+};
+
+}  // namespace osteomill::study

@@ -1,0 +1,223 @@
+#include "studies/stability/sites/site_study.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <atomic>
+#include <exception>
+#include <glm/geometric.hpp>
+#include <mutex>
+#include <ostream>
+#include <stdexcept>
+#include <thread>
+
+#include "haptic_server/imaging/progress.h"
+#include "studies/report/chart.h"
+#include "studies/report/output_files.h"
+#include "studies/stability/sites/named_sites.h"
+#include "studies/stability/sites/random_walk.h"
+
+namespace osteomill::study {
+namespace {
+
+using nlohmann::ordered_json;
+
+constexpr std::size_t named_worst = 10;
+
+std::vector<SiteHand> hands(const SiteStudyOptions& options) {
+    std::vector<SiteHand> found;
+    for (const std::string& method : options.methods) {
+        found.push_back({.method = method});
+        if (options.quick) continue;
+        found.push_back({.method = method, .delay_ticks = 1});
+        found.push_back({.method = method, .is_ideal_device = false});
+        found.push_back({.method = method, .grip = Grip::light});
+    }
+    return found;
+}
+
+std::vector<Burr> burrs(bool quick) {
+    std::vector<Burr> found;
+    for (const double diameter_mm : quick ? std::vector{5.0} : std::vector{1.0, 2.0, 3.0, 5.0})
+        for (const double rpm :
+             quick ? std::vector{10'000.0} : std::vector{5'000.0, 10'000.0, 20'000.0, 80'000.0})
+            found.push_back({.diameter_mm = diameter_mm, .spindle_rev_per_s = rpm / 60.0});
+    return found;
+}
+
+SiteResult result_of(const SiteCase& c, const SiteRun& run) {
+    return {.kind = c.site.kind,
+            .name = name_of(c),
+            .verdict = verdict_on(run),
+            .solve = run.solve,
+            .faults = run.faults};
+}
+
+std::string trace_csv(const SiteRun& run) {
+    std::string csv =
+        "t_s,hand_x_mm,hand_y_mm,hand_z_mm,burr_x_mm,burr_y_mm,burr_z_mm,force_x_n,force_y_n,"
+        "force_z_n,model_x_n,model_y_n,model_z_n,rigid_x_n,rigid_y_n,rigid_z_n,spindle\n";
+    double time_s = 0.0;
+    for (const SiteTick& tick : run.ticks) {
+        csv += fmt::format("{:.3f}", time_s);
+        for (const glm::dvec3& v : {tick.hand_mm, tick.burr_mm, tick.force_n, tick.model_n, tick.rigid_n})
+            csv += fmt::format(",{:.5f},{:.5f},{:.5f}", v.x, v.y, v.z);
+        csv += fmt::format(",{}\n", tick.spindle_on ? 1 : 0);
+        time_s += 0.001;
+    }
+    return csv;
+}
+
+/// The results in the order of the cases, from several threads.
+std::vector<SiteResult> run_all(const std::vector<SiteCase>& cases, int jobs, ProgressLine& line,
+                                std::vector<SiteRun>* runs) {
+    std::vector<SiteResult> results(cases.size());
+    std::atomic<std::size_t> next{0};
+    std::size_t done = 0;
+    std::mutex one_at_a_time;
+    std::exception_ptr failure;
+    const auto work = [&] {
+        try {
+            for (std::size_t i = next++; i < cases.size(); i = next++) {
+                SiteRun run = run_site(cases[i].site, cases[i].hand);
+                results[i] = result_of(cases[i], run);
+                const std::lock_guard guard(one_at_a_time);
+                if (runs != nullptr) runs->push_back(std::move(run));
+                line.report(static_cast<double>(++done) / static_cast<double>(cases.size()), "");
+            }
+        } catch (...) {
+            const std::lock_guard guard(one_at_a_time);
+            if (!failure) failure = std::current_exception();
+            next = cases.size();
+        }
+    };
+    {
+        std::vector<std::jthread> workers;
+        for (int i = 0; i < std::max(1, jobs); ++i) workers.emplace_back(work);
+    }
+    if (failure) std::rethrow_exception(failure);
+    return results;
+}
+
+/// In the order of the cases.
+std::vector<std::string> kinds_of(const std::vector<SiteResult>& results) {
+    std::vector<std::string> kinds;
+    for (const SiteResult& result : results)
+        if (std::find(kinds.begin(), kinds.end(), result.kind) == kinds.end()) kinds.push_back(result.kind);
+    return kinds;
+}
+
+std::string command_of(const SiteResult& result, const SiteStudyOptions& options) {
+    return fmt::format(
+        "osteomill_study stability --sites{}{} --methods {} --only '{}'", options.quick ? " --quick" : "",
+        options.walks > 0 ? fmt::format(" --walks {} --seed {}", options.walks, options.seed) : "",
+        fmt::join(options.methods, ","), result.name);
+}
+
+ordered_json json_of(const SiteVerdict& verdict) {
+    ordered_json json;
+    for (const SiteBar& bar : site_bars) json[std::string(bar.what)] = verdict.*bar.value;
+    return json;
+}
+
+}  // namespace
+
+std::string name_of(const SiteCase& c) {
+    return fmt::format("{}, {:.3g} mm burr at {:.0f} rpm, {}, {}, {} device, {} ticks late", c.site.name,
+                       c.site.burr.diameter_mm, 60.0 * c.site.burr.spindle_rev_per_s, c.hand.method,
+                       c.hand.grip == Grip::firm ? "firm" : "light",
+                       c.hand.is_ideal_device ? "ideal" : "real", c.hand.delay_ticks);
+}
+
+std::vector<SiteCase> site_cases(const SiteStudyOptions& options) {
+    std::vector<SiteCase> cases;
+    for (const SiteHand& hand : hands(options)) {
+        for (const Burr& burr : burrs(options.quick))
+            for (Site& site : named_sites(burr)) cases.push_back({std::move(site), hand});
+        for (int number = 1; number <= options.walks; ++number)
+            cases.push_back({random_walk(options.seed, number), hand});
+    }
+    std::erase_if(cases,
+                  [&](const SiteCase& c) { return name_of(c).find(options.only) == std::string::npos; });
+    return cases;
+}
+
+std::string site_csv(const std::vector<SiteResult>& results) {
+    std::string csv =
+        "kind,name,energy_over_rigid_mj,stuck_ms,error_percent,largest_jump_n,peak_n,max_residual_n,"
+        "fallbacks,relaxed,damped,faults,is_met\n";
+    for (const SiteResult& r : results)
+        csv += fmt::format("{},\"{}\",{:.4g},{},{:.4g},{:.4g},{:.4g},{:.3g},{},{},{},{},{}\n", r.kind, r.name,
+                           r.verdict.energy_over_rigid_mj, r.verdict.stuck_ms, r.verdict.error_percent,
+                           r.verdict.largest_jump_n, r.verdict.peak_n, r.solve.max_residual_n,
+                           r.solve.fallbacks, r.solve.relaxed, r.solve.damped, r.faults, r.is_met() ? 1 : 0);
+    return csv;
+}
+
+std::string site_points_csv(const std::vector<SiteResult>& results) {
+    const std::vector<std::string> kinds = kinds_of(results);
+    std::string csv = "kind,name,bar,share\n";
+    for (const SiteResult& r : results) {
+        const auto kind = std::find(kinds.begin(), kinds.end(), r.kind) - kinds.begin();
+        for (std::size_t bar = 0; bar < site_bars.size(); ++bar)
+            csv += fmt::format("{},{},{},{:.4g}\n", kind, r.kind, bar,
+                               share_of_bar(r.verdict, site_bars[bar], r.kind));
+    }
+    return csv;
+}
+
+ordered_json site_summary(const std::vector<SiteResult>& results, const SiteStudyOptions& options) {
+    ordered_json kinds = ordered_json::object();
+    for (const std::string& kind : kinds_of(results)) {
+        SiteVerdict worst;
+        int cases = 0;
+        int met = 0;
+        for (const SiteResult& r : results) {
+            if (r.kind != kind) continue;
+            ++cases;
+            met += r.is_met() ? 1 : 0;
+            for (const SiteBar& bar : site_bars)
+                worst.*bar.value = std::max(worst.*bar.value, r.verdict.*bar.value);
+        }
+        kinds[kind] = {{"cases", cases}, {"met", met}, {"worst", json_of(worst)}};
+    }
+    std::vector<const SiteResult*> by_share;
+    for (const SiteResult& r : results) by_share.push_back(&r);
+    std::stable_sort(by_share.begin(), by_share.end(), [](const SiteResult* a, const SiteResult* b) {
+        return worst_share(a->verdict, a->kind) > worst_share(b->verdict, b->kind);
+    });
+    ordered_json worst = ordered_json::array();
+    for (std::size_t i = 0; i < std::min(named_worst, by_share.size()); ++i)
+        worst.push_back({{"name", by_share[i]->name},
+                         {"kind", by_share[i]->kind},
+                         {"share_of_bar", worst_share(by_share[i]->verdict, by_share[i]->kind)},
+                         {"verdict", json_of(by_share[i]->verdict)},
+                         {"faults", by_share[i]->faults},
+                         {"command", command_of(*by_share[i], options)}});
+    return {{"kinds", kinds}, {"worst", worst}};
+}
+
+void run_site_study(const SiteStudyOptions& options, const StudySurroundings& surroundings) {
+    const std::vector<SiteCase> cases = site_cases(options);
+    if (cases.empty()) throw std::runtime_error("no site is called '" + options.only + "'");
+    std::vector<SiteRun> runs;
+    ProgressLine line(surroundings.progress, surroundings.is_terminal, "sites");
+    const std::vector<SiteResult> results =
+        run_all(cases, options.jobs, line, cases.size() == 1 ? &runs : nullptr);
+
+    write_text(site_csv(results), options.out / "sites.csv");
+    write_text(site_points_csv(results), options.out / "site_points.csv");
+    const ordered_json summary = site_summary(results, options);
+    write_json(summary, options.out / "sites.json");
+    if (!runs.empty()) write_text(trace_csv(runs.front()), options.out / "trace.csv");
+    draw_chart(chart_scripts(), "sites", options.out);
+
+    for (const auto& [kind, of_kind] : summary.at("kinds").items())
+        surroundings.said << fmt::format("{:22} {:4} of {:4} meet the bars\n", kind,
+                                         of_kind.at("met").get<int>(), of_kind.at("cases").get<int>());
+    surroundings.said << fmt::format("worst: {}\n", summary.at("worst").front().at("name").get<std::string>())
+                      << fmt::format("sites.json, tables (CSV) and a chart (SVG) are in {}\n",
+                                     options.out.string());
+}
+
+}  // namespace osteomill::study

@@ -1,0 +1,51 @@
+// Verdict on a run at a site: what a hand would not forgive, in four numbers, each against its bar.
+#pragma once
+
+#include <array>
+#include <string>
+#include <string_view>
+
+#include "studies/stability/sites/site_run.h"
+
+namespace osteomill::study {
+
+/// While the spindle turns and has turned for settling_s; a model's force is its mean over mean_s.
+struct SiteVerdict {
+    /// The most energy that the hand got from any moment to any later one, less what a rigid burr on the
+    /// hand's own way would have given.
+    double energy_over_rigid_mj = 0.0;
+    /// Longest time with more than 0.3 N on the hand while the model says less than 0.1.
+    double stuck_ms = 0.0;
+    /// Largest difference of the force's mean over mean_s to the model's, % of the model's largest, or of
+    /// least_peak_n.
+    double error_percent = 0.0;
+    double largest_jump_n = 0.0;  ///< between two ticks
+    double peak_n = 0.0;
+};
+
+inline constexpr double mean_s = 0.02;
+inline constexpr double settling_s = 0.05;
+inline constexpr double felt_n = 0.3;
+inline constexpr double nearly_nothing_n = 0.1;
+inline constexpr double least_peak_n = 0.2;
+
+SiteVerdict verdict_on(const SiteRun& run);
+
+struct SiteBar {
+    std::string_view what;
+    double SiteVerdict::*value;
+    double bar;
+    double at_breakthrough;
+};
+inline constexpr std::array<SiteBar, 4> site_bars{
+    {{"energy over a rigid burr's, mJ", &SiteVerdict::energy_over_rigid_mj, 5.0, 5.0},
+     {"force while nothing is cut, ms", &SiteVerdict::stuck_ms, 50.0, 50.0},
+     {"20 ms error, % of the peak", &SiteVerdict::error_percent, 8.0, 15.0},
+     {"jump between ticks, N", &SiteVerdict::largest_jump_n, 0.3, 0.3}}};
+
+/// A verdict's number as a share of its bar: up to 1 it is met.
+double share_of_bar(const SiteVerdict& verdict, const SiteBar& bar, const std::string& kind);
+/// The largest of them.
+double worst_share(const SiteVerdict& verdict, const std::string& kind);
+
+}  // namespace osteomill::study
