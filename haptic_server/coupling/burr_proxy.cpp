@@ -143,7 +143,9 @@ void BurrProxy::cut_toward(const glm::dvec3& target_mm, double tick_s,
 
     bool is_damped = false;
     Outcome outcome = step_without_mass(pull_mm, hand_step_mm, tick_s, false, engagement);
-    const auto runs_away = [&] { return remembered_mj + outcome.energy_mj > allowed_energy_mj; };
+    const auto runs_away = [&] {
+        return outcome.energy_mj > 0.0 && remembered_mj + outcome.energy_mj > allowed_energy_mj;
+    };
     if (outcome.residual_n <= balance_tolerance_n && runs_away()) {
         is_damped = true;
         ++counts_.damped;
@@ -157,7 +159,7 @@ void BurrProxy::cut_toward(const glm::dvec3& target_mm, double tick_s,
         if (outcome.is_relaxed) ++counts_.relaxed;
     }
     counts_.max_residual_n = std::max(counts_.max_residual_n, outcome.residual_n);
-    given_mj_ = std::max(0.0, remembered_mj + outcome.energy_mj);
+    given_mj_ = std::clamp(remembered_mj + outcome.energy_mj, 0.0, most_remembered_mj);
 
     const glm::dvec3 step_mm =
         no_longer_than(outcome.step_mm, glm::length(hand_step_mm) + most_slip_mm_per_s * tick_s);

@@ -35,9 +35,10 @@
 //              and only takes energy out.
 //
 // Bone that pulls the burr along (a climb cut at an edge) gives it energy, and the spring would hand that on
-// to the hand. A store counts what bone has given, less what it took, and forgets with energy_memory_s. While
-// it holds more than allowed_energy_mj, the tick is solved with a damper between burr and hand, which the
-// hand does not feel: the burr then follows the hand, rather than its teeth.
+// to the hand. A store counts what bone has given, less what it took, and forgets with energy_memory_s. A
+// tick in which bone would add to a store that holds more than allowed_energy_mj is solved with a damper
+// between burr and hand, which the hand does not feel: the burr then follows the hand, rather than its teeth.
+// A burr that bone holds back, or that has left it, is never damped: the spring lets go at once.
 #pragma once
 
 #include <array>
@@ -83,6 +84,8 @@ class BurrProxy {
     static constexpr int substeps = 10;
     static constexpr double energy_memory_s = 0.05;
     static constexpr double allowed_energy_mj = 0.1;
+    /// So that what bone gave is forgotten soon after it has stopped.
+    static constexpr double most_remembered_mj = 0.3;
     /// Between burr and hand while bone gives energy.
     static constexpr double runaway_damping_n_s_per_mm = 1.0;
 

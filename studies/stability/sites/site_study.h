@@ -38,8 +38,8 @@ std::vector<SiteCase> site_cases(const SiteStudyOptions& options);
 struct SiteResult {
     std::string kind;
     std::string name;
-    SiteVerdict verdict;
-    SolveCounts solve;
+    SiteVerdict verdict{};
+    SolveCounts solve{};
     std::uint64_t faults = 0;
 
     bool is_met() const { return worst_share(verdict, kind) <= 1.0 && faults == 0; }
