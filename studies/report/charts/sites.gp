@@ -8,13 +8,13 @@ columns = panels < 4 ? panels : 4
 rows = int(ceil(panels / (1.0 * columns)))
 set terminal svg size 340 * columns, 300 * rows + 60 dynamic font 'DejaVu Sans,13' background 'white'
 set output folder.'/sites.svg'
-set multiplot layout rows,columns title 'Each case as a share of its bar: below the line it is met' font ',16'
+set multiplot layout rows,columns title 'Where bone ends: each case as a share of its bar; below the line it is met' font ',16'
 set logscale y
 set yrange [0.003:300]
 set xrange [-0.6:3.6]
 set format y '%g'
 set ytics (0.01, 0.1, 1, 10, 100)
-set xtics ('energy' 0, 'stuck' 1, '20 ms error' 2, 'jump' 3)
+set xtics ('energy' 0, 'stuck' 1, 'error' 2, 'jump' 3)
 unset key
 # A logarithmic axis has no zero; points of a column lie beside one another.
 drawn(share) = share > 0.005 ? share : 0.005
