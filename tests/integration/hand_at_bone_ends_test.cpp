@@ -14,7 +14,7 @@
 #include "tests/support/force_log_file.h"
 #include "tests/support/temporary_folder.h"
 
-namespace osteomill {
+namespace osteomill::hand_at_bone_ends_test {
 namespace {
 
 /// What a hand felt.
@@ -111,4 +111,4 @@ TEST_F(HandAtBoneEnds, ABurrThatTurnsIsNotChanged) {
 }
 
 }  // namespace
-}  // namespace osteomill
+}  // namespace osteomill::hand_at_bone_ends_test

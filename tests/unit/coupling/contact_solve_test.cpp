@@ -9,7 +9,7 @@
 #include <random>
 #include <vector>
 
-namespace osteomill {
+namespace osteomill::contact_solve_test {
 namespace {
 
 /// Contacts of burrs in bone as they come: directions at random, gaps of either sign, resistances over
@@ -136,4 +136,4 @@ TEST(ContactSolve, IsNotDrivenByAContactThatPullsInward) {
 }
 
 }  // namespace
-}  // namespace osteomill
+}  // namespace osteomill::contact_solve_test

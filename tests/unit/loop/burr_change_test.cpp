@@ -4,7 +4,7 @@
 
 #include <string>
 
-namespace osteomill {
+namespace osteomill::burr_change_test {
 namespace {
 
 /// A burr 0 of three whose milling loop finds, or does not find, room for what is wanted.
@@ -92,4 +92,4 @@ TEST(BurrChange, SaysWhatToDo) {
 }
 
 }  // namespace
-}  // namespace osteomill
+}  // namespace osteomill::burr_change_test

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-namespace osteomill {
+namespace osteomill::energy_meter_test {
 namespace {
 
 constexpr double tick_s = 0.001;
@@ -54,4 +54,4 @@ TEST(EnergyMeter, IsNotDeceivedByAJumpOrByWhatIsNoNumber) {
 }
 
 }  // namespace
-}  // namespace osteomill
+}  // namespace osteomill::energy_meter_test
