@@ -34,7 +34,7 @@ class Stream {
     /// All of it; one at a time. The system takes bytes whole as soon as it has room for a part of them.
     virtual void write(std::string bytes, WriteHandler handler) = 0;
     /// When most of what was written is on its way (see TCP_NOTSENT_LOWAT), or there is an error, which the
-    /// next write is told. Not while a write is under way.
+    /// next write reports. Not while a write is under way.
     virtual void wait_until_taken(std::function<void()> handler) = 0;
     /// Nothing more will be written. Says so to TCP alone: a session ends with a goodbye of its own, which
     /// TLS protects as it does all else.

@@ -12,7 +12,7 @@
 
 namespace osteomill {
 
-/// Which client moves the tool, as told to one of them.
+/// Which client moves the tool, as sent to one of them.
 enum class ToolDriver {
     unknown,  ///< no client: the server has a device of its own, or is too old to say
     nobody,   ///< the next that sends input

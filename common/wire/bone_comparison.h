@@ -59,7 +59,7 @@ class DifferenceSearch {
 
 struct ComparedBone {
     v1::Comparison answer;
-    std::vector<BrickIndex> differing_bricks;  ///< stored here: those to be told whole
+    std::vector<BrickIndex> differing_bricks;  ///< stored here: those to be sent whole
 };
 
 /// The side of the bone that counts. Refuses ranges that overlap or reach past the grid, parts that do not

@@ -29,13 +29,13 @@ struct BoneArrived {
 /// see followed_state.h.
 struct StateArrived {
     v1::StateFrame frame;
-    bool follows_gap = false;  ///< frames before it are missing, and with them what they told of the bone
+    bool follows_gap = false;  ///< frames before it are missing, and with them what they said of the bone
 };
 
 /// What a receiver makes of a gap in the sequence of frames.
 enum class Gaps {
     refused,  ///< an error
-    /// Between state frames of a server that compares bones it is said with the next one: what it told of
+    /// Between state frames of a server that compares bones it is said with the next one: what it said of
     /// the bone can be asked for. Elsewhere an error.
     reported,
 };

@@ -1,6 +1,6 @@
 // A carved bone as one file: what is left of it can be looked at in 3D Slicer, and loaded again bit for bit.
 //
-// HU alone cannot give the bone back: fractions have 255 steps that no HU tells, and the stiffness of a voxel
+// HU alone cannot give the bone back: fractions have 255 levels that no HU tells, and the stiffness of a voxel
 // on the surface was taken from neighbours that may be gone. So the codes are kept as they were, in the same
 // file, since two files can be parted, and cannot be renamed at once. NRRD has room for them: "byte skip"
 // says how many decoded bytes of the gzip stream stand before the voxels, and readers (teem, which is what

@@ -51,7 +51,7 @@ struct HapticLoopOptions {
 class HapticLoop {
   public:
     static constexpr std::size_t fault_kinds = SafetyMonitor::fault_kinds;
-    /// Touching protected tissue is told for this long, so that no streamed frame misses it.
+    /// Touching protected tissue is reported for this long, so that no streamed frame misses it.
     static constexpr double protected_shown_s = 0.2;
 
     HapticLoop(const HapticLoopParts& parts, const HapticLoopOptions& options);

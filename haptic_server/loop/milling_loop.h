@@ -2,7 +2,7 @@
 //
 // The haptic loop sends a command every tick. Up to its rate, each step goes all the way to the newest one.
 // Beyond it (the time-resolved force wants 10 kHz) the steps of a tick share the way there, and the haptic
-// loop is told their mean once a tick: it could not feel more.
+// loop gets their mean once a tick: it could not feel more.
 #pragma once
 
 #include <algorithm>

@@ -10,7 +10,7 @@
 
 namespace osteomill {
 
-/// Counted in whole codes of fraction, so nothing is lost to rounding. Around each state frame: before(), the
+/// Counted in whole levels of fraction, so nothing is lost to rounding. Around each state frame: before(), the
 /// frame is applied, after().
 class RemovalCount {
   public:

@@ -32,7 +32,7 @@ class AccessOptions {
     bool insecure_network_ = false;
 };
 
-/// What a server at `where` is to be told. Reads the files of TLS, and throws std::runtime_error, in one
+/// The access of a server at `where`. Reads the files of TLS, and throws std::runtime_error, in one
 /// line, where they are no good.
 StreamingOptions streaming_options(const ListenAddress& where, const Access& access);
 

@@ -1,12 +1,12 @@
 // How old the news is that a client's operator acts on: each input names the newest state frame that its
-// client had seen, and this remembers when what those frames told was last true. So both directions of the
+// client had seen, and this remembers when what those frames said was last true. So both directions of the
 // link are measured by the server's clock alone: an input that was long under way and a client whose picture
 // is old look alike, and neither may move the tool.
 //
 //     age of an answer = now - when the state that it answers was last true
 //
 // A state is true from when its frame was made for as long as there is nothing newer to tell: a tool that
-// rests is told of ten times a second only. No sockets, no clock.
+// rests is sent ten times a second only. No sockets, no clock.
 #pragma once
 
 #include <chrono>

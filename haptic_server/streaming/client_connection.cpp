@@ -21,8 +21,8 @@ namespace {
 /// for 60 MB/s at a round trip of 4 ms.
 constexpr int send_buffer_bytes = 256 * 1024;
 
-/// What of that may wait for its turn behind what is on its way. So over a slow link a frame is told late
-/// rather than told old: half a second at 64 kbit/s, where the send buffer would hold half a minute.
+/// What of that may wait for its turn behind what is on its way. So over a slow link a frame is made late
+/// rather than sent old: half a second at 64 kbit/s, where the send buffer would hold half a minute.
 constexpr int most_unsent_bytes = 4 * 1024;
 using UnsentBytes = asio::detail::socket_option::integer<IPPROTO_TCP, TCP_NOTSENT_LOWAT>;
 

@@ -31,16 +31,16 @@ class ClientFeed {
     /// The client takes packed changes, from now on. `packer` outlives the feed.
     void pack_changes(ChangePacker& packer) { change_packer_ = &packer; }
 
-    /// To be told of every change of the mirror, before the next frame is asked for.
+    /// To be called for every change of the mirror, before the next frame is asked for.
     void note(std::span<const BrickChange> changes);
 
     /// Asks for a state frame as soon as one can be sent; but where nothing is new and the tool rests, only
     /// every deadband_period_s. One that has not been sent yet is replaced: what it
-    /// would have told of the bone, the next one tells. A checksum once asked for is stated by the next frame
+    /// would have sent of the bone, the next one sends. A checksum once asked for is stated by the next frame
     /// after which the client knows all.
     void request_state(const ToolState& tool, bool with_checksum);
 
-    /// The client doubts its bone. The next state frame answers, and what differs is told like a change. An
+    /// The client doubts its bone. The next state frame answers, and what differs is sent like a change. An
     /// error says why the client is not served: it has no bone yet, or asks before it has been answered, more
     /// often than a repair needs, or what makes no sense.
     std::optional<WireError> compare(const v1::CompareBone& request);
@@ -89,7 +89,7 @@ class ClientFeed {
     std::optional<v1::Comparison> answer_;
     int comparisons_left_ = most_comparisons_at_once;
 
-    ChangePacker* change_packer_ = nullptr;  // none: edits are told as runs
+    ChangePacker* change_packer_ = nullptr;  // none: edits are sent as runs
 
     ToolState tool_;
     std::optional<ToolState> sent_tool_;

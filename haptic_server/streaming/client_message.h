@@ -17,7 +17,7 @@ namespace osteomill {
 struct MessagingClient {
     ControlLease::ClientId id = 0;
     ClientFeed& feed;               ///< may have something to say afterwards
-    AnsweredStates& answers;        ///< of what the client has been told
+    AnsweredStates& answers;        ///< of what the client has been sent
     ChangePacker& packer;           ///< of all clients that take packed changes; outlives the feed
     ControlLease* lease = nullptr;  ///< null: nobody may move the tool now, and input changes nothing
     std::size_t burr_count = 0;     ///< of the session

@@ -44,7 +44,7 @@ class ConnectedClients {
     /// Once a frame, before it is made: leases that run out, certificates that are revoked, those who have
     /// been silent for long enough.
     void look_after(Time now);
-    /// To be told of every change of the mirror.
+    /// To be called for every change of the mirror.
     void note(std::span<const BrickChange> changes);
     /// Sends everybody where the tool is.
     void show(const ToolState& tool, bool with_checksum);

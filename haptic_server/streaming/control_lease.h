@@ -37,7 +37,7 @@ class ControlLease {
     void check_silence(Time now);
     /// Who has it, for the log.
     std::optional<ClientId> holder() const { return holder_; }
-    /// What a client is to be told, as of the last call of any of the above.
+    /// What to send a client, as of the last call of any of the above.
     ToolDriver driver_for(ClientId client) const;
 
   private:

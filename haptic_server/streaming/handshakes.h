@@ -33,7 +33,7 @@ class Handshakes {
                Callbacks callbacks, std::size_t most_at_once = places_for_unidentified());
 
     void begin(boost::asio::ip::tcp::socket socket);
-    /// Hangs up on all that are under way; nobody is told.
+    /// Hangs up on all that are under way; without a word to anybody.
     void cancel();
 
   private:

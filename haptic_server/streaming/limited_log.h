@@ -27,7 +27,8 @@ class LimitedLog {
         spdlog::log(level, "{}{}", line, count_left_out());
     }
 
-    /// To be called regularly: what was left out of the log is told when there is room, though all is quiet.
+    /// To be called regularly: what was left out of the log is counted in a line when there is room, though
+    /// all is quiet.
     void tell_left_out(Time now) {
         if (left_out_ > 0 && lines_.take(now)) spdlog::warn("clients came and went{}", count_left_out());
     }

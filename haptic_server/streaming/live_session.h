@@ -10,7 +10,7 @@
 
 namespace osteomill {
 
-/// What clients are told of a scene.
+/// What is sent to clients of a scene.
 SessionInfo session_info(const Scene& scene, bool accepts_operator, double force_limit_n,
                          std::string program_version);
 

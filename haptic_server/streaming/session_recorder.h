@@ -1,6 +1,6 @@
 // Records a session as one more client sees it: the very frames that it would be sent, into a file.
 //
-// Its feed is that of any client, so what the disk is too slow for collapses into what is told later, and the
+// Its feed is that of any client, so what the disk is too slow for collapses into what is sent later, and the
 // streaming thread never waits. A disk that is full is one that is slow: the session goes on, and once there
 // is room the next frame tells all that has changed meanwhile. Poses of that time are missing, bone is not.
 #pragma once

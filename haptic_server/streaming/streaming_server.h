@@ -2,10 +2,11 @@
 //
 // One thread of its own. It keeps its own copy of the bone (the mirror), so it never touches the milling
 // loop's, and takes over what has changed at every frame whether or not anybody watches. Memory is bounded:
-// for each client there is one frame under way and a set of voxels that it has yet to be told of. A slow
+// for each client there is one frame under way and a set of voxels that are yet to be sent. A slow
 // client gets fewer frames and misses nothing; one that sends nonsense is dropped with one log line.
 // With TLS only those are clients whom the lab's CA vouches for; without it, only this machine is served
-// unless told otherwise, and who says nothing cannot take a client's place: see UnidentifiedConnections.
+// unless an option says otherwise, and who says nothing cannot take a client's place: see
+// UnidentifiedConnections.
 #pragma once
 
 #include <cstdint>

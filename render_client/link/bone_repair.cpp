@@ -6,7 +6,7 @@ namespace osteomill {
 
 namespace {
 
-/// A second, for what a frame lost between the search and its end told. More would hide a defect.
+/// A second, for what a frame lost between the search and its end said. More would hide a defect.
 constexpr int most_searches = 2;
 
 /// One a second: who has not answered by then never will.

@@ -69,7 +69,7 @@ class ServerConnection {
   private:
     using tcp = boost::asio::ip::tcp;
 
-    /// A recording has none: what a frame told that is missing there cannot be asked for in years.
+    /// A recording has none: what a frame said that is missing there cannot be asked for in years.
     Gaps gaps() const { return recorder_ ? Gaps::refused : Gaps::reported; }
 
     void run();

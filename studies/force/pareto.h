@@ -18,7 +18,7 @@ struct ParetoSetting {
     double voxel_mm = 0.1;
     double milling_rate_hz = 100.0;
     double run_in_s = 0.0;    ///< of Discretisation
-    bool is_default = false;  ///< what haptic_server does unless told otherwise
+    bool is_default = false;  ///< what haptic_server does by default
 };
 
 /// Voxel sizes, bins, instants, soft, partial and binary voxels, crescent and full scan, milling rates. The

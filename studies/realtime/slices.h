@@ -8,7 +8,7 @@
 
 namespace osteomill::study {
 
-/// What haptic_server told of its time, of one slice or several.
+/// What haptic_server reported of its time, of one slice or several.
 struct Served {
     Latencies wakeup;
     Latencies haptic_tick;

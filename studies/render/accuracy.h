@@ -23,7 +23,7 @@ struct DrawingSetting {
     float step_voxels = RaycastSettings{}.step_voxels;  ///< of rays, or between slices
     bool skips = true;                                  ///< of rays: empty space
     int divisor = 1;          ///< width and height are divided by it and the picture is scaled up again
-    bool is_default = false;  ///< what render_client does unless told otherwise
+    bool is_default = false;  ///< what render_client does by default
 };
 
 /// Every axis of choice by itself, from the default; fewer where `quick`.

@@ -8,8 +8,8 @@
 
 namespace osteomill {
 
-/// What the newest frames told, oldest first. A frame whose time is not later than the one before is left
-/// out; one that is earlier starts a new session and forgets what was there.
+/// What the newest frames said of the tool, oldest first. A frame whose time is not later than the one before
+/// is left out; one that is earlier starts a new session and forgets what was there.
 class ToolHistory {
   public:
     static constexpr double kept_s = 10.0;

@@ -26,7 +26,7 @@ constexpr double closest_first_view_mm = 10.0;
 constexpr double tool_part_of_first_view = 0.45;
 
 /// A burr of which nothing has been heard for so long is not shown to turn: its session has ended, or is
-/// played no further. One that turns is told of thirty times a second.
+/// played no further. One that turns is sent thirty times a second.
 constexpr double longest_turning_s = 0.25;
 
 /// A hand's target this close to the burr is where the burr is.
