@@ -126,7 +126,7 @@ TEST_F(Recording, OfTheSameSessionIsTheSameButForItsDate) {
     }
     std::ifstream a(file("a.csv")), b(file("b.csv"));
     const std::string table{std::istreambuf_iterator<char>(a), {}};
-    EXPECT_GT(std::count(table.begin(), table.end(), '\n'), 70);
+    EXPECT_GT(std::count(table.begin(), table.end(), '\n'), 60) << "a tool at rest is sent less often";
     EXPECT_EQ(table, std::string(std::istreambuf_iterator<char>(b), {}));
 }
 
