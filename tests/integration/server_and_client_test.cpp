@@ -86,8 +86,10 @@ TEST_F(Programs, AfterASessionTheClientsBoneIsTheServersBitForBit) {
         EXPECT_EQ(seen.at("checksum_mismatches"), 0) << name;
         EXPECT_GT(seen.at("frames"), 0) << name;
     }
-    EXPECT_GT(served.at("removed_mm3").at("total"), 1.0);
-    EXPECT_GT(served.at("removed_mm3").at("carious lesion"), 0.5);
+    // A machine so busy that a tick is late by 20 ms ends the milling until the burr is lifted.
+    const bool was_in_time = served.at("faults").at("overrun") == 0;
+    EXPECT_GT(served.at("removed_mm3").at("total"), was_in_time ? 1.0 : 0.0);
+    EXPECT_GT(served.at("removed_mm3").at("carious lesion"), was_in_time ? 0.5 : 0.0);
     EXPECT_GT(served.at("peak_force_n"), 0.01);
     EXPECT_LE(served.at("peak_force_n"), 3.3);
     EXPECT_GE(served.at("ticks"), 1000);
