@@ -43,12 +43,14 @@ struct BrickSums {
             left.fill(static_cast<std::uint32_t>(fractions[0]) << 3 * halvings);
             return;
         }
-        for (std::size_t offset = 0; offset < brick_voxel_count; ++offset) {
-            const glm::ivec3 voxel = voxel_in_brick(offset);
-            left[static_cast<std::size_t>((voxel.x >> halvings) +
-                                          edge * ((voxel.y >> halvings) + edge * (voxel.z >> halvings)))] +=
-                fractions[offset];
-        }
+        std::size_t offset = 0;
+        for (int z = 0; z < brick_edge_voxels; ++z)
+            for (int y = 0; y < brick_edge_voxels; ++y) {
+                const std::span row(
+                    &left[static_cast<std::size_t>(edge * ((y >> halvings) + edge * (z >> halvings)))],
+                    static_cast<std::size_t>(edge));
+                for (std::size_t x = 0; x < brick_edge_voxels; ++x) row[x >> halvings] += fractions[offset++];
+            }
     }
 };
 
