@@ -1,7 +1,7 @@
-// Burr as a massless proxy, tied to the device by a spring and held by the bone: backward Euler, solved
-// each tick against the engagement map that the milling loop last sampled.
+// Burr as a massless proxy, pulled by a coupling's spring and damper and held by the bone: backward Euler,
+// solved each tick against the engagement map that the milling loop last sampled.
 //
-//     K_c (x - p - d) + F(d) = 0      for the step d of the proxy p toward the device x
+//     pull(d) + F(d) = 0      for the step d of the proxy p toward the hand x
 //
 //     spindle on, the milling force at the step's end:
 //         F(d) = sum over patches of C_i (w_i max(0, n_i . d - cut_i)
@@ -14,31 +14,26 @@
 // freshly carved bone scatter by about a tenth of a voxel, more than a burr advances in a tick: a patch whose
 // gap is near a fifth of a voxel may touch or not, and counts as touching by the weight w_i, which falls from
 // 1 to 0 between a tenth and three tenths. A threshold would let it come and go with the lattice. Piecewise
-// linear: Newton on the set of patches in contact, a few iterations, halving a step that does not reduce the
-// residual. In one dimension, in bone of resistance B, it is p' = (B/dt p + K_c x) / (B/dt + K_c): stable for
-// any B.
+// linear: Newton on the set of patches in contact (contact_solve.h). With a spring alone and in one
+// dimension, in bone of resistance B, it is p' = (B/dt p + K_c x) / (B/dt + K_c): stable for any B.
 //
-// A massless burr that breaks through, or that its own teeth pull along, would be elsewhere within a tick,
-// and the hand would feel the spring let go all at once. A handpiece has mass: with the spindle on, the burr
-// slips past the hand no faster than most_slip_mm_per_s, and the spring lets go over some ticks. The hand
-// never gets more than the spring held.
+// The pull is that of coupling_spring.h, with its damper. So what the hand feels is what the bone does to the
+// burr, to the last digit, but for two things.
 //
-// Each tick ends in one of three ways, and the counters say in which:
+// A massless burr that breaks through would be at the hand within a tick, and the hand would feel the spring
+// let go all at once. A handpiece has mass: with the spindle on, the burr slips past the hand no faster than
+// most_slip_mm_per_s, and the spring lets go over some ticks.
 //
-//   balanced   the residual is under 1 mN (contact_solve.h); so it is in all but rare ticks
-//   with mass  a ring of contacts whose edges pull sideways can leave a massless burr no balance: the law is
-//              not monotone, with eigenvalues down to about -B/2 for a resistance B. With a mass m and steps
-//              of h there is one as soon as m/h exceeds B/2. So the tick is done again with handpiece_kg,
-//              from the last tick's speed, in `substeps` that remember what each patch has cut.
-//   relaxed    a substep without a balance keeps the contacts' normal forces alone. That always has a
-//   solution,
-//              and only takes energy out.
-//
-// Bone that pulls the burr along (a climb cut at an edge) gives it energy, and the spring would hand that on
-// to the hand. A store counts what bone has given, less what it took, and forgets with energy_memory_s. A
-// tick in which bone would add to a store that holds more than allowed_energy_mj is solved with a damper
-// between burr and hand, which the hand does not feel: the burr then follows the hand, rather than its teeth.
-// A burr that bone holds back, or that has left it, is never damped: the spring lets go at once.
+// Edges pull sideways, so bone can drive the burr along: the symmetric part of what it resists may have a
+// negative eigenvalue -N. Where bone gives the burr energy, the burr would run away from the hand and give
+// that on; and a ring of such contacts may leave no balance at all. There the tick is solved again with a
+// damper c between burr and hand that the hand does not feel. With c > N the law is monotone again: it has
+// one balance, the burr stays with the hand, and the spring comes to hold the model's force with a time
+// constant of (c - N) / K_c. So c is a small multiple of N; a large one would keep the force from the hand.
+// The multiple grows with what is in a store of the energy that bone has given lately, which forgets with
+// energy_memory_s. With less than allowed_energy_mj in it, nothing is damped that has a balance. Should a
+// tick have none with the damper either (counted; not seen), it keeps the contacts' normal forces alone:
+// these always have one, and only take energy out.
 #pragma once
 
 #include <array>
@@ -55,14 +50,12 @@ namespace osteomill {
 
 class BurrProxy {
   public:
-    explicit BurrProxy(double spring_n_per_mm) : spring_n_per_mm_(spring_n_per_mm) {}
-
     /// Puts the proxy somewhere, in contact with nothing that it knows of.
     void place(const glm::dvec3& position_mm) noexcept;
 
-    /// One tick of `tick_s` toward `target_mm` (patient LPS). In free air the proxy follows there. Real-time
-    /// safe.
-    void advance(const glm::dvec3& target_mm, double tick_s, bool spindle_on,
+    /// One tick of `tick_s` toward `target_mm` (patient LPS), where the hand is; `pull` is the coupling's on
+    /// the burr. In free air the proxy follows to the target. Real-time safe.
+    void advance(const glm::dvec3& target_mm, const LinearPull& pull, double tick_s, bool spindle_on,
                  const MillingResult& latest) noexcept;
 
     const glm::dvec3& position_mm() const { return position_mm_; }
@@ -76,47 +69,40 @@ class BurrProxy {
     /// Wall pressure per depth with the spindle off, N/mm^3: a 1 mm burr pressed with 3 N sinks in by 0.04
     /// mm.
     static constexpr double wall_n_per_mm3 = 1000.0;
-    /// Above the hand's own speed. On a spring of 1.5 N/mm 0.15 N a tick, half of what is felt as a knock.
+    /// Beside the hand's own motion. On a spring of 1.5 N/mm 0.15 N a tick, half of what is felt as a knock.
     static constexpr double most_slip_mm_per_s = 100.0;
 
-    /// Of the burr where it is solved with a mass: a light dental handpiece.
-    static constexpr double handpiece_kg = 0.1;
-    static constexpr int substeps = 10;
     static constexpr double energy_memory_s = 0.05;
     static constexpr double allowed_energy_mj = 0.1;
-    /// So that what bone gave is forgotten soon after it has stopped.
-    static constexpr double most_remembered_mj = 0.3;
-    /// Between burr and hand while bone gives energy.
-    static constexpr double runaway_damping_n_s_per_mm = 1.0;
+    static constexpr double most_remembered_mj = 1.0;
+    /// Hidden damping for what drives the burr, both in N s/mm, while the store is empty; 1 would only just
+    /// do.
+    static constexpr double drive_to_damping = 2.0;
+    /// Where a tick has no balance although nothing seems to drive the burr.
+    static constexpr double least_damping_n_s_per_mm = 0.02;
+    static constexpr int most_attempts = 4;
 
   private:
-    /// What a step of the burr did, before and after it was held back.
-    struct Outcome {
-        glm::dvec3 step_mm{0.0};
-        glm::dvec3 bone_force_n{0.0};  // on the burr, mean over the tick
-        double energy_mj = 0.0;        // that bone gave the burr
-        double residual_n = 0.0;
-        bool is_relaxed = false;
-    };
-
     void take_over(const MillingResult& latest) noexcept;
     /// Contacts that a step of `step_s` may meet that is no longer than `longest_mm`.
     std::span<const Contact> gather_contacts(double longest_mm, double step_s, bool spindle_on,
                                              const Engagement& engagement) noexcept;
     void remember_cuts(const Engagement& engagement) noexcept;
-    Outcome step_without_mass(const glm::dvec3& pull_mm, const glm::dvec3& hand_step_mm, double tick_s,
-                              bool is_damped, const Engagement& engagement) noexcept;
-    Outcome step_with_mass(const glm::dvec3& pull_mm, const glm::dvec3& hand_step_mm, double tick_s,
-                           bool is_damped, const Engagement& engagement) noexcept;
-    /// With the spindle on; moves the burr and counts.
-    void cut_toward(const glm::dvec3& target_mm, double tick_s, const Engagement& engagement) noexcept;
-    void press_toward(const glm::dvec3& target_mm, double tick_s, const Engagement& engagement) noexcept;
+    static LinearPull damped(const LinearPull& pull, double damping_n_s_per_mm,
+                             const glm::dvec3& hand_step_mm, double tick_s);
+    /// The balance of a tick, damped where bone drives the burr.
+    ContactStep balance_with_bone(const LinearPull& pull, const glm::dvec3& hand_step_mm, double tick_s,
+                                  std::span<const Contact> contacts) noexcept;
+    /// With the spindle on.
+    void cut_toward(const glm::dvec3& target_mm, const LinearPull& pull, double tick_s,
+                    const Engagement& engagement) noexcept;
+    /// With the spindle off.
+    void press_toward(const glm::dvec3& target_mm, const LinearPull& pull, double tick_s,
+                      const Engagement& engagement) noexcept;
 
-    double spring_n_per_mm_;
     glm::dvec3 position_mm_{0.0};
-    glm::dvec3 target_mm_{0.0};          // of the last tick
-    glm::dvec3 velocity_mm_per_s_{0.0};  // over the last tick
-    double given_mj_ = 0.0;              // what bone has given lately
+    glm::dvec3 target_mm_{0.0};  // of the last tick
+    double given_mj_ = 0.0;      // what bone has given lately
     std::uint64_t map_step_ = 0;
     ForceCorrection correction_;
     SolveCounts counts_;

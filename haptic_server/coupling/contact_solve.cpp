@@ -1,9 +1,11 @@
 #include "haptic_server/coupling/contact_solve.h"
 
 #include <algorithm>
+#include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
 #include <glm/matrix.hpp>
+#include <numbers>
 
 namespace osteomill {
 
@@ -31,6 +33,18 @@ State state_at(const LinearPull& pull, std::span<const Contact> contacts, const 
     }
     state.residual_n = pull.force_n(step_mm) + state.bone_force_n;
     return state;
+}
+
+/// Of a symmetric matrix: the trigonometric solution of its characteristic equation (Smith 1961).
+double smallest_eigenvalue(const glm::dmat3& m) {
+    const double mean = (m[0][0] + m[1][1] + m[2][2]) / 3.0;
+    const glm::dmat3 deviation = m - glm::dmat3(mean);
+    double squares = 0.0;
+    for (int i = 0; i < 3; ++i) squares += glm::dot(deviation[i], deviation[i]);
+    const double scale = std::sqrt(squares / 6.0);
+    if (scale == 0.0) return mean;
+    const double cosine = std::clamp(0.5 * glm::determinant(deviation) / (scale * scale * scale), -1.0, 1.0);
+    return mean + 2.0 * scale * std::cos((std::acos(cosine) + 2.0 * std::numbers::pi) / 3.0);
 }
 
 /// How much a contact resists along its normal, N/mm.
@@ -82,7 +96,12 @@ ContactStep balance(const LinearPull& pull, std::span<const Contact> contacts) n
         }
         if (!has_descended) break;
     }
-    return {state.step_mm, state.bone_force_n, glm::length(state.residual_n), iterations};
+    const glm::dmat3 bone = state.resistance - glm::dmat3(pull.stiffness_n_per_mm);
+    return {.step_mm = state.step_mm,
+            .bone_force_n = state.bone_force_n,
+            .residual_n = glm::length(state.residual_n),
+            .iterations = iterations,
+            .least_resistance_n_per_mm = smallest_eigenvalue(0.5 * (bone + glm::transpose(bone)))};
 }
 
 ContactStep relaxed_step(const LinearPull& pull, std::span<const Contact> contacts) noexcept {
@@ -104,7 +123,11 @@ ContactStep relaxed_step(const LinearPull& pull, std::span<const Contact> contac
         state = trial;
     }
     const double residual_n = glm::length(state.residual_n);
-    if (residual_n <= balance_tolerance_n) return {state.step_mm, state.bone_force_n, residual_n, iterations};
+    if (residual_n <= balance_tolerance_n)
+        return {.step_mm = state.step_mm,
+                .bone_force_n = state.bone_force_n,
+                .residual_n = residual_n,
+                .iterations = iterations};
     return {.iterations = iterations};
 }
 

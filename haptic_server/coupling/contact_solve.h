@@ -3,11 +3,11 @@
 //
 //     offset - stiffness d + sum of force_i max(0, n_i . d - begins_i) = 0
 //
-// The pull is a spring to the hand and, where a caller adds them, a mass and a damper: all are alike in every
-// direction, so a vector and a number hold them. A contact's force need not point along its normal: a cutting
-// edge pulls sideways. Then the balance is not the minimum of anything, and a burr without mass on a soft
-// spring may have none at all (the symmetric part of the sideways force has negative eigenvalues). balance()
-// looks for one and says what force is left over. relaxed_step() cannot fail.
+// The pull is a spring and dampers to the hand: all are alike in every direction, so a vector and a number
+// hold them. A contact's force need not point along its normal: a cutting edge pulls sideways. Then the
+// balance is not the minimum of anything, and a burr on a soft spring may have none at all (the symmetric
+// part of the sideways force has negative eigenvalues). balance() looks for one and says what force is left
+// over. relaxed_step() cannot fail.
 #pragma once
 
 #include <glm/vec3.hpp>
@@ -36,6 +36,9 @@ struct ContactStep {
     glm::dvec3 bone_force_n{0.0};  ///< on the burr, at the step's end
     double residual_n = 0.0;       ///< force that is left over
     int iterations = 0;
+    /// Smallest eigenvalue of the symmetric part of what the touching contacts resist, N/mm: how strongly
+    /// bone drives the burr, where it is negative.
+    double least_resistance_n_per_mm = 0.0;
 };
 
 /// A residual below this is a balance: a hundredth of what a hand can tell.

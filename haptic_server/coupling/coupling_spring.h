@@ -10,6 +10,8 @@
 
 #include <glm/vec3.hpp>
 
+#include "haptic_server/coupling/contact_solve.h"
+
 namespace osteomill {
 
 class CouplingSpring {
@@ -24,24 +26,35 @@ class CouplingSpring {
     /// Slack and at rest, both ends at `position_mm`.
     void place(const glm::dvec3& position_mm) noexcept { hand_ = burr_ = {position_mm, glm::dvec3(0.0)}; }
 
-    /// Force on the hand after a tick of `tick_s` > 0 that brought both ends here. Real-time safe.
-    glm::dvec3 stretch(const glm::dvec3& hand_mm, const glm::dvec3& burr_mm, double tick_s) noexcept {
+    /// Takes where the hand is after a tick of `tick_s` > 0, and returns how spring and damper will pull on
+    /// the burr, by the step that it makes in this tick. Real-time safe.
+    LinearPull follow_hand(const glm::dvec3& hand_mm, double tick_s) noexcept {
         hand_.follow(hand_mm, tick_s, hand_filter_s);
+        const double share = share_of_tick(tick_s, burr_filter_s_);
+        return {stiffness_n_per_mm_ * (hand_mm - burr_.position_mm) +
+                    damping_n_s_per_mm * (hand_.velocity_mm_per_s - (1.0 - share) * burr_.velocity_mm_per_s),
+                stiffness_n_per_mm_ + damping_n_s_per_mm * share / tick_s};
+    }
+
+    /// Takes where the burr is after the same tick, and returns the force on the hand. Real-time safe.
+    glm::dvec3 follow_burr(const glm::dvec3& burr_mm, double tick_s) noexcept {
         burr_.follow(burr_mm, tick_s, burr_filter_s_);
         // Out of contact the spring is slack at once; what the filters remember must not be felt in air.
-        if (hand_mm == burr_mm) burr_ = hand_;
-        return -stiffness_n_per_mm_ * (hand_mm - burr_mm) -
+        if (hand_.position_mm == burr_mm) burr_ = hand_;
+        return -stiffness_n_per_mm_ * (hand_.position_mm - burr_mm) -
                damping_n_s_per_mm * (hand_.velocity_mm_per_s - burr_.velocity_mm_per_s);
     }
 
   private:
+    static double share_of_tick(double tick_s, double filter_s) { return tick_s / (filter_s + tick_s); }
+
     struct End {
         glm::dvec3 position_mm{0.0};
         glm::dvec3 velocity_mm_per_s{0.0};
 
         void follow(const glm::dvec3& to_mm, double tick_s, double filter_s) noexcept {
-            const double share = tick_s / (filter_s + tick_s);
-            velocity_mm_per_s += share * ((to_mm - position_mm) / tick_s - velocity_mm_per_s);
+            velocity_mm_per_s +=
+                share_of_tick(tick_s, filter_s) * ((to_mm - position_mm) / tick_s - velocity_mm_per_s);
             position_mm = to_mm;
         }
     };

@@ -5,8 +5,7 @@ namespace osteomill {
 DirectCoupling::DirectCoupling(ForceEstimate estimate, ForceShape shape, const CouplingOptions& options)
     : wall_n_per_mm_(options.device.max_stiffness_n_per_mm),
       model_holds_wall_(options.model_holds_wall),
-      force_(estimate, shape, options.milling_period_s),
-      wall_(options.device.max_stiffness_n_per_mm) {}
+      force_(estimate, shape, options.milling_period_s) {}
 
 void DirectCoupling::reset() noexcept {
     force_.reset();
@@ -17,7 +16,9 @@ void DirectCoupling::reset() noexcept {
 const glm::dvec3& DirectCoupling::follow_wall(const HandState& hand, const MillingResult& latest) noexcept {
     if (!is_wall_placed_) wall_.place(hand.pose.position_mm);
     is_wall_placed_ = true;
-    wall_.advance(hand.pose.position_mm, hand.tick_s, false, latest);
+    const glm::dvec3& hand_mm = hand.pose.position_mm;
+    const LinearPull pull{wall_n_per_mm_ * (hand_mm - wall_.position_mm()), wall_n_per_mm_};
+    wall_.advance(hand_mm, pull, hand.tick_s, false, latest);
     return wall_.position_mm();
 }
 

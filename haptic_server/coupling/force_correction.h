@@ -72,7 +72,7 @@ class ForceCorrection {
     void reset() noexcept { *this = ForceCorrection{}; }
     const glm::dmat3& gain() const noexcept { return gain_; }
 
-    static constexpr double memory_s = 0.1;
+    static constexpr double memory_s = 0.03;
     /// Below about the square root of this force the gain means nothing and tends to 1.
     static constexpr double quiet_n2 = 1e-6;
     static constexpr double most_turn = 0.3;

@@ -3,9 +3,7 @@
 namespace osteomill {
 
 ImplicitCoupling::ImplicitCoupling(const CouplingOptions& options)
-    : hand_(options.position_resolution_mm),
-      proxy_(options.device.max_stiffness_n_per_mm),
-      spring_(options.device.max_stiffness_n_per_mm, burr_filter_s) {}
+    : hand_(options.position_resolution_mm), spring_(options.device.max_stiffness_n_per_mm, burr_filter_s) {}
 
 CouplingOutput ImplicitCoupling::tick(const HandState& hand, const MillingResult& latest) noexcept {
     if (!placed_) {
@@ -15,8 +13,9 @@ CouplingOutput ImplicitCoupling::tick(const HandState& hand, const MillingResult
         placed_ = true;
     }
     const glm::dvec3 position_mm = hand_.update(hand.pose.position_mm, hand.tick_s);
-    proxy_.advance(position_mm, hand.tick_s, hand.spindle_on, latest);
-    return {.force_n = spring_.stretch(position_mm, proxy_.position_mm(), hand.tick_s),
+    const LinearPull pull = spring_.follow_hand(position_mm, hand.tick_s);
+    proxy_.advance(position_mm, pull, hand.tick_s, hand.spindle_on, latest);
+    return {.force_n = spring_.follow_burr(proxy_.position_mm(), hand.tick_s),
             .burr_pose = {proxy_.position_mm(), hand.pose.spindle_axis}};
 }
 

@@ -22,7 +22,8 @@ CouplingOutput VirtualCoupling::tick(const HandState& hand, const MillingResult&
         placed_ = true;
     }
     const glm::dvec3 hand_mm = hand_.update(hand.pose.position_mm, hand.tick_s);
-    const glm::dvec3 force_on_hand_n = tie_.stretch(hand_mm, tool_mm_, hand.tick_s);
+    tie_.follow_hand(hand_mm, hand.tick_s);
+    const glm::dvec3 force_on_hand_n = tie_.follow_burr(tool_mm_, hand.tick_s);
 
     HandState tool = hand;
     tool.pose.position_mm = tool_mm_;

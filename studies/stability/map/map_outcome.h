@@ -17,7 +17,7 @@ struct MapOutcome {
     double depth_error_mm = 0.0;  ///< of the burr across the surface, rms, against the truth's
     double removed_mm3 = 0.0;     ///< bone that was cut in the window
     double max_residual_n = 0.0;  ///< largest force left over by a contact solve
-    double fallbacks = 0.0;       ///< ticks that a burr without mass could not balance
+    double fallbacks = 0.0;       ///< ticks without a balance, until they were damped
     double energy_faults = 0.0;   ///< how often the force was off for the energy that it gave the hand
 
     bool operator==(const MapOutcome&) const = default;

@@ -144,11 +144,13 @@ std::vector<SiteCase> site_cases(const SiteStudyOptions& options) {
 
 std::string site_csv(const std::vector<SiteResult>& results) {
     std::string csv =
-        "kind,name,energy_over_rigid_mj,stuck_ms,error_percent,largest_jump_n,peak_n,max_residual_n,"
+        "kind,name,energy_over_rigid_mj,stuck_ms,error_percent,error_while_driven_percent,largest_jump_n,"
+        "peak_n,max_residual_n,"
         "fallbacks,relaxed,damped,faults,is_met\n";
     for (const SiteResult& r : results)
-        csv += fmt::format("{},\"{}\",{:.4g},{},{:.4g},{:.4g},{:.4g},{:.3g},{},{},{},{},{}\n", r.kind, r.name,
-                           r.verdict.energy_over_rigid_mj, r.verdict.stuck_ms, r.verdict.error_percent,
+        csv += fmt::format("{},\"{}\",{:.4g},{},{:.4g},{:.4g},{:.4g},{:.4g},{:.3g},{},{},{},{},{}\n", r.kind,
+                           r.name, r.verdict.energy_over_rigid_mj, r.verdict.stuck_ms,
+                           r.verdict.error_percent, r.verdict.error_while_driven_percent,
                            r.verdict.largest_jump_n, r.verdict.peak_n, r.solve.max_residual_n,
                            r.solve.fallbacks, r.solve.relaxed, r.solve.damped, r.faults, r.is_met() ? 1 : 0);
     return csv;

@@ -33,6 +33,26 @@ glm::dvec3 mean_n(const std::vector<SiteTick>& ticks, std::size_t last, glm::dve
     return sum_n / static_cast<double>(mean_ticks);
 }
 
+/// That the model gave the burr in the ticks up to and with `last`.
+double energy_to_burr_mj(const std::vector<SiteTick>& ticks, std::size_t last) {
+    double sum_mj = 0.0;
+    for (std::size_t i = last + 1 - mean_ticks; i <= last; ++i)
+        sum_mj += glm::dot(ticks[i].model_n, ticks[i].burr_mm - ticks[i - 1].burr_mm);
+    return sum_mj;
+}
+
+/// The largest error of a force, beside its model's peak.
+struct ForceError {
+    double error_n = 0.0;
+    double peak_n = least_peak_n;
+
+    void add(const glm::dvec3& force_n, const glm::dvec3& model_n) {
+        error_n = std::max(error_n, glm::distance(force_n, model_n));
+        peak_n = std::max(peak_n, glm::length(model_n));
+    }
+    double percent() const { return 100.0 * error_n / peak_n; }
+};
+
 }  // namespace
 
 SiteVerdict verdict_on(const SiteRun& run) {
@@ -41,27 +61,27 @@ SiteVerdict verdict_on(const SiteRun& run) {
                                                 energy_mj(ticks, &SiteTick::rigid_n, 1)};
     std::size_t turning = 0;
     double stuck_ms = 0.0;
-    double largest_error_n = 0.0;
-    double model_peak_n = least_peak_n;
+    ForceError resisted;
+    ForceError driven;
     for (std::size_t i = 1; i < ticks.size(); ++i) {
         const double force_n = glm::length(ticks[i].force_n);
         verdict.peak_n = std::max(verdict.peak_n, force_n);
         verdict.largest_jump_n =
             std::max(verdict.largest_jump_n, glm::distance(ticks[i].force_n, ticks[i - 1].force_n));
         turning = ticks[i].spindle_on ? turning + 1 : 0;
-        if (turning < std::max(settling_ticks, mean_ticks)) {
+        if (turning < std::max(settling_ticks, mean_ticks + 1)) {
             stuck_ms = 0.0;
             continue;
         }
         const glm::dvec3 model_n = mean_n(ticks, i, &SiteTick::model_n);
-        const double error_n = glm::distance(mean_n(ticks, i, &SiteTick::force_n), model_n);
-        model_peak_n = std::max(model_peak_n, glm::length(model_n));
-        largest_error_n = std::max(largest_error_n, error_n);
+        (energy_to_burr_mj(ticks, i) > 0.0 ? driven : resisted)
+            .add(mean_n(ticks, i, &SiteTick::force_n), model_n);
         const bool is_stuck = force_n > felt_n && glm::length(model_n) < nearly_nothing_n;
         stuck_ms = is_stuck ? stuck_ms + 1e3 * MillingSession::tick_s : 0.0;
         verdict.stuck_ms = std::max(verdict.stuck_ms, stuck_ms);
     }
-    verdict.error_percent = 100.0 * largest_error_n / model_peak_n;
+    verdict.error_percent = resisted.percent();
+    verdict.error_while_driven_percent = driven.percent();
     return verdict;
 }
 

@@ -16,9 +16,12 @@ struct SiteVerdict {
     double energy_over_rigid_mj = 0.0;
     /// Longest time with more than 0.3 N on the hand while the model says less than 0.1.
     double stuck_ms = 0.0;
-    /// Largest difference of the force's mean over mean_s to the model's, % of the model's largest, or of
-    /// least_peak_n.
+    /// Largest difference of the force's mean over mean_s to the model's, while bone takes energy from the
+    /// burr; % of the model's largest mean there, or of least_peak_n.
     double error_percent = 0.0;
+    /// The same while bone gives the burr energy. It has no bar: `implicit` keeps a part of that from the
+    /// hand.
+    double error_while_driven_percent = 0.0;
     double largest_jump_n = 0.0;  ///< between two ticks
     double peak_n = 0.0;
 };

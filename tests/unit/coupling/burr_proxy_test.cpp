@@ -22,11 +22,17 @@ std::unique_ptr<MillingResult> damper_along_x(double resistance_n_s_per_mm, doub
     return result;
 }
 
+/// A tick toward a hand on a spring of 1.5 N/mm.
+void advance(BurrProxy& proxy, const glm::dvec3& hand_mm, double tick_s, bool spindle_on,
+             const MillingResult& bone) {
+    proxy.advance(hand_mm, {1.5 * (hand_mm - proxy.position_mm()), 1.5}, tick_s, spindle_on, bone);
+}
+
 TEST(BurrProxy, FollowsTheHandThroughAir) {
-    BurrProxy proxy(1.5);
+    BurrProxy proxy;
     proxy.place({1.0, 2.0, 3.0});
     const auto air = std::make_unique<MillingResult>();
-    proxy.advance({4.0, 4.0, 4.0}, 0.001, true, *air);
+    advance(proxy, {4.0, 4.0, 4.0}, 0.001, true, *air);
     EXPECT_EQ(proxy.position_mm(), glm::dvec3(4.0, 4.0, 4.0));
     EXPECT_EQ(proxy.iterations(), 0) << "air costs nothing";
 }
@@ -34,12 +40,12 @@ TEST(BurrProxy, FollowsTheHandThroughAir) {
 TEST(BurrProxy, SolvesTheOneDimensionalLaw) {
     // p' = (B/dt p + K x) / (B/dt + K)
     for (const double resistance : {1e-4, 0.1, 100.0}) {
-        BurrProxy proxy(1.5);
+        BurrProxy proxy;
         proxy.place(glm::dvec3(0.0));
         const auto bone = damper_along_x(resistance, 0.0);
         double expected = 0.0;
         for (int i = 0; i < 5; ++i) {
-            proxy.advance({0.5, 0.0, 0.0}, 0.001, true, *bone);
+            advance(proxy, {0.5, 0.0, 0.0}, 0.001, true, *bone);
             const double b = resistance / 0.001;
             expected = (b * expected + 1.5 * 0.5) / (b + 1.5);
             EXPECT_NEAR(proxy.position_mm().x, expected, 1e-9);
@@ -48,14 +54,14 @@ TEST(BurrProxy, SolvesTheOneDimensionalLaw) {
 }
 
 TEST(BurrProxy, MeetsBoneOnlyBeyondTheGapAndNeverTwice) {
-    BurrProxy proxy(1.5);
+    BurrProxy proxy;
     proxy.place(glm::dvec3(0.0));
     const auto bone = damper_along_x(1000.0, 0.1);
-    proxy.advance({0.3, 0.0, 0.0}, 0.001, true, *bone);
+    advance(proxy, {0.3, 0.0, 0.0}, 0.001, true, *bone);
     EXPECT_NEAR(proxy.position_mm().x, 0.1, 1e-3);
-    proxy.advance({-0.3, 0.0, 0.0}, 0.001, true, *bone);
+    advance(proxy, {-0.3, 0.0, 0.0}, 0.001, true, *bone);
     EXPECT_NEAR(proxy.position_mm().x, -0.3, 1e-12) << "nothing holds it back";
-    proxy.advance({0.1, 0.0, 0.0}, 0.001, true, *bone);
+    advance(proxy, {0.1, 0.0, 0.0}, 0.001, true, *bone);
     EXPECT_NEAR(proxy.position_mm().x, 0.1, 1e-12) << "cut already";
 }
 
@@ -63,9 +69,9 @@ TEST(BurrProxy, TakesAPatchIntoContactByDegreesAsItsGapCloses) {
     // The gap of a rim scatters with the lattice by some hundredths of a voxel; the force must not jump.
     double last_mm = 0.0;
     for (double gap_voxels = 0.0; gap_voxels <= 0.4; gap_voxels += 0.02) {
-        BurrProxy proxy(1.5);
+        BurrProxy proxy;
         proxy.place(glm::dvec3(0.0));
-        proxy.advance({0.005, 0.0, 0.0}, 0.001, true, *damper_along_x(0.001, 0.1 * gap_voxels));
+        advance(proxy, {0.005, 0.0, 0.0}, 0.001, true, *damper_along_x(0.001, 0.1 * gap_voxels));
         const double advance_mm = proxy.position_mm().x;
         if (gap_voxels == 0.0) {
             EXPECT_NEAR(advance_mm, 1.5 * 0.005 / (1.0 + 1.5), 1e-9);
@@ -79,10 +85,10 @@ TEST(BurrProxy, TakesAPatchIntoContactByDegreesAsItsGapCloses) {
 }
 
 TEST(BurrProxy, StopsAtAWallWithTheSpindleOff) {
-    BurrProxy proxy(1.5);
+    BurrProxy proxy;
     proxy.place(glm::dvec3(0.0));
     const auto bone = damper_along_x(0.0, 0.1);
-    for (int i = 0; i < 1000; ++i) proxy.advance({2.0, 0.5, 0.0}, 0.001, false, *bone);
+    for (int i = 0; i < 1000; ++i) advance(proxy, {2.0, 0.5, 0.0}, 0.001, false, *bone);
     // K (x - p) = k A (p - gap): 1.5 (2 - p) = 1000 (p - 0.1)
     EXPECT_NEAR(proxy.position_mm().x, (3.0 + 100.0) / 1001.5, 1e-9) << "and does not creep";
     EXPECT_NEAR(proxy.position_mm().y, 0.5, 1e-9) << "without friction";
@@ -90,22 +96,22 @@ TEST(BurrProxy, StopsAtAWallWithTheSpindleOff) {
 
 TEST(BurrProxy, SolvesASidewaysForceStrongerThanTheDirectOne) {
     // A patch facing +x whose force is mostly along -y, as milling is.
-    BurrProxy proxy(1.5);
+    BurrProxy proxy;
     proxy.place(glm::dvec3(0.0));
     auto bone = damper_along_x(0.05, 0.0);
     bone->engagement.patches[0].cutting_n_s_per_mm = {-0.05, -0.4, 0.0};
-    proxy.advance({0.01, 0.0, 0.0}, 0.001, true, *bone);
+    advance(proxy, {0.01, 0.0, 0.0}, 0.001, true, *bone);
     const glm::dvec3 d = proxy.position_mm();
     EXPECT_NEAR(1.5 * (0.01 - d.x), 0.05 * d.x / 0.001, 1e-6);
     EXPECT_NEAR(1.5 * (0.0 - d.y), 0.4 * d.x / 0.001, 1e-6);
 }
 
 TEST(BurrProxy, LetsGoOverSomeTicksWhenTheBoneIsGone) {
-    BurrProxy proxy(1.5);
+    BurrProxy proxy;
     proxy.place(glm::dvec3(0.0));
     const auto hard = damper_along_x(100.0, 0.0);
     glm::dvec3 hand(0.0);
-    for (int i = 0; i < 100; ++i) proxy.advance(hand += glm::dvec3(0.006, 0.0, 0.0), 0.001, true, *hard);
+    for (int i = 0; i < 100; ++i) advance(proxy, hand += glm::dvec3(0.006, 0.0, 0.0), 0.001, true, *hard);
     double lag_mm = hand.x - proxy.position_mm().x;
     ASSERT_GT(lag_mm, 0.5);
 
@@ -113,12 +119,27 @@ TEST(BurrProxy, LetsGoOverSomeTicksWhenTheBoneIsGone) {
     air.step = 2;
     air.engagement.count = 0;
     for (int i = 0; i < 6; ++i) {
-        proxy.advance(hand += glm::dvec3(0.006, 0.0, 0.0), 0.001, true, air);
+        advance(proxy, hand += glm::dvec3(0.006, 0.0, 0.0), 0.001, true, air);
         const double next_mm = hand.x - proxy.position_mm().x;
         EXPECT_LE(lag_mm - next_mm, BurrProxy::most_slip_mm_per_s * 0.001 + 1e-12);
         lag_mm = next_mm;
     }
     EXPECT_NEAR(lag_mm, 0.0, 1e-12) << "and arrives";
+}
+
+TEST(BurrProxy, SlipsNoFasterPastAHandThatComesTowardIt) {
+    BurrProxy proxy;
+    proxy.place(glm::dvec3(0.0));
+    const auto hard = damper_along_x(100.0, 0.0);
+    glm::dvec3 hand(0.0);
+    for (int i = 0; i < 100; ++i) advance(proxy, hand += glm::dvec3(0.006, 0.0, 0.0), 0.001, true, *hard);
+    MillingResult air = *hard;
+    air.step = 2;
+    air.engagement.count = 0;
+    const double lag_mm = hand.x - proxy.position_mm().x;
+    // An encoder's step toward the burr, in the tick in which the bone is gone.
+    advance(proxy, hand -= glm::dvec3(0.055, 0.0, 0.0), 0.001, true, air);
+    EXPECT_NEAR(lag_mm - (hand.x - proxy.position_mm().x), BurrProxy::most_slip_mm_per_s * 0.001, 1e-12);
 }
 
 /// A burr in a tunnel of its own width along z: patches all round it, edges that pull sideways six times as
@@ -141,14 +162,14 @@ std::unique_ptr<MillingResult> tunnel(double resistance_n_s_per_mm) {
 
 TEST(BurrProxy, EndsEveryTickInBalanceWhateverTheRingOfContacts) {
     for (const double resistance : {1e-4, 1e-3, 0.01, 0.1}) {
-        BurrProxy proxy(1.5);
+        BurrProxy proxy;
         proxy.place(glm::dvec3(0.0));
         const auto bone = tunnel(resistance);
         for (int i = 0; i < 3000; ++i) {
             // A hand that stirs, up to 1.5 N on the spring.
             const double turn = 0.013 * i;
             const glm::dvec3 hand(std::cos(turn) - 1.0, std::sin(1.7 * turn), 0.001 * i);
-            proxy.advance(hand, 0.001, true, *bone);
+            advance(proxy, hand, 0.001, true, *bone);
             ASSERT_LE(glm::distance(proxy.position_mm(), hand), 3.0) << "nor does it run off";
         }
         EXPECT_LT(proxy.counts().max_residual_n, balance_tolerance_n) << resistance;
@@ -167,14 +188,14 @@ double energy_to_hand_of_a_climb_mj(BurrProxy& proxy, double feed_mm_per_s) {
     for (int i = 0; i < 200; ++i) {
         energy_mj += glm::dot(1.5 * (proxy.position_mm() - hand), step_mm);
         hand += step_mm;
-        proxy.advance(hand, 0.001, true, *bone);
+        advance(proxy, hand, 0.001, true, *bone);
     }
     return energy_mj;
 }
 
 TEST(BurrProxy, HandsOnLittleOfTheEnergyThatBoneGivesIt) {
     // By the law alone: (0.08 - 0.01) N s/mm times 50 mm/s, at 50 mm/s, for a fifth of a second: 35 mJ.
-    BurrProxy proxy(1.5);
+    BurrProxy proxy;
     const double energy_mj = energy_to_hand_of_a_climb_mj(proxy, 50.0);
     EXPECT_GT(proxy.counts().damped, 100U);
     EXPECT_LT(energy_mj, 7.0);
@@ -182,11 +203,11 @@ TEST(BurrProxy, HandsOnLittleOfTheEnergyThatBoneGivesIt) {
 }
 
 TEST(BurrProxy, DampsNothingWhereBoneTakesEnergy) {
-    BurrProxy proxy(1.5);
+    BurrProxy proxy;
     proxy.place(glm::dvec3(0.0));
     auto bone = damper_along_x(0.05, 0.0);
     bone->engagement.patches[0].cutting_n_s_per_mm = {-0.05, -0.02, 0.0};
-    for (int i = 1; i <= 1000; ++i) proxy.advance({0.01 * i, 0.0, 0.0}, 0.001, true, *bone);
+    for (int i = 1; i <= 1000; ++i) advance(proxy, {0.01 * i, 0.0, 0.0}, 0.001, true, *bone);
     EXPECT_EQ(proxy.counts().damped, 0U);
     EXPECT_EQ(proxy.counts().fallbacks, 0U);
     // The spring holds the law's force, the damper none: F = (0.05, 0.02) N s/mm times 10 mm/s.

@@ -101,9 +101,9 @@ TEST(ContactSolve, SaysTruthfullyWhatIsLeftOver) {
     EXPECT_GT(balanced, 500) << "this is no test of refusals alone";
 }
 
-TEST(ContactSolve, BalancesARingThatPullsSidewaysOnceItsBurrHasMassEnough) {
-    // K_t = 6 K_r. On the hand's spring alone some pulls are without a balance; with m / h^2 above half of
-    // the ring's largest eigenvalue (the sum of |f| |n| bounds it) all have one, and it is found.
+TEST(ContactSolve, BalancesARingThatPullsSidewaysOnceItsBurrIsHeldEnough) {
+    // K_t = 6 K_r. On the hand's spring alone some pulls are without a balance; with a mass or a damper that
+    // exceeds half of the ring's largest eigenvalue (the sum of |f| |n| bounds it) all have one, and it is found.
     const std::vector<Contact> contacts = ring(20.0, 6.0);
     double bound_n_per_mm = 0.0;
     for (const Contact& contact : contacts) bound_n_per_mm += 0.5 * glm::length(contact.force_n_per_mm);
@@ -111,6 +111,33 @@ TEST(ContactSolve, BalancesARingThatPullsSidewaysOnceItsBurrHasMassEnough) {
         const double psi = std::numbers::pi * i / 180.0;
         const glm::dvec3 offset_n = 1.5 * glm::dvec3(std::cos(psi), std::sin(psi), 0.0);
         EXPECT_LT(balance({offset_n, bound_n_per_mm}, contacts).residual_n, balance_tolerance_n) << i;
+    }
+}
+
+TEST(ContactSolve, SaysHowStronglyAContactDrivesTheBurr) {
+    // Of n f^T + f n^T over two, with n and f at right angles: f/2, 0, -f/2. Pushing back by b along n: half
+    // of -b -+ sqrt(b^2 + f^2).
+    const glm::dvec3 along = glm::normalize(glm::dvec3(1.0, 2.0, -1.0));
+    const glm::dvec3 across = glm::normalize(glm::cross(along, {0.3, 0.1, 1.0}));
+    const LinearPull pull{1.5 * along, 1.5};
+    for (const double sideways : {0.0, 0.5, 1.5}) {
+        const std::vector<Contact> one{{along, 0.4 * -along + sideways * across, 0.0}};
+        EXPECT_NEAR(balance(pull, one).least_resistance_n_per_mm, 0.5 * (0.4 - std::hypot(0.4, sideways)),
+                    1e-12);
+    }
+    EXPECT_EQ(balance(pull, {}).least_resistance_n_per_mm, 0.0) << "air";
+}
+
+TEST(ContactSolve, HasABalanceOnceTheBurrIsDampedByMoreThanDrivesIt) {
+    std::mt19937 random(5);
+    for (int i = 0; i < 300; ++i) {
+        const std::vector<Contact> contacts = random_contacts(random, 40, 3.0);
+        // What could drive it at most: every contact at once.
+        double drive_n_per_mm = 0.0;
+        for (const Contact& c : contacts)
+            drive_n_per_mm += 0.5 * (glm::length(c.force_n_per_mm) + glm::dot(c.normal, c.force_n_per_mm));
+        const LinearPull pull{{3.0, -1.0, 2.0}, 1.5 + 2.0 * drive_n_per_mm};
+        ASSERT_LE(balance(pull, contacts).residual_n, balance_tolerance_n) << i;
     }
 }
 

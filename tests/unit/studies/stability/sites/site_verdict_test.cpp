@@ -56,6 +56,14 @@ TEST(SiteVerdict, MeasuresTheErrorOverTwentyMilliseconds) {
     EXPECT_LT(worst_share(verdict_on(run), "breakthrough"), 1.0);
 }
 
+TEST(SiteVerdict, CountsTheErrorByItselfWhereBoneDrivesTheBurr) {
+    SiteRun run = steady();
+    for (std::size_t i = 400; i < 500; ++i) run.ticks[i].model_n = along_x;
+    const SiteVerdict verdict = verdict_on(run);
+    EXPECT_NEAR(verdict.error_while_driven_percent, 200.0, 1e-9);
+    EXPECT_LE(verdict.error_percent, 100.0) << "at most ten of a window's twenty ticks";
+}
+
 TEST(SiteVerdict, FindsAJumpInOneTick) {
     SiteRun run = steady();
     run.ticks[500].force_n = -1.4 * along_x;
