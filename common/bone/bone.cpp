@@ -84,8 +84,7 @@ std::vector<double> bone_volume_by_tissue_mm3(const Bone& bone) {
     return volumes;
 }
 
-std::uint64_t checksum_of_brick(BrickIndex brick,
-                                std::span<const std::uint8_t, brick_voxel_count> fractions) {
+std::uint64_t checksum_of_brick(BrickIndex brick, BrickFractions fractions) {
     if (std::all_of(fractions.begin(), fractions.end(), [](std::uint8_t f) { return f == 0; })) return 0;
     return XXH3_64bits_withSeed(fractions.data(), fractions.size(), brick);
 }

@@ -60,9 +60,7 @@ class Bone {
     std::int32_t slot(BrickIndex brick) const { return content_->slot_of_brick.find(brick); }
 
     /// What is left of each voxel of a stored brick, 0 (none) to 255 (all).
-    std::span<const std::uint8_t, brick_voxel_count> fractions(std::int32_t slot) const {
-        return fraction_[static_cast<std::size_t>(slot)];
-    }
+    BrickFractions fractions(std::int32_t slot) const { return fraction_[static_cast<std::size_t>(slot)]; }
     std::span<std::uint8_t, brick_voxel_count> fractions(std::int32_t slot) {
         return fraction_[static_cast<std::size_t>(slot)];
     }
@@ -89,7 +87,7 @@ std::vector<double> bone_volume_by_tissue_mm3(const Bone& bone);
 /// brick's index; a brick that is all zero adds nothing. So it does not depend on which empty bricks are
 /// stored, and it can be kept up to date brick by brick: subtract a brick's old term, add its new one.
 std::uint64_t checksum(const Bone& bone);
-std::uint64_t checksum_of_brick(BrickIndex brick, std::span<const std::uint8_t, brick_voxel_count> fractions);
+std::uint64_t checksum_of_brick(BrickIndex brick, BrickFractions fractions);
 
 /// Bytes that this bone holds: brick table, stiffness, tissue and fractions. They follow the bricks that hold
 /// bone; the grid round them costs nothing. Room that a builder reserved and did not need is not counted: at

@@ -63,7 +63,7 @@ class Playhead {
     Mark mark() const { return {before_next_, before_next_time_, time_s_, tool_}; }
     /// The bone is the caller's to put back, with set_fractions().
     void go_back_to(const Mark& mark);
-    void set_fractions(BrickIndex brick, std::span<const std::uint8_t, brick_voxel_count> fractions) {
+    void set_fractions(BrickIndex brick, BrickFractions fractions) {
         replica_->set_fractions(brick, fractions);
     }
 

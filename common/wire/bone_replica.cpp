@@ -7,10 +7,10 @@ namespace osteomill {
 
 BoneReplica::BoneReplica(Bone bone) : bone_(std::move(bone)), checksum_(bone_) {}
 
-bool BoneReplica::apply(const EditRun& run) {
-    if (osteomill::apply(run, bone_) != EditOutcome::applied) return false;
-    Changed& changed = changed_[run.brick];
-    for (std::size_t i = 0; i < run.count; ++i) changed.voxels.set(run.first_voxel + i);
+bool BoneReplica::apply(const BrickChange& change, BrickFractions fractions) {
+    if (!osteomill::apply(change, fractions, bone_)) return false;
+    Changed& changed = changed_[change.brick];
+    changed.voxels |= change.voxels;
     changed.awaits_checksum = true;
     return true;
 }
@@ -27,8 +27,7 @@ std::variant<EditEffect, WireError> BoneReplica::correct(const v1::BrickEdit& ed
     return effect;
 }
 
-void BoneReplica::set_fractions(BrickIndex brick,
-                                std::span<const std::uint8_t, brick_voxel_count> fractions) {
+void BoneReplica::set_fractions(BrickIndex brick, BrickFractions fractions) {
     const std::int32_t slot = bone_.slot(brick);
     const auto now = bone_.fractions(slot);
     VoxelMask differing;

@@ -1,4 +1,4 @@
-// A replica of a bone that is milled elsewhere: edits go in, what changed and the checksum come out.
+// A replica of a bone that is milled elsewhere: changes go in, what changed and the checksum come out.
 //
 // The server keeps one for its clients, a client one of the server's, and a recording one of what it
 // recorded.
@@ -6,14 +6,12 @@
 
 #include <map>
 #include <optional>
-#include <span>
 #include <utility>
 #include <variant>
 #include <vector>
 
 #include "common/bone/bone.h"
 #include "common/bone/brick_change.h"
-#include "common/bone/edit.h"
 #include "common/wire/brick_edit.h"
 #include "common/wire/running_checksum.h"
 #include "common/wire/wire_error.h"
@@ -27,21 +25,22 @@ class BoneReplica {
     BoneReplica(Bone bone, RunningChecksum checksum)
         : bone_(std::move(bone)), checksum_(std::move(checksum)) {}
 
-    /// Takes over a run of the milling loop's. False if it does not fit the bone, which then stays as it was.
-    bool apply(const EditRun& run);
+    /// Takes over a change of the milling loop's. False if it does not fit the bone, which then stays as it
+    /// was.
+    [[nodiscard]] bool apply(const BrickChange& change, BrickFractions fractions);
     /// Likewise an edit as it came over the wire or out of a recording; says why not.
     std::optional<WireError> apply(const v1::BrickEdit& edit);
     /// Takes over an edit where this replica may be wrong: see correct_with_brick_edit.
     std::variant<EditEffect, WireError> correct(const v1::BrickEdit& edit);
     /// Gives a stored brick other fractions, as when a recording is wound back.
-    void set_fractions(BrickIndex brick, std::span<const std::uint8_t, brick_voxel_count> fractions);
+    void set_fractions(BrickIndex brick, BrickFractions fractions);
 
-    /// What has changed since the last call: the voxels that edits covered, and those that were set to
+    /// What has changed since the last call: the voxels that changes covered, and those that were set to
     /// another fraction; brick by brick, ascending.
     std::vector<BrickChange> take_changes();
 
     const Bone& bone() const { return bone_; }
-    /// Runs count as of the last take_changes(), all else at once.
+    /// The milling loop's changes count as of the last take_changes(), all else at once.
     std::uint64_t checksum() const { return checksum_.value(); }
     const RunningChecksum& running_checksum() const { return checksum_; }
 
@@ -50,7 +49,7 @@ class BoneReplica {
 
     struct Changed {
         VoxelMask voxels;
-        bool awaits_checksum = false;  // a step's runs go into one brick many times
+        bool awaits_checksum = false;  // many steps go into one brick
     };
     Bone bone_;
     RunningChecksum checksum_;

@@ -74,19 +74,21 @@ void write(const v1::BrickEdit& edit, Bone& bone) {
 
 }  // namespace
 
-v1::BrickEdit brick_edit(BrickIndex brick, std::span<const std::uint8_t, brick_voxel_count> fractions,
-                         const VoxelMask& changed) {
+v1::BrickEdit brick_edit(const BrickChange& change, BrickFractions fractions) {
     v1::BrickEdit edit;
-    edit.set_brick(brick);
-    edit.mutable_fraction()->reserve(changed.count());
-    for (std::size_t voxel = changed._Find_first(); voxel < brick_voxel_count;) {
-        const std::size_t first = voxel;
-        for (; voxel < brick_voxel_count && changed[voxel]; ++voxel)
-            edit.mutable_fraction()->push_back(static_cast<char>(fractions[voxel]));
-        edit.add_changed(static_cast<std::uint32_t>(first));
-        edit.add_changed(static_cast<std::uint32_t>(voxel - first));
-        while (voxel < brick_voxel_count && !changed[voxel]) ++voxel;
-    }
+    edit.set_brick(change.brick);
+    edit.mutable_fraction()->reserve(change.voxels.count());
+    std::size_t end_of_last = brick_voxel_count;
+    change.voxels.for_each([&](std::size_t voxel) {
+        edit.mutable_fraction()->push_back(static_cast<char>(fractions[voxel]));
+        if (voxel != end_of_last) {
+            edit.add_changed(static_cast<std::uint32_t>(voxel));
+            edit.add_changed(0);
+        }
+        const int length = edit.changed_size() - 1;
+        edit.set_changed(length, edit.changed(length) + 1);
+        end_of_last = voxel + 1;
+    });
     return edit;
 }
 

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <optional>
-#include <span>
 #include <variant>
 
 #include "common/bone/bone.h"
@@ -12,9 +11,8 @@
 
 namespace osteomill {
 
-/// The fractions of the voxels in the mask, as runs that hold these voxels and no others.
-v1::BrickEdit brick_edit(BrickIndex brick, std::span<const std::uint8_t, brick_voxel_count> fractions,
-                         const VoxelMask& changed);
+/// The fractions of the changed voxels, as runs that hold these voxels and no others.
+v1::BrickEdit brick_edit(const BrickChange& change, BrickFractions fractions);
 
 /// Writes an edit into the bone. Refused, with the bone as it was: a brick that is not stored, runs that do
 /// not ascend or reach past the brick, fractions that do not fit the runs, and any that would raise what is

@@ -20,17 +20,19 @@ WireError changes_refused(const std::string& what) {
 }
 
 void append(const VoxelMask& mask, std::vector<std::uint8_t>& bytes) {
-    const std::size_t begin = bytes.size();
-    bytes.resize(begin + mask_bytes);
-    for (std::size_t voxel = mask._Find_first(); voxel < brick_voxel_count; voxel = mask._Find_next(voxel))
-        bytes[begin + voxel / 8] = static_cast<std::uint8_t>(bytes[begin + voxel / 8] | 1U << voxel % 8);
+    for (const VoxelMask::Word word : mask.words())
+        for (std::size_t k = 0; k < sizeof word; ++k)
+            bytes.push_back(static_cast<std::uint8_t>(word >> 8 * k));
 }
 
 VoxelMask mask_at(std::span<const std::uint8_t> bytes) {
     VoxelMask mask;
-    for (std::size_t n = 0; n < mask_bytes; ++n)
-        for (std::size_t k = 0; bytes[n] >> k != 0; ++k)
-            if (bytes[n] >> k & 1) mask.set(8 * n + k);
+    for (std::size_t n = 0; n < VoxelMask::word_count; ++n) {
+        VoxelMask::Word word = 0;
+        for (std::size_t k = 0; k < sizeof word; ++k)
+            word |= VoxelMask::Word{bytes[n * sizeof word + k]} << 8 * k;
+        mask.set_word(n, word);
+    }
     return mask;
 }
 
@@ -49,9 +51,7 @@ v1::PackedChanges ChangePacker::pack(const Bone& bone, const std::vector<BrickCh
     }
     for (const auto& [brick, voxels] : changes) {
         const auto fractions = bone.fractions(bone.slot(brick));
-        for (std::size_t voxel = voxels._Find_first(); voxel < brick_voxel_count;
-             voxel = voxels._Find_next(voxel))
-            content_.push_back(fractions[voxel]);
+        voxels.for_each([&](std::size_t voxel) { content_.push_back(fractions[voxel]); });
     }
     const auto compressed = compressor_.compress(content_);
     message.set_zstd_masks_and_fractions(compressed.data(), compressed.size());
@@ -79,13 +79,11 @@ std::variant<std::vector<v1::BrickEdit>, WireError> unpack(const v1::PackedChang
         const BrickIndex brick = message.brick(static_cast<int>(i));
         if (brick >= std::uint64_t{table.x} * table.y * table.z)
             return changes_refused("brick " + std::to_string(brick) + " lies outside the grid");
-        const VoxelMask changed = mask_at(std::span(content).subspan(i * mask_bytes));
-        if (changed.count() > size - next) return changes_refused("they lack fractions");
+        const BrickChange change{brick, mask_at(std::span(content).subspan(i * mask_bytes))};
+        if (change.voxels.count() > size - next) return changes_refused("they lack fractions");
         ByteBrick fractions{};
-        for (std::size_t voxel = changed._Find_first(); voxel < brick_voxel_count;
-             voxel = changed._Find_next(voxel))
-            fractions[voxel] = content[next++];
-        edits.push_back(brick_edit(brick, fractions, changed));
+        change.voxels.for_each([&](std::size_t voxel) { fractions[voxel] = content[next++]; });
+        edits.push_back(brick_edit(change, fractions));
     }
     if (next != size) return changes_refused("they have more fractions than changed voxels");
     return edits;

@@ -14,7 +14,7 @@ namespace osteomill {
 namespace {
 
 /// A sweep of at most CrescentRows::longest_step_voxels from where the ball has carved, or a ball at rest.
-void carve_short(Bone& bone, const Sweep& ball, const CarveSettings& settings, EditSink& edits,
+void carve_short(Bone& bone, const Sweep& ball, const CarveSettings& settings, ChangeSink& changes,
                  RemovalSink& sink) noexcept {
     const glm::ivec3 size = bone.grid().size_voxels;
     const auto reach = static_cast<int>(std::ceil(ball.radius)) + 3;
@@ -27,7 +27,7 @@ void carve_short(Bone& bone, const Sweep& ball, const CarveSettings& settings, E
     if (rows.columns().empty() || rows.rows().empty() || slices.empty()) return;
 
     CarveKernel kernel(bone, base, SweepSeenFrom(ball, origin, settings.coverage), settings.instructions,
-                       edits, sink);
+                       changes, sink);
     for (int first = slices.first; first < slices.end;) {
         const int end = std::min(slices.end, (first / brick_edge_voxels + 1) * brick_edge_voxels);
         const BrickLayer layer(bone, base, rows, first);
@@ -66,11 +66,11 @@ bool cut_to_grid(Sweep& sweep, const glm::ivec3& size) {
 }  // namespace
 
 void carve(Bone& bone, const Sweep& ball, CarveHistory history, const CarveSettings& settings,
-           EditSink& edits, RemovalSink& removed) noexcept {
+           ChangeSink& changes, RemovalSink& removed) noexcept {
     Sweep sweep = ball;
     if (!cut_to_grid(sweep, bone.grid().size_voxels)) return;
     if (history == CarveHistory::none)
-        carve_short(bone, {sweep.from, sweep.from, sweep.radius}, settings, edits, removed);
+        carve_short(bone, {sweep.from, sweep.from, sweep.radius}, settings, changes, removed);
     const glm::dvec3 along = sweep.to - sweep.from;
     const double length = glm::length(along);
     if (length == 0.0) return;
@@ -79,7 +79,7 @@ void carve(Bone& bone, const Sweep& ball, CarveHistory history, const CarveSetti
     glm::dvec3 from = sweep.from;
     for (double part = 1.0; part <= parts; part += 1.0) {
         const glm::dvec3 to = part == parts ? sweep.to : sweep.from + along * (part / parts);
-        carve_short(bone, {from, to, sweep.radius}, settings, edits, removed);
+        carve_short(bone, {from, to, sweep.radius}, settings, changes, removed);
         from = to;
     }
 }

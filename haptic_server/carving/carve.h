@@ -4,7 +4,7 @@
 #pragma once
 
 #include "common/bone/bone.h"
-#include "common/bone/edit.h"
+#include "common/bone/brick_change.h"
 #include "haptic_server/carving/removed_voxels.h"
 #include "haptic_server/carving/sweep.h"
 #include "haptic_server/carving/voxel_coverage.h"
@@ -24,11 +24,11 @@ struct CarveSettings {
 };
 
 /// Carves a sweep given in voxel coordinates (whole numbers are voxel centres, radius in voxels). Hands each
-/// voxel that lost something to `removed` and an edit for each row of a brick that changed to `edits`, both
-/// in a fixed order. Looks only at stored bricks and, where the ball has carved at `from`, only at the
-/// crescent between the two positions: not the ball's inside, and nothing behind the plane through `from`
-/// across the motion, where the nearest point of the path is `from` itself. Real-time safe.
+/// voxel that lost something to `removed` and the change of each brick to `changes`, both in a fixed order; a
+/// brick may come more than once. Looks only at stored bricks and, where the ball has carved at `from`, only
+/// at the crescent between the two positions: not the ball's inside, and nothing behind the plane through
+/// `from` across the motion, where the nearest point of the path is `from` itself. Real-time safe.
 void carve(Bone& bone, const Sweep& ball, CarveHistory history, const CarveSettings& settings,
-           EditSink& edits, RemovalSink& removed) noexcept;
+           ChangeSink& changes, RemovalSink& removed) noexcept;
 
 }  // namespace osteomill

@@ -16,8 +16,8 @@ using simd::Ints;
 static_assert(simd::width == RemovedVoxels::lanes);
 
 CarveKernel::CarveKernel(Bone& bone, const glm::ivec3& base, const SweepSeenFrom& sweep,
-                         InstructionSet instructions, EditSink& edits, RemovalSink& removed) noexcept
-    : bone_(bone), sweep_(sweep), instructions_(instructions), edits_(edits), sink_(removed) {
+                         InstructionSet instructions, ChangeSink& changes, RemovalSink& removed) noexcept
+    : bone_(bone), sweep_(sweep), instructions_(instructions), changes_(changes), sink_(removed) {
     voxels_.base = base;
 }
 
@@ -219,7 +219,8 @@ void CarveKernel::carve_bricks(const CrescentRows& rows, const BrickLayer& layer
 
 void CarveKernel::write_back(std::int32_t slot) noexcept {
     std::uint8_t* const fractions = bone_.fractions(slot).data();
-    EditRun run{.brick = bone_.content().brick_of_slot[static_cast<std::size_t>(slot)]};
+    BrickChange change{.brick = bone_.content().brick_of_slot[static_cast<std::size_t>(slot)]};
+    bool has_changed = false;
     const std::uint8_t* left = left_of_list();
     const Row* const end = rows_.data() + row_count_;
     for (const Row* row = rows_.data(); row < end; ++row) {
@@ -232,14 +233,15 @@ void CarveKernel::write_back(std::int32_t slot) noexcept {
         const unsigned changed = simd::bits_of_unequal(before, after);
         if (changed != 0) {
             simd::store(brick_row, after);
+            // With what lies between: a gap would cost more to send.
             const auto first = static_cast<std::size_t>(std::countr_zero(changed));
-            run.first_voxel = static_cast<std::uint16_t>(row->first() - x + first);
-            run.count = static_cast<std::uint8_t>(static_cast<std::size_t>(std::bit_width(changed)) - first);
-            std::copy_n(left - x + first, run.fraction.size(), run.fraction.begin());
-            edits_.push(run);
+            change.voxels.set_run(row->first() - x + first,
+                                  static_cast<std::size_t>(std::bit_width(changed)) - first);
+            has_changed = true;
         }
         left += row->length();
     }
+    if (has_changed) changes_.push(change, bone_.fractions(slot));
 }
 
 void CarveKernel::hand_on_voxels() noexcept {

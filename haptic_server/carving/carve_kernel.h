@@ -8,7 +8,7 @@
 #include <cstdint>
 
 #include "common/bone/bone.h"
-#include "common/bone/edit.h"
+#include "common/bone/brick_change.h"
 #include "haptic_server/carving/brick_layer.h"
 #include "haptic_server/carving/crescent_rows.h"
 #include "haptic_server/carving/removed_voxels.h"
@@ -18,11 +18,11 @@ namespace osteomill {
 
 class CarveKernel {
   public:
-    /// `base`: the voxel that positions are counted from, the first of a brick; `sweep` is seen from it. Rows
-    /// of bricks that changed go to `edits`, what voxels lose to `removed`, the last of it with
+    /// `base`: the voxel that positions are counted from, the first of a brick; `sweep` is seen from it.
+    /// Bricks that changed go to `changes`, what voxels lose to `removed`, the last of it with
     /// hand_on_voxels(); in a fixed order. Real-time safe, and so is all the rest.
     CarveKernel(Bone& bone, const glm::ivec3& base, const SweepSeenFrom& sweep, InstructionSet instructions,
-                EditSink& edits, RemovalSink& removed) noexcept;
+                ChangeSink& changes, RemovalSink& removed) noexcept;
 
     /// Lowers what the sweep covers of the bricks in row `brick_y` of a layer. `z`: the slices of the layer
     /// that there are.
@@ -40,7 +40,7 @@ class CarveKernel {
                             const VoxelRange& z) noexcept;
     void carve_bricks_avx2(const CrescentRows& rows, const BrickLayer& layer, int brick_y,
                            const VoxelRange& z) noexcept;
-    /// Writes what is left of the listed rows into their brick and reports those that changed.
+    /// Writes what is left of the listed rows into their brick and reports its change, if any.
     void write_back(std::int32_t slot) noexcept;
     std::uint8_t* left_of_list() { return &left_[brick_edge_voxels]; }
 
@@ -48,7 +48,7 @@ class CarveKernel {
     Bone& bone_;
     SweepSeenFrom sweep_;
     InstructionSet instructions_;
-    EditSink& edits_;
+    ChangeSink& changes_;
     RemovalSink& sink_;
     /// Neighbouring voxels of a row of a brick: offset of the first, and how many, in one number.
     struct Row {

@@ -49,14 +49,14 @@ ErodingModel::ErodingModel(Bone bone, std::vector<Burr> burrs, const std::vector
       erosion_(largest_radius_voxels(burrs_, bone_.grid().spacing_mm)),
       account_(bone_.grid(), tissues) {}
 
-void ErodingModel::erode(const glm::dvec3& position_mm, double dose, EditSink& edits) noexcept {
+void ErodingModel::erode(const glm::dvec3& position_mm, double dose, ChangeSink& changes) noexcept {
     const Grid& grid = bone_.grid();
     const Ball ball{to_voxel_coordinates(grid, position_mm), burrs_[burr_].radius_mm() / grid.spacing_mm};
     ErosionEntry entry(bone_.content(), account_);
-    erosion_.erode(bone_, ball, dose, edits, entry);
+    erosion_.erode(bone_, ball, dose, changes, entry);
 }
 
-void ErodingModel::step(const BurrCommand& command, double time_s, EditSink& edits,
+void ErodingModel::step(const BurrCommand& command, double time_s, ChangeSink& changes,
                         MillingResult& result) noexcept {
     account_.begin_step(time_s, result);
     result.valid = is_usable(command, burrs_.size());
@@ -82,7 +82,7 @@ void ErodingModel::step(const BurrCommand& command, double time_s, EditSink& edi
         result.force_n = reaction.force_n;
         result.has_bone_inside = !command.spindle_on && has_bone_in(bone_, {centre, radius});
         if (command.spindle_on)
-            erode(0.5 * (position_mm_ + position_mm), reaction.erosion_per_s * command.elapsed_s, edits);
+            erode(0.5 * (position_mm_ + position_mm), reaction.erosion_per_s * command.elapsed_s, changes);
     }
     position_mm_ = position_mm;
     account_.end_step(command, result);

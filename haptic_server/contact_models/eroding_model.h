@@ -27,14 +27,14 @@ class ErodingModel final : public ForceModel {
     ErodingModel(Bone bone, std::vector<Burr> burrs, const std::vector<Tissue>& tissues,
                  std::unique_ptr<ContactLaw> law);
 
-    void step(const BurrCommand& command, double time_s, EditSink& edits,
+    void step(const BurrCommand& command, double time_s, ChangeSink& changes,
               MillingResult& result) noexcept override;
 
     const Bone& bone() const override { return bone_; }
     const RemovedByTissue& removed_mm3() const override { return account_.removed_mm3(); }
 
   private:
-    void erode(const glm::dvec3& position_mm, double dose, EditSink& edits) noexcept;
+    void erode(const glm::dvec3& position_mm, double dose, ChangeSink& changes) noexcept;
 
     Bone bone_;
     std::vector<Burr> burrs_;

@@ -22,11 +22,16 @@ Erosion::Erosion(double largest_radius_voxels)
     : edge_(edge_around(largest_radius_voxels)),
       remainders_(static_cast<std::size_t>(edge_) * edge_ * edge_, half_a_code) {}
 
-void Erosion::erode(Bone& bone, const Ball& ball, double dose, EditSink& edits,
+void Erosion::erode(Bone& bone, const Ball& ball, double dose, ChangeSink& changes,
                     ErosionSink& removed) noexcept {
     const BoneContent& content = bone.content();
     // A dose of more than a whole voxel takes no more than the voxel.
     const double steps = std::min(dose, 1.0 / least_stiffness) * 255.0 * steps_per_code;
+    BrickChange change;
+    std::int32_t changed_slot = BoneContent::no_slot;
+    const auto push_change = [&] {
+        if (changed_slot != BoneContent::no_slot) changes.push(change, bone.fractions(changed_slot));
+    };
     visit_rows(bone, ball, [&](const BallRow& row) {
         const auto fractions = bone.fractions(row.slot).subspan(row.row_offset, brick_edge_voxels);
         const glm::dvec3 from_centre = glm::dvec3(row.first) - ball.centre;
@@ -53,13 +58,16 @@ void Erosion::erode(Bone& bone, const Ball& ball, double dose, EditSink& edits,
             removed.take(row.slot, offset, levels);
         }
         if (changed_last < 0) return;
-        EditRun run{.brick = content.brick_of_slot[static_cast<std::size_t>(row.slot)],
-                    .first_voxel =
-                        static_cast<std::uint16_t>(row.row_offset + static_cast<std::size_t>(changed_first)),
-                    .count = static_cast<std::uint8_t>(changed_last - changed_first + 1)};
-        std::copy_n(fractions.begin() + changed_first, run.count, run.fraction.begin());
-        edits.push(run);
+        if (row.slot != changed_slot) {
+            push_change();
+            changed_slot = row.slot;
+            change = {.brick = content.brick_of_slot[static_cast<std::size_t>(row.slot)]};
+        }
+        // With what lies between: a gap would cost more to send.
+        change.voxels.set_run(row.row_offset + static_cast<std::size_t>(changed_first),
+                              static_cast<std::size_t>(changed_last - changed_first + 1));
     });
+    push_change();
 }
 
 }  // namespace osteomill

@@ -18,7 +18,7 @@
 #include <vector>
 
 #include "common/bone/bone.h"
-#include "common/bone/edit.h"
+#include "common/bone/brick_change.h"
 #include "haptic_server/contact_models/ball_rows.h"
 
 namespace osteomill {
@@ -42,8 +42,8 @@ class Erosion {
     explicit Erosion(double largest_radius_voxels);
 
     /// Erodes what `ball` (voxel coordinates) covers by `dose` = e dt, the share of a voxel of stiffness 1
-    /// that is fully covered. Pushes an edit for each row of a brick that changed. Real-time safe.
-    void erode(Bone& bone, const Ball& ball, double dose, EditSink& edits, ErosionSink& removed) noexcept;
+    /// that is fully covered. Pushes the change of each brick. Real-time safe.
+    void erode(Bone& bone, const Ball& ball, double dose, ChangeSink& changes, ErosionSink& removed) noexcept;
 
   private:
     std::uint16_t& remainder(const glm::ivec3& voxel) {

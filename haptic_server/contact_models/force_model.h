@@ -4,7 +4,7 @@
 #pragma once
 
 #include "common/bone/bone.h"
-#include "common/bone/edit.h"
+#include "common/bone/brick_change.h"
 #include "haptic_server/exchange/milling_step.h"
 
 namespace osteomill {
@@ -15,10 +15,10 @@ class ForceModel {
     virtual ~ForceModel() = default;
 
     /// Moves the burr to the command's pose at session time `time_s`, takes away the bone that goes (none
-    /// while the spindle is off), pushes the edits and overwrites `result`. A command that is not finite, of
-    /// no duration or of an unknown burr leaves bone and burr alone and makes the result invalid. Real-time
-    /// safe.
-    virtual void step(const BurrCommand& command, double time_s, EditSink& edits,
+    /// while the spindle is off), pushes the changes and overwrites `result`. A command that is not finite,
+    /// of no duration or of an unknown burr leaves bone and burr alone and makes the result invalid.
+    /// Real-time safe.
+    virtual void step(const BurrCommand& command, double time_s, ChangeSink& changes,
                       MillingResult& result) noexcept = 0;
 
     virtual const Bone& bone() const = 0;

@@ -78,15 +78,15 @@ MillingModel::MillingModel(Bone bone, std::vector<Burr> burrs, const std::vector
 }
 
 template <typename Force>
-void MillingModel::carve_and_sum(const Sweep& sweep, double share, EditSink& edits, Force& force,
+void MillingModel::carve_and_sum(const Sweep& sweep, double share, ChangeSink& changes, Force& force,
                                  MillingResult& result) noexcept {
     ForceOfRemoved removed(bone_.content(), account_, force);
     carve(bone_, sweep, carved_at_position_ ? CarveHistory::carved_at_from : CarveHistory::none,
-          {.coverage = settings_.coverage, .instructions = settings_.instructions}, edits, removed);
+          {.coverage = settings_.coverage, .instructions = settings_.instructions}, changes, removed);
     result.force_n += share * force.force_n();
 }
 
-void MillingModel::cut(const BurrCommand& command, const glm::dvec3& to_mm, double share, EditSink& edits,
+void MillingModel::cut(const BurrCommand& command, const glm::dvec3& to_mm, double share, ChangeSink& changes,
                        MillingResult& result) noexcept {
     const Burr& burr = burrs_[burr_];
     const Grid& grid = bone_.grid();
@@ -96,14 +96,14 @@ void MillingModel::cut(const BurrCommand& command, const glm::dvec3& to_mm, doub
                               share * since_milled_s_);
     if (settings_.summation == ForceSummation::voxels) {
         MeanForce force(cutting, settings_.instructions);
-        carve_and_sum(sweep, share, edits, force, result);
+        carve_and_sum(sweep, share, changes, force, result);
     } else if (settings_.summation == ForceSummation::bins) {
         chips_.begin_step(burr, cutting);
-        carve_and_sum(sweep, share, edits, chips_, result);
+        carve_and_sum(sweep, share, changes, chips_, result);
     } else {
         tooth_.turn(burr, share * command.elapsed_s);
         tooth_.begin_step(cutting);
-        carve_and_sum(sweep, share, edits, tooth_, result);
+        carve_and_sum(sweep, share, changes, tooth_, result);
     }
     carved_at_position_ = true;
     position_mm_ = to_mm;
@@ -115,7 +115,7 @@ bool MillingModel::can_wait(const BurrCommand& command) const noexcept {
            path_voxels < shortest_path_voxels;
 }
 
-void MillingModel::mill(const BurrCommand& command, EditSink& edits, MillingResult& result) noexcept {
+void MillingModel::mill(const BurrCommand& command, ChangeSink& changes, MillingResult& result) noexcept {
     since_milled_s_ += command.elapsed_s;
     if (can_wait(command)) {
         result.force_n = milled_force_n_;
@@ -133,7 +133,7 @@ void MillingModel::mill(const BurrCommand& command, EditSink& edits, MillingResu
     for (double i = 1.0; i <= substeps; i += 1.0) {
         const bool is_last = i == substeps;
         cut(command, is_last ? command.pose.position_mm : from_mm + path_mm * (i / substeps), 1.0 / substeps,
-            edits, result);
+            changes, result);
     }
     // A spindle that starts within bone clears a whole ball at once, which no later step does again.
     if (is_first) tooth_.forget();
@@ -141,7 +141,7 @@ void MillingModel::mill(const BurrCommand& command, EditSink& edits, MillingResu
     since_milled_s_ = 0.0;
 }
 
-void MillingModel::step(const BurrCommand& command, double time_s, EditSink& edits,
+void MillingModel::step(const BurrCommand& command, double time_s, ChangeSink& changes,
                         MillingResult& result) noexcept {
     account_.begin_step(time_s, result);
     result.valid = is_usable(command, burrs_.size());
@@ -155,7 +155,7 @@ void MillingModel::step(const BurrCommand& command, double time_s, EditSink& edi
         since_milled_s_ = 0.0;
     }
     if (command.spindle_on) {
-        mill(command, edits, result);
+        mill(command, changes, result);
     } else {
         carved_at_position_ = false;
         position_mm_ = command.pose.position_mm;

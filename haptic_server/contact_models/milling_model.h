@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "common/bone/bone.h"
-#include "common/bone/edit.h"
+#include "common/bone/brick_change.h"
 #include "common/scene/scene.h"
 #include "haptic_server/contact_models/force_model.h"
 #include "haptic_server/contact_models/milling_settings.h"
@@ -26,11 +26,11 @@ class MillingModel final : public ForceModel {
     MillingModel(Bone bone, std::vector<Burr> burrs, const std::vector<Tissue>& tissues,
                  const MillingSettings& settings = {});
 
-    /// Moves the burr, carves what it passes through (only while the spindle is on), reports the edits and
+    /// Moves the burr, carves what it passes through (only while the spindle is on), reports the changes and
     /// overwrites `result`. The first step, and the first with another burr, starts at the command's pose
     /// without a sweep. A command that is not finite, of no duration or of an unknown burr leaves bone and
     /// burr alone and makes the result invalid. Real-time safe.
-    void step(const BurrCommand& command, double time_s, EditSink& edits,
+    void step(const BurrCommand& command, double time_s, ChangeSink& changes,
               MillingResult& result) noexcept override;
 
     const Bone& bone() const override { return bone_; }
@@ -41,13 +41,13 @@ class MillingModel final : public ForceModel {
     /// step.
     bool can_wait(const BurrCommand& command) const noexcept;
     /// From position_mm_ to the command's position, in substeps.
-    void mill(const BurrCommand& command, EditSink& edits, MillingResult& result) noexcept;
+    void mill(const BurrCommand& command, ChangeSink& changes, MillingResult& result) noexcept;
     /// One substep, from position_mm_ to `to_mm`, which becomes position_mm_; adds to `result`, force weighed
     /// by `share` of the path.
-    void cut(const BurrCommand& command, const glm::dvec3& to_mm, double share, EditSink& edits,
+    void cut(const BurrCommand& command, const glm::dvec3& to_mm, double share, ChangeSink& changes,
              MillingResult& result) noexcept;
     template <typename Force>
-    void carve_and_sum(const Sweep& sweep, double share, EditSink& edits, Force& force,
+    void carve_and_sum(const Sweep& sweep, double share, ChangeSink& changes, Force& force,
                        MillingResult& result) noexcept;
 
     Bone bone_;

@@ -35,7 +35,7 @@ int times_as_long(const Grid& bone) {
 struct BrickSums {
     std::array<std::uint32_t, brick_voxel_count> left{};
 
-    BrickSums(std::span<const std::uint8_t, brick_voxel_count> fractions, int times) {
+    BrickSums(BrickFractions fractions, int times) {
         const int halvings = std::countr_zero(static_cast<unsigned>(times));
         const int edge = brick_edge_voxels >> halvings;
         // Most bricks are whole.

@@ -29,7 +29,7 @@ constexpr const char* tissue_digest_key = "osteomill_tissue_digest";
 
 using KeyValues = std::map<std::string, std::string>;
 
-bool has_fraction(std::span<const std::uint8_t, brick_voxel_count> fractions) {
+bool has_fraction(BrickFractions fractions) {
     return std::any_of(fractions.begin(), fractions.end(), [](std::uint8_t f) { return f != 0; });
 }
 

@@ -60,8 +60,8 @@ void MillingLoop::step(double time_s, double elapsed_s) noexcept {
     command.wants_engagement = publishes;
 
     MillingResult& result = parts_.results.back();
-    parts_.model.step(command, time_s, parts_.edits, result);
-    parts_.edits.resend_overflowed(parts_.model.bone());
+    parts_.model.step(command, time_s, parts_.changes, result);
+    parts_.changes.resend_overflowed(parts_.model.bone());
     if (parts_.log != nullptr)
         parts_.log->push({.time_s = time_s,
                           .burr_mm = command.pose.position_mm,

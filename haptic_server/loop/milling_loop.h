@@ -1,4 +1,4 @@
-// One step of the milling loop: the newest command in, the model's step, result and edits out.
+// One step of the milling loop: the newest command in, the model's step, result and changes out.
 //
 // The haptic loop sends a command every tick. Up to its rate, each step goes all the way to the newest one.
 // Beyond it (the time-resolved force wants 10 kHz) the steps of a tick share the way there, and the haptic
@@ -10,7 +10,7 @@
 
 #include "common/scene/burr.h"
 #include "haptic_server/contact_models/force_model.h"
-#include "haptic_server/exchange/edit_queue.h"
+#include "haptic_server/exchange/change_queue.h"
 #include "haptic_server/exchange/milling_step.h"
 #include "haptic_server/exchange/triple_buffer.h"
 #include "haptic_server/loop/milling_log.h"
@@ -21,7 +21,7 @@ struct MillingLoopParts {
     ForceModel& model;
     TripleBuffer<BurrCommand>& commands;   ///< read
     TripleBuffer<MillingResult>& results;  ///< written
-    EditQueue& edits;                      ///< written
+    ChangeQueue& changes;                  ///< written
     MillingLog* log = nullptr;             ///< written; null: no log
     std::span<const Burr> burrs{};         ///< of the scene: what may be put in the burr's place
 };

@@ -23,7 +23,7 @@ constexpr double chore_period_s = 0.02;
 constexpr std::uint64_t chore_ticks = 33;  // the rate of a streaming server's frames: 30 Hz
 /// For the rounding of a number of periods against one of ticks.
 constexpr double rounding_s = 1e-7;
-/// How long a session waits for whoever consumes its edits before it gives up on them.
+/// How long a session waits for whoever consumes its changes before it gives up on them.
 constexpr std::chrono::seconds longest_wait_for_consumer{10};
 
 void require_usable(const std::optional<int>& cpu) {
@@ -99,7 +99,7 @@ MillingSession::MillingSession(const Scene& scene, Bone bone, HapticDevice& devi
            .milling_period_s = std::max(tick_s, 1.0 / options.milling_rate_hz),
            .position_resolution_mm = device.limits().position_resolution_mm * scene.device.scale,
            .model_holds_wall = !find_force_model(options.force_model).has_cutting_law})),
-      edits_(edit_queue_runs, model_->bone().shared_content()),
+      changes_(change_queue_bytes, model_->bone().shared_content()),
       tool_(tool_at_start(scene)),
       status_(tool_at_start(scene)),
       haptic_loop_({.device = device,
@@ -118,7 +118,7 @@ MillingSession::MillingSession(const Scene& scene, Bone bone, HapticDevice& devi
       milling_loop_({.model = *model_,
                      .commands = commands_,
                      .results = results_,
-                     .edits = edits_,
+                     .changes = changes_,
                      .log = milling_log,
                      .burrs = burrs_},
                     tick_s),
@@ -197,7 +197,7 @@ void MillingSession::take_turns(const std::atomic<bool>& stop,
         haptic_ticks_.tick_now(stopwatch);
         while (milling_steps_.due_s() <= now_s_ + rounding_s) {
             milling_steps_.tick_now(stopwatch);
-            if (edits_.has_overflowed()) wait_for_room_in_queue(stop, on_progress);
+            if (changes_.has_overflowed()) wait_for_room_in_queue(stop, on_progress);
         }
         if (tick % chore_ticks == 0) do_chores(on_progress);
     }
@@ -210,25 +210,29 @@ void MillingSession::do_chores(const std::function<void(const ToolState&)>& on_p
     };
     drain(log_);
     drain(milling_log_);
-    if (!options_.edits_are_consumed) edits_.consume_all([](const EditRun&) {});
+    drop_changes_nobody_wants();
     status_.refresh();
     if (on_progress) on_progress(status_.front());
+}
+
+void MillingSession::drop_changes_nobody_wants() {
+    if (!options_.changes_are_consumed) changes_.consume_all([](const BrickChange&, BrickFractions) {});
 }
 
 void MillingSession::wait_for_room_in_queue(const std::atomic<bool>& stop,
                                             const std::function<void(const ToolState&)>& on_progress) {
     do_chores(on_progress);
     wait_for_consumer(&stop, [this] {
-        edits_.resend_overflowed(model_->bone());
-        return !edits_.has_overflowed();
+        changes_.resend_overflowed(model_->bone());
+        return !changes_.has_overflowed();
     });
 }
 
 void MillingSession::send_what_overflowed() {
     wait_for_consumer(nullptr, [this] {
-        if (!options_.edits_are_consumed) edits_.consume_all([](const EditRun&) {});
-        edits_.resend_overflowed(model_->bone());
-        return !edits_.has_overflowed();
+        drop_changes_nobody_wants();
+        changes_.resend_overflowed(model_->bone());
+        return !changes_.has_overflowed();
     });
 }
 
@@ -241,7 +245,7 @@ MillingSessionReport MillingSession::report() const {
             .most_energy_to_hand_mj = haptic_loop_.most_energy_to_hand_mj(),
             .solve = coupling_->solve_counts(),
             .fault_counts = haptic_loop_.fault_counts(),
-            .edit_overflows = edits_.overflow_count(),
+            .change_overflows = changes_.overflow_count(),
             .bone_checksum = checksum(model_->bone()),
             .real_time_priority = haptic_thread_.has_real_time_priority,
             .memory_locked = is_memory_locked_,

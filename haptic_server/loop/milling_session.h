@@ -21,7 +21,7 @@
 #include "haptic_server/contact_models/force_models.h"
 #include "haptic_server/coupling/couplings.h"
 #include "haptic_server/device/haptic_device.h"
-#include "haptic_server/exchange/edit_queue.h"
+#include "haptic_server/exchange/change_queue.h"
 #include "haptic_server/loop/force_log.h"
 #include "haptic_server/loop/haptic_loop.h"
 #include "haptic_server/loop/milling_loop.h"
@@ -43,8 +43,8 @@ struct MillingSessionOptions {
     std::string force_model =
         force_model_names().front();  ///< one without a cutting law: not with "implicit"
     double duration_s = std::numeric_limits<double>::infinity();
-    /// Somebody consumes edits() while the session runs. If not, the session empties the queue itself.
-    bool edits_are_consumed = false;
+    /// Somebody consumes changes() while the session runs. If not, the session empties the queue itself.
+    bool changes_are_consumed = false;
     /// Processors that the loops are bound to, of those that this process may use; absent: the system's
     /// choice.
     std::optional<int> haptic_cpu{};
@@ -60,7 +60,7 @@ struct MillingSessionReport {
     double most_energy_to_hand_mj = 0.0;  ///< net energy that the force gave the hand, the most that it was
     SolveCounts solve;                    ///< of a coupling that solves
     std::array<std::uint64_t, HapticLoop::fault_kinds> fault_counts{};  ///< index = Fault
-    std::uint64_t edit_overflows = 0;
+    std::uint64_t change_overflows = 0;
     std::uint64_t bone_checksum = 0;
     bool real_time_priority = false;  ///< the haptic loop ran under SCHED_FIFO
     bool memory_locked = false;       ///< no page can have been away
@@ -75,7 +75,7 @@ class MillingSession {
     /// Ticks after which a loop has touched what it works with.
     static constexpr std::uint64_t settling_ticks = 100;
     /// Half a second of the heaviest carving (5 mm burr at 1 kHz).
-    static constexpr std::size_t edit_queue_runs = 1u << 18;
+    static constexpr std::size_t change_queue_bytes = std::size_t{1} << 22;
 
     /// `device` and the logs (may be null) outlive the session. Throws std::invalid_argument for a milling
     /// rate out of range, a processor that this process may not use, an unknown coupling or force model, a
@@ -84,13 +84,13 @@ class MillingSession {
                    ForceLog* log = nullptr, MillingLog* milling_log = nullptr);
 
     /// For the streaming server: the tool's newest state (the start pose before the first tick), and the
-    /// edits in order (each one reader).
+    /// changes in order (each one reader).
     TripleBuffer<ToolState>& tool() { return tool_; }
-    EditQueue& edits() { return edits_; }
+    ChangeQueue& changes() { return changes_; }
 
     /// Starts the device, runs until the duration has passed or `stop` is set, stops the device. Calls
     /// `on_progress`, if given, on the caller's thread: about every 20 ms, on the virtual clock every 33 ms
-    /// of the session, where it may consume the edits. Throws what device.start() throws. Runs once.
+    /// of the session, where it may consume the changes. Throws what device.start() throws. Runs once.
     void run(const std::atomic<bool>& stop, const std::function<void(const ToolState&)>& on_progress = {});
 
     /// After run().
@@ -111,6 +111,7 @@ class MillingSession {
                         const std::function<void(const ToolState&)>& on_progress);
     void take_turns(const std::atomic<bool>& stop, const std::function<void(const ToolState&)>& on_progress);
     void do_chores(const std::function<void(const ToolState&)>& on_progress);
+    void drop_changes_nobody_wants();
     void wait_for_room_in_queue(const std::atomic<bool>& stop,
                                 const std::function<void(const ToolState&)>& on_progress);
     void send_what_overflowed();
@@ -121,7 +122,7 @@ class MillingSession {
     MillingLog* milling_log_;
     std::unique_ptr<ForceModel> model_;
     std::unique_ptr<Coupling> coupling_;
-    EditQueue edits_;
+    ChangeQueue changes_;
     TripleBuffer<MillingResult> results_;
     TripleBuffer<BurrCommand> commands_;
     TripleBuffer<ToolState> tool_;

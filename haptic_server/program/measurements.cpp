@@ -82,7 +82,7 @@ nlohmann::ordered_json measurements(const MillingSessionReport& report, const Bo
                      {"damped", report.solve.damped}};
     json["energy_to_hand_mj"] = {{"most", report.most_energy_to_hand_mj}};
     json["faults"] = faults(report);
-    json["edit_overflows"] = report.edit_overflows;
+    json["edit_overflows"] = report.change_overflows;
     json["bone"] = cost(bone, peak_resident_bytes);
     json["bone_checksum"] = fmt::format("{:016x}", report.bone_checksum);
     json["histograms_us"] = {{"wakeup_latency", histogram_us(report.haptic.wakeup_latency)},

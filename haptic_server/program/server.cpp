@@ -132,7 +132,7 @@ Streaming make_streaming(StreamingOptions wanted, const ServerOptions& options, 
     if (options.record)
         wanted.record = RecordTo{.file = *options.record, .began = std::chrono::system_clock::now()};
     Streaming streaming;
-    streaming.shown = std::make_unique<LiveSession>(session.tool(), session.edits());
+    streaming.shown = std::make_unique<LiveSession>(session.tool(), session.changes());
     SessionInfo info =
         session_info(scene, device.operator_channel != nullptr, device.device->limits().max_force_n, version);
     streaming.server =
@@ -225,7 +225,7 @@ void run_server(const ServerOptions& options, const std::string& version, const 
 
     MillingSessionOptions session_options = options.session;
     const bool is_shown = options.listen || options.record;
-    session_options.edits_are_consumed = is_shown;
+    session_options.changes_are_consumed = is_shown;
     std::optional<Bone> mirror;
     if (is_shown) mirror = bone;
     const auto session =

@@ -124,9 +124,9 @@ void ClientFeed::add_edits(v1::ServerFrame& frame, std::size_t most_bytes) {
     v1::StateFrame& state = *frame.mutable_state();
     std::size_t bytes = frame.ByteSizeLong() + room_for_tags_and_checksums;
     while (!pending_.empty()) {
-        const auto [brick, mask] = pending_.next();
-        const std::int32_t slot = mirror_.bone().slot(brick);
-        v1::BrickEdit edit = brick_edit(brick, mirror_.bone().fractions(slot), mask);
+        const BrickChange change = pending_.next();
+        const std::int32_t slot = mirror_.bone().slot(change.brick);
+        v1::BrickEdit edit = brick_edit(change, mirror_.bone().fractions(slot));
         constexpr std::size_t tag_and_length = 4;
         bytes += edit.ByteSizeLong() + tag_and_length;
         if (bytes > most_bytes && state.edits_size() > 0) return;

@@ -18,8 +18,10 @@ SessionInfo session_info(const Scene& scene, bool accepts_operator, double force
 
 ToolState LiveSession::update(BoneReplica& mirror, std::size_t) {
     std::size_t refused = 0;
-    edits_.consume_all([&](const EditRun& run) { refused += mirror.apply(run) ? 0 : 1; });
-    if (refused > 0) spdlog::error("{} edits do not fit the bone that clients are shown", refused);
+    changes_.consume_all([&](const BrickChange& change, BrickFractions fractions) {
+        refused += mirror.apply(change, fractions) ? 0 : 1;
+    });
+    if (refused > 0) spdlog::error("{} changes do not fit the bone that clients are shown", refused);
     tool_.refresh();
     return tool_.front();
 }

@@ -4,7 +4,7 @@
 #include "common/scene/scene.h"
 #include "common/scene/tool_state.h"
 #include "common/wire/session_info.h"
-#include "haptic_server/exchange/edit_queue.h"
+#include "haptic_server/exchange/change_queue.h"
 #include "haptic_server/exchange/triple_buffer.h"
 #include "haptic_server/streaming/stream_source.h"
 
@@ -14,15 +14,15 @@ namespace osteomill {
 SessionInfo session_info(const Scene& scene, bool accepts_operator, double force_limit_n,
                          std::string program_version);
 
-/// The one reader of `tool` and the one consumer of `edits`; both outlive it. Never waits for the loops.
+/// The one reader of `tool` and the one consumer of `changes`; both outlive it. Never waits for the loops.
 class LiveSession final : public StreamSource {
   public:
-    LiveSession(TripleBuffer<ToolState>& tool, EditQueue& edits) : tool_(tool), edits_(edits) {}
+    LiveSession(TripleBuffer<ToolState>& tool, ChangeQueue& changes) : tool_(tool), changes_(changes) {}
     ToolState update(BoneReplica& mirror, std::size_t viewers) override;
 
   private:
     TripleBuffer<ToolState>& tool_;
-    EditQueue& edits_;
+    ChangeQueue& changes_;
 };
 
 }  // namespace osteomill

@@ -23,7 +23,7 @@ void PendingChanges::add_whole(BrickIndex brick) {
 
 BrickChange PendingChanges::next() const {
     const auto& [brick, mask] = *turn();
-    return {brick, mask ? *mask : VoxelMask().set()};
+    return {brick, mask ? *mask : VoxelMask().set_all()};
 }
 
 void PendingChanges::sent() {

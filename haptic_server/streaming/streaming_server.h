@@ -46,8 +46,8 @@ class StreamingServer {
     // The end, in three steps, so that whoever has something to save need not wait for clients nor a disk.
     // Each takes those before it first, and does nothing the second time.
 
-    /// Call after the milling loop has ended: takes over the last edits, and begins to send every client the
-    /// final state with its checksum and a goodbye.
+    /// Call after the milling loop has ended: takes over the last changes, and begins to send every client
+    /// the final state with its checksum and a goodbye.
     void end();
     /// Waits until the recording is written, or cannot be.
     void finish_recording();

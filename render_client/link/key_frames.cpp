@@ -52,8 +52,7 @@ void KeyFrames::wind_back(Playhead& playhead, double time_s) const {
     playhead.go_back_to(marks_[key]);
 }
 
-void KeyFrames::keep(BrickIndex brick, std::span<const std::uint8_t, brick_voxel_count> fractions,
-                     std::size_t key) {
+void KeyFrames::keep(BrickIndex brick, BrickFractions fractions, std::size_t key) {
     const auto compressed = compressor_.compress(fractions);
     memory_bytes_ += compressed.size() + sizeof(Version);
     versions_[brick].push_back({key, {compressed.begin(), compressed.end()}});

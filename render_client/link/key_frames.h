@@ -42,7 +42,7 @@ class KeyFrames {
         std::size_t key = 0;  // index in marks_
         std::vector<std::uint8_t> compressed;
     };
-    void keep(BrickIndex brick, std::span<const std::uint8_t, brick_voxel_count> fractions, std::size_t key);
+    void keep(BrickIndex brick, BrickFractions fractions, std::size_t key);
 
     std::vector<Playhead::Mark> marks_;                    // ascending in time
     std::map<BrickIndex, std::vector<Version>> versions_;  // ascending in key

@@ -27,19 +27,14 @@ class NamedModel final : public StudiedModel {
         : model_(make_force_model(name, std::move(bone), {burr}, {})) {}
 
     StepOutcome step(const BurrCommand& command) override {
-        model_->step(command, 0.0, edits_, *result_);
+        model_->step(command, 0.0, changes_, *result_);
         return {result_->force_n, result_->removed_mm3};
     }
     const Bone& bone() const override { return model_->bone(); }
 
   private:
-    class NoEdits final : public EditSink {
-      public:
-        void push(const EditRun&) noexcept override {}
-    };
-
     std::unique_ptr<ForceModel> model_;
-    NoEdits edits_;
+    ForgottenChanges changes_;
     std::unique_ptr<MillingResult> result_ = std::make_unique<MillingResult>();
 };
 

@@ -6,11 +6,6 @@ namespace osteomill::study {
 
 namespace {
 
-class NoEdits final : public EditSink {
-  public:
-    void push(const EditRun&) noexcept override {}
-};
-
 class VoxelModel final : public StudiedModel {
   public:
     VoxelModel(Bone bone, const Burr& burr, const MillingSettings& settings, bool wants_engagement)
@@ -19,7 +14,7 @@ class VoxelModel final : public StudiedModel {
     StepOutcome step(const BurrCommand& command) override {
         BurrCommand wanted = command;
         wanted.wants_engagement = wants_engagement_;
-        model_.step(wanted, 0.0, edits_, *result_);
+        model_.step(wanted, 0.0, changes_, *result_);
         return {result_->force_n, result_->removed_mm3};
     }
     const Bone& bone() const override { return model_.bone(); }
@@ -27,7 +22,7 @@ class VoxelModel final : public StudiedModel {
   private:
     MillingModel model_;
     bool wants_engagement_;
-    NoEdits edits_;
+    ForgottenChanges changes_;
     std::unique_ptr<MillingResult> result_ = std::make_unique<MillingResult>();  // too large for a stack
 };
 

@@ -103,8 +103,8 @@ Rate rate_of(const Scene& scene, const Bone& bone, HapticDevice& device, Edits e
     const auto session = std::make_unique<MillingSession>(
         scene, bone, device,
         MillingSessionOptions{
-            .clock = ClockKind::virtual_time, .duration_s = to_s, .edits_are_consumed = true});
-    LiveSession shown(session->tool(), session->edits());
+            .clock = ClockKind::virtual_time, .duration_s = to_s, .changes_are_consumed = true});
+    LiveSession shown(session->tool(), session->changes());
     BoneReplica mirror(bone);
     SnapshotPacker packer;
     ClientFeed feed(to_message(session_info(scene, false, 3.3, "")), mirror, packer);
@@ -203,9 +203,9 @@ class SteppingDevice final : public HapticDevice {
 void measure_motion(Scene scene, const Bone& bone) {
     scene.device = {};
     SteppingDevice device(scene.start_pose.position_mm);
-    const auto session = std::make_unique<MillingSession>(scene, bone, device,
-                                                          MillingSessionOptions{.edits_are_consumed = true});
-    LiveSession shown(session->tool(), session->edits());
+    const auto session = std::make_unique<MillingSession>(
+        scene, bone, device, MillingSessionOptions{.changes_are_consumed = true});
+    LiveSession shown(session->tool(), session->changes());
     StreamingServer server({.port = 0}, session_info(scene, false, 3.3, ""), bone, shown);
     server.start();
     std::atomic<bool> is_over{false};

@@ -134,15 +134,15 @@ void LoopAtTenKilohertz(benchmark::State& state) {
     MillingModel model(volume(), {Burr{}}, {});
     TripleBuffer<BurrCommand> commands;
     const auto results = std::make_unique<TripleBuffer<MillingResult>>();
-    EditQueue edits(1u << 18, model.bone().shared_content());
-    MillingLoop loop({.model = model, .commands = commands, .results = *results, .edits = edits}, 0.001);
+    ChangeQueue changes(std::size_t{1} << 22, model.bone().shared_content());
+    MillingLoop loop({.model = model, .commands = commands, .results = *results, .changes = changes}, 0.001);
     Way way(0.1 * static_cast<double>(state.range(0)), 1000.0);
     double time_s = 0.0;
     const auto tick = [&] {
         commands.back() = way.next();
         commands.publish();
         for (int step = 0; step < 10; ++step) loop.step(time_s += 1e-4, 1e-4);
-        edits.consume_all([](const EditRun&) {});
+        changes.consume_all([](const BrickChange&, BrickFractions) {});
     };
     tick();
     for ([[maybe_unused]] auto _ : state)

@@ -17,10 +17,10 @@ constexpr double feed_mm_per_s = 6.0;
 constexpr double circle_radius_mm = 1.5;
 constexpr std::size_t five_mm_burr = 5;
 
-class CarvedVoxels final : public EditSink {
+class CarvedVoxels final : public ChangeSink {
   public:
-    void push(const EditRun& run) noexcept override {
-        for (std::size_t i = 0; i < run.count; ++i) by_brick[run.brick].set(run.first_voxel + i);
+    void push(const BrickChange& change, BrickFractions) noexcept override {
+        by_brick[change.brick] |= change.voxels;
     }
     std::map<BrickIndex, VoxelMask> by_brick;
 };

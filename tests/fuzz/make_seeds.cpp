@@ -40,11 +40,10 @@ std::vector<std::string> session_frames(const Bone& bone, bool packed = false) {
     };
     drain();
     for (int i = 0; i < 4; ++i) {
-        mirror.apply(EditRun{.brick = 0,
-                             .first_voxel = static_cast<std::uint16_t>(16 * i),
-                             .count = 9,
-                             .fraction = {90, 80, 70, 60, 50, 40, 30, 20, 10}});
-        feed.note(mirror.take_changes());
+        const std::size_t first = 16 * static_cast<std::size_t>(i);
+        ByteBrick left{};
+        for (std::size_t k = 0; k < 9; ++k) left[first + k] = static_cast<std::uint8_t>(90 - 10 * k);
+        if (mirror.apply({0, VoxelMask().set_run(first, 9)}, left)) feed.note(mirror.take_changes());
         feed.request_state({.time_s = 0.04 * i,
                             .burr_position_mm = {0.1 * i, 0.0, 0.0},
                             .force_n = {0.1 * i, 0.0, -0.2},

@@ -64,11 +64,6 @@ void require_possible(const OperatorCommand& command, std::size_t burrs) {
     require(command.burr < burrs, "a burr that is not there");
 }
 
-/// What the milling loop tells meanwhile: the first brick goes, voxel by voxel.
-EditRun run_milled_at(std::size_t step) {
-    return {.brick = 0, .first_voxel = static_cast<std::uint16_t>(step % brick_voxel_count), .count = 1};
-}
-
 }  // namespace
 
 void server_session(Bytes input) {
@@ -115,9 +110,10 @@ void server_session(Bytes input) {
         stream_bytes = stream_bytes.subspan(piece.size());
         stream->arrive(piece);
         if (output.refresh() && output.front()) require_possible(*output.front(), info.burrs.size());
-        const EditRun milled = run_milled_at(++states);
-        apply(milled, carved);
-        mirror.apply(milled);
+        // What the milling loop does meanwhile: the first brick goes, voxel by voxel.
+        const std::size_t voxel = ++states % brick_voxel_count;
+        carved.fractions(0)[voxel] = 0;
+        require(mirror.apply({0, VoxelMask().set(voxel)}, carved.fractions(0)), "a mirror refused a change");
         session->feed().note(mirror.take_changes());
         session->show({.time_s = 0.03 * static_cast<double>(states)}, states % 30 == 0);
         if (reads_all) stream->let_write();

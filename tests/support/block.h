@@ -2,7 +2,6 @@
 #pragma once
 
 #include "common/bone/bone_builder.h"
-#include "common/bone/edit.h"
 
 namespace osteomill::testing {
 
@@ -27,11 +26,5 @@ inline Bone make_block(const glm::dvec3& low_mm, const glm::dvec3& high_mm, doub
             }
     return std::move(builder).build();
 }
-
-/// An edit sink that forgets.
-class NoEdits final : public EditSink {
-  public:
-    void push(const EditRun&) noexcept override {}
-};
 
 }  // namespace osteomill::testing

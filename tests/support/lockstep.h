@@ -27,7 +27,7 @@ class Lockstep {
                          .spindle_on = spindle_on,
                          .burr = 0,
                          .elapsed_s = tick_s * ticks_per_step_},
-                        hand.now_s, edits_, *result_);
+                        hand.now_s, changes_, *result_);
         return output;
     }
 
@@ -39,7 +39,7 @@ class Lockstep {
   private:
     Coupling& coupling_;
     MillingModel model_;
-    NoEdits edits_;
+    ForgottenChanges changes_;
     std::unique_ptr<MillingResult> result_ = std::make_unique<MillingResult>();
     int ticks_per_step_;
     int ticks_ = 0;

@@ -15,6 +15,7 @@
 #include "common/wire/scene_messages.h"
 #include "haptic_server/streaming/session_recorder.h"
 #include "tests/support/random_carving.h"
+#include "tests/support/replica_sink.h"
 #include "tests/support/speckled_bone.h"
 
 namespace osteomill::testing {
@@ -46,16 +47,11 @@ inline SessionInfo recorded_session_info() {
 
 inline MadeRecording make_recording(const std::filesystem::path& file,
                                     const MadeRecordingOptions& options = {}) {
-    struct ToMirror final : EditSink {
-        explicit ToMirror(BoneReplica& into) : mirror(into) {}
-        void push(const EditRun& run) noexcept override { mirror.apply(run); }
-        BoneReplica& mirror;
-    };
     std::mt19937 random(options.seed);
     Bone bone = make_speckled_bone(random, {.grid = {.size_voxels = {64, 48, 32}}});
     MadeRecording made{bone, bone, {}};
     BoneReplica mirror(bone);
-    ToMirror edits(mirror);
+    ReplicaSink to_mirror(mirror);
     SnapshotPacker packer;
     SessionInfo session = recorded_session_info();
     session.protocol_major = options.protocol_major;
@@ -64,7 +60,7 @@ inline MadeRecording make_recording(const std::filesystem::path& file,
     ToolState tool;
     for (int i = 0; i < options.states; ++i) {
         if (i > 0)
-            for (int run = 0; run < 10; ++run) carve_somewhere(made.after, random, edits);
+            for (int run = 0; run < 10; ++run) carve_somewhere(made.after, random, to_mirror);
         recorder->note(mirror.take_changes());
         tool.time_s = MadeRecording::period_s * i;
         tool.spindle_on = i % 2 == 1;

@@ -3,24 +3,25 @@
 
 #include <random>
 
-#include "common/bone/edit.h"
+#include "common/bone/brick_change.h"
 
 namespace osteomill::testing {
 
 /// Carves one run at a random place of the bone and reports it.
-inline void carve_somewhere(Bone& bone, std::mt19937& random, EditSink& sink) {
+inline void carve_somewhere(Bone& bone, std::mt19937& random, ChangeSink& sink) {
     const auto slot = static_cast<std::int32_t>(random() % bone.stored_bricks());
-    EditRun run{.brick = bone.content().brick_of_slot[static_cast<std::size_t>(slot)],
-                .first_voxel = static_cast<std::uint16_t>(random() % brick_voxel_count)};
-    const int room = brick_edge_voxels - run.first_voxel % brick_edge_voxels;
-    run.count = static_cast<std::uint8_t>(1 + random() % static_cast<unsigned>(room));
-    for (std::size_t i = 0; i < run.count; ++i) {
-        const unsigned left = bone.fractions(slot)[run.first_voxel + i];
-        run.fraction[i] =
+    const auto fractions = bone.fractions(slot);
+    const std::size_t first = random() % brick_voxel_count;
+    const std::size_t room = brick_edge_voxels - first % brick_edge_voxels;
+    const std::size_t count = 1 + random() % room;
+    for (std::size_t voxel = first; voxel < first + count; ++voxel) {
+        const unsigned left = fractions[voxel];
+        fractions[voxel] =
             random() % 4 == 0 ? std::uint8_t{0} : static_cast<std::uint8_t>(random() % (left + 1));
     }
-    apply(run, bone);
-    sink.push(run);
+    sink.push(
+        {bone.content().brick_of_slot[static_cast<std::size_t>(slot)], VoxelMask().set_run(first, count)},
+        fractions);
 }
 
 }  // namespace osteomill::testing

@@ -20,7 +20,7 @@ class ServedBone {
                         std::shared_ptr<TlsContext> tls = nullptr)
         : random_(seed),
           bone_(make_speckled_bone(random_, {.grid = {.size_voxels = {160, 128, 64}}})),
-          edits_(1 << 14, bone_.shared_content()) {
+          changes_(1 << 18, bone_.shared_content()) {
         Scene scene;
         scene.name = "test scene";
         scene.burrs = {Burr{.name = "round 1.5", .diameter_mm = 1.5}, Burr{.name = "round 5"}};
@@ -54,8 +54,8 @@ class ServedBone {
     }
     /// While no thread carves.
     void carve(int runs) {
-        for (int i = 0; i < runs; ++i) carve_somewhere(bone_, random_, edits_);
-        edits_.resend_overflowed(bone_);
+        for (int i = 0; i < runs; ++i) carve_somewhere(bone_, random_, changes_);
+        changes_.resend_overflowed(bone_);
         ToolState tool;
         tool.time_s = time_s_ += 0.001;
         tool.force_n = {0.5, 0.0, 0.0};
@@ -67,8 +67,8 @@ class ServedBone {
         if (!server_) return;
         stop_carving();
         eventually([this] {
-            edits_.resend_overflowed(bone_);
-            return !edits_.has_overflowed();
+            changes_.resend_overflowed(bone_);
+            return !changes_.has_overflowed();
         });
         server_->stop();
         mirror_checksum_ = server_->mirror_checksum();
@@ -89,9 +89,9 @@ class ServedBone {
   private:
     std::mt19937 random_;
     Bone bone_;
-    EditQueue edits_;
+    ChangeQueue changes_;
     TripleBuffer<ToolState> tool_;
-    LiveSession shown_{tool_, edits_};
+    LiveSession shown_{tool_, changes_};
     OperatorChannel operator_;
     double time_s_ = 0.0;
     std::unique_ptr<StreamingServer> server_;

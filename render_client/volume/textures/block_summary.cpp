@@ -47,7 +47,7 @@ std::uint64_t top_bits(std::uint32_t four) {
 
 }  // namespace
 
-BrickSummary summary_of_brick(std::span<const std::uint8_t, brick_voxel_count> fractions) {
+BrickSummary summary_of_brick(BrickFractions fractions) {
     BrickSummary summary;
     std::size_t block = 0;
     for (int z = 0; z < brick_edge_voxels; z += block_edge_voxels)

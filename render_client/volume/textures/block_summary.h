@@ -26,7 +26,7 @@ struct BrickSummary {
     std::array<std::uint8_t, blocks_per_brick> mean_fraction{};  ///< rounded down
 };
 
-BrickSummary summary_of_brick(std::span<const std::uint8_t, brick_voxel_count> fractions);
+BrickSummary summary_of_brick(BrickFractions fractions);
 
 /// Offset of the neighbour that a bit of BlockReach (0 to 26) stands for.
 constexpr glm::ivec3 neighbour_of_bit(int bit) {

@@ -18,11 +18,10 @@ std::vector<VoxelBox> changed_boxes(const BoneContent& content, std::span<const 
         if (content.slot_of_brick.find(brick) == BoneContent::no_slot || voxels.none()) continue;
         glm::ivec3 low(brick_edge_voxels);
         glm::ivec3 high(-1);
-        for (std::size_t offset = voxels._Find_first(); offset < brick_voxel_count;
-             offset = voxels._Find_next(offset)) {
+        voxels.for_each([&](std::size_t offset) {
             low = glm::min(low, voxel_in_brick(offset));
             high = glm::max(high, voxel_in_brick(offset));
-        }
+        });
         low.x -= low.x % group_voxels;
         high.x += group_voxels - 1 - high.x % group_voxels;
         const glm::ivec3 first = brick_position(content.size_bricks, brick) * brick_edge_voxels;

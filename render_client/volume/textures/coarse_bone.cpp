@@ -120,10 +120,10 @@ std::span<const BrickChange> CoarseBone::update(const Bone& fine, std::span<cons
             brick_index(bone_.content().size_bricks, coarse_brick_of(content, index, coarsening_));
         average_fractions(fine, brick, fine_slot, coarsening_, bone_.fractions(bone_.slot(coarse)));
         VoxelMask& coarse_voxels = changed[coarse];
-        for (std::size_t offset = voxels._Find_first(); offset < brick_voxel_count;
-             offset = voxels._Find_next(offset))
+        voxels.for_each([&](std::size_t offset) {
             coarse_voxels.set(
                 offset_in_brick((brick * brick_edge_voxels + voxel_in_brick(offset)) / coarsening_));
+        });
     }
     changed_.clear();
     for (const auto& [brick, voxels] : changed) changed_.push_back({brick, voxels});

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "common/bone/bone_builder.h"
-#include "common/bone/edit.h"
+#include "common/bone/brick_change.h"
 #include "haptic_server/contact_models/milling_model.h"
 #include "haptic_server/device/arm_model.h"
 
@@ -14,11 +14,6 @@ namespace osteomill::study {
 namespace {
 
 constexpr double margin_mm = 0.5;
-
-class NoEdits final : public EditSink {
-  public:
-    void push(const EditRun&) noexcept override {}
-};
 
 /// Every voxel of the box is full. Its faces lie on multiples of the voxel.
 Bone full_block(const glm::dvec3& low_mm, const glm::dvec3& high_mm, double relative_stiffness) {
@@ -62,12 +57,12 @@ Bone scene_bone(const ScenePlan& plan, bool has_encoders) {
     const double step_mm = ArmModel{}.resolution_mm;
     const glm::dvec3 end_as_read_mm = has_encoders ? step_mm * glm::round(end_mm / step_mm) : end_mm;
     const std::array slot_mm{end_mm - glm::dvec3(2.0 * beside_mm, 0.0, 0.0), end_mm, end_as_read_mm};
-    NoEdits edits;
+    ForgottenChanges changes;
     const auto result = std::make_unique<MillingResult>();
     for (const glm::dvec3& to_mm : slot_mm)
         model.step(
             {.pose = {.position_mm = to_mm}, .spindle_on = true, .elapsed_s = 1.0, .wants_engagement = false},
-            0.0, edits, *result);
+            0.0, changes, *result);
     return model.bone();
 }
 

@@ -6,7 +6,7 @@
 #include <memory>
 #include <numeric>
 
-#include "common/bone/edit.h"
+#include "common/bone/brick_change.h"
 #include "haptic_server/contact_models/milling_model.h"
 #include "haptic_server/device/simulated_device.h"
 #include "haptic_server/loop/milling_session.h"
@@ -62,16 +62,11 @@ class SiteDevice final : public HapticDevice {
     std::vector<SiteTick> record_;
 };
 
-class NoEdits final : public EditSink {
-  public:
-    void push(const EditRun&) noexcept override {}
-};
-
 /// The milling model's mean force in each tick along a path of the record, with the record's spindle.
 void mill_along(const Bone& bone, const Burr& burr, std::vector<SiteTick>& ticks,
                 glm::dvec3 SiteTick::*path_mm, int steps_per_tick, glm::dvec3 SiteTick::*force_n) {
     MillingModel model(bone, {burr}, {});
-    NoEdits edits;
+    ForgottenChanges changes;
     const auto result = std::make_unique<MillingResult>();
     const double step_s = tick_s / steps_per_tick;
     for (std::size_t i = 0; i < ticks.size(); ++i) {
@@ -84,7 +79,7 @@ void mill_along(const Bone& bone, const Burr& burr, std::vector<SiteTick>& ticks
                         .spindle_on = ticks[i].spindle_on,
                         .elapsed_s = step_s,
                         .wants_engagement = false},
-                       tick_s * static_cast<double>(i), edits, *result);
+                       tick_s * static_cast<double>(i), changes, *result);
             sum_n += result->force_n;
         }
         ticks[i].*force_n = sum_n / static_cast<double>(steps_per_tick);

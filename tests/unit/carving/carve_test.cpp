@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <random>
+#include <utility>
 #include <vector>
 
 #include "tests/support/block.h"
@@ -12,7 +13,6 @@ namespace osteomill {
 namespace {
 
 using testing::make_block;
-using testing::NoEdits;
 
 constexpr double spacing_mm = 0.1;
 constexpr double radius_mm = 1.0;
@@ -36,11 +36,11 @@ class Count final : public RemovalSink {
 };
 
 void carve_path(Bone& bone, const std::vector<glm::dvec3>& path_mm) {
-    NoEdits edits;
+    ForgottenChanges changes;
     Count removed;
     for (std::size_t i = 0; i + 1 < path_mm.size(); ++i)
         carve(bone, in_voxels(bone, path_mm[i], path_mm[i + 1]),
-              i == 0 ? CarveHistory::none : CarveHistory::carved_at_from, {}, edits, removed);
+              i == 0 ? CarveHistory::none : CarveHistory::carved_at_from, {}, changes, removed);
 }
 
 std::vector<glm::dvec3> subdivided(const std::vector<glm::dvec3>& path, int parts) {
@@ -57,10 +57,10 @@ TEST(Carve, RemovesTheSweptVolumeWithinAHalfPercent) {
     for (const glm::dvec3 to : {glm::dvec3(0.0), glm::dvec3(1.5, 0.0, 0.0), glm::dvec3(0.7, -1.1, 0.9)}) {
         Bone bone = block();
         const double before = bone_volume_mm3(bone);
-        NoEdits edits;
+        ForgottenChanges changes;
         Count removed;
         const glm::dvec3 from(-0.033, 0.021, 0.017);
-        carve(bone, in_voxels(bone, from, to), CarveHistory::none, {}, edits, removed);
+        carve(bone, in_voxels(bone, from, to), CarveHistory::none, {}, changes, removed);
         const double swept = volume(Sweep{from, to, radius_mm});
         EXPECT_NEAR((before - bone_volume_mm3(bone)) / swept, 1.0, 0.005);
     }
@@ -97,16 +97,16 @@ TEST(Carve, CrescentAloneEqualsTheFullSearch) {
     std::uniform_real_distribution<double> step(-0.15, 0.15);
     Bone crescent = block();
     Bone full = block();
-    NoEdits edits;
+    ForgottenChanges changes;
     Count removed;
     glm::dvec3 from(0.0);
-    carve(crescent, in_voxels(crescent, from, from), CarveHistory::none, {}, edits, removed);
-    carve(full, in_voxels(full, from, from), CarveHistory::none, {}, edits, removed);
+    carve(crescent, in_voxels(crescent, from, from), CarveHistory::none, {}, changes, removed);
+    carve(full, in_voxels(full, from, from), CarveHistory::none, {}, changes, removed);
     for (int i = 0; i < 400; ++i) {
         const glm::dvec3 to =
             glm::clamp(from + glm::dvec3(step(random), step(random), i % 3 ? step(random) : 0.0), -3.5, 3.5);
-        carve(crescent, in_voxels(crescent, from, to), CarveHistory::carved_at_from, {}, edits, removed);
-        carve(full, in_voxels(full, from, to), CarveHistory::none, {}, edits, removed);
+        carve(crescent, in_voxels(crescent, from, to), CarveHistory::carved_at_from, {}, changes, removed);
+        carve(full, in_voxels(full, from, to), CarveHistory::none, {}, changes, removed);
         from = to;
     }
     EXPECT_EQ(checksum(crescent), checksum(full));
@@ -143,14 +143,14 @@ TEST(Carve, LeavesOfEachVoxelWhatTheFormulaSays) {
             for (const InstructionSet instructions : {InstructionSet::plain, best_instruction_set()}) {
                 Bone bone = make_block({0.0, 0.0, 0.0}, {3.5, 3.3, 3.4}, spacing_mm);
                 Bone expected = bone;
-                NoEdits edits;
+                ForgottenChanges changes;
                 Count removed;
                 for (int i = 0; i < 6; ++i) {
                     const glm::dvec3 hit = glm::dvec3(part(random), part(random), part(random)) * 33.0;
                     const glm::dvec3 from = hit - radius * glm::normalize(glm::dvec3(1.0, 2.0, part(random)));
                     const glm::dvec3 to = from + glm::dvec3(step(random), step(random), step(random));
                     carve(bone, {from, to, radius}, CarveHistory::none,
-                          {.coverage = coverage, .instructions = instructions}, edits, removed);
+                          {.coverage = coverage, .instructions = instructions}, changes, removed);
                     carve_voxel_by_voxel(expected, {from, to, radius}, coverage);
                 }
                 EXPECT_EQ(checksum(bone), checksum(expected)) << "radius " << radius << " voxels";
@@ -158,28 +158,40 @@ TEST(Carve, LeavesOfEachVoxelWhatTheFormulaSays) {
             }
 }
 
-TEST(Carve, EditsRebuildTheBoneInAnotherCopy) {
-    class Apply final : public EditSink {
+TEST(Carve, ChangesRebuildTheBoneInAnotherCopy) {
+    class Apply final : public ChangeSink {
       public:
         explicit Apply(Bone& copy) : copy_(copy) {}
-        void push(const EditRun& run) noexcept override {
-            refused_ += apply(run, copy_) != EditOutcome::applied;
+        void push(const BrickChange& change, BrickFractions fractions) noexcept override {
+            EXPECT_TRUE(change.voxels.any());
+            expect_rows_end_where_bone_went(change, fractions);
+            EXPECT_TRUE(apply(change, fractions, copy_));
         }
-        int refused() const { return refused_; }
 
       private:
+        /// What lies between two voxels that lost bone may be in a change, nothing beyond them.
+        void expect_rows_end_where_bone_went(const BrickChange& change, BrickFractions fractions) const {
+            const BrickFractions before = std::as_const(copy_).fractions(copy_.slot(change.brick));
+            const auto is_in_row_and_set = [&](std::size_t row, std::size_t voxel) {
+                return voxel / brick_edge_voxels == row && change.voxels[voxel];
+            };
+            change.voxels.for_each([&](std::size_t voxel) {
+                const std::size_t row = voxel / brick_edge_voxels;
+                if (is_in_row_and_set(row, voxel - 1) && is_in_row_and_set(row, voxel + 1)) return;
+                EXPECT_LT(fractions[voxel], before[voxel]);
+            });
+        }
+
         Bone& copy_;
-        int refused_ = 0;
     };
     Bone bone = block();
     Bone copy = bone;
-    Apply edits(copy);
+    Apply changes(copy);
     const auto fine = subdivided(zigzag, 40);
     Count removed_levels;
     for (std::size_t i = 0; i + 1 < fine.size(); ++i)
-        carve(bone, in_voxels(bone, fine[i], fine[i + 1]), CarveHistory::carved_at_from, {}, edits,
+        carve(bone, in_voxels(bone, fine[i], fine[i + 1]), CarveHistory::carved_at_from, {}, changes,
               removed_levels);
-    EXPECT_EQ(edits.refused(), 0);
     EXPECT_EQ(checksum(copy), checksum(bone));
     const double removed = bone_volume_mm3(block()) - bone_volume_mm3(bone);
     EXPECT_NEAR(removed_levels.levels / 255.0 * voxel_volume_mm3(bone.grid()), removed, 1e-9);

@@ -16,7 +16,6 @@ namespace osteomill::eroding_model_test {
 namespace {
 
 using testing::make_block;
-using testing::NoEdits;
 
 const Burr two_mm{.name = "2 mm", .diameter_mm = 2.0};
 
@@ -41,7 +40,7 @@ class EveryErodingModel : public ::testing::TestWithParam<std::string> {
         return make_force_model(GetParam(), std::move(bone), {two_mm, {.name = "1 mm", .diameter_mm = 1.0}},
                                 tissues);
     }
-    void step(ForceModel& model, const BurrCommand& command) { model.step(command, 0.0, edits, *result); }
+    void step(ForceModel& model, const BurrCommand& command) { model.step(command, 0.0, changes, *result); }
 
     /// What a pass through the block removes in steps of that many a second, mm^3.
     double removed_by_a_pass(double rate_hz) {
@@ -53,7 +52,7 @@ class EveryErodingModel : public ::testing::TestWithParam<std::string> {
         return result->total_removed_mm3;
     }
 
-    NoEdits edits;
+    ForgottenChanges changes;
     std::unique_ptr<MillingResult> result = std::make_unique<MillingResult>();
 };
 
@@ -158,12 +157,12 @@ INSTANTIATE_TEST_SUITE_P(ErodingModels, EveryErodingModel, ::testing::ValuesIn(e
                          });
 
 TEST(ErodingModel, LeavesCoveredBoneFiftyMilliseconds) {
-    NoEdits edits;
+    ForgottenChanges changes;
     const auto result = std::make_unique<MillingResult>();
     ErodingModel model(block(), {two_mm}, {}, std::make_unique<VoxelTool>());
-    for (int i = 0; i < 49; ++i) model.step(at({0.0, 0.0, 0.5}, true), 0.0, edits, *result);
+    for (int i = 0; i < 49; ++i) model.step(at({0.0, 0.0, 0.5}, true), 0.0, changes, *result);
     EXPECT_GT(result->force_n.z, 0.0);
-    for (int i = 0; i < 2; ++i) model.step(at({0.0, 0.0, 0.5}, true), 0.0, edits, *result);
+    for (int i = 0; i < 2; ++i) model.step(at({0.0, 0.0, 0.5}, true), 0.0, changes, *result);
     EXPECT_EQ(model.bone().fraction_at(
                   glm::ivec3(to_voxel_coordinates(model.bone().grid(), {0.05, 0.05, -0.05}) + 0.5)),
               0);

@@ -13,7 +13,6 @@ namespace {
 
 using ::testing::HasSubstr;
 using testing::make_block;
-using testing::NoEdits;
 
 Bone block() {
     return make_block({-2.0, -2.0, -2.0}, {2.0, 2.0, 0.0}, 0.2);
@@ -39,12 +38,12 @@ TEST(ForceModels, RefuseAnUnknownNameAndListTheKnownOnes) {
 }
 
 TEST(ForceModels, SayWhetherACouplingCanSolveThem) {
-    NoEdits edits;
+    ForgottenChanges changes;
     const auto result = std::make_unique<MillingResult>();
     for (const ForceModelEntry& listed : force_models()) {
         EXPECT_EQ(find_force_model(listed.name).has_cutting_law, listed.has_cutting_law);
         const auto model = make_force_model(listed.name, block(), {Burr{.diameter_mm = 2.0}}, {});
-        model->step({.pose = {{0.0, 0.0, 0.7}, {0.0, 0.0, 1.0}}, .elapsed_s = 0.001}, 0.0, edits, *result);
+        model->step({.pose = {{0.0, 0.0, 0.7}, {0.0, 0.0, 1.0}}, .elapsed_s = 0.001}, 0.0, changes, *result);
         EXPECT_EQ(result->engagement.count > 0, listed.has_cutting_law) << listed.name;
         EXPECT_EQ(result->force_n == glm::dvec3(0.0), listed.has_cutting_law)
             << listed.name << ": with the spindle off the wall is either the coupling's or the model's";

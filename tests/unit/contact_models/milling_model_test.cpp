@@ -14,7 +14,6 @@ namespace osteomill::milling_model_test {
 namespace {
 
 using testing::make_block;
-using testing::NoEdits;
 
 Bone block() {
     return make_block({-4.0, -3.0, -3.0}, {4.0, 3.0, 0.0}, 0.1);
@@ -26,7 +25,7 @@ BurrCommand at(const glm::dvec3& position, bool spindle_on) {
 
 class MillingModelTest : public ::testing::Test {
   protected:
-    NoEdits edits;
+    ForgottenChanges changes;
     std::unique_ptr<MillingResult> result = std::make_unique<MillingResult>();
     Burr burr{.name = "2 mm", .diameter_mm = 2.0};
 };
@@ -34,8 +33,8 @@ class MillingModelTest : public ::testing::Test {
 TEST_F(MillingModelTest, ABurrAtRestDoesNotCut) {
     MillingModel model(block(), {burr}, {});
     const std::uint64_t before = checksum(model.bone());
-    model.step(at({-1.0, 0.0, 0.5}, false), 0.0, edits, *result);
-    model.step(at({1.0, 0.0, 0.5}, false), 0.01, edits, *result);
+    model.step(at({-1.0, 0.0, 0.5}, false), 0.0, changes, *result);
+    model.step(at({1.0, 0.0, 0.5}, false), 0.01, changes, *result);
     EXPECT_EQ(checksum(model.bone()), before);
     EXPECT_EQ(result->force_n, glm::dvec3(0.0));
     EXPECT_GT(result->engagement.count, 0U) << "but it touches";
@@ -47,7 +46,7 @@ TEST_F(MillingModelTest, RemovesTheSweptVolumeAndAccountsForIt) {
     const glm::dvec3 from(-1.5, 0.02, 0.01);
     const glm::dvec3 to(1.5, 0.3, 0.2);
     for (int i = 0; i <= 300; ++i)
-        model.step(at(from + (to - from) * (i / 300.0), true), 0.01 * i, edits, *result);
+        model.step(at(from + (to - from) * (i / 300.0), true), 0.01 * i, changes, *result);
     const double swept = volume(Sweep{from, to, 1.0});
     EXPECT_NEAR(result->total_removed_mm3 / swept, 1.0, 0.005);
     EXPECT_NEAR(before - bone_volume_mm3(model.bone()), result->total_removed_mm3, 1e-6);
@@ -56,19 +55,19 @@ TEST_F(MillingModelTest, RemovesTheSweptVolumeAndAccountsForIt) {
 
 TEST_F(MillingModelTest, CountsNoBoneOfTheWayToANewBurr) {
     MillingModel model(block(), {burr, Burr{.name = "1 mm", .diameter_mm = 1.0}}, {});
-    model.step(at({-2.0, 0.0, 3.0}, true), 0.0, edits, *result);
+    model.step(at({-2.0, 0.0, 3.0}, true), 0.0, changes, *result);
     BurrCommand other = at({2.0, 0.0, -1.0}, true);
     other.burr = 1;
-    model.step(other, 0.01, edits, *result);
+    model.step(other, 0.01, changes, *result);
     EXPECT_NEAR(result->removed_mm3, 4.0 / 3.0 * 3.14159265 * 0.125, 0.01) << "one ball, no capsule";
 }
 
 TEST_F(MillingModelTest, SaysWhenProtectedTissueIsRemoved) {
     MillingModel model(testing::bone_over_nerve(), {Burr{.diameter_mm = 1.0}}, testing::bone_and_nerve());
-    model.step(at({0.75, 0.75, 2.6}, true), 0.0, edits, *result);
+    model.step(at({0.75, 0.75, 2.6}, true), 0.0, changes, *result);
     EXPECT_FALSE(result->touches_protected);
     EXPECT_GT(model.removed_mm3()[1], 0.0);
-    model.step(at({0.75, 0.75, 1.6}, true), 0.1, edits, *result);
+    model.step(at({0.75, 0.75, 1.6}, true), 0.1, changes, *result);
     EXPECT_TRUE(result->touches_protected);
     EXPECT_GT(model.removed_mm3()[2], 0.0);
 }
@@ -76,8 +75,8 @@ TEST_F(MillingModelTest, SaysWhenProtectedTissueIsRemoved) {
 TEST_F(MillingModelTest, StifferBoneNeedsProportionallyMoreForce) {
     const auto force_in = [&](double stiffness) {
         MillingModel model(testing::with_stiffness(block(), stiffness), {burr}, {});
-        model.step(at({-1.0, 0.0, 0.5}, true), 0.0, edits, *result);
-        model.step(at({-0.94, 0.0, 0.5}, true), 0.01, edits, *result);
+        model.step(at({-1.0, 0.0, 0.5}, true), 0.0, changes, *result);
+        model.step(at({-0.94, 0.0, 0.5}, true), 0.01, changes, *result);
         return result->force_n;
     };
     const glm::dvec3 one = force_in(1.0);
@@ -87,7 +86,7 @@ TEST_F(MillingModelTest, StifferBoneNeedsProportionallyMoreForce) {
 
 TEST_F(MillingModelTest, LeavesTheBoneAloneOnACommandThatIsNoPose) {
     MillingModel model(block(), {burr}, {});
-    model.step(at({-1.0, 0.0, 0.5}, true), 0.0, edits, *result);
+    model.step(at({-1.0, 0.0, 0.5}, true), 0.0, changes, *result);
     const std::uint64_t before = checksum(model.bone());
     const double nan = std::numeric_limits<double>::quiet_NaN();
     BurrCommand bad_axis = at({1.0, 0.0, 0.5}, true);
@@ -97,12 +96,12 @@ TEST_F(MillingModelTest, LeavesTheBoneAloneOnACommandThatIsNoPose) {
     BurrCommand no_time = at({1.0, 0.0, 0.5}, true);
     no_time.elapsed_s = 0.0;
     for (const BurrCommand& bad : {at({nan, 0.0, 0.5}, true), bad_axis, no_burr, no_time}) {
-        model.step(bad, 0.01, edits, *result);
+        model.step(bad, 0.01, changes, *result);
         EXPECT_FALSE(result->valid);
         EXPECT_EQ(result->force_n, glm::dvec3(0.0));
         EXPECT_EQ(checksum(model.bone()), before);
     }
-    model.step(at({-0.9, 0.0, 0.5}, true), 0.02, edits, *result);
+    model.step(at({-0.9, 0.0, 0.5}, true), 0.02, changes, *result);
     EXPECT_TRUE(result->valid);
 }
 

@@ -36,7 +36,7 @@ std::vector<Instant> last_instants(const ReferenceCase& c, int count) {
     const glm::dvec3 start(-1.0 + 0.031, 0.017, c.burr.radius_mm() - c.depth_mm);
     MillingModel model(testing::make_block({-5.0, -4.0, -2.0}, {4.0, 4.0, 0.0}, 0.1), {c.burr}, {},
                        {.summation = ForceSummation::instants, .instants_per_tooth = 20});
-    testing::NoEdits edits;
+    ForgottenChanges changes;
     MillingResult result;
     std::vector<Instant> instants;
     const int steps = 1500;
@@ -44,7 +44,7 @@ std::vector<Instant> last_instants(const ReferenceCase& c, int count) {
         model.step({.pose = {start + c.velocity_mm_per_s * (i * step_s), up},
                     .spindle_on = true,
                     .elapsed_s = step_s},
-                   0.0, edits, result);
+                   0.0, changes, result);
         const double turned = two_pi * c.burr.spindle_rev_per_s * (i + 0.5) * step_s;
         if (i > steps - count) instants.push_back({result.force_n, turned});
     }

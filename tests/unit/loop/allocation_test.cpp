@@ -44,10 +44,10 @@ struct Rig {
     TripleBuffer<BurrCommand> commands;
     TripleBuffer<ToolState> tool;
     TripleBuffer<ToolState> status;
-    EditQueue edits{512, model->bone().shared_content()};  // small: it overflows, too
+    ChangeQueue changes{1 << 14, model->bone().shared_content()};  // small: it overflows, too
     std::unique_ptr<Coupling> coupling;
     HapticLoop haptic;
-    MillingLoop milling{{*model, commands, *results, edits, &milling_log}, 0.001};
+    MillingLoop milling{{*model, commands, *results, changes, &milling_log}, 0.001};
 };
 
 void expect_no_allocation(
@@ -63,7 +63,7 @@ void expect_no_allocation(
     }
     EXPECT_EQ(testing::allocation_count() - before, 0u) << force_model << ", " << coupling_name;
     EXPECT_GT(rig->model->removed_mm3()[0], 0.1) << "there was something to do";
-    EXPECT_GT(rig->edits.overflow_count(), 0u);
+    EXPECT_GT(rig->changes.overflow_count(), 0u);
 }
 
 TEST(RealTimeCode, AllocatesNothingWithASimulatedHand) {

@@ -47,8 +47,8 @@ struct Rig {
     MillingModel model;
     TripleBuffer<BurrCommand> commands;
     std::unique_ptr<TripleBuffer<MillingResult>> results = std::make_unique<TripleBuffer<MillingResult>>();
-    EditQueue edits{1 << 16, model.bone().shared_content()};
-    MillingLoop loop{{model, commands, *results, edits}, 0.001};
+    ChangeQueue changes{1 << 20, model.bone().shared_content()};
+    MillingLoop loop{{model, commands, *results, changes}, 0.001};
     int published = 0;
     glm::dvec3 impulse_n_s{0.0};
     double removed_mm3 = 0.0;
@@ -83,7 +83,7 @@ TEST(MillingLoop, ShowsTheToothPeriodInItsLog) {
     const auto rig = std::make_unique<Rig>(MillingSettings{.summation = ForceSummation::instants});
     {
         MillingLog log(file);
-        MillingLoop loop({rig->model, rig->commands, *rig->results, rig->edits, &log}, 0.001);
+        MillingLoop loop({rig->model, rig->commands, *rig->results, rig->changes, &log}, 0.001);
         for (int tick = 0; tick < 300; ++tick) {
             rig->command(-2.0 + 0.006 * tick);
             for (int step = 0; step < 10; ++step) loop.step(0.001 * tick + 0.0001 * step, 0.0001);
@@ -118,7 +118,7 @@ TEST(MillingLoop, FindsRoomForAnotherBurrOnlyWhereNeitherTouchesBone) {
     MillingLoop loop({.model = rig->model,
                       .commands = rig->commands,
                       .results = *rig->results,
-                      .edits = rig->edits,
+                      .changes = rig->changes,
                       .burrs = burrs},
                      0.001);
     int step = 0;
@@ -149,7 +149,7 @@ TEST(MillingLoop, LooksAsFarAheadForAChangeAsTheToolMayGo) {
     MillingLoop loop({.model = rig->model,
                       .commands = rig->commands,
                       .results = *rig->results,
-                      .edits = rig->edits,
+                      .changes = rig->changes,
                       .burrs = burrs},
                      0.001);
     double z_mm = 5.0;

@@ -122,18 +122,24 @@ TEST(MillingSession, StepsTheModelAtItsRateEvenWhereThatDoesNotDivideTheTicks) {
     }
 }
 
-TEST(MillingSession, TellsWhoeverCopiesTheBoneEveryEdit) {
+void follow(ChangeQueue& changes, Bone& copy) {
+    changes.consume_all([&](const BrickChange& change, BrickFractions fractions) {
+        EXPECT_TRUE(apply(change, fractions, copy));
+    });
+}
+
+TEST(MillingSession, TellsWhoeverCopiesTheBoneEveryChange) {
     const Scene scene = block_scene();
     SimulatedDevice device = simulated(scene);
     MillingSessionOptions options = virtual_options(3.0);
-    options.edits_are_consumed = true;
+    options.changes_are_consumed = true;
     const auto session = std::make_unique<MillingSession>(scene, block(), device, options);
     Bone copy = block();
     std::atomic<bool> done{false};
     std::thread consumer([&] {
         for (bool last_round = false; !last_round;) {
             last_round = done.load();
-            session->edits().consume_all([&](const EditRun& run) { apply(run, copy); });
+            follow(session->changes(), copy);
             std::this_thread::yield();
         }
     });
@@ -148,7 +154,7 @@ TEST(MillingSession, RunsInThreadsOnTheRealClockAndStopsWhenTold) {
     const Scene scene = block_scene();
     SimulatedDevice device = simulated(scene);
     MillingSessionOptions options;
-    options.edits_are_consumed = true;
+    options.changes_are_consumed = true;
     const auto session = std::make_unique<MillingSession>(scene, block(), device, options);
     Bone copy = block();
     std::atomic<bool> done{false};
@@ -156,7 +162,7 @@ TEST(MillingSession, RunsInThreadsOnTheRealClockAndStopsWhenTold) {
     std::thread streaming([&] {  // what the streaming loop would do
         for (bool last_round = false; !last_round;) {
             last_round = done.load();
-            session->edits().consume_all([&](const EditRun& run) { apply(run, copy); });
+            follow(session->changes(), copy);
             shown += session->tool().refresh() ? 1 : 0;
             std::this_thread::sleep_for(std::chrono::milliseconds(1));
         }

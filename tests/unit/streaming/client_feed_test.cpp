@@ -13,10 +13,12 @@ namespace osteomill {
 namespace {
 
 /// Carves the mirror and tells a feed, as the server does at every frame.
-class Carver final : public EditSink {
+class Carver final : public ChangeSink {
   public:
     Carver(BoneReplica& mirror, ClientFeed& feed) : bone_(mirror.bone()), mirror_(mirror), feed_(feed) {}
-    void push(const EditRun& run) noexcept override { ASSERT_TRUE(mirror_.apply(run)); }
+    void push(const BrickChange& change, BrickFractions fractions) noexcept override {
+        ASSERT_TRUE(mirror_.apply(change, fractions));
+    }
     void carve(int runs) {
         for (int i = 0; i < runs; ++i) testing::carve_somewhere(bone_, random_, *this);
         feed_.note(mirror_.take_changes());
@@ -26,9 +28,8 @@ class Carver final : public EditSink {
     void carve_first_bricks(int voxels) {
         for (int i = 0; i < voxels; ++i) {
             const std::size_t slot = random_() % (bone_.stored_bricks() / 2);
-            push({.brick = bone_.content().brick_of_slot[slot],
-                  .first_voxel = static_cast<std::uint16_t>(random_() % brick_voxel_count),
-                  .count = 1});
+            push({bone_.content().brick_of_slot[slot], VoxelMask().set(random_() % brick_voxel_count)},
+                 ByteBrick{});
         }
         feed_.note(mirror_.take_changes());
     }

@@ -19,13 +19,9 @@ using testing::eventually;
 class SessionRecorderTest : public ::testing::Test {
   protected:
     void carve_and_record(int states) {
-        struct ToMirror final : EditSink {
-            explicit ToMirror(BoneReplica& into) : mirror(into) {}
-            void push(const EditRun& run) noexcept override { mirror.apply(run); }
-            BoneReplica& mirror;
-        } edits(mirror_);
+        testing::ReplicaSink to_mirror(mirror_);
         for (int i = 0; i < states; ++i) {
-            for (int run = 0; run < 10; ++run) testing::carve_somewhere(bone_, random_, edits);
+            for (int run = 0; run < 10; ++run) testing::carve_somewhere(bone_, random_, to_mirror);
             recorder_->note(mirror_.take_changes());
             tool_.time_s += 0.05;
             recorder_->record(tool_, i % 20 == 0, false);

@@ -89,12 +89,12 @@ bool reaches(BoneLink& link, LinkStatus status) {
 
 std::string failure_of(const StreamingOptions& options, const std::string& burr_name = "round") {
     const Bone bone = BoneBuilder::homogeneous({.size_voxels = {16, 16, 16}}, 1.0, false).build();
-    EditQueue edits(16, bone.shared_content());
+    ChangeQueue changes(16, bone.shared_content());
     TripleBuffer<ToolState> tool;
     Scene scene;
     scene.burrs = {Burr{.name = burr_name}};
     try {
-        LiveSession shown(tool, edits);
+        LiveSession shown(tool, changes);
         StreamingServer server(options, session_info(scene, false, 3.3, "0.0.test"), bone, shown);
         server.start();
     } catch (const std::exception& error) {
@@ -354,9 +354,9 @@ TEST(StreamingServer, RecordsAsIfForOneMoreClient) {
 TEST(StreamingServer, ShowsFramesWhenItIsToldToWhereTheSessionKeepsTheTime) {
     const testing::TemporaryFolder folder;
     const Bone bone = BoneBuilder::homogeneous({.size_voxels = {16, 16, 16}}, 1.0, false).build();
-    EditQueue edits(16, bone.shared_content());
+    ChangeQueue changes(16, bone.shared_content());
     TripleBuffer<ToolState> tool;
-    LiveSession shown(tool, edits);
+    LiveSession shown(tool, changes);
     Scene scene;
     scene.burrs = {Burr{}};
     StreamingServer server(

@@ -20,7 +20,7 @@ TEST(ChangedBoxes, AreTheSmallestRoundWhatChangedInEachBrick) {
         change_of(1, {}),
         change_of(7, {{16, 31, 31}}),
         change_of(4000, {{0, 0, 0}}),  // not stored
-        {.brick = 2, .voxels = VoxelMask().set()},
+        {.brick = 2, .voxels = VoxelMask().set_all()},
     };
     EXPECT_EQ(changed_boxes(bone.content(), changes),
               (std::vector<VoxelBox>{

@@ -25,18 +25,20 @@ TEST(BoneReplica, FollowsTheBoneAndKnowsItsChecksum) {
 
 TEST(BoneReplica, TellsOfChangesOnce) {
     BoneReplica mirror(testing::make_block({0, 0, 0}, {4, 4, 4}, 0.1));
-    EXPECT_TRUE(mirror.apply({.brick = 1, .first_voxel = 20, .count = 2, .fraction = {9, 8}}));
-    EXPECT_TRUE(mirror.apply({.brick = 1, .first_voxel = 40, .count = 1, .fraction = {7}}));
+    ByteBrick left{};
+    left[20] = 9;
+    EXPECT_TRUE(mirror.apply({1, VoxelMask().set(20).set(21)}, left));
+    EXPECT_TRUE(mirror.apply({1, VoxelMask().set(21).set(40)}, left));
     BrickChange expected{.brick = 1};
     expected.voxels.set(20).set(21).set(40);
     EXPECT_EQ(mirror.take_changes(), std::vector{expected});
     EXPECT_TRUE(mirror.take_changes().empty());
 }
 
-TEST(BoneReplica, RefusesARunThatDoesNotFit) {
+TEST(BoneReplica, RefusesAChangeThatDoesNotFit) {
     BoneReplica mirror(testing::make_block({0, 0, 0}, {4, 4, 4}, 0.1));
     const std::uint64_t before = mirror.checksum();
-    EXPECT_FALSE(mirror.apply({.brick = 1000, .first_voxel = 0, .count = 1}));
+    EXPECT_FALSE(mirror.apply({1000, VoxelMask().set(0)}, ByteBrick{}));
     EXPECT_TRUE(mirror.take_changes().empty());
     EXPECT_EQ(mirror.checksum(), before);
 }

@@ -41,7 +41,7 @@ TEST_F(BrickEditMessage, HoldsTheChangedVoxelsAsRunsAndNoOthers) {
         changed.set(voxel);
         fractions[voxel] = static_cast<std::uint8_t>(voxel % 200);
     }
-    const v1::BrickEdit edit = brick_edit(1, fractions, changed);
+    const v1::BrickEdit edit = brick_edit({1, changed}, fractions);
     EXPECT_EQ(edit.brick(), 1U);
     EXPECT_THAT(edit.changed(), ElementsAre(0, 3, 17, 1, 4094, 2));
     EXPECT_THAT(std::vector<int>(edit.fraction().begin(), edit.fraction().end()),
@@ -63,8 +63,8 @@ TEST_F(BrickEditMessage, MakesRandomlyCarvedCopiesEqual) {
             changed[slot].set(voxel);
         }
         for (std::size_t slot = 0; slot < changed.size(); ++slot) {
-            const auto edit = brick_edit(carved.content().brick_of_slot[slot],
-                                         carved.fractions(static_cast<std::int32_t>(slot)), changed[slot]);
+            const auto edit = brick_edit({carved.content().brick_of_slot[slot], changed[slot]},
+                                         carved.fractions(static_cast<std::int32_t>(slot)));
             v1::BrickEdit arrived;
             ASSERT_TRUE(arrived.ParseFromString(edit.SerializeAsString()));
             ASSERT_FALSE(apply_brick_edit(arrived, copy));
@@ -124,7 +124,7 @@ TEST_F(BrickEditMessage, ThatCorrectsACopyGivesBackBoneButNoneOutsideTheGrid) {
 TEST_F(BrickEditMessage, OfTheWorstBrickIsSmallBesideAFrame) {
     VoxelMask alternating;
     for (std::size_t voxel = 0; voxel < brick_voxel_count; voxel += 2) alternating.set(voxel);
-    EXPECT_LT(brick_edit(1, bone_.fractions(1), alternating).ByteSizeLong(), largest_frame_bytes / 8);
+    EXPECT_LT(brick_edit({1, alternating}, bone_.fractions(1)).ByteSizeLong(), largest_frame_bytes / 8);
 }
 
 }  // namespace

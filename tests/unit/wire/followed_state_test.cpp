@@ -15,11 +15,9 @@ class FollowedStateTest : public ::testing::Test {
     v1::StateFrame halve_a_voxel() {
         const BrickIndex brick = servers_.content().brick_of_slot[3];
         servers_.fractions(3)[0] /= 2;
-        VoxelMask changed;
-        changed.set(0);
         v1::StateFrame frame;
         *frame.mutable_tool() = to_message(ToolState{.time_s = 1.5});
-        *frame.add_edits() = brick_edit(brick, servers_.fractions(3), changed);
+        *frame.add_edits() = brick_edit({brick, VoxelMask().set(0)}, servers_.fractions(3));
         frame.set_bone_checksum(checksum(servers_));
         return frame;
     }
@@ -55,7 +53,7 @@ TEST_F(FollowedStateTest, TakesBackBoneThatItHadLostAndSaysSo) {
     const BrickIndex brick = servers_.content().brick_of_slot[3];
     replica_.set_fractions(brick, ByteBrick{});
     v1::StateFrame frame = halve_a_voxel();
-    *frame.mutable_edits(0) = brick_edit(brick, servers_.fractions(3), VoxelMask().set());
+    *frame.mutable_edits(0) = brick_edit({brick, VoxelMask().set_all()}, servers_.fractions(3));
     const auto outcome = follow(frame, burrs, replica_);
     ASSERT_TRUE(std::holds_alternative<FollowedState>(outcome));
     EXPECT_TRUE(std::get<FollowedState>(outcome).has_regained_bone);

@@ -62,8 +62,7 @@ TEST_F(PackedChangesTest, AreTheEditsThatWerePacked) {
         ASSERT_EQ(std::get<0>(edits).size(), changes.size());
         for (std::size_t i = 0; i < changes.size(); ++i) {
             const v1::BrickEdit& edit = std::get<0>(edits)[i];
-            const auto as_it_is = brick_edit(changes[i].brick, bone_.fractions(bone_.slot(changes[i].brick)),
-                                             changes[i].voxels);
+            const auto as_it_is = brick_edit(changes[i], bone_.fractions(bone_.slot(changes[i].brick)));
             EXPECT_EQ(edit.SerializeAsString(), as_it_is.SerializeAsString());
             ASSERT_FALSE(apply_brick_edit(edit, copy_));
         }
