@@ -33,3 +33,12 @@ function(osteomill_vector_loops)
     set_source_files_properties(${ARGN} PROPERTIES
         COMPILE_OPTIONS "-fno-math-errno;-fno-trapping-math;-ffp-contract=off;-Wno-psabi")
 endfunction()
+
+# osteomill_uses_itk(NAME): it sees the parts of ITK that find_package found last.
+function(osteomill_uses_itk name)
+    target_include_directories(${name} SYSTEM PRIVATE ${ITK_INCLUDE_DIRS})
+    target_link_libraries(${name} PRIVATE ${ITK_LIBRARIES})
+    if(CMAKE_CXX_COMPILER_ID STREQUAL "Clang")
+        target_compile_options(${name} PRIVATE "SHELL:-include ${CMAKE_SOURCE_DIR}/cmake/itk_with_clang.h")
+    endif()
+endfunction()

@@ -156,9 +156,7 @@ TEST_F(LinkFaults, OfStrangersNeitherKeepClientsOutNorFillTheMemory) {
     for (const auto& link : links) EXPECT_EQ(link->poll().connections, 1U);
     // For each of 32 clients and 48 strangers, what it has yet to be told (see PendingChanges) of the block's
     // 120 bricks, and two frames of 128 KiB.
-    if (MEASURES_MEMORY) {
-        EXPECT_LT(server_memory_bytes() - before_bytes, 80U * (120U * 600U + 2U * 131'072U));
-    }
+    EXPECT_LT(server_memory_bytes() - before_bytes, 80U * (120U * 600U + 2U * 131'072U));
     expect_equal_bones_at_the_end(links);
 }
 

@@ -37,7 +37,8 @@ void PrintTo(const Direct& direct, std::ostream* out) {
 class DirectWall : public ::testing::TestWithParam<Direct> {};
 
 TEST_P(DirectWall, HoldsUpToTheEdgeOfItsLinearForm) {
-    const auto& [coupling, hold] = GetParam();
+    const std::string& coupling = GetParam().coupling;
+    const LinearHold& hold = GetParam().hold;
     const study::HeldBody body = bare_arm(0.5);
     const double edge = study::largest_stable(
         [&](double stiffness) { return study::is_stable(body, study::wall(stiffness), hold, tick_s); });
