@@ -49,7 +49,7 @@ const glm::dmat3 as_seen_by_protanopes = glm::transpose(
 const glm::dmat3 as_seen_by_deuteranopes = glm::transpose(
     glm::dmat3(0.367322, 0.860646, -0.227968, 0.280085, 0.672501, 0.047413, -0.011820, 0.042940, 0.968881));
 
-class EveryTheme : public testing::TestWithParam<ThemeName> {
+class EveryTheme : public ::testing::TestWithParam<ThemeName> {
   protected:
     const Theme& theme = theme_of(GetParam());
 };
@@ -76,7 +76,7 @@ TEST_P(EveryTheme, TellsTheForcesApartForEveryKindOfColourVision) {
             }
 }
 
-INSTANTIATE_TEST_SUITE_P(Themes, EveryTheme, testing::Values(ThemeName::dark, ThemeName::light),
+INSTANTIATE_TEST_SUITE_P(Themes, EveryTheme, ::testing::Values(ThemeName::dark, ThemeName::light),
                          [](const auto& tested) {
                              return tested.param == ThemeName::dark ? std::string("dark")
                                                                     : std::string("light");
