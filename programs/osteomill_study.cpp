@@ -18,6 +18,7 @@
 #include "studies/render/render_options.h"
 #include "studies/report/output_files.h"
 #include "studies/stability/map/stability_options.h"
+#include "studies/stability/rails/motion_on_rails.h"
 #include "studies/stability/scene/map_run.h"
 
 namespace {
@@ -99,9 +100,29 @@ void run(const ForceOptions& options) {
         osteomill::study::run_force_study({.out = options.out, .quick = options.quick}, surroundings());
 }
 
+void run_on_rails(const osteomill::study::StabilityCommand& command) {
+    using namespace osteomill;
+    std::vector<std::string> methods = command.run.selection.methods;
+    if (methods.empty()) methods = {"implicit"};
+    nlohmann::ordered_json summary;
+    for (const std::string& method : methods) {
+        ProgressLine line(std::cerr, ::isatty(STDERR_FILENO) != 0, method);
+        std::vector<study::RailsResult> results;
+        const auto motions = study::motions_on_rails(command.motions_on_rails, command.sites.seed);
+        for (const study::SteadyCase& motion : motions) {
+            results.push_back({motion.name, study::run_on_rails(motion, method)});
+            line.report(static_cast<double>(results.size()) / static_cast<double>(motions.size()), "");
+        }
+        summary[method] = study::summary_of(results);
+    }
+    study::write_json(summary, command.run.out / "rails.json");
+    std::cout << summary.dump(2) << '\n';
+}
+
 void run(const osteomill::study::StabilityCommand& command) {
     using namespace osteomill;
     study::make_folder(command.run.out);
+    if (command.motions_on_rails > 0) return run_on_rails(command);
     if (command.runs_sites) {
         study::SiteStudyOptions sites = command.sites;
         sites.out = command.run.out;

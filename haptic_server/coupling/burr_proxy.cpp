@@ -14,6 +14,12 @@ double touching_share(double gap_voxels) {
     return std::clamp((BurrProxy::surely_apart_voxels - gap_voxels) / width, 0.0, 1.0);
 }
 
+/// With which bone sets a burr that it drives apart from the hand; below 0 where it does not.
+double drive_mj(const ContactStep& solved, const glm::dvec3& hand_step_mm) {
+    return std::min(glm::dot(solved.bone_force_n, solved.step_mm),
+                    glm::dot(solved.bone_force_n, solved.step_mm - hand_step_mm));
+}
+
 glm::dvec3 no_longer_than(const glm::dvec3& step_mm, double longest_mm) {
     const double length_mm = glm::length(step_mm);
     return length_mm > longest_mm ? step_mm * (longest_mm / length_mm) : step_mm;
@@ -23,7 +29,7 @@ glm::dvec3 no_longer_than(const glm::dvec3& step_mm, double longest_mm) {
 
 void BurrProxy::place(const glm::dvec3& position_mm) noexcept {
     position_mm_ = target_mm_ = position_mm;
-    given_mj_ = 0.0;
+    apart_mj_ = to_hand_mj_ = 0.0;
     map_step_ = 0;
     correction_.reset();
     cut_mm_.fill(0.0);
@@ -86,15 +92,15 @@ ContactStep BurrProxy::balance_with_bone(const LinearPull& pull, const glm::dvec
     };
     ContactStep solved = solve();
     const auto is_balanced = [&] { return solved.residual_n <= balance_tolerance_n; };
-    const double energy_mj = glm::dot(solved.bone_force_n, solved.step_mm);
-    const bool runs_away = energy_mj > 0.0 && given_mj_ + energy_mj > allowed_energy_mj;
+    const double energy_mj = drive_mj(solved, hand_step_mm);
+    const bool runs_away = energy_mj > 0.0 && apart_mj_ + energy_mj > allowed_apart_mj;
     if (is_balanced() && !runs_away) return solved;
 
     if (is_balanced())
         ++counts_.damped;
     else
         ++counts_.fallbacks;
-    const double for_each_drive = drive_to_damping * (1.0 + given_mj_ / allowed_energy_mj);
+    const double for_each_drive = drive_to_damping * (1.0 + to_hand_mj_ / much_to_hand_mj);
     for (int attempt = 0; attempt < most_attempts; ++attempt) {
         const double drive_n_s_per_mm = std::max(0.0, -solved.least_resistance_n_per_mm) * tick_s;
         const double wanted_n_s_per_mm = for_each_drive * drive_n_s_per_mm;
@@ -115,7 +121,8 @@ void BurrProxy::cut_toward(const glm::dvec3& target_mm, const LinearPull& pull, 
                            const Engagement& engagement) noexcept {
     const glm::dvec3 pull_mm = target_mm - position_mm_;
     const glm::dvec3 hand_step_mm = target_mm - target_mm_;
-    given_mj_ *= std::max(0.0, 1.0 - tick_s / energy_memory_s);
+    apart_mj_ *= std::max(0.0, 1.0 - tick_s / apart_memory_s);
+    to_hand_mj_ *= std::max(0.0, 1.0 - tick_s / to_hand_memory_s);
     // The force may turn the step sideways, but hardly makes it longer than the pull (K_r, K_a >= 0).
     const double longest_mm = glm::length(pull_mm) + 2.0 * engagement.spacing_mm;
     const auto contacts = gather_contacts(longest_mm, tick_s, true, engagement);
@@ -126,8 +133,9 @@ void BurrProxy::cut_toward(const glm::dvec3& target_mm, const LinearPull& pull, 
         if (solved.bone_force_n == glm::dvec3(0.0)) solved.step_mm = pull_mm;
     }
     counts_.max_residual_n = std::max(counts_.max_residual_n, solved.residual_n);
-    given_mj_ =
-        std::clamp(given_mj_ + glm::dot(solved.bone_force_n, solved.step_mm), 0.0, most_remembered_mj);
+    apart_mj_ = std::clamp(apart_mj_ + drive_mj(solved, hand_step_mm), 0.0, most_apart_mj);
+    if (!contacts.empty())
+        to_hand_mj_ = std::max(0.0, to_hand_mj_ - glm::dot(pull.force_n(solved.step_mm), hand_step_mm));
 
     const glm::dvec3 slowed_mm =
         hand_step_mm + no_longer_than(solved.step_mm - hand_step_mm, most_slip_mm_per_s * tick_s);
@@ -143,7 +151,7 @@ void BurrProxy::press_toward(const glm::dvec3& target_mm, const LinearPull& pull
     const double longest_mm = glm::distance(target_mm, position_mm_) + 2.0 * engagement.spacing_mm;
     const auto contacts = gather_contacts(longest_mm, tick_s, false, engagement);
     correction_.reset();
-    given_mj_ = 0.0;
+    apart_mj_ = to_hand_mj_ = 0.0;
     if (contacts.empty()) {
         position_mm_ = target_mm;
         return;

@@ -25,15 +25,16 @@
 // most_slip_mm_per_s, and the spring lets go over some ticks.
 //
 // Edges pull sideways, so bone can drive the burr along: the symmetric part of what it resists may have a
-// negative eigenvalue -N. Where bone gives the burr energy, the burr would run away from the hand and give
-// that on; and a ring of such contacts may leave no balance at all. There the tick is solved again with a
-// damper c between burr and hand that the hand does not feel. With c > N the law is monotone again: it has
-// one balance, the burr stays with the hand, and the spring comes to hold the model's force with a time
-// constant of (c - N) / K_c. So c is a small multiple of N; a large one would keep the force from the hand.
-// The multiple grows with what is in a store of the energy that bone has given lately, which forgets with
-// energy_memory_s. With less than allowed_energy_mj in it, nothing is damped that has a balance. Should a
-// tick have none with the damper either (counted; not seen), it keeps the contacts' normal forces alone:
-// these always have one, and only take energy out.
+// negative eigenvalue -N. Then the burr may run away from the hand; and a ring of such contacts may leave no
+// balance at all. There the tick is solved again with a damper c between burr and hand that the hand does not
+// feel. With c > N the law is monotone again: it has one balance, the burr stays with the hand, and the
+// spring comes to hold the model's force with a time constant of (c - N) / K_c. So c is a small multiple of
+// N; a large one would keep the force from the hand. Whether the burr runs away is told by the energy with
+// which bone drives it, F . d, and sets it apart from the hand, F . (d - the hand's step), the smaller of
+// them: up to allowed_apart_mj, in a store that
+// forgets with apart_memory_s, nothing is damped that has a balance. The multiple grows with the energy that
+// the hand has got of late. Should a tick have no balance with the damper either (counted; not seen), it
+// keeps the contacts' normal forces alone: these always have one, and only take energy out.
 #pragma once
 
 #include <array>
@@ -72,11 +73,14 @@ class BurrProxy {
     /// Beside the hand's own motion. On a spring of 1.5 N/mm 0.15 N a tick, half of what is felt as a knock.
     static constexpr double most_slip_mm_per_s = 100.0;
 
-    static constexpr double energy_memory_s = 0.05;
-    static constexpr double allowed_energy_mj = 0.1;
-    static constexpr double most_remembered_mj = 1.0;
-    /// Hidden damping for what drives the burr, both in N s/mm, while the store is empty; 1 would only just
-    /// do.
+    static constexpr double apart_memory_s = 0.05;
+    static constexpr double allowed_apart_mj = 0.1;
+    static constexpr double most_apart_mj = 1.0;
+    /// With so much in the hand the damping is twice as strong; the safety monitor lets go at 15 mJ.
+    static constexpr double much_to_hand_mj = 0.3;
+    static constexpr double to_hand_memory_s = 0.1;
+    /// Hidden damping for what drives the burr, both in N s/mm, while the hand has got nothing; 1 would only
+    /// just do.
     static constexpr double drive_to_damping = 2.0;
     /// Where a tick has no balance although nothing seems to drive the burr.
     static constexpr double least_damping_n_s_per_mm = 0.02;
@@ -102,7 +106,8 @@ class BurrProxy {
 
     glm::dvec3 position_mm_{0.0};
     glm::dvec3 target_mm_{0.0};  // of the last tick
-    double given_mj_ = 0.0;      // what bone has given lately
+    double apart_mj_ = 0.0;      // that bone lately spent on setting burr and hand apart
+    double to_hand_mj_ = 0.0;    // that the hand lately got
     std::uint64_t map_step_ = 0;
     ForceCorrection correction_;
     SolveCounts counts_;

@@ -9,7 +9,7 @@ struct SolveCounts {
     double max_residual_n = 0.0;  ///< largest force left over after a tick
     std::uint64_t fallbacks = 0;  ///< ticks without a balance, until they were damped
     std::uint64_t relaxed = 0;    ///< of these, ticks in which normal forces alone were kept
-    std::uint64_t damped = 0;     ///< ticks with a balance, damped because bone gave the burr energy
+    std::uint64_t damped = 0;     ///< ticks with a balance, damped because bone drove the burr off
 };
 
 }  // namespace osteomill

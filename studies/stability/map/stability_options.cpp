@@ -41,8 +41,15 @@ void add_sites(CLI::App& stability, StabilityCommand& command, CLI::Option* merg
     stability.add_option("--walks", command.sites.walks, "so many random walks of a hand, too")
         ->needs(sites)
         ->check(CLI::Range(0, 100'000));
-    stability.add_option("--seed", command.sites.seed, "of the random walks")
-        ->needs(sites)
+    stability
+        .add_option(
+            "--rails", command.motions_on_rails,
+            "instead of the map: so many random steady motions of a hand on rails, and how far the mean "
+            "force on it is from the milling model's")
+        ->excludes(sites)
+        ->excludes(merge)
+        ->check(CLI::Range(1, 100'000));
+    stability.add_option("--seed", command.sites.seed, "of the random walks or motions")
         ->capture_default_str();
     stability
         .add_option("--only", command.sites.only,
