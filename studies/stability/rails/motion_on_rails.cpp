@@ -22,11 +22,6 @@ constexpr double most_tilt_deg = 60.0;
 /// A slow spindle at a fast feed would take more force than an arm has.
 constexpr double most_force_n = 3.0;
 
-class NoEdits final : public EditSink {
-  public:
-    void push(const EditRun&) noexcept override {}
-};
-
 }  // namespace
 
 std::vector<SteadyCase> motions_on_rails(int count, std::uint64_t seed) {
@@ -58,10 +53,10 @@ OnRails run_on_rails(const SteadyCase& c, const std::string& coupling_name) {
                           .up = c.up};
     MillingModel model(voxelised(block, voxel_mm), {c.burr}, {});
     const auto coupling = make_coupling(coupling_name, CouplingOptions{});
-    NoEdits edits;
+    ForgottenChanges changes;
     const auto latest = std::make_unique<MillingResult>();
     const auto mill = [&](const ToolPose& pose, bool spindle_on, double now_s) {
-        model.step({.pose = pose, .spindle_on = spindle_on, .elapsed_s = tick_s}, now_s, edits, *latest);
+        model.step({.pose = pose, .spindle_on = spindle_on, .elapsed_s = tick_s}, now_s, changes, *latest);
     };
     const ToolPose start{start_mm, c.spindle_axis};
     mill(start, false, -tick_s);
