@@ -76,9 +76,14 @@ std::vector<std::vector<std::string>> commands_of(const std::vector<std::string>
     return commands;
 }
 
+/// What a user makes there: builds, and what the programs write.
+bool is_made(const std::string& folder) {
+    return folder == "build" || folder == "out";
+}
+
 bool is_below_folder_of(const std::string& path, const fs::path& repository) {
     const std::size_t slash = path.find('/');
-    if (slash == std::string::npos || slash == 0 || path.compare(0, 6, "build/") == 0) return false;
+    if (slash == std::string::npos || slash == 0 || is_made(path.substr(0, slash))) return false;
     return fs::is_directory(repository / path.substr(0, slash)) && path.front() != '.';
 }
 
@@ -87,7 +92,7 @@ std::set<std::string> source_names(const fs::path& repository) {
     std::set<std::string> names;
     for (const auto& top : fs::directory_iterator(repository)) {
         const std::string name = top.path().filename();
-        if (!top.is_directory() || name == "build" || name == "out" || name.front() == '.') continue;
+        if (!top.is_directory() || is_made(name) || name.front() == '.') continue;
         for (const auto& entry : fs::recursive_directory_iterator(top)) names.insert(entry.path().filename());
     }
     return names;
