@@ -1,4 +1,5 @@
-// How the solves of a session ended: what was left over, and how often the plain one did not do.
+// How a coupling's contact solves ended since the start of a session: what was left over, and how often the
+// plain one did not do.
 #pragma once
 
 #include <cstdint>
@@ -10,6 +11,8 @@ struct SolveCounts {
     std::uint64_t fallbacks = 0;  ///< ticks without a balance, until they were damped
     std::uint64_t relaxed = 0;    ///< of these, ticks in which normal forces alone were kept
     std::uint64_t damped = 0;     ///< ticks with a balance, damped because bone drove the burr off
+
+    bool operator==(const SolveCounts&) const = default;
 };
 
 }  // namespace osteomill

@@ -9,6 +9,7 @@
 #include <type_traits>
 
 #include "common/scene/bounded_line.h"
+#include "common/scene/solve_counts.h"
 
 namespace osteomill {
 
@@ -40,6 +41,8 @@ struct ToolState {
     /// Of the burr's tip below where it first met bone, along the spindle axis of that moment; 0 before.
     /// Nothing where the server does not say.
     std::optional<double> depth_mm{};
+    /// Nothing where the server does not say.
+    std::optional<SolveCounts> solve{};
 };
 static_assert(std::is_trivially_copyable_v<ToolState>);
 

@@ -96,6 +96,13 @@ v1::ToolState to_message(const ToolState& tool) {
     message.set_taken_unix_ns(tool.taken_unix_ns);
     message.set_driver(to_message(tool.driver));
     if (tool.depth_mm) message.set_depth_mm(*tool.depth_mm);
+    if (tool.solve) {
+        v1::SolveCounts& solve = *message.mutable_solve();
+        solve.set_max_residual_n(tool.solve->max_residual_n);
+        solve.set_fallbacks(tool.solve->fallbacks);
+        solve.set_relaxed(tool.solve->relaxed);
+        solve.set_damped(tool.solve->damped);
+    }
     return message;
 }
 
@@ -190,9 +197,16 @@ std::variant<ToolState, WireError> tool_from(const v1::ToolState& message, std::
                    .taken_unix_ns = message.taken_unix_ns(),
                    .driver = driver_from(message.driver())};
     if (message.has_depth_mm()) tool.depth_mm = message.depth_mm();
+    if (message.has_solve())
+        tool.solve = {.max_residual_n = message.solve().max_residual_n(),
+                      .fallbacks = message.solve().fallbacks(),
+                      .relaxed = message.solve().relaxed(),
+                      .damped = message.solve().damped()};
     if (!std::isfinite(tool.time_s) || !std::isfinite(tool.removed_mm3) ||
-        !std::isfinite(tool.depth_mm.value_or(0.0)) || !is_finite(tool.burr_position_mm) ||
-        !is_finite(tool.spindle_axis) || !is_finite(tool.hand_position_mm) || !is_finite(tool.force_n))
+        !std::isfinite(tool.depth_mm.value_or(0.0)) ||
+        !std::isfinite(tool.solve.value_or(SolveCounts{}).max_residual_n) ||
+        !is_finite(tool.burr_position_mm) || !is_finite(tool.spindle_axis) ||
+        !is_finite(tool.hand_position_mm) || !is_finite(tool.force_n))
         return WireError{"the tool state holds a number that is not finite"};
     if (tool.burr >= burr_count) return unknown_burr(message.burr(), burr_count);
     return tool;

@@ -42,9 +42,9 @@
 #include <glm/vec3.hpp>
 #include <span>
 
+#include "common/scene/solve_counts.h"
 #include "haptic_server/coupling/contact_solve.h"
 #include "haptic_server/coupling/force_correction.h"
-#include "haptic_server/coupling/solve_counts.h"
 #include "haptic_server/exchange/milling_step.h"
 
 namespace osteomill {

@@ -5,7 +5,7 @@
 #include <glm/vec3.hpp>
 
 #include "common/scene/scene.h"
-#include "haptic_server/coupling/solve_counts.h"
+#include "common/scene/solve_counts.h"
 #include "haptic_server/device/haptic_device.h"
 #include "haptic_server/exchange/milling_step.h"
 

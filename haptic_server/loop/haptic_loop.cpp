@@ -84,7 +84,8 @@ void HapticLoop::tick(double now_s, std::uint64_t missed_periods) noexcept {
                          .touches_protected = now_s < protected_until_s_,
                          .fault = describe(safety_.fault()),
                          .notice = describe(burr_.waits_for()),
-                         .depth_mm = depth_mm(in_contact)};
+                         .depth_mm = depth_mm(in_contact),
+                         .solve = parts_.coupling.solve_counts()};
     publish({.pose = burr_pose_,
              .spindle_on = spindle_on,
              .burr = burr_.burr(),

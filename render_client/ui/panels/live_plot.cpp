@@ -112,6 +112,7 @@ class PlotColumn {
         write_at(ToolHistory::kept_s, 0.0f, fmt::format("-{:.0f} s", ToolHistory::kept_s));
         write_at(0.5 * ToolHistory::kept_s, 0.5f, fmt::format("-{:.0f} s", 0.5 * ToolHistory::kept_s));
         write_at(0.0, 1.0f, "now");
+        pen_y_ += painter_.line_height();
     }
 
   private:
@@ -140,6 +141,15 @@ float small_plot_height() {
     return 2.6f * ImGui::GetFontSize();
 }
 
+TextLine solve_line(const ToolState& tool) {
+    if (!tool.solve) return {{Tone::dim, "solve: this server does not say"}};
+    const SolveCounts& solve = *tool.solve;
+    const bool is_poor = solve.max_residual_n > 1e-3 || solve.relaxed > 0;
+    return {{is_poor ? Tone::warning : Tone::dim, fmt::format("solve {:.1f} mN, {} damped, {} fallbacks",
+                                                              1e3 * solve.max_residual_n, solve.damped,
+                                                              solve.fallbacks)}};
+}
+
 }  // namespace
 
 glm::vec2 live_plot_size(const PanelPainter& painter, PlotDetail detail) {
@@ -147,7 +157,7 @@ glm::vec2 live_plot_size(const PanelPainter& painter, PlotDetail detail) {
     glm::vec2 size(20.0f * font, 2.0f * painter.line_height());
     if (detail != PlotDetail::numbers) size.y += force_plot_height(detail) + 1.3f * font;
     if (detail == PlotDetail::all)
-        size.y += 2.0f * (painter.line_height() + small_plot_height() + 0.3f * font);
+        size.y += painter.line_height() + 2.0f * (painter.line_height() + small_plot_height() + 0.3f * font);
     return glm::ceil(size + 2.0f * painter.padding());
 }
 
@@ -179,6 +189,7 @@ void draw_live_plot(const PanelPainter& painter, const ToolHistory& history, con
         column.plot(removed, range_of(removed, smallest_volume_mm3), small_plot_height());
     }
     column.write_times();
+    if (detail == PlotDetail::all) column.write(solve_line(tool));
 }
 
 }  // namespace osteomill

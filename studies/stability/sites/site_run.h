@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "common/bone/bone.h"
-#include "haptic_server/coupling/solve_counts.h"
+#include "common/scene/solve_counts.h"
 #include "haptic_server/device/hand_model.h"
 #include "studies/stability/sites/site.h"
 

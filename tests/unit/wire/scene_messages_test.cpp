@@ -74,7 +74,8 @@ TEST(SceneMessages, BringBackTheTool) {
                          .fault = "the device is lost",
                          .notice = "the burr waits",
                          .driver = ToolDriver::another,
-                         .depth_mm = -0.5};
+                         .depth_mm = -0.5,
+                         .solve = SolveCounts{2e-4, 3, 1, 5}};
     const auto result = tool_from(to_message(tool), 2);
     ASSERT_EQ(error_of(result), "");
     const ToolState& back = std::get<0>(result);
@@ -94,6 +95,10 @@ TEST(SceneMessages, BringBackTheTool) {
          {ToolDriver::unknown, ToolDriver::nobody, ToolDriver::you, ToolDriver::others_only})
         EXPECT_EQ(std::get<0>(tool_from(to_message(ToolState{.driver = driver}), 1)).driver, driver);
     EXPECT_EQ(back.depth_mm, -0.5);
+    EXPECT_EQ(back.solve, tool.solve);
+    EXPECT_EQ(std::get<0>(tool_from(to_message(ToolState{}), 1)).solve, std::nullopt);
+    EXPECT_THAT(error_of(tool_from(to_message(ToolState{.solve = SolveCounts{not_a_number}}), 1)),
+                HasSubstr("not finite"));
     EXPECT_EQ(std::get<0>(tool_from(to_message(ToolState{}), 1)).depth_mm, std::nullopt);
     EXPECT_THAT(error_of(tool_from(to_message(tool), 1)), HasSubstr("burr 1 is not one of the scene's 1"));
     EXPECT_THAT(error_of(tool_from(to_message(ToolState{.force_n = {0, not_a_number, 0}}), 1)),
