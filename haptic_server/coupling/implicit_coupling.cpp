@@ -12,7 +12,7 @@ CouplingOutput ImplicitCoupling::tick(const HandState& hand, const MillingResult
         hand_.reset();
         placed_ = true;
     }
-    const glm::dvec3 position_mm = hand_.update(hand.pose.position_mm, hand.tick_s);
+    const glm::dvec3 position_mm = hand_.update(hand.pose.position_mm, hand.tick_s, !hand.spindle_on);
     const LinearPull pull = spring_.follow_hand(position_mm, hand.tick_s);
     proxy_.advance(position_mm, pull, hand.tick_s, hand.spindle_on, latest);
     return {.force_n = spring_.follow_burr(proxy_.position_mm(), hand.tick_s),

@@ -29,6 +29,28 @@ TEST(PositionObserver, GlidesWhereTheEncoderSteps) {
     EXPECT_LT(largest_step, 0.25 * step_mm);
 }
 
+TEST(PositionObserver, TurnsAStepThatItDidNotExpectIntoAGlideWhereBoneIsCut) {
+    PositionObserver observer(step_mm);
+    observer.update({0.0, 0.0, 0.0}, tick_s, false);
+    double before = 0.0;
+    for (int tick = 0; tick < 100; ++tick) {
+        const double estimate = observer.update({step_mm, 0.0, 0.0}, tick_s, false).x;
+        EXPECT_LT(std::abs(estimate - before), 0.15 * step_mm) << tick;
+        before = estimate;
+    }
+    EXPECT_NEAR(before, step_mm, 0.5 * step_mm);
+}
+
+TEST(PositionObserver, FollowsAFastHandByAStepAndAHalf) {
+    PositionObserver observer(step_mm);
+    observer.update({0.0, 0.0, 0.0}, tick_s, false);
+    for (int tick = 1; tick < 1000; ++tick) {
+        const double true_mm = 5.0 * std::sin(0.03 * tick);  // 150 mm/s, 5 Hz
+        const double estimate = observer.update({quantised(true_mm), 0.0, 0.0}, tick_s, false).x;
+        EXPECT_LE(std::abs(estimate - quantised(true_mm)), 1.5 * step_mm + 1e-12) << tick;
+    }
+}
+
 TEST(PositionObserver, ComesToRestWithTheHand) {
     PositionObserver observer(step_mm);
     for (int tick = 0; tick < 500; ++tick) observer.update({quantised(0.004 * tick), 0.0, 0.0}, tick_s);
