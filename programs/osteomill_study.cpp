@@ -17,7 +17,9 @@
 #include "studies/realtime/realtime_options.h"
 #include "studies/render/render_options.h"
 #include "studies/report/output_files.h"
+#include "studies/stability/encoder/encoder_noise.h"
 #include "studies/stability/map/stability_options.h"
+#include "studies/stability/rails/force_response.h"
 #include "studies/stability/rails/motion_on_rails.h"
 #include "studies/stability/scene/map_run.h"
 
@@ -123,6 +125,12 @@ void run(const osteomill::study::StabilityCommand& command) {
     using namespace osteomill;
     study::make_folder(command.run.out);
     if (command.motions_on_rails > 0) return run_on_rails(command);
+    if (command.varies_encoders) {
+        const auto& methods = command.run.selection.methods;
+        return study::run_encoder_study(methods.empty() ? "implicit" : methods.front(), command.run.out,
+                                        surroundings());
+    }
+    if (command.varies_frequency) return study::run_response_study(command.run.out, surroundings());
     if (command.runs_sites) {
         study::SiteStudyOptions sites = command.sites;
         sites.out = command.run.out;

@@ -49,6 +49,18 @@ void add_sites(CLI::App& stability, StabilityCommand& command, CLI::Option* merg
         ->excludes(sites)
         ->excludes(merge)
         ->check(CLI::Range(1, 100'000));
+    CLI::Option* const encoders =
+        stability
+            .add_flag("--encoders", command.varies_encoders,
+                      "instead of the map: the tooth scene with arms of finer and coarser encoders")
+            ->excludes(sites)
+            ->excludes(merge);
+    stability
+        .add_flag("--response", command.varies_frequency,
+                  "instead of the map: how the force on the hand follows the feed, from 0.3 to 30 Hz")
+        ->excludes(sites)
+        ->excludes(merge)
+        ->excludes(encoders);
     stability.add_option("--seed", command.sites.seed, "of the random walks or motions")
         ->capture_default_str();
     stability

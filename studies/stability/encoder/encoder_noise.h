@@ -1,0 +1,38 @@
+// What the steps of an arm's encoders do to the force that its hand feels: the tooth scene, milled with one
+// arm after another.
+#pragma once
+
+#include <filesystem>
+#include <glm/vec3.hpp>
+#include <string>
+#include <vector>
+
+#include "haptic_server/device/arm_model.h"
+#include "studies/report/surroundings.h"
+
+namespace osteomill::study {
+
+struct EncoderNoise {
+    double step_mm = 0.0;         ///< of the encoder, along each axis
+    double mean_force_n = 0.0;    ///< over the ticks in which there is a force
+    double noise_n = 0.0;         ///< rms over those of what the force does above 5 Hz
+    double largest_jump_n = 0.0;  ///< between two ticks
+    double jumps_per_s = 0.0;     ///< of over 0.03 N, a second with a force
+};
+
+/// The lesion of the tooth phantom drilled out by a firm hand on `arm` with the coupling of that name,
+/// virtual clock. Throws std::invalid_argument for an unknown coupling.
+EncoderNoise drill_tooth(const ArmModel& arm, const std::string& coupling);
+
+/// Noise and jumps of a record of forces, a tick a millisecond, patient axes; without a force all 0.
+EncoderNoise noise_of(const std::vector<glm::dvec3>& forces_n);
+
+/// A line for each.
+std::string encoder_csv(const std::vector<EncoderNoise>& arms);
+
+/// drill_tooth with steps from none to 0.1 mm: encoder.csv and encoder.svg in `out`, a folder that is there.
+/// Throws std::runtime_error in one line where a file cannot be written.
+void run_encoder_study(const std::string& coupling, const std::filesystem::path& out,
+                       const StudySurroundings& surroundings);
+
+}  // namespace osteomill::study
