@@ -27,9 +27,10 @@ void write_gallery(const TrialBone& trial, const glm::ivec2& size_px, const std:
         make_renderer(choice)->draw(textures, camera, size_px);
         write_png(framebuffer.read_back(), folder / (file_name(trial.name + "_" + name) + ".png"));
     };
-    for (const auto& [shading, shading_name] :
+    for (const auto& each :
          {std::pair{Shading::gradient, "gradient"}, std::pair{Shading::surface_voxels, "surface_voxels"}}) {
-        BoneTextures textures(trial.bone, trial.tissues, {.shading = shading});
+        const char* const shading_name = each.second;
+        BoneTextures textures(trial.bone, trial.tissues, {.shading = each.first});
         TrialBone carved = trial;
         const auto write_both = [&](const std::string& moment) {
             for (const auto& [choice, choice_name] :
