@@ -34,6 +34,7 @@ struct ForceOptions {
     osteomill::study::SteadyRun run{};
     std::optional<int> random{};
     std::uint64_t seed = 1;
+    bool has_edge_forces = false;
     bool quick = false;
 };
 
@@ -55,6 +56,8 @@ void add_force(CLI::App& app, ForceOptions& options) {
             ->excludes(cases)
             ->check(CLI::Range(1, 1'000'000));
     force->add_option("--seed", options.seed, "of the random motions")->needs(random)->capture_default_str();
+    force->add_flag("--edge-forces", options.has_edge_forces, "burrs whose edges rub, by random coefficients")
+        ->needs(random);
     force->add_flag("--quick", options.quick, "fewer points, shorter runs: under a minute")
         ->excludes(cases)
         ->excludes(random);
@@ -96,7 +99,8 @@ void run(const ForceOptions& options) {
         osteomill::study::run_random_motions({.out = options.out,
                                               .count = *options.random,
                                               .seed = options.seed,
-                                              .voxel_mm = options.run.voxel_mm},
+                                              .voxel_mm = options.run.voxel_mm,
+                                              .has_edge_forces = options.has_edge_forces},
                                              surroundings());
     else
         osteomill::study::run_force_study({.out = options.out, .quick = options.quick}, surroundings());

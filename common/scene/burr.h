@@ -17,11 +17,16 @@ struct Burr {
     double spindle_rev_per_s = 10'000.0 / 60.0;
     /// K_t, K_r, K_a for bone of relative stiffness 1.
     glm::dvec3 cutting_coefficients_n_per_mm2{230.0, 40.0, 20.0};
+    /// K_te, K_re, K_ae for the same bone: force of each mm of edge that cuts, however thin its chip. The
+    /// published law has none.
+    glm::dvec3 edge_coefficients_n_per_mm{0.0};
     SpindleSense sense = SpindleSense::clockwise;
 
     double radius_mm() const { return 0.5 * diameter_mm; }
     /// +1 when the burr turns towards +psi of the burr frame (+z from tip to shank), -1 for a clockwise burr.
     double sigma() const { return sense == SpindleSense::clockwise ? -1.0 : 1.0; }
+
+    bool has_edge_force() const { return edge_coefficients_n_per_mm != glm::dvec3(0.0); }
 
     bool operator==(const Burr&) const = default;
 };

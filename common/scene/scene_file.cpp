@@ -123,6 +123,12 @@ Burr read_burr(TomlReader& reader) {
     if (!(k.x > 0.0 && k.y >= 0.0 && k.z >= 0.0 && k.x < 1e5 && k.y < 1e5 && k.z < 1e5))
         reader.fail("cutting_coefficients_n_per_mm2",
                     "K_t must be above 0, K_r and K_a at least 0, all below 100000 N/mm^2");
+    burr.edge_coefficients_n_per_mm =
+        reader.vector("edge_coefficients_n_per_mm").value_or(burr.edge_coefficients_n_per_mm);
+    const glm::dvec3& e = burr.edge_coefficients_n_per_mm;
+    if (!(e.x >= 0.0 && e.y >= 0.0 && e.z >= 0.0 && e.x <= 100.0 && e.y <= 100.0 && e.z <= 100.0))
+        reader.fail("edge_coefficients_n_per_mm",
+                    "K_te, K_re and K_ae must be at least 0 and at most 100 N/mm");
     burr.sense = reader.choice("turns", sense_names).value_or(0) == 0 ? SpindleSense::clockwise
                                                                       : SpindleSense::counter_clockwise;
     reader.refuse_other_keys();
@@ -285,6 +291,7 @@ std::string write_scene(const Scene& scene) {
                         {"edges", static_cast<std::int64_t>(burr.edges)},
                         {"rpm", rpm_of(burr.spindle_rev_per_s)},
                         {"cutting_coefficients_n_per_mm2", list(burr.cutting_coefficients_n_per_mm2)},
+                        {"edge_coefficients_n_per_mm", list(burr.edge_coefficients_n_per_mm)},
                         {"turns", sense_names[burr.sense == SpindleSense::clockwise ? 0 : 1]}});
     root.insert("burrs", burrs);
     root.insert("device", toml::table{{"rotation", rows_of(scene.device.rotation)},

@@ -8,6 +8,7 @@
 //     [stiffness]      knots = [[150, 0.02], [1600, 1.0], ...]: HU, relative stiffness
 //     [[tissues]]      label = 1, name = "enamel", colour = "#f6f4ec", protected = false
 //     [[burrs]]        name, diameter_mm, edges, rpm, cutting_coefficients_n_per_mm2 = [K_t, K_r, K_a],
+//                      edge_coefficients_n_per_mm = [K_te, K_re, K_ae],
 //                      turns = "clockwise"
 //     [device]         rotation = [[..], [..], [..]] (rows), scale, offset_mm
 //     [start_pose]     position_mm, spindle_axis

@@ -33,6 +33,8 @@ ForceModelFactory eroding() {
 const std::vector<ForceModelEntry>& force_models() {
     static const std::vector<ForceModelEntry> table{
         {"milling", "the cutting law, summed over removed voxels", true, milling()},
+        {"published", "the same of chips alone: the scene's edge coefficients count for nothing", true,
+         milling({.has_edge_forces = false})},
         {"milling-partial", "the same with voxels of sharper edges, faster", true,
          milling({.coverage = VoxelCoverage::linear})},
         {"milling-bins", "the same over bins of angle and height, as published", true,

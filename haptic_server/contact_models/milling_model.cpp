@@ -39,7 +39,8 @@ class ForceOfRemoved final : public RemovalSink {
     void take(const RemovedVoxels& removed) noexcept override {
         enter(removed);
         weigh_by_stiffness(content_, removed, weights_);
-        force_.add(removed, {weights_.data(), removed.padded_count()});
+        const std::span<const float> weights(weights_.data(), removed.padded_count());
+        force_.add(removed, {.chip = weights, .edge = weights});
     }
 
   private:
@@ -71,7 +72,8 @@ MillingModel::MillingModel(Bone bone, std::vector<Burr> burrs, const std::vector
       account_(bone_.grid(), tissues) {
     if (burrs_.empty()) throw std::invalid_argument("the milling model needs at least one burr");
     probes_.reserve(burrs_.size());
-    for (const Burr& burr : burrs_) {
+    for (Burr& burr : burrs_) {
+        if (!settings.has_edge_forces) burr.edge_coefficients_n_per_mm = glm::dvec3(0.0);
         require_valid(burr, bone_.grid().spacing_mm);
         probes_.emplace_back(burr, bone_.grid().spacing_mm);
     }
@@ -93,7 +95,7 @@ void MillingModel::cut(const BurrCommand& command, const glm::dvec3& to_mm, doub
     const Sweep sweep{to_voxel_coordinates(grid, position_mm_), to_voxel_coordinates(grid, to_mm),
                       burr.radius_mm() / grid.spacing_mm};
     const CuttingStep cutting(burr, command.pose.spindle_axis, 0.5 * (sweep.from + sweep.to), grid.spacing_mm,
-                              share * since_milled_s_);
+                              share * since_milled_s_, to_mm - position_mm_);
     if (settings_.summation == ForceSummation::voxels) {
         MeanForce force(cutting, settings_.instructions);
         carve_and_sum(sweep, share, changes, force, result);

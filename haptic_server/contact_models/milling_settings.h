@@ -16,6 +16,7 @@ enum class ForceSummation {
 };
 
 struct MillingSettings {
+    bool has_edge_forces = true;  ///< false: the published law, whatever the burrs' edge coefficients
     ForceSummation summation = ForceSummation::voxels;
     ChipBins bins{};              ///< of ForceSummation::bins
     int instants_per_tooth = 20;  ///< of ForceSummation::instants

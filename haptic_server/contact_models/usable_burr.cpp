@@ -11,13 +11,15 @@ namespace osteomill {
 
 void require_valid(const Burr& burr, double spacing_mm) {
     const glm::dvec3& k = burr.cutting_coefficients_n_per_mm2;
+    const glm::dvec3& e = burr.edge_coefficients_n_per_mm;
     const bool good = std::isfinite(burr.diameter_mm) && burr.diameter_mm > 0.0 && burr.edges > 0 &&
                       std::isfinite(burr.spindle_rev_per_s) && burr.spindle_rev_per_s > 0.0 && is_finite(k) &&
-                      k.x >= 0.0 && k.y >= 0.0 && k.z >= 0.0;
+                      k.x >= 0.0 && k.y >= 0.0 && k.z >= 0.0 && is_finite(e) && e.x >= 0.0 && e.y >= 0.0 &&
+                      e.z >= 0.0;
     if (!good)
         throw std::invalid_argument("burr '" + burr.name +
                                     "' needs a diameter, edges and a spindle speed above zero and finite "
-                                    "cutting coefficients that are not negative");
+                                    "cutting and edge coefficients that are not negative");
     if (burr.diameter_mm / spacing_mm > most_voxels_across_burr)
         throw std::invalid_argument("burr '" + burr.name + "' is more than 500 voxels of " +
                                     std::to_string(spacing_mm) + " mm across; take coarser bone");

@@ -5,7 +5,6 @@
 #pragma once
 
 #include <glm/vec3.hpp>
-#include <span>
 #include <vector>
 
 #include "haptic_server/cutting_force/chip_force.h"
@@ -28,7 +27,7 @@ class BinnedForce {
     void begin_step(const Burr& burr, const CuttingStep& step) noexcept;
 
     /// As MeanForce::add.
-    void add(const RemovedVoxels& removed, std::span<const float> weights) noexcept;
+    void add(const RemovedVoxels& removed, const ChipWeights& weights) noexcept;
 
     /// Stiffness-weighted chip thickness of one tooth in a bin, mm: t = sum(s V) / (M r_z dpsi dz), M = N_phi
     /// n_rev dt.
@@ -36,7 +35,7 @@ class BinnedForce {
 
     /// Equation (2): mean over a tooth period of sum T(i,j,k) [K_t K_r K_a]^T t(i,j,k) dz over edges and
     /// slices; N, patient axes. Each edge passes each bin once a revolution, so the mean over instants is a
-    /// sum over bins times N_phi dpsi / 2 pi.
+    /// sum over bins times N_phi dpsi / 2 pi. Edge forces as in chip_force.h, by the face in each bin.
     glm::dvec3 force_n() const noexcept;
 
   private:
@@ -50,6 +49,7 @@ class BinnedForce {
     double teeth_ = 1.0;                       // that passed each angle during the step
     bool holds_any_ = false;                   // or all bins are empty
     std::vector<double> weighted_volume_mm3_;  // [z][psi]
+    std::vector<double> weighted_face_mm2_;    // likewise, of the face that is cut; zero without edge forces
 };
 
 }  // namespace osteomill

@@ -53,7 +53,7 @@ void InstantaneousForce::forget() noexcept {
     window_s_ = 0.0;
 }
 
-void InstantaneousForce::add(const RemovedVoxels& removed, std::span<const float> weights) noexcept {
+void InstantaneousForce::add(const RemovedVoxels& removed, const ChipWeights& weights) noexcept {
     step_sum_ += sum_of_chip_forces(step_, removed, weights, instructions_);
     chip_forces(step_, removed, weights, instructions_, forces_);
     const double to_impulse = step_.newton_per_unit * step_.elapsed_s;

@@ -12,7 +12,6 @@
 
 #include <array>
 #include <glm/vec3.hpp>
-#include <span>
 
 #include "haptic_server/cutting_force/chip_force.h"
 
@@ -33,7 +32,7 @@ class InstantaneousForce {
     void begin_step(const CuttingStep& step) noexcept;
 
     /// As MeanForce::add.
-    void add(const RemovedVoxels& removed, std::span<const float> weights) noexcept;
+    void add(const RemovedVoxels& removed, const ChipWeights& weights) noexcept;
 
     /// Empties the bins: what was cut so far says nothing of the teeth to come.
     void forget() noexcept;

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <glm/vec3.hpp>
-#include <span>
 
 #include "haptic_server/cutting_force/chip_force.h"
 
@@ -14,8 +13,8 @@ class MeanForce {
     MeanForce(const CuttingStep& step, InstructionSet instructions) noexcept
         : step_(step), instructions_(instructions) {}
 
-    /// `weights`: relative stiffness times the fraction removed, padded with zeros like the batch.
-    void add(const RemovedVoxels& removed, std::span<const float> weights) noexcept {
+    /// Weights are padded with zeros like the batch.
+    void add(const RemovedVoxels& removed, const ChipWeights& weights) noexcept {
         sum_ += sum_of_chip_forces(step_, removed, weights, instructions_);
     }
 

@@ -19,6 +19,7 @@ struct RandomStudyOptions {
     int count = 500;
     std::uint64_t seed = 1;
     double voxel_mm = 0.1;
+    bool has_edge_forces = false;
 };
 
 /// Runs random motions alone: writes random.json and random.csv into `options.out`. Throws as below.

@@ -84,7 +84,8 @@ class MetBone {
         }
         met_.pad();
         for (std::size_t i = met_.count; i < met_.padded_count(); ++i) weights_[i] = 0.0f;
-        if (met_.count > 0) force_.add(met_, {weights_.data(), met_.padded_count()});
+        const std::span<const float> weights(weights_.data(), met_.padded_count());
+        if (met_.count > 0) force_.add(met_, {.chip = weights, .edge = weights});
         met_.count = 0;
     }
 

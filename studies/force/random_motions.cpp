@@ -107,6 +107,17 @@ std::vector<RandomMotion> random_motions(int count, std::uint64_t seed, double v
     return motions;
 }
 
+void draw_edge_forces(std::vector<RandomMotion>& motions, std::uint64_t seed) {
+    Draw draw(seed);
+    for (RandomMotion& drawn : motions) {
+        glm::dvec3& edge = drawn.motion.burr.edge_coefficients_n_per_mm;
+        edge.x = draw.uniform(0.0, 1.0);
+        edge.y = draw.uniform(0.0, 1.0);
+        edge.z = draw.uniform(0.0, 0.2);
+        drawn.motion.name += fmt::format(", edges {:.3f} {:.3f} {:.3f} N/mm", edge.x, edge.y, edge.z);
+    }
+}
+
 RandomResult measure(const RandomMotion& motion, const MakeModel& make_model) {
     const ForceSeries series = run_steady(motion.motion, motion.run, make_model);
     RandomResult result{.motion = motion,

@@ -26,6 +26,9 @@ struct RandomMotion {
 /// The same for the same seed on every machine.
 std::vector<RandomMotion> random_motions(int count, std::uint64_t seed, double voxel_mm = 0.1);
 
+/// Gives their burrs edge forces: K_te and K_re of 0 to 1 N/mm, K_ae of 0 to 0.2. The motions stay the same.
+void draw_edge_forces(std::vector<RandomMotion>& motions, std::uint64_t seed);
+
 struct RandomResult {
     RandomMotion motion;
     glm::dvec3 reference_n{0.0};  ///< of a dive: its mean over the path

@@ -37,8 +37,9 @@ glm::dvec3 force_per_edge_length(const SteadyMotion& motion, const SurfacePoint&
                                  const EdgeDetails& details) {
     const double chip_mm = feed_per_tooth_mm * std::max(0.0, glm::dot(point.normal, direction));
     if (chip_mm <= 0.0 || stiffness <= 0.0) return glm::dvec3(0.0);
-    const glm::dvec3 per_length =
-        stiffness * (motion.burr.cutting_coefficients_n_per_mm2 * chip_mm) + details.edge_force_n_per_mm;
+    const glm::dvec3 per_length = stiffness * (motion.burr.cutting_coefficients_n_per_mm2 * chip_mm +
+                                               motion.burr.edge_coefficients_n_per_mm) +
+                                  details.edge_force_n_per_mm;
     return -(motion.burr.sigma() * per_length.x * point.e_psi + per_length.y * point.normal +
              per_length.z * point.e_kappa);
 }

@@ -4,6 +4,7 @@
 #include <cstdlib>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <stdexcept>
 #include <string>
 
 #include "tests/support/temporary_folder.h"
@@ -11,20 +12,35 @@
 namespace osteomill {
 namespace {
 
+/// random.json of `osteomill_study force` with these options.
+nlohmann::json measured(const std::string& options) {
+    const testing::TemporaryFolder folder;
+    const std::string command =
+        STUDY " force " + options + " --out '" + folder.path().string() + "' >/dev/null 2>&1 </dev/null";
+    if (std::system(command.c_str()) != 0) throw std::runtime_error("the study failed: " + options);
+    return nlohmann::json::parse(std::ifstream(folder / "random.json"));
+}
+
 TEST(ForceClaims, HoldOverRandomMotions) {
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
     GTEST_SKIP() << "accuracy is the optimised program's; under a sanitizer it takes minutes";
 #endif
-    const testing::TemporaryFolder folder;
-    const std::string command = STUDY " force --random 500 --seed 20261122 --out '" + folder.path().string() +
-                                "' >/dev/null 2>&1 </dev/null";
-    ASSERT_EQ(std::system(command.c_str()), 0);
-    const auto found = nlohmann::json::parse(std::ifstream(folder / "random.json"));
+    const auto found = measured("--random 500 --seed 20261122");
     EXPECT_EQ(found.at("cases"), 500);
     EXPECT_LT(found.at("median_error_percent"), 0.3);
     EXPECT_LT(found.at("p95_error_percent"), 2.0);
     EXPECT_LT(found.at("p99_error_percent"), 6.0);
     EXPECT_LT(found.at("ripple_p90_percent"), 2.5);
+}
+
+TEST(ForceClaims, HoldWithEdgesThatRub) {
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+    GTEST_SKIP() << "accuracy is the optimised program's; under a sanitizer it takes minutes";
+#endif
+    const auto found = measured("--random 300 --seed 20261123 --edge-forces");
+    EXPECT_EQ(found.at("cases"), 300);
+    EXPECT_LT(found.at("median_error_percent"), 0.5);
+    EXPECT_LT(found.at("p95_error_percent"), 2.0);
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <array>
 
 #include "haptic_server/carving/removed_voxels.h"
+#include "haptic_server/cutting_force/chip_force.h"
 
 namespace osteomill::testing {
 
@@ -17,7 +18,7 @@ void add_voxel(Force& force, const glm::ivec3& voxel, double weighted_fraction) 
     removed.levels[0] = 1.0f;
     removed.pad();
     std::array<float, RemovedVoxels::lanes> weights{static_cast<float>(weighted_fraction)};
-    force.add(removed, weights);
+    force.add(removed, {.chip = weights, .edge = weights});
 }
 
 }  // namespace osteomill::testing

@@ -62,7 +62,8 @@ TEST_F(InstructionSets, SumForcesAlike) {
                            0.001);
     std::array<glm::dvec3, 2> sum{};
     for (const InstructionSet set : {InstructionSet::plain, best_instruction_set()}) {
-        sum[set == InstructionSet::plain ? 0 : 1] = sum_of_chip_forces(step, voxels, voxels.levels, set);
+        sum[set == InstructionSet::plain ? 0 : 1] =
+            sum_of_chip_forces(step, voxels, {.chip = voxels.levels, .edge = voxels.levels}, set);
     }
     EXPECT_EQ(sum[0], sum[1]);
     EXPECT_GT(glm::length(sum[0]), 0.0);

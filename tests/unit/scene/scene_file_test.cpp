@@ -55,6 +55,7 @@ diameter_mm = 2.5
 edges = 8
 rpm = 60000
 cutting_coefficients_n_per_mm2 = [1, 2, 3]
+edge_coefficients_n_per_mm = [0.5, 0.25, 0]
 turns = "counter-clockwise"
 [device]
 rotation = [[0, -1, 0], [1, 0, 0], [0, 0, 1]]
@@ -77,6 +78,8 @@ file = "path.csv"
     EXPECT_DOUBLE_EQ(scene.burrs[1].spindle_rev_per_s, 1000.0);
     EXPECT_EQ(scene.burrs[1].sigma(), 1.0);
     EXPECT_EQ(scene.burrs[1].cutting_coefficients_n_per_mm2, glm::dvec3(1.0, 2.0, 3.0));
+    EXPECT_EQ(scene.burrs[1].edge_coefficients_n_per_mm, glm::dvec3(0.5, 0.25, 0.0));
+    EXPECT_FALSE(scene.burrs[0].has_edge_force()) << "the published law is the default";
     EXPECT_EQ(scene.device.rotation * glm::dvec3(1.0, 0.0, 0.0), glm::dvec3(0.0, 1.0, 0.0))
         << "rows, not columns";
     EXPECT_EQ(scene.start_pose.spindle_axis, glm::dvec3(0.0, 0.6, 0.8));
@@ -87,6 +90,7 @@ file = "path.csv"
 TEST(SceneFile, ShippedScenesAreReadAndSurviveWriting) {
     int scenes = 0;
     for (const auto& entry : std::filesystem::directory_iterator(OSTEOMILL_SCENES)) {
+        if (entry.path().filename() == "materials.toml") continue;
         const Scene scene = read_scene(entry.path());
         EXPECT_EQ(parse_scene(write_scene(scene), "again.toml"), scene) << entry.path();
         ++scenes;
@@ -171,6 +175,8 @@ TEST(SceneFile, ValuesOutOfRangeOrOfTheWrongTypeAreRefused) {
     EXPECT_THAT(error_of(burr + "1\nrpm = -5\n"), HasSubstr("'rpm' is -5"));
     EXPECT_THAT(error_of(burr + "1\ncutting_coefficients_n_per_mm2 = [0, 1, 1]\n"),
                 HasSubstr("K_t must be above 0"));
+    EXPECT_THAT(error_of(burr + "1\nedge_coefficients_n_per_mm = [0, -1, 0]\n"),
+                HasSubstr("my.toml:7: K_te, K_re and K_ae must be at least 0"));
     EXPECT_THAT(error_of(burr + "1\n[[burrs]]\nname = \"b\"\ndiameter_mm = 2\n"),
                 HasSubstr("two burrs are called"));
     EXPECT_THAT(error_of(smallest + "[device]\nrotation = [[1,0,0],[0,1,0],[0,0,-1]]\n"),

@@ -1,0 +1,116 @@
+// Edges that rub, in the voxel model: against the analytical reference, and what follows from the law.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <glm/geometric.hpp>
+
+#include "haptic_server/cutting_force/edge_advance.h"
+#include "studies/force/reference_force.h"
+#include "studies/force/steady_case.h"
+#include "tests/support/steady_motion.h"
+
+namespace osteomill::edge_force_test {
+namespace {
+
+using testing::ReferenceCase;
+using testing::relative_error;
+using testing::run_steady;
+
+ReferenceCase slot_1_mm_deep_with_edges() {
+    for (ReferenceCase c : testing::reference_cases())
+        if (c.name == "polish upright d=1.0") {
+            c.burr.edge_coefficients_n_per_mm = {0.5, 0.4, 0.1};
+            return c;
+        }
+    throw std::runtime_error("no such case");
+}
+
+glm::dvec3 reference_n(const ReferenceCase& c) {
+    return study::mean_reference_force_n(study::motion_of(c), study::bone_of(c));
+}
+
+// The end of the face at the axis costs an upright burr half a voxel of each edge; the shallowest of these
+// shavings has edges of ten voxels.
+TEST(EdgeForce, IsTheReferencesInEverySteadyMotion) {
+    for (ReferenceCase c : testing::reference_cases()) {
+        c.burr.edge_coefficients_n_per_mm = {0.5, 0.4, 0.1};
+        const glm::dvec3 found = run_steady(c, 0.1, 0.01, 2.0).mean_force_n;
+        const glm::dvec3 expected = reference_n(c);
+        EXPECT_LT(relative_error(found, expected), 0.055)
+            << c.name << ": " << found.x << ' ' << found.y << ' ' << found.z << ", not " << expected.x << ' '
+            << expected.y << ' ' << expected.z;
+    }
+}
+
+TEST(EdgeForce, OfASlotIsThatOfTheFormula) {
+    // Upright burr, slot of depth d, edges alone: F_y = sigma N_phi / 2 pi * K_te * 2 R k_d ... by
+    // integrating K_te cos psi over the half that faces the feed, R dkappa up to cos k_d = 1 - d / R.
+    ReferenceCase c = slot_1_mm_deep_with_edges();
+    c.burr.edge_coefficients_n_per_mm = {0.5, 0.0, 0.0};
+    ReferenceCase chips_alone = c;
+    chips_alone.burr.edge_coefficients_n_per_mm = glm::dvec3(0.0);
+    const glm::dvec3 edges =
+        run_steady(c, 0.1, 0.01, 2.0).mean_force_n - run_steady(chips_alone, 0.1, 0.01, 2.0).mean_force_n;
+    const double arc_mm = c.burr.radius_mm() * std::acos(1.0 - c.depth_mm / c.burr.radius_mm());
+    const double expected = 0.5 * c.burr.edges / (2.0 * 3.14159265358979) * 2.0 * arc_mm;
+    EXPECT_NEAR(std::abs(edges.y) / expected, 1.0, 0.03);
+    EXPECT_LT(std::hypot(edges.x, edges.z), 0.03 * expected);
+}
+
+TEST(EdgeForce, DoesNotDependOnFeedSpindleSpeedOrTickRate) {
+    const ReferenceCase c = slot_1_mm_deep_with_edges();
+    const auto edges_alone = [](ReferenceCase with, double step_s) {
+        const glm::dvec3 both = run_steady(with, 0.1, step_s, 2.0).mean_force_n;
+        with.burr.edge_coefficients_n_per_mm = glm::dvec3(0.0);
+        return both - run_steady(with, 0.1, step_s, 2.0).mean_force_n;
+    };
+    const glm::dvec3 edges = edges_alone(c, 0.01);
+    ReferenceCase slower = c;
+    slower.velocity_mm_per_s *= 0.25;
+    EXPECT_LT(relative_error(edges_alone(slower, 0.01), edges), 0.02);
+    ReferenceCase faster_spindle = c;
+    faster_spindle.burr.spindle_rev_per_s *= 4.0;
+    EXPECT_LT(relative_error(edges_alone(faster_spindle, 0.01), edges), 1e-6);
+    EXPECT_LT(relative_error(edges_alone(c, 0.001), edges), 0.02);
+    ReferenceCase more_edges = c;
+    more_edges.burr.edges *= 2;
+    EXPECT_LT(relative_error(edges_alone(more_edges, 0.01), 2.0 * edges), 1e-6) << "each edge rubs";
+}
+
+TEST(EdgeForce, OfBinsAndOfInstantsAddsUpToTheSame) {
+    const ReferenceCase c = slot_1_mm_deep_with_edges();
+    const auto error_of = [&](double step_s, double travel_mm, ForceSummation summation) {
+        return relative_error(run_steady(c, 0.1, step_s, travel_mm, {.summation = summation}).mean_force_n,
+                              reference_n(c));
+    };
+    EXPECT_LT(error_of(0.01, 2.0, ForceSummation::bins), 0.08) << "coarse at the axis";
+    EXPECT_LT(error_of(0.0001, 1.0, ForceSummation::instants), 0.03);
+}
+
+TEST(EdgeForce, CountsForNothingInThePublishedLaw) {
+    const ReferenceCase c = slot_1_mm_deep_with_edges();
+    ReferenceCase without = c;
+    without.burr.edge_coefficients_n_per_mm = glm::dvec3(0.0);
+    EXPECT_EQ(run_steady(c, 0.1, 0.01, 1.0, {.has_edge_forces = false}).mean_force_n,
+              run_steady(without, 0.1, 0.01, 1.0).mean_force_n);
+}
+
+TEST(EdgeAdvance, TimesTheAreaIsTheVolumeThatAPartlyPassedFaceLoses) {
+    // Area 1, path 1, the cosine running evenly from x - w to x + w: the volume is the mean of its positive
+    // part, the area that rubs its mean duration.
+    for (const double w : {0.05, 0.2})
+        for (const double x : {-0.5 * w, 0.0, 0.7 * w, w, 3.0 * w}) {
+            double volume = 0.0;
+            double area = 0.0;
+            constexpr int parts = 20'000;
+            for (int i = 0; i < parts; ++i) {
+                const double cosine = x + w * ((2.0 * i + 1.0) / parts - 1.0);
+                volume += std::max(0.0, cosine) / parts;
+                area += (cosine > 0.0) / static_cast<double>(parts);
+            }
+            EXPECT_NEAR(volume / edge_advance(x, w), area, 1e-3) << x << ' ' << w;
+        }
+}
+
+}  // namespace
+}  // namespace osteomill::edge_force_test
