@@ -28,7 +28,7 @@ glm::dvec3 no_longer_than(const glm::dvec3& step_mm, double longest_mm) {
 }  // namespace
 
 void BurrProxy::place(const glm::dvec3& position_mm) noexcept {
-    position_mm_ = target_mm_ = position_mm;
+    position_mm_ = carving_mm_ = target_mm_ = position_mm;
     apart_mj_ = to_hand_mj_ = 0.0;
     map_step_ = 0;
     correction_.reset();
@@ -40,23 +40,26 @@ void BurrProxy::take_over(const MillingResult& latest) noexcept {
     map_step_ = latest.step;
     if (latest.spindle_on) correction_.compare(latest.force_n, latest.time_s, latest.pose.spindle_axis);
     const Engagement& engagement = latest.engagement;
-    const glm::dvec3 moved = position_mm_ - engagement.burr_position_mm;
-    for (std::size_t i = 0; i < engagement.count; ++i)
-        cut_mm_[i] = std::max(0.0, glm::dot(engagement.patches[i].normal, moved));
+    std::fill_n(cut_mm_.begin(), engagement.count, 0.0);
+    remember_cuts(engagement);
 }
 
 std::span<const Contact> BurrProxy::gather_contacts(double longest_mm, double step_s, bool spindle_on,
                                                     const Engagement& engagement) noexcept {
     std::size_t count = 0;
     const glm::dvec3 moved = position_mm_ - engagement.burr_position_mm;
-    const auto add = [&](const glm::dvec3& normal, const glm::dvec3& force_n_per_mm, double begins_mm) {
-        if (begins_mm <= longest_mm) contacts_[count++] = {normal, force_n_per_mm, begins_mm};
+    const double yields_mm = engagement.has_edge_force && spindle_on ? edge_yields_mm : 0.0;
+    const auto add = [&](const glm::dvec3& normal, const glm::dvec3& force_n_per_mm, double begins_mm,
+                         const glm::dvec3& yield_n) {
+        if (begins_mm <= longest_mm)
+            contacts_[count++] = {normal, force_n_per_mm, begins_mm, yield_n, yields_mm};
     };
     for (std::size_t i = 0; i < engagement.count; ++i) {
         const EngagedPatch& patch = engagement.patches[i];
         const double along = glm::dot(patch.normal, moved);
         if (!spindle_on) {
-            add(patch.normal, -wall_n_per_mm3 * patch.area_mm2 * patch.normal, patch.gap_mm - along);
+            add(patch.normal, -wall_n_per_mm3 * patch.area_mm2 * patch.normal, patch.gap_mm - along,
+                glm::dvec3(0.0));
             continue;
         }
         const double share = touching_share(patch.gap_mm / engagement.spacing_mm);
@@ -64,16 +67,26 @@ std::span<const Contact> BurrProxy::gather_contacts(double longest_mm, double st
         const double begins_beyond_gap = std::max(patch.gap_mm, cut_mm_[i]) - along;
         if ((share > 0.0 ? begins : begins_beyond_gap) > longest_mm) continue;
         const glm::dvec3 force = correction_.gain() * patch.cutting_n_s_per_mm / step_s;
-        if (share > 0.0) add(patch.normal, share * force, begins);
-        if (share < 1.0) add(patch.normal, (1.0 - share) * force, begins_beyond_gap);
+        const glm::dvec3 yield = correction_.gain() * patch.edge_n;
+        if (share > 0.0) add(patch.normal, share * force, begins, share * yield);
+        if (share < 1.0) add(patch.normal, (1.0 - share) * force, begins_beyond_gap, (1.0 - share) * yield);
     }
     return {contacts_.data(), count};
 }
 
 void BurrProxy::remember_cuts(const Engagement& engagement) noexcept {
     const glm::dvec3 moved = position_mm_ - engagement.burr_position_mm;
+    const double yields_mm = engagement.has_edge_force ? edge_yields_mm : 0.0;
     for (std::size_t i = 0; i < engagement.count; ++i)
-        cut_mm_[i] = std::max(cut_mm_[i], glm::dot(engagement.patches[i].normal, moved));
+        cut_mm_[i] = std::max(cut_mm_[i], glm::dot(engagement.patches[i].normal, moved) - yields_mm);
+}
+
+void BurrProxy::trail(bool is_held, const Engagement& engagement) noexcept {
+    if (!is_held || !engagement.has_edge_force) {
+        carving_mm_ = position_mm_;
+        return;
+    }
+    carving_mm_ = position_mm_ + no_longer_than(carving_mm_ - position_mm_, carving_trails_mm);
 }
 
 LinearPull BurrProxy::damped(const LinearPull& pull, double damping_n_s_per_mm,
@@ -144,6 +157,7 @@ void BurrProxy::cut_toward(const glm::dvec3& target_mm, const LinearPull& pull, 
     position_mm_ = step_mm == pull_mm ? target_mm : position_mm_ + step_mm;
     correction_.add_prediction(solved.bone_force_n, tick_s);
     remember_cuts(engagement);
+    trail(solved.bone_force_n != glm::dvec3(0.0), engagement);
 }
 
 void BurrProxy::press_toward(const glm::dvec3& target_mm, const LinearPull& pull, double tick_s,
@@ -170,6 +184,7 @@ void BurrProxy::advance(const glm::dvec3& target_mm, const LinearPull& pull, dou
         cut_toward(target_mm, pull, tick_s, latest.engagement);
     else
         press_toward(target_mm, pull, tick_s, latest.engagement);
+    if (!spindle_on) carving_mm_ = position_mm_;
     target_mm_ = target_mm;
 }
 

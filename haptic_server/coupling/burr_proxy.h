@@ -17,6 +17,11 @@
 // linear: Newton on the set of patches in contact (contact_solve.h). With a spring alone and in one
 // dimension, in bone of resistance B, it is p' = (B/dt p + K_c x) / (B/dt + K_c): stable for any B.
 //
+// Edges that rub give a patch a force that does not go with its advance: it is there as soon as the patch
+// touches, and holds the burr until the pull overcomes it, as dry friction does. It is made elastic: each
+// patch gives way by edge_yields_mm before it cuts, and the burr that carves trails the proxy by up to
+// carving_trails_mm, so that what is pressed in is still there when the next map comes.
+//
 // The pull is that of coupling_spring.h, with its damper. So what the hand feels is what the bone does to the
 // burr, to the last digit, but for two things.
 //
@@ -60,6 +65,8 @@ class BurrProxy {
                  const MillingResult& latest) noexcept;
 
     const glm::dvec3& position_mm() const { return position_mm_; }
+    /// Where the burr carves: the same, but for what gives way before edges cut.
+    const glm::dvec3& carving_mm() const { return carving_mm_; }
     /// Iterations that the last advance took, for benchmarks.
     int iterations() const { return iterations_; }
     const SolveCounts& counts() const { return counts_; }
@@ -67,6 +74,10 @@ class BurrProxy {
     /// Between these gaps a patch counts as touching by a share.
     static constexpr double surely_touching_voxels = 0.1;
     static constexpr double surely_apart_voxels = 0.3;
+    /// Depth by which a patch gives way before its edges cut, and how far the carving burr may trail: that of
+    /// a patch nearly along the motion yields, too.
+    static constexpr double edge_yields_mm = 0.001;
+    static constexpr double carving_trails_mm = 0.005;
     /// Wall pressure per depth with the spindle off, N/mm^3: a 1 mm burr pressed with 3 N sinks in by 0.04
     /// mm.
     static constexpr double wall_n_per_mm3 = 1000.0;
@@ -92,6 +103,8 @@ class BurrProxy {
     std::span<const Contact> gather_contacts(double longest_mm, double step_s, bool spindle_on,
                                              const Engagement& engagement) noexcept;
     void remember_cuts(const Engagement& engagement) noexcept;
+    /// Takes the burr that carves along with the proxy, which bone holds or does not.
+    void trail(bool is_held, const Engagement& engagement) noexcept;
     static LinearPull damped(const LinearPull& pull, double damping_n_s_per_mm,
                              const glm::dvec3& hand_step_mm, double tick_s);
     /// The balance of a tick, damped where bone drives the burr.
@@ -105,6 +118,7 @@ class BurrProxy {
                       const Engagement& engagement) noexcept;
 
     glm::dvec3 position_mm_{0.0};
+    glm::dvec3 carving_mm_{0.0};
     glm::dvec3 target_mm_{0.0};  // of the last tick
     double apart_mj_ = 0.0;      // that bone lately spent on setting burr and hand apart
     double to_hand_mj_ = 0.0;    // that the hand lately got

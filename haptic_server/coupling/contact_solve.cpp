@@ -28,7 +28,13 @@ State state_at(const LinearPull& pull, std::span<const Contact> contacts, const 
     for (const Contact& contact : contacts) {
         const double beyond_mm = glm::dot(contact.normal, step_mm) - contact.begins_mm;
         if (beyond_mm <= 0.0) continue;
-        state.bone_force_n += contact.force_n_per_mm * beyond_mm;
+        if (beyond_mm < contact.yields_mm) {
+            const glm::dvec3 elastic_n_per_mm = contact.yield_n / contact.yields_mm;
+            state.bone_force_n += elastic_n_per_mm * beyond_mm;
+            state.resistance -= glm::outerProduct(elastic_n_per_mm, contact.normal);
+            continue;
+        }
+        state.bone_force_n += contact.yield_n + contact.force_n_per_mm * (beyond_mm - contact.yields_mm);
         state.resistance -= glm::outerProduct(contact.force_n_per_mm, contact.normal);
     }
     state.residual_n = pull.force_n(step_mm) + state.bone_force_n;
@@ -47,9 +53,9 @@ double smallest_eigenvalue(const glm::dmat3& m) {
     return mean + 2.0 * scale * std::cos((std::acos(cosine) + 2.0 * std::numbers::pi) / 3.0);
 }
 
-/// How much a contact resists along its normal, N/mm.
-double normal_resistance(const Contact& contact) {
-    return std::max(0.0, -glm::dot(contact.force_n_per_mm, contact.normal));
+/// How much of a contact's force resists along its normal.
+double normal_part(const glm::dvec3& force, const Contact& contact) {
+    return std::max(0.0, -glm::dot(force, contact.normal));
 }
 
 /// The relaxed problem's function with its derivatives.
@@ -69,10 +75,16 @@ RelaxedState relaxed_at(const LinearPull& pull, std::span<const Contact> contact
     for (const Contact& contact : contacts) {
         const double beyond_mm = glm::dot(contact.normal, step_mm) - contact.begins_mm;
         if (beyond_mm <= 0.0) continue;
-        const double resistance = normal_resistance(contact);
-        state.bone_force_n -= resistance * beyond_mm * contact.normal;
+        const double yield_n = normal_part(contact.yield_n, contact);
+        const bool yields = beyond_mm >= contact.yields_mm;
+        const double resistance =
+            yields ? normal_part(contact.force_n_per_mm, contact) : yield_n / contact.yields_mm;
+        const double within_mm = yields ? beyond_mm - contact.yields_mm : beyond_mm;
+        const double before_n = yields ? yield_n : 0.0;
+        state.bone_force_n -= (before_n + resistance * within_mm) * contact.normal;
         state.resistance += resistance * glm::outerProduct(contact.normal, contact.normal);
-        state.energy_mj += 0.5 * resistance * beyond_mm * beyond_mm;
+        state.energy_mj +=
+            0.5 * resistance * within_mm * within_mm + before_n * (within_mm + 0.5 * contact.yields_mm);
     }
     state.residual_n = pull.force_n(step_mm) + state.bone_force_n;
     return state;

@@ -1,7 +1,11 @@
 // The balance of a burr between a linear pull and one-sided contacts with bone: which step d leaves no force
 // over.
 //
-//     offset - stiffness d + sum of force_i max(0, n_i . d - begins_i) = 0
+//     offset - stiffness d + sum of force_i max(0, b_i - yields_i) + yield_i min(1, b_i / yields_i) = 0
+//     where b_i = n_i . d - begins_i > 0
+//
+// A contact yields: within yields_i its force rises from nothing to yield_i, which stays. That is dry
+// friction made elastic, as of an edge that rubs. Without yield_i and yields_i it only resists an advance.
 //
 // The pull is a spring and dampers to the hand: all are alike in every direction, so a vector and a number
 // hold them. A contact's force need not point along its normal: a cutting edge pulls sideways. Then the
@@ -18,8 +22,10 @@ namespace osteomill {
 /// One patch of bone that the burr may meet.
 struct Contact {
     glm::dvec3 normal{0.0};          ///< outward from the burr, unit, patient axes
-    glm::dvec3 force_n_per_mm{0.0};  ///< of the bone on the burr for each mm beyond `begins_mm`
+    glm::dvec3 force_n_per_mm{0.0};  ///< of the bone on the burr for each mm beyond `begins_mm` + `yields_mm`
     double begins_mm = 0.0;          ///< advance along the normal at which contact begins
+    glm::dvec3 yield_n{0.0};         ///< of the bone on the burr, from `yields_mm` beyond that on
+    double yields_mm = 0.0;
 };
 
 /// What moves the burr if there is no bone: `offset_n` less `stiffness_n_per_mm` (above 0) times its step.

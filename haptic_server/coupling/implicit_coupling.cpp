@@ -16,7 +16,7 @@ CouplingOutput ImplicitCoupling::tick(const HandState& hand, const MillingResult
     const LinearPull pull = spring_.follow_hand(position_mm, hand.tick_s);
     proxy_.advance(position_mm, pull, hand.tick_s, hand.spindle_on, latest);
     return {.force_n = spring_.follow_burr(proxy_.position_mm(), hand.tick_s),
-            .burr_pose = {proxy_.position_mm(), hand.pose.spindle_axis}};
+            .burr_pose = {proxy_.carving_mm(), hand.pose.spindle_axis}};
 }
 
 }  // namespace osteomill

@@ -18,6 +18,9 @@ struct EngagedPatch {
     /// -(sigma K_t e_psi + K_r n + K_a e_kappa) s dA / (2 pi r n_rev), the law of chip_force.h for a patch
     /// that removes dA times its advance.
     glm::dvec3 cutting_n_s_per_mm{0.0};
+    /// Force on the burr of edges that rub where the patch cuts, however slowly, N, patient axes:
+    /// -(sigma K_te e_psi + K_re n + K_ae e_kappa) s N_phi dA / (2 pi r).
+    glm::dvec3 edge_n{0.0};
     double area_mm2 = 0.0;
 };
 
@@ -30,6 +33,7 @@ struct Engagement {
 
     glm::dvec3 burr_position_mm{0.0};  ///< patient LPS; the position for which the gaps hold
     double spacing_mm = 0.1;           ///< of the bone's voxels: gaps are good to about a tenth of it
+    bool has_edge_force = false;       ///< of the burr; without, edge_n is zero
     std::size_t count = 0;
     std::array<EngagedPatch, max_patches> patches;
 };

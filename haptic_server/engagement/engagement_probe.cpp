@@ -38,7 +38,9 @@ constexpr float half = 127.5f;
 }  // namespace
 
 EngagementProbe::EngagementProbe(const Burr& burr, double spacing_mm)
-    : radius_mm_(burr.radius_mm()), bricks_(burr.radius_mm() / spacing_mm + Engagement::reach_voxels + 2.0) {
+    : radius_mm_(burr.radius_mm()),
+      has_edge_force_(burr.has_edge_force()),
+      bricks_(burr.radius_mm() / spacing_mm + Engagement::reach_voxels + 2.0) {
     const double sphere_area_mm2 = 4.0 * std::numbers::pi * radius_mm_ * radius_mm_;
     const double wanted_edge_mm = 1.5 * spacing_mm;
     const int rings = std::clamp(
@@ -47,6 +49,7 @@ EngagementProbe::EngagementProbe(const Burr& burr, double spacing_mm)
     const auto count = static_cast<std::size_t>(rings * patches_a_ring);
 
     const glm::dvec3 k = burr.cutting_coefficients_n_per_mm2;
+    const glm::dvec3 edge = burr.edge_coefficients_n_per_mm;
     patches_.reserve(count);
     for (int ring = 0; ring < rings; ++ring) {
         // Equal in angle, so that a shallow cut at the tip meets several.
@@ -63,10 +66,15 @@ EngagementProbe::EngagementProbe(const Burr& burr, double spacing_mm)
             const glm::dvec3 normal(std::cos(psi) * sin_kappa, std::sin(psi) * sin_kappa, z);
             const glm::dvec3 e_psi(-std::sin(psi), std::cos(psi), 0.0);
             const glm::dvec3 e_kappa(std::cos(psi) * -z, std::sin(psi) * -z, sin_kappa);
-            const glm::dvec3 cutting = -(burr.sigma() * k.x * e_psi + k.y * normal + k.z * e_kappa) *
-                                       area_mm2 * mean_per_r /
-                                       (2.0 * std::numbers::pi * burr.spindle_rev_per_s);
-            patches_.push_back({normal, cutting, area_mm2});
+            const auto along_axes = [&](const glm::dvec3& c) {
+                return burr.sigma() * c.x * e_psi + c.y * normal + c.z * e_kappa;
+            };
+            const double width_by_turn_mm = area_mm2 * mean_per_r / (2.0 * std::numbers::pi);
+            patches_.push_back({.normal = normal,
+                                .cutting_n_s_per_mm = -along_axes(k) * area_mm2 * mean_per_r /
+                                                      (2.0 * std::numbers::pi * burr.spindle_rev_per_s),
+                                .edge_n = -along_axes(edge) * (width_by_turn_mm * burr.edges),
+                                .area_mm2 = area_mm2});
         }
     }
     // Samples of neighbours read the same bricks.
@@ -87,6 +95,7 @@ void EngagementProbe::sample(const Bone& bone, const glm::dvec3& position_mm, co
     out.count = 0;
     const double h = bone.grid().spacing_mm;
     out.spacing_mm = h;
+    out.has_edge_force = has_edge_force_;
     const glm::dvec3 centre = to_voxel_coordinates(bone.grid(), position_mm);
     const double radius = radius_mm_ / h;
     // Stiffness is read one voxel farther in than the surface may be.
@@ -108,8 +117,12 @@ void EngagementProbe::sample(const Bone& bone, const glm::dvec3& position_mm, co
             double stiffness = bricks_.stiffness(surface + (crossing.offset_voxels + 1.0f) * outward);
             if (stiffness == 0.0)
                 stiffness = bricks_.stiffness(surface + crossing.bone_offset_voxels * outward);
-            out.patches[out.count++] = {normal, static_cast<double>(crossing.offset_voxels) * h,
-                                        stiffness * (frame * patch.cutting_n_s_per_mm), patch.area_mm2};
+            EngagedPatch& engaged = out.patches[out.count++];
+            engaged = {.normal = normal,
+                       .gap_mm = static_cast<double>(crossing.offset_voxels) * h,
+                       .cutting_n_s_per_mm = stiffness * (frame * patch.cutting_n_s_per_mm),
+                       .area_mm2 = patch.area_mm2};
+            if (has_edge_force_) engaged.edge_n = stiffness * (frame * patch.edge_n);
         }
     }
 }

@@ -31,6 +31,7 @@ class EngagementProbe {
     struct Patch {
         glm::dvec3 normal;              ///< burr axes
         glm::dvec3 cutting_n_s_per_mm;  ///< burr axes, for bone of relative stiffness 1
+        glm::dvec3 edge_n;              ///< likewise
         double area_mm2;
     };
 
@@ -53,6 +54,7 @@ class EngagementProbe {
     static Crossing first_crossing(const FourFractions& along, std::size_t lane);
 
     double radius_mm_;
+    bool has_edge_force_;
     std::vector<Patch> patches_;
     std::array<std::vector<float>, 3> normals_;  // of the patches, by axis
     BrickNeighbourhood bricks_;

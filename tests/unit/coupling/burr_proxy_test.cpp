@@ -53,6 +53,58 @@ TEST(BurrProxy, SolvesTheOneDimensionalLaw) {
     }
 }
 
+/// One patch facing +x whose edges rub with 0.6 N.
+std::unique_ptr<MillingResult> rubbing_along_x() {
+    auto result = damper_along_x(0.02, 0.0);
+    result->engagement.has_edge_force = true;
+    result->engagement.patches[0].edge_n = {-0.6, 0.0, 0.0};
+    return result;
+}
+
+/// The map that the milling loop samples after it has carved where the proxy says. Its force is not looked
+/// at.
+void refresh(MillingResult& bone, const BurrProxy& proxy) {
+    ++bone.step;
+    bone.spindle_on = false;
+    bone.engagement.burr_position_mm = proxy.carving_mm();
+}
+
+TEST(BurrProxy, IsHeldByEdgesThatRubUntilTheHandOvercomesThem) {
+    BurrProxy proxy;
+    proxy.place(glm::dvec3(0.0));
+    const auto bone = rubbing_along_x();
+    // 0.3 mm on 1.5 N/mm: 0.45 N. For a second, with a new map each tick, nothing creeps.
+    for (int i = 0; i < 1000; ++i) {
+        advance(proxy, {0.3, 0.0, 0.0}, 0.001, true, *bone);
+        refresh(*bone, proxy);
+    }
+    EXPECT_LT(proxy.position_mm().x, BurrProxy::edge_yields_mm);
+    EXPECT_EQ(proxy.carving_mm(), glm::dvec3(0.0)) << "nothing is cut";
+    // 0.8 mm: 1.2 N, of which 0.6 N are left for chips. Then the burr stands where the spring holds 0.6 N.
+    for (int i = 0; i < 2000; ++i) {
+        advance(proxy, {0.8, 0.0, 0.0}, 0.001, true, *bone);
+        refresh(*bone, proxy);
+    }
+    EXPECT_NEAR(proxy.position_mm().x, 0.4, 0.002);
+    EXPECT_NEAR(proxy.carving_mm().x, proxy.position_mm().x, BurrProxy::carving_trails_mm + 1e-9);
+}
+
+TEST(BurrProxy, FeelsTheWholeEdgeForceHoweverSlowlyItCuts) {
+    for (const double speed_mm_per_s : {0.2, 2.0, 20.0}) {
+        BurrProxy proxy;
+        proxy.place(glm::dvec3(0.0));
+        const auto bone = rubbing_along_x();
+        double hand_mm = 0.45;
+        for (int i = 0; i < 3000; ++i) {
+            hand_mm += 0.001 * speed_mm_per_s;
+            advance(proxy, {hand_mm, 0.0, 0.0}, 0.001, true, *bone);
+            refresh(*bone, proxy);
+        }
+        const double chip_n = 0.02 * speed_mm_per_s;
+        EXPECT_NEAR(1.5 * (hand_mm - proxy.position_mm().x), 0.6 + chip_n, 0.01) << speed_mm_per_s;
+    }
+}
+
 TEST(BurrProxy, MeetsBoneOnlyBeyondTheGapAndNeverTwice) {
     BurrProxy proxy;
     proxy.place(glm::dvec3(0.0));

@@ -3,11 +3,13 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
 #include <memory>
 #include <numbers>
 
+#include "studies/force/reference_force.h"
 #include "tests/support/block.h"
 
 namespace osteomill::engagement_probe_test {
@@ -76,6 +78,28 @@ TEST(Engagement, AdvancingIntoAFreshSlotPredictsTheReferenceForce) {
                  std::max(0.0, glm::dot(engagement->patches[i].normal, velocity_mm_per_s));
     const glm::dvec3 reference(-1.413717, -10.350001, -0.9);
     EXPECT_LT(glm::length(force - reference) / glm::length(reference), 0.02);
+}
+
+TEST(Engagement, SaysWithWhatForceEdgesRub) {
+    // The same slot at half immersion: what the patches that advance add up to is the reference's edge force.
+    const Bone bone = testing::make_block({-4.0, -4.0, -4.0}, {4.0, 4.0, 0.0}, 0.1);
+    Burr burr{.cutting_coefficients_n_per_mm2 = glm::dvec3(0.0)};
+    auto engagement = std::make_unique<Engagement>();
+    EngagementProbe(burr, 0.1).sample(bone, glm::dvec3(0.0), up, *engagement);
+    EXPECT_FALSE(engagement->has_edge_force);
+    burr.edge_coefficients_n_per_mm = {0.5, 0.4, 0.1};
+    EngagementProbe(burr, 0.1).sample(bone, glm::dvec3(0.0), up, *engagement);
+    EXPECT_TRUE(engagement->has_edge_force);
+    // A quarter of a patch aside, so that no patch lies on the edge of the half that cuts.
+    const double aside_rad = 2.0 * std::numbers::pi / 64.0;
+    const glm::dvec3 velocity_mm_per_s(6.0 * std::cos(aside_rad), 6.0 * std::sin(aside_rad), 0.0);
+    glm::dvec3 force(0.0);
+    for (std::size_t i = 0; i < engagement->count; ++i)
+        if (glm::dot(engagement->patches[i].normal, velocity_mm_per_s) > 0.0)
+            force += engagement->patches[i].edge_n;
+    const glm::dvec3 reference = study::mean_reference_force_n(
+        {.burr = burr, .velocity_mm_per_s = velocity_mm_per_s}, study::flat_bone());
+    EXPECT_LT(glm::length(force - reference) / glm::length(reference), 0.03);
 }
 
 TEST(Engagement, PlungingAlongTheSpindlePushesNothingSideways) {
