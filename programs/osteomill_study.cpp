@@ -11,6 +11,7 @@
 #include <string>
 
 #include "haptic_server/imaging/progress.h"
+#include "studies/calibration/calibration_options.h"
 #include "studies/force/case_report.h"
 #include "studies/force/force_study.h"
 #include "studies/polishing/polishing_options.h"
@@ -172,6 +173,16 @@ void run(const osteomill::study::RealtimeStudyOptions& options) {
     osteomill::study::run_realtime_study(options, surroundings());
 }
 
+void run(const osteomill::study::CalibrationCommand& command) {
+    if (command.designs) {
+        osteomill::study::DesignOptions design = command.design;
+        design.out = command.out;
+        osteomill::study::design_runs(design, surroundings());
+    } else {
+        osteomill::study::calibrate({.data = command.data, .out = command.out}, surroundings());
+    }
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -187,13 +198,16 @@ int main(int argc, char** argv) {
     const CLI::App* const is_render = osteomill::study::add_render(app, render);
     osteomill::study::RealtimeStudyOptions realtime;
     const CLI::App* const is_realtime = osteomill::study::add_realtime(app, realtime);
+    osteomill::study::CalibrationCommand calibration;
+    const CLI::App* const is_calibration = osteomill::study::add_calibration(app, calibration);
     try {
         app.parse(argc, argv);
         if (app.got_subcommand("force") && app.get_subcommand("force")->count("--voxel-mm") > 0 &&
             force.cases.empty() && !force.random)
             throw CLI::RequiresError("--voxel-mm", "--cases or --random");
         if (app.get_subcommands().empty())
-            throw CLI::RequiredError("a study to run: force, stability, polishing, render or realtime");
+            throw CLI::RequiredError(
+                "a study to run: force, stability, polishing, render, realtime or calibrate");
     } catch (const CLI::ParseError& error) {
         if (error.get_exit_code() == 0) return app.exit(error);
         std::cerr << "osteomill_study: " << error.what() << " (see --help)\n";
@@ -208,6 +222,8 @@ int main(int argc, char** argv) {
             run(render);
         else if (is_realtime->parsed())
             run(realtime);
+        else if (is_calibration->parsed())
+            run(calibration);
         else
             run(force);
         return 0;

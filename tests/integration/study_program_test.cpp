@@ -164,6 +164,38 @@ TEST_F(StudyProgram, DrawsAndMeasuresPicturesQuickly) {
     EXPECT_TRUE(std::filesystem::exists(out_ + "/pictures/tooth_phantom_slices_surface_voxels_after.png"));
 }
 
+TEST_F(StudyProgram, CalibratesBoneAndFoam) {
+    const Outcome outcome = run("calibrate " OSTEOMILL_TEST_DATA "/calibration_runs.csv --out " + out_);
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+    const auto found = nlohmann::json::parse(text_of(out_ + "/calibration.json"));
+    ASSERT_EQ(found.size(), 2u);
+    // What the table was made with.
+    const double known[2][6] = {{230.0, 40.0, 20.0, 0.5, 0.8, 0.1}, {30.0, 8.0, 4.0, 0.05, 0.1, 0.02}};
+    for (std::size_t material = 0; material < 2; ++material)
+        for (std::size_t i = 0; i < 6; ++i) {
+            const auto& coefficient = found[material].at("coefficients").at(i);
+            EXPECT_NEAR(coefficient.at("value"), known[material][i],
+                        3.0 * coefficient.at("standard_uncertainty").get<double>())
+                << coefficient;
+        }
+    EXPECT_THAT(text_of(out_ + "/scene.toml"), HasSubstr("edge_coefficients_n_per_mm = ["));
+    EXPECT_THAT(text_of(out_ + "/residuals.csv"), HasSubstr("\n48,foam,2,up,3,"));
+    for (const char* chart : {"fit", "residuals"})
+        EXPECT_THAT(text_of(out_ + "/calibration_" + chart + ".svg"), HasSubstr("</svg>")) << chart;
+}
+
+TEST_F(StudyProgram, ChoosesRunsForACalibrationThatCannotBeFittedEmpty) {
+    const Outcome outcome =
+        run("calibrate --design --runs 6 --diameters-mm 4 --tilts-deg 0,30 --rpm 20000 --out " + out_);
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+    EXPECT_THAT(outcome.out, HasSubstr("one factor at a time:"));
+    expect_refused("calibrate " + out_ + "/design.csv --out " + out_, 1,
+                   "design.csv:2: force_feed_n is ''; it must be a number");
+    expect_refused("calibrate --out " + out_, 2, "a table of runs, or --design");
+    expect_refused("calibrate nowhere.csv --out " + out_, 1, "nowhere.csv: cannot be read");
+    expect_refused("calibrate nowhere.csv --seed 2", 2, "--design");
+}
+
 TEST_F(StudyProgram, SaysInOneLineWhatIsWrong) {
     expect_refused("force --cases nowhere.json --out " + out_, 1, "nowhere.json: cannot be read");
     std::ofstream(folder_ / "bad.json") << "[{\"name\": \"half a case\"}]";
@@ -172,7 +204,7 @@ TEST_F(StudyProgram, SaysInOneLineWhatIsWrong) {
     std::ofstream(folder_ / "file") << "in the way";
     expect_refused(std::string("force --cases ") + case_file + " --out " + (folder_ / "file/out").string(), 1,
                    "file/out: cannot be made a folder");
-    expect_refused("", 2, "a study to run: force, stability, polishing, render or realtime");
+    expect_refused("", 2, "a study to run: force, stability, polishing, render, realtime or calibrate");
     expect_refused("farce", 2, "farce");
     expect_refused("realtime --quick --duration-s 60", 2, "--duration-s");
     expect_refused(std::string("force --cases ") + case_file + " --voxel-mm 0", 2, "--voxel-mm");
