@@ -13,6 +13,8 @@ set multiplot layout rows,columns title 'Mean forces of the bone on the burr: me
 set xlabel 'fitted, N'
 set ylabel 'measured, N'
 set key top left Left reverse samplen 1
+# gnuplot draws a white disc behind each point with a bar; of nearly nothing.
+set pointintervalbox 0.001
 of(m, a, what) = column('material_number') == m && column('axis_number') == a ? column(what) : NaN
 do for [m=1:materials] {
     set title Material[m] noenhanced

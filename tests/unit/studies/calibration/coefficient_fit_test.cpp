@@ -41,7 +41,6 @@ TEST(CoefficientFit, HoldsTheTruthInNinetyFiveOfAHundredIntervals) {
     for (const double percent : coverage_percent(1.0, 1000, 20)) {
         EXPECT_GE(percent, 93.0);
         EXPECT_LE(percent, 97.0);
-        RecordProperty("percent", std::to_string(percent));
     }
 }
 
