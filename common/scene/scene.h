@@ -32,11 +32,21 @@ struct FileSource {
     bool operator==(const FileSource&) const = default;
 };
 
+/// What cutting a tissue takes, beside the bone for which the burrs' coefficients hold.
+struct TissueStrength {
+    std::string material{};           ///< preset that both are from (material.h); empty: the scene's own
+    double relative_stiffness = 1.0;  ///< of the chips, in place of what follows from CT numbers
+    double relative_edge = 1.0;       ///< of edges that rub
+
+    bool operator==(const TissueStrength&) const = default;
+};
+
 struct Tissue {
     std::uint8_t label = 0;  ///< 1 to 255; 0 is "unlabelled"
     std::string name{};
     std::array<std::uint8_t, 3> colour_rgb{};
-    bool is_protected = false;  ///< touching it with a turning burr raises a warning
+    bool is_protected = false;                 ///< touching it with a turning burr raises a warning
+    std::optional<TissueStrength> strength{};  ///< absent: as its CT numbers say
 
     bool operator==(const Tissue&) const = default;
 };
@@ -89,5 +99,8 @@ struct Scene {
 
     bool operator==(const Scene&) const = default;
 };
+
+/// The scene's relation of stiffness to CT numbers, with the tissues that have a stiffness of their own.
+StiffnessRelation stiffness_of(const Scene& scene);
 
 }  // namespace osteomill

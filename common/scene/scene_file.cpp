@@ -9,6 +9,7 @@
 #include <set>
 #include <sstream>
 
+#include "common/scene/material.h"
 #include "common/scene/shallow_toml.h"
 #include "common/scene/toml_reader.h"
 
@@ -31,12 +32,6 @@ std::string from_key(const std::filesystem::path& path) {
 std::filesystem::path resolved(const std::string& path, const std::filesystem::path& folder) {
     const std::filesystem::path given(path);
     return given.is_absolute() || folder.empty() ? given : folder / given;
-}
-
-template <typename T>
-T required(const TomlReader& reader, std::string_view key, std::optional<T> value) {
-    if (!value) reader.fail_missing(key);
-    return *std::move(value);
 }
 
 glm::dvec3 unit_vector(TomlReader& reader, std::string_view key, const glm::dvec3& fallback) {
@@ -92,6 +87,24 @@ std::array<std::uint8_t, 3> read_colour(TomlReader& reader) {
             static_cast<std::uint8_t>(rgb & 0xffU)};
 }
 
+std::optional<TissueStrength> read_strength(TomlReader& reader) {
+    std::vector<std::string> names;
+    for (const Material& material : shipped_materials()) names.push_back(material.name);
+    const std::optional<std::size_t> preset = reader.choice("material", names);
+    const std::optional<double> stiffness =
+        reader.number("relative_stiffness", {stiffness_per_code, largest_relative_stiffness});
+    const std::optional<double> edge = reader.number("relative_edge", {0.0, 100.0});
+    if (preset && (stiffness || edge))
+        reader.fail("material", "'material' says it all; take out 'relative_stiffness' and 'relative_edge'");
+    if (edge && !stiffness) reader.fail("relative_edge", "'relative_edge' goes with 'relative_stiffness'");
+    if (preset) {
+        const Material& material = shipped_materials()[*preset];
+        return TissueStrength{material.name, material.relative_stiffness, material.relative_edge};
+    }
+    if (stiffness) return TissueStrength{{}, *stiffness, edge.value_or(*stiffness)};
+    return std::nullopt;
+}
+
 std::vector<Tissue> read_tissues(std::vector<TomlReader> readers) {
     std::vector<Tissue> tissues;
     std::set<int> labels;
@@ -102,6 +115,7 @@ std::vector<Tissue> read_tissues(std::vector<TomlReader> readers) {
         tissue.name = required(reader, "name", reader.text("name"));
         tissue.colour_rgb = read_colour(reader);
         tissue.is_protected = reader.truth("protected").value_or(false);
+        tissue.strength = read_strength(reader);
         reader.refuse_other_keys();
         if (!labels.insert(tissue.label).second)
             reader.fail("label", fmt::format("label {} stands for two tissues", tissue.label));
@@ -276,12 +290,20 @@ std::string write_scene(const Scene& scene) {
         knots.push_back(toml::array{knot.hu, knot.relative_stiffness});
     root.insert("stiffness", toml::table{{"knots", knots}});
     toml::array tissues;
-    for (const Tissue& tissue : scene.tissues)
-        tissues.push_back(toml::table{{"label", static_cast<std::int64_t>(tissue.label)},
-                                      {"name", tissue.name},
-                                      {"colour", fmt::format("#{:02x}{:02x}{:02x}", tissue.colour_rgb[0],
-                                                             tissue.colour_rgb[1], tissue.colour_rgb[2])},
-                                      {"protected", tissue.is_protected}});
+    for (const Tissue& tissue : scene.tissues) {
+        toml::table table{{"label", static_cast<std::int64_t>(tissue.label)},
+                          {"name", tissue.name},
+                          {"colour", fmt::format("#{:02x}{:02x}{:02x}", tissue.colour_rgb[0],
+                                                 tissue.colour_rgb[1], tissue.colour_rgb[2])},
+                          {"protected", tissue.is_protected}};
+        if (tissue.strength && !tissue.strength->material.empty()) {
+            table.insert("material", tissue.strength->material);
+        } else if (tissue.strength) {
+            table.insert("relative_stiffness", tissue.strength->relative_stiffness);
+            table.insert("relative_edge", tissue.strength->relative_edge);
+        }
+        tissues.push_back(std::move(table));
+    }
     if (!tissues.empty()) root.insert("tissues", tissues);
     toml::array burrs;
     for (const Burr& burr : scene.burrs)

@@ -6,7 +6,8 @@
 //     start_burr = "1.5 mm"
 //     [bone]           phantom = "tooth"   or   file = "jaw.nrrd", threshold_hu = 300.0
 //     [stiffness]      knots = [[150, 0.02], [1600, 1.0], ...]: HU, relative stiffness
-//     [[tissues]]      label = 1, name = "enamel", colour = "#f6f4ec", protected = false
+//     [[tissues]]      label = 1, name = "enamel", colour = "#f6f4ec", protected = false,
+//                      material = "enamel"   or   relative_stiffness = 3.0, relative_edge = 3.0
 //     [[burrs]]        name, diameter_mm, edges, rpm, cutting_coefficients_n_per_mm2 = [K_t, K_r, K_a],
 //                      edge_coefficients_n_per_mm = [K_te, K_re, K_ae],
 //                      turns = "clockwise"

@@ -8,6 +8,7 @@
 // differences there as indicative. A scene may replace the knots.
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 namespace osteomill {
@@ -19,8 +20,17 @@ struct StiffnessKnot {
     bool operator==(const StiffnessKnot&) const = default;
 };
 
+/// A tissue whose stiffness does not follow from CT numbers.
+struct TissueStiffness {
+    std::uint8_t label = 0;
+    double relative_stiffness = 1.0;
+
+    bool operator==(const TissueStiffness&) const = default;
+};
+
 struct StiffnessRelation {
-    std::vector<StiffnessKnot> knots;  ///< ascending in HU, at least one
+    std::vector<StiffnessKnot> knots;        ///< ascending in HU, at least one
+    std::vector<TissueStiffness> tissues{};  ///< which have a stiffness of their own
 
     bool operator==(const StiffnessRelation&) const = default;
 };

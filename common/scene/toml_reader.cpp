@@ -59,6 +59,18 @@ std::optional<std::string> TomlReader::text(std::string_view key) {
     return **node->as_string();
 }
 
+std::optional<std::vector<std::string>> TomlReader::texts(std::string_view key) {
+    const toml::node* node = take(key);
+    if (!node) return std::nullopt;
+    std::vector<std::string> result;
+    const toml::array* list = node->as_array();
+    if (list)
+        for (const toml::node& entry : *list)
+            if (const auto value = entry.value<std::string>()) result.push_back(*value);
+    if (!list || result.size() != list->size()) fail(key, fmt::format("'{}' must be a list of texts", key));
+    return result;
+}
+
 std::optional<std::size_t> TomlReader::choice(std::string_view key, const std::vector<std::string>& choices) {
     const std::optional<std::string> value = text(key);
     if (!value) return std::nullopt;

@@ -9,6 +9,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace osteomill {
@@ -29,6 +30,8 @@ class TomlReader {
     std::optional<double> number(std::string_view key, const AllowedRange& range = {});
     std::optional<std::int64_t> whole_number(std::string_view key, std::int64_t low, std::int64_t high);
     std::optional<std::string> text(std::string_view key);
+    /// A list of texts.
+    std::optional<std::vector<std::string>> texts(std::string_view key);
     /// A text out of `choices`; gives its index.
     std::optional<std::size_t> choice(std::string_view key, const std::vector<std::string>& choices);
     std::optional<bool> truth(std::string_view key);
@@ -57,5 +60,12 @@ class TomlReader {
     std::string table_name_;
     std::vector<std::string> known_keys_;
 };
+
+/// The value that was read for a key; throws SceneError where it was absent.
+template <typename T>
+T required(const TomlReader& reader, std::string_view key, std::optional<T> value) {
+    if (!value) reader.fail_missing(key);
+    return *std::move(value);
+}
 
 }  // namespace osteomill

@@ -33,14 +33,16 @@ constexpr double most_substeps = 64.0;
 template <typename Force>
 class ForceOfRemoved final : public RemovalSink {
   public:
-    ForceOfRemoved(const BoneContent& content, RemovalAccount& account, Force& force) noexcept
-        : content_(content), account_(account), force_(force) {}
+    /// `shares`: null where edges rub as the stiffness says.
+    ForceOfRemoved(const BoneContent& content, const EdgeShares* shares, RemovalAccount& account,
+                   Force& force) noexcept
+        : content_(content), shares_(shares), account_(account), force_(force) {}
 
     void take(const RemovedVoxels& removed) noexcept override {
         enter(removed);
         weigh_by_stiffness(content_, removed, weights_);
         const std::span<const float> weights(weights_.data(), removed.padded_count());
-        force_.add(removed, {.chip = weights, .edge = weights});
+        force_.add(removed, {.chip = weights, .edge = shares_ ? edge_weights(removed) : weights});
     }
 
   private:
@@ -54,10 +56,21 @@ class ForceOfRemoved final : public RemovalSink {
                           static_cast<double>(removed.levels[i]));
     }
 
+    std::span<const float> edge_weights(const RemovedVoxels& removed) noexcept {
+        for (std::size_t i = 0; i < removed.count; ++i)
+            edge_weights_[i] =
+                weights_[i] * shares_->of_label[content_.tissue_in(
+                                  removed.slot[i], static_cast<std::size_t>(removed.offset[i]))];
+        for (std::size_t i = removed.count; i < removed.padded_count(); ++i) edge_weights_[i] = 0.0f;
+        return {edge_weights_.data(), removed.padded_count()};
+    }
+
     const BoneContent& content_;
+    const EdgeShares* shares_;
     RemovalAccount& account_;
     Force& force_;
     alignas(64) std::array<float, RemovedVoxels::capacity> weights_;
+    alignas(64) std::array<float, RemovedVoxels::capacity> edge_weights_;
 };
 
 }  // namespace
@@ -67,6 +80,8 @@ MillingModel::MillingModel(Bone bone, std::vector<Burr> burrs, const std::vector
     : bone_(std::move(bone)),
       burrs_(std::move(burrs)),
       settings_(settings),
+      edge_shares_(tissues),
+      has_edge_shares_(!edge_shares_.are_all_one()),
       chips_(settings.bins),
       tooth_(settings.instants_per_tooth, settings.instructions),
       account_(bone_.grid(), tissues) {
@@ -75,14 +90,15 @@ MillingModel::MillingModel(Bone bone, std::vector<Burr> burrs, const std::vector
     for (Burr& burr : burrs_) {
         if (!settings.has_edge_forces) burr.edge_coefficients_n_per_mm = glm::dvec3(0.0);
         require_valid(burr, bone_.grid().spacing_mm);
-        probes_.emplace_back(burr, bone_.grid().spacing_mm);
+        probes_.emplace_back(burr, bone_.grid().spacing_mm, edge_shares_);
     }
 }
 
 template <typename Force>
 void MillingModel::carve_and_sum(const Sweep& sweep, double share, ChangeSink& changes, Force& force,
                                  MillingResult& result) noexcept {
-    ForceOfRemoved removed(bone_.content(), account_, force);
+    const bool have_shares = has_edge_shares_ && burrs_[burr_].has_edge_force();
+    ForceOfRemoved removed(bone_.content(), have_shares ? &edge_shares_ : nullptr, account_, force);
     carve(bone_, sweep, carved_at_position_ ? CarveHistory::carved_at_from : CarveHistory::none,
           {.coverage = settings_.coverage, .instructions = settings_.instructions}, changes, removed);
     result.force_n += share * force.force_n();

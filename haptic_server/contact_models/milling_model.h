@@ -8,6 +8,7 @@
 
 #include "common/bone/bone.h"
 #include "common/bone/brick_change.h"
+#include "common/scene/edge_shares.h"
 #include "common/scene/scene.h"
 #include "haptic_server/contact_models/force_model.h"
 #include "haptic_server/contact_models/milling_settings.h"
@@ -54,6 +55,8 @@ class MillingModel final : public ForceModel {
     std::vector<Burr> burrs_;
     std::vector<EngagementProbe> probes_;  // by burr
     MillingSettings settings_;
+    EdgeShares edge_shares_;
+    bool has_edge_shares_;
     BinnedForce chips_;
     InstantaneousForce tooth_;
     RemovalAccount account_;

@@ -46,6 +46,13 @@ double BrickNeighbourhood::stiffness(const glm::vec3& position) const {
     return at == BoneContent::no_slot ? 0.0 : bone_->content().stiffness_in(at, offset_in_brick(nearest));
 }
 
+std::uint8_t BrickNeighbourhood::tissue(const glm::vec3& position) const {
+    const glm::ivec3 nearest(position + 0.5f);
+    const std::int32_t at = slot(nearest);
+    return at == BoneContent::no_slot ? std::uint8_t{0}
+                                      : bone_->content().tissue_in(at, offset_in_brick(nearest));
+}
+
 float BrickNeighbourhood::fraction(const glm::vec3& position) const {
     const glm::ivec3 first(position);
     const glm::vec3 w = position - glm::vec3(first);

@@ -44,6 +44,8 @@ class BrickNeighbourhood {
     /// Relative stiffness of the bone of the voxel nearest to a position within the ball; 0 where no brick is
     /// stored.
     double stiffness(const glm::vec3& position) const;
+    /// Likewise its tissue's label; 0 where no brick is stored.
+    std::uint8_t tissue(const glm::vec3& position) const;
 
   private:
     std::uint64_t corners_across_bricks(const glm::ivec3& first) const;

@@ -37,9 +37,10 @@ constexpr float half = 127.5f;
 
 }  // namespace
 
-EngagementProbe::EngagementProbe(const Burr& burr, double spacing_mm)
+EngagementProbe::EngagementProbe(const Burr& burr, double spacing_mm, const EdgeShares& edge_shares)
     : radius_mm_(burr.radius_mm()),
       has_edge_force_(burr.has_edge_force()),
+      edge_shares_(edge_shares),
       bricks_(burr.radius_mm() / spacing_mm + Engagement::reach_voxels + 2.0) {
     const double sphere_area_mm2 = 4.0 * std::numbers::pi * radius_mm_ * radius_mm_;
     const double wanted_edge_mm = 1.5 * spacing_mm;
@@ -122,7 +123,12 @@ void EngagementProbe::sample(const Bone& bone, const glm::dvec3& position_mm, co
                        .gap_mm = static_cast<double>(crossing.offset_voxels) * h,
                        .cutting_n_s_per_mm = stiffness * (frame * patch.cutting_n_s_per_mm),
                        .area_mm2 = patch.area_mm2};
-            if (has_edge_force_) engaged.edge_n = stiffness * (frame * patch.edge_n);
+            if (has_edge_force_) {
+                const std::uint8_t label =
+                    bricks_.tissue(surface + (crossing.offset_voxels + 1.0f) * outward);
+                engaged.edge_n =
+                    stiffness * static_cast<double>(edge_shares_.of_label[label]) * (frame * patch.edge_n);
+            }
         }
     }
 }

@@ -9,6 +9,7 @@
 
 #include "common/bone/bone.h"
 #include "common/scene/burr.h"
+#include "common/scene/edge_shares.h"
 #include "haptic_server/engagement/brick_neighbourhood.h"
 #include "haptic_server/engagement/engagement.h"
 
@@ -20,7 +21,7 @@ namespace osteomill {
 /// from z1 to z2 on the unit sphere. Allocates when constructed.
 class EngagementProbe {
   public:
-    EngagementProbe(const Burr& burr, double spacing_mm);
+    explicit EngagementProbe(const Burr& burr, double spacing_mm, const EdgeShares& edge_shares = {});
 
     /// Fills `out` for a burr at `position_mm` with its spindle along `spindle_axis` (unit). The surface of
     /// the bone is where the trilinear fraction crosses one half. Real-time safe.
@@ -55,6 +56,7 @@ class EngagementProbe {
 
     double radius_mm_;
     bool has_edge_force_;
+    EdgeShares edge_shares_;
     std::vector<Patch> patches_;
     std::array<std::vector<float>, 3> normals_;  // of the patches, by axis
     BrickNeighbourhood bricks_;

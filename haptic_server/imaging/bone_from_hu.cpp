@@ -130,13 +130,25 @@ std::uint8_t stiffness_code(double relative) {
     return static_cast<std::uint8_t>(std::clamp(std::lround(relative / stiffness_per_code), 1L, 255L));
 }
 
-/// Codes for every HU of 16 bits, so that a voxel costs a look-up.
-std::vector<std::uint8_t> code_table(const StiffnessRelation& relation) {
-    std::vector<std::uint8_t> codes(65536);
-    for (int hu = -32768; hu < 32768; ++hu)
-        codes[static_cast<std::size_t>(hu + 32768)] = stiffness_code(relative_stiffness(relation, hu));
-    return codes;
-}
+/// Stiffness codes for every HU of 16 bits, so that a voxel costs a look-up, and of the tissues that have one
+/// of their own.
+struct CodeTable {
+    explicit CodeTable(const StiffnessRelation& relation) : of_hu(65536) {
+        for (int hu = -32768; hu < 32768; ++hu)
+            of_hu[static_cast<std::size_t>(hu + 32768)] = stiffness_code(relative_stiffness(relation, hu));
+        for (const TissueStiffness& tissue : relation.tissues)
+            of_tissue[tissue.label] = stiffness_code(tissue.relative_stiffness);
+    }
+
+    std::uint8_t at(const HuLayer& field, bool labelled, const glm::ivec3& voxel) const {
+        if (labelled)
+            if (const std::uint8_t code = of_tissue[field.label(voxel)]; code != 0) return code;
+        return of_hu[static_cast<std::size_t>(field.hu(voxel) + 32768.0)];
+    }
+
+    std::vector<std::uint8_t> of_hu;
+    std::array<std::uint8_t, 256> of_tissue{};  // 0: as the HU say
+};
 
 struct BrickChannels {
     ByteBrick fraction{};
@@ -146,12 +158,10 @@ struct BrickChannels {
 
 /// A voxel on the surface is a mixture with what lies outside: its stiffness and label are those of the bone
 /// beside it.
-void fill_voxel(const HuLayer& field, const std::vector<std::uint8_t>& codes, bool labelled,
-                const glm::ivec3& voxel, double covered, BrickChannels& out) {
+void fill_voxel(const HuLayer& field, const CodeTable& codes, bool labelled, const glm::ivec3& voxel,
+                double covered, BrickChannels& out) {
     const std::size_t offset = offset_in_brick(voxel);
-    const auto code_at = [&](const glm::ivec3& place) {
-        return codes[static_cast<std::size_t>(field.hu(place) + 32768.0)];
-    };
+    const auto code_at = [&](const glm::ivec3& place) { return codes.at(field, labelled, place); };
     out.fraction[offset] = static_cast<std::uint8_t>(std::lround(255.0 * covered));
     out.stiffness[offset] = code_at(voxel);
     if (labelled) out.tissue[offset] = field.label(voxel);
@@ -163,8 +173,8 @@ void fill_voxel(const HuLayer& field, const std::vector<std::uint8_t>& codes, bo
     }
 }
 
-BrickChannels channels_of(const HuLayer& field, const std::vector<std::uint8_t>& codes, bool labelled,
-                          const Grid& grid, double threshold_hu, const glm::ivec3& brick, bool is_all_bone) {
+BrickChannels channels_of(const HuLayer& field, const CodeTable& codes, bool labelled, const Grid& grid,
+                          double threshold_hu, const glm::ivec3& brick, bool is_all_bone) {
     BrickChannels channels;
     const glm::ivec3 first = brick * brick_edge_voxels;
     const glm::ivec3 end = glm::min(first + brick_edge_voxels, grid.size_voxels);
@@ -232,7 +242,7 @@ Bone bone_from_hu(const HuSlices& slices, double threshold_hu, const StiffnessRe
     require_valid(slices.grid);
     require_valid(relation);
     if (!std::isfinite(threshold_hu)) throw std::invalid_argument("the bone threshold is not a finite HU");
-    const std::vector<std::uint8_t> codes = code_table(relation);
+    const CodeTable codes(relation);
     HuLayer layer(slices);
     BrickCollector collector(slices.grid, slices.labelled);
     const glm::ivec3 size_bricks = size_in_bricks(slices.grid);

@@ -1,4 +1,5 @@
-// The bytes of a file from an offset on, decoded, one after the other: what does not fit in memory is read so.
+// The bytes of a file from an offset on, decoded, one after the other: what does not fit in memory is read
+// so.
 #pragma once
 
 #include <cstddef>

@@ -1,10 +1,10 @@
 // A carved bone as one file: what is left of it can be looked at in 3D Slicer, and loaded again bit for bit.
 //
-// HU alone cannot give the bone back: fractions have 255 levels that no HU tells, and the stiffness of a voxel
-// on the surface was taken from neighbours that may be gone. So the codes are kept as they were, in the same
-// file, since two files can be parted, and cannot be renamed at once. NRRD has room for them: "byte skip"
-// says how many decoded bytes of the gzip stream stand before the voxels, and readers (teem, which is what
-// ITK and 3D Slicer read with, pynrrd) pass over them.
+// HU alone cannot give the bone back: fractions have 255 levels that no HU tells, and the stiffness of a
+// voxel on the surface was taken from neighbours that may be gone. So the codes are kept as they were, in the
+// same file, since two files can be parted, and cannot be renamed at once. NRRD has room for them: "byte
+// skip" says how many decoded bytes of the gzip stream stand before the voxels, and readers (teem, which is
+// what ITK and 3D Slicer read with, pynrrd) pass over them.
 //
 //   before the voxels   for each brick of which anything is left, ascending: its index (32 bits, little
 //                       endian), 4096 fractions, 4096 stiffness codes if the bone is heterogeneous, 4096
@@ -41,8 +41,7 @@ inline constexpr std::int16_t milled_away_hu = air_hu;
 /// under the name is then as it was, as it is when `source` throws.
 void save_carved_bone(
     const std::filesystem::path& path, const HuSlices& source, const Bone& bone,
-    const std::map<std::string, std::string>& key_values = {},
-    const ReportProgress& report = [](double) {});
+    const std::map<std::string, std::string>& key_values = {}, const ReportProgress& report = [](double) {});
 
 /// The same for a bone that no CT numbers were made for, or whose source is gone: the voxels are a picture of
 /// it, on a grid of longer voxels where its own is large (bone_picture.h).

@@ -1,4 +1,5 @@
-// What JPEG 2000, JPEG and JPEG-LS say of an image in their own header, beside what the DICOM around them says.
+// What JPEG 2000, JPEG and JPEG-LS say of an image in their own header, beside what the DICOM around them
+// says.
 #pragma once
 
 #include <cstdint>

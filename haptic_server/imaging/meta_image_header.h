@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "haptic_server/imaging/source_image.h"
 #include "haptic_server/imaging/byte_source.h"
+#include "haptic_server/imaging/source_image.h"
 #include "haptic_server/imaging/voxel_layout.h"
 
 namespace osteomill {

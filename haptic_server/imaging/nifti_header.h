@@ -1,6 +1,6 @@
 // The header of a NIfTI-1 or -2 (or Analyze 7.5) image, held against what it may say before ITK's reader sees
-// it for the geometry: that one takes a spacing that is zero or no number for 1 mm and hangs on an orientation
-// that is no number. It reads no voxels: it would hold all of them, several times over.
+// it for the geometry: that one takes a spacing that is zero or no number for 1 mm and hangs on an
+// orientation that is no number. It reads no voxels: it would hold all of them, several times over.
 #pragma once
 
 #include <array>

@@ -90,10 +90,10 @@ HuSlices slices_again(const BoneSource& source, HuReader& reader) {
 
 LoadedBone load_bone(const Scene& scene) {
     if (const auto* phantom = std::get_if<PhantomSource>(&scene.bone))
-        return load_phantom(phantom->name, scene.stiffness);
+        return load_phantom(phantom->name, stiffness_of(scene));
     const auto& named = std::get<FileSource>(scene.bone);
     try {
-        return load_file(named, scene.stiffness);
+        return load_file(named, stiffness_of(scene));
     } catch (const std::bad_alloc&) {
         throw ImagingError(named.path, "does not fit in memory");
     }

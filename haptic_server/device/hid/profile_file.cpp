@@ -29,12 +29,6 @@ constexpr AllowedRange mass_range_kg{0.005, 5.0};
 constexpr std::int64_t most_counts = 32'767;  // the report's int16
 constexpr std::int64_t most_counts_per_rev = 1'000'000;
 
-template <typename T>
-T required(const TomlReader& reader, std::string_view key, std::optional<T> value) {
-    if (!value) reader.fail_missing(key);
-    return *std::move(value);
-}
-
 double number(TomlReader& reader, std::string_view key, const AllowedRange& range) {
     return required(reader, key, reader.number(key, range));
 }

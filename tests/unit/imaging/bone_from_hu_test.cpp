@@ -51,6 +51,22 @@ TEST(BoneFromHu, ASharpStepGivesWholeVoxelsAndOneStiffnessForAll) {
     EXPECT_DOUBLE_EQ(bone_volume_mm3(bone), 4.0);
 }
 
+TEST(BoneFromHu, ATissueWithAStiffnessOfItsOwnHasItWhateverItsCtNumbers) {
+    const Grid grid{.size_voxels = {16, 16, 16}};
+    HuVolume volume{.grid = grid,
+                    .hu = std::vector<std::int16_t>(4096, 1600),
+                    .tissue = std::vector<std::uint8_t>(4096, 3)};
+    std::fill_n(volume.tissue.begin(), 256 * 8, std::uint8_t{4});
+    StiffnessRelation relation = default_stiffness_relation();
+    relation.tissues = {{4, 3.0}};
+    const Bone bone = bone_from_hu(volume, threshold_hu, relation);
+    EXPECT_DOUBLE_EQ(bone.stiffness_at({5, 5, 2}), 3.0);
+    EXPECT_DOUBLE_EQ(bone.stiffness_at({5, 5, 12}), 1.0);
+    volume.tissue.clear();
+    EXPECT_DOUBLE_EQ(bone_from_hu(volume, threshold_hu, relation).stiffness_at({5, 5, 2}), 1.0)
+        << "no labels, no tissues";
+}
+
 TEST(BoneFromHu, AMixedVoxelOnTheSurfaceIsAsStiffAsTheBoneBesideItAndBearsItsLabel) {
     const Grid grid{.size_voxels = {16, 16, 16}};
     HuVolume volume{.grid = grid,

@@ -108,6 +108,28 @@ TEST(SceneFile, AnUnknownKeyIsRefusedWithItsLineAndTheChoices) {
                 HasSubstr("my.toml:7: unknown key 'teeth' in [[burrs]]"));
 }
 
+TEST(SceneFile, ATissueTakesItsStrengthFromAMaterialOrItsOwnNumbers) {
+    const std::string tissue = smallest + "[[tissues]]\nlabel = 4\nname = \"x\"\ncolour = \"#ffffff\"\n";
+    EXPECT_FALSE(parse_scene(tissue, "my.toml").tissues[0].strength) << "as the CT numbers say";
+    const Scene preset = parse_scene(tissue + "material = \"enamel\"\n", "my.toml");
+    EXPECT_EQ(preset.tissues[0].strength->material, "enamel");
+    EXPECT_NEAR(preset.tissues[0].strength->relative_stiffness, 690.0 / 230.0, 1e-12);
+    EXPECT_EQ(stiffness_of(preset).tissues, (std::vector<TissueStiffness>{{4, 690.0 / 230.0}}));
+    const Scene own = parse_scene(tissue + "relative_stiffness = 2\nrelative_edge = 0.5\n", "my.toml");
+    EXPECT_EQ(own.tissues[0].strength, (TissueStrength{"", 2.0, 0.5}));
+    EXPECT_EQ(parse_scene(tissue + "relative_stiffness = 2\n", "my.toml").tissues[0].strength->relative_edge,
+              2.0);
+    for (const Scene& scene : {preset, own}) EXPECT_EQ(parse_scene(write_scene(scene), "again.toml"), scene);
+
+    EXPECT_THAT(error_of(tissue + "material = \"glass\"\n"),
+                AllOf(HasSubstr("my.toml:8: 'material' is \"glass\"; choose one of: cortical bone"),
+                      HasSubstr("enamel")));
+    EXPECT_THAT(error_of(tissue + "material = \"enamel\"\nrelative_edge = 1\n"),
+                HasSubstr("'material' says it all"));
+    EXPECT_THAT(error_of(tissue + "relative_edge = 1\n"), HasSubstr("goes with 'relative_stiffness'"));
+    EXPECT_THAT(error_of(tissue + "relative_stiffness = 9\n"), HasSubstr("'relative_stiffness' is 9"));
+}
+
 TEST(SceneFile, AMisspeltKeyGetsTheNearestOne) {
     EXPECT_THAT(error_of(smallest + "[trajectory]\nmotion = \"hold\"\nspeed = 3\n"),
                 AllOf(HasSubstr("did you mean 'speed_mm_per_s'?"), HasSubstr("choose one of: motion, file")));

@@ -1,0 +1,32 @@
+// Presets of materials: what cutting bone, tooth or a test block takes, from scenes/materials.toml, which
+// says for each how the numbers were got and from what sources.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace osteomill {
+
+/// How the numbers of a material were got.
+enum class MaterialQuality {
+    measured,  ///< with this kind of tool
+    inferred,  ///< from another tool, or from a property of the material
+    assumed    ///< neither
+};
+
+struct Material {
+    std::string name{};
+    double cutting_n_per_mm2 = 0.0;  ///< K_t
+    double edge_n_per_mm = 0.0;      ///< K_te
+    MaterialQuality quality = MaterialQuality::assumed;
+
+    /// Both as shares of those of the bone for which a burr's coefficients hold: the file's first, cortical
+    /// bone.
+    double relative_stiffness = 1.0;
+    double relative_edge = 1.0;
+};
+
+/// Those of scenes/materials.toml, built in.
+const std::vector<Material>& shipped_materials();
+
+}  // namespace osteomill

@@ -1,0 +1,12 @@
+#include "common/scene/scene.h"
+
+namespace osteomill {
+
+StiffnessRelation stiffness_of(const Scene& scene) {
+    StiffnessRelation relation = scene.stiffness;
+    for (const Tissue& tissue : scene.tissues)
+        if (tissue.strength) relation.tissues.push_back({tissue.label, tissue.strength->relative_stiffness});
+    return relation;
+}
+
+}  // namespace osteomill
