@@ -14,6 +14,7 @@
 #include "studies/calibration/calibration_options.h"
 #include "studies/force/case_report.h"
 #include "studies/force/force_study.h"
+#include "studies/loads/loads_study.h"
 #include "studies/polishing/polishing_options.h"
 #include "studies/realtime/realtime_options.h"
 #include "studies/render/render_options.h"
@@ -36,6 +37,7 @@ struct ForceOptions {
     std::optional<int> random{};
     std::uint64_t seed = 1;
     bool has_edge_forces = false;
+    bool loads = false;
     bool quick = false;
 };
 
@@ -59,6 +61,12 @@ void add_force(CLI::App& app, ForceOptions& options) {
     force->add_option("--seed", options.seed, "of the random motions")->needs(random)->capture_default_str();
     force->add_flag("--edge-forces", options.has_edge_forces, "burrs whose edges rub, by random coefficients")
         ->needs(random);
+    force
+        ->add_flag(
+            "--loads", options.loads,
+            "what a burr removes that is pressed on each material; writes OUT/loads.csv; nothing else is run")
+        ->excludes(cases)
+        ->excludes(random);
     force->add_flag("--quick", options.quick, "fewer points, shorter runs: under a minute")
         ->excludes(cases)
         ->excludes(random);
@@ -94,7 +102,9 @@ void run_cases(const ForceOptions& options) {
 
 void run(const ForceOptions& options) {
     osteomill::study::make_folder(options.out);
-    if (!options.cases.empty())
+    if (options.loads)
+        osteomill::study::run_loads_study(options.out, surroundings());
+    else if (!options.cases.empty())
         run_cases(options);
     else if (options.random)
         osteomill::study::run_random_motions({.out = options.out,

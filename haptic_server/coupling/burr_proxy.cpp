@@ -96,10 +96,13 @@ LinearPull BurrProxy::damped(const LinearPull& pull, double damping_n_s_per_mm,
 }
 
 ContactStep BurrProxy::balance_with_bone(const LinearPull& pull, const glm::dvec3& hand_step_mm,
-                                         double tick_s, std::span<const Contact> contacts) noexcept {
+                                         double tick_s, std::span<const Contact> contacts,
+                                         bool starts_at_rest) noexcept {
     double damping_n_s_per_mm = 0.0;
     const auto solve = [&] {
-        const ContactStep step = balance(damped(pull, damping_n_s_per_mm, hand_step_mm, tick_s), contacts);
+        const LinearPull all = damped(pull, damping_n_s_per_mm, hand_step_mm, tick_s);
+        const ContactStep step =
+            balance(all, contacts, starts_at_rest ? glm::dvec3(0.0) : all.free_step_mm());
         iterations_ += step.iterations;
         return step;
     };
@@ -141,7 +144,7 @@ void BurrProxy::cut_toward(const glm::dvec3& target_mm, const LinearPull& pull, 
     const auto contacts = gather_contacts(longest_mm, tick_s, true, engagement);
     ContactStep solved{.step_mm = pull_mm};
     if (!contacts.empty()) {
-        solved = balance_with_bone(pull, hand_step_mm, tick_s, contacts);
+        solved = balance_with_bone(pull, hand_step_mm, tick_s, contacts, engagement.has_edge_force);
         // Without bone exactly there, so that nothing is felt.
         if (solved.bone_force_n == glm::dvec3(0.0)) solved.step_mm = pull_mm;
     }

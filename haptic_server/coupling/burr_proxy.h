@@ -109,7 +109,7 @@ class BurrProxy {
                              const glm::dvec3& hand_step_mm, double tick_s);
     /// The balance of a tick, damped where bone drives the burr.
     ContactStep balance_with_bone(const LinearPull& pull, const glm::dvec3& hand_step_mm, double tick_s,
-                                  std::span<const Contact> contacts) noexcept;
+                                  std::span<const Contact> contacts, bool starts_at_rest) noexcept;
     /// With the spindle on.
     void cut_toward(const glm::dvec3& target_mm, const LinearPull& pull, double tick_s,
                     const Engagement& engagement) noexcept;

@@ -92,8 +92,9 @@ RelaxedState relaxed_at(const LinearPull& pull, std::span<const Contact> contact
 
 }  // namespace
 
-ContactStep balance(const LinearPull& pull, std::span<const Contact> contacts) noexcept {
-    State state = state_at(pull, contacts, pull.free_step_mm());
+ContactStep balance(const LinearPull& pull, std::span<const Contact> contacts,
+                    const glm::dvec3& first_mm) noexcept {
+    State state = state_at(pull, contacts, first_mm);
     int iterations = 1;
     for (; iterations < most_iterations; ++iterations) {
         if (glm::length(state.residual_n) < residual_goal_n) break;

@@ -50,10 +50,15 @@ struct ContactStep {
 /// A residual below this is a balance: a hundredth of what a hand can tell.
 inline constexpr double balance_tolerance_n = 1e-3;
 
-/// Newton's method on the set of contacts that touch, from the free step, halving a step that does not reduce
+/// Newton's method on the set of contacts that touch, from `first_mm`, halving a step that does not reduce
 /// the residual; at most 24 iterations. Where it ends without a balance, the residual says so. Real-time
 /// safe.
-ContactStep balance(const LinearPull& pull, std::span<const Contact> contacts) noexcept;
+ContactStep balance(const LinearPull& pull, std::span<const Contact> contacts,
+                    const glm::dvec3& first_mm) noexcept;
+/// From the free step.
+inline ContactStep balance(const LinearPull& pull, std::span<const Contact> contacts) noexcept {
+    return balance(pull, contacts, pull.free_step_mm());
+}
 
 /// The balance with each contact's force along its normal alone, and only resisting. That is the minimum of a
 /// strictly convex, piecewise quadratic function, which Newton's method with a line search that must reduce
