@@ -93,6 +93,7 @@ struct Scene {
     std::vector<Tissue> tissues;
     std::vector<Burr> burrs;  ///< never empty
     std::size_t start_burr = 0;
+    double wall_friction = 0.2;  ///< Coulomb's, of a burr at rest on bone
     DeviceMapping device;
     ToolPose start_pose;
     TrajectorySpec trajectory;

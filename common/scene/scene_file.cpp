@@ -220,6 +220,7 @@ Scene read_all(TomlReader reader, const std::filesystem::path& folder) {
         burr_names.push_back(burr.name);
     }
     scene.start_burr = reader.choice("start_burr", burr_names).value_or(0);
+    scene.wall_friction = reader.number("wall_friction", {0.0, 1.0}).value_or(scene.wall_friction);
     if (auto table = reader.table("device")) scene.device = read_device(*table);
     if (auto table = reader.table("start_pose")) scene.start_pose = read_pose(*table);
     if (auto table = reader.table("trajectory"))
@@ -283,7 +284,9 @@ Scene read_scene(const std::filesystem::path& path) {
 }
 
 std::string write_scene(const Scene& scene) {
-    toml::table root{{"name", scene.name}, {"start_burr", scene.burrs.at(scene.start_burr).name}};
+    toml::table root{{"name", scene.name},
+                     {"start_burr", scene.burrs.at(scene.start_burr).name},
+                     {"wall_friction", scene.wall_friction}};
     root.insert("bone", bone_table(scene.bone));
     toml::array knots;
     for (const StiffnessKnot& knot : scene.stiffness.knots)

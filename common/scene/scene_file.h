@@ -4,6 +4,7 @@
 //
 //     name = "jaw"
 //     start_burr = "1.5 mm"
+//     wall_friction = 0.2
 //     [bone]           phantom = "tooth"   or   file = "jaw.nrrd", threshold_hu = 300.0
 //     [stiffness]      knots = [[150, 0.02], [1600, 1.0], ...]: HU, relative stiffness
 //     [[tissues]]      label = 1, name = "enamel", colour = "#f6f4ec", protected = false,

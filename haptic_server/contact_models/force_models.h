@@ -25,6 +25,7 @@ struct ForceModelEntry {
     /// with the spindle off it has no force, the wall being the coupling's. If not, it has neither, and the
     /// force of each result is all there is, spindle on or off.
     bool has_cutting_law = true;
+    bool has_friction = true;  ///< a burr at rest rubs on bone; not as published
     ForceModelFactory make;
 };
 

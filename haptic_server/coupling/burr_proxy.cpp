@@ -20,6 +20,18 @@ double drive_mj(const ContactStep& solved, const glm::dvec3& hand_step_mm) {
                     glm::dot(solved.bone_force_n, solved.step_mm - hand_step_mm));
 }
 
+/// The step of a burr that a wall holds back by friction, too: `solved` without it. What the pull would move
+/// it along the wall is shortened by what friction takes, or does not happen. Exact for a flat wall, since
+/// the pull is alike in every direction.
+glm::dvec3 with_friction(const ContactStep& solved, double pull_n_per_mm, double friction) {
+    const double normal_n = glm::length(solved.bone_force_n);
+    const glm::dvec3 normal = solved.bone_force_n / normal_n;
+    const glm::dvec3 along_mm = solved.step_mm - glm::dot(solved.step_mm, normal) * normal;
+    const double sliding_n = pull_n_per_mm * glm::length(along_mm);
+    const double held = friction * normal_n;
+    return solved.step_mm - along_mm * (sliding_n > held ? held / sliding_n : 1.0);
+}
+
 glm::dvec3 no_longer_than(const glm::dvec3& step_mm, double longest_mm) {
     const double length_mm = glm::length(step_mm);
     return length_mm > longest_mm ? step_mm * (longest_mm / length_mm) : step_mm;
@@ -176,7 +188,12 @@ void BurrProxy::press_toward(const glm::dvec3& target_mm, const LinearPull& pull
     const ContactStep solved = relaxed_step(pull, contacts);
     iterations_ += solved.iterations;
     counts_.max_residual_n = std::max(counts_.max_residual_n, solved.residual_n);
-    position_mm_ = solved.bone_force_n == glm::dvec3(0.0) ? target_mm : position_mm_ + solved.step_mm;
+    if (solved.bone_force_n == glm::dvec3(0.0))
+        position_mm_ = target_mm;
+    else if (wall_friction_ > 0.0)
+        position_mm_ += with_friction(solved, pull.stiffness_n_per_mm, wall_friction_);
+    else
+        position_mm_ += solved.step_mm;
 }
 
 void BurrProxy::advance(const glm::dvec3& target_mm, const LinearPull& pull, double tick_s, bool spindle_on,

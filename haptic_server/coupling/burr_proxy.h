@@ -56,6 +56,9 @@ namespace osteomill {
 
 class BurrProxy {
   public:
+    /// `wall_friction`: Coulomb's coefficient with the spindle off.
+    explicit BurrProxy(double wall_friction = 0.0) : wall_friction_(wall_friction) {}
+
     /// Puts the proxy somewhere, in contact with nothing that it knows of.
     void place(const glm::dvec3& position_mm) noexcept;
 
@@ -117,6 +120,7 @@ class BurrProxy {
     void press_toward(const glm::dvec3& target_mm, const LinearPull& pull, double tick_s,
                       const Engagement& engagement) noexcept;
 
+    double wall_friction_;
     glm::dvec3 position_mm_{0.0};
     glm::dvec3 carving_mm_{0.0};
     glm::dvec3 target_mm_{0.0};  // of the last tick

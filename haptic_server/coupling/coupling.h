@@ -48,6 +48,8 @@ struct CouplingOptions {
     /// The model's force is the wall, too, and it has no cutting law: with the spindle off a coupling renders
     /// that force, makes no wall of its own and leaves the burr where the hand is.
     bool model_holds_wall = false;
+    /// Coulomb's, of a burr at rest on bone; of couplings that solve one.
+    double wall_friction = 0.0;
 };
 
 }  // namespace osteomill

@@ -51,11 +51,11 @@ PressedResult press(const PressedStroke& stroke) {
         proxy.advance(hand_mm, {guide_n_per_mm * (hand_mm - proxy.position_mm()), guide_n_per_mm}, tick_s,
                       true, *latest);
         mill(proxy.carving_mm());
+        if (radius_mm - proxy.position_mm().z > 0.9 * radius_mm) return {.sinks = true};
         if (tick <= measured_from) continue;
         result.removal_mm3_per_s += latest->removed_mm3 / (tick_s * (ticks - measured_from));
         result.depth_mm += (radius_mm - proxy.position_mm().z) / (ticks - measured_from);
     }
-    result.sinks = result.depth_mm > 0.9 * radius_mm;
     return result;
 }
 

@@ -16,7 +16,7 @@ struct PressedStroke {
     double length_mm = 6.0;
 };
 
-/// Over the last third of the stroke.
+/// Over the last third of the stroke; nothing where the burr sinks.
 struct PressedResult {
     double removal_mm3_per_s = 0.0;
     double depth_mm = 0.0;  ///< of the burr's tip below the surface

@@ -53,6 +53,32 @@ TEST(BurrProxy, SolvesTheOneDimensionalLaw) {
     }
 }
 
+/// A wall along y and z, at x = 0, for a burr at rest.
+std::unique_ptr<MillingResult> wall_along_x() {
+    auto result = damper_along_x(0.0, 0.0);
+    result->engagement.patches[0].area_mm2 = 1.0;
+    return result;
+}
+
+TEST(BurrProxy, IsHeldByFrictionOnAWallUntilTheHandOvercomesIt) {
+    const auto wall = wall_along_x();
+    for (const double friction : {0.0, 0.2}) {
+        BurrProxy proxy(friction);
+        proxy.place(glm::dvec3(0.0));
+        // Pressed with 0.6 N and pulled aside with 0.09, then 0.3 N.
+        for (int i = 0; i < 50; ++i) advance(proxy, {0.4, 0.06, 0.0}, 0.001, false, *wall);
+        const double normal_n = 1.5 * (0.4 - proxy.position_mm().x);
+        EXPECT_NEAR(normal_n, 0.6, 0.01);
+        if (friction > 0.0) {
+            EXPECT_LT(proxy.position_mm().y, 1e-3) << "sticks, but for the first tick's";
+        } else {
+            EXPECT_NEAR(proxy.position_mm().y, 0.06, 1e-9);
+        }
+        for (int i = 0; i < 50; ++i) advance(proxy, {0.4, 0.2, 0.0}, 0.001, false, *wall);
+        EXPECT_NEAR(1.5 * (0.2 - proxy.position_mm().y), friction * normal_n, 1e-3) << "slides";
+    }
+}
+
 /// One patch facing +x whose edges rub with 0.6 N.
 std::unique_ptr<MillingResult> rubbing_along_x() {
     auto result = damper_along_x(0.02, 0.0);

@@ -44,7 +44,7 @@ TEST(EncoderNoise, OfTheSimulatedArmIsNotFeltAsTaps) {
     EXPECT_LT(arm.jumps_per_s, 2.0) << "21 when each step was made up for at once";
     EXPECT_LT(arm.largest_jump_n, 0.1);
     const EncoderNoise fine = drill_tooth({.resolution_mm = 0.003}, "implicit");
-    EXPECT_EQ(fine.jumps_per_s, 0.0);
+    EXPECT_LT(fine.jumps_per_s, 0.5) << "what the cut itself does";
     EXPECT_LT(fine.noise_n, 1.3 * drill_tooth({.resolution_mm = 0.0}, "implicit").noise_n);
 }
 
