@@ -10,8 +10,8 @@
 
 namespace osteomill {
 
-/// Counted in whole levels of fraction, so nothing is lost to rounding. Around each state frame: before(), the
-/// frame is applied, after().
+/// Counted in whole levels of fraction, so nothing is lost to rounding. Around each state frame: before(),
+/// the frame is applied, after().
 class RemovalCount {
   public:
     /// Frames that make no sense are counted as far as they name stored bricks.

@@ -38,7 +38,7 @@ RunRegressors regressors_of(const RunSetting& setting) {
         unit[column % 3] = 1.0;
         c.burr.cutting_coefficients_n_per_mm2 = column < 3 ? unit : glm::dvec3(0.0);
         c.burr.edge_coefficients_n_per_mm = column < 3 ? glm::dvec3(0.0) : unit;
-        const glm::dvec3 force_n = mean_reference_force_n(motion_of(c), bone, {}, enough);
+        const glm::dvec3 force_n = mean_reference_force_n(motion_of(c), bone, enough);
         regressors.col(column) << force_n.x, force_n.y, force_n.z;
     }
     return regressors;

@@ -33,13 +33,11 @@ SurfacePoint surface_point(const glm::dmat3& frame, double kappa, double psi) {
 /// Force on the burr for each mm of an edge's length at a point: chip and edge forces. t dz = f_t (n . v/|v|)
 /// R dkappa.
 glm::dvec3 force_per_edge_length(const SteadyMotion& motion, const SurfacePoint& point, double stiffness,
-                                 double feed_per_tooth_mm, const glm::dvec3& direction,
-                                 const EdgeDetails& details) {
+                                 double feed_per_tooth_mm, const glm::dvec3& direction) {
     const double chip_mm = feed_per_tooth_mm * std::max(0.0, glm::dot(point.normal, direction));
     if (chip_mm <= 0.0 || stiffness <= 0.0) return glm::dvec3(0.0);
     const glm::dvec3 per_length = stiffness * (motion.burr.cutting_coefficients_n_per_mm2 * chip_mm +
-                                               motion.burr.edge_coefficients_n_per_mm) +
-                                  details.edge_force_n_per_mm;
+                                               motion.burr.edge_coefficients_n_per_mm);
     return -(motion.burr.sigma() * per_length.x * point.e_psi + per_length.y * point.normal +
              per_length.z * point.e_kappa);
 }
@@ -90,7 +88,7 @@ void along_meridian(const SteadyMotion& motion, const glm::dmat3& frame, const B
 }  // namespace
 
 glm::dvec3 mean_reference_force_n(const SteadyMotion& motion, const BoneFunction& bone,
-                                  const EdgeDetails& details, const Quadrature& quadrature) {
+                                  const Quadrature& quadrature) {
     const double speed = glm::length(motion.velocity_mm_per_s);
     if (speed == 0.0) return glm::dvec3(0.0);
     const glm::dmat3 frame = burr_frame(motion.spindle_axis);
@@ -102,7 +100,7 @@ glm::dvec3 mean_reference_force_n(const SteadyMotion& motion, const BoneFunction
         along_meridian(
             motion, frame, bone, quadrature.kappa, [&](double) { return psi; },
             [&](const SurfacePoint& point, double stiffness, double dkappa) {
-                sum += dkappa * force_per_edge_length(motion, point, stiffness, feed, direction, details);
+                sum += dkappa * force_per_edge_length(motion, point, stiffness, feed, direction);
             });
     }
     // Each edge is at every psi for an equal share of a revolution; helix lag shifts that, not the mean.
@@ -110,7 +108,7 @@ glm::dvec3 mean_reference_force_n(const SteadyMotion& motion, const BoneFunction
 }
 
 glm::dvec3 instantaneous_reference_force_n(const SteadyMotion& motion, const BoneFunction& bone,
-                                           double turned_rad, const EdgeDetails& details,
+                                           double turned_rad, double helix_lag_rad_per_mm,
                                            const Quadrature& quadrature) {
     const double speed = glm::length(motion.velocity_mm_per_s);
     if (speed == 0.0) return glm::dvec3(0.0);
@@ -122,13 +120,12 @@ glm::dvec3 instantaneous_reference_force_n(const SteadyMotion& motion, const Bon
     for (int edge = 0; edge < motion.burr.edges; ++edge) {
         const auto psi_at = [&](double kappa) {
             const double above_tip_mm = radius * (1.0 - std::cos(kappa));
-            return motion.burr.sigma() * (turned_rad - details.helix_lag_rad_per_mm * above_tip_mm +
-                                          two_pi * edge / motion.burr.edges);
+            return motion.burr.sigma() *
+                   (turned_rad - helix_lag_rad_per_mm * above_tip_mm + two_pi * edge / motion.burr.edges);
         };
         along_meridian(motion, frame, bone, quadrature.kappa, psi_at,
                        [&](const SurfacePoint& point, double stiffness, double dkappa) {
-                           sum += dkappa *
-                                  force_per_edge_length(motion, point, stiffness, feed, direction, details);
+                           sum += dkappa * force_per_edge_length(motion, point, stiffness, feed, direction);
                        });
     }
     return sum * radius;

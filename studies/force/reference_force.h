@@ -6,8 +6,9 @@
 //
 // with the geometry of mean_force.h and t = f_t max(0, n . v/|v|) / sin kappa, f_t = |v| / (N_phi n_rev):
 // the chip's thickness in the burr's cylindrical coordinates, so that t dz = (normal thickness) x (arc R
-// dkappa), as in Lee and Altintas 1996. T is 1 where the bone function says bone, else 0. Sums over k and
-// over instants are midpoint quadratures over kappa and psi.
+// dkappa), as in Lee and Altintas 1996. Edges that rub add (K_te, K_re, K_ae) for each mm where t > 0. T is 1
+// where the bone function says bone, else 0. Sums over k and over instants are midpoint quadratures over
+// kappa and psi.
 #pragma once
 
 #include <functional>
@@ -30,14 +31,6 @@ struct SteadyMotion {
 /// earlier pass), and need not be elsewhere, since only the half of the burr that faces the motion cuts.
 using BoneFunction = std::function<double(const glm::dvec3& position_mm)>;
 
-/// What the published model leaves out; zero by default.
-struct EdgeDetails {
-    /// Angle by which an edge trails for each mm above the tip.
-    double helix_lag_rad_per_mm = 0.0;
-    /// Force of an engaged edge for each mm of its length, whatever the chip: tangential, radial, axial.
-    glm::dvec3 edge_force_n_per_mm{0.0};
-};
-
 /// Points of the quadrature along kappa and along psi.
 struct Quadrature {
     int kappa = 180;
@@ -46,12 +39,12 @@ struct Quadrature {
 
 /// Equation (2): mean force of the bone on the burr over a tooth period, N.
 glm::dvec3 mean_reference_force_n(const SteadyMotion& motion, const BoneFunction& bone,
-                                  const EdgeDetails& details = {}, const Quadrature& quadrature = {});
+                                  const Quadrature& quadrature = {});
 
 /// Equation (1): force at the instant when edge 0 has turned by `turned_rad` from the burr's x axis in the
-/// sense of rotation, N.
+/// sense of rotation, N. An edge trails by `helix_lag_rad_per_mm` for each mm above the tip.
 glm::dvec3 instantaneous_reference_force_n(const SteadyMotion& motion, const BoneFunction& bone,
-                                           double turned_rad, const EdgeDetails& details = {},
+                                           double turned_rad, double helix_lag_rad_per_mm = 0.0,
                                            const Quadrature& quadrature = {});
 
 /// Removal rate, mm^3/s: integral of max(0, n . v) over the part of the burr's surface in bone.

@@ -134,10 +134,10 @@ TEST(DocumentChecks, FindPathsThatAreNoMore) {
     std::filesystem::create_directories(folder.path() / "common/bone");
     std::filesystem::create_directories(folder.path() / "out");  // of a user who has tried the commands
     std::ofstream(folder.path() / "common/bone/grid.h") << "";
-    const Document document{
-        "page.md",
-        "`common/bone` and `common/gone`, `grid.h` and `lost.h`, `and/or`, `out/session.json`, `common/FOLDER`, `--json FILE`\n"
-        "```bash\nls common/bone/grid.h common/bone/grid.cpp  # common/not/read\n```\n"};
+    const Document document{"page.md",
+                            "`common/bone` and `common/gone`, `grid.h` and `lost.h`, `and/or`, "
+                            "`out/session.json`, `common/FOLDER`, `--json FILE`\n"
+                            "```bash\nls common/bone/grid.h common/bone/grid.cpp  # common/not/read\n```\n"};
     EXPECT_THAT(dead_paths(document, folder.path()),
                 UnorderedElementsAre(HasSubstr("common/gone"), HasSubstr("lost.h"),
                                      HasSubstr("common/bone/grid.cpp")));

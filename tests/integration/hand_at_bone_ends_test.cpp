@@ -79,7 +79,8 @@ TEST_F(HandAtBoneEnds, ABurrThatBreaksThroughTheBraincaseDoesNotJam) {
 }
 
 TEST_F(HandAtBoneEnds, APassAlongAnEdgeDoesNotDriveTheHand) {
-    // It gave the hand 185 mJ, with 3.3 N and jumps of 0.71 N. A rigid burr gives 54 mJ, 5 more would be a fault.
+    // It gave the hand 185 mJ, with 3.3 N and jumps of 0.71 N. A rigid burr gives 54 mJ, 5 more would be a
+    // fault.
     const Felt felt = play("edge", "edge");
     EXPECT_LT(felt.measured.at("energy_to_hand_mj").at("most").get<double>(), 15.0);
     EXPECT_LT(felt.peak_n, 1.2);

@@ -52,7 +52,8 @@ auto file(const std::string& name, const std::string& bytes) {
     };
 }
 
-/// The same, of bytes that take long to make: every test of this program begins with the lists of all attacks.
+/// The same, of bytes that take long to make: every test of this program begins with the lists of all
+/// attacks.
 auto large_file(const std::string& name, const std::function<std::string()>& make) {
     return [=](const std::filesystem::path& folder) { return file(name, make())(folder); };
 }
@@ -272,20 +273,27 @@ const std::vector<Attack> attacks{
      "holds no files"},
 };
 
-/// Found while the voxels are read, which is once: the estimate of memory and progress have been said by then.
+/// Found while the voxels are read, which is once: the estimate of memory and progress have been said by
+/// then.
 const std::vector<Attack> spoiled_voxels{
     {"nrrd_gzip_wrong_crc", file("x.nrrd", gzip_nrrd + flipped(deflated(voxels), 6)), "damaged"},
     {"nrrd_gzip_cut_off", file("x.nrrd", gzip_nrrd + shorter(deflated(voxels), 4)), "cut off"},
-    {"nrrd_gzip_garbage_behind", file("x.nrrd", gzip_nrrd + deflated(voxels) + "garbage"), "7 bytes of something else"},
-    {"nrrd_gzip_more_voxels", file("x.nrrd", gzip_nrrd + deflated(voxels + voxels)), "more than the 120 bytes"},
+    {"nrrd_gzip_garbage_behind", file("x.nrrd", gzip_nrrd + deflated(voxels) + "garbage"),
+     "7 bytes of something else"},
+    {"nrrd_gzip_more_voxels", file("x.nrrd", gzip_nrrd + deflated(voxels + voxels)),
+     "more than the 120 bytes"},
     {"nifti_gzip_wrong_crc", file("x.nii.gz", flipped(deflated(nifti()), 6)), "damaged"},
     {"nifti_gzip_cut_off", file("x.nii.gz", shorter(deflated(nifti()), 4)), "cut off"},
-    {"nifti_gzip_garbage_behind", file("x.nii.gz", deflated(nifti()) + "garbage"), "7 bytes of something else"},
-    {"nifti_gzip_more_voxels", large_file("x.nii.gz", [] { return deflated(nifti(10'000'000)); }), "more than the 472 bytes"},
+    {"nifti_gzip_garbage_behind", file("x.nii.gz", deflated(nifti()) + "garbage"),
+     "7 bytes of something else"},
+    {"nifti_gzip_more_voxels", large_file("x.nii.gz", [] { return deflated(nifti(10'000'000)); }),
+     "more than the 472 bytes"},
     {"mha_zlib_wrong_checksum", file("x.mha", zlib_mha + flipped(deflated(voxels, 15), 2)), "damaged"},
     {"mha_zlib_cut_off", file("x.mha", zlib_mha + shorter(deflated(voxels, 15), 2)), "cut off"},
-    {"mha_zlib_garbage_behind", file("x.mha", zlib_mha + deflated(voxels, 15) + "garbage"), "7 bytes of something else"},
-    {"mha_zlib_more_voxels", file("x.mha", zlib_mha + deflated(voxels + voxels, 15)), "more than the 120 bytes"},
+    {"mha_zlib_garbage_behind", file("x.mha", zlib_mha + deflated(voxels, 15) + "garbage"),
+     "7 bytes of something else"},
+    {"mha_zlib_more_voxels", file("x.mha", zlib_mha + deflated(voxels + voxels, 15)),
+     "more than the 120 bytes"},
 };
 
 class HostileImport : public ::testing::TestWithParam<Attack> {

@@ -145,9 +145,9 @@ TextLine solve_line(const ToolState& tool) {
     if (!tool.solve) return {{Tone::dim, "solve: this server does not say"}};
     const SolveCounts& solve = *tool.solve;
     const bool is_poor = solve.max_residual_n > 1e-3 || solve.relaxed > 0;
-    return {{is_poor ? Tone::warning : Tone::dim, fmt::format("solve {:.1f} mN, {} damped, {} fallbacks",
-                                                              1e3 * solve.max_residual_n, solve.damped,
-                                                              solve.fallbacks)}};
+    return {{is_poor ? Tone::warning : Tone::dim,
+             fmt::format("solve {:.1f} mN, {} damped, {} fallbacks", 1e3 * solve.max_residual_n, solve.damped,
+                         solve.fallbacks)}};
 }
 
 }  // namespace

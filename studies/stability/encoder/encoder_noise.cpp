@@ -107,7 +107,8 @@ EncoderNoise drill_tooth(const ArmModel& arm, const std::string& coupling) {
     const Scene scene = phantom_scene("tooth");
     NotingDevice device(scene, arm);
     MillingSession session(
-        scene, bone_from_hu(std::get<HuSlices>(make_phantom("tooth")), phantom_threshold_hu, stiffness_of(scene)),
+        scene,
+        bone_from_hu(std::get<HuSlices>(make_phantom("tooth")), phantom_threshold_hu, stiffness_of(scene)),
         device, {.clock = ClockKind::virtual_time, .coupling = coupling});
     std::atomic<bool> is_over{false};
     session.run(is_over, [&](const ToolState&) {

@@ -24,7 +24,7 @@ void plan_cutting(const MapCase& c, ScenePlan& plan) {
         .burr = plan.burr, .position_mm = plan.burr_at_release_mm, .velocity_mm_per_s = {1.0, 0.0, 0.0}};
     const Quadrature quadrature{.kappa = 120, .psi = 360};
     const glm::dvec3 force_n_s_per_mm =
-        c.relative_stiffness * mean_reference_force_n(motion, flat_bone(), {}, quadrature);
+        c.relative_stiffness * mean_reference_force_n(motion, flat_bone(), quadrature);
     plan.feed_mm_per_s = std::min(most_feed_mm_per_s, most_steady_force_n / glm::length(force_n_s_per_mm));
     plan.steady_force_n = plan.feed_mm_per_s * force_n_s_per_mm;
 

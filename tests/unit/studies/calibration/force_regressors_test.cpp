@@ -49,7 +49,7 @@ TEST(ForceRegressors, AreAsExactAsADynamometerAsks) {
         c.burr.cutting_coefficients_n_per_mm2 = {230.0, 40.0, 20.0};
         c.burr.edge_coefficients_n_per_mm = {0.5, 0.8, 0.1};
         const glm::dvec3 fine_n =
-            mean_reference_force_n(motion_of(c), bone_of(c), {}, {.kappa = 480, .psi = 960});
+            mean_reference_force_n(motion_of(c), bone_of(c), {.kappa = 480, .psi = 960});
         Eigen::Vector<double, 6> k;
         k << 230.0, 40.0, 20.0, 0.5, 0.8, 0.1;
         const Eigen::Vector3d force_n = regressors_of(s) * k;

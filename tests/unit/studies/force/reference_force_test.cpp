@@ -57,24 +57,43 @@ SteadyMotion slot_1_mm_deep() {
             .velocity_mm_per_s = {6.0, 0.0, 0.0}};
 }
 
-glm::dvec3 mean_over_a_tooth_period(const SteadyMotion& motion, const EdgeDetails& details) {
+glm::dvec3 mean_over_a_tooth_period(const SteadyMotion& motion, double helix_lag_rad_per_mm) {
     constexpr int instants = 240;
     glm::dvec3 mean(0.0);
     for (int j = 0; j < instants; ++j)
         mean += instantaneous_reference_force_n(
                     motion, flat_bone(), 2.0 * std::numbers::pi / motion.burr.edges * (j + 0.5) / instants,
-                    details) /
+                    helix_lag_rad_per_mm) /
                 static_cast<double>(instants);
     return mean;
 }
 
 TEST(ReferenceForceInstants, AverageToTheMean) {
-    const SteadyMotion motion = slot_1_mm_deep();
-    for (const EdgeDetails& details :
-         {EdgeDetails{}, EdgeDetails{.helix_lag_rad_per_mm = 0.2, .edge_force_n_per_mm = {0.3, 0.2, 0.1}}}) {
-        const glm::dvec3 mean = mean_reference_force_n(motion, flat_bone(), details);
-        EXPECT_LT(glm::length(mean_over_a_tooth_period(motion, details) - mean) / glm::length(mean), 2e-3);
-    }
+    SteadyMotion motion = slot_1_mm_deep();
+    for (const glm::dvec3 edges : {glm::dvec3(0.0), glm::dvec3(0.3, 0.2, 0.1)})
+        for (const double helix_lag_rad_per_mm : {0.0, 0.2}) {
+            motion.burr.edge_coefficients_n_per_mm = edges;
+            const glm::dvec3 mean = mean_reference_force_n(motion, flat_bone());
+            EXPECT_LT(glm::length(mean_over_a_tooth_period(motion, helix_lag_rad_per_mm) - mean) /
+                          glm::length(mean),
+                      2e-3);
+        }
+}
+
+TEST(ReferenceForce, OfEdgesIsThatOfTheSlotsFormula) {
+    // N_phi / 2 pi times the integral of (K_te, K_re, K_ae) R dkappa dpsi over the half that faces the feed.
+    SteadyMotion motion = slot_1_mm_deep();
+    motion.burr.cutting_coefficients_n_per_mm2 = glm::dvec3(0.0);
+    motion.burr.edge_coefficients_n_per_mm = {0.5, 0.4, 0.1};
+    const double radius = motion.burr.radius_mm();
+    const double k = std::acos(1.0 - 1.0 / radius);
+    const double per_turn = motion.burr.edges * radius / (2.0 * std::numbers::pi);
+    const glm::dvec3 expected(-2.0 * per_turn * (0.4 * (1.0 - std::cos(k)) + 0.1 * std::sin(k)),
+                              -2.0 * per_turn * 0.5 * k,
+                              std::numbers::pi * per_turn * (0.4 * std::sin(k) - 0.1 * (1.0 - std::cos(k))));
+    const glm::dvec3 force = mean_reference_force_n(motion, flat_bone());
+    EXPECT_LT(glm::length(force - expected) / glm::length(expected), 1e-3)
+        << force.x << ' ' << force.y << ' ' << force.z;
 }
 
 TEST(ReferenceForceInstants, RipplesWithTheToothPeriodAndLessWithMoreEdges) {
@@ -102,11 +121,11 @@ TEST(ReferenceForceInstants, RipplesWithTheToothPeriodAndLessWithMoreEdges) {
 
 TEST(ReferenceForceInstants, EdgeForcesPushOnlyWhereAnEdgeCuts) {
     SteadyMotion motion = slot_1_mm_deep();
-    const EdgeDetails details{.edge_force_n_per_mm = {1.0, 0.0, 0.0}};
+    motion.burr.edge_coefficients_n_per_mm = {1.0, 0.0, 0.0};
     motion.position_mm.z = 5.0;  // in air
-    EXPECT_EQ(mean_reference_force_n(motion, flat_bone(), details), glm::dvec3(0.0));
+    EXPECT_EQ(mean_reference_force_n(motion, flat_bone()), glm::dvec3(0.0));
     motion.velocity_mm_per_s = {0.0, 0.0, 0.0};
-    EXPECT_EQ(mean_reference_force_n(motion, flat_bone(), details), glm::dvec3(0.0));
+    EXPECT_EQ(mean_reference_force_n(motion, flat_bone()), glm::dvec3(0.0));
 }
 
 }  // namespace
