@@ -1,6 +1,12 @@
 #include "common/scene/burr.h"
 
+#include <algorithm>
+
 namespace osteomill {
+
+bool has_shank(const std::vector<Burr>& burrs) {
+    return std::any_of(burrs.begin(), burrs.end(), [](const Burr& burr) { return !burr.shank.empty(); });
+}
 
 std::vector<Burr> default_burr_set(double spindle_rev_per_s) {
     const auto burr = [&](const char* name, double diameter_mm) {

@@ -1,9 +1,11 @@
-// A spherical burr and its cutting coefficients, as the scene declares them.
+// A spherical burr with its shank and its cutting coefficients, as the scene declares them.
 #pragma once
 
 #include <glm/vec3.hpp>
 #include <string>
 #include <vector>
+
+#include "common/scene/shank.h"
 
 namespace osteomill {
 
@@ -21,6 +23,7 @@ struct Burr {
     /// published law has none.
     glm::dvec3 edge_coefficients_n_per_mm{0.0};
     SpindleSense sense = SpindleSense::clockwise;
+    ShankProfile shank{};
 
     double radius_mm() const { return 0.5 * diameter_mm; }
     /// +1 when the burr turns towards +psi of the burr frame (+z from tip to shank), -1 for a clockwise burr.
@@ -30,6 +33,9 @@ struct Burr {
 
     bool operator==(const Burr&) const = default;
 };
+
+/// Whether any of a set has a shank that bone can touch.
+bool has_shank(const std::vector<Burr>& burrs);
 
 /// The usual set: 1, 1.5, 2, 3, 4 and 5 mm, six edges, the published coefficients, clockwise.
 std::vector<Burr> default_burr_set(double spindle_rev_per_s);

@@ -124,6 +124,20 @@ std::vector<Tissue> read_tissues(std::vector<TomlReader> readers) {
     return tissues;
 }
 
+ShankProfile read_shank(TomlReader& reader, double burr_radius_mm) {
+    ShankProfile shank;
+    const auto rows = reader.rows("shank", 2);
+    if (!rows) return shank;
+    if (rows->empty()) reader.fail("shank", "a shank takes 2 to 8 points; for none leave 'shank' out");
+    for (const auto& row : *rows) shank.push_back({row[0], row[1]});
+    try {
+        require_valid(shank, burr_radius_mm);
+    } catch (const std::invalid_argument& error) {
+        reader.fail("shank", error.what());
+    }
+    return shank;
+}
+
 Burr read_burr(TomlReader& reader) {
     Burr burr;
     burr.name = required(reader, "name", reader.text("name"));
@@ -145,6 +159,7 @@ Burr read_burr(TomlReader& reader) {
                     "K_te, K_re and K_ae must be at least 0 and at most 100 N/mm");
     burr.sense = reader.choice("turns", sense_names).value_or(0) == 0 ? SpindleSense::clockwise
                                                                       : SpindleSense::counter_clockwise;
+    burr.shank = read_shank(reader, burr.radius_mm());
     reader.refuse_other_keys();
     return burr;
 }
@@ -246,6 +261,20 @@ toml::array rows_of(const glm::dmat3& m) {
     return toml::array{list(t[0]), list(t[1]), list(t[2])};
 }
 
+toml::table burr_table(const Burr& burr) {
+    toml::table table{{"name", burr.name},
+                      {"diameter_mm", burr.diameter_mm},
+                      {"edges", static_cast<std::int64_t>(burr.edges)},
+                      {"rpm", rpm_of(burr.spindle_rev_per_s)},
+                      {"cutting_coefficients_n_per_mm2", list(burr.cutting_coefficients_n_per_mm2)},
+                      {"edge_coefficients_n_per_mm", list(burr.edge_coefficients_n_per_mm)},
+                      {"turns", sense_names[burr.sense == SpindleSense::clockwise ? 0 : 1]}};
+    toml::array shank;
+    for (const ShankPoint& point : burr.shank) shank.push_back(toml::array{point.height_mm, point.radius_mm});
+    if (!shank.empty()) table.insert("shank", shank);
+    return table;
+}
+
 toml::table bone_table(const std::variant<PhantomSource, FileSource>& bone) {
     if (const auto* phantom = std::get_if<PhantomSource>(&bone))
         return toml::table{{"phantom", phantom->name}};
@@ -309,15 +338,7 @@ std::string write_scene(const Scene& scene) {
     }
     if (!tissues.empty()) root.insert("tissues", tissues);
     toml::array burrs;
-    for (const Burr& burr : scene.burrs)
-        burrs.push_back(
-            toml::table{{"name", burr.name},
-                        {"diameter_mm", burr.diameter_mm},
-                        {"edges", static_cast<std::int64_t>(burr.edges)},
-                        {"rpm", rpm_of(burr.spindle_rev_per_s)},
-                        {"cutting_coefficients_n_per_mm2", list(burr.cutting_coefficients_n_per_mm2)},
-                        {"edge_coefficients_n_per_mm", list(burr.edge_coefficients_n_per_mm)},
-                        {"turns", sense_names[burr.sense == SpindleSense::clockwise ? 0 : 1]}});
+    for (const Burr& burr : scene.burrs) burrs.push_back(burr_table(burr));
     root.insert("burrs", burrs);
     root.insert("device", toml::table{{"rotation", rows_of(scene.device.rotation)},
                                       {"scale", scene.device.scale},

@@ -23,6 +23,7 @@ void require_valid(const Burr& burr, double spacing_mm) {
     if (burr.diameter_mm / spacing_mm > most_voxels_across_burr)
         throw std::invalid_argument("burr '" + burr.name + "' is more than 500 voxels of " +
                                     std::to_string(spacing_mm) + " mm across; take coarser bone");
+    require_valid(burr.shank, burr.radius_mm());
 }
 
 bool is_usable(const BurrCommand& command, std::size_t burr_count) noexcept {

@@ -12,7 +12,8 @@ namespace osteomill {
 inline constexpr double most_voxels_across_burr = 500.0;
 
 /// Throws std::invalid_argument, naming the burr, unless diameter, edges and spindle speed are above zero,
-/// the cutting coefficients finite and not negative, and the burr no more than 500 voxels across.
+/// the cutting coefficients finite and not negative, the burr no more than 500 voxels across, and its shank
+/// as shank.h has it.
 void require_valid(const Burr& burr, double spacing_mm);
 
 /// Whether a command is finite, lasts, and names one of `burr_count` burrs; its axis must be of unit length.

@@ -57,6 +57,7 @@ rpm = 60000
 cutting_coefficients_n_per_mm2 = [1, 2, 3]
 edge_coefficients_n_per_mm = [0.5, 0.25, 0]
 turns = "counter-clockwise"
+shank = [[1.2, 0.4], [10, 0.5]]
 [device]
 rotation = [[0, -1, 0], [1, 0, 0], [0, 0, 1]]
 scale = 0.5
@@ -80,6 +81,8 @@ file = "path.csv"
     EXPECT_EQ(scene.burrs[1].cutting_coefficients_n_per_mm2, glm::dvec3(1.0, 2.0, 3.0));
     EXPECT_EQ(scene.burrs[1].edge_coefficients_n_per_mm, glm::dvec3(0.5, 0.25, 0.0));
     EXPECT_FALSE(scene.burrs[0].has_edge_force()) << "the published law is the default";
+    EXPECT_EQ(scene.burrs[1].shank, (ShankProfile{{1.2, 0.4}, {10.0, 0.5}}));
+    EXPECT_TRUE(scene.burrs[0].shank.empty());
     EXPECT_EQ(scene.device.rotation * glm::dvec3(1.0, 0.0, 0.0), glm::dvec3(0.0, 1.0, 0.0))
         << "rows, not columns";
     EXPECT_EQ(scene.start_pose.spindle_axis, glm::dvec3(0.0, 0.6, 0.8));
@@ -215,6 +218,27 @@ TEST(SceneFile, ValuesOutOfRangeOrOfTheWrongTypeAreRefused) {
                 HasSubstr("takes either"));
     EXPECT_THAT(error_of("name = \"a\"\nbone = 3\n"), HasSubstr("must be a table"));
     EXPECT_THAT(error_of(smallest + "[trajectory]\nspeed_mm_per_s = 3\n"), HasSubstr("takes either motion"));
+}
+
+TEST(SceneFile, AShankThatCannotBeIsRefused) {
+    const auto refused = [](const std::string& shank) {
+        return error_of(smallest + "[[burrs]]\nname = \"b\"\ndiameter_mm = 2\nshank = " + shank + "\n");
+    };
+    EXPECT_THAT(refused("3"), HasSubstr("my.toml:7: 'shank' must be a list of lists of 2 finite numbers"));
+    EXPECT_THAT(refused("[[1, 0.5, 2], [2, 0.5]]"), HasSubstr("lists of 2 finite numbers"));
+    EXPECT_THAT(refused("[[1, 0.5], [inf, 0.5]]"), HasSubstr("lists of 2 finite numbers"));
+    EXPECT_THAT(refused("[]"), HasSubstr("leave 'shank' out"));
+    EXPECT_THAT(refused("[[2, 0.5]]"), HasSubstr("2 to 8 points, not 1"));
+    EXPECT_THAT(refused("[[1, 1], [2, 1], [3, 1], [4, 1], [5, 1], [6, 1], [7, 1], [8, 1], [9, 1]]"),
+                HasSubstr("2 to 8 points, not 9"));
+    EXPECT_THAT(refused("[[1, 0.5], [5, 0.04]]"), HasSubstr("point 1 has a radius outside 0.05 to 30 mm"));
+    EXPECT_THAT(refused("[[1, 31], [5, 0.5]]"), HasSubstr("point 0 has a radius outside"));
+    EXPECT_THAT(refused("[[0.4, 0.5], [5, 0.5]]"), HasSubstr("point 0 has a height outside"));
+    EXPECT_THAT(refused("[[1, 0.5], [201, 0.5]]"), HasSubstr("point 1 has a height outside"));
+    EXPECT_THAT(refused("[[5, 0.5], [5, 1]]"), HasSubstr("point 1 does not lie 0.01 mm or more above"));
+    EXPECT_THAT(refused("[[5, 0.5], [4, 1]]"), HasSubstr("point 1 does not lie"));
+    EXPECT_THAT(refused("[[0.5, 0.2], [1, 0.2]]"), HasSubstr("ends within the burr"));
+    EXPECT_EQ(refused("[[0.5, 0.05], [200, 30]]"), "no error");
 }
 
 TEST(SceneFile, WhatIsNotTomlOrNotThereIsRefusedInOneLine) {
