@@ -24,9 +24,19 @@ struct EngagedPatch {
     double area_mm2 = 0.0;
 };
 
+/// One patch of the shank behind the burr that has bone within reach in front of it. Nothing cuts there:
+/// bone is a wall to it.
+struct ShankPatch {
+    glm::dvec3 normal{0.0};  ///< outward from the shank, patient axes, unit
+    double gap_mm = 0.0;     ///< as of an EngagedPatch
+    double area_mm2 = 0.0;
+    glm::dvec3 arm_mm{0.0};  ///< from the burr's centre to the patch, patient axes
+};
+
 /// A bounded list of patches around `burr_position_mm`. Empty in free air.
 struct Engagement {
     static constexpr std::size_t max_patches = 1024;
+    static constexpr std::size_t max_shank_patches = 64;
     /// How far beyond and inside the burr's surface the map looks, voxels. Bone farther out is not seen;
     /// where bone lies deeper inside, the gap says no more than this.
     static constexpr double reach_voxels = 1.5;
@@ -36,6 +46,8 @@ struct Engagement {
     bool has_edge_force = false;       ///< of the burr; without, edge_n is zero
     std::size_t count = 0;
     std::array<EngagedPatch, max_patches> patches;
+    std::size_t shank_count = 0;  ///< 0 for a burr without a shank
+    std::array<ShankPatch, max_shank_patches> shank_patches;
 };
 
 }  // namespace osteomill

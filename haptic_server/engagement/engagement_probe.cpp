@@ -41,7 +41,8 @@ EngagementProbe::EngagementProbe(const Burr& burr, double spacing_mm, const Edge
     : radius_mm_(burr.radius_mm()),
       has_edge_force_(burr.has_edge_force()),
       edge_shares_(edge_shares),
-      bricks_(burr.radius_mm() / spacing_mm + Engagement::reach_voxels + 2.0) {
+      bricks_(burr.radius_mm() / spacing_mm + Engagement::reach_voxels + 2.0),
+      shank_(burr) {
     const double sphere_area_mm2 = 4.0 * std::numbers::pi * radius_mm_ * radius_mm_;
     const double wanted_edge_mm = 1.5 * spacing_mm;
     const int rings = std::clamp(
@@ -92,6 +93,12 @@ EngagementProbe::EngagementProbe(const Burr& burr, double spacing_mm, const Edge
 
 void EngagementProbe::sample(const Bone& bone, const glm::dvec3& position_mm, const glm::dvec3& spindle_axis,
                              Engagement& out) noexcept {
+    sample_burr(bone, position_mm, spindle_axis, out);
+    shank_.sample(bone, position_mm, spindle_axis, out);
+}
+
+void EngagementProbe::sample_burr(const Bone& bone, const glm::dvec3& position_mm,
+                                  const glm::dvec3& spindle_axis, Engagement& out) noexcept {
     out.burr_position_mm = position_mm;
     out.count = 0;
     const double h = bone.grid().spacing_mm;

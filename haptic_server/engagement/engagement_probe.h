@@ -1,4 +1,4 @@
-// Sampling of the bone around one burr into an engagement map (engagement.h).
+// Sampling of the bone around one burr and its shank into an engagement map (engagement.h).
 #pragma once
 
 #include <array>
@@ -12,13 +12,14 @@
 #include "common/scene/edge_shares.h"
 #include "haptic_server/engagement/brick_neighbourhood.h"
 #include "haptic_server/engagement/engagement.h"
+#include "haptic_server/engagement/shank_probe.h"
 
 namespace osteomill {
 
-/// Samples the bone around one burr. Holds the burr's patches: rings about the spindle, equal in angle, 16
-/// patches a ring, each ring turned against the next by half a patch; 768 to 1024 of them, about 1.5 voxels
-/// wide where that suffices. 1/r is its mean over the patch, (asin z2 - asin z1) / (z2 - z1) / R for a ring
-/// from z1 to z2 on the unit sphere. Allocates when constructed.
+/// Samples the bone around one burr and its shank. Holds the burr's patches: rings about the spindle, equal
+/// in angle, 16 patches a ring, each ring turned against the next by half a patch; 768 to 1024 of them,
+/// about 1.5 voxels wide where that suffices. 1/r is its mean over the patch, (asin z2 - asin z1) / (z2 - z1)
+/// / R for a ring from z1 to z2 on the unit sphere. Allocates when constructed.
 class EngagementProbe {
   public:
     explicit EngagementProbe(const Burr& burr, double spacing_mm, const EdgeShares& edge_shares = {});
@@ -29,6 +30,9 @@ class EngagementProbe {
                 Engagement& out) noexcept;
 
   private:
+    void sample_burr(const Bone& bone, const glm::dvec3& position_mm, const glm::dvec3& spindle_axis,
+                     Engagement& out) noexcept;
+
     struct Patch {
         glm::dvec3 normal;              ///< burr axes
         glm::dvec3 cutting_n_s_per_mm;  ///< burr axes, for bone of relative stiffness 1
@@ -60,6 +64,7 @@ class EngagementProbe {
     std::vector<Patch> patches_;
     std::array<std::vector<float>, 3> normals_;  // of the patches, by axis
     BrickNeighbourhood bricks_;
+    ShankProbe shank_;
 };
 
 }  // namespace osteomill

@@ -17,13 +17,16 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <memory>
 #include <vector>
 
+#include "haptic_server/engagement/shank_probe.h"
 #include "haptic_server/loop/milling_loop.h"
 #include "studies/force/bone_block.h"
 #include "studies/force/full_scan.h"
 #include "studies/force/studied_model.h"
+#include "tests/support/block.h"
 
 namespace osteomill {
 namespace {
@@ -127,6 +130,29 @@ BENCHMARK(StepWithEngagement)
     ->Iterations(3000)
     ->UseManualTime()
     ->Unit(benchmark::kMicrosecond);
+
+/// What the shank adds to a step, by the map alone: a shank deep in bone, each of its samples in contact; one
+/// in a hole a tenth of a millimetre wider; one in the air above the bone. Argument: which.
+void ShankMap(benchmark::State& state) {
+    const double shank_radius_mm = 1.0;
+    const double hole_radius_mm = state.range(0) == 0 ? 0.0 : 1.1;
+    const Bone bone =
+        testing::make_block({-4.0, -4.0, -4.0}, {4.0, 4.0, 16.0}, 0.1,
+                            [&](const glm::dvec3& p) { return std::hypot(p.x, p.y) - hole_radius_mm; });
+    ShankProbe probe({.diameter_mm = 2.0, .shank = {{1.2, shank_radius_mm}, {14.0, shank_radius_mm}}});
+    const auto engagement = std::make_unique<Engagement>();
+    const glm::dvec3 burr_mm(0.0, 0.0, state.range(0) == 2 ? 17.0 : 0.0);
+    Times times;
+    for ([[maybe_unused]] auto _ : state) {
+        times.time([&] { probe.sample(bone, burr_mm, up, *engagement); });
+        state.SetIterationTime(1e-6 * times.last_us());
+    }
+    state.counters["patches"] = static_cast<double>(engagement->shank_count);
+    state.counters["p50_us"] = times.percentile_us(0.5);
+    state.counters["p99_us"] = times.percentile_us(0.99);
+}
+BENCHMARK(ShankMap)->ArgName("where")->DenseRange(0, 2)->Iterations(20000)->UseManualTime()->Unit(
+    benchmark::kMicrosecond);
 
 /// The milling loop as the server runs it at 10 kHz: ten steps for each of the haptic loop's commands, an
 /// engagement map once. One iteration is 10 ms of the session; share_of_a_core is CPU time over that.

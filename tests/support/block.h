@@ -1,12 +1,20 @@
-// A homogeneous block of bone for tests: fills every voxel whose centre lies in a box.
+// A homogeneous block of bone for tests, whole or with something left out of it.
 #pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <functional>
+#include <limits>
 
 #include "common/bone/bone_builder.h"
 
 namespace osteomill::testing {
 
-/// A grid that holds the box [low, high] (patient LPS, mm), every voxel of the grid filled.
-inline Bone make_block(const glm::dvec3& low_mm, const glm::dvec3& high_mm, double spacing_mm) {
+/// A grid that holds the box [low, high] (patient LPS, mm), filled where `depth_mm` of a position is above 0:
+/// how far below the bone's surface it lies. A voxel on the surface is filled in part.
+inline Bone make_block(const glm::dvec3& low_mm, const glm::dvec3& high_mm, double spacing_mm,
+                       const std::function<double(const glm::dvec3&)>& depth_mm) {
     const glm::dvec3 cells = (high_mm - low_mm) / spacing_mm + 0.5;
     const Grid grid{
         .size_voxels = glm::ivec3(cells), .spacing_mm = spacing_mm, .origin_mm = low_mm + 0.5 * spacing_mm};
@@ -20,11 +28,22 @@ inline Bone make_block(const glm::dvec3& low_mm, const glm::dvec3& high_mm, doub
                     for (int j = 0; j < 16; ++j)
                         for (int i = 0; i < 16; ++i) {
                             const glm::ivec3 voxel(16 * x + i, 16 * y + j, 16 * z + k);
-                            if (contains(grid, voxel)) fraction[offset_in_brick(voxel)] = 255;
+                            if (!contains(grid, voxel)) continue;
+                            const glm::dvec3 position_mm = grid.origin_mm + spacing_mm * glm::dvec3(voxel);
+                            const double share =
+                                std::clamp(0.5 + depth_mm(position_mm) / spacing_mm, 0.0, 1.0);
+                            fraction[offset_in_brick(voxel)] =
+                                static_cast<std::uint8_t>(std::lround(255.0 * share));
                         }
                 builder.add_brick({x, y, z}, fraction, nullptr, nullptr);
             }
     return std::move(builder).build();
+}
+
+/// The same with every voxel filled.
+inline Bone make_block(const glm::dvec3& low_mm, const glm::dvec3& high_mm, double spacing_mm) {
+    return make_block(low_mm, high_mm, spacing_mm,
+                      [](const glm::dvec3&) { return std::numeric_limits<double>::infinity(); });
 }
 
 }  // namespace osteomill::testing
