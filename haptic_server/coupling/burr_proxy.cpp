@@ -15,9 +15,9 @@ double touching_share(double gap_voxels) {
 }
 
 /// With which bone sets a burr that it drives apart from the hand; below 0 where it does not.
-double drive_mj(const ContactStep& solved, const glm::dvec3& hand_step_mm) {
-    return std::min(glm::dot(solved.bone_force_n, solved.step_mm),
-                    glm::dot(solved.bone_force_n, solved.step_mm - hand_step_mm));
+double drive_mj(const glm::dvec3& cutting_force_n, const glm::dvec3& step_mm,
+                const glm::dvec3& hand_step_mm) {
+    return std::min(glm::dot(cutting_force_n, step_mm), glm::dot(cutting_force_n, step_mm - hand_step_mm));
 }
 
 /// The step of a burr that a wall holds back by friction, too: `solved` without it. What the pull would move
@@ -43,6 +43,7 @@ void BurrProxy::place(const glm::dvec3& position_mm) noexcept {
     position_mm_ = carving_mm_ = target_mm_ = position_mm;
     apart_mj_ = to_hand_mj_ = 0.0;
     map_step_ = 0;
+    shank_ = {};
     correction_.reset();
     cut_mm_.fill(0.0);
 }
@@ -83,7 +84,30 @@ std::span<const Contact> BurrProxy::gather_contacts(double longest_mm, double st
         if (share > 0.0) add(patch.normal, share * force, begins, share * yield);
         if (share < 1.0) add(patch.normal, (1.0 - share) * force, begins_beyond_gap, (1.0 - share) * yield);
     }
+    for (std::size_t i = 0; i < engagement.shank_count; ++i) {
+        const ShankPatch& patch = engagement.shank_patches[i];
+        const double begins_mm = patch.gap_mm - glm::dot(patch.normal, moved);
+        if (begins_mm <= longest_mm)
+            contacts_[count++] = {.normal = patch.normal,
+                                  .force_n_per_mm = -wall_n_per_mm3 * patch.area_mm2 * patch.normal,
+                                  .begins_mm = begins_mm};
+    }
     return {contacts_.data(), count};
+}
+
+BurrProxy::ShankReaction BurrProxy::shank_reaction(const glm::dvec3& step_mm,
+                                                   const Engagement& engagement) const noexcept {
+    ShankReaction reaction;
+    const glm::dvec3 moved = position_mm_ + step_mm - engagement.burr_position_mm;
+    for (std::size_t i = 0; i < engagement.shank_count; ++i) {
+        const ShankPatch& patch = engagement.shank_patches[i];
+        const double beyond_mm = glm::dot(patch.normal, moved) - patch.gap_mm;
+        if (beyond_mm <= 0.0) continue;
+        const glm::dvec3 force_n = -wall_n_per_mm3 * patch.area_mm2 * beyond_mm * patch.normal;
+        reaction.force_n += force_n;
+        reaction.torque_n_mm += glm::cross(patch.arm_mm, force_n);
+    }
+    return reaction;
 }
 
 void BurrProxy::remember_cuts(const Engagement& engagement) noexcept {
@@ -109,18 +133,19 @@ LinearPull BurrProxy::damped(const LinearPull& pull, double damping_n_s_per_mm,
 
 ContactStep BurrProxy::balance_with_bone(const LinearPull& pull, const glm::dvec3& hand_step_mm,
                                          double tick_s, std::span<const Contact> contacts,
-                                         bool starts_at_rest) noexcept {
+                                         const Engagement& engagement) noexcept {
     double damping_n_s_per_mm = 0.0;
     const auto solve = [&] {
         const LinearPull all = damped(pull, damping_n_s_per_mm, hand_step_mm, tick_s);
         const ContactStep step =
-            balance(all, contacts, starts_at_rest ? glm::dvec3(0.0) : all.free_step_mm());
+            balance(all, contacts, engagement.has_edge_force ? glm::dvec3(0.0) : all.free_step_mm());
         iterations_ += step.iterations;
         return step;
     };
     ContactStep solved = solve();
     const auto is_balanced = [&] { return solved.residual_n <= balance_tolerance_n; };
-    const double energy_mj = drive_mj(solved, hand_step_mm);
+    const glm::dvec3 cutting_n = solved.bone_force_n - shank_reaction(solved.step_mm, engagement).force_n;
+    const double energy_mj = drive_mj(cutting_n, solved.step_mm, hand_step_mm);
     const bool runs_away = energy_mj > 0.0 && apart_mj_ + energy_mj > allowed_apart_mj;
     if (is_balanced() && !runs_away) return solved;
 
@@ -156,12 +181,14 @@ void BurrProxy::cut_toward(const glm::dvec3& target_mm, const LinearPull& pull, 
     const auto contacts = gather_contacts(longest_mm, tick_s, true, engagement);
     ContactStep solved{.step_mm = pull_mm};
     if (!contacts.empty()) {
-        solved = balance_with_bone(pull, hand_step_mm, tick_s, contacts, engagement.has_edge_force);
+        solved = balance_with_bone(pull, hand_step_mm, tick_s, contacts, engagement);
         // Without bone exactly there, so that nothing is felt.
         if (solved.bone_force_n == glm::dvec3(0.0)) solved.step_mm = pull_mm;
     }
     counts_.max_residual_n = std::max(counts_.max_residual_n, solved.residual_n);
-    apart_mj_ = std::clamp(apart_mj_ + drive_mj(solved, hand_step_mm), 0.0, most_apart_mj);
+    shank_ = shank_reaction(solved.step_mm, engagement);
+    const glm::dvec3 cutting_n = solved.bone_force_n - shank_.force_n;
+    apart_mj_ = std::clamp(apart_mj_ + drive_mj(cutting_n, solved.step_mm, hand_step_mm), 0.0, most_apart_mj);
     if (!contacts.empty())
         to_hand_mj_ = std::max(0.0, to_hand_mj_ - glm::dot(pull.force_n(solved.step_mm), hand_step_mm));
 
@@ -170,7 +197,7 @@ void BurrProxy::cut_toward(const glm::dvec3& target_mm, const LinearPull& pull, 
     const bool slips = glm::length(slowed_mm) < glm::length(solved.step_mm);
     const glm::dvec3 step_mm = slips ? slowed_mm : solved.step_mm;
     position_mm_ = step_mm == pull_mm ? target_mm : position_mm_ + step_mm;
-    correction_.add_prediction(solved.bone_force_n, tick_s);
+    correction_.add_prediction(cutting_n, tick_s);
     remember_cuts(engagement);
     trail(solved.bone_force_n != glm::dvec3(0.0), engagement);
 }
@@ -182,11 +209,13 @@ void BurrProxy::press_toward(const glm::dvec3& target_mm, const LinearPull& pull
     correction_.reset();
     apart_mj_ = to_hand_mj_ = 0.0;
     if (contacts.empty()) {
+        shank_ = {};
         position_mm_ = target_mm;
         return;
     }
     const ContactStep solved = relaxed_step(pull, contacts);
     iterations_ += solved.iterations;
+    shank_ = shank_reaction(solved.step_mm, engagement);
     counts_.max_residual_n = std::max(counts_.max_residual_n, solved.residual_n);
     if (solved.bone_force_n == glm::dvec3(0.0))
         position_mm_ = target_mm;

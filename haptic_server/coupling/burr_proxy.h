@@ -22,6 +22,14 @@
 // patch gives way by edge_yields_mm before it cuts, and the burr that carves trails the proxy by up to
 // carving_trails_mm, so that what is pressed in is still there when the next map comes.
 //
+// The shank is a wall, with the spindle on and off:
+//
+//     F(d) = - sum of k A_j n_j max(0, n_j . (p + d - p_map) - gap_j)
+//
+// in the same balance. Its force is no cutting force: the gain that compares those with the model's does not
+// see it, and since a wall gives back no more than it took, nor does the energy with which bone drives the
+// burr. How the tool points is the hand's, and is not solved.
+//
 // The pull is that of coupling_spring.h, with its damper. So what the hand feels is what the bone does to the
 // burr, to the last digit, but for two things.
 //
@@ -73,6 +81,10 @@ class BurrProxy {
     /// Iterations that the last advance took, for benchmarks.
     int iterations() const { return iterations_; }
     const SolveCounts& counts() const { return counts_; }
+    /// Whether bone pushed on the shank in the last advance, and the moment of that about the burr's centre,
+    /// N mm, patient axes.
+    bool shank_touches() const { return shank_.force_n != glm::dvec3(0.0); }
+    const glm::dvec3& shank_torque_n_mm() const { return shank_.torque_n_mm; }
 
     /// Between these gaps a patch counts as touching by a share.
     static constexpr double surely_touching_voxels = 0.1;
@@ -101,10 +113,18 @@ class BurrProxy {
     static constexpr int most_attempts = 4;
 
   private:
+    /// Of bone on the shank.
+    struct ShankReaction {
+        glm::dvec3 force_n{0.0};
+        glm::dvec3 torque_n_mm{0.0};
+    };
+
     void take_over(const MillingResult& latest) noexcept;
     /// Contacts that a step of `step_s` may meet that is no longer than `longest_mm`.
     std::span<const Contact> gather_contacts(double longest_mm, double step_s, bool spindle_on,
                                              const Engagement& engagement) noexcept;
+    /// At the end of a step from where the proxy is.
+    ShankReaction shank_reaction(const glm::dvec3& step_mm, const Engagement& engagement) const noexcept;
     void remember_cuts(const Engagement& engagement) noexcept;
     /// Takes the burr that carves along with the proxy, which bone holds or does not.
     void trail(bool is_held, const Engagement& engagement) noexcept;
@@ -112,7 +132,7 @@ class BurrProxy {
                              const glm::dvec3& hand_step_mm, double tick_s);
     /// The balance of a tick, damped where bone drives the burr.
     ContactStep balance_with_bone(const LinearPull& pull, const glm::dvec3& hand_step_mm, double tick_s,
-                                  std::span<const Contact> contacts, bool starts_at_rest) noexcept;
+                                  std::span<const Contact> contacts, const Engagement& engagement) noexcept;
     /// With the spindle on.
     void cut_toward(const glm::dvec3& target_mm, const LinearPull& pull, double tick_s,
                     const Engagement& engagement) noexcept;
@@ -132,7 +152,9 @@ class BurrProxy {
     int iterations_ = 0;
     std::array<double, Engagement::max_patches>
         cut_mm_{};  // by patch: advance from p_map to which the proxy has cut
-    std::array<Contact, 2 * Engagement::max_patches> contacts_{};  // a patch may have two
+    ShankReaction shank_;
+    std::array<Contact, 2 * Engagement::max_patches + Engagement::max_shank_patches>
+        contacts_{};  // a patch of the burr may have two
 };
 
 }  // namespace osteomill

@@ -24,6 +24,8 @@ struct HandState {
 struct CouplingOutput {
     glm::dvec3 force_n{0.0};  ///< on the hand, patient axes; not yet clamped
     ToolPose burr_pose;       ///< where the milling loop shall take the burr next
+    /// Moment of what bone does to the shank, about the burr's centre, where force_n acts; patient axes.
+    glm::dvec3 shank_torque_n_mm{0.0};
 };
 
 class Coupling {

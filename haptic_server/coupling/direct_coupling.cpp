@@ -36,7 +36,9 @@ CouplingOutput DirectCoupling::tick(const HandState& hand, const MillingResult& 
             is_wall ? wall_n_per_mm_ * (burr.position_mm - hand.pose.position_mm) : latest.force_n;
         force_.add(sample_n, hand.now_s);
     }
-    return {.force_n = force_.over_tick(hand.now_s, hand.tick_s), .burr_pose = burr};
+    return {.force_n = force_.over_tick(hand.now_s, hand.tick_s),
+            .burr_pose = burr,
+            .shank_torque_n_mm = is_wall ? wall_.shank_torque_n_mm() : glm::dvec3(0.0)};
 }
 
 }  // namespace osteomill

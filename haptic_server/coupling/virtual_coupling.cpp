@@ -33,7 +33,8 @@ CouplingOutput VirtualCoupling::tick(const HandState& hand, const MillingResult&
     constexpr double mm_per_m = 1000.0;
     tool_mm_per_s_ += mm_per_m * hand.tick_s / tool_mass_kg_ * (bone.force_n - force_on_hand_n);
     tool_mm_ += hand.tick_s * tool_mm_per_s_;
-    return {.force_n = force_on_hand_n, .burr_pose = bone.burr_pose};
+    return {
+        .force_n = force_on_hand_n, .burr_pose = bone.burr_pose, .shank_torque_n_mm = bone.shank_torque_n_mm};
 }
 
 }  // namespace osteomill

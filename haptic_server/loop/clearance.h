@@ -1,4 +1,4 @@
-// Whether a burr stands clear of the bone, as the milling loop last saw it.
+// Whether a burr and its shank stand clear of the bone, as the milling loop last saw it.
 #pragma once
 
 #include <glm/vec3.hpp>
@@ -12,9 +12,9 @@ namespace osteomill {
 inline constexpr double clearance_voxels = 0.2;
 
 /// Of a burr at `position_mm` (patient LPS) with its spindle off. In bone: bone around `latest` reaches into
-/// it, or lies in it as a model without an engagement says. Unknown: it is farther from where the milling
-/// loop had it than the engagement map sees (Engagement::reach_voxels), or there is no result yet.
-/// Real-time safe.
+/// it or its shank, or lies in it as a model without an engagement says. Unknown: it is farther from where
+/// the milling loop had it than the engagement map sees (Engagement::reach_voxels), or there is no result
+/// yet. Real-time safe.
 Clearance clearance_of(const MillingResult& latest, const glm::dvec3& position_mm) noexcept;
 
 }  // namespace osteomill

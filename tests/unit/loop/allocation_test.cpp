@@ -20,7 +20,8 @@
 namespace osteomill {
 namespace {
 
-const Burr burr{.name = "2 mm", .diameter_mm = 2.0};
+/// Its shank is as wide as the slot that it makes: it touches bone, too.
+const Burr burr{.name = "2 mm", .diameter_mm = 2.0, .shank = {{0.6, 1.0}, {10.0, 1.0}}};
 /// In the air above the block.
 const ToolPose start{{-3.0, 0.0, 1.1}, {0.0, 0.0, 1.0}};
 

@@ -44,6 +44,23 @@ TEST(Clearance, FollowsABurrOnlyAsFarAsTheMapSees) {
     EXPECT_EQ(Clearance::unknown, clearance_of(*above, {NAN, 0.0, 1.05}));
 }
 
+TEST(Clearance, IsNotWhereBoneReachesIntoTheShank) {
+    const Bone block = testing::make_block({0.0, -4.0, 2.0}, {4.0, 4.0, 8.0}, 0.1);
+    Burr burr{.name = "2 mm", .diameter_mm = 2.0};
+    const auto at = [&](double x_mm) {
+        auto result = std::make_unique<MillingResult>();
+        result->step = 1;
+        result->pose.position_mm = {x_mm, 0.0, 0.0};
+        EngagementProbe(burr, 0.1).sample(block, result->pose.position_mm, {0.0, 0.0, 1.0},
+                                          result->engagement);
+        return clearance_of(*result, result->pose.position_mm);
+    };
+    EXPECT_EQ(Clearance::clear, at(-0.3)) << "the burr is below the bone";
+    burr.shank = {{1.2, 0.4}, {8.0, 0.4}};
+    EXPECT_EQ(Clearance::in_bone, at(-0.3));
+    EXPECT_EQ(Clearance::clear, at(-0.41));
+}
+
 TEST(Clearance, TakesTheWordOfAModelWithoutAMap) {
     MillingResult result;
     EXPECT_EQ(Clearance::unknown, clearance_of(result, glm::dvec3(0.0))) << "there is no result yet";
