@@ -43,6 +43,9 @@ struct ToolState {
     std::optional<double> depth_mm{};
     /// Nothing where the server does not say.
     std::optional<SolveCounts> solve{};
+    /// Moment of what bone does to the shank, about the burr's centre. Nothing where no burr has a shank, or
+    /// the server does not say.
+    std::optional<glm::dvec3> shank_torque_n_mm{};
 };
 static_assert(std::is_trivially_copyable_v<ToolState>);
 

@@ -60,7 +60,8 @@ class CsvLog {
     static constexpr std::size_t capacity = Sample::capacity;
 
     /// Throws what CsvFile throws.
-    explicit CsvLog(const std::filesystem::path& file) : file_(file, Sample::header_line), queue_(capacity) {}
+    explicit CsvLog(const std::filesystem::path& file, const char* header_line = Sample::header_line)
+        : file_(file, header_line), queue_(capacity) {}
 
     /// One loop only. When the queue is full the sample is dropped and counted. Real-time safe.
     void push(const Sample& sample) noexcept {

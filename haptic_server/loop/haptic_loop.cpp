@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
+#include <optional>
 
 #include "common/bone/finite.h"
 #include "common/scene/device_mapping.h"
@@ -54,10 +55,12 @@ void HapticLoop::tick(double now_s, std::uint64_t missed_periods) noexcept {
     if (safety_.has_hand()) hand = hand_state(now_s, elapsed_s, device);
 
     glm::dvec3 wanted_n(0.0);
+    glm::dvec3 shank_torque_n_mm(0.0);
     bool is_sound = true;
     if (safety_.may_touch()) {
         const CouplingOutput output = parts_.coupling.tick(hand, latest);
         wanted_n = output.force_n;
+        shank_torque_n_mm = output.shank_torque_n_mm;
         burr_pose_ = output.burr_pose;
         is_sound = is_finite(burr_pose_.position_mm) && is_finite(burr_pose_.spindle_axis);
     }
@@ -73,19 +76,21 @@ void HapticLoop::tick(double now_s, std::uint64_t missed_periods) noexcept {
 
     const bool spindle_on = spindle_turned_ = safety_.spindle_turns();
     const bool in_contact = latest.total_removed_mm3 > 0.0 || force_n != glm::dvec3(0.0);
-    const ToolState tool{.time_s = now_s,
-                         .burr_position_mm = burr_pose_.position_mm,
-                         .spindle_axis = burr_pose_.spindle_axis,
-                         .hand_position_mm = hand_pose_.position_mm,
-                         .force_n = force_n,
-                         .burr = burr_.burr(),
-                         .spindle_on = spindle_on,
-                         .removed_mm3 = latest.total_removed_mm3,
-                         .touches_protected = now_s < protected_until_s_,
-                         .fault = describe(safety_.fault()),
-                         .notice = describe(burr_.waits_for()),
-                         .depth_mm = depth_mm(in_contact),
-                         .solve = parts_.coupling.solve_counts()};
+    const ToolState tool{
+        .time_s = now_s,
+        .burr_position_mm = burr_pose_.position_mm,
+        .spindle_axis = burr_pose_.spindle_axis,
+        .hand_position_mm = hand_pose_.position_mm,
+        .force_n = force_n,
+        .burr = burr_.burr(),
+        .spindle_on = spindle_on,
+        .removed_mm3 = latest.total_removed_mm3,
+        .touches_protected = now_s < protected_until_s_,
+        .fault = describe(safety_.fault()),
+        .notice = describe(burr_.waits_for()),
+        .depth_mm = depth_mm(in_contact),
+        .solve = parts_.coupling.solve_counts(),
+        .shank_torque_n_mm = options_.has_shank ? std::optional(shank_torque_n_mm) : std::nullopt};
     publish({.pose = burr_pose_,
              .spindle_on = spindle_on,
              .burr = burr_.burr(),
@@ -122,7 +127,8 @@ void HapticLoop::log(const ToolState& tool) noexcept {
                       .depth_mm = tool.depth_mm.value_or(0.0),
                       .removed_mm3 = tool.removed_mm3,
                       .spindle_on = tool.spindle_on,
-                      .fault = safety_.fault()});
+                      .fault = safety_.fault(),
+                      .shank_torque_n_mm = tool.shank_torque_n_mm});
 }
 
 }  // namespace osteomill

@@ -44,6 +44,7 @@ struct HapticLoopOptions {
     DeviceMapping mapping{};
     std::size_t burr_count = 1;  ///< of the scene's set
     std::size_t start_burr = 0;
+    bool has_shank = false;  ///< any burr of the set: its torque is told
     /// What the hand did before the first tick.
     ToolPose start_pose{};
 };

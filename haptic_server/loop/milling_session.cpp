@@ -114,6 +114,7 @@ MillingSession::MillingSession(const Scene& scene, Bone bone, HapticDevice& devi
                     .mapping = scene.device,
                     .burr_count = scene.burrs.size(),
                     .start_burr = scene.start_burr,
+                    .has_shank = has_shank(scene.burrs),
                     .start_pose = scene.start_pose}),
       burrs_(scene.burrs),
       milling_loop_({.model = *model_,

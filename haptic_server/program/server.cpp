@@ -164,9 +164,10 @@ class RunOutputs {
 };
 
 template <typename Log>
-void begin_log(std::optional<Log>& log, const std::optional<std::filesystem::path>& file) {
+void begin_log(std::optional<Log>& log, const std::optional<std::filesystem::path>& file,
+               const char* header_line) {
     if (!file) return;
-    log.emplace(*file);
+    log.emplace(*file, header_line);
     if (log->torn()) spdlog::warn("{}", torn_line(*file, *log->torn()));
 }
 
@@ -219,9 +220,10 @@ void run_server(const ServerOptions& options, const std::string& version, const 
     BoneCost cost{.memory_bytes = memory_bytes(bone), .bone_mm3 = bone_volume_mm3(bone)};
     const DeviceParts device = make_device(options, scene);
     std::optional<ForceLog> log;
-    begin_log(log, options.log_csv);
+    begin_log(log, options.log_csv,
+              has_shank(scene.burrs) ? ForceSample::header_line_with_shank : ForceSample::header_line);
     std::optional<MillingLog> milling_log;
-    begin_log(milling_log, options.log_milling_csv);
+    begin_log(milling_log, options.log_milling_csv, MillingSample::header_line);
 
     MillingSessionOptions session_options = options.session;
     const bool is_shown = options.listen || options.record;

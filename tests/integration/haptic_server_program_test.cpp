@@ -79,6 +79,40 @@ TEST_F(HapticServerProgram, MillsOnTheVirtualClockAndWritesWhatItMeasured) {
     EXPECT_EQ(count, 1 + 3001);
 }
 
+TEST_F(HapticServerProgram, FeelsAShankAndIsRepeatable) {
+    // The cube's own 5 mm burr slides along its top with a handpiece that hangs over the edge of its cut.
+    std::ofstream(file("shank.toml")) << R"(name = "shank"
+[bone]
+phantom = "cube"
+[[burrs]]
+name = "5 mm"
+diameter_mm = 5.0
+shank = [[2.6, 2.0], [3.0, 3.5], [40.0, 3.5]]
+[start_pose]
+position_mm = [-20.0, 0.0, 4.0]
+[trajectory]
+motion = "polishing"
+start_mm = [-20.0, 0.0, 0.0]
+depth_mm = 3.5
+width_mm = 40.0
+)";
+    for (const std::string name : {"a", "b"}) {
+        const Outcome outcome =
+            run("--scene " + file("shank.toml") + " --clock virtual --duration-s 3 --json " +
+                file(name + ".json") + " --log-csv " + file(name + ".csv"));
+        ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+    }
+    EXPECT_EQ(text_of(file("a.csv")), text_of(file("b.csv")));
+    EXPECT_EQ(measured("a.json").at("bone_checksum"), measured("b.json").at("bone_checksum"));
+    std::istringstream lines(text_of(file("a.csv")));
+    std::string line;
+    std::getline(lines, line);
+    EXPECT_THAT(line, HasSubstr(",fault,shank_torque_x_n_mm"));
+    bool has_torque = false;
+    while (std::getline(lines, line)) has_torque |= !line.ends_with(",0.0000,0.0000,0.0000");
+    EXPECT_TRUE(has_torque);
+}
+
 TEST_F(HapticServerProgram, IsRepeatableToTheBit) {
     ASSERT_EQ(run("--clock virtual --duration-s 3 --json " + file("a.json")).exit_code, 0);
     ASSERT_EQ(run("--clock virtual --duration-s 3 --listen 127.0.0.1:0 --json " + file("b.json")).exit_code,

@@ -53,6 +53,20 @@ TEST(ForceLog, WritesALineForEachSampleInOrder) {
     std::filesystem::remove(file);
 }
 
+TEST(ForceLog, HasTheTorqueOfAShankWhereThereIsOne) {
+    const auto file = scratch_file();
+    ForceLog log(file, ForceSample::header_line_with_shank);
+    log.push({.time_s = 0.001, .shank_torque_n_mm = glm::dvec3(1.5, -2.0, 0.25)});
+    log.close();
+    std::istringstream lines(text_of(file));
+    std::string line;
+    std::getline(lines, line);
+    EXPECT_THAT(line, HasSubstr(",fault,shank_torque_x_n_mm,shank_torque_y_n_mm,shank_torque_z_n_mm"));
+    std::getline(lines, line);
+    EXPECT_THAT(line, HasSubstr(",0,0,1.5000,-2.0000,0.2500"));
+    std::filesystem::remove(file);
+}
+
 TEST(ForceLog, CountsWhatFoundTheQueueFull) {
     const auto file = scratch_file();
     ForceLog log(file);
