@@ -80,21 +80,22 @@ TEST_F(HapticServerProgram, MillsOnTheVirtualClockAndWritesWhatItMeasured) {
 }
 
 TEST_F(HapticServerProgram, FeelsAShankAndIsRepeatable) {
-    // The cube's own 5 mm burr slides along its top with a handpiece that hangs over the edge of its cut.
+    // A burr on its side cuts its way along the top of the cube, its shank over the bone that is still to
+    // come.
+    std::ofstream(file("motion.csv")) << "t_s,x_mm,y_mm,z_mm,axis_x,axis_y,axis_z,pedal\n0,-20,0,4,1,0,0,"
+                                         "0\n0.5,-20,0,2.2,1,0,0,1\n3,-10,0,2.2,1,0,0,1\n";
     std::ofstream(file("shank.toml")) << R"(name = "shank"
 [bone]
 phantom = "cube"
 [[burrs]]
 name = "5 mm"
 diameter_mm = 5.0
-shank = [[2.6, 2.0], [3.0, 3.5], [40.0, 3.5]]
+shank = [[3.0, 2.4], [40.0, 2.4]]
 [start_pose]
 position_mm = [-20.0, 0.0, 4.0]
+spindle_axis = [1.0, 0.0, 0.0]
 [trajectory]
-motion = "polishing"
-start_mm = [-20.0, 0.0, 0.0]
-depth_mm = 3.5
-width_mm = 40.0
+file = "motion.csv"
 )";
     for (const std::string name : {"a", "b"}) {
         const Outcome outcome =
