@@ -103,6 +103,7 @@ v1::ToolState to_message(const ToolState& tool) {
         solve.set_relaxed(tool.solve->relaxed);
         solve.set_damped(tool.solve->damped);
     }
+    if (tool.shank_torque_n_mm) write(*tool.shank_torque_n_mm, *message.mutable_shank_torque_n_mm());
     return message;
 }
 
@@ -202,11 +203,12 @@ std::variant<ToolState, WireError> tool_from(const v1::ToolState& message, std::
                       .fallbacks = message.solve().fallbacks(),
                       .relaxed = message.solve().relaxed(),
                       .damped = message.solve().damped()};
+    if (message.has_shank_torque_n_mm()) tool.shank_torque_n_mm = read(message.shank_torque_n_mm());
     if (!std::isfinite(tool.time_s) || !std::isfinite(tool.removed_mm3) ||
         !std::isfinite(tool.depth_mm.value_or(0.0)) ||
         !std::isfinite(tool.solve.value_or(SolveCounts{}).max_residual_n) ||
-        !is_finite(tool.burr_position_mm) || !is_finite(tool.spindle_axis) ||
-        !is_finite(tool.hand_position_mm) || !is_finite(tool.force_n))
+        !is_finite(tool.shank_torque_n_mm.value_or(glm::dvec3(0.0))) || !is_finite(tool.burr_position_mm) ||
+        !is_finite(tool.spindle_axis) || !is_finite(tool.hand_position_mm) || !is_finite(tool.force_n))
         return WireError{"the tool state holds a number that is not finite"};
     if (tool.burr >= burr_count) return unknown_burr(message.burr(), burr_count);
     return tool;

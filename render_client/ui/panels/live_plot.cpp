@@ -141,6 +141,13 @@ float small_plot_height() {
     return 2.6f * ImGui::GetFontSize();
 }
 
+TextLine force_line(const ToolState& tool) {
+    const double force_n = glm::length(tool.force_n);
+    if (!tool.shank_torque_n_mm) return {{Tone::plain, fmt::format("force on the hand {:.2f} N", force_n)}};
+    return {{Tone::plain, fmt::format("force {:.2f} N, shank torque {:.1f} N mm", force_n,
+                                      glm::length(*tool.shank_torque_n_mm))}};
+}
+
 TextLine solve_line(const ToolState& tool) {
     if (!tool.solve) return {{Tone::dim, "solve: this server does not say"}};
     const SolveCounts& solve = *tool.solve;
@@ -165,7 +172,7 @@ void draw_live_plot(const PanelPainter& painter, const ToolHistory& history, con
                     PlotDetail detail, const PanelPlace& place) {
     painter.draw_background(place);
     PlotColumn column(painter, place);
-    column.write({{Tone::plain, fmt::format("force on the hand {:.2f} N", glm::length(tool.force_n))}});
+    column.write(force_line(tool));
     TextLine components;
     for (int axis = 0; axis < 3; ++axis) {
         const auto index = static_cast<std::size_t>(axis);

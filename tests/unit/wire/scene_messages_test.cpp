@@ -75,7 +75,8 @@ TEST(SceneMessages, BringBackTheTool) {
                          .notice = "the burr waits",
                          .driver = ToolDriver::another,
                          .depth_mm = -0.5,
-                         .solve = SolveCounts{2e-4, 3, 1, 5}};
+                         .solve = SolveCounts{2e-4, 3, 1, 5},
+                         .shank_torque_n_mm = glm::dvec3(1.5, -2.0, 0.25)};
     const auto result = tool_from(to_message(tool), 2);
     ASSERT_EQ(error_of(result), "");
     const ToolState& back = std::get<0>(result);
@@ -96,6 +97,11 @@ TEST(SceneMessages, BringBackTheTool) {
         EXPECT_EQ(std::get<0>(tool_from(to_message(ToolState{.driver = driver}), 1)).driver, driver);
     EXPECT_EQ(back.depth_mm, -0.5);
     EXPECT_EQ(back.solve, tool.solve);
+    EXPECT_EQ(back.shank_torque_n_mm, tool.shank_torque_n_mm);
+    EXPECT_EQ(std::get<0>(tool_from(to_message(ToolState{}), 1)).shank_torque_n_mm, std::nullopt);
+    EXPECT_THAT(
+        error_of(tool_from(to_message(ToolState{.shank_torque_n_mm = glm::dvec3(not_a_number, 0, 0)}), 1)),
+        HasSubstr("not finite"));
     EXPECT_EQ(std::get<0>(tool_from(to_message(ToolState{}), 1)).solve, std::nullopt);
     EXPECT_THAT(error_of(tool_from(to_message(ToolState{.solve = SolveCounts{not_a_number}}), 1)),
                 HasSubstr("not finite"));
