@@ -9,6 +9,8 @@ CLI::App* add_polishing(CLI::App& app, PolishingStudyOptions& options) {
         "the published polishing experiment: its figures, its claims, where its method is stable");
     polishing->add_option("--out", options.out, "folder for what the study writes; made if it is not there")
         ->capture_default_str();
+    polishing->add_flag("--edge-forces", options.has_edge_forces,
+                        "burrs whose edges rub, as in cortical bone; without, the published law");
     polishing->add_flag("--quick", options.quick, "fewer runs: under half a minute");
     return polishing;
 }

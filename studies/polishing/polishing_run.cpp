@@ -58,11 +58,12 @@ PolishingRun run_of(ForceRecord record, const Scene& scene, bool reached_end) {
 
 }  // namespace
 
-PolishingRun run_by_hand(const Bone& cube, const PolishingSetup& setup, const std::filesystem::path& log) {
-    const Scene scene = polishing_scene(setup);
+PolishingRun run_by_hand(const Specimen& cube, const PolishingSetup& setup,
+                         const std::filesystem::path& log) {
+    const Scene scene = polishing_scene(setup, cube.edge_coefficients_n_per_mm);
     SimulatedDevice device(polishing_slide(scene), scene.device, setup.arm, setup.hand);
     ForceLog force_log(log);
-    MillingSession session(scene, cube, device, session_options(setup), &force_log);
+    MillingSession session(scene, cube.bone, device, session_options(setup), &force_log);
     run_to_the_end(session, device);
     close(force_log);
     PolishingRun run = run_of(read_force_log(log), scene, device.is_finished());
@@ -71,13 +72,14 @@ PolishingRun run_by_hand(const Bone& cube, const PolishingSetup& setup, const st
     return run;
 }
 
-PolishingRun run_on_rails(const Bone& cube, const PolishingSetup& setup, const std::filesystem::path& log) {
-    const Scene scene = polishing_scene(setup);
+PolishingRun run_on_rails(const Specimen& cube, const PolishingSetup& setup,
+                          const std::filesystem::path& log) {
+    const Scene scene = polishing_scene(setup, cube.edge_coefficients_n_per_mm);
     GuidedDevice device(polishing_slide(scene));
     MillingLog milling_log(log);
     MillingSessionOptions options = session_options(setup);
     options.coupling = "interpolate";  // the burr is where the device is
-    MillingSession session(scene, cube, device, options, nullptr, &milling_log);
+    MillingSession session(scene, cube.bone, device, options, nullptr, &milling_log);
     run_to_the_end(session, device);
     close(milling_log);
     return run_of(read_milling_log(log), scene, device.is_finished());

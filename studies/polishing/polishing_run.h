@@ -24,10 +24,11 @@ struct PolishingRun {
 /// The simulated hand slides over `cube`, the scene's. Recorded is the force that it feels, a sample a
 /// millisecond; the session's own log is left in `log`. Throws std::runtime_error where that cannot be
 /// written, std::invalid_argument for a set-up that the simulator refuses.
-PolishingRun run_by_hand(const Bone& cube, const PolishingSetup& setup, const std::filesystem::path& log);
+PolishingRun run_by_hand(const Specimen& cube, const PolishingSetup& setup, const std::filesystem::path& log);
 
 /// The same way on rails: the burr goes exactly where the hand means it to go; `setup.coupling`, hand and arm
 /// do not matter. Recorded is the force of the model, a sample a milling step.
-PolishingRun run_on_rails(const Bone& cube, const PolishingSetup& setup, const std::filesystem::path& log);
+PolishingRun run_on_rails(const Specimen& cube, const PolishingSetup& setup,
+                          const std::filesystem::path& log);
 
 }  // namespace osteomill::study

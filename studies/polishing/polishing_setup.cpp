@@ -6,11 +6,12 @@
 
 namespace osteomill::study {
 
-Scene polishing_scene(const PolishingSetup& setup) {
+Scene polishing_scene(const PolishingSetup& setup, const glm::dvec3& edge_coefficients_n_per_mm) {
     Scene scene = phantom_scene("cube");
     Burr& burr = scene.burrs.at(scene.start_burr);
     burr.spindle_rev_per_s = setup.spindle_rpm / 60.0;
     burr.edges = setup.edges;
+    burr.edge_coefficients_n_per_mm = edge_coefficients_n_per_mm;
     scene.trajectory.width_mm = setup.stroke_mm;
     return scene;
 }

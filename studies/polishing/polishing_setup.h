@@ -14,12 +14,19 @@
 
 #include <string>
 
+#include "common/bone/bone.h"
 #include "common/scene/scene.h"
 #include "haptic_server/device/arm_model.h"
 #include "haptic_server/device/hand_model.h"
 #include "haptic_server/device/trajectory.h"
 
 namespace osteomill::study {
+
+/// The cube, and how burrs cut it beside their chips.
+struct Specimen {
+    Bone bone;
+    glm::dvec3 edge_coefficients_n_per_mm{0.0};  ///< none: the published law
+};
 
 struct PolishingSetup {
     std::string force_model = "milling";  ///< as of --force-model
@@ -41,7 +48,7 @@ inline constexpr double single_stroke_mm = 40.0;
 inline constexpr double published_milling_rate_hz = 100.0;
 
 /// The scene "cube" with the set-up's burr and strokes.
-Scene polishing_scene(const PolishingSetup& setup);
+Scene polishing_scene(const PolishingSetup& setup, const glm::dvec3& edge_coefficients_n_per_mm);
 
 /// The built-in polishing motion up to its deepest point: the way out of the bone is not part of the
 /// experiment.

@@ -41,7 +41,10 @@ const FigureRun& figure_of(const std::vector<FigureRun>& figures, const std::str
 class PolishingStudy {
   public:
     PolishingStudy(const PolishingStudyOptions& options, const StudySurroundings& surroundings)
-        : options_(options), surroundings_(surroundings), logs_(options.out / "runs"), cube_(bone_of_cube()) {
+        : options_(options),
+          surroundings_(surroundings),
+          logs_(options.out / "runs"),
+          cube_{bone_of_cube(), options.has_edge_forces ? glm::dvec3(0.3, 0.3, 0.0) : glm::dvec3(0.0)} {
         make_folder(logs_);
     }
 
@@ -81,7 +84,7 @@ class PolishingStudy {
     /// A chapter with a bar of its own.
     template <typename Found>
     Found chapter(const std::string& title,
-                  Found (*work)(const Bone&, bool, const std::filesystem::path&, const Progress&)) const {
+                  Found (*work)(const Specimen&, bool, const std::filesystem::path&, const Progress&)) const {
         ProgressLine line(surroundings_.progress, surroundings_.is_terminal, title);
         return work(cube_, options_.quick, logs_, line.reporter());
     }
@@ -157,7 +160,7 @@ class PolishingStudy {
     const PolishingStudyOptions& options_;
     const StudySurroundings& surroundings_;
     std::filesystem::path logs_;
-    Bone cube_;
+    Specimen cube_;
 };
 
 }  // namespace

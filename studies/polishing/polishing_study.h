@@ -9,7 +9,8 @@ namespace osteomill::study {
 
 struct PolishingStudyOptions {
     std::filesystem::path out;
-    bool quick = false;  ///< fewer runs: half a minute at most
+    bool quick = false;            ///< fewer runs: half a minute at most
+    bool has_edge_forces = false;  ///< burrs whose edges rub with 0.3 N/mm; else the published law
 };
 
 /// Writes claims.json, tables (CSV) and charts (SVG) into `options.out`, a folder that is there, and the logs

@@ -39,7 +39,7 @@ FigureRun judged(PolishingSetup setup, PolishingRun run) {
     return figure;
 }
 
-std::vector<FigureRun> run_figures(const Bone& cube, bool quick, const std::filesystem::path& folder,
+std::vector<FigureRun> run_figures(const Specimen& cube, bool quick, const std::filesystem::path& folder,
                                    const Progress& progress) {
     const std::vector<PolishingSetup> setups = setups_of_figures(quick);
     std::vector<FigureRun> figures;

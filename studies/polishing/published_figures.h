@@ -31,7 +31,7 @@ FigureRun judged(PolishingSetup setup, PolishingRun run);
 
 /// Runs of the simulated hand: the milling model through the published couplings at 100 Hz and through
 /// `implicit` at 1 kHz, and the point spring through the published ones. `quick` leaves `hold` out.
-std::vector<FigureRun> run_figures(const Bone& cube, bool quick, const std::filesystem::path& folder,
+std::vector<FigureRun> run_figures(const Specimen& cube, bool quick, const std::filesystem::path& folder,
                                    const Progress& progress);
 
 /// Time from first contact, depth and force, a line every few milliseconds of a record of one a millisecond.

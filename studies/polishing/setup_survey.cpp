@@ -12,7 +12,7 @@ namespace osteomill::study {
 
 namespace {
 
-SurveyedSetup survey(const Bone& cube, const PolishingSetup& setup, const std::filesystem::path& log) {
+SurveyedSetup survey(const Specimen& cube, const PolishingSetup& setup, const std::filesystem::path& log) {
     const PolishingRun run = run_by_hand(cube, setup, log);
     SurveyedSetup found{.setup = setup,
                         .reached_end = run.reached_end,
@@ -27,8 +27,8 @@ SurveyedSetup survey(const Bone& cube, const PolishingSetup& setup, const std::f
 
 }  // namespace
 
-std::vector<SurveyedSetup> survey_setups(const Bone& cube, bool quick, const std::filesystem::path& folder,
-                                         const Progress& progress) {
+std::vector<SurveyedSetup> survey_setups(const Specimen& cube, bool quick,
+                                         const std::filesystem::path& folder, const Progress& progress) {
     const std::vector<double> strokes_mm = quick ? std::vector{8.0} : std::vector{2.0, 5.0, 8.0, 20.0, 40.0};
     const std::vector<double> speeds_rpm =
         quick ? std::vector{40'000.0, 80'000.0} : std::vector{10'000.0, 20'000.0, 40'000.0, 80'000.0};

@@ -22,8 +22,8 @@ struct SurveyedSetup {
 };
 
 /// Spindle speeds x lengths of a stroke, a firm hand, the implicit coupling. Logs go to `folder`.
-std::vector<SurveyedSetup> survey_setups(const Bone& cube, bool quick, const std::filesystem::path& folder,
-                                         const Progress& progress);
+std::vector<SurveyedSetup> survey_setups(const Specimen& cube, bool quick,
+                                         const std::filesystem::path& folder, const Progress& progress);
 
 std::string csv_of(const std::vector<SurveyedSetup>& surveyed);
 

@@ -63,7 +63,7 @@ std::vector<NamedGrip> studied_grips(bool quick) {
     return {{"light", light}, {"medium", between(light, firm)}, {"firm", firm}, {"braced", twice(firm)}};
 }
 
-std::vector<SpeedAndGrip> sweep_speed_and_grip(const Bone& cube, bool quick,
+std::vector<SpeedAndGrip> sweep_speed_and_grip(const Specimen& cube, bool quick,
                                                const std::filesystem::path& folder,
                                                const Progress& progress) {
     std::vector<SpeedAndGrip> planned;

@@ -31,7 +31,7 @@ struct SpeedAndGrip {
 
 /// The milling model through the published couplings at 100 Hz, and through `implicit` at 1 kHz to compare.
 /// Only what the runs are judged by is kept, not their records. Files in `folder` come and go.
-std::vector<SpeedAndGrip> sweep_speed_and_grip(const Bone& cube, bool quick,
+std::vector<SpeedAndGrip> sweep_speed_and_grip(const Specimen& cube, bool quick,
                                                const std::filesystem::path& folder, const Progress& progress);
 
 std::string csv_of(const std::vector<SpeedAndGrip>& swept);

@@ -44,7 +44,8 @@ ForceRecord clip_of(const ForceRecord& record) {
     return clip;
 }
 
-ToothPeriodForce measure(const Bone& cube, const PolishingSetup& setup, const std::filesystem::path& log) {
+ToothPeriodForce measure(const Specimen& cube, const PolishingSetup& setup,
+                         const std::filesystem::path& log) {
     const PolishingRun run = run_on_rails(cube, setup, log);
     const double mean_n = mean_of_averaged_n(run.record, revolution_s);
     return {.setup = setup,
@@ -57,8 +58,8 @@ ToothPeriodForce measure(const Bone& cube, const PolishingSetup& setup, const st
 
 }  // namespace
 
-std::vector<ToothPeriodForce> vary_edges(const Bone& cube, bool quick, const std::filesystem::path& folder,
-                                         const Progress& progress) {
+std::vector<ToothPeriodForce> vary_edges(const Specimen& cube, bool quick,
+                                         const std::filesystem::path& folder, const Progress& progress) {
     const std::vector<int> edges = quick ? std::vector{1, 3, 6} : std::vector{1, 2, 3, 4, 6, 8, 12};
     std::vector<ToothPeriodForce> forces;
     for (const int count : edges) {
@@ -73,8 +74,8 @@ std::vector<ToothPeriodForce> vary_edges(const Bone& cube, bool quick, const std
     return forces;
 }
 
-std::vector<ToothPeriodForce> vary_speed(const Bone& cube, bool quick, const std::filesystem::path& folder,
-                                         const Progress& progress) {
+std::vector<ToothPeriodForce> vary_speed(const Specimen& cube, bool quick,
+                                         const std::filesystem::path& folder, const Progress& progress) {
     const std::vector<double> speeds_rpm =
         quick ? std::vector{10'000.0, 40'000.0} : std::vector{10'000.0, 20'000.0, 40'000.0, 80'000.0};
     std::vector<ToothPeriodForce> forces;

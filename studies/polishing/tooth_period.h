@@ -24,12 +24,12 @@ struct ToothPeriodForce {
 };
 
 /// Edges of a slow burr, milled at 10 kHz: time-resolved.
-std::vector<ToothPeriodForce> vary_edges(const Bone& cube, bool quick, const std::filesystem::path& folder,
-                                         const Progress& progress);
+std::vector<ToothPeriodForce> vary_edges(const Specimen& cube, bool quick,
+                                         const std::filesystem::path& folder, const Progress& progress);
 
 /// Spindle speeds with six edges, milled at 1 kHz: the mean only.
-std::vector<ToothPeriodForce> vary_speed(const Bone& cube, bool quick, const std::filesystem::path& folder,
-                                         const Progress& progress);
+std::vector<ToothPeriodForce> vary_speed(const Specimen& cube, bool quick,
+                                         const std::filesystem::path& folder, const Progress& progress);
 
 std::string csv_of(const std::vector<ToothPeriodForce>& forces);
 /// The clip: time from its beginning and length of the force.

@@ -108,19 +108,27 @@ BENCHMARK(CrescentAgainstFullScan)
     ->UseManualTime()
     ->Unit(benchmark::kMicrosecond);
 
-/// A whole step as the implicit coupling wants it, with the engagement map. Argument: depth.
+/// A whole step as the implicit coupling wants it, with the engagement map. Argument: depth. edges_times:
+/// what the same step takes with edges that rub, beside one without.
 void StepWithEngagement(benchmark::State& state) {
-    const auto model = study::voxel_model_with_engagement()(volume(), Burr{});
+    const auto make = study::voxel_model_with_engagement();
+    const auto model = make(volume(), Burr{});
+    const auto rubbing = make(volume(), Burr{.edge_coefficients_n_per_mm = {0.3, 0.3, 0.0}});
     Way way(0.1 * static_cast<double>(state.range(0)), 1000.0);
-    model->step(way.next());
+    const BurrCommand first = way.next();
+    model->step(first);
+    rubbing->step(first);
     Times times;
+    Times rubbing_times;
     for ([[maybe_unused]] auto _ : state) {
         const BurrCommand command = way.next();
         times.time([&] { benchmark::DoNotOptimize(model->step(command)); });
         state.SetIterationTime(1e-6 * times.last_us());
+        rubbing_times.time([&] { benchmark::DoNotOptimize(rubbing->step(command)); });
     }
     state.counters["p50_us"] = times.percentile_us(0.5);
     state.counters["p99_us"] = times.percentile_us(0.99);
+    state.counters["edges_times"] = rubbing_times.percentile_us(0.5) / times.percentile_us(0.5);
 }
 BENCHMARK(StepWithEngagement)
     ->ArgName("depth_0.1mm")

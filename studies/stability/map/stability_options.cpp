@@ -42,6 +42,11 @@ void add_sites(CLI::App& stability, StabilityCommand& command, CLI::Option* merg
         ->needs(sites)
         ->check(CLI::Range(0, 100'000));
     stability
+        .add_flag("--edge-forces", command.sites.has_edge_forces,
+                  "of sites: burrs whose edges rub; what holds a hand that presses and does not cut counts "
+                  "as stuck")
+        ->needs(sites);
+    stability
         .add_option(
             "--rails", command.motions_on_rails,
             "instead of the map: so many random steady motions of a hand on rails, and how far the mean "

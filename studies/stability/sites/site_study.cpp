@@ -109,7 +109,8 @@ std::vector<std::string> kinds_of(const std::vector<SiteResult>& results) {
 
 std::string command_of(const SiteResult& result, const SiteStudyOptions& options) {
     return fmt::format(
-        "osteomill_study stability --sites{}{} --methods {} --only '{}'", options.quick ? " --quick" : "",
+        "osteomill_study stability --sites{}{}{} --methods {} --only '{}'", options.quick ? " --quick" : "",
+        options.has_edge_forces ? " --edge-forces" : "",
         options.walks > 0 ? fmt::format(" --walks {} --seed {}", options.walks, options.seed) : "",
         fmt::join(options.methods, ","), result.name);
 }
@@ -137,6 +138,8 @@ std::vector<SiteCase> site_cases(const SiteStudyOptions& options) {
         for (int number = 1; number <= options.walks; ++number)
             cases.push_back({random_walk(options.seed, number), hand});
     }
+    if (options.has_edge_forces)
+        for (SiteCase& c : cases) c.site.burr.edge_coefficients_n_per_mm = {0.3, 0.3, 0.0};
     std::erase_if(cases,
                   [&](const SiteCase& c) { return name_of(c).find(options.only) == std::string::npos; });
     return cases;
