@@ -20,7 +20,7 @@ double resistance(const CuttingCondition& condition) {
     motion.position_mm = {0.0, 0.0, 0.5 * motion.burr.diameter_mm - condition.depth_mm};
     motion.velocity_mm_per_s = {1.0, 0.0, 0.0};
     const glm::dvec3 force_n = mean_reference_force_n(
-        motion, [&](const glm::dvec3& p) { return p.z < 0.0 ? condition.relative_stiffness : 0.0; }, {},
+        motion, [&](const glm::dvec3& p) { return p.z < 0.0 ? condition.relative_stiffness : 0.0; },
         {.kappa = 60, .psi = 120});
     return 1000.0 * glm::length(force_n);
 }
