@@ -24,6 +24,8 @@ struct Burr {
     glm::dvec3 edge_coefficients_n_per_mm{0.0};
     SpindleSense sense = SpindleSense::clockwise;
     ShankProfile shank{};
+    /// Of the edges in the handpiece, as a dial gauge reads it over a turn: twice the eccentricity.
+    double run_out_mm = 0.02;
 
     double radius_mm() const { return 0.5 * diameter_mm; }
     /// +1 when the burr turns towards +psi of the burr frame (+z from tip to shank), -1 for a clockwise burr.

@@ -160,6 +160,7 @@ Burr read_burr(TomlReader& reader) {
     burr.sense = reader.choice("turns", sense_names).value_or(0) == 0 ? SpindleSense::clockwise
                                                                       : SpindleSense::counter_clockwise;
     burr.shank = read_shank(reader, burr.radius_mm());
+    burr.run_out_mm = reader.number("run_out_mm", {0.0, 0.2}).value_or(burr.run_out_mm);
     reader.refuse_other_keys();
     return burr;
 }
@@ -268,7 +269,8 @@ toml::table burr_table(const Burr& burr) {
                       {"rpm", rpm_of(burr.spindle_rev_per_s)},
                       {"cutting_coefficients_n_per_mm2", list(burr.cutting_coefficients_n_per_mm2)},
                       {"edge_coefficients_n_per_mm", list(burr.edge_coefficients_n_per_mm)},
-                      {"turns", sense_names[burr.sense == SpindleSense::clockwise ? 0 : 1]}};
+                      {"turns", sense_names[burr.sense == SpindleSense::clockwise ? 0 : 1]},
+                      {"run_out_mm", burr.run_out_mm}};
     toml::array shank;
     for (const ShankPoint& point : burr.shank) shank.push_back(toml::array{point.height_mm, point.radius_mm});
     if (!shank.empty()) table.insert("shank", shank);

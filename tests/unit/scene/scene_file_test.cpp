@@ -58,6 +58,7 @@ cutting_coefficients_n_per_mm2 = [1, 2, 3]
 edge_coefficients_n_per_mm = [0.5, 0.25, 0]
 turns = "counter-clockwise"
 shank = [[1.2, 0.4], [10, 0.5]]
+run_out_mm = 0.05
 [device]
 rotation = [[0, -1, 0], [1, 0, 0], [0, 0, 1]]
 scale = 0.5
@@ -83,6 +84,8 @@ file = "path.csv"
     EXPECT_FALSE(scene.burrs[0].has_edge_force()) << "the published law is the default";
     EXPECT_EQ(scene.burrs[1].shank, (ShankProfile{{1.2, 0.4}, {10.0, 0.5}}));
     EXPECT_TRUE(scene.burrs[0].shank.empty());
+    EXPECT_EQ(scene.burrs[1].run_out_mm, 0.05);
+    EXPECT_EQ(scene.burrs[0].run_out_mm, Burr{}.run_out_mm);
     EXPECT_EQ(scene.device.rotation * glm::dvec3(1.0, 0.0, 0.0), glm::dvec3(0.0, 1.0, 0.0))
         << "rows, not columns";
     EXPECT_EQ(scene.start_pose.spindle_axis, glm::dvec3(0.0, 0.6, 0.8));
@@ -202,6 +205,7 @@ TEST(SceneFile, ValuesOutOfRangeOrOfTheWrongTypeAreRefused) {
                 HasSubstr("K_t must be above 0"));
     EXPECT_THAT(error_of(burr + "1\nedge_coefficients_n_per_mm = [0, -1, 0]\n"),
                 HasSubstr("my.toml:7: K_te, K_re and K_ae must be at least 0"));
+    EXPECT_THAT(error_of(burr + "1\nrun_out_mm = 1\n"), HasSubstr("'run_out_mm' is 1"));
     EXPECT_THAT(error_of(burr + "1\n[[burrs]]\nname = \"b\"\ndiameter_mm = 2\n"),
                 HasSubstr("two burrs are called"));
     EXPECT_THAT(error_of(smallest + "[device]\nrotation = [[1,0,0],[0,1,0],[0,0,-1]]\n"),
