@@ -64,6 +64,10 @@ void HapticLoop::tick(double now_s, std::uint64_t missed_periods) noexcept {
         burr_pose_ = output.burr_pose;
         is_sound = is_finite(burr_pose_.position_mm) && is_finite(burr_pose_.spindle_axis);
     }
+    if (parts_.vibration != nullptr) {
+        const bool is_felt = safety_.may_touch() && safety_.state() == ForceGuard::State::active;
+        wanted_n += parts_.vibration->tick(hand, latest, wanted_n, is_felt);
+    }
 
     const glm::dvec3 force_n = safety_.pass(wanted_n, is_sound, elapsed_s);
     if (safety_.has_just_let_go()) parts_.coupling.reset();

@@ -18,6 +18,7 @@
 #include "common/scene/scene.h"
 #include "common/scene/tool_state.h"
 #include "haptic_server/coupling/coupling.h"
+#include "haptic_server/coupling/handpiece_vibration.h"
 #include "haptic_server/device/haptic_device.h"
 #include "haptic_server/exchange/milling_step.h"
 #include "haptic_server/exchange/triple_buffer.h"
@@ -32,11 +33,12 @@ namespace osteomill {
 struct HapticLoopParts {
     HapticDevice& device;
     Coupling& coupling;
-    TripleBuffer<MillingResult>& results;  ///< read
-    TripleBuffer<BurrCommand>& commands;   ///< written
-    TripleBuffer<ToolState>& tool;         ///< written, for the streaming loop
-    TripleBuffer<ToolState>& status;       ///< written, for whoever shows progress
-    ForceLog* log = nullptr;               ///< written; null: no log
+    TripleBuffer<MillingResult>& results;     ///< read
+    TripleBuffer<BurrCommand>& commands;      ///< written
+    TripleBuffer<ToolState>& tool;            ///< written, for the streaming loop
+    TripleBuffer<ToolState>& status;          ///< written, for whoever shows progress
+    ForceLog* log = nullptr;                  ///< written; null: no log
+    HandpieceVibration* vibration = nullptr;  ///< added to the coupling's force; null: none
 };
 
 struct HapticLoopOptions {

@@ -53,6 +53,13 @@ ToolState tool_at_start(const Scene& scene) {
             .burr = scene.start_burr};
 }
 
+std::optional<HandpieceVibration> make_vibration(const Scene& scene, const HapticDevice& device,
+                                                 const MillingSessionOptions& options) {
+    if (!options.vibration) return std::nullopt;
+    return HandpieceVibration(scene.burrs, {.max_force_n = device.limits().max_force_n,
+                                            .max_slew_n_per_s = ForceGuard::slew_n_per_s});
+}
+
 /// What a thread does before its loop, so that the loop finds all it needs.
 void prepare_thread(const std::optional<int>& cpu) noexcept {
     if (cpu) bind_to_cpu(*cpu);
@@ -103,13 +110,15 @@ MillingSession::MillingSession(const Scene& scene, Bone bone, HapticDevice& devi
       changes_(change_queue_bytes, model_->bone().shared_content()),
       tool_(tool_at_start(scene)),
       status_(tool_at_start(scene)),
+      vibration_(make_vibration(scene, device, options)),
       haptic_loop_({.device = device,
                     .coupling = *coupling_,
                     .results = results_,
                     .commands = commands_,
                     .tool = tool_,
                     .status = status_,
-                    .log = log},
+                    .log = log,
+                    .vibration = vibration_ ? &*vibration_ : nullptr},
                    {.tick_s = tick_s,
                     .mapping = scene.device,
                     .burr_count = scene.burrs.size(),

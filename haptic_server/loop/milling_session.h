@@ -42,6 +42,7 @@ struct MillingSessionOptions {
     std::string coupling = coupling_names().front();
     std::string force_model =
         force_model_names().front();  ///< one without a cutting law: not with "implicit"
+    bool vibration = false;           ///< handpiece_vibration.h
     double duration_s = std::numeric_limits<double>::infinity();
     /// Somebody consumes changes() while the session runs. If not, the session empties the queue itself.
     bool changes_are_consumed = false;
@@ -127,6 +128,7 @@ class MillingSession {
     TripleBuffer<BurrCommand> commands_;
     TripleBuffer<ToolState> tool_;
     TripleBuffer<ToolState> status_;
+    std::optional<HandpieceVibration> vibration_;
     HapticLoop haptic_loop_;
     std::vector<Burr> burrs_;
     MillingLoop milling_loop_;

@@ -14,6 +14,7 @@
 
 #include "common/log/line_stream.h"
 #include "common/scene/scene_file.h"
+#include "haptic_server/coupling/handpiece_vibration.h"
 #include "haptic_server/device/client_device.h"
 #include "haptic_server/device/hid/device_list.h"
 #include "haptic_server/device/hid/hid_arm.h"
@@ -245,6 +246,10 @@ void run_server(const ServerOptions& options, const std::string& version, const 
             advice_on_rights(real_time_rights(), std::filesystem::read_symlink("/proc/self/exe").string());
         if (!advice.empty()) spdlog::warn("{}", advice);
     }
+    if (options.session.vibration && std::none_of(scene.burrs.begin(), scene.burrs.end(), vibrates_in_reach))
+        spdlog::warn(
+            "--vibration: no burr of the scene vibrates at {:.0f} Hz or below: there is nothing to render",
+            HandpieceVibration::highest_hz);
     StatusLine status(*output.err, output.err->is_terminal());
     std::atomic<bool> is_over{false};
     session->run(is_over, [&](const ToolState& tool) {

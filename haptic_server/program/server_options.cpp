@@ -28,6 +28,7 @@ struct Typed {
     std::string coupling;
     std::string force_model = force_model_names().front();
     double milling_rate_hz = 0.0;
+    bool vibration = false;
     std::string clock = "real";
     int haptic_cpu = -1;
     int milling_cpu = -1;
@@ -122,6 +123,10 @@ void declare(CLI::App& app, Typed& typed) {
                                "milling force is interpolated, as published)",
                                least_milling_rate_hz, most_milling_rate_hz))
         ->check(CLI::Range(least_milling_rate_hz, most_milling_rate_hz));
+    app.add_flag(
+        "--vibration", typed.vibration,
+        "Add what the arm can render of the handpiece's vibration, up to 300 Hz: run-out, once a turn of "
+        "the spindle (to 18 000 rpm), and the edges' passing");
     app.add_option("--clock", typed.clock, "real, or virtual: as fast as it can, repeatable to the bit")
         ->check(one_of({"real", "virtual"}))
         ->capture_default_str();
@@ -180,6 +185,13 @@ std::string checked_coupling(const Typed& typed) {
                         typed.coupling, typed.force_model, default_coupling(has_cutting_law)));
     }
     return typed.coupling;
+}
+
+bool checked_vibration(const Typed& typed) {
+    if (typed.vibration && !find_force_model(typed.force_model).has_cutting_law)
+        throw std::invalid_argument(fmt::format(
+            "--vibration: comes of the cutting law, and --force-model {} has none", typed.force_model));
+    return typed.vibration;
 }
 
 /// What is published is 100 Hz for the milling force. A force that is a wall, too, needs all that there is:
@@ -241,6 +253,7 @@ ServerOptions checked(const Typed& typed, const AccessOptions& access) {
     options.session.clock = is_virtual ? ClockKind::virtual_time : ClockKind::real;
     options.session.coupling = checked_coupling(typed);
     options.session.force_model = typed.force_model;
+    options.session.vibration = checked_vibration(typed);
     options.session.duration_s = typed.duration_s;
     if (typed.haptic_cpu >= 0) options.session.haptic_cpu = typed.haptic_cpu;
     if (typed.milling_cpu >= 0) options.session.milling_cpu = typed.milling_cpu;

@@ -9,6 +9,7 @@
 
 #include "haptic_server/contact_models/force_models.h"
 #include "haptic_server/coupling/couplings.h"
+#include "haptic_server/coupling/handpiece_vibration.h"
 #include "haptic_server/device/client_device.h"
 #include "haptic_server/device/simulated_device.h"
 #include "haptic_server/loop/haptic_loop.h"
@@ -34,7 +35,8 @@ struct Rig {
                             {.device = device.limits(),
                              .milling_period_s = 0.001,
                              .model_holds_wall = !osteomill::find_force_model(force_model).has_cutting_law})),
-          haptic({device, *coupling, *results, commands, tool, status, &log},
+          vibration({burr}, {.max_force_n = 3.3, .max_slew_n_per_s = ForceGuard::slew_n_per_s}),
+          haptic({device, *coupling, *results, commands, tool, status, &log, &vibration},
                  {.has_shank = true, .start_pose = start}) {}
 
     testing::TemporaryFolder folder;
@@ -47,6 +49,7 @@ struct Rig {
     TripleBuffer<ToolState> status;
     ChangeQueue changes{1 << 14, model->bone().shared_content()};  // small: it overflows, too
     std::unique_ptr<Coupling> coupling;
+    HandpieceVibration vibration;
     HapticLoop haptic;
     MillingLoop milling{{*model, commands, *results, changes, &milling_log}, 0.001};
 };

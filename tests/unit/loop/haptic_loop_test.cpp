@@ -24,6 +24,7 @@ class Bench {
     TripleBuffer<ToolState> status;
     HapticLoopOptions options{.burr_count = 3, .start_burr = 1};
     MillingResult next;  // what the milling loop says from now on
+    HandpieceVibration* vibration = nullptr;
     bool model_runs = true;
     std::uint64_t tick_number = 0;
 
@@ -31,7 +32,8 @@ class Bench {
     glm::dvec3 run(int ticks, std::uint64_t missed = 0) {
         if (!loop_) {
             loop_ = std::make_unique<HapticLoop>(
-                HapticLoopParts{device, coupling, *results, commands, tool, status}, options);
+                HapticLoopParts{device, coupling, *results, commands, tool, status, nullptr, vibration},
+                options);
         }
         for (int i = 0; i < ticks; ++i) {
             if (model_runs) {
@@ -313,6 +315,77 @@ TEST(HapticLoop, DoesNotMistakeAHandThatPushesForOneThatIsPushed) {
     bench.run(500);
     EXPECT_EQ(bench.shown().fault, describe(Fault::none));
     EXPECT_LT(bench.loop().most_energy_to_hand_mj(), 1e-9);
+}
+
+/// A burr that shakes at 150 Hz in bone in front of it, pushed through it by the hand.
+class ShakenBench {
+  public:
+    ShakenBench() {
+        bench.options = {};
+        bench.vibration = &vibration;
+        bench.device.script = [this](double now_s) {
+            return DeviceState{.position_mm = {6.0 * now_s, 0.0, 0.0}, .pedal = pedal};
+        };
+        bench.coupling.force = [](const HandState&) { return mean_n; };
+        bench.next.force_n = mean_n;
+        bench.next.engagement.count = 1;
+        bench.next.engagement.patches[0] = {.normal = {1.0, 0.0, 0.0}, .cutting_n_s_per_mm = mean_n / 6.0};
+    }
+
+    /// Whether the force differs from the coupling's in any of so many ticks.
+    bool shakes(int ticks) {
+        bool shakes = false;
+        for (int i = 0; i < ticks; ++i) {
+            bench.next.time_s = tick_s * static_cast<double>(bench.tick_number);
+            shakes |= glm::distance(bench.run(1), mean_n) > 0.05;
+        }
+        return shakes;
+    }
+
+    static constexpr glm::dvec3 mean_n{-0.5, 0.0, 0.0};
+    HandpieceVibration vibration{{Burr{.spindle_rev_per_s = 150.0}},
+                                 {.max_force_n = 3.3, .max_slew_n_per_s = ForceGuard::slew_n_per_s}};
+    Bench bench;
+    bool pedal = true;
+};
+
+TEST(HapticLoop, AddsTheVibrationOfACut) {
+    ShakenBench shaken;
+    EXPECT_TRUE(shaken.shakes(300));
+    EXPECT_EQ(shaken.bench.shown().fault, describe(Fault::none));
+}
+
+TEST(HapticLoop, DoesNotShakeABurrThatStands) {
+    ShakenBench shaken;
+    shaken.pedal = false;
+    shaken.shakes(20);  // the first force
+    EXPECT_FALSE(shaken.shakes(300));
+    shaken.pedal = true;
+    EXPECT_TRUE(shaken.shakes(300));
+    shaken.pedal = false;
+    shaken.shakes(1);
+    EXPECT_FALSE(shaken.shakes(300)) << "at once";
+}
+
+TEST(HapticLoop, DoesNotShakeAForceThatIsOffOrFades) {
+    ShakenBench shaken;
+    EXPECT_TRUE(shaken.shakes(300));
+    shaken.bench.model_runs = false;
+    shaken.shakes(50 + ticks_to_fade());
+    double last_n = 0.0;
+    for (int i = 0; i < 100; ++i) EXPECT_EQ(shaken.bench.run(1), glm::dvec3(0.0));
+    shaken.bench.model_runs = true;
+    // Fades in: only ever grows.
+    bool is_back = false;
+    for (int i = 0; i < 500 && !is_back; ++i) {
+        shaken.bench.next.time_s = tick_s * static_cast<double>(shaken.bench.tick_number);
+        const double now_n = glm::length(shaken.bench.run(1));
+        ASSERT_GE(now_n, last_n);
+        last_n = now_n;
+        is_back = now_n >= 0.5;
+    }
+    EXPECT_TRUE(is_back);
+    EXPECT_TRUE(shaken.shakes(300));
 }
 
 }  // namespace

@@ -80,6 +80,31 @@ TEST(MillingSession, MillsWithEveryForceModel) {
     }
 }
 
+/// With an arm that reads exactly: whole steps of an encoder are energy that the hand neither got nor gave.
+MillingSessionReport run_on_exact_arm(Grip grip, bool vibration) {
+    Scene scene = block_scene();
+    scene.burrs[0].spindle_rev_per_s = 10'000.0 / 60.0;
+    SimulatedDevice device(make_trajectory(scene.trajectory, scene.start_pose, scene.burrs, 0), scene.device,
+                           ArmModel{.resolution_mm = 0.0}, hand_model(grip));
+    MillingSessionOptions options = virtual_options(4.0);
+    options.vibration = vibration;
+    const auto session = std::make_unique<MillingSession>(scene, block(), device, options);
+    const std::atomic<bool> never{false};
+    session->run(never);
+    return session->report();
+}
+
+TEST(MillingSession, GivesAHandNoMoreEnergyWithVibration) {
+    for (const Grip grip : {Grip::light, Grip::firm}) {
+        const MillingSessionReport without = run_on_exact_arm(grip, false);
+        const MillingSessionReport with = run_on_exact_arm(grip, true);
+        EXPECT_NE(with.bone_checksum, without.bone_checksum) << "it shakes";
+        EXPECT_LE(with.most_energy_to_hand_mj, without.most_energy_to_hand_mj + 1e-6);
+        EXPECT_LE(with.peak_force_n, 3.3);
+        for (const std::uint64_t count : with.fault_counts) EXPECT_EQ(count, 0u);
+    }
+}
+
 TEST(MillingSession, IsPushedOutOfBoneByEveryModelThatHoldsTheWall) {
     for (const ForceModelEntry& model : force_models()) {
         if (model.has_cutting_law) continue;

@@ -64,6 +64,15 @@ TEST(ServerOptions, MillAtThePublishedRateWithThePublishedCoupling) {
               500.0);
 }
 
+TEST(ServerOptions, ShakeTheHandpieceOnlyWhereAskedToAndWhereTheModelCuts) {
+    EXPECT_FALSE(parse({}).options->session.vibration);
+    EXPECT_TRUE(parse({"--vibration"}).options->session.vibration);
+    EXPECT_TRUE(parse({"--vibration", "--coupling", "hold", "--force-model", "milling-bins"})
+                    .options->session.vibration);
+    EXPECT_THAT(error_of({"--vibration", "--force-model", "agus"}),
+                AllOf(HasSubstr("--vibration"), HasSubstr("agus"), Not(HasSubstr("\n"))));
+}
+
 TEST(ServerOptions, CoupleAForceModelThatHasNoCuttingLawByInterpolatingAtTheHapticRate) {
     for (const char* model : {"point-spring", "petersik", "morris", "agus"}) {
         const MillingSessionOptions session = parse({"--force-model", model}).options->session;
