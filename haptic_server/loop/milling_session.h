@@ -42,7 +42,7 @@ struct MillingSessionOptions {
     std::string coupling = coupling_names().front();
     std::string force_model =
         force_model_names().front();  ///< one without a cutting law: not with "implicit"
-    bool vibration = false;           ///< handpiece_vibration.h
+    bool vibration = false;           ///< of the handpiece; only with a cutting law
     double duration_s = std::numeric_limits<double>::infinity();
     /// Somebody consumes changes() while the session runs. If not, the session empties the queue itself.
     bool changes_are_consumed = false;
