@@ -37,6 +37,7 @@ struct ForceOptions {
     std::optional<int> random{};
     std::uint64_t seed = 1;
     bool has_edge_forces = false;
+    bool has_heads = false;
     bool loads = false;
     bool quick = false;
 };
@@ -60,6 +61,10 @@ void add_force(CLI::App& app, ForceOptions& options) {
             ->check(CLI::Range(1, 1'000'000));
     force->add_option("--seed", options.seed, "of the random motions")->needs(random)->capture_default_str();
     force->add_flag("--edge-forces", options.has_edge_forces, "burrs whose edges rub, by random coefficients")
+        ->needs(random);
+    force
+        ->add_flag("--heads", options.has_heads,
+                   "cylinders, cones, barrels and pears in the place of balls, of random proportions")
         ->needs(random);
     force
         ->add_flag(
@@ -111,7 +116,8 @@ void run(const ForceOptions& options) {
                                               .count = *options.random,
                                               .seed = options.seed,
                                               .voxel_mm = options.run.voxel_mm,
-                                              .has_edge_forces = options.has_edge_forces},
+                                              .has_edge_forces = options.has_edge_forces,
+                                              .has_heads = options.has_heads},
                                              surroundings());
     else
         osteomill::study::run_force_study({.out = options.out, .quick = options.quick}, surroundings());

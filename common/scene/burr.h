@@ -1,10 +1,11 @@
-// A spherical burr with its shank and its cutting coefficients, as the scene declares them.
+// A burr: its head, its shank and its cutting coefficients, as the scene declares them.
 #pragma once
 
 #include <glm/vec3.hpp>
 #include <string>
 #include <vector>
 
+#include "common/scene/burr_head.h"
 #include "common/scene/shank.h"
 
 namespace osteomill {
@@ -14,7 +15,8 @@ enum class SpindleSense { clockwise, counter_clockwise };
 
 struct Burr {
     std::string name{};
-    double diameter_mm = 5.0;
+    double diameter_mm = 5.0;  ///< the largest of the head
+    BurrHead head{};
     int edges = 6;
     double spindle_rev_per_s = 10'000.0 / 60.0;
     /// K_t, K_r, K_a for bone of relative stiffness 1.
@@ -31,6 +33,7 @@ struct Burr {
     /// +1 when the burr turns towards +psi of the burr frame (+z from tip to shank), -1 for a clockwise burr.
     double sigma() const { return sense == SpindleSense::clockwise ? -1.0 : 1.0; }
 
+    bool is_ball() const { return head.shape == HeadShape::ball; }
     bool has_edge_force() const { return edge_coefficients_n_per_mm != glm::dvec3(0.0); }
 
     bool operator==(const Burr&) const = default;

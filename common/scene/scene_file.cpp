@@ -138,10 +138,33 @@ ShankProfile read_shank(TomlReader& reader, double burr_radius_mm) {
     return shank;
 }
 
+BurrHead read_head(TomlReader& reader, double diameter_mm) {
+    const std::vector<std::string> names(head_shape_names.begin(), head_shape_names.end());
+    const auto shape = static_cast<HeadShape>(reader.choice("shape", names).value_or(0));
+    const std::optional<double> length_mm = reader.number("length_mm", {0.1, 30.0});
+    const std::optional<double> tip_mm = reader.number("tip_diameter_mm", {0.05, 20.0});
+    const std::optional<double> neck_mm = reader.number("neck_diameter_mm", {0.05, 20.0});
+    if (shape == HeadShape::ball) {
+        if (length_mm || tip_mm || neck_mm)
+            reader.fail("shape", "a ball takes 'diameter_mm' alone; for another head set 'shape'");
+        return {};
+    }
+    BurrHead head = usual_head(shape, diameter_mm, required(reader, "length_mm", length_mm));
+    head.tip_diameter_mm = tip_mm.value_or(head.tip_diameter_mm);
+    head.neck_diameter_mm = neck_mm.value_or(head.neck_diameter_mm);
+    try {
+        require_valid(head, diameter_mm);
+    } catch (const std::invalid_argument& error) {
+        reader.fail("shape", error.what());
+    }
+    return head;
+}
+
 Burr read_burr(TomlReader& reader) {
     Burr burr;
     burr.name = required(reader, "name", reader.text("name"));
     burr.diameter_mm = required(reader, "diameter_mm", reader.number("diameter_mm", {0.2, 20.0}));
+    burr.head = read_head(reader, burr.diameter_mm);
     burr.edges = static_cast<int>(reader.whole_number("edges", 1, 64).value_or(burr.edges));
     burr.spindle_rev_per_s =
         reader.number("rpm", {100.0, 500'000.0}).value_or(default_rpm) / seconds_per_minute;
@@ -271,6 +294,12 @@ toml::table burr_table(const Burr& burr) {
                       {"edge_coefficients_n_per_mm", list(burr.edge_coefficients_n_per_mm)},
                       {"turns", sense_names[burr.sense == SpindleSense::clockwise ? 0 : 1]},
                       {"run_out_mm", burr.run_out_mm}};
+    if (!burr.is_ball()) {
+        table.insert("shape", std::string(head_shape_names[static_cast<std::size_t>(burr.head.shape)]));
+        table.insert("length_mm", burr.head.length_mm);
+        if (burr.head.shape != HeadShape::pear) table.insert("tip_diameter_mm", burr.head.tip_diameter_mm);
+        table.insert("neck_diameter_mm", burr.head.neck_diameter_mm);
+    }
     toml::array shank;
     for (const ShankPoint& point : burr.shank) shank.push_back(toml::array{point.height_mm, point.radius_mm});
     if (!shank.empty()) table.insert("shank", shank);

@@ -7,7 +7,7 @@
 namespace osteomill {
 
 inline constexpr std::uint32_t protocol_major = 1;
-inline constexpr std::uint32_t protocol_minor = 8;  // 1: each frame of a server carries its checksum
+inline constexpr std::uint32_t protocol_minor = 9;  // 1: each frame of a server carries its checksum
 
 /// From here on a server compares bones: see CompareBone.
 inline constexpr std::uint32_t first_minor_that_compares = 2;

@@ -1,7 +1,10 @@
 #include "common/wire/scene_messages.h"
 
+#include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <optional>
+#include <stdexcept>
 
 #include "common/bone/finite.h"
 
@@ -58,6 +61,23 @@ ToolDriver driver_from(v1::ToolDriver driver) {
     }
 }
 
+/// Of a burr whose diameter is checked; nothing where the message makes no head. A shape that only a newer
+/// server knows is drawn as a ball.
+std::optional<BurrHead> head_from(const v1::BurrDescription& message) {
+    if (!message.has_head()) return BurrHead{};
+    const v1::BurrHead& head = message.head();
+    const auto* const name = std::find(head_shape_names.begin(), head_shape_names.end(), head.shape());
+    if (name == head_shape_names.end()) return BurrHead{};
+    const BurrHead read{static_cast<HeadShape>(name - head_shape_names.begin()), head.length_mm(),
+                        head.tip_diameter_mm(), head.neck_diameter_mm()};
+    try {
+        require_valid(read, message.diameter_mm());
+    } catch (const std::invalid_argument&) {
+        return std::nullopt;
+    }
+    return read;
+}
+
 }  // namespace
 
 v1::BurrDescription to_message(const Burr& burr) {
@@ -67,6 +87,13 @@ v1::BurrDescription to_message(const Burr& burr) {
     message.set_edges(static_cast<std::uint32_t>(burr.edges));
     message.set_spindle_rpm(burr.spindle_rev_per_s * 60.0);
     message.set_clockwise(burr.sense == SpindleSense::clockwise);
+    if (!burr.is_ball()) {
+        v1::BurrHead& head = *message.mutable_head();
+        head.set_shape(std::string(head_shape_names[static_cast<std::size_t>(burr.head.shape)]));
+        head.set_length_mm(burr.head.length_mm);
+        head.set_tip_diameter_mm(burr.head.tip_diameter_mm);
+        head.set_neck_diameter_mm(burr.head.neck_diameter_mm);
+    }
     return message;
 }
 
@@ -138,9 +165,13 @@ std::variant<std::vector<Burr>, WireError> burrs_from(
             message.edges() > 1000)
             return WireError{"burr \"" + one_line(message.name()) +
                              "\" has an impossible size, speed or edge count"};
+        const std::optional<BurrHead> head = head_from(message);
+        if (!head)
+            return WireError{"burr \"" + one_line(message.name()) + "\" has a head of an impossible shape"};
         burrs.push_back(
             {.name = message.name(),
              .diameter_mm = message.diameter_mm(),
+             .head = *head,
              .edges = static_cast<int>(message.edges()),
              .spindle_rev_per_s = message.spindle_rpm() / 60.0,
              .cutting_coefficients_n_per_mm2 = glm::dvec3(0.0),

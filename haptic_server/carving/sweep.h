@@ -41,4 +41,8 @@ inline double volume(const Sweep& sweep) {
     return pi * r * r * (4.0 / 3.0 * r + glm::length(sweep.to - sweep.from));
 }
 
+/// Cuts a sweep in voxel coordinates down to the part near which a grid of `size` voxels has any; false where
+/// there is none. Real-time safe.
+bool cut_to_grid(Sweep& sweep, const glm::ivec3& size) noexcept;
+
 }  // namespace osteomill

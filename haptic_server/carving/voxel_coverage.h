@@ -47,6 +47,36 @@ constexpr double rim_voxels(VoxelCoverage coverage) {
     return coverage == VoxelCoverage::linear ? 0.5 - 0.5 / 255.0 : detail::smoothed_ramp_half - 0.0526;
 }
 
+/// The 255 levels of fraction that a burr leaves at most of a voxel whose centre lies `beyond` outside its
+/// surface (negative: inside), voxels. Comparisons are written as the selections that vector units have.
+template <VoxelCoverage coverage>
+[[gnu::always_inline]] inline std::int32_t level_left_at(double beyond) {
+    if constexpr (coverage == VoxelCoverage::binary) {
+        return beyond <= 0.0 ? 0 : 255;
+    } else if constexpr (coverage == VoxelCoverage::smoothed) {
+        constexpr double mean_over = detail::smoothed_mean_over;
+        double off = std::abs(beyond);
+        off = off > detail::smoothed_ramp_half ? detail::smoothed_ramp_half : off;
+        double bent = off - (0.5 - 0.5 * mean_over);
+        bent = bent < 0.0 ? 0.0 : bent;
+        const double rise = off - bent * bent * (0.5 / mean_over);
+        const double left = 0.5 + std::copysign(rise, beyond);
+        return static_cast<std::int32_t>(255.0 * left + 0.5);
+    } else {
+        double cover = 0.5 - beyond;
+        cover = cover < 0.0 ? 0.0 : cover;
+        cover = cover > 1.0 ? 1.0 : cover;
+        return static_cast<std::int32_t>(255.0 * (1.0 - cover) + 0.5);
+    }
+}
+
+/// The same, for a coverage that is not known before.
+inline std::int32_t level_left_at(VoxelCoverage coverage, double beyond) {
+    if (coverage == VoxelCoverage::linear) return level_left_at<VoxelCoverage::linear>(beyond);
+    if (coverage == VoxelCoverage::smoothed) return level_left_at<VoxelCoverage::smoothed>(beyond);
+    return level_left_at<VoxelCoverage::binary>(beyond);
+}
+
 /// A short sweep, seen from a voxel nearby; what the inner loop needs of it.
 struct SweepSeenFrom {
     /// `sweep` in voxel coordinates. `base` is a whole number of voxels, so nothing is rounded.
@@ -60,7 +90,7 @@ struct SweepSeenFrom {
 };
 
 /// For one voxel at (x, y, z), counted from the sweep's base: the 255 levels of fraction that the sweep
-/// leaves at most, 0 to 255. Comparisons are written as the selections that vector units have.
+/// leaves at most, 0 to 255.
 template <VoxelCoverage coverage>
 [[gnu::always_inline]] inline std::int32_t level_left(const SweepSeenFrom& sweep, float x, float y, float z) {
     const double wx = static_cast<double>(x) - sweep.from.x;
@@ -73,25 +103,7 @@ template <VoxelCoverage coverage>
     const double dx = wx - t * sweep.along.x;
     const double dy = wy - t * sweep.along.y;
     const double dz = wz - t * sweep.along.z;
-    const double distance = std::sqrt(dx * dx + dy * dy + dz * dz);
-    if constexpr (coverage == VoxelCoverage::binary) {
-        return distance <= sweep.radius ? 0 : 255;
-    } else if constexpr (coverage == VoxelCoverage::smoothed) {
-        constexpr double mean_over = detail::smoothed_mean_over;
-        const double beyond = distance - sweep.radius;
-        double off = std::abs(beyond);
-        off = off > detail::smoothed_ramp_half ? detail::smoothed_ramp_half : off;
-        double bent = off - (0.5 - 0.5 * mean_over);
-        bent = bent < 0.0 ? 0.0 : bent;
-        const double rise = off - bent * bent * (0.5 / mean_over);
-        const double left = 0.5 + std::copysign(rise, beyond);
-        return static_cast<std::int32_t>(255.0 * left + 0.5);
-    } else {
-        double cover = 0.5 + sweep.radius - distance;
-        cover = cover < 0.0 ? 0.0 : cover;
-        cover = cover > 1.0 ? 1.0 : cover;
-        return static_cast<std::int32_t>(255.0 * (1.0 - cover) + 0.5);
-    }
+    return level_left_at<coverage>(std::sqrt(dx * dx + dy * dy + dz * dz) - sweep.radius);
 }
 
 /// The same for many. The spans are of one length, a multiple of `coverage_batch`. Real-time safe.

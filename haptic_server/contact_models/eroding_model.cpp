@@ -18,6 +18,7 @@ double largest_radius_voxels(const std::vector<Burr>& burrs, double spacing_mm) 
     double largest_mm = 0.0;
     for (const Burr& burr : burrs) {
         require_valid(burr, spacing_mm);
+        require_ball(burr, "this contact model");
         largest_mm = std::max(largest_mm, burr.radius_mm());
     }
     return largest_mm / spacing_mm;

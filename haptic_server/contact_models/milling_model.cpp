@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "haptic_server/carving/carve.h"
+#include "haptic_server/carving/carve_head.h"
 #include "haptic_server/carving/crescent_rows.h"
 #include "haptic_server/contact_models/usable_burr.h"
 #include "haptic_server/cutting_force/mean_force.h"
@@ -28,6 +29,13 @@ constexpr double longest_wait_s = 0.001 - 1e-7;
 
 /// Nobody feels the direction of a step that crosses the whole bone.
 constexpr double most_substeps = 64.0;
+
+/// Of a spindle that tilts on its way.
+glm::dvec3 axis_between(const glm::dvec3& from, const glm::dvec3& to, double share) {
+    const glm::dvec3 axis = glm::mix(from, to, share);
+    const double length = glm::length(axis);
+    return length > 1e-6 ? axis / length : to;
+}
 
 /// Weighs each removed voxel by its stiffness, enters it into the account and hands it to the force.
 template <typename Force>
@@ -90,47 +98,64 @@ MillingModel::MillingModel(Bone bone, std::vector<Burr> burrs, const std::vector
     for (Burr& burr : burrs_) {
         if (!settings.has_edge_forces) burr.edge_coefficients_n_per_mm = glm::dvec3(0.0);
         require_valid(burr, bone_.grid().spacing_mm);
+        if (settings.summation == ForceSummation::bins) require_ball(burr, "the force over bins");
+        heads_.emplace_back();
+        if (!burr.is_ball())
+            heads_.back().emplace(burr.head, burr.diameter_mm, 1.0 / bone_.grid().spacing_mm);
         probes_.emplace_back(burr, bone_.grid().spacing_mm, edge_shares_);
     }
 }
 
 template <typename Force>
-void MillingModel::carve_and_sum(const Sweep& sweep, double share, ChangeSink& changes, Force& force,
-                                 MillingResult& result) noexcept {
+void MillingModel::carve_and_sum(const Sweep& sweep, const CuttingStep& cutting, double share,
+                                 ChangeSink& changes, Force& force, MillingResult& result) noexcept {
     const bool have_shares = has_edge_shares_ && burrs_[burr_].has_edge_force();
     ForceOfRemoved removed(bone_.content(), have_shares ? &edge_shares_ : nullptr, account_, force);
-    carve(bone_, sweep, carved_at_position_ ? CarveHistory::carved_at_from : CarveHistory::none,
-          {.coverage = settings_.coverage, .instructions = settings_.instructions}, changes, removed);
+    if (cutting.head != nullptr)
+        carve_head(bone_, {*cutting.head, cutting.frame, sweep.from, sweep.to}, settings_.coverage, changes,
+                   removed);
+    else
+        carve(bone_, sweep, carved_at_position_ ? CarveHistory::carved_at_from : CarveHistory::none,
+              {.coverage = settings_.coverage, .instructions = settings_.instructions}, changes, removed);
     result.force_n += share * force.force_n();
 }
 
-void MillingModel::cut(const BurrCommand& command, const glm::dvec3& to_mm, double share, ChangeSink& changes,
+void MillingModel::cut(const BurrCommand& command, const ToolPose& to, double share, ChangeSink& changes,
                        MillingResult& result) noexcept {
     const Burr& burr = burrs_[burr_];
     const Grid& grid = bone_.grid();
-    const Sweep sweep{to_voxel_coordinates(grid, position_mm_), to_voxel_coordinates(grid, to_mm),
+    const Sweep sweep{to_voxel_coordinates(grid, position_mm_), to_voxel_coordinates(grid, to.position_mm),
                       burr.radius_mm() / grid.spacing_mm};
-    const CuttingStep cutting(burr, command.pose.spindle_axis, 0.5 * (sweep.from + sweep.to), grid.spacing_mm,
-                              share * since_milled_s_, to_mm - position_mm_);
+    const CuttingStep cutting(burr, to.spindle_axis, 0.5 * (sweep.from + sweep.to), grid.spacing_mm,
+                              share * since_milled_s_, to.position_mm - position_mm_,
+                              heads_[burr_] ? &*heads_[burr_] : nullptr);
     if (settings_.summation == ForceSummation::voxels) {
         MeanForce force(cutting, settings_.instructions);
-        carve_and_sum(sweep, share, changes, force, result);
+        carve_and_sum(sweep, cutting, share, changes, force, result);
     } else if (settings_.summation == ForceSummation::bins) {
         chips_.begin_step(burr, cutting);
-        carve_and_sum(sweep, share, changes, chips_, result);
+        carve_and_sum(sweep, cutting, share, changes, chips_, result);
     } else {
         tooth_.turn(burr, share * command.elapsed_s);
         tooth_.begin_step(cutting);
-        carve_and_sum(sweep, share, changes, tooth_, result);
+        carve_and_sum(sweep, cutting, share, changes, tooth_, result);
     }
     carved_at_position_ = true;
-    position_mm_ = to_mm;
+    position_mm_ = to.position_mm;
+    spindle_axis_ = to.spindle_axis;
+}
+
+double MillingModel::motion_mm(const BurrCommand& command) const noexcept {
+    const double path_mm = glm::length(command.pose.position_mm - position_mm_);
+    if (!heads_[burr_]) return path_mm;
+    const BurrProfile& head = *heads_[burr_];
+    const double reach_mm = std::max(-head.tip_height(), head.top_height()) * bone_.grid().spacing_mm;
+    return path_mm + reach_mm * glm::length(command.pose.spindle_axis - spindle_axis_);
 }
 
 bool MillingModel::can_wait(const BurrCommand& command) const noexcept {
-    const double path_voxels = glm::length(command.pose.position_mm - position_mm_) / bone_.grid().spacing_mm;
     return carved_at_position_ && !command.wants_engagement && since_milled_s_ < longest_wait_s &&
-           path_voxels < shortest_path_voxels;
+           motion_mm(command) / bone_.grid().spacing_mm < shortest_path_voxels;
 }
 
 void MillingModel::mill(const BurrCommand& command, ChangeSink& changes, MillingResult& result) noexcept {
@@ -144,14 +169,19 @@ void MillingModel::mill(const BurrCommand& command, ChangeSink& changes, Milling
         return;
     }
     const bool is_first = !carved_at_position_;
-    const glm::dvec3 from_mm = position_mm_;
-    const glm::dvec3 path_mm = command.pose.position_mm - from_mm;
+    const ToolPose from{position_mm_, spindle_axis_};
+    const glm::dvec3 path_mm = command.pose.position_mm - from.position_mm;
     const double longest_mm = longest_substep_radii * burrs_[burr_].radius_mm();
-    const double substeps = std::clamp(std::ceil(glm::length(path_mm) / longest_mm), 1.0, most_substeps);
+    const double substeps = std::clamp(std::ceil(motion_mm(command) / longest_mm), 1.0, most_substeps);
     for (double i = 1.0; i <= substeps; i += 1.0) {
-        const bool is_last = i == substeps;
-        cut(command, is_last ? command.pose.position_mm : from_mm + path_mm * (i / substeps), 1.0 / substeps,
-            changes, result);
+        ToolPose to = command.pose;
+        if (i < substeps) {
+            to.position_mm = from.position_mm + path_mm * (i / substeps);
+            // A ball looks the same however its spindle points.
+            if (heads_[burr_])
+                to.spindle_axis = axis_between(from.spindle_axis, command.pose.spindle_axis, i / substeps);
+        }
+        cut(command, to, 1.0 / substeps, changes, result);
     }
     // A spindle that starts within bone clears a whole ball at once, which no later step does again.
     if (is_first) tooth_.forget();
@@ -167,6 +197,7 @@ void MillingModel::step(const BurrCommand& command, double time_s, ChangeSink& c
 
     if (!has_position_ || command.burr != burr_) {
         position_mm_ = command.pose.position_mm;
+        spindle_axis_ = command.pose.spindle_axis;
         burr_ = command.burr;
         has_position_ = true;
         carved_at_position_ = false;
@@ -177,6 +208,7 @@ void MillingModel::step(const BurrCommand& command, double time_s, ChangeSink& c
     } else {
         carved_at_position_ = false;
         position_mm_ = command.pose.position_mm;
+        spindle_axis_ = command.pose.spindle_axis;
         since_milled_s_ = 0.0;
     }
     account_.end_step(command, result);

@@ -3,11 +3,13 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "common/bone/bone.h"
 #include "common/bone/brick_change.h"
+#include "common/scene/burr_profile.h"
 #include "common/scene/edge_shares.h"
 #include "common/scene/scene.h"
 #include "haptic_server/contact_models/force_model.h"
@@ -38,22 +40,26 @@ class MillingModel final : public ForceModel {
     const RemovedByTissue& removed_mm3() const override { return account_.removed_mm3(); }
 
   private:
+    /// How far the farthest point of the burr moves from where it is to the command's pose: along the path
+    /// and, for a head that is no ball, by the spindle's tilt.
+    double motion_mm(const BurrCommand& command) const noexcept;
     /// Whether so little lies between position_mm_ and the command's position that it can wait for the next
     /// step.
     bool can_wait(const BurrCommand& command) const noexcept;
     /// From position_mm_ to the command's position, in substeps.
     void mill(const BurrCommand& command, ChangeSink& changes, MillingResult& result) noexcept;
-    /// One substep, from position_mm_ to `to_mm`, which becomes position_mm_; adds to `result`, force weighed
-    /// by `share` of the path.
-    void cut(const BurrCommand& command, const glm::dvec3& to_mm, double share, ChangeSink& changes,
+    /// One substep, from position_mm_ to the position of `to`, which becomes position_mm_, with the spindle
+    /// as `to` has it; adds to `result`, force weighed by `share` of the path.
+    void cut(const BurrCommand& command, const ToolPose& to, double share, ChangeSink& changes,
              MillingResult& result) noexcept;
     template <typename Force>
-    void carve_and_sum(const Sweep& sweep, double share, ChangeSink& changes, Force& force,
-                       MillingResult& result) noexcept;
+    void carve_and_sum(const Sweep& sweep, const CuttingStep& cutting, double share, ChangeSink& changes,
+                       Force& force, MillingResult& result) noexcept;
 
     Bone bone_;
     std::vector<Burr> burrs_;
-    std::vector<EngagementProbe> probes_;  // by burr
+    std::vector<EngagementProbe> probes_;            // by burr
+    std::vector<std::optional<BurrProfile>> heads_;  // likewise, in voxels; nothing for a ball
     MillingSettings settings_;
     EdgeShares edge_shares_;
     bool has_edge_shares_;
@@ -64,6 +70,7 @@ class MillingModel final : public ForceModel {
     bool has_position_ = false;        // position_mm_ holds where the burr last milled, or was
     bool carved_at_position_ = false;  // the burr_ carved at position_mm_
     glm::dvec3 position_mm_{0.0};
+    glm::dvec3 spindle_axis_{0.0, 0.0, 1.0};  // there
     std::size_t burr_ = 0;
     double since_milled_s_ = 0.0;
     glm::dvec3 milled_force_n_{0.0};  // of the path that was last milled

@@ -1,5 +1,6 @@
 #include "haptic_server/contact_models/usable_burr.h"
 
+#include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <stdexcept>
@@ -20,10 +21,21 @@ void require_valid(const Burr& burr, double spacing_mm) {
         throw std::invalid_argument("burr '" + burr.name +
                                     "' needs a diameter, edges and a spindle speed above zero and finite "
                                     "cutting and edge coefficients that are not negative");
-    if (burr.diameter_mm / spacing_mm > most_voxels_across_burr)
+    if (std::max(burr.diameter_mm, burr.head.length_mm) / spacing_mm > most_voxels_across_burr)
         throw std::invalid_argument("burr '" + burr.name + "' is more than 500 voxels of " +
                                     std::to_string(spacing_mm) + " mm across; take coarser bone");
+    try {
+        require_valid(burr.head, burr.diameter_mm);
+    } catch (const std::invalid_argument& error) {
+        throw std::invalid_argument("burr '" + burr.name + "': " + error.what());
+    }
     require_valid(burr.shank, burr.radius_mm());
+}
+
+void require_ball(const Burr& burr, const char* model) {
+    if (!burr.is_ball())
+        throw std::invalid_argument("burr '" + burr.name + "' is no ball, and " + model +
+                                    " knows the ball alone; take the force model 'milling'");
 }
 
 bool is_usable(const BurrCommand& command, std::size_t burr_count) noexcept {

@@ -9,6 +9,7 @@
 #include "haptic_server/carving/simd.h"
 #include "haptic_server/cutting_force/axis_singularity_kernel.h"
 #include "haptic_server/cutting_force/edge_advance.h"
+#include "haptic_server/cutting_force/head_force.h"
 
 namespace osteomill {
 
@@ -151,7 +152,8 @@ template <bool has_edge_force>
 }  // namespace
 
 CuttingStep::CuttingStep(const Burr& burr, const glm::dvec3& spindle_axis, const glm::dvec3& middle,
-                         double spacing, double elapsed, const glm::dvec3& path_mm)
+                         double spacing, double elapsed, const glm::dvec3& path_mm,
+                         const BurrProfile* head_profile)
     : frame(burr_frame(spindle_axis)),
       middle_voxels(middle),
       radius_voxels(burr.radius_mm() / spacing),
@@ -164,7 +166,8 @@ CuttingStep::CuttingStep(const Burr& burr, const glm::dvec3& spindle_axis, const
       edge_coefficients_n_per_mm(glm::dvec3(burr.sigma(), 1.0, 1.0) * burr.edge_coefficients_n_per_mm),
       path_direction(0.0f),
       per_full_chip_mm(0.0f),
-      half_path_voxels(static_cast<float>(0.5 * glm::length(path_mm) / spacing)) {
+      half_path_voxels(static_cast<float>(0.5 * glm::length(path_mm) / spacing)),
+      head(head_profile) {
     if (!has_edge_force) return;
     const double path = glm::length(path_mm);
     path_direction = glm::vec3(glm::transpose(frame) * path_mm / path);
@@ -173,6 +176,7 @@ CuttingStep::CuttingStep(const Burr& burr, const glm::dvec3& spindle_axis, const
 
 void chip_forces(const CuttingStep& step, const RemovedVoxels& removed, const ChipWeights& weights,
                  [[maybe_unused]] InstructionSet instructions, ChipForces& out) noexcept {
+    if (step.head != nullptr) return head_forces(step, removed, weights, out);
 #if defined(__x86_64__)
     if (instructions == InstructionSet::avx2) return fill_avx2(step, removed, weights, out);
 #endif
@@ -182,6 +186,7 @@ void chip_forces(const CuttingStep& step, const RemovedVoxels& removed, const Ch
 glm::dvec3 sum_of_chip_forces(const CuttingStep& step, const RemovedVoxels& removed,
                               const ChipWeights& weights,
                               [[maybe_unused]] InstructionSet instructions) noexcept {
+    if (step.head != nullptr) return sum_of_head_forces(step, removed, weights);
 #if defined(__x86_64__)
     if (instructions == InstructionSet::avx2) return sum_avx2(step, removed, weights);
 #endif

@@ -33,6 +33,7 @@
 #include <span>
 
 #include "common/scene/burr.h"
+#include "common/scene/burr_profile.h"
 #include "haptic_server/carving/instruction_set.h"
 #include "haptic_server/carving/removed_voxels.h"
 
@@ -42,9 +43,11 @@ namespace osteomill {
 struct CuttingStep {
     /// `middle_voxels` is the burr's centre half-way through the step, in voxel coordinates: directions taken
     /// from the step's end would leave a bias that no refinement removes. `elapsed_s` > 0; `spindle_axis` is
-    /// a unit vector. `path_mm`: from start to end; none: edges do not rub.
+    /// a unit vector. `path_mm`: from start to end; none: edges do not rub. `head_profile`: in voxels, null
+    /// for a ball; outlives the step.
     CuttingStep(const Burr& burr, const glm::dvec3& spindle_axis, const glm::dvec3& middle_voxels,
-                double spacing_mm, double elapsed_s, const glm::dvec3& path_mm = glm::dvec3(0.0));
+                double spacing_mm, double elapsed_s, const glm::dvec3& path_mm = glm::dvec3(0.0),
+                const BurrProfile* head_profile = nullptr);
 
     glm::dmat3 frame;  ///< burr axes in patient axes
     glm::dvec3 middle_voxels;
@@ -59,6 +62,7 @@ struct CuttingStep {
     glm::vec3 path_direction;              ///< unit, burr axes
     float per_full_chip_mm;                ///< 1 / h where the path is along the normal
     float half_path_voxels;
+    const BurrProfile* head;  ///< null: a ball
 };
 
 /// Force of each voxel of a batch, and where the voxel lies; burr axes, voxels. Scratch: set by chip_forces

@@ -6,32 +6,17 @@
 #include <cstring>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
-#include <numbers>
 
 #include "common/scene/burr_frame.h"
+#include "common/scene/burr_profile.h"
 
 namespace osteomill {
 
 namespace {
 
-/// Interleaves the bits of a direction's eighths, so that neighbours in the list are neighbours on the
-/// sphere.
-unsigned order_on_sphere(const glm::dvec3& normal) {
-    const glm::uvec3 eighth(glm::min(glm::floor(4.0 * (normal + 1.0)), glm::dvec3(7.0)));
-    unsigned order = 0;
-    for (unsigned bit = 0; bit < 3; ++bit)
-        order |= (eighth.x >> bit & 1u) << (3 * bit) | (eighth.y >> bit & 1u) << (3 * bit + 1) |
-                 (eighth.z >> bit & 1u) << (3 * bit + 2);
-    return order;
-}
-
 /// Where along a patch's normal the bone is looked at, from the burr's surface.
 constexpr std::array<float, 4> offsets_voxels{-static_cast<float>(Engagement::reach_voxels), -0.5f, 0.5f,
                                               static_cast<float>(Engagement::reach_voxels)};
-/// A ring's forces across the spindle cancel where all of it touches: a plunge along the spindle feels none.
-constexpr int patches_a_ring = 16;
-constexpr int fewest_rings = 48;
-constexpr int most_rings = static_cast<int>(Engagement::max_patches) / patches_a_ring;
 /// Half of a voxel's 255 levels: the bone's surface.
 constexpr float half = 127.5f;
 
@@ -41,54 +26,26 @@ EngagementProbe::EngagementProbe(const Burr& burr, double spacing_mm, const Edge
     : radius_mm_(burr.radius_mm()),
       has_edge_force_(burr.has_edge_force()),
       edge_shares_(edge_shares),
-      bricks_(burr.radius_mm() / spacing_mm + Engagement::reach_voxels + 2.0),
+      patches_(burr_patches(burr, spacing_mm)),
+      bounding_radius_mm_(burr.is_ball() ? burr.radius_mm()
+                                         : BurrProfile(burr.head, burr.diameter_mm).bounding_radius()),
+      bricks_(bounding_radius_mm_ / spacing_mm + Engagement::reach_voxels + 2.0),
       shank_(burr) {
-    const double sphere_area_mm2 = 4.0 * std::numbers::pi * radius_mm_ * radius_mm_;
-    const double wanted_edge_mm = 1.5 * spacing_mm;
-    const int rings = std::clamp(
-        static_cast<int>(std::lround(sphere_area_mm2 / (wanted_edge_mm * wanted_edge_mm) / patches_a_ring)),
-        fewest_rings, most_rings);
-    const auto count = static_cast<std::size_t>(rings * patches_a_ring);
-
-    const glm::dvec3 k = burr.cutting_coefficients_n_per_mm2;
-    const glm::dvec3 edge = burr.edge_coefficients_n_per_mm;
-    patches_.reserve(count);
-    for (int ring = 0; ring < rings; ++ring) {
-        // Equal in angle, so that a shallow cut at the tip meets several.
-        const double bottom = -std::cos(std::numbers::pi * ring / rings);
-        const double top = -std::cos(std::numbers::pi * (ring + 1) / rings);
-        const double z = 0.5 * (bottom + top);
-        const double sin_kappa = std::sqrt(1.0 - z * z);
-        const double area_mm2 =
-            2.0 * std::numbers::pi * radius_mm_ * radius_mm_ * (top - bottom) / patches_a_ring;
-        const double mean_per_r = (std::asin(top) - std::asin(bottom)) / (top - bottom) / radius_mm_;
-        const double half_turn = ring % 2 == 0 ? 0.0 : 0.5;
-        for (int i = 0; i < patches_a_ring; ++i) {
-            const double psi = 2.0 * std::numbers::pi * (i + half_turn) / patches_a_ring;
-            const glm::dvec3 normal(std::cos(psi) * sin_kappa, std::sin(psi) * sin_kappa, z);
-            const glm::dvec3 e_psi(-std::sin(psi), std::cos(psi), 0.0);
-            const glm::dvec3 e_kappa(std::cos(psi) * -z, std::sin(psi) * -z, sin_kappa);
-            const auto along_axes = [&](const glm::dvec3& c) {
-                return burr.sigma() * c.x * e_psi + c.y * normal + c.z * e_kappa;
-            };
-            const double width_by_turn_mm = area_mm2 * mean_per_r / (2.0 * std::numbers::pi);
-            patches_.push_back({.normal = normal,
-                                .cutting_n_s_per_mm = -along_axes(k) * area_mm2 * mean_per_r /
-                                                      (2.0 * std::numbers::pi * burr.spindle_rev_per_s),
-                                .edge_n = -along_axes(edge) * (width_by_turn_mm * burr.edges),
-                                .area_mm2 = area_mm2});
-        }
+    if (!burr.is_ball()) {
+        const BurrProfile head(burr.head, burr.diameter_mm);
+        middle_height_mm_ = 0.5 * (head.tip_height() + head.top_height());
+        has_beside_ = true;
     }
-    // Samples of neighbours read the same bricks.
-    std::stable_sort(patches_.begin(), patches_.end(), [](const Patch& a, const Patch& b) {
-        return order_on_sphere(a.normal) < order_on_sphere(b.normal);
-    });
+    const std::size_t count = patches_.size();
     // Filled up to whole fours with the last one.
     const std::size_t padded = (count + four - 1) / four * four;
     for (int axis = 0; axis < 3; ++axis)
-        for (std::size_t i = 0; i < padded; ++i)
-            normals_[static_cast<std::size_t>(axis)].push_back(
-                static_cast<float>(patches_[std::min(i, count - 1)].normal[axis]));
+        for (std::size_t i = 0; i < padded; ++i) {
+            const BurrPatch& patch = patches_[std::min(i, count - 1)];
+            const auto at = static_cast<std::size_t>(axis);
+            normals_[at].push_back(static_cast<float>(patch.normal[axis]));
+            if (has_beside_) beside_[at].push_back(static_cast<float>(patch.beside_mm[axis] / spacing_mm));
+        }
 }
 
 void EngagementProbe::sample(const Bone& bone, const glm::dvec3& position_mm, const glm::dvec3& spindle_axis,
@@ -106,8 +63,9 @@ void EngagementProbe::sample_burr(const Bone& bone, const glm::dvec3& position_m
     out.has_edge_force = has_edge_force_;
     const glm::dvec3 centre = to_voxel_coordinates(bone.grid(), position_mm);
     const double radius = radius_mm_ / h;
+    const glm::dvec3 middle = centre + middle_height_mm_ / h * spindle_axis;
     // Stiffness is read one voxel farther in than the surface may be.
-    if (!bricks_.gather(bone, centre, radius + Engagement::reach_voxels + 1.0)) return;
+    if (!bricks_.gather(bone, middle, bounding_radius_mm_ / h + Engagement::reach_voxels + 1.0)) return;
 
     const glm::dmat3 frame = burr_frame(spindle_axis);
     const glm::vec3 centre_in_bricks(centre - glm::dvec3(bricks_.base()));
@@ -117,10 +75,11 @@ void EngagementProbe::sample_burr(const Bone& bone, const glm::dvec3& position_m
         for (std::size_t lane = 0; lane < four && first + lane < patches_.size(); ++lane) {
             const Crossing crossing = first_crossing(along, lane);
             if (!crossing.found) continue;
-            const Patch& patch = patches_[first + lane];
+            const BurrPatch& patch = patches_[first + lane];
             const glm::dvec3 normal = frame * patch.normal;
             const glm::vec3 outward(normal);
-            const glm::vec3 surface = centre_in_bricks + radius_voxels * outward;
+            glm::vec3 surface = centre_in_bricks + radius_voxels * outward;
+            if (has_beside_) surface += glm::vec3(frame * patch.beside_mm / h);
             // Stiffness one voxel into the bone, where no partial voxel dilutes it.
             double stiffness = bricks_.stiffness(surface + (crossing.offset_voxels + 1.0f) * outward);
             if (stiffness == 0.0)
@@ -154,6 +113,10 @@ EngagementProbe::FourFractions EngagementProbe::sample_four(std::size_t first, c
         const auto at = static_cast<std::size_t>(axis);
         outward[at] = frame[0][axis] * normal[0] + frame[1][axis] * normal[1] + frame[2][axis] * normal[2];
         surface[at] = centre[axis] + radius_voxels * outward[at];
+        if (!has_beside_) continue;
+        std::array<Floats, 3> beside;
+        for (std::size_t i = 0; i < 3; ++i) std::memcpy(&beside[i], &beside_[i][first], sizeof beside[i]);
+        surface[at] += frame[0][axis] * beside[0] + frame[1][axis] * beside[1] + frame[2][axis] * beside[2];
     }
     FourFractions along;
     for (std::size_t i = 0; i < offsets_voxels.size(); ++i) {

@@ -11,15 +11,14 @@
 #include "common/scene/burr.h"
 #include "common/scene/edge_shares.h"
 #include "haptic_server/engagement/brick_neighbourhood.h"
+#include "haptic_server/engagement/burr_patches.h"
 #include "haptic_server/engagement/engagement.h"
 #include "haptic_server/engagement/shank_probe.h"
 
 namespace osteomill {
 
-/// Samples the bone around one burr and its shank. Holds the burr's patches: rings about the spindle, equal
-/// in angle, 16 patches a ring, each ring turned against the next by half a patch; 768 to 1024 of them,
-/// about 1.5 voxels wide where that suffices. 1/r is its mean over the patch, (asin z2 - asin z1) / (z2 - z1)
-/// / R for a ring from z1 to z2 on the unit sphere. Allocates when constructed.
+/// Samples the bone around one burr and its shank, at the burr's patches (burr_patches.h). Allocates when
+/// constructed.
 class EngagementProbe {
   public:
     explicit EngagementProbe(const Burr& burr, double spacing_mm, const EdgeShares& edge_shares = {});
@@ -32,13 +31,6 @@ class EngagementProbe {
   private:
     void sample_burr(const Bone& bone, const glm::dvec3& position_mm, const glm::dvec3& spindle_axis,
                      Engagement& out) noexcept;
-
-    struct Patch {
-        glm::dvec3 normal;              ///< burr axes
-        glm::dvec3 cutting_n_s_per_mm;  ///< burr axes, for bone of relative stiffness 1
-        glm::dvec3 edge_n;              ///< likewise
-        double area_mm2;
-    };
 
     /// Patches are looked at four at a time: a vector that every processor has.
     static constexpr std::size_t four = 4;
@@ -61,8 +53,12 @@ class EngagementProbe {
     double radius_mm_;
     bool has_edge_force_;
     EdgeShares edge_shares_;
-    std::vector<Patch> patches_;
+    std::vector<BurrPatch> patches_;
+    double bounding_radius_mm_;  // of a ball about the head's middle
+    double middle_height_mm_ = 0.0;
+    bool has_beside_ = false;                    // of a head that is no ball
     std::array<std::vector<float>, 3> normals_;  // of the patches, by axis
+    std::array<std::vector<float>, 3> beside_;   // likewise, voxels; empty for a ball
     BrickNeighbourhood bricks_;
     ShankProbe shank_;
 };

@@ -14,6 +14,11 @@ constexpr double time_tolerance_s = 1e-7;
 
 }  // namespace
 
+MillingLoop::MillingLoop(const MillingLoopParts& parts, double command_period_s)
+    : parts_(parts), command_period_s_(command_period_s) {
+    for (const Burr& burr : parts.burrs) hulls_.push_back(burr_hull(burr));
+}
+
 ToolPose MillingLoop::pose_on_the_way(double elapsed_s) noexcept {
     const ToolPose& target = parts_.commands.front().pose;
     const double left_s = command_period_s_ - underway_s_;
@@ -33,11 +38,14 @@ double MillingLoop::room_for_change_mm(const BurrCommand& command) const noexcep
     const Grid& grid = parts_.model.bone().grid();
     const double room_mm = grid.spacing_mm + 2.0 * glm::distance(command.pose.position_mm, published_mm_);
     if (!(room_mm <= most_room_mm)) return 0.0;
-    const double radius_mm =
-        std::max(parts_.burrs[wanted].radius_mm(), parts_.burrs[command.burr].radius_mm());
-    const Ball around{to_voxel_coordinates(grid, command.pose.position_mm),
-                      (radius_mm + room_mm) / grid.spacing_mm};
-    return has_bone_in(parts_.model.bone(), around) ? 0.0 : room_mm;
+    const auto meets_bone = [&](const HullBall& ball) {
+        const glm::dvec3 centre_mm = command.pose.position_mm + ball.height_mm * command.pose.spindle_axis;
+        return has_bone_in(parts_.model.bone(), {to_voxel_coordinates(grid, centre_mm),
+                                                 (ball.radius_mm + room_mm) / grid.spacing_mm});
+    };
+    const bool is_free = std::ranges::none_of(hulls_[wanted], meets_bone) &&
+                         std::ranges::none_of(hulls_[command.burr], meets_bone);
+    return is_free ? room_mm : 0.0;
 }
 
 void MillingLoop::step(double time_s, double elapsed_s) noexcept {

@@ -7,12 +7,14 @@
 
 #include <algorithm>
 #include <span>
+#include <vector>
 
 #include "common/scene/burr.h"
 #include "haptic_server/contact_models/force_model.h"
 #include "haptic_server/exchange/change_queue.h"
 #include "haptic_server/exchange/milling_step.h"
 #include "haptic_server/exchange/triple_buffer.h"
+#include "haptic_server/loop/burr_hull.h"
 #include "haptic_server/loop/milling_log.h"
 
 namespace osteomill {
@@ -28,9 +30,8 @@ struct MillingLoopParts {
 
 class MillingLoop {
   public:
-    /// All parts outlive the loop. Commands come every `command_period_s`.
-    MillingLoop(const MillingLoopParts& parts, double command_period_s)
-        : parts_(parts), command_period_s_(command_period_s) {}
+    /// All parts outlive the loop. Commands come every `command_period_s`. Allocates.
+    MillingLoop(const MillingLoopParts& parts, double command_period_s);
 
     /// The step that ends at session time `time_s` and lasted `elapsed_s` since the last. Before the first
     /// command there is nothing to do. Real-time safe.
@@ -42,12 +43,13 @@ class MillingLoop {
   private:
     /// Where the burr shall be at the end of this step.
     ToolPose pose_on_the_way(double elapsed_s) noexcept;
-    /// MillingResult::room_for_change_mm. Looks beyond the larger of both burrs by a voxel, and by twice what
-    /// the tool went since the last result: when this one is read it will have moved on.
+    /// MillingResult::room_for_change_mm. Looks beyond both burrs and their shanks by a voxel, and by twice
+    /// what the tool went since the last result: when this one is read it will have moved on.
     double room_for_change_mm(const BurrCommand& command) const noexcept;
 
     MillingLoopParts parts_;
     double command_period_s_;
+    std::vector<std::vector<HullBall>> hulls_{};  // by burr
     bool has_command_ = false;
     ToolPose start_;                // where the burr was when the newest command came
     ToolPose pose_;                 // where it is

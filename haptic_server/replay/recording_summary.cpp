@@ -97,6 +97,7 @@ nlohmann::ordered_json to_json(const RecordingSummary& summary) {
     for (const Burr& burr : summary.session.burrs) {
         const auto milled = summary.milled_s.find(burr.name);
         burrs.push_back({{"name", burr.name},
+                         {"shape", head_shape_names[static_cast<std::size_t>(burr.head.shape)]},
                          {"diameter_mm", burr.diameter_mm},
                          {"edges", burr.edges},
                          {"spindle_rpm", 60.0 * burr.spindle_rev_per_s},

@@ -34,13 +34,16 @@ ordered_json measure_random(const RandomStudyOptions& options, const std::string
     std::vector<RandomResult> results;
     auto motions = random_motions(options.count, options.seed, options.voxel_mm);
     if (options.has_edge_forces) draw_edge_forces(motions, options.seed);
+    if (options.has_heads) draw_heads(motions, options.seed);
     for (const RandomMotion& motion : motions) {
         results.push_back(measure(motion, voxel_model(settings)));
         progress(static_cast<double>(results.size()) / options.count);
     }
     write_text(csv_of(results), options.out / (name + ".csv"));
-    ordered_json summary{
-        {"seed", options.seed}, {"voxel_mm", options.voxel_mm}, {"edge_forces", options.has_edge_forces}};
+    ordered_json summary{{"seed", options.seed},
+                         {"voxel_mm", options.voxel_mm},
+                         {"edge_forces", options.has_edge_forces},
+                         {"heads", options.has_heads}};
     summary.update(summary_of(results));
     surroundings.said << fmt::format(
         "{}: {} motions of seed {}: error median {:.2f} %, 95 % within {:.2f}, 99 % within {:.2f}, worst "

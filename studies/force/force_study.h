@@ -20,6 +20,7 @@ struct RandomStudyOptions {
     std::uint64_t seed = 1;
     double voxel_mm = 0.1;
     bool has_edge_forces = false;
+    bool has_heads = false;  ///< other than balls
 };
 
 /// Runs random motions alone: writes random.json and random.csv into `options.out`. Throws as below.

@@ -87,7 +87,7 @@ glm::dvec3 reference_over_path_n(const RandomMotion& drawn) {
     constexpr std::array<double, 5> weights{0.118463442528095, 0.239314335249683, 0.284444444444444,
                                             0.239314335249683, 0.118463442528095};
     const SteadyPath path = path_of(drawn.motion, drawn.run);
-    const double depth_at_start_mm = drawn.motion.burr.radius_mm() - glm::dot(path.start_mm, drawn.motion.up);
+    const double depth_at_start_mm = above_lowest_mm(drawn.motion) - glm::dot(path.start_mm, drawn.motion.up);
     const double deeper_mm = glm::dot(path.start_mm - path.end_mm, drawn.motion.up);
     glm::dvec3 force_n(0.0);
     for (std::size_t i = 0; i < points.size(); ++i) {
@@ -115,6 +115,24 @@ void draw_edge_forces(std::vector<RandomMotion>& motions, std::uint64_t seed) {
         edge.y = draw.uniform(0.0, 1.0);
         edge.z = draw.uniform(0.0, 0.2);
         drawn.motion.name += fmt::format(", edges {:.3f} {:.3f} {:.3f} N/mm", edge.x, edge.y, edge.z);
+    }
+}
+
+void draw_heads(std::vector<RandomMotion>& motions, std::uint64_t seed) {
+    Draw draw(seed);
+    constexpr std::array shapes{HeadShape::cylinder, HeadShape::cone, HeadShape::barrel, HeadShape::pear};
+    for (RandomMotion& drawn : motions) {
+        Burr& burr = drawn.motion.burr;
+        const HeadShape shape = shapes[static_cast<std::size_t>(draw.uniform(0.0, 4.0))];
+        burr.head = usual_head(shape, burr.diameter_mm, burr.diameter_mm * draw.uniform(1.0, 3.0));
+        const double end_mm = burr.diameter_mm * draw.uniform(0.4, 0.9);
+        if (shape == HeadShape::cone) {
+            burr.head.tip_diameter_mm = burr.diameter_mm;
+            (draw.one_in(2.0) ? burr.head.tip_diameter_mm : burr.head.neck_diameter_mm) = end_mm;
+        }
+        drawn.motion.name += fmt::format(
+            ", {} {:.2f} mm long, tip {:.2f}, neck {:.2f}", head_shape_names[static_cast<std::size_t>(shape)],
+            burr.head.length_mm, burr.head.tip_diameter_mm, burr.head.neck_diameter_mm);
     }
 }
 

@@ -29,6 +29,10 @@ std::vector<RandomMotion> random_motions(int count, std::uint64_t seed, double v
 /// Gives their burrs edge forces: K_te and K_re of 0 to 1 N/mm, K_ae of 0 to 0.2. The motions stay the same.
 void draw_edge_forces(std::vector<RandomMotion>& motions, std::uint64_t seed);
 
+/// Gives their burrs heads that are no balls, one to three diameters long, of all shapes alike; cones stand
+/// on either end.
+void draw_heads(std::vector<RandomMotion>& motions, std::uint64_t seed);
+
 struct RandomResult {
     RandomMotion motion;
     glm::dvec3 reference_n{0.0};  ///< of a dive: its mean over the path

@@ -8,7 +8,8 @@
 // the chip's thickness in the burr's cylindrical coordinates, so that t dz = (normal thickness) x (arc R
 // dkappa), as in Lee and Altintas 1996. Edges that rub add (K_te, K_re, K_ae) for each mm where t > 0. T is 1
 // where the bone function says bone, else 0. Sums over k and over instants are midpoint quadratures over
-// kappa and psi.
+// kappa and psi. Of a head that is no ball, kappa is the angle of its outline's normal and R dkappa the
+// outline's ds.
 #pragma once
 
 #include <functional>
@@ -31,7 +32,7 @@ struct SteadyMotion {
 /// earlier pass), and need not be elsewhere, since only the half of the burr that faces the motion cuts.
 using BoneFunction = std::function<double(const glm::dvec3& position_mm)>;
 
-/// Points of the quadrature along kappa and along psi.
+/// Points of the quadrature along the outline (of a ball: along kappa) and along psi.
 struct Quadrature {
     int kappa = 180;
     int psi = 720;

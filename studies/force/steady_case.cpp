@@ -8,9 +8,14 @@
 #include <cmath>
 #include <fstream>
 #include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 #include <string_view>
+
+#include "common/scene/burr_frame.h"
+#include "common/scene/burr_profile.h"
 
 namespace osteomill::study {
 
@@ -122,15 +127,47 @@ json parsed(const std::filesystem::path& file) {
     }
 }
 
+/// The groove is where the head comes by: the distance from a convex body is convex along a line, and its
+/// least is found by golden section.
+BoneFunction bone_with_groove_of_head(const SteadyCase& c, const glm::dvec3& groove,
+                                      const glm::dvec3& direction) {
+    const auto profile = std::make_shared<BurrProfile>(c.burr.head, c.burr.diameter_mm);
+    const glm::dmat3 to_burr = glm::transpose(burr_frame(c.spindle_axis));
+    const double reach_mm = 2.0 * (profile->bounding_radius() + profile->largest_radius());
+    return [=, up = c.up](const glm::dvec3& p) {
+        if (glm::dot(p, up) > 0.0) return 0.0;
+        const glm::dvec3 w = p - groove;
+        const auto distance = [&](double along_mm) {
+            const glm::dvec3 in_burr = to_burr * (w - along_mm * direction);
+            return profile->nearest(std::hypot(in_burr.x, in_burr.y), in_burr.z).distance;
+        };
+        constexpr double golden = 0.61803398874989485;
+        double low = glm::dot(w, direction) - reach_mm;
+        double high = low + 2.0 * reach_mm;
+        for (int i = 0; i < 32; ++i) {
+            const double a = high - golden * (high - low);
+            const double b = low + golden * (high - low);
+            (distance(a) < distance(b) ? high : low) = distance(a) < distance(b) ? b : a;
+        }
+        return distance(0.5 * (low + high)) > 0.0 ? 1.0 : 0.0;
+    };
+}
+
 }  // namespace
 
 std::ostream& operator<<(std::ostream& out, const SteadyCase& c) {
     return out << c.name;
 }
 
+double above_lowest_mm(const SteadyCase& c) {
+    if (c.burr.is_ball()) return c.burr.radius_mm();
+    return BurrProfile(c.burr.head, c.burr.diameter_mm)
+        .reach_along(glm::transpose(burr_frame(c.spindle_axis)) * -c.up);
+}
+
 SteadyMotion motion_of(const SteadyCase& c) {
     return {.burr = c.burr,
-            .position_mm = (c.burr.radius_mm() - c.depth_mm) * c.up,
+            .position_mm = (above_lowest_mm(c) - c.depth_mm) * c.up,
             .spindle_axis = c.spindle_axis,
             .velocity_mm_per_s = c.velocity_mm_per_s};
 }
@@ -141,6 +178,7 @@ BoneFunction bone_of(const SteadyCase& c) {
         return [up](const glm::dvec3& p) { return glm::dot(p, up) <= 0.0 ? 1.0 : 0.0; };
     const glm::dvec3 groove = motion_of(c).position_mm + *c.previous_groove_mm_higher * up;
     const glm::dvec3 direction = glm::normalize(c.velocity_mm_per_s);
+    if (!c.burr.is_ball()) return bone_with_groove_of_head(c, groove, direction);
     const double radius = c.burr.radius_mm();
     return [=](const glm::dvec3& p) {
         if (glm::dot(p, up) > 0.0) return 0.0;

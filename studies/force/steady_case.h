@@ -21,7 +21,7 @@ struct SteadyCase {
     glm::dvec3 velocity_mm_per_s{0.0};
     glm::dvec3 spindle_axis{0.0, 0.0, 1.0};  ///< unit, tip to shank
     glm::dvec3 up{0.0, 0.0, 1.0};            ///< unit, out of the bone; +z in a case file
-    double depth_mm = 0.0;                   ///< of the sphere's lowest point
+    double depth_mm = 0.0;                   ///< of the burr's lowest point
     /// The same burr cut a groove along the velocity before, that much higher.
     std::optional<double> previous_groove_mm_higher{};
     glm::dvec3 mean_force_n{0.0};    ///< of the case file
@@ -30,6 +30,9 @@ struct SteadyCase {
 
 /// Prints the name, for test reports.
 std::ostream& operator<<(std::ostream& out, const SteadyCase& c);
+
+/// How high the burr's origin stands above its lowest point, along `up`: a ball's radius.
+double above_lowest_mm(const SteadyCase& c);
 
 /// Where the burr is when the depth is that of the case.
 SteadyMotion motion_of(const SteadyCase& c);

@@ -7,6 +7,7 @@
 #include <glm/geometric.hpp>
 #include <vector>
 
+#include "common/scene/burr_profile.h"
 #include "studies/force/bone_block.h"
 #include "studies/force/path_run.h"
 
@@ -28,7 +29,7 @@ SteadyPath path_of(const SteadyCase& c, const SteadyRun& run) {
         std::max(run.min_steps, static_cast<int>(std::lround(run.travel_mm / (speed * path.step_s))));
 
     const glm::dvec3 offset = off_the_lattice_mm - glm::dot(off_the_lattice_mm, c.up) * c.up;
-    path.start_mm = (radius - c.depth_mm) * c.up + offset;
+    path.start_mm = (above_lowest_mm(c) - c.depth_mm) * c.up + offset;
     const double climb = glm::dot(direction, c.up);
     const bool steady_for_good = std::abs(climb) < 1e-9 || (climb < -1.0 + 1e-9 && c.depth_mm >= radius);
     if (!steady_for_good) {
@@ -43,7 +44,12 @@ SteadyPath path_of(const SteadyCase& c, const SteadyRun& run) {
 ForceSeries run_steady(const SteadyCase& c, const SteadyRun& run, const MakeModel& make_model) {
     const SteadyPath path = path_of(c, run);
     const glm::dvec3 direction = glm::normalize(c.velocity_mm_per_s);
-    const double margin = c.burr.radius_mm() + 5.0 * run.voxel_mm;
+    double reach = c.burr.radius_mm();
+    if (!c.burr.is_ball()) {
+        const BurrProfile head(c.burr.head, c.burr.diameter_mm);
+        reach += std::max(-head.tip_height(), head.top_height());
+    }
+    const double margin = reach + 5.0 * run.voxel_mm;
     const BoneBlock block{.low_mm = glm::min(path.start_mm, path.end_mm) - margin,
                           .high_mm = glm::max(path.start_mm, path.end_mm) + margin,
                           .up = c.up};

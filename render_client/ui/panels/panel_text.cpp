@@ -47,8 +47,10 @@ PanelText tool_text(const OverlayContent& content) {
     PanelText text;
     if (content.session && tool.burr < content.session->burrs.size()) {
         const Burr& burr = content.session->burrs[tool.burr];
+        const std::string_view head =
+            burr.is_ball() ? "burr" : head_shape_names[static_cast<std::size_t>(burr.head.shape)];
         text.push_back(
-            line(Tone::plain, fmt::format("burr {:.1f} mm, {} edges", burr.diameter_mm, burr.edges)));
+            line(Tone::plain, fmt::format("{} {:.1f} mm, {} edges", head, burr.diameter_mm, burr.edges)));
         text.push_back(tool.spindle_on ? line(Tone::good, fmt::format("spindle {:.0f} rpm",
                                                                       60.0 * burr.spindle_rev_per_s))
                                        : line(Tone::dim, "spindle off"));

@@ -199,7 +199,7 @@ DrawnTool SessionPicture::drawn_tool() const {
     const SessionInfo* session = source_.session();
     if (session && tool_->burr < session->burrs.size()) {
         const Burr& burr = session->burrs[tool_->burr];
-        drawn.burr = {burr.diameter_mm, burr.edges, burr.sense == SpindleSense::clockwise};
+        drawn.burr = {burr.diameter_mm, burr.head, burr.edges, burr.sense == SpindleSense::clockwise};
     }
     if (operator_command_ &&
         glm::distance(operator_command_->hand_target_mm, tool_->burr_position_mm) > nearest_shown_target_mm)

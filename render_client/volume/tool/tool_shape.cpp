@@ -6,6 +6,8 @@
 #include <glm/geometric.hpp>
 #include <numbers>
 
+#include "common/scene/burr_profile.h"
+
 namespace osteomill {
 
 namespace {
@@ -90,11 +92,11 @@ glm::vec3 marked_shank(double angle_rad) {
     return std::abs(std::sin(angle_rad)) < 0.35 ? groove_steel : shank_steel;
 }
 
-/// 1 at the bottom of a flute, 0 on the land between two. Flutes wind round the axis and fade at the tip.
-double groove_depth(const BurrShape& burr, double angle_rad, double from_tip_rad) {
+/// `share` at the bottom of a flute, 0 on the land between two. Flutes wind round the axis.
+double groove_depth(const BurrShape& burr, double angle_rad, double winding_rad, double share) {
     const double winding = burr.clockwise ? -1.0 : 1.0;
-    const double phase = burr.edges * (angle_rad + winding * 0.6 * from_tip_rad);
-    return std::pow(0.5 + 0.5 * std::cos(phase), 3.0) * std::sin(from_tip_rad);
+    const double phase = burr.edges * (angle_rad + winding * 0.6 * winding_rad);
+    return std::pow(0.5 + 0.5 * std::cos(phase), 3.0) * share;
 }
 
 Triangles fluted_sphere(const BurrShape& burr) {
@@ -102,7 +104,7 @@ Triangles fluted_sphere(const BurrShape& burr) {
     const double radius = 0.5 * burr.diameter_mm;
     Triangles sphere = wrap(rows, 120, [&](int row, double angle_rad) {
         const double from_tip_rad = std::numbers::pi * row / (rows - 1);
-        const double groove = groove_depth(burr, angle_rad, from_tip_rad);
+        const double groove = groove_depth(burr, angle_rad, from_tip_rad, std::sin(from_tip_rad));
         const double r = radius * (1.0 - 0.14 * groove);
         const double around = r * std::sin(from_tip_rad);
         return Vertex{
@@ -114,16 +116,44 @@ Triangles fluted_sphere(const BurrShape& burr) {
     return sphere;
 }
 
+/// The same of another head: along its outline, with flutes that fade where a face nears the spindle.
+Triangles fluted_head(const BurrShape& burr, const BurrProfile& profile) {
+    constexpr int rows = 96;
+    const double radius = 0.5 * burr.diameter_mm;
+    Triangles head = wrap(rows, 120, [&](int row, double angle_rad) {
+        const OutlinePoint point = profile.outline_at(profile.outline_length() * row / (rows - 1));
+        const double winding_rad = (point.height - profile.tip_height()) / radius;
+        const double groove =
+            groove_depth(burr, angle_rad, winding_rad, std::min(1.0, point.radius / radius));
+        const double around = point.radius - 0.14 * radius * groove * point.out;
+        return Vertex{{around * std::cos(angle_rad), around * std::sin(angle_rad),
+                       point.height - 0.14 * radius * groove * point.up},
+                      {},
+                      glm::mix(bright_steel, groove_steel, static_cast<float>(groove))};
+    });
+    smooth_normals(head);
+    return head;
+}
+
 }  // namespace
 
 Triangles burr_and_shank(const BurrShape& burr) {
     const double radius = 0.5 * burr.diameter_mm;
-    const double neck = 0.45 * radius;
     const double shank = radius > 1.0 ? handpiece_shank_radius_mm : turbine_shank_radius_mm;
-    const double neck_end = radius + std::max(2.0, 1.2 * radius);
+    double neck = 0.45 * radius;
+    double head_end = radius;
+    Triangles tool;
+    if (burr.head.shape == HeadShape::ball) {
+        tool = fluted_sphere(burr);
+    } else {
+        const BurrProfile profile(burr.head, burr.diameter_mm);
+        tool = fluted_head(burr, profile);
+        head_end = profile.top_height();
+        neck = std::min(neck, 0.4 * burr.head.neck_diameter_mm);
+    }
+    const double neck_end = head_end + std::max(2.0, 1.2 * radius);
     const double taper_end = neck_end + 3.0;
-    Triangles tool = fluted_sphere(burr);
-    append(tool, lathe({{0.8 * radius, neck},
+    append(tool, lathe({{head_end - 0.2 * radius, neck},
                         {neck_end, neck},
                         {taper_end, shank},
                         {taper_end + shank_length_mm, shank},

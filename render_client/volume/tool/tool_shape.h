@@ -1,20 +1,22 @@
 // The shapes of what is drawn beside the bone, as triangles: burr with shank, force arrow, sphere.
 #pragma once
 
+#include "common/scene/burr_head.h"
 #include "render_client/volume/tool/triangles.h"
 
 namespace osteomill {
 
 struct BurrShape {
     double diameter_mm = 5.0;
+    BurrHead head{};
     int edges = 6;
     bool clockwise = true;  ///< which way the flutes wind
 
     bool operator==(const BurrShape&) const = default;
 };
 
-/// Fluted sphere, tapered neck and cylindrical shank in the burr frame: origin at the sphere's centre, +z
-/// from tip to shank, mm. The flutes are cut into the sphere, so the outline is the burr's true radius.
+/// Fluted head, tapered neck and cylindrical shank in the burr frame: +z from tip to shank, mm. The flutes
+/// are cut into the head, so the outline is the burr's true one.
 Triangles burr_and_shank(const BurrShape& burr);
 
 /// An arrow from the origin along +z of length 1 with a shaft and a head.

@@ -1,0 +1,74 @@
+#include "haptic_server/cutting_force/head_force.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+
+#include "haptic_server/cutting_force/axis_singularity_kernel.h"
+#include "haptic_server/cutting_force/edge_advance.h"
+
+namespace osteomill {
+
+namespace {
+
+/// Position of a removed voxel, burr axes, voxels.
+glm::dvec3 position_of(const CuttingStep& step, const RemovedVoxels& removed, std::size_t i) {
+    const glm::dvec3 voxel = glm::dvec3(removed.base) + glm::dvec3(removed.x[i], removed.y[i], removed.z[i]);
+    return glm::transpose(step.frame) * (voxel - step.middle_voxels);
+}
+
+/// Its force, burr axes, in units of CuttingStep::newton_per_unit.
+glm::dvec3 force_of(const CuttingStep& step, const glm::dvec3& position, double weight, double edge_weight) {
+    const double r_squared = position.x * position.x + position.y * position.y;
+    const double r = std::sqrt(r_squared);
+    const NearestSurface surface = step.head->nearest(r, position.z);
+    const double per_r = 1.0 / std::max(r, 0.1);
+    const AxisKernel<double> mean = axis_kernel(r_squared, per_r);
+
+    glm::dvec3 k = weight * glm::dvec3(step.coefficients);
+    if (step.has_edge_force) {
+        const glm::dvec3 path(step.path_direction);
+        const double ahead =
+            surface.out * per_r * (position.x * path.x + position.y * path.y) + surface.up * path.z;
+        const double bend = std::max(surface.curvature, surface.out * per_r);
+        const double turn =
+            std::max(static_cast<double>(step.half_path_voxels) * bend, static_cast<double>(least_turn));
+        const double per_chip =
+            static_cast<double>(step.per_full_chip_mm) * edge_weight / edge_advance(ahead, turn);
+        k += per_chip * glm::dvec3(step.edge_coefficients_n_per_mm);
+    }
+    // e_psi / r and e_r / r are the mean swirl times (-y, x) and (x, y).
+    const double outward = (k.y * surface.out - k.z * surface.up) * mean.swirl;
+    const double around = k.x * mean.swirl;
+    return {around * position.y - outward * position.x, -around * position.x - outward * position.y,
+            -(k.y * surface.up + k.z * surface.out) * mean.inverse};
+}
+
+}  // namespace
+
+void head_forces(const CuttingStep& step, const RemovedVoxels& removed, const ChipWeights& weights,
+                 ChipForces& out) noexcept {
+    for (std::size_t i = 0; i < removed.padded_count(); ++i) {
+        const glm::dvec3 position = position_of(step, removed, i);
+        const glm::dvec3 force = force_of(step, position, static_cast<double>(weights.chip[i]),
+                                          static_cast<double>(weights.edge[i]));
+        out.x[i] = static_cast<float>(position.x);
+        out.y[i] = static_cast<float>(position.y);
+        out.z[i] = static_cast<float>(position.z);
+        out.force_x[i] = static_cast<float>(force.x);
+        out.force_y[i] = static_cast<float>(force.y);
+        out.force_z[i] = static_cast<float>(force.z);
+    }
+}
+
+glm::dvec3 sum_of_head_forces(const CuttingStep& step, const RemovedVoxels& removed,
+                              const ChipWeights& weights) noexcept {
+    glm::dvec3 sum(0.0);
+    for (std::size_t i = 0; i < removed.count; ++i)
+        sum += force_of(step, position_of(step, removed, i), static_cast<double>(weights.chip[i]),
+                        static_cast<double>(weights.edge[i]));
+    return sum;
+}
+
+}  // namespace osteomill
