@@ -89,7 +89,6 @@ NearestSurface BurrProfile::nearest(double radius, double height) const noexcept
     double least_squared = std::numeric_limits<double>::infinity();
     double least_out = 0.0;
     double least_up = 0.0;
-    bool least_is_corner = true;
     for (const Side& side : sides_) {
         const double out = radius - side.from.radius;
         const double up = height - side.from.height;
@@ -108,7 +107,6 @@ NearestSurface BurrProfile::nearest(double radius, double height) const noexcept
             least_squared = squared;
             least_out = to_out;
             least_up = to_up;
-            least_is_corner = clamped != along;
         }
     }
     if (sides_.empty()) {
@@ -116,12 +114,11 @@ NearestSurface BurrProfile::nearest(double radius, double height) const noexcept
         least_up = height - chain_.front().height;
         least_squared = least_out * least_out + least_up * least_up;
     } else if (deepest <= 0.0) {
-        return {deepest - rounding_, deepest_side->out, deepest_side->up, 0.0};
+        return {deepest - rounding_, deepest_side->out, deepest_side->up};
     }
     const double distance = std::sqrt(least_squared);
-    if (distance < 1e-12) return {-rounding_, 0.0, -1.0, 0.0};
-    return {distance - rounding_, least_out / distance, least_up / distance,
-            least_is_corner ? 1.0 / distance : 0.0};
+    if (distance < 1e-12) return {-rounding_, 0.0, -1.0};
+    return {distance - rounding_, least_out / distance, least_up / distance};
 }
 
 double BurrProfile::bounding_radius() const {

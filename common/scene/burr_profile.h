@@ -19,8 +19,6 @@ struct NearestSurface {
     double distance = 0.0;  ///< from the surface, negative inside
     double out = 0.0;       ///< the outward normal: away from the spindle
     double up = 0.0;        ///< and along it, from tip to shank
-    /// Of the outline there, 1 over a length, at the point's own distance; 0 along a straight line.
-    double curvature = 0.0;
 };
 
 /// A point of the outline.

@@ -6,6 +6,8 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
+#include <limits>
+#include <numbers>
 
 namespace osteomill {
 
@@ -24,16 +26,13 @@ class SweptHead {
           along_(to_burr_ * (sweep.to - sweep.from)),
           length_(glm::length(along_)) {}
 
-    double length() const { return length_; }
-
-    /// From the head at the sweep's end.
-    double at_end(const glm::dvec3& point) const noexcept { return seen(point_at_end(point)).distance; }
-
-    /// From all of the sweep. The distance from a convex body is convex along a line: the nearest approach is
+    /// From all of the sweep, as far as `within` to either side of its surface: beyond, no more is known than
+    /// the side. The distance from a convex body is convex along a line: the nearest approach is
     /// at an end or where the distance stops falling.
-    double swept(const glm::dvec3& point) const noexcept {
-        const glm::dvec3 at_end = point_at_end(point);
+    double swept(const glm::dvec3& point, double within) const noexcept {
+        const glm::dvec3 at_end = to_burr_ * (point - to_);
         const Seen end = seen(at_end);
+        if (end.distance <= -within || end.distance > within + length_) return end.distance;
         if (length_ == 0.0 || end.slope <= 0.0) return end.distance;
         const Seen start = seen(at_end + along_);
         if (start.slope >= 0.0) return start.distance;
@@ -64,10 +63,8 @@ class SweptHead {
         double slope;  ///< of the distance, as the head moves along the sweep
     };
 
-    glm::dvec3 point_at_end(const glm::dvec3& point) const noexcept { return to_burr_ * (point - to_); }
-
     Seen seen(const glm::dvec3& in_burr) const noexcept {
-        const double radius = std::hypot(in_burr.x, in_burr.y);
+        const double radius = std::sqrt(in_burr.x * in_burr.x + in_burr.y * in_burr.y);
         const NearestSurface nearest = profile_.nearest(radius, in_burr.z);
         const double outward = radius > 1e-9 ? (in_burr.x * along_.x + in_burr.y * along_.y) / radius : 0.0;
         return {nearest.distance, -(nearest.out * outward + nearest.up * along_.z)};
@@ -116,8 +113,8 @@ class HeadCarver {
     /// Whether no voxel of the cube of `edge` voxels from `first` on is touched.
     bool misses_cube(const glm::ivec3& first, int edge) const noexcept {
         const double half = 0.5 * (edge - 1);
-        return head_.at_end(glm::dvec3(first) + half) >
-               std::sqrt(3.0) * half + head_.length() + touched_within_;
+        const double reach = std::numbers::sqrt3 * half + touched_within_;
+        return head_.swept(glm::dvec3(first) + half, reach) > reach;
     }
 
     void carve_brick(const glm::ivec3& brick) noexcept {
@@ -146,23 +143,32 @@ class HeadCarver {
             }
         if (any == 0 || misses_cube(corner + block, block_edge)) return false;
         bool has_changed = false;
-        for (int z = 0; z < block_edge; ++z)
-            for (int y = 0; y < block_edge; ++y)
-                for (int x = 0; x < block_edge; ++x) {
-                    const glm::ivec3 voxel = block + glm::ivec3(x, y, z);
-                    const std::size_t offset = offset_in_brick(voxel);
-                    const std::int32_t old = fractions[offset];
-                    if (old == 0) continue;
-                    const glm::ivec3 position = corner + voxel;
-                    const std::int32_t left =
-                        std::min(old, level_left_at(coverage_, head_.swept(glm::dvec3(position))));
-                    if (left == old) continue;
-                    fractions[offset] = static_cast<std::uint8_t>(left);
-                    change.voxels.set(offset);
-                    has_changed = true;
-                    enter(slot, offset, position, old - left);
+        for (int z = 0; z < block_edge; z += 2)
+            for (int y = 0; y < block_edge; y += 2)
+                for (int x = 0; x < block_edge; x += 2) {
+                    const glm::ivec3 eight = block + glm::ivec3(x, y, z);
+                    if (misses_cube(corner + eight, 2)) continue;
+                    for (int i = 0; i < 8; ++i)
+                        has_changed |=
+                            carve_voxel(slot, corner, eight + glm::ivec3(i & 1, i >> 1 & 1, i >> 2), change);
                 }
         return has_changed;
+    }
+
+    bool carve_voxel(std::int32_t slot, const glm::ivec3& corner, const glm::ivec3& voxel,
+                     BrickChange& change) noexcept {
+        const std::size_t offset = offset_in_brick(voxel);
+        std::uint8_t& fraction = bone_.fractions(slot)[offset];
+        const std::int32_t old = fraction;
+        if (old == 0) return false;
+        const glm::ivec3 position = corner + voxel;
+        const std::int32_t left =
+            std::min(old, level_left_at(coverage_, head_.swept(glm::dvec3(position), touched_within_)));
+        if (left == old) return false;
+        fraction = static_cast<std::uint8_t>(left);
+        change.voxels.set(offset);
+        enter(slot, offset, position, old - left);
+        return true;
     }
 
     void enter(std::int32_t slot, std::size_t offset, const glm::ivec3& position,
@@ -199,7 +205,7 @@ class HeadCarver {
 }  // namespace
 
 double distance_from(const HeadSweep& sweep, const glm::dvec3& point) noexcept {
-    return SweptHead(sweep).swept(point);
+    return SweptHead(sweep).swept(point, std::numeric_limits<double>::infinity());
 }
 
 void carve_head(Bone& bone, const HeadSweep& sweep, VoxelCoverage coverage, ChangeSink& changes,

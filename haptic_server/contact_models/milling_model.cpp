@@ -22,6 +22,8 @@ namespace {
 /// Directions are taken from the middle of a substep: the force of one as long as the burr's
 /// radius would be 10 % off, that of an eighth of it 0.2 %.
 constexpr double longest_substep_radii = 0.125;
+/// The outline of another head has narrow bends: its edges rub on what the surface passes in a voxel or so.
+constexpr double longest_head_substep_voxels = 1.0;
 /// At 10 kHz a burr moves by less than one of a voxel's 255 levels at a time. Below five of them, and for no
 /// longer than a haptic tick, milling waits: the bone comes out the same and so does the mean force.
 constexpr double shortest_path_voxels = 0.02;
@@ -171,7 +173,8 @@ void MillingModel::mill(const BurrCommand& command, ChangeSink& changes, Milling
     const bool is_first = !carved_at_position_;
     const ToolPose from{position_mm_, spindle_axis_};
     const glm::dvec3 path_mm = command.pose.position_mm - from.position_mm;
-    const double longest_mm = longest_substep_radii * burrs_[burr_].radius_mm();
+    const double longest_mm = heads_[burr_] ? longest_head_substep_voxels * bone_.grid().spacing_mm
+                                            : longest_substep_radii * burrs_[burr_].radius_mm();
     const double substeps = std::clamp(std::ceil(motion_mm(command) / longest_mm), 1.0, most_substeps);
     for (double i = 1.0; i <= substeps; i += 1.0) {
         ToolPose to = command.pose;

@@ -6,7 +6,6 @@
 #include <glm/matrix.hpp>
 
 #include "haptic_server/cutting_force/axis_singularity_kernel.h"
-#include "haptic_server/cutting_force/edge_advance.h"
 
 namespace osteomill {
 
@@ -16,6 +15,20 @@ namespace {
 glm::dvec3 position_of(const CuttingStep& step, const RemovedVoxels& removed, std::size_t i) {
     const glm::dvec3 voxel = glm::dvec3(removed.base) + glm::dvec3(removed.x[i], removed.y[i], removed.z[i]);
     return glm::transpose(step.frame) * (voxel - step.middle_voxels);
+}
+
+/// How far the surface came towards the voxel, as a share of the burr's path: its distance at the step's
+/// start less the least, looked for half-way and at the end. Faces that lie along the path within half a
+/// degree count as if they were half a degree off: voxels tell no finer.
+double advance_share(const CuttingStep& step, const glm::dvec3& position, double distance_half_way) {
+    constexpr double least = 0.01;
+    const glm::dvec3 half_path = static_cast<double>(step.half_path_voxels) * glm::dvec3(step.path_direction);
+    const auto distance_at = [&](const glm::dvec3& p) {
+        return step.head->nearest(std::hypot(p.x, p.y), p.z).distance;
+    };
+    const double nearest = std::min(distance_half_way, distance_at(position - half_path));
+    const double path = 2.0 * static_cast<double>(step.half_path_voxels);
+    return std::max((distance_at(position + half_path) - nearest) / path, least);
 }
 
 /// Its force, burr axes, in units of CuttingStep::newton_per_unit.
@@ -28,15 +41,9 @@ glm::dvec3 force_of(const CuttingStep& step, const glm::dvec3& position, double 
 
     glm::dvec3 k = weight * glm::dvec3(step.coefficients);
     if (step.has_edge_force) {
-        const glm::dvec3 path(step.path_direction);
-        const double ahead =
-            surface.out * per_r * (position.x * path.x + position.y * path.y) + surface.up * path.z;
-        const double bend = std::max(surface.curvature, surface.out * per_r);
-        const double turn =
-            std::max(static_cast<double>(step.half_path_voxels) * bend, static_cast<double>(least_turn));
-        const double per_chip =
-            static_cast<double>(step.per_full_chip_mm) * edge_weight / edge_advance(ahead, turn);
-        k += per_chip * glm::dvec3(step.edge_coefficients_n_per_mm);
+        const double advance = advance_share(step, position, surface.distance);
+        k += static_cast<double>(step.per_full_chip_mm) * edge_weight / advance *
+             glm::dvec3(step.edge_coefficients_n_per_mm);
     }
     // e_psi / r and e_r / r are the mean swirl times (-y, x) and (x, y).
     const double outward = (k.y * surface.out - k.z * surface.up) * mean.swirl;

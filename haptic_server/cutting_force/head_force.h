@@ -7,8 +7,8 @@
 //     n = (cos psi n_r, sin psi n_r, n_z)       e_kappa = (-cos psi n_z, -sin psi n_z, n_r)
 //
 // and an edge is as long as the outline. Normals are those of the surface nearest to the voxel. Edges rub on
-// s V / (n . d) as there (edge_advance.h), with the turn of the normal while the burr passes from the
-// outline's curvature and from n_r / r, its curvature about the spindle.
+// s V / a, with a how far the surface came towards the voxel in the step: along a straight outline that is n
+// . d, and where the outline bends it is of the face that took the voxel, whichever is nearest half-way.
 #pragma once
 
 #include "haptic_server/cutting_force/chip_force.h"

@@ -43,5 +43,15 @@ TEST(ForceClaims, HoldWithEdgesThatRub) {
     EXPECT_LT(found.at("p95_error_percent"), 2.0);
 }
 
+TEST(ForceClaims, HoldForHeadsThatAreNoBall) {
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+    GTEST_SKIP() << "accuracy is the optimised program's; under a sanitizer it takes minutes";
+#endif
+    const auto found = measured("--random 150 --seed 20261124 --heads");
+    EXPECT_EQ(found.at("cases"), 150);
+    EXPECT_LT(found.at("median_error_percent"), 0.3);
+    EXPECT_LT(found.at("p95_error_percent"), 2.0);
+}
+
 }  // namespace
 }  // namespace osteomill

@@ -80,6 +80,52 @@ TEST(Engagement, AdvancingIntoAFreshSlotPredictsTheReferenceForce) {
     EXPECT_LT(glm::length(force - reference) / glm::length(reference), 0.02);
 }
 
+TEST(Engagement, OfAHeadThatIsNoBallPredictsTheReferenceForce) {
+    const Bone bone = testing::make_block({-4.0, -4.0, -4.0}, {4.0, 4.0, 6.0}, 0.1);
+    auto engagement = std::make_unique<Engagement>();
+    const glm::dvec3 axis = glm::normalize(glm::dvec3(0.3, -0.4, 1.0));
+    const glm::dvec3 velocity_mm_per_s(5.0, 2.0, -1.0);
+    for (const HeadShape shape : {HeadShape::cylinder, HeadShape::cone, HeadShape::barrel, HeadShape::pear}) {
+        const Burr burr{.diameter_mm = 2.0, .head = usual_head(shape, 2.0, 4.0)};
+        EngagementProbe(burr, 0.1).sample(bone, glm::dvec3(0.0), axis, *engagement);
+        glm::dvec3 force(0.0);
+        double removal_mm3_per_s = 0.0;
+        for (std::size_t i = 0; i < engagement->count; ++i) {
+            const EngagedPatch& patch = engagement->patches[i];
+            const double advance = std::max(0.0, glm::dot(patch.normal, velocity_mm_per_s));
+            force += patch.cutting_n_s_per_mm * advance;
+            removal_mm3_per_s += patch.area_mm2 * advance;
+        }
+        const study::SteadyMotion motion{
+            .burr = burr, .spindle_axis = axis, .velocity_mm_per_s = velocity_mm_per_s};
+        const auto everywhere = [](const glm::dvec3&) { return 1.0; };
+        const glm::dvec3 reference = study::mean_reference_force_n(motion, everywhere);
+        EXPECT_LT(glm::length(force - reference) / glm::length(reference), 0.02) << static_cast<int>(shape);
+        EXPECT_NEAR(removal_mm3_per_s / study::reference_removal_mm3_per_s(motion, everywhere), 1.0, 0.02);
+    }
+}
+
+TEST(Engagement, GapOfAHeadThatIsNoBallIsTheDistanceToAFlatSurface) {
+    const Bone bone = flat_block();
+    auto engagement = std::make_unique<Engagement>();
+    // The face of an upright cylinder: every patch of it is as far from the bone.
+    const Burr burr{.diameter_mm = 3.0, .head = usual_head(HeadShape::cylinder, 3.0, 6.0)};
+    EngagementProbe probe(burr, 0.1);
+    for (const double height_mm : {0.09, 0.03, -0.05}) {
+        probe.sample(bone, {0.0, 0.0, 1.5 + height_mm}, up, *engagement);
+        double face_mm2 = 0.0;
+        for (std::size_t i = 0; i < engagement->count; ++i) {
+            const EngagedPatch& patch = engagement->patches[i];
+            if (patch.normal.z > -0.9999) continue;
+            EXPECT_NEAR(patch.gap_mm, height_mm, 0.02);
+            face_mm2 += patch.area_mm2;
+        }
+        EXPECT_NEAR(face_mm2, std::numbers::pi * 1.2 * 1.2, 0.6);
+    }
+    probe.sample(bone, {0.0, 0.0, 2.0}, up, *engagement);
+    EXPECT_EQ(engagement->count, 0U);
+}
+
 TEST(Engagement, SaysWithWhatForceEdgesRub) {
     // The same slot at half immersion: what the patches that advance add up to is the reference's edge force.
     const Bone bone = testing::make_block({-4.0, -4.0, -4.0}, {4.0, 4.0, 0.0}, 0.1);

@@ -224,6 +224,30 @@ TEST(SceneFile, ValuesOutOfRangeOrOfTheWrongTypeAreRefused) {
     EXPECT_THAT(error_of(smallest + "[trajectory]\nspeed_mm_per_s = 3\n"), HasSubstr("takes either motion"));
 }
 
+TEST(SceneFile, ReadsAndWritesHeadsThatAreNoBall) {
+    const auto head = [](const std::string& keys) {
+        return parse_scene(smallest + "[[burrs]]\nname = \"b\"\ndiameter_mm = 2\n" + keys, "my.toml");
+    };
+    EXPECT_TRUE(head("").burrs[0].is_ball());
+    EXPECT_EQ(head("shape = \"cylinder\"\nlength_mm = 4\n").burrs[0].head,
+              (BurrHead{HeadShape::cylinder, 4.0, 2.0, 2.0}));
+    EXPECT_EQ(head("shape = \"cone\"\nlength_mm = 4\ntip_diameter_mm = 0.8\n").burrs[0].head,
+              (BurrHead{HeadShape::cone, 4.0, 0.8, 2.0}));
+    for (const char* keys : {"shape = \"pear\"\nlength_mm = 4\nneck_diameter_mm = 0.9\n",
+                             "shape = \"barrel\"\nlength_mm = 3\n", "shape = \"ball\"\n"}) {
+        const Scene scene = head(keys);
+        EXPECT_EQ(parse_scene(write_scene(scene), "back.toml").burrs, scene.burrs);
+    }
+    const auto refused = [](const std::string& keys) {
+        return error_of(smallest + "[[burrs]]\nname = \"b\"\ndiameter_mm = 2\n" + keys);
+    };
+    EXPECT_THAT(refused("shape = \"egg\"\n"), HasSubstr("my.toml:7"));
+    EXPECT_THAT(refused("length_mm = 4\n"), HasSubstr("a ball takes 'diameter_mm' alone"));
+    EXPECT_THAT(refused("shape = \"cone\"\n"), HasSubstr("'length_mm'"));
+    EXPECT_THAT(refused("shape = \"cone\"\nlength_mm = 4\ntip_diameter_mm = 0.2\n"),
+                HasSubstr("0.3 to 1 times as wide"));
+}
+
 TEST(SceneFile, AShankThatCannotBeIsRefused) {
     const auto refused = [](const std::string& shank) {
         return error_of(smallest + "[[burrs]]\nname = \"b\"\ndiameter_mm = 2\nshank = " + shank + "\n");

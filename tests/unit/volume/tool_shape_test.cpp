@@ -21,6 +21,18 @@ TEST(ToolShape, HasTheBurrsRadiusAndAShankTowardsPlusZ) {
     EXPECT_GT(highest, 15.0f);
 }
 
+TEST(ToolShape, HasTheOutlineOfAHeadThatIsNoBall) {
+    const Triangles tool =
+        burr_and_shank({.diameter_mm = 2.0, .head = usual_head(HeadShape::cylinder, 2.0, 5.0), .edges = 8});
+    float lowest = 0.0f, widest = 0.0f;
+    for (const Vertex& vertex : tool.vertices) {
+        lowest = std::min(lowest, vertex.position.z);
+        if (vertex.position.z < 3.9f) widest = std::max(widest, glm::length(glm::vec2(vertex.position)));
+    }
+    EXPECT_NEAR(lowest, -1.0f, 1e-5f);
+    EXPECT_NEAR(widest, 1.0f, 1e-3f);
+}
+
 TEST(ToolShape, TurnsEveryTriangleOutwards) {
     const Triangles sphere = unit_sphere({1.0f, 1.0f, 1.0f});
     for (std::size_t first = 0; first < sphere.indices.size(); first += 3) {

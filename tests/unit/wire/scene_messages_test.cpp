@@ -122,6 +122,23 @@ TEST(SceneMessages, MakeTheOperatorsAxisAUnitVector) {
     EXPECT_TRUE(command.pedal);
 }
 
+TEST(SceneMessages, CarryHeadsThatAreNoBall) {
+    const Burr pear{.name = "pear", .diameter_mm = 2.0, .head = usual_head(HeadShape::pear, 2.0, 4.0)};
+    google::protobuf::RepeatedPtrField<v1::BurrDescription> messages;
+    *messages.Add() = to_message(Burr{.name = "ball"});
+    *messages.Add() = to_message(pear);
+    EXPECT_FALSE(messages[0].has_head()) << "a ball costs nothing";
+    const auto back = std::get<0>(burrs_from(messages));
+    EXPECT_TRUE(back[0].is_ball());
+    EXPECT_EQ(back[1].head, pear.head);
+    messages[1].mutable_head()->set_shape("of a newer server");
+    EXPECT_TRUE(std::get<0>(burrs_from(messages))[1].is_ball());
+    messages[1].mutable_head()->set_shape("cone");
+    EXPECT_THAT(error_of(burrs_from(messages)), HasSubstr("impossible shape"));
+    messages[1].mutable_head()->set_length_mm(std::numeric_limits<double>::quiet_NaN());
+    EXPECT_THAT(error_of(burrs_from(messages)), HasSubstr("impossible shape"));
+}
+
 TEST(SceneMessages, RefuseAnOperatorWhoAsksTheImpossible) {
     EXPECT_THAT(error_of(operator_command_from(
                     to_message(OperatorCommand{.hand_target_mm = {not_a_number, 0, 0}}), 1)),
