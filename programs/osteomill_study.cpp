@@ -154,6 +154,7 @@ void run(const osteomill::study::StabilityCommand& command) {
     if (command.varies_frequency) return study::run_response_study(command.run.out, surroundings());
     if (command.runs_sites) {
         study::SiteStudyOptions sites = command.sites;
+        sites.has_edge_forces = command.run.selection.has_edge_forces;
         sites.out = command.run.out;
         sites.quick = command.run.selection.quick;
         sites.jobs = command.run.jobs;

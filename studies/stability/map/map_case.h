@@ -29,6 +29,7 @@ struct MapCase {
     double spindle_rpm = 10'000.0;    ///< cutting
     double depth_mm = 1.0;            ///< cutting: of the burr's lowest point, up to its diameter
     double relative_stiffness = 1.0;  ///< cutting: of the bone, 1 = that of K_t = 230 N/mm^2
+    double edge_n_per_mm = 0.0;       ///< cutting: K_te and K_re of edges that rub
     double wall_n_per_mm = 1.5;       ///< wall: stiffest spring that the device claims to render
 
     bool operator==(const MapCase&) const = default;

@@ -1,6 +1,9 @@
 #include "studies/stability/map/map_points.h"
 
 #include <algorithm>
+#include <glm/geometric.hpp>
+
+#include "studies/force/reference_force.h"
 
 namespace osteomill::study {
 
@@ -81,6 +84,22 @@ void add_bars(std::vector<MapPoint>& points, bool quick) {
     add(points, MapPart::bars, map_methods().front(), slots, axes);
 }
 
+/// As the tooth scene's burrs.
+constexpr double edge_n_per_mm = 0.3;
+
+/// Whether edges alone take no more than two thirds of the force that the scene's hand gives.
+bool hand_gets_on(const MapCase& c) {
+    constexpr double most_n = 1.0;
+    const Burr burr{.cutting_coefficients_n_per_mm2 = glm::dvec3(0.0),
+                    .edge_coefficients_n_per_mm = {c.edge_n_per_mm, c.edge_n_per_mm, 0.0}};
+    const SteadyMotion motion{.burr = burr,
+                              .position_mm = {0.0, 0.0, burr.radius_mm() - c.depth_mm},
+                              .velocity_mm_per_s = {1.0, 0.0, 0.0}};
+    const Quadrature quadrature{.kappa = 60, .psi = 180};
+    return c.relative_stiffness * glm::length(mean_reference_force_n(motion, flat_bone(), quadrature)) <=
+           most_n;
+}
+
 template <typename Value>
 bool has(const std::vector<Value>& wanted, const Value& value) {
     return wanted.empty() || std::find(wanted.begin(), wanted.end(), value) != wanted.end();
@@ -141,6 +160,12 @@ std::vector<MapPoint> map_points(const MapSelection& selection) {
     for (const std::string& method : map_methods()) {
         const MapAxes axes = real_device_axes(selection.quick);
         add(points, MapPart::real_device, method, scenes(axes), axes);
+    }
+    if (selection.has_edge_forces) {
+        for (MapPoint& point : points) point.run.edge_n_per_mm = edge_n_per_mm;
+        std::erase_if(points, [](const MapPoint& point) {
+            return point.run.scene != MapScene::cutting || !hand_gets_on(point.run);
+        });
     }
     std::erase_if(points, [&](const MapPoint& point) {
         return !has(selection.methods, point.run.method) || !has(selection.grips, point.run.grip) ||

@@ -26,6 +26,8 @@ struct MapPoint {
 /// What is to be run of the map. An empty list leaves its axis whole.
 struct MapSelection {
     bool quick = false;  ///< a coarser grid of every axis: a minute on two cores
+    /// Cutting alone, by burrs whose edges rub, where a hand that may press with 1.5 N still gets on.
+    bool has_edge_forces = false;
     std::vector<std::string> methods{};
     std::vector<MapGrip> grips{};
     std::vector<double> milling_rates_hz{};

@@ -71,17 +71,19 @@ std::string text_of(const MapCase& c) {
 
 ordered_json json_of(const MapPoint& point) {
     const MapCase& c = point.run;
-    return {{"part", name_of(point.part)},
-            {"method", c.method},
-            {"scene", name_of(c.scene)},
-            {"grip", name_of(c.grip)},
-            {"milling_rate_hz", c.milling_rate_hz},
-            {"delay_ticks", c.delay_ticks},
-            {"is_ideal_device", c.is_ideal_device},
-            {"spindle_rpm", c.spindle_rpm},
-            {"depth_mm", c.depth_mm},
-            {"relative_stiffness", c.relative_stiffness},
-            {"wall_n_per_mm", c.wall_n_per_mm}};
+    ordered_json json{{"part", name_of(point.part)},
+                      {"method", c.method},
+                      {"scene", name_of(c.scene)},
+                      {"grip", name_of(c.grip)},
+                      {"milling_rate_hz", c.milling_rate_hz},
+                      {"delay_ticks", c.delay_ticks},
+                      {"is_ideal_device", c.is_ideal_device},
+                      {"spindle_rpm", c.spindle_rpm},
+                      {"depth_mm", c.depth_mm},
+                      {"relative_stiffness", c.relative_stiffness},
+                      {"wall_n_per_mm", c.wall_n_per_mm}};
+    if (c.edge_n_per_mm != 0.0) json["edge_n_per_mm"] = c.edge_n_per_mm;
+    return json;
 }
 
 ordered_json json_of(const MapSelection& selection) {
@@ -91,11 +93,13 @@ ordered_json json_of(const MapSelection& selection) {
             {"methods", selection.methods},
             {"grips", grips},
             {"milling_rates_hz", selection.milling_rates_hz},
-            {"delays_ticks", selection.delays_ticks}};
+            {"delays_ticks", selection.delays_ticks},
+            {"edge_forces", selection.has_edge_forces}};
 }
 
 MapSelection selection_of(const json& from) {
     MapSelection selection{.quick = from.at("quick").get<bool>(),
+                           .has_edge_forces = from.value("edge_forces", false),
                            .methods = from.at("methods").get<std::vector<std::string>>(),
                            .milling_rates_hz = from.at("milling_rates_hz").get<std::vector<double>>(),
                            .delays_ticks = from.at("delays_ticks").get<std::vector<int>>()};

@@ -42,11 +42,6 @@ void add_sites(CLI::App& stability, StabilityCommand& command, CLI::Option* merg
         ->needs(sites)
         ->check(CLI::Range(0, 100'000));
     stability
-        .add_flag("--edge-forces", command.sites.has_edge_forces,
-                  "of sites: burrs whose edges rub; what holds a hand that presses and does not cut counts "
-                  "as stuck")
-        ->needs(sites);
-    stability
         .add_option(
             "--rails", command.motions_on_rails,
             "instead of the map: so many random steady motions of a hand on rails, and how far the mean "
@@ -117,6 +112,10 @@ CLI::App* add_stability(CLI::App& app, StabilityCommand& command) {
     of_a_run(stability->add_option("--delays", selection.delays_ticks, "only these delays, in haptic ticks"))
         ->delimiter(',')
         ->check(CLI::IsMember(map_delays_ticks()));
+    of_a_run(
+        stability->add_flag("--edge-forces", selection.has_edge_forces,
+                            "of the map: cutting alone, by burrs whose edges rub; of sites: the same burrs, "
+                            "and what holds a hand that presses and does not cut counts as stuck"));
     add_sites(*stability, command, merge);
     return stability;
 }

@@ -33,8 +33,10 @@ void write_results(const WholeMap& map, const std::filesystem::path& out,
     write_text(pareto_csv_of(method_scores(map, MapPart::map, MapScene::wall)), out / "pareto_wall.csv");
     write_text(error_csv_of(map), out / "errors.csv");
     const std::filesystem::path scripts = chart_scripts();
-    for (const char* chart : {"map_cutting", "map_wall", "map_pareto", "map_errors"})
-        draw_chart(scripts, chart, out);
+    draw_chart(scripts, "map_cutting", out);
+    // With edges that rub there is no wall, which the others compare with.
+    if (!map.selection.has_edge_forces)
+        for (const char* chart : {"map_wall", "map_pareto", "map_errors"}) draw_chart(scripts, chart, out);
     surroundings.said << summary_text_of(map)
                       << fmt::format("map.json, tables (CSV) and charts (SVG) are in {}\n", out.string());
 }

@@ -6,7 +6,7 @@ namespace osteomill::study {
 
 SceneCache::BoneKey SceneCache::bone_key(const MapCase& c) {
     if (c.scene == MapScene::wall) return {};
-    return {c.spindle_rpm, c.depth_mm, c.relative_stiffness};
+    return {c.spindle_rpm, c.depth_mm, c.relative_stiffness, c.edge_n_per_mm};
 }
 
 const Bone& SceneCache::bone(const MapCase& c, const ScenePlan& plan) {

@@ -58,7 +58,7 @@ class SceneCache {
 
   private:
     /// rpm, depth, stiffness; all zero for the wall.
-    using BoneKey = std::tuple<double, double, double>;
+    using BoneKey = std::tuple<double, double, double, double>;
     /// Grip, whether the mount is rigid, the wall's stiffness (0: cutting), and the bone's.
     using TruthKey = std::tuple<MapGrip, bool, double, BoneKey>;
 

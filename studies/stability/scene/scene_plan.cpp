@@ -20,13 +20,20 @@ void plan_cutting(const MapCase& c, ScenePlan& plan) {
     plan.burr_at_release_mm = {off_the_lattice_mm.x, off_the_lattice_mm.y,
                                plan.burr.radius_mm() - plan.depth_mm};
 
-    const SteadyMotion motion{
+    SteadyMotion motion{
         .burr = plan.burr, .position_mm = plan.burr_at_release_mm, .velocity_mm_per_s = {1.0, 0.0, 0.0}};
     const Quadrature quadrature{.kappa = 120, .psi = 360};
-    const glm::dvec3 force_n_s_per_mm =
-        c.relative_stiffness * mean_reference_force_n(motion, flat_bone(), quadrature);
-    plan.feed_mm_per_s = std::min(most_feed_mm_per_s, most_steady_force_n / glm::length(force_n_s_per_mm));
-    plan.steady_force_n = plan.feed_mm_per_s * force_n_s_per_mm;
+    const auto force_n = [&] {
+        return c.relative_stiffness * mean_reference_force_n(motion, flat_bone(), quadrature);
+    };
+    const glm::dvec3 force_n_s_per_mm = force_n();
+    motion.burr.cutting_coefficients_n_per_mm2 = glm::dvec3(0.0);
+    motion.burr.edge_coefficients_n_per_mm = {c.edge_n_per_mm, c.edge_n_per_mm, 0.0};
+    const glm::dvec3 edge_force_n = c.edge_n_per_mm > 0.0 ? force_n() : glm::dvec3(0.0);
+    plan.burr.edge_coefficients_n_per_mm = motion.burr.edge_coefficients_n_per_mm;
+    const double left_n = most_steady_force_n - glm::length(edge_force_n);
+    plan.feed_mm_per_s = std::min(most_feed_mm_per_s, left_n / glm::length(force_n_s_per_mm));
+    plan.steady_force_n = plan.feed_mm_per_s * force_n_s_per_mm + edge_force_n;
 
     plan.at_release = {plan.burr_at_release_mm, {plan.feed_mm_per_s, 0.0, 0.0}};
     if (!plan.mount.is_rigid())

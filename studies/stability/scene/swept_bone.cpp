@@ -26,6 +26,9 @@ constexpr double slot_mm = 3.0;
 /// Gaps are not followed beyond this: it takes 20 mm/s to close it between two looks at what is far.
 constexpr float most_gap_mm = 0.1f;
 
+/// Edges of a patch that cuts faster rub with all their force.
+constexpr double rubs_from_mm_per_s = 0.01;
+
 constexpr int most_iterations = 30;
 constexpr int plain_iterations = 12;
 
@@ -49,9 +52,13 @@ void SweptBone::make_patches(double stiffness) {
     patches_per_ring_ = angle_count;
     patch_area_mm2_ = 2.0 * std::numbers::pi * radius * ring_height_mm_ / static_cast<double>(angle_count);
     const glm::dvec3 k = stiffness * burr_.cutting_coefficients_n_per_mm2;
+    const glm::dvec3 edge = stiffness * burr_.edge_coefficients_n_per_mm;
     for (std::size_t ring = 0; ring < ring_count; ++ring) {
         const double z = (-radius + (static_cast<double>(ring) + 0.5) * ring_height_mm_) / radius;
         const double sin_kappa = std::sqrt(1.0 - z * z);
+        const double half = 0.5 * ring_height_mm_ / radius;
+        const double arc_mm =
+            radius * (std::asin(std::min(1.0, z + half)) - std::asin(std::max(-1.0, z - half)));
         for (std::size_t j = 0; j < angle_count; ++j) {
             const double psi =
                 2.0 * std::numbers::pi * (static_cast<double>(j) + 0.5) / static_cast<double>(angle_count);
@@ -64,6 +71,9 @@ void SweptBone::make_patches(double stiffness) {
             whole_n_s_per_mm_.push_back(
                 -(burr_.sigma() * k.x * e_psi + k.y * normal + k.z * e_kappa) * patch_area_mm2_ /
                 (2.0 * std::numbers::pi * radius * sin_kappa * burr_.spindle_rev_per_s));
+            // The arc of the ring's part of an outline: at the tip it is far longer than its height says.
+            whole_edge_n_.push_back(-(burr_.sigma() * edge.x * e_psi + edge.y * normal + edge.z * e_kappa) *
+                                    (burr_.edges * arc_mm / static_cast<double>(angle_count)));
         }
     }
     gap_mm_.assign(normal_x_.size(), 0.0f);
@@ -73,23 +83,35 @@ void SweptBone::make_patches(double stiffness) {
     engaged_next_.assign(normal_x_.size(), 0);
 }
 
-void SweptBone::set_engaged(std::size_t patch, bool engaged) {
-    const double sign = engaged ? 1.0 : -1.0;
-    const glm::dvec3 law = sign * share_in_bone_[patch] * whole_n_s_per_mm_[patch];
+void SweptBone::add(std::size_t patch, std::uint8_t state, double sign) {
+    if (state == 0) return;
+    const double share = sign * share_in_bone_[patch];
+    glm::dvec3 law = share * whole_n_s_per_mm_[patch];
+    if (state == 1) law += share / rubs_from_mm_per_s * whole_edge_n_[patch];
+    if (state == 2) edge_force_n_ += share * whole_edge_n_[patch];
     force_per_velocity_ +=
         glm::outerProduct(law, glm::dvec3(normal_x_[patch], normal_y_[patch], normal_z_[patch]));
     force_per_gap_rate_ += static_cast<double>(gap_mm_[patch]) * law;
 }
 
+std::uint8_t SweptBone::state_at(std::size_t patch, const glm::vec3& step_mm, float slow_mm) const {
+    const float advance_mm =
+        normal_x_[patch] * step_mm.x + normal_y_[patch] * step_mm.y + normal_z_[patch] * step_mm.z;
+    if (!(advance_mm > gap_mm_[patch])) return 0;
+    return advance_mm > gap_mm_[patch] + slow_mm ? 2 : 1;
+}
+
 bool SweptBone::engage(const glm::dvec3& velocity_mm_per_s, double substep_s) {
     const glm::vec3 step(velocity_mm_per_s * substep_s);
+    const float slow_mm = burr_.has_edge_force() ? static_cast<float>(rubs_from_mm_per_s * substep_s) : 0.0f;
     const std::size_t count = gap_mm_.size();
-    for (std::size_t i = 0; i < count; ++i)
-        engaged_next_[i] =
-            normal_x_[i] * step.x + normal_y_[i] * step.y + normal_z_[i] * step.z > gap_mm_[i] ? 1 : 0;
+    for (std::size_t i = 0; i < count; ++i) engaged_next_[i] = state_at(i, step, slow_mm);
     if (engaged_next_ == engaged_) return false;
-    for (std::size_t i = 0; i < count; ++i)
-        if (engaged_next_[i] != engaged_[i]) set_engaged(i, engaged_next_[i] != 0);
+    for (std::size_t i = 0; i < count; ++i) {
+        if (engaged_next_[i] == engaged_[i]) continue;
+        add(i, engaged_[i], -1.0);
+        add(i, engaged_next_[i], 1.0);
+    }
     engaged_.swap(engaged_next_);
     return true;
 }
@@ -101,14 +123,41 @@ glm::dvec3 SweptBone::solve(const glm::dvec3& resistance_n_s_per_mm, const glm::
     glm::dvec3 w = last_velocity_;
     if (!has_engaged_) engage(w, substep_s);
     has_engaged_ = true;
+    if (burr_.has_edge_force()) return last_velocity_ = solve_with_edges(of_tool, drive_n, substep_s);
     for (int i = 0; i < most_iterations; ++i) {
         const glm::dmat3 resists = of_tool - force_per_velocity_;
-        const glm::dvec3 solved = glm::inverse(resists) * (drive_n - force_per_gap_rate_ / substep_s);
+        const glm::dvec3 solved =
+            glm::inverse(resists) * (drive_n + edge_force_n_ - force_per_gap_rate_ / substep_s);
         // Two sets that lead to one another would be visited in turn for ever.
         w = i < plain_iterations ? solved : 0.5 * (w + solved);
         if (!engage(w, substep_s) && i < plain_iterations) break;
     }
     last_velocity_ = w;
+    return w;
+}
+
+glm::dvec3 SweptBone::solve_with_edges(const glm::dmat3& of_tool, const glm::dvec3& drive_n,
+                                       double substep_s) {
+    glm::dvec3 w = last_velocity_;
+    const auto residual_n = [&] {
+        return drive_n + edge_force_n_ - force_per_gap_rate_ / substep_s +
+               (force_per_velocity_ - of_tool) * w;
+    };
+    engage(w, substep_s);
+    glm::dvec3 left_n = residual_n();
+    constexpr double balanced_n = 1e-7;
+    for (int i = 0; i < most_iterations && glm::length(left_n) > balanced_n; ++i) {
+        const glm::dvec3 from = w;
+        const glm::dvec3 newton = glm::inverse(of_tool - force_per_velocity_) * left_n;
+        // A force that no longer rises with the velocity would send a whole step to and fro.
+        const double had_n = glm::length(left_n);
+        for (double share = 1.0; share > 1e-3; share *= 0.5) {
+            w = from + share * newton;
+            engage(w, substep_s);
+            left_n = residual_n();
+            if (glm::length(left_n) < had_n) break;
+        }
+    }
     return w;
 }
 
@@ -168,6 +217,7 @@ void SweptBone::refresh() {
     std::fill(engaged_.begin(), engaged_.end(), std::uint8_t{0});
     force_per_velocity_ = glm::dmat3(0.0);
     force_per_gap_rate_ = glm::dvec3(0.0);
+    edge_force_n_ = glm::dvec3(0.0);
 }
 
 }  // namespace osteomill::study

@@ -4,7 +4,10 @@
 // patch resists in proportion to the rate at which it cuts new bone along its normal n, by the law of
 // engagement.h,
 //
-//     F = sum over patches of C max(0, n . w - gap / h)         w the velocity over a substep of h
+//     F = sum over patches of C u + E min(1, u / u_0),  u = max(0, n . w - gap / h)
+//
+// with w the velocity over a substep of h, E the force of edges that rub, which is there as soon as the patch
+// cuts, and u_0 so slow (0.01 mm/s) that nobody tells it from rest,
 //
 // and has no bone before it until it has closed its gap. What has been cut is the union of the spheres along
 // the path so far, the slot included: refresh() measures each patch's gap against it (the ray along the
@@ -47,11 +50,17 @@ class SweptBone {
 
   private:
     void make_patches(double stiffness);
-    /// Whether the set of patches that cut at velocity w differs from the one at hand, which it becomes.
+    /// The same with edges that rub: each step of Newton's as long as it lowers what is left over.
+    glm::dvec3 solve_with_edges(const glm::dmat3& of_tool, const glm::dvec3& drive_n, double substep_s);
+    /// Whether the sets of patches that cut, and of those whose edges rub with all their force, at velocity w
+    /// differ from those at hand, which they become.
     bool engage(const glm::dvec3& velocity_mm_per_s, double substep_s);
     /// Raises gaps to what the spheres of the path have cleared whose distance is in (beyond, within].
     void look_at_path(double beyond_mm, double within_mm, std::vector<float>& gap_mm) const;
-    void set_engaged(std::size_t patch, bool engaged);
+    /// A patch's state: 0 in air, 1 cutting more slowly than u_0, 2 cutting.
+    std::uint8_t state_at(std::size_t patch, const glm::vec3& step_mm, float slow_mm) const;
+    /// Adds (or takes off) what a patch does in a state.
+    void add(std::size_t patch, std::uint8_t state, double sign);
 
     Burr burr_;
     glm::dvec3 burr_mm_;
@@ -60,6 +69,7 @@ class SweptBone {
     std::vector<float> normal_x_, normal_y_, normal_z_, gap_mm_, far_gap_mm_;
     std::vector<std::uint8_t> engaged_, engaged_next_;
     std::vector<glm::dvec3> whole_n_s_per_mm_;  // law of a patch that is wholly in bone
+    std::vector<glm::dvec3> whole_edge_n_;      // likewise, of its edges
     std::vector<double> share_in_bone_;
     double patch_area_mm2_ = 0.0;
     double ring_height_mm_ = 0.0;
@@ -68,6 +78,7 @@ class SweptBone {
     bool has_engaged_ = false;            // since the last refresh
     glm::dmat3 force_per_velocity_{0.0};  // of the engaged patches
     glm::dvec3 force_per_gap_rate_{0.0};
+    glm::dvec3 edge_force_n_{0.0};  // of those that rub with all their force
     glm::dvec3 last_velocity_{0.0};
     std::vector<glm::dvec3> path_mm_;
     glm::dvec3 looked_far_from_mm_{0.0};  // where far_gap_mm_ was measured

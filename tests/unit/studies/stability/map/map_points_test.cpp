@@ -59,5 +59,17 @@ TEST(MapPoints, AreThoseThatAreSelected) {
     EXPECT_EQ(selection_of(nlohmann::json::parse(json_of(selection).dump())), selection);
 }
 
+TEST(MapPoints, WithEdgesThatRubCutWhereAHandGetsOn) {
+    const auto points = map_points({.has_edge_forces = true, .methods = {"implicit"}});
+    const auto without = map_points({.methods = {"implicit"}});
+    EXPECT_GT(points.size(), without.size() / 8);
+    EXPECT_LT(points.size(), without.size());
+    for (const MapPoint& point : points) {
+        EXPECT_EQ(point.run.scene, MapScene::cutting);
+        EXPECT_EQ(point.run.edge_n_per_mm, 0.3);
+        EXPECT_LT(point.run.depth_mm, 1.0) << "deeper the edges alone take all that a hand gives";
+    }
+}
+
 }  // namespace
 }  // namespace osteomill::study::map_points_test

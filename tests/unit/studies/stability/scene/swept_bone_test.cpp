@@ -39,6 +39,32 @@ TEST(SweptBone, ResistsAFreshSlotAsTheReferenceSays) {
     }
 }
 
+TEST(SweptBone, RubsAsTheReferenceSays) {
+    for (const double speed_mm_per_s : {0.5, 6.0}) {
+        SteadyMotion motion;
+        motion.burr.edge_coefficients_n_per_mm = {0.3, 0.2, 0.1};
+        motion.velocity_mm_per_s = {speed_mm_per_s, 0.0, 0.0};
+        motion.position_mm = {0.0, 0.0, motion.burr.radius_mm() - 1.0};
+        const glm::dvec3 expected_n = mean_reference_force_n(motion, flat_bone());
+        SweptBone bone(motion.burr, 1.0, motion.position_mm);
+        const glm::dvec3 force_n = force_when_moved(bone, motion.velocity_mm_per_s, 20);
+        EXPECT_LT(glm::distance(force_n, expected_n), 0.02 * glm::length(expected_n)) << speed_mm_per_s;
+    }
+}
+
+TEST(SweptBone, HoldsABurrThatIsPushedByLessThanItsEdgesTake) {
+    Burr burr;
+    // A tangential part would pull it along; on a plane, or it would climb out.
+    burr.edge_coefficients_n_per_mm = {0.0, 0.3, 0.0};
+    SweptBone bone(burr, 1.0, {0.0, 0.0, 1.5});
+    glm::dvec3 w(0.0);
+    for (int i = 0; i < 200; ++i) {
+        w = bone.solve({0.002, 0.002, 1e4}, {0.2, 0.0, 0.0}, substep_s);
+        bone.advance(substep_s * w);
+    }
+    EXPECT_LT(glm::length(w), 1.0) << "100 mm/s without bone";
+}
+
 TEST(SweptBone, ResistsASlotDeepenedByASecondPassAsTheReferenceSays) {
     // From the end of the first slot it goes down and back under it, 1 mm deeper.
     SteadyMotion motion;
