@@ -27,15 +27,16 @@ const ToolPose start{{-3.0, 0.0, 1.1}, {0.0, 0.0, 1.0}};
 
 /// Slides through a block with the spindle on: the loops are in the middle of their work.
 struct Rig {
-    Rig(const std::string& force_model, const std::string& coupling_name, HapticDevice& device)
+    Rig(const std::string& force_model, const std::string& coupling_name, HapticDevice& device,
+        const Burr& used)
         : model(make_force_model(force_model, testing::make_block({-4.0, -4.0, -3.2}, {4.0, 4.0, 0.0}, 0.1),
-                                 {burr}, {})),
+                                 {used}, {})),
           coupling(
               make_coupling(coupling_name,
                             {.device = device.limits(),
                              .milling_period_s = 0.001,
                              .model_holds_wall = !osteomill::find_force_model(force_model).has_cutting_law})),
-          vibration({burr}, {.max_force_n = 3.3, .max_slew_n_per_s = ForceGuard::slew_n_per_s}),
+          vibration({used}, {.max_force_n = 3.3, .max_slew_n_per_s = ForceGuard::slew_n_per_s}),
           haptic({device, *coupling, *results, commands, tool, status, &log, &vibration},
                  {.has_shank = true, .start_pose = start}) {}
 
@@ -57,8 +58,8 @@ struct Rig {
 /// Returns in how many ticks the shank touched bone.
 int expect_no_allocation(
     const std::string& force_model, const std::string& coupling_name, HapticDevice& device,
-    const std::function<void()>& before_tick = [] {}) {
-    const auto rig = std::make_unique<Rig>(force_model, coupling_name, device);
+    const std::function<void()>& before_tick = [] {}, const Burr& used = burr) {
+    const auto rig = std::make_unique<Rig>(force_model, coupling_name, device, used);
     int touching = 0;
     const std::size_t before = testing::allocation_count();
     for (int tick = 0; tick < 2000; ++tick) {
@@ -73,6 +74,21 @@ int expect_no_allocation(
     EXPECT_GT(rig->model->removed_mm3()[0], 0.1) << "there was something to do";
     EXPECT_GT(rig->changes.overflow_count(), 0u);
     return touching;
+}
+
+TEST(RealTimeCode, AllocatesNothingWithAHeadThatIsNoBallAndTilts) {
+    Burr pear = burr;
+    pear.head = usual_head(HeadShape::pear, 2.0, 3.0);
+    pear.edge_coefficients_n_per_mm = {0.02, 0.02, 0.0};
+    for (const char* model : {"milling", "milling-instants"}) {
+        SimulatedDevice device(Trajectory({{0.0, start, true, std::nullopt},
+                                           {0.15, {{-2.7, 0.0, 0.4}, {0.0, 0.0, 1.0}}, true, std::nullopt},
+                                           {1.5, {{1.5, 0.0, 0.25}, {0.6, 0.0, 0.8}}, false, std::nullopt},
+                                           {2.0, {{3.0, 0.0, 0.2}, {0.0, 0.6, 0.8}}, false, std::nullopt}}),
+                               DeviceMapping{}, ArmModel{}, hand_model(Grip::firm));
+        expect_no_allocation(
+            model, coupling_names().front(), device, [] {}, pear);
+    }
 }
 
 TEST(RealTimeCode, AllocatesNothingWithASimulatedHand) {
