@@ -3,16 +3,27 @@
 // How it has changed is in a brick of fractions that goes with the change: the voxels of the mask hold what
 // is left of them, the others anything. These values are absolute, so a later change overrides an earlier
 // one, and a change that is applied twice does no more than once.
+//
+// Milling only lowers what is left. Undo gives bone back, and redo takes it again: such a change says that it
+// restores, so that a copy that would rise otherwise is known to have been wrong.
 #pragma once
+
+#include <cstdint>
 
 #include "common/bone/bone.h"
 #include "common/bone/voxel_mask.h"
 
 namespace osteomill {
 
+enum class ChangeKind : std::uint8_t {
+    milled,    ///< no voxel rises
+    restored,  ///< by undo, redo or a reset: any voxel may rise or fall
+};
+
 struct BrickChange {
     BrickIndex brick = 0;
     VoxelMask voxels{};
+    ChangeKind kind = ChangeKind::milled;
 
     bool operator==(const BrickChange&) const = default;
 };
@@ -32,7 +43,8 @@ class ForgottenChanges final : public ChangeSink {
 };
 
 /// Gives the voxels of the change what `fractions` has for them. False, with the bone as it was, where the
-/// brick is not stored or a voxel would rise.
+/// brick is not stored, or a voxel would rise by milling or in a part of the brick that the grid no longer
+/// has.
 [[nodiscard]] bool apply(const BrickChange& change, BrickFractions fractions, Bone& bone);
 
 }  // namespace osteomill

@@ -51,6 +51,13 @@ class VoxelMask {
         std::ranges::transform(words_, other.words_, words_.begin(), std::bit_or<>());
         return *this;
     }
+    /// Those that `other` does not hold.
+    VoxelMask without(const VoxelMask& other) const {
+        VoxelMask rest;
+        for (std::size_t number = 0; number < word_count; ++number)
+            rest.words_[number] = words_[number] & ~other.words_[number];
+        return rest;
+    }
     friend VoxelMask operator|(VoxelMask a, const VoxelMask& b) { return a |= b; }
     bool operator==(const VoxelMask&) const = default;
 

@@ -85,6 +85,8 @@ Playhead::Step Playhead::take(RecordedEvent event) {
         state_bytes_ += event.bytes;
         if (followed.check == ReplicaCheck::equal) ++checksums_verified_;
         tool_ = followed.tool;
+        events_ = std::move(followed.events);
+        status_ = followed.status;
         frame_ = std::move(state->frame);
         return Step::state;
     } else if (std::holds_alternative<SaidGoodbye>(event.event)) {

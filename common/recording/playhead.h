@@ -38,6 +38,9 @@ class Playhead {
     std::vector<BrickChange> take_changes() { return replica_->take_changes(); }
     /// Nothing before the session's first state frame.
     const std::optional<ToolState>& tool() const { return tool_; }
+    /// What was done to the session since the state frame before, and what could be done then.
+    const std::vector<ControlEvent>& events() const { return events_; }
+    const SessionStatus& status() const { return status_; }
     /// The state frame that was applied last; the one that would come next, if one would.
     const v1::StateFrame& frame() const { return frame_; }
     const v1::StateFrame* next_frame() const;
@@ -83,6 +86,8 @@ class Playhead {
     SessionInfo session_;
     std::optional<BoneReplica> replica_;
     std::optional<ToolState> tool_;
+    std::vector<ControlEvent> events_;
+    SessionStatus status_;
     v1::StateFrame frame_;
 
     std::uint64_t frames_ = 0;

@@ -25,18 +25,21 @@ class BoneReplica {
     BoneReplica(Bone bone, RunningChecksum checksum)
         : bone_(std::move(bone)), checksum_(std::move(checksum)) {}
 
-    /// Takes over a change of the milling loop's. False if it does not fit the bone, which then stays as it
-    /// was.
+    /// Takes over a change of the milling loop's, milled or restored. False if it does not fit the bone,
+    /// which then stays as it was.
     [[nodiscard]] bool apply(const BrickChange& change, BrickFractions fractions);
     /// Likewise an edit as it came over the wire or out of a recording; says why not.
     std::optional<WireError> apply(const v1::BrickEdit& edit);
+    /// Takes over an edit that gives bone back; says why not.
+    std::optional<WireError> restore(const v1::BrickEdit& edit);
     /// Takes over an edit where this replica may be wrong: see correct_with_brick_edit.
     std::variant<EditEffect, WireError> correct(const v1::BrickEdit& edit);
     /// Gives a stored brick other fractions, as when a recording is wound back.
     void set_fractions(BrickIndex brick, BrickFractions fractions);
 
     /// What has changed since the last call: the voxels that changes covered, and those that were set to
-    /// another fraction; brick by brick, ascending.
+    /// another fraction; brick by brick, ascending. A voxel that was restored is in a change of that kind,
+    /// whatever else came over it; a brick may have one of each.
     std::vector<BrickChange> take_changes();
 
     const Bone& bone() const { return bone_; }
@@ -45,11 +48,14 @@ class BoneReplica {
     const RunningChecksum& running_checksum() const { return checksum_; }
 
   private:
-    void mark(const v1::BrickEdit& edit);
+    void mark(const v1::BrickEdit& edit, ChangeKind kind);
 
     struct Changed {
-        VoxelMask voxels;
+        VoxelMask milled;
+        VoxelMask restored;
         bool awaits_checksum = false;  // many steps go into one brick
+
+        VoxelMask& voxels(ChangeKind kind) { return kind == ChangeKind::milled ? milled : restored; }
     };
     Bone bone_;
     RunningChecksum checksum_;

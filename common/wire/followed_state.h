@@ -3,7 +3,9 @@
 
 #include <cstddef>
 #include <variant>
+#include <vector>
 
+#include "common/scene/session_control.h"
 #include "common/scene/tool_state.h"
 #include "common/wire/bone_replica.h"
 #include "common/wire/wire_error.h"
@@ -21,7 +23,10 @@ enum class ReplicaCheck {
 struct FollowedState {
     ToolState tool;
     ReplicaCheck check = ReplicaCheck::none;
-    /// An edit raised what was left, as milling cannot: the replica had lost bone, and has it again.
+    std::vector<ControlEvent> events{};
+    SessionStatus status{};
+    /// An edit raised what was left, as milling cannot: the replica had lost bone, and has it again. Those
+    /// that restore bone are no such edits.
     bool has_regained_bone = false;
 };
 

@@ -45,11 +45,11 @@ ChangePacker::ChangePacker() : compressor_(frame_compression_level) {
 v1::PackedChanges ChangePacker::pack(const Bone& bone, const std::vector<BrickChange>& changes) {
     v1::PackedChanges message;
     content_.clear();
-    for (const auto& [brick, voxels] : changes) {
+    for (const auto& [brick, voxels, kind] : changes) {
         message.add_brick(brick);
         append(voxels, content_);
     }
-    for (const auto& [brick, voxels] : changes) {
+    for (const auto& [brick, voxels, kind] : changes) {
         const auto fractions = bone.fractions(bone.slot(brick));
         voxels.for_each([&](std::size_t voxel) { content_.push_back(fractions[voxel]); });
     }

@@ -7,7 +7,7 @@
 namespace osteomill {
 
 inline constexpr std::uint32_t protocol_major = 1;
-inline constexpr std::uint32_t protocol_minor = 9;  // 1: each frame of a server carries its checksum
+inline constexpr std::uint32_t protocol_minor = 10;  // 1: each frame of a server carries its checksum
 
 /// From here on a server compares bones: see CompareBone.
 inline constexpr std::uint32_t first_minor_that_compares = 2;
@@ -16,5 +16,8 @@ inline constexpr std::uint32_t first_minor_that_is_greeted = 3;
 /// From here on an operator's input names the newest state that its client has seen, and a server moves the
 /// tool for no other: see OperatorInput.
 inline constexpr std::uint32_t first_minor_that_names_states = 5;
+
+/// From here on a server takes a SessionControl.
+inline constexpr std::uint32_t first_minor_with_controls = 10;
 
 }  // namespace osteomill

@@ -144,6 +144,7 @@ v1::Hello to_message(const SessionInfo& session) {
     for (const Tissue& tissue : session.tissues) *hello.add_tissues() = to_message(tissue);
     hello.set_accepts_operator(session.accepts_operator);
     hello.set_force_limit_n(session.force_limit_n);
+    hello.set_accepts_controls(session.accepts_controls);
     return hello;
 }
 
@@ -211,7 +212,8 @@ std::variant<SessionInfo, WireError> session_info_from(const v1::Hello& hello) {
                        .burrs = std::get<0>(std::move(burrs)),
                        .tissues = std::get<0>(std::move(tissues)),
                        .accepts_operator = hello.accepts_operator(),
-                       .force_limit_n = hello.force_limit_n()};
+                       .force_limit_n = hello.force_limit_n(),
+                       .accepts_controls = hello.accepts_controls()};
 }
 
 std::variant<ToolState, WireError> tool_from(const v1::ToolState& message, std::size_t burr_count) {

@@ -19,6 +19,7 @@ struct SessionInfo {
     std::vector<Tissue> tissues{};
     bool accepts_operator = false;  ///< the server runs with --device client
     double force_limit_n = 0.0;
+    bool accepts_controls = false;  ///< the server takes a SessionControl
 };
 
 }  // namespace osteomill

@@ -78,12 +78,20 @@ SessionReceiver::Outcome SessionReceiver::take_snapshot_end(const v1::SnapshotEn
 }
 
 SessionReceiver::Outcome SessionReceiver::take_state(v1::StateFrame state, bool follows_gap) const {
-    if (state.has_changes()) {
-        auto unpacked = unpack(state.changes(), size_bricks_);
+    const auto spread = [&](const v1::PackedChanges& packed, auto& edits) -> std::optional<WireError> {
+        auto unpacked = unpack(packed, size_bricks_);
         if (auto* error = std::get_if<WireError>(&unpacked)) return std::move(*error);
         for (v1::BrickEdit& edit : std::get<std::vector<v1::BrickEdit>>(unpacked))
-            *state.add_edits() = std::move(edit);
+            *edits.Add() = std::move(edit);
+        return std::nullopt;
+    };
+    if (state.has_changes()) {
+        if (auto error = spread(state.changes(), *state.mutable_edits())) return *std::move(error);
         state.clear_changes();
+    }
+    if (state.has_restored_changes()) {
+        if (auto error = spread(state.restored_changes(), *state.mutable_restored())) return *std::move(error);
+        state.clear_restored_changes();
     }
     return SessionEvent(StateArrived{std::move(state), follows_gap});
 }

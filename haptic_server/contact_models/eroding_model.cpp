@@ -7,6 +7,7 @@
 
 #include "haptic_server/contact_models/ball_rows.h"
 #include "haptic_server/contact_models/bone_in_ball.h"
+#include "haptic_server/contact_models/restore_bone.h"
 #include "haptic_server/contact_models/usable_burr.h"
 
 namespace osteomill {
@@ -87,6 +88,10 @@ void ErodingModel::step(const BurrCommand& command, double time_s, ChangeSink& c
     }
     position_mm_ = position_mm;
     account_.end_step(command, result);
+}
+
+void ErodingModel::restore(const BrickChange& change, BrickFractions fractions, ChangeSink& changes) noexcept {
+    restore_bone(change, fractions, bone_, account_, changes);
 }
 
 }  // namespace osteomill

@@ -30,8 +30,10 @@ class ErodingModel final : public ForceModel {
     void step(const BurrCommand& command, double time_s, ChangeSink& changes,
               MillingResult& result) noexcept override;
 
+    void restore(const BrickChange& change, BrickFractions fractions, ChangeSink& changes) noexcept override;
+
     const Bone& bone() const override { return bone_; }
-    const RemovedByTissue& removed_mm3() const override { return account_.removed_mm3(); }
+    RemovedByTissue removed_mm3() const override { return account_.removed_mm3(); }
 
   private:
     void erode(const glm::dvec3& position_mm, double dose, ChangeSink& changes) noexcept;

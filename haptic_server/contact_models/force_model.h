@@ -21,9 +21,13 @@ class ForceModel {
     virtual void step(const BurrCommand& command, double time_s, ChangeSink& changes,
                       MillingResult& result) noexcept = 0;
 
+    /// Between steps: undoes what milling did to these voxels, or redoes it (restore_bone.h). Real-time safe.
+    virtual void restore(const BrickChange& change, BrickFractions fractions,
+                         ChangeSink& changes) noexcept = 0;
+
     virtual const Bone& bone() const = 0;
-    /// Since the start.
-    virtual const RemovedByTissue& removed_mm3() const = 0;
+    /// Since the start, less what was restored.
+    virtual RemovedByTissue removed_mm3() const = 0;
 };
 
 }  // namespace osteomill

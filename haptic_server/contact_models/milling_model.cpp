@@ -9,6 +9,7 @@
 #include "haptic_server/carving/carve.h"
 #include "haptic_server/carving/carve_head.h"
 #include "haptic_server/carving/crescent_rows.h"
+#include "haptic_server/contact_models/restore_bone.h"
 #include "haptic_server/contact_models/usable_burr.h"
 #include "haptic_server/cutting_force/mean_force.h"
 #include "haptic_server/cutting_force/stiffness_weights.h"
@@ -217,6 +218,11 @@ void MillingModel::step(const BurrCommand& command, double time_s, ChangeSink& c
     account_.end_step(command, result);
     if (command.wants_engagement)
         probes_[burr_].sample(bone_, command.pose.position_mm, command.pose.spindle_axis, result.engagement);
+}
+
+void MillingModel::restore(const BrickChange& change, BrickFractions fractions, ChangeSink& changes) noexcept {
+    restore_bone(change, fractions, bone_, account_, changes);
+    carved_at_position_ = false;  // there may be bone again in the ball that was carved
 }
 
 }  // namespace osteomill

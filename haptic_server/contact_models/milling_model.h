@@ -36,8 +36,10 @@ class MillingModel final : public ForceModel {
     void step(const BurrCommand& command, double time_s, ChangeSink& changes,
               MillingResult& result) noexcept override;
 
+    void restore(const BrickChange& change, BrickFractions fractions, ChangeSink& changes) noexcept override;
+
     const Bone& bone() const override { return bone_; }
-    const RemovedByTissue& removed_mm3() const override { return account_.removed_mm3(); }
+    RemovedByTissue removed_mm3() const override { return account_.removed_mm3(); }
 
   private:
     /// How far the farthest point of the burr moves from where it is to the command's pose: along the path

@@ -29,7 +29,7 @@ class RemovalAccount {
         result.time_s = time_s;
         result.force_n = glm::dvec3(0.0);
         result.removed_mm3 = 0.0;
-        result.total_removed_mm3 = total_removed_mm3_;
+        result.total_removed_mm3 = total_levels_ * mm3_per_level_;
         result.touches_protected = false;
         result.has_bone_inside = false;
         result.engagement.count = 0;
@@ -38,28 +38,40 @@ class RemovalAccount {
     /// Bone of a tissue lost `levels` of a voxel's 255. Real-time safe.
     void take(std::uint8_t tissue, double levels) noexcept {
         step_levels_ += levels;
-        removed_mm3_[tissue] += levels * mm3_per_level_;
+        levels_[tissue] += levels;
         step_touches_protected_ |= protected_[tissue];
+    }
+
+    /// Between steps: bone of a tissue gained `levels` of a voxel's 255 back, or lost them again (negative).
+    /// Real-time safe.
+    void restore(std::uint8_t tissue, double levels) noexcept {
+        levels_[tissue] -= levels;
+        total_levels_ -= levels;
     }
 
     /// Enters the step into the total and into `result`, with where the burr now is. Real-time safe.
     void end_step(const BurrCommand& command, MillingResult& result) noexcept {
         result.removed_mm3 = step_levels_ * mm3_per_level_;
-        total_removed_mm3_ += result.removed_mm3;
-        result.total_removed_mm3 = total_removed_mm3_;
+        total_levels_ += step_levels_;
+        result.total_removed_mm3 = total_levels_ * mm3_per_level_;
         result.touches_protected = step_touches_protected_;
         result.pose = command.pose;
         result.burr = command.burr;
         result.spindle_on = command.spindle_on;
     }
 
-    const RemovedByTissue& removed_mm3() const { return removed_mm3_; }
+    RemovedByTissue removed_mm3() const {
+        RemovedByTissue removed = levels_;
+        for (double& volume : removed) volume *= mm3_per_level_;
+        return removed;
+    }
 
   private:
     double mm3_per_level_;
     std::array<bool, 256> protected_{};
-    RemovedByTissue removed_mm3_{};
-    double total_removed_mm3_ = 0.0;
+    // In levels, which are whole numbers: what is undone leaves nothing behind.
+    std::array<double, 256> levels_{};  // by tissue
+    double total_levels_ = 0.0;
     std::uint64_t step_ = 0;
     double step_levels_ = 0.0;
     bool step_touches_protected_ = false;

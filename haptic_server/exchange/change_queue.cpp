@@ -17,9 +17,13 @@ ChangeQueue::ChangeQueue(std::size_t capacity_bytes, std::shared_ptr<const BoneC
 
 void ChangeQueue::push(const BrickChange& change, BrickFractions fractions) noexcept {
     // Once a brick waits to be sent again, its later changes wait with it: order within a brick is kept.
-    if (has_overflowed() && is_overflowed_[slot_of(change)]) return;
+    if (has_overflowed() && is_overflowed_[slot_of(change)]) {
+        has_restored_overflowed_ |= change.kind == ChangeKind::restored;
+        return;
+    }
     if (send(change, fractions)) return;
     overflow_count_.fetch_add(1, std::memory_order_relaxed);
+    has_restored_overflowed_ |= change.kind == ChangeKind::restored;
     is_overflowed_[slot_of(change)] = true;
     overflowed_.push_back(slot_of(change));
 }
@@ -29,13 +33,15 @@ void ChangeQueue::resend_overflowed(const Bone& bone) noexcept {
         const std::size_t slot = overflowed_.back();
         overflowed_.pop_back();
         is_overflowed_[slot] = false;
-        send({content_->brick_of_slot[slot], VoxelMask().set_all()},
+        send({content_->brick_of_slot[slot], VoxelMask().set_all(),
+              has_restored_overflowed_ ? ChangeKind::restored : ChangeKind::milled},
              bone.fractions(static_cast<std::int32_t>(slot)));
     }
+    if (overflowed_.empty()) has_restored_overflowed_ = false;
 }
 
 bool ChangeQueue::send(const BrickChange& change, BrickFractions fractions) noexcept {
-    Head head{.brick = change.brick};
+    Head head{.brick = change.brick, .kind = change.kind};
     std::uint8_t* to = packed_.data() + sizeof head;
     for (std::size_t number = 0; number < VoxelMask::word_count; ++number) {
         // An empty word is overwritten by the next: quicker than a branch that nobody can predict.
@@ -46,7 +52,7 @@ bool ChangeQueue::send(const BrickChange& change, BrickFractions fractions) noex
     }
     const std::uint8_t* const first_fraction = to;
     change.voxels.for_each([&](std::size_t voxel) { *to++ = fractions[voxel]; });
-    head.fractions = static_cast<std::uint32_t>(to - first_fraction);
+    head.fractions = static_cast<std::uint16_t>(to - first_fraction);
     std::memcpy(packed_.data(), &head, sizeof head);
 
     const auto bytes = static_cast<std::size_t>(to - packed_.data());
@@ -61,7 +67,7 @@ std::size_t ChangeQueue::receive() noexcept {
     std::size_t bytes = sizeof head;
     bytes += queue_.pop(reinterpret_cast<std::uint8_t*>(words.data()),
                         static_cast<std::size_t>(std::popcount(head.words)) * sizeof words[0]);
-    received_ = {.brick = head.brick};
+    received_ = {.brick = head.brick, .kind = head.kind};
     std::size_t next = 0;
     for (std::uint64_t rest = head.words; rest != 0; rest &= rest - 1)
         received_.voxels.set_word(static_cast<std::size_t>(std::countr_zero(rest)), words[next++]);

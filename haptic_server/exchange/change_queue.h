@@ -23,7 +23,8 @@ class ChangeQueue final : public ChangeSink {
     /// What a change in the ring begins with.
     struct Head {
         BrickIndex brick = 0;
-        std::uint32_t fractions = 0;  ///< how many follow, after the words
+        std::uint16_t fractions = 0;  ///< how many follow, after the words
+        ChangeKind kind = ChangeKind::milled;
         std::uint64_t words = 0;      ///< bit n: word n of the mask follows
     };
 
@@ -43,12 +44,17 @@ class ChangeQueue final : public ChangeSink {
     /// Producer only. True while some brick waits to be sent again.
     bool has_overflowed() const noexcept { return !overflowed_.empty(); }
 
-    /// Consumer only. Calls `consume(const BrickChange&, BrickFractions)` for every change that is there now;
-    /// returns how many.
+    /// Producer only, for who can wait: false, and nothing is queued, if there is no room. Real-time safe.
+    [[nodiscard]] bool try_push(const BrickChange& change, BrickFractions fractions) noexcept {
+        return send(change, fractions);
+    }
+
+    /// Consumer only. Calls `consume(const BrickChange&, BrickFractions)` for every change that is there now,
+    /// or the first `most` of them; returns how many.
     template <typename Consume>
-    std::size_t consume_all(Consume&& consume) {
+    std::size_t consume_all(Consume&& consume, std::size_t most = ~std::size_t{0}) {
         std::size_t count = 0;
-        for (std::size_t bytes = queue_.read_available(); bytes > 0; ++count) {
+        for (std::size_t bytes = queue_.read_available(); bytes > 0 && count < most; ++count) {
             bytes -= receive();
             consume(std::as_const(received_), BrickFractions(received_fractions_));
         }
@@ -74,6 +80,7 @@ class ChangeQueue final : public ChangeSink {
     std::array<std::uint8_t, largest_change_bytes> packed_;  // scratch
     std::vector<std::size_t> overflowed_;                    // slots; reserved for every one
     std::vector<bool> is_overflowed_;                        // by slot
+    bool has_restored_overflowed_ = false;                   // one of them, since all was sent last
 
     // Consumer only.
     BrickChange received_;

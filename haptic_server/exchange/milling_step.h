@@ -37,6 +37,7 @@ struct MillingResult {
     double removed_mm3 = 0.0;  ///< by this step
     double total_removed_mm3 = 0.0;  ///< since the start
     bool touches_protected = false;  ///< the step removed protected tissue
+    bool has_restored = false;       ///< bone was given back, by undo, since the last result
     bool valid = true;               ///< false: the command was refused (not finite), force is zero
     /// Only of models without an engagement, with the spindle off: bone lies inside the burr.
     bool has_bone_inside = false;

@@ -31,6 +31,12 @@ HandState HapticLoop::hand_state(double now_s, double elapsed_s, const DeviceSta
             .burr = burr_.burr()};
 }
 
+bool HapticLoop::holds_still(const MillingResult& latest) const noexcept {
+    // Bone may come back round the burr: in that very tick nothing may be felt of it.
+    if (latest.has_restored) return true;
+    return parts_.gate != nullptr && parts_.gate->holds_still.load(std::memory_order_acquire);
+}
+
 void HapticLoop::tick(double now_s, std::uint64_t missed_periods) noexcept {
     const double elapsed_s = options_.tick_s * static_cast<double>(1 + missed_periods);
     const DeviceState device = parts_.device.read(now_s);
@@ -46,6 +52,7 @@ void HapticLoop::tick(double now_s, std::uint64_t missed_periods) noexcept {
                      .model_valid = latest.valid,
                      .missed_periods = missed_periods,
                      .energy_to_hand_mj = energy_.lately_mj(),
+                     .holds_still = holds_still(latest),
                      .clearance = clearance_of(latest, reading_mm)});
 
     // From where the burr was: the room that the milling loop found reaches beyond this tick's motion.

@@ -21,6 +21,7 @@
 #include "haptic_server/coupling/handpiece_vibration.h"
 #include "haptic_server/device/haptic_device.h"
 #include "haptic_server/exchange/milling_step.h"
+#include "haptic_server/exchange/session_gate.h"
 #include "haptic_server/exchange/triple_buffer.h"
 #include "haptic_server/loop/burr_change.h"
 #include "haptic_server/loop/force_log.h"
@@ -37,6 +38,7 @@ struct HapticLoopParts {
     TripleBuffer<BurrCommand>& commands;      ///< written
     TripleBuffer<ToolState>& tool;            ///< written, for the streaming loop
     TripleBuffer<ToolState>& status;          ///< written, for whoever shows progress
+    const SessionGate* gate = nullptr;        ///< read; null: the session never holds still
     ForceLog* log = nullptr;                  ///< written; null: no log
     HandpieceVibration* vibration = nullptr;  ///< added to the coupling's force; null: none
 };
@@ -70,6 +72,7 @@ class HapticLoop {
 
   private:
     HandState hand_state(double now_s, double elapsed_s, const DeviceState& device) noexcept;
+    bool holds_still(const MillingResult& latest) const noexcept;
     void publish(const BurrCommand& command, const ToolState& tool) noexcept;
     double depth_mm(bool in_contact) noexcept;
     void log(const ToolState& tool) noexcept;

@@ -48,6 +48,19 @@ double MillingLoop::room_for_change_mm(const BurrCommand& command) const noexcep
     return is_free ? room_mm : 0.0;
 }
 
+void MillingLoop::restore(double elapsed_s) noexcept {
+    if (parts_.restored == nullptr || parts_.commands.front().spindle_on) return;
+    const double most = std::clamp(restored_bricks_per_ms * 1e3 * elapsed_s, 1.0, 10.0 * restored_bricks_per_ms);
+    const std::size_t count = parts_.restored->consume_all(
+        [this](const BrickChange& change, BrickFractions fractions) {
+            parts_.model.restore(change, fractions, parts_.changes);
+        },
+        static_cast<std::size_t>(most));
+    if (count == 0) return;
+    has_restored_ = true;
+    parts_.gate->restored_changes.fetch_add(count, std::memory_order_release);
+}
+
 void MillingLoop::step(double time_s, double elapsed_s) noexcept {
     if (parts_.commands.refresh()) {
         if (!has_command_) pose_ = parts_.commands.front().pose;
@@ -67,6 +80,7 @@ void MillingLoop::step(double time_s, double elapsed_s) noexcept {
                            elapsed_s >= command_period_s_ - time_tolerance_s;
     command.wants_engagement = publishes;
 
+    restore(elapsed_s);
     MillingResult& result = parts_.results.back();
     parts_.model.step(command, time_s, parts_.changes, result);
     parts_.changes.resend_overflowed(parts_.model.bone());
@@ -86,13 +100,14 @@ void MillingLoop::step(double time_s, double elapsed_s) noexcept {
         result.removed_mm3 = removed_mm3_;
         result.touches_protected = touches_protected_;
     }
+    result.has_restored = has_restored_;
     result.wanted_burr = command.wanted_burr;
     result.room_for_change_mm = room_for_change_mm(command);
     published_mm_ = command.pose.position_mm;
     parts_.results.publish();
     elapsed_s_ = removed_mm3_ = 0.0;
     impulse_n_s_ = glm::dvec3(0.0);
-    touches_protected_ = false;
+    touches_protected_ = has_restored_ = false;
 }
 
 }  // namespace osteomill

@@ -13,6 +13,7 @@
 #include "haptic_server/contact_models/force_model.h"
 #include "haptic_server/exchange/change_queue.h"
 #include "haptic_server/exchange/milling_step.h"
+#include "haptic_server/exchange/session_gate.h"
 #include "haptic_server/exchange/triple_buffer.h"
 #include "haptic_server/loop/burr_hull.h"
 #include "haptic_server/loop/milling_log.h"
@@ -24,6 +25,8 @@ struct MillingLoopParts {
     TripleBuffer<BurrCommand>& commands;   ///< read
     TripleBuffer<MillingResult>& results;  ///< written
     ChangeQueue& changes;                  ///< written
+    ChangeQueue* restored = nullptr;       ///< read: bone to be given back by undo; null: none ever is
+    SessionGate* gate = nullptr;           ///< written, with `restored`
     MillingLog* log = nullptr;             ///< written; null: no log
     std::span<const Burr> burrs{};         ///< of the scene: what may be put in the burr's place
 };
@@ -39,10 +42,15 @@ class MillingLoop {
 
     /// A tool that moves so fast that more room is needed is not looked at: it would take too long.
     static constexpr double most_room_mm = 2.0;
+    /// Bricks that are restored in a millisecond: a stroke of a hundred bricks is back within a frame of the
+    /// picture, and they take a tenth of a step's time.
+    static constexpr double restored_bricks_per_ms = 4.0;
 
   private:
     /// Where the burr shall be at the end of this step.
     ToolPose pose_on_the_way(double elapsed_s) noexcept;
+    /// With the spindle off, what the queue of restored bone holds, as much as a step has time for.
+    void restore(double elapsed_s) noexcept;
     /// MillingResult::room_for_change_mm. Looks beyond both burrs and their shanks by a voxel, and by twice
     /// what the tool went since the last result: when this one is read it will have moved on.
     double room_for_change_mm(const BurrCommand& command) const noexcept;
@@ -61,6 +69,7 @@ class MillingLoop {
     glm::dvec3 impulse_n_s_{0.0};
     double removed_mm3_ = 0.0;
     bool touches_protected_ = false;
+    bool has_restored_ = false;
 };
 
 }  // namespace osteomill

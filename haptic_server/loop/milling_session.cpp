@@ -108,6 +108,9 @@ MillingSession::MillingSession(const Scene& scene, Bone bone, HapticDevice& devi
            .model_holds_wall = !find_force_model(options.force_model).has_cutting_law,
            .wall_friction = find_force_model(options.force_model).has_friction ? scene.wall_friction : 0.0})),
       changes_(change_queue_bytes, model_->bone().shared_content()),
+      restored_(options.can_be_controlled
+                    ? std::make_unique<ChangeQueue>(restored_queue_bytes, model_->bone().shared_content())
+                    : nullptr),
       tool_(tool_at_start(scene)),
       status_(tool_at_start(scene)),
       vibration_(make_vibration(scene, device, options)),
@@ -117,6 +120,7 @@ MillingSession::MillingSession(const Scene& scene, Bone bone, HapticDevice& devi
                     .commands = commands_,
                     .tool = tool_,
                     .status = status_,
+                    .gate = gate(),
                     .log = log,
                     .vibration = vibration_ ? &*vibration_ : nullptr},
                    {.tick_s = tick_s,
@@ -130,6 +134,8 @@ MillingSession::MillingSession(const Scene& scene, Bone bone, HapticDevice& devi
                      .commands = commands_,
                      .results = results_,
                      .changes = changes_,
+                     .restored = restored(),
+                     .gate = gate(),
                      .log = milling_log,
                      .burrs = burrs_},
                     tick_s),

@@ -44,6 +44,8 @@ struct MillingSessionOptions {
         force_model_names().front();  ///< one without a cutting law: not with "implicit"
     bool vibration = false;           ///< of the handpiece; only with a cutting law
     double duration_s = std::numeric_limits<double>::infinity();
+    /// Somebody may pause it, and undo what was milled: see gate() and restored().
+    bool can_be_controlled = false;
     /// Somebody consumes changes() while the session runs. If not, the session empties the queue itself.
     bool changes_are_consumed = false;
     /// Processors that the loops are bound to, of those that this process may use; absent: the system's
@@ -77,6 +79,8 @@ class MillingSession {
     static constexpr std::uint64_t settling_ticks = 100;
     /// Over half a second of the heaviest carving (5 mm burr, half immersed, at 1 kHz: 6 kB a step).
     static constexpr std::size_t change_queue_bytes = std::size_t{1} << 22;
+    /// What a tenth of a second restores.
+    static constexpr std::size_t restored_queue_bytes = std::size_t{1} << 21;
 
     /// `device` and the logs (may be null) outlive the session. Throws std::invalid_argument for a milling
     /// rate out of range, a processor that this process may not use, an unknown coupling or force model, a
@@ -88,6 +92,10 @@ class MillingSession {
     /// changes in order (each one reader).
     TripleBuffer<ToolState>& tool() { return tool_; }
     ChangeQueue& changes() { return changes_; }
+    /// For who looks after the session (one writer each): whether it holds still, and the bone that is to be
+    /// given back, which it is while the spindle is off. Null where the session cannot be controlled.
+    SessionGate* gate() { return restored_ ? &gate_ : nullptr; }
+    ChangeQueue* restored() { return restored_.get(); }
 
     /// Starts the device, runs until the duration has passed or `stop` is set, stops the device. Calls
     /// `on_progress`, if given, on the caller's thread: about every 20 ms, on the virtual clock every 33 ms
@@ -124,6 +132,8 @@ class MillingSession {
     std::unique_ptr<ForceModel> model_;
     std::unique_ptr<Coupling> coupling_;
     ChangeQueue changes_;
+    SessionGate gate_;
+    std::unique_ptr<ChangeQueue> restored_;
     TripleBuffer<MillingResult> results_;
     TripleBuffer<BurrCommand> commands_;
     TripleBuffer<ToolState> tool_;

@@ -32,6 +32,7 @@
 #include "haptic_server/program/measurements.h"
 #include "haptic_server/program/resident_memory.h"
 #include "haptic_server/program/scene_on_bone.h"
+#include "haptic_server/program/session_keeper.h"
 #include "haptic_server/program/status_line.h"
 #include "haptic_server/streaming/live_session.h"
 #include "haptic_server/streaming/streaming_server.h"
@@ -117,25 +118,34 @@ DeviceParts make_device(const ServerOptions& options, Scene& scene) {
     return parts;
 }
 
-/// What shows the session to clients, and records it.
+/// What shows the session to clients, and records it, and lets them control it.
 struct Streaming {
+    std::unique_ptr<SessionKeeper> keeper;
+    std::unique_ptr<SessionControls> controls;
     std::unique_ptr<LiveSession> shown;
     std::unique_ptr<StreamingServer> server;  // null: nobody looks on
 
     explicit operator bool() const { return server != nullptr; }
+    bool has_been_asked_to_finish() const { return keeper && keeper->has_been_asked_to_finish(); }
 };
 
 Streaming make_streaming(StreamingOptions wanted, const ServerOptions& options, const Scene& scene,
                          Bone mirror, MillingSession& session, const DeviceParts& device,
-                         const std::string& version, LineStream& out) {
+                         const std::string& version, SessionKeeper::Save save, LineStream& out) {
     wanted.listens = options.listen.has_value();
     wanted.paced_by_session = options.session.clock == ClockKind::virtual_time;
     if (options.record)
         wanted.record = RecordTo{.file = *options.record, .began = std::chrono::system_clock::now()};
     Streaming streaming;
-    streaming.shown = std::make_unique<LiveSession>(session.tool(), session.changes());
+    streaming.keeper = std::make_unique<SessionKeeper>(std::move(save));
+    streaming.controls = std::make_unique<SessionControls>(*session.gate(), *session.restored(),
+                                                           streaming.keeper->requests());
+    streaming.shown = std::make_unique<LiveSession>(
+        session.tool(), session.changes(), streaming.controls.get(),
+        options.controls ? read_control_script(*options.controls) : ControlScript{});
     SessionInfo info =
         session_info(scene, device.operator_channel != nullptr, device.device->limits().max_force_n, version);
+    info.accepts_controls = options.session.clock == ClockKind::real;
     streaming.server =
         std::make_unique<StreamingServer>(std::move(wanted), std::move(info), std::move(mirror),
                                           *streaming.shown, device.operator_channel.get());
@@ -227,16 +237,26 @@ void run_server(const ServerOptions& options, const std::string& version, const 
     begin_log(milling_log, options.log_milling_csv, MillingSample::header_line);
 
     MillingSessionOptions session_options = options.session;
-    const bool is_shown = options.listen || options.record;
-    session_options.changes_are_consumed = is_shown;
+    const bool is_shown = options.listen || options.record || options.controls;
+    session_options.changes_are_consumed = session_options.can_be_controlled = is_shown;
     std::optional<Bone> mirror;
     if (is_shown) mirror = bone;
     const auto session =
         std::make_unique<MillingSession>(scene, std::move(bone), *device.device, session_options,
                                          log ? &*log : nullptr, milling_log ? &*milling_log : nullptr);
+    SessionKeeper::Save save;
+    if (options.save_bone)
+        save = [&](const Bone& now) -> std::string {
+            try {
+                save_bone(*options.save_bone, source, now);
+            } catch (const std::exception& error) {
+                return error.what();
+            }
+            return {};
+        };
     const Streaming streaming =
         is_shown ? make_streaming(std::move(streaming_as_typed), options, scene, *std::move(mirror), *session,
-                                  device, version, *output.out)
+                                  device, version, std::move(save), *output.out)
                  : Streaming{};
 
     cost.startup_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
@@ -256,10 +276,11 @@ void run_server(const ServerOptions& options, const std::string& version, const 
         status.show(tool, StatusLine::Clock::now());
         status.show_notice(tool, device.device->notice());
         if (streaming && options.session.clock == ClockKind::virtual_time) streaming.server->show_frame();
-        if (stop.load() || device.is_finished()) is_over.store(true);
+        if (stop.load() || device.is_finished() || streaming.has_been_asked_to_finish()) is_over.store(true);
     });
     status.finish();
     if (streaming) streaming.server->end();
+    if (streaming) streaming.keeper->wait();
 
     std::ifstream process("/proc/self/status");
     const std::uint64_t peak_bytes = peak_resident_bytes(process).value_or(0);

@@ -35,6 +35,7 @@ struct Typed {
     double duration_s = std::numeric_limits<double>::infinity();
     std::string listen;
     std::string operators;
+    std::string controls;
     std::string record;
     std::string save_bone;
     std::string json;
@@ -146,6 +147,10 @@ void declare(CLI::App& app, Typed& typed) {
                    "subject a line, "
                    "whole, as RFC 2253 writes it, such as CN=viewer; # begins a comment")
         ->type_name("FILE");
+    app.add_option("--controls", typed.controls,
+                   "Pause, undo, mark and the like at given times, as the window's tool bar does; lines of "
+                   "t_s,action,text")
+        ->type_name("FILE.csv");
     app.add_option("--record", typed.record,
                    "Write what a client is sent, for packet_replay and render_client --replay; a pcap file")
         ->type_name("FILE");
@@ -214,6 +219,7 @@ void require_distinct_files(const ServerOptions& options, const AccessOptions& a
     if (options.scene) add("--scene", *options.scene, false);
     add("--device-profile", options.device_profile, false);
     add("--operators", options.operators, false);
+    add("--controls", options.controls, false);
     add("--json", options.json, true);
     add("--log-csv", options.log_csv, true);
     add("--log-milling-csv", options.log_milling_csv, true);
@@ -275,6 +281,7 @@ ServerOptions checked(const Typed& typed, const AccessOptions& access) {
     if (options.operators && !options.access.tls)
         throw std::invalid_argument(
             "--operators: needs TLS (--tls-cert, --tls-key, --tls-ca), which says who a client is");
+    options.controls = path_if_given(typed.controls);
     options.record = path_if_given(typed.record);
     options.save_bone = path_if_given(typed.save_bone);
     if (options.save_bone && options.save_bone->extension() != ".nrrd") {

@@ -28,6 +28,7 @@ struct ServerOptions {
     std::optional<ListenAddress> listen;  ///< nullopt: nobody is served
     Access access;
     std::optional<std::filesystem::path> operators;  ///< who of the clients may move the tool; nullopt: any
+    std::optional<std::filesystem::path> controls;   ///< a script of them
     std::optional<std::filesystem::path> record;
     std::optional<std::filesystem::path> save_bone;
     std::optional<std::filesystem::path> json;

@@ -41,6 +41,10 @@ void RecordedSession::show(BoneReplica& mirror, double until_s) {
             case Playhead::Step::state:
                 for (const v1::BrickEdit& edit : playhead_.frame().edits())
                     if (const auto error = mirror.apply(edit)) throw RecordingError(error->line);
+                for (const v1::BrickEdit& edit : playhead_.frame().restored())
+                    if (const auto error = mirror.restore(edit)) throw RecordingError(error->line);
+                events_.insert(events_.end(), playhead_.events().begin(), playhead_.events().end());
+                status_ = playhead_.status();
                 break;
             case Playhead::Step::nothing_due:
                 return;

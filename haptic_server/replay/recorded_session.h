@@ -6,6 +6,8 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "common/recording/playhead.h"
 #include "haptic_server/streaming/stream_source.h"
@@ -24,6 +26,8 @@ class RecordedSession final : public StreamSource {
         : playhead_(playhead), speed_(speed), now_(std::move(now)), begins_s_(playhead.time_s()) {}
 
     ToolState update(BoneReplica& mirror, std::size_t viewers) override;
+    std::vector<ControlEvent> take_events() override { return std::exchange(events_, {}); }
+    SessionStatus status() const override { return status_; }
 
     /// Any thread. Whether all was shown.
     bool is_over() const { return is_over_.load(); }
@@ -39,6 +43,8 @@ class RecordedSession final : public StreamSource {
     const std::function<Clock::time_point()> now_;
     const double begins_s_;
     std::optional<Clock::time_point> began_;
+    std::vector<ControlEvent> events_;
+    SessionStatus status_;
     std::string error_;
     std::atomic<bool> is_over_{false};
 };

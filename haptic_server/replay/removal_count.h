@@ -1,4 +1,4 @@
-// How much bone the edits of a recording take away, by tissue.
+// How much bone the edits of a recording take away, by tissue, less what is given back.
 #pragma once
 
 #include <array>

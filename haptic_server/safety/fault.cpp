@@ -20,6 +20,8 @@ const char* describe(Fault fault) noexcept {
             return "the burr is inside the bone: no force until it is held clear of it";
         case Fault::energy_to_hand:
             return "the force pushed the hand with more energy than bone has: force and spindle off";
+        case Fault::paused:
+            return "paused: force and spindle off";
     }
     return "unknown fault: force off";
 }

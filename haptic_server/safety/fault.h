@@ -14,12 +14,13 @@ enum class Fault : std::uint8_t {
     overrun,
     device_jumped,
     in_bone,
-    energy_to_hand
+    energy_to_hand,
+    paused  ///< no fault of anything: somebody asked for it
 };
 
 inline constexpr std::array all_faults{Fault::device_lost,   Fault::model_stalled, Fault::not_a_number,
                                        Fault::overrun,       Fault::device_jumped, Fault::in_bone,
-                                       Fault::energy_to_hand};
+                                       Fault::energy_to_hand, Fault::paused};
 
 /// One line for people; empty for Fault::none.
 const char* describe(Fault fault) noexcept;

@@ -12,7 +12,8 @@ void SafetyMonitor::begin(Fault found, bool pedal, Clearance clearance) noexcept
     if (is_untried_ && found == Fault::none && clearance == Clearance::in_bone) keeps_off_ = Fault::in_bone;
     if (found != Fault::none || clearance != Clearance::unknown) is_untried_ = false;
     pedal_ = pedal && has_hand();
-    if (found == Fault::device_lost || found == Fault::device_jumped || found == Fault::energy_to_hand)
+    if (found == Fault::device_lost || found == Fault::device_jumped || found == Fault::energy_to_hand ||
+        found == Fault::paused)
         is_spindle_locked_ = true;
     if (has_hand() && !pedal) is_spindle_locked_ = false;
 }

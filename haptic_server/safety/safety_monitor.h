@@ -34,7 +34,7 @@
 //
 // The spindle:
 //
-//             the device was lost or jumped, or the force gave the hand energy
+//             the device was lost or jumped, the force gave the hand energy, or the session was paused
 //   free ------------------------------------> locked
 //     ^                                          |
 //     +----- the pedal was up, device there -----+

@@ -32,6 +32,7 @@ Fault Watchdog::check(const Observation& seen) noexcept {
     if (seen.now_s - model_changed_s_ > longest_model_age_s) return Fault::model_stalled;
     if (!seen.model_valid) return Fault::not_a_number;
     if (seen.energy_to_hand_mj > most_energy_to_hand_mj) return Fault::energy_to_hand;
+    if (seen.holds_still) return Fault::paused;
     if (static_cast<double>(overrun_periods_) * tick_s_ >= longest_overrun_s) return Fault::overrun;
     return Fault::none;
 }

@@ -20,6 +20,7 @@ struct Observation {
     bool model_valid = true;                 ///< that result is one
     std::uint64_t missed_periods = 0;        ///< haptic deadlines that passed unserved just before this tick
     double energy_to_hand_mj = 0.0;          ///< net, lately (energy_meter.h)
+    bool holds_still = false;                ///< the session is paused, or bone is being restored
     Clearance clearance = Clearance::clear;  ///< of the burr, were it where the hand is
 };
 
@@ -30,6 +31,7 @@ struct Observation {
 ///   model_stalled   no new milling result for longest_model_age_s
 ///   not_a_number    the milling result is not valid
 ///   energy_to_hand  the force gave the hand more than most_energy_to_hand_mj lately
+///   paused          the session is to hold still
 ///   overrun         longest_overrun_s of deadlines missed with no tick in time between them
 class Watchdog {
   public:

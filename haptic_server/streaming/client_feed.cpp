@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "common/wire/control_messages.h"
 #include "common/wire/frame.h"
 #include "common/wire/scene_messages.h"
 #include "common/wire/sealed_frame.h"
@@ -25,10 +26,19 @@ void ClientFeed::note(std::span<const BrickChange> changes) {
         if (static_cast<std::size_t>(mirror_.bone().slot(change.brick)) < next_slot_) pending_.add(change);
 }
 
+void ClientFeed::note(std::span<const ControlEvent> events) {
+    events_.insert(events_.end(), events.begin(), events.end());
+    while (events_.size() > most_waiting_events) events_.pop_front();
+}
+
+void ClientFeed::note(const SessionStatus& status) {
+    status_ = status;
+}
+
 void ClientFeed::request_state(const ToolState& tool, bool with_checksum) {
     tool_ = tool;
     const bool is_news =
-        with_checksum || !pending_.empty() || !sent_tool_ || !is_within_deadband(*sent_tool_, tool);
+        with_checksum || !pending_.empty() || !events_.empty() || status_ != sent_status_ || !sent_tool_ || !is_within_deadband(*sent_tool_, tool);
     wants_state_ = wants_state_ || is_news;
     wants_checksum_ = wants_checksum_ || with_checksum;
     comparisons_left_ = std::min(comparisons_left_ + 1, most_comparisons_at_once);
@@ -109,12 +119,15 @@ void ClientFeed::fill_state(v1::ServerFrame& frame, std::size_t most_bytes) {
     v1::StateFrame& state = *frame.mutable_state();
     *state.mutable_tool() = to_message(tool_);
     if (answer_) *state.mutable_comparison() = *std::exchange(answer_, std::nullopt);
+    if (status_ != SessionStatus{}) *state.mutable_status() = to_message(status_);
+    sent_status_ = status_;
+    add_events(state, most_bytes);
     if (change_packer_ != nullptr && !pending_.empty())
         add_packed_changes(state, most_bytes);
     else
         add_edits(frame, most_bytes);
     sent_tool_ = tool_;
-    if (!pending_.empty()) return;  // the rest goes into the next frame
+    if (!pending_.empty() || !events_.empty()) return;  // the rest goes into the next frame
     wants_state_ = false;
     if (std::exchange(wants_checksum_, false)) state.set_bone_checksum(mirror_.checksum());
 }
@@ -129,22 +142,30 @@ void ClientFeed::add_edits(v1::ServerFrame& frame, std::size_t most_bytes) {
         v1::BrickEdit edit = brick_edit(change, mirror_.bone().fractions(slot));
         constexpr std::size_t tag_and_length = 4;
         bytes += edit.ByteSizeLong() + tag_and_length;
-        if (bytes > most_bytes && state.edits_size() > 0) return;
-        *state.add_edits() = std::move(edit);
+        if (bytes > most_bytes && state.edits_size() + state.restored_size() > 0) return;
+        *(change.kind == ChangeKind::milled ? state.add_edits() : state.add_restored()) = std::move(edit);
         pending_.sent();
     }
 }
 
+void ClientFeed::add_events(v1::StateFrame& state, std::size_t most_bytes) {
+    for (; !events_.empty() && state.ByteSizeLong() < most_bytes; events_.pop_front())
+        *state.add_events() = to_message(events_.front());
+}
+
 void ClientFeed::add_packed_changes(v1::StateFrame& state, std::size_t most_bytes) {
     const std::size_t most_packed = std::min(least_shrinking * most_bytes, largest_packed_changes_bytes);
-    std::vector<BrickChange> changes;
+    std::vector<BrickChange> milled;
+    std::vector<BrickChange> restored;
     for (std::size_t bytes = 0; !pending_.empty(); pending_.sent()) {
-        BrickChange change = pending_.next();
+        const BrickChange change = pending_.next();
         bytes += mask_bytes + change.voxels.count();
-        if (bytes > most_packed && !changes.empty()) break;
-        changes.push_back(std::move(change));
+        if (bytes > most_packed && milled.size() + restored.size() > 0) break;
+        (change.kind == ChangeKind::milled ? milled : restored).push_back(change);
     }
-    *state.mutable_changes() = change_packer_->pack(mirror_.bone(), changes);
+    if (!milled.empty()) *state.mutable_changes() = change_packer_->pack(mirror_.bone(), milled);
+    if (!restored.empty())
+        *state.mutable_restored_changes() = change_packer_->pack(mirror_.bone(), restored);
 }
 
 }  // namespace osteomill

@@ -7,11 +7,13 @@
 // less: see PendingChanges.
 #pragma once
 
+#include <deque>
 #include <optional>
 #include <span>
 #include <string>
 
 #include "common/bone/brick_change.h"
+#include "common/scene/session_control.h"
 #include "common/scene/tool_state.h"
 #include "common/wire/bone_comparison.h"
 #include "common/wire/bone_replica.h"
@@ -33,6 +35,11 @@ class ClientFeed {
 
     /// To be called for every change of the mirror, before the next frame is asked for.
     void note(std::span<const BrickChange> changes);
+    /// Likewise for what was done to the session. Of what waits for a client that does not read, the oldest
+    /// is forgotten beyond most_waiting_events.
+    void note(std::span<const ControlEvent> events);
+    /// What the next frame says of what can be done.
+    void note(const SessionStatus& status);
 
     /// Asks for a state frame as soon as one can be sent; but where nothing is new and the tool rests, only
     /// every deadband_period_s. One that has not been sent yet is replaced: what it
@@ -65,6 +72,7 @@ class ClientFeed {
     const PendingChanges& pending() const { return pending_; }
 
   private:
+    static constexpr std::size_t most_waiting_events = 1000;
     /// Two searches of the longest kind; after that one for each state frame.
     static constexpr int most_comparisons_at_once = 2 * most_requests_of_a_search;
 
@@ -74,6 +82,7 @@ class ClientFeed {
     void fill_state(v1::ServerFrame& frame, std::size_t most_bytes);
     void add_edits(v1::ServerFrame& frame, std::size_t most_bytes);
     void add_packed_changes(v1::StateFrame& state, std::size_t most_bytes);
+    void add_events(v1::StateFrame& state, std::size_t most_bytes);
 
     v1::Hello hello_;
     const BoneReplica& mirror_;
@@ -90,6 +99,10 @@ class ClientFeed {
     int comparisons_left_ = most_comparisons_at_once;
 
     ChangePacker* change_packer_ = nullptr;  // none: edits are sent as runs
+
+    std::deque<ControlEvent> events_;  // that have yet to be sent
+    SessionStatus status_;
+    SessionStatus sent_status_;
 
     ToolState tool_;
     std::optional<ToolState> sent_tool_;

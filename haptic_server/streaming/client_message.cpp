@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "common/wire/control_messages.h"
 #include "common/wire/protocol_version.h"
 #include "common/wire/scene_messages.h"
 
@@ -16,6 +17,20 @@ std::variant<std::optional<Answer>, WireError> take_client_message(const v1::Cli
     }
     if (frame.has_compare_bone()) {
         if (auto error = client.feed.compare(frame.compare_bone())) return *std::move(error);
+        return std::nullopt;
+    }
+    if (frame.has_session_control()) {
+        const auto control = session_control_from(frame.session_control());
+        if (const auto* error = std::get_if<WireError>(&control)) return *error;
+        const auto& asked = std::get<SessionControl>(control);
+        if (client.control != nullptr) {
+            (*client.control)(asked);
+        } else {
+            const ControlEvent refused{.action = asked.action,
+                                       .text = "this client may not control the session, or another does",
+                                       .is_refused = true};
+            client.feed.note(std::span(&refused, 1));
+        }
         return std::nullopt;
     }
     if (!frame.has_operator_input()) return WireError{"it sent a frame without a body that is known"};

@@ -1,6 +1,7 @@
 // What a server does with what a client sends. No sockets, no clock.
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <variant>
@@ -21,12 +22,15 @@ struct MessagingClient {
     ChangePacker& packer;           ///< of all clients that take packed changes; outlives the feed
     ControlLease* lease = nullptr;  ///< null: nobody may move the tool now, and input changes nothing
     std::size_t burr_count = 0;     ///< of the session
+    /// Takes what the client asks of the session; null: it may not ask now.
+    const std::function<void(const SessionControl&)>* control = nullptr;
 };
 
 /// What became of an operator's input that was let through, or not; see AnsweredStates.
 using Answer = AnsweredStates::Answer;
 
 /// An operator's input is given to the lease if it is fresh.
+/// A control of the session goes where the client says; one that may not ask is told so.
 /// An error if the message makes no sense, which drops the client: no body, numbers that are not finite, a
 /// burr that is not there, an answer to a state that was not sent, a comparison that ClientFeed refuses. It
 /// has then changed nothing. Otherwise what became of an operator's input where that is news: it is otherwise

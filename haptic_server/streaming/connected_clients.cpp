@@ -26,11 +26,13 @@ std::int64_t unix_time_ns() {
 
 ConnectedClients::ConnectedClients(const StreamingOptions& options, const v1::Hello& hello,
                                    const BoneReplica& mirror, SnapshotPacker& snapshot_packer,
-                                   OperatorChannel* operator_channel)
+                                   OperatorChannel* operator_channel,
+                                   std::function<void(const SessionControl&)> control)
     : options_(options),
       hello_(hello),
       mirror_(mirror),
       snapshot_packer_(snapshot_packer),
+      control_(std::move(control)),
       unidentified_(options.places_for_unidentified) {
     if (operator_channel != nullptr) lease_.emplace(*operator_channel);
 }
@@ -76,6 +78,16 @@ void ConnectedClients::note(std::span<const BrickChange> changes) {
     for (const auto& [id, connection] : connections_) connection->feed().note(changes);
 }
 
+void ConnectedClients::note(std::span<const ControlEvent> events, const SessionStatus& status) {
+    const Time now = std::chrono::steady_clock::now();
+    for (const auto& [id, connection] : connections_) {
+        SessionStatus theirs = status;
+        theirs.may_control = may_control(id, now);
+        connection->feed().note(events);
+        connection->feed().note(theirs);
+    }
+}
+
 void ConnectedClients::show(const ToolState& tool, bool with_checksum) {
     // A recording's packets have stamps of their own.
     const std::int64_t now_unix_ns = unix_time_ns();
@@ -109,8 +121,15 @@ void ConnectedClients::log_unidentified(const std::string& line) {
     unidentified_log_.write(spdlog::level::warn, line, std::chrono::steady_clock::now());
 }
 
+bool ConnectedClients::may_control(Id id, Time now) const {
+    if (!hello_.accepts_controls() || when_gone_ || watchers_.contains(id)) return false;
+    if (!lease_) return seat_.is_open_to(id, now);
+    return !lease_->holder() || *lease_->holder() == id;
+}
+
 v1::Hello ConnectedClients::hello_for(bool may_operate) const {
     v1::Hello hello = hello_;
+    hello.set_accepts_controls(hello.accepts_controls() && may_operate);
     hello.set_accepts_operator(hello.accepts_operator() && may_operate);
     return hello;
 }
@@ -129,6 +148,9 @@ std::optional<WireError> ConnectedClients::take(Id id, const v1::ClientFrame& fr
         welcome(*connection);
         connection->serve();
     }
+    const Time now = std::chrono::steady_clock::now();
+    const bool controls = frame.has_session_control() && may_control(id, now);
+    if (controls) seat_.use(id, now);
     const bool may_operate = lease_ && !when_gone_ && !watchers_.contains(id);
     auto taken = take_client_message(frame,
                                      {.id = id,
@@ -136,8 +158,9 @@ std::optional<WireError> ConnectedClients::take(Id id, const v1::ClientFrame& fr
                                       .answers = connection->answers(),
                                       .packer = change_packer_,
                                       .lease = may_operate ? &*lease_ : nullptr,
-                                      .burr_count = static_cast<std::size_t>(hello_.burrs_size())},
-                                     std::chrono::steady_clock::now());
+                                      .burr_count = static_cast<std::size_t>(hello_.burrs_size()),
+                                      .control = controls ? &control_ : nullptr},
+                                     now);
     log_holder();
     if (frame.has_operator_input() && watchers_.contains(id) && refused_input_.insert(id).second)
         log_client(
@@ -154,6 +177,7 @@ std::optional<WireError> ConnectedClients::take(Id id, const v1::ClientFrame& fr
 void ConnectedClients::dismiss(Id id, const std::string& peer, const std::string& line, bool is_fault) {
     // First of all: a hand that has gone must not keep the burr turning.
     if (lease_) lease_->leave(id);
+    seat_.leave(id);
     const bool was_unidentified = unidentified_.remove(id);
     (was_unidentified ? unidentified_log_ : client_log_)
         .write(is_fault ? spdlog::level::warn : spdlog::level::info, fmt::format("client {} {}", peer, line),

@@ -23,6 +23,7 @@
 #include "haptic_server/streaming/changes_of_hands.h"
 #include "haptic_server/streaming/client_connection.h"
 #include "haptic_server/streaming/control_lease.h"
+#include "haptic_server/streaming/control_seat.h"
 #include "haptic_server/streaming/limited_log.h"
 #include "haptic_server/streaming/streaming_options.h"
 #include "haptic_server/streaming/unidentified_connections.h"
@@ -33,10 +34,12 @@ class ConnectedClients {
   public:
     using Time = std::chrono::steady_clock::time_point;
 
-    /// `hello`: what they are greeted with. `operator_channel`: null where no client can move the tool. All
-    /// references outlive this.
+    /// `hello`: what they are greeted with. `operator_channel`: null where no client can move the tool.
+    /// `control`: takes what those who may ask of the session, if the hello accepts that. All references
+    /// outlive this.
     ConnectedClients(const StreamingOptions& options, const v1::Hello& hello, const BoneReplica& mirror,
-                     SnapshotPacker& snapshot_packer, OperatorChannel* operator_channel);
+                     SnapshotPacker& snapshot_packer, OperatorChannel* operator_channel,
+                     std::function<void(const SessionControl&)> control);
 
     /// One whose handshake is over.
     void admit(std::shared_ptr<Stream> stream);
@@ -46,6 +49,8 @@ class ConnectedClients {
     void look_after(Time now);
     /// To be called for every change of the mirror.
     void note(std::span<const BrickChange> changes);
+    /// Likewise for what was done to the session, and what can be done with it.
+    void note(std::span<const ControlEvent> events, const SessionStatus& status);
     /// Sends everybody where the tool is.
     void show(const ToolState& tool, bool with_checksum);
 
@@ -65,6 +70,7 @@ class ConnectedClients {
 
     /// Those who have said who they are, by certificate or greeting.
     std::size_t clients() const { return connections_.size() - unidentified_.size(); }
+    bool may_control(Id id, Time now) const;
     v1::Hello hello_for(bool may_operate) const;
     ToolState state_for(Id id, const ToolState& tool) const;
     std::optional<WireError> take(Id id, const v1::ClientFrame& frame);
@@ -80,6 +86,8 @@ class ConnectedClients {
     SnapshotPacker& snapshot_packer_;
     ChangePacker change_packer_;
     std::optional<ControlLease> lease_;
+    ControlSeat seat_;  // where there is no lease
+    std::function<void(const SessionControl&)> control_;
     ChangesOfHands changes_of_hands_;
 
     std::map<Id, std::shared_ptr<ClientConnection>> connections_;

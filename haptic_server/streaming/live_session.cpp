@@ -18,12 +18,32 @@ SessionInfo session_info(const Scene& scene, bool accepts_operator, double force
 
 ToolState LiveSession::update(BoneReplica& mirror, std::size_t) {
     std::size_t refused = 0;
+    if (controls_ != nullptr) controls_->begin_frame();
     changes_.consume_all([&](const BrickChange& change, BrickFractions fractions) {
+        if (controls_ != nullptr) controls_->note(change, mirror.bone());
         refused += mirror.apply(change, fractions) ? 0 : 1;
     });
     if (refused > 0) spdlog::error("{} changes do not fit the bone that clients are shown", refused);
     tool_.refresh();
-    return tool_.front();
+    const ToolState& tool = tool_.front();
+    if (controls_ != nullptr) {
+        for (; !script_.empty() && script_.front().time_s <= tool.time_s; script_.pop_front())
+            controls_->control(script_.front().control);
+        controls_->end_frame(mirror.bone(), tool.time_s, tool.spindle_on);
+    }
+    return tool;
+}
+
+std::vector<ControlEvent> LiveSession::take_events() {
+    return controls_ != nullptr ? controls_->take_events() : std::vector<ControlEvent>();
+}
+
+SessionStatus LiveSession::status() const {
+    return controls_ != nullptr ? controls_->status() : SessionStatus{};
+}
+
+void LiveSession::control(const SessionControl& control) {
+    if (controls_ != nullptr) controls_->control(control);
 }
 
 }  // namespace osteomill

@@ -6,6 +6,8 @@
 #include "common/wire/session_info.h"
 #include "haptic_server/exchange/change_queue.h"
 #include "haptic_server/exchange/triple_buffer.h"
+#include "haptic_server/streaming/control_script.h"
+#include "haptic_server/streaming/session_controls.h"
 #include "haptic_server/streaming/stream_source.h"
 
 namespace osteomill {
@@ -17,12 +19,21 @@ SessionInfo session_info(const Scene& scene, bool accepts_operator, double force
 /// The one reader of `tool` and the one consumer of `changes`; both outlive it. Never waits for the loops.
 class LiveSession final : public StreamSource {
   public:
-    LiveSession(TripleBuffer<ToolState>& tool, ChangeQueue& changes) : tool_(tool), changes_(changes) {}
+    /// `controls`: outlives it; null for a session that nobody controls. `script`: what is due without anybody
+    /// asking for it.
+    LiveSession(TripleBuffer<ToolState>& tool, ChangeQueue& changes, SessionControls* controls = nullptr,
+                ControlScript script = {})
+        : tool_(tool), changes_(changes), controls_(controls), script_(std::move(script)) {}
     ToolState update(BoneReplica& mirror, std::size_t viewers) override;
+    std::vector<ControlEvent> take_events() override;
+    SessionStatus status() const override;
+    void control(const SessionControl& control) override;
 
   private:
     TripleBuffer<ToolState>& tool_;
     ChangeQueue& changes_;
+    SessionControls* controls_;
+    ControlScript script_;
 };
 
 }  // namespace osteomill

@@ -21,6 +21,8 @@ class PendingChanges {
     /// 2 MiB of masks: far more bricks than a burr touches while a network hiccups.
     static constexpr std::size_t most_masks = 4096;
 
+    /// Once part of a brick was restored, all of it that waits goes as restored: the client may know older
+    /// values than those from which milling went on.
     void add(const BrickChange& change);
     void add_whole(BrickIndex brick);
 
@@ -34,9 +36,13 @@ class PendingChanges {
     void sent();
 
   private:
-    std::map<BrickIndex, std::unique_ptr<VoxelMask>>::const_iterator turn() const;
+    struct Waiting {
+        std::unique_ptr<VoxelMask> voxels{};  ///< null: the whole brick
+        ChangeKind kind = ChangeKind::milled;
+    };
+    std::map<BrickIndex, Waiting>::const_iterator turn() const;
 
-    std::map<BrickIndex, std::unique_ptr<VoxelMask>> waiting_;  // null: the whole brick
+    std::map<BrickIndex, Waiting> waiting_;
     std::size_t masks_ = 0;
     BrickIndex turn_ = 0;  // bricks from here on come first
 };

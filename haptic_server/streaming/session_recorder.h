@@ -24,6 +24,10 @@ class SessionRecorder {
 
     /// As for a client: see ClientFeed.
     void note(std::span<const BrickChange> changes) { feed_.note(changes); }
+    void note(std::span<const ControlEvent> events, const SessionStatus& status) {
+        feed_.note(events);
+        feed_.note(status);
+    }
     /// Hands over a state frame; without waiting, unless `may_wait`.
     void record(const ToolState& tool, bool with_checksum, bool may_wait);
     /// Hands over the end, waits until all is written and makes it the file that was asked for. Gives up on a

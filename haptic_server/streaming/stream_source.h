@@ -2,7 +2,9 @@
 #pragma once
 
 #include <cstddef>
+#include <vector>
 
+#include "common/scene/session_control.h"
 #include "common/scene/tool_state.h"
 #include "common/wire/bone_replica.h"
 
@@ -15,6 +17,13 @@ class StreamSource {
     /// Once a frame, on the streaming server's thread: writes into the mirror what has changed since the last
     /// call, and says where the tool is now. `viewers`: clients that look on.
     virtual ToolState update(BoneReplica& mirror, std::size_t viewers) = 0;
+
+    // After update(): what was done to the session since the last time, and what can be done now. As long as
+    // nothing can be, nothing has to be said.
+    virtual std::vector<ControlEvent> take_events() { return {}; }
+    virtual SessionStatus status() const { return {}; }
+    /// Between two updates: somebody who may asks for it. What comes of it is an event.
+    virtual void control(const SessionControl&) {}
 };
 
 }  // namespace osteomill

@@ -61,7 +61,8 @@ class StreamingServer::Impl {
           hello_(to_message(session)),
           mirror_(std::move(mirror)),
           source_(source),
-          clients_(options_, hello_, mirror_, packer_, operator_channel) {
+          clients_(options_, hello_, mirror_, packer_, operator_channel,
+                   [this](const SessionControl& control) { source_.control(control); }) {
         if (!(std::isfinite(options_.frame_rate_hz) && options_.frame_rate_hz > 0.0))
             throw std::invalid_argument("the frame rate is " + std::to_string(options_.frame_rate_hz) +
                                         " Hz, not above zero");
@@ -171,6 +172,9 @@ class StreamingServer::Impl {
         const std::vector<BrickChange> changes = mirror_.take_changes();
         if (recorder_) recorder_->note(changes);
         clients_.note(changes);
+        const std::vector<ControlEvent> events = source_.take_events();
+        if (recorder_) recorder_->note(events, source_.status());
+        clients_.note(events, source_.status());
     }
 
     void accept() {

@@ -14,7 +14,7 @@ constexpr int group_voxels = 4;
 std::vector<VoxelBox> changed_boxes(const BoneContent& content, std::span<const BrickChange> changes) {
     std::vector<VoxelBox> boxes;
     boxes.reserve(changes.size());
-    for (const auto& [brick, voxels] : changes) {
+    for (const auto& [brick, voxels, kind] : changes) {
         if (content.slot_of_brick.find(brick) == BoneContent::no_slot || voxels.none()) continue;
         glm::ivec3 low(brick_edge_voxels);
         glm::ivec3 high(-1);

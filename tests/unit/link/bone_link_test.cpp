@@ -88,7 +88,7 @@ TEST(BoneLink, NamesTheBricksThatChangedAndTheNewestTool) {
         const LinkUpdate update = link.poll();
         EXPECT_FALSE(update.bone_replaced);
         EXPECT_TRUE(std::ranges::is_sorted(update.changes, {}, &BrickChange::brick));
-        for (const auto& [brick, voxels] : update.changes) {
+        for (const auto& [brick, voxels, kind] : update.changes) {
             const std::int32_t slot = shown.slot(brick);
             for (std::size_t voxel = 0; voxel < brick_voxel_count; ++voxel)
                 if (voxels[voxel]) shown.fractions(slot)[voxel] = link.bone()->fractions(slot)[voxel];

@@ -21,7 +21,7 @@ class Viewer {
             std::chrono::duration<double>(elapsed_s));
         last_ = player_.poll(now_);
         if (last_.bone_replaced) shown_.emplace(*player_.bone());
-        for (const auto& [brick, voxels] : last_.changes) {
+        for (const auto& [brick, voxels, kind] : last_.changes) {
             const std::int32_t slot = shown_->slot(brick);
             for (std::size_t voxel = 0; voxel < brick_voxel_count; ++voxel)
                 if (voxels[voxel]) shown_->fractions(slot)[voxel] = player_.bone()->fractions(slot)[voxel];

@@ -1,0 +1,53 @@
+// What can be done to a session besides moving the tool, what came of it, and what can be done now. Plain
+// data; on the wire these are the messages SessionControl, SessionEvent and SessionStatus.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+namespace osteomill {
+
+enum class SessionAction : std::uint8_t {
+    none,    ///< a newer program's, which this one does not know
+    mark,    ///< this moment, with a note
+    pause,   ///< force and spindle off
+    resume,  ///< the force comes back once the burr is clear of bone
+    undo,    ///< the last stroke that took bone; a stroke lasts from spindle on to off
+    redo,    ///< the stroke undone last
+    reset,   ///< undoes all strokes; each can be redone
+    save,    ///< the bone as it is
+    finish,  ///< ends the session, everything saved
+};
+
+/// As a person says it: "undo".
+const char* name_of(SessionAction action);
+
+struct SessionControl {
+    static constexpr std::size_t longest_text = 200;  ///< bytes
+
+    SessionAction action = SessionAction::none;
+    std::string text{};  ///< of a mark: its note
+
+    bool operator==(const SessionControl&) const = default;
+};
+
+/// Something that was asked for has been done, or refused.
+struct ControlEvent {
+    double time_s = 0.0;  ///< session time
+    SessionAction action = SessionAction::none;
+    std::string text{};  ///< a mark's note; why it was refused
+    bool is_refused = false;
+
+    bool operator==(const ControlEvent&) const = default;
+};
+
+struct SessionStatus {
+    std::uint32_t undo_steps = 0;  ///< strokes that can be undone
+    std::uint32_t redo_steps = 0;
+    bool is_paused = false;
+    bool may_control = false;  ///< this client's controls are taken now
+
+    bool operator==(const SessionStatus&) const = default;
+};
+
+}  // namespace osteomill

@@ -1,0 +1,75 @@
+#include "common/wire/control_messages.h"
+
+#include <cmath>
+
+namespace osteomill {
+
+namespace {
+
+static_assert(static_cast<int>(SessionAction::mark) == v1::SESSION_ACTION_MARK &&
+                  static_cast<int>(SessionAction::finish) == v1::SESSION_ACTION_FINISH,
+              "the actions have the numbers of the message");
+
+SessionAction action_from(v1::SessionAction action) {
+    const bool is_known = action >= v1::SESSION_ACTION_MARK && action <= v1::SESSION_ACTION_FINISH;
+    return is_known ? static_cast<SessionAction>(action) : SessionAction::none;
+}
+
+}  // namespace
+
+v1::SessionControl to_message(const SessionControl& control) {
+    v1::SessionControl message;
+    message.set_action(static_cast<v1::SessionAction>(control.action));
+    message.set_text(control.text);
+    return message;
+}
+
+v1::SessionEvent to_message(const ControlEvent& event) {
+    v1::SessionEvent message;
+    message.set_time_s(event.time_s);
+    message.set_action(static_cast<v1::SessionAction>(event.action));
+    message.set_text(event.text);
+    message.set_is_refused(event.is_refused);
+    return message;
+}
+
+v1::SessionStatus to_message(const SessionStatus& status) {
+    v1::SessionStatus message;
+    message.set_undo_steps(status.undo_steps);
+    message.set_redo_steps(status.redo_steps);
+    message.set_is_paused(status.is_paused);
+    message.set_may_control(status.may_control);
+    return message;
+}
+
+std::variant<SessionControl, WireError> session_control_from(const v1::SessionControl& message) {
+    const SessionAction action = action_from(message.action());
+    if (action == SessionAction::none)
+        return WireError{"session control " + std::to_string(message.action()) + " is not one that is known"};
+    if (message.text().size() > SessionControl::longest_text)
+        return WireError{"the text of a session control has " + std::to_string(message.text().size()) +
+                         " bytes; " + std::to_string(SessionControl::longest_text) + " are the most"};
+    return SessionControl{action, one_line(message.text())};
+}
+
+std::variant<std::vector<ControlEvent>, WireError> control_events_from(
+    const google::protobuf::RepeatedPtrField<v1::SessionEvent>& messages) {
+    std::vector<ControlEvent> events;
+    for (const v1::SessionEvent& message : messages) {
+        if (!std::isfinite(message.time_s())) return WireError{"a session event has a time that is not finite"};
+        events.push_back({.time_s = message.time_s(),
+                          .action = action_from(message.action()),
+                          .text = one_line(message.text()),
+                          .is_refused = message.is_refused()});
+    }
+    return events;
+}
+
+SessionStatus session_status_from(const v1::SessionStatus& message) {
+    return {.undo_steps = message.undo_steps(),
+            .redo_steps = message.redo_steps(),
+            .is_paused = message.is_paused(),
+            .may_control = message.may_control()};
+}
+
+}  // namespace osteomill

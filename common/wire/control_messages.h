@@ -1,0 +1,27 @@
+// Controls of a session, what came of them and what can be done now, in and out of messages.
+#pragma once
+
+#include <variant>
+#include <vector>
+
+#include "common/scene/session_control.h"
+#include "common/wire/wire_error.h"
+#include "osteomill/v1/session.pb.h"
+
+namespace osteomill {
+
+v1::SessionControl to_message(const SessionControl& control);
+v1::SessionEvent to_message(const ControlEvent& event);
+v1::SessionStatus to_message(const SessionStatus& status);
+
+/// Refuses an action that this program does not know and a text that is too long. The text becomes one
+/// printable line.
+std::variant<SessionControl, WireError> session_control_from(const v1::SessionControl& message);
+
+/// Refuses a time that is not finite. An action that only a newer server knows is `none`.
+std::variant<std::vector<ControlEvent>, WireError> control_events_from(
+    const google::protobuf::RepeatedPtrField<v1::SessionEvent>& messages);
+
+SessionStatus session_status_from(const v1::SessionStatus& message);
+
+}  // namespace osteomill

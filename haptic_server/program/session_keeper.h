@@ -1,0 +1,45 @@
+// Does for a session under way what was asked of it by a control: saves its bone, ends it.
+#pragma once
+
+#include <atomic>
+#include <functional>
+#include <string>
+#include <thread>
+
+#include "common/bone/bone.h"
+#include "haptic_server/streaming/session_controls.h"
+
+namespace osteomill {
+
+class SessionKeeper {
+  public:
+    /// Writes a bone; says in one line why it could not, or nothing. Called on a thread of its own.
+    using Save = std::function<std::string(const Bone&)>;
+
+    /// An empty `save`: there is no file to save in, and it is refused.
+    explicit SessionKeeper(Save save) : save_(std::move(save)) {}
+    ~SessionKeeper() { wait(); }
+    SessionKeeper(const SessionKeeper&) = delete;
+    SessionKeeper& operator=(const SessionKeeper&) = delete;
+
+    /// For the session's controls, called on their thread. Outlived by this. A save takes a copy of what is
+    /// left of the bone until it is written; one at a time.
+    SessionControls::Requests requests();
+
+    /// Any thread.
+    bool has_been_asked_to_finish() const { return wants_end_.load(); }
+    /// For a save under way, which may take a minute. Once no more can be asked for.
+    void wait() {
+        if (thread_.joinable()) thread_.join();
+    }
+
+  private:
+    std::string save(const Bone& bone);
+
+    Save save_;
+    std::thread thread_;
+    std::atomic<bool> is_saving_{false};
+    std::atomic<bool> wants_end_{false};
+};
+
+}  // namespace osteomill

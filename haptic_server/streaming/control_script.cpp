@@ -1,0 +1,92 @@
+#include "haptic_server/streaming/control_script.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <charconv>
+#include <cmath>
+#include <fstream>
+#include <stdexcept>
+#include <string_view>
+#include <vector>
+
+namespace osteomill {
+
+namespace {
+
+constexpr std::string_view header = "t_s,action,text";
+
+std::vector<std::string_view> action_names() {
+    std::vector<std::string_view> names;
+    for (auto action = SessionAction::mark; action <= SessionAction::finish;
+         action = static_cast<SessionAction>(static_cast<int>(action) + 1))
+        names.emplace_back(name_of(action));
+    return names;
+}
+
+SessionAction action_named(std::string_view name) {
+    const auto names = action_names();
+    for (std::size_t i = 0; i < names.size(); ++i)
+        if (names[i] == name) return static_cast<SessionAction>(i + 1);
+    throw std::invalid_argument(
+        fmt::format("action '{}' is not one of {}", name, fmt::join(names, ", ")));
+}
+
+TimedControl timed_control(std::string_view line) {
+    const std::size_t first = line.find(',');
+    const std::size_t second = first == std::string_view::npos ? first : line.find(',', first + 1);
+    if (second == std::string_view::npos)
+        throw std::invalid_argument(fmt::format("has fewer than the three columns {}", header));
+    const std::string_view time = line.substr(0, first);
+    TimedControl timed;
+    const auto [end, error] = std::from_chars(time.data(), time.data() + time.size(), timed.time_s);
+    if (error != std::errc{} || end != time.data() + time.size() || !(timed.time_s >= 0.0) ||
+        !std::isfinite(timed.time_s))
+        throw std::invalid_argument(fmt::format("t_s '{}' is not a number of seconds, 0 or more", time));
+    timed.control.action = action_named(line.substr(first + 1, second - first - 1));
+    timed.control.text = line.substr(second + 1);
+    if (timed.control.text.size() > SessionControl::longest_text)
+        throw std::invalid_argument(fmt::format("the text has {} bytes; {} are the most",
+                                                timed.control.text.size(), SessionControl::longest_text));
+    return timed;
+}
+
+}  // namespace
+
+ControlScript read_control_script(std::istream& in, const std::string& name) {
+    ControlScript script;
+    bool has_header = false;
+    std::size_t number = 0;
+    const auto refuse = [&](const std::string& what) {
+        throw std::runtime_error(fmt::format("{}:{}: {}", name, std::max<std::size_t>(number, 1), what));
+    };
+    for (std::string line; std::getline(in, line);) {
+        ++number;
+        if (!line.empty() && line.back() == '\r') line.pop_back();
+        if (line.empty() || line.front() == '#') continue;
+        if (!has_header) {
+            if (line != header) refuse(fmt::format("the first line must be {}", header));
+            has_header = true;
+            continue;
+        }
+        try {
+            script.push_back(timed_control(line));
+        } catch (const std::invalid_argument& error) {
+            refuse(error.what());
+        }
+        if (script.size() > 1 && script.back().time_s < script[script.size() - 2].time_s)
+            refuse("t_s must not be earlier than on the line before");
+    }
+    if (in.bad()) throw std::runtime_error(name + ": cannot be read");
+    if (!has_header) refuse(fmt::format("the first line must be {}", header));
+    return script;
+}
+
+ControlScript read_control_script(const std::filesystem::path& file) {
+    std::ifstream in(file);
+    if (!in || std::filesystem::is_directory(file))
+        throw std::runtime_error(file.string() + ": cannot be opened; expected a script of controls in CSV");
+    return read_control_script(in, file.string());
+}
+
+}  // namespace osteomill

@@ -1,0 +1,36 @@
+// Controls of a session that are due at given times, from a CSV file: what a person does with the tool bar,
+// for tests and studies that repeat to the bit.
+//
+//     t_s,action,text
+//     4.0,mark,before the second stroke
+//     5.5,undo,
+//
+// The first line must be this header. Times ascend or repeat. `action` is mark, pause, resume, undo, redo,
+// reset, save or finish; `text`, all that follows, is a mark's note. Blank lines and lines that begin with #
+// are skipped. Anything else is refused with file and line.
+#pragma once
+
+#include <deque>
+#include <filesystem>
+#include <istream>
+#include <string>
+
+#include "common/scene/session_control.h"
+
+namespace osteomill {
+
+struct TimedControl {
+    double time_s = 0.0;  ///< session time
+    SessionControl control;
+
+    bool operator==(const TimedControl&) const = default;
+};
+
+using ControlScript = std::deque<TimedControl>;
+
+/// Throws std::runtime_error with one line: file, line, what is wrong, what would be right.
+ControlScript read_control_script(const std::filesystem::path& file);
+/// The same from a stream; `name` stands for the file in errors.
+ControlScript read_control_script(std::istream& in, const std::string& name);
+
+}  // namespace osteomill

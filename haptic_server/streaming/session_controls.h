@@ -1,0 +1,75 @@
+// Looks after a session on behalf of whoever controls it: pause, undo and redo by strokes, marks, saving, the
+// end. On the streaming thread, which knows all that was milled from its own copy of the bone.
+//
+// Undo goes the way of milling, backwards: what the journal remembers is queued for the milling loop, which
+// writes it into its bone while the spindle is off, and comes back as changes that restore, for the copy of
+// the bone, every client and the recording. Meanwhile the session holds still. A command that has to wait for
+// that, or for a stroke to end, waits in its turn.
+#pragma once
+
+#include <deque>
+#include <functional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "common/scene/session_control.h"
+#include "common/wire/bone_replica.h"
+#include "haptic_server/exchange/change_queue.h"
+#include "haptic_server/exchange/session_gate.h"
+#include "haptic_server/streaming/stroke_journal.h"
+
+namespace osteomill {
+
+class SessionControls {
+  public:
+    /// What is asked of others. Each returns why it cannot be done; an empty line: it will be.
+    struct Requests {
+        std::function<std::string(const Bone&)> save;
+        std::function<std::string()> finish;
+    };
+    /// So many wait at most; what comes then is refused.
+    static constexpr std::size_t most_waiting = 64;
+
+    /// The one writer of gate.holds_still and of `restored`; both outlive it.
+    SessionControls(SessionGate& gate, ChangeQueue& restored, Requests requests)
+        : gate_(gate), restored_(restored), requests_(std::move(requests)) {}
+
+    void control(const SessionControl& control);
+
+    /// Before the milling loop's changes of this frame are taken over.
+    void begin_frame();
+    /// For each of them, before it is applied to `bone`.
+    void note(const BrickChange& change, const Bone& bone);
+    /// When all are: does what was asked for and can be done now. `time_s`, `spindle_on`: of the session.
+    void end_frame(const Bone& bone, double time_s, bool spindle_on);
+
+    std::vector<ControlEvent> take_events() { return std::exchange(events_, {}); }
+    SessionStatus status() const;
+
+  private:
+    /// False: it has to wait.
+    bool act(const SessionControl& control, const Bone& bone, bool spindle_on);
+    bool restore(SessionAction action, const Bone& bone, bool spindle_on);
+    void queue_restored();
+    bool is_restoring() const { return !waits_for_room_.empty() || confirmed_ < queued_; }
+    void say(const SessionControl& control, std::string refusal = {});
+
+    SessionGate& gate_;
+    ChangeQueue& restored_;
+    Requests requests_;
+    StrokeJournal journal_;
+
+    std::deque<SessionControl> waiting_;
+    std::vector<ControlEvent> events_;
+    double time_s_ = 0.0;
+    bool is_paused_ = false;
+    bool has_changes_ = false;  // in this frame
+
+    bool is_resetting_ = false;  // has undone a stroke, and goes on
+    std::deque<StrokeJournal::Restored> waits_for_room_;
+    std::uint64_t queued_ = 0;     // since the start
+    std::uint64_t confirmed_ = 0;  // of these, those that are in the bone
+};
+
+}  // namespace osteomill
