@@ -56,7 +56,8 @@ std::variant<std::vector<ControlEvent>, WireError> control_events_from(
     const google::protobuf::RepeatedPtrField<v1::SessionEvent>& messages) {
     std::vector<ControlEvent> events;
     for (const v1::SessionEvent& message : messages) {
-        if (!std::isfinite(message.time_s())) return WireError{"a session event has a time that is not finite"};
+        if (!std::isfinite(message.time_s()))
+            return WireError{"a session event has a time that is not finite"};
         events.push_back({.time_s = message.time_s(),
                           .action = action_from(message.action()),
                           .text = one_line(message.text()),

@@ -90,7 +90,8 @@ SessionReceiver::Outcome SessionReceiver::take_state(v1::StateFrame state, bool 
         state.clear_changes();
     }
     if (state.has_restored_changes()) {
-        if (auto error = spread(state.restored_changes(), *state.mutable_restored())) return *std::move(error);
+        if (auto error = spread(state.restored_changes(), *state.mutable_restored()))
+            return *std::move(error);
         state.clear_restored_changes();
     }
     return SessionEvent(StateArrived{std::move(state), follows_gap});

@@ -90,7 +90,8 @@ void ErodingModel::step(const BurrCommand& command, double time_s, ChangeSink& c
     account_.end_step(command, result);
 }
 
-void ErodingModel::restore(const BrickChange& change, BrickFractions fractions, ChangeSink& changes) noexcept {
+void ErodingModel::restore(const BrickChange& change, BrickFractions fractions,
+                           ChangeSink& changes) noexcept {
     restore_bone(change, fractions, bone_, account_, changes);
 }
 

@@ -220,7 +220,8 @@ void MillingModel::step(const BurrCommand& command, double time_s, ChangeSink& c
         probes_[burr_].sample(bone_, command.pose.position_mm, command.pose.spindle_axis, result.engagement);
 }
 
-void MillingModel::restore(const BrickChange& change, BrickFractions fractions, ChangeSink& changes) noexcept {
+void MillingModel::restore(const BrickChange& change, BrickFractions fractions,
+                           ChangeSink& changes) noexcept {
     restore_bone(change, fractions, bone_, account_, changes);
     carved_at_position_ = false;  // there may be bone again in the ball that was carved
 }

@@ -25,7 +25,7 @@ class ChangeQueue final : public ChangeSink {
         BrickIndex brick = 0;
         std::uint16_t fractions = 0;  ///< how many follow, after the words
         ChangeKind kind = ChangeKind::milled;
-        std::uint64_t words = 0;      ///< bit n: word n of the mask follows
+        std::uint64_t words = 0;  ///< bit n: word n of the mask follows
     };
 
   public:

@@ -38,9 +38,9 @@ struct HapticLoopParts {
     TripleBuffer<BurrCommand>& commands;      ///< written
     TripleBuffer<ToolState>& tool;            ///< written, for the streaming loop
     TripleBuffer<ToolState>& status;          ///< written, for whoever shows progress
-    const SessionGate* gate = nullptr;        ///< read; null: the session never holds still
     ForceLog* log = nullptr;                  ///< written; null: no log
     HandpieceVibration* vibration = nullptr;  ///< added to the coupling's force; null: none
+    const SessionGate* gate = nullptr;        ///< read; null: the session never holds still
 };
 
 struct HapticLoopOptions {

@@ -50,7 +50,8 @@ double MillingLoop::room_for_change_mm(const BurrCommand& command) const noexcep
 
 void MillingLoop::restore(double elapsed_s) noexcept {
     if (parts_.restored == nullptr || parts_.commands.front().spindle_on) return;
-    const double most = std::clamp(restored_bricks_per_ms * 1e3 * elapsed_s, 1.0, 10.0 * restored_bricks_per_ms);
+    const double most =
+        std::clamp(restored_bricks_per_ms * 1e3 * elapsed_s, 1.0, 10.0 * restored_bricks_per_ms);
     const std::size_t count = parts_.restored->consume_all(
         [this](const BrickChange& change, BrickFractions fractions) {
             parts_.model.restore(change, fractions, parts_.changes);

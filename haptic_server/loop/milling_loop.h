@@ -25,10 +25,10 @@ struct MillingLoopParts {
     TripleBuffer<BurrCommand>& commands;   ///< read
     TripleBuffer<MillingResult>& results;  ///< written
     ChangeQueue& changes;                  ///< written
-    ChangeQueue* restored = nullptr;       ///< read: bone to be given back by undo; null: none ever is
-    SessionGate* gate = nullptr;           ///< written, with `restored`
     MillingLog* log = nullptr;             ///< written; null: no log
     std::span<const Burr> burrs{};         ///< of the scene: what may be put in the burr's place
+    ChangeQueue* restored = nullptr;       ///< read: bone to be given back by undo; null: none ever is
+    SessionGate* gate = nullptr;           ///< written, with `restored`
 };
 
 class MillingLoop {

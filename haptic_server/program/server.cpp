@@ -138,8 +138,8 @@ Streaming make_streaming(StreamingOptions wanted, const ServerOptions& options, 
         wanted.record = RecordTo{.file = *options.record, .began = std::chrono::system_clock::now()};
     Streaming streaming;
     streaming.keeper = std::make_unique<SessionKeeper>(std::move(save));
-    streaming.controls = std::make_unique<SessionControls>(*session.gate(), *session.restored(),
-                                                           streaming.keeper->requests());
+    streaming.controls =
+        std::make_unique<SessionControls>(*session.gate(), *session.restored(), streaming.keeper->requests());
     streaming.shown = std::make_unique<LiveSession>(
         session.tool(), session.changes(), streaming.controls.get(),
         options.controls ? read_control_script(*options.controls) : ControlScript{});

@@ -18,8 +18,8 @@ enum class Fault : std::uint8_t {
     paused  ///< no fault of anything: somebody asked for it
 };
 
-inline constexpr std::array all_faults{Fault::device_lost,   Fault::model_stalled, Fault::not_a_number,
-                                       Fault::overrun,       Fault::device_jumped, Fault::in_bone,
+inline constexpr std::array all_faults{Fault::device_lost,    Fault::model_stalled, Fault::not_a_number,
+                                       Fault::overrun,        Fault::device_jumped, Fault::in_bone,
                                        Fault::energy_to_hand, Fault::paused};
 
 /// One line for people; empty for Fault::none.

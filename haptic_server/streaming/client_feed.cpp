@@ -37,8 +37,8 @@ void ClientFeed::note(const SessionStatus& status) {
 
 void ClientFeed::request_state(const ToolState& tool, bool with_checksum) {
     tool_ = tool;
-    const bool is_news =
-        with_checksum || !pending_.empty() || !events_.empty() || status_ != sent_status_ || !sent_tool_ || !is_within_deadband(*sent_tool_, tool);
+    const bool is_news = with_checksum || !pending_.empty() || !events_.empty() || status_ != sent_status_ ||
+                         !sent_tool_ || !is_within_deadband(*sent_tool_, tool);
     wants_state_ = wants_state_ || is_news;
     wants_checksum_ = wants_checksum_ || with_checksum;
     comparisons_left_ = std::min(comparisons_left_ + 1, most_comparisons_at_once);
@@ -164,8 +164,7 @@ void ClientFeed::add_packed_changes(v1::StateFrame& state, std::size_t most_byte
         (change.kind == ChangeKind::milled ? milled : restored).push_back(change);
     }
     if (!milled.empty()) *state.mutable_changes() = change_packer_->pack(mirror_.bone(), milled);
-    if (!restored.empty())
-        *state.mutable_restored_changes() = change_packer_->pack(mirror_.bone(), restored);
+    if (!restored.empty()) *state.mutable_restored_changes() = change_packer_->pack(mirror_.bone(), restored);
 }
 
 }  // namespace osteomill

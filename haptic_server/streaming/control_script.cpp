@@ -28,8 +28,7 @@ SessionAction action_named(std::string_view name) {
     const auto names = action_names();
     for (std::size_t i = 0; i < names.size(); ++i)
         if (names[i] == name) return static_cast<SessionAction>(i + 1);
-    throw std::invalid_argument(
-        fmt::format("action '{}' is not one of {}", name, fmt::join(names, ", ")));
+    throw std::invalid_argument(fmt::format("action '{}' is not one of {}", name, fmt::join(names, ", ")));
 }
 
 TimedControl timed_control(std::string_view line) {

@@ -19,8 +19,8 @@ SessionInfo session_info(const Scene& scene, bool accepts_operator, double force
 /// The one reader of `tool` and the one consumer of `changes`; both outlive it. Never waits for the loops.
 class LiveSession final : public StreamSource {
   public:
-    /// `controls`: outlives it; null for a session that nobody controls. `script`: what is due without anybody
-    /// asking for it.
+    /// `controls`: outlives it; null for a session that nobody controls. `script`: what is due without
+    /// anybody asking for it.
     LiveSession(TripleBuffer<ToolState>& tool, ChangeQueue& changes, SessionControls* controls = nullptr,
                 ControlScript script = {})
         : tool_(tool), changes_(changes), controls_(controls), script_(std::move(script)) {}

@@ -34,6 +34,10 @@ class Replica {
     std::uint64_t sequence() const { return sequence_; }
     std::size_t edits_of_last_state() const { return edits_of_last_state_; }
     std::size_t checksums() const { return checksums_; }
+    /// Edits that gave bone back.
+    std::size_t restored_bricks() const { return restored_bricks_; }
+    /// Session events that it was told.
+    std::size_t events() const { return events_; }
     bool has_goodbye() const { return has_goodbye_; }
     /// Whether any state told its edits as packed changes.
     bool has_packed_changes() const { return has_packed_changes_; }
@@ -66,6 +70,17 @@ class Replica {
                 const auto error = apply_brick_edit(edit, *bone_);
                 ASSERT_FALSE(error) << error->line;
             }
+            std::vector<v1::BrickEdit> restored(frame.state().restored().begin(),
+                                                frame.state().restored().end());
+            if (frame.state().has_restored_changes()) {
+                auto unpacked = unpack(frame.state().restored_changes(), bone_->content().size_bricks);
+                ASSERT_TRUE(std::holds_alternative<std::vector<v1::BrickEdit>>(unpacked));
+                restored = std::get<std::vector<v1::BrickEdit>>(std::move(unpacked));
+            }
+            restored_bricks_ += restored.size();
+            for (const v1::BrickEdit& edit : restored)
+                ASSERT_TRUE(std::holds_alternative<EditEffect>(correct_with_brick_edit(edit, *bone_)));
+            events_ += static_cast<std::size_t>(frame.state().events_size());
             if (frame.state().bone_checksum() != 0) {
                 ++checksums_;
                 EXPECT_EQ(checksum(*bone_), frame.state().bone_checksum());
@@ -82,6 +97,8 @@ class Replica {
     std::size_t states_ = 0;
     std::size_t edits_of_last_state_ = 0;
     std::size_t checksums_ = 0;
+    std::size_t restored_bricks_ = 0;
+    std::size_t events_ = 0;
     bool has_goodbye_ = false;
     bool has_packed_changes_ = false;
 };

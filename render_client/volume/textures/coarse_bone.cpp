@@ -112,7 +112,7 @@ CoarseBone::CoarseBone(const Bone& fine, int coarsening)
 std::span<const BrickChange> CoarseBone::update(const Bone& fine, std::span<const BrickChange> changes) {
     const BoneContent& content = fine.content();
     std::map<BrickIndex, VoxelMask> changed;
-    for (const auto& [index, voxels] : changes) {
+    for (const auto& [index, voxels, kind] : changes) {
         const std::int32_t fine_slot = fine.slot(index);
         if (fine_slot == BoneContent::no_slot) continue;
         const glm::ivec3 brick = brick_position(content.size_bricks, index);

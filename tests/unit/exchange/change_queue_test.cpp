@@ -37,6 +37,7 @@ TEST(ChangeQueue, HandsOverChangesInOrderAsTheyWereWhenPushed) {
     std::vector<BrickChange> pushed{{1, VoxelMask().set(0)},
                                     {7, VoxelMask().set_run(61, 3).set(64).set(4095)},
                                     {1, VoxelMask().set_all()},
+                                    {3, VoxelMask().set(5), ChangeKind::restored},
                                     {0, VoxelMask()}};
     std::uint8_t left = 200;
     for (const BrickChange& change : pushed) {
@@ -51,7 +52,7 @@ TEST(ChangeQueue, HandsOverChangesInOrderAsTheyWereWhenPushed) {
         change.voxels.for_each([&](std::size_t voxel) { ASSERT_EQ(fractions[voxel], left); });
         --left;
     };
-    EXPECT_EQ(queue.consume_all(take), 4U);
+    EXPECT_EQ(queue.consume_all(take), 5U);
     EXPECT_EQ(received, pushed);
     EXPECT_EQ(queue.consume_all(take), 0U);
     EXPECT_EQ(queue.overflow_count(), 0U);

@@ -25,15 +25,16 @@ class Bench {
     HapticLoopOptions options{.burr_count = 3, .start_burr = 1};
     MillingResult next;  // what the milling loop says from now on
     HandpieceVibration* vibration = nullptr;
+    SessionGate gate;
     bool model_runs = true;
     std::uint64_t tick_number = 0;
 
     /// Runs ticks; returns the last force written, device space.
     glm::dvec3 run(int ticks, std::uint64_t missed = 0) {
         if (!loop_) {
-            loop_ = std::make_unique<HapticLoop>(
-                HapticLoopParts{device, coupling, *results, commands, tool, status, nullptr, vibration},
-                options);
+            loop_ = std::make_unique<HapticLoop>(HapticLoopParts{device, coupling, *results, commands, tool,
+                                                                 status, nullptr, vibration, &gate},
+                                                 options);
         }
         for (int i = 0; i < ticks; ++i) {
             if (model_runs) {
@@ -386,6 +387,40 @@ TEST(HapticLoop, DoesNotShakeAForceThatIsOffOrFades) {
     }
     EXPECT_TRUE(is_back);
     EXPECT_TRUE(shaken.shakes(300));
+}
+
+TEST(HapticLoop, HoldsStillAsLongAsTheGateSaysAndTheSpindleUntilThePedalHasBeenUp) {
+    Bench bench;
+    bench.mill();
+    bench.gate.holds_still = true;
+    EXPECT_LE(glm::length(bench.run(1)), 2.0);
+    EXPECT_FALSE(bench.shown().spindle_on);
+    EXPECT_EQ(bench.run(ticks_to_fade()), glm::dvec3(0.0));
+    EXPECT_EQ(bench.shown().fault, describe(Fault::paused));
+    bench.run(1000);
+    EXPECT_EQ(bench.run(1), glm::dvec3(0.0));
+    bench.gate.holds_still = false;
+    bench.run(1000);
+    EXPECT_EQ(bench.run(1), glm::dvec3(2.0, 0.0, 0.0));
+    EXPECT_FALSE(bench.shown().spindle_on) << "the pedal has been down all the time";
+    bench.device.script = [](double) { return DeviceState{}; };
+    bench.run(2);
+    bench.device.script = [](double) { return DeviceState{.pedal = true}; };
+    bench.run(2);
+    EXPECT_TRUE(bench.shown().spindle_on);
+}
+
+TEST(HapticLoop, NeverFeelsBoneThatComesBackRoundTheBurr) {
+    Bench bench;
+    bench.mill();
+    // The same result that has the bone back says so: nothing of it may reach the hand.
+    bench.next.has_restored = true;
+    bench.coupling.force = [](const HandState&) { return glm::dvec3(0.0, 3.0, 0.0); };
+    const glm::dvec3 first = bench.run(1);
+    EXPECT_EQ(first.y, 0.0);
+    EXPECT_LE(first.x, 2.0);
+    bench.next.has_restored = false;
+    for (int i = 0; i < ticks_to_fade(); ++i) EXPECT_EQ(bench.run(1).y, 0.0);
 }
 
 }  // namespace

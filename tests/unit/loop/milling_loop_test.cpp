@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -167,6 +168,55 @@ TEST(MillingLoop, LooksAsFarAheadForAChangeAsTheToolMayGo) {
             EXPECT_EQ(room_mm, 0.0) << z_mm;
         }
     }
+}
+
+TEST(MillingLoop, GivesBoneBackWhileTheSpindleIsOffAndTakesItOutOfTheAccount) {
+    const auto rig = std::make_unique<Rig>();
+    ChangeQueue restored{1 << 20, rig->model.bone().shared_content()};
+    SessionGate gate;
+    MillingLoop loop{{.model = rig->model,
+                      .commands = rig->commands,
+                      .results = *rig->results,
+                      .changes = rig->changes,
+                      .restored = &restored,
+                      .gate = &gate},
+                     0.001};
+    const Bone whole = rig->model.bone();
+    std::map<BrickIndex, VoxelMask> taken;
+    int ticks = 0;
+    const auto tick = [&](bool spindle_on) {
+        rig->commands.back() = {.pose = {{-2.0 + 0.006 * ticks, 0.0, 0.5}, up}, .spindle_on = spindle_on};
+        rig->commands.publish();
+        loop.step(0.001 * ticks++, 0.001);
+        rig->results->refresh();
+    };
+    for (int i = 0; i < 300; ++i) tick(true);
+    ASSERT_GT(rig->results->front().total_removed_mm3, 0.1);
+    rig->changes.consume_all([&](const BrickChange& change, BrickFractions) {
+        taken[change.brick] |= change.voxels;
+        EXPECT_EQ(change.kind, ChangeKind::milled);
+    });
+    for (const auto& [brick, voxels] : taken)
+        ASSERT_TRUE(
+            restored.try_push({brick, voxels, ChangeKind::restored}, whole.fractions(whole.slot(brick))));
+
+    tick(true);
+    EXPECT_EQ(gate.restored_changes, 0U) << "not while it turns";
+    rig->changes.consume_all([](const BrickChange&, BrickFractions) {});
+    bool has_said_so = false;
+    for (int i = 0; i < 100; ++i) {
+        tick(false);
+        has_said_so |= rig->results->front().has_restored;
+    }
+    EXPECT_TRUE(has_said_so);
+    EXPECT_FALSE(rig->results->front().has_restored);
+    EXPECT_EQ(gate.restored_changes, taken.size());
+    rig->changes.consume_all(
+        [&](const BrickChange& change, BrickFractions) { EXPECT_EQ(change.kind, ChangeKind::restored); });
+    // The last step of milling took more than was given back.
+    EXPECT_LT(rig->results->front().total_removed_mm3, 1e-3);
+    EXPECT_NEAR(rig->results->front().total_removed_mm3,
+                bone_volume_mm3(whole) - bone_volume_mm3(rig->model.bone()), 1e-9);
 }
 
 }  // namespace

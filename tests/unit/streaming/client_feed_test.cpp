@@ -24,6 +24,21 @@ class Carver final : public ChangeSink {
         feed_.note(mirror_.take_changes());
     }
 
+    /// Gives the bricks that differ from `earlier` the fractions that they had then, as undo does.
+    void restore(const Bone& earlier) {
+        for (std::size_t slot = 0; slot < bone_.stored_bricks(); ++slot) {
+            const auto before = earlier.fractions(static_cast<std::int32_t>(slot));
+            const auto now = bone_.fractions(static_cast<std::int32_t>(slot));
+            VoxelMask differing;
+            for (std::size_t voxel = 0; voxel < brick_voxel_count; ++voxel)
+                if (before[voxel] != now[voxel]) differing.set(voxel);
+            if (differing.none()) continue;
+            std::ranges::copy(before, now.begin());
+            push({bone_.content().brick_of_slot[slot], differing, ChangeKind::restored}, before);
+        }
+        feed_.note(mirror_.take_changes());
+    }
+
     /// Likewise, only the lower half of the bricks, and voxel by voxel.
     void carve_first_bricks(int voxels) {
         for (int i = 0; i < voxels; ++i) {
@@ -39,6 +54,9 @@ class Carver final : public ChangeSink {
     BoneReplica& mirror_;
     ClientFeed& feed_;
     std::mt19937 random_{5};
+
+  public:
+    const Bone& bone() const { return bone_; }
 };
 
 class ClientFeedTest : public ::testing::Test {
@@ -268,6 +286,46 @@ TEST(ClientFeed, ServesABoneWithoutBricks) {
     while (auto frame = feed.next()) replica.take(*frame);
     EXPECT_TRUE(replica.has_goodbye());
     EXPECT_EQ(replica.bone()->stored_bricks(), 0U);
+}
+
+TEST_F(ClientFeedTest, GivesBoneBackToAClientHoweverFewOfTheFramesItGets) {
+    ChangePacker packer;
+    std::mt19937 random(8);
+    for (const bool packs : {false, true}) {
+        if (packs) feed_->pack_changes(packer);
+        drain();
+        for (int i = 0; i < 40; ++i) {
+            const Bone before = carver_->bone();
+            carver_->carve(200);
+            if (random() % 2 == 0) feed_->request_state({.time_s = 0.1 * i}, false);
+            if (random() % 2 == 0) drain();
+            carver_->restore(before);
+            if (random() % 2 == 0) carver_->carve(50);
+            feed_->request_state({.time_s = 0.1 * i}, true);
+            if (random() % 2 == 0) drain();
+        }
+        drain();
+        expect_equal();
+    }
+    EXPECT_GT(replica_.restored_bricks(), 100U);
+    EXPECT_GT(replica_.checksums(), 10U);
+}
+
+TEST_F(ClientFeedTest, TellsEachEventOnceAndTheNewestStatus) {
+    drain();
+    const std::vector<ControlEvent> events(700,
+                                           {.time_s = 1.0, .action = SessionAction::mark, .text = "here"});
+    feed_->note(events);
+    feed_->note(SessionStatus{.undo_steps = 2});
+    feed_->request_state({}, false);
+    EXPECT_GE(drain(), 1);
+    EXPECT_EQ(replica_.events(), 700U);
+    feed_->request_state({}, false);
+    EXPECT_EQ(drain(), 0) << "nothing is new";
+    feed_->note(SessionStatus{.undo_steps = 3});
+    feed_->request_state({}, false);
+    EXPECT_EQ(drain(), 1) << "that is";
+    EXPECT_EQ(replica_.events(), 700U);
 }
 
 }  // namespace

@@ -60,5 +60,16 @@ TEST(PendingChanges, KeepsNoMoreMasksThanItMay) {
     EXPECT_EQ(pending.masks(), 0U);
 }
 
+TEST(PendingChanges, SendsAllOfABrickAsRestoredOnceAnyOfItWas) {
+    PendingChanges pending;
+    pending.add({4, voxel(1)});
+    pending.add({4, voxel(2), ChangeKind::restored});
+    pending.add({4, voxel(3)});
+    EXPECT_EQ(pending.next(), (BrickChange{4, voxel(1) | voxel(2) | voxel(3), ChangeKind::restored}));
+    pending.sent();
+    pending.add({4, voxel(1)});
+    EXPECT_EQ(pending.next().kind, ChangeKind::milled);
+}
+
 }  // namespace
 }  // namespace osteomill

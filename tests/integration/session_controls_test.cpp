@@ -1,0 +1,121 @@
+// A session whose strokes are undone, redone and marked, recorded and shown again: the real programs.
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "common/recording/playhead.h"
+#include "tests/support/block_file.h"
+#include "tests/support/child_process.h"
+#include "tests/support/temporary_folder.h"
+
+namespace osteomill::testing {
+namespace {
+
+class SessionControlsProgram : public ::testing::Test {
+  protected:
+    SessionControlsProgram() {
+        // Two strokes: down at x = -1, up, and down at x = 1.
+        std::ofstream(file("motion.csv")) << "t_s,x_mm,y_mm,z_mm,axis_x,axis_y,axis_z,pedal\n"
+                                             "0.0,-1,0,6,0,0,1,0\n"
+                                             "0.2,-1,0,6,0,0,1,1\n"
+                                             "0.8,-1,0,2.5,0,0,1,1\n"
+                                             "1.4,-1,0,6,0,0,1,0\n"
+                                             "1.6,1,0,6,0,0,1,0\n"
+                                             "1.8,1,0,6,0,0,1,1\n"
+                                             "2.4,1,0,2.5,0,0,1,1\n"
+                                             "3.0,1,0,6,0,0,1,0\n"
+                                             "5.0,1,0,6,0,0,1,0\n";
+        write_block(file("block.nrrd"));
+    }
+    std::string file(const std::string& name) const { return (folder_ / name).string(); }
+    nlohmann::json json(const std::string& name) const {
+        std::ifstream in(file(name));
+        return nlohmann::json::parse(in);
+    }
+    /// What the session measured.
+    nlohmann::json run(const std::string& script, std::vector<std::string> more = {}) const {
+        std::ofstream(file("script.csv")) << "t_s,action,text\n" << script;
+        std::vector<std::string> command{HAPTIC_SERVER,       "--clock",      "virtual",          "--bone",
+                                         file("block.nrrd"),  "--trajectory", file("motion.csv"), "--json",
+                                         file("server.json"), "--controls",   file("script.csv")};
+        command.insert(command.end(), more.begin(), more.end());
+        const Finished finished = run_program(command);
+        EXPECT_EQ(finished.status, 0) << finished.err;
+        return json("server.json");
+    }
+
+    TemporaryFolder folder_;
+};
+
+TEST_F(SessionControlsProgram, UndoesAndRedoesStrokesToTheBit) {
+    const auto first = run("1.5,finish,\n");
+    const auto both = run("");
+    const auto none = run("0.0,finish,\n");
+    EXPECT_GT(both.at("removed_mm3").at("total"), first.at("removed_mm3").at("total"));
+    EXPECT_LT(first.at("duration_s"), 2.0);
+
+    const auto undone = run("3.2,undo,\n");
+    EXPECT_EQ(undone.at("bone_checksum"), first.at("bone_checksum"));
+    EXPECT_EQ(undone.at("removed_mm3"), first.at("removed_mm3"));
+    EXPECT_EQ(run("3.2,undo,\n3.4,redo,\n").at("bone_checksum"), both.at("bone_checksum"));
+    const auto reset = run("3.2,reset,\n");
+    EXPECT_EQ(reset.at("bone_checksum"), none.at("bone_checksum"));
+    EXPECT_EQ(reset.at("removed_mm3").at("total"), 0.0);
+    EXPECT_EQ(run("3.2,reset,\n3.5,redo,\n").at("bone_checksum"), first.at("bone_checksum"));
+}
+
+TEST_F(SessionControlsProgram, LeavesARecordingThatHoldsEveryUndoAndMark) {
+    const auto measured = run("1.5,mark,first hole\n3.2,undo,\n3.4,redo,\n3.5,redo,\n3.6,undo,\n",
+                              {"--record", file("a.pcap"), "--save-bone", file("left.nrrd")});
+    const Finished read = run_program({PACKET_REPLAY, file("a.pcap"), "--info", "--json", file("info.json")});
+    ASSERT_EQ(read.status, 0) << read.err;
+    EXPECT_EQ(json("info.json").at("bone_checksum"), measured.at("bone_checksum"));
+    EXPECT_NEAR(json("info.json").at("removed_mm3").at("total").get<double>(),
+                measured.at("removed_mm3").at("total").get<double>(), 1e-6);
+
+    Playhead playhead(file("a.pcap"));
+    std::vector<ControlEvent> events;
+    SessionStatus status;
+    while (playhead.step(std::numeric_limits<double>::infinity()) == Playhead::Step::state) {
+        events.insert(events.end(), playhead.events().begin(), playhead.events().end());
+        status = playhead.status();
+    }
+    ASSERT_EQ(events.size(), 5U);
+    EXPECT_EQ(events[0].text, "first hole");
+    EXPECT_NEAR(events[0].time_s, 1.5, 0.05);
+    EXPECT_EQ(events[3].action, SessionAction::redo);
+    EXPECT_TRUE(events[3].is_refused);
+    EXPECT_EQ(status.undo_steps, 1U);
+    EXPECT_EQ(status.redo_steps, 1U);
+
+    const Finished player =
+        run_program({"/usr/bin/env", "ASAN_OPTIONS=detect_leaks=0", RENDER_CLIENT, "--offscreen",
+                     "--window-size", "64x48", "--frames", "100000", "--json", file("player.json"),
+                     "--replay", file("a.pcap"), "--speed", "4"});
+    ASSERT_EQ(player.status, 0) << player.err;
+    EXPECT_EQ(json("player.json").at("bone_checksum"), measured.at("bone_checksum"));
+}
+
+TEST_F(SessionControlsProgram, HoldsStillWhilePaused) {
+    // Paused through the second stroke: nothing of it is cut, though the pedal comes and goes.
+    const auto first = run("1.5,finish,\n");
+    const auto paused = run("1.5,pause,\n4.0,resume,\n");
+    EXPECT_EQ(paused.at("bone_checksum"), first.at("bone_checksum"));
+}
+
+TEST_F(SessionControlsProgram, SaysInOneLineWhatIsWrongWithAScript) {
+    std::ofstream(file("script.csv")) << "t_s,action,text\n1,undu,\n";
+    const Finished finished = run_program(
+        {HAPTIC_SERVER, "--clock", "virtual", "--duration-s", "1", "--controls", file("script.csv")});
+    EXPECT_EQ(finished.status, 1);
+    EXPECT_EQ(finished.err, "haptic_server: " + file("script.csv") +
+                                ":2: action 'undu' is not one of mark, pause, resume, undo, redo, reset, "
+                                "save, finish\n");
+}
+
+}  // namespace
+}  // namespace osteomill::testing

@@ -1,0 +1,57 @@
+#include "haptic_server/streaming/control_script.h"
+
+#include <gtest/gtest.h>
+
+#include <sstream>
+
+namespace osteomill {
+namespace {
+
+ControlScript read(const std::string& text) {
+    std::istringstream in(text);
+    return read_control_script(in, "s.csv");
+}
+
+std::string refusal(const std::string& text) {
+    try {
+        (void)read(text);
+    } catch (const std::runtime_error& error) {
+        return error.what();
+    }
+    return {};
+}
+
+TEST(ControlScript, IsReadLineByLine) {
+    const ControlScript script =
+        read("t_s,action,text\n\n# a comment\n1.5,mark,left, then right\r\n1.5,undo,\n");
+    ASSERT_EQ(script.size(), 2U);
+    EXPECT_EQ(script[0], (TimedControl{1.5, {SessionAction::mark, "left, then right"}}));
+    EXPECT_EQ(script[1], (TimedControl{1.5, {SessionAction::undo}}));
+}
+
+TEST(ControlScript, KnowsEveryAction) {
+    const ControlScript script = read(
+        "t_s,action,text\n0,mark,\n0,pause,\n0,resume,\n0,undo,\n0,redo,\n0,reset,\n0,save,\n0,finish,\n");
+    EXPECT_EQ(script.size(), 8U);
+    EXPECT_EQ(script.back().control.action, SessionAction::finish);
+}
+
+TEST(ControlScript, SaysWithFileAndLineWhatIsWrong) {
+    EXPECT_EQ(refusal(""), "s.csv:1: the first line must be t_s,action,text");
+    EXPECT_EQ(refusal("time\n"), "s.csv:1: the first line must be t_s,action,text");
+    EXPECT_EQ(refusal("t_s,action,text\n1,undo\n"),
+              "s.csv:2: has fewer than the three columns t_s,action,text");
+    EXPECT_EQ(refusal("t_s,action,text\n1,undu,\n"),
+              "s.csv:2: action 'undu' is not one of mark, pause, resume, undo, redo, reset, save, finish");
+    EXPECT_EQ(refusal("t_s,action,text\n-1,undo,\n"),
+              "s.csv:2: t_s '-1' is not a number of seconds, 0 or more");
+    EXPECT_EQ(refusal("t_s,action,text\nnan,undo,\n"),
+              "s.csv:2: t_s 'nan' is not a number of seconds, 0 or more");
+    EXPECT_EQ(refusal("t_s,action,text\n2,undo,\n1,redo,\n"),
+              "s.csv:3: t_s must not be earlier than on the line before");
+    EXPECT_EQ(refusal("t_s,action,text\n2,mark," + std::string(201, 'x') + "\n"),
+              "s.csv:2: the text has 201 bytes; 200 are the most");
+}
+
+}  // namespace
+}  // namespace osteomill

@@ -1,0 +1,213 @@
+#include "haptic_server/streaming/session_controls.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/support/random_carving.h"
+#include "tests/support/speckled_bone.h"
+
+namespace osteomill {
+namespace {
+
+/// Controls with the milling loop's bone on one side and the copy that clients are shown on the other.
+class SessionControlsTest : public ::testing::Test, public ChangeSink {
+  protected:
+    SessionControlsTest()
+        : milled_(testing::make_speckled_bone(random_)),
+          mirror_(milled_),
+          restored_(1 << 16, milled_.shared_content()),
+          changes_(1 << 20, milled_.shared_content()),
+          controls_(gate_, restored_,
+                    {.save =
+                         [this](const Bone& bone) {
+                             saved_ = checksum(bone);
+                             return std::string(can_save_ ? "" : "the disk is full");
+                         },
+                     .finish =
+                         [this] {
+                             is_finished_ = true;
+                             return std::string();
+                         }}) {}
+
+    void push(const BrickChange& change, BrickFractions fractions) noexcept override {
+        changes_.push(change, fractions);
+    }
+    void mill() {
+        for (int i = 0; i < 50; ++i) testing::carve_somewhere(milled_, random_, *this);
+    }
+    /// What the milling loop does with its queue, some of it a time.
+    void milling_steps(std::size_t bricks) {
+        gate_.restored_changes += restored_.consume_all(
+            [&](const BrickChange& change, BrickFractions fractions) {
+                ASSERT_TRUE(apply(change, fractions, milled_));
+                changes_.push(change, fractions);
+            },
+            bricks);
+    }
+    void frame(bool spindle_on = false) {
+        controls_.begin_frame();
+        changes_.consume_all([&](const BrickChange& change, BrickFractions fractions) {
+            controls_.note(change, mirror_);
+            ASSERT_TRUE(apply(change, fractions, mirror_));
+        });
+        controls_.end_frame(mirror_, time_s_ += 0.03, spindle_on);
+    }
+    void stroke() {
+        mill();
+        frame(true);
+        frame();
+    }
+    void frames(int count) {
+        for (int i = 0; i < count; ++i) {
+            milling_steps(3);
+            frame();
+        }
+    }
+    bool holds_still() const { return gate_.holds_still; }
+
+    std::mt19937 random_{3};
+    Bone milled_;
+    Bone mirror_;
+    SessionGate gate_;
+    ChangeQueue restored_;
+    ChangeQueue changes_;
+    SessionControls controls_;
+    double time_s_ = 0.0;
+    bool can_save_ = true;
+    bool is_finished_ = false;
+    std::uint64_t saved_ = 0;
+};
+
+TEST_F(SessionControlsTest, UndoesAStrokeThroughTheMillingLoop) {
+    const std::uint64_t whole = checksum(milled_);
+    stroke();
+    const std::uint64_t milled = checksum(milled_);
+    ASSERT_NE(milled, whole);
+    controls_.control({SessionAction::undo});
+    frames(60);
+    EXPECT_EQ(checksum(milled_), whole);
+    EXPECT_EQ(checksum(mirror_), whole);
+    EXPECT_FALSE(holds_still());
+    EXPECT_EQ(controls_.status(), (SessionStatus{.undo_steps = 0, .redo_steps = 1}));
+    controls_.control({SessionAction::redo});
+    frames(60);
+    EXPECT_EQ(checksum(milled_), milled);
+    EXPECT_EQ(checksum(mirror_), milled);
+}
+
+TEST_F(SessionControlsTest, HoldsTheSessionStillUntilAllOfItIsBack) {
+    stroke();
+    controls_.control({SessionAction::undo});
+    frame();
+    EXPECT_TRUE(holds_still());
+    int waited = 0;
+    for (; holds_still() && waited < 100; ++waited) {
+        EXPECT_TRUE(holds_still());
+        milling_steps(1);
+        frame();
+    }
+    EXPECT_GT(waited, 5);
+    EXPECT_LT(waited, 100);
+    EXPECT_EQ(checksum(milled_), checksum(mirror_));
+}
+
+TEST_F(SessionControlsTest, UndoesOnlyOnceTheStrokeHasEnded) {
+    mill();
+    frame(true);
+    controls_.control({SessionAction::undo});
+    frame(true);
+    EXPECT_TRUE(holds_still()) << "which turns the spindle off";
+    EXPECT_TRUE(controls_.take_events().empty());
+    frames(60);
+    const auto events = controls_.take_events();
+    ASSERT_EQ(events.size(), 1U);
+    EXPECT_EQ(events[0].action, SessionAction::undo);
+    EXPECT_FALSE(events[0].is_refused);
+    EXPECT_EQ(controls_.status().undo_steps, 0U);
+}
+
+TEST_F(SessionControlsTest, ResetsAllStrokesAndRedoesThemOneByOne) {
+    std::vector<std::uint64_t> checksums{checksum(milled_)};
+    for (int i = 0; i < 5; ++i) {
+        stroke();
+        checksums.push_back(checksum(milled_));
+    }
+    controls_.control({SessionAction::reset});
+    frames(400);
+    EXPECT_EQ(checksum(mirror_), checksums[0]);
+    EXPECT_FALSE(holds_still());
+    EXPECT_EQ(controls_.status(), (SessionStatus{.undo_steps = 0, .redo_steps = 5}));
+    EXPECT_EQ(controls_.take_events().size(), 1U);
+    for (int i = 1; i <= 5; ++i) {
+        controls_.control({SessionAction::redo});
+        frames(60);
+        EXPECT_EQ(checksum(mirror_), checksums[static_cast<std::size_t>(i)]);
+        EXPECT_EQ(checksum(milled_), checksum(mirror_));
+    }
+}
+
+TEST_F(SessionControlsTest, RefusesWhatThereIsNothingOf) {
+    for (const auto action : {SessionAction::undo, SessionAction::redo, SessionAction::reset})
+        controls_.control({action});
+    frame();
+    const auto events = controls_.take_events();
+    ASSERT_EQ(events.size(), 3U);
+    EXPECT_EQ(events[0].text, "nothing was milled");
+    EXPECT_EQ(events[1].text, "nothing was undone");
+    for (const ControlEvent& event : events) EXPECT_TRUE(event.is_refused);
+    EXPECT_FALSE(holds_still());
+}
+
+TEST_F(SessionControlsTest, PausesUntilItIsResumed) {
+    controls_.control({SessionAction::pause});
+    frame();
+    EXPECT_TRUE(holds_still());
+    EXPECT_TRUE(controls_.status().is_paused);
+    frames(5);
+    EXPECT_TRUE(holds_still());
+    controls_.control({SessionAction::resume});
+    frame();
+    EXPECT_FALSE(holds_still());
+}
+
+TEST_F(SessionControlsTest, MarksSavesAndFinishesAndSaysWhatCameOfIt) {
+    stroke();
+    controls_.control({SessionAction::mark, "close to the nerve"});
+    controls_.control({SessionAction::save});
+    frame();
+    can_save_ = false;
+    controls_.control({SessionAction::save});
+    controls_.control({SessionAction::finish});
+    frame();
+    const auto events = controls_.take_events();
+    ASSERT_EQ(events.size(), 4U);
+    EXPECT_EQ(events[0].text, "close to the nerve");
+    EXPECT_GT(events[0].time_s, 0.0);
+    EXPECT_FALSE(events[1].is_refused);
+    EXPECT_EQ(saved_, checksum(mirror_));
+    EXPECT_TRUE(events[2].is_refused);
+    EXPECT_EQ(events[2].text, "the disk is full");
+    EXPECT_TRUE(is_finished_);
+}
+
+TEST_F(SessionControlsTest, TakesNoMoreThanItCanRemember) {
+    for (int i = 0; i < 1000; ++i) controls_.control({SessionAction::mark});
+    frame();
+    const auto events = controls_.take_events();
+    ASSERT_EQ(events.size(), 1000U);
+    const auto refused = std::ranges::count_if(events, [](const auto& event) { return event.is_refused; });
+    EXPECT_EQ(refused, 1000 - static_cast<std::ptrdiff_t>(SessionControls::most_waiting));
+}
+
+TEST_F(SessionControlsTest, GoesOnThroughAQueueThatIsTooSmallForAStroke) {
+    const std::uint64_t whole = checksum(milled_);
+    for (int i = 0; i < 20; ++i) mill();  // every brick
+    frame(true);
+    frame();
+    controls_.control({SessionAction::undo});
+    frames(300);
+    EXPECT_EQ(checksum(mirror_), whole);
+    EXPECT_EQ(checksum(milled_), whole);
+}
+
+}  // namespace
+}  // namespace osteomill
