@@ -2,13 +2,11 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <limits>
-#include <new>
 #include <stdexcept>
 #include <utility>
 #include <variant>
 
+#include "haptic_server/imaging/bone_of_file.h"
 #include "haptic_server/imaging/carved_bone.h"
 #include "haptic_server/imaging/imaging_error.h"
 #include "haptic_server/imaging/phantom.h"
@@ -33,39 +31,13 @@ LoadedBone load_phantom(const std::string& name, const StiffnessRelation& relati
     return {bone_from_hu(std::get<HuSlices>(made), phantom_threshold_hu, relation), std::move(source)};
 }
 
-/// The file's slices, and the highest HU that came by.
-HuSlices watched(HuSlices slices, std::int16_t& highest) {
-    return {.grid = slices.grid,
-            .labelled = slices.labelled,
-            .read = [read = std::move(slices.read), &highest](std::span<std::int16_t> hu,
-                                                              std::span<std::uint8_t> tissue) {
-                read(hu, tissue);
-                std::int16_t here = highest;
-                for (const std::int16_t value : hu) here = std::max(here, value);
-                highest = here;
-            }};
-}
-
 LoadedBone load_file(const FileSource& named, const StiffnessRelation& relation) {
-    auto file = std::make_shared<const BoneFile>(named.path);
-    const double threshold_hu =
-        named.threshold_hu.value_or(file->threshold_hu().value_or(default_threshold_hu));
-    BoneSource source{.phantom = {}, .file = file, .hu_digest = {}, .threshold_hu = threshold_hu};
-    if (is_carved(*file)) {
-        RestoredBone restored = restore_carved_bone(*file);
-        if (restored.bone.stored_bricks() == 0) throw ImagingError(named.path, "nothing is left of its bone");
-        source.hu_digest = std::move(restored.hu_digest);
-        return {std::move(restored.bone), std::move(source)};
-    }
-    HuReader reader(*file);
-    std::int16_t highest = std::numeric_limits<std::int16_t>::min();
-    Bone bone = bone_from_hu(watched(slices_of(reader, *file), highest), threshold_hu, relation);
-    if (bone.stored_bricks() == 0)
-        throw ImagingError(
-            named.path,
-            fmt::format("holds no bone: no voxel reaches {} HU, the highest has {}", threshold_hu, highest));
-    source.hu_digest = reader.digest();
-    return {std::move(bone), std::move(source)};
+    BoneOfFile read = bone_of_file(named.path, named.threshold_hu, relation);
+    return {std::move(read.bone),
+            {.phantom = {},
+             .file = std::move(read.file),
+             .hu_digest = std::move(read.hu_digest),
+             .threshold_hu = read.threshold_hu}};
 }
 
 /// Of the file that was loaded. Throws SourceLost, at the latest with the last slice.
@@ -91,12 +63,7 @@ HuSlices slices_again(const BoneSource& source, HuReader& reader) {
 LoadedBone load_bone(const Scene& scene) {
     if (const auto* phantom = std::get_if<PhantomSource>(&scene.bone))
         return load_phantom(phantom->name, stiffness_of(scene));
-    const auto& named = std::get<FileSource>(scene.bone);
-    try {
-        return load_file(named, stiffness_of(scene));
-    } catch (const std::bad_alloc&) {
-        throw ImagingError(named.path, "does not fit in memory");
-    }
+    return load_file(std::get<FileSource>(scene.bone), stiffness_of(scene));
 }
 
 void save_bone(const std::filesystem::path& path, const BoneSource& source, const Bone& bone,

@@ -39,8 +39,4 @@ void save_bone(
     const std::filesystem::path& path, const BoneSource& source, const Bone& bone,
     const ReportProgress& report = [](double) {});
 
-/// Where neither scene nor file says from which HU on a voxel is bone: about what separates trabecular bone
-/// from soft tissue in CT.
-inline constexpr double default_threshold_hu = 300.0;
-
 }  // namespace osteomill

@@ -9,20 +9,44 @@
 
 #include "common/files/whole_file.h"
 #include "common/program/stop_signals.h"
+#include "haptic_server/imaging/removed_bone.h"
+#include "haptic_server/replay/recorded_bones.h"
 #include "haptic_server/replay/recorded_session.h"
 #include "haptic_server/replay/recording_csv.h"
 #include "haptic_server/replay/recording_summary.h"
 #include "haptic_server/streaming/streaming_server.h"
+#include "haptic_server/surface/mesh_file.h"
+#include "haptic_server/surface/surface_mesh.h"
 
 namespace osteomill {
 
 namespace {
 
+void require_going_on(const std::atomic<bool>& stop) {
+    if (stop.load()) throw std::runtime_error("was told to stop; nothing was written");
+}
+
+/// The surface of what is left and what was removed, as far as the recording can be read. Returns why it is
+/// not read further.
+std::string write_bones(const ReplayOptions& options, const std::atomic<bool>& stop) {
+    const RecordedBones bones = bones_of(options.recording, [&] { require_going_on(stop); });
+    if (options.difference) save_removed(*options.difference, bones.at_start, bones.at_end);
+    if (options.surface) {
+        const SurfaceMesh mesh = surface_of(bones.at_end);
+        if (mesh.triangles.empty())
+            throw std::runtime_error(
+                fmt::format("{}: its bone has no surface at the end: no voxel is more than half full",
+                            options.recording.string()));
+        write_mesh(*options.surface, mesh);
+    }
+    return bones.error;
+}
+
 void read(const ReplayOptions& options, const std::atomic<bool>& stop) {
     std::optional<RecordingCsv> csv;
     if (options.csv) csv.emplace(*options.csv);
     const RecordingSummary summary = summarise(options.recording, [&](const Playhead& playhead) {
-        if (stop.load()) throw std::runtime_error("was told to stop; nothing was written");
+        require_going_on(stop);
         if (csv) csv->add(playhead);
     });
     if (csv) csv->close();
@@ -74,7 +98,13 @@ bool go_to_next_session(Playhead& playhead) {
 }  // namespace
 
 void run_replay(const ReplayOptions& options, const std::atomic<bool>& stop, const ProgramOutput& output) {
-    if (options.only_reads()) return read(options, stop);
+    if (options.only_reads()) {
+        std::string error;
+        if (options.surface || options.difference) error = write_bones(options, stop);
+        if (options.info || options.json || options.csv) read(options, stop);
+        if (!error.empty()) throw std::runtime_error(error);
+        return;
+    }
     StreamingOptions where = streaming_options(options.listen, options.access);
     Playhead playhead(options.recording);
     if (options.from_s > 0.0) go_to(playhead, options.from_s);

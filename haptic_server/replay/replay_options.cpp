@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "common/files/distinct_files.h"
+#include "haptic_server/surface/mesh_file.h"
 
 namespace osteomill {
 
@@ -22,6 +23,8 @@ ReplayCommandLine parse_replay_command_line(int argc, const char* const* argv, c
     std::string listen = "127.0.0.1:7010";
     std::string json;
     std::string csv;
+    std::string surface;
+    std::string difference;
     CLI::App app(
         "Shows a recording of haptic_server --record to render clients, from the moment that the first one "
         "joins; or says what is in it.",
@@ -43,19 +46,35 @@ ReplayCommandLine parse_replay_command_line(int argc, const char* const* argv, c
     app.add_option("--csv", csv,
                    "Write time, pose, force, burr, spindle and removed volume, a line a frame; serve nobody")
         ->type_name("FILE");
+    app.add_option("--surface", surface,
+                   "Write the surface of the bone as it is at the end, closed, in mm of patient LPS, to this "
+                   ".stl, .ply or .obj; serve nobody")
+        ->type_name("FILE");
+    app.add_option("--difference", difference,
+                   "Write what was removed of each voxel, 0 to 255, to this .nrrd; serve nobody")
+        ->type_name("FILE");
     if (auto text = parse_or_text(app, argc, argv)) return {std::nullopt, *std::move(text)};
     if (!json.empty()) options.json = json;
     if (!csv.empty()) options.csv = csv;
+    if (!surface.empty()) options.surface = surface;
+    if (!difference.empty()) options.difference = difference;
+    if (options.surface && !is_mesh_name(*options.surface))
+        throw std::invalid_argument(fmt::format("--surface: '{}' must end in {}", surface, mesh_endings));
+    if (options.difference && options.difference->extension() != ".nrrd")
+        throw std::invalid_argument(fmt::format("--difference: '{}' must end in .nrrd", difference));
     std::vector<NamedFile> files = access.files_read();
     files.push_back({"FILE", options.recording, false});
     if (options.json) files.push_back({"--json", *options.json});
     if (options.csv) files.push_back({"--csv", *options.csv});
+    if (options.surface) files.push_back({"--surface", *options.surface});
+    if (options.difference) files.push_back({"--difference", *options.difference});
     require_distinct(files);
     for (const CLI::Option* serving : {where, speed, from})
         if (options.only_reads() && serving->count() > 0)
-            throw std::invalid_argument(
-                fmt::format("{} is for showing a recording; --info, --json and --csv read all of it",
-                            serving->get_name()));
+            throw std::invalid_argument(fmt::format(
+                "{} is for showing a recording; --info, --json, --csv, --surface and --difference read "
+                "all of it",
+                serving->get_name()));
     try {
         options.listen = parse_listen_address(listen);
     } catch (const std::invalid_argument& error) {

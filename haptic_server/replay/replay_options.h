@@ -19,9 +19,11 @@ struct ReplayOptions {
     bool info = false;  ///< print what is in the recording
     std::optional<std::filesystem::path> json;
     std::optional<std::filesystem::path> csv;
+    std::optional<std::filesystem::path> surface;     ///< of the bone that is left
+    std::optional<std::filesystem::path> difference;  ///< what was removed since the recording began
 
     /// Whether it is only looked into, and shown to nobody.
-    bool only_reads() const { return info || json || csv; }
+    bool only_reads() const { return info || json || csv || surface || difference; }
 };
 
 using ReplayCommandLine = Asked<ReplayOptions>;

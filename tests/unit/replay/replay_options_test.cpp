@@ -26,6 +26,8 @@ TEST(ReplayOptions, ServeAtAnySpeedFromAnyTime) {
     EXPECT_EQ(other->listen.port, 0);
     EXPECT_TRUE(parse({"a.pcap", "--info"}).options->only_reads());
     EXPECT_TRUE(parse({"a.pcap", "--csv", "a.csv"}).options->only_reads());
+    EXPECT_TRUE(parse({"a.pcap", "--surface", "a.ply"}).options->only_reads());
+    EXPECT_TRUE(parse({"a.pcap", "--difference", "a.nrrd"}).options->only_reads());
 }
 
 TEST(ReplayOptions, AreRefusedWhereTheyMakeNoSense) {
@@ -34,6 +36,10 @@ TEST(ReplayOptions, AreRefusedWhereTheyMakeNoSense) {
                                                   {"a.pcap", "--from-s", "-1"},
                                                   {"a.pcap", "--listen", "0.0.0.0:7010"},
                                                   {"a.pcap", "--info", "--speed", "2"},
+                                                  {"a.pcap", "--surface", "a.step"},
+                                                  {"a.pcap", "--surface", "a.stl", "--csv", "a.stl"},
+                                                  {"a.pcap", "--difference", "a.stl"},
+                                                  {"a.pcap", "--surface", "a.stl", "--speed", "2"},
                                                   {"a.pcap", "--loop"}})
         EXPECT_THROW(parse(wrong), std::invalid_argument);
 }

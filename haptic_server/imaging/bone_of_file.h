@@ -1,0 +1,32 @@
+// The bone that a bone file holds: made of its CT numbers, or what was saved of a carved one.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "common/bone/bone.h"
+#include "common/scene/stiffness_relation.h"
+#include "haptic_server/imaging/hu_file.h"
+
+namespace osteomill {
+
+/// Where neither scene nor file says from which HU on a voxel is bone: about what separates trabecular bone
+/// from soft tissue in CT.
+inline constexpr double default_threshold_hu = 300.0;
+
+struct BoneOfFile {
+    Bone bone;
+    std::shared_ptr<const BoneFile> file;  ///< stays open, so that another under its name is not taken for it
+    std::string hu_digest;                 ///< of the file's CT numbers
+    double threshold_hu = default_threshold_hu;
+};
+
+/// Reads the file slice by slice. The threshold is the one given, or the file's own, or the default. Throws
+/// ImagingError with one line naming the file, also where it holds no bone at all, or more than there is
+/// memory for.
+BoneOfFile bone_of_file(const std::filesystem::path& path, std::optional<double> threshold_hu,
+                        const StiffnessRelation& relation);
+
+}  // namespace osteomill

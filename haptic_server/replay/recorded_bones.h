@@ -1,0 +1,23 @@
+// The bone of a recording as it was at the beginning and is at the end, for what is made of the two.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <string>
+
+#include "common/bone/bone.h"
+
+namespace osteomill {
+
+/// Where recordings were joined, of the last session.
+struct RecordedBones {
+    Bone at_start;        ///< as it was when the recording began
+    Bone at_end;          ///< after the last frame that can be read
+    std::string error{};  ///< why it is not read further; empty at the end
+};
+
+/// Reads a recording through, every checksum with it; `on_frame` is called before each. Throws RecordingError
+/// where there is no bone in it; what is wrong later is said in `error`.
+RecordedBones bones_of(const std::filesystem::path& file, const std::function<void()>& on_frame);
+
+}  // namespace osteomill

@@ -1,0 +1,90 @@
+// The way out: a session's bone as a surface that another program opens, and as what was removed of it.
+#include <gmock/gmock.h>
+
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <nlohmann/json.hpp>
+#include <regex>
+
+#include "tests/support/child_process.h"
+#include "tests/support/temporary_folder.h"
+
+namespace osteomill {
+namespace {
+
+using testing::Finished;
+using ::testing::HasSubstr;
+using testing::run_program;
+
+std::string text_of(const std::filesystem::path& path) {
+    std::ifstream in(path, std::ios::binary);
+    return {std::istreambuf_iterator<char>(in), {}};
+}
+
+class BoneExport : public ::testing::Test {
+  protected:
+    /// The cube, drilled for a while.
+    void drill() const {
+        const Finished run = run_program({HAPTIC_SERVER, "--scene", "cube", "--clock", "virtual",
+                                          "--duration-s", "1", "--record", file("a.pcap"), "--save-bone",
+                                          file("carved.nrrd"), "--json", file("a.json")});
+        ASSERT_EQ(run.status, 0) << run.err;
+    }
+    std::string file(const std::string& name) const { return (folder_ / name).string(); }
+    double removed_mm3() const {
+        return nlohmann::json::parse(text_of(file("a.json"))).at("removed_mm3").at("total");
+    }
+
+    const testing::TemporaryFolder folder_;
+};
+
+TEST_F(BoneExport, GivesTheSameSurfaceOfTheSavedBoneAndOfTheRecording) {
+    drill();
+    drill();
+    const Finished exported = run_program({BONE_EXPORT, file("carved.nrrd"), file("a.stl")});
+    EXPECT_EQ(exported.status, 0) << exported.err;
+    EXPECT_THAT(exported.err, HasSubstr("triangles"));
+    const Finished replayed = run_program({PACKET_REPLAY, file("a.pcap"), "--surface", file("b.stl"),
+                                           "--difference", file("gone.nrrd"), "--json", file("b.json")});
+    EXPECT_EQ(replayed.status, 0) << replayed.err;
+    EXPECT_EQ(text_of(file("a.stl")), text_of(file("b.stl")));
+    EXPECT_TRUE(std::filesystem::exists(file("b.json")));
+
+    // A bone saved at once is the one that was drilled.
+    const Finished whole = run_program({HAPTIC_SERVER, "--scene", "cube", "--clock", "virtual",
+                                        "--duration-s", "0.001", "--save-bone", file("whole.nrrd")});
+    ASSERT_EQ(whole.status, 0) << whole.err;
+    const Finished gone =
+        run_program({BONE_EXPORT, file("carved.nrrd"), file("gone2.nrrd"), "--removed", file("whole.nrrd")});
+    EXPECT_EQ(gone.status, 0) << gone.err;
+    EXPECT_EQ(text_of(file("gone.nrrd")), text_of(file("gone2.nrrd")));
+    std::smatch volume;
+    ASSERT_TRUE(std::regex_search(gone.err, volume, std::regex("([0-9.]+) mm\\^3 removed"))) << gone.err;
+    EXPECT_NEAR(std::stod(volume[1]), removed_mm3(), 1e-3);
+    EXPECT_GT(removed_mm3(), 0.01);
+
+    // Another program finds it closed.
+    if (run_program({"/bin/sh", "-c", "command -v admesh"}).status != 0) GTEST_SKIP() << "there is no admesh";
+    const Finished checked = run_program({"/usr/bin/env", "admesh", file("a.stl")});
+    EXPECT_EQ(checked.status, 0);
+    for (const char* line : {"Total disconnected facets *: *0 ", "Degenerate facets *: *0\n",
+                             "Backwards edges *: *0\n", "Normals fixed *: *0\n"})
+        EXPECT_TRUE(std::regex_search(checked.out, std::regex(line))) << line << checked.out;
+    ASSERT_TRUE(std::regex_search(checked.out, volume, std::regex("Volume *: *([-0-9.]+)"))) << checked.out;
+    EXPECT_GT(std::stod(volume[1]), 0.0) << "else normals point inwards";
+}
+
+TEST_F(BoneExport, SaysInOneLineWhatIsWrong) {
+    const Finished missing = run_program({BONE_EXPORT, file("none.nrrd"), file("a.stl")});
+    EXPECT_EQ(missing.status, 1);
+    EXPECT_THAT(missing.err, HasSubstr("none.nrrd"));
+    EXPECT_EQ(std::count(missing.err.begin(), missing.err.end(), '\n'), 1);
+    const Finished wrong = run_program({BONE_EXPORT, file("none.nrrd"), file("a.step")});
+    EXPECT_EQ(wrong.status, 2);
+    EXPECT_THAT(wrong.err, HasSubstr(".stl, .ply or .obj"));
+    EXPECT_EQ(run_program({BONE_EXPORT, "--help"}).status, 0);
+}
+
+}  // namespace
+}  // namespace osteomill
