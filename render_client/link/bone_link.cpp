@@ -34,6 +34,7 @@ class BoneLink::Impl {
     const SessionInfo* session() const { return replica_.session(); }
 
     void send(const OperatorCommand& command) { connection_.send(command); }
+    void send(const SessionControl& control) { connection_.send(control); }
     std::optional<ToolState> newest_tool() const { return connection_.newest_tool(); }
 
     std::string finish_recording() {
@@ -45,6 +46,7 @@ class BoneLink::Impl {
     void take(SessionBegan began, LinkUpdate&) {
         replica_.begin(std::move(began.info));
         session_number_ = began.number;
+        controls_ = {};
         delay_meter_ = {};
         delay_.reset();
     }
@@ -70,6 +72,8 @@ class BoneLink::Impl {
         }
         auto& applied = std::get<VerifiedReplica::Applied>(outcome);
         update.tool = std::move(applied.tool);
+        update.events.insert(update.events.end(), applied.events.begin(), applied.events.end());
+        controls_ = applied.status;
         if (applied.ask) connection_.send(*applied.ask, session_number_);
     }
 
@@ -81,6 +85,7 @@ class BoneLink::Impl {
             delay_ = delay_meter_.update(update.tool->taken_unix_ns, std::chrono::system_clock::now());
         update.delay = delay_;
         update.status = status_;
+        if (status_ == LinkStatus::live) update.controls = controls_;
         update.status_line = replica_.is_being_repaired()
                                  ? "the bone differs from the server's; asking for the bricks that differ"
                                  : line_;
@@ -105,6 +110,7 @@ class BoneLink::Impl {
     ServerConnection connection_;
     LinkStatus status_ = LinkStatus::connecting;
     std::string line_;
+    SessionStatus controls_;
     VerifiedReplica replica_;
     std::uint64_t session_number_ = 0;
     DelayMeter delay_meter_;
@@ -128,6 +134,9 @@ const SessionInfo* BoneLink::session() const {
 }
 void BoneLink::send_operator(const OperatorCommand& command) {
     impl_->send(command);
+}
+void BoneLink::send_control(const SessionControl& control) {
+    impl_->send(control);
 }
 std::optional<ToolState> BoneLink::newest_tool() const {
     return impl_->newest_tool();

@@ -18,6 +18,7 @@
 #include "common/bone/brick_change.h"
 #include "common/net/tls_files.h"
 #include "common/scene/operator_command.h"
+#include "common/scene/session_control.h"
 #include "common/scene/tool_state.h"
 #include "common/wire/session_info.h"
 #include "render_client/link/delay_meter.h"
@@ -38,10 +39,12 @@ enum class LinkStatus {
 /// What happened since the last poll, and where the link stands.
 struct LinkUpdate {
     LinkStatus status = LinkStatus::connecting;
-    std::string status_line{};         ///< for people
-    bool bone_replaced = false;        ///< bone() is another bone: upload all of it
-    std::vector<BrickChange> changes;  ///< of bone(), ascending; empty if bone_replaced
-    std::optional<ToolState> tool;     ///< the newest since the last poll, if any came
+    std::string status_line{};           ///< for people
+    bool bone_replaced = false;          ///< bone() is another bone: upload all of it
+    std::vector<BrickChange> changes;    ///< of bone(), ascending; empty if bone_replaced
+    std::optional<ToolState> tool;       ///< the newest since the last poll, if any came
+    std::vector<ControlEvent> events{};  ///< since the last poll
+    SessionStatus controls{};            ///< what can be done with the session now
     /// How old the newest tool of this session was when a poll took it; nothing where the server does not
     /// say.
     std::optional<DelayMeter::Delay> delay{};
@@ -94,6 +97,10 @@ class BoneLink {
     /// the newest is kept. Call it 50 times a second while the operator is at the controls, from the thread
     /// that reads them: the server takes 0.2 s of silence for an operator who has gone, and lifts the pedal.
     void send_operator(const OperatorCommand& command);
+
+    /// Any thread. Asks something of the session, in order; dropped while not connected, and where the server
+    /// does not take it. What comes of it is an event.
+    void send_control(const SessionControl& control);
 
     /// Any thread. The newest that has come of the tool, be it applied by poll() or not; nothing while not
     /// connected.

@@ -46,6 +46,7 @@ LinkUpdate RecordingPlayer::poll(Time now) {
     }
     update.changes = playhead_->take_changes();
     if (update.bone_replaced) update.changes.clear();
+    update.controls = playhead_->status();
     if (std::exchange(tool_is_news_, false)) update.tool = playhead_->tool();
 
     const bool has_ended = is_at_end_ && target_s_ >= duration_s_;
@@ -90,6 +91,8 @@ void RecordingPlayer::go_towards_target(LinkUpdate& update) {
             case Playhead::Step::state:
                 keys_->after_step(*playhead_);
                 tool_is_news_ = true;
+                update.events.insert(update.events.end(), playhead_->events().begin(),
+                                     playhead_->events().end());
                 break;
             case Playhead::Step::new_bone:
                 keys_.emplace(playhead_->mark());

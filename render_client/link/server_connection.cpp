@@ -10,6 +10,7 @@
 
 #include "common/files/session_file.h"
 #include "common/net/tls_failure.h"
+#include "common/wire/control_messages.h"
 #include "common/wire/scene_messages.h"
 #include "common/wire/sealed_frame.h"
 
@@ -66,6 +67,14 @@ void ServerConnection::send(const OperatorCommand& command) {
         if (!std::holds_alternative<OperatorCommand>(operator_command_from(input, burr_count_))) return;
         input.set_number(++input_number_);
         newest_input_ = std::move(input);
+        write_newest();
+    });
+}
+
+void ServerConnection::send(const SessionControl& control) {
+    asio::post(io_, [this, message = to_message(control)]() mutable {
+        if (!accepts_controls_ || !receiver_.is_live() || controls_.size() >= most_waiting_controls) return;
+        controls_.push_back(std::move(message));
         write_newest();
     });
 }
@@ -169,6 +178,8 @@ void ServerConnection::disconnect() {
     newest_input_.reset();
     input_number_ = 0;
     newest_request_.reset();
+    controls_.clear();
+    accepts_controls_ = false;
     sent_sequence_ = 0;
     is_writing_ = false;
 }
@@ -240,6 +251,7 @@ void ServerConnection::take_event(SnapshotGoesOn) {
 
 void ServerConnection::take_event(SessionInfo session) {
     accepts_operator_ = session.accepts_operator;
+    accepts_controls_ = session.accepts_controls;
     burr_count_ = session.burrs.size();
     owes_hello_ = session.protocol_minor >= first_minor_that_is_greeted;
     write_newest();
@@ -288,7 +300,7 @@ void ServerConnection::take_event(const SpeaksOtherProtocol& other) {
 }
 
 void ServerConnection::write_newest() {
-    if (is_writing_ || !(owes_hello_ || newest_input_ || newest_request_)) return;
+    if (is_writing_ || !(owes_hello_ || newest_input_ || newest_request_ || !controls_.empty())) return;
     v1::ClientFrame frame;
     frame.set_sequence(++sent_sequence_);
     if (std::exchange(owes_hello_, false)) {
@@ -297,6 +309,9 @@ void ServerConnection::write_newest() {
         frame.mutable_hello()->set_takes_packed_changes(!recorder_);
     } else if (newest_request_) {
         *frame.mutable_compare_bone() = *std::exchange(newest_request_, std::nullopt);
+    } else if (!controls_.empty()) {
+        *frame.mutable_session_control() = std::move(controls_.front());
+        controls_.pop_front();
     } else {
         *frame.mutable_operator_input() = *std::exchange(newest_input_, std::nullopt);
     }

@@ -8,6 +8,7 @@
 #include <boost/asio/steady_timer.hpp>
 #include <chrono>
 #include <cstdint>
+#include <deque>
 #include <filesystem>
 #include <memory>
 #include <mutex>
@@ -46,6 +47,8 @@ class ServerConnection {
     ServerConnection(const ServerConnection&) = delete;
     ServerConnection& operator=(const ServerConnection&) = delete;
 
+    static constexpr std::size_t most_waiting_controls = 64;
+
     LinkQueue& events() { return events_; }
     const LinkCounters& counters() const { return counters_; }
 
@@ -53,6 +56,8 @@ class ServerConnection {
     /// As the answer to newest_tool(). Dropped while nothing has been seen, and where the server would not
     /// take it.
     void send(const OperatorCommand& command);
+    /// Dropped where the server would not take it, and beyond most_waiting_controls that wait to be written.
+    void send(const SessionControl& control);
     /// Of the newest state frame that came on this connection; nothing before the first.
     std::optional<ToolState> newest_tool() const;
     /// Dropped if that session is over.
@@ -124,6 +129,7 @@ class ServerConnection {
     SessionReceiver receiver_;
     bool is_paused_ = false;
     bool accepts_operator_ = false;
+    bool accepts_controls_ = false;
     std::size_t burr_count_ = 0;
 
     // What whoever reads the operator's mouse has before it: the newest state, though it may not be drawn
@@ -137,6 +143,7 @@ class ServerConnection {
     std::optional<v1::OperatorInput> newest_input_;
     std::uint64_t input_number_ = 0;  // of this connection
     std::optional<v1::CompareBone> newest_request_;
+    std::deque<v1::SessionControl> controls_;  // that have yet to be written
     std::uint64_t sent_sequence_ = 0;
     bool is_writing_ = false;
 

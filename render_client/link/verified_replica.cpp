@@ -27,7 +27,8 @@ std::variant<VerifiedReplica::Applied, WireError> VerifiedReplica::take(const St
         repair_.reset();
         return std::move(*error);
     }
-    return Applied{std::move(state.tool), std::get<0>(std::move(asked))};
+    return Applied{std::move(state.tool), std::move(state.events), state.status,
+                   std::get<0>(std::move(asked))};
 }
 
 VerifiedReplica::Asked VerifiedReplica::check(const StateArrived& arrived, const FollowedState& state) {

@@ -28,6 +28,8 @@ class VerifiedReplica {
     };
     struct Applied {
         ToolState tool;
+        std::vector<ControlEvent> events{};
+        SessionStatus status{};
         std::optional<v1::CompareBone> ask{};  ///< to be sent to the server
     };
 

@@ -19,6 +19,8 @@ class SessionSource {
     virtual const Bone* bone() const = 0;                            ///< null until one has arrived
     virtual const SessionInfo* session() const = 0;                  ///< null until a server has said hello
     virtual void send_operator(const OperatorCommand& command) = 0;  ///< any thread
+    /// Any thread: asks something of the session; nothing where nobody takes it.
+    virtual void send_control(const SessionControl&) {}
     /// Any thread: of the session that an operator may be at; nothing where there is none.
     virtual std::optional<ToolState> newest_tool() const { return std::nullopt; }
     /// What plays the session, where it is a recording; null where it is not.
@@ -37,6 +39,7 @@ class LinkedSession final : public SessionSource {
     const Bone* bone() const override { return link_.bone(); }
     const SessionInfo* session() const override { return link_.session(); }
     void send_operator(const OperatorCommand& command) override { link_.send_operator(command); }
+    void send_control(const SessionControl& control) override { link_.send_control(control); }
     std::optional<ToolState> newest_tool() const override { return link_.newest_tool(); }
     std::string finish() override { return link_.finish_recording(); }
 

@@ -60,7 +60,8 @@ void move_camera(SessionPicture& session, float wheel_notches, bool left_turns) 
 struct Shared {
     InputMailbox mailbox{};
     OperatorDesk desk;
-    std::atomic<bool> is_over{false};  ///< asked for by either thread
+    std::atomic<bool> is_over{false};      ///< asked for by either thread
+    std::atomic<bool> close_asked{false};  ///< somebody wants to close the window
 };
 
 /// The thread that draws: takes in what the source brings, and shows it where it has changed.
@@ -74,12 +75,13 @@ class Drawing {
           shared_(shared),
           session_(source, panels_, shared.mailbox.take().framebuffer_size_px, FrameQuality::on_demand,
                    options.renderer, options.look),
-          commands_(session_, shared.desk, source.player(), options.screenshots),
+          commands_(session_, shared.desk, source, options.screenshots),
           screenshots_(options.screenshots, screenshot_interval(options)) {
         session_.limit_textures({.budget_bytes = options.texture_budget_bytes});
         session_.view().theme = options.theme;
         session_.view().cuts = options.cuts;
         session_.view().panels_shown = options.panels;
+        session_.offer_controls();
         redraw_.note_change(began_);
     }
 
@@ -104,19 +106,28 @@ class Drawing {
   private:
     void take_in(Clock::time_point now) {
         WindowInput happened = shared_.mailbox.take();
+        if (shared_.close_asked.exchange(false)) {
+            commands_.ask_to_end();
+            redraw_.note_change(now);
+        }
         if (happened.has_news) redraw_.note_change(now);
         input_.append(happened);
 
         const SessionPicture::News news = session_.take_in();
         const LinkUpdate& link = session_.link();
         session_over_ = options_.until_server_ends && link.status == LinkStatus::finished;
-        drills_ = link.status == LinkStatus::live && session_.tool() && session_.session() &&
-                  session_.session()->accepts_operator;
+        commands_.tell(link.events, std::chrono::duration<double>(now - began_).count());
+        drills_ = source_.player() == nullptr && link.status == LinkStatus::live && session_.tool() &&
+                  session_.session() && session_.session()->accepts_operator;
         shared_.desk.show({.drills = drills_,
                            .burr_count = session_.session() ? session_.session()->burrs.size() : 0,
                            .camera = session_.camera(),
                            .size_px = session_.size_px(),
-                           .panels_have_mouse = ImGui::GetIO().WantCaptureMouse});
+                           .panels_have_mouse = ImGui::GetIO().WantCaptureMouse,
+                           .panels = panels_.input_boxes(),
+                           .panels_have_keyboard = has_keyboard(),
+                           .drag_tilts = session_.view().drag_tilts,
+                           .holds_still = link.controls.is_paused});
         session_.show_operator(shared_.desk.command());
 
         const RecordingPlayer* player = source_.player();
@@ -138,7 +149,8 @@ class Drawing {
         move_camera(session_, panels_.wheel_notches(), !drills_);
         for (const Action action :
              actions_of(input_.presses, situation_of(drills_, source_.player() != nullptr)))
-            commands_.take(action);
+            if (!has_keyboard() || action == Action::end) commands_.take(action);
+        commands_.take(session_.take_wishes());
         input_.forget_events();
         const std::string notice = session_.view().notice;
         commands_.write_pictures(framebuffer, std::chrono::duration<double>(start - began_).count());
@@ -155,6 +167,9 @@ class Drawing {
         session_.frame_took(took_s);
         frame_times_.add(1e3 * took_s);
     }
+
+    /// A text is being written: letters are no commands.
+    bool has_keyboard() const { return ImGui::GetIO().WantTextInput; }
 
     const RenderOptions& options_;
     SessionSource& source_;
@@ -233,8 +248,7 @@ RenderReport run_in_window(const RenderOptions& options, SessionSource& source,
         gl::require_opengl_3_3();
         report = Drawing(options, source, window, shared).run();
     });
-    for (Clock::time_point previous = Clock::now();
-         !shared.is_over && !window.close_asked() && !stop_asked();) {
+    for (Clock::time_point previous = Clock::now(); !shared.is_over && !stop_asked();) {
         if (shared.desk.is_driving()) {
             std::this_thread::sleep_until(previous + driving_period);
             window.read_events(0.0);
@@ -243,7 +257,11 @@ RenderReport run_in_window(const RenderOptions& options, SessionSource& source,
             std::this_thread::sleep_until(previous + shortest_period);
         }
         const Clock::time_point now = Clock::now();
-        const WindowInput input = window.take_input();
+        WindowInput input = window.take_input();
+        if (window.take_close_asked()) {
+            shared.close_asked = true;
+            input.has_news = true;
+        }
         shared.desk.step(input, std::chrono::duration<double>(now - previous).count());
         shared.mailbox.post(input);
         previous = now;

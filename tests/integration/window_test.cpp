@@ -10,9 +10,11 @@
 #include <fstream>
 #include <functional>
 #include <iterator>
+#include <limits>
 #include <sstream>
 #include <thread>
 
+#include "common/recording/playhead.h"
 #include "render_client/volume/png_file.h"
 #include "tests/support/virtual_display.h"
 
@@ -108,6 +110,16 @@ class WindowTest : public ::testing::Test {
         std::this_thread::sleep_for(time);
         return (used_s() - before_s) / static_cast<double>(time.count());
     }
+    /// Lines come when the server's output is read.
+    bool server_told_of(const std::string& text) {
+        (void)server_->line_after("no such line", 1s);
+        return server_->err().find(text) != std::string::npos;
+    }
+    bool removed_something() const {
+        const std::string& err = server_->err();
+        const std::size_t at = err.rfind("removed ");
+        return at != std::string::npos && std::stod(err.substr(at + 8)) > 0.5;
+    }
     void press(const std::string& key) const { ASSERT_TRUE(display_->xdotool({"key", key})) << key; }
 
     TemporaryFolder folder_;
@@ -192,7 +204,51 @@ TEST_F(WindowTest, AnswersMouseAndKeysAndShowsWhatAnOffscreenRunDraws) {
     ASSERT_TRUE(display_->xdotool({"keyup", "w"}));
 
     press("Escape");
+    EXPECT_TRUE(comes_true([&] { return difference(display_->screen(), first) >= 0.02; })) << "it asks first";
+    press("Return");
     EXPECT_EQ(window_->wait(60s), 0) << window_->err();
+}
+
+TEST_F(WindowTest, UndoesMarksAndFinishesASessionByKeys) {
+    server_->send_signal(SIGINT);
+    ASSERT_TRUE(server_->wait(60s));
+    server_.emplace(std::vector<std::string>{HAPTIC_SERVER, "--listen", "127.0.0.1:0", "--device", "client",
+                                             "--record", folder("session.pcap")});
+    address_ = server_->line_after("listening on ", 60s).value();
+    open_window({});
+    const Picture before = display_->screen();
+
+    ASSERT_TRUE(display_->xdotool({"keydown", "space", "keydown", "w"}));
+    EXPECT_TRUE(comes_true([&] { return server_told_of("mm^3   spindle on") && removed_something(); }));
+    ASSERT_TRUE(display_->xdotool({"keyup", "w", "keyup", "space"}));
+    std::this_thread::sleep_for(500ms);
+    press("u");
+    EXPECT_TRUE(comes_true([&] { return server_told_of("paused: force and spindle off"); }));
+    press("m");
+    std::this_thread::sleep_for(1s);
+    ASSERT_TRUE(display_->xdotool({"type", "by the pulp, u r"}));
+    press("Return");
+    std::this_thread::sleep_for(1s);
+    press("F10");
+    std::this_thread::sleep_for(1s);
+    press("Return");
+    EXPECT_EQ(server_->wait(60s), 0) << server_->err();
+
+    Playhead playhead(folder("session.pcap"));
+    std::vector<ControlEvent> events;
+    std::uint64_t last = 0;
+    while (playhead.step(std::numeric_limits<double>::infinity()) == Playhead::Step::state) {
+        events.insert(events.end(), playhead.events().begin(), playhead.events().end());
+        last = playhead.bone_checksum();
+    }
+    ASSERT_EQ(events.size(), 3U);
+    EXPECT_EQ(events[0].action, SessionAction::undo);
+    EXPECT_FALSE(events[0].is_refused) << events[0].text;
+    EXPECT_EQ(events[1].text, "by the pulp, u r") << "letters of a note are no commands";
+    EXPECT_EQ(events[2].action, SessionAction::finish);
+    EXPECT_EQ(last, Playhead(folder("session.pcap")).bone_checksum()) << "the bone is whole again";
+    press("Escape");
+    EXPECT_EQ(window_->wait(60s), 0) << "after the session nobody is asked: " << window_->err();
 }
 
 TEST_F(WindowTest, DrawsOnlyWhatChanges) {

@@ -1,5 +1,7 @@
 #include "render_client/ui/input/commands.h"
 
+#include <fmt/format.h>
+
 #include <stdexcept>
 #include <utility>
 
@@ -10,13 +12,38 @@ namespace {
 constexpr double seek_s = 5.0;
 constexpr double notice_s = 4.0;
 
+const char* words_for(SessionAction done) {
+    switch (done) {
+        case SessionAction::mark:
+            return "marked";
+        case SessionAction::pause:
+            return "paused";
+        case SessionAction::resume:
+            return "the session goes on";
+        case SessionAction::undo:
+            return "a stroke was undone";
+        case SessionAction::redo:
+            return "a stroke was redone";
+        case SessionAction::reset:
+            return "all strokes were undone";
+        case SessionAction::save:
+            return "the server saves the bone";
+        case SessionAction::finish:
+            return "the session ends";
+        case SessionAction::none:
+            break;
+    }
+    return "the server did what this program does not know";
+}
+
 }  // namespace
 
-Commands::Commands(SessionPicture& session, OperatorDesk& desk, RecordingPlayer* player,
+Commands::Commands(SessionPicture& session, OperatorDesk& desk, SessionSource& source,
                    const std::filesystem::path& pictures_folder)
     : session_(session),
       desk_(desk),
-      player_(player),
+      source_(source),
+      player_(source.player()),
       pictures_(pictures_folder.empty() ? std::filesystem::path(".") : pictures_folder) {}
 
 void Commands::take(Action action) {
@@ -56,7 +83,29 @@ void Commands::take(Action action) {
             export_wanted_ = !export_wanted_;
             break;
         case Action::end:
-            end_wanted_ = true;
+            view.question == SessionQuestion::none ? ask_to_end()
+                                                   : void(view.question = SessionQuestion::none);
+            break;
+        case Action::tilt:
+            view.drag_tilts = !view.drag_tilts;
+            break;
+        case Action::undo:
+            ask(SessionAction::undo);
+            break;
+        case Action::redo:
+            ask(SessionAction::redo);
+            break;
+        case Action::hold:
+            ask(session_.link().controls.is_paused ? SessionAction::resume : SessionAction::pause);
+            break;
+        case Action::mark:
+            if (session_.link().controls.may_control) view.question = SessionQuestion::mark;
+            break;
+        case Action::save:
+            ask(SessionAction::save);
+            break;
+        case Action::finish:
+            if (session_.link().controls.may_control) view.question = SessionQuestion::finish;
             break;
         case Action::next_burr:
             desk_.choose_next_burr();
@@ -74,6 +123,32 @@ void Commands::take(Action action) {
             player_->seek(player_->time_s() + seek_s);
             break;
     }
+}
+
+void Commands::ask(SessionAction action) {
+    source_.send_control({action});
+}
+
+void Commands::ask_to_end() {
+    const bool goes_on = player_ == nullptr && session_.link().status == LinkStatus::live;
+    if (goes_on)
+        session_.view().question = SessionQuestion::end;
+    else
+        end_wanted_ = true;
+}
+
+void Commands::take(const SessionWishes& wishes) {
+    for (const SessionControl& control : wishes.controls) source_.send_control(control);
+    if (wishes.burr) desk_.choose_burr(*wishes.burr);
+    if (wishes.switches_pedal) desk_.switch_pedal();
+    end_wanted_ = end_wanted_ || wishes.ends_program;
+}
+
+void Commands::tell(const std::vector<ControlEvent>& events, double now_s) {
+    for (const ControlEvent& event : events)
+        say(event.is_refused ? fmt::format("no {}: {}", name_of(event.action), event.text)
+                             : fmt::format("{} {}", words_for(event.action), event.text),
+            now_s);
 }
 
 void Commands::write_pictures(const gl::Framebuffer& picture, double now_s) {

@@ -13,25 +13,32 @@ namespace osteomill {
 
 class Commands {
   public:
-    /// Pictures go into `pictures_folder`; an empty one is the current folder. `player` is null where no
-    /// recording is shown.
-    Commands(SessionPicture& session, OperatorDesk& desk, RecordingPlayer* player,
+    /// Pictures go into `pictures_folder`; an empty one is the current folder.
+    Commands(SessionPicture& session, OperatorDesk& desk, SessionSource& source,
              const std::filesystem::path& pictures_folder);
 
     void take(Action action);
+    /// Passes on what was asked for with buttons.
+    void take(const SessionWishes& wishes);
+    /// Says what came of what was asked of the session.
+    void tell(const std::vector<ControlEvent>& events, double now_s);
     /// Call after each frame: writes what was asked for, and says so, or what went wrong, for a few seconds.
     void write_pictures(const gl::Framebuffer& picture, double now_s);
 
     bool end_wanted() const { return end_wanted_; }
+    /// Whoever wants to end has to say so again, where a session goes on.
+    void ask_to_end();
     /// Whether every frame is written, so that they have to come.
     bool is_exporting() const { return export_wanted_; }
 
   private:
     void say(std::string notice, double now_s);
+    void ask(SessionAction action);
 
     SessionPicture& session_;
     OperatorDesk& desk_;
-    RecordingPlayer* player_;
+    SessionSource& source_;
+    RecordingPlayer* player_;  // null where no recording is shown
     PictureExport pictures_;
     bool picture_wanted_ = false;
     bool export_wanted_ = false;

@@ -4,57 +4,107 @@
 #include <GLFW/glfw3.h>
 
 #include <algorithm>
+#include <optional>
 
 namespace osteomill {
 
 namespace {
 
-bool holds(const KeyBinding& binding, Situation situation) {
-    return binding.situation == Situation::always || binding.situation == situation;
+const char* heading_of(Topic topic) {
+    switch (topic) {
+        case Topic::hand:
+            return "The hand";
+        case Topic::session:
+            return "The session";
+        case Topic::recording:
+            return "The recording";
+        case Topic::view:
+            return "The view";
+        case Topic::cuts:
+            return "Cuts";
+        case Topic::panels:
+            return "Panels and pictures";
+    }
+    return "";
 }
 
 const std::vector<KeyBinding>& table() {
     using enum Situation;
+    using enum Topic;
     static const std::vector<KeyBinding> bindings{
-        {drilling, {}, Action::none, "left drag", "move the hand in the picture's plane"},
-        {drilling, {GLFW_KEY_W, GLFW_KEY_S}, Action::none, "W, S, ctrl + wheel", "into the bone, out of it"},
-        {drilling, {GLFW_KEY_SPACE}, Action::none, "SPACE (held)", "pedal: the spindle turns"},
-        {drilling,
+        {hand, drilling, {}, Action::none, "left drag", "move the hand in the picture's plane"},
+        {hand,
+         drilling,
+         {GLFW_KEY_W, GLFW_KEY_S},
+         Action::none,
+         "W, S, ctrl + wheel",
+         "into the bone, out of it"},
+        {hand, drilling, {GLFW_KEY_SPACE}, Action::none, "SPACE (held)", "pedal: the spindle turns"},
+        {hand,
+         drilling,
+         {GLFW_KEY_LEFT, GLFW_KEY_RIGHT, GLFW_KEY_UP, GLFW_KEY_DOWN},
+         Action::none,
+         "arrow keys",
+         "tilt the handpiece"},
+        {hand, drilling, {GLFW_KEY_T}, Action::tilt, "T", "left drag tilts it: on, off"},
+        {hand,
+         drilling,
          {GLFW_KEY_1, GLFW_KEY_2, GLFW_KEY_3, GLFW_KEY_4, GLFW_KEY_5, GLFW_KEY_6, GLFW_KEY_7, GLFW_KEY_8,
           GLFW_KEY_9},
          Action::none,
          "1 to 9",
          "choose a burr"},
-        {drilling, {GLFW_KEY_RIGHT_BRACKET}, Action::next_burr, "]", "the next burr"},
-        {drilling, {GLFW_KEY_LEFT_BRACKET}, Action::previous_burr, "[", "the burr before"},
-        {playing, {GLFW_KEY_SPACE}, Action::play_or_pause, "SPACE", "play, pause"},
-        {playing, {GLFW_KEY_LEFT}, Action::back_5_s, "LEFT", "5 s back"},
-        {playing, {GLFW_KEY_RIGHT}, Action::on_5_s, "RIGHT", "5 s on"},
-        {playing, {}, Action::none, "left drag", "turn the view"},
-        {looking_on, {}, Action::none, "left drag", "turn the view"},
-        {always, {}, Action::none, "right drag", "turn the view"},
-        {always, {}, Action::none, "middle drag", "shift the view; shift + right drag does, too"},
-        {always, {}, Action::none, "wheel", "zoom"},
-        {always, {}, Action::none, "click on the cube", "look at that side"},
-        {always, {GLFW_KEY_HOME}, Action::first_view, "HOME", "the first view again"},
-        {always, {GLFW_KEY_X}, Action::cut_x, "X", "cut left/right: on, other half, off"},
-        {always, {GLFW_KEY_Y}, Action::cut_y, "Y", "cut front/back"},
-        {always, {GLFW_KEY_Z}, Action::cut_z, "Z", "cut above/below"},
-        {always, {GLFW_KEY_C}, Action::cut_view, "C", "cut across the view"},
-        {always, {}, Action::none, "alt + wheel", "move the last of the cuts"},
-        {always, {GLFW_KEY_F1}, Action::help, "F1", "this help"},
-        {always, {GLFW_KEY_F2}, Action::theme, "F2", "light or dark"},
-        {always, {GLFW_KEY_F3}, Action::panels, "F3", "panels on, off"},
-        {always, {GLFW_KEY_F4}, Action::cuts_panel, "F4", "panel of the cuts"},
-        {always, {GLFW_KEY_F5}, Action::transfer_panel, "F5", "panel of colours and opacity"},
-        {always, {GLFW_KEY_F11}, Action::export_frames, "F11", "write every frame as PNG: begin, end"},
-        {always, {GLFW_KEY_F12, GLFW_KEY_P}, Action::screenshot, "F12, P", "write this picture as PNG"},
-        {always, {GLFW_KEY_ESCAPE}, Action::end, "ESC", "end"},
+        {hand, drilling, {GLFW_KEY_RIGHT_BRACKET}, Action::next_burr, "]", "the next burr"},
+        {hand, drilling, {GLFW_KEY_LEFT_BRACKET}, Action::previous_burr, "[", "the burr before"},
+        {session, live, {GLFW_KEY_U}, Action::undo, "U", "undo the last stroke, from pedal down to up"},
+        {session, live, {GLFW_KEY_R}, Action::redo, "R", "redo it"},
+        {session, live, {GLFW_KEY_H}, Action::hold, "H", "pause: force and spindle off; go on"},
+        {session, live, {GLFW_KEY_M}, Action::mark, "M", "mark this moment, with a note"},
+        {session, live, {GLFW_KEY_F6}, Action::save, "F6", "save the bone as it is"},
+        {session, live, {GLFW_KEY_F10}, Action::finish, "F10", "finish the session"},
+        {recording, playing, {GLFW_KEY_SPACE}, Action::play_or_pause, "SPACE", "play, pause"},
+        {recording, playing, {GLFW_KEY_LEFT}, Action::back_5_s, "LEFT", "5 s back"},
+        {recording, playing, {GLFW_KEY_RIGHT}, Action::on_5_s, "RIGHT", "5 s on"},
+        {view, playing, {}, Action::none, "left drag", "turn the view"},
+        {view, looking_on, {}, Action::none, "left drag", "turn the view"},
+        {view, always, {}, Action::none, "right drag", "turn the view"},
+        {view, always, {}, Action::none, "middle drag", "shift the view; shift + right drag does, too"},
+        {view, always, {}, Action::none, "wheel", "zoom"},
+        {view, always, {}, Action::none, "click on the cube", "look at that side"},
+        {view, always, {GLFW_KEY_HOME}, Action::first_view, "HOME", "the first view again"},
+        {cuts, always, {GLFW_KEY_X}, Action::cut_x, "X", "cut left/right: on, other half, off"},
+        {cuts, always, {GLFW_KEY_Y}, Action::cut_y, "Y", "cut front/back"},
+        {cuts, always, {GLFW_KEY_Z}, Action::cut_z, "Z", "cut above/below"},
+        {cuts, always, {GLFW_KEY_C}, Action::cut_view, "C", "cut across the view"},
+        {cuts, always, {}, Action::none, "alt + wheel", "move the last of the cuts"},
+        {panels, always, {GLFW_KEY_F1}, Action::help, "F1", "this help"},
+        {panels, always, {GLFW_KEY_F2}, Action::theme, "F2", "light or dark"},
+        {panels, always, {GLFW_KEY_F3}, Action::panels, "F3", "panels on, off"},
+        {panels, always, {GLFW_KEY_F4}, Action::cuts_panel, "F4", "panel of the cuts"},
+        {panels, always, {GLFW_KEY_F5}, Action::transfer_panel, "F5", "panel of colours and opacity"},
+        {panels,
+         always,
+         {GLFW_KEY_F11},
+         Action::export_frames,
+         "F11",
+         "write every frame as PNG: begin, end"},
+        {panels,
+         always,
+         {GLFW_KEY_F12, GLFW_KEY_P},
+         Action::screenshot,
+         "F12, P",
+         "write this picture as PNG"},
+        {panels, always, {GLFW_KEY_ESCAPE}, Action::end, "ESC", "end; asks first where a session goes on"},
     };
     return bindings;
 }
 
 }  // namespace
+
+bool holds(const KeyBinding& binding, Situation situation) {
+    return binding.situation == Situation::always || binding.situation == situation ||
+           (binding.situation == Situation::live && situation != Situation::playing);
+}
 
 Situation situation_of(bool drills, bool shows_recording) {
     if (drills) return Situation::drilling;
@@ -77,10 +127,16 @@ std::vector<Action> actions_of(std::span<const int> pressed_keys, Situation situ
 
 std::vector<HelpLine> help_lines(Situation situation) {
     std::vector<HelpLine> lines;
-    for (const KeyBinding& binding : table())
-        if (holds(binding, situation)) lines.push_back({binding.name, binding.meaning});
+    std::optional<Topic> topic;
+    for (const KeyBinding& binding : table()) {
+        if (!holds(binding, situation)) continue;
+        if (topic != binding.topic) lines.push_back({"", heading_of(binding.topic), true});
+        topic = binding.topic;
+        lines.push_back({binding.name, binding.meaning});
+    }
     switch (situation) {
         case Situation::drilling:
+            lines.push_back({"", "In the picture", true});
             lines.push_back({"orange arrow", "the force that an arm would give to the hand"});
             lines.push_back({"blue ball", "where the hand wants the burr"});
             break;

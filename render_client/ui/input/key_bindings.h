@@ -26,6 +26,13 @@ enum class Action {
     end,
     next_burr,
     previous_burr,
+    tilt,
+    undo,
+    redo,
+    hold,
+    mark,
+    save,
+    finish,
     play_or_pause,
     back_5_s,
     on_5_s,
@@ -34,14 +41,19 @@ enum class Action {
 /// In which kind of session a binding holds.
 enum class Situation {
     always,
-    drilling,   ///< the mouse moves the hand
-    playing,    ///< a recording is shown
-    looking_on  ///< neither
+    drilling,    ///< the mouse moves the hand
+    playing,     ///< a recording is shown
+    looking_on,  ///< neither
+    live,        ///< drilling or looking on: there is a session that may be controlled
 };
 
 Situation situation_of(bool drills, bool shows_recording);
 
+/// What a binding is about, for the help.
+enum class Topic { hand, session, recording, view, cuts, panels };
+
 struct KeyBinding {
+    Topic topic = Topic::view;
     Situation situation = Situation::always;
     std::vector<int> keys;  ///< of GLFW; empty for the mouse
     Action action = Action::none;
@@ -54,10 +66,14 @@ std::span<const KeyBinding> key_bindings();
 /// The actions of the keys that went down, in their order.
 std::vector<Action> actions_of(std::span<const int> pressed_keys, Situation situation);
 
+/// Whether it is to be heeded in that situation.
+bool holds(const KeyBinding& binding, Situation situation);
+
 /// A line of the help: what to press, what it does. A line without a name goes on with the one before.
 struct HelpLine {
     std::string name;
     std::string meaning;
+    bool is_heading = false;  ///< of the lines that follow; its text is `meaning`
 };
 std::vector<HelpLine> help_lines(Situation situation);
 

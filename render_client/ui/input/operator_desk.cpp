@@ -13,6 +13,8 @@ namespace {
 
 constexpr double advance_mm_per_s = 2.0;
 constexpr double advance_mm_per_notch = 0.1;
+/// As if the mouse tilted it.
+constexpr double tilt_px_per_s = 100.0;
 /// A key that is held does not move the hand by what a thread that stood still has missed.
 constexpr double longest_step_s = 0.1;
 
@@ -31,14 +33,14 @@ void OperatorDesk::step(const WindowInput& input, double elapsed_s) {
             if (input.is_focused && !input.is_minimised)
                 move_hand(input, std::min(elapsed_s, longest_step_s));
             else
-                hand_.let_go();
+                let_go();
             hand_.follow(*tool, picture_.burr_count);
             // What is sent last lifts the pedal; then the tool is free for others.
             if (hand_.wants_tool() || had_tool_) wish = hand_.command();
             // It may be asked for, but must not jump to where this hand has gone meanwhile.
-            if (tool->driver == ToolDriver::another) hand_.let_go();
+            if (tool->driver == ToolDriver::another) let_go();
         } else {
-            hand_.let_go();
+            let_go();
         }
         had_tool_ = hand_.wants_tool();
     }
@@ -46,25 +48,57 @@ void OperatorDesk::step(const WindowInput& input, double elapsed_s) {
     if (wish) source_.send_operator(*wish);
 }
 
+void OperatorDesk::let_go() {
+    hand_.let_go();
+    pedal_switched_down_ = false;
+}
+
+bool OperatorDesk::panels_have(const WindowInput& input) const {
+    const glm::ivec2 at(input.cursor * input.px_per_unit());
+    return picture_.panels_have_mouse || std::ranges::any_of(picture_.panels, [&](const PixelBox& box) {
+               const glm::ivec2 inside = at - box.first;
+               return inside.x >= 0 && inside.y >= 0 && inside.x < box.size.x && inside.y < box.size.y;
+           });
+}
+
 void OperatorDesk::move_hand(const WindowInput& input, double elapsed_s) {
-    if (input.went_down[WindowInput::left]) drags_hand_ = !picture_.panels_have_mouse;
+    if (picture_.holds_still) pedal_switched_down_ = false;
+    if (input.went_down[WindowInput::left]) drags_hand_ = !panels_have(input);
     const glm::dvec2 moved_px = (input.cursor - cursor_) * input.px_per_unit();
     if (drags_hand_ && input.is_down[WindowInput::left] && moved_px != glm::dvec2(0.0))
-        hand_.move_in_picture(moved_px, picture_.camera, picture_.size_px);
+        picture_.drag_tilts ? hand_.tilt_in_picture(moved_px, picture_.camera)
+                            : hand_.move_in_picture(moved_px, picture_.camera, picture_.size_px);
     if (!input.is_down[WindowInput::left]) drags_hand_ = false;
-    if (input.ctrl && input.wheel.y != 0.0 && !picture_.panels_have_mouse)
+    if (input.ctrl && input.wheel.y != 0.0 && !panels_have(input))
         hand_.advance(advance_mm_per_notch * input.wheel.y);
-    if (input.keys_down[GLFW_KEY_W]) hand_.advance(advance_mm_per_s * elapsed_s);
-    if (input.keys_down[GLFW_KEY_S]) hand_.advance(-advance_mm_per_s * elapsed_s);
+    const auto is_down = [&](int key) {
+        return !picture_.panels_have_keyboard && input.keys_down[static_cast<std::size_t>(key)];
+    };
+    if (is_down(GLFW_KEY_W)) hand_.advance(advance_mm_per_s * elapsed_s);
+    if (is_down(GLFW_KEY_S)) hand_.advance(-advance_mm_per_s * elapsed_s);
+    const double turned_px = tilt_px_per_s * elapsed_s;
+    const glm::dvec2 tilt_px(static_cast<double>(is_down(GLFW_KEY_RIGHT)) - is_down(GLFW_KEY_LEFT),
+                             static_cast<double>(is_down(GLFW_KEY_DOWN)) - is_down(GLFW_KEY_UP));
+    if (tilt_px != glm::dvec2(0.0)) hand_.tilt_in_picture(turned_px * tilt_px, picture_.camera);
     for (const int key : input.presses)
-        if (key >= GLFW_KEY_1 && key <= GLFW_KEY_9)
+        if (!picture_.panels_have_keyboard && key >= GLFW_KEY_1 && key <= GLFW_KEY_9)
             hand_.choose_burr(static_cast<std::size_t>(key - GLFW_KEY_1));
-    hand_.set_pedal(input.keys_down[GLFW_KEY_SPACE]);
+    hand_.set_pedal(is_down(GLFW_KEY_SPACE) || pedal_switched_down_);
 }
 
 void OperatorDesk::show(const DeskPicture& picture) {
     const std::scoped_lock lock(mutex_);
     picture_ = picture;
+}
+
+void OperatorDesk::switch_pedal() {
+    const std::scoped_lock lock(mutex_);
+    pedal_switched_down_ = !pedal_switched_down_;
+}
+
+void OperatorDesk::choose_burr(std::size_t burr) {
+    const std::scoped_lock lock(mutex_);
+    hand_.choose_burr(burr);
 }
 
 void OperatorDesk::choose_next_burr() {

@@ -12,10 +12,12 @@
 
 #include <mutex>
 #include <optional>
+#include <vector>
 
 #include "render_client/ui/input/operator_hand.h"
 #include "render_client/ui/input/window_input.h"
 #include "render_client/ui/session_source.h"
+#include "render_client/volume/passes/pixel_box.h"
 
 namespace osteomill {
 
@@ -25,7 +27,12 @@ struct DeskPicture {
     std::size_t burr_count = 0;
     Camera camera{};
     glm::ivec2 size_px{1, 1};
+    /// A panel has the mouse, or would have it: Dear ImGui knows only a frame later where the pointer is now.
     bool panels_have_mouse = false;
+    std::vector<PixelBox> panels{};     ///< y down
+    bool panels_have_keyboard = false;  ///< a text is being written
+    bool drag_tilts = false;            ///< the mouse tilts the handpiece instead of moving it
+    bool holds_still = false;           ///< the session is paused: a pedal that was left down comes up
 };
 
 class OperatorDesk {
@@ -41,18 +48,24 @@ class OperatorDesk {
 
     /// These: any thread.
     void show(const DeskPicture& picture);
+    /// The pedal of whoever has only a mouse: down until it is switched up.
+    void switch_pedal();
+    void choose_burr(std::size_t burr);
     void choose_next_burr();
     void choose_previous_burr();
     /// What the hand wants; nothing where nobody may drill.
     std::optional<OperatorCommand> command() const;
 
   private:
+    void let_go();
+    bool panels_have(const WindowInput& input) const;
     void move_hand(const WindowInput& input, double elapsed_s);
 
     SessionSource& source_;
-    mutable std::mutex mutex_;  // of the two below; held for microseconds
+    mutable std::mutex mutex_;  // of those below; held for microseconds
     DeskPicture picture_;
     OperatorHand hand_;
+    bool pedal_switched_down_ = false;
 
     // Thread of the window.
     glm::dvec2 cursor_{0.0};

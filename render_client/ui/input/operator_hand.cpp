@@ -5,8 +5,15 @@
 
 namespace osteomill {
 
+namespace {
+
+/// Across a tenth of a window a handpiece tilts by about 30 degrees.
+constexpr double tilt_rad_per_px = 0.005;
+
+}  // namespace
+
 void OperatorHand::follow(const ToolState& tool, std::size_t burr_count) {
-    command_.spindle_axis = tool.spindle_axis;
+    if (!tilted_) command_.spindle_axis = tool.spindle_axis;
     if (!burr_chosen_) command_.burr = tool.burr;
     if (burr_count > 0) command_.burr = std::min(command_.burr, burr_count - 1);
     if (!taken_up_) {
@@ -31,6 +38,14 @@ void OperatorHand::advance(double distance_mm) {
     command_.hand_target_mm -= distance_mm * command_.spindle_axis;
 }
 
+void OperatorHand::tilt_in_picture(const glm::dvec2& moved_px, const Camera& camera) {
+    const glm::dvec3 moved = tilt_rad_per_px * (moved_px.x * camera.right() - moved_px.y * camera.up());
+    const glm::dvec3 axis = command_.spindle_axis + moved;
+    if (glm::length(axis) < 1e-3) return;
+    tilted_ = true;
+    command_.spindle_axis = glm::normalize(axis);
+}
+
 void OperatorHand::choose_burr(std::size_t burr) {
     burr_chosen_ = true;
     command_.burr = burr;
@@ -40,6 +55,7 @@ void OperatorHand::let_go() {
     taken_up_ = false;
     command_.pedal = false;
     burr_chosen_ = false;
+    tilted_ = false;
 }
 
 }  // namespace osteomill

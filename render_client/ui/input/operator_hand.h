@@ -23,6 +23,8 @@ class OperatorHand {
     void move_in_picture(const glm::dvec2& moved_px, const Camera& camera, const glm::ivec2& size_px);
     /// Moves the target along the spindle; positive is towards the tip, into the bone.
     void advance(double distance_mm);
+    /// Tilts the handpiece as if its shank followed the pointer.
+    void tilt_in_picture(const glm::dvec2& moved_px, const Camera& camera);
     void set_pedal(bool down) { command_.pedal = down; }
     void choose_burr(std::size_t burr);
     void choose_next_burr() { choose_burr(command_.burr + 1); }
@@ -33,12 +35,13 @@ class OperatorHand {
 
     const OperatorCommand& command() const { return command_; }
     /// Whether anything was asked of the tool since it was let go of: who only looks on leaves it to others.
-    bool wants_tool() const { return taken_up_ || command_.pedal || burr_chosen_; }
+    bool wants_tool() const { return taken_up_ || command_.pedal || burr_chosen_ || tilted_; }
 
   private:
     OperatorCommand command_;
     bool taken_up_ = false;
     bool burr_chosen_ = false;
+    bool tilted_ = false;
 };
 
 }  // namespace osteomill

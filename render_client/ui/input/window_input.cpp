@@ -8,6 +8,7 @@ void WindowInput::append(const WindowInput& later) {
     const WindowInput before = std::exchange(*this, later);
     for (std::size_t i = 0; i < buttons; ++i) went_down[i] = went_down[i] || before.went_down[i];
     presses.insert(presses.begin(), before.presses.begin(), before.presses.end());
+    typed.insert(typed.begin(), before.typed.begin(), before.typed.end());
     wheel += before.wheel;
     has_news = has_news || before.has_news;
 }
@@ -15,6 +16,7 @@ void WindowInput::append(const WindowInput& later) {
 void WindowInput::forget_events() {
     went_down = {};
     presses.clear();
+    typed.clear();
     wheel = glm::dvec2(0.0);
     has_news = false;
 }

@@ -29,6 +29,7 @@ struct WindowInput {
     // Since it was last taken.
     std::array<bool, buttons> went_down{};  ///< though it may be up again
     std::vector<int> presses{};             ///< keys of GLFW that went down, even if they are up again
+    std::vector<char32_t> typed{};          ///< characters, as the keyboard's layout makes them
     glm::dvec2 wheel{0.0};                  ///< notches
     bool has_news = false;                  ///< anything happened, or part of the window has to be shown anew
 

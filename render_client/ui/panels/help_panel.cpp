@@ -38,8 +38,8 @@ void draw_help(const PanelPainter& painter, Situation situation, const PanelPlac
     glm::vec2 pen = place.first + factor * painter.padding();
     for (const HelpLine& line : lines) {
         painter.draw_text(pen, painter.theme()[Tone::left], line.name, factor);
-        painter.draw_text({pen.x + (line.name.empty() ? 0.0f : names), pen.y}, painter.theme()[Tone::plain],
-                          line.meaning, factor);
+        painter.draw_text({pen.x + (line.name.empty() ? 0.0f : names), pen.y},
+                          painter.theme()[line.is_heading ? Tone::dim : Tone::plain], line.meaning, factor);
         pen.y += factor * painter.line_height();
     }
 }

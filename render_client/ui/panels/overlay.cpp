@@ -10,7 +10,9 @@
 #include "render_client/ui/panels/panel_painter.h"
 #include "render_client/ui/panels/picture_marks.h"
 #include "render_client/ui/panels/playback_panel.h"
+#include "render_client/ui/panels/session_dialog.h"
 #include "render_client/ui/panels/tissue_legend.h"
+#include "render_client/ui/panels/tool_bar.h"
 #include "render_client/ui/panels/transfer_panel.h"
 
 namespace osteomill {
@@ -107,8 +109,6 @@ void draw_overlay(const OverlayContent& content, const glm::ivec2& size_px) {
     const float side_width =
         glm::clamp(0.45f * picture.x, 200.0f * painter.scale(), 360.0f * painter.scale());
     PanelList panels;
-    if (const PanelText warnings = warning_text(content); !warnings.empty())
-        panels.add_text(painter, Anchor::top, warnings, picture.x - 2.0f * margin);
     if (content.view->help_shown) {
         const Situation situation =
             situation_of(content.operator_command.has_value(), content.player != nullptr);
@@ -116,6 +116,15 @@ void draw_overlay(const OverlayContent& content, const glm::ivec2& size_px) {
             Anchor::middle, help_size(painter, situation, picture - 2.0f * margin),
             [&painter, situation](const PanelPlace& place) { draw_help(painter, situation, place); });
     }
+    // Before the warnings, which come and go: a button must not slip away under the pointer.
+    if (content.view->panels_shown && has_tool_bar(content))
+        panels.add(Anchor::top, tool_bar_sizes(content, painter),
+                   [&](const PanelPlace& place) { draw_tool_bar(content, place); });
+    if (const PanelText warnings = warning_text(content); !warnings.empty())
+        panels.add_text(painter, Anchor::top, warnings, picture.x - 2.0f * margin);
+    if (content.view->question != SessionQuestion::none && content.wishes != nullptr)
+        panels.add_asked_for(Anchor::middle, session_dialog_size(content, painter),
+                             [&](const PanelPlace& place) { draw_session_dialog(content, place); });
     if (content.view->panels_shown) {
         add_controls(panels, content, painter, picture, side_width);
         add_readings(panels, content, painter, size_px, side_width);

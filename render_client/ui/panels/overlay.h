@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 
+#include "render_client/ui/input/session_wishes.h"
 #include "render_client/ui/panels/tool_history.h"
 #include "render_client/ui/session_source.h"
 #include "render_client/ui/view/view_settings.h"
@@ -26,6 +27,9 @@ struct OverlayContent {
     PictureQuality quality;
     /// What the operator asks for, where one drills from here.
     std::optional<OperatorCommand> operator_command;
+    /// Takes what is asked for with buttons; null where there is nobody to press them, as in offscreen
+    /// pictures.
+    SessionWishes* wishes = nullptr;
     /// Null unless a recording is shown.
     RecordingPlayer* player = nullptr;
     /// Why there is no bone in the picture, where there is none for a reason.

@@ -65,7 +65,9 @@ PanelText warning_text(const OverlayContent& content) {
     if (!content.bone_problem.empty()) text.push_back(line(Tone::warning, content.bone_problem));
     if (!content.link.recording_error.empty())
         text.push_back(line(Tone::warning, content.link.recording_error));
-    if (content.tool && !content.tool->fault.empty())
+    if (content.link.controls.is_paused)
+        text.push_back(line(Tone::plain, "paused: force and spindle off"));
+    else if (content.tool && !content.tool->fault.empty())
         text.push_back(line(Tone::warning, fmt::format("FAULT: {}", content.tool->fault.text())));
     if (content.tool && !content.tool->notice.empty())
         text.push_back(line(Tone::plain, std::string(content.tool->notice.text())));

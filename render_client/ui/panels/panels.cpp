@@ -1,9 +1,14 @@
 #include "render_client/ui/panels/panels.h"
 
 #include <backends/imgui_impl_opengl3.h>
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
 #include <imgui.h>
+// Which windows there are, only this header knows.
+#include <imgui_internal.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <filesystem>
 #include <glm/common.hpp>
@@ -20,6 +25,16 @@ namespace {
 constexpr const char* font_file = "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf";
 constexpr float letter_px = 14.0f;
 constexpr float built_in_letter_px = 13.0f;
+
+/// Keys that a text is edited with, of GLFW and of Dear ImGui.
+constexpr std::array text_keys{
+    std::pair{GLFW_KEY_BACKSPACE, ImGuiKey_Backspace}, std::pair{GLFW_KEY_DELETE, ImGuiKey_Delete},
+    std::pair{GLFW_KEY_LEFT, ImGuiKey_LeftArrow},      std::pair{GLFW_KEY_RIGHT, ImGuiKey_RightArrow},
+    std::pair{GLFW_KEY_HOME, ImGuiKey_Home},           std::pair{GLFW_KEY_END, ImGuiKey_End},
+    std::pair{GLFW_KEY_ENTER, ImGuiKey_Enter}};
+
+/// Latin letters, and the signs on the tool bar.
+constexpr std::array<ImWchar, 9> letters{0x20, 0x17F, 0x2190, 0x21FF, 0x25A0, 0x25FF, 0x2600, 0x27BF, 0};
 
 ImVec4 imgui_colour(const Rgba& colour) {
     return ImGui::ColorConvertU32ToFloat4(colour_of(colour));
@@ -72,6 +87,7 @@ Panels::Panels() {
     ImGui::CreateContext();
     // No file is written beside the program.
     ImGui::GetIO().IniFilename = nullptr;
+    for (const auto& [key, in_imgui] : text_keys) ImGui::GetIO().KeyMap[in_imgui] = in_imgui;
     if (ImGui_ImplOpenGL3_Init("#version 330 core")) return;
     ImGui::DestroyContext();
     throw std::runtime_error("Dear ImGui finds no OpenGL 3 (libGL.so.1); install it: apt-get install libgl1");
@@ -98,14 +114,14 @@ void Panels::set_style(ThemeName theme, float scale) {
 }
 
 void Panels::load_letters(float scale) {
-    ImFontAtlas& letters = *ImGui::GetIO().Fonts;
-    letters.Clear();
+    ImFontAtlas& atlas = *ImGui::GetIO().Fonts;
+    atlas.Clear();
     ImFontConfig config;
     if (std::filesystem::exists(font_file)) {
-        letters.AddFontFromFileTTF(font_file, std::round(letter_px * scale));
+        atlas.AddFontFromFileTTF(font_file, std::round(letter_px * scale), nullptr, letters.data());
     } else {
         config.SizePixels = std::round(built_in_letter_px * scale);
-        letters.AddFontDefault(&config);
+        atlas.AddFontDefault(&config);
     }
     // The back end uploads the new ones when the next frame begins.
     ImGui_ImplOpenGL3_DestroyDeviceObjects();
@@ -125,6 +141,12 @@ void Panels::feed(const WindowInput& input) {
     io.MouseDown[ImGuiMouseButton_Middle] = is_down(WindowInput::middle);
     io.MouseWheel += static_cast<float>(input.wheel.y);
     io.MouseWheelH += static_cast<float>(input.wheel.x);
+    for (const char32_t character : input.typed) io.AddInputCharacter(character);
+    for (const auto& [key, in_imgui] : text_keys) {
+        const bool was_pressed =
+            std::find(input.presses.begin(), input.presses.end(), key) != input.presses.end();
+        io.KeysDown[in_imgui] = was_pressed || input.keys_down[static_cast<std::size_t>(key)];
+    }
     io.KeyShift = input.shift;
     io.KeyCtrl = input.ctrl;
     io.KeyAlt = input.alt;
@@ -139,6 +161,16 @@ void Panels::begin(const glm::ivec2& size_px, double elapsed_s, ThemeName theme,
     io.DisplayFramebufferScale = {1.0f, 1.0f};
     ImGui::NewFrame();
     wheel_notches_ = io.MouseWheel;
+}
+
+std::vector<PixelBox> Panels::input_boxes() const {
+    std::vector<PixelBox> boxes;
+    for (const ImGuiWindow* window : ImGui::GetCurrentContext()->Windows) {
+        if (!window->WasActive || window->Hidden || window->IsFallbackWindow) continue;
+        boxes.push_back({{static_cast<int>(window->Pos.x), static_cast<int>(window->Pos.y)},
+                         {static_cast<int>(window->Size.x), static_cast<int>(window->Size.y)}});
+    }
+    return boxes;
 }
 
 std::vector<PixelBox> Panels::end() {

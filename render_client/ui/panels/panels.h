@@ -30,6 +30,9 @@ class Panels {
     /// Draws what was put into the frame into the bound framebuffer; returns where that is.
     std::vector<PixelBox> end();
 
+    /// Where the panels that take the mouse were in the last frame, pixels, y down.
+    std::vector<PixelBox> input_boxes() const;
+
     /// Notches that the wheel was turned by in this frame: Dear ImGui forgets them when the frame ends.
     float wheel_notches() const { return wheel_notches_; }
 

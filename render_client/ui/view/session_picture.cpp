@@ -91,7 +91,8 @@ SessionPicture::News SessionPicture::news() const {
                                 (operator_command_ && !is_as_drawn(*drawn_command_, *operator_command_));
     if (has_undrawn_bone_ || has_moved || hand_has_moved || has_turning_burr() || !quality().refined ||
         link_.status != was.status || link_.status_line != was.status_line ||
-        link_.recording_error != was.recording_error || link_.snapshot_bricks != was.snapshot_bricks ||
+        link_.recording_error != was.recording_error || link_.controls != was.controls ||
+        link_.snapshot_bricks != was.snapshot_bricks ||
         link_.checksum_mismatches != was.checksum_mismatches ||
         link_.rejected_frames != was.rejected_frames || link_.bricks_repaired != was.bricks_repaired)
         return News::change;
@@ -167,6 +168,7 @@ const gl::Framebuffer& SessionPicture::draw(double elapsed_s) {
                   .render_frames_per_s = frame_s_ > 0.0 ? 1.0 / frame_s_ : 0.0,
                   .quality = picture_.quality(),
                   .operator_command = operator_command_,
+                  .wishes = takes_wishes_ ? &wishes_ : nullptr,
                   .player = source_.player(),
                   .bone_problem = bone_problem_,
                   .has_bone = has_bone()},

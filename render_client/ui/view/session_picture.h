@@ -3,6 +3,7 @@
 #pragma once
 
 #include <optional>
+#include <utility>
 
 #include "render_client/ui/panels/overlay.h"
 #include "render_client/ui/panels/panels.h"
@@ -55,6 +56,10 @@ class SessionPicture {
     /// where its transfer function is none.
     void set_shading(const ShadingSettings& look);
     ViewSettings& view() { return view_; }
+    /// Panels take what a person asks of the session, from now on.
+    void offer_controls() { takes_wishes_ = true; }
+    /// What was asked for since the last call.
+    SessionWishes take_wishes() { return std::exchange(wishes_, {}); }
     void show_operator(const std::optional<OperatorCommand>& command) { operator_command_ = command; }
 
     bool has_bone() const { return textures_.has_value(); }
@@ -101,6 +106,8 @@ class SessionPicture {
     ToolHistory history_;
     std::optional<OperatorCommand> operator_command_;
     ViewSettings view_;
+    SessionWishes wishes_;
+    bool takes_wishes_ = false;
     double spin_rad_ = 0.0;
     double frame_s_ = 0.0;  ///< between frames, in the mean over the last ten or so
     std::uint64_t dirty_bricks_uploaded_ = 0;

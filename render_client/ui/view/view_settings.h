@@ -1,13 +1,24 @@
 // Settings of the view that the user has made; keys, panels and the command line change it.
 #pragma once
 
+#include <array>
 #include <string>
 
+#include "common/scene/session_control.h"
 #include "render_client/ui/panels/theme.h"
 #include "render_client/ui/panels/transfer_editor.h"
 #include "render_client/ui/view/cut_settings.h"
 
 namespace osteomill {
+
+/// What a person is asked in the middle of the picture.
+enum class SessionQuestion {
+    none,
+    mark,    ///< what is worth a note?
+    reset,   ///< undo everything?
+    finish,  ///< end the session for everybody?
+    end,     ///< end this program?
+};
 
 struct ViewSettings {
     ThemeName theme = ThemeName::dark;
@@ -18,7 +29,10 @@ struct ViewSettings {
     bool transfer_panel_shown = false;
     CutSettings cuts;
     TransferEditor transfer;
-    std::string notice;  ///< one line for a few seconds; empty: none
+    SessionQuestion question = SessionQuestion::none;
+    std::array<char, SessionControl::longest_text + 1> note{};  ///< of a mark, while it is written
+    bool drag_tilts = false;  ///< the left button tilts the handpiece instead of moving it
+    std::string notice;       ///< one line for a few seconds; empty: none
 };
 
 }  // namespace osteomill

@@ -72,6 +72,9 @@ void Window::watch_input() {
         input.keys_down[static_cast<std::size_t>(key)] = action != GLFW_RELEASE;
         if (action == GLFW_PRESS) input.presses.push_back(key);
     });
+    glfwSetCharCallback(window_, [](GLFWwindow* window, unsigned int character) {
+        input_of(window).typed.push_back(character);
+    });
     glfwSetMouseButtonCallback(window_, [](GLFWwindow* window, int button, int action, int) {
         WindowInput& input = input_of(window);
         if (button < 0 || static_cast<std::size_t>(button) >= WindowInput::buttons) return;
@@ -132,8 +135,10 @@ WindowInput Window::take_input() {
     return taken;
 }
 
-bool Window::close_asked() const {
-    return glfwWindowShouldClose(window_) != 0;
+bool Window::take_close_asked() {
+    const bool is_asked = glfwWindowShouldClose(window_) != 0;
+    glfwSetWindowShouldClose(window_, GLFW_FALSE);
+    return is_asked;
 }
 
 void Window::make_context_current() {

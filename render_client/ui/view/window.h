@@ -28,7 +28,8 @@ class Window {
     /// The window as it is, and all that happened since the last call. Throws std::runtime_error where the
     /// display has gone (its server ended or shut this program out): nothing more can be shown.
     WindowInput take_input();
-    bool close_asked() const;
+    /// Whether somebody has tried to close it since the last call.
+    bool take_close_asked();
 
     // Thread that draws.
 

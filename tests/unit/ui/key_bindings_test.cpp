@@ -13,10 +13,6 @@ using testing::IsEmpty;
 
 constexpr std::array<Situation, 3> situations{Situation::drilling, Situation::playing, Situation::looking_on};
 
-bool holds(const KeyBinding& binding, Situation situation) {
-    return binding.situation == Situation::always || binding.situation == situation;
-}
-
 std::string text_of(const KeyBinding& binding) {
     return std::string(binding.name) + ": " + binding.meaning;
 }

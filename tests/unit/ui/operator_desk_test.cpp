@@ -4,6 +4,7 @@
 #include <GLFW/glfw3.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <glm/geometric.hpp>
 #include <vector>
 
@@ -113,6 +114,82 @@ TEST(OperatorDesk, FallsSilentWhereThereIsNoSessionToDrillIn) {
     desk.step();
     EXPECT_EQ(desk.source.sent.size(), 1u);
     EXPECT_FALSE(desk.desk.command());
+}
+
+TEST(OperatorDesk, MovesNoHandByAClickOnAPanelThatKnowsNothingOfThePointerYet) {
+    Desk desk;
+    desk.picture.panels = {{{100, 0}, {200, 40}}};
+    desk.desk.show(desk.picture);
+    desk.step();
+    // The pointer gets there, clicks and goes in one step, before a frame was drawn.
+    desk.input.cursor = {150.0, 20.0};
+    desk.input.is_down[WindowInput::left] = desk.input.went_down[WindowInput::left] = true;
+    desk.step();
+    desk.input.cursor = {150.0, 200.0};
+    desk.step();
+    EXPECT_TRUE(desk.source.sent.empty());
+}
+
+TEST(OperatorDesk, HasAPedalForWhoeverHasOnlyAMouse) {
+    Desk desk;
+    desk.desk.switch_pedal();
+    desk.step();
+    ASSERT_EQ(desk.source.sent.size(), 1U);
+    EXPECT_TRUE(desk.source.sent.back().pedal);
+    desk.desk.switch_pedal();
+    desk.step();
+    EXPECT_FALSE(desk.source.sent.back().pedal);
+
+    desk.desk.switch_pedal();
+    desk.step();
+    EXPECT_TRUE(desk.source.sent.back().pedal);
+    desk.picture.holds_still = true;
+    desk.desk.show(desk.picture);
+    desk.step();
+    EXPECT_FALSE(desk.source.sent.back().pedal) << "a pause lifts it";
+    desk.picture.holds_still = false;
+    desk.desk.show(desk.picture);
+    desk.step();
+    EXPECT_FALSE(desk.source.sent.back().pedal) << "and it stays up";
+
+    desk.desk.switch_pedal();
+    desk.step();
+    desk.input.is_focused = false;
+    desk.step();
+    desk.input.is_focused = true;
+    desk.step();
+    EXPECT_FALSE(desk.source.sent.back().pedal) << "likewise a window that was left";
+}
+
+TEST(OperatorDesk, TiltsTheHandpieceWithoutMovingItsTip) {
+    Desk desk;
+    desk.picture.drag_tilts = true;
+    desk.desk.show(desk.picture);
+    desk.step();
+    desk.input.is_down[WindowInput::left] = desk.input.went_down[WindowInput::left] = true;
+    desk.step();
+    desk.input.cursor = {40.0, 0.0};
+    desk.step();
+    const OperatorCommand& tilted = desk.source.sent.back();
+    EXPECT_EQ(tilted.hand_target_mm, desk.source.tool->hand_position_mm);
+    const double angle_rad = std::acos(glm::dot(tilted.spindle_axis, glm::dvec3(0.0, 0.0, 1.0)));
+    EXPECT_GT(angle_rad, 0.02);
+    EXPECT_NEAR(glm::length(tilted.spindle_axis), 1.0, 1e-12);
+    // It stays so while the tool follows.
+    desk.input.is_down[WindowInput::left] = false;
+    const glm::dvec3 axis = tilted.spindle_axis;
+    desk.step();
+    EXPECT_EQ(desk.source.sent.back().spindle_axis, axis);
+}
+
+TEST(OperatorDesk, TakesNoLettersForCommandsWhileATextIsWritten) {
+    Desk desk;
+    desk.picture.panels_have_keyboard = true;
+    desk.desk.show(desk.picture);
+    desk.input.keys_down[GLFW_KEY_SPACE] = desk.input.keys_down[GLFW_KEY_W] = true;
+    desk.input.presses = {GLFW_KEY_W, GLFW_KEY_2};
+    desk.step();
+    EXPECT_TRUE(desk.source.sent.empty());
 }
 
 }  // namespace

@@ -1,0 +1,19 @@
+// What a person asked for with buttons on the panels, for the window to pass on once a frame is drawn.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include "common/scene/session_control.h"
+
+namespace osteomill {
+
+struct SessionWishes {
+    std::vector<SessionControl> controls;  ///< for the server
+    std::optional<std::size_t> burr;
+    bool switches_pedal = false;
+    bool ends_program = false;
+};
+
+}  // namespace osteomill

@@ -1,0 +1,88 @@
+#include "render_client/ui/panels/session_dialog.h"
+
+#include <imgui.h>
+
+#include <algorithm>
+
+#include "render_client/ui/panels/input_panel.h"
+
+namespace osteomill {
+
+namespace {
+
+struct Question {
+    const char* text;
+    const char* yes;
+};
+
+Question question_of(const OverlayContent& content) {
+    switch (content.view->question) {
+        case SessionQuestion::mark:
+            return {"Mark this moment. A note, if you like:", "Mark"};
+        case SessionQuestion::reset:
+            return {"Undo every stroke? Each can be redone.", "Reset"};
+        case SessionQuestion::finish:
+            return {"Finish the session, for everybody? All is saved.", "Finish"};
+        case SessionQuestion::end:
+            return {"End this program? The session goes on without it.", "End"};
+        case SessionQuestion::none:
+            break;
+    }
+    return {"", ""};
+}
+
+void answer(const OverlayContent& content) {
+    SessionWishes& wishes = *content.wishes;
+    ViewSettings& view = *content.view;
+    switch (view.question) {
+        case SessionQuestion::mark:
+            wishes.controls.push_back({SessionAction::mark, view.note.data()});
+            break;
+        case SessionQuestion::reset:
+            wishes.controls.push_back({SessionAction::reset});
+            break;
+        case SessionQuestion::finish:
+            wishes.controls.push_back({SessionAction::finish});
+            break;
+        case SessionQuestion::end:
+            wishes.ends_program = true;
+            break;
+        case SessionQuestion::none:
+            break;
+    }
+    view.question = SessionQuestion::none;
+    view.note.fill('\0');
+}
+
+}  // namespace
+
+glm::vec2 session_dialog_size(const OverlayContent& content, const PanelPainter&) {
+    const ImGuiStyle& style = ImGui::GetStyle();
+    const float lines = content.view->question == SessionQuestion::mark ? 3.0f : 2.0f;
+    const float width =
+        std::max(ImGui::CalcTextSize(question_of(content).text).x, 20.0f * ImGui::GetFontSize());
+    return {width + 2.0f * style.WindowPadding.x,
+            lines * ImGui::GetFrameHeightWithSpacing() + 2.0f * style.WindowPadding.y};
+}
+
+void draw_session_dialog(const OverlayContent& content, const PanelPlace& place) {
+    const InputPanel window("question", place);
+    const Question question = question_of(content);
+    ImGui::TextUnformatted(question.text);
+    bool is_answered = false;
+    if (content.view->question == SessionQuestion::mark) {
+        ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x);
+        if (ImGui::IsWindowAppearing()) ImGui::SetKeyboardFocusHere();
+        is_answered = ImGui::InputText("##note", content.view->note.data(), content.view->note.size(),
+                                       ImGuiInputTextFlags_EnterReturnsTrue);
+    }
+    is_answered |= ImGui::Button(question.yes) || ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Enter));
+    ImGui::SameLine();
+    const bool is_given_up = ImGui::Button("Go on");
+    if (is_answered)
+        answer(content);
+    else if (is_given_up)
+        content.view->question = SessionQuestion::none;
+}
+
+}  // namespace osteomill

@@ -1,0 +1,15 @@
+// The dialog in the middle of the picture: a mark's note, and whether to reset, to finish, to end. Drawn with
+// Dear ImGui; needs an ImGui frame to be open.
+#pragma once
+
+#include "render_client/ui/panels/overlay.h"
+#include "render_client/ui/panels/panel_painter.h"
+
+namespace osteomill {
+
+/// Of content.view->question, which is one.
+glm::vec2 session_dialog_size(const OverlayContent& content, const PanelPainter& painter);
+/// An answer goes into content.wishes and ends the question.
+void draw_session_dialog(const OverlayContent& content, const PanelPlace& place);
+
+}  // namespace osteomill

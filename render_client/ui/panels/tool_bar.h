@@ -1,0 +1,22 @@
+// The tool bar: what can be done to the session, by words, signs and keys. Drawn with Dear ImGui; needs an
+// ImGui frame to be open.
+#pragma once
+
+#include <glm/vec2.hpp>
+#include <vector>
+
+#include "render_client/ui/input/session_wishes.h"
+#include "render_client/ui/panels/overlay.h"
+#include "render_client/ui/panels/panel_painter.h"
+
+namespace osteomill {
+
+/// Whether there is a session of which anything can be asked, by whomever.
+bool has_tool_bar(const OverlayContent& content);
+
+/// With words, and with signs alone.
+std::vector<glm::vec2> tool_bar_sizes(const OverlayContent& content, const PanelPainter& painter);
+/// What is pressed goes into content.wishes and content.view.
+void draw_tool_bar(const OverlayContent& content, const PanelPlace& place);
+
+}  // namespace osteomill
