@@ -4,6 +4,7 @@
 
 #include <cstring>
 #include <fstream>
+#include <glm/geometric.hpp>
 #include <iterator>
 #include <sstream>
 #include <stdexcept>
