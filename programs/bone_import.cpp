@@ -35,6 +35,9 @@ void add_options(CLI::App& app, osteomill::ImportOptions& options, Texts& texts)
                    "from bone "
                    "become -1000")
         ->check(CLI::Range(-1024.0, 10000.0));
+    app.add_flag("--keep-soft-tissue", options.keeps_soft_tissue,
+                 "with --threshold-hu: HU far from bone stay, so that a carved bone can be laid beside the "
+                 "scan; the file is some 3 to 10 times as large");
     app.add_option("--region", texts.region, "x0,y0,z0,x1,y1,z1 in mm of patient LPS: import only this box");
     app.add_option("--series", texts.series, "UID of the DICOM series to take (default: the largest)");
     auto* rescale =
@@ -50,6 +53,8 @@ void add_options(CLI::App& app, osteomill::ImportOptions& options, Texts& texts)
 
 void parse_texts(const CLI::App& app, const Texts& texts, osteomill::ImportOptions& options) {
     if (app.count("--threshold-hu") > 0) options.threshold_hu = texts.threshold_hu;
+    if (options.keeps_soft_tissue && !options.threshold_hu)
+        throw std::invalid_argument("--keep-soft-tissue: goes with --threshold-hu; without, all HU are kept");
     if (app.count("--region") > 0) options.region = osteomill::parse_region(texts.region);
     if (app.count("--series") > 0) options.series_uid = texts.series;
     if (app.count("--rescale") > 0) options.to_hu = osteomill::parse_rescale(texts.rescale);

@@ -154,13 +154,14 @@ class SliceRing {
     std::vector<std::int16_t> hu_;
 };
 
-/// Refines, clears what is far from bone if there is a threshold, writes: a few slices at a time, on all
-/// cores.
+/// Refines, clears what is far from bone if there is a threshold and soft tissue is not kept, writes: a few
+/// slices at a time, on all cores.
 void write_refined(const ImportOptions& options, const Refiner& refiner, const ScratchValues& part,
                    const Grid& grid, BoneFileWriter& writer, const ReportProgress& report) {
     const int slices = grid.size_voxels.z;
     const int at_once = slices_at_once(grid);
-    const int reach = options.threshold_hu ? kept_voxels_around_bone : 0;
+    const bool clears = options.threshold_hu && !options.keeps_soft_tissue;
+    const int reach = clears ? kept_voxels_around_bone : 0;
     const int held = at_once + 2 * reach;
     SliceRing ring(grid, held);
     std::optional<NearBone> near;
@@ -184,7 +185,7 @@ void write_refined(const ImportOptions& options, const Refiner& refiner, const S
         refined += now;
         // The last ones wait for what comes above them.
         const int ready = (refined == slices ? slices : refined - reach) - written;
-        if (near) in_parallel(ready, [&](int i) { near->clear_far(written + i, ring.slice(written + i)); });
+        if (clears) in_parallel(ready, [&](int i) { near->clear_far(written + i, ring.slice(written + i)); });
         for (const int end = written + std::max(ready, 0); written < end; ++written)
             writer.add(ring.slice(written));
         report(static_cast<double>(written) / slices);

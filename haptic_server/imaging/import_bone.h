@@ -18,6 +18,9 @@ struct ImportOptions {
     std::filesystem::path output;
     double spacing_mm = 0.1;
     std::optional<double> threshold_hu{};
+    /// Far from bone, too, HU stay as they are. Else a file with a threshold has air there (near_bone.h),
+    /// which makes it some times smaller.
+    bool keeps_soft_tissue = false;
     std::optional<Region> region{};
     std::optional<std::string> series_uid{};
     /// What makes HU of the file's values (after the rescale that the file itself states).

@@ -64,6 +64,24 @@ TEST_F(BoneImport, MakesABoneFileOfADicomSeries) {
     EXPECT_EQ(file.volume.hu.back(), 400);
 }
 
+TEST_F(BoneImport, KeepsSoftTissueWhereToldTo) {
+    testing::write_series(folder_ / "series", testing::synthetic_series(5));
+    ASSERT_EQ(import(folder_ / "series", "--spacing-mm 0.5").exit_status, 0);
+    const DenseBoneFile all = read_bone_file(output_);
+    ASSERT_EQ(import(folder_ / "series", "--spacing-mm 0.5 --threshold-hu 250").exit_status, 0);
+    const DenseBoneFile near_bone = read_bone_file(output_);
+    ASSERT_EQ(
+        import(folder_ / "series", "--spacing-mm 0.5 --threshold-hu 250 --keep-soft-tissue").exit_status, 0);
+    const DenseBoneFile kept = read_bone_file(output_);
+    EXPECT_EQ(kept.volume.hu, all.volume.hu);
+    EXPECT_NE(near_bone.volume.hu, all.volume.hu);
+    EXPECT_EQ(kept.threshold_hu, 250.0);
+    const StiffnessRelation relation = default_stiffness_relation();
+    EXPECT_EQ(checksum(bone_from_hu(kept.volume, 250.0, relation)),
+              checksum(bone_from_hu(near_bone.volume, 250.0, relation)))
+        << "the bone is the same";
+}
+
 TEST_F(BoneImport, ClipsARegionAndSaysSo) {
     testing::write_series(folder_ / "series", testing::synthetic_series(5));
     const Outcome outcome = import(folder_ / "series", "--spacing-mm 0.5 --region -3,-2,1,50,0,4");
@@ -94,7 +112,7 @@ TEST_F(BoneImport, RefusesAnImportOfMoreVoxelsThanABoneMayHave) {
 
 TEST_F(BoneImport, ExitsWithTwoOnWrongUsage) {
     for (const char* options : {"--region 1,2,3", "--spacing-mm 0", "--rescale 1", "--intensity-window 5,1",
-                                "--rescale 1,2 --intensity-window 1,2", "--nonsense"}) {
+                                "--rescale 1,2 --intensity-window 1,2", "--keep-soft-tissue", "--nonsense"}) {
         const Outcome outcome = import(folder_.path(), options);
         EXPECT_EQ(outcome.exit_status, 2) << options;
         EXPECT_EQ(outcome.lines.size(), 1u) << options;
