@@ -18,6 +18,10 @@ class HuHistogram {
 
     /// Values beyond -4096 to 8191 count as these. No value may be NaN.
     void add(std::span<const float> values);
+    void add(std::span<const std::int16_t> values);
+
+    /// The highest value so far, rounded; the lowest that counts where there is none.
+    int highest_hu() const;
 
     /// One line for people on what the values seem to be instead, and which option would make HU of them;
     /// empty where they may be HU, or all are the same.

@@ -114,6 +114,11 @@ std::size_t make_hu(const ImportOptions& options, std::span<float> values) {
     return replaced;
 }
 
+ImagingError no_bone(const ImportOptions& options, int highest_hu) {
+    return {options.input, fmt::format("no voxel reaches --threshold-hu {}; the highest has {} HU",
+                                       *options.threshold_hu, highest_hu)};
+}
+
 /// The region's part in HU; of the rest of the scan no more than a slice is looked at.
 void read_part(const ImportOptions& options, const OpenedImage& opened, const ImageBox& needed,
                const ScratchValues& part, const ImportSurroundings& surroundings) {
@@ -133,8 +138,13 @@ void read_part(const ImportOptions& options, const OpenedImage& opened, const Im
     if (replaced > 0)
         surroundings.messages << fmt::format("{}: {} voxels are not numbers; taken as air\n",
                                              options.input.string(), replaced);
-    if (const std::string doubt = histogram.doubt(); !doubt.empty())
+    const std::string doubt = histogram.doubt();
+    if (!doubt.empty())
         surroundings.messages << fmt::format("{}: warning: {}\n", options.input.string(), doubt);
+    // Before the long part: what no voxel of the scan reaches, none of the result does but where it
+    // overshoots.
+    if (options.threshold_hu && histogram.highest_hu() < *options.threshold_hu)
+        throw no_bone(options, histogram.highest_hu());
 }
 
 /// Slices of the result that are at work, by their number.
@@ -156,8 +166,9 @@ class SliceRing {
 
 /// Refines, clears what is far from bone if there is a threshold and soft tissue is not kept, writes: a few
 /// slices at a time, on all cores.
-void write_refined(const ImportOptions& options, const Refiner& refiner, const ScratchValues& part,
-                   const Grid& grid, BoneFileWriter& writer, const ReportProgress& report) {
+/// Returns how many voxels are bone; 0 without a threshold.
+std::uint64_t write_refined(const ImportOptions& options, const Refiner& refiner, const ScratchValues& part,
+                            const Grid& grid, BoneFileWriter& writer, const ReportProgress& report) {
     const int slices = grid.size_voxels.z;
     const int at_once = slices_at_once(grid);
     const bool clears = options.threshold_hu && !options.keeps_soft_tissue;
@@ -190,10 +201,16 @@ void write_refined(const ImportOptions& options, const Refiner& refiner, const S
             writer.add(ring.slice(written));
         report(static_cast<double>(written) / slices);
     }
-    if (near && near->bone_voxels() == 0)
-        throw ImagingError(options.input,
-                           fmt::format("no voxel reaches --threshold-hu {}; the highest has {} HU",
-                                       *options.threshold_hu, highest.load()));
+    if (near && near->bone_voxels() == 0) throw no_bone(options, highest);
+    return near ? near->bone_voxels() : 0;
+}
+
+/// That there is nothing but bone is what a threshold far too low makes.
+void say_if_all_is_bone(const ImportOptions& options, const Grid& grid, std::uint64_t bone_voxels,
+                        std::ostream& messages) {
+    if (bone_voxels < voxel_count(grid)) return;
+    messages << fmt::format("{}: warning: every voxel reaches --threshold-hu {}, so that all of it is bone\n",
+                            options.input.string(), *options.threshold_hu);
 }
 
 /// Where the file will lie there is room for what is larger.
@@ -217,7 +234,9 @@ void import_bone(const ImportOptions& options, const ImportSurroundings& surroun
         const Refiner refiner(part_of(opened.image, work.needed), part.values(), work.grid,
                               [&] { part.let_go(); });
         BoneFileWriter writer(options.output, work.grid, std::move(key_values));
-        write_refined(options, refiner, part, work.grid, writer, progress.reporter());
+        const std::uint64_t bone_voxels =
+            write_refined(options, refiner, part, work.grid, writer, progress.reporter());
+        say_if_all_is_bone(options, work.grid, bone_voxels, surroundings.messages);
         writer.commit();
     } catch (const std::bad_alloc&) {
         throw ImagingError(options.input,

@@ -31,13 +31,15 @@ LoadedBone load_phantom(const std::string& name, const StiffnessRelation& relati
     return {bone_from_hu(std::get<HuSlices>(made), phantom_threshold_hu, relation), std::move(source)};
 }
 
-LoadedBone load_file(const FileSource& named, const StiffnessRelation& relation) {
-    BoneOfFile read = bone_of_file(named.path, named.threshold_hu, relation);
+LoadedBone load_file(const FileSource& named, const StiffnessRelation& relation,
+                     std::optional<std::uint64_t> available_memory_bytes) {
+    BoneOfFile read = bone_of_file(named.path, named.threshold_hu, relation, available_memory_bytes);
     return {std::move(read.bone),
             {.phantom = {},
              .file = std::move(read.file),
              .hu_digest = std::move(read.hu_digest),
-             .threshold_hu = read.threshold_hu}};
+             .threshold_hu = read.threshold_hu},
+            std::move(read.doubt)};
 }
 
 /// Of the file that was loaded. Throws SourceLost, at the latest with the last slice.
@@ -60,10 +62,10 @@ HuSlices slices_again(const BoneSource& source, HuReader& reader) {
 
 }  // namespace
 
-LoadedBone load_bone(const Scene& scene) {
+LoadedBone load_bone(const Scene& scene, std::optional<std::uint64_t> available_memory_bytes) {
     if (const auto* phantom = std::get_if<PhantomSource>(&scene.bone))
         return load_phantom(phantom->name, stiffness_of(scene));
-    return load_file(std::get<FileSource>(scene.bone), stiffness_of(scene));
+    return load_file(std::get<FileSource>(scene.bone), stiffness_of(scene), available_memory_bytes);
 }
 
 void save_bone(const std::filesystem::path& path, const BoneSource& source, const Bone& bone,

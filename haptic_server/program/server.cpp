@@ -22,6 +22,7 @@
 #include "haptic_server/device/hid/profile_file.h"
 #include "haptic_server/device/hid/space_mouse.h"
 #include "haptic_server/device/simulated_device.h"
+#include "haptic_server/imaging/memory_estimate.h"
 #include "haptic_server/imaging/phantom.h"
 #include "haptic_server/imaging/progress.h"
 #include "haptic_server/loop/clock.h"
@@ -224,7 +225,10 @@ void run_server(const ServerOptions& options, const std::string& version, const 
         streaming_options(options.listen.value_or(ListenAddress{}), options.access);
     if (options.operators) streaming_as_typed.operators.emplace(*options.operators);
     Scene scene = load_scene(options);
-    LoadedBone loaded = load_bone(scene);
+    std::ifstream meminfo("/proc/meminfo");
+    LoadedBone loaded = load_bone(scene, available_memory_bytes(meminfo));
+    if (!loaded.doubt.empty())
+        spdlog::warn("{}: {}", std::get<FileSource>(scene.bone).path.string(), loaded.doubt);
     if (options.bone && !options.scene) place_on_bone(scene, loaded.bone);
     const BoneSource source = std::move(loaded.source);
     Bone bone = std::move(loaded.bone);

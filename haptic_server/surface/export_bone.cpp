@@ -102,6 +102,7 @@ Asked<ExportOptions> parse_export_command_line(int argc, const char* const* argv
 
 void export_bone(const ExportOptions& options, const std::function<void(const std::string&)>& say) {
     const BoneOfFile read_bone = read(options.bone, options.threshold_hu);
+    if (!read_bone.doubt.empty()) say(fmt::format("{}: warning: {}", options.bone.string(), read_bone.doubt));
     if (options.original)
         export_removed(options, read_bone, say);
     else

@@ -64,6 +64,17 @@ TEST_F(BoneImport, MakesABoneFileOfADicomSeries) {
     EXPECT_EQ(file.volume.hu.back(), 400);
 }
 
+TEST_F(BoneImport, SaysThatAThresholdLeavesNothingOrEverything) {
+    testing::write_series(folder_ / "series", testing::synthetic_series(5));
+    const Outcome nothing = import(folder_ / "series", "--threshold-hu 3000");
+    EXPECT_EQ(nothing.exit_status, 1);
+    EXPECT_THAT(nothing.last(), HasSubstr("no voxel reaches --threshold-hu 3000; the highest has "));
+    EXPECT_THAT(nothing.lines, ::testing::Not(::testing::Contains(HasSubstr("refining")))) << "said early";
+    const Outcome everything = import(folder_ / "series", "--spacing-mm 0.5 --threshold-hu -1024");
+    EXPECT_EQ(everything.exit_status, 0);
+    EXPECT_THAT(everything.lines, ::testing::Contains(HasSubstr("every voxel reaches --threshold-hu -1024")));
+}
+
 TEST_F(BoneImport, KeepsSoftTissueWhereToldTo) {
     testing::write_series(folder_ / "series", testing::synthetic_series(5));
     ASSERT_EQ(import(folder_ / "series", "--spacing-mm 0.5").exit_status, 0);

@@ -42,6 +42,36 @@ TEST(HuHistogram, TellsAScanThatLacksItsOffset) {
     EXPECT_THAT(doubt_of(scan(1000.0F + 24.0F)), HasSubstr("--rescale 1,-1024"));
 }
 
+TEST(HuHistogram, TellsAScanWithAnOffsetOf1000) {
+    EXPECT_THAT(doubt_of(scan(1000.0F)), HasSubstr("nothing is below -24 and 33 % are near 0"));
+    std::vector<float> padded = scan(1000.0F);
+    padded.insert(padded.end(), 2000, -1000.0F);  // outside the field of view: -2000, and the offset
+    EXPECT_THAT(doubt_of(padded), HasSubstr("nothing is below -24"));
+    std::vector<float> right = scan(0.0F);
+    right.insert(right.end(), 2000, -3024.0F);
+    EXPECT_EQ(doubt_of(right), "");
+}
+
+TEST(HuHistogram, DoubtsNoHeadThatWasCutOutOfItsAir) {
+    std::mt19937 random(3);
+    std::normal_distribution<float> noise(0.0F, 12.0F);
+    std::vector<float> values;
+    for (int i = 0; i < 30'000; ++i)
+        values.push_back(std::round((i % 4 == 0 ? 1400.0F : 35.0F) + noise(random)));
+    EXPECT_EQ(doubt_of(values), "");
+}
+
+TEST(HuHistogram, TakesTheVoxelsOfABoneFileAsWell) {
+    HuHistogram histogram;
+    EXPECT_EQ(histogram.highest_hu(), -4096);
+    const std::vector<std::int16_t> values{0, 3, 3, 1, -32768};
+    histogram.add(std::span(values).first(4));
+    EXPECT_EQ(histogram.highest_hu(), 3);
+    EXPECT_THAT(histogram.doubt(), HasSubstr("3 whole numbers from 0 to 3, as of a label map"));
+    histogram.add(values);
+    EXPECT_EQ(histogram.doubt(), "");
+}
+
 TEST(HuHistogram, TellsALabelMap) {
     EXPECT_THAT(doubt_of({0, 0, 1, 2, 2, 5}),
                 HasSubstr("its values are 4 whole numbers from 0 to 5, as of a label map"));
