@@ -4,6 +4,7 @@
 #include <fstream>
 #include <iostream>
 
+#include "common/program/option_checks.h"
 #include "common/program/program_output.h"
 #include "common/program/stop_signals.h"
 #include "haptic_server/imaging/import_bone.h"
@@ -29,12 +30,12 @@ void add_options(CLI::App& app, osteomill::ImportOptions& options, Texts& texts)
         ->required();
     app.add_option("--spacing-mm", options.spacing_mm, "edge of a voxel of the result")
         ->capture_default_str()
-        ->check(CLI::Range(0.01, 10.0));
+        ->check(osteomill::within(0.01, 10.0));
     app.add_option("--threshold-hu", texts.threshold_hu,
                    "bone is at and above this: kept in the file for haptic_server; HU further than 2 voxels "
                    "from bone "
                    "become -1000")
-        ->check(CLI::Range(-1024.0, 10000.0));
+        ->check(osteomill::within(-1024.0, 10000.0));
     app.add_flag("--keep-soft-tissue", options.keeps_soft_tissue,
                  "with --threshold-hu: HU far from bone stay, so that a carved bone can be laid beside the "
                  "scan; the file is some 3 to 10 times as large");

@@ -10,6 +10,7 @@
 #include <optional>
 #include <string>
 
+#include "common/program/option_checks.h"
 #include "haptic_server/imaging/progress.h"
 #include "studies/calibration/calibration_options.h"
 #include "studies/force/case_report.h"
@@ -77,17 +78,17 @@ void add_force(CLI::App& app, ForceOptions& options) {
         ->excludes(random);
     force->add_option("--voxel-mm", options.run.voxel_mm, "edge of a voxel, of --cases and --random")
         ->capture_default_str()
-        ->check(CLI::Range(0.01, 1.0));
+        ->check(osteomill::within(0.01, 1.0));
     force->add_option("--milling-rate-hz", options.run.milling_rate_hz, "steps of the voxel model a second")
         ->needs(cases)
         ->capture_default_str()
-        ->check(CLI::Range(1.0, 100'000.0));
+        ->check(osteomill::within(1.0, 100'000.0));
     force
         ->add_option("--travel-mm", options.run.travel_mm,
                      "way over which force is averaged, for motions along the surface (20 steps at least)")
         ->needs(cases)
         ->capture_default_str()
-        ->check(CLI::Range(0.01, 100.0));
+        ->check(osteomill::within(0.01, 100.0));
 }
 
 osteomill::study::StudySurroundings surroundings() {

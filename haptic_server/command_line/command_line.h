@@ -5,6 +5,8 @@
 #include <optional>
 #include <string>
 
+#include "common/program/option_checks.h"
+
 namespace osteomill {
 
 /// Options to run with, or a text (help, version) to print and be done.
@@ -13,10 +15,6 @@ struct Asked {
     std::optional<Options> options;
     std::string text;
 };
-
-/// Checks of an option's number, which name no limit that nobody could reach.
-CLI::Validator above_zero();
-CLI::Validator not_below_zero();
 
 /// Fills in what `app` has declared; returns the text where help or the version is asked for. Throws
 /// std::invalid_argument with one line for wrong usage.

@@ -123,7 +123,7 @@ void declare(CLI::App& app, Typed& typed) {
                    fmt::format("Steps of the milling loop per second, {:.0f} to {:.0f} (1000; 100 where the "
                                "milling force is interpolated, as published)",
                                least_milling_rate_hz, most_milling_rate_hz))
-        ->check(CLI::Range(least_milling_rate_hz, most_milling_rate_hz));
+        ->check(within(least_milling_rate_hz, most_milling_rate_hz));
     app.add_flag(
         "--vibration", typed.vibration,
         "Add what the arm can render of the handpiece's vibration, up to 300 Hz: run-out, once a turn of "

@@ -36,7 +36,7 @@ ReplayCommandLine parse_replay_command_line(int argc, const char* const* argv, c
                       ->capture_default_str();
     const AccessOptions access(app);
     auto* speed = app.add_option("--speed", options.speed, "Recorded seconds a second")
-                      ->check(CLI::Range(slowest, fastest))
+                      ->check(within(slowest, fastest))
                       ->capture_default_str();
     auto* from = app.add_option("--from-s", options.from_s, "Begin so long after the recording's beginning")
                      ->check(not_below_zero());

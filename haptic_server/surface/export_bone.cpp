@@ -82,7 +82,7 @@ Asked<ExportOptions> parse_export_command_line(int argc, const char* const* argv
         ->type_name("ORIGINAL.nrrd");
     auto* threshold = app.add_option("--threshold-hu", threshold_hu,
                                      "Bone is at and above this (default: as the file says, else 300)")
-                          ->check(CLI::Range(-1024.0, 10000.0));
+                          ->check(within(-1024.0, 10000.0));
     if (auto text = parse_or_text(app, argc, argv)) return {std::nullopt, *std::move(text)};
     if (!original.empty()) options.original = original;
     if (threshold->count() > 0) options.threshold_hu = threshold_hu;

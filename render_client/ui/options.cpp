@@ -14,6 +14,7 @@
 
 #include "common/files/distinct_files.h"
 #include "common/net/tls_options.h"
+#include "common/program/option_checks.h"
 #include "render_client/link/recording_player.h"
 
 namespace osteomill {
@@ -194,7 +195,7 @@ ParsedOptions parse_options(int argument_count, const char* const* arguments, co
         ->excludes(connect)
         ->excludes(record);
     auto* speed = app.add_option("--speed", options.speed, "Recorded seconds a second, with --replay (1)")
-                      ->check(CLI::Range(RecordingPlayer::slowest, RecordingPlayer::fastest));
+                      ->check(within(RecordingPlayer::slowest, RecordingPlayer::fastest));
     app.add_option_function<std::string>(
            "--window-size",
            [&](const std::string& text) {
@@ -211,7 +212,7 @@ ParsedOptions parse_options(int argument_count, const char* const* arguments, co
         ->type_name("NAME");
     app.add_option("--ui-scale", options.ui_scale,
                    "Size of panels and letters (the display's; 1 offscreen), 0.5 to 4")
-        ->check(CLI::Range(0.5, 4.0));
+        ->check(within(0.5, 4.0));
     app.add_flag("!--no-panels", options.panels, "Only the picture: no panels over it");
     app.add_flag("--offscreen", options.offscreen, "Draw without a display; write pictures instead");
     auto* frames = app.add_option("--frames", options.frames,

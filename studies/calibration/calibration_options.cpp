@@ -2,6 +2,8 @@
 
 #include <map>
 
+#include "common/program/option_checks.h"
+
 namespace osteomill::study {
 
 namespace {
@@ -10,7 +12,7 @@ void add_list(CLI::App& app, CLI::Option* design, const std::string& name, std::
               double low, double high, const std::string& what) {
     app.add_option(name, values, what + ", separated by commas")
         ->delimiter(',')
-        ->check(CLI::Range(low, high))
+        ->check(within(low, high))
         ->capture_default_str()
         ->needs(design);
 }
@@ -48,7 +50,7 @@ void add_design(CLI::App& app, CLI::Option* design, DesignOptions& options) {
         ->needs(design);
     app.add_option("--spread-n", options.spread_n,
                    "standard deviation of a mean force, for which the intervals to expect are printed")
-        ->check(CLI::Range(1e-6, 100.0))
+        ->check(within(1e-6, 100.0))
         ->capture_default_str()
         ->needs(design);
     app.add_option("--seed", options.seed, "of the designs from which the search starts")

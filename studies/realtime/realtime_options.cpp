@@ -1,5 +1,7 @@
 #include "studies/realtime/realtime_options.h"
 
+#include "common/program/option_checks.h"
+
 namespace osteomill::study {
 
 CLI::App* add_realtime(CLI::App& app, RealtimeStudyOptions& options) {
@@ -14,7 +16,7 @@ CLI::App* add_realtime(CLI::App& app, RealtimeStudyOptions& options) {
             ->add_option("--duration-s", options.duration_s,
                          "how long each of the two is measured, without load and again under it")
             ->capture_default_str()
-            ->check(CLI::Range(10.0, 86'400.0));
+            ->check(within(10.0, 86'400.0));
     realtime->add_flag("--quick", options.quick, "9 s each: shows that it works, not how long the tail is")
         ->excludes(duration);
     return realtime;

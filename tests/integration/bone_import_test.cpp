@@ -122,7 +122,8 @@ TEST_F(BoneImport, RefusesAnImportOfMoreVoxelsThanABoneMayHave) {
 }
 
 TEST_F(BoneImport, ExitsWithTwoOnWrongUsage) {
-    for (const char* options : {"--region 1,2,3", "--spacing-mm 0", "--rescale 1", "--intensity-window 5,1",
+    for (const char* options : {"--region 1,2,3", "--spacing-mm 0", "--spacing-mm nan", "--threshold-hu nan",
+                                "--rescale 1", "--intensity-window 5,1",
                                 "--rescale 1,2 --intensity-window 1,2", "--keep-soft-tissue", "--nonsense"}) {
         const Outcome outcome = import(folder_.path(), options);
         EXPECT_EQ(outcome.exit_status, 2) << options;

@@ -112,6 +112,7 @@ TEST(ServerOptions, NameTheOptionAndTheChoicesInOneLine) {
     EXPECT_THAT(error_of({"--grip", "iron"}), HasSubstr("light, firm"));
     EXPECT_THAT(error_of({"--nonsense"}), HasSubstr("--nonsense"));
     EXPECT_THAT(error_of({"--milling-rate-hz", "5"}), HasSubstr("--milling-rate-hz"));
+    EXPECT_THAT(error_of({"--milling-rate-hz", "nan"}), HasSubstr("nan is not within 25 to 10000"));
     EXPECT_THAT(error_of({"--milling-rate-hz", "fast"}), HasSubstr("--milling-rate-hz"));
     EXPECT_EQ(error_of({"--duration-s", "-1"}), "--duration-s: -1 is not above 0; see --help");
     EXPECT_THAT(error_of({"--duration-s", "nan"}), HasSubstr("is not above 0"));

@@ -33,6 +33,7 @@ TEST(ReplayOptions, ServeAtAnySpeedFromAnyTime) {
 TEST(ReplayOptions, AreRefusedWhereTheyMakeNoSense) {
     for (const std::vector<const char*>& wrong : {std::vector<const char*>{},
                                                   {"a.pcap", "--speed", "0"},
+                                                  {"a.pcap", "--speed", "nan"},
                                                   {"a.pcap", "--from-s", "-1"},
                                                   {"a.pcap", "--listen", "0.0.0.0:7010"},
                                                   {"a.pcap", "--info", "--speed", "2"},
