@@ -40,6 +40,10 @@ class SimulatedDevice final : public HapticDevice {
     /// Whether the trajectory has been followed to its end. Any thread.
     bool is_finished() const noexcept { return is_finished_.load(std::memory_order_relaxed); }
 
+    /// How much of the trajectory has been followed, 0 to 1; 0 of one that never ends. Only from the thread
+    /// that reads.
+    double done() const noexcept { return trajectory_time_s_ / trajectory_.duration_s(); }
+
     const HeldArm& held_arm() const { return held_arm_; }
 
   private:

@@ -119,6 +119,14 @@ DeviceParts make_device(const ServerOptions& options, Scene& scene) {
     return parts;
 }
 
+/// Nothing on the real clock, of which people know how it goes.
+std::optional<double> done_of_virtual_session(const ServerOptions& options, const DeviceParts& device,
+                                              double time_s) {
+    if (options.session.clock == ClockKind::real) return std::nullopt;
+    const double of_trajectory = device.simulated != nullptr ? device.simulated->done() : 0.0;
+    return std::min(1.0, std::max(time_s / options.session.duration_s, of_trajectory));
+}
+
 /// What shows the session to clients, and records it, and lets them control it.
 struct Streaming {
     std::unique_ptr<SessionKeeper> keeper;
@@ -277,7 +285,7 @@ void run_server(const ServerOptions& options, const std::string& version, const 
     StatusLine status(*output.err, output.err->is_terminal());
     std::atomic<bool> is_over{false};
     session->run(is_over, [&](const ToolState& tool) {
-        status.show(tool, StatusLine::Clock::now());
+        status.show(tool, StatusLine::Clock::now(), done_of_virtual_session(options, device, tool.time_s));
         status.show_notice(tool, device.device->notice());
         if (streaming && options.session.clock == ClockKind::virtual_time) streaming.server->show_frame();
         if (stop.load() || device.is_finished() || streaming.has_been_asked_to_finish()) is_over.store(true);

@@ -6,15 +6,17 @@
 
 namespace osteomill {
 
-void StatusLine::show(const ToolState& tool, Clock::time_point now) {
+void StatusLine::show(const ToolState& tool, Clock::time_point now, std::optional<double> done) {
     show_fault(tool);
     show_wait(tool);
-    if (now < next_ || !out_.has_caught_up()) return;
+    const int tenths = done ? static_cast<int>(10.0 * *done + 1e-6) : 0;
+    if ((now < next_ && tenths <= tenths_shown_) || !out_.has_caught_up()) return;
+    tenths_shown_ = tenths;
     next_ = now + (is_terminal_ ? std::chrono::seconds(1) : std::chrono::seconds(5));
-    const std::string line =
-        fmt::format("{:7.1f} s   force {:5.2f} N   removed {:8.2f} mm^3   spindle {}{}", tool.time_s,
-                    glm::length(tool.force_n), tool.removed_mm3, tool.spindle_on ? "on " : "off",
-                    tool.touches_protected ? "   PROTECTED TISSUE" : "");
+    const std::string line = fmt::format(
+        "{:7.1f} s{}   force {:5.2f} N   removed {:8.2f} mm^3   spindle {}{}", tool.time_s,
+        done ? fmt::format(" ({:.0f} %)", 100.0 * *done) : "", glm::length(tool.force_n), tool.removed_mm3,
+        tool.spindle_on ? "on " : "off", tool.touches_protected ? "   PROTECTED TISSUE" : "");
     // To the line's start, and erase what the last one left.
     out_.write(is_terminal_ ? fmt::format("\r{}\033[K", line) : line + "\n");
     is_line_open_ = is_terminal_;

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <chrono>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -19,8 +20,10 @@ class StatusLine {
     /// Writes to `out`, which outlives it; `is_terminal` decides between rewriting one line and adding lines.
     StatusLine(LineStream& out, bool is_terminal) : out_(out), is_terminal_(is_terminal) {}
 
-    /// To be called often; `now` is the time of people, not of the session.
-    void show(const ToolState& tool, Clock::time_point now);
+    /// To be called often; `now` is the time of people, not of the session. `done`: how much of a session is
+    /// done that runs as fast as it can, 0 to 1, where that is known; each line says it, and there is one
+    /// whenever a tenth has been done, too.
+    void show(const ToolState& tool, Clock::time_point now, std::optional<double> done = std::nullopt);
     /// What the device says of itself, on a line of its own whenever that changes; empty: nothing.
     void show_notice(const ToolState& tool, std::string_view notice);
     /// Ends the status line.
@@ -32,6 +35,7 @@ class StatusLine {
 
     LineStream& out_;
     bool is_terminal_;
+    int tenths_shown_ = 0;
     bool is_line_open_ = false;
     BoundedLine fault_;
     BoundedLine wait_;

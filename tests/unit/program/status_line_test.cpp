@@ -58,6 +58,24 @@ TEST(StatusLine, AddsALineEveryFiveSecondsWhereThereIsNoTerminal) {
     EXPECT_EQ(lines(paper.text()), 3);
 }
 
+TEST(StatusLine, SaysHowMuchIsDoneOfASessionThatRunsAsFastAsItCan) {
+    for (const bool is_terminal : {false, true}) {
+        Paper paper;
+        StatusLine status(paper.stream(), is_terminal);
+        const StatusLine::Clock::time_point start{};
+        std::string text;
+        for (int i = 0; i <= 200; ++i) {
+            status.show(tool_at(0.1 * i), start + milliseconds(i), i / 200.0);
+            paper.wait();
+        }
+        text = paper.text();
+        const char shown = is_terminal ? '\r' : '\n';
+        EXPECT_EQ(std::count(text.begin(), text.end(), shown), 11) << text;
+        EXPECT_THAT(text, HasSubstr("10.0 s (50 %)"));
+        EXPECT_THAT(text, HasSubstr("20.0 s (100 %)"));
+    }
+}
+
 TEST(StatusLine, SaysOnceWhatAChangeOfBurrWaitsFor) {
     Paper paper;
     StatusLine status(paper.stream(), false);
