@@ -95,7 +95,7 @@ void HapticLoop::tick(double now_s, std::uint64_t missed_periods) noexcept {
         .force_n = force_n,
         .burr = burr_.burr(),
         .spindle_on = spindle_on,
-        .removed_mm3 = latest.total_removed_mm3,
+        .removed_mm3 = options_.removed_before_mm3 + latest.total_removed_mm3,
         .touches_protected = now_s < protected_until_s_,
         .fault = describe(safety_.fault()),
         .notice = describe(burr_.waits_for()),

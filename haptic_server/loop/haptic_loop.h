@@ -48,7 +48,8 @@ struct HapticLoopOptions {
     DeviceMapping mapping{};
     std::size_t burr_count = 1;  ///< of the scene's set
     std::size_t start_burr = 0;
-    bool has_shank = false;  ///< any burr of the set: its torque is told
+    bool has_shank = false;           ///< any burr of the set: its torque is told
+    double removed_before_mm3 = 0.0;  ///< by the sessions before: what is told goes on from there
     /// What the hand did before the first tick.
     ToolPose start_pose{};
 };

@@ -7,6 +7,7 @@
 #include <chrono>
 #include <cmath>
 #include <latch>
+#include <numeric>
 #include <optional>
 #include <stdexcept>
 #include <thread>
@@ -128,6 +129,8 @@ MillingSession::MillingSession(const Scene& scene, Bone bone, HapticDevice& devi
                     .burr_count = scene.burrs.size(),
                     .start_burr = scene.start_burr,
                     .has_shank = has_shank(scene.burrs),
+                    .removed_before_mm3 = std::accumulate(options.removed_before_mm3.begin(),
+                                                          options.removed_before_mm3.end(), 0.0),
                     .start_pose = scene.start_pose}),
       burrs_(scene.burrs),
       milling_loop_({.model = *model_,
@@ -258,6 +261,7 @@ MillingSessionReport MillingSession::report() const {
             .haptic = haptic_ticks_.statistics(),
             .milling = milling_steps_.statistics(),
             .removed_mm3 = model_->removed_mm3(),
+            .removed_before_mm3 = options_.removed_before_mm3,
             .peak_force_n = haptic_loop_.peak_force_n(),
             .most_energy_to_hand_mj = haptic_loop_.most_energy_to_hand_mj(),
             .solve = coupling_->solve_counts(),

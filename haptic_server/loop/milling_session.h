@@ -44,6 +44,8 @@ struct MillingSessionOptions {
         force_model_names().front();  ///< one without a cutting law: not with "implicit"
     bool vibration = false;           ///< of the handpiece; only with a cutting law
     double duration_s = std::numeric_limits<double>::infinity();
+    /// What is told of removed volume goes on from here: of a bone that was carved before.
+    RemovedByTissue removed_before_mm3{};
     /// Somebody may pause it, and undo what was milled: see gate() and restored().
     bool can_be_controlled = false;
     /// Somebody consumes changes() while the session runs. If not, the session empties the queue itself.
@@ -58,7 +60,8 @@ struct MillingSessionReport {
     double duration_s = 0.0;  ///< session time at the last haptic tick
     PeriodicStatistics haptic;
     PeriodicStatistics milling;
-    RemovedByTissue removed_mm3{};
+    RemovedByTissue removed_mm3{};         ///< by this session
+    RemovedByTissue removed_before_mm3{};  ///< as the options say
     double peak_force_n = 0.0;
     double most_energy_to_hand_mj = 0.0;  ///< net energy that the force gave the hand, the most that it was
     SolveCounts solve;                    ///< of a coupling that solves

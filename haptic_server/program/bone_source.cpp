@@ -34,12 +34,20 @@ LoadedBone load_phantom(const std::string& name, const StiffnessRelation& relati
 LoadedBone load_file(const FileSource& named, const StiffnessRelation& relation,
                      std::optional<std::uint64_t> available_memory_bytes) {
     BoneOfFile read = bone_of_file(named.path, named.threshold_hu, relation, available_memory_bytes);
-    return {std::move(read.bone),
-            {.phantom = {},
-             .file = std::move(read.file),
-             .hu_digest = std::move(read.hu_digest),
-             .threshold_hu = read.threshold_hu},
-            std::move(read.doubt)};
+    BoneSource source{.phantom = {},
+                      .file = std::move(read.file),
+                      .hu_digest = std::move(read.hu_digest),
+                      .threshold_hu = read.threshold_hu};
+    source.removed_before_mm3 = removed_before_mm3(*source.file);
+    return {std::move(read.bone), std::move(source), std::move(read.doubt)};
+}
+
+VolumesByTissue removed_so_far_mm3(const BoneSource& source, const Bone& bone) {
+    VolumesByTissue removed_mm3 = source.removed_before_mm3;
+    const std::vector<double> left_mm3 = bone_volume_by_tissue_mm3(bone);
+    for (std::size_t label = 0; label < source.loaded_mm3.size(); ++label)
+        removed_mm3[label] += source.loaded_mm3[label] - (label < left_mm3.size() ? left_mm3[label] : 0.0);
+    return removed_mm3;
 }
 
 /// Of the file that was loaded. Throws SourceLost, at the latest with the last slice.
@@ -63,14 +71,19 @@ HuSlices slices_again(const BoneSource& source, HuReader& reader) {
 }  // namespace
 
 LoadedBone load_bone(const Scene& scene, std::optional<std::uint64_t> available_memory_bytes) {
-    if (const auto* phantom = std::get_if<PhantomSource>(&scene.bone))
-        return load_phantom(phantom->name, stiffness_of(scene));
-    return load_file(std::get<FileSource>(scene.bone), stiffness_of(scene), available_memory_bytes);
+    const auto* phantom = std::get_if<PhantomSource>(&scene.bone);
+    LoadedBone loaded = phantom != nullptr ? load_phantom(phantom->name, stiffness_of(scene))
+                                           : load_file(std::get<FileSource>(scene.bone), stiffness_of(scene),
+                                                       available_memory_bytes);
+    loaded.source.loaded_mm3 = bone_volume_by_tissue_mm3(loaded.bone);
+    return loaded;
 }
 
 void save_bone(const std::filesystem::path& path, const BoneSource& source, const Bone& bone,
                const ReportProgress& report) {
-    const std::map<std::string, std::string> keys{{threshold_key, threshold_text(source.threshold_hu)}};
+    const std::map<std::string, std::string> keys{
+        {threshold_key, threshold_text(source.threshold_hu)},
+        {removed_key, text_of_removed(removed_so_far_mm3(source, bone))}};
     if (!source.phantom.empty())
         return save_carved_bone(path, std::get<HuSlices>(make_phantom(source.phantom)), bone, keys, report);
     // A file may itself hold no more than a coarse picture of its bone.

@@ -10,6 +10,7 @@
 #include "haptic_server/imaging/hu_file.h"
 #include "haptic_server/imaging/hu_volume.h"
 #include "haptic_server/imaging/progress.h"
+#include "haptic_server/imaging/removed_volumes.h"
 
 namespace osteomill {
 
@@ -19,6 +20,8 @@ struct BoneSource {
     std::shared_ptr<const BoneFile> file;  ///< stays open, so that another under its name is not taken for it
     std::string hu_digest;                 ///< of the file's CT numbers when the bone was loaded
     double threshold_hu = 0.0;
+    VolumesByTissue removed_before_mm3{};  ///< by the sessions before, as a saved bone tells
+    std::vector<double> loaded_mm3{};      ///< by tissue, when the bone was loaded
 };
 
 struct LoadedBone {
@@ -33,9 +36,9 @@ struct LoadedBone {
 LoadedBone load_bone(const Scene& scene, std::optional<std::uint64_t> available_memory_bytes = std::nullopt);
 
 /// Saves what is left of a bone together with the CT numbers of its source (carved_bone.h), which may be the
-/// file that is saved over. Where the source can no longer be read, or is not what was loaded, the bone is
-/// saved with a picture of it in their place, and then std::runtime_error says so. Throws
-/// ImagingError where it cannot be written.
+/// file that is saved over, and with how much was removed by tissue in all sessions so far. Where the source
+/// can no longer be read, or is not what was loaded, the bone is saved with a picture of it in their place,
+/// and then std::runtime_error says so. Throws ImagingError where it cannot be written.
 void save_bone(
     const std::filesystem::path& path, const BoneSource& source, const Bone& bone,
     const ReportProgress& report = [](double) {});

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <numeric>
 
 #include "common/files/whole_file.h"
@@ -34,6 +35,10 @@ nlohmann::ordered_json removed_by_name(const RemovedByTissue& removed_mm3, const
     for (const Tissue& tissue : scene.tissues) json[tissue.name] = removed_mm3[tissue.label];
     if (!scene.tissues.empty() && removed_mm3[0] > 0.0) json["unlabelled"] = removed_mm3[0];
     return json;
+}
+
+bool has_any(const RemovedByTissue& removed_mm3) {
+    return std::any_of(removed_mm3.begin(), removed_mm3.end(), [](double mm3) { return mm3 > 0.0; });
 }
 
 nlohmann::ordered_json faults(const MillingSessionReport& report) {
@@ -74,7 +79,12 @@ nlohmann::ordered_json measurements(const MillingSessionReport& report, const Bo
     json["milling_steps"] = report.milling.ticks;
     json["missed_milling_steps"] = report.milling.missed;
     json["milling_step_us"] = percentiles_us(report.milling.duration);
-    json["removed_mm3"] = removed_by_name(report.removed_mm3, scene);
+    RemovedByTissue removed_in_all_mm3 = report.removed_before_mm3;
+    for (std::size_t label = 0; label < removed_in_all_mm3.size(); ++label)
+        removed_in_all_mm3[label] += report.removed_mm3[label];
+    json["removed_mm3"] = removed_by_name(removed_in_all_mm3, scene);
+    if (has_any(report.removed_before_mm3))
+        json["removed_before_mm3"] = removed_by_name(report.removed_before_mm3, scene);
     json["peak_force_n"] = report.peak_force_n;
     json["solve"] = {{"max_residual_n", report.solve.max_residual_n},
                      {"fallbacks", report.solve.fallbacks},

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <fstream>
 #include <memory>
+#include <numeric>
 #include <optional>
 #include <stdexcept>
 #include <utility>
@@ -202,6 +203,14 @@ void close_log(std::optional<Log>& log) {
     }
 }
 
+void say_what_was_removed_before(const BoneSource& source, LineStream& out) {
+    const double mm3 =
+        std::accumulate(source.removed_before_mm3.begin(), source.removed_before_mm3.end(), 0.0);
+    if (mm3 > 0.0)
+        out.write(fmt::format("{}: {:.2f} mm^3 were removed before; the count goes on from there\n",
+                              source.file->path().string(), mm3));
+}
+
 /// A bone of which saving takes long says how far it has come.
 void save_and_tell(const std::filesystem::path& path, const BoneSource& source, const Bone& bone,
                    LineStream& out) {
@@ -239,6 +248,7 @@ void run_server(const ServerOptions& options, const std::string& version, const 
         spdlog::warn("{}: {}", std::get<FileSource>(scene.bone).path.string(), loaded.doubt);
     if (options.bone && !options.scene) place_on_bone(scene, loaded.bone);
     const BoneSource source = std::move(loaded.source);
+    say_what_was_removed_before(source, *output.err);
     Bone bone = std::move(loaded.bone);
     BoneCost cost{.memory_bytes = memory_bytes(bone), .bone_mm3 = bone_volume_mm3(bone)};
     const DeviceParts device = make_device(options, scene);
@@ -249,6 +259,7 @@ void run_server(const ServerOptions& options, const std::string& version, const 
     begin_log(milling_log, options.log_milling_csv, MillingSample::header_line);
 
     MillingSessionOptions session_options = options.session;
+    session_options.removed_before_mm3 = source.removed_before_mm3;
     const bool is_shown = options.listen || options.record || options.controls;
     session_options.changes_are_consumed = session_options.can_be_controlled = is_shown;
     std::optional<Bone> mirror;

@@ -178,6 +178,24 @@ TEST_F(SavedBone, MayBeTheFileThatWasLoaded) {
     EXPECT_EQ(loaded(file("block.nrrd")), second);
 }
 
+TEST_F(SavedBone, GoesOnCountingWhatWasRemoved) {
+    write_block(file("block.nrrd"), 60, 0.1, 50);
+    saved(file("block.nrrd"), file("carved.nrrd"), "4");
+    const double first_mm3 = measured("saved.json").at("removed_mm3").at("total");
+    EXPECT_GT(first_mm3, 0.01);
+    EXPECT_FALSE(measured("saved.json").contains("removed_before_mm3"));
+    const Finished second = testing::run_program(
+        server({"--duration-s", "0.01", "--bone", file("carved.nrrd"), "--save-bone", file("carved.nrrd"),
+                "--json", file("second.json"), "--log-csv", file("second.csv")}));
+    ASSERT_EQ(second.status, 0) << second.err;
+    EXPECT_THAT(second.err, HasSubstr("mm^3 were removed before; the count goes on from there"));
+    EXPECT_NEAR(measured("second.json").at("removed_mm3").at("total"), first_mm3, 1e-6);
+    EXPECT_NEAR(measured("second.json").at("removed_before_mm3").at("total"), first_mm3, 1e-6);
+    // And once more, of what was saved over.
+    saved(file("carved.nrrd"), file("again.nrrd"), "0.01");
+    EXPECT_NEAR(measured("saved.json").at("removed_mm3").at("total"), first_mm3, 1e-6);
+}
+
 TEST_F(SavedBone, IsRefusedOrTheSameWithAnyBitFlipped) {
     write_block(file("scan.nrrd"), 24, 0.2, 20);
     ASSERT_EQ(

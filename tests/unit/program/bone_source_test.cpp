@@ -66,6 +66,21 @@ TEST_F(BoneSourceOfFile, IsSavedAllTheSameWhereItsFileWasOverwritten) {
     expect_saved();
 }
 
+TEST_F(BoneSourceOfFile, RemembersWhatAllSessionsRemoved) {
+    testing::write_bone_file(path_, block(900));
+    double removed_mm3 = 0.0;
+    for (int session = 0; session < 3; ++session) {
+        LoadedBone loaded = reloaded(session == 0 ? path_ : saved_);
+        EXPECT_NEAR(loaded.source.removed_before_mm3[0], removed_mm3, 1e-8) << session;
+        const double before_mm3 = bone_volume_mm3(loaded.bone);
+        for (std::uint8_t& fraction : loaded.bone.fractions(0))
+            fraction = static_cast<std::uint8_t>(fraction / 2);
+        removed_mm3 += before_mm3 - bone_volume_mm3(loaded.bone);
+        save_bone(saved_, loaded.source, loaded.bone);
+    }
+    EXPECT_GT(removed_mm3, 0.5);
+}
+
 TEST_F(BoneSourceOfFile, RefusesWhatHoldsNoBone) {
     testing::write_bone_file(path_, block(-900));
     EXPECT_THROW(load_bone(scene_), ImagingError);
