@@ -19,6 +19,7 @@
 #include "studies/polishing/polishing_options.h"
 #include "studies/realtime/realtime_options.h"
 #include "studies/render/render_options.h"
+#include "studies/report/chart.h"
 #include "studies/report/output_files.h"
 #include "studies/stability/encoder/encoder_noise.h"
 #include "studies/stability/map/stability_options.h"
@@ -107,6 +108,8 @@ void run_cases(const ForceOptions& options) {
 }
 
 void run(const ForceOptions& options) {
+    const bool has_charts = !options.loads && options.cases.empty() && !options.random;
+    if (has_charts) osteomill::study::require_charts();
     osteomill::study::make_folder(options.out);
     if (options.loads)
         osteomill::study::run_loads_study(options.out, surroundings());
@@ -145,6 +148,7 @@ void run_on_rails(const osteomill::study::StabilityCommand& command) {
 
 void run(const osteomill::study::StabilityCommand& command) {
     using namespace osteomill;
+    if (command.motions_on_rails == 0) study::require_charts();
     study::make_folder(command.run.out);
     if (command.motions_on_rails > 0) return run_on_rails(command);
     if (command.varies_encoders) {
@@ -177,16 +181,19 @@ void run(const osteomill::study::StabilityCommand& command) {
 }
 
 void run(const osteomill::study::PolishingStudyOptions& options) {
+    osteomill::study::require_charts();
     osteomill::study::make_folder(options.out);
     osteomill::study::run_polishing_study(options, surroundings());
 }
 
 void run(const osteomill::study::RenderStudyOptions& options) {
+    osteomill::study::require_charts();
     osteomill::study::make_folder(options.out);
     osteomill::study::run_render_study(options, surroundings());
 }
 
 void run(const osteomill::study::RealtimeStudyOptions& options) {
+    osteomill::study::require_charts();
     osteomill::study::make_folder(options.out);
     osteomill::study::run_realtime_study(options, surroundings());
 }
@@ -197,6 +204,7 @@ void run(const osteomill::study::CalibrationCommand& command) {
         design.out = command.out;
         osteomill::study::design_runs(design, surroundings());
     } else {
+        osteomill::study::require_charts();
         osteomill::study::calibrate({.data = command.data, .out = command.out}, surroundings());
     }
 }

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdio>
+#include <cstdlib>
 #include <cstring>
 #include <stdexcept>
 
@@ -43,14 +44,26 @@ void draw_chart(const std::filesystem::path& scripts, const std::string& name,
     if (status != 0) throw std::runtime_error(script.string() + ": gnuplot failed: " + last_line);
 }
 
+void require_charts() {
+    chart_scripts();
+    const int status = std::system("command -v gnuplot >/dev/null 2>&1");
+    if (status != 0)
+        throw std::runtime_error(
+            "gnuplot, which draws the charts, is not installed (package gnuplot-nox): nothing was begun");
+}
+
 std::filesystem::path chart_scripts() {
-    const std::filesystem::path beside_sources = OSTEOMILL_CHART_SCRIPTS;
-    if (std::filesystem::exists(beside_sources)) return beside_sources;
-    const std::filesystem::path installed =
-        std::filesystem::read_symlink("/proc/self/exe").parent_path() / "../share/osteomill/charts";
-    if (std::filesystem::exists(installed)) return installed;
-    throw std::runtime_error("the scripts of the charts are neither in " + beside_sources.string() +
-                             " nor in " + installed.string());
+    const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe").parent_path();
+    return folder_with_scripts(program.parent_path() / "share/osteomill/charts", OSTEOMILL_CHART_SCRIPTS);
+}
+
+std::filesystem::path folder_with_scripts(const std::filesystem::path& installed,
+                                          const std::filesystem::path& beside_sources) {
+    // What every script loads.
+    for (const std::filesystem::path& folder : {installed, beside_sources})
+        if (std::filesystem::exists(folder / "style.gp")) return folder;
+    throw std::runtime_error("the scripts of the charts are neither in " + installed.string() + " nor in " +
+                             beside_sources.string());
 }
 
 }  // namespace osteomill::study

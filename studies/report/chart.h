@@ -12,8 +12,16 @@ namespace osteomill::study {
 void draw_chart(const std::filesystem::path& scripts, const std::string& name,
                 const std::filesystem::path& folder);
 
-/// Where the study's scripts are: beside its sources, or where an installed program finds them
-/// (PROGRAM/../share/osteomill/charts). Throws std::runtime_error where they are in neither place.
+/// Where the study's scripts are: where an installed program finds them (PROGRAM/../share/osteomill/charts),
+/// or beside its sources. Throws std::runtime_error where they are in neither place.
 std::filesystem::path chart_scripts();
+
+/// The first of the folders that holds scripts. Throws std::runtime_error that names both where neither does.
+std::filesystem::path folder_with_scripts(const std::filesystem::path& installed,
+                                          const std::filesystem::path& beside_sources);
+
+/// To be called before hours of work rather than after them: throws std::runtime_error in one line where no
+/// chart could be drawn, for want of the scripts or of gnuplot.
+void require_charts();
 
 }  // namespace osteomill::study

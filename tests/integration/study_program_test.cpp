@@ -34,9 +34,10 @@ std::string text_of(const std::filesystem::path& file) {
 
 class StudyProgram : public ::testing::Test {
   protected:
-    Outcome run(const std::string& arguments) const {
-        const std::string command = STUDY " " + arguments + " >'" + (folder_ / "said").string() + "' 2>'" +
-                                    (folder_ / "errors").string() + "' </dev/null";
+    Outcome run(const std::string& arguments, const std::string& environment = {}) const {
+        const std::string command = environment + STUDY " " + arguments + " >'" +
+                                    (folder_ / "said").string() + "' 2>'" + (folder_ / "errors").string() +
+                                    "' </dev/null";
         const int status = std::system(command.c_str());
         return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, text_of(folder_ / "said"),
                 text_of(folder_ / "errors")};
@@ -209,6 +210,19 @@ TEST_F(StudyProgram, SaysInOneLineWhatIsWrong) {
     expect_refused("realtime --quick --duration-s 60", 2, "--duration-s");
     expect_refused(std::string("force --cases ") + case_file + " --voxel-mm 0", 2, "--voxel-mm");
     expect_refused("force --case x.json", 2, "--case");
+}
+
+TEST_F(StudyProgram, SaysAtTheStartThatItCannotDrawCharts) {
+    for (const char* study : {"force", "polishing", "render", "realtime", "stability", "stability --sites",
+                              "calibrate data.csv"}) {
+        const Outcome outcome = run(std::string(study) + " --out " + out_, "PATH=/nowhere ");
+        EXPECT_EQ(outcome.exit_code, 1) << study;
+        EXPECT_EQ(outcome.err,
+                  "osteomill_study: gnuplot, which draws the charts, is not installed (package "
+                  "gnuplot-nox): nothing was begun\n")
+            << study;
+        EXPECT_FALSE(std::filesystem::exists(out_));
+    }
 }
 
 TEST_F(StudyProgram, HasHelpAndAVersion) {

@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 
+#include <cstdlib>
 #include <fstream>
 #include <sstream>
 #include <stdexcept>
@@ -42,6 +43,34 @@ TEST(Chart, SaysInOneLineWhyThereIsNone) {
 
 TEST(Chart, HasScriptsOfItsOwn) {
     EXPECT_TRUE(std::filesystem::exists(chart_scripts() / "pareto.gp"));
+}
+
+TEST(Chart, FindsItsScriptsWhereTheProgramIsInstalled) {
+    const testing::TemporaryFolder folder;
+    const auto refusal = [&]() -> std::string {
+        try {
+            folder_with_scripts(folder / "installed", folder / "sources");
+        } catch (const std::runtime_error& error) {
+            return error.what();
+        }
+        return "found";
+    };
+    EXPECT_THAT(refusal(), AllOf(HasSubstr("installed"), HasSubstr("sources")));
+    std::filesystem::create_directory(folder / "installed");
+    EXPECT_THAT(refusal(), HasSubstr("neither")) << "an empty folder";
+    std::filesystem::create_directory(folder / "sources");
+    std::ofstream(folder / "sources" / "style.gp") << '\n';
+    EXPECT_EQ(folder_with_scripts(folder / "installed", folder / "sources"), folder / "sources");
+    std::ofstream(folder / "installed" / "style.gp") << '\n';
+    EXPECT_EQ(folder_with_scripts(folder / "installed", folder / "sources"), folder / "installed");
+}
+
+TEST(Chart, IsMissedBeforeTheWorkNotAfterIt) {
+    require_charts();
+    const std::string path = std::getenv("PATH");
+    ::setenv("PATH", "/nowhere", 1);
+    EXPECT_THROW(require_charts(), std::runtime_error) << "no gnuplot";
+    ::setenv("PATH", path.c_str(), 1);
 }
 
 }  // namespace
