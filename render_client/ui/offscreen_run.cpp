@@ -21,6 +21,7 @@ using Clock = std::chrono::steady_clock;
 constexpr auto frame_period =
     std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(1.0 / 30.0));
 constexpr double silent_wait_for_bone_s = 1.0;
+constexpr double said_again_after_s = 10.0;
 constexpr glm::ivec2 default_size_px(960, 600);
 
 double seconds(Clock::duration duration) {
@@ -30,13 +31,13 @@ double seconds(Clock::duration duration) {
 /// Polls until the first bone is there. False where the run was asked to stop before.
 bool wait_for_bone(SessionPicture& session, const std::function<bool()>& stop_asked) {
     const Clock::time_point start = Clock::now();
-    bool has_said = false;
+    double says_at_s = silent_wait_for_bone_s;
     while (!stop_asked()) {
         session.take_in();
-        if (!has_said && seconds(Clock::now() - start) > silent_wait_for_bone_s) {
-            spdlog::info("waiting for a bone, at most {:.0f} s: {}", longest_wait_for_bone_s,
-                         session.link().status_line);
-            has_said = true;
+        if (const double waited_s = seconds(Clock::now() - start); waited_s > says_at_s) {
+            spdlog::info("waiting for a bone, {:.0f} of at most {:.0f} s: {}", waited_s,
+                         longest_wait_for_bone_s, session.link().status_line);
+            says_at_s += said_again_after_s;
         }
         if (session.has_bone()) return true;
         if (!session.bone_problem().empty()) throw std::runtime_error(session.bone_problem());

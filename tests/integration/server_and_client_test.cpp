@@ -191,6 +191,15 @@ TEST_F(Programs, FailuresAreOneLineWithStatus1) {
                 AllOf(HasSubstr("bad.toml:2"), HasSubstr("bome")));
 }
 
+TEST_F(Programs, AnOffscreenClientSaysThatItWaitsForAServer) {
+    ChildProcess waiting(client("127.0.0.1:1", "none.json"));
+    const auto deadline = std::chrono::steady_clock::now() + 60s;
+    while (waiting.err().find("waiting for a bone") == std::string::npos &&
+           std::chrono::steady_clock::now() < deadline && !waiting.wait(1s)) {
+    }
+    EXPECT_THAT(waiting.err(), AllOf(HasSubstr("waiting for a bone"), HasSubstr("127.0.0.1:1")));
+}
+
 TEST_F(Programs, SayWhatTheyAre) {
     for (const char* program : {HAPTIC_SERVER, RENDER_CLIENT}) {
         EXPECT_EQ(run_program({program, "--help"}).status, 0);
