@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
@@ -255,6 +256,13 @@ void run_session(const std::string& server_program, const Fault& beside, const F
 
 void run(const std::string& server_program, double seconds, const std::set<std::string>& wanted) {
     const std::string why_no_cable = PrivateNetwork::why_not();
+    // A session with each fault and one without; beside its length each takes a second or two.
+    constexpr double beside_s = 2.0;
+    double all_s = 0.0;
+    for (const Fault& fault : faults())
+        if ((wanted.empty() || wanted.contains(fault.name)) && !(fault.needs_cable && !why_no_cable.empty()))
+            all_s += 2.0 * (std::max(seconds, fault.at_least_s) + beside_s);
+    fmt::print("takes about {:.0f} min\n", std::ceil(all_s / 60.0));
     fmt::print("{:<20}{:>7}{:>9}{:>9}{:>9}{:>8}\n", "", "missed", "woke p99", "p999 us", "step p99", "MB");
     for (const Fault& fault : faults()) {
         if (!wanted.empty() && !wanted.contains(fault.name)) continue;

@@ -19,6 +19,7 @@
 #include <array>
 #include <atomic>
 #include <chrono>
+#include <cmath>
 #include <csignal>
 #include <cstdio>
 #include <functional>
@@ -240,6 +241,12 @@ std::optional<double> off_after_ms(const Fault& fault, const Programs& programs)
 }
 
 void run(const Programs& programs, int runs, const std::vector<std::string>& wanted) {
+    constexpr double run_s = 2.0;  // most of it waits for the spindle to turn, and then to stand
+    const auto kinds = std::ranges::count_if(faults(), [&](const Fault& fault) {
+        return wanted.empty() || std::ranges::find(wanted, fault.name) != wanted.end();
+    });
+    fmt::print("takes about {:.0f} min\n", std::ceil(run_s * static_cast<double>(kinds * runs) / 60.0));
+    std::fflush(stdout);
     fmt::print("{:<18}{:>6}{:>12}{:>11}   ms of each run\n", "spindle off after", "runs", "median ms",
                "worst ms");
     for (const Fault& fault : faults()) {
