@@ -5,7 +5,6 @@ array Colour[11] = [black, pink, red, blue, green, green, green, red, blue, red,
 array Rgb[11]
 do for [i=1:11] { Rgb[i] = int('0x'.Colour[i][2:7]) }
 array Point[11] = [7, 5, 7, 7, 9, 8, 11, 5, 5, 6, 6]
-array Dash[11] = [1, 1, 1, 1, 1, 2, 3, 2, 2, 3, 3]
 # The methods that a table has, by number: Name[i] is empty for the others.
 array Name[11]
 do for [i=1:11] { Name[i] = '' }

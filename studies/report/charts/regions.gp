@@ -47,7 +47,11 @@ do for [i=1:11] {
             unset label
             unset object
         }
-        if (at_column == 0) { set ylabel 'milling rate, ticks of delay' offset -1.2,0 font ',12' } else { unset ylabel }
+        # What the rows' names are: a heading over them, and a line that says what it means.
+        if (at_column == 0) {
+            set label 10 'rate  delay' at screen left - 10.0 / 1300, screen top - at_line * (panel_height + down) + 8.0 / height right font ',12'
+        }
+        if (panel == 0) { set label 11 'rows: rate of milling; delay, ticks of 1 ms' at screen 0.012, screen 26.0 / height left font ',12' }
         # Rows are named by an invisible plot, in the first column only.
         set format y ''
         strips = "for [g=1:3] table using (of(i, g, 0, 'x_low')):'y':(of(i, g, 0, 'x_low')):(of(i, g, 0, 'x_high')) with xerrorbars pt 0 lw 1 lc rgb '#c8c8c8', " \

@@ -6,7 +6,7 @@ panels = int(STATS_max)
 columns = panels > 1 ? 2 : 1
 rows = (panels + columns - 1) / columns
 # Room for the legend, pixels.
-legend = columns > 1 ? 130.0 : 190.0
+legend = 190.0
 height = 620*rows + 30 + legend
 set terminal svg size (columns > 1 ? 900*columns + 100 : 1250),height dynamic font 'DejaVu Sans,15' background 'white'
 set output folder.'/render_accuracy.svg'
@@ -14,6 +14,11 @@ array Family[6] = ['rays shaded by gradient', 'rays to surface voxels', 'rays wi
                    'rays at lower resolution', 'slices shaded by gradient', 'slices of surface voxels (published)']
 array Colour[6] = [blue, sky, grey, green, red, amber]
 array Point[6] = [7, 6, 3, 9, 5, 4]
+# What the families of the table are, and what changes along each line, from above.
+array Title[6] = ['rays, lit by the gradient', 'rays to surface voxels', 'rays that skip no empty bricks', \
+                  'rays at lower resolution', 'slices, lit by the gradient', 'slices of surface voxels (published)']
+settings(i) = system("awk -F, '$1 == 1 && $3 == \"".Family[i]."\" { print $4 }' '".table."' | paste -sd, | sed 's/, *\\(step\\|spacing\\) /, /g; s/,\\([^ ]\\)/, \\1/g'")
+do for [i=1:6] { Title[i] = Title[i].': '.settings(i) }
 of(p, i, what) = column('panel_number') == p && strcol('family') eq Family[i] ? column(what) : NaN
 set datafile missing NaN
 set logscale x
@@ -24,23 +29,21 @@ set xlabel 'time of a frame (median), ms'
 set ylabel 'PSNR against the reference image, dB'
 renderer = system("head -n 1 '".folder."/gl_renderer.txt'")
 bottom = legend / height
-set multiplot layout rows,columns title "What a picture costs and what it is worth\n".renderer \
+set multiplot layout rows,columns title "What a picture costs and what it is worth; steps and spacings in voxels, along each line from above\n".renderer \
     font ',18' noenhanced margins (columns > 1 ? 0.06 : 0.1),0.985,bottom + 0.05,1 - 100/height spacing 0.07,0.11
 do for [p=1:panels] {
     set title system(sprintf("awk -F, '$1 == %d { print $2; exit }' '%s'", p, table)) offset 0,-0.5
     if (p == 1) {
-        set key at screen 0.5,bottom*0.62 center top maxrows (columns > 1 ? 3 : 5) Left reverse samplen 2 width 1 font ',14'
+        set key at screen 0.5,bottom*0.62 center top maxrows 5 Left reverse samplen 2 width 1 font ',14'
     } else {
         unset key
     }
     plot for [i=1:6] table using 'frame_ms':(of(p, i, 'psnr_db')) with linespoints \
-             lc rgb Colour[i] pt Point[i] ps 1.1 lw 1.2 title Family[i], \
-         for [i=1:6] table using 'frame_ms':(of(p, i, 'psnr_db')):'label' with labels \
-             left offset 0.8,0.5 font ',11' tc rgb Colour[i] notitle, \
+             lc rgb Colour[i] pt Point[i] ps 1.1 lw 1.2 title Title[i], \
          table using 'frame_ms':(of(p, 1, 'psnr_trilinear_db')) with points pt 1 ps 1.1 lw 1.5 lc rgb blue \
-             title 'rays by gradient, against the derivative as normal', \
+             title 'rays, lit by the gradient, against a reference lit by slopes of linear interpolation', \
          table using 'frame_ms':(column('panel_number') == p && column('is_default') == 1 ? column('psnr_db') : NaN) \
              with points pt 6 ps 2.2 lw 2.5 lc rgb black title 'the default', \
-         40 with lines dt 2 lw 1.5 lc rgb black title 'goal of full quality'
+         40 with lines dt 2 lw 1.5 lc rgb black title 'goal of full quality, 40 dB'
 }
 unset multiplot
