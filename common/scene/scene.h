@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "common/scene/burr.h"
+#include "common/scene/plan.h"
 #include "common/scene/stiffness_relation.h"
 
 namespace osteomill {
@@ -97,6 +98,7 @@ struct Scene {
     DeviceMapping device;
     ToolPose start_pose;
     TrajectorySpec trajectory;
+    std::optional<Plan> plan{};  ///< what a session is measured against
 
     bool operator==(const Scene&) const = default;
 };

@@ -10,6 +10,7 @@
 #include <sstream>
 
 #include "common/scene/material.h"
+#include "common/scene/plan_table.h"
 #include "common/scene/shallow_toml.h"
 #include "common/scene/toml_reader.h"
 
@@ -264,6 +265,7 @@ Scene read_all(TomlReader reader, const std::filesystem::path& folder) {
     if (auto table = reader.table("start_pose")) scene.start_pose = read_pose(*table);
     if (auto table = reader.table("trajectory"))
         scene.trajectory = read_trajectory(*table, folder, scene.burrs[scene.start_burr]);
+    if (auto table = reader.table("plan")) scene.plan = read_plan(*table, scene.tissues);
     reader.refuse_other_keys();
     return scene;
 }
@@ -386,6 +388,7 @@ std::string write_scene(const Scene& scene) {
     else
         trajectory.insert("file", from_key(std::get<std::filesystem::path>(scene.trajectory.source)));
     root.insert("trajectory", trajectory);
+    if (scene.plan) root.insert("plan", plan_table(*scene.plan));
     std::ostringstream out;
     out << root << '\n';
     return out.str();

@@ -16,6 +16,8 @@
 //     [start_pose]     position_mm, spindle_axis
 //     [trajectory]     motion = "hold" | "polishing" | "cavity"   or   file = "path.csv";
 //                      start_mm, travel_direction, speed_mm_per_s, depth_mm, width_mm
+//     [plan]           tissue = "carious lesion"   or   sphere = { centre_mm, radius_mm }   or
+//                      cylinder = { from_mm, to_mm, radius_mm }; margin_mm
 //
 // Paths are relative to the scene file. Only name and [bone] are required; what is left out takes the
 // defaults of scene.h and the usual burr set at 10 000 rpm.

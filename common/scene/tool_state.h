@@ -46,6 +46,8 @@ struct ToolState {
     /// Moment of what bone does to the shank, about the burr's centre. Nothing where no burr has a shank, or
     /// the server does not say.
     std::optional<glm::dvec3> shank_torque_n_mm{};
+    /// Largest force on the hand since the server began. Nothing where the server does not say.
+    std::optional<double> peak_force_n{};
 };
 static_assert(std::is_trivially_copyable_v<ToolState>);
 

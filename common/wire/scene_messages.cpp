@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "common/bone/finite.h"
+#include "common/wire/plan_message.h"
 
 namespace osteomill {
 
@@ -131,6 +132,7 @@ v1::ToolState to_message(const ToolState& tool) {
         solve.set_damped(tool.solve->damped);
     }
     if (tool.shank_torque_n_mm) write(*tool.shank_torque_n_mm, *message.mutable_shank_torque_n_mm());
+    if (tool.peak_force_n) message.set_peak_force_n(*tool.peak_force_n);
     return message;
 }
 
@@ -145,6 +147,10 @@ v1::Hello to_message(const SessionInfo& session) {
     hello.set_accepts_operator(session.accepts_operator);
     hello.set_force_limit_n(session.force_limit_n);
     hello.set_accepts_controls(session.accepts_controls);
+    if (session.plan) *hello.mutable_plan() = to_message(*session.plan);
+    hello.set_trainee(session.trainee);
+    hello.set_case_(session.case_name);
+    for (const auto& [name, value] : session.settings) (*hello.mutable_settings())[name] = value;
     return hello;
 }
 
@@ -205,6 +211,12 @@ std::variant<SessionInfo, WireError> session_info_from(const v1::Hello& hello) {
     if (auto* error = std::get_if<WireError>(&tissues)) return *error;
     if (!std::isfinite(hello.force_limit_n()) || hello.force_limit_n() < 0.0)
         return WireError{"the force limit is not a finite number of newtons"};
+    std::optional<Plan> plan;
+    if (hello.has_plan()) {
+        auto read = plan_from(hello.plan());
+        if (auto* error = std::get_if<WireError>(&read)) return *error;
+        plan = std::get<0>(std::move(read));
+    }
     return SessionInfo{.protocol_major = hello.protocol_major(),
                        .protocol_minor = hello.protocol_minor(),
                        .scene_name = hello.scene_name(),
@@ -213,7 +225,11 @@ std::variant<SessionInfo, WireError> session_info_from(const v1::Hello& hello) {
                        .tissues = std::get<0>(std::move(tissues)),
                        .accepts_operator = hello.accepts_operator(),
                        .force_limit_n = hello.force_limit_n(),
-                       .accepts_controls = hello.accepts_controls()};
+                       .accepts_controls = hello.accepts_controls(),
+                       .plan = std::move(plan),
+                       .trainee = hello.trainee(),
+                       .case_name = hello.case_(),
+                       .settings = {hello.settings().begin(), hello.settings().end()}};
 }
 
 std::variant<ToolState, WireError> tool_from(const v1::ToolState& message, std::size_t burr_count) {
@@ -236,9 +252,10 @@ std::variant<ToolState, WireError> tool_from(const v1::ToolState& message, std::
                       .fallbacks = message.solve().fallbacks(),
                       .relaxed = message.solve().relaxed(),
                       .damped = message.solve().damped()};
+    if (message.has_peak_force_n()) tool.peak_force_n = message.peak_force_n();
     if (message.has_shank_torque_n_mm()) tool.shank_torque_n_mm = read(message.shank_torque_n_mm());
     if (!std::isfinite(tool.time_s) || !std::isfinite(tool.removed_mm3) ||
-        !std::isfinite(tool.depth_mm.value_or(0.0)) ||
+        !std::isfinite(tool.depth_mm.value_or(0.0)) || !std::isfinite(tool.peak_force_n.value_or(0.0)) ||
         !std::isfinite(tool.solve.value_or(SolveCounts{}).max_residual_n) ||
         !is_finite(tool.shank_torque_n_mm.value_or(glm::dvec3(0.0))) || !is_finite(tool.burr_position_mm) ||
         !is_finite(tool.spindle_axis) || !is_finite(tool.hand_position_mm) || !is_finite(tool.force_n))

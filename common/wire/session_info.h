@@ -2,6 +2,8 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -20,6 +22,10 @@ struct SessionInfo {
     bool accepts_operator = false;  ///< the server runs with --device client
     double force_limit_n = 0.0;
     bool accepts_controls = false;  ///< the server takes a SessionControl
+    std::optional<Plan> plan{};
+    std::string trainee{};
+    std::string case_name{};
+    std::map<std::string, std::string> settings{};  ///< as haptic_server --json names them
 };
 
 }  // namespace osteomill

@@ -101,7 +101,8 @@ void HapticLoop::tick(double now_s, std::uint64_t missed_periods) noexcept {
         .notice = describe(burr_.waits_for()),
         .depth_mm = depth_mm(in_contact),
         .solve = parts_.coupling.solve_counts(),
-        .shank_torque_n_mm = options_.has_shank ? std::optional(shank_torque_n_mm) : std::nullopt};
+        .shank_torque_n_mm = options_.has_shank ? std::optional(shank_torque_n_mm) : std::nullopt,
+        .peak_force_n = peak_force_n_};
     publish({.pose = burr_pose_,
              .spindle_on = spindle_on,
              .burr = burr_.burr(),

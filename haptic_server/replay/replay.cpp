@@ -14,6 +14,7 @@
 #include "haptic_server/replay/recorded_session.h"
 #include "haptic_server/replay/recording_csv.h"
 #include "haptic_server/replay/recording_summary.h"
+#include "haptic_server/report/write_report.h"
 #include "haptic_server/streaming/streaming_server.h"
 #include "haptic_server/surface/mesh_file.h"
 #include "haptic_server/surface/surface_mesh.h"
@@ -101,6 +102,8 @@ void run_replay(const ReplayOptions& options, const std::atomic<bool>& stop, con
     if (options.only_reads()) {
         std::string error;
         if (options.surface || options.difference) error = write_bones(options, stop);
+        if (options.report)
+            error = write_report(options.recording, *options.report, [&] { require_going_on(stop); });
         if (options.info || options.json || options.csv) read(options, stop);
         if (!error.empty()) throw std::runtime_error(error);
         return;

@@ -25,6 +25,7 @@ ReplayCommandLine parse_replay_command_line(int argc, const char* const* argv, c
     std::string csv;
     std::string surface;
     std::string difference;
+    std::string report;
     CLI::App app(
         "Shows a recording of haptic_server --record to render clients, from the moment that the first one "
         "joins; or says what is in it.",
@@ -53,11 +54,17 @@ ReplayCommandLine parse_replay_command_line(int argc, const char* const* argv, c
     app.add_option("--difference", difference,
                    "Write what was removed of each voxel, 0 to 255, to this .nrrd; serve nobody")
         ->type_name("FILE");
+    app.add_option(
+           "--report", report,
+           "Write the session's report (report.html, metrics.csv, metrics.json: docs/metrics.md) into "
+           "this folder; serve nobody")
+        ->type_name("DIR");
     if (auto text = parse_or_text(app, argc, argv)) return {std::nullopt, *std::move(text)};
     if (!json.empty()) options.json = json;
     if (!csv.empty()) options.csv = csv;
     if (!surface.empty()) options.surface = surface;
     if (!difference.empty()) options.difference = difference;
+    if (!report.empty()) options.report = report;
     if (options.surface && !is_mesh_name(*options.surface))
         throw std::invalid_argument(fmt::format("--surface: '{}' must end in {}", surface, mesh_endings));
     if (options.difference && options.difference->extension() != ".nrrd")
@@ -68,12 +75,15 @@ ReplayCommandLine parse_replay_command_line(int argc, const char* const* argv, c
     if (options.csv) files.push_back({"--csv", *options.csv});
     if (options.surface) files.push_back({"--surface", *options.surface});
     if (options.difference) files.push_back({"--difference", *options.difference});
+    if (options.report)
+        for (const char* name : {"report.html", "metrics.csv", "metrics.json"})
+            files.push_back({"--report", *options.report / name});
     require_distinct(files);
     for (const CLI::Option* serving : {where, speed, from})
         if (options.only_reads() && serving->count() > 0)
             throw std::invalid_argument(fmt::format(
-                "{} is for showing a recording; --info, --json, --csv, --surface and --difference read "
-                "all of it",
+                "{} is for showing a recording; --info, --json, --csv, --surface, --difference and "
+                "--report read all of it",
                 serving->get_name()));
     try {
         options.listen = parse_listen_address(listen);

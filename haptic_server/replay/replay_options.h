@@ -22,8 +22,10 @@ struct ReplayOptions {
     std::optional<std::filesystem::path> surface;     ///< of the bone that is left
     std::optional<std::filesystem::path> difference;  ///< what was removed since the recording began
 
+    std::optional<std::filesystem::path> report;  ///< folder for the session's report
+
     /// Whether it is only looked into, and shown to nobody.
-    bool only_reads() const { return info || json || csv || surface || difference; }
+    bool only_reads() const { return info || json || csv || surface || difference || report; }
 };
 
 using ReplayCommandLine = Asked<ReplayOptions>;

@@ -13,7 +13,8 @@ SessionInfo session_info(const Scene& scene, bool accepts_operator, double force
             .burrs = scene.burrs,
             .tissues = scene.tissues,
             .accepts_operator = accepts_operator,
-            .force_limit_n = force_limit_n};
+            .force_limit_n = force_limit_n,
+            .plan = scene.plan};
 }
 
 ToolState LiveSession::update(BoneReplica& mirror, std::size_t) {

@@ -1,0 +1,85 @@
+#include "common/scene/plan_table.h"
+
+#include <fmt/format.h>
+
+#include <glm/geometric.hpp>
+
+namespace osteomill {
+
+namespace {
+
+constexpr double most_mm = 500.0;
+constexpr double farthest_mm = 10'000.0;  // no patient is larger than ten metres
+
+TissueRegion read_tissue(TomlReader& reader, const std::string& name, std::span<const Tissue> tissues) {
+    std::string names;
+    for (const Tissue& tissue : tissues) {
+        if (tissue.name == name) return {name};
+        names += fmt::format("{}\"{}\"", names.empty() ? "" : ", ", tissue.name);
+    }
+    reader.fail("tissue", fmt::format("'tissue' = \"{}\" is no tissue of the scene; {}", name,
+                                      names.empty() ? "it has none: add it as one of [[tissues]]"
+                                                    : "take one of " + names));
+}
+
+glm::dvec3 read_point(TomlReader& reader, std::string_view key) {
+    const glm::dvec3 point = required(reader, key, reader.vector(key));
+    if (glm::length(point) > farthest_mm)
+        reader.fail(key, fmt::format("'{}' lies more than {} mm from the origin", key, farthest_mm));
+    return point;
+}
+
+SphereRegion read_sphere(TomlReader reader) {
+    SphereRegion sphere{.centre_mm = read_point(reader, "centre_mm")};
+    sphere.radius_mm = required(reader, "radius_mm", reader.number("radius_mm", {0.01, most_mm}));
+    reader.refuse_other_keys();
+    return sphere;
+}
+
+CylinderRegion read_cylinder(TomlReader reader) {
+    CylinderRegion cylinder{.from_mm = read_point(reader, "from_mm"), .to_mm = read_point(reader, "to_mm")};
+    cylinder.radius_mm = required(reader, "radius_mm", reader.number("radius_mm", {0.01, most_mm}));
+    reader.refuse_other_keys();
+    if (glm::length(cylinder.to_mm - cylinder.from_mm) < 0.01)
+        reader.fail("to_mm", "a cylinder is at least 0.01 mm long: 'from_mm' and 'to_mm' are one place");
+    return cylinder;
+}
+
+toml::array toml_of(const glm::dvec3& v) {
+    return toml::array{v.x, v.y, v.z};
+}
+
+}  // namespace
+
+Plan read_plan(TomlReader reader, std::span<const Tissue> tissues) {
+    Plan plan;
+    const std::optional<std::string> tissue = reader.text("tissue");
+    const std::optional<TomlReader> sphere = reader.table("sphere");
+    const std::optional<TomlReader> cylinder = reader.table("cylinder");
+    plan.margin_mm = reader.number("margin_mm", {0.0, most_mm}).value_or(plan.margin_mm);
+    reader.refuse_other_keys();
+    if (int{tissue.has_value()} + int{sphere.has_value()} + int{cylinder.has_value()} != 1)
+        reader.fail(
+            "tissue",
+            "[plan] takes one of tissue = \"NAME\", sphere = { centre_mm = [x, y, z], radius_mm = r } "
+            "and cylinder = { from_mm = [x, y, z], to_mm = [x, y, z], radius_mm = r }");
+    if (tissue) plan.region = read_tissue(reader, *tissue, tissues);
+    if (sphere) plan.region = read_sphere(*sphere);
+    if (cylinder) plan.region = read_cylinder(*cylinder);
+    return plan;
+}
+
+toml::table plan_table(const Plan& plan) {
+    toml::table table{{"margin_mm", plan.margin_mm}};
+    if (const auto* tissue = std::get_if<TissueRegion>(&plan.region)) table.insert("tissue", tissue->tissue);
+    if (const auto* sphere = std::get_if<SphereRegion>(&plan.region))
+        table.insert("sphere",
+                     toml::table{{"centre_mm", toml_of(sphere->centre_mm)}, {"radius_mm", sphere->radius_mm}});
+    if (const auto* cylinder = std::get_if<CylinderRegion>(&plan.region))
+        table.insert("cylinder", toml::table{{"from_mm", toml_of(cylinder->from_mm)},
+                                             {"to_mm", toml_of(cylinder->to_mm)},
+                                             {"radius_mm", cylinder->radius_mm}});
+    return table;
+}
+
+}  // namespace osteomill

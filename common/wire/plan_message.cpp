@@ -1,0 +1,74 @@
+#include "common/wire/plan_message.h"
+
+#include <cmath>
+#include <glm/geometric.hpp>
+
+#include "common/bone/finite.h"
+
+namespace osteomill {
+
+namespace {
+
+void write_place(const glm::dvec3& from, v1::Vec3& to) {
+    to.set_x(from.x);
+    to.set_y(from.y);
+    to.set_z(from.z);
+}
+
+glm::dvec3 place_from(const v1::Vec3& from) {
+    return {from.x(), from.y(), from.z()};
+}
+
+}  // namespace
+
+v1::Plan to_message(const Plan& plan) {
+    v1::Plan message;
+    message.set_margin_mm(plan.margin_mm);
+    if (const auto* tissue = std::get_if<TissueRegion>(&plan.region)) message.set_tissue(tissue->tissue);
+    if (const auto* sphere = std::get_if<SphereRegion>(&plan.region)) {
+        write_place(sphere->centre_mm, *message.mutable_sphere()->mutable_centre_mm());
+        message.mutable_sphere()->set_radius_mm(sphere->radius_mm);
+    }
+    if (const auto* cylinder = std::get_if<CylinderRegion>(&plan.region)) {
+        write_place(cylinder->from_mm, *message.mutable_cylinder()->mutable_from_mm());
+        write_place(cylinder->to_mm, *message.mutable_cylinder()->mutable_to_mm());
+        message.mutable_cylinder()->set_radius_mm(cylinder->radius_mm);
+    }
+    return message;
+}
+
+std::variant<Plan, WireError> plan_from(const v1::Plan& message) {
+    Plan plan{.margin_mm = message.margin_mm()};
+    double radius_mm = 1.0;
+    switch (message.region_case()) {
+        case v1::Plan::kTissue:
+            plan.region = TissueRegion{message.tissue()};
+            break;
+        case v1::Plan::kSphere: {
+            const v1::Plan::Sphere& sphere = message.sphere();
+            radius_mm = sphere.radius_mm();
+            if (!is_finite(place_from(sphere.centre_mm()))) return WireError{"the plan's sphere is nowhere"};
+            plan.region = SphereRegion{place_from(sphere.centre_mm()), radius_mm};
+            break;
+        }
+        case v1::Plan::kCylinder: {
+            const v1::Plan::Cylinder& cylinder = message.cylinder();
+            radius_mm = cylinder.radius_mm();
+            const glm::dvec3 from_mm = place_from(cylinder.from_mm());
+            const glm::dvec3 to_mm = place_from(cylinder.to_mm());
+            const double length_mm = glm::length(to_mm - from_mm);
+            if (!std::isfinite(length_mm) || !(length_mm > 0.0))
+                return WireError{"the plan's cylinder has an impossible length"};
+            plan.region = CylinderRegion{from_mm, to_mm, radius_mm};
+            break;
+        }
+        case v1::Plan::REGION_NOT_SET:
+            return WireError{"the plan has no region"};
+    }
+    if (!std::isfinite(radius_mm) || !(radius_mm > 0.0) || !std::isfinite(plan.margin_mm) ||
+        plan.margin_mm < 0.0)
+        return WireError{"the plan has an impossible radius or margin"};
+    return plan;
+}
+
+}  // namespace osteomill

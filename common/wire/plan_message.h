@@ -1,0 +1,17 @@
+// A scene's plan, in and out of a hello.
+#pragma once
+
+#include <variant>
+
+#include "common/scene/plan.h"
+#include "common/wire/wire_error.h"
+#include "osteomill/v1/session.pb.h"
+
+namespace osteomill {
+
+v1::Plan to_message(const Plan& plan);
+
+/// Refuses a plan without a region, and lengths that are not finite or, of a radius, not above zero.
+std::variant<Plan, WireError> plan_from(const v1::Plan& message);
+
+}  // namespace osteomill

@@ -1,0 +1,35 @@
+// A picture of a bone by the CPU: parallel rays through its bricks to where half a voxel is left.
+//
+// Lit by the gradient of the fractions from the viewer's upper left, coloured by tissue; where the near side
+// is cut away, the cut face is flat and bears the tissues' colours. A server has no OpenGL, and a page of a
+// report needs some pictures, not thirty a second.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <span>
+#include <vector>
+
+#include "common/bone/bone.h"
+#include "common/scene/scene.h"
+
+namespace osteomill {
+
+/// Patient LPS.
+struct BoneView {
+    glm::dvec3 centre_mm{0.0};         ///< in the middle of the picture
+    glm::dvec3 direction{0, 0, -1.0};  ///< unit, from the viewer
+    glm::dvec3 up{0, -1.0, 0};         ///< unit, square to the direction
+    double half_width_mm = 10.0;
+    bool is_section = false;  ///< what lies before the centre is cut away
+};
+
+struct RgbPicture {
+    int size_px = 0;  ///< square
+    std::vector<std::uint8_t> rgb{};
+};
+
+RgbPicture picture_of(const Bone& bone, std::span<const Tissue> tissues, const BoneView& view, int size_px);
+
+}  // namespace osteomill

@@ -1,0 +1,69 @@
+// What a recording tells of a session, sample by sample: tool, force, and what each frame took of which
+// tissue.
+//
+// Sample i stands for the interval from sample i - 1 to itself, dt = t_i - t_(i-1); the first has none. Times
+// are session time. Where recordings were joined, it is the last session.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <glm/vec3.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "common/bone/bone.h"
+#include "common/scene/session_control.h"
+#include "common/wire/session_info.h"
+
+namespace osteomill {
+
+/// Bone in whole levels of fraction, so nothing is lost to rounding: 255 are a voxel.
+struct TissueLevels {
+    std::uint8_t tissue = 0;    ///< label; 0: none
+    std::int64_t milled = 0;    ///< taken by the burr
+    std::int64_t restored = 0;  ///< given back by undo and reset, less what redo took again
+};
+
+struct TraceSample {
+    double time_s = 0.0;
+    glm::dvec3 hand_mm{0.0};
+    glm::dvec3 burr_mm{0.0};
+    glm::dvec3 spindle_axis{0.0, 0.0, 1.0};
+    double force_n = 0.0;  ///< magnitude, on the hand
+    double depth_mm = 0.0;
+    std::size_t burr = 0;
+    bool spindle_on = false;
+    bool is_paused = false;
+    std::vector<TissueLevels> levels{};  ///< only of tissues that changed; ascending labels
+
+    std::int64_t milled() const;
+    std::int64_t restored() const;
+    bool cuts() const { return milled() > 0; }
+};
+
+struct SessionTrace {
+    SessionInfo session;
+    Bone at_start;
+    Bone at_end;
+    std::vector<TraceSample> samples{};
+    std::vector<ControlEvent> events{};
+    std::optional<double> peak_force_n{};  ///< of all ticks, where the recording says it
+    std::int64_t began_unix_ns = 0;        ///< 0: not said
+    std::uint64_t bone_checksum = 0;       ///< at the end
+    std::string error{};                   ///< why it is not read further; empty at the end
+
+    double dt_s(std::size_t i) const {
+        return i == 0 ? 0.0 : std::max(0.0, samples[i].time_s - samples[i - 1].time_s);
+    }
+    double mm3(std::int64_t levels) const {
+        return static_cast<double>(levels) / 255.0 * voxel_volume_mm3(at_start.grid());
+    }
+};
+
+/// Reads a recording through; `on_frame` is called before each frame. Throws RecordingError where there is no
+/// bone in it; what is wrong later is said in `error`.
+SessionTrace read_trace(const std::filesystem::path& file, const std::function<void()>& on_frame);
+
+}  // namespace osteomill

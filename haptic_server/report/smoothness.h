@@ -1,0 +1,31 @@
+// How smooth a motion is: its log dimensionless jerk, of positions at a rate of 30 Hz or so.
+//
+//     LDLJ = -ln( T^3 / v_peak^2 * integral over T of |d^3 x / dt^3|^2 dt )
+//
+// Dimensionless, so neither size nor speed of a motion counts; nearer to zero is smoother. A reach of least
+// jerk (Flash and Hogan 1985) has -ln 204.8 = -5.32. Hogan and Sternad, "Sensitivity of smoothness measures
+// to movement duration, amplitude, and arrests", Journal of Motor Behavior 41 (2009); in this form
+// Balasubramanian, Melendez-Calderon and Burdet, IEEE Transactions on Biomedical Engineering 59 (2012), and
+// Balasubramanian et al., Journal of NeuroEngineering and Rehabilitation 12:112 (2015).
+//
+// The jerk between four samples in a row is six times their third divided difference, exact for any spacing
+// of a cubic; it holds from the second to the third of them, and at either end of the motion to the end. Peak
+// speed is that between two samples in a row.
+#pragma once
+
+#include <glm/vec3.hpp>
+#include <optional>
+#include <span>
+
+namespace osteomill {
+
+struct TimedPosition {
+    double time_s = 0.0;
+    glm::dvec3 position_mm{0.0};
+};
+
+/// Times ascend; one that does not is left out. Nothing of fewer than five samples, and where nothing moves
+/// or nothing changes the acceleration.
+std::optional<double> log_dimensionless_jerk(std::span<const TimedPosition> motion);
+
+}  // namespace osteomill

@@ -1,0 +1,34 @@
+// A plot as SVG to stand in an HTML page: one or more lines over a common axis, and moments that are marked.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace osteomill {
+
+struct PlotLine {
+    std::string name{};  ///< in the legend, if there are several
+    std::vector<double> x{};
+    std::vector<double> y{};
+    bool has_dots = false;  ///< each point is a dot on the line
+};
+
+struct PlotMoment {
+    double x = 0.0;
+    std::string text{};
+};
+
+struct SvgPlot {
+    std::string title{};
+    std::string x_text{};  ///< "time (s)"
+    std::string y_text{};  ///< "force (N)"
+    std::vector<PlotLine> lines{};
+    std::vector<PlotMoment> moments{};
+    bool y_from_zero = true;
+};
+
+/// Values that are not finite are left out. However many points there are, no more are written than can be
+/// seen: for each column of pixels the least and the greatest.
+std::string to_svg(const SvgPlot& plot);
+
+}  // namespace osteomill
