@@ -69,7 +69,8 @@ std::string HuHistogram::doubt() const {
             return fmt::format("its values are {} whole numbers from {} to {}, as of a label map, not HU",
                                distinct, lowest, highest);
         return fmt::format(
-            "its values run from {} to {}, as of a picture of 8 bits, not HU; --intensity-window LOW,HIGH "
+            "its values run from {} to {}, as of a picture of 8 bits, not HU; bone_import --intensity-window "
+            "LOW,HIGH "
             "makes HU of them",
             lowest, highest);
     }
@@ -92,7 +93,7 @@ std::string HuHistogram::doubt() const {
         return {};
     return fmt::format(
         "nothing is below {} and {:.0f} % are near 0, as where air is stored as 0; in HU air is -1000: "
-        "--rescale 1,-1024 (or 1,-1000) makes HU of them",
+        "bone_import --rescale 1,-1024 (or 1,-1000) makes HU of them",
         lowest_of_field, 100.0 * share);
 }
 

@@ -2,7 +2,8 @@
 
 #include <fmt/format.h>
 
-#include <array>
+#include <algorithm>
+#include <cmath>
 #include <stdexcept>
 
 #include "common/files/distinct_files.h"
@@ -54,7 +55,9 @@ void export_removed(const ExportOptions& options, const BoneOfFile& carved,
 
 void export_surface(const ExportOptions& options, const Bone& bone,
                     const std::function<void(const std::string&)>& say) {
-    const SurfaceMesh mesh = surface_of(bone);
+    const double spacing_mm = bone.grid().spacing_mm;
+    const double cells = options.cell_mm.value_or(spacing_mm) / spacing_mm;
+    const SurfaceMesh mesh = surface_of(bone, std::max(1, static_cast<int>(std::lround(cells))));
     if (mesh.triangles.empty())
         throw ImagingError(options.bone, "has no surface: no voxel is more than half full");
     write_mesh(options.output, mesh);
@@ -68,6 +71,7 @@ Asked<ExportOptions> parse_export_command_line(int argc, const char* const* argv
     ExportOptions options;
     std::string original;
     double threshold_hu = 0.0;
+    double cell_mm = 0.0;
     CLI::App app(
         "Writes the surface of a bone, carved or not, for other programs; or what was removed of it.",
         "bone_export");
@@ -83,9 +87,15 @@ Asked<ExportOptions> parse_export_command_line(int argc, const char* const* argv
     auto* threshold = app.add_option("--threshold-hu", threshold_hu,
                                      "Bone is at and above this (default: as the file says, else 300)")
                           ->check(within(-1024.0, 10000.0));
+    auto* cell = app.add_option("--spacing-mm", cell_mm,
+                                "Coarser triangles, of cells about so long: for printing (default: a voxel)")
+                     ->check(within(0.01, 10.0));
     if (auto text = parse_or_text(app, argc, argv)) return {std::nullopt, *std::move(text)};
     if (!original.empty()) options.original = original;
     if (threshold->count() > 0) options.threshold_hu = threshold_hu;
+    if (cell->count() > 0) options.cell_mm = cell_mm;
+    if (options.cell_mm && options.original)
+        throw std::invalid_argument("--spacing-mm: of a surface; what was removed has the bone's own");
     if (options.original && options.output.extension() != ".nrrd")
         throw std::invalid_argument(fmt::format(
             "OUT '{}': what was removed is an image, its name ends in .nrrd", options.output.string()));

@@ -14,6 +14,7 @@ struct ExportOptions {
     std::filesystem::path bone;
     std::filesystem::path output;
     std::optional<double> threshold_hu{};
+    std::optional<double> cell_mm{};  ///< of the surface: the bone's own spacing, or about so long
     std::optional<std::filesystem::path> original{};  ///< write what is gone of it, and no surface
 };
 

@@ -26,9 +26,9 @@ constexpr float nearest_to_half = 4.0F;
 constexpr int leaf_edge = static_cast<int>(Leaf::DIM);
 static_assert(brick_edge_voxels % leaf_edge == 0);
 
-float field_at(std::uint8_t fraction) {
-    const auto from_half = static_cast<float>(fraction - half);
-    if (fraction == 0 || std::abs(from_half) >= nearest_to_half) return fraction;
+float field_at(float fraction) {
+    const float from_half = fraction - static_cast<float>(half);
+    if (fraction == 0.0F || std::abs(from_half) >= nearest_to_half) return fraction;
     return static_cast<float>(half) + std::copysign(nearest_to_half, from_half);
 }
 
@@ -73,6 +73,28 @@ FloatGrid::Ptr field_of(const Bone& bone) {
     return field;
 }
 
+/// The same with the mean over cells of so many voxels along each axis.
+FloatGrid::Ptr coarse_field_of(const Bone& bone, int voxels_a_cell) {
+    const FloatGrid::Ptr field = FloatGrid::create(0.0F);
+    FloatGrid::Accessor cells = field->getAccessor();
+    const BoneContent& content = bone.content();
+    for (std::size_t slot = 0; slot < bone.stored_bricks(); ++slot) {
+        const BrickFractions fractions = bone.fractions(static_cast<std::int32_t>(slot));
+        const glm::ivec3 first =
+            brick_position(content.size_bricks, content.brick_of_slot[slot]) * brick_edge_voxels;
+        for (std::size_t offset = 0; offset < brick_voxel_count; ++offset) {
+            if (fractions[offset] == 0) continue;
+            const glm::ivec3 cell = (first + voxel_in_brick(offset)) / voxels_a_cell;
+            const Coord at(cell.x, cell.y, cell.z);
+            cells.setValue(at, cells.getValue(at) + static_cast<float>(fractions[offset]));
+        }
+    }
+    const auto voxels = static_cast<float>(voxels_a_cell) * static_cast<float>(voxels_a_cell) *
+                        static_cast<float>(voxels_a_cell);
+    for (auto value = field->beginValueOn(); value; ++value) value.setValue(field_at(*value / voxels));
+    return field;
+}
+
 glm::vec3 area_vector(const SurfaceMesh& mesh, const std::array<std::uint32_t, 3>& triangle) {
     const glm::vec3& a = mesh.points_mm[triangle[0]];
     return 0.5F * glm::cross(mesh.points_mm[triangle[1]] - a, mesh.points_mm[triangle[2]] - a);
@@ -94,10 +116,12 @@ void add_quad(const openvdb::Vec4I& q, SurfaceMesh& mesh) {
 
 }  // namespace
 
-SurfaceMesh surface_of(const Bone& bone) {
+SurfaceMesh surface_of(const Bone& bone, int voxels_a_cell) {
+    if (voxels_a_cell < 1) throw std::invalid_argument("a cell of a surface has at least one voxel");
     openvdb::tools::VolumeToMesh mesher(half);
     {
-        const FloatGrid::Ptr field = field_of(bone);
+        const FloatGrid::Ptr field =
+            voxels_a_cell == 1 ? field_of(bone) : coarse_field_of(bone, voxels_a_cell);
         mesher(*field);
     }
     if (mesher.pointListSize() > std::numeric_limits<std::uint32_t>::max())
@@ -105,11 +129,12 @@ SurfaceMesh surface_of(const Bone& bone) {
 
     SurfaceMesh mesh;
     const Grid& grid = bone.grid();
+    const double cell_mm = grid.spacing_mm * voxels_a_cell;
+    const glm::dvec3 first_cell_mm = grid.origin_mm + 0.5 * (cell_mm - grid.spacing_mm);
     mesh.points_mm.reserve(mesher.pointListSize());
     for (std::size_t i = 0; i < mesher.pointListSize(); ++i) {
         const openvdb::Vec3s& voxel = mesher.pointList()[i];
-        mesh.points_mm.emplace_back(grid.origin_mm +
-                                    grid.spacing_mm * glm::dvec3(voxel.x(), voxel.y(), voxel.z()));
+        mesh.points_mm.emplace_back(first_cell_mm + cell_mm * glm::dvec3(voxel.x(), voxel.y(), voxel.z()));
     }
     mesher.pointList().reset();
     for (std::size_t pool = 0; pool < mesher.polygonPoolListSize(); ++pool) {

@@ -32,17 +32,21 @@ std::string refusal(const std::function<void()>& act) {
 TEST(ExportCommandLine, TakesASurfaceOrWhatWasRemoved) {
     EXPECT_EQ(parse({"a.nrrd", "a.stl"}).options->output, "a.stl");
     EXPECT_EQ(parse({"a.nrrd", "a.stl", "--threshold-hu", "250"}).options->threshold_hu, 250.0);
+    EXPECT_EQ(parse({"a.nrrd", "a.stl", "--spacing-mm", "0.4"}).options->cell_mm, 0.4);
     EXPECT_EQ(parse({"a.nrrd", "d.nrrd", "--removed", "b.nrrd"}).options->original, "b.nrrd");
     EXPECT_THAT(parse({"--help"}).text, HasSubstr("--removed"));
     EXPECT_EQ(parse({"--version"}).text, "bone_export 0.0.test\n");
-    for (const std::vector<const char*>& wrong : {std::vector<const char*>{},
-                                                  {"a.nrrd"},
-                                                  {"a.nrrd", "a.step"},
-                                                  {"a.nrrd", "b.nrrd"},
-                                                  {"a.nrrd", "a.stl", "--removed", "b.nrrd"},
-                                                  {"a.nrrd", "a.nrrd", "--removed", "b.nrrd"},
-                                                  {"a.nrrd", "b.nrrd", "--removed", "b.nrrd"},
-                                                  {"a.nrrd", "a.stl", "--threshold-hu", "much"}})
+    for (const std::vector<const char*>& wrong :
+         {std::vector<const char*>{},
+          {"a.nrrd"},
+          {"a.nrrd", "a.step"},
+          {"a.nrrd", "b.nrrd"},
+          {"a.nrrd", "a.stl", "--removed", "b.nrrd"},
+          {"a.nrrd", "a.nrrd", "--removed", "b.nrrd"},
+          {"a.nrrd", "b.nrrd", "--removed", "b.nrrd"},
+          {"a.nrrd", "a.stl", "--spacing-mm", "0"},
+          {"a.nrrd", "d.nrrd", "--removed", "b.nrrd", "--spacing-mm", "1"},
+          {"a.nrrd", "a.stl", "--threshold-hu", "much"}})
         EXPECT_THROW(parse(wrong), std::invalid_argument);
 }
 

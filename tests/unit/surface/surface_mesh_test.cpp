@@ -186,6 +186,29 @@ TEST(Surface, CostsForBricksNotForTheGridAround) {
     EXPECT_GT(extent_of(mesh).high.x, 1996.0F);
 }
 
+TEST(Surface, OfCoarserCellsLiesWhereTheFineOneDoes) {
+    constexpr double radius_mm = 3.0;
+    const glm::dvec3 centre_mm(0.013, -0.027, 0.041);
+    const Bone bone = testing::make_block(
+        glm::dvec3(-3.4), glm::dvec3(3.4), 0.1,
+        [&](const glm::dvec3& place_mm) { return radius_mm - glm::distance(place_mm, centre_mm); });
+    std::size_t triangles = surface_of(bone).triangles.size();
+    for (const int voxels : {2, 3, 5}) {
+        SCOPED_TRACE(voxels);
+        const SurfaceMesh mesh = surface_of(bone, voxels);
+        expect_closed(mesh);
+        EXPECT_LT(mesh.triangles.size(), 0.8 * static_cast<double>(triangles));
+        triangles = mesh.triangles.size();
+        double off_mm = 0.0;
+        for (const glm::vec3& point : mesh.points_mm)
+            off_mm += std::abs(glm::distance(glm::dvec3(point), centre_mm) - radius_mm);
+        EXPECT_LT(off_mm / static_cast<double>(mesh.points_mm.size()), 0.1 * 0.1 * voxels);
+    }
+    std::mt19937 random(5);
+    const Grid grid{.size_voxels = {35, 18, 33}, .spacing_mm = 0.1, .origin_mm = far_origin_mm};
+    expect_closed(surface_of(bone_of(grid, [&](const auto&) { return random() % 2 == 0 ? 255 : 0; }), 2));
+}
+
 TEST(Surface, OfNothingIsNothing) {
     const Grid grid{.size_voxels = {20, 20, 20}};
     const SurfaceMesh mesh = surface_of(BoneBuilder::homogeneous(grid, 1.0, false).build());
