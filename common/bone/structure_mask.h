@@ -1,0 +1,59 @@
+// A structure in the patient, such as a nerve: a set of voxels of the bone's grid, whether bone is there or
+// not.
+//
+// Kept by brick, so it costs memory for the bricks it lies in and for nothing round them.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <optional>
+#include <vector>
+
+#include "common/bone/voxel_mask.h"
+
+namespace osteomill {
+
+/// The voxels of a structure in one brick.
+struct StructureBrick {
+    BrickIndex brick = 0;
+    VoxelMask voxels{};
+
+    bool operator==(const StructureBrick&) const = default;
+};
+
+/// A box of voxels, both ends included.
+struct VoxelBounds {
+    glm::ivec3 first{0};
+    glm::ivec3 last{0};
+
+    bool operator==(const VoxelBounds&) const = default;
+};
+
+class StructureMask {
+  public:
+    StructureMask() = default;
+    /// Bricks without voxels are left out. Throws std::invalid_argument for a bad grid, bricks that do not
+    /// ascend or lie outside the grid, and voxels past the grid's edge.
+    StructureMask(const Grid& grid, std::vector<StructureBrick> bricks);
+
+    const Grid& grid() const { return grid_; }
+    /// Ascending by brick; each has voxels.
+    const std::vector<StructureBrick>& bricks() const { return bricks_; }
+    bool empty() const { return bricks_.empty(); }
+    /// False outside the grid.
+    bool contains(const glm::ivec3& voxel) const;
+    std::uint64_t voxel_count() const;
+    double volume_mm3() const { return static_cast<double>(voxel_count()) * voxel_volume_mm3(grid_); }
+    /// Smallest box round all voxels; nothing for an empty structure.
+    std::optional<VoxelBounds> bounds() const;
+    std::size_t memory_bytes() const { return bricks_.capacity() * sizeof(StructureBrick); }
+
+    bool operator==(const StructureMask&) const = default;
+
+  private:
+    Grid grid_{};
+    std::vector<StructureBrick> bricks_;
+};
+
+}  // namespace osteomill
