@@ -30,6 +30,8 @@ class DistanceField {
     /// bricks than a 32-bit index can number.
     DistanceField(const StructureMask& structure, double reach_mm);
 
+    /// Edge of a voxel.
+    double spacing_mm() const { return grid_.spacing_mm; }
     /// How far the table reaches, mm.
     double reach_mm() const { return reach_mm_; }
     /// From the structure's surface, 0 inside; nothing beyond reach_mm(). Real-time safe, from any number of

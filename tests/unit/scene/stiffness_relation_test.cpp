@@ -24,11 +24,11 @@ TEST(StiffnessRelation, HoldsItsEndsAndIsStraightBetweenKnots) {
 }
 
 TEST(StiffnessRelation, RefusesKnotsThatCannotBe) {
-    EXPECT_THROW(require_valid({}), std::invalid_argument);
-    EXPECT_THROW(require_valid({{{100.0, 1.0}, {100.0, 2.0}}}), std::invalid_argument);
-    EXPECT_THROW(require_valid({{{100.0, 0.0}}}), std::invalid_argument);
-    EXPECT_THROW(require_valid({{{100.0, 5.2}}}), std::invalid_argument);
-    EXPECT_THROW(require_valid({{{std::nan(""), 1.0}}}), std::invalid_argument);
+    EXPECT_THROW(require_valid(StiffnessRelation{}), std::invalid_argument);
+    EXPECT_THROW(require_valid(StiffnessRelation{{{100.0, 1.0}, {100.0, 2.0}}}), std::invalid_argument);
+    EXPECT_THROW(require_valid(StiffnessRelation{{{100.0, 0.0}}}), std::invalid_argument);
+    EXPECT_THROW(require_valid(StiffnessRelation{{{100.0, 5.2}}}), std::invalid_argument);
+    EXPECT_THROW(require_valid(StiffnessRelation{{{std::nan(""), 1.0}}}), std::invalid_argument);
 }
 
 }  // namespace
