@@ -19,8 +19,6 @@ nlohmann::ordered_json percentiles_us(const Histogram& histogram) {
             {"max", us_per_s * histogram.max_s()}};
 }
 
-/// What the percentiles were taken from: pairs of a duration in microseconds and how many lasted as long, or
-/// less and longer than those of the pair before.
 nlohmann::ordered_json histogram_us(const Histogram& histogram) {
     constexpr double us_per_s = 1e6;
     nlohmann::ordered_json json = nlohmann::ordered_json::array();
@@ -95,10 +93,13 @@ nlohmann::ordered_json measurements(const MillingSessionReport& report, const Bo
     json["edit_overflows"] = report.change_overflows;
     json["bone"] = cost(bone, peak_resident_bytes);
     json["bone_checksum"] = fmt::format("{:016x}", report.bone_checksum);
-    json["histograms_us"] = {{"wakeup_latency", histogram_us(report.haptic.wakeup_latency)},
-                             {"haptic_tick", histogram_us(report.haptic.duration)},
-                             {"milling_step", histogram_us(report.milling.duration)}};
     return json;
+}
+
+nlohmann::ordered_json histograms_us(const MillingSessionReport& report) {
+    return {{"wakeup_latency", histogram_us(report.haptic.wakeup_latency)},
+            {"haptic_tick", histogram_us(report.haptic.duration)},
+            {"milling_step", histogram_us(report.milling.duration)}};
 }
 
 nlohmann::ordered_json recorded(const RecordingReport& recording) {

@@ -23,6 +23,10 @@ nlohmann::ordered_json measurements(const MillingSessionReport& report, const Bo
                                     std::uint64_t peak_resident_bytes, const Scene& scene,
                                     const ServerOptions& options);
 
+/// What the percentiles were taken from, by loop: lists of pairs of a duration in microseconds and how many
+/// lasted as long, or less and longer than those of the pair before.
+nlohmann::ordered_json histograms_us(const MillingSessionReport& report);
+
 /// What became of a recording, under "recording": file, frames, bytes, pauses (for which the disk was full),
 /// error (null where there is none).
 nlohmann::ordered_json recorded(const RecordingReport& recording);

@@ -32,10 +32,13 @@
 #include "haptic_server/loop/thread_priority.h"
 #include "haptic_server/program/bone_source.h"
 #include "haptic_server/program/measurements.h"
+#include "haptic_server/program/report_folder.h"
 #include "haptic_server/program/resident_memory.h"
 #include "haptic_server/program/scene_on_bone.h"
 #include "haptic_server/program/session_keeper.h"
+#include "haptic_server/program/session_settings.h"
 #include "haptic_server/program/status_line.h"
+#include "haptic_server/report/write_report.h"
 #include "haptic_server/streaming/live_session.h"
 #include "haptic_server/streaming/streaming_server.h"
 
@@ -156,6 +159,8 @@ Streaming make_streaming(StreamingOptions wanted, const ServerOptions& options, 
     SessionInfo info =
         session_info(scene, device.operator_channel != nullptr, device.device->limits().max_force_n, version);
     info.accepts_controls = options.session.clock == ClockKind::real;
+    info.trainee = options.trainee;
+    info.settings = as_texts(session_settings(options, scene, version));
     streaming.server =
         std::make_unique<StreamingServer>(std::move(wanted), std::move(info), std::move(mirror),
                                           *streaming.shown, device.operator_channel.get());
@@ -235,8 +240,9 @@ void run_server(const ServerOptions& options, const std::string& version, const 
         return;
     }
     const auto began = std::chrono::steady_clock::now();
-    for (const auto& file :
-         {options.save_bone, options.json, options.log_csv, options.log_milling_csv, options.record})
+    if (options.report) prepare_report_folder(*options.report);
+    for (const auto& file : {options.save_bone, options.json, options.json_histograms, options.log_csv,
+                             options.log_milling_csv, options.record})
         require_folder_of(file);
     StreamingOptions streaming_as_typed =
         streaming_options(options.listen.value_or(ListenAddress{}), options.access);
@@ -320,8 +326,12 @@ void run_server(const ServerOptions& options, const std::string& version, const 
     outputs.write([&] {
         if (!options.json) return;
         auto json = measurements(report, cost, peak_bytes, scene, options);
+        json["settings"] = session_settings(options, scene, version);
         if (recording) json["recording"] = recorded(*recording);
         write_json(json, *options.json);
+    });
+    outputs.write([&] {
+        if (options.json_histograms) write_json(histograms_us(report), *options.json_histograms);
     });
     if (streaming) streaming.server->stop();
     outputs.write([&] {
@@ -333,6 +343,10 @@ void run_server(const ServerOptions& options, const std::string& version, const 
     });
     outputs.write([&] {
         if (recording && !recording->error.empty()) throw std::runtime_error(recording->error);
+        if (!options.report) return;
+        const std::string error = write_report(recording_in(*options.report), *options.report, [] {});
+        if (!error.empty()) throw std::runtime_error(error);
+        output.out->write(fmt::format("report: {}\n", (*options.report / "report.html").string()));
     });
     outputs.require_complete();
 }

@@ -11,6 +11,7 @@
 #include "common/files/distinct_files.h"
 #include "haptic_server/device/hid/profile_file.h"
 #include "haptic_server/imaging/phantom.h"
+#include "haptic_server/program/report_folder.h"
 
 namespace osteomill {
 
@@ -39,6 +40,9 @@ struct Typed {
     std::string record;
     std::string save_bone;
     std::string json;
+    std::string json_histograms;
+    std::string report;
+    std::string trainee;
     std::string log_csv;
     std::string log_milling_csv;
 };
@@ -159,7 +163,18 @@ void declare(CLI::App& app, Typed& typed) {
                    "says how "
                    "far it has come")
         ->type_name("FILE.nrrd");
-    app.add_option("--json", typed.json, "Write what was measured")->type_name("FILE");
+    app.add_option(
+           "--report", typed.report,
+           "Record the session into this folder and, at its end, write its report: report.html, metrics.csv, "
+           "metrics.json; a folder that holds a session already is refused")
+        ->type_name("DIR");
+    app.add_option("--trainee", typed.trainee, "Whose session it is, for the recording and the report")
+        ->type_name("NAME");
+    app.add_option("--json", typed.json, "Write what was measured, and with which settings")
+        ->type_name("FILE");
+    app.add_option("--json-histograms", typed.json_histograms,
+                   "Write the histograms that the percentiles of --json are from")
+        ->type_name("FILE");
     app.add_option("--log-csv", typed.log_csv, "Write force and depth, a line a millisecond")
         ->type_name("FILE");
     app.add_option(
@@ -199,6 +214,17 @@ bool checked_vibration(const Typed& typed) {
     return typed.vibration;
 }
 
+std::string checked_trainee(const std::string& name) {
+    constexpr std::size_t longest = 100;
+    const bool has_control = std::any_of(name.begin(), name.end(), [](char letter) {
+        return static_cast<unsigned char>(letter) < 0x20 || letter == 0x7f;
+    });
+    if (name.size() > longest || has_control)
+        throw std::invalid_argument(
+            fmt::format("--trainee: a name is one line of at most {} bytes", longest));
+    return name;
+}
+
 /// What is published is 100 Hz for the milling force. A force that is a wall, too, needs all that there is:
 /// an arm in a light hand holds 0.2 N/mm at 100 Hz, 1.4 N/mm at 1 kHz.
 double default_milling_rate_hz(const MillingSessionOptions& session) {
@@ -221,9 +247,13 @@ void require_distinct_files(const ServerOptions& options, const AccessOptions& a
     add("--operators", options.operators, false);
     add("--controls", options.controls, false);
     add("--json", options.json, true);
+    add("--json-histograms", options.json_histograms, true);
+    if (options.report)
+        for (const char* name : {"report.html", "metrics.csv", "metrics.json"})
+            add("--report", *options.report / name, true);
     add("--log-csv", options.log_csv, true);
     add("--log-milling-csv", options.log_milling_csv, true);
-    add("--record", options.record, true);
+    add(options.report ? "--report" : "--record", options.record, true);
     const std::size_t without_bones = files.size();
     for (const bool saved : {false, true}) {
         files.resize(without_bones);
@@ -283,6 +313,12 @@ ServerOptions checked(const Typed& typed, const AccessOptions& access) {
             "--operators: needs TLS (--tls-cert, --tls-key, --tls-ca), which says who a client is");
     options.controls = path_if_given(typed.controls);
     options.record = path_if_given(typed.record);
+    options.report = path_if_given(typed.report);
+    if (options.report && options.record)
+        throw std::invalid_argument("--record: --report records already, as DIR/session.pcap");
+    if (options.report) options.record = recording_in(*options.report);
+    options.trainee = checked_trainee(typed.trainee);
+    options.json_histograms = path_if_given(typed.json_histograms);
     options.save_bone = path_if_given(typed.save_bone);
     if (options.save_bone && options.save_bone->extension() != ".nrrd") {
         throw std::invalid_argument(fmt::format("--save-bone: '{}' must end in .nrrd", typed.save_bone));

@@ -29,9 +29,12 @@ struct ServerOptions {
     Access access;
     std::optional<std::filesystem::path> operators;  ///< who of the clients may move the tool; nullopt: any
     std::optional<std::filesystem::path> controls;   ///< a script of them
-    std::optional<std::filesystem::path> record;
+    std::optional<std::filesystem::path> record;     ///< of a report, too: recording_in() its folder
+    std::optional<std::filesystem::path> report;     ///< folder
+    std::string trainee;
     std::optional<std::filesystem::path> save_bone;
     std::optional<std::filesystem::path> json;
+    std::optional<std::filesystem::path> json_histograms;
     std::optional<std::filesystem::path> log_csv;
     std::optional<std::filesystem::path> log_milling_csv;
 };

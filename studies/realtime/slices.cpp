@@ -64,10 +64,11 @@ void Served::add(const Served& other) {
 Served serve(const std::filesystem::path& haptic_server, double duration_s,
              const std::filesystem::path& work) {
     const std::filesystem::path file = work / "server.json";
-    osteomill::testing::ChildProcess server({haptic_server.string(), "--listen", "127.0.0.1:0",
-                                             "--milling-rate-hz", "1000", "--duration-s",
-                                             fmt::format("{}", duration_s), "--record",
-                                             (work / "session.pcap").string(), "--json", file.string()});
+    const std::filesystem::path histograms_file = work / "histograms.json";
+    osteomill::testing::ChildProcess server(
+        {haptic_server.string(), "--listen", "127.0.0.1:0", "--milling-rate-hz", "1000", "--duration-s",
+         fmt::format("{}", duration_s), "--record", (work / "session.pcap").string(), "--json", file.string(),
+         "--json-histograms", histograms_file.string()});
     const auto address = server.line_after("listening on ", room);
     if (!address) fail("haptic_server", server);
 
@@ -87,7 +88,7 @@ Served serve(const std::filesystem::path& haptic_server, double duration_s,
     if (client_frames == 0) throw std::runtime_error("haptic_server: no client has seen the session");
 
     const nlohmann::json json = read_json(file);
-    const auto& histograms = json.at("histograms_us");
+    const nlohmann::json histograms = read_json(histograms_file);
     const auto& page_faults = json.at("page_faults");
     return {.wakeup = latencies_of_server(histograms.at("wakeup_latency")),
             .haptic_tick = latencies_of_server(histograms.at("haptic_tick")),

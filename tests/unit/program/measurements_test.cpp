@@ -43,7 +43,7 @@ TEST(Measurements, HaveTheKeysThatAreFixed) {
     EXPECT_EQ(json.at("bone_checksum"), "00ab00000000cdef");
     EXPECT_EQ(json.at("faults").at("overrun"), 2);
     EXPECT_EQ(json.at("late_ticks"), 4);
-    const auto& steps = json.at("histograms_us").at("milling_step");
+    const auto steps = histograms_us(*some_report()).at("milling_step");
     ASSERT_EQ(steps.size(), 1u);
     EXPECT_NEAR(steps.at(0).at(0).get<double>(), 250.0, 1e-6);
     EXPECT_EQ(steps.at(0).at(1), 1);

@@ -1,0 +1,15 @@
+// The folder of a session's report: what a session leaves there, and that no two share one.
+#pragma once
+
+#include <filesystem>
+
+namespace osteomill {
+
+/// Where the session that is reported in `folder` is recorded.
+std::filesystem::path recording_in(const std::filesystem::path& folder);
+
+/// Makes the folder. Throws std::runtime_error with one line where it cannot be made, or holds a session
+/// already.
+void prepare_report_folder(const std::filesystem::path& folder);
+
+}  // namespace osteomill

@@ -1,0 +1,54 @@
+#include "haptic_server/program/session_settings.h"
+
+namespace osteomill {
+
+namespace {
+
+const char* name_of(DeviceKind device) {
+    switch (device) {
+        case DeviceKind::client:
+            return "client";
+        case DeviceKind::hid:
+            return "hid";
+        case DeviceKind::space_mouse:
+            return "spacemouse";
+        case DeviceKind::simulated:
+            break;
+    }
+    return "simulated";
+}
+
+}  // namespace
+
+nlohmann::ordered_json session_settings(const ServerOptions& options, const Scene& scene,
+                                        const std::string& version) {
+    const Burr& burr = scene.burrs.at(scene.start_burr);
+    nlohmann::ordered_json json{{"version", version},
+                                {"scene", scene.name},
+                                {"force_model", options.session.force_model},
+                                {"coupling", options.session.coupling},
+                                {"device", name_of(options.device)},
+                                {"grip", options.grip == Grip::light ? "light" : "firm"},
+                                {"burr", burr.name},
+                                {"rpm", 60.0 * burr.spindle_rev_per_s},
+                                {"haptic_rate_hz", 1.0 / MillingSession::tick_s},
+                                {"milling_rate_hz", options.session.milling_rate_hz},
+                                {"clock", options.session.clock == ClockKind::real ? "real" : "virtual"},
+                                {"vibration", options.session.vibration}};
+    const auto add_file = [&](const char* key, const std::optional<std::filesystem::path>& file) {
+        if (file) json[key] = file->filename().string();
+    };
+    add_file("bone", options.bone);
+    add_file("trajectory", options.trajectory);
+    add_file("controls", options.controls);
+    return json;
+}
+
+std::map<std::string, std::string> as_texts(const nlohmann::ordered_json& settings) {
+    std::map<std::string, std::string> texts;
+    for (const auto& [name, value] : settings.items())
+        texts[name] = value.is_string() ? value.get<std::string>() : value.dump();
+    return texts;
+}
+
+}  // namespace osteomill

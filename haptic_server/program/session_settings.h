@@ -1,0 +1,22 @@
+// What a session was run with, by name: in --json under "settings", and in the hello of every client and
+// recording.
+#pragma once
+
+#include <map>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "common/scene/scene.h"
+#include "haptic_server/program/server_options.h"
+
+namespace osteomill {
+
+/// Keys: version, scene, force_model, coupling, device, grip (of a simulated hand), burr (at the start), rpm,
+/// haptic_rate_hz, milling_rate_hz, clock, vibration; and bone, trajectory, controls where a file was given:
+/// its name. A session has no seed: nothing in it is drawn at random.
+nlohmann::ordered_json session_settings(const ServerOptions& options, const Scene& scene,
+                                        const std::string& version);
+
+std::map<std::string, std::string> as_texts(const nlohmann::ordered_json& settings);
+
+}  // namespace osteomill

@@ -1,0 +1,108 @@
+// A recording written frame by frame, as a server writes one: for sessions whose metrics are known.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "common/bone/bone_builder.h"
+#include "common/wire/scene_messages.h"
+#include "haptic_server/streaming/session_recorder.h"
+
+namespace osteomill::testing {
+
+/// A cube of solid bone about the origin; `tissue_at` gives each voxel's label by its centre.
+inline Bone labelled_cube(int bricks_per_edge, double spacing_mm,
+                          const std::function<std::uint8_t(const glm::dvec3&)>& tissue_at) {
+    const int edge = brick_edge_voxels * bricks_per_edge;
+    const Grid grid{.size_voxels = glm::ivec3(edge),
+                    .spacing_mm = spacing_mm,
+                    .origin_mm = glm::dvec3(-0.5 * spacing_mm * (edge - 1))};
+    auto builder = BoneBuilder::homogeneous(grid, 1.0, true);
+    ByteBrick full;
+    full.fill(255);
+    for (int z = 0; z < bricks_per_edge; ++z)
+        for (int y = 0; y < bricks_per_edge; ++y)
+            for (int x = 0; x < bricks_per_edge; ++x) {
+                ByteBrick tissue;
+                for (std::size_t offset = 0; offset < brick_voxel_count; ++offset)
+                    tissue[offset] = tissue_at(centre_of_voxel_mm(
+                        grid, brick_edge_voxels * glm::ivec3(x, y, z) + voxel_in_brick(offset)));
+                builder.add_brick({x, y, z}, full, nullptr, &tissue);
+            }
+    return std::move(builder).build();
+}
+
+class WrittenSession {
+  public:
+    WrittenSession(const std::filesystem::path& file, const SessionInfo& session, const Bone& bone)
+        : mirror_(bone),
+          recorder_(std::in_place, file, Stamp{std::chrono::seconds(1'700'000'000)}, to_message(session),
+                    mirror_, packer_) {}
+
+    /// Takes all of every voxel whose centre `is_in`, before the next frame. Returns how many there were.
+    std::size_t cut(const std::function<bool(const glm::dvec3&)>& is_in) {
+        return set(is_in, 0, ChangeKind::milled);
+    }
+    /// Gives all of them back.
+    std::size_t restore(const std::function<bool(const glm::dvec3&)>& is_in) {
+        return set(is_in, 255, ChangeKind::restored);
+    }
+    /// Takes them again.
+    std::size_t redo(const std::function<bool(const glm::dvec3&)>& is_in) {
+        return set(is_in, 0, ChangeKind::restored);
+    }
+    void event(const ControlEvent& event) { events_.push_back(event); }
+    void frame(const ToolState& tool, const SessionStatus& status = {}) {
+        recorder_->note(mirror_.take_changes());
+        recorder_->note(events_, status);
+        events_.clear();
+        recorder_->record(tool, true, true);
+        last_ = tool;
+    }
+    /// With the last frame once more.
+    void finish() {
+        recorder_->finish(last_, "the end");
+        EXPECT_EQ(recorder_->report().error, "");
+        recorder_.reset();
+    }
+
+  private:
+    std::size_t set(const std::function<bool(const glm::dvec3&)>& is_in, std::uint8_t fraction,
+                    ChangeKind kind) {
+        const Bone& bone = mirror_.bone();
+        const BoneContent& content = bone.content();
+        std::size_t count = 0;
+        for (const BrickIndex brick : content.brick_of_slot) {
+            BrickChange change{.brick = brick, .voxels = {}, .kind = kind};
+            ByteBrick fractions{};
+            fractions.fill(fraction);
+            const BrickFractions now = bone.fractions(bone.slot(brick));
+            const glm::ivec3 first = brick_edge_voxels * brick_position(content.size_bricks, brick);
+            for (std::size_t offset = 0; offset < brick_voxel_count; ++offset)
+                if (now[offset] != fraction &&
+                    is_in(centre_of_voxel_mm(bone.grid(), first + voxel_in_brick(offset))))
+                    change.voxels.set(offset);
+            count += change.voxels.count();
+            if (change.voxels.any()) {
+                EXPECT_TRUE(mirror_.apply(change, fractions));
+            }
+        }
+        return count;
+    }
+
+    BoneReplica mirror_;
+    SnapshotPacker packer_;
+    std::optional<SessionRecorder> recorder_;
+    std::vector<ControlEvent> events_;
+    ToolState last_;
+};
+
+}  // namespace osteomill::testing

@@ -1,0 +1,249 @@
+#include "haptic_server/report/session_metrics.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <glm/geometric.hpp>
+
+#include "tests/support/temporary_folder.h"
+#include "tests/support/written_session.h"
+
+namespace osteomill {
+namespace {
+
+constexpr double period_s = 0.05;
+constexpr double spacing_mm = 0.2;
+constexpr double voxel_mm3 = spacing_mm * spacing_mm * spacing_mm;
+
+/// A cube of 6.4 mm: soft tissue (1) below x = 0, hard (2) from there on, a nerve (3) above z = 2.
+class ReportedSession : public ::testing::Test {
+  protected:
+    ReportedSession()
+        : bone_(testing::labelled_cube(
+              2, spacing_mm,
+              [](const glm::dvec3& place) {
+                  return static_cast<std::uint8_t>(place.z > 2.0 ? 3 : place.x < 0.0 ? 1 : 2);
+              })),
+          session_{.scene_name = "cube",
+                   .burrs = {Burr{.name = "small", .diameter_mm = 1.0}, Burr{.name = "large"}},
+                   .tissues = {{.label = 1, .name = "soft"},
+                               {.label = 2, .name = "hard"},
+                               {.label = 3, .name = "nerve", .is_protected = true}},
+                   .force_limit_n = 3.3},
+          written_(std::in_place, file(), session_, bone_) {}
+
+    std::filesystem::path file() const { return folder_ / "session.pcap"; }
+    void frame(const SessionStatus& status = {}) {
+        written_->frame(tool_, status);
+        tool_.time_s += period_s;
+    }
+    SessionTrace trace() {
+        written_->finish();
+        SessionTrace read = read_trace(file(), [] {});
+        EXPECT_EQ(read.error, "");
+        return read;
+    }
+    /// A layer of voxels at this height, on one side; 16 x 32 voxels.
+    static auto layer(double z_mm, bool is_hard) {
+        return [=](const glm::dvec3& place) {
+            return std::abs(place.z - z_mm) < 0.5 * spacing_mm && (place.x > 0.0) == is_hard;
+        };
+    }
+    static constexpr double layer_mm3 = 16 * 32 * voxel_mm3;
+
+    testing::TemporaryFolder folder_;
+    Bone bone_;
+    SessionInfo session_;
+    std::optional<testing::WrittenSession> written_;
+    ToolState tool_{.hand_position_mm = {0.0, 0.0, 10.0}};
+};
+
+TEST_F(ReportedSession, OfAStraightLineAtConstantSpeed) {
+    for (int i = 0; i <= 100; ++i) {
+        tool_.hand_position_mm = tool_.burr_position_mm = {0.15 * i, -0.2 * i, 10.0};  // 5 mm/s
+        tool_.spindle_on = i > 40 && i <= 80;
+        if (i > 60 && i <= 70) written_->cut(layer(-3.1 + 0.2 * (i - 61), false));
+        frame();
+    }
+    const SessionMetrics metrics = session_metrics(trace());
+    EXPECT_NEAR(metrics.motion.time_s, 5.0, 1e-9);
+    EXPECT_NEAR(metrics.motion.path_mm, 25.0, 1e-9);
+    EXPECT_NEAR(metrics.motion.spindle_s, 2.0, 1e-9);
+    EXPECT_NEAR(metrics.motion.cutting_s, 0.5, 1e-9);
+    EXPECT_NEAR(metrics.motion.cutting_speed_mm_per_s, 5.0, 1e-9);
+    EXPECT_NEAR(metrics.motion.cutting_speed_p95_mm_per_s, 5.0, 1e-9);
+    EXPECT_NEAR(metrics.motion.idle_s, 0.0, 1e-9);
+    EXPECT_FALSE(metrics.motion.smoothness);
+    ASSERT_EQ(metrics.strokes.strokes, 1u);
+    EXPECT_NEAR(metrics.strokes.mean_duration_s, 2.0, 1e-9);
+    EXPECT_NEAR(metrics.strokes.mean_length_mm, 10.0, 1e-9);
+}
+
+TEST_F(ReportedSession, TellsIdleTimeFromPausesAndFromTheTurningSpindle) {
+    for (int i = 0; i <= 20; ++i) frame();  // 1 s at rest
+    for (int i = 0; i < 20; ++i) {          // 1 s at 1 mm/s, too slow to count
+        tool_.hand_position_mm.x += 1.0 * period_s;
+        frame();
+    }
+    for (int i = 0; i < 20; ++i) {  // 1 s at 3 mm/s
+        tool_.hand_position_mm.x += 3.0 * period_s;
+        frame();
+    }
+    tool_.spindle_on = true;
+    for (int i = 0; i < 20; ++i) frame();
+    tool_.spindle_on = false;
+    for (int i = 0; i < 20; ++i) frame({.is_paused = true});
+    const MotionMetrics motion = session_metrics(trace()).motion;
+    EXPECT_NEAR(motion.time_s, 5.0, 1e-9);
+    EXPECT_NEAR(motion.idle_s, 2.0, 1e-9);
+    EXPECT_NEAR(motion.paused_s, 1.0, 1e-9);
+    EXPECT_NEAR(motion.spindle_s, 1.0, 1e-9);
+    EXPECT_NEAR(motion.path_mm, 4.0, 1e-9);
+}
+
+TEST_F(ReportedSession, GivesEachTissueItsForceAndVolume) {
+    frame();
+    tool_.spindle_on = true;
+    const auto mill = [&](bool is_hard, double force_n, int frames) {
+        tool_.force_n = {0.0, 0.6 * force_n, -0.8 * force_n};
+        for (int i = 0; i < frames; ++i) {
+            written_->cut(layer(-3.1 + 0.2 * i, is_hard));
+            frame();
+        }
+    };
+    mill(false, 0.5, 10);
+    tool_.burr = 1;
+    mill(true, 2.0, 20);
+    tool_.force_n = {3.0, 0.0, 0.0};  // pressed, nothing goes
+    tool_.peak_force_n = 3.25;        // between two frames
+    frame();
+    const SessionMetrics metrics = session_metrics(trace());
+    EXPECT_EQ(metrics.force.peak_n, 3.25);
+    ASSERT_EQ(metrics.force.by_tissue.size(), 2u);
+    const auto expect = [](const ForceOfTissue& force, const char* name, double n, double s) {
+        EXPECT_EQ(force.tissue, name);
+        EXPECT_NEAR(force.mean_n, n, 1e-12);
+        EXPECT_NEAR(force.p95_n, n, 1e-12);
+        EXPECT_NEAR(force.peak_n, n, 1e-12);
+        EXPECT_NEAR(force.time_s, s, 1e-9);
+        EXPECT_NEAR(force.impulse_n_s, n * s, 1e-9);
+    };
+    expect(metrics.force.by_tissue[0], "soft", 0.5, 0.5);
+    expect(metrics.force.by_tissue[1], "hard", 2.0, 1.0);
+    EXPECT_NEAR(metrics.force.cutting.mean_n, 1.5, 1e-9);
+    EXPECT_EQ(metrics.force.cutting.peak_n, 2.0);
+
+    EXPECT_NEAR(metrics.removal.removed_mm3, 30 * layer_mm3, 1e-9);
+    ASSERT_EQ(metrics.removal.by_tissue.size(), 3u);
+    EXPECT_NEAR(metrics.removal.by_tissue[0].mm3, 10 * layer_mm3, 1e-9);
+    EXPECT_NEAR(metrics.removal.by_tissue[1].mm3, 20 * layer_mm3, 1e-9);
+    EXPECT_EQ(metrics.removal.by_tissue[2].mm3, 0.0);
+    ASSERT_EQ(metrics.removal.by_burr.size(), 2u);
+    EXPECT_EQ(metrics.removal.by_burr[0].name, "small");
+    EXPECT_NEAR(metrics.removal.by_burr[0].mm3, 10 * layer_mm3, 1e-9);
+    EXPECT_NEAR(metrics.removal.by_burr[1].mm3, 20 * layer_mm3, 1e-9);
+}
+
+TEST_F(ReportedSession, DoesNotCountWhatWasUndone) {
+    const auto stroke = [&](double z_mm) {
+        tool_.spindle_on = true;
+        frame();
+        written_->cut(layer(z_mm, true));
+        frame();
+        tool_.spindle_on = false;
+        frame();
+    };
+    const auto act = [&](SessionAction action) {
+        written_->event({.time_s = tool_.time_s, .action = action});
+        frame();
+    };
+    frame();
+    stroke(-3.1);
+    tool_.burr = 1;
+    stroke(-2.9);
+    stroke(-2.7);
+    act(SessionAction::undo);
+    written_->restore(layer(-2.7, true));
+    frame();
+    act(SessionAction::undo);
+    written_->restore(layer(-2.9, true));
+    frame();
+    act(SessionAction::redo);
+    written_->redo(layer(-2.9, true));
+    frame();
+    written_->event({.time_s = tool_.time_s, .action = SessionAction::undo, .is_refused = true});
+    frame();
+    const SessionMetrics metrics = session_metrics(trace());
+    EXPECT_EQ(metrics.strokes.strokes, 3u);
+    EXPECT_EQ(metrics.strokes.undone, 1u);
+    EXPECT_NEAR(metrics.removal.removed_mm3, 2 * layer_mm3, 1e-9);
+    EXPECT_NEAR(metrics.removal.undone_mm3, layer_mm3, 1e-9);
+    ASSERT_EQ(metrics.removal.by_burr.size(), 2u);
+    EXPECT_NEAR(metrics.removal.by_burr[0].mm3, layer_mm3, 1e-9);
+    EXPECT_NEAR(metrics.removal.by_burr[1].mm3, layer_mm3, 1e-9);
+}
+
+TEST_F(ReportedSession, TellsHowNearAProtectedStructureWasAndWhatItLost) {
+    // The nerve's lowest voxels are centred at z = 2.1; the small burr has a radius of 0.5.
+    tool_.burr_position_mm = {0.1, 0.1, 0.1};
+    frame();
+    tool_.burr_position_mm = {0.1, 0.1, 1.1};
+    frame();
+    std::filesystem::copy_file(folder_ / "session.part.pcap", folder_ / "so_far.pcap");
+    const auto far = session_metrics(read_trace(folder_ / "so_far.pcap", [] {})).structures;
+    ASSERT_EQ(far.size(), 1u);
+    if (far[0].nearest_mm) {
+        EXPECT_GE(*far[0].nearest_mm, 0.5 - 1e-9);
+    }
+
+    tool_.spindle_on = true;
+    const auto touch = [&](double z_mm) {
+        written_->cut(layer(z_mm, true));
+        frame();
+    };
+    const double first_s = tool_.time_s;
+    touch(2.1);
+    touch(2.3);                            // the same
+    for (int i = 0; i < 20; ++i) frame();  // 1 s
+    touch(2.5);                            // another
+    const auto near = session_metrics(trace()).structures;
+    ASSERT_EQ(near.size(), 1u);
+    EXPECT_EQ(near[0].name, "nerve");
+    EXPECT_EQ(near[0].nearest_mm, 0.0);
+    EXPECT_EQ(near[0].touches, 2u);
+    EXPECT_NEAR(*near[0].first_touch_s, first_s, 1e-9);
+    EXPECT_NEAR(near[0].dose_mm3, 3 * layer_mm3, 1e-9);
+    EXPECT_EQ(near[0].undone_dose_mm3, 0.0);
+}
+
+TEST_F(ReportedSession, MeasuresTheNearestApproachFromTheBallToTheStructure) {
+    tool_.burr_position_mm = {0.1, 0.1, 0.1};
+    frame();
+    tool_.burr_position_mm = {0.1, 0.1, 1.1};
+    frame();
+    tool_.burr_position_mm = {0.1, 0.1, -2.0};
+    frame();
+    const auto structures = session_metrics(trace()).structures;
+    ASSERT_EQ(structures.size(), 1u);
+    EXPECT_NEAR(*structures[0].nearest_mm, 2.1 - 1.1 - 0.5, 1e-9);
+    EXPECT_EQ(structures[0].touches, 0u);
+    EXPECT_FALSE(structures[0].first_touch_s);
+}
+
+TEST_F(ReportedSession, IsOfNothingWhereNothingWasDone) {
+    frame();
+    const SessionTrace nothing = trace();
+    const SessionMetrics metrics = session_metrics(nothing);
+    EXPECT_EQ(metrics.motion.time_s, 0.0);
+    EXPECT_EQ(metrics.strokes.strokes, 0u);
+    EXPECT_EQ(metrics.removal.removed_mm3, 0.0);
+    EXPECT_EQ(metrics.force.cutting.mean_n, 0.0);
+    EXPECT_FALSE(metrics.plan);
+    for (const MetricRow& row : metric_rows(metrics))
+        if (row.value) {
+            EXPECT_TRUE(std::isfinite(*row.value)) << row.key;
+        }
+}
+
+}  // namespace
+}  // namespace osteomill

@@ -1,0 +1,86 @@
+#include "haptic_server/report/write_report.h"
+
+#include <gmock/gmock.h>
+
+#include <nlohmann/json.hpp>
+
+#include "common/recording/packet_reader.h"
+#include "haptic_server/report/bone_view.h"
+#include "haptic_server/report/metric_files.h"
+#include "tests/support/made_recording.h"
+#include "tests/support/temporary_folder.h"
+#include "tests/support/written_session.h"
+
+namespace osteomill {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+TEST(WriteReport, ShowsHostileNamesAsTextInOnePage) {
+    const testing::TemporaryFolder folder;
+    const std::string hostile = "\"'><script src=http://x/y.js></script>\xff";
+    const Bone bone = testing::labelled_cube(1, 0.5, [](const glm::dvec3&) { return std::uint8_t{1}; });
+    testing::WrittenSession written(folder / "a.pcap",
+                                    {.scene_name = hostile,
+                                     .server_version = hostile,
+                                     .burrs = {Burr{.name = hostile}},
+                                     .tissues = {{.label = 1, .name = hostile, .is_protected = true}},
+                                     .plan = Plan{.region = TissueRegion{hostile}},
+                                     .trainee = hostile,
+                                     .case_name = hostile,
+                                     .settings = {{hostile, hostile}}},
+                                    bone);
+    written.frame({.time_s = 0.0});
+    written.event({.time_s = 0.5, .action = SessionAction::mark, .text = hostile});
+    written.cut([](const glm::dvec3& place) { return place.z > 3.0; });
+    written.frame({.time_s = 1.0, .spindle_on = true});
+    written.finish();
+    EXPECT_EQ(write_report(folder / "a.pcap", folder / "report", [] {}), "");
+    const std::string page = testing::bytes_of(folder / "report/report.html");
+    EXPECT_THAT(page, Not(HasSubstr("<script")));
+    EXPECT_THAT(page, HasSubstr("&lt;script"));
+    EXPECT_THAT(page, Not(HasSubstr("\xff")));
+    EXPECT_THAT(page, Not(HasSubstr("href=")));
+    EXPECT_THAT(page, HasSubstr("data:image/png;base64,iVBORw0KGgo"));
+    const auto json = nlohmann::json::parse(testing::bytes_of(folder / "report/metrics.json"));
+    EXPECT_EQ(json.at("metrics").at("plan_removed_share"),
+              json.at("metrics").at("removed_mm3").get<double>() / 512.0);
+    EXPECT_THAT(testing::bytes_of(folder / "report/metrics.csv"), HasSubstr("\"\"\"'><script"));
+}
+
+TEST(WriteReport, OfATornRecordingIsOfWhatCanBeRead) {
+    const testing::TemporaryFolder folder;
+    testing::make_recording(folder / "a.pcap");
+    testing::spoil(folder / "a.pcap", 20);
+    EXPECT_THAT(write_report(folder / "a.pcap", folder / "report", [] {}), HasSubstr("a.pcap, packet "));
+    EXPECT_THAT(testing::bytes_of(folder / "report/report.html"), HasSubstr("could not be read to its end"));
+    std::filesystem::resize_file(folder / "a.pcap", 100);
+    EXPECT_THROW((void)write_report(folder / "a.pcap", folder / "other", [] {}), RecordingError);
+    EXPECT_FALSE(std::filesystem::exists(folder / "other"));
+}
+
+TEST(WriteReport, CountsWhatTheBoneLost) {
+    const testing::TemporaryFolder folder;
+    const testing::MadeRecording made = testing::make_recording(folder / "a.pcap");
+    const SessionTrace trace = read_trace(folder / "a.pcap", [] {});
+    EXPECT_NEAR(session_metrics(trace).removal.removed_mm3,
+                bone_volume_mm3(made.before) - bone_volume_mm3(made.after), 1e-9);
+    EXPECT_EQ(trace.bone_checksum, checksum(made.after));
+}
+
+TEST(BoneViewTest, ShowsACubeAsASquare) {
+    const Bone cube = testing::labelled_cube(2, 0.2, [](const glm::dvec3&) { return std::uint8_t{1}; });
+    const RgbPicture picture = picture_of(cube, {}, {.half_width_mm = 6.4}, 32);
+    ASSERT_EQ(picture.rgb.size(), 32u * 32u * 3u);
+    // The cube is 6.4 mm wide, the picture 12.8: the middle half of each row and column is bone.
+    for (int row = 0; row < 32; ++row)
+        for (int column = 0; column < 32; ++column) {
+            const bool is_bone = row >= 8 && row < 24 && column >= 8 && column < 24;
+            EXPECT_EQ(picture.rgb[static_cast<std::size_t>(3 * (32 * row + column))] < 250, is_bone)
+                << row << ' ' << column;
+        }
+}
+
+}  // namespace
+}  // namespace osteomill
