@@ -21,6 +21,7 @@
 #include "studies/render/render_options.h"
 #include "studies/report/chart.h"
 #include "studies/report/output_files.h"
+#include "studies/sessions/sessions_options.h"
 #include "studies/stability/encoder/encoder_noise.h"
 #include "studies/stability/map/stability_options.h"
 #include "studies/stability/rails/force_response.h"
@@ -226,6 +227,9 @@ int main(int argc, char** argv) {
     const CLI::App* const is_realtime = osteomill::study::add_realtime(app, realtime);
     osteomill::study::CalibrationCommand calibration;
     const CLI::App* const is_calibration = osteomill::study::add_calibration(app, calibration);
+    osteomill::study::SessionsStudyOptions sessions;
+    sessions.version = OSTEOMILL_VERSION;
+    const CLI::App* const is_sessions = osteomill::study::add_sessions(app, sessions);
     try {
         app.parse(argc, argv);
         if (app.got_subcommand("force") && app.get_subcommand("force")->count("--voxel-mm") > 0 &&
@@ -233,7 +237,7 @@ int main(int argc, char** argv) {
             throw CLI::RequiresError("--voxel-mm", "--cases or --random");
         if (app.get_subcommands().empty())
             throw CLI::RequiredError(
-                "a study to run: force, stability, polishing, render, realtime or calibrate");
+                "a study to run: force, stability, polishing, render, realtime, calibrate or sessions");
     } catch (const CLI::ParseError& error) {
         if (error.get_exit_code() == 0) return app.exit(error);
         std::cerr << "osteomill_study: " << error.what() << " (see --help)\n";
@@ -250,6 +254,8 @@ int main(int argc, char** argv) {
             run(realtime);
         else if (is_calibration->parsed())
             run(calibration);
+        else if (is_sessions->parsed())
+            osteomill::study::run_sessions_study(sessions, surroundings());
         else
             run(force);
         return 0;

@@ -1,0 +1,52 @@
+#include "studies/sessions/session_record.h"
+
+#include <algorithm>
+#include <array>
+#include <fstream>
+#include <stdexcept>
+
+#include "haptic_server/imaging/digest.h"
+#include "haptic_server/report/session_metrics.h"
+
+namespace osteomill::study {
+
+std::optional<double> SessionRecord::value(const std::string& key) const {
+    const auto found =
+        std::ranges::find_if(metrics, [&](const KeptMetric& m) { return m.key == key && m.of.empty(); });
+    return found == metrics.end() ? std::nullopt : found->value;
+}
+
+std::optional<double> SessionRecord::sum(const std::string& key) const {
+    std::optional<double> sum;
+    for (const KeptMetric& metric : metrics)
+        if (metric.key == key && metric.value) sum = sum.value_or(0.0) + *metric.value;
+    return sum;
+}
+
+std::string digest_of_file(const std::filesystem::path& file) {
+    std::ifstream in(file, std::ios::binary);
+    if (!in) throw std::runtime_error(file.string() + ": cannot be read");
+    Digest digest;
+    std::array<char, 1 << 16> bytes{};
+    while (in.read(bytes.data(), bytes.size()) || in.gcount() > 0)
+        digest.add(std::as_bytes(std::span(bytes.data(), static_cast<std::size_t>(in.gcount()))));
+    if (in.bad()) throw std::runtime_error(file.string() + ": cannot be read");
+    return digest.text();
+}
+
+SessionRecord record_of(const std::filesystem::path& file, const std::string& digest) {
+    const SessionTrace trace = read_trace(file, [] {});
+    if (!trace.error.empty()) throw std::runtime_error(trace.error);
+    if (!trace.ends) throw std::runtime_error(file.string() + ": is torn: the session's end is missing");
+    const SessionInfo& session = trace.session;
+    SessionRecord record{.digest = digest,
+                         .file = file.string(),
+                         .trainee = session.trainee.empty() ? "(no name)" : session.trainee,
+                         .case_name = session.case_name.empty() ? session.scene_name : session.case_name,
+                         .began_unix_ns = trace.began_unix_ns};
+    for (const MetricRow& row : metric_rows(session_metrics(trace)))
+        record.metrics.push_back({row.key, row.of, row.value, row.unit, row.text});
+    return record;
+}
+
+}  // namespace osteomill::study

@@ -1,0 +1,41 @@
+// A session as a study of several keeps it: whose it is, of what, when, and its metrics.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace osteomill::study {
+
+struct KeptMetric {
+    std::string key;  ///< docs/metrics.md
+    std::string of;   ///< tissue, burr or structure; empty: the session
+    std::optional<double> value;
+    std::string unit;
+    std::string text;  ///< for people
+};
+
+struct SessionRecord {
+    std::string digest;  ///< of the recording's bytes: 32 hexadecimal digits
+    std::string file;    ///< as it was named
+    std::string trainee;
+    std::string case_name;  ///< or the scene's
+    std::int64_t began_unix_ns = 0;
+    std::vector<KeptMetric> metrics{};
+
+    /// Of the whole session.
+    std::optional<double> value(const std::string& key) const;
+    /// Added up over tissues, burrs or structures; nothing where there is none.
+    std::optional<double> sum(const std::string& key) const;
+};
+
+/// Of the bytes of a file. Throws std::runtime_error where it cannot be read.
+std::string digest_of_file(const std::filesystem::path& file);
+
+/// Reads a whole recording. Throws std::runtime_error in one line where it is none, or torn: half a session
+/// is not to be compared with whole ones.
+SessionRecord record_of(const std::filesystem::path& file, const std::string& digest);
+
+}  // namespace osteomill::study
