@@ -113,7 +113,7 @@ nlohmann::ordered_json recorded(const RecordingReport& recording) {
 }
 
 void write_json(const nlohmann::ordered_json& json, const std::filesystem::path& file) {
-    write_whole_file(file, json.dump(2) + "\n");
+    write_whole_file(file, json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n");
 }
 
 }  // namespace osteomill

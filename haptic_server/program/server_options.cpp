@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <map>
+#include <nlohmann/json.hpp>
 #include <stdexcept>
 #include <vector>
 
@@ -214,14 +215,23 @@ bool checked_vibration(const Typed& typed) {
     return typed.vibration;
 }
 
+bool is_utf8(const std::string& text) {
+    try {
+        (void)nlohmann::json(text).dump();
+        return true;
+    } catch (const nlohmann::json::type_error&) {
+        return false;
+    }
+}
+
 std::string checked_trainee(const std::string& name) {
     constexpr std::size_t longest = 100;
     const bool has_control = std::any_of(name.begin(), name.end(), [](char letter) {
         return static_cast<unsigned char>(letter) < 0x20 || letter == 0x7f;
     });
-    if (name.size() > longest || has_control)
+    if (name.size() > longest || has_control || !is_utf8(name))
         throw std::invalid_argument(
-            fmt::format("--trainee: a name is one line of at most {} bytes", longest));
+            fmt::format("--trainee: a name is one line of at most {} bytes of UTF-8", longest));
     return name;
 }
 

@@ -1,5 +1,7 @@
 #include "haptic_server/program/session_settings.h"
 
+#include <fmt/format.h>
+
 namespace osteomill {
 
 namespace {
@@ -46,8 +48,13 @@ nlohmann::ordered_json session_settings(const ServerOptions& options, const Scen
 
 std::map<std::string, std::string> as_texts(const nlohmann::ordered_json& settings) {
     std::map<std::string, std::string> texts;
-    for (const auto& [name, value] : settings.items())
-        texts[name] = value.is_string() ? value.get<std::string>() : value.dump();
+    // A file's name may hold bytes that no message takes.
+    const auto valid = nlohmann::ordered_json::parse(
+        settings.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
+    for (const auto& [name, value] : valid.items())
+        texts[name] = value.is_string()         ? value.get<std::string>()
+                      : value.is_number_float() ? fmt::format("{}", value.get<double>())
+                                                : value.dump();
     return texts;
 }
 

@@ -147,8 +147,10 @@ class View {
         glm::dvec3 gradient(0.0);
         for (int axis = 0; axis < 3; ++axis) {
             glm::dvec3 step(0.0);
-            step[axis] = 1.2;
-            gradient[axis] = probe_.between(place - step) - probe_.between(place + step);
+            step[axis] = 1.0;
+            // Over four voxels: a voxel alone shows as a terrace.
+            gradient[axis] = probe_.between(place - step) - probe_.between(place + step) +
+                             probe_.between(place - 2.0 * step) - probe_.between(place + 2.0 * step);
         }
         const double length = glm::length(gradient);
         const glm::dvec3 normal = length > 0.0 ? gradient / length : -view_.direction;

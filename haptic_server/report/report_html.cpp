@@ -18,7 +18,7 @@ body{font:15px/1.45 "Helvetica Neue",Arial,sans-serif;color:#222;max-width:1000p
 h1{font-size:26px;margin:0 0 2px}h2{font-size:18px;margin:30px 0 8px;border-bottom:2px solid #0072b2;padding-bottom:3px}
 p.about{color:#555;margin:2px 0}p.wrong{background:#fdecea;border-left:4px solid #b00;padding:8px 12px}
 .cards{display:flex;flex-wrap:wrap;gap:12px;margin:18px 0}
-.card{flex:1 1 150px;background:#f3f6f9;border-radius:6px;padding:10px 14px}.card b{display:block;font-size:22px}
+.card{flex:1 1 110px;background:#f3f6f9;border-radius:6px;padding:10px 14px}.card b{display:block;font-size:22px}
 .card.bad{background:#fdecea}.card.good{background:#e8f5ee}.card span{color:#555;font-size:13px}
 table{border-collapse:collapse;margin:6px 0 12px;width:100%}td,th{padding:3px 10px;text-align:left;border-bottom:1px solid #e6e6e6}
 td.n,th.n{text-align:right;font-variant-numeric:tabular-nums}td.u{color:#777;padding-left:0}th{color:#555;font-weight:600}

@@ -91,6 +91,7 @@ SessionTrace read_trace(const std::filesystem::path& file, const std::function<v
             const Playhead::Step step = playhead.step(std::numeric_limits<double>::infinity());
             if (step == Playhead::Step::end) break;
             if (step == Playhead::Step::state) add_sample(trace, count, playhead);
+            if (step == Playhead::Step::goodbye) trace.ends = true;
             if (step == Playhead::Step::new_bone) {
                 trace = begin(playhead);
                 count = LevelCount(playhead.bone());

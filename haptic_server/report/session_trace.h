@@ -52,6 +52,7 @@ struct SessionTrace {
     std::optional<double> peak_force_n{};  ///< of all ticks, where the recording says it
     std::int64_t began_unix_ns = 0;        ///< 0: not said
     std::uint64_t bone_checksum = 0;       ///< at the end
+    bool ends = false;                     ///< with a goodbye, in the recording
     std::string error{};                   ///< why it is not read further; empty at the end
 
     double dt_s(std::size_t i) const {

@@ -99,7 +99,7 @@ void add_axes(std::string& svg, const SvgPlot& plot, const Axes& axes) {
             "text-anchor='end'>{:g}</text>",
             left, axes.py(y), width - right, left - 6.0, axes.py(y) + 4.0,
             std::abs(y) < 1e-9 * y_step ? 0.0 : y);
-    const double x_step = tick_step(axes.x);
+    const double x_step = plot.x_is_count ? std::max(1.0, std::round(tick_step(axes.x))) : tick_step(axes.x);
     for (double x = std::ceil(axes.x.low / x_step) * x_step; x <= axes.x.high + 1e-9 * x_step; x += x_step)
         svg += fmt::format(
             "<path d='M{0:.1f} {1:.1f}v5' stroke='#888'/><text x='{0:.1f}' y='{2:.1f}' "
@@ -149,6 +149,7 @@ std::string to_svg(const SvgPlot& plot) {
             }
     if (plot.y_from_zero) axes.y.hold(0.0);
     axes.x.widen();
+    if (plot.x_is_count) axes.x = {axes.x.low - 0.25, axes.x.high + 0.25};
     axes.y.widen();
     axes.y.high += 0.04 * (axes.y.high - axes.y.low);
     std::string svg = fmt::format(

@@ -25,6 +25,7 @@ struct SvgPlot {
     std::vector<PlotLine> lines{};
     std::vector<PlotMoment> moments{};
     bool y_from_zero = true;
+    bool x_is_count = false;  ///< whole numbers, with room about the first and the last
 };
 
 /// Values that are not finite are left out. However many points there are, no more are written than can be

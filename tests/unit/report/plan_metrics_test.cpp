@@ -11,7 +11,7 @@
 namespace osteomill {
 namespace {
 
-constexpr double spacing_mm = 0.1;
+constexpr double fine_mm = 0.1;
 constexpr double radius_mm = 1.5;
 
 bool is_in_sphere(const glm::dvec3& place, const glm::dvec3& centre) {
@@ -22,7 +22,7 @@ bool is_in_sphere(const glm::dvec3& place, const glm::dvec3& centre) {
 /// origin.
 PlanMetrics metrics_of(const Plan& plan, const glm::dvec3& cut_centre) {
     const testing::TemporaryFolder folder;
-    const Bone bone = testing::labelled_cube(3, spacing_mm, [](const glm::dvec3& place) {
+    const Bone bone = testing::labelled_cube(3, fine_mm, [](const glm::dvec3& place) {
         return static_cast<std::uint8_t>(is_in_sphere(place, glm::dvec3(0.0)) ? 2 : 1);
     });
     testing::WrittenSession written(
@@ -46,7 +46,7 @@ TEST(PlanMetricsTest, OfACutThatIsThePlanAreWithoutFault) {
     for (const Plan& plan :
          {Plan{.region = SphereRegion{glm::dvec3(0.0), radius_mm}}, Plan{.region = TissueRegion{"lesion"}}}) {
         const PlanMetrics metrics = metrics_of(plan, glm::dvec3(0.0));
-        EXPECT_NEAR(metrics.planned_mm3, sphere_mm3, 0.01 * sphere_mm3);
+        EXPECT_NEAR(metrics.planned_mm3, sphere_mm3, 0.02 * sphere_mm3);
         EXPECT_EQ(metrics.removed_share, 1.0);
         EXPECT_EQ(metrics.outside_mm3, 0.0);
         EXPECT_EQ(metrics.excess_mm3, 0.0);
@@ -68,9 +68,9 @@ TEST(PlanMetricsTest, OfAShiftedSphereAreThoseOfTwoSpheres) {
         EXPECT_NEAR(metrics.removed_share, shared_mm3 / sphere_mm3, 0.01);
         EXPECT_NEAR(metrics.outside_mm3, sphere_mm3 - shared_mm3, 0.02 * sphere_mm3);
         ASSERT_TRUE(metrics.surface);
-        EXPECT_NEAR(metrics.surface->mean_mm, 0.5 * d, spacing_mm / 2);
-        EXPECT_NEAR(metrics.surface->p95_mm, 0.95 * d, spacing_mm);
-        EXPECT_NEAR(metrics.surface->hausdorff_mm, d, spacing_mm);
+        EXPECT_NEAR(metrics.surface->mean_mm, 0.5 * d, fine_mm / 2);
+        EXPECT_NEAR(metrics.surface->p95_mm, 0.95 * d, fine_mm);
+        EXPECT_NEAR(metrics.surface->hausdorff_mm, d, fine_mm);
         EXPECT_GT(metrics.excess_mm3, 0.0);
         EXPECT_LT(metrics.excess_mm3, metrics.outside_mm3);
     }
@@ -103,7 +103,7 @@ TEST(PlanMetricsTest, OfNothingRemovedHaveNoSurface) {
     const PlanMetrics unknown = metrics_of({.region = TissueRegion{"what nobody knows"}}, glm::dvec3(0.0));
     EXPECT_EQ(unknown.planned_mm3, 0.0);
     EXPECT_EQ(unknown.removed_share, 0.0);
-    EXPECT_NEAR(unknown.excess_mm3, sphere_mm3, 0.01 * sphere_mm3);
+    EXPECT_NEAR(unknown.excess_mm3, sphere_mm3, 0.02 * sphere_mm3);
 }
 
 }  // namespace

@@ -277,5 +277,33 @@ TEST(SceneFile, WhatIsNotTomlOrNotThereIsRefusedInOneLine) {
     EXPECT_THROW((void)read_scene("/"), SceneError);
 }
 
+TEST(SceneFile, ReadsAPlanAndWritesItBack) {
+    const std::string tissues =
+        smallest + "[[tissues]]\nlabel = 7\nname = \"lesion\"\ncolour = \"#543622\"\n[plan]\n";
+    const Scene by_tissue = parse_scene(tissues + "tissue = \"lesion\"\nmargin_mm = 0.25\n", "my.toml");
+    EXPECT_EQ(by_tissue.plan, (Plan{.region = TissueRegion{"lesion"}, .margin_mm = 0.25}));
+    const Scene by_sphere =
+        parse_scene(tissues + "sphere = { centre_mm = [1, 2, 3], radius_mm = 4 }\n", "my.toml");
+    EXPECT_EQ(by_sphere.plan, (Plan{.region = SphereRegion{{1, 2, 3}, 4.0}}));
+    const Scene by_cylinder = parse_scene(
+        tissues + "cylinder = { from_mm = [0, 0, 0], to_mm = [0, 0, 5], radius_mm = 2 }\n", "my.toml");
+    EXPECT_EQ(by_cylinder.plan, (Plan{.region = CylinderRegion{{0, 0, 0}, {0, 0, 5}, 2.0}}));
+    for (const Scene& scene : {by_tissue, by_sphere, by_cylinder})
+        EXPECT_EQ(parse_scene(write_scene(scene), "again.toml"), scene);
+    EXPECT_FALSE(parse_scene(smallest, "my.toml").plan);
+
+    EXPECT_THAT(error_of(tissues + "tissue = \"nerve\"\n"),
+                AllOf(HasSubstr("my.toml:9"), HasSubstr("\"nerve\" is no tissue"), HasSubstr("\"lesion\"")));
+    EXPECT_THAT(error_of(tissues), HasSubstr("[plan] takes one of"));
+    EXPECT_THAT(
+        error_of(tissues + "tissue = \"lesion\"\nsphere = { centre_mm = [1, 2, 3], radius_mm = 4 }\n"),
+        HasSubstr("[plan] takes one of"));
+    EXPECT_THAT(error_of(tissues + "sphere = { centre_mm = [1, 2, 3], radius_mm = -4 }\n"),
+                HasSubstr("radius_mm"));
+    EXPECT_THAT(error_of(tissues + "cylinder = { from_mm = [1, 2, 3], to_mm = [1, 2, 3], radius_mm = 1 }\n"),
+                HasSubstr("one place"));
+    EXPECT_THAT(error_of(tissues + "tissue = \"lesion\"\nmargin = 1\n"), HasSubstr("margin"));
+}
+
 }  // namespace
 }  // namespace osteomill

@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 
+#include <cmath>
 #include <limits>
 
 namespace osteomill {
@@ -148,6 +149,43 @@ TEST(SceneMessages, RefuseAnOperatorWhoAsksTheImpossible) {
     EXPECT_THAT(error_of(operator_command_from(v1::OperatorInput(), 1)), HasSubstr("no length"));
     EXPECT_THAT(error_of(operator_command_from(to_message(OperatorCommand{.burr = 4}), 4)),
                 HasSubstr("burr 4"));
+}
+
+TEST(SceneMessages, BringBackPlanTraineeAndSettings) {
+    SessionInfo session{.burrs = {Burr{.name = "round"}},
+                        .plan = Plan{.region = CylinderRegion{{1, 2, 3}, {4, 5, 6}, 2.0}, .margin_mm = 0.25},
+                        .trainee = "Anna",
+                        .case_name = "molar",
+                        .settings = {{"grip", "firm"}, {"rpm", "40000"}}};
+    for (const Plan& plan : {*session.plan, Plan{.region = SphereRegion{{1, 2, 3}, 4.0}},
+                             Plan{.region = TissueRegion{"lesion"}}}) {
+        session.plan = plan;
+        const auto read = std::get<SessionInfo>(session_info_from(to_message(session)));
+        EXPECT_EQ(read.plan, plan);
+        EXPECT_EQ(read.trainee, "Anna");
+        EXPECT_EQ(read.case_name, "molar");
+        EXPECT_EQ(read.settings, session.settings);
+    }
+    v1::Hello hello = to_message(session);
+    hello.mutable_plan()->clear_region();
+    EXPECT_TRUE(std::holds_alternative<WireError>(session_info_from(hello)));
+    hello.mutable_plan()->mutable_sphere()->set_radius_mm(-1.0);
+    EXPECT_TRUE(std::holds_alternative<WireError>(session_info_from(hello)));
+    hello.mutable_plan()->mutable_sphere()->set_radius_mm(std::nan(""));
+    EXPECT_TRUE(std::holds_alternative<WireError>(session_info_from(hello)));
+    hello.mutable_plan()->mutable_cylinder()->set_radius_mm(1.0);  // of no length
+    EXPECT_TRUE(std::holds_alternative<WireError>(session_info_from(hello)));
+    hello.clear_plan();
+    EXPECT_FALSE(std::get<SessionInfo>(session_info_from(hello)).plan);
+}
+
+TEST(SceneMessages, BringBackTheLargestForceWhereItIsSaid) {
+    ToolState tool;
+    EXPECT_FALSE(std::get<ToolState>(tool_from(to_message(tool), 1)).peak_force_n);
+    tool.peak_force_n = 2.5;
+    EXPECT_EQ(std::get<ToolState>(tool_from(to_message(tool), 1)).peak_force_n, 2.5);
+    tool.peak_force_n = std::nan("");
+    EXPECT_TRUE(std::holds_alternative<WireError>(tool_from(to_message(tool), 1)));
 }
 
 }  // namespace
