@@ -204,4 +204,10 @@ BENCHMARK(FreeAir)->Iterations(5000)->Unit(benchmark::kNanosecond);
 }  // namespace
 }  // namespace osteomill
 
-BENCHMARK_MAIN();
+int main(int argument_count, char** arguments) {
+    benchmark::Initialize(&argument_count, arguments);
+    if (benchmark::ReportUnrecognizedArguments(argument_count, arguments)) return 2;
+    benchmark::AddCustomContext("All of it takes", "about half a minute");
+    benchmark::RunSpecifiedBenchmarks();
+    return 0;
+}

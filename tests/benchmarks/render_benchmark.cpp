@@ -165,4 +165,10 @@ BENCHMARK(IdleFrame)->Iterations(100)->UseManualTime()->Unit(benchmark::kMillise
 }  // namespace
 }  // namespace osteomill
 
-BENCHMARK_MAIN();
+int main(int argument_count, char** arguments) {
+    benchmark::Initialize(&argument_count, arguments);
+    if (benchmark::ReportUnrecognizedArguments(argument_count, arguments)) return 2;
+    benchmark::AddCustomContext("All of it takes", "about a minute");
+    benchmark::RunSpecifiedBenchmarks();
+    return 0;
+}

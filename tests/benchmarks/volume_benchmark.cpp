@@ -180,6 +180,7 @@ void register_benchmarks() {
 int main(int argument_count, char** arguments) {
     benchmark::Initialize(&argument_count, arguments);
     if (benchmark::ReportUnrecognizedArguments(argument_count, arguments)) return 2;
+    benchmark::AddCustomContext("All of it takes", "about two minutes");
     const osteomill::gl::OffscreenContext context;
     fmt::print("{}\n", osteomill::gl::renderer_name());
     osteomill::register_benchmarks();
