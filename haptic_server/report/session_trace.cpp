@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <glm/geometric.hpp>
 #include <limits>
 #include <numeric>
 
+#include "common/recording/packet_reader.h"
 #include "common/recording/playhead.h"
 
 namespace osteomill {
@@ -64,6 +66,12 @@ void add_sample(SessionTrace& trace, LevelCount& count, Playhead& playhead) {
     trace.events.insert(trace.events.end(), playhead.events().begin(), playhead.events().end());
 }
 
+/// Of a session on the virtual clock, whose frames do not say when they were.
+std::int64_t recorded_unix_ns(const std::filesystem::path& file) {
+    const auto first = PacketReader(file).next();
+    return first ? std::chrono::nanoseconds(first->stamp.time_since_epoch()).count() : 0;
+}
+
 SessionTrace begin(Playhead& playhead) {
     (void)playhead.take_changes();
     return {.session = playhead.session(), .at_start = playhead.bone(), .at_end = playhead.bone()};
@@ -100,6 +108,7 @@ SessionTrace read_trace(const std::filesystem::path& file, const std::function<v
     } catch (const RecordingError& error) {
         trace.error = error.what();
     }
+    if (trace.began_unix_ns == 0) trace.began_unix_ns = recorded_unix_ns(file);
     trace.at_end = playhead.bone();
     trace.bone_checksum = playhead.bone_checksum();
     return trace;
