@@ -14,42 +14,35 @@ namespace osteomill {
 
 namespace {
 
-/// Sums what changed against the bone as it was a frame ago, which it keeps.
-class LevelCount {
-  public:
-    explicit LevelCount(const Bone& bone) : before_(bone) {}
-
-    std::vector<TissueLevels> take(const std::vector<BrickChange>& changes, const Bone& now) {
-        std::array<TissueLevels, 256> sums{};
-        for (const BrickChange& change : changes) {
-            const std::int32_t slot = now.slot(change.brick);
-            if (slot == BoneContent::no_slot) continue;
-            const auto left = now.fractions(slot);
-            const auto kept = before_.fractions(slot);
-            change.voxels.for_each([&](std::size_t voxel) {
-                const int lost = int{kept[voxel]} - int{left[voxel]};
-                TissueLevels& levels = sums[now.content().tissue_in(slot, voxel)];
-                if (change.kind == ChangeKind::milled)
-                    levels.milled += lost;
-                else
-                    levels.restored -= lost;
-                kept[voxel] = left[voxel];
-            });
-        }
-        std::vector<TissueLevels> changed;
-        for (std::size_t label = 0; label < sums.size(); ++label)
-            if (sums[label].milled != 0 || sums[label].restored != 0) {
-                sums[label].tissue = static_cast<std::uint8_t>(label);
-                changed.push_back(sums[label]);
-            }
-        return changed;
+/// Sums what changed since `kept`, and makes that as it is `now`.
+std::vector<TissueLevels> take_over(const std::vector<BrickChange>& changes, const Bone& now, Bone& kept) {
+    std::array<TissueLevels, 256> sums{};
+    for (const BrickChange& change : changes) {
+        const std::int32_t slot = now.slot(change.brick);
+        if (slot == BoneContent::no_slot) continue;
+        const auto left = now.fractions(slot);
+        const auto before = kept.fractions(slot);
+        change.voxels.for_each([&](std::size_t voxel) {
+            const int lost = int{before[voxel]} - int{left[voxel]};
+            TissueLevels& levels = sums[now.content().tissue_in(slot, voxel)];
+            if (change.kind == ChangeKind::milled)
+                levels.milled += lost;
+            else
+                levels.restored -= lost;
+            before[voxel] = left[voxel];
+        });
     }
+    std::vector<TissueLevels> changed;
+    for (std::size_t label = 0; label < sums.size(); ++label)
+        if (sums[label].milled != 0 || sums[label].restored != 0) {
+            sums[label].tissue = static_cast<std::uint8_t>(label);
+            changed.push_back(sums[label]);
+        }
+    return changed;
+}
 
-  private:
-    Bone before_;
-};
-
-void add_sample(SessionTrace& trace, LevelCount& count, Playhead& playhead) {
+/// The trace's bone at the end is that of the frame before until then.
+void add_sample(SessionTrace& trace, Playhead& playhead) {
     const ToolState& tool = *playhead.tool();
     if (trace.samples.empty()) trace.began_unix_ns = tool.taken_unix_ns;
     trace.samples.push_back({.time_s = tool.time_s,
@@ -61,7 +54,7 @@ void add_sample(SessionTrace& trace, LevelCount& count, Playhead& playhead) {
                              .burr = tool.burr,
                              .spindle_on = tool.spindle_on,
                              .is_paused = playhead.status().is_paused,
-                             .levels = count.take(playhead.take_changes(), playhead.bone())});
+                             .levels = take_over(playhead.take_changes(), playhead.bone(), trace.at_end)});
     if (tool.peak_force_n) trace.peak_force_n = tool.peak_force_n;
     trace.events.insert(trace.events.end(), playhead.events().begin(), playhead.events().end());
 }
@@ -92,24 +85,20 @@ std::int64_t TraceSample::restored() const {
 SessionTrace read_trace(const std::filesystem::path& file, const std::function<void()>& on_frame) {
     Playhead playhead(file);
     SessionTrace trace = begin(playhead);
-    LevelCount count(playhead.bone());
     try {
         for (;;) {
             on_frame();
             const Playhead::Step step = playhead.step(std::numeric_limits<double>::infinity());
             if (step == Playhead::Step::end) break;
-            if (step == Playhead::Step::state) add_sample(trace, count, playhead);
+            if (step == Playhead::Step::state) add_sample(trace, playhead);
             if (step == Playhead::Step::goodbye) trace.ends = true;
-            if (step == Playhead::Step::new_bone) {
-                trace = begin(playhead);
-                count = LevelCount(playhead.bone());
-            }
+            if (step == Playhead::Step::new_bone) trace = begin(playhead);
         }
     } catch (const RecordingError& error) {
         trace.error = error.what();
     }
     if (trace.began_unix_ns == 0) trace.began_unix_ns = recorded_unix_ns(file);
-    trace.at_end = playhead.bone();
+    (void)take_over(playhead.take_changes(), playhead.bone(), trace.at_end);
     trace.bone_checksum = playhead.bone_checksum();
     return trace;
 }
