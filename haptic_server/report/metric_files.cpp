@@ -63,6 +63,7 @@ std::string metrics_json(const SessionTrace& trace, const std::vector<MetricRow>
           {"settings", settings}}},
         {"metrics", metrics},
         {"events", events}};
+    json["is_complete"] = trace.ends && trace.error.empty();
     json["error"] = nullptr;
     if (!trace.error.empty()) json["error"] = trace.error;
     return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";

@@ -13,8 +13,9 @@ namespace osteomill {
 std::string metrics_csv(const std::vector<MetricRow>& rows);
 
 /// Keys: session {trainee, case, scene, began, version, protocol, bone_checksum, settings}, metrics {key:
-/// value, or, where there is one for each tissue, burr or structure, KEY_of: {name: value}}, events, error
-/// (null: the recording was read to its end). Bytes that are no UTF-8 are replaced.
+/// value, or, where there is one for each tissue, burr or structure, KEY_of: {name: value}}, events,
+/// is_complete (the recording has the session's end), error (null: it could be read as far as it goes). Bytes
+/// that are no UTF-8 are replaced.
 std::string metrics_json(const SessionTrace& trace, const std::vector<MetricRow>& rows);
 
 /// A text as a field of a CSV: quoted where it must be, on one line.

@@ -196,6 +196,8 @@ std::string heading(const SessionTrace& trace) {
             "<p class='wrong'>The recording could not be read to its end; this is of what comes before: "
             "{}</p>",
             html_text(trace.error));
+    else if (!trace.ends)
+        html += "<p class='wrong'>The recording ends before the session does; this is of what it holds.</p>";
     return html;
 }
 

@@ -59,6 +59,26 @@ TEST(WriteReport, OfATornRecordingIsOfWhatCanBeRead) {
     EXPECT_FALSE(std::filesystem::exists(folder / "other"));
 }
 
+TEST(WriteReport, SaysWhereTheSessionsEndIsMissing) {
+    const testing::TemporaryFolder folder;
+    testing::make_recording(folder / "whole.pcap");
+    testing::make_recording(folder / "cut.pcap");
+    std::filesystem::resize_file(folder / "cut.pcap", std::filesystem::file_size(folder / "cut.pcap") - 200);
+    for (const std::string name : {"whole", "cut"}) {
+        EXPECT_EQ(write_report(folder / (name + ".pcap"), folder / name, [] {}), "");
+        const bool is_whole = name == "whole";
+        const auto json = nlohmann::json::parse(testing::bytes_of(folder / name / "metrics.json"));
+        EXPECT_EQ(json.at("is_complete"), is_whole);
+        EXPECT_TRUE(json.at("error").is_null());
+        const auto has_warning = HasSubstr("ends before the session does");
+        const std::string page = testing::bytes_of(folder / name / "report.html");
+        if (is_whole)
+            EXPECT_THAT(page, Not(has_warning));
+        else
+            EXPECT_THAT(page, has_warning);
+    }
+}
+
 TEST(WriteReport, CountsWhatTheBoneLost) {
     const testing::TemporaryFolder folder;
     const testing::MadeRecording made = testing::make_recording(folder / "a.pcap");
