@@ -50,9 +50,9 @@ void add_removal(Rows& rows, const RemovalMetrics& removal) {
     rows.begin("Removed bone");
     rows.add("removed_mm3", "removed", removal.removed_mm3, "mm^3");
     for (const NamedVolume& tissue : removal.by_tissue)
-        rows.add("removed_of_tissue_mm3", "of", tissue.mm3, "mm^3", tissue.name);
+        rows.add("removed_of_tissue_mm3", "removed", tissue.mm3, "mm^3", tissue.name);
     for (const NamedVolume& burr : removal.by_burr)
-        rows.add("removed_by_burr_mm3", "by burr", burr.mm3, "mm^3", burr.name);
+        rows.add("removed_by_burr_mm3", "removed", burr.mm3, "mm^3", burr.name);
     rows.add("undone_mm3", "milled and undone", removal.undone_mm3, "mm^3");
 }
 

@@ -126,6 +126,16 @@ void add_line(std::string& svg, const PlotLine& line, const Axes& axes, const ch
             svg += fmt::format("<circle cx='{:.1f}' cy='{:.1f}' r='3.5' fill='{}'/>", dot.x, dot.y, colour);
 }
 
+void add_moment(std::string& svg, const PlotMoment& moment, double x) {
+    const bool is_right = x > 0.75 * width;
+    svg += fmt::format(
+        "<path d='M{0:.1f} {1:.1f}V{2:.1f}' stroke='#b00' stroke-dasharray='4 3'/><text x='{3:.1f}' "
+        "y='{4:.1f}' "
+        "fill='#b00' font-size='11' text-anchor='{5}'>{6}</text>",
+        x, top, height - bottom, is_right ? x - 3.0 : x + 3.0, top + 9.0, is_right ? "end" : "start",
+        html_text(moment.text));
+}
+
 void add_legend(std::string& svg, const SvgPlot& plot) {
     double x = width - right;
     for (std::size_t i = plot.lines.size(); i-- > 0;) {
@@ -151,7 +161,9 @@ std::string to_svg(const SvgPlot& plot) {
     axes.x.widen();
     if (plot.x_is_count) axes.x = {axes.x.low - 0.25, axes.x.high + 0.25};
     axes.y.widen();
-    axes.y.high += 0.04 * (axes.y.high - axes.y.low);
+    const double room = 0.04 * (axes.y.high - axes.y.low);
+    axes.y.high += room;
+    if (axes.y.low != 0.0) axes.y.low -= room;
     std::string svg = fmt::format(
         "<svg viewBox='0 0 {:g} {:g}' xmlns='http://www.w3.org/2000/svg' role='img' "
         "font-family='sans-serif' font-size='12' fill='#333'>",
@@ -159,12 +171,7 @@ std::string to_svg(const SvgPlot& plot) {
     svg += fmt::format("<title>{}</title>", html_text(plot.title));
     add_axes(svg, plot, axes);
     for (const PlotMoment& moment : plot.moments)
-        if (moment.x >= axes.x.low && moment.x <= axes.x.high)
-            svg += fmt::format(
-                "<path d='M{0:.1f} {1:.1f}V{2:.1f}' stroke='#b00' stroke-dasharray='4 3'/><text x='{3:.1f}' "
-                "y='{4:.1f}' fill='#b00' font-size='11'>{5}</text>",
-                axes.px(moment.x), top, height - bottom, axes.px(moment.x) + 3.0, top + 9.0,
-                html_text(moment.text));
+        if (moment.x >= axes.x.low && moment.x <= axes.x.high) add_moment(svg, moment, axes.px(moment.x));
     for (std::size_t i = 0; i < plot.lines.size(); ++i)
         add_line(svg, plot.lines[i], axes, colours[i % colours.size()]);
     if (plot.lines.size() > 1) add_legend(svg, plot);
