@@ -2,6 +2,9 @@
 // Directions turn; forces turn back and are not scaled.
 #pragma once
 
+#define GLM_ENABLE_EXPERIMENTAL
+#include <glm/gtc/quaternion.hpp>
+#include <glm/gtx/quaternion.hpp>
 #include <glm/mat3x3.hpp>
 #include <glm/matrix.hpp>
 
@@ -34,6 +37,17 @@ inline glm::dvec3 velocity_in_patient_mm_per_s(const DeviceMapping& mapping,
 
 inline glm::dvec3 force_in_device_n(const DeviceMapping& mapping, const glm::dvec3& force_in_patient_n) {
     return glm::transpose(mapping.rotation) * force_in_patient_n;
+}
+
+/// The mapping that has the tool at `wanted` with the device as it now is at `position_in_device_mm`, its
+/// axis at `axis_in_device`: turned by the least angle that does it, and moved.
+inline DeviceMapping placed(const DeviceMapping& mapping, const glm::dvec3& position_in_device_mm,
+                            const glm::dvec3& axis_in_device, const ToolPose& wanted) noexcept {
+    const glm::dvec3 from = direction_in_patient(mapping, axis_in_device);
+    DeviceMapping result = mapping;
+    result.rotation = glm::mat3_cast(glm::rotation(from, wanted.spindle_axis)) * mapping.rotation;
+    result.offset_mm = wanted.position_mm - result.rotation * (result.scale * position_in_device_mm);
+    return result;
 }
 
 }  // namespace osteomill

@@ -22,6 +22,8 @@ const char* name_of(SessionAction action) {
             return "save";
         case SessionAction::finish:
             return "finish";
+        case SessionAction::place:
+            return "place";
     }
     return "nothing";
 }

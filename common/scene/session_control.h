@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <string>
 
+#include "common/scene/scene.h"
+
 namespace osteomill {
 
 enum class SessionAction : std::uint8_t {
@@ -17,6 +19,7 @@ enum class SessionAction : std::uint8_t {
     reset,   ///< undoes all strokes; each can be redone
     save,    ///< the bone as it is
     finish,  ///< ends the session, everything saved
+    place,   ///< the tool somewhere else: the patient is moved and turned under the device
 };
 
 /// As a person says it: "undo".
@@ -27,6 +30,7 @@ struct SessionControl {
 
     SessionAction action = SessionAction::none;
     std::string text{};  ///< of a mark: its note
+    ToolPose pose{};     ///< of place: where the burr shall be, patient LPS; the axis is a unit vector
 
     bool operator==(const SessionControl&) const = default;
 };
@@ -35,7 +39,7 @@ struct SessionControl {
 struct ControlEvent {
     double time_s = 0.0;  ///< session time
     SessionAction action = SessionAction::none;
-    std::string text{};  ///< a mark's note; why it was refused
+    std::string text{};  ///< a mark's note; where the tool was placed; why it was refused
     bool is_refused = false;
 
     bool operator==(const ControlEvent&) const = default;

@@ -1,17 +1,21 @@
 #include "common/wire/control_messages.h"
 
 #include <cmath>
+#include <glm/geometric.hpp>
+
+#include "common/bone/finite.h"
+#include "common/wire/vec3.h"
 
 namespace osteomill {
 
 namespace {
 
 static_assert(static_cast<int>(SessionAction::mark) == v1::SESSION_ACTION_MARK &&
-                  static_cast<int>(SessionAction::finish) == v1::SESSION_ACTION_FINISH,
+                  static_cast<int>(SessionAction::place) == v1::SESSION_ACTION_PLACE,
               "the actions have the numbers of the message");
 
 SessionAction action_from(v1::SessionAction action) {
-    const bool is_known = action >= v1::SESSION_ACTION_MARK && action <= v1::SESSION_ACTION_FINISH;
+    const bool is_known = action >= v1::SESSION_ACTION_MARK && action <= v1::SESSION_ACTION_PLACE;
     return is_known ? static_cast<SessionAction>(action) : SessionAction::none;
 }
 
@@ -21,6 +25,10 @@ v1::SessionControl to_message(const SessionControl& control) {
     v1::SessionControl message;
     message.set_action(static_cast<v1::SessionAction>(control.action));
     message.set_text(control.text);
+    if (control.action == SessionAction::place) {
+        write(control.pose.position_mm, *message.mutable_burr_position_mm());
+        write(control.pose.spindle_axis, *message.mutable_spindle_axis());
+    }
     return message;
 }
 
@@ -49,7 +57,15 @@ std::variant<SessionControl, WireError> session_control_from(const v1::SessionCo
     if (message.text().size() > SessionControl::longest_text)
         return WireError{"the text of a session control has " + std::to_string(message.text().size()) +
                          " bytes; " + std::to_string(SessionControl::longest_text) + " are the most"};
-    return SessionControl{action, one_line(message.text())};
+    SessionControl control{action, one_line(message.text())};
+    if (action == SessionAction::place) {
+        control.pose = {read(message.burr_position_mm()), read(message.spindle_axis())};
+        const double length = glm::length(control.pose.spindle_axis);
+        if (!is_finite(control.pose.position_mm) || !std::isfinite(length) || length < 1e-6)
+            return WireError{"the place for the tool is not a finite position and a direction"};
+        control.pose.spindle_axis /= length;
+    }
+    return control;
 }
 
 std::variant<std::vector<ControlEvent>, WireError> control_events_from(

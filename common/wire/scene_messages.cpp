@@ -8,20 +8,11 @@
 
 #include "common/bone/finite.h"
 #include "common/wire/plan_message.h"
+#include "common/wire/vec3.h"
 
 namespace osteomill {
 
 namespace {
-
-void write(const glm::dvec3& from, v1::Vec3& to) {
-    to.set_x(from.x);
-    to.set_y(from.y);
-    to.set_z(from.z);
-}
-
-glm::dvec3 read(const v1::Vec3& from) {
-    return {from.x(), from.y(), from.z()};
-}
 
 bool is_positive(double value) {
     return std::isfinite(value) && value > 0.0;

@@ -41,6 +41,15 @@ void ClientDevice::end_permission() noexcept {
     limit_.resume_at(target_.position_mm);
 }
 
+void ClientDevice::set_mapping(const DeviceMapping& mapping) noexcept {
+    const glm::dvec3 axis_in_device = direction_in_device(mapping_, target_.spindle_axis);
+    mapping_ = mapping;
+    target_ = {position_in_patient_mm(mapping_, held_arm_.truth().position_mm()),
+               direction_in_patient(mapping_, axis_in_device)};
+    permission_.withdraw();
+    end_permission();
+}
+
 DeviceState ClientDevice::read(double now_s) noexcept {
     // Also before a message is taken that comes with a tick that is late itself.
     if (!permission_.holds(now_s)) end_permission();

@@ -34,6 +34,8 @@ class ClientDevice final : public HapticDevice {
     DeviceState read(double now_s) noexcept override;
     void write(const glm::dvec3& force_n) noexcept override { held_arm_.set_motor_force(force_n); }
     void stop() noexcept override { held_arm_.set_motor_force(glm::dvec3(0.0)); }
+    /// The hand stays where it is and holds still until the next command.
+    void set_mapping(const DeviceMapping& mapping) noexcept override;
     /// What was clamped, once for each kind.
     const char* notice() const noexcept override { return limit_.notice(); }
 

@@ -11,6 +11,8 @@
 #include <optional>
 #include <string>
 
+#include "common/scene/scene.h"
+
 namespace osteomill {
 
 struct DeviceLimits {
@@ -51,6 +53,10 @@ class HapticDevice {
 
     /// Force off, device closed. Safe in any state.
     virtual void stop() noexcept = 0;
+
+    /// From now on the device sits so on the patient. Real-time safe, from the thread of read(). For devices
+    /// that know where the patient is; for others it is no matter.
+    virtual void set_mapping(const DeviceMapping&) noexcept {}
 
     /// What people should know or do about the device, in one line that lives for ever; empty while all is
     /// well. Any thread.

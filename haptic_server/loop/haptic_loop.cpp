@@ -37,9 +37,26 @@ bool HapticLoop::holds_still(const MillingResult& latest) const noexcept {
     return parts_.gate != nullptr && parts_.gate->holds_still.load(std::memory_order_acquire);
 }
 
+void HapticLoop::place(const DeviceState& device) noexcept {
+    if (parts_.placements == nullptr) return;
+    parts_.placements->refresh();
+    const Placement& wanted = parts_.placements->front();
+    const bool is_done = wanted.number == parts_.gate->placed.load(std::memory_order_relaxed);
+    // Only where nobody feels anything: the force has faded out, and comes back when the burr is clear.
+    if (is_done || safety_.state() != ForceGuard::State::off || !device.connected ||
+        !is_finite(device.position_mm) || !is_finite(device.spindle_axis))
+        return;
+    options_.mapping = placed(options_.mapping, device.position_mm, device.spindle_axis, wanted.pose);
+    parts_.device.set_mapping(options_.mapping);
+    has_met_bone_ = false;
+    removed_before_mm3_ = parts_.results.front().total_removed_mm3;
+    parts_.gate->placed.store(wanted.number, std::memory_order_release);
+}
+
 void HapticLoop::tick(double now_s, std::uint64_t missed_periods) noexcept {
     const double elapsed_s = options_.tick_s * static_cast<double>(1 + missed_periods);
     const DeviceState device = parts_.device.read(now_s);
+    place(device);
     parts_.results.refresh();
     const MillingResult& latest = parts_.results.front();
 
@@ -86,7 +103,7 @@ void HapticLoop::tick(double now_s, std::uint64_t missed_periods) noexcept {
     if (latest.touches_protected) protected_until_s_ = now_s + protected_shown_s;
 
     const bool spindle_on = spindle_turned_ = safety_.spindle_turns();
-    const bool in_contact = latest.total_removed_mm3 > 0.0 || force_n != glm::dvec3(0.0);
+    const bool in_contact = latest.total_removed_mm3 > removed_before_mm3_ || force_n != glm::dvec3(0.0);
     const ToolState tool{
         .time_s = now_s,
         .burr_position_mm = burr_pose_.position_mm,

@@ -34,13 +34,14 @@ namespace osteomill {
 struct HapticLoopParts {
     HapticDevice& device;
     Coupling& coupling;
-    TripleBuffer<MillingResult>& results;     ///< read
-    TripleBuffer<BurrCommand>& commands;      ///< written
-    TripleBuffer<ToolState>& tool;            ///< written, for the streaming loop
-    TripleBuffer<ToolState>& status;          ///< written, for whoever shows progress
-    ForceLog* log = nullptr;                  ///< written; null: no log
-    HandpieceVibration* vibration = nullptr;  ///< added to the coupling's force; null: none
-    const SessionGate* gate = nullptr;        ///< read; null: the session never holds still
+    TripleBuffer<MillingResult>& results;           ///< read
+    TripleBuffer<BurrCommand>& commands;            ///< written
+    TripleBuffer<ToolState>& tool;                  ///< written, for the streaming loop
+    TripleBuffer<ToolState>& status;                ///< written, for whoever shows progress
+    ForceLog* log = nullptr;                        ///< written; null: no log
+    HandpieceVibration* vibration = nullptr;        ///< added to the coupling's force; null: none
+    SessionGate* gate = nullptr;                    ///< read and written; null: the session never holds still
+    TripleBuffer<Placement>* placements = nullptr;  ///< read, with `gate`
 };
 
 struct HapticLoopOptions {
@@ -73,6 +74,7 @@ class HapticLoop {
 
   private:
     HandState hand_state(double now_s, double elapsed_s, const DeviceState& device) noexcept;
+    void place(const DeviceState& device) noexcept;
     bool holds_still(const MillingResult& latest) const noexcept;
     void publish(const BurrCommand& command, const ToolState& tool) noexcept;
     double depth_mm(bool in_contact) noexcept;
@@ -92,6 +94,7 @@ class HapticLoop {
 
     bool has_met_bone_ = false;
     ToolPose first_contact_;
+    double removed_before_mm3_ = 0.0;  // when the tool was placed last
 
     double peak_force_n_ = 0.0;
 };

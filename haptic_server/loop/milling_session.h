@@ -99,6 +99,7 @@ class MillingSession {
     /// given back, which it is while the spindle is off. Null where the session cannot be controlled.
     SessionGate* gate() { return restored_ ? &gate_ : nullptr; }
     ChangeQueue* restored() { return restored_.get(); }
+    TripleBuffer<Placement>& placements() { return placements_; }
 
     /// Starts the device, runs until the duration has passed or `stop` is set, stops the device. Calls
     /// `on_progress`, if given, on the caller's thread: about every 20 ms, on the virtual clock every 33 ms
@@ -137,6 +138,7 @@ class MillingSession {
     ChangeQueue changes_;
     SessionGate gate_;
     std::unique_ptr<ChangeQueue> restored_;
+    TripleBuffer<Placement> placements_;
     TripleBuffer<MillingResult> results_;
     TripleBuffer<BurrCommand> commands_;
     TripleBuffer<ToolState> tool_;

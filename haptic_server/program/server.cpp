@@ -39,6 +39,7 @@
 #include "haptic_server/program/session_settings.h"
 #include "haptic_server/program/status_line.h"
 #include "haptic_server/report/write_report.h"
+#include "haptic_server/program/tool_place.h"
 #include "haptic_server/streaming/live_session.h"
 #include "haptic_server/streaming/streaming_server.h"
 
@@ -151,8 +152,13 @@ Streaming make_streaming(StreamingOptions wanted, const ServerOptions& options, 
         wanted.record = RecordTo{.file = *options.record, .began = std::chrono::system_clock::now()};
     Streaming streaming;
     streaming.keeper = std::make_unique<SessionKeeper>(std::move(save));
-    streaming.controls =
-        std::make_unique<SessionControls>(*session.gate(), *session.restored(), streaming.keeper->requests());
+    SessionControls::Requests requests = streaming.keeper->requests();
+    if (device.simulated == nullptr)
+        requests.place = [burrs = scene.burrs](const Bone& bone, const ToolPose& place, std::size_t burr) {
+            return clear_place(bone, burr_hull(burrs[burr]), place);
+        };
+    streaming.controls = std::make_unique<SessionControls>(*session.gate(), *session.restored(),
+                                                           session.placements(), std::move(requests));
     streaming.shown = std::make_unique<LiveSession>(
         session.tool(), session.changes(), streaming.controls.get(),
         options.controls ? read_control_script(*options.controls) : ControlScript{});

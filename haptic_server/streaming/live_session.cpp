@@ -30,7 +30,7 @@ ToolState LiveSession::update(BoneReplica& mirror, std::size_t) {
     if (controls_ != nullptr) {
         for (; !script_.empty() && script_.front().time_s <= tool.time_s; script_.pop_front())
             controls_->control(script_.front().control);
-        controls_->end_frame(mirror.bone(), tool.time_s, tool.spindle_on);
+        controls_->end_frame(mirror.bone(), tool);
     }
     return tool;
 }

@@ -1,5 +1,8 @@
 #include "haptic_server/streaming/session_controls.h"
 
+#include <fmt/format.h>
+
+#include <glm/geometric.hpp>
 #include <utility>
 
 namespace osteomill {
@@ -22,23 +25,24 @@ void SessionControls::note(const BrickChange& change, const Bone& bone) {
     journal_.note(change, bone);
 }
 
-void SessionControls::end_frame(const Bone& bone, double time_s, bool spindle_on) {
-    time_s_ = time_s;
+void SessionControls::end_frame(const Bone& bone, const ToolState& tool) {
+    time_s_ = tool.time_s;
     // The milling loop may be a step behind the pedal: the stroke has ended when no more comes of it.
-    if (!spindle_on && !has_changes_) journal_.end_stroke();
+    if (!tool.spindle_on && !has_changes_) journal_.end_stroke();
     queue_restored();
-    while (!is_restoring() && !waiting_.empty() && act(waiting_.front(), bone, spindle_on))
-        waiting_.pop_front();
+    while (!is_restoring() && !waiting_.empty() && act(waiting_.front(), bone, tool)) waiting_.pop_front();
     const bool wants_stillness = is_paused_ || is_restoring() || !waiting_.empty();
     gate_.holds_still.store(wants_stillness, std::memory_order_release);
 }
 
-bool SessionControls::act(const SessionControl& control, const Bone& bone, bool spindle_on) {
+bool SessionControls::act(const SessionControl& control, const Bone& bone, const ToolState& tool) {
     switch (control.action) {
         case SessionAction::undo:
         case SessionAction::redo:
         case SessionAction::reset:
-            return restore(control.action, bone, spindle_on);
+            return restore(control.action, bone, tool);
+        case SessionAction::place:
+            return place(control, bone, tool);
         case SessionAction::pause:
         case SessionAction::resume:
             is_paused_ = control.action == SessionAction::pause;
@@ -57,8 +61,8 @@ bool SessionControls::act(const SessionControl& control, const Bone& bone, bool 
     return true;
 }
 
-bool SessionControls::restore(SessionAction action, const Bone& bone, bool spindle_on) {
-    if (spindle_on || journal_.has_open_stroke()) return false;
+bool SessionControls::restore(SessionAction action, const Bone& bone, const ToolState& tool) {
+    if (tool.spindle_on || journal_.has_open_stroke()) return false;
     const bool redoes = action == SessionAction::redo;
     if ((redoes ? journal_.redo_steps() : journal_.undo_steps()) == 0) {
         // A reset that has undone its last stroke is done.
@@ -75,6 +79,36 @@ bool SessionControls::restore(SessionAction action, const Bone& bone, bool spind
     }
     say({action});
     return true;
+}
+
+bool SessionControls::place(const SessionControl& control, const Bone& bone, const ToolState& tool) {
+    if (is_being_placed_) {
+        if (gate_.placed.load(std::memory_order_acquire) != placement_.number) return false;
+        is_being_placed_ = false;
+        const glm::dvec3& at = placement_.pose.position_mm;
+        const double moved_mm = glm::distance(at, control.pose.position_mm);
+        say({control.action,
+             fmt::format(
+                 "at {:.1f}, {:.1f}, {:.1f} mm LPS{}", at.x, at.y, at.z,
+                 moved_mm > 0.05 ? fmt::format(", {:.1f} mm out of the bone", moved_mm) : std::string())});
+        if (requests_.placed) requests_.placed(placement_.pose);
+        return true;
+    }
+    if (!requests_.place) {
+        say(control, "the simulated hand follows its own way");
+        return true;
+    }
+    if (tool.spindle_on) return false;
+    const auto found = requests_.place(bone, control.pose, tool.burr);
+    if (const auto* refusal = std::get_if<std::string>(&found)) {
+        say(control, *refusal);
+        return true;
+    }
+    placement_ = {placement_.number + 1, std::get<ToolPose>(found)};
+    placements_.back() = placement_;
+    placements_.publish();
+    is_being_placed_ = true;
+    return false;
 }
 
 void SessionControls::queue_restored() {

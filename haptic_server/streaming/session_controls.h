@@ -11,12 +11,15 @@
 #include <functional>
 #include <string>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #include "common/scene/session_control.h"
+#include "common/scene/tool_state.h"
 #include "common/wire/bone_replica.h"
 #include "haptic_server/exchange/change_queue.h"
 #include "haptic_server/exchange/session_gate.h"
+#include "haptic_server/exchange/triple_buffer.h"
 #include "haptic_server/streaming/stroke_journal.h"
 
 namespace osteomill {
@@ -25,15 +28,21 @@ class SessionControls {
   public:
     /// What is asked of others. Each returns why it cannot be done; an empty line: it will be.
     struct Requests {
-        std::function<std::string(const Bone&)> save;
-        std::function<std::string()> finish;
+        std::function<std::string(const Bone&)> save{};
+        std::function<std::string()> finish{};
+        /// Where the burr goes that is wanted there, or why nowhere. Empty where a tool cannot be placed.
+        std::function<std::variant<ToolPose, std::string>(const Bone&, const ToolPose&, std::size_t burr)>
+            place{};
+        /// It is there now.
+        std::function<void(const ToolPose&)> placed{};
     };
     /// So many wait at most; what comes then is refused.
     static constexpr std::size_t most_waiting = 64;
 
-    /// The one writer of gate.holds_still and of `restored`; both outlive it.
-    SessionControls(SessionGate& gate, ChangeQueue& restored, Requests requests)
-        : gate_(gate), restored_(restored), requests_(std::move(requests)) {}
+    /// The one writer of gate.holds_still, of `restored` and of `placements`; all outlive it.
+    SessionControls(SessionGate& gate, ChangeQueue& restored, TripleBuffer<Placement>& placements,
+                    Requests requests)
+        : gate_(gate), restored_(restored), placements_(placements), requests_(std::move(requests)) {}
 
     void control(const SessionControl& control);
 
@@ -41,22 +50,24 @@ class SessionControls {
     void begin_frame();
     /// For each of them, before it is applied to `bone`.
     void note(const BrickChange& change, const Bone& bone);
-    /// When all are: does what was asked for and can be done now. `time_s`, `spindle_on`: of the session.
-    void end_frame(const Bone& bone, double time_s, bool spindle_on);
+    /// When all are: does what was asked for and can be done now.
+    void end_frame(const Bone& bone, const ToolState& tool);
 
     std::vector<ControlEvent> take_events() { return std::exchange(events_, {}); }
     SessionStatus status() const;
 
   private:
     /// False: it has to wait.
-    bool act(const SessionControl& control, const Bone& bone, bool spindle_on);
-    bool restore(SessionAction action, const Bone& bone, bool spindle_on);
+    bool act(const SessionControl& control, const Bone& bone, const ToolState& tool);
+    bool restore(SessionAction action, const Bone& bone, const ToolState& tool);
+    bool place(const SessionControl& control, const Bone& bone, const ToolState& tool);
     void queue_restored();
     bool is_restoring() const { return !waits_for_room_.empty() || confirmed_ < queued_; }
     void say(const SessionControl& control, std::string refusal = {});
 
     SessionGate& gate_;
     ChangeQueue& restored_;
+    TripleBuffer<Placement>& placements_;
     Requests requests_;
     StrokeJournal journal_;
 
@@ -66,6 +77,8 @@ class SessionControls {
     bool is_paused_ = false;
     bool has_changes_ = false;  // in this frame
 
+    Placement placement_;  // the last that was asked for
+    bool is_being_placed_ = false;
     bool is_resetting_ = false;  // has undone a stroke, and goes on
     std::deque<StrokeJournal::Restored> waits_for_room_;
     std::uint64_t queued_ = 0;     // since the start

@@ -26,15 +26,17 @@ class Bench {
     MillingResult next;  // what the milling loop says from now on
     HandpieceVibration* vibration = nullptr;
     SessionGate gate;
+    TripleBuffer<Placement> placements;
     bool model_runs = true;
     std::uint64_t tick_number = 0;
 
     /// Runs ticks; returns the last force written, device space.
     glm::dvec3 run(int ticks, std::uint64_t missed = 0) {
         if (!loop_) {
-            loop_ = std::make_unique<HapticLoop>(HapticLoopParts{device, coupling, *results, commands, tool,
-                                                                 status, nullptr, vibration, &gate},
-                                                 options);
+            loop_ =
+                std::make_unique<HapticLoop>(HapticLoopParts{device, coupling, *results, commands, tool,
+                                                             status, nullptr, vibration, &gate, &placements},
+                                             options);
         }
         for (int i = 0; i < ticks; ++i) {
             if (model_runs) {
@@ -421,6 +423,35 @@ TEST(HapticLoop, NeverFeelsBoneThatComesBackRoundTheBurr) {
     EXPECT_LE(first.x, 2.0);
     bench.next.has_restored = false;
     for (int i = 0; i < ticks_to_fade(); ++i) EXPECT_EQ(bench.run(1).y, 0.0);
+}
+
+TEST(HapticLoop, PlacesTheToolUnderAHandThatStaysWhereItIs) {
+    Bench bench;
+    bench.options.mapping = {.rotation = glm::dmat3({0, 1, 0}, {-1, 0, 0}, {0, 0, 1}), .scale = 0.5};
+    bench.device.script = [](double) { return DeviceState{.position_mm = {3.0, 4.0, 5.0}}; };
+    bench.coupling.force = [](const HandState&) { return glm::dvec3(0.0, 0.5, 0.0); };
+    bench.run(20);
+    const ToolPose wanted{{40.0, -20.0, 7.0}, glm::normalize(glm::dvec3(1.0, 2.0, -0.5))};
+    bench.placements.back() = {.number = 1, .pose = wanted};
+    bench.placements.publish();
+    bench.run(20);
+    EXPECT_EQ(bench.gate.placed, 0U) << "not while a force is felt";
+
+    bench.gate.holds_still = true;
+    bench.run(ticks_to_fade() + 5);
+    EXPECT_EQ(bench.gate.placed, 1U);
+    EXPECT_LT(glm::distance(bench.shown().hand_position_mm, wanted.position_mm), 1e-9);
+    EXPECT_LT(glm::distance(bench.shown().burr_position_mm, wanted.position_mm), 1e-9);
+    EXPECT_LT(glm::distance(bench.shown().spindle_axis, wanted.spindle_axis), 1e-9);
+    EXPECT_EQ(bench.shown().depth_mm, 0.0);
+
+    // The hand moves on from there, as far as before, and feels what the patient's axes say.
+    bench.gate.holds_still = false;
+    bench.device.script = [](double) { return DeviceState{.position_mm = {3.0, 4.0, 7.0}}; };
+    bench.run(1000);
+    EXPECT_NEAR(glm::distance(bench.shown().hand_position_mm, wanted.position_mm), 1.0, 1e-9);
+    EXPECT_NEAR(glm::length(bench.run(1)), 0.5, 1e-9);
+    EXPECT_LT(glm::distance(bench.shown().force_n, glm::dvec3(0.0, 0.5, 0.0)), 1e-9);
 }
 
 }  // namespace

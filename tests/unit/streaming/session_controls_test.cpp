@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <optional>
+
 #include "tests/support/random_carving.h"
 #include "tests/support/speckled_bone.h"
 
@@ -16,7 +18,7 @@ class SessionControlsTest : public ::testing::Test, public ChangeSink {
           mirror_(milled_),
           restored_(1 << 16, milled_.shared_content()),
           changes_(1 << 20, milled_.shared_content()),
-          controls_(gate_, restored_,
+          controls_(gate_, restored_, placements_,
                     {.save =
                          [this](const Bone& bone) {
                              saved_ = checksum(bone);
@@ -26,7 +28,13 @@ class SessionControlsTest : public ::testing::Test, public ChangeSink {
                          [this] {
                              is_finished_ = true;
                              return std::string();
-                         }}) {}
+                         },
+                     .place = [](const Bone&, const ToolPose& wanted,
+                                 std::size_t) -> std::variant<ToolPose, std::string> {
+                         if (wanted.position_mm.x > 100.0) return std::string("too far");
+                         return ToolPose{wanted.position_mm + wanted.spindle_axis, wanted.spindle_axis};
+                     },
+                     .placed = [this](const ToolPose& pose) { placed_ = pose; }}) {}
 
     void push(const BrickChange& change, BrickFractions fractions) noexcept override {
         changes_.push(change, fractions);
@@ -49,7 +57,7 @@ class SessionControlsTest : public ::testing::Test, public ChangeSink {
             controls_.note(change, mirror_);
             ASSERT_TRUE(apply(change, fractions, mirror_));
         });
-        controls_.end_frame(mirror_, time_s_ += 0.03, spindle_on);
+        controls_.end_frame(mirror_, {.time_s = time_s_ += 0.03, .spindle_on = spindle_on});
     }
     void stroke() {
         mill();
@@ -70,6 +78,8 @@ class SessionControlsTest : public ::testing::Test, public ChangeSink {
     SessionGate gate_;
     ChangeQueue restored_;
     ChangeQueue changes_;
+    TripleBuffer<Placement> placements_;
+    std::optional<ToolPose> placed_;
     SessionControls controls_;
     double time_s_ = 0.0;
     bool can_save_ = true;
@@ -187,6 +197,29 @@ TEST_F(SessionControlsTest, MarksSavesAndFinishesAndSaysWhatCameOfIt) {
     EXPECT_TRUE(events[2].is_refused);
     EXPECT_EQ(events[2].text, "the disk is full");
     EXPECT_TRUE(is_finished_);
+}
+
+TEST_F(SessionControlsTest, HasTheToolPlacedWhereItIsClearWhileTheSessionHoldsStill) {
+    controls_.control({.action = SessionAction::place, .pose = {{1.0, 2.0, 3.0}, {0.0, 0.0, 1.0}}});
+    frame();
+    EXPECT_TRUE(holds_still());
+    ASSERT_TRUE(placements_.refresh());
+    EXPECT_EQ(placements_.front().number, 1U);
+    EXPECT_EQ(placements_.front().pose.position_mm, glm::dvec3(1.0, 2.0, 4.0));
+    frame();
+    EXPECT_TRUE(controls_.take_events().empty());
+    gate_.placed = 1;
+    frame();
+    EXPECT_FALSE(holds_still());
+    const auto events = controls_.take_events();
+    ASSERT_EQ(events.size(), 1U);
+    EXPECT_EQ(events[0].text, "at 1.0, 2.0, 4.0 mm LPS, 1.0 mm out of the bone");
+    EXPECT_EQ(placed_->position_mm.z, 4.0);
+
+    controls_.control({.action = SessionAction::place, .pose = {{101.0, 2.0, 3.0}, {0.0, 0.0, 1.0}}});
+    frame();
+    EXPECT_EQ(controls_.take_events().at(0).text, "too far");
+    EXPECT_FALSE(holds_still());
 }
 
 TEST_F(SessionControlsTest, TakesNoMoreThanItCanRemember) {
