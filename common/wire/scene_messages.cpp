@@ -137,6 +137,7 @@ v1::Hello to_message(const SessionInfo& session) {
     for (const Tissue& tissue : session.tissues) *hello.add_tissues() = to_message(tissue);
     hello.set_accepts_operator(session.accepts_operator);
     hello.set_force_limit_n(session.force_limit_n);
+    hello.set_has_ct(session.has_ct);
     hello.set_accepts_controls(session.accepts_controls);
     if (session.plan) *hello.mutable_plan() = to_message(*session.plan);
     hello.set_trainee(session.trainee);
@@ -216,6 +217,7 @@ std::variant<SessionInfo, WireError> session_info_from(const v1::Hello& hello) {
                        .tissues = std::get<0>(std::move(tissues)),
                        .accepts_operator = hello.accepts_operator(),
                        .force_limit_n = hello.force_limit_n(),
+                       .has_ct = hello.has_ct(),
                        .accepts_controls = hello.accepts_controls(),
                        .plan = std::move(plan),
                        .trainee = hello.trainee(),

@@ -21,6 +21,7 @@ struct SessionInfo {
     std::vector<Tissue> tissues{};
     bool accepts_operator = false;  ///< the server runs with --device client
     double force_limit_n = 0.0;
+    bool has_ct = false;            ///< the server has a CT for people to look at
     bool accepts_controls = false;  ///< the server takes a SessionControl
     std::optional<Plan> plan{};
     std::string trainee{};

@@ -22,6 +22,8 @@ std::variant<SessionEvent, WireError> SessionReceiver::take(v1::ServerFrame fram
     if (stage_ == Stage::snapshot && frame.has_snapshot_end()) return take_snapshot_end(frame.snapshot_end());
     if (stage_ == Stage::live && frame.has_state())
         return take_state(std::move(*frame.mutable_state()), follows_gap);
+    if (stage_ == Stage::live && frame.has_ct_piece())
+        return SessionEvent(CtPieceArrived{std::move(*frame.mutable_ct_piece())});
     if (stage_ != Stage::hello && stage_ != Stage::over && frame.has_goodbye()) {
         stage_ = Stage::over;
         return SessionEvent(SaidGoodbye{frame.goodbye().reason()});

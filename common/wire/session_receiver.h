@@ -50,8 +50,13 @@ struct SpeaksOtherProtocol {
     std::uint32_t major = 0;
 };
 
-using SessionEvent =
-    std::variant<SnapshotGoesOn, SessionInfo, BoneArrived, StateArrived, SaidGoodbye, SpeaksOtherProtocol>;
+/// Another piece of the CT; what it makes is the receiver's business.
+struct CtPieceArrived {
+    v1::CtPiece piece;
+};
+
+using SessionEvent = std::variant<SnapshotGoesOn, CtPieceArrived, SessionInfo, BoneArrived, StateArrived,
+                                  SaidGoodbye, SpeaksOtherProtocol>;
 
 class SessionReceiver {
   public:

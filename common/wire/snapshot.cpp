@@ -8,6 +8,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "common/wire/grid_message.h"
+
 namespace osteomill {
 
 namespace {
@@ -48,22 +50,6 @@ WireError snapshot_refused(std::string what) {
     return {"snapshot refused: " + std::move(what)};
 }
 
-std::variant<Grid, WireError> grid_from(const v1::Grid& message) {
-    constexpr auto largest = static_cast<std::uint32_t>(std::numeric_limits<int>::max());
-    if (std::max({message.size_x(), message.size_y(), message.size_z()}) > largest)
-        return snapshot_refused("the grid has more than 65536 voxels along an axis");
-    const Grid grid{.size_voxels = {static_cast<int>(message.size_x()), static_cast<int>(message.size_y()),
-                                    static_cast<int>(message.size_z())},
-                    .spacing_mm = message.spacing_mm(),
-                    .origin_mm = {message.origin_mm().x(), message.origin_mm().y(), message.origin_mm().z()}};
-    try {
-        require_valid(grid);
-    } catch (const std::invalid_argument& error) {
-        return snapshot_refused(error.what());
-    }
-    return grid;
-}
-
 }  // namespace
 
 void require_sendable(const Bone& bone) {
@@ -75,14 +61,7 @@ void require_sendable(const Bone& bone) {
 v1::SnapshotBegin snapshot_begin(const Bone& bone) {
     const BoneContent& content = bone.content();
     v1::SnapshotBegin message;
-    v1::Grid& grid = *message.mutable_grid();
-    grid.set_size_x(static_cast<std::uint32_t>(content.grid.size_voxels.x));
-    grid.set_size_y(static_cast<std::uint32_t>(content.grid.size_voxels.y));
-    grid.set_size_z(static_cast<std::uint32_t>(content.grid.size_voxels.z));
-    grid.set_spacing_mm(content.grid.spacing_mm);
-    grid.mutable_origin_mm()->set_x(content.grid.origin_mm.x);
-    grid.mutable_origin_mm()->set_y(content.grid.origin_mm.y);
-    grid.mutable_origin_mm()->set_z(content.grid.origin_mm.z);
+    *message.mutable_grid() = to_message(content.grid);
     message.set_heterogeneous(!content.stiffness.empty());
     message.set_labelled(!content.tissue.empty());
     message.set_homogeneous_stiffness(content.homogeneous_stiffness);
@@ -126,7 +105,7 @@ SnapshotAssembler::SnapshotAssembler(BoneBuilder builder, const v1::SnapshotBegi
 
 std::variant<SnapshotAssembler, WireError> SnapshotAssembler::begin(const v1::SnapshotBegin& message) {
     const std::variant<Grid, WireError> parsed = grid_from(message.grid());
-    if (const auto* error = std::get_if<WireError>(&parsed)) return *error;
+    if (const auto* error = std::get_if<WireError>(&parsed)) return snapshot_refused(error->line);
     const Grid& grid = std::get<Grid>(parsed);
     if (message.brick_count() > brick_count(grid))
         return snapshot_refused(std::to_string(message.brick_count()) +

@@ -8,6 +8,7 @@
 
 #include "haptic_server/imaging/bone_of_file.h"
 #include "haptic_server/imaging/carved_bone.h"
+#include "haptic_server/imaging/ct_overview.h"
 #include "haptic_server/imaging/imaging_error.h"
 #include "haptic_server/imaging/phantom.h"
 
@@ -96,6 +97,17 @@ void save_bone(const std::filesystem::path& path, const BoneSource& source, cons
         throw std::runtime_error(fmt::format(
             "{}; {} is saved with CT numbers that only say where bone is left", lost.what(), path.string()));
     }
+}
+
+bool has_ct(const BoneSource& source, const Grid& grid) {
+    return !source.phantom.empty() || (source.file && source.file->grid() == grid);
+}
+
+CtVolume ct_of(const BoneSource& source, std::size_t most_voxels) {
+    if (!source.phantom.empty())
+        return ct_overview(std::get<HuSlices>(make_phantom(source.phantom)), most_voxels);
+    HuReader reader(*source.file);
+    return ct_overview(slices_again(source, reader), most_voxels);
 }
 
 }  // namespace osteomill

@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 
+#include "common/bone/ct_volume.h"
 #include "common/scene/scene.h"
 #include "haptic_server/imaging/hu_file.h"
 #include "haptic_server/imaging/hu_volume.h"
@@ -42,5 +43,11 @@ LoadedBone load_bone(const Scene& scene, std::optional<std::uint64_t> available_
 void save_bone(
     const std::filesystem::path& path, const BoneSource& source, const Bone& bone,
     const ReportProgress& report = [](double) {});
+
+/// Whether there are CT numbers to look at.
+bool has_ct(const BoneSource& source, const Grid& grid);
+/// The CT for people to look at, of at most so many voxels: reads or makes all CT numbers once more. Call
+/// only where there are some. Throws std::runtime_error where the source can no longer be read.
+CtVolume ct_of(const BoneSource& source, std::size_t most_voxels);
 
 }  // namespace osteomill

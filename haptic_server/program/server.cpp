@@ -15,6 +15,7 @@
 
 #include "common/log/line_stream.h"
 #include "common/scene/scene_file.h"
+#include "common/wire/ct_pieces.h"
 #include "haptic_server/coupling/handpiece_vibration.h"
 #include "haptic_server/device/client_device.h"
 #include "haptic_server/device/hid/device_list.h"
@@ -145,7 +146,8 @@ struct Streaming {
 
 Streaming make_streaming(StreamingOptions wanted, const ServerOptions& options, const Scene& scene,
                          Bone mirror, MillingSession& session, const DeviceParts& device,
-                         const std::string& version, SessionKeeper::Save save, LineStream& out) {
+                         const std::string& version, SessionKeeper::Save save,
+                         std::function<CtVolume()> make_ct, LineStream& out) {
     wanted.listens = options.listen.has_value();
     wanted.paced_by_session = options.session.clock == ClockKind::virtual_time;
     if (options.record)
@@ -164,6 +166,8 @@ Streaming make_streaming(StreamingOptions wanted, const ServerOptions& options, 
         options.controls ? read_control_script(*options.controls) : ControlScript{});
     SessionInfo info =
         session_info(scene, device.operator_channel != nullptr, device.device->limits().max_force_n, version);
+    info.has_ct = static_cast<bool>(make_ct);
+    streaming.shown->offer_ct(std::move(make_ct));
     info.accepts_controls = options.session.clock == ClockKind::real;
     info.trainee = options.trainee;
     info.settings = as_texts(session_settings(options, scene, version));
@@ -289,9 +293,11 @@ void run_server(const ServerOptions& options, const std::string& version, const 
             }
             return {};
         };
+    std::function<CtVolume()> make_ct;
+    if (has_ct(source, session->bone().grid())) make_ct = [&] { return ct_of(source, most_ct_voxels); };
     const Streaming streaming =
         is_shown ? make_streaming(std::move(streaming_as_typed), options, scene, *std::move(mirror), *session,
-                                  device, version, std::move(save), *output.out)
+                                  device, version, std::move(save), std::move(make_ct), *output.out)
                  : Streaming{};
 
     cost.startup_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();

@@ -91,6 +91,9 @@ std::optional<std::string> ClientFeed::next(std::size_t most_state_bytes) {
             if (wants_state_) {
                 fill_state(frame, most_state_bytes);
                 newest_state_ = frame.sequence();
+            } else if (ct_ && next_ct_voxel_ < ct_->hu.size() && !goodbye_) {
+                if (!ct_packer_) ct_packer_.emplace();
+                *frame.mutable_ct_piece() = ct_packer_->pack(*ct_, next_ct_voxel_);
             } else if (goodbye_) {
                 frame.mutable_goodbye()->set_reason(*goodbye_);
                 stage_ = Stage::finished;

@@ -8,6 +8,7 @@
 #pragma once
 
 #include <deque>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -17,6 +18,7 @@
 #include "common/scene/tool_state.h"
 #include "common/wire/bone_comparison.h"
 #include "common/wire/bone_replica.h"
+#include "common/wire/ct_pieces.h"
 #include "common/wire/packed_changes.h"
 #include "common/wire/snapshot.h"
 #include "haptic_server/streaming/frame_pace.h"
@@ -46,6 +48,13 @@ class ClientFeed {
     /// would have sent of the bone, the next one sends. A checksum once asked for is stated by the next frame
     /// after which the client knows all.
     void request_state(const ToolState& tool, bool with_checksum);
+
+    /// The client wants to see the CT; asked for again nothing happens.
+    void ask_for_ct() { wants_ct_ = true; }
+    /// Whether it waits for give_ct().
+    bool wants_ct() const { return wants_ct_ && !ct_; }
+    /// Its pieces go between the states.
+    void give_ct(std::shared_ptr<const CtVolume> ct) { ct_ = std::move(ct); }
 
     /// The client doubts its bone. The next state frame answers, and what differs is sent like a change. An
     /// error says why the client is not served: it has no bone yet, or asks before it has been answered, more
@@ -99,6 +108,11 @@ class ClientFeed {
     int comparisons_left_ = most_comparisons_at_once;
 
     ChangePacker* change_packer_ = nullptr;  // none: edits are sent as runs
+
+    bool wants_ct_ = false;
+    std::shared_ptr<const CtVolume> ct_;  // stays, so that it is not asked for again
+    std::size_t next_ct_voxel_ = 0;
+    std::optional<CtPacker> ct_packer_;
 
     std::deque<ControlEvent> events_;  // that have yet to be sent
     SessionStatus status_;

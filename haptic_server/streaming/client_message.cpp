@@ -19,6 +19,10 @@ std::variant<std::optional<Answer>, WireError> take_client_message(const v1::Cli
         if (auto error = client.feed.compare(frame.compare_bone())) return *std::move(error);
         return std::nullopt;
     }
+    if (frame.has_ct_request()) {
+        client.feed.ask_for_ct();
+        return std::nullopt;
+    }
     if (frame.has_session_control()) {
         const auto control = session_control_from(frame.session_control());
         if (const auto* error = std::get_if<WireError>(&control)) return *error;

@@ -88,6 +88,13 @@ void ConnectedClients::note(std::span<const ControlEvent> events, const SessionS
     }
 }
 
+void ConnectedClients::show_ct(const std::function<std::shared_ptr<const CtVolume>()>& ct) {
+    for (const auto& [id, connection] : connections_) {
+        if (!hello_.has_ct() || !connection->feed().wants_ct()) continue;
+        if (auto volume = ct()) connection->feed().give_ct(std::move(volume));
+    }
+}
+
 void ConnectedClients::show(const ToolState& tool, bool with_checksum) {
     // A recording's packets have stamps of their own.
     const std::int64_t now_unix_ns = unix_time_ns();

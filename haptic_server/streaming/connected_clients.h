@@ -51,6 +51,8 @@ class ConnectedClients {
     void note(std::span<const BrickChange> changes);
     /// Likewise for what was done to the session, and what can be done with it.
     void note(std::span<const ControlEvent> events, const SessionStatus& status);
+    /// Gives the CT to those who want it. `ct` is asked only if there are any, and may have none yet.
+    void show_ct(const std::function<std::shared_ptr<const CtVolume>()>& ct);
     /// Sends everybody where the tool is.
     void show(const ToolState& tool, bool with_checksum);
 

@@ -2,6 +2,7 @@
 
 #include <spdlog/spdlog.h>
 
+#include <chrono>
 #include <utility>
 
 namespace osteomill {
@@ -45,6 +46,19 @@ SessionStatus LiveSession::status() const {
 
 void LiveSession::control(const SessionControl& control) {
     if (controls_ != nullptr) controls_->control(control);
+}
+
+std::shared_ptr<const CtVolume> LiveSession::ct() {
+    if (ct_ || !make_ct_) return ct_;
+    if (!ct_under_way_.valid()) ct_under_way_ = std::async(std::launch::async, make_ct_);
+    if (ct_under_way_.wait_for(std::chrono::seconds(0)) != std::future_status::ready) return nullptr;
+    try {
+        ct_ = std::make_shared<const CtVolume>(ct_under_way_.get());
+    } catch (const std::exception& error) {
+        spdlog::error("the CT cannot be shown: {}", error.what());
+        make_ct_ = nullptr;
+    }
+    return ct_;
 }
 
 }  // namespace osteomill

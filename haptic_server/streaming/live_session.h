@@ -1,6 +1,10 @@
 // The session of the haptic and milling loops, for a streaming server to show.
 #pragma once
 
+#include <functional>
+#include <future>
+#include <memory>
+
 #include "common/scene/scene.h"
 #include "common/scene/tool_state.h"
 #include "common/wire/session_info.h"
@@ -24,16 +28,22 @@ class LiveSession final : public StreamSource {
     LiveSession(TripleBuffer<ToolState>& tool, ChangeQueue& changes, SessionControls* controls = nullptr,
                 ControlScript script = {})
         : tool_(tool), changes_(changes), controls_(controls), script_(std::move(script)) {}
+    /// What makes the CT for people to look at, on a thread of its own, if anybody ever asks for it.
+    void offer_ct(std::function<CtVolume()> make) { make_ct_ = std::move(make); }
     ToolState update(BoneReplica& mirror, std::size_t viewers) override;
     std::vector<ControlEvent> take_events() override;
     SessionStatus status() const override;
     void control(const SessionControl& control) override;
+    std::shared_ptr<const CtVolume> ct() override;
 
   private:
     TripleBuffer<ToolState>& tool_;
     ChangeQueue& changes_;
     SessionControls* controls_;
     ControlScript script_;
+    std::function<CtVolume()> make_ct_;
+    std::future<CtVolume> ct_under_way_;
+    std::shared_ptr<const CtVolume> ct_;
 };
 
 }  // namespace osteomill

@@ -2,8 +2,10 @@
 #pragma once
 
 #include <cstddef>
+#include <memory>
 #include <vector>
 
+#include "common/bone/ct_volume.h"
 #include "common/scene/session_control.h"
 #include "common/scene/tool_state.h"
 #include "common/wire/bone_replica.h"
@@ -22,6 +24,9 @@ class StreamSource {
     // nothing can be, nothing has to be said.
     virtual std::vector<ControlEvent> take_events() { return {}; }
     virtual SessionStatus status() const { return {}; }
+    /// The CT for people to look at, as soon as it is ready: the first call has it made. Nothing where there
+    /// is none.
+    virtual std::shared_ptr<const CtVolume> ct() { return nullptr; }
     /// Between two updates: somebody who may asks for it. What comes of it is an event.
     virtual void control(const SessionControl&) {}
 };

@@ -163,6 +163,7 @@ class StreamingServer::Impl {
         update();
         const bool with_checksum = frames_++ % frames_per_checksum_ == 0;
         if (recorder_) recorder_->record(tool_, with_checksum, options_.paced_by_session);
+        clients_.show_ct([this] { return source_.ct(); });
         clients_.show(tool_, with_checksum);
         if (options_.listens && !is_accepting_) accept();
     }

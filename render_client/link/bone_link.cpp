@@ -4,6 +4,7 @@
 #include <chrono>
 #include <utility>
 
+#include "common/wire/ct_pieces.h"
 #include "common/wire/scene_messages.h"
 #include "render_client/link/rate_meter.h"
 #include "render_client/link/server_connection.h"
@@ -34,6 +35,7 @@ class BoneLink::Impl {
     const SessionInfo* session() const { return replica_.session(); }
 
     void send(const OperatorCommand& command) { connection_.send(command); }
+    void ask_for_ct() { connection_.ask_for_ct(); }
     void send(const SessionControl& control) { connection_.send(control); }
     std::optional<ToolState> newest_tool() const { return connection_.newest_tool(); }
 
@@ -54,6 +56,16 @@ class BoneLink::Impl {
     void take(BoneArrived arrived, LinkUpdate& update) {
         replica_.take(std::move(arrived));
         update.bone_replaced = true;
+    }
+
+    void take(const CtPieceArrived& arrived, LinkUpdate& update) {
+        auto taken = ct_.take(arrived.piece);
+        if (auto* ct = std::get_if<std::shared_ptr<const CtVolume>>(&taken)) {
+            if (*ct) update.ct = std::move(*ct);
+            return;
+        }
+        // The bone is no worse for it.
+        line_ = std::get<WireError>(taken).line;
     }
 
     void take(StatusChanged changed, LinkUpdate&) {
@@ -111,6 +123,7 @@ class BoneLink::Impl {
     LinkStatus status_ = LinkStatus::connecting;
     std::string line_;
     SessionStatus controls_;
+    CtAssembler ct_;
     VerifiedReplica replica_;
     std::uint64_t session_number_ = 0;
     DelayMeter delay_meter_;
@@ -134,6 +147,9 @@ const SessionInfo* BoneLink::session() const {
 }
 void BoneLink::send_operator(const OperatorCommand& command) {
     impl_->send(command);
+}
+void BoneLink::ask_for_ct() {
+    impl_->ask_for_ct();
 }
 void BoneLink::send_control(const SessionControl& control) {
     impl_->send(control);

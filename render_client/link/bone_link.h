@@ -16,6 +16,7 @@
 
 #include "common/bone/bone.h"
 #include "common/bone/brick_change.h"
+#include "common/bone/ct_volume.h"
 #include "common/net/tls_files.h"
 #include "common/scene/operator_command.h"
 #include "common/scene/session_control.h"
@@ -39,12 +40,13 @@ enum class LinkStatus {
 /// What happened since the last poll, and where the link stands.
 struct LinkUpdate {
     LinkStatus status = LinkStatus::connecting;
-    std::string status_line{};           ///< for people
-    bool bone_replaced = false;          ///< bone() is another bone: upload all of it
-    std::vector<BrickChange> changes;    ///< of bone(), ascending; empty if bone_replaced
-    std::optional<ToolState> tool;       ///< the newest since the last poll, if any came
-    std::vector<ControlEvent> events{};  ///< since the last poll
-    SessionStatus controls{};            ///< what can be done with the session now
+    std::string status_line{};             ///< for people
+    bool bone_replaced = false;            ///< bone() is another bone: upload all of it
+    std::vector<BrickChange> changes;      ///< of bone(), ascending; empty if bone_replaced
+    std::optional<ToolState> tool;         ///< the newest since the last poll, if any came
+    std::shared_ptr<const CtVolume> ct{};  ///< that was asked for, once it is here
+    std::vector<ControlEvent> events{};    ///< since the last poll
+    SessionStatus controls{};              ///< what can be done with the session now
     /// How old the newest tool of this session was when a poll took it; nothing where the server does not
     /// say.
     std::optional<DelayMeter::Delay> delay{};
@@ -101,6 +103,9 @@ class BoneLink {
     /// Any thread. Asks something of the session, in order; dropped while not connected, and where the server
     /// does not take it. What comes of it is an event.
     void send_control(const SessionControl& control);
+
+    /// UI thread. Asks for the CT of the session, if the server has one.
+    void ask_for_ct();
 
     /// Any thread. The newest that has come of the tool, be it applied by poll() or not; nothing while not
     /// connected.

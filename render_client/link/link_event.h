@@ -22,6 +22,6 @@ struct StatusChanged {
     std::string line{};
 };
 
-using LinkEvent = std::variant<SessionBegan, BoneArrived, StateArrived, StatusChanged>;
+using LinkEvent = std::variant<SessionBegan, BoneArrived, StateArrived, CtPieceArrived, StatusChanged>;
 
 }  // namespace osteomill

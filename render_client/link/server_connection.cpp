@@ -79,6 +79,13 @@ void ServerConnection::send(const SessionControl& control) {
     });
 }
 
+void ServerConnection::ask_for_ct() {
+    asio::post(io_, [this] {
+        wants_ct_ = has_ct_;
+        write_newest();
+    });
+}
+
 std::optional<ToolState> ServerConnection::newest_tool() const {
     const std::scoped_lock lock(seen_mutex_);
     return seen_tool_;
@@ -180,6 +187,7 @@ void ServerConnection::disconnect() {
     newest_request_.reset();
     controls_.clear();
     accepts_controls_ = false;
+    has_ct_ = wants_ct_ = false;
     sent_sequence_ = 0;
     is_writing_ = false;
 }
@@ -252,6 +260,7 @@ void ServerConnection::take_event(SnapshotGoesOn) {
 void ServerConnection::take_event(SessionInfo session) {
     accepts_operator_ = session.accepts_operator;
     accepts_controls_ = session.accepts_controls;
+    has_ct_ = session.has_ct;
     burr_count_ = session.burrs.size();
     owes_hello_ = session.protocol_minor >= first_minor_that_is_greeted;
     write_newest();
@@ -300,7 +309,8 @@ void ServerConnection::take_event(const SpeaksOtherProtocol& other) {
 }
 
 void ServerConnection::write_newest() {
-    if (is_writing_ || !(owes_hello_ || newest_input_ || newest_request_ || !controls_.empty())) return;
+    if (is_writing_ || !(owes_hello_ || newest_input_ || newest_request_ || !controls_.empty() || wants_ct_))
+        return;
     v1::ClientFrame frame;
     frame.set_sequence(++sent_sequence_);
     if (std::exchange(owes_hello_, false)) {
@@ -309,6 +319,8 @@ void ServerConnection::write_newest() {
         frame.mutable_hello()->set_takes_packed_changes(!recorder_);
     } else if (newest_request_) {
         *frame.mutable_compare_bone() = *std::exchange(newest_request_, std::nullopt);
+    } else if (std::exchange(wants_ct_, false)) {
+        frame.mutable_ct_request();
     } else if (!controls_.empty()) {
         *frame.mutable_session_control() = std::move(controls_.front());
         controls_.pop_front();

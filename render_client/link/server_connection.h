@@ -58,6 +58,8 @@ class ServerConnection {
     void send(const OperatorCommand& command);
     /// Dropped where the server would not take it, and beyond most_waiting_controls that wait to be written.
     void send(const SessionControl& control);
+    /// Asks for the CT; dropped where the server has none.
+    void ask_for_ct();
     /// Of the newest state frame that came on this connection; nothing before the first.
     std::optional<ToolState> newest_tool() const;
     /// Dropped if that session is over.
@@ -90,6 +92,7 @@ class ServerConnection {
     void take_event(SessionInfo session);
     void take_event(BoneArrived arrived);
     void take_event(StateArrived arrived);
+    void take_event(CtPieceArrived arrived) { events_.push(std::move(arrived)); }
     void see(const StateArrived& arrived);
     void forget_seen();
     void take_event(const SaidGoodbye& goodbye);
@@ -140,6 +143,8 @@ class ServerConnection {
     std::optional<ToolState> seen_tool_;
 
     bool owes_hello_ = false;
+    bool has_ct_ = false;  // the server does
+    bool wants_ct_ = false;
     std::optional<v1::OperatorInput> newest_input_;
     std::uint64_t input_number_ = 0;  // of this connection
     std::optional<v1::CompareBone> newest_request_;

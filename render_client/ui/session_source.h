@@ -19,6 +19,8 @@ class SessionSource {
     virtual const Bone* bone() const = 0;                            ///< null until one has arrived
     virtual const SessionInfo* session() const = 0;                  ///< null until a server has said hello
     virtual void send_operator(const OperatorCommand& command) = 0;  ///< any thread
+    /// Asks for the CT, which a poll then brings; nothing where there is none.
+    virtual void ask_for_ct() {}
     /// Any thread: asks something of the session; nothing where nobody takes it.
     virtual void send_control(const SessionControl&) {}
     /// Any thread: of the session that an operator may be at; nothing where there is none.
@@ -39,6 +41,7 @@ class LinkedSession final : public SessionSource {
     const Bone* bone() const override { return link_.bone(); }
     const SessionInfo* session() const override { return link_.session(); }
     void send_operator(const OperatorCommand& command) override { link_.send_operator(command); }
+    void ask_for_ct() override { link_.ask_for_ct(); }
     void send_control(const SessionControl& control) override { link_.send_control(control); }
     std::optional<ToolState> newest_tool() const override { return link_.newest_tool(); }
     std::string finish() override { return link_.finish_recording(); }

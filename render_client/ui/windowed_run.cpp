@@ -119,15 +119,16 @@ class Drawing {
         commands_.tell(link.events, std::chrono::duration<double>(now - began_).count());
         drills_ = source_.player() == nullptr && link.status == LinkStatus::live && session_.tool() &&
                   session_.session() && session_.session()->accepts_operator;
-        shared_.desk.show({.drills = drills_,
-                           .burr_count = session_.session() ? session_.session()->burrs.size() : 0,
-                           .camera = session_.camera(),
-                           .size_px = session_.size_px(),
-                           .panels_have_mouse = ImGui::GetIO().WantCaptureMouse,
-                           .panels = panels_.input_boxes(),
-                           .panels_have_keyboard = has_keyboard(),
-                           .drag_tilts = session_.view().drag_tilts,
-                           .holds_still = link.controls.is_paused});
+        shared_.desk.show(
+            {.drills = drills_,
+             .burr_count = session_.session() ? session_.session()->burrs.size() : 0,
+             .camera = session_.camera(),
+             .size_px = session_.size_px(),
+             .panels_have_mouse = ImGui::GetIO().WantCaptureMouse || session_.view().click_places,
+             .panels = panels_.input_boxes(),
+             .panels_have_keyboard = has_keyboard(),
+             .drag_tilts = session_.view().drag_tilts,
+             .holds_still = link.controls.is_paused});
         session_.show_operator(shared_.desk.command());
 
         const RecordingPlayer* player = source_.player();
@@ -150,6 +151,9 @@ class Drawing {
         for (const Action action :
              actions_of(input_.presses, situation_of(drills_, source_.player() != nullptr)))
             if (!has_keyboard() || action == Action::end) commands_.take(action);
+        if (session_.view().click_places && ImGui::IsMouseClicked(ImGuiMouseButton_Left) &&
+            !ImGui::GetIO().WantCaptureMouse)
+            commands_.place_at({ImGui::GetIO().MousePos.x, ImGui::GetIO().MousePos.y});
         commands_.take(session_.take_wishes());
         input_.forget_events();
         const std::string notice = session_.view().notice;

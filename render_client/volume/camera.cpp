@@ -80,4 +80,11 @@ glm::dvec2 pixel_of(const Camera& camera, const glm::dvec3& position_mm, const g
             0.5 * size_px.y - glm::dot(from_eye, camera.up()) / mm_per_px};
 }
 
+glm::dvec3 direction_through(const Camera& camera, const glm::dvec2& pixel, const glm::ivec2& size_px) {
+    const double half_height = std::tan(0.5 * camera.field_of_view_rad);
+    const glm::dvec2 from_middle = (pixel - 0.5 * glm::dvec2(size_px)) / (0.5 * std::max(size_px.y, 1));
+    return glm::normalize(camera.forward() +
+                          half_height * (from_middle.x * camera.right() - from_middle.y * camera.up()));
+}
+
 }  // namespace osteomill

@@ -44,6 +44,9 @@ void zoom(Camera& camera, double distance_factor);
 /// mm that a pixel spans at a point's depth.
 double mm_per_px_at(const Camera& camera, const glm::dvec3& position_mm, const glm::ivec2& size_px);
 
+/// Unit direction from the eye through a pixel (y down, from the picture's upper left corner).
+glm::dvec3 direction_through(const Camera& camera, const glm::dvec2& pixel, const glm::ivec2& size_px);
+
 /// Pixel (y down, from the picture's upper left corner) at which a point is seen; the point must be in front.
 glm::dvec2 pixel_of(const Camera& camera, const glm::dvec3& position_mm, const glm::ivec2& size_px);
 

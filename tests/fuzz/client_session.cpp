@@ -1,6 +1,7 @@
 #include <optional>
 #include <string>
 
+#include "common/wire/ct_pieces.h"
 #include "common/wire/frame.h"
 #include "common/wire/sealed_frame.h"
 #include "common/wire/session_receiver.h"
@@ -39,6 +40,12 @@ class Client {
     Outcome take(SessionInfo info) {
         require(!info.burrs.empty(), "a session without a burr");
         copy_.begin(std::move(info));
+        return {};
+    }
+    Outcome take(CtPieceArrived arrived) {
+        auto taken = ct_.take(arrived.piece);
+        const auto* ct = std::get_if<std::shared_ptr<const CtVolume>>(&taken);
+        if (ct != nullptr && *ct) (void)(*ct)->hu_at((*ct)->grid.origin_mm);
         return {};
     }
     Outcome take(BoneArrived arrived) {
@@ -88,6 +95,7 @@ class Client {
         require(std::get<ComparedBone>(compared).answer.differing_part().empty(), "a copy unlike itself");
     }
 
+    CtAssembler ct_;
     SessionReceiver receiver_{Gaps::reported};
     VerifiedReplica copy_;
 };

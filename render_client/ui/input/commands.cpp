@@ -5,12 +5,16 @@
 #include <stdexcept>
 #include <utility>
 
+#include "render_client/volume/surface_pick.h"
+
 namespace osteomill {
 
 namespace {
 
 constexpr double seek_s = 5.0;
 constexpr double notice_s = 4.0;
+/// Between a burr that is placed and the bone under it.
+constexpr double gap_mm = 1.0;
 
 const char* words_for(SessionAction done) {
     switch (done) {
@@ -30,6 +34,8 @@ const char* words_for(SessionAction done) {
             return "the server saves the bone";
         case SessionAction::finish:
             return "the session ends";
+        case SessionAction::place:
+            return "the tool is";
         case SessionAction::none:
             break;
     }
@@ -66,6 +72,9 @@ void Commands::take(Action action) {
         case Action::transfer_panel:
             view.transfer_panel_shown = !view.transfer_panel_shown;
             break;
+        case Action::slices:
+            view.slices_shown = !view.slices_shown;
+            break;
         case Action::cut_x:
         case Action::cut_y:
         case Action::cut_z:
@@ -88,6 +97,9 @@ void Commands::take(Action action) {
             break;
         case Action::tilt:
             view.drag_tilts = !view.drag_tilts;
+            break;
+        case Action::place:
+            view.click_places = !view.click_places && session_.link().controls.may_control;
             break;
         case Action::undo:
             ask(SessionAction::undo);
@@ -144,11 +156,29 @@ void Commands::take(const SessionWishes& wishes) {
     end_wanted_ = end_wanted_ || wishes.ends_program;
 }
 
+void Commands::place_at(const glm::dvec2& pixel) {
+    const Bone* bone = source_.bone();
+    const auto& tool = session_.tool();
+    if (bone == nullptr || !tool) return;
+    const auto found =
+        pick_surface(*bone, session_.camera(), pixel, session_.size_px(), session_.view().cuts.planes());
+    if (!found) return;
+    session_.view().click_places = false;
+    const SessionInfo* scene = source_.session();
+    const double radius_mm =
+        scene != nullptr && tool->burr < scene->burrs.size() ? scene->burrs[tool->burr].radius_mm() : 0.0;
+    const ToolPose pose{found->position_mm + (radius_mm + gap_mm) * found->normal, found->normal};
+    source_.send_control({.action = SessionAction::place, .pose = pose});
+}
+
 void Commands::tell(const std::vector<ControlEvent>& events, double now_s) {
-    for (const ControlEvent& event : events)
+    for (const ControlEvent& event : events) {
+        // The hand would pull the tool back to where it was.
+        if (event.action == SessionAction::place && !event.is_refused) desk_.release();
         say(event.is_refused ? fmt::format("no {}: {}", name_of(event.action), event.text)
                              : fmt::format("{} {}", words_for(event.action), event.text),
             now_s);
+    }
 }
 
 void Commands::write_pictures(const gl::Framebuffer& picture, double now_s) {

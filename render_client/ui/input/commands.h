@@ -20,6 +20,9 @@ class Commands {
     void take(Action action);
     /// Passes on what was asked for with buttons.
     void take(const SessionWishes& wishes);
+    /// Puts the tool on the bone that is seen at a pixel, the handpiece upright on it; a click beside the
+    /// bone does nothing.
+    void place_at(const glm::dvec2& pixel);
     /// Says what came of what was asked of the session.
     void tell(const std::vector<ControlEvent>& events, double now_s);
     /// Call after each frame: writes what was asked for, and says so, or what went wrong, for a few seconds.

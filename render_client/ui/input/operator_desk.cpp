@@ -101,6 +101,12 @@ void OperatorDesk::choose_burr(std::size_t burr) {
     hand_.choose_burr(burr);
 }
 
+void OperatorDesk::release() {
+    const std::scoped_lock lock(mutex_);
+    let_go();
+    drags_hand_ = false;
+}
+
 void OperatorDesk::choose_next_burr() {
     const std::scoped_lock lock(mutex_);
     hand_.choose_next_burr();

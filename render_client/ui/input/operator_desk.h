@@ -51,6 +51,8 @@ class OperatorDesk {
     /// The pedal of whoever has only a mouse: down until it is switched up.
     void switch_pedal();
     void choose_burr(std::size_t burr);
+    /// Lets go of the tool, which has been put elsewhere.
+    void release();
     void choose_next_burr();
     void choose_previous_burr();
     /// What the hand wants; nothing where nobody may drill.
@@ -66,10 +68,10 @@ class OperatorDesk {
     DeskPicture picture_;
     OperatorHand hand_;
     bool pedal_switched_down_ = false;
+    bool drags_hand_ = false;
 
     // Thread of the window.
     glm::dvec2 cursor_{0.0};
-    bool drags_hand_ = false;
     bool had_tool_ = false;
 };
 

@@ -11,6 +11,7 @@
 #include "render_client/ui/panels/picture_marks.h"
 #include "render_client/ui/panels/playback_panel.h"
 #include "render_client/ui/panels/session_dialog.h"
+#include "render_client/ui/panels/slices_panel.h"
 #include "render_client/ui/panels/tissue_legend.h"
 #include "render_client/ui/panels/tool_bar.h"
 #include "render_client/ui/panels/transfer_panel.h"
@@ -35,6 +36,7 @@ class PanelList {
         add(anchor, {size}, std::move(draw));
         wishes_.back().may_cover_middle = true;
     }
+    void let_last_cover_middle() { wishes_.back().may_cover_middle = true; }
     void add_text(const PanelPainter& painter, Anchor anchor, const PanelText& text, float widest) {
         add(anchor, {painter.size_of(text, widest)},
             [&painter, text](const PanelPlace& place) { painter.draw(text, place); });
@@ -64,6 +66,11 @@ void add_plot(PanelList& panels, const OverlayContent& content, const PanelPaint
 void add_controls(PanelList& panels, const OverlayContent& content, const PanelPainter& painter,
                   const glm::vec2& picture, float side_width) {
     ViewSettings& view = *content.view;
+    if (content.slices != nullptr) {
+        panels.add(Anchor::lower_left, slices_panel_sizes(painter),
+                   [&](const PanelPlace& place) { draw_slices_panel(content, painter, place); });
+        panels.let_last_cover_middle();
+    }
     if (view.cuts_panel_shown)
         panels.add_asked_for(Anchor::upper_left, cuts_panel_size(painter), [&](const PanelPlace& place) {
             draw_cuts_panel(view.cuts, *content.camera, place);
@@ -105,6 +112,7 @@ void draw_overlay(const OverlayContent& content, const glm::ivec2& size_px) {
     const glm::vec2 picture(size_px);
     if (content.tool && content.has_bone && content.view->panels_shown)
         draw_force_label(painter, *content.tool, *content.camera, size_px);
+    draw_slices_cross(content, painter, size_px);
     const float margin = margin_px * painter.scale();
     const float side_width =
         glm::clamp(0.45f * picture.x, 200.0f * painter.scale(), 360.0f * painter.scale());

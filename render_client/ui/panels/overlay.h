@@ -9,6 +9,7 @@
 #include "render_client/ui/input/session_wishes.h"
 #include "render_client/ui/panels/tool_history.h"
 #include "render_client/ui/session_source.h"
+#include "render_client/ui/view/slices_view.h"
 #include "render_client/ui/view/view_settings.h"
 #include "render_client/volume/camera.h"
 #include "render_client/volume/picture_quality.h"
@@ -27,6 +28,10 @@ struct OverlayContent {
     PictureQuality quality;
     /// What the operator asks for, where one drills from here.
     std::optional<OperatorCommand> operator_command;
+    /// Null where no slices are shown.
+    SlicesView* slices = nullptr;
+    const Bone* bone = nullptr;  ///< null until one has come
+    std::uint64_t bone_version = 0;
     /// Takes what is asked for with buttons; null where there is nobody to press them, as in offscreen
     /// pictures.
     SessionWishes* wishes = nullptr;

@@ -34,7 +34,8 @@ constexpr std::array text_keys{
     std::pair{GLFW_KEY_ENTER, ImGuiKey_Enter}};
 
 /// Latin letters, and the signs on the tool bar.
-constexpr std::array<ImWchar, 9> letters{0x20, 0x17F, 0x2190, 0x21FF, 0x25A0, 0x25FF, 0x2600, 0x27BF, 0};
+constexpr std::array<ImWchar, 11> letters{0x20,   0x17F,  0x2190, 0x21FF, 0x2300, 0x231F,
+                                          0x25A0, 0x25FF, 0x2600, 0x27BF, 0};
 
 ImVec4 imgui_colour(const Rgba& colour) {
     return ImGui::ColorConvertU32ToFloat4(colour_of(colour));

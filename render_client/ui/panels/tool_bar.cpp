@@ -12,7 +12,7 @@ namespace osteomill {
 
 namespace {
 
-enum class Tool { pedal, burr, tilt, undo, redo, reset, pause, mark, save, finish };
+enum class Tool { pedal, burr, tilt, place, slices, undo, redo, reset, pause, mark, save, finish };
 
 struct ToolButton {
     Tool tool;
@@ -55,6 +55,18 @@ std::vector<ToolButton> buttons(const OverlayContent& content) {
                            .is_enabled = may,
                            .is_on = content.view->drag_tilts});
     }
+    buttons.push_back({.tool = Tool::place,
+                       .sign = "\u2316",
+                       .word = "Place",
+                       .tip = "then click on bone: there the tool goes, the handpiece upright on it (L)",
+                       .is_enabled = may,
+                       .is_on = content.view->click_places});
+    if (content.session != nullptr && content.session->has_ct)
+        buttons.push_back({.tool = Tool::slices,
+                           .sign = "\u25A6",
+                           .word = "CT",
+                           .tip = "slices of the CT (F7)",
+                           .is_on = content.view->slices_shown});
     const auto counted = [](const char* word, std::uint32_t count) {
         return count > 0 ? fmt::format("{} {}", word, count) : std::string(word);
     };
@@ -121,6 +133,12 @@ void press(Tool tool, const OverlayContent& content) {
             break;
         case Tool::tilt:
             content.view->drag_tilts = !content.view->drag_tilts;
+            break;
+        case Tool::place:
+            content.view->click_places = !content.view->click_places;
+            break;
+        case Tool::slices:
+            content.view->slices_shown = !content.view->slices_shown;
             break;
         case Tool::undo:
             wishes.controls.push_back({SessionAction::undo});

@@ -65,7 +65,18 @@ SessionPicture::News SessionPicture::take_in() {
         history_.add(*tool_);
     }
     if (source_.bone()) take_in_bone(first_of_tool);
+    if (link_.bone_replaced || !link_.changes.empty()) ++bone_version_;
+    if (link_.ct) slices_.set_ct(link_.ct);
+    ask_for_ct();
     return news();
+}
+
+void SessionPicture::ask_for_ct() {
+    if (!view_.slices_shown || link_.status != LinkStatus::live || ct_asked_in_ == link_.connections) return;
+    ct_asked_in_ = link_.connections;
+    slices_.set_ct(nullptr);
+    if (tool_ && !slices_.cross_mm()) slices_.cross_at(tool_->burr_position_mm);
+    source_.ask_for_ct();
 }
 
 void SessionPicture::take_in_bone(bool first_of_tool) {
@@ -89,8 +100,8 @@ SessionPicture::News SessionPicture::news() const {
     };
     const bool hand_has_moved = operator_command_.has_value() != drawn_command_.has_value() ||
                                 (operator_command_ && !is_as_drawn(*drawn_command_, *operator_command_));
-    if (has_undrawn_bone_ || has_moved || hand_has_moved || has_turning_burr() || !quality().refined ||
-        link_.status != was.status || link_.status_line != was.status_line ||
+    if (has_undrawn_bone_ || has_moved || link_.ct || hand_has_moved || has_turning_burr() ||
+        !quality().refined || link_.status != was.status || link_.status_line != was.status_line ||
         link_.recording_error != was.recording_error || link_.controls != was.controls ||
         link_.snapshot_bricks != was.snapshot_bricks ||
         link_.checksum_mismatches != was.checksum_mismatches ||
@@ -168,6 +179,9 @@ const gl::Framebuffer& SessionPicture::draw(double elapsed_s) {
                   .render_frames_per_s = frame_s_ > 0.0 ? 1.0 / frame_s_ : 0.0,
                   .quality = picture_.quality(),
                   .operator_command = operator_command_,
+                  .slices = view_.slices_shown ? &slices_ : nullptr,
+                  .bone = source_.bone(),
+                  .bone_version = bone_version_,
                   .wishes = takes_wishes_ ? &wishes_ : nullptr,
                   .player = source_.player(),
                   .bone_problem = bone_problem_,

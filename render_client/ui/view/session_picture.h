@@ -79,6 +79,7 @@ class SessionPicture {
     void take_in_bone(bool first_of_tool);
     void replace_bone();
     News news() const;
+    void ask_for_ct();
     DrawnTool drawn_tool() const;
     void turn_burr(double elapsed_s);
 
@@ -106,6 +107,9 @@ class SessionPicture {
     ToolHistory history_;
     std::optional<OperatorCommand> operator_command_;
     ViewSettings view_;
+    SlicesView slices_;
+    std::uint64_t bone_version_ = 0;
+    std::uint64_t ct_asked_in_ = 0;  // which connection; 0: none
     SessionWishes wishes_;
     bool takes_wishes_ = false;
     double spin_rad_ = 0.0;

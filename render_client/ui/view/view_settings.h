@@ -29,10 +29,12 @@ struct ViewSettings {
     bool transfer_panel_shown = false;
     CutSettings cuts;
     TransferEditor transfer;
+    bool slices_shown = false;
     SessionQuestion question = SessionQuestion::none;
     std::array<char, SessionControl::longest_text + 1> note{};  ///< of a mark, while it is written
-    bool drag_tilts = false;  ///< the left button tilts the handpiece instead of moving it
-    std::string notice;       ///< one line for a few seconds; empty: none
+    bool click_places = false;  ///< the next click on bone says where the tool goes
+    bool drag_tilts = false;    ///< the left button tilts the handpiece instead of moving it
+    std::string notice;         ///< one line for a few seconds; empty: none
 };
 
 }  // namespace osteomill

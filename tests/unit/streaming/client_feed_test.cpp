@@ -328,5 +328,36 @@ TEST_F(ClientFeedTest, TellsEachEventOnceAndTheNewestStatus) {
     EXPECT_EQ(replica_.events(), 700U);
 }
 
+TEST_F(ClientFeedTest, SendsTheCtBetweenStatesToWhoAsksAndOnce) {
+    const auto ct = std::make_shared<CtVolume>(
+        CtVolume{.grid = {.size_voxels = {64, 64, 40}}, .hu = std::vector<std::int16_t>(64 * 64 * 40, 7)});
+    drain();
+    EXPECT_FALSE(feed_->wants_ct());
+    feed_->ask_for_ct();
+    EXPECT_TRUE(feed_->wants_ct());
+    feed_->give_ct(ct);
+    EXPECT_FALSE(feed_->wants_ct());
+    CtAssembler assembler;
+    std::shared_ptr<const CtVolume> arrived;
+    int states = 0;
+    FrameDecoder decoder;
+    for (int i = 0; i < 20; ++i) {
+        if (i % 2 == 0) feed_->request_state({.time_s = 1.0 * i}, true);
+        const auto bytes = feed_->next();
+        if (!bytes) break;
+        decoder.append({reinterpret_cast<const std::uint8_t*>(bytes->data()), bytes->size()});
+        const auto message = decoder.next();
+        v1::ServerFrame frame;
+        ASSERT_TRUE(frame.ParseFromArray(message->data(), static_cast<int>(message->size())));
+        states += frame.has_state();
+        if (frame.has_ct_piece()) arrived = std::get<0>(assembler.take(frame.ct_piece()));
+    }
+    ASSERT_TRUE(arrived);
+    EXPECT_EQ(arrived->hu, ct->hu);
+    EXPECT_GE(states, 5) << "states come first";
+    feed_->ask_for_ct();
+    EXPECT_FALSE(feed_->wants_ct());
+}
+
 }  // namespace
 }  // namespace osteomill

@@ -1,0 +1,187 @@
+#include "render_client/ui/panels/slices_panel.h"
+
+#include <fmt/format.h>
+#include <imgui.h>
+
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include "render_client/ui/panels/input_panel.h"
+
+namespace osteomill {
+
+namespace {
+
+/// Edges of a slice's picture, in heights of a letter.
+constexpr std::array<float, 3> edges{17.0f, 13.0f, 9.0f};
+constexpr double zoom_per_notch = 0.88;
+constexpr double window_hu_per_px = 8.0;
+constexpr float narrowest_window_hu = 50.0f;
+constexpr float widest_window_hu = 5000.0f;
+
+int edge_px(std::size_t choice) {
+    return static_cast<int>(std::round(edges[choice] * ImGui::GetFontSize()));
+}
+
+float rows() {
+    return 2.0f * ImGui::GetFrameHeightWithSpacing();
+}
+
+const char* name_of(SlicePlane plane) {
+    switch (plane) {
+        case SlicePlane::axial:
+            return "axial";
+        case SlicePlane::coronal:
+            return "coronal";
+        case SlicePlane::sagittal:
+            break;
+    }
+    return "sagittal";
+}
+
+/// "L 12.3  P 4.0  S 56.7": which side of the origin, for people.
+std::string lps_text(const glm::dvec3& position_mm) {
+    const auto axis = [](double value, char positive, char negative) {
+        return fmt::format("{} {:.1f}", value < 0.0 ? negative : positive, std::abs(value));
+    };
+    return fmt::format("{}  {}  {} mm", axis(position_mm.x, 'L', 'R'), axis(position_mm.y, 'P', 'A'),
+                       axis(position_mm.z, 'S', 'I'));
+}
+
+void draw_marks(const OverlayContent& content, const SliceView& view, const ImVec2& first) {
+    ImDrawList& canvas = *ImGui::GetWindowDrawList();
+    const auto edge = static_cast<float>(view.edge_px);
+    const ImU32 cross = IM_COL32(90, 200, 255, 160);
+    const glm::vec2 middle(view.pixel(*content.slices->cross_mm()));
+    canvas.PushClipRect(first, {first.x + edge, first.y + edge}, true);
+    canvas.AddLine({first.x, first.y + middle.y}, {first.x + edge, first.y + middle.y}, cross);
+    canvas.AddLine({first.x + middle.x, first.y}, {first.x + middle.x, first.y + edge}, cross);
+    if (content.tool && content.session && content.tool->burr < content.session->burrs.size()) {
+        const double radius_mm = content.session->burrs[content.tool->burr].radius_mm();
+        const double away_mm = glm::dot(content.tool->burr_position_mm - view.centre_mm, view.across());
+        const glm::vec2 burr(view.pixel(content.tool->burr_position_mm));
+        const ImU32 ink = IM_COL32(120, 255, 140, 255);
+        if (std::abs(away_mm) < radius_mm)
+            canvas.AddCircle(
+                {first.x + burr.x, first.y + burr.y},
+                static_cast<float>(std::sqrt(radius_mm * radius_mm - away_mm * away_mm) / view.mm_per_px),
+                ink, 0, 1.5f);
+        const glm::dvec3 up_mm = content.tool->burr_position_mm + 10.0 * content.tool->spindle_axis;
+        const glm::vec2 up(view.pixel(up_mm));
+        canvas.AddLine({first.x + burr.x, first.y + burr.y}, {first.x + up.x, first.y + up.y}, ink);
+    }
+    const std::array<char, 4> letters = edge_letters(view.plane);
+    const float letter = ImGui::GetFontSize();
+    const std::array<ImVec2, 4> places{
+        ImVec2{2.0f, 0.5f * (edge - letter)}, ImVec2{edge - letter, 0.5f * (edge - letter)},
+        ImVec2{0.5f * (edge - letter), 1.0f}, ImVec2{0.5f * (edge - letter), edge - letter - 2.0f}};
+    for (std::size_t i = 0; i < 4; ++i)
+        canvas.AddText({first.x + places[i].x, first.y + places[i].y}, IM_COL32(255, 230, 120, 255),
+                       &letters[i], &letters[i] + 1);
+    canvas.AddText({first.x + 4.0f, first.y + 2.0f}, IM_COL32(200, 200, 200, 255), name_of(view.plane));
+    canvas.PopClipRect();
+}
+
+/// Left: the cross-hair; right: window and level; the wheel goes through the slices, with ctrl it zooms.
+void take_mouse(SlicesView& slices, const SliceView& view, const ImVec2& first) {
+    const ImGuiIO& io = ImGui::GetIO();
+    if (ImGui::IsItemActive() && io.MouseDown[ImGuiMouseButton_Left])
+        slices.cross_at(view.position_mm({io.MousePos.x - first.x, io.MousePos.y - first.y}));
+    if (!ImGui::IsItemHovered()) return;
+    if (io.MouseDown[ImGuiMouseButton_Right]) {
+        HuWindow& window = slices.window();
+        window.window_hu = glm::clamp(window.window_hu + window_hu_per_px * io.MouseDelta.x,
+                                      double{narrowest_window_hu}, double{widest_window_hu});
+        window.level_hu = glm::clamp(window.level_hu - window_hu_per_px * io.MouseDelta.y, -1000.0, 3000.0);
+    }
+    if (io.MouseWheel == 0.0f) return;
+    if (io.KeyCtrl)
+        slices.zoom(std::pow(zoom_per_notch, io.MouseWheel));
+    else
+        slices.cross_at(*slices.cross_mm() -
+                        static_cast<double>(io.MouseWheel) * slices.ct()->grid.spacing_mm * view.across());
+}
+
+void draw_settings(const OverlayContent& content) {
+    SlicesView& slices = *content.slices;
+    const float letter = ImGui::GetFontSize();
+    auto level = static_cast<float>(slices.window().level_hu);
+    auto width = static_cast<float>(slices.window().window_hu);
+    ImGui::SetNextItemWidth(10.0f * letter);
+    if (ImGui::SliderFloat("##level", &level, -1000.0f, 3000.0f, "level %.0f HU", ImGuiSliderFlags_NoInput))
+        slices.window().level_hu = level;
+    ImGui::SameLine();
+    ImGui::SetNextItemWidth(10.0f * letter);
+    if (ImGui::SliderFloat("##window", &width, narrowest_window_hu, widest_window_hu, "window %.0f HU",
+                           ImGuiSliderFlags_NoInput))
+        slices.window().window_hu = width;
+    ImGui::SameLine();
+    const bool may = content.wishes != nullptr && content.link.controls.may_control && content.tool;
+    ImGui::BeginDisabled(!may);
+    if (ImGui::Button("Place the tool here") && may)
+        content.wishes->controls.push_back({.action = SessionAction::place,
+                                            .text = {},
+                                            .pose = {*slices.cross_mm(), content.tool->spindle_axis}});
+    ImGui::EndDisabled();
+}
+
+}  // namespace
+
+std::vector<glm::vec2> slices_panel_sizes(const PanelPainter&) {
+    const ImGuiStyle& style = ImGui::GetStyle();
+    std::vector<glm::vec2> sizes;
+    for (std::size_t choice = 0; choice < edges.size(); ++choice) {
+        const auto edge = static_cast<float>(edge_px(choice));
+        sizes.emplace_back(3.0f * edge + 2.0f * style.ItemSpacing.x + 2.0f * style.WindowPadding.x,
+                           edge + rows() + style.ItemSpacing.y + 2.0f * style.WindowPadding.y);
+    }
+    return sizes;
+}
+
+void draw_slices_panel(const OverlayContent& content, const PanelPainter& painter, const PanelPlace& place) {
+    const InputPanel window("slices", place);
+    SlicesView& slices = *content.slices;
+    if (slices.ct() == nullptr) {
+        const bool has_ct =
+            content.player == nullptr && content.session != nullptr && content.session->has_ct;
+        painter.draw_text(
+            place.first + painter.padding(), painter.theme()[Tone::plain],
+            has_ct ? "the CT is on its way" : "there is no CT to show: a recording, or a bone without one");
+        return;
+    }
+    const int edge = edge_px(place.choice);
+    bool is_first = true;
+    for (const SlicePlane plane : SlicesView::planes) {
+        if (!is_first) ImGui::SameLine();
+        is_first = false;
+        const SliceView view = slices.view(plane, edge);
+        const ImVec2 first = ImGui::GetCursorScreenPos();
+        const GLuint id = slices.picture(plane, edge, content.bone, content.bone_version).id();
+        ImGui::GetWindowDrawList()->AddImage(
+            reinterpret_cast<ImTextureID>(static_cast<std::uintptr_t>(id)), first,
+            {first.x + static_cast<float>(edge), first.y + static_cast<float>(edge)});
+        ImGui::InvisibleButton(name_of(plane), {static_cast<float>(edge), static_cast<float>(edge)});
+        draw_marks(content, view, first);
+        take_mouse(slices, view, first);
+    }
+    ImGui::TextUnformatted(
+        fmt::format("{}   {:.0f} HU", lps_text(*slices.cross_mm()), slices.ct()->hu_at(*slices.cross_mm()))
+            .c_str());
+    draw_settings(content);
+}
+
+void draw_slices_cross(const OverlayContent& content, const PanelPainter& painter,
+                       const glm::ivec2& size_px) {
+    if (content.slices == nullptr || !content.slices->cross_mm()) return;
+    const glm::dvec3 at_mm = *content.slices->cross_mm();
+    if (glm::dot(at_mm - content.camera->eye_mm(), content.camera->forward()) < content.camera->near_mm)
+        return;
+    const glm::vec2 at(pixel_of(*content.camera, at_mm, size_px));
+    const float arm = 10.0f * painter.scale();
+    const ImU32 ink = IM_COL32(90, 200, 255, 255);
+    painter.canvas().AddLine({at.x - arm, at.y}, {at.x + arm, at.y}, ink, 1.5f);
+    painter.canvas().AddLine({at.x, at.y - arm}, {at.x, at.y + arm}, ink, 1.5f);
+}
+
+}  // namespace osteomill

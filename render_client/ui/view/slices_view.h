@@ -1,0 +1,55 @@
+// The three slices through the CT that cross at one point: where that is, how they are shown, and their
+// pictures on the graphics card.
+#pragma once
+
+#include <array>
+#include <memory>
+#include <optional>
+
+#include "common/bone/bone.h"
+#include "common/bone/ct_volume.h"
+#include "render_client/volume/ct_slice.h"
+#include "render_client/volume/gl/picture_texture.h"
+
+namespace osteomill {
+
+class SlicesView {
+  public:
+    static constexpr std::array<SlicePlane, 3> planes{SlicePlane::axial, SlicePlane::coronal,
+                                                      SlicePlane::sagittal};
+
+    /// A CT has come. The slices first cross in its middle, unless cross_at() has said where.
+    void set_ct(std::shared_ptr<const CtVolume> ct);
+    const CtVolume* ct() const { return ct_.get(); }
+
+    /// Patient LPS; kept within the CT, once that is there.
+    void cross_at(const glm::dvec3& position_mm);
+    const std::optional<glm::dvec3>& cross_mm() const { return cross_mm_; }
+    /// Towards the cross, which then is in the middle.
+    void zoom(double factor);
+    HuWindow& window() { return window_; }
+
+    /// The slice's picture as it is now, made anew only where something has changed. `bone_version` goes up
+    /// with each change of the bone.
+    const gl::PictureTexture& picture(SlicePlane plane, int edge_px, const Bone* bone,
+                                      std::uint64_t bone_version);
+    SliceView view(SlicePlane plane, int edge_px) const;
+
+  private:
+    struct Drawn {
+        gl::PictureTexture texture;
+        SliceView view;
+        HuWindow window;
+        const CtVolume* ct = nullptr;
+        std::uint64_t bone_version = 0;
+    };
+
+    std::shared_ptr<const CtVolume> ct_;
+    std::optional<glm::dvec3> cross_mm_;
+    glm::dvec3 centre_mm_{0.0};  // of the pictures, but for where across their planes they are
+    double width_mm_ = 30.0;
+    HuWindow window_;
+    std::array<std::optional<Drawn>, 3> drawn_;
+};
+
+}  // namespace osteomill

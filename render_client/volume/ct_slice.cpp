@@ -1,0 +1,85 @@
+#include "render_client/volume/ct_slice.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/vector_relational.hpp>
+
+namespace osteomill {
+
+namespace {
+
+constexpr std::uint8_t half_full = 128;
+constexpr std::array<std::uint8_t, 4> border_colour{255, 150, 40, 255};
+
+}  // namespace
+
+glm::dvec3 SliceView::right() const {
+    return plane == SlicePlane::sagittal ? glm::dvec3(0.0, 1.0, 0.0) : glm::dvec3(1.0, 0.0, 0.0);
+}
+
+glm::dvec3 SliceView::down() const {
+    return plane == SlicePlane::axial ? glm::dvec3(0.0, 1.0, 0.0) : glm::dvec3(0.0, 0.0, -1.0);
+}
+
+glm::dvec3 SliceView::across() const {
+    return glm::cross(right(), down());
+}
+
+glm::dvec3 SliceView::position_mm(const glm::dvec2& at) const {
+    const glm::dvec2 from_middle = mm_per_px * (at - 0.5 * edge_px);
+    return centre_mm + from_middle.x * right() + from_middle.y * down();
+}
+
+glm::dvec2 SliceView::pixel(const glm::dvec3& position) const {
+    const glm::dvec3 from_centre = (position - centre_mm) / mm_per_px;
+    return 0.5 * edge_px + glm::dvec2(glm::dot(from_centre, right()), glm::dot(from_centre, down()));
+}
+
+std::array<char, 4> edge_letters(SlicePlane plane) {
+    switch (plane) {
+        case SlicePlane::axial:
+            return {'R', 'L', 'A', 'P'};
+        case SlicePlane::coronal:
+            return {'R', 'L', 'S', 'I'};
+        case SlicePlane::sagittal:
+            break;
+    }
+    return {'A', 'P', 'S', 'I'};
+}
+
+std::uint8_t HuWindow::grey(double hu) const {
+    const double share = (hu - level_hu) / std::max(window_hu, 1.0) + 0.5;
+    return static_cast<std::uint8_t>(std::lround(255.0 * std::clamp(share, 0.0, 1.0)));
+}
+
+std::vector<std::uint8_t> slice_picture(const CtVolume& ct, const Bone* bone, const SliceView& view,
+                                        const HuWindow& window) {
+    const auto edge = static_cast<std::size_t>(view.edge_px);
+    std::vector<std::uint8_t> pixels(4 * edge * edge);
+    std::vector<std::uint8_t> is_bone(edge * edge);
+    for (std::size_t y = 0; y < edge; ++y)
+        for (std::size_t x = 0; x < edge; ++x) {
+            const glm::dvec3 at = view.position_mm(glm::dvec2(x, y) + 0.5);
+            const std::uint8_t grey = window.grey(ct.hu_at(at));
+            const std::size_t index = x + edge * y;
+            std::fill_n(pixels.begin() + static_cast<std::ptrdiff_t>(4 * index), 3, grey);
+            pixels[4 * index + 3] = 255;
+            if (bone == nullptr) continue;
+            const glm::dvec3 voxel = glm::round(to_voxel_coordinates(bone->grid(), at));
+            if (glm::any(glm::greaterThan(glm::abs(voxel), glm::dvec3(1e6)))) continue;
+            is_bone[index] = bone->fraction_at(glm::ivec3(voxel)) >= half_full ? 1 : 0;
+        }
+    for (std::size_t y = 0; y + 1 < edge; ++y)
+        for (std::size_t x = 0; x + 1 < edge; ++x) {
+            const std::size_t index = x + edge * y;
+            if (is_bone[index] != is_bone[index + 1] || is_bone[index] != is_bone[index + edge])
+                std::copy(border_colour.begin(), border_colour.end(),
+                          pixels.begin() + static_cast<std::ptrdiff_t>(4 * index));
+        }
+    return pixels;
+}
+
+}  // namespace osteomill

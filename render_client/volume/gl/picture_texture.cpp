@@ -1,0 +1,31 @@
+#include "render_client/volume/gl/picture_texture.h"
+
+#include <utility>
+
+namespace osteomill::gl {
+
+PictureTexture::PictureTexture() {
+    glGenTextures(1, &id_);
+}
+
+PictureTexture::PictureTexture(PictureTexture&& other) noexcept : id_(std::exchange(other.id_, 0)) {}
+
+PictureTexture& PictureTexture::operator=(PictureTexture&& other) noexcept {
+    std::swap(id_, other.id_);
+    return *this;
+}
+
+PictureTexture::~PictureTexture() {
+    if (id_ != 0) glDeleteTextures(1, &id_);
+}
+
+void PictureTexture::upload(const glm::ivec2& size_px, std::span<const std::uint8_t> rgba) {
+    glBindTexture(GL_TEXTURE_2D, id_);
+    glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
+    glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, size_px.x, size_px.y, 0, GL_RGBA, GL_UNSIGNED_BYTE, rgba.data());
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+    glBindTexture(GL_TEXTURE_2D, 0);
+}
+
+}  // namespace osteomill::gl

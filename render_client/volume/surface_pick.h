@@ -1,0 +1,22 @@
+// Which point of the bone's surface a person has clicked on.
+#pragma once
+
+#include <optional>
+#include <span>
+
+#include "common/bone/bone.h"
+#include "render_client/volume/camera.h"
+#include "render_client/volume/scene_look.h"
+
+namespace osteomill {
+
+struct SurfacePoint {
+    glm::dvec3 position_mm{0.0};       ///< patient LPS
+    glm::dvec3 normal{0.0, 0.0, 1.0};  ///< unit, out of the bone, of what is within a millimetre or so
+};
+
+/// Where the ray through a pixel first meets bone that no cut takes away; nothing where it meets none.
+std::optional<SurfacePoint> pick_surface(const Bone& bone, const Camera& camera, const glm::dvec2& pixel,
+                                         const glm::ivec2& size_px, std::span<const CutPlane> cuts);
+
+}  // namespace osteomill
