@@ -41,7 +41,6 @@ struct Typed {
     std::string record;
     std::string save_bone;
     std::string json;
-    std::string json_histograms;
     std::string report;
     std::string trainee;
     std::string log_csv;
@@ -171,10 +170,9 @@ void declare(CLI::App& app, Typed& typed) {
         ->type_name("DIR");
     app.add_option("--trainee", typed.trainee, "Whose session it is, for the recording and the report")
         ->type_name("NAME");
-    app.add_option("--json", typed.json, "Write what was measured, and with which settings")
-        ->type_name("FILE");
-    app.add_option("--json-histograms", typed.json_histograms,
-                   "Write the histograms that the percentiles of --json are from")
+    app.add_option("--json", typed.json,
+                   "Write what was measured, and with which settings; the histograms that its percentiles "
+                   "are from go beside it, into NAME.histograms.json")
         ->type_name("FILE");
     app.add_option("--log-csv", typed.log_csv, "Write force and depth, a line a millisecond")
         ->type_name("FILE");
@@ -224,6 +222,14 @@ bool is_utf8(const std::string& text) {
     }
 }
 
+/// NAME.histograms.json of NAME.json; nowhere for what is no file, such as /dev/stdout.
+std::optional<std::filesystem::path> histograms_beside(const std::filesystem::path& json) {
+    std::error_code unknown;
+    if (std::filesystem::exists(json, unknown) && !std::filesystem::is_regular_file(json, unknown))
+        return std::nullopt;
+    return json.parent_path() / (json.stem().string() + ".histograms.json");
+}
+
 std::string checked_trainee(const std::string& name) {
     constexpr std::size_t longest = 100;
     const bool has_control = std::any_of(name.begin(), name.end(), [](char letter) {
@@ -257,7 +263,7 @@ void require_distinct_files(const ServerOptions& options, const AccessOptions& a
     add("--operators", options.operators, false);
     add("--controls", options.controls, false);
     add("--json", options.json, true);
-    add("--json-histograms", options.json_histograms, true);
+    add("--json (its histograms)", options.json_histograms, true);
     if (options.report)
         for (const char* name : {"report.html", "metrics.csv", "metrics.json"})
             add("--report", *options.report / name, true);
@@ -328,12 +334,12 @@ ServerOptions checked(const Typed& typed, const AccessOptions& access) {
         throw std::invalid_argument("--record: --report records already, as DIR/session.pcap");
     if (options.report) options.record = recording_in(*options.report);
     options.trainee = checked_trainee(typed.trainee);
-    options.json_histograms = path_if_given(typed.json_histograms);
     options.save_bone = path_if_given(typed.save_bone);
     if (options.save_bone && options.save_bone->extension() != ".nrrd") {
         throw std::invalid_argument(fmt::format("--save-bone: '{}' must end in .nrrd", typed.save_bone));
     }
     options.json = path_if_given(typed.json);
+    if (options.json) options.json_histograms = histograms_beside(*options.json);
     options.log_csv = path_if_given(typed.log_csv);
     options.log_milling_csv = path_if_given(typed.log_milling_csv);
     require_distinct_files(options, access);

@@ -34,7 +34,7 @@ struct ServerOptions {
     std::string trainee;
     std::optional<std::filesystem::path> save_bone;
     std::optional<std::filesystem::path> json;
-    std::optional<std::filesystem::path> json_histograms;
+    std::optional<std::filesystem::path> json_histograms;  ///< beside json
     std::optional<std::filesystem::path> log_csv;
     std::optional<std::filesystem::path> log_milling_csv;
 };

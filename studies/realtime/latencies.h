@@ -29,7 +29,8 @@ class Latencies {
     std::uint64_t count_ = 0;
 };
 
-/// Of one of those of haptic_server --json-histograms. Throws nlohmann::json::exception for what is none.
+/// Of one of those that haptic_server --json writes beside its file. Throws nlohmann::json::exception for
+/// what is none.
 Latencies latencies_of_server(const nlohmann::json& histogram);
 
 /// Of cyclictest --json with one thread: whole microseconds, rounded down, so 12 lies below 13. Those beyond

@@ -64,11 +64,11 @@ void Served::add(const Served& other) {
 Served serve(const std::filesystem::path& haptic_server, double duration_s,
              const std::filesystem::path& work) {
     const std::filesystem::path file = work / "server.json";
-    const std::filesystem::path histograms_file = work / "histograms.json";
-    osteomill::testing::ChildProcess server(
-        {haptic_server.string(), "--listen", "127.0.0.1:0", "--milling-rate-hz", "1000", "--duration-s",
-         fmt::format("{}", duration_s), "--record", (work / "session.pcap").string(), "--json", file.string(),
-         "--json-histograms", histograms_file.string()});
+    const std::filesystem::path histograms_file = work / "server.histograms.json";
+    osteomill::testing::ChildProcess server({haptic_server.string(), "--listen", "127.0.0.1:0",
+                                             "--milling-rate-hz", "1000", "--duration-s",
+                                             fmt::format("{}", duration_s), "--record",
+                                             (work / "session.pcap").string(), "--json", file.string()});
     const auto address = server.line_after("listening on ", room);
     if (!address) fail("haptic_server", server);
 

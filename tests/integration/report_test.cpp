@@ -34,9 +34,8 @@ class ReportProgram : public ::testing::Test {
 
 TEST_F(ReportProgram, OfTheLiveSessionIsThatOfItsRecording) {
     std::ofstream(file("script.csv")) << "t_s,action,text\n3.0,mark,here\n";
-    const Finished live =
-        serve({"--trainee", "Anna", "--report", file("anna"), "--controls", file("script.csv"), "--json",
-               file("server.json"), "--json-histograms", file("histograms.json")});
+    const Finished live = serve({"--trainee", "Anna", "--report", file("anna"), "--controls",
+                                 file("script.csv"), "--json", file("server.json")});
     ASSERT_EQ(live.status, 0) << live.err;
     EXPECT_THAT(live.out, HasSubstr("report.html"));
     const Finished again = run_program({PACKET_REPLAY, file("anna/session.pcap"), "--report", file("again")});
@@ -56,7 +55,7 @@ TEST_F(ReportProgram, OfTheLiveSessionIsThatOfItsRecording) {
     EXPECT_EQ(measured.at("settings").at("scene"), "tooth");
     EXPECT_EQ(measured.at("settings").at("milling_rate_hz"), 1000.0);
     EXPECT_FALSE(measured.contains("histograms_us"));
-    EXPECT_TRUE(nlohmann::json::parse(text("histograms.json")).contains("milling_step"));
+    EXPECT_TRUE(nlohmann::json::parse(text("server.histograms.json")).contains("milling_step"));
 
     const Finished second = serve({"--report", file("anna")});
     EXPECT_EQ(second.status, 1);
