@@ -23,6 +23,18 @@ constexpr double bottom = 40.0;
 constexpr std::array<const char*, 7> colours{"#0072b2", "#d55e00", "#009e73", "#cc79a7",
                                              "#e69f00", "#56b4e9", "#333333"};
 
+constexpr double legend_row = 18.0;
+
+const char* colour_of(std::size_t line) {
+    return colours[line % colours.size()];
+}
+
+/// Where the colours begin anew.
+const char* dashes_of(std::size_t line) {
+    constexpr std::array<const char*, 3> dashes{"", " stroke-dasharray='7 3'", " stroke-dasharray='2 3'"};
+    return dashes[line / colours.size() % dashes.size()];
+}
+
 struct Range {
     double low = std::numeric_limits<double>::infinity();
     double high = -std::numeric_limits<double>::infinity();
@@ -114,11 +126,13 @@ void add_axes(std::string& svg, const SvgPlot& plot, const Axes& axes) {
                        0.5 * (top + height - bottom), html_text(plot.y_text));
 }
 
-void add_line(std::string& svg, const PlotLine& line, const Axes& axes, const char* colour) {
+void add_line(std::string& svg, const PlotLine& line, const Axes& axes, std::size_t number) {
+    const char* const colour = colour_of(number);
     const std::vector<Dot> dots = visible(line, axes);
     if (dots.empty()) return;
-    svg += fmt::format(
-        "<polyline fill='none' stroke='{}' stroke-width='1.5' stroke-linejoin='round' points='", colour);
+    svg +=
+        fmt::format("<polyline fill='none' stroke='{}' stroke-width='1.5' stroke-linejoin='round'{} points='",
+                    colour, dashes_of(number));
     for (const Dot& dot : dots) svg += fmt::format("{:.1f},{:.1f} ", dot.x, dot.y);
     svg += "'/>";
     if (line.has_dots || dots.size() == 1)
@@ -136,15 +150,42 @@ void add_moment(std::string& svg, const PlotMoment& moment, double x) {
         html_text(moment.text));
 }
 
-void add_legend(std::string& svg, const SvgPlot& plot) {
-    double x = width - right;
-    for (std::size_t i = plot.lines.size(); i-- > 0;) {
-        const std::string& name = plot.lines[i].name;
-        x -= 7.0 * static_cast<double>(name.size()) + 24.0;
-        svg += fmt::format(
-            "<path d='M{0:.1f} 12h14' stroke='{1}' stroke-width='3'/><text x='{2:.1f}' y='16'>{3}</text>", x,
-            colours[i % colours.size()], x + 18.0, html_text(name));
+/// Of the name's dash and text; an estimate, since nobody measures text here.
+double legend_width(const PlotLine& line) {
+    return 7.0 * static_cast<double>(line.name.size()) + 24.0;
+}
+
+void add_legend_entry(std::string& svg, const SvgPlot& plot, std::size_t i, double x, double y) {
+    svg += fmt::format(
+        "<path d='M{0:.1f} {1:.1f}h14' stroke='{2}' stroke-width='3'{3}/><text x='{4:.1f}' y='{5:.1f}'>"
+        "{6}</text>",
+        x, y - 4.0, colour_of(i), dashes_of(i), x + 18.0, y, html_text(plot.lines[i].name));
+}
+
+/// Beside the title where there is room, else in rows below the plot. Returns the height of these.
+double add_legend(std::string& svg, const SvgPlot& plot) {
+    if (plot.lines.size() < 2) return 0.0;
+    double all = 0.0;
+    for (const PlotLine& line : plot.lines) all += legend_width(line);
+    if (left + 8.0 * static_cast<double>(plot.title.size()) + all < width - right) {
+        double x = width - right - all;
+        for (std::size_t i = 0; i < plot.lines.size(); ++i) {
+            add_legend_entry(svg, plot, i, x, 16.0);
+            x += legend_width(plot.lines[i]);
+        }
+        return 0.0;
     }
+    double x = left;
+    double below = legend_row;
+    for (std::size_t i = 0; i < plot.lines.size(); ++i) {
+        if (x > left && x + legend_width(plot.lines[i]) > width - right) {
+            x = left;
+            below += legend_row;
+        }
+        add_legend_entry(svg, plot, i, x, height + below - 4.0);
+        x += legend_width(plot.lines[i]);
+    }
+    return below;
 }
 
 }  // namespace
@@ -164,18 +205,16 @@ std::string to_svg(const SvgPlot& plot) {
     const double room = 0.04 * (axes.y.high - axes.y.low);
     axes.y.high += room;
     if (axes.y.low != 0.0) axes.y.low -= room;
-    std::string svg = fmt::format(
-        "<svg viewBox='0 0 {:g} {:g}' xmlns='http://www.w3.org/2000/svg' role='img' "
-        "font-family='sans-serif' font-size='12' fill='#333'>",
-        width, height);
-    svg += fmt::format("<title>{}</title>", html_text(plot.title));
+    std::string svg = fmt::format("<title>{}</title>", html_text(plot.title));
     add_axes(svg, plot, axes);
     for (const PlotMoment& moment : plot.moments)
         if (moment.x >= axes.x.low && moment.x <= axes.x.high) add_moment(svg, moment, axes.px(moment.x));
-    for (std::size_t i = 0; i < plot.lines.size(); ++i)
-        add_line(svg, plot.lines[i], axes, colours[i % colours.size()]);
-    if (plot.lines.size() > 1) add_legend(svg, plot);
-    return svg + "</svg>";
+    for (std::size_t i = 0; i < plot.lines.size(); ++i) add_line(svg, plot.lines[i], axes, i);
+    const double legend_height = add_legend(svg, plot);
+    return fmt::format(
+        "<svg viewBox='0 0 {:g} {:g}' xmlns='http://www.w3.org/2000/svg' role='img' "
+        "font-family='sans-serif' font-size='12' fill='#333'>{}</svg>",
+        width, height + legend_height, svg);
 }
 
 }  // namespace osteomill

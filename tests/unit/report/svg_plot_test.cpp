@@ -36,6 +36,21 @@ TEST(SvgPlotTest, KeepsThePeaksOfManyPoints) {
     EXPECT_THAT(svg, HasSubstr(",35.4 "));
 }
 
+TEST(SvgPlotTest, KeepsTheNamesOfManyLinesInThePicture) {
+    SvgPlot plot{.title = "peak force"};
+    for (int i = 0; i < 3; ++i)
+        plot.lines.push_back({.name = "trainee " + std::to_string(i), .x = {1, 2}, .y = {1, 2}});
+    EXPECT_THAT(to_svg(plot), HasSubstr("viewBox='0 0 900 210'"));
+    for (int i = 3; i < 12; ++i)
+        plot.lines.push_back({.name = "trainee " + std::to_string(i), .x = {1, 2}, .y = {1, 2}});
+    // 94 or 101 units a name, and 824 of room: two rows of 18.
+    const std::string svg = to_svg(plot);
+    EXPECT_THAT(svg, HasSubstr("viewBox='0 0 900 246'"));
+    EXPECT_THAT(svg, HasSubstr("y='242.0'>trainee 11"));
+    // The eighth has the first one's colour, and dashes.
+    EXPECT_THAT(svg, HasSubstr("stroke='#0072b2' stroke-width='3' stroke-dasharray"));
+}
+
 TEST(SvgPlotTest, ShowsNamesAsText) {
     const std::string svg = to_svg({.title = "<i>",
                                     .lines = {{.name = "</svg>", .x = {0, 1}, .y = {0, 1}}, {}},
