@@ -62,6 +62,8 @@ class Statement {
     int bound_ = 0;
 };
 
+constexpr int busy_ms = 30'000;
+
 constexpr const char* tables = R"(
 CREATE TABLE IF NOT EXISTS made_by(version TEXT PRIMARY KEY);
 CREATE TABLE IF NOT EXISTS session(digest TEXT PRIMARY KEY, file TEXT NOT NULL, trainee TEXT NOT NULL,
@@ -90,6 +92,7 @@ bool SessionStore::open(const std::string& version) {
     const int result = sqlite3_open(file_.c_str(), &database);
     database_.reset(database);
     if (result != SQLITE_OK) return false;
+    sqlite3_busy_timeout(database, busy_ms);  // another study may be writing it
     if (sqlite3_exec(database, tables, nullptr, nullptr, nullptr) != SQLITE_OK) return false;
     Statement made_by(database, "SELECT version FROM made_by");
     if (made_by.step()) return made_by.text(0) == version;
