@@ -73,8 +73,8 @@ toml::table plan_table(const Plan& plan) {
     toml::table table{{"margin_mm", plan.margin_mm}};
     if (const auto* tissue = std::get_if<TissueRegion>(&plan.region)) table.insert("tissue", tissue->tissue);
     if (const auto* sphere = std::get_if<SphereRegion>(&plan.region))
-        table.insert("sphere",
-                     toml::table{{"centre_mm", toml_of(sphere->centre_mm)}, {"radius_mm", sphere->radius_mm}});
+        table.insert("sphere", toml::table{{"centre_mm", toml_of(sphere->centre_mm)},
+                                           {"radius_mm", sphere->radius_mm}});
     if (const auto* cylinder = std::get_if<CylinderRegion>(&plan.region))
         table.insert("cylinder", toml::table{{"from_mm", toml_of(cylinder->from_mm)},
                                              {"to_mm", toml_of(cylinder->to_mm)},

@@ -39,8 +39,8 @@
 #include "haptic_server/program/session_keeper.h"
 #include "haptic_server/program/session_settings.h"
 #include "haptic_server/program/status_line.h"
-#include "haptic_server/report/write_report.h"
 #include "haptic_server/program/tool_place.h"
+#include "haptic_server/report/write_report.h"
 #include "haptic_server/streaming/live_session.h"
 #include "haptic_server/streaming/streaming_server.h"
 
