@@ -9,6 +9,7 @@
 #include "common/program/stop_signals.h"
 #include "haptic_server/imaging/import_bone.h"
 #include "haptic_server/imaging/memory_estimate.h"
+#include "haptic_server/program/case_folder.h"
 
 namespace {
 
@@ -18,6 +19,8 @@ constexpr int exit_usage = 2;
 /// Option texts that have a form of their own; std::invalid_argument says what is wrong with one.
 struct Texts {
     std::string region;
+    std::string case_folder;
+    std::string segmentation;
     std::string rescale;
     std::string intensity_window;
     std::string series;
@@ -26,8 +29,15 @@ struct Texts {
 
 void add_options(CLI::App& app, osteomill::ImportOptions& options, Texts& texts) {
     app.add_option("INPUT", options.input, "DICOM folder, or a NRRD, NIfTI or MetaImage file")->required();
-    app.add_option("OUTPUT.nrrd", options.output, "bone file to write (int16 HU, patient LPS, gzip)")
-        ->required();
+    auto* output =
+        app.add_option("OUTPUT.nrrd", options.output, "bone file to write (int16 HU, patient LPS, gzip)");
+    app.add_option("--case", texts.case_folder,
+                   "folder to make a case in, instead: case.toml, bone.nrrd and the segmentation")
+        ->type_name("DIR")
+        ->excludes(output);
+    app.add_option("--segmentation", texts.segmentation,
+                   "with --case: tissues, as 3D Slicer writes them (.seg.nrrd), or a label map (NRRD, NIfTI)")
+        ->type_name("FILE");
     app.add_option("--spacing-mm", options.spacing_mm, "edge of a voxel of the result")
         ->capture_default_str()
         ->check(osteomill::within(0.01, 10.0));
@@ -61,6 +71,11 @@ void parse_texts(const CLI::App& app, const Texts& texts, osteomill::ImportOptio
     if (app.count("--rescale") > 0) options.to_hu = osteomill::parse_rescale(texts.rescale);
     if (app.count("--intensity-window") > 0)
         options.to_hu = osteomill::parse_intensity_window(texts.intensity_window);
+    if (texts.case_folder.empty() && !texts.segmentation.empty())
+        throw std::invalid_argument("--segmentation: goes with --case");
+    if (texts.case_folder.empty() && options.output.empty())
+        throw std::invalid_argument("give OUTPUT.nrrd or --case DIR (see --help)");
+    if (!texts.case_folder.empty()) options.output = osteomill::bone_of_case(texts.case_folder);
     if (options.output.extension() != ".nrrd")
         throw std::invalid_argument("OUTPUT '" + options.output.string() + "': its name must end in .nrrd");
 }
@@ -92,11 +107,16 @@ int main(int argc, char** argv) {
         std::ostream messages(&buffer);
         messages << std::unitbuf;
         try {
+            const auto segmentation = texts.segmentation.empty()
+                                          ? std::nullopt
+                                          : std::optional<std::filesystem::path>(texts.segmentation);
+            if (!texts.case_folder.empty()) osteomill::begin_case(texts.case_folder, segmentation);
             std::ifstream meminfo("/proc/meminfo");
             osteomill::import_bone(options,
                                    {.messages = messages,
                                     .is_terminal = output.err->is_terminal(),
                                     .available_memory_bytes = osteomill::available_memory_bytes(meminfo)});
+            if (!texts.case_folder.empty()) osteomill::finish_case(texts.case_folder, segmentation, messages);
         } catch (const std::exception& error) {
             messages << "bone_import: " << error.what() << '\n';
             exit_code = exit_failure;

@@ -29,6 +29,7 @@ struct PhantomSource {
 struct FileSource {
     std::filesystem::path path;
     std::optional<double> threshold_hu{};  ///< bone is at and above this; absent: what the file itself says
+    std::filesystem::path segmentation{};  ///< where its tissues are, on the bone's grid; empty: nowhere
 
     bool operator==(const FileSource&) const = default;
 };
@@ -48,6 +49,9 @@ struct Tissue {
     std::array<std::uint8_t, 3> colour_rgb{};
     bool is_protected = false;                 ///< touching it with a turning burr raises a warning
     std::optional<TissueStrength> strength{};  ///< absent: as its CT numbers say
+    std::string segment{};                     ///< of the segmentation that it is; empty: none
+    double opacity = 1.0;                      ///< of its picture, 0 (not drawn) to 1
+    double warn_mm = 0.0;                      ///< a burr nearer than this is warned of; 0: none is
 
     bool operator==(const Tissue&) const = default;
 };

@@ -6,12 +6,11 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
-#include <set>
 #include <sstream>
 
-#include "common/scene/material.h"
 #include "common/scene/plan_table.h"
 #include "common/scene/shallow_toml.h"
+#include "common/scene/tissue_tables.h"
 #include "common/scene/toml_reader.h"
 
 namespace osteomill {
@@ -55,14 +54,20 @@ std::variant<PhantomSource, FileSource> read_bone(TomlReader reader, const std::
     const std::optional<std::size_t> phantom = reader.choice("phantom", phantom_choices);
     const std::optional<std::string> file = reader.text("file");
     const std::optional<double> threshold_hu = reader.number("threshold_hu", {-1024.0, 10'000.0});
+    const std::optional<std::string> segmentation = reader.text("segmentation");
     reader.refuse_other_keys();
     if (phantom.has_value() == file.has_value())
         reader.fail("phantom",
                     "[bone] takes either phantom = \"tooth\", \"cube\" or \"head\", or file = \"bone.nrrd\"");
     if (phantom && threshold_hu)
         reader.fail("threshold_hu", "'threshold_hu' goes with file, not with phantom");
+    if (phantom && segmentation)
+        reader.fail("segmentation", "'segmentation' goes with file, not with phantom");
     if (phantom) return PhantomSource{phantom_choices[*phantom]};
-    return FileSource{resolved(*file, folder), threshold_hu};
+    if (segmentation && segmentation->empty())
+        reader.fail("segmentation", "'segmentation' must name a file, such as \"segmentation.seg.nrrd\"");
+    return FileSource{resolved(*file, folder), threshold_hu,
+                      segmentation ? resolved(*segmentation, folder) : std::filesystem::path()};
 }
 
 StiffnessRelation read_stiffness(TomlReader reader) {
@@ -76,53 +81,6 @@ StiffnessRelation read_stiffness(TomlReader reader) {
         reader.fail("knots", error.what());
     }
     return relation;
-}
-
-std::array<std::uint8_t, 3> read_colour(TomlReader& reader) {
-    const std::string text = required(reader, "colour", reader.text("colour"));
-    const bool good = text.size() == 7 && text[0] == '#' &&
-                      text.find_first_not_of("0123456789abcdefABCDEF", 1) == std::string::npos;
-    if (!good) reader.fail("colour", "'colour' must look like \"#f6f4ec\"");
-    const unsigned long rgb = std::stoul(text.substr(1), nullptr, 16);
-    return {static_cast<std::uint8_t>(rgb >> 16U), static_cast<std::uint8_t>(rgb >> 8U & 0xffU),
-            static_cast<std::uint8_t>(rgb & 0xffU)};
-}
-
-std::optional<TissueStrength> read_strength(TomlReader& reader) {
-    std::vector<std::string> names;
-    for (const Material& material : shipped_materials()) names.push_back(material.name);
-    const std::optional<std::size_t> preset = reader.choice("material", names);
-    const std::optional<double> stiffness =
-        reader.number("relative_stiffness", {stiffness_per_code, largest_relative_stiffness});
-    const std::optional<double> edge = reader.number("relative_edge", {0.0, 100.0});
-    if (preset && (stiffness || edge))
-        reader.fail("material", "'material' says it all; take out 'relative_stiffness' and 'relative_edge'");
-    if (edge && !stiffness) reader.fail("relative_edge", "'relative_edge' goes with 'relative_stiffness'");
-    if (preset) {
-        const Material& material = shipped_materials()[*preset];
-        return TissueStrength{material.name, material.relative_stiffness, material.relative_edge};
-    }
-    if (stiffness) return TissueStrength{{}, *stiffness, edge.value_or(*stiffness)};
-    return std::nullopt;
-}
-
-std::vector<Tissue> read_tissues(std::vector<TomlReader> readers) {
-    std::vector<Tissue> tissues;
-    std::set<int> labels;
-    for (TomlReader& reader : readers) {
-        Tissue tissue;
-        tissue.label =
-            static_cast<std::uint8_t>(required(reader, "label", reader.whole_number("label", 1, 255)));
-        tissue.name = required(reader, "name", reader.text("name"));
-        tissue.colour_rgb = read_colour(reader);
-        tissue.is_protected = reader.truth("protected").value_or(false);
-        tissue.strength = read_strength(reader);
-        reader.refuse_other_keys();
-        if (!labels.insert(tissue.label).second)
-            reader.fail("label", fmt::format("label {} stands for two tissues", tissue.label));
-        tissues.push_back(std::move(tissue));
-    }
-    return tissues;
 }
 
 ShankProfile read_shank(TomlReader& reader, double burr_radius_mm) {
@@ -250,7 +208,8 @@ Scene read_all(TomlReader reader, const std::filesystem::path& folder) {
     scene.name = required(reader, "name", reader.text("name"));
     scene.bone = read_bone(required(reader, "bone", reader.table("bone")), folder);
     if (auto table = reader.table("stiffness")) scene.stiffness = read_stiffness(*table);
-    scene.tissues = read_tissues(reader.tables("tissues"));
+    const auto* file = std::get_if<FileSource>(&scene.bone);
+    scene.tissues = read_tissues(reader.tables("tissues"), file != nullptr && !file->segmentation.empty());
     for (TomlReader& burr : reader.tables("burrs")) scene.burrs.push_back(read_burr(burr));
     if (scene.burrs.empty()) scene.burrs = default_burr_set(default_rpm / seconds_per_minute);
     std::vector<std::string> burr_names;
@@ -314,6 +273,7 @@ toml::table bone_table(const std::variant<PhantomSource, FileSource>& bone) {
     const auto& file = std::get<FileSource>(bone);
     toml::table table{{"file", from_key(file.path)}};
     if (file.threshold_hu) table.insert("threshold_hu", *file.threshold_hu);
+    if (!file.segmentation.empty()) table.insert("segmentation", from_key(file.segmentation));
     return table;
 }
 
@@ -360,7 +320,10 @@ std::string write_scene(const Scene& scene) {
                           {"name", tissue.name},
                           {"colour", fmt::format("#{:02x}{:02x}{:02x}", tissue.colour_rgb[0],
                                                  tissue.colour_rgb[1], tissue.colour_rgb[2])},
-                          {"protected", tissue.is_protected}};
+                          {"protected", tissue.is_protected},
+                          {"opacity", tissue.opacity}};
+        if (tissue.warn_mm != usual_warn_mm(tissue.is_protected)) table.insert("warn_mm", tissue.warn_mm);
+        if (!tissue.segment.empty()) table.insert("segment", tissue.segment);
         if (tissue.strength && !tissue.strength->material.empty()) {
             table.insert("material", tissue.strength->material);
         } else if (tissue.strength) {

@@ -96,6 +96,8 @@ v1::TissueDescription to_message(const Tissue& tissue) {
     message.set_colour_rgb(static_cast<std::uint32_t>(tissue.colour_rgb[0]) << 16U |
                            static_cast<std::uint32_t>(tissue.colour_rgb[1]) << 8U | tissue.colour_rgb[2]);
     message.set_is_protected(tissue.is_protected);
+    message.set_opacity(tissue.opacity);
+    message.set_warn_mm(tissue.warn_mm);
     return message;
 }
 
@@ -186,12 +188,19 @@ std::variant<std::vector<Tissue>, WireError> tissues_from(
         const std::uint32_t rgb = message.colour_rgb();
         if (message.label() < 1 || message.label() > 255 || rgb > 0xFFFFFF)
             return WireError{"tissue \"" + one_line(message.name()) + "\" has an impossible label or colour"};
+        const double opacity = message.has_opacity() ? message.opacity() : 1.0;
+        const double warn_mm = message.has_warn_mm() ? message.warn_mm() : message.is_protected() ? 1.0 : 0.0;
+        if (!(opacity >= 0.0 && opacity <= 1.0) || !(warn_mm >= 0.0) || !std::isfinite(warn_mm))
+            return WireError{"tissue \"" + one_line(message.name()) +
+                             "\" has an impossible opacity or distance to warn at"};
         tissues.push_back({.label = static_cast<std::uint8_t>(message.label()),
                            .name = message.name(),
                            .colour_rgb = {static_cast<std::uint8_t>(rgb >> 16U),
                                           static_cast<std::uint8_t>(rgb >> 8U & 0xFFU),
                                           static_cast<std::uint8_t>(rgb & 0xFFU)},
-                           .is_protected = message.is_protected()});
+                           .is_protected = message.is_protected(),
+                           .opacity = opacity,
+                           .warn_mm = warn_mm});
     }
     return tissues;
 }

@@ -77,8 +77,22 @@ HuSlices watched(HuSlices slices, Watch& watch) {
             }};
 }
 
+HuSlices labelled(HuSlices slices, const FillLabels& fill_labels) {
+    const std::size_t voxels_a_slice = voxels_of_slice(slices.grid);
+    return {.grid = slices.grid,
+            .labelled = true,
+            .read = [read = std::move(slices.read), &fill_labels, voxels_a_slice, z = 0](
+                        std::span<std::int16_t> hu, std::span<std::uint8_t> tissue) mutable {
+                read(hu, {});
+                std::ranges::fill(tissue, std::uint8_t{0});
+                fill_labels(z, tissue);
+                z += static_cast<int>(tissue.size() / voxels_a_slice);
+            }};
+}
+
 BoneOfFile read(const std::filesystem::path& path, std::optional<double> threshold,
-                const StiffnessRelation& relation, std::optional<std::uint64_t> available_memory_bytes) {
+                const StiffnessRelation& relation, std::optional<std::uint64_t> available_memory_bytes,
+                const FillLabels& fill_labels) {
     auto file = std::make_shared<const BoneFile>(path);
     const double threshold_hu = threshold.value_or(file->threshold_hu().value_or(default_threshold_hu));
     if (is_carved(*file)) {
@@ -92,7 +106,9 @@ BoneOfFile read(const std::filesystem::path& path, std::optional<double> thresho
     }
     HuReader reader(*file);
     Watch watch(*file, threshold_hu, available_memory_bytes);
-    Bone bone = bone_from_hu(watched(slices_of(reader, *file), watch), threshold_hu, relation);
+    HuSlices slices = watched(slices_of(reader, *file), watch);
+    if (fill_labels) slices = labelled(std::move(slices), fill_labels);
+    Bone bone = bone_from_hu(slices, threshold_hu, relation);
     if (bone.stored_bricks() == 0) throw watch.no_bone();
     return {.bone = std::move(bone),
             .file = std::move(file),
@@ -105,9 +121,9 @@ BoneOfFile read(const std::filesystem::path& path, std::optional<double> thresho
 
 BoneOfFile bone_of_file(const std::filesystem::path& path, std::optional<double> threshold_hu,
                         const StiffnessRelation& relation,
-                        std::optional<std::uint64_t> available_memory_bytes) {
+                        std::optional<std::uint64_t> available_memory_bytes, const FillLabels& fill_labels) {
     try {
-        return read(path, threshold_hu, relation, available_memory_bytes);
+        return read(path, threshold_hu, relation, available_memory_bytes, fill_labels);
     } catch (const std::bad_alloc&) {
         throw ImagingError(path, "does not fit in memory");
     }

@@ -1,9 +1,12 @@
 // The bone that a bone file holds: made of its CT numbers, or what was saved of a carved one.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 
 #include "common/bone/bone.h"
@@ -15,6 +18,10 @@ namespace osteomill {
 /// Where neither scene nor file says from which HU on a voxel is bone: about what separates trabecular bone
 /// from soft tissue in CT.
 inline constexpr double default_threshold_hu = 300.0;
+
+/// Fills `labels` with the tissues of as many voxels (whole slices, x fastest) from slice `z` on; all are 0
+/// before.
+using FillLabels = std::function<void(int z, std::span<std::uint8_t> labels)>;
 
 struct BoneOfFile {
     Bone bone;
@@ -29,8 +36,10 @@ struct BoneOfFile {
 /// Reads the file slice by slice. The threshold is the one given, or the file's own, or the default. Throws
 /// ImagingError with one line naming the file, also where it holds no bone at all, or more than fits in
 /// `available_memory_bytes` (where known) with the copy that a session shows: as soon as that is seen.
+/// Without `fill_labels` the bone is unlabelled; a carved one has the labels with which it was saved.
 BoneOfFile bone_of_file(const std::filesystem::path& path, std::optional<double> threshold_hu,
                         const StiffnessRelation& relation,
-                        std::optional<std::uint64_t> available_memory_bytes = std::nullopt);
+                        std::optional<std::uint64_t> available_memory_bytes = std::nullopt,
+                        const FillLabels& fill_labels = {});
 
 }  // namespace osteomill

@@ -23,6 +23,8 @@ namespace osteomill {
 
 namespace {
 
+constexpr int most_layers = 255;
+
 bool ends_with_any(const std::string& name, std::initializer_list<const char*> endings) {
     return std::any_of(endings.begin(), endings.end(),
                        [&](const char* ending) { return name.ends_with(ending); });
@@ -52,8 +54,8 @@ void require_thickness(const std::filesystem::path& path, const glm::ivec3& size
                                              size_voxels.x, size_voxels.y, size_voxels.z));
 }
 
-void require_volume(const std::filesystem::path& path, const itk::ImageIOBase& io) {
-    if (io.GetNumberOfComponents() != 1)
+void require_volume(const std::filesystem::path& path, const itk::ImageIOBase& io, bool may_have_layers) {
+    if (io.GetNumberOfComponents() != 1 && !may_have_layers)
         throw ImagingError(path, fmt::format("has {} values a voxel (colour or vectors); CT has one",
                                              io.GetNumberOfComponents()));
     unsigned dimensions = io.GetNumberOfDimensions();
@@ -117,20 +119,22 @@ std::uint64_t bytes_of_slice(const SourceImage& image) {
            static_cast<std::uint64_t>(image.size_voxels.y);
 }
 
-void read_by_slice(FileVoxels voxels, OpenedImage& opened) {
-    opened.reading_bytes = bytes_of_slice(opened.image);
-    opened.read_slices = [voxels = std::move(voxels), size = opened.image.size_voxels](
+void read_by_slice(FileVoxels voxels, int layers, OpenedImage& opened) {
+    opened.reading_bytes = static_cast<std::uint64_t>(layers) * bytes_of_slice(opened.image);
+    opened.read_slices = [voxels = std::move(voxels),
+                          size = opened.image.size_voxels * glm::ivec3(layers, 1, 1)](
                              const TakeSlice& take, const ReportProgress& report) {
         read_value_slices(voxels.data, voxels.layout, size, take, report);
     };
 }
 
 /// ITK says how the image lies in the patient; header and files are held against each other before.
-OpenedImage open_nrrd_or_nifti(const std::filesystem::path& path) {
+OpenedLabels open_nrrd_or_nifti(const std::filesystem::path& path, bool may_have_layers) {
     const bool is_nrrd = kind_of(path) == FileKind::nrrd;
     FileVoxels voxels = voxels_of(path);
     const std::uint64_t more = require_room(voxels.data);
-    OpenedImage opened;
+    OpenedLabels found;
+    OpenedImage& opened = found.opened;
     const itk::ImageIOBase::Pointer io = io_for(path);
     try {
         const QuietLibraries quiet;
@@ -140,15 +144,17 @@ OpenedImage open_nrrd_or_nifti(const std::filesystem::path& path) {
         throw ImagingError(
             path, fmt::format("cannot be read as {}: cut off or damaged", is_nrrd ? "NRRD" : "NIfTI"));
     }
-    require_volume(path, *io);
+    require_volume(path, *io, may_have_layers);
+    found.layers = static_cast<int>(io->GetNumberOfComponents());
+    if (found.layers > most_layers) throw ImagingError(path, "has more than 255 layers");
     opened.image = geometry_of(path, *io);
     require_thickness(path, opened.image.size_voxels);
     if (is_nrrd) note_nrrd_orientation(path, opened.image);
     if (more > 0)
         opened.image.notes.push_back(
             fmt::format("{}: {} bytes follow its voxels; they are not read", path.string(), more));
-    read_by_slice(std::move(voxels), opened);
-    return opened;
+    read_by_slice(std::move(voxels), found.layers, opened);
+    return found;
 }
 
 OpenedImage open_meta_image_file(const std::filesystem::path& path) {
@@ -156,7 +162,7 @@ OpenedImage open_meta_image_file(const std::filesystem::path& path) {
     OpenedImage opened;
     opened.image = image.header.image;
     require_thickness(path, opened.image.size_voxels);
-    read_by_slice({.data = std::move(image.data), .layout = image.header.voxels}, opened);
+    read_by_slice({.data = std::move(image.data), .layout = image.header.voxels}, 1, opened);
     return opened;
 }
 
@@ -180,6 +186,14 @@ std::vector<float> OpenedImage::read_values(const ReportProgress& report) const 
     return values;
 }
 
+OpenedLabels open_labels(const std::filesystem::path& path) {
+    const FileKind kind = kind_of(path);
+    if (kind != FileKind::nrrd && kind != FileKind::nifti)
+        throw ImagingError(path, "is no label map: NRRD (.seg.nrrd, .nrrd, .nhdr) or NIfTI (.nii, .nii.gz)");
+    RegularFile(path).first_bytes(1);  // one line for what does not exist or is no file
+    return open_nrrd_or_nifti(path, kind == FileKind::nrrd);
+}
+
 OpenedImage open_image(const std::filesystem::path& path, const std::optional<std::string>& series_uid) {
     std::error_code failed;
     const std::filesystem::file_status status = std::filesystem::status(path, failed);
@@ -189,7 +203,7 @@ OpenedImage open_image(const std::filesystem::path& path, const std::optional<st
     if (std::filesystem::file_size(path, failed) == 0) throw ImagingError(path, "is empty");
     const FileKind kind = kind_of(path);
     if (kind == FileKind::meta_image) return open_meta_image_file(path);
-    if (kind != FileKind::other) return open_nrrd_or_nifti(path);
+    if (kind != FileKind::other) return open_nrrd_or_nifti(path, false).opened;
     if (read_dicom_header(path)) return open_series(path, series_of_file(path));
     throw ImagingError(path,
                        "is no DICOM folder or file, NRRD (.nrrd, .nhdr), NIfTI (.nii, .nii.gz) or MetaImage "

@@ -37,4 +37,14 @@ struct OpenedImage {
 /// headers, dicom_series.h and slice_geometry.h refuse.
 OpenedImage open_image(const std::filesystem::path& path, const std::optional<std::string>& series_uid);
 
+/// A label map: one label a voxel, or several in layers that overlap, as 3D Slicer writes them.
+struct OpenedLabels {
+    /// Its slices hold `layers` values a voxel, the layers of a voxel side by side.
+    OpenedImage opened;
+    int layers = 1;
+};
+
+/// As open_image, of NRRD and NIfTI alone; a NRRD may have a first axis of layers.
+OpenedLabels open_labels(const std::filesystem::path& path);
+
 }  // namespace osteomill

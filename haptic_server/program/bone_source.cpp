@@ -27,20 +27,28 @@ LoadedBone load_phantom(const std::string& name, const StiffnessRelation& relati
         .phantom = name, .file = nullptr, .hu_digest = {}, .threshold_hu = phantom_threshold_hu};
     if (auto* bone = std::get_if<Bone>(&made)) {
         source.phantom.clear();  // of which there are no CT numbers to make
-        return {std::move(*bone), std::move(source)};
+        return {std::move(*bone), std::move(source), {}, {}};
     }
-    return {bone_from_hu(std::get<HuSlices>(made), phantom_threshold_hu, relation), std::move(source)};
+    return {
+        bone_from_hu(std::get<HuSlices>(made), phantom_threshold_hu, relation), std::move(source), {}, {}};
 }
 
-LoadedBone load_file(const FileSource& named, const StiffnessRelation& relation,
+LoadedBone load_file(const FileSource& named, const Scene& scene,
                      std::optional<std::uint64_t> available_memory_bytes) {
-    BoneOfFile read = bone_of_file(named.path, named.threshold_hu, relation, available_memory_bytes);
+    std::vector<Structure> structures;
+    if (!named.segmentation.empty())
+        structures = segmented_structures(scene, named.segmentation, BoneFile(named.path).grid());
+    FillLabels fill_labels;
+    if (!structures.empty()) fill_labels = label_painter(scene, structures);
+    BoneOfFile read = bone_of_file(named.path, named.threshold_hu, stiffness_of(scene),
+                                   available_memory_bytes, fill_labels);
+    std::erase_if(structures, [&](const Structure& one) { return !scene.tissues[one.tissue].is_protected; });
     BoneSource source{.phantom = {},
                       .file = std::move(read.file),
                       .hu_digest = std::move(read.hu_digest),
                       .threshold_hu = read.threshold_hu};
     source.removed_before_mm3 = removed_before_mm3(*source.file);
-    return {std::move(read.bone), std::move(source), std::move(read.doubt)};
+    return {std::move(read.bone), std::move(source), std::move(structures), std::move(read.doubt)};
 }
 
 VolumesByTissue removed_so_far_mm3(const BoneSource& source, const Bone& bone) {
@@ -69,14 +77,31 @@ HuSlices slices_again(const BoneSource& source, HuReader& reader) {
     return slices;
 }
 
+/// What a session before has removed to the last voxel is not missing.
+void require_every_tissue(const Scene& scene, const LoadedBone& loaded) {
+    for (const Tissue& tissue : scene.tissues) {
+        const std::vector<double>& volumes_mm3 = loaded.source.loaded_mm3;
+        const bool in_bone = tissue.label < volumes_mm3.size() && volumes_mm3[tissue.label] > 0.0;
+        if (in_bone || !tissue.segment.empty() || loaded.source.removed_before_mm3[tissue.label] > 0.0)
+            continue;
+        throw std::runtime_error(
+            fmt::format("scene \"{}\": no voxel of the bone is of its tissue \"{}\" (label {}); take it out "
+                        "of [[tissues]], or "
+                        "give it a 'segment' of [bone] segmentation",
+                        scene.name, tissue.name, tissue.label));
+    }
+}
+
 }  // namespace
 
 LoadedBone load_bone(const Scene& scene, std::optional<std::uint64_t> available_memory_bytes) {
     const auto* phantom = std::get_if<PhantomSource>(&scene.bone);
-    LoadedBone loaded = phantom != nullptr ? load_phantom(phantom->name, stiffness_of(scene))
-                                           : load_file(std::get<FileSource>(scene.bone), stiffness_of(scene),
-                                                       available_memory_bytes);
+    LoadedBone loaded = phantom != nullptr
+                            ? load_phantom(phantom->name, stiffness_of(scene))
+                            : load_file(std::get<FileSource>(scene.bone), scene, available_memory_bytes);
     loaded.source.loaded_mm3 = bone_volume_by_tissue_mm3(loaded.bone);
+    require_every_tissue(scene, loaded);
+    add_structures_in_bone(scene, loaded.bone, loaded.structures);
     return loaded;
 }
 

@@ -12,6 +12,7 @@
 #include "haptic_server/imaging/hu_volume.h"
 #include "haptic_server/imaging/progress.h"
 #include "haptic_server/imaging/removed_volumes.h"
+#include "haptic_server/program/structures.h"
 
 namespace osteomill {
 
@@ -28,12 +29,14 @@ struct BoneSource {
 struct LoadedBone {
     Bone bone;
     BoneSource source;
+    std::vector<Structure> structures{};  ///< of the scene's protected tissues, in their order
     std::string doubt{};  ///< what may be wrong with a file's CT numbers: a line, or empty (bone_of_file.h)
 };
 
 /// Makes the phantom or reads the file, slice by slice. For a file the threshold is the scene's, or the
 /// file's own, or the default of 300 HU. Throws std::runtime_error with one line naming the file, also where
-/// it holds no bone at all, or more than fits in `available_memory_bytes`, where known.
+/// it holds no bone at all, or more than fits in `available_memory_bytes`, where known; naming the tissue,
+/// where the scene has one that no voxel bears.
 LoadedBone load_bone(const Scene& scene, std::optional<std::uint64_t> available_memory_bytes = std::nullopt);
 
 /// Saves what is left of a bone together with the CT numbers of its source (carved_bone.h), which may be the

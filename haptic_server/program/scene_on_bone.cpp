@@ -51,6 +51,7 @@ Scene scene_of_bone_file(const std::filesystem::path& file) {
     scene.name = file.stem().string();
     scene.bone = FileSource{.path = file};
     scene.tissues.clear();
+    scene.plan.reset();
     return scene;
 }
 

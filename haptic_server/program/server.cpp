@@ -58,7 +58,12 @@ Scene load_scene(const ServerOptions& options) {
         const std::string name = options.scene.value_or(phantoms.front());
         const bool is_phantom = std::find(phantoms.begin(), phantoms.end(), name) != phantoms.end();
         scene = is_phantom ? phantom_scene(name) : read_scene(name);
-        if (options.bone) scene.bone = FileSource{.path = *options.bone};
+        if (options.bone) {
+            const auto* before = std::get_if<FileSource>(&scene.bone);
+            scene.bone = FileSource{.path = *options.bone,
+                                    .threshold_hu = {},
+                                    .segmentation = before != nullptr ? before->segmentation : ""};
+        }
     }
     if (options.trajectory) scene.trajectory.source = *options.trajectory;
     return scene;

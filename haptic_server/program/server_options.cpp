@@ -12,6 +12,7 @@
 #include "common/files/distinct_files.h"
 #include "haptic_server/device/hid/profile_file.h"
 #include "haptic_server/imaging/phantom.h"
+#include "haptic_server/program/case_folder.h"
 #include "haptic_server/program/report_folder.h"
 
 namespace osteomill {
@@ -21,6 +22,7 @@ namespace {
 /// As typed, before it is checked against each other.
 struct Typed {
     std::string scene;
+    std::string case_name;
     std::string bone;
     std::string device = "simulated";
     std::string device_profile;
@@ -99,6 +101,10 @@ void declare(CLI::App& app, Typed& typed) {
            "Scene: a TOML file, or a phantom: tooth, cube, head (tooth; with --bone alone: a cavity on top "
            "of that bone)")
         ->capture_default_str();
+    app.add_option("--case", typed.case_name,
+                   "Case: a folder that bone_import --case made, or one built in: tooth, cube, head")
+        ->type_name("DIR|NAME")
+        ->excludes("--scene");
     app.add_option("--bone", typed.bone, "Bone from a file that bone_import wrote, instead of the scene's")
         ->type_name("FILE.nrrd");
     app.add_option("--device", typed.device,
@@ -299,6 +305,7 @@ ServerOptions checked(const Typed& typed, const AccessOptions& access) {
     if (typed.device == "spacemouse") options.device = DeviceKind::space_mouse;
     if (!typed.device_profile.empty()) options.device_profile = typed.device_profile;
     if (!typed.scene.empty()) options.scene = typed.scene;
+    if (!typed.case_name.empty()) options.scene = scene_of_case(typed.case_name);
     options.bone = path_if_given(typed.bone);
     options.grip = typed.grip == "light" ? Grip::light : Grip::firm;
     options.trajectory = path_if_given(typed.trajectory);

@@ -1,0 +1,70 @@
+#include "common/scene/tissue_tables.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <set>
+#include <string>
+#include <utility>
+
+#include "common/scene/material.h"
+
+namespace osteomill {
+
+namespace {
+
+std::array<std::uint8_t, 3> read_colour(TomlReader& reader) {
+    const std::string text = required(reader, "colour", reader.text("colour"));
+    const bool good = text.size() == 7 && text[0] == '#' &&
+                      text.find_first_not_of("0123456789abcdefABCDEF", 1) == std::string::npos;
+    if (!good) reader.fail("colour", "'colour' must look like \"#f6f4ec\"");
+    const unsigned long rgb = std::stoul(text.substr(1), nullptr, 16);
+    return {static_cast<std::uint8_t>(rgb >> 16U), static_cast<std::uint8_t>(rgb >> 8U & 0xffU),
+            static_cast<std::uint8_t>(rgb & 0xffU)};
+}
+
+std::optional<TissueStrength> read_strength(TomlReader& reader) {
+    std::vector<std::string> names;
+    for (const Material& material : shipped_materials()) names.push_back(material.name);
+    const std::optional<std::size_t> preset = reader.choice("material", names);
+    const std::optional<double> stiffness =
+        reader.number("relative_stiffness", {stiffness_per_code, largest_relative_stiffness});
+    const std::optional<double> edge = reader.number("relative_edge", {0.0, 100.0});
+    if (preset && (stiffness || edge))
+        reader.fail("material", "'material' says it all; take out 'relative_stiffness' and 'relative_edge'");
+    if (edge && !stiffness) reader.fail("relative_edge", "'relative_edge' goes with 'relative_stiffness'");
+    if (preset) {
+        const Material& material = shipped_materials()[*preset];
+        return TissueStrength{material.name, material.relative_stiffness, material.relative_edge};
+    }
+    if (stiffness) return TissueStrength{{}, *stiffness, edge.value_or(*stiffness)};
+    return std::nullopt;
+}
+
+}  // namespace
+
+std::vector<Tissue> read_tissues(std::vector<TomlReader> readers, bool has_segmentation) {
+    std::vector<Tissue> tissues;
+    std::set<int> labels;
+    for (TomlReader& reader : readers) {
+        Tissue tissue;
+        tissue.label =
+            static_cast<std::uint8_t>(required(reader, "label", reader.whole_number("label", 1, 255)));
+        tissue.name = required(reader, "name", reader.text("name"));
+        tissue.colour_rgb = read_colour(reader);
+        tissue.is_protected = reader.truth("protected").value_or(false);
+        tissue.strength = read_strength(reader);
+        tissue.segment = reader.text("segment").value_or("");
+        tissue.opacity = reader.number("opacity", {0.0, 1.0}).value_or(1.0);
+        tissue.warn_mm = reader.number("warn_mm", {0.0, 10.0}).value_or(usual_warn_mm(tissue.is_protected));
+        if (!tissue.segment.empty() && !has_segmentation)
+            reader.fail("segment", "'segment' needs [bone] segmentation = \"FILE.seg.nrrd\"");
+        reader.refuse_other_keys();
+        if (!labels.insert(tissue.label).second)
+            reader.fail("label", fmt::format("label {} stands for two tissues", tissue.label));
+        tissues.push_back(std::move(tissue));
+    }
+    return tissues;
+}
+
+}  // namespace osteomill

@@ -1,0 +1,82 @@
+#include "haptic_server/program/structures.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "haptic_server/imaging/imaging_error.h"
+#include "haptic_server/imaging/region.h"
+#include "haptic_server/imaging/segment_structure.h"
+
+namespace osteomill {
+
+std::vector<Structure> segmented_structures(const Scene& scene, const std::filesystem::path& segmentation,
+                                            const Grid& grid) {
+    std::vector<Structure> structures;
+    const Segmentation read = read_segmentation(segmentation);
+    for (std::size_t index = 0; index < scene.tissues.size(); ++index) {
+        const Tissue& tissue = scene.tissues[index];
+        if (tissue.segment.empty()) continue;
+        StructureMask mask = structure_of(read, segment_named(read, tissue.segment), grid);
+        if (mask.empty()) {
+            const Region bone{grid.origin_mm, centre_of_voxel_mm(grid, grid.size_voxels - 1)};
+            throw ImagingError(
+                segmentation,
+                fmt::format("no voxel of the bone is in its segment \"{}\" (tissue \"{}\"): the "
+                            "segmentation covers {}, the bone {} (mm, patient LPS)",
+                            tissue.segment, tissue.name, to_text(extent_of(read.image)), to_text(bone)));
+        }
+        structures.push_back({index, std::move(mask)});
+    }
+    return structures;
+}
+
+FillLabels label_painter(const Scene& scene, const std::vector<Structure>& structures) {
+    std::vector<const Structure*> order;
+    for (const Structure& one : structures) order.push_back(&one);
+    std::ranges::stable_partition(
+        order, [&](const Structure* one) { return !scene.tissues[one->tissue].is_protected; });
+    return [&scene, order = std::move(order)](int z, std::span<std::uint8_t> labels) {
+        for (const Structure* one : order) {
+            const Grid& grid = one->mask.grid();
+            const glm::ivec3 size = size_in_bricks(grid);
+            const std::size_t nx = static_cast<std::size_t>(grid.size_voxels.x);
+            const std::size_t slice = nx * static_cast<std::size_t>(grid.size_voxels.y);
+            const int end = z + static_cast<int>(labels.size() / slice);
+            const std::uint8_t label = scene.tissues[one->tissue].label;
+            const auto first =
+                std::ranges::lower_bound(one->mask.bricks(), brick_index(size, {0, 0, z / brick_edge_voxels}),
+                                         {}, &StructureBrick::brick);
+            for (auto brick = first; brick != one->mask.bricks().end(); ++brick) {
+                const glm::ivec3 corner = brick_edge_voxels * brick_position(size, brick->brick);
+                if (corner.z >= end) break;
+                brick->voxels.for_each([&](std::size_t offset) {
+                    const glm::ivec3 voxel = corner + voxel_in_brick(offset);
+                    if (voxel.z < z || voxel.z >= end) return;
+                    labels[static_cast<std::size_t>(voxel.x) + nx * static_cast<std::size_t>(voxel.y) +
+                           slice * static_cast<std::size_t>(voxel.z - z)] = label;
+                });
+            }
+        }
+    };
+}
+
+void add_structures_in_bone(const Scene& scene, const Bone& bone, std::vector<Structure>& structures) {
+    const BoneContent& content = bone.content();
+    for (std::size_t index = 0; index < scene.tissues.size(); ++index) {
+        const Tissue& tissue = scene.tissues[index];
+        if (!tissue.is_protected || !tissue.segment.empty()) continue;
+        std::vector<StructureBrick> bricks;
+        for (std::size_t slot = 0; slot < content.tissue.size(); ++slot) {
+            VoxelMask voxels;
+            for (std::size_t offset = 0; offset < brick_voxel_count; ++offset)
+                if (content.tissue[slot][offset] == tissue.label) voxels.set(offset);
+            if (voxels.any()) bricks.push_back({content.brick_of_slot[slot], voxels});
+        }
+        structures.push_back({index, StructureMask(bone.grid(), std::move(bricks))});
+    }
+    std::ranges::sort(structures, {}, &Structure::tissue);
+}
+
+}  // namespace osteomill
