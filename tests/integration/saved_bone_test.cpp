@@ -164,8 +164,8 @@ TEST_F(SavedBone, OnAFullDiskTheOldOneStays) {
         EXPECT_EQ(run.status, 1) << blocks;
         EXPECT_THAT(run.err, HasSubstr("carved.nrrd: cannot be written: File too large"));
         EXPECT_EQ(loaded(file("carved.nrrd")), old) << blocks;
-        EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder_.path()), {}), files_before + 1)
-            << "the bone, and loaded.json";
+        EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder_.path()), {}), files_before + 2)
+            << "the bone, loaded.json and its histograms";
     }
 }
 
