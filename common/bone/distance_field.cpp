@@ -64,8 +64,7 @@ class LineTransform {
 
 void sort_out(std::vector<BrickIndex>& bricks) {
     std::ranges::sort(bricks);
-    const auto twice = std::ranges::unique(bricks);
-    bricks.erase(twice.begin(), twice.end());
+    bricks.erase(std::unique(bricks.begin(), bricks.end()), bricks.end());
 }
 
 /// Smallest box round the voxels of a brick, counted from its first.

@@ -35,8 +35,9 @@ std::vector<Structure> segmented_structures(const Scene& scene, const std::files
 FillLabels label_painter(const Scene& scene, const std::vector<Structure>& structures) {
     std::vector<const Structure*> order;
     for (const Structure& one : structures) order.push_back(&one);
-    std::ranges::stable_partition(
-        order, [&](const Structure* one) { return !scene.tissues[one->tissue].is_protected; });
+    std::stable_partition(order.begin(), order.end(), [&](const Structure* one) {
+        return !scene.tissues[one->tissue].is_protected;
+    });
     return [&scene, order = std::move(order)](int z, std::span<std::uint8_t> labels) {
         for (const Structure* one : order) {
             const Grid& grid = one->mask.grid();

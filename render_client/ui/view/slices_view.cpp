@@ -49,7 +49,7 @@ SliceView SlicesView::view(SlicePlane plane, int edge_px) const {
 
 const gl::PictureTexture& SlicesView::picture(SlicePlane plane, int edge_px, const Bone* bone,
                                               std::uint64_t bone_version) {
-    std::optional<Drawn>& drawn = drawn_[static_cast<std::size_t>(plane)];
+    std::optional<DrawnSlice>& drawn = drawn_[static_cast<std::size_t>(plane)];
     const SliceView wanted = view(plane, edge_px);
     const bool is_fresh = drawn && drawn->view == wanted && drawn->window == window_ &&
                           drawn->ct == ct_.get() && drawn->bone_version == bone_version;

@@ -13,6 +13,15 @@
 
 namespace osteomill {
 
+/// A slice's picture, and what it was made of.
+struct DrawnSlice {
+    gl::PictureTexture texture;
+    SliceView view;
+    HuWindow window;
+    const CtVolume* ct = nullptr;
+    std::uint64_t bone_version = 0;
+};
+
 class SlicesView {
   public:
     static constexpr std::array<SlicePlane, 3> planes{SlicePlane::axial, SlicePlane::coronal,
@@ -36,20 +45,12 @@ class SlicesView {
     SliceView view(SlicePlane plane, int edge_px) const;
 
   private:
-    struct Drawn {
-        gl::PictureTexture texture;
-        SliceView view;
-        HuWindow window;
-        const CtVolume* ct = nullptr;
-        std::uint64_t bone_version = 0;
-    };
-
     std::shared_ptr<const CtVolume> ct_;
     std::optional<glm::dvec3> cross_mm_;
     glm::dvec3 centre_mm_{0.0};  // of the pictures, but for where across their planes they are
     double width_mm_ = 30.0;
     HuWindow window_;
-    std::array<std::optional<Drawn>, 3> drawn_;
+    std::array<std::optional<DrawnSlice>, 3> drawn_;
 };
 
 }  // namespace osteomill
