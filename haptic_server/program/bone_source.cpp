@@ -79,9 +79,16 @@ HuSlices slices_again(const BoneSource& source, HuReader& reader) {
 
 /// What a session before has removed to the last voxel is not missing.
 void require_every_tissue(const Scene& scene, const LoadedBone& loaded) {
+    const auto* planned = scene.plan ? std::get_if<TissueRegion>(&scene.plan->region) : nullptr;
     for (const Tissue& tissue : scene.tissues) {
         const std::vector<double>& volumes_mm3 = loaded.source.loaded_mm3;
         const bool in_bone = tissue.label < volumes_mm3.size() && volumes_mm3[tissue.label] > 0.0;
+        const bool is_planned = planned != nullptr && tissue.name == planned->tissue;
+        if (is_planned && !in_bone && loaded.source.removed_before_mm3[tissue.label] == 0.0)
+            throw std::runtime_error(
+                fmt::format("scene \"{}\": no voxel of the bone is of the plan's tissue \"{}\"; there is "
+                            "nothing to remove (a protected tissue goes before it where both are)",
+                            scene.name, tissue.name));
         if (in_bone || !tissue.segment.empty() || loaded.source.removed_before_mm3[tissue.label] > 0.0)
             continue;
         throw std::runtime_error(

@@ -93,6 +93,11 @@ std::string scene_of_case(const std::string& name) {
                                             nearest ? fmt::format("; did you mean {}?", *nearest) : ""));
 }
 
+std::string name_of_case(const std::filesystem::path& folder) {
+    const std::filesystem::path whole = std::filesystem::absolute(folder).lexically_normal();
+    return (whole.has_filename() ? whole : whole.parent_path()).filename().string();
+}
+
 void begin_case(const std::filesystem::path& folder,
                 const std::optional<std::filesystem::path>& segmentation) {
     std::error_code failed;
@@ -112,8 +117,7 @@ std::filesystem::path bone_of_case(const std::filesystem::path& folder) {
 void finish_case(const std::filesystem::path& folder,
                  const std::optional<std::filesystem::path>& segmentation, std::ostream& messages) {
     Scene scene = scene_of_bone_file(bone_of_case(folder));
-    const std::filesystem::path named = folder.has_filename() ? folder : folder.parent_path();
-    scene.name = named.filename().string();
+    scene.name = name_of_case(folder);
     std::filesystem::path copy;
     if (segmentation) {
         const Grid grid = BoneFile(bone_of_case(folder)).grid();

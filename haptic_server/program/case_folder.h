@@ -13,6 +13,9 @@ namespace osteomill {
 /// std::invalid_argument, with those built in and the nearest name, for what is neither.
 std::string scene_of_case(const std::string& name);
 
+/// The folder's own name, for people.
+std::string name_of_case(const std::filesystem::path& folder);
+
 /// Makes the folder. Throws std::runtime_error where it holds a case already, cannot be made, or the
 /// segmentation cannot be read.
 void begin_case(const std::filesystem::path& folder,

@@ -175,6 +175,7 @@ Streaming make_streaming(StreamingOptions wanted, const ServerOptions& options, 
     streaming.shown->offer_ct(std::move(make_ct));
     info.accepts_controls = options.session.clock == ClockKind::real;
     info.trainee = options.trainee;
+    info.case_name = options.case_name;
     info.settings = as_texts(session_settings(options, scene, version));
     streaming.server =
         std::make_unique<StreamingServer>(std::move(wanted), std::move(info), std::move(mirror),

@@ -305,7 +305,10 @@ ServerOptions checked(const Typed& typed, const AccessOptions& access) {
     if (typed.device == "spacemouse") options.device = DeviceKind::space_mouse;
     if (!typed.device_profile.empty()) options.device_profile = typed.device_profile;
     if (!typed.scene.empty()) options.scene = typed.scene;
-    if (!typed.case_name.empty()) options.scene = scene_of_case(typed.case_name);
+    if (!typed.case_name.empty()) {
+        options.scene = scene_of_case(typed.case_name);
+        options.case_name = name_of_case(typed.case_name);
+    }
     options.bone = path_if_given(typed.bone);
     options.grip = typed.grip == "light" ? Grip::light : Grip::firm;
     options.trajectory = path_if_given(typed.trajectory);

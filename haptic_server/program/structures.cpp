@@ -35,9 +35,13 @@ std::vector<Structure> segmented_structures(const Scene& scene, const std::files
 FillLabels label_painter(const Scene& scene, const std::vector<Structure>& structures) {
     std::vector<const Structure*> order;
     for (const Structure& one : structures) order.push_back(&one);
-    std::stable_partition(order.begin(), order.end(), [&](const Structure* one) {
-        return !scene.tissues[one->tissue].is_protected;
-    });
+    const auto* planned = scene.plan ? std::get_if<TissueRegion>(&scene.plan->region) : nullptr;
+    const auto rank = [&](const Structure* one) {
+        const Tissue& tissue = scene.tissues[one->tissue];
+        if (tissue.is_protected) return 2;
+        return planned != nullptr && tissue.name == planned->tissue ? 1 : 0;
+    };
+    std::ranges::stable_sort(order, {}, rank);
     return [&scene, order = std::move(order)](int z, std::span<std::uint8_t> labels) {
         for (const Structure* one : order) {
             const Grid& grid = one->mask.grid();

@@ -22,7 +22,8 @@ struct Structure {
 std::vector<Structure> segmented_structures(const Scene& scene, const std::filesystem::path& segmentation,
                                             const Grid& grid);
 
-/// One label a voxel: that of a protected tissue before all, then of the later in the scene. Both arguments
+/// One label a voxel: that of a protected tissue before all, then of the plan's, then of the later in the
+/// scene. Both arguments
 /// must outlive what is given back.
 FillLabels label_painter(const Scene& scene, const std::vector<Structure>& structures);
 
