@@ -16,18 +16,30 @@ Playhead::Playhead(std::filesystem::path file) : reader_(file) {
 
 Playhead::Step Playhead::step(double until_s) {
     // A snapshot is taken whole: half a bone is nothing to show.
-    for (bool is_inside_snapshot = false; next_; is_inside_snapshot = true) {
+    for (bool is_inside_snapshot = false; next_;) {
         if (!is_inside_snapshot && *next_time_s() > until_s) return Step::nothing_due;
         time_s_ = *next_time_s();
         ++frames_;
         bytes_ += next_->bytes;
         RecordedEvent event = *std::exchange(next_, std::nullopt);
+        is_inside_snapshot = std::holds_alternative<SessionInfo>(event.event) ||
+                             std::holds_alternative<SnapshotGoesOn>(event.event);
         const Step step = take(std::move(event));
         read_ahead();
+        if (step == Step::new_bone) take_structures();
         if (step != Step::nothing_due) return step;
     }
     if (what_comes_next_is_wrong_) throw RecordingError(*what_comes_next_is_wrong_);
     return Step::end;
+}
+
+void Playhead::take_structures() {
+    while (next_ && std::holds_alternative<StructureArrived>(next_->event)) {
+        ++frames_;
+        bytes_ += next_->bytes;
+        take(*std::exchange(next_, std::nullopt));
+        read_ahead();
+    }
 }
 
 std::optional<double> Playhead::next_time_s() const {
@@ -50,6 +62,7 @@ void Playhead::go_back_to(const Mark& mark) {
     time_ = mark.time;
     time_s_ = mark.time_s;
     tool_ = mark.tool;
+    distances_ = mark.distances;
     read_ahead();
 }
 
@@ -73,9 +86,11 @@ Playhead::Step Playhead::take(RecordedEvent event) {
         session_ = announced_;
         replica_.emplace(std::move(arrived->bone), std::move(arrived->checksum));
         tool_.reset();
+        distances_.clear();
+        structures_.clear();
         return Step::new_bone;
     } else if (auto* state = std::get_if<StateArrived>(&event.event)) {
-        auto outcome = follow(state->frame, session_.burrs.size(), *replica_);
+        auto outcome = follow(state->frame, session_, *replica_);
         if (const auto* error = std::get_if<WireError>(&outcome))
             throw reader_.error_at(event.place, error->line);
         auto& followed = std::get<FollowedState>(outcome);
@@ -87,8 +102,11 @@ Playhead::Step Playhead::take(RecordedEvent event) {
         tool_ = followed.tool;
         events_ = std::move(followed.events);
         status_ = followed.status;
+        distances_ = std::move(followed.distances);
         frame_ = std::move(state->frame);
         return Step::state;
+    } else if (auto* of_structure = std::get_if<StructureArrived>(&event.event)) {
+        if (of_structure->structure) structures_.push_back(*std::move(of_structure->structure));
     } else if (std::holds_alternative<SaidGoodbye>(event.event)) {
         return Step::goodbye;
     }

@@ -41,6 +41,11 @@ class Playhead {
     /// What was done to the session since the state frame before, and what could be done then.
     const std::vector<ControlEvent>& events() const { return events_; }
     const SessionStatus& status() const { return status_; }
+    /// How far the burr was then from the protected structures that were near or touched.
+    const std::vector<StructureDistance>& distances() const { return distances_; }
+    /// The protected structures of the session of which the recording says where they are; the others are
+    /// where the bone bears their label. All that follow the bone at once are there with it.
+    const std::vector<Structure>& structures() const { return structures_; }
     /// The state frame that was applied last; the one that would come next, if one would.
     const v1::StateFrame& frame() const { return frame_; }
     const v1::StateFrame* next_frame() const;
@@ -62,8 +67,9 @@ class Playhead {
         RecordedTime time;
         double time_s = 0.0;
         std::optional<ToolState> tool;
+        std::vector<StructureDistance> distances;
     };
-    Mark mark() const { return {before_next_, before_next_time_, time_s_, tool_}; }
+    Mark mark() const { return {before_next_, before_next_time_, time_s_, tool_, distances_}; }
     /// The bone is the caller's to put back, with set_fractions().
     void go_back_to(const Mark& mark);
     void set_fractions(BrickIndex brick, BrickFractions fractions) {
@@ -73,6 +79,7 @@ class Playhead {
   private:
     void read_ahead();
     Step take(RecordedEvent event);
+    void take_structures();
 
     RecordingReader reader_;
     RecordingReader::Mark before_next_;
@@ -88,6 +95,8 @@ class Playhead {
     std::optional<ToolState> tool_;
     std::vector<ControlEvent> events_;
     SessionStatus status_;
+    std::vector<StructureDistance> distances_;
+    std::vector<Structure> structures_;
     v1::StateFrame frame_;
 
     std::uint64_t frames_ = 0;

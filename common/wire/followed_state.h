@@ -1,13 +1,14 @@
 // A state frame, applied to a replica of the bone that is kept equal to the server's.
 #pragma once
 
-#include <cstddef>
 #include <variant>
 #include <vector>
 
 #include "common/scene/session_control.h"
+#include "common/scene/structure_distance.h"
 #include "common/scene/tool_state.h"
 #include "common/wire/bone_replica.h"
+#include "common/wire/session_info.h"
 #include "common/wire/wire_error.h"
 #include "osteomill/v1/session.pb.h"
 
@@ -25,14 +26,15 @@ struct FollowedState {
     ReplicaCheck check = ReplicaCheck::none;
     std::vector<ControlEvent> events{};
     SessionStatus status{};
+    std::vector<StructureDistance> distances{};  ///< to protected structures that are near or were touched
     /// An edit raised what was left, as milling cannot: the replica had lost bone, and has it again. Those
     /// that restore bone are no such edits.
     bool has_regained_bone = false;
 };
 
-/// `burr_count`: of the session, to check the tool against. After an error part of the frame may have been
+/// `session`: to check the frame against. After an error part of the frame may have been
 /// applied: a fresh bone is needed.
-std::variant<FollowedState, WireError> follow(const v1::StateFrame& frame, std::size_t burr_count,
+std::variant<FollowedState, WireError> follow(const v1::StateFrame& frame, const SessionInfo& session,
                                               BoneReplica& replica);
 
 }  // namespace osteomill

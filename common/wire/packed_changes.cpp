@@ -19,23 +19,6 @@ WireError changes_refused(const std::string& what) {
     return {"packed changes refused: " + what};
 }
 
-void append(const VoxelMask& mask, std::vector<std::uint8_t>& bytes) {
-    for (const VoxelMask::Word word : mask.words())
-        for (std::size_t k = 0; k < sizeof word; ++k)
-            bytes.push_back(static_cast<std::uint8_t>(word >> 8 * k));
-}
-
-VoxelMask mask_at(std::span<const std::uint8_t> bytes) {
-    VoxelMask mask;
-    for (std::size_t n = 0; n < VoxelMask::word_count; ++n) {
-        VoxelMask::Word word = 0;
-        for (std::size_t k = 0; k < sizeof word; ++k)
-            word |= VoxelMask::Word{bytes[n * sizeof word + k]} << 8 * k;
-        mask.set_word(n, word);
-    }
-    return mask;
-}
-
 }  // namespace
 
 ChangePacker::ChangePacker() : compressor_(frame_compression_level) {

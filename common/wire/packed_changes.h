@@ -12,6 +12,7 @@
 
 #include "common/bone/bone.h"
 #include "common/bone/brick_change.h"
+#include "common/wire/mask_bytes.h"
 #include "common/wire/wire_error.h"
 #include "common/wire/zstd_compressor.h"
 #include "osteomill/v1/bone.pb.h"
@@ -21,7 +22,6 @@ namespace osteomill {
 /// Before compression. Even where nothing compresses they fit a frame, and half a second of a link of
 /// 1 Mbit/s.
 inline constexpr std::size_t largest_packed_changes_bytes = 64 * 1024;
-inline constexpr std::size_t mask_bytes = brick_voxel_count / 8;
 
 class ChangePacker {
   public:

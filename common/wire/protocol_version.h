@@ -19,5 +19,7 @@ inline constexpr std::uint32_t first_minor_that_names_states = 5;
 
 /// From here on a server takes a SessionControl.
 inline constexpr std::uint32_t first_minor_with_controls = 10;
+/// From here on a client knows what to do with StructureBricks.
+inline constexpr std::uint32_t first_minor_with_structures = 10;
 
 }  // namespace osteomill

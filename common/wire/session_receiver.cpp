@@ -13,6 +13,7 @@ std::variant<SessionEvent, WireError> SessionReceiver::take(v1::ServerFrame fram
         return WireError{"frame " + std::to_string(frame.sequence()) + " came after " +
                          std::to_string(last_sequence_)};
     last_sequence_ = frame.sequence();
+    if (follows_gap) structures_.miss();
 
     if (stage_ == Stage::hello && frame.has_hello()) return take_hello(frame.hello());
     if (stage_ == Stage::snapshot_begin && frame.has_snapshot_begin())
@@ -22,6 +23,11 @@ std::variant<SessionEvent, WireError> SessionReceiver::take(v1::ServerFrame fram
     if (stage_ == Stage::snapshot && frame.has_snapshot_end()) return take_snapshot_end(frame.snapshot_end());
     if (stage_ == Stage::live && frame.has_state())
         return take_state(std::move(*frame.mutable_state()), follows_gap);
+    if (stage_ == Stage::live && frame.has_structure_bricks()) {
+        auto taken = structures_.take(frame.structure_bricks());
+        if (auto* error = std::get_if<WireError>(&taken)) return std::move(*error);
+        return SessionEvent(StructureArrived{std::get<0>(std::move(taken))});
+    }
     if (stage_ == Stage::live && frame.has_ct_piece())
         return SessionEvent(CtPieceArrived{std::move(*frame.mutable_ct_piece())});
     if (stage_ != Stage::hello && stage_ != Stage::over && frame.has_goodbye()) {
@@ -38,6 +44,7 @@ bool SessionReceiver::may_miss_frames() const {
 void SessionReceiver::go_on_behind(std::uint64_t sequence) {
     stage_ = Stage::live;
     last_sequence_ = sequence;
+    structures_.miss();
 }
 
 SessionReceiver::Outcome SessionReceiver::take_hello(const v1::Hello& hello) {
@@ -48,6 +55,7 @@ SessionReceiver::Outcome SessionReceiver::take_hello(const v1::Hello& hello) {
     auto info = session_info_from(hello);
     if (auto* error = std::get_if<WireError>(&info)) return *error;
     compares_ = hello.protocol_minor() >= first_minor_that_compares;
+    tissues_ = std::get<SessionInfo>(info).tissues;
     stage_ = Stage::snapshot_begin;
     return SessionEvent(std::get<SessionInfo>(std::move(info)));
 }
@@ -75,6 +83,7 @@ SessionReceiver::Outcome SessionReceiver::take_snapshot_end(const v1::SnapshotEn
     Bone& bone = std::get<Bone>(finished);
     RunningChecksum terms(bone);
     size_bricks_ = bone.content().size_bricks;
+    structures_ = StructureAssembler(tissues_, bone.grid());
     stage_ = Stage::live;
     return SessionEvent(BoneArrived{std::move(bone), std::move(terms)});
 }

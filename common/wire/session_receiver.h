@@ -6,11 +6,13 @@
 #include <optional>
 #include <string>
 #include <variant>
+#include <vector>
 
 #include "common/bone/bone.h"
 #include "common/wire/running_checksum.h"
 #include "common/wire/session_info.h"
 #include "common/wire/snapshot.h"
+#include "common/wire/structure_messages.h"
 #include "common/wire/wire_error.h"
 #include "osteomill/v1/session.pb.h"
 
@@ -55,8 +57,13 @@ struct CtPieceArrived {
     v1::CtPiece piece;
 };
 
-using SessionEvent = std::variant<SnapshotGoesOn, CtPieceArrived, SessionInfo, BoneArrived, StateArrived,
-                                  SaidGoodbye, SpeaksOtherProtocol>;
+/// Of a protected structure, what has come is complete; nothing: there will be more of it.
+struct StructureArrived {
+    std::optional<Structure> structure;
+};
+
+using SessionEvent = std::variant<SnapshotGoesOn, CtPieceArrived, StructureArrived, SessionInfo, BoneArrived,
+                                  StateArrived, SaidGoodbye, SpeaksOtherProtocol>;
 
 class SessionReceiver {
   public:
@@ -94,6 +101,8 @@ class SessionReceiver {
     Stage stage_ = Stage::hello;
     std::uint64_t last_sequence_ = 0;
     std::optional<SnapshotAssembler> assembler_;
+    std::vector<Tissue> tissues_;
+    StructureAssembler structures_;
     glm::ivec3 size_bricks_{0};  // of the bone
     std::uint32_t bricks_received_ = 0;
     std::uint32_t bricks_announced_ = 0;

@@ -102,6 +102,25 @@ nlohmann::ordered_json histograms_us(const MillingSessionReport& report) {
             {"milling_step", histogram_us(report.milling.duration)}};
 }
 
+void add_structures(nlohmann::ordered_json& json, const StructureWatch& structures, const Scene& scene) {
+    if (structures.empty()) return;
+    nlohmann::ordered_json all = nlohmann::ordered_json::array();
+    for (const StructureAccount& account : structures.accounts()) {
+        nlohmann::ordered_json one{{"name", scene.tissues[account.last.tissue].name},
+                                   {"nearest_mm", nullptr},
+                                   {"touches", account.last.touches_so_far},
+                                   {"first_touch_s", nullptr},
+                                   {"touched_s", account.last.touched_s},
+                                   {"removed_mm3", account.last.removed_mm3},
+                                   {"entered_mm3", account.last.entered_mm3}};
+        if (account.nearest_mm) one["nearest_mm"] = *account.nearest_mm;
+        if (account.last.touches_so_far > 0) one["first_touch_s"] = account.last.first_touch_s;
+        all.push_back(std::move(one));
+    }
+    json["structures"] = std::move(all);
+    json["structures_memory_bytes"] = structures.memory_bytes();
+}
+
 nlohmann::ordered_json recorded(const RecordingReport& recording) {
     nlohmann::ordered_json json{{"file", recording.file.string()},
                                 {"frames", recording.frames},

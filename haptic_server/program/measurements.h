@@ -6,6 +6,7 @@
 
 #include "common/recording/recording_writer.h"
 #include "common/scene/scene.h"
+#include "common/scene/structure_watch.h"
 #include "haptic_server/loop/milling_session.h"
 #include "haptic_server/program/server_options.h"
 
@@ -26,6 +27,10 @@ nlohmann::ordered_json measurements(const MillingSessionReport& report, const Bo
 /// What the percentiles were taken from, by loop: lists of pairs of a duration in microseconds and how many
 /// lasted as long, or less and longer than those of the pair before.
 nlohmann::ordered_json histograms_us(const MillingSessionReport& report);
+
+/// Adds what came of each protected structure, as "structures", and what watching them took in memory, as
+/// "structures_memory_bytes"; nothing where none is.
+void add_structures(nlohmann::ordered_json& json, const StructureWatch& structures, const Scene& scene);
 
 /// What became of a recording, under "recording": file, frames, bytes, pauses (for which the disk was full),
 /// error (null where there is none).

@@ -151,8 +151,8 @@ struct Streaming {
 
 Streaming make_streaming(StreamingOptions wanted, const ServerOptions& options, const Scene& scene,
                          Bone mirror, MillingSession& session, const DeviceParts& device,
-                         const std::string& version, SessionKeeper::Save save,
-                         std::function<CtVolume()> make_ct, LineStream& out) {
+                         std::vector<Structure> structures, const std::string& version,
+                         SessionKeeper::Save save, std::function<CtVolume()> make_ct, LineStream& out) {
     wanted.listens = options.listen.has_value();
     wanted.paced_by_session = options.session.clock == ClockKind::virtual_time;
     if (options.record)
@@ -177,9 +177,11 @@ Streaming make_streaming(StreamingOptions wanted, const ServerOptions& options, 
     info.trainee = options.trainee;
     info.case_name = options.case_name;
     info.settings = as_texts(session_settings(options, scene, version));
+    const std::vector<Structure> to_send = not_told_by_bone(structures, scene, mirror);
+    streaming.shown->watch(StructureWatch(std::move(structures), scene.tissues, scene.burrs), scene.tissues);
     streaming.server =
         std::make_unique<StreamingServer>(std::move(wanted), std::move(info), std::move(mirror),
-                                          *streaming.shown, device.operator_channel.get());
+                                          *streaming.shown, device.operator_channel.get(), to_send);
     streaming.server->start();
     if (options.listen)
         out.write(fmt::format("listening on {}:{}\n", options.listen->address, streaming.server->port()));
@@ -303,7 +305,8 @@ void run_server(const ServerOptions& options, const std::string& version, const 
     if (has_ct(source, session->bone().grid())) make_ct = [&] { return ct_of(source, most_ct_voxels); };
     const Streaming streaming =
         is_shown ? make_streaming(std::move(streaming_as_typed), options, scene, *std::move(mirror), *session,
-                                  device, version, std::move(save), std::move(make_ct), *output.out)
+                                  device, std::move(loaded.structures), version, std::move(save),
+                                  std::move(make_ct), *output.out)
                  : Streaming{};
 
     cost.startup_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
@@ -345,6 +348,7 @@ void run_server(const ServerOptions& options, const std::string& version, const 
         if (!options.json) return;
         auto json = measurements(report, cost, peak_bytes, scene, options);
         json["settings"] = session_settings(options, scene, version);
+        if (streaming) add_structures(json, streaming.shown->structures(), scene);
         if (recording) json["recording"] = recorded(*recording);
         write_json(json, *options.json);
     });

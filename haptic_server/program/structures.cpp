@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "common/bone/structure_in_bone.h"
 #include "haptic_server/imaging/imaging_error.h"
 #include "haptic_server/imaging/region.h"
 #include "haptic_server/imaging/segment_structure.h"
@@ -68,20 +69,23 @@ FillLabels label_painter(const Scene& scene, const std::vector<Structure>& struc
 }
 
 void add_structures_in_bone(const Scene& scene, const Bone& bone, std::vector<Structure>& structures) {
-    const BoneContent& content = bone.content();
     for (std::size_t index = 0; index < scene.tissues.size(); ++index) {
         const Tissue& tissue = scene.tissues[index];
         if (!tissue.is_protected || !tissue.segment.empty()) continue;
-        std::vector<StructureBrick> bricks;
-        for (std::size_t slot = 0; slot < content.tissue.size(); ++slot) {
-            VoxelMask voxels;
-            for (std::size_t offset = 0; offset < brick_voxel_count; ++offset)
-                if (content.tissue[slot][offset] == tissue.label) voxels.set(offset);
-            if (voxels.any()) bricks.push_back({content.brick_of_slot[slot], voxels});
-        }
-        structures.push_back({index, StructureMask(bone.grid(), std::move(bricks))});
+        structures.push_back({index, structure_in_bone(bone, tissue.label)});
     }
     std::ranges::sort(structures, {}, &Structure::tissue);
+}
+
+std::vector<Structure> not_told_by_bone(const std::vector<Structure>& structures, const Scene& scene,
+                                        const Bone& bone) {
+    std::vector<Structure> others;
+    for (const Structure& one : structures) {
+        const Tissue& tissue = scene.tissues[one.tissue];
+        if (!tissue.segment.empty() && one.mask != structure_in_bone(bone, tissue.label))
+            others.push_back(one);
+    }
+    return others;
 }
 
 }  // namespace osteomill

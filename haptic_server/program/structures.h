@@ -1,21 +1,15 @@
 // The structures of a scene: where its tissues are, on the bone's grid, whether bone is there or not.
 #pragma once
 
-#include <cstddef>
 #include <filesystem>
 #include <vector>
 
 #include "common/bone/bone.h"
-#include "common/bone/structure_mask.h"
 #include "common/scene/scene.h"
+#include "common/scene/structure.h"
 #include "haptic_server/imaging/bone_of_file.h"
 
 namespace osteomill {
-
-struct Structure {
-    std::size_t tissue = 0;  ///< index in the scene's tissues
-    StructureMask mask{};
-};
 
 /// Of each tissue that names a segment; they may overlap. Throws ImagingError as read_segmentation does, and
 /// for a segment that is not there or has no voxel in the bone's grid.
@@ -30,5 +24,9 @@ FillLabels label_painter(const Scene& scene, const std::vector<Structure>& struc
 /// Adds those of protected tissues without a segment: the voxels of the bone that bear their label. Leaves
 /// all in the order of the tissues.
 void add_structures_in_bone(const Scene& scene, const Bone& bone, std::vector<Structure>& structures);
+
+/// Of these structures, those that are elsewhere than where the bone bears their label.
+std::vector<Structure> not_told_by_bone(const std::vector<Structure>& structures, const Scene& scene,
+                                        const Bone& bone);
 
 }  // namespace osteomill

@@ -70,7 +70,7 @@ void show_session(Playhead& playhead, double speed, StreamingOptions& where, con
     session.protocol_minor = protocol_minor;
     session.accepts_operator = false;
     RecordedSession shown(playhead, speed, [] { return RecordedSession::Clock::now(); });
-    StreamingServer server(where, std::move(session), playhead.bone(), shown);
+    StreamingServer server(where, std::move(session), playhead.bone(), shown, nullptr, playhead.structures());
     server.start();
     where.port = server.port();
     out.write(fmt::format("listening on {}:{}\n", where.address, where.port));

@@ -70,8 +70,11 @@ void add_structures(Rows& rows, const std::vector<StructureMetrics>& structures)
         rows.add("structure_nearest_mm", "nearest approach", structure.nearest_mm, "mm", structure.name);
         rows.add("structure_touches", "touches", static_cast<double>(structure.touches), "", structure.name);
         rows.add("structure_first_touch_s", "first touch", structure.first_touch_s, "s", structure.name);
+        rows.add("structure_touched_s", "touched", structure.touched_s, "s", structure.name);
         rows.add("structure_dose_mm3", "removed", structure.dose_mm3, "mm^3", structure.name);
         rows.add("structure_undone_mm3", "milled and undone", structure.undone_dose_mm3, "mm^3",
+                 structure.name);
+        rows.add("structure_entered_mm3", "entered by the burr", structure.entered_mm3, "mm^3",
                  structure.name);
     }
 }

@@ -7,6 +7,7 @@
 #include <limits>
 #include <numeric>
 
+#include "common/bone/structure_in_bone.h"
 #include "common/recording/packet_reader.h"
 #include "common/recording/playhead.h"
 
@@ -15,13 +16,15 @@ namespace osteomill {
 namespace {
 
 /// Sums what changed since `kept`, and makes that as it is `now`.
-std::vector<TissueLevels> take_over(const std::vector<BrickChange>& changes, const Bone& now, Bone& kept) {
+std::vector<TissueLevels> take_over(const std::vector<BrickChange>& changes, const Bone& now, Bone& kept,
+                                    StructureWatch& structures) {
     std::array<TissueLevels, 256> sums{};
     for (const BrickChange& change : changes) {
         const std::int32_t slot = now.slot(change.brick);
         if (slot == BoneContent::no_slot) continue;
         const auto left = now.fractions(slot);
         const auto before = kept.fractions(slot);
+        structures.note(change, before, left);
         change.voxels.for_each([&](std::size_t voxel) {
             const int lost = int{before[voxel]} - int{left[voxel]};
             TissueLevels& levels = sums[now.content().tissue_in(slot, voxel)];
@@ -42,19 +45,21 @@ std::vector<TissueLevels> take_over(const std::vector<BrickChange>& changes, con
 }
 
 /// The trace's bone at the end is that of the frame before until then.
-void add_sample(SessionTrace& trace, Playhead& playhead) {
+void add_sample(SessionTrace& trace, Playhead& playhead, StructureWatch& structures) {
     const ToolState& tool = *playhead.tool();
     if (trace.samples.empty()) trace.began_unix_ns = tool.taken_unix_ns;
-    trace.samples.push_back({.time_s = tool.time_s,
-                             .hand_mm = tool.hand_position_mm,
-                             .burr_mm = tool.burr_position_mm,
-                             .spindle_axis = tool.spindle_axis,
-                             .force_n = glm::length(tool.force_n),
-                             .depth_mm = tool.depth_mm.value_or(0.0),
-                             .burr = tool.burr,
-                             .spindle_on = tool.spindle_on,
-                             .is_paused = playhead.status().is_paused,
-                             .levels = take_over(playhead.take_changes(), playhead.bone(), trace.at_end)});
+    trace.samples.push_back(
+        {.time_s = tool.time_s,
+         .hand_mm = tool.hand_position_mm,
+         .burr_mm = tool.burr_position_mm,
+         .spindle_axis = tool.spindle_axis,
+         .force_n = glm::length(tool.force_n),
+         .depth_mm = tool.depth_mm.value_or(0.0),
+         .burr = tool.burr,
+         .spindle_on = tool.spindle_on,
+         .is_paused = playhead.status().is_paused,
+         .levels = take_over(playhead.take_changes(), playhead.bone(), trace.at_end, structures)});
+    structures.update(tool);
     if (tool.peak_force_n) trace.peak_force_n = tool.peak_force_n;
     trace.events.insert(trace.events.end(), playhead.events().begin(), playhead.events().end());
 }
@@ -63,6 +68,19 @@ void add_sample(SessionTrace& trace, Playhead& playhead) {
 std::int64_t recorded_unix_ns(const std::filesystem::path& file) {
     const auto first = PacketReader(file).next();
     return first ? std::chrono::nanoseconds(first->stamp.time_since_epoch()).count() : 0;
+}
+
+/// Of all protected tissues: where the recording says nothing, they are where the bone bears their label.
+StructureWatch watch(const SessionTrace& trace, std::vector<Structure> structures) {
+    const SessionInfo& session = trace.session;
+    for (std::size_t tissue = 0; tissue < session.tissues.size(); ++tissue) {
+        const bool is_told = std::ranges::find(structures, tissue, &Structure::tissue) != structures.end();
+        if (!session.tissues[tissue].is_protected || is_told) continue;
+        StructureMask mask = structure_in_bone(trace.at_start, session.tissues[tissue].label);
+        if (!mask.empty()) structures.push_back({tissue, std::move(mask)});
+    }
+    std::ranges::sort(structures, {}, &Structure::tissue);
+    return {std::move(structures), session.tissues, session.burrs};
 }
 
 SessionTrace begin(Playhead& playhead) {
@@ -85,20 +103,29 @@ std::int64_t TraceSample::restored() const {
 SessionTrace read_trace(const std::filesystem::path& file, const std::function<void()>& on_frame) {
     Playhead playhead(file);
     SessionTrace trace = begin(playhead);
+    std::optional<StructureWatch> structures;  // from the first state on: what is where has been said by then
     try {
         for (;;) {
             on_frame();
             const Playhead::Step step = playhead.step(std::numeric_limits<double>::infinity());
             if (step == Playhead::Step::end) break;
-            if (step == Playhead::Step::state) add_sample(trace, playhead);
+            if (step == Playhead::Step::state) {
+                if (!structures) structures = watch(trace, playhead.structures());
+                add_sample(trace, playhead, *structures);
+            }
             if (step == Playhead::Step::goodbye) trace.ends = true;
-            if (step == Playhead::Step::new_bone) trace = begin(playhead);
+            if (step == Playhead::Step::new_bone) {
+                trace = begin(playhead);
+                structures.reset();
+            }
         }
     } catch (const RecordingError& error) {
         trace.error = error.what();
     }
     if (trace.began_unix_ns == 0) trace.began_unix_ns = recorded_unix_ns(file);
-    (void)take_over(playhead.take_changes(), playhead.bone(), trace.at_end);
+    if (!structures) structures = watch(trace, playhead.structures());
+    (void)take_over(playhead.take_changes(), playhead.bone(), trace.at_end, *structures);
+    trace.structures = structures->accounts();
     trace.bone_checksum = playhead.bone_checksum();
     return trace;
 }

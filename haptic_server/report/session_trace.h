@@ -15,6 +15,7 @@
 
 #include "common/bone/bone.h"
 #include "common/scene/session_control.h"
+#include "common/scene/structure_watch.h"
 #include "common/wire/session_info.h"
 
 namespace osteomill {
@@ -49,11 +50,12 @@ struct SessionTrace {
     Bone at_end;
     std::vector<TraceSample> samples{};
     std::vector<ControlEvent> events{};
-    std::optional<double> peak_force_n{};  ///< of all ticks, where the recording says it
-    std::int64_t began_unix_ns = 0;        ///< 0: not said
-    std::uint64_t bone_checksum = 0;       ///< at the end
-    bool ends = false;                     ///< with a goodbye, in the recording
-    std::string error{};                   ///< why it is not read further; empty at the end
+    std::vector<StructureAccount> structures{};  ///< of each protected tissue that is somewhere
+    std::optional<double> peak_force_n{};        ///< of all ticks, where the recording says it
+    std::int64_t began_unix_ns = 0;              ///< 0: not said
+    std::uint64_t bone_checksum = 0;             ///< at the end
+    bool ends = false;                           ///< with a goodbye, in the recording
+    std::string error{};                         ///< why it is not read further; empty at the end
 
     double dt_s(std::size_t i) const {
         return i == 0 ? 0.0 : std::max(0.0, samples[i].time_s - samples[i - 1].time_s);

@@ -1,8 +1,9 @@
-// How near the burr came to each protected structure, when it touched it, and how much of it went.
+// How near the burr came to each protected structure, when it touched it, for how long, and how much of it
+// went.
 //
-// A structure is what bears its tissue's label, as the recording has it: bone. The nearest approach is from
-// the ball of the burr's diameter about the burr's centre to the centre of the structure's nearest voxel, 0
-// where they overlap, over all frames; it is within a voxel of the distance between the surfaces.
+// A structure is where the recording says it is, or else where the bone bears its tissue's label. Distances
+// are from the burr's head, whatever its shape, to the structure, at the states of the recording
+// (structure_watch.h): the very numbers of the live session.
 #pragma once
 
 #include <optional>
@@ -13,16 +14,15 @@
 
 namespace osteomill {
 
-/// Contact that ends for less than this goes on.
-inline constexpr double touch_gap_s = 0.5;
-
 struct StructureMetrics {
     std::string name;
-    std::optional<double> nearest_mm{};  ///< nothing where the bone has none of it
-    std::size_t touches = 0;             ///< spells in which some of it was milled, undone or not
+    std::optional<double> nearest_mm{};  ///< 0 once touched; nothing: never within watched_mm(), or nowhere
+    std::size_t touches = 0;             ///< spells in which the burr overlapped it or took of it
     std::optional<double> first_touch_s{};
-    double dose_mm3 = 0.0;         ///< of it that is gone at the end
+    double touched_s = 0.0;        ///< in all
+    double dose_mm3 = 0.0;         ///< bone of it that is gone at the end
     double undone_dose_mm3 = 0.0;  ///< that was milled and given back
+    double entered_mm3 = 0.0;      ///< of it, bone or not, where the burr's head was
 };
 
 /// Of every protected tissue of the scene.

@@ -7,6 +7,7 @@
 #include "common/wire/frame.h"
 #include "common/wire/scene_messages.h"
 #include "common/wire/sealed_frame.h"
+#include "common/wire/structure_messages.h"
 #include "haptic_server/streaming/update_deadband.h"
 
 namespace osteomill {
@@ -38,7 +39,8 @@ void ClientFeed::note(const SessionStatus& status) {
 void ClientFeed::request_state(const ToolState& tool, bool with_checksum) {
     tool_ = tool;
     const bool is_news = with_checksum || !pending_.empty() || !events_.empty() || status_ != sent_status_ ||
-                         !sent_tool_ || !is_within_deadband(*sent_tool_, tool);
+                         distances_ != sent_distances_ || !sent_tool_ ||
+                         !is_within_deadband(*sent_tool_, tool);
     wants_state_ = wants_state_ || is_news;
     wants_checksum_ = wants_checksum_ || with_checksum;
     comparisons_left_ = std::min(comparisons_left_ + 1, most_comparisons_at_once);
@@ -88,7 +90,10 @@ std::optional<std::string> ClientFeed::next(std::size_t most_state_bytes) {
             stage_ = Stage::live;
             break;
         case Stage::live:
-            if (wants_state_) {
+            if (!structure_pieces_.empty() && !goodbye_) {
+                *frame.mutable_structure_bricks() = structure_pieces_.front();
+                structure_pieces_ = structure_pieces_.subspan(1);
+            } else if (wants_state_) {
                 fill_state(frame, most_state_bytes);
                 newest_state_ = frame.sequence();
             } else if (ct_ && next_ct_voxel_ < ct_->hu.size() && !goodbye_) {
@@ -124,6 +129,8 @@ void ClientFeed::fill_state(v1::ServerFrame& frame, std::size_t most_bytes) {
     if (answer_) *state.mutable_comparison() = *std::exchange(answer_, std::nullopt);
     if (status_ != SessionStatus{}) *state.mutable_status() = to_message(status_);
     sent_status_ = status_;
+    for (const StructureDistance& distance : distances_) *state.add_distances() = to_message(distance);
+    sent_distances_ = distances_;
     add_events(state, most_bytes);
     if (change_packer_ != nullptr && !pending_.empty())
         add_packed_changes(state, most_bytes);

@@ -12,9 +12,11 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "common/bone/brick_change.h"
 #include "common/scene/session_control.h"
+#include "common/scene/structure_distance.h"
 #include "common/scene/tool_state.h"
 #include "common/wire/bone_comparison.h"
 #include "common/wire/bone_replica.h"
@@ -42,12 +44,20 @@ class ClientFeed {
     void note(std::span<const ControlEvent> events);
     /// What the next frame says of what can be done.
     void note(const SessionStatus& status);
+    /// And of how far the burr is from protected structures.
+    void note(std::span<const StructureDistance> distances) {
+        distances_.assign(distances.begin(), distances.end());
+    }
 
     /// Asks for a state frame as soon as one can be sent; but where nothing is new and the tool rests, only
     /// every deadband_period_s. One that has not been sent yet is replaced: what it
     /// would have sent of the bone, the next one sends. A checksum once asked for is stated by the next frame
     /// after which the client knows all.
     void request_state(const ToolState& tool, bool with_checksum);
+
+    /// The client is told where the protected structures are, from now on before any state. `pieces` outlive
+    /// the feed.
+    void give_structures(const std::vector<v1::StructureBricks>& pieces) { structure_pieces_ = pieces; }
 
     /// The client wants to see the CT; asked for again nothing happens.
     void ask_for_ct() { wants_ct_ = true; }
@@ -117,6 +127,10 @@ class ClientFeed {
     std::deque<ControlEvent> events_;  // that have yet to be sent
     SessionStatus status_;
     SessionStatus sent_status_;
+
+    std::span<const v1::StructureBricks> structure_pieces_;  // that have yet to be sent
+    std::vector<StructureDistance> distances_;
+    std::vector<StructureDistance> sent_distances_;
 
     ToolState tool_;
     std::optional<ToolState> sent_tool_;

@@ -13,6 +13,8 @@ std::variant<std::optional<Answer>, WireError> take_client_message(const v1::Cli
                                                                    ControlLease::Time now) {
     if (frame.has_hello()) {
         if (frame.hello().takes_packed_changes()) client.feed.pack_changes(client.packer);
+        if (client.structures != nullptr && frame.hello().protocol_minor() >= first_minor_with_structures)
+            client.feed.give_structures(*client.structures);
         return std::nullopt;
     }
     if (frame.has_compare_bone()) {

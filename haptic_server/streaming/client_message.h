@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 #include <variant>
+#include <vector>
 
 #include "common/wire/wire_error.h"
 #include "haptic_server/streaming/answered_states.h"
@@ -22,6 +23,8 @@ struct MessagingClient {
     ChangePacker& packer;           ///< of all clients that take packed changes; outlives the feed
     ControlLease* lease = nullptr;  ///< null: nobody may move the tool now, and input changes nothing
     std::size_t burr_count = 0;     ///< of the session
+    /// Where the protected structures are, for a client that knows what to do with it; outlives the feed.
+    const std::vector<v1::StructureBricks>* structures = nullptr;
     /// Takes what the client asks of the session; null: it may not ask now.
     const std::function<void(const SessionControl&)>* control = nullptr;
 };

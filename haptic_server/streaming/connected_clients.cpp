@@ -25,11 +25,13 @@ std::int64_t unix_time_ns() {
 }  // namespace
 
 ConnectedClients::ConnectedClients(const StreamingOptions& options, const v1::Hello& hello,
+                                   const std::vector<v1::StructureBricks>& structures,
                                    const BoneReplica& mirror, SnapshotPacker& snapshot_packer,
                                    OperatorChannel* operator_channel,
                                    std::function<void(const SessionControl&)> control)
     : options_(options),
       hello_(hello),
+      structures_(structures),
       mirror_(mirror),
       snapshot_packer_(snapshot_packer),
       control_(std::move(control)),
@@ -86,6 +88,10 @@ void ConnectedClients::note(std::span<const ControlEvent> events, const SessionS
         connection->feed().note(events);
         connection->feed().note(theirs);
     }
+}
+
+void ConnectedClients::note(std::span<const StructureDistance> distances) {
+    for (const auto& [id, connection] : connections_) connection->feed().note(distances);
 }
 
 void ConnectedClients::show_ct(const std::function<std::shared_ptr<const CtVolume>()>& ct) {
@@ -166,6 +172,7 @@ std::optional<WireError> ConnectedClients::take(Id id, const v1::ClientFrame& fr
                                       .packer = change_packer_,
                                       .lease = may_operate ? &*lease_ : nullptr,
                                       .burr_count = static_cast<std::size_t>(hello_.burrs_size()),
+                                      .structures = &structures_,
                                       .control = controls ? &control_ : nullptr},
                                      now);
     log_holder();

@@ -13,6 +13,7 @@
 #include <set>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "common/bone/brick_change.h"
 #include "common/scene/tool_state.h"
@@ -34,10 +35,11 @@ class ConnectedClients {
   public:
     using Time = std::chrono::steady_clock::time_point;
 
-    /// `hello`: what they are greeted with. `operator_channel`: null where no client can move the tool.
-    /// `control`: takes what those who may ask of the session, if the hello accepts that. All references
-    /// outlive this.
-    ConnectedClients(const StreamingOptions& options, const v1::Hello& hello, const BoneReplica& mirror,
+    /// `hello`: what they are greeted with; `structures`: what they are told of protected ones.
+    /// `operator_channel`: null where no client can move the tool. `control`: takes what those who may ask of
+    /// the session, if the hello accepts that. All references outlive this.
+    ConnectedClients(const StreamingOptions& options, const v1::Hello& hello,
+                     const std::vector<v1::StructureBricks>& structures, const BoneReplica& mirror,
                      SnapshotPacker& snapshot_packer, OperatorChannel* operator_channel,
                      std::function<void(const SessionControl&)> control);
 
@@ -51,6 +53,8 @@ class ConnectedClients {
     void note(std::span<const BrickChange> changes);
     /// Likewise for what was done to the session, and what can be done with it.
     void note(std::span<const ControlEvent> events, const SessionStatus& status);
+    /// And for how far the burr is from protected structures.
+    void note(std::span<const StructureDistance> distances);
     /// Gives the CT to those who want it. `ct` is asked only if there are any, and may have none yet.
     void show_ct(const std::function<std::shared_ptr<const CtVolume>()>& ct);
     /// Sends everybody where the tool is.
@@ -84,6 +88,7 @@ class ConnectedClients {
 
     const StreamingOptions& options_;
     const v1::Hello& hello_;
+    const std::vector<v1::StructureBricks>& structures_;
     const BoneReplica& mirror_;
     SnapshotPacker& snapshot_packer_;
     ChangePacker change_packer_;

@@ -18,22 +18,38 @@ SessionInfo session_info(const Scene& scene, bool accepts_operator, double force
             .plan = scene.plan};
 }
 
+void LiveSession::watch(StructureWatch structures, std::vector<Tissue> tissues) {
+    structures_ = std::move(structures);
+    structure_log_.emplace(std::move(tissues));
+}
+
 ToolState LiveSession::update(BoneReplica& mirror, std::size_t) {
     std::size_t refused = 0;
     if (controls_ != nullptr) controls_->begin_frame();
     changes_.consume_all([&](const BrickChange& change, BrickFractions fractions) {
         if (controls_ != nullptr) controls_->note(change, mirror.bone());
+        if (!structures_.empty()) note_for_structures(change, fractions, mirror.bone());
         refused += mirror.apply(change, fractions) ? 0 : 1;
     });
     if (refused > 0) spdlog::error("{} changes do not fit the bone that clients are shown", refused);
     tool_.refresh();
     const ToolState& tool = tool_.front();
+    if (!structures_.empty()) {
+        structures_.update(tool);
+        for (const std::string& line : structure_log_->lines(structures_.distances(), tool.time_s))
+            spdlog::warn("{}", line);
+    }
     if (controls_ != nullptr) {
         for (; !script_.empty() && script_.front().time_s <= tool.time_s; script_.pop_front())
             controls_->control(script_.front().control);
         controls_->end_frame(mirror.bone(), tool);
     }
     return tool;
+}
+
+void LiveSession::note_for_structures(const BrickChange& change, BrickFractions after, const Bone& bone) {
+    const std::int32_t slot = bone.slot(change.brick);
+    if (slot != BoneContent::no_slot) structures_.note(change, bone.fractions(slot), after);
 }
 
 std::vector<ControlEvent> LiveSession::take_events() {

@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "common/scene/scene.h"
+#include "common/scene/structure_watch.h"
 #include "common/scene/tool_state.h"
 #include "common/wire/session_info.h"
 #include "haptic_server/exchange/change_queue.h"
@@ -13,6 +14,7 @@
 #include "haptic_server/streaming/control_script.h"
 #include "haptic_server/streaming/session_controls.h"
 #include "haptic_server/streaming/stream_source.h"
+#include "haptic_server/streaming/structure_log.h"
 
 namespace osteomill {
 
@@ -30,17 +32,26 @@ class LiveSession final : public StreamSource {
         : tool_(tool), changes_(changes), controls_(controls), script_(std::move(script)) {}
     /// What makes the CT for people to look at, on a thread of its own, if anybody ever asks for it.
     void offer_ct(std::function<CtVolume()> make) { make_ct_ = std::move(make); }
+    /// The protected structures that are looked at from now on. Approaches and touches are logged.
+    void watch(StructureWatch structures, std::vector<Tissue> tissues);
+    /// What came of them; once the streaming server has ended.
+    const StructureWatch& structures() const { return structures_; }
     ToolState update(BoneReplica& mirror, std::size_t viewers) override;
     std::vector<ControlEvent> take_events() override;
     SessionStatus status() const override;
+    std::span<const StructureDistance> distances() const override { return structures_.distances(); }
     void control(const SessionControl& control) override;
     std::shared_ptr<const CtVolume> ct() override;
 
   private:
+    void note_for_structures(const BrickChange& change, BrickFractions after, const Bone& bone);
+
     TripleBuffer<ToolState>& tool_;
     ChangeQueue& changes_;
     SessionControls* controls_;
     ControlScript script_;
+    StructureWatch structures_;
+    std::optional<StructureLog> structure_log_;
     std::function<CtVolume()> make_ct_;
     std::future<CtVolume> ct_under_way_;
     std::shared_ptr<const CtVolume> ct_;

@@ -22,7 +22,8 @@ std::string packet_of(const std::string& frame, Stamp stamp) {
 }  // namespace
 
 SessionRecorder::SessionRecorder(const std::filesystem::path& file, Stamp began, v1::Hello hello,
-                                 const BoneReplica& mirror, SnapshotPacker& packer)
+                                 const BoneReplica& mirror, SnapshotPacker& packer,
+                                 const std::vector<v1::StructureBricks>& structures)
     : began_(began),
       feed_(std::move(hello), mirror, packer),
       writer_(
@@ -35,6 +36,7 @@ SessionRecorder::SessionRecorder(const std::filesystem::path& file, Stamp began,
                   spdlog::error("{}; the session goes on, and the recording, too, once there is room", line);
           },
           WhenDiskIsFull::try_again) {
+    feed_.give_structures(structures);
     hand_over(Wait::for_the_disk);
     writer_.wait_until_written();
     if (writer_.has_failed()) {

@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "common/recording/recording_writer.h"
 #include "haptic_server/streaming/client_feed.h"
@@ -17,10 +18,12 @@ namespace osteomill {
 
 class SessionRecorder {
   public:
-    /// Writes hello and snapshot before it returns, and throws RecordingError where that much cannot be
-    /// written. `began`: when the session's time is zero. `mirror` and `packer` outlive the recorder.
+    /// Writes hello, snapshot and `structures` before it returns, and throws RecordingError where that much
+    /// cannot be written. `began`: when the session's time is zero. `mirror` and `packer` outlive the
+    /// recorder.
     SessionRecorder(const std::filesystem::path& file, Stamp began, v1::Hello hello,
-                    const BoneReplica& mirror, SnapshotPacker& packer);
+                    const BoneReplica& mirror, SnapshotPacker& packer,
+                    const std::vector<v1::StructureBricks>& structures = {});
 
     /// As for a client: see ClientFeed.
     void note(std::span<const BrickChange> changes) { feed_.note(changes); }
@@ -28,6 +31,7 @@ class SessionRecorder {
         feed_.note(events);
         feed_.note(status);
     }
+    void note(std::span<const StructureDistance> distances) { feed_.note(distances); }
     /// Hands over a state frame; without waiting, unless `may_wait`.
     void record(const ToolState& tool, bool with_checksum, bool may_wait);
     /// Hands over the end, waits until all is written and makes it the file that was asked for. Gives up on a

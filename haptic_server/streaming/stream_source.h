@@ -3,10 +3,12 @@
 
 #include <cstddef>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "common/bone/ct_volume.h"
 #include "common/scene/session_control.h"
+#include "common/scene/structure_distance.h"
 #include "common/scene/tool_state.h"
 #include "common/wire/bone_replica.h"
 
@@ -24,6 +26,8 @@ class StreamSource {
     // nothing can be, nothing has to be said.
     virtual std::vector<ControlEvent> take_events() { return {}; }
     virtual SessionStatus status() const { return {}; }
+    /// After update(): how far the burr is from the protected structures that are near or were touched.
+    virtual std::span<const StructureDistance> distances() const { return {}; }
     /// The CT for people to look at, as soon as it is ready: the first call has it made. Nothing where there
     /// is none.
     virtual std::shared_ptr<const CtVolume> ct() { return nullptr; }

@@ -20,6 +20,7 @@
 #include "common/wire/bone_replica.h"
 #include "common/wire/frame.h"
 #include "common/wire/scene_messages.h"
+#include "common/wire/structure_messages.h"
 #include "haptic_server/streaming/connected_clients.h"
 #include "haptic_server/streaming/handshakes.h"
 #include "haptic_server/streaming/listener.h"
@@ -56,12 +57,13 @@ void require_fits_frame(const v1::Hello& hello) {
 class StreamingServer::Impl {
   public:
     Impl(StreamingOptions options, SessionInfo session, Bone mirror, StreamSource& source,
-         OperatorChannel* operator_channel)
+         OperatorChannel* operator_channel, std::span<const Structure> structures)
         : options_(std::move(options)),
           hello_(to_message(session)),
+          structures_(structure_pieces(structures)),
           mirror_(std::move(mirror)),
           source_(source),
-          clients_(options_, hello_, mirror_, packer_, operator_channel,
+          clients_(options_, hello_, structures_, mirror_, packer_, operator_channel,
                    [this](const SessionControl& control) { source_.control(control); }) {
         if (!(std::isfinite(options_.frame_rate_hz) && options_.frame_rate_hz > 0.0))
             throw std::invalid_argument("the frame rate is " + std::to_string(options_.frame_rate_hz) +
@@ -79,7 +81,8 @@ class StreamingServer::Impl {
         if (options_.listens) acceptor_.emplace(listen(io_, options_));
         // Only now: a server that cannot listen must not have overwritten an earlier recording.
         if (options_.record)
-            recorder_.emplace(options_.record->file, options_.record->began, hello_, mirror_, packer_);
+            recorder_.emplace(options_.record->file, options_.record->began, hello_, mirror_, packer_,
+                              structures_);
         if (acceptor_) {
             port_ = acceptor_->local_endpoint().port();
             spdlog::info("listening on {}:{}{}", options_.address, port_, options_.tls ? " with TLS" : "");
@@ -176,6 +179,9 @@ class StreamingServer::Impl {
         const std::vector<ControlEvent> events = source_.take_events();
         if (recorder_) recorder_->note(events, source_.status());
         clients_.note(events, source_.status());
+        const std::span<const StructureDistance> distances = source_.distances();
+        if (recorder_) recorder_->note(distances);
+        clients_.note(distances);
     }
 
     void accept() {
@@ -210,6 +216,7 @@ class StreamingServer::Impl {
 
     const StreamingOptions options_;
     const v1::Hello hello_;
+    const std::vector<v1::StructureBricks> structures_;
     BoneReplica mirror_;
     SnapshotPacker packer_;
     StreamSource& source_;
@@ -247,9 +254,10 @@ class StreamingServer::Impl {
 };
 
 StreamingServer::StreamingServer(StreamingOptions options, SessionInfo session, Bone mirror,
-                                 StreamSource& source, OperatorChannel* operator_channel)
+                                 StreamSource& source, OperatorChannel* operator_channel,
+                                 std::span<const Structure> structures)
     : impl_(std::make_unique<Impl>(std::move(options), std::move(session), std::move(mirror), source,
-                                   operator_channel)) {}
+                                   operator_channel, structures)) {}
 
 StreamingServer::~StreamingServer() = default;
 void StreamingServer::start() {

@@ -12,9 +12,11 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
 
 #include "common/bone/bone.h"
 #include "common/recording/recording_writer.h"
+#include "common/scene/structure.h"
 #include "common/wire/session_info.h"
 #include "haptic_server/exchange/operator_channel.h"
 #include "haptic_server/exchange/triple_buffer.h"
@@ -26,11 +28,12 @@ namespace osteomill {
 class StreamingServer {
   public:
     /// `mirror` equals the bone of `shown` before the first update(). The server is the one writer of
-    /// `operator_channel`, which is null unless the device is driven by a client; both outlive it. Throws
-    /// std::invalid_argument for a frame rate that is not above zero, a bone too large to send, or a scene
-    /// whose names do not fit a frame.
+    /// `operator_channel`, which is null unless the device is driven by a client; both outlive it.
+    /// `structures`: the protected ones, so far as clients cannot tell from the bone where they are. Throws
+    /// std::invalid_argument for a frame rate that is not above zero, a bone or structures too large to send,
+    /// or a scene whose names do not fit a frame.
     StreamingServer(StreamingOptions options, SessionInfo session, Bone mirror, StreamSource& source,
-                    OperatorChannel* operator_channel = nullptr);
+                    OperatorChannel* operator_channel = nullptr, std::span<const Structure> structures = {});
     /// Stops first, if need be.
     ~StreamingServer();
     StreamingServer(const StreamingServer&) = delete;

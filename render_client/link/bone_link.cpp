@@ -49,6 +49,7 @@ class BoneLink::Impl {
         replica_.begin(std::move(began.info));
         session_number_ = began.number;
         controls_ = {};
+        distances_.clear();
         delay_meter_ = {};
         delay_.reset();
     }
@@ -66,6 +67,10 @@ class BoneLink::Impl {
         }
         // The bone is no worse for it.
         line_ = std::get<WireError>(taken).line;
+    }
+
+    void take(StructureArrived arrived, LinkUpdate& update) {
+        if (arrived.structure) update.structures.push_back(*std::move(arrived.structure));
     }
 
     void take(StatusChanged changed, LinkUpdate&) {
@@ -86,6 +91,7 @@ class BoneLink::Impl {
         update.tool = std::move(applied.tool);
         update.events.insert(update.events.end(), applied.events.begin(), applied.events.end());
         controls_ = applied.status;
+        distances_ = std::move(applied.distances);
         if (applied.ask) connection_.send(*applied.ask, session_number_);
     }
 
@@ -98,6 +104,7 @@ class BoneLink::Impl {
         update.delay = delay_;
         update.status = status_;
         if (status_ == LinkStatus::live) update.controls = controls_;
+        update.distances = distances_;
         update.status_line = replica_.is_being_repaired()
                                  ? "the bone differs from the server's; asking for the bricks that differ"
                                  : line_;
@@ -123,6 +130,7 @@ class BoneLink::Impl {
     LinkStatus status_ = LinkStatus::connecting;
     std::string line_;
     SessionStatus controls_;
+    std::vector<StructureDistance> distances_;
     CtAssembler ct_;
     VerifiedReplica replica_;
     std::uint64_t session_number_ = 0;

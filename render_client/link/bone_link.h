@@ -20,6 +20,8 @@
 #include "common/net/tls_files.h"
 #include "common/scene/operator_command.h"
 #include "common/scene/session_control.h"
+#include "common/scene/structure.h"
+#include "common/scene/structure_distance.h"
 #include "common/scene/tool_state.h"
 #include "common/wire/session_info.h"
 #include "render_client/link/delay_meter.h"
@@ -44,9 +46,12 @@ struct LinkUpdate {
     bool bone_replaced = false;            ///< bone() is another bone: upload all of it
     std::vector<BrickChange> changes;      ///< of bone(), ascending; empty if bone_replaced
     std::optional<ToolState> tool;         ///< the newest since the last poll, if any came
+    std::vector<Structure> structures{};   ///< that came since the last poll, or with bone()
     std::shared_ptr<const CtVolume> ct{};  ///< that was asked for, once it is here
     std::vector<ControlEvent> events{};    ///< since the last poll
-    SessionStatus controls{};              ///< what can be done with the session now
+    /// Of protected structures that are near the burr or were touched, as of the newest tool.
+    std::vector<StructureDistance> distances{};
+    SessionStatus controls{};  ///< what can be done with the session now
     /// How old the newest tool of this session was when a poll took it; nothing where the server does not
     /// say.
     std::optional<DelayMeter::Delay> delay{};

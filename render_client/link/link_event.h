@@ -22,6 +22,7 @@ struct StatusChanged {
     std::string line{};
 };
 
-using LinkEvent = std::variant<SessionBegan, BoneArrived, StateArrived, CtPieceArrived, StatusChanged>;
+using LinkEvent =
+    std::variant<SessionBegan, BoneArrived, StateArrived, CtPieceArrived, StructureArrived, StatusChanged>;
 
 }  // namespace osteomill

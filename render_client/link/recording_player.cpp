@@ -47,6 +47,10 @@ LinkUpdate RecordingPlayer::poll(Time now) {
     update.changes = playhead_->take_changes();
     if (update.bone_replaced) update.changes.clear();
     update.controls = playhead_->status();
+    update.distances = playhead_->distances();
+    const std::vector<Structure>& structures = playhead_->structures();
+    while (shown_structures_ < structures.size())
+        update.structures.push_back(structures[shown_structures_++]);
     if (std::exchange(tool_is_news_, false)) update.tool = playhead_->tool();
 
     const bool has_ended = is_at_end_ && target_s_ >= duration_s_;
@@ -82,6 +86,7 @@ void RecordingPlayer::go_towards_target(LinkUpdate& update) {
     if (std::exchange(is_fresh_, false)) {
         // As it first was: textures are made for the most bone that there will be.
         update.bone_replaced = true;
+        shown_structures_ = 0;
         return;
     }
     if (!error_.empty()) return;

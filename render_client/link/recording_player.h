@@ -67,6 +67,7 @@ class RecordingPlayer {
     double session_begins_s_ =
         0.0;                // of this session's; winding back further needs the file from its beginning
     bool is_fresh_ = true;  // the bone has not been shown yet
+    std::size_t shown_structures_ = 0;  // of the playhead's
     bool is_at_end_ = false;
     bool tool_is_news_ = false;
     std::string error_;

@@ -93,6 +93,7 @@ class ServerConnection {
     void take_event(BoneArrived arrived);
     void take_event(StateArrived arrived);
     void take_event(CtPieceArrived arrived) { events_.push(std::move(arrived)); }
+    void take_event(StructureArrived arrived) { events_.push(std::move(arrived)); }
     void see(const StateArrived& arrived);
     void forget_seen();
     void take_event(const SaidGoodbye& goodbye);

@@ -14,7 +14,7 @@ void VerifiedReplica::take(BoneArrived arrived) {
 }
 
 std::variant<VerifiedReplica::Applied, WireError> VerifiedReplica::take(const StateArrived& arrived) {
-    auto outcome = osteomill::follow(arrived.frame, session_->burrs.size(), *replica_);
+    auto outcome = osteomill::follow(arrived.frame, *session_, *replica_);
     if (auto* error = std::get_if<WireError>(&outcome)) {
         ++counters_.rejected_frames;
         repair_.reset();
@@ -27,7 +27,7 @@ std::variant<VerifiedReplica::Applied, WireError> VerifiedReplica::take(const St
         repair_.reset();
         return std::move(*error);
     }
-    return Applied{std::move(state.tool), std::move(state.events), state.status,
+    return Applied{std::move(state.tool), std::move(state.events), state.status, std::move(state.distances),
                    std::get<0>(std::move(asked))};
 }
 

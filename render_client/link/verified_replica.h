@@ -30,6 +30,7 @@ class VerifiedReplica {
         ToolState tool;
         std::vector<ControlEvent> events{};
         SessionStatus status{};
+        std::vector<StructureDistance> distances{};
         std::optional<v1::CompareBone> ask{};  ///< to be sent to the server
     };
 

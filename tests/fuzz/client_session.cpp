@@ -48,6 +48,12 @@ class Client {
         if (ct != nullptr && *ct) (void)(*ct)->hu_at((*ct)->grid.origin_mm);
         return {};
     }
+    Outcome take(const StructureArrived& arrived) {
+        if (!arrived.structure) return {};
+        require(arrived.structure->tissue < copy_.session()->tissues.size(), "a structure of no tissue");
+        require(arrived.structure->mask.grid() == copy_.bone()->grid(), "a structure of another grid");
+        return {};
+    }
     Outcome take(BoneArrived arrived) {
         copy_.take(std::move(arrived));
         require_sound();

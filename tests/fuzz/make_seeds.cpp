@@ -7,6 +7,7 @@
 
 #include "common/recording/packet_writer.h"
 #include "common/wire/frame.h"
+#include "common/wire/structure_messages.h"
 #include "haptic_server/streaming/client_feed.h"
 #include "tests/fuzz/image_seeds.h"
 #include "tests/fuzz/small_session.h"
@@ -155,6 +156,26 @@ v1::StateFrame edited(BrickIndex brick, std::uint32_t first, const std::string& 
     return state;
 }
 
+std::string structure_of(std::uint64_t sequence) {
+    const Grid grid = small_bone().grid();
+    const Structure nerve{0,
+                          StructureMask(grid, {{0, VoxelMask().set_run(32, 16)}, {4, VoxelMask().set(3)}})};
+    v1::ServerFrame frame;
+    frame.set_sequence(sequence);
+    *frame.mutable_structure_bricks() = structure_pieces(std::span(&nerve, 1)).front();
+    std::string stream;
+    append_frame(frame, stream);
+    return stream;
+}
+
+v1::StateFrame near_structure() {
+    v1::StateFrame state;
+    *state.mutable_tool() = to_message(ToolState{});
+    *state.add_distances() = to_message(StructureDistance{
+        .tissue = 0, .distance_mm = 0.25, .touches_so_far = 1, .first_touch_s = 0.5, .touched_s = 0.1});
+    return state;
+}
+
 void write_seeds(const std::filesystem::path& folder) {
     const Bone bone = small_bone();
     const auto frames = session_frames(bone);
@@ -187,6 +208,7 @@ void write_seeds(const std::filesystem::path& folder) {
     answer.mutable_comparison()->add_differing_part(0);
     v1::StateFrame doubtful = edited(0, 7, "\x02");
     doubtful.set_bone_checksum(1);
+    write_file(folder / "client_session/structure", '\x01' + structure_of(5) + state_of(6, near_structure()));
     write_file(folder / "client_session/repair", '\x01' + state_of(5, doubtful) + state_of(6, answer));
 
     write_recording(folder / "recording/session.pcap", {frames});

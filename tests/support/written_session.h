@@ -14,6 +14,7 @@
 
 #include "common/bone/bone_builder.h"
 #include "common/wire/scene_messages.h"
+#include "common/wire/structure_messages.h"
 #include "haptic_server/streaming/session_recorder.h"
 
 namespace osteomill::testing {
@@ -42,10 +43,11 @@ inline Bone labelled_cube(int bricks_per_edge, double spacing_mm,
 
 class WrittenSession {
   public:
-    WrittenSession(const std::filesystem::path& file, const SessionInfo& session, const Bone& bone)
+    WrittenSession(const std::filesystem::path& file, const SessionInfo& session, const Bone& bone,
+                   const std::vector<Structure>& structures = {})
         : mirror_(bone),
           recorder_(std::in_place, file, Stamp{std::chrono::seconds(1'700'000'000)}, to_message(session),
-                    mirror_, packer_) {}
+                    mirror_, packer_, structure_pieces(structures)) {}
 
     /// Takes all of every voxel whose centre `is_in`, before the next frame. Returns how many there were.
     std::size_t cut(const std::function<bool(const glm::dvec3&)>& is_in) {

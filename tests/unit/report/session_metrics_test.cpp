@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <glm/geometric.hpp>
 
+#include "tests/support/ball_structure.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/written_session.h"
 
@@ -184,7 +185,7 @@ TEST_F(ReportedSession, DoesNotCountWhatWasUndone) {
 }
 
 TEST_F(ReportedSession, TellsHowNearAProtectedStructureWasAndWhatItLost) {
-    // The nerve's lowest voxels are centred at z = 2.1; the small burr has a radius of 0.5.
+    // The nerve begins at z = 2; the small burr has a radius of 0.5.
     tool_.burr_position_mm = {0.1, 0.1, 0.1};
     frame();
     tool_.burr_position_mm = {0.1, 0.1, 1.1};
@@ -193,7 +194,7 @@ TEST_F(ReportedSession, TellsHowNearAProtectedStructureWasAndWhatItLost) {
     const auto far = session_metrics(read_trace(folder_ / "so_far.pcap", [] {})).structures;
     ASSERT_EQ(far.size(), 1u);
     if (far[0].nearest_mm) {
-        EXPECT_GE(*far[0].nearest_mm, 0.5 - 1e-9);
+        EXPECT_GE(*far[0].nearest_mm, 0.4 - 1e-5);
     }
 
     tool_.spindle_on = true;
@@ -214,6 +215,7 @@ TEST_F(ReportedSession, TellsHowNearAProtectedStructureWasAndWhatItLost) {
     EXPECT_NEAR(*near[0].first_touch_s, first_s, 1e-9);
     EXPECT_NEAR(near[0].dose_mm3, 3 * layer_mm3, 1e-9);
     EXPECT_EQ(near[0].undone_dose_mm3, 0.0);
+    EXPECT_EQ(near[0].entered_mm3, 0.0) << "the head was not in it";
 }
 
 TEST_F(ReportedSession, MeasuresTheNearestApproachFromTheBallToTheStructure) {
@@ -225,9 +227,61 @@ TEST_F(ReportedSession, MeasuresTheNearestApproachFromTheBallToTheStructure) {
     frame();
     const auto structures = session_metrics(trace()).structures;
     ASSERT_EQ(structures.size(), 1u);
-    EXPECT_NEAR(*structures[0].nearest_mm, 2.1 - 1.1 - 0.5, 1e-9);
+    EXPECT_NEAR(*structures[0].nearest_mm, 2.0 - 1.1 - 0.5, 1e-5);
     EXPECT_EQ(structures[0].touches, 0u);
     EXPECT_FALSE(structures[0].first_touch_s);
+}
+
+// A nerve beside the cube, where no bone is: a ball of 1.5 mm about x = 6, which only the recording tells of.
+TEST_F(ReportedSession, MeasuresASoftStructureThatOnlyTheRecordingTells) {
+    const Grid grid{.size_voxels = {96, 32, 32}, .spacing_mm = spacing_mm, .origin_mm = glm::dvec3(-3.1)};
+    auto builder = BoneBuilder::homogeneous(grid, 1.0, false);
+    ByteBrick full;
+    full.fill(255);
+    builder.add_brick({0, 0, 0}, full, nullptr, nullptr);
+    const std::vector<Structure> nerve{{2, testing::ball_mask(grid, {6.0, 0.0, 0.0}, 1.5)}};
+    written_.emplace(file(), session_, std::move(builder).build(), nerve);
+    for (const double distance_mm : {9.0, 2.0, 0.8, 1.5}) {
+        tool_.burr_position_mm = {6.0, 0.0, 1.5 + 0.5 + distance_mm};
+        frame();
+    }
+    std::filesystem::copy_file(folder_ / "session.part.pcap", folder_ / "so_far.pcap");
+    const auto so_far = session_metrics(read_trace(folder_ / "so_far.pcap", [] {})).structures;
+    ASSERT_EQ(so_far.size(), 1u);
+    EXPECT_EQ(so_far[0].name, "nerve");
+    if (so_far[0].nearest_mm) {
+        EXPECT_GT(*so_far[0].nearest_mm, 0.8 - 0.5 * spacing_mm);
+    }
+
+    const double first_s = tool_.time_s;
+    for (int i = 0; i < 4; ++i) {
+        tool_.burr_position_mm = {6.0, 0.0, 0.0};
+        frame();
+    }
+    tool_.burr_position_mm = {0.0, 0.0, 30.0};
+    frame();
+    const SessionTrace all = trace();
+    const auto touched = session_metrics(all).structures;
+    ASSERT_EQ(touched.size(), 1u);
+    EXPECT_EQ(touched[0].nearest_mm, 0.0);
+    EXPECT_EQ(touched[0].touches, 1u);
+    EXPECT_NEAR(*touched[0].first_touch_s, first_s, 1e-9);
+    EXPECT_NEAR(touched[0].touched_s, 4 * period_s, 1e-9);
+    EXPECT_EQ(touched[0].dose_mm3, 0.0) << "there was no bone";
+    EXPECT_NEAR(touched[0].entered_mm3, 4.0 / 3.0 * 3.14159 * 0.125, 0.1) << "all of the burr's ball";
+}
+
+TEST_F(ReportedSession, MeasuresTheNearestApproachToASoftStructure) {
+    const std::vector<Structure> nerve{{2, testing::ball_mask(bone_.grid(), {0.0, 0.0, 0.0}, 1.5)}};
+    written_.emplace(file(), session_, bone_, nerve);
+    for (const double distance_mm : {9.0, 2.0, 0.8, 1.5}) {
+        tool_.burr_position_mm = {0.0, -(1.5 + 0.5 + distance_mm), 0.0};
+        frame();
+    }
+    const auto structures = session_metrics(trace()).structures;
+    ASSERT_EQ(structures.size(), 1u);
+    EXPECT_NEAR(*structures[0].nearest_mm, 0.8, 0.5 * spacing_mm);
+    EXPECT_EQ(structures[0].touches, 0u);
 }
 
 TEST_F(ReportedSession, IsOfNothingWhereNothingWasDone) {

@@ -23,12 +23,12 @@ class FollowedStateTest : public ::testing::Test {
     }
 
     Bone servers_ = testing::make_block({0, 0, 0}, {4, 4, 4}, 0.1);
-    static constexpr std::size_t burrs = 1;
+    SessionInfo session_{.burrs = {Burr{}}, .tissues = {Tissue{.label = 1, .is_protected = true}}};
     BoneReplica replica_{servers_};
 };
 
 TEST_F(FollowedStateTest, FollowsAndVerifies) {
-    const auto outcome = follow(halve_a_voxel(), burrs, replica_);
+    const auto outcome = follow(halve_a_voxel(), session_, replica_);
     ASSERT_TRUE(std::holds_alternative<FollowedState>(outcome));
     EXPECT_EQ(std::get<FollowedState>(outcome).check, ReplicaCheck::equal);
     EXPECT_FALSE(std::get<FollowedState>(outcome).has_regained_bone);
@@ -44,7 +44,7 @@ TEST_F(FollowedStateTest, SaysThatItDiffersAfterAnEditWasLost) {
     halve_a_voxel();
     auto frame = halve_a_voxel();
     frame.clear_edits();
-    const auto outcome = follow(frame, burrs, replica_);
+    const auto outcome = follow(frame, session_, replica_);
     ASSERT_TRUE(std::holds_alternative<FollowedState>(outcome));
     EXPECT_EQ(std::get<FollowedState>(outcome).check, ReplicaCheck::differs);
 }
@@ -54,7 +54,7 @@ TEST_F(FollowedStateTest, TakesBackBoneThatItHadLostAndSaysSo) {
     replica_.set_fractions(brick, ByteBrick{});
     v1::StateFrame frame = halve_a_voxel();
     *frame.mutable_edits(0) = brick_edit({brick, VoxelMask().set_all()}, servers_.fractions(3));
-    const auto outcome = follow(frame, burrs, replica_);
+    const auto outcome = follow(frame, session_, replica_);
     ASSERT_TRUE(std::holds_alternative<FollowedState>(outcome));
     EXPECT_TRUE(std::get<FollowedState>(outcome).has_regained_bone);
     EXPECT_EQ(std::get<FollowedState>(outcome).check, ReplicaCheck::equal);
@@ -63,10 +63,10 @@ TEST_F(FollowedStateTest, TakesBackBoneThatItHadLostAndSaysSo) {
 TEST_F(FollowedStateTest, RefusesWhatMakesNoSense) {
     auto frame = halve_a_voxel();
     frame.mutable_tool()->set_burr(1);
-    EXPECT_TRUE(std::holds_alternative<WireError>(follow(frame, burrs, replica_)));
+    EXPECT_TRUE(std::holds_alternative<WireError>(follow(frame, session_, replica_)));
     frame.mutable_tool()->set_burr(0);
     frame.mutable_edits(0)->set_brick(1'000'000);
-    EXPECT_TRUE(std::holds_alternative<WireError>(follow(frame, burrs, replica_)));
+    EXPECT_TRUE(std::holds_alternative<WireError>(follow(frame, session_, replica_)));
 }
 
 TEST_F(FollowedStateTest, IsPutBackToWhatItWas) {
@@ -76,7 +76,7 @@ TEST_F(FollowedStateTest, IsPutBackToWhatItWas) {
         std::ranges::copy(servers_.fractions(3), brick.begin());
         return brick;
     }();
-    ASSERT_TRUE(std::holds_alternative<FollowedState>(follow(halve_a_voxel(), burrs, replica_)));
+    ASSERT_TRUE(std::holds_alternative<FollowedState>(follow(halve_a_voxel(), session_, replica_)));
     EXPECT_NE(replica_.checksum(), before);
     const BrickIndex brick = servers_.content().brick_of_slot[3];
     replica_.take_changes();

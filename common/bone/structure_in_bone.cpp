@@ -1,0 +1,19 @@
+#include "common/bone/structure_in_bone.h"
+
+#include <utility>
+
+namespace osteomill {
+
+StructureMask structure_in_bone(const Bone& bone, std::uint8_t label) {
+    const BoneContent& content = bone.content();
+    std::vector<StructureBrick> bricks;
+    for (std::size_t slot = 0; slot < content.tissue.size(); ++slot) {
+        VoxelMask voxels;
+        for (std::size_t offset = 0; offset < brick_voxel_count; ++offset)
+            if (content.tissue[slot][offset] == label) voxels.set(offset);
+        if (voxels.any()) bricks.push_back({content.brick_of_slot[slot], voxels});
+    }
+    return {bone.grid(), std::move(bricks)};
+}
+
+}  // namespace osteomill

@@ -1,0 +1,41 @@
+// Where the burr is to a protected structure, and what came of it so far. Plain data; on the wire it is the
+// message of that name.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+
+#include "common/scene/scene.h"
+
+namespace osteomill {
+
+/// Contact that ends for less than this goes on.
+inline constexpr double touch_gap_s = 0.5;
+
+/// Within this distance of the burr a structure is looked at; what is further has none.
+inline double watched_mm(const Tissue& tissue) {
+    return std::max(3.0, 2.0 * tissue.warn_mm);
+}
+
+struct StructureDistance {
+    std::size_t tissue = 0;  ///< index in the session's tissues
+    /// From the burr's head to the structure; 0 and below: they overlap, so deep. Nothing: further than
+    /// watched_mm().
+    std::optional<double> distance_mm{};
+    bool touches = false;              ///< they overlap, or bone of it was milled since the state before
+    std::uint32_t touches_so_far = 0;  ///< spells of it, since the session began
+    double first_touch_s = 0.0;        ///< session time, of the first spell
+    double touched_s = 0.0;            ///< in all
+    double removed_mm3 = 0.0;          ///< bone of it that was milled and not given back
+    double entered_mm3 = 0.0;          ///< of it, bone or not, where the burr's head has been
+
+    bool operator==(const StructureDistance&) const = default;
+};
+
+/// The one that the burr touches or is nearest to; null where none has a distance.
+const StructureDistance* nearest_structure(std::span<const StructureDistance> distances);
+
+}  // namespace osteomill

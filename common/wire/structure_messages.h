@@ -1,0 +1,59 @@
+// Protected structures and how far the burr is from them, in and out of messages.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <variant>
+#include <vector>
+
+#include "common/scene/structure.h"
+#include "common/scene/structure_distance.h"
+#include "common/wire/wire_error.h"
+#include "osteomill/v1/session.pb.h"
+
+namespace osteomill {
+
+/// In one message; even where nothing compresses it fits a frame.
+inline constexpr std::size_t most_bricks_of_structure_piece = 128;
+/// Of all structures together: 256 MiB of masks, 2 dm^3 at 0.1 mm. A mask's own size on the wire bounds
+/// nothing.
+inline constexpr std::size_t most_structure_bricks = std::size_t{1} << 19U;
+
+/// All messages of these structures. Throws std::invalid_argument for more bricks than are sent.
+std::vector<v1::StructureBricks> structure_pieces(std::span<const Structure> structures);
+
+/// Puts the structures of one session together from their messages.
+class StructureAssembler {
+  public:
+    StructureAssembler() = default;
+    /// For structures of these tissues, on the grid of the bone.
+    StructureAssembler(const std::vector<Tissue>& tissues, const Grid& grid);
+
+    /// The structure when its last piece has come, else nothing. A piece of one that is complete changes
+    /// nothing: a recording may be wound back. Refuses what makes no sense; what came of that structure is
+    /// then forgotten.
+    std::variant<std::optional<Structure>, WireError> take(const v1::StructureBricks& piece);
+    /// Some pieces will not come: forgets the structure that is not complete.
+    void miss();
+
+  private:
+    std::optional<WireError> add(const v1::StructureBricks& piece);
+
+    std::vector<bool> awaited_;  // by tissue: protected, and not complete
+    std::vector<bool> complete_;
+    Grid grid_{};
+    std::uint64_t grid_bricks_ = 0;
+    std::optional<std::size_t> under_way_;
+    std::vector<StructureBrick> bricks_;  // of that
+    std::size_t taken_bricks_ = 0;        // of complete ones
+};
+
+v1::StructureDistance to_message(const StructureDistance& distance);
+
+/// Refuses a tissue that is not one of so many or comes twice, and numbers that are not finite or, of times
+/// and volumes, below zero.
+std::variant<std::vector<StructureDistance>, WireError> structure_distances_from(
+    const google::protobuf::RepeatedPtrField<v1::StructureDistance>& messages, std::size_t tissue_count);
+
+}  // namespace osteomill

@@ -1,0 +1,30 @@
+// A structure that is a ball, for answers in closed form.
+#pragma once
+
+#include <glm/geometric.hpp>
+#include <utility>
+#include <vector>
+
+#include "common/scene/structure.h"
+
+namespace osteomill::testing {
+
+/// Every voxel whose centre is within the ball.
+inline StructureMask ball_mask(const Grid& grid, const glm::dvec3& centre_mm, double radius_mm) {
+    const glm::ivec3 size = size_in_bricks(grid);
+    std::vector<StructureBrick> bricks;
+    for (BrickIndex brick = 0; brick < static_cast<BrickIndex>(size.x * size.y * size.z); ++brick) {
+        const glm::ivec3 first = brick_edge_voxels * brick_position(size, brick);
+        VoxelMask voxels;
+        for (std::size_t offset = 0; offset < brick_voxel_count; ++offset) {
+            const glm::ivec3 voxel = first + voxel_in_brick(offset);
+            if (contains(grid, voxel) &&
+                glm::distance(centre_of_voxel_mm(grid, voxel), centre_mm) <= radius_mm)
+                voxels.set(offset);
+        }
+        bricks.push_back({brick, voxels});
+    }
+    return {grid, std::move(bricks)};
+}
+
+}  // namespace osteomill::testing

@@ -1,0 +1,178 @@
+#include "common/wire/structure_messages.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <random>
+
+#include "common/wire/frame.h"
+#include "common/wire/zstd_compressor.h"
+
+namespace osteomill {
+namespace {
+
+/// 16 x 16 x 4 bricks.
+const Grid grid{.size_voxels = {250, 256, 64}, .spacing_mm = 0.1, .origin_mm = {1.0, 2.0, 3.0}};
+const std::vector<Tissue> tissues{{.label = 1, .name = "bone"},
+                                  {.label = 2, .name = "nerve", .is_protected = true},
+                                  {.label = 3, .name = "sinus", .is_protected = true}};
+
+/// Random voxels: they do not compress.
+Structure noise(std::size_t tissue, BrickIndex step, std::uint32_t seed) {
+    std::mt19937_64 random(seed);
+    std::vector<StructureBrick> bricks;
+    const glm::ivec3 size = size_in_bricks(grid);
+    for (BrickIndex brick = 0; brick < static_cast<BrickIndex>(size.x * size.y * size.z); brick += step) {
+        VoxelMask voxels;
+        for (std::size_t offset = 0; offset < brick_voxel_count; ++offset)
+            if (random() % 2 == 0 &&
+                contains(grid, brick_edge_voxels * brick_position(size, brick) + voxel_in_brick(offset)))
+                voxels.set(offset);
+        bricks.push_back({brick, voxels});
+    }
+    return {tissue, StructureMask(grid, std::move(bricks))};
+}
+
+std::string refusal(StructureAssembler& assembler, const v1::StructureBricks& piece) {
+    const auto taken = assembler.take(piece);
+    const auto* error = std::get_if<WireError>(&taken);
+    return error != nullptr ? error->line : std::string();
+}
+
+TEST(StructureBricks, BringEveryVoxelInPiecesThatFitAFrame) {
+    const std::vector<Structure> sent{noise(1, 1, 4), noise(2, 300, 5)};
+    StructureAssembler assembler(tissues, grid);
+    std::vector<Structure> arrived;
+    for (const v1::StructureBricks& piece : structure_pieces(sent)) {
+        EXPECT_LT(piece.ByteSizeLong() + 100, largest_frame_bytes);
+        auto taken = std::get<0>(assembler.take(piece));
+        if (taken) arrived.push_back(*std::move(taken));
+    }
+    ASSERT_EQ(arrived.size(), 2u);
+    for (std::size_t i = 0; i < 2; ++i) {
+        EXPECT_EQ(arrived[i].tissue, sent[i].tissue);
+        EXPECT_TRUE(arrived[i].mask == sent[i].mask);
+    }
+    // A recording that is wound back brings them once more.
+    for (const v1::StructureBricks& piece : structure_pieces(sent))
+        EXPECT_FALSE(std::get<0>(assembler.take(piece)));
+}
+
+TEST(StructureBricks, OfNothingAreNone) {
+    EXPECT_TRUE(structure_pieces({}).empty());
+    EXPECT_TRUE(structure_pieces(std::vector<Structure>{{1, StructureMask(grid, {})}}).empty());
+}
+
+TEST(StructureBricks, RefuseWhatMakesNoSense) {
+    const auto pieces = structure_pieces(std::vector<Structure>{noise(1, 1, 4)});
+    ASSERT_GT(pieces.size(), 3u);
+    StructureAssembler assembler(tissues, grid);
+    const auto with = [&](auto&& change, std::size_t i = 0) {
+        v1::StructureBricks piece = pieces[i];
+        change(piece);
+        return refusal(assembler, piece);
+    };
+    const auto nothing = [](v1::StructureBricks&) {};
+    EXPECT_EQ(with([](auto& p) { p.set_tissue(3); }),
+              "structure refused: tissue 3 is not one of the scene's 3");
+    EXPECT_EQ(with([](auto& p) { p.set_tissue(0); }), "structure refused: tissue 0 is not protected");
+    EXPECT_EQ(with([](auto& p) { p.clear_brick(); }),
+              "structure refused: a piece holds 0 bricks, not 1 to 128");
+    EXPECT_EQ(with([](auto& p) { p.add_brick(9999); }),
+              "structure refused: a piece holds 129 bricks, not 1 to 128");
+    EXPECT_EQ(with([](auto& p) { p.set_brick(127, 16 * 16 * 4); }),
+              "structure refused: brick 1024 lies outside the grid");
+    EXPECT_EQ(with([](auto& p) { p.set_brick(1, 0); }), "structure refused: brick 0 comes after 0");
+    EXPECT_EQ(with([](auto& p) { p.mutable_zstd_masks()->resize(100); }),
+              "structure refused: a piece cannot be unpacked");
+    EXPECT_EQ(with([](auto& p) { p.mutable_brick()->RemoveLast(); }),
+              "structure refused: a piece cannot be unpacked");
+    EXPECT_EQ(with(nothing), "");
+    EXPECT_EQ(with([](auto& p) { p.set_tissue(2); }, 1),
+              "structure refused: another began before it was complete");
+    EXPECT_EQ(with(nothing, 1), "") << "begun anew";
+    EXPECT_EQ(with(nothing, 0), "structure refused: brick 0 comes after 255");
+}
+
+TEST(StructureBricks, RefuseBricksWithoutAVoxelAndVoxelsPastTheGrid) {
+    const Grid wide{.size_voxels = {256, 256, 64}, .spacing_mm = 0.1, .origin_mm = {1.0, 2.0, 3.0}};
+    const auto packed = [&](VoxelMask voxels) {
+        v1::StructureBricks piece =
+            structure_pieces(std::vector<Structure>{{1, StructureMask(wide, {{15, voxels}})}}).at(0);
+        return piece;
+    };
+    StructureAssembler assembler(tissues, grid);
+    EXPECT_EQ(refusal(assembler, packed(VoxelMask().set(15))),
+              "structure refused: structure: a voxel of brick 15 lies past the grid's edge");
+    v1::StructureBricks empty = packed(VoxelMask().set(3));
+    ZstdCompressor compressor(1);
+    const std::vector<std::uint8_t> zeros(512);
+    const auto bytes = compressor.compress(zeros);
+    empty.set_zstd_masks(bytes.data(), bytes.size());
+    EXPECT_EQ(refusal(assembler, empty), "structure refused: brick 15 has no voxel");
+    EXPECT_EQ(refusal(assembler, packed(VoxelMask().set(3))), "");
+}
+
+TEST(StructureBricks, AreBoundedInAll) {
+    // A grid of 2^24 bricks: twice as many whole bricks as anybody may send are kilobytes on the wire.
+    const Grid huge{.size_voxels = glm::ivec3(4096), .spacing_mm = 0.1, .origin_mm = {}};
+    StructureAssembler assembler(tissues, huge);
+    v1::StructureBricks piece;
+    piece.set_tissue(1);
+    ZstdCompressor compressor(1);
+    const std::vector<std::uint8_t> ones(128 * 512, 0xFF);
+    const auto bytes = compressor.compress(ones);
+    piece.set_zstd_masks(bytes.data(), bytes.size());
+    std::string refused;
+    BrickIndex brick = 0;
+    for (std::size_t i = 0; refused.empty() && i <= most_structure_bricks / 128; ++i) {
+        piece.clear_brick();
+        for (int k = 0; k < 128; ++k) piece.add_brick(brick++);
+        refused = refusal(assembler, piece);
+    }
+    EXPECT_EQ(refused, "structure refused: there are more than 524288 bricks");
+}
+
+TEST(StructureDistances, ComeAsTheyWereSent) {
+    const StructureDistance near{.tissue = 1,
+                                 .distance_mm = -0.25,
+                                 .touches = true,
+                                 .touches_so_far = 3,
+                                 .first_touch_s = 1.5,
+                                 .touched_s = 0.75,
+                                 .removed_mm3 = 0.125,
+                                 .entered_mm3 = 2.0};
+    const StructureDistance far{.tissue = 2, .touches_so_far = 1};
+    v1::StateFrame frame;
+    *frame.add_distances() = to_message(near);
+    *frame.add_distances() = to_message(far);
+    const auto read = structure_distances_from(frame.distances(), 3);
+    EXPECT_EQ(std::get<0>(read), (std::vector{near, far}));
+    EXPECT_EQ(nearest_structure(std::get<0>(read)), &std::get<0>(read)[0]);
+    EXPECT_EQ(nearest_structure({}), nullptr);
+}
+
+TEST(StructureDistances, RefuseWhatCannotBe) {
+    const auto refused = [](auto&& change) {
+        v1::StateFrame frame;
+        change(*frame.add_distances(), frame);
+        const auto read = structure_distances_from(frame.distances(), 2);
+        const auto* error = std::get_if<WireError>(&read);
+        return error != nullptr ? error->line : std::string();
+    };
+    constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+    EXPECT_EQ(refused([](auto&, auto&) {}), "");
+    EXPECT_EQ(refused([](auto& d, auto&) { d.set_tissue(2); }),
+              "a distance is of tissue 2, not one of the scene's 2");
+    EXPECT_EQ(refused([](auto&, auto& frame) { frame.add_distances(); }), "two distances are of tissue 0");
+    for (const double bad : {nan, std::numeric_limits<double>::infinity()}) {
+        EXPECT_NE(refused([&](auto& d, auto&) { d.set_distance_mm(bad); }), "");
+        EXPECT_NE(refused([&](auto& d, auto&) { d.set_first_touch_s(bad); }), "");
+        EXPECT_NE(refused([&](auto& d, auto&) { d.set_touched_s(bad); }), "");
+    }
+    EXPECT_NE(refused([](auto& d, auto&) { d.set_removed_mm3(-1.0); }), "");
+    EXPECT_NE(refused([](auto& d, auto&) { d.set_entered_mm3(-1.0); }), "");
+}
+
+}  // namespace
+}  // namespace osteomill
