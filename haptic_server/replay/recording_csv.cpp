@@ -21,22 +21,30 @@ std::string quoted(const std::string& text) {
     return result + "\"";
 }
 
+std::string nearest_of(const Playhead& playhead) {
+    const StructureDistance* nearest = nearest_structure(playhead.distances());
+    if (nearest == nullptr) return ",";
+    return fmt::format("{},{:.4f}", quoted(playhead.session().tissues[nearest->tissue].name),
+                       *nearest->distance_mm);
+}
+
 }  // namespace
 
 RecordingCsv::RecordingCsv(const std::filesystem::path& file) : file_(file), out_(file_.part()) {
     if (!out_)
         throw std::runtime_error(fmt::format("{}: cannot write: {}", file.string(), std::strerror(errno)));
     out_ << "time_s,session_time_s,burr_x_mm,burr_y_mm,burr_z_mm,axis_x,axis_y,axis_z,hand_x_mm,hand_y_mm,"
-            "hand_z_mm,force_x_n,force_y_n,force_z_n,burr,spindle,removed_mm3\n";
+            "hand_z_mm,force_x_n,force_y_n,force_z_n,burr,spindle,removed_mm3,nearest_structure,"
+            "nearest_structure_mm\n";
 }
 
 void RecordingCsv::add(const Playhead& playhead) {
     const ToolState& tool = *playhead.tool();
-    out_ << fmt::format("{:.4f},{:.4f},{},{},{},{},{},{},{:.5f}\n", playhead.time_s(), tool.time_s,
+    out_ << fmt::format("{:.4f},{:.4f},{},{},{},{},{},{},{:.5f},{}\n", playhead.time_s(), tool.time_s,
                         xyz(tool.burr_position_mm, 4), xyz(tool.spindle_axis, 6),
                         xyz(tool.hand_position_mm, 4), xyz(tool.force_n, 5),
                         quoted(playhead.session().burrs[tool.burr].name), tool.spindle_on ? 1 : 0,
-                        tool.removed_mm3);
+                        tool.removed_mm3, nearest_of(playhead));
 }
 
 void RecordingCsv::close() {

@@ -57,6 +57,7 @@ class BoneLink::Impl {
     void take(BoneArrived arrived, LinkUpdate& update) {
         replica_.take(std::move(arrived));
         update.bone_replaced = true;
+        update.structures.clear();
     }
 
     void take(const CtPieceArrived& arrived, LinkUpdate& update) {

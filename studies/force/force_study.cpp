@@ -208,6 +208,11 @@ class ForceStudy {
         write(csv_of(scenes), "memory_scenes.csv");
         write(csv_of(weigh_growing_bone()), "memory_bone.csv");
         write(csv_of(weigh_growing_box()), "memory_box.csv");
+        const std::vector<MemoryRow> structures = weigh_structures();
+        write(csv_of(structures), "memory_structures.csv");
+        for (const MemoryRow& r : structures)
+            say("watching {} ({:.0f} mm^3): {:.1f} MiB, ready in {:.2f} s", r.name, r.bone_mm3, r.mebibytes,
+                r.start_s);
         ordered_json json = ordered_json::array();
         for (const MemoryRow& r : scenes) {
             say("{}: {:.0f} bytes per mm^3 of bone, {:.1f} MiB, starts in {:.2f} s", r.name, r.bytes_per_mm3,

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "common/bone/bone_builder.h"
+#include "common/scene/structure_watch.h"
 #include "haptic_server/imaging/import_bone.h"
 #include "haptic_server/imaging/memory_estimate.h"
 #include "haptic_server/imaging/phantom.h"
@@ -51,6 +52,40 @@ Bone cube_in_a_box(double bone_mm, double box_mm) {
         for (int y = 0; y < bone_bricks; ++y)
             for (int x = 0; x < bone_bricks; ++x) builder.add_brick({x, y, z}, full, nullptr, nullptr);
     return std::move(builder).build();
+}
+
+/// A tube in the middle of the grid, from its low end.
+StructureMask tube_along_x(const Grid& grid, double radius_mm, double length_mm) {
+    const glm::ivec3 size = size_in_bricks(grid);
+    const glm::dvec3 axis_mm = centre_of_voxel_mm(grid, grid.size_voxels / 2);
+    std::vector<StructureBrick> bricks;
+    for (BrickIndex brick = 0; brick < static_cast<BrickIndex>(size.x * size.y * size.z); ++brick) {
+        StructureBrick part{brick, {}};
+        for (std::size_t offset = 0; offset < brick_voxel_count; ++offset) {
+            const glm::dvec3 place_mm = centre_of_voxel_mm(
+                grid, brick_edge_voxels * brick_position(size, brick) + voxel_in_brick(offset));
+            if (place_mm.x < length_mm &&
+                std::hypot(place_mm.y - axis_mm.y, place_mm.z - axis_mm.z) <= radius_mm)
+                part.voxels.set(offset);
+        }
+        bricks.push_back(part);
+    }
+    return {grid, std::move(bricks)};
+}
+
+MemoryRow weigh_watch(const std::string& name, std::vector<Structure> structures,
+                      const std::vector<Tissue>& tissues, const std::vector<Burr>& burrs) {
+    const Grid grid = structures.at(0).mask.grid();
+    const glm::dvec3 edges_mm = glm::dvec3(grid.size_voxels) * grid.spacing_mm;
+    MemoryRow row{.name = name, .bone_mm3 = 0.0, .box_mm3 = edges_mm.x * edges_mm.y * edges_mm.z};
+    for (const Structure& structure : structures) row.bone_mm3 += structure.mask.volume_mm3();
+    const auto before = std::chrono::steady_clock::now();
+    const StructureWatch watch(std::move(structures), tissues, burrs);
+    const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - before;
+    row.start_s = taken.count();
+    row.mebibytes = static_cast<double>(watch.memory_bytes()) / (1024.0 * 1024.0);
+    row.bytes_per_mm3 = static_cast<double>(watch.memory_bytes()) / row.bone_mm3;
+    return row;
 }
 
 }  // namespace
@@ -98,6 +133,17 @@ std::vector<MemoryRow> weigh_growing_box() {
         rows.push_back(weigh(fmt::format("cube of 12.8 mm in {} mm", box_mm),
                              [&] { return cube_in_a_box(12.8, box_mm); }));
     return rows;
+}
+
+std::vector<MemoryRow> weigh_structures() {
+    const Scene scene = phantom_scene("tooth");
+    LoadedBone tooth = load_bone(scene);
+    const Grid grid{.size_voxels = {352, 64, 64}, .spacing_mm = voxel_mm, .origin_mm = glm::dvec3(0.0)};
+    const std::vector<Tissue> nerve{{.label = 1, .name = "nerve", .is_protected = true, .warn_mm = 1.0}};
+    return {weigh_watch("pulp and nerve canal of the tooth phantom", std::move(tooth.structures),
+                        scene.tissues, scene.burrs),
+            weigh_watch("nerve, 1.5 mm across, 30 mm long", {{0, tube_along_x(grid, 0.75, 30.0)}}, nerve,
+                        scene.burrs)};
 }
 
 std::string csv_of(const std::vector<MemoryRow>& rows) {

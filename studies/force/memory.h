@@ -36,6 +36,10 @@ std::vector<MemoryRow> weigh_growing_bone();
 /// One solid cube of 12.8 mm in boxes of 12.8 to 102.4 mm an edge.
 std::vector<MemoryRow> weigh_growing_box();
 
+/// What it takes to watch protected structures (structure_watch.h): those of the tooth, and a made nerve of
+/// 1.5 mm across and 30 mm. `bone_mm3` is the structures' volume, `box_mm3` the bone's box.
+std::vector<MemoryRow> weigh_structures();
+
 /// Table with a header.
 std::string csv_of(const std::vector<MemoryRow>& rows);
 

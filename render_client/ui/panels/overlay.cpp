@@ -12,6 +12,7 @@
 #include "render_client/ui/panels/playback_panel.h"
 #include "render_client/ui/panels/session_dialog.h"
 #include "render_client/ui/panels/slices_panel.h"
+#include "render_client/ui/panels/structure_text.h"
 #include "render_client/ui/panels/tissue_legend.h"
 #include "render_client/ui/panels/tool_bar.h"
 #include "render_client/ui/panels/transfer_panel.h"
@@ -92,6 +93,8 @@ void add_readings(PanelList& panels, const OverlayContent& content, const PanelP
     if (content.tool) add_plot(panels, content, painter);
     panels.add_text(painter, Anchor::upper_left, session_text(content), side_width);
     if (content.tool) panels.add_text(painter, Anchor::upper_right, tool_text(content), side_width);
+    if (const PanelText structures = structure_text(content); !structures.empty())
+        panels.add_text(painter, Anchor::upper_right, structures, side_width);
     if (content.has_bone) {
         panels.add(Anchor::upper_right, {cube_size(painter)},
                    [&](const PanelPlace& place) { draw_cube(painter, *content.camera, place); });

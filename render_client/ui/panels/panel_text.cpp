@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "render_client/ui/panels/structure_text.h"
+
 namespace osteomill {
 
 namespace {
@@ -73,8 +75,8 @@ PanelText warning_text(const OverlayContent& content) {
         text.push_back(line(Tone::plain, std::string(content.tool->notice.text())));
     if (content.tool && content.tool->driver == ToolDriver::others_only)
         text.push_back(line(Tone::plain, "you watch: the server does not list this client as an operator"));
-    if (content.tool && content.tool->touches_protected)
-        text.push_back(line(Tone::warning, "PROTECTED TISSUE: the burr touches it"));
+    const PanelText structures = structure_warnings(content);
+    text.insert(text.end(), structures.begin(), structures.end());
     if (!content.view->notice.empty()) text.push_back(line(Tone::plain, content.view->notice));
     return text;
 }

@@ -88,7 +88,19 @@ void SessionPicture::take_in_bone(bool first_of_tool) {
         picture_.mark_dirty(*textures_, textures_->update(*bone, link_.changes));
         dirty_bricks_uploaded_ += link_.changes.size();
     }
+    if (link_.bone_replaced) picture_.forget_structures();
+    for (const Structure& structure : link_.structures) take_in_structure(structure);
     if (first_of_tool && camera_ == first_view_) reset_camera();
+}
+
+void SessionPicture::take_in_structure(const Structure& structure) {
+    const SessionInfo* session = source_.session();
+    if (!session || structure.tissue >= session->tissues.size()) return;
+    const Tissue& tissue = session->tissues[structure.tissue];
+    picture_.add_structure(
+        surface_of(soft_part(structure.mask, *source_.bone()), linear_from_srgb(tissue.colour_rgb)),
+        tissue.opacity);
+    has_undrawn_bone_ = true;
 }
 
 SessionPicture::News SessionPicture::news() const {
@@ -103,7 +115,7 @@ SessionPicture::News SessionPicture::news() const {
     if (has_undrawn_bone_ || has_moved || link_.ct || hand_has_moved || has_turning_burr() ||
         !quality().refined || link_.status != was.status || link_.status_line != was.status_line ||
         link_.recording_error != was.recording_error || link_.controls != was.controls ||
-        link_.snapshot_bricks != was.snapshot_bricks ||
+        link_.distances != was.distances || link_.snapshot_bricks != was.snapshot_bricks ||
         link_.checksum_mismatches != was.checksum_mismatches ||
         link_.rejected_frames != was.rejected_frames || link_.bricks_repaired != was.bricks_repaired)
         return News::change;

@@ -77,6 +77,7 @@ class SessionPicture {
 
   private:
     void take_in_bone(bool first_of_tool);
+    void take_in_structure(const Structure& structure);
     void replace_bone();
     News news() const;
     void ask_for_ct();

@@ -37,6 +37,7 @@ const gl::Framebuffer& ScenePicture::draw(const BoneTextures* bone, const DrawnT
                              tool->state.spindle_axis, camera, covered_);
         tool_renderer_.draw(*tool, camera, covered_);
     }
+    if (bone) structures_.draw(camera, layer_.look(), covered_);
     return picture_;
 }
 

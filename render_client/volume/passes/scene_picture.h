@@ -1,12 +1,13 @@
-// The picture of one moment: bone, tool, force. The bone is a layer of its own (see IncrementalBonePass);
-// what the tool and an overlay covered in one frame is restored from it in the next, and nothing else is
-// copied.
+// The picture of one moment: bone, soft structures, tool, force. The bone is a layer of its own (see
+// IncrementalBonePass); what the tool and an overlay covered in one frame is restored from it in the next,
+// and nothing else is copied.
 #pragma once
 
 #include <span>
 
 #include "render_client/volume/passes/contact_shadow.h"
 #include "render_client/volume/passes/incremental_bone_pass.h"
+#include "render_client/volume/structures/structure_renderer.h"
 #include "render_client/volume/tool/tool_renderer.h"
 
 namespace osteomill {
@@ -23,6 +24,13 @@ class ScenePicture {
     void set_look(const SceneLook& look) { layer_.set_look(look); }
     /// The bone was replaced: its layer is drawn anew.
     void forget_bone() { layer_.forget(); }
+    /// Another soft structure beside the bone.
+    void add_structure(const StructureSurface& surface, double opacity) { structures_.add(surface, opacity); }
+    /// None any more; the next picture is drawn anew.
+    void forget_structures() {
+        structures_.forget();
+        covered_.mark_all();
+    }
     /// These voxels of `bone` changed since the last draw: what its update returned.
     void mark_dirty(const BoneTextures& bone, std::span<const VoxelBox> changed) {
         layer_.mark_dirty(bone, changed);
@@ -42,6 +50,7 @@ class ScenePicture {
   private:
     IncrementalBonePass layer_;
     ToolRenderer tool_renderer_;
+    StructureRenderer structures_;
     ContactShadow contact_shadow_;
     gl::Framebuffer picture_;
     TileMask covered_;  ///< where the picture does not show the layer

@@ -10,7 +10,7 @@
 
 namespace osteomill {
 
-class OffscreenTest : public testing::Test {
+class OffscreenTest : public ::testing::Test {
   protected:
     void SetUp() override {
         try {

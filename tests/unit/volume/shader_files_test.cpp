@@ -43,6 +43,10 @@ TEST_F(ShaderFilesTest, AllCompileInAllTheirPrograms) {
         used.insert(files.vertex);
         used.insert(files.fragment.begin(), files.fragment.end());
     }
+    EXPECT_NO_THROW(make_program(shader_text({&structure_files.vertex, 1}),
+                                 shader_text(structure_files.fragment, "const int cut_count = 4;\n")));
+    used.insert(structure_files.vertex);
+    used.insert(structure_files.fragment.begin(), structure_files.fragment.end());
     for (const ProgramFiles& files : {raycast_files, slice_files})
         for (const char* places : {"dense_places.glsl", "atlas_places.glsl"}) {
             const auto names = behind_bone_sampling(places, files);

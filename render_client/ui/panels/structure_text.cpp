@@ -1,0 +1,63 @@
+#include "render_client/ui/panels/structure_text.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace osteomill {
+
+namespace {
+
+bool is_to_be_warned_of(const StructureDistance& now, const Tissue& tissue) {
+    return now.touches || (now.distance_mm && *now.distance_mm < tissue.warn_mm);
+}
+
+std::string touches_in_words(const StructureDistance& now, const Tissue& tissue) {
+    std::string words =
+        fmt::format("touched: {}, {} at {:.1f} s, for {:.1f} s", tissue.name,
+                    now.touches_so_far == 1 ? "once" : fmt::format("{} times, first", now.touches_so_far),
+                    now.first_touch_s, now.touched_s);
+    const double mm3 = std::max(now.removed_mm3, now.entered_mm3);
+    if (mm3 > 0.0) words += fmt::format(", {:.2f} mm\u00b3", mm3);
+    return words;
+}
+
+}  // namespace
+
+PanelText structure_text(const OverlayContent& content) {
+    PanelText text;
+    if (!content.session || !content.tool) return text;
+    const std::vector<Tissue>& tissues = content.session->tissues;
+    if (std::ranges::none_of(tissues, &Tissue::is_protected)) return text;
+    if (const StructureDistance* nearest = nearest_structure(content.link.distances)) {
+        const Tissue& tissue = tissues[nearest->tissue];
+        text.push_back({{is_to_be_warned_of(*nearest, tissue) ? Tone::warning : Tone::plain,
+                         *nearest->distance_mm <= 0.0
+                             ? fmt::format("{}: touching", tissue.name)
+                             : fmt::format("{}: {:.2f} mm away", tissue.name, *nearest->distance_mm)}});
+    } else if (content.session->protocol_minor >= first_minor_with_structures) {
+        text.push_back({{Tone::dim, "no protected structure near"}});
+    }
+    for (const StructureDistance& now : content.link.distances)
+        if (now.touches_so_far > 0)
+            text.push_back({{Tone::warning, touches_in_words(now, tissues[now.tissue])}});
+    return text;
+}
+
+PanelText structure_warnings(const OverlayContent& content) {
+    PanelText text;
+    if (!content.session) return text;
+    for (const StructureDistance& now : content.link.distances) {
+        const Tissue& tissue = content.session->tissues[now.tissue];
+        if (now.touches)
+            text.push_back({{Tone::warning, fmt::format("PROTECTED: the burr touches {}", tissue.name)}});
+        else if (is_to_be_warned_of(now, tissue))
+            text.push_back({{Tone::warning,
+                             fmt::format("CAREFUL: {} is {:.1f} mm away", tissue.name, *now.distance_mm)}});
+    }
+    if (text.empty() && content.tool && content.tool->touches_protected)
+        text.push_back({{Tone::warning, "PROTECTED TISSUE: the burr touches it"}});
+    return text;
+}
+
+}  // namespace osteomill

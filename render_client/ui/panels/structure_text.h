@@ -1,0 +1,14 @@
+// What a person reads of protected structures: how near the nearest is, and what was touched.
+#pragma once
+
+#include "render_client/ui/panels/panel_text.h"
+
+namespace osteomill {
+
+/// The nearest by name with its distance, and every structure that was touched, for as long as the session
+/// lasts; empty where the session protects nothing.
+PanelText structure_text(const OverlayContent& content);
+/// Those that the burr touches, or is nearer to than is to be warned of; mostly none.
+PanelText structure_warnings(const OverlayContent& content);
+
+}  // namespace osteomill

@@ -1,0 +1,53 @@
+#include "render_client/volume/structures/structure_renderer.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <glm/ext/matrix_transform.hpp>
+
+#include "render_client/volume/shaders/shader_files.h"
+
+namespace osteomill {
+
+void StructureRenderer::add(const StructureSurface& surface, double opacity) {
+    if (surface.triangles.indices.empty() || opacity <= 0.0) return;
+    if (!program_) {
+        const std::string cut_count = fmt::format("const int cut_count = {};\n", most_cut_planes);
+        program_ = make_program(shader_text({&structure_files.vertex, 1}),
+                                shader_text(structure_files.fragment, cut_count));
+    }
+    drawn_.push_back({gl::Mesh(surface.triangles), surface.origin_mm, static_cast<float>(opacity)});
+}
+
+// First the depth of what is nearest, then its colour: what is seen through is not seen through twice, in
+// whatever order the triangles come.
+void StructureRenderer::draw(const Camera& camera, const SceneLook& look, TileMask& covered) {
+    if (drawn_.empty()) return;
+    const glm::dmat4 view_projection = camera.projection(covered.size_px()) * camera.view();
+    program_->use();
+    glEnable(GL_DEPTH_TEST);
+    glDepthFunc(GL_LEQUAL);
+    glEnable(GL_BLEND);
+    glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
+    for (const Drawn& one : drawn_) {
+        const glm::dmat4 to_clip = view_projection * glm::translate(glm::dmat4(1.0), one.origin_mm);
+        mark_box(covered, one.mesh.low(), one.mesh.high(), to_clip);
+        program_->set("to_clip", glm::mat4(to_clip));
+        program_->set("opacity", one.opacity);
+        for (std::size_t i = 0; i < most_cut_planes; ++i) {
+            glm::vec4 plane(0.0f, 0.0f, 0.0f, 1.0f);  // takes nothing away
+            if (i < look.cuts.size())
+                plane = {look.cuts[i].normal,
+                         look.cuts[i].offset_mm - glm::dot(look.cuts[i].normal, one.origin_mm)};
+            program_->set(fmt::format("cut_planes[{}]", i).c_str(), plane);
+        }
+        glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
+        one.mesh.draw();
+        glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+        one.mesh.draw();
+    }
+    glDisable(GL_BLEND);
+    glDepthFunc(GL_LESS);
+}
+
+}  // namespace osteomill

@@ -1,0 +1,39 @@
+// A renderer of soft structures: a mesh for each, in its tissue's colour and opacity, tested against the
+// depth of bone and tool, and cut as the bone is.
+#pragma once
+
+#include <glm/vec3.hpp>
+#include <optional>
+#include <vector>
+
+#include "render_client/volume/camera.h"
+#include "render_client/volume/gl/mesh.h"
+#include "render_client/volume/gl/program.h"
+#include "render_client/volume/passes/tile_mask.h"
+#include "render_client/volume/scene_look.h"
+#include "render_client/volume/structures/structure_surface.h"
+
+namespace osteomill {
+
+class StructureRenderer {
+  public:
+    /// Another structure, from the next draw on. Of one without triangles nothing is kept.
+    void add(const StructureSurface& surface, double opacity);
+    void forget() { drawn_.clear(); }
+
+    /// Draws over the bound framebuffer, whose depth is that of Camera::projection and whose size that of the
+    /// mask; marks the tiles that it may have drawn into.
+    void draw(const Camera& camera, const SceneLook& look, TileMask& covered);
+
+  private:
+    struct Drawn {
+        gl::Mesh mesh;
+        glm::dvec3 origin_mm;
+        float opacity;
+    };
+
+    std::optional<gl::Program> program_;  // none before the first structure
+    std::vector<Drawn> drawn_;
+};
+
+}  // namespace osteomill

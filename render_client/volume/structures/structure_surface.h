@@ -1,0 +1,28 @@
+// The surface of a soft structure, such as a nerve, for its picture: of its voxels where no bone is.
+//
+// Constrained elastic surface nets (Gibson 1998, MICCAI, LNCS 1496): a vertex in each cell of eight
+// neighbouring voxels that are not all alike, quads between them, and vertices that are moved to the mean of
+// their neighbours, but not out of their cells. So the surface is smooth, closed and within a voxel of the
+// structure's. A large structure is taken in coarser voxels, so that no surface has more than some hundred
+// thousand vertices.
+#pragma once
+
+#include "common/bone/bone.h"
+#include "common/bone/structure_mask.h"
+#include "render_client/volume/tool/triangles.h"
+
+namespace osteomill {
+
+/// The voxels of a structure that were never bone, as far as the bone tells: those that hold none now and,
+/// where it knows a stiffness for each voxel, have none.
+StructureMask soft_part(const StructureMask& structure, const Bone& bone);
+
+struct StructureSurface {
+    Triangles triangles;        ///< about the origin
+    glm::dvec3 origin_mm{0.0};  ///< patient LPS
+};
+
+/// In linear RGB; no triangles for an empty structure.
+StructureSurface surface_of(const StructureMask& structure, const glm::vec3& colour);
+
+}  // namespace osteomill

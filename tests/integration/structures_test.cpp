@@ -1,0 +1,175 @@
+// A nerve that a case's segmentation draws beside the bone: the real programs tell how near the burr came.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <iterator>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "common/recording/playhead.h"
+#include "tests/support/block_file.h"
+#include "tests/support/child_process.h"
+#include "tests/support/temporary_folder.h"
+
+namespace osteomill::testing {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+/// The nerve: a tube along x, over the block, whose top is z = 2.2.
+constexpr double tube_y_mm = 0.5;
+constexpr double tube_z_mm = 5.3;
+constexpr double tube_radius_mm = 1.2;
+constexpr double burr_radius_mm = 1.0;
+constexpr double spacing_mm = 0.2;
+
+class StructuresProgram : public ::testing::Test {
+  protected:
+    StructuresProgram() {
+        write_volume("bone.nrrd", "int16", "", [](double, double, double z_mm) {
+            const int hu = z_mm < 2.2 ? 1000 : -1000;
+            return std::string{static_cast<char>(hu & 0xFF), static_cast<char>(hu >> 8)};
+        });
+        write_volume("nerve.seg.nrrd", "uint8",
+                     "Segment0_Name:=nerve\nSegment0_LabelValue:=1\nSegment0_Layer:=0\n",
+                     [](double, double y_mm, double z_mm) {
+                         return std::string(1, from_axis_mm(y_mm, z_mm) <= tube_radius_mm ? '\1' : '\0');
+                     });
+        write_scene("warn_mm = 0.8");
+        // Down beside the nerve into the bone, back, then onto the nerve.
+        std::ofstream(file("motion.csv")) << "t_s,x_mm,y_mm,z_mm,axis_x,axis_y,axis_z,pedal\n"
+                                             "0.0,0,-3.2,9,0,0,1,0\n"
+                                             "0.2,0,-3.2,9,0,0,1,1\n"
+                                             "1.2,0,-3.2,2.6,0,0,1,1\n"
+                                             "2.0,0,-3.2,8.5,0,0,1,0\n"
+                                             "2.6,0,0.5,8.5,0,0,1,0\n"
+                                             "3.4,0,0.5,6.9,0,0,1,0\n"
+                                             "4.2,0,0.5,9.5,0,0,1,0\n"
+                                             "5.0,0,0.5,13,0,0,1,0\n";
+    }
+    static double from_axis_mm(double y_mm, double z_mm) {
+        return std::hypot(y_mm - tube_y_mm, z_mm - tube_z_mm);
+    }
+    template <typename Voxel>
+    void write_volume(const std::string& name, const std::string& type, const std::string& keys,
+                      Voxel&& voxel) const {
+        std::ofstream out(file(name), std::ios::binary);
+        out << "NRRD0004\ntype: " << type
+            << "\ndimension: 3\nspace: left-posterior-superior\nsizes: 48 40 64\n"
+               "space directions: (0.2,0,0) (0,0.2,0) (0,0,0.2)\nspace origin: (-4.7,-3.9,-4.1)\n"
+               "encoding: raw\nendian: little\n"
+            << keys << "\n";
+        for (int k = 0; k < 64; ++k)
+            for (int j = 0; j < 40; ++j)
+                for (int i = 0; i < 48; ++i)
+                    out << voxel(-4.7 + spacing_mm * i, -3.9 + spacing_mm * j, -4.1 + spacing_mm * k);
+    }
+    void write_scene(const std::string& nerve_keys) const {
+        std::ofstream(file("scene.toml"))
+            << "name = \"tube\"\n[bone]\nfile = \"bone.nrrd\"\nsegmentation = "
+               "\"nerve.seg.nrrd\"\nthreshold_hu = 300\n"
+               "[[tissues]]\nlabel = 1\nname = \"nerve\"\ncolour = \"#f0d040\"\nsegment = "
+               "\"nerve\"\nprotected = true\n"
+            << nerve_keys << "\n[[burrs]]\nname = \"2 mm\"\ndiameter_mm = 2.0\nrpm = 40000\n";
+    }
+    std::string file(const std::string& name) const { return (folder_ / name).string(); }
+    std::string text(const std::string& name) const {
+        std::ifstream in(file(name), std::ios::binary);
+        return {std::istreambuf_iterator<char>(in), {}};
+    }
+    Finished serve(std::vector<std::string> more) const {
+        std::vector<std::string> command{HAPTIC_SERVER,      "--clock",          "virtual",
+                                         "--scene",          file("scene.toml"), "--trajectory",
+                                         file("motion.csv"), "--json",           file("server.json")};
+        command.insert(command.end(), more.begin(), more.end());
+        return run_program(command);
+    }
+
+    TemporaryFolder folder_;
+};
+
+TEST_F(StructuresProgram, TellHowFarTheBurrIsFromASoftStructure) {
+    const Finished served = serve({"--report", file("report")});
+    ASSERT_EQ(served.status, 0) << served.err;
+    EXPECT_THAT(served.err, HasSubstr("mm from nerve"));
+    EXPECT_THAT(served.err, HasSubstr("the burr touches nerve"));
+
+    // Every state of the recording against the closed form: distance of the axes less the radii.
+    Playhead playhead(file("report/session.pcap"));
+    ASSERT_EQ(playhead.structures().size(), 1u);
+    EXPECT_NEAR(playhead.structures()[0].mask.volume_mm3(), 9.6 * 3.14159 * tube_radius_mm * tube_radius_mm,
+                1.5);
+    int told = 0, silent = 0;
+    double nearest_mm = std::numeric_limits<double>::infinity();
+    for (;;) {
+        const Playhead::Step step = playhead.step(std::numeric_limits<double>::infinity());
+        if (step == Playhead::Step::end) break;
+        if (step != Playhead::Step::state) continue;
+        const glm::dvec3& at = playhead.tool()->burr_position_mm;
+        const double expected_mm = from_axis_mm(at.y, at.z) - tube_radius_mm - burr_radius_mm;
+        nearest_mm = std::min(nearest_mm, expected_mm);
+        const StructureDistance* now = nearest_structure(playhead.distances());
+        if (now == nullptr) {
+            ++silent;
+            EXPECT_GT(expected_mm, 3.0 - 0.5 * spacing_mm);
+            continue;
+        }
+        ++told;
+        // Half a voxel for the field, as much for the tube that is made of cubes.
+        EXPECT_NEAR(*now->distance_mm, expected_mm, spacing_mm) << at.y << ' ' << at.z;
+        EXPECT_EQ(now->touches, *now->distance_mm <= 0.0);
+    }
+    EXPECT_GT(told, 50);
+    EXPECT_GT(silent, 5);
+    ASSERT_LT(nearest_mm, -0.2) << "the motion touches it";
+
+    // One and the same: live, in the report and in the recomputed one.
+    const auto live = nlohmann::json::parse(text("server.json")).at("structures").at(0);
+    const Finished again =
+        run_program({PACKET_REPLAY, file("report/session.pcap"), "--report", file("again")});
+    ASSERT_EQ(again.status, 0) << again.err;
+    EXPECT_EQ(text("report/metrics.json"), text("again/metrics.json"));
+    const auto metrics = nlohmann::json::parse(text("again/metrics.json")).at("metrics");
+    const auto of_nerve = [&](const std::string& key) {
+        return metrics.at(key + "_of").at("nerve").get<double>();
+    };
+    EXPECT_EQ(live.at("name"), "nerve");
+    EXPECT_NEAR(live.at("nearest_mm").get<double>(), nearest_mm, spacing_mm);
+    EXPECT_EQ(of_nerve("structure_nearest_mm"), 0.0);
+    EXPECT_EQ(of_nerve("structure_touches"), 1.0);
+    EXPECT_EQ(live.at("touches"), 1);
+    EXPECT_EQ(of_nerve("structure_first_touch_s"), live.at("first_touch_s").get<double>());
+    EXPECT_NEAR(of_nerve("structure_touched_s"), live.at("touched_s").get<double>(), 1e-9);
+    EXPECT_EQ(of_nerve("structure_entered_mm3"), live.at("entered_mm3").get<double>());
+    EXPECT_GT(of_nerve("structure_entered_mm3"), 0.0);
+    EXPECT_EQ(of_nerve("structure_dose_mm3"), 0.0) << "no bone was in it";
+
+    const Finished csv = run_program({PACKET_REPLAY, file("report/session.pcap"), "--csv", file("tool.csv")});
+    ASSERT_EQ(csv.status, 0) << csv.err;
+    EXPECT_THAT(text("tool.csv"), HasSubstr(",nearest_structure,nearest_structure_mm\n"));
+    EXPECT_THAT(text("tool.csv"), HasSubstr(",\"nerve\",0."));
+}
+
+TEST_F(StructuresProgram, CostNothingWhereNothingIsProtected) {
+    write_scene("");
+    std::string scene = text("scene.toml");
+    scene.replace(scene.find("protected = true"), 16, "protected = false");
+    std::ofstream(file("scene.toml")) << scene;
+    const Finished served = serve({"--record", file("a.pcap")});
+    ASSERT_EQ(served.status, 0) << served.err;
+    EXPECT_THAT(served.err, Not(HasSubstr("nerve")));
+    EXPECT_FALSE(nlohmann::json::parse(text("server.json")).contains("structures"));
+    Playhead playhead(file("a.pcap"));
+    EXPECT_TRUE(playhead.structures().empty());
+    while (playhead.step(std::numeric_limits<double>::infinity()) != Playhead::Step::end) {
+        EXPECT_TRUE(playhead.distances().empty());
+    }
+}
+
+}  // namespace
+}  // namespace osteomill::testing

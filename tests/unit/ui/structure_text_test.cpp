@@ -1,0 +1,69 @@
+#include "render_client/ui/panels/structure_text.h"
+
+#include <gmock/gmock.h>
+
+namespace osteomill::structure_text_test {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::IsEmpty;
+
+std::vector<std::string> lines_of(const PanelText& text) {
+    std::vector<std::string> lines;
+    for (const TextLine& line : text) lines.push_back(line.at(0).text);
+    return lines;
+}
+
+class StructureTexts : public ::testing::Test {
+  protected:
+    StructureTexts() {
+        session_.tissues = {{.label = 1, .name = "bone"},
+                            {.label = 2, .name = "facial nerve", .is_protected = true, .warn_mm = 1.0},
+                            {.label = 3, .name = "sinus", .is_protected = true, .warn_mm = 0.5}};
+        content_.session = &session_;
+        content_.tool = ToolState{};
+    }
+    SessionInfo session_;
+    OverlayContent content_;
+};
+
+TEST_F(StructureTexts, NameTheNearestWithItsDistance) {
+    EXPECT_THAT(lines_of(structure_text(content_)), ElementsAre("no protected structure near"));
+    content_.link.distances = {{.tissue = 1, .distance_mm = 1.4}, {.tissue = 2, .distance_mm = 0.83}};
+    EXPECT_THAT(lines_of(structure_text(content_)), ElementsAre("sinus: 0.83 mm away"));
+    EXPECT_EQ(structure_text(content_)[0][0].tone, Tone::plain);
+    EXPECT_THAT(structure_warnings(content_), IsEmpty());
+}
+
+TEST_F(StructureTexts, WarnWithinTheDistanceOfEachStructure) {
+    content_.link.distances = {{.tissue = 1, .distance_mm = 0.93}, {.tissue = 2, .distance_mm = 0.83}};
+    EXPECT_THAT(lines_of(structure_warnings(content_)), ElementsAre("CAREFUL: facial nerve is 0.9 mm away"));
+    EXPECT_EQ(structure_warnings(content_)[0][0].tone, Tone::warning);
+}
+
+TEST_F(StructureTexts, KeepATouchOnTheScreen) {
+    content_.link.distances = {
+        {.tissue = 1, .distance_mm = -0.1, .touches = true, .touches_so_far = 1, .first_touch_s = 3.14}};
+    EXPECT_THAT(lines_of(structure_text(content_)),
+                ElementsAre("facial nerve: touching", "touched: facial nerve, once at 3.1 s, for 0.0 s"));
+    EXPECT_THAT(lines_of(structure_warnings(content_)),
+                ElementsAre("PROTECTED: the burr touches facial nerve"));
+    content_.link.distances = {
+        {.tissue = 1, .touches_so_far = 2, .first_touch_s = 3.14, .touched_s = 1.5, .entered_mm3 = 0.25}};
+    EXPECT_THAT(lines_of(structure_text(content_)),
+                ElementsAre("no protected structure near",
+                            "touched: facial nerve, 2 times, first at 3.1 s, for 1.5 s, 0.25 mm\u00b3"));
+    EXPECT_THAT(structure_warnings(content_), IsEmpty());
+}
+
+TEST_F(StructureTexts, AreNoneWhereNothingIsProtected) {
+    session_.tissues = {{.label = 1, .name = "bone"}};
+    EXPECT_THAT(structure_text(content_), IsEmpty());
+    EXPECT_THAT(structure_warnings(content_), IsEmpty());
+    // An older server says no more than that.
+    content_.tool->touches_protected = true;
+    EXPECT_THAT(lines_of(structure_warnings(content_)), ElementsAre("PROTECTED TISSUE: the burr touches it"));
+}
+
+}  // namespace
+}  // namespace osteomill::structure_text_test
