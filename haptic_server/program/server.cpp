@@ -76,60 +76,6 @@ void require_folder_of(const std::optional<std::filesystem::path>& file) {
         fmt::format("{}: there is no folder {}", file->string(), file->parent_path().string()));
 }
 
-/// The device that the options ask for, and what it is driven by.
-struct DeviceParts {
-    std::unique_ptr<HidTransport> transport;            // null: the device is not plugged in
-    std::unique_ptr<OperatorChannel> operator_channel;  // null: nobody may drive
-    std::unique_ptr<HapticDevice> device;
-    const SimulatedDevice* simulated = nullptr;  // `device`, if it is one
-
-    bool is_finished() const { return simulated != nullptr && simulated->is_finished(); }
-};
-
-DeviceParts make_haptic_arm(const ServerOptions& options, Scene& scene) {
-    const ArmProfile profile = load_arm_profile(options.device_profile);
-    // A scene that does not say how the arm sits on the patient: its calibration position is the start.
-    if (scene.device == DeviceMapping{})
-        scene.device.offset_mm = scene.start_pose.position_mm - home_position_mm(profile);
-    DeviceParts parts;
-    parts.transport = std::make_unique<HidapiTransport>();
-    parts.device = std::make_unique<HidArm>(
-        profile, *parts.transport, [clock = RealClock()] { return clock.now_s(); },
-        [] { ask_for_real_time(device_priority); });
-    return parts;
-}
-
-/// Places the scene, too, where it leaves that to the device.
-DeviceParts make_device(const ServerOptions& options, Scene& scene) {
-    if (options.device == DeviceKind::hid) return make_haptic_arm(options, scene);
-    const HandModel hand = hand_model(options.grip);
-    DeviceParts parts;
-    if (options.device == DeviceKind::space_mouse) {
-        parts.transport = std::make_unique<HidapiTransport>();
-        parts.device = std::make_unique<SpaceMouse>(
-            scene, ArmModel{}, hand, *parts.transport, [clock = RealClock()] { return clock.now_s(); },
-            [] { ask_for_real_time(device_priority); });
-        return parts;
-    }
-    if (options.device == DeviceKind::client) {
-        parts.operator_channel = std::make_unique<OperatorChannel>();
-        parts.device = std::make_unique<ClientDevice>(*parts.operator_channel, scene.start_pose, scene.device,
-                                                      ArmModel{}, hand);
-        return parts;
-    }
-    Trajectory trajectory =
-        make_trajectory(scene.trajectory, scene.start_pose, scene.burrs, scene.start_burr);
-    const bool would_never_end =
-        std::isinf(trajectory.duration_s()) && std::isinf(options.session.duration_s);
-    if (options.session.clock == ClockKind::virtual_time && would_never_end) {
-        throw std::runtime_error("--clock virtual: the trajectory never ends; give --duration-s");
-    }
-    auto simulated = std::make_unique<SimulatedDevice>(std::move(trajectory), scene.device, ArmModel{}, hand);
-    parts.simulated = simulated.get();
-    parts.device = std::move(simulated);
-    return parts;
-}
-
 /// Nothing on the real clock, of which people know how it goes.
 std::optional<double> done_of_virtual_session(const ServerOptions& options, const DeviceParts& device,
                                               double time_s) {
@@ -275,7 +221,8 @@ void run_server(const ServerOptions& options, const std::string& version, const 
     say_what_was_removed_before(source, *output.err);
     Bone bone = std::move(loaded.bone);
     BoneCost cost{.memory_bytes = memory_bytes(bone), .bone_mm3 = bone_volume_mm3(bone)};
-    const DeviceParts device = make_device(options, scene);
+    const DeviceParts device = make_device(options, scene, stop, *output.out);
+    if (device.device == nullptr) return;  // stopped before an arm came
     std::optional<ForceLog> log;
     begin_log(log, options.log_csv,
               has_shank(scene.burrs) ? ForceSample::header_line_with_shank : ForceSample::header_line);

@@ -26,6 +26,8 @@ struct Typed {
     std::string bone;
     std::string device = "simulated";
     std::string device_profile;
+    std::string bridge;
+    std::string bridge_key;
     bool lists_devices = false;
     std::string grip = "firm";
     std::string trajectory;
@@ -108,15 +110,22 @@ void declare(CLI::App& app, Typed& typed) {
     app.add_option("--bone", typed.bone, "Bone from a file that bone_import wrote, instead of the scene's")
         ->type_name("FILE.nrrd");
     app.add_option("--device", typed.device,
-                   "Who moves the tool: a simulated hand, a client's mouse, a haptic arm over USB HID, or a "
-                   "3D mouse, "
-                   "whose force clients show")
-        ->check(one_of({"simulated", "client", "hid", "spacemouse"}))
+                   "Who moves the tool: a simulated hand, a client's mouse, a haptic arm over USB HID, a 3D "
+                   "mouse, whose force clients show, or any arm behind a bridge (docs/device-bridge.md)")
+        ->check(one_of({"simulated", "client", "hid", "spacemouse", "bridge"}))
         ->capture_default_str();
     app.add_option("--device-profile", typed.device_profile,
                    fmt::format("Which haptic arm --device hid drives: {}, or a TOML file of your own ({})",
                                fmt::join(shipped_profile_names(), ", "), ServerOptions{}.device_profile))
         ->type_name("NAME|FILE.toml");
+    app.add_option("--bridge", typed.bridge,
+                   fmt::format("Where --device bridge meets the arm's process: unix:PATH or udp:ADDRESS:PORT ({})",
+                               to_text(ServerOptions{}.bridge)))
+        ->type_name("ADDRESS");
+    app.add_option("--bridge-key", typed.bridge_key,
+                   "With --device bridge: a secret of 32 bytes or more that the arm's side has, too; needed for one "
+                   "on another machine")
+        ->type_name("FILE");
     app.add_flag("--list-devices", typed.lists_devices,
                  "Say which haptic devices are plugged in and whether they can be used, and end");
     app.add_option("--grip", typed.grip, "How the simulated hand holds the arm")
@@ -302,6 +311,19 @@ ServerOptions checked(const Typed& typed, const AccessOptions& access) {
     options.lists_devices = typed.lists_devices;
     if (is_hid) options.device = DeviceKind::hid;
     if (is_client) options.device = DeviceKind::client;
+    const bool is_bridge = typed.device == "bridge";
+    if (is_bridge) options.device = DeviceKind::bridge;
+    for (const auto& [option, text] : {std::pair("--bridge", &typed.bridge), std::pair("--bridge-key", &typed.bridge_key)})
+        if (!is_bridge && !text->empty())
+            throw std::invalid_argument(fmt::format("{}: goes with --device bridge", option));
+    try {
+        if (!typed.bridge.empty()) options.bridge = parse_bridge_address(typed.bridge);
+    } catch (const std::invalid_argument& error) {
+        throw std::invalid_argument(fmt::format("--bridge: {}", error.what()));
+    }
+    options.bridge_key = path_if_given(typed.bridge_key);
+    if (!options.bridge_key && !is_local(options.bridge))
+        throw std::invalid_argument("--bridge: an arm on another machine needs --bridge-key, so that nobody else moves the tool");
     if (typed.device == "spacemouse") options.device = DeviceKind::space_mouse;
     if (!typed.device_profile.empty()) options.device_profile = typed.device_profile;
     if (!typed.scene.empty()) options.scene = typed.scene;

@@ -13,7 +13,7 @@
 
 namespace osteomill {
 
-enum class DeviceKind { simulated, client, hid, space_mouse };
+enum class DeviceKind { simulated, client, hid, space_mouse, bridge };
 
 struct ServerOptions {
     std::optional<std::string>
@@ -23,6 +23,8 @@ struct ServerOptions {
     std::string device_profile = "woodenhaptics_v2015";  ///< a shipped profile's name or a TOML file
     bool lists_devices = false;                          ///< and does nothing else
     Grip grip = Grip::firm;
+    BridgeAddress bridge = ListenAddress{.port = 7020};      ///< of DeviceKind::bridge
+    std::optional<std::filesystem::path> bridge_key;         ///< a secret that its arm has, too
     std::optional<std::filesystem::path> trajectory;
     MillingSessionOptions session;
     std::optional<ListenAddress> listen;  ///< nullopt: nobody is served

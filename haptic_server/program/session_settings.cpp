@@ -14,6 +14,8 @@ const char* name_of(DeviceKind device) {
             return "hid";
         case DeviceKind::space_mouse:
             return "spacemouse";
+        case DeviceKind::bridge:
+            return "bridge";
         case DeviceKind::simulated:
             break;
     }

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "common/net/tls_options.h"
-#include "haptic_server/streaming/listen_address.h"
+#include "common/net/listen_address.h"
 #include "haptic_server/streaming/streaming_options.h"
 
 namespace osteomill {

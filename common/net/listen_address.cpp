@@ -1,4 +1,4 @@
-#include "haptic_server/streaming/listen_address.h"
+#include "common/net/listen_address.h"
 
 #include <fmt/format.h>
 

@@ -1,0 +1,41 @@
+// A socket for datagrams, on a path of this machine or on a UDP port. Closed, and its path removed, by its
+// destructor.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+
+#include "haptic_server/device/bridge/bridge_address.h"
+#include "haptic_server/device/bridge/bridge_host.h"
+
+namespace osteomill {
+
+class DatagramSocket {
+  public:
+    /// Throws std::runtime_error in one line where it cannot be had: what is there already, what is missing.
+    /// A path that a server left behind which was killed is taken over; only the user of this process may
+    /// write there.
+    explicit DatagramSocket(const BridgeAddress& where);
+    ~DatagramSocket();
+    DatagramSocket(const DatagramSocket&) = delete;
+    DatagramSocket& operator=(const DatagramSocket&) = delete;
+
+    /// The port, where the system chose it.
+    const BridgeAddress& address() const { return where_; }
+
+    /// Waits for a datagram, `longest_wait_ms` at most. Its length, or the buffer's if it is longer; nullopt:
+    /// none came.
+    std::optional<std::size_t> receive(std::span<std::uint8_t> buffer, PeerAddress& from,
+                                       int longest_wait_ms) noexcept;
+
+    /// What cannot be sent now is lost.
+    void send(std::span<const std::uint8_t> datagram, const PeerAddress& to) noexcept;
+
+  private:
+    BridgeAddress where_;
+    int socket_ = -1;
+};
+
+}  // namespace osteomill

@@ -1,0 +1,121 @@
+#include "haptic_server/program/device_parts.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <fstream>
+#include <random>
+#include <stdexcept>
+#include <utility>
+#include <vector>
+
+#include "common/scene/device_mapping.h"
+#include "haptic_server/device/arm_model.h"
+#include "haptic_server/device/bridge/bridge_arm.h"
+#include "haptic_server/device/client_device.h"
+#include "haptic_server/device/hand_model.h"
+#include "haptic_server/device/hid/hid_arm.h"
+#include "haptic_server/device/hid/hidapi_transport.h"
+#include "haptic_server/device/hid/profile_file.h"
+#include "haptic_server/device/hid/space_mouse.h"
+#include "haptic_server/device/trajectory.h"
+#include "haptic_server/loop/clock.h"
+#include "haptic_server/loop/real_time.h"
+#include "haptic_server/loop/thread_priority.h"
+
+namespace osteomill {
+
+namespace {
+
+DeviceParts make_haptic_arm(const ServerOptions& options, Scene& scene) {
+    const ArmProfile profile = load_arm_profile(options.device_profile);
+    // A scene that does not say how the arm sits on the patient: its calibration position is the start.
+    if (scene.device == DeviceMapping{})
+        scene.device.offset_mm = scene.start_pose.position_mm - home_position_mm(profile);
+    DeviceParts parts;
+    parts.transport = std::make_unique<HidapiTransport>();
+    parts.device = std::make_unique<HidArm>(
+        profile, *parts.transport, [clock = RealClock()] { return clock.now_s(); },
+        [] { ask_for_real_time(device_priority); });
+    return parts;
+}
+
+/// 32 bytes at least, as the arm's side wants it.
+omb_key read_key(const std::filesystem::path& path) {
+    constexpr std::size_t most_bytes = 4095;
+    std::ifstream file(path, std::ios::binary);
+    std::vector<char> secret(most_bytes + 1);
+    file.read(secret.data(), static_cast<std::streamsize>(secret.size()));
+    if (!file && !file.eof()) throw std::runtime_error(fmt::format("{}: cannot be read", path.string()));
+    const auto bytes = static_cast<std::size_t>(file.gcount());
+    if (bytes < 32 || bytes > most_bytes)
+        throw std::runtime_error(fmt::format("{}: a key of the bridge has 32 to {} bytes, this has {}",
+                                             path.string(), most_bytes, bytes > most_bytes ? "more" : fmt::format("{}", bytes)));
+    omb_key key;
+    omb_set_key(&key, reinterpret_cast<const std::uint8_t*>(secret.data()), bytes);
+    return key;
+}
+
+std::uint64_t random_number() {
+    std::random_device random;
+    return (std::uint64_t{random()} << 32U) | random();
+}
+
+DeviceParts make_bridge_arm(const ServerOptions& options, Scene& scene, const std::atomic<bool>& stop,
+                            LineStream& out) {
+    BridgeArm::Parts bridge{.burr_count = scene.burrs.size(),
+                            .start_burr = scene.start_burr,
+                            .start_axis = direction_in_device(scene.device, scene.start_pose.spindle_axis),
+                            .random = random_number,
+                            .on_thread_start = [] { ask_for_real_time(device_priority); }};
+    if (options.bridge_key) bridge.key = read_key(*options.bridge_key);
+    auto arm = std::make_unique<BridgeArm>(options.bridge, std::move(bridge));
+    out.write(fmt::format("waiting for an arm at {}\n", to_text(arm->address())));
+    DeviceParts parts;
+    if (!arm->await([&] { return stop.load(); })) return parts;
+    const DeviceLimits limits = arm->limits();
+    out.write(fmt::format("arm {} has joined: {:.3g} N, {:.3g} N/mm, {:.3g} g; there and back {:.3g} ms\n", arm->name(),
+                          limits.max_force_n, limits.max_stiffness_n_per_mm, 1000.0 * limits.apparent_mass_kg,
+                          1000.0 * arm->round_trip_s()));
+    // A scene that does not say how the arm sits on the patient: the middle of its workspace is the start.
+    if (scene.device == DeviceMapping{})
+        scene.device.offset_mm = scene.start_pose.position_mm - arm->workspace_middle_mm();
+    parts.device = std::move(arm);
+    return parts;
+}
+
+}  // namespace
+
+DeviceParts make_device(const ServerOptions& options, Scene& scene, const std::atomic<bool>& stop,
+                        LineStream& out) {
+    if (options.device == DeviceKind::hid) return make_haptic_arm(options, scene);
+    if (options.device == DeviceKind::bridge) return make_bridge_arm(options, scene, stop, out);
+    const HandModel hand = hand_model(options.grip);
+    DeviceParts parts;
+    if (options.device == DeviceKind::space_mouse) {
+        parts.transport = std::make_unique<HidapiTransport>();
+        parts.device = std::make_unique<SpaceMouse>(
+            scene, ArmModel{}, hand, *parts.transport, [clock = RealClock()] { return clock.now_s(); },
+            [] { ask_for_real_time(device_priority); });
+        return parts;
+    }
+    if (options.device == DeviceKind::client) {
+        parts.operator_channel = std::make_unique<OperatorChannel>();
+        parts.device = std::make_unique<ClientDevice>(*parts.operator_channel, scene.start_pose, scene.device,
+                                                      ArmModel{}, hand);
+        return parts;
+    }
+    Trajectory trajectory =
+        make_trajectory(scene.trajectory, scene.start_pose, scene.burrs, scene.start_burr);
+    const bool would_never_end =
+        std::isinf(trajectory.duration_s()) && std::isinf(options.session.duration_s);
+    if (options.session.clock == ClockKind::virtual_time && would_never_end) {
+        throw std::runtime_error("--clock virtual: the trajectory never ends; give --duration-s");
+    }
+    auto simulated = std::make_unique<SimulatedDevice>(std::move(trajectory), scene.device, ArmModel{}, hand);
+    parts.simulated = simulated.get();
+    parts.device = std::move(simulated);
+    return parts;
+}
+
+}  // namespace osteomill
