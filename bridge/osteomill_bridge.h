@@ -61,7 +61,7 @@ typedef int omb_socket;
 #define OMB_TAG_BYTES 16
 #define OMB_NAME_BYTES 16
 
-enum omb_kind { OMB_HELLO = 1, OMB_WELCOME = 2, OMB_POSE = 3, OMB_FORCE = 4, OMB_GOODBYE = 5 };
+typedef enum omb_kind { OMB_HELLO = 1, OMB_WELCOME = 2, OMB_POSE = 3, OMB_FORCE = 4, OMB_GOODBYE = 5 } omb_kind;
 
 /* Of every message: who says it in which session, and when by the sender's clock. */
 typedef struct omb_header {
@@ -85,13 +85,13 @@ typedef struct omb_arm {
     double max_slew_n_per_s;         /* kept here, not sent; 0: 1000 */
 } omb_arm;
 
-enum omb_button { OMB_PEDAL = 1u, OMB_NEXT_BURR = 2u };
+typedef enum omb_button { OMB_PEDAL = 1u, OMB_NEXT_BURR = 2u } omb_button;
 
-enum omb_status {
+typedef enum omb_status {
     OMB_READY = 1u,          /* calibrated and held: force may act */
     OMB_HAS_VELOCITY = 2u,   /* else the server makes its own estimate */
     OMB_HAS_ORIENTATION = 4u /* else the spindle stays as the scene has it */
-};
+} omb_status;
 
 typedef struct omb_pose {
     double position_mm[3];
@@ -416,11 +416,11 @@ static inline void omb_approach(double given[3], const double wanted[3], double 
 
 /* ---- The link ---------------------------------------------------------------------------------------------- */
 
-enum omb_state {
+typedef enum omb_state {
     OMB_SEEKING = 0, /* no server has answered; force is zero */
     OMB_RUNNING = 1,
     OMB_FADING = 2   /* the server has not answered for more than 5 ms */
-};
+} omb_state;
 
 typedef struct omb_link {
     omb_socket socket;
@@ -612,7 +612,7 @@ static inline void omb_say(omb_link* link, const uint8_t message[OMB_MESSAGE_BYT
     if (send(link->socket, (const char*)message, OMB_MESSAGE_BYTES, 0) < 0) return;
 }
 
-static inline void omb_begin(omb_link* link, uint8_t message[OMB_MESSAGE_BYTES], enum omb_kind kind, uint64_t now_ns) {
+static inline void omb_begin(omb_link* link, uint8_t message[OMB_MESSAGE_BYTES], omb_kind kind, uint64_t now_ns) {
     omb_header header;
     header.kind = (uint16_t)kind;
     header.session = link->session;
@@ -659,7 +659,7 @@ static inline void omb_hear(omb_link* link, const uint8_t* message, size_t bytes
 }
 
 /* For tests with a clock of their own; else omb_exchange(). */
-static inline enum omb_state omb_exchange_at(omb_link* link, const omb_pose* pose, omb_force* force, uint64_t now_ns) {
+static inline omb_state omb_exchange_at(omb_link* link, const omb_pose* pose, omb_force* force, uint64_t now_ns) {
     uint8_t message[OMB_MESSAGE_BYTES + 1]; /* one more, so that what is too long is seen to be */
     double trust = 0.0, step_s;
     uint64_t silent_ns, age_ns;
@@ -716,7 +716,7 @@ static inline enum omb_state omb_exchange_at(omb_link* link, const omb_pose* pos
 
 /* Says where the arm is and takes what the server wants of it. Returns at once. `force` is what the arm is to give
  * now, whatever has come: zero where nothing has. */
-static inline enum omb_state omb_exchange(omb_link* link, const omb_pose* pose, omb_force* force) {
+static inline omb_state omb_exchange(omb_link* link, const omb_pose* pose, omb_force* force) {
     return omb_exchange_at(link, pose, force, omb_now_ns());
 }
 

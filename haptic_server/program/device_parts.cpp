@@ -50,7 +50,8 @@ omb_key read_key(const std::filesystem::path& path) {
     const auto bytes = static_cast<std::size_t>(file.gcount());
     if (bytes < 32 || bytes > most_bytes)
         throw std::runtime_error(fmt::format("{}: a key of the bridge has 32 to {} bytes, this has {}",
-                                             path.string(), most_bytes, bytes > most_bytes ? "more" : fmt::format("{}", bytes)));
+                                             path.string(), most_bytes,
+                                             bytes > most_bytes ? "more" : fmt::format("{}", bytes)));
     omb_key key;
     omb_set_key(&key, reinterpret_cast<const std::uint8_t*>(secret.data()), bytes);
     return key;
@@ -74,9 +75,9 @@ DeviceParts make_bridge_arm(const ServerOptions& options, Scene& scene, const st
     DeviceParts parts;
     if (!arm->await([&] { return stop.load(); })) return parts;
     const DeviceLimits limits = arm->limits();
-    out.write(fmt::format("arm {} has joined: {:.3g} N, {:.3g} N/mm, {:.3g} g; there and back {:.3g} ms\n", arm->name(),
-                          limits.max_force_n, limits.max_stiffness_n_per_mm, 1000.0 * limits.apparent_mass_kg,
-                          1000.0 * arm->round_trip_s()));
+    out.write(fmt::format("arm {} has joined: {:.3g} N, {:.3g} N/mm, {:.3g} g; there and back {:.3g} ms\n",
+                          arm->name(), limits.max_force_n, limits.max_stiffness_n_per_mm,
+                          1000.0 * limits.apparent_mass_kg, 1000.0 * arm->round_trip_s()));
     // A scene that does not say how the arm sits on the patient: the middle of its workspace is the start.
     if (scene.device == DeviceMapping{})
         scene.device.offset_mm = scene.start_pose.position_mm - arm->workspace_middle_mm();

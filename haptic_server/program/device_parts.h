@@ -4,7 +4,7 @@
 #include <atomic>
 #include <memory>
 
-#include "common/program/line_stream.h"
+#include "common/log/line_stream.h"
 #include "haptic_server/device/haptic_device.h"
 #include "haptic_server/device/hid/hid_transport.h"
 #include "haptic_server/device/simulated_device.h"

@@ -118,13 +118,15 @@ void declare(CLI::App& app, Typed& typed) {
                    fmt::format("Which haptic arm --device hid drives: {}, or a TOML file of your own ({})",
                                fmt::join(shipped_profile_names(), ", "), ServerOptions{}.device_profile))
         ->type_name("NAME|FILE.toml");
-    app.add_option("--bridge", typed.bridge,
-                   fmt::format("Where --device bridge meets the arm's process: unix:PATH or udp:ADDRESS:PORT ({})",
-                               to_text(ServerOptions{}.bridge)))
+    app.add_option(
+           "--bridge", typed.bridge,
+           fmt::format("Where --device bridge meets the arm's process: unix:PATH or udp:ADDRESS:PORT ({})",
+                       to_text(ServerOptions{}.bridge)))
         ->type_name("ADDRESS");
-    app.add_option("--bridge-key", typed.bridge_key,
-                   "With --device bridge: a secret of 32 bytes or more that the arm's side has, too; needed for one "
-                   "on another machine")
+    app.add_option(
+           "--bridge-key", typed.bridge_key,
+           "With --device bridge: a secret of 32 bytes or more that the arm's side has, too; needed for one "
+           "on another machine")
         ->type_name("FILE");
     app.add_flag("--list-devices", typed.lists_devices,
                  "Say which haptic devices are plugged in and whether they can be used, and end");
@@ -313,7 +315,8 @@ ServerOptions checked(const Typed& typed, const AccessOptions& access) {
     if (is_client) options.device = DeviceKind::client;
     const bool is_bridge = typed.device == "bridge";
     if (is_bridge) options.device = DeviceKind::bridge;
-    for (const auto& [option, text] : {std::pair("--bridge", &typed.bridge), std::pair("--bridge-key", &typed.bridge_key)})
+    for (const auto& [option, text] :
+         {std::pair("--bridge", &typed.bridge), std::pair("--bridge-key", &typed.bridge_key)})
         if (!is_bridge && !text->empty())
             throw std::invalid_argument(fmt::format("{}: goes with --device bridge", option));
     try {
@@ -323,7 +326,8 @@ ServerOptions checked(const Typed& typed, const AccessOptions& access) {
     }
     options.bridge_key = path_if_given(typed.bridge_key);
     if (!options.bridge_key && !is_local(options.bridge))
-        throw std::invalid_argument("--bridge: an arm on another machine needs --bridge-key, so that nobody else moves the tool");
+        throw std::invalid_argument(
+            "--bridge: an arm on another machine needs --bridge-key, so that nobody else moves the tool");
     if (typed.device == "spacemouse") options.device = DeviceKind::space_mouse;
     if (!typed.device_profile.empty()) options.device_profile = typed.device_profile;
     if (!typed.scene.empty()) options.scene = typed.scene;
