@@ -73,7 +73,14 @@ DeviceParts make_bridge_arm(const ServerOptions& options, Scene& scene, const st
     auto arm = std::make_unique<BridgeArm>(options.bridge, std::move(bridge));
     out.write(fmt::format("waiting for an arm at {}\n", to_text(arm->address())));
     DeviceParts parts;
-    if (!arm->await([&] { return stop.load(); })) return parts;
+    std::string said = arm->notice();
+    const auto gives_up = [&] {
+        const std::string notice = arm->notice();
+        if (notice != said && !notice.empty()) out.write(notice + "\n");
+        said = notice;
+        return stop.load();
+    };
+    if (!arm->await(gives_up)) return parts;
     const DeviceLimits limits = arm->limits();
     out.write(fmt::format("arm {} has joined: {:.3g} N, {:.3g} N/mm, {:.3g} g; there and back {:.3g} ms\n",
                           arm->name(), limits.max_force_n, limits.max_stiffness_n_per_mm,

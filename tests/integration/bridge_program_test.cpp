@@ -1,0 +1,161 @@
+// haptic_server and an arm in a process of its own, and what befalls either.
+#include <gmock/gmock.h>
+#include <signal.h>
+
+#include <chrono>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <regex>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "tests/support/child_process.h"
+#include "tests/support/temporary_folder.h"
+
+namespace osteomill::testing {
+namespace {
+
+using namespace std::chrono_literals;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+using Command = std::vector<std::string>;
+
+class BridgePrograms : public ::testing::Test {
+  protected:
+    std::string file(const std::string& name) const { return (folder_ / name).string(); }
+    std::string socket() const { return "unix:" + file("arm"); }
+    Command server(const std::string& seconds, const Command& more = {}) const {
+        Command command{HAPTIC_SERVER, "--device",     "bridge", "--scene", "cube",           "--listen",
+                        "none",        "--duration-s", seconds,  "--json",  file("run.json"), "--bridge"};
+        command.push_back(socket());
+        command.insert(command.end(), more.begin(), more.end());
+        return command;
+    }
+    Command arm(const std::string& seconds, const std::string& key = {}) const {
+        return {SIMULATED_ARM, socket(), key, seconds};
+    }
+    nlohmann::json measured() const {
+        std::ifstream in(file("run.json"));
+        return nlohmann::json::parse(in);
+    }
+    /// The number before `unit` in what an arm says at its end.
+    static double told(const std::string& text, const std::string& what) {
+        std::smatch match;
+        EXPECT_TRUE(std::regex_search(text, match, std::regex(what + " ([0-9.]+) N"))) << text;
+        return match.empty() ? 1e9 : std::stod(match[1]);
+    }
+    static int count(const std::string& text, const std::string& words) {
+        int found = 0;
+        for (std::size_t at = text.find(words); at != std::string::npos; at = text.find(words, at + 1))
+            ++found;
+        return found;
+    }
+
+    TemporaryFolder folder_;
+};
+
+TEST_F(BridgePrograms, AnArmMillsAndFeels) {
+    ChildProcess running(server("4"));
+    ASSERT_TRUE(running.line_after("waiting for an arm at unix:", 60s));
+    const Finished hand = run_program(arm("6"));
+    ASSERT_EQ(running.wait(60s), 0) << running.err();
+    EXPECT_THAT(running.out(), HasSubstr("arm simulated arm has joined: 3.3 N, 1.5 N/mm, 50 g"));
+    EXPECT_EQ(hand.status, 0) << hand.err;
+    EXPECT_GT(told(hand.out, "largest force"), 0.2);
+    EXPECT_LT(told(hand.out, "largest jump"), 0.3);
+    EXPECT_GT(measured().at("removed_mm3").at("total").get<double>(), 1.0);
+    EXPECT_EQ(measured().at("settings").at("device"), "bridge");
+}
+
+TEST_F(BridgePrograms, AnArmThatIsKilledTurnsAllOffAndItsSuccessorGoesOn) {
+    ChildProcess running(server("12"));
+    ASSERT_TRUE(running.line_after("waiting for an arm at", 60s));
+    {
+        ChildProcess killed(arm("100"));
+        ASSERT_TRUE(running.line_after("arm simulated arm has joined", 60s));
+        std::this_thread::sleep_for(3s);
+        killed.send_signal(SIGKILL);
+        killed.wait(10s);
+    }
+    std::this_thread::sleep_for(1s);
+    const Finished hand = run_program(arm("5"));
+    EXPECT_EQ(hand.status, 0) << hand.err;
+    ASSERT_EQ(running.wait(60s), 0) << running.err();
+    EXPECT_LT(told(hand.out, "largest jump"), 0.3);
+    EXPECT_GT(told(hand.out, "largest force"), 0.05) << "it feels again";
+    EXPECT_EQ(count(running.err(), "the haptic device does not answer: force off"), 2) << running.err();
+}
+
+TEST_F(BridgePrograms, AServerThatStandsStillTakesTheForceAwayWithoutAJump) {
+    ChildProcess running(server("8"));
+    ASSERT_TRUE(running.line_after("waiting for an arm at", 60s));
+    ChildProcess hand(arm("7"));
+    ASSERT_TRUE(running.line_after("arm simulated arm has joined", 60s));
+    std::this_thread::sleep_for(2s);
+    running.send_signal(SIGSTOP);
+    std::this_thread::sleep_for(1s);
+    running.send_signal(SIGCONT);
+    ASSERT_EQ(hand.wait(60s), 0) << hand.err();
+    ASSERT_EQ(running.wait(60s), 0) << running.err();
+    EXPECT_LT(told(hand.out(), "largest jump"), 0.3);
+}
+
+TEST_F(BridgePrograms, AnArmThatStandsStillTakesTheForceAwayAndComesBack) {
+    ChildProcess running(server("8"));
+    ASSERT_TRUE(running.line_after("waiting for an arm at", 60s));
+    ChildProcess hand(arm("7"));
+    ASSERT_TRUE(running.line_after("arm simulated arm has joined", 60s));
+    std::this_thread::sleep_for(2s);
+    hand.send_signal(SIGSTOP);
+    std::this_thread::sleep_for(1s);
+    hand.send_signal(SIGCONT);
+    ASSERT_EQ(hand.wait(60s), 0) << hand.err();
+    ASSERT_EQ(running.wait(60s), 0) << running.err();
+    EXPECT_LT(told(hand.out(), "largest jump"), 0.3);
+    EXPECT_GE(count(running.err(), "the haptic device does not answer: force off"), 1) << running.err();
+}
+
+TEST_F(BridgePrograms, WithAnotherKeyNobodyJoins) {
+    std::ofstream(file("key")) << std::string(40, 'k');
+    std::ofstream(file("other")) << std::string(40, 'o');
+    ChildProcess running(server("2", {"--bridge-key", file("key")}));
+    ASSERT_TRUE(running.line_after("waiting for an arm at", 60s));
+    const Finished stranger = run_program(arm("1", file("other")));
+    EXPECT_EQ(stranger.status, 1);
+    ASSERT_TRUE(running.line_after("no arm is heard; what comes has another key, version or session", 60s));
+    ChildProcess member(arm("4", file("key")));
+    ASSERT_EQ(running.wait(60s), 0) << running.err();
+    EXPECT_EQ(member.wait(60s), 0);
+}
+
+TEST_F(BridgePrograms, StopsOnASignalWhileItWaits) {
+    ChildProcess running(server("2"));
+    ASSERT_TRUE(running.line_after("waiting for an arm at", 60s));
+    running.send_signal(SIGINT);
+    EXPECT_EQ(running.wait(60s), 0) << running.err();
+    EXPECT_FALSE(std::filesystem::exists(folder_ / "arm"));
+}
+
+TEST_F(BridgePrograms, SaysInOneLineWhatIsWrong) {
+    for (const auto& [more, status, words] :
+         {std::tuple(Command{"--device", "bridge", "--bridge", "udp:0.0.0.0:7020"}, 2, "needs --bridge-key"),
+          std::tuple(Command{"--device", "bridge", "--bridge", "here"}, 2, "--bridge: 'here' is no address"),
+          std::tuple(Command{"--bridge", "unix:/tmp/a"}, 2, "--bridge: goes with --device bridge"),
+          std::tuple(Command{"--device", "bridge", "--clock", "virtual"}, 2, "--clock"),
+          std::tuple(Command{"--device", "bridge", "--bridge-key", "/nowhere"}, 1,
+                     "/nowhere: cannot be read"),
+          std::tuple(Command{"--device", "bridge", "--bridge", "unix:/nowhere/arm"}, 1,
+                     "no socket can be made")}) {
+        Command command{HAPTIC_SERVER, "--listen", "none"};
+        command.insert(command.end(), more.begin(), more.end());
+        const Finished run = run_program(command);
+        EXPECT_EQ(run.status, status) << words;
+        EXPECT_THAT(run.err, HasSubstr(words));
+        EXPECT_EQ(count(run.err, "\n"), 1) << run.err;
+    }
+}
+
+}  // namespace
+}  // namespace osteomill::testing
