@@ -6,6 +6,7 @@
 #include <glm/common.hpp>
 #include <limits>
 #include <stdexcept>
+#include <string>
 
 namespace osteomill {
 
@@ -67,6 +68,12 @@ void sort_out(std::vector<BrickIndex>& bricks) {
     bricks.erase(std::unique(bricks.begin(), bricks.end()), bricks.end());
 }
 
+void require_room(std::size_t bricks) {
+    if (bricks > DistanceField::most_bricks)
+        throw std::length_error("distance field: takes more than " +
+                                std::to_string(DistanceField::most_bricks) + " bricks");
+}
+
 /// Smallest box round the voxels of a brick, counted from its first.
 VoxelBounds bounds_of(const VoxelMask& voxels) {
     VoxelBounds box{glm::ivec3(brick_edge_voxels), glm::ivec3(-1)};
@@ -124,10 +131,12 @@ void DistanceField::find_bricks(const StructureMask& structure) {
                 }
         if (bricks_.size() > sorted + bricks_before_sorting) {
             sort_out(bricks_);
+            require_room(bricks_.size());
             sorted = bricks_.size();
         }
     }
     sort_out(bricks_);
+    require_room(bricks_.size());
     slot_of_brick_ = BrickTable(bricks_);
     squares_.resize(bricks_.size());
     for (SquareBrick& brick : squares_) brick.fill(far);

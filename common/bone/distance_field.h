@@ -24,10 +24,13 @@ class DistanceField {
     /// A reach of more than this many voxels is cut down to it: squares are kept in 16 bits.
     static constexpr double most_reach_voxels = 125.0;
 
+    /// Bricks of a table: 1 GiB.
+    static constexpr std::size_t most_bricks = std::size_t{1} << 17U;
+
     /// Of nothing: everything is further than reach.
     DistanceField() = default;
     /// Allocates. Throws std::invalid_argument for a reach that is no number above 0, or that spans more
-    /// bricks than a 32-bit index can number.
+    /// bricks than a 32-bit index can number, and std::length_error for a table of more than most_bricks.
     DistanceField(const StructureMask& structure, double reach_mm);
 
     /// Edge of a voxel.

@@ -13,6 +13,8 @@ namespace {
 
 constexpr double step_per_diameter = 0.1;
 constexpr double longest_step_mm = 0.25;
+/// Along an outline; a hundred times thinner than long is no burr.
+constexpr double most_steps = 1000.0;
 
 }  // namespace
 
@@ -25,7 +27,7 @@ BurrClearance::BurrClearance(const Burr& burr) : largest_radius_mm_(burr.radius_
     }
     const BurrProfile profile(burr.head, burr.diameter_mm);
     const double step_mm = std::min(longest_step_mm, step_per_diameter * burr.diameter_mm);
-    const int steps = static_cast<int>(std::ceil(profile.outline_length() / step_mm));
+    const int steps = static_cast<int>(std::min(most_steps, std::ceil(profile.outline_length() / step_mm)));
     const auto add = [&](double radius_mm, double height_mm) {
         const double ball_radius_mm = std::max(0.0, -profile.nearest(radius_mm, height_mm).distance);
         const double apart_mm = std::max(step_mm, ball_radius_mm);

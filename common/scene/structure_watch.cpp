@@ -5,9 +5,26 @@
 #include <glm/geometric.hpp>
 #include <glm/vector_relational.hpp>
 #include <limits>
+#include <stdexcept>
+#include <string>
 #include <utility>
 
 namespace osteomill {
+
+namespace {
+
+DistanceField field_of(const StructureMask& mask, double reach_mm, const std::string& name) {
+    try {
+        return {mask, reach_mm};
+    } catch (const std::length_error&) {
+        constexpr std::size_t mib = DistanceField::most_bricks * brick_voxel_count * 2 >> 20U;
+        throw std::length_error(
+            "tissue \"" + name + "\": the table of distances to it would take more than " +
+            std::to_string(mib) + " MiB; protect less of it, import a smaller region or a coarser bone");
+    }
+}
+
+}  // namespace
 
 StructureWatch::StructureWatch(std::vector<Structure> structures, const std::vector<Tissue>& tissues,
                                const std::vector<Burr>& burrs) {
@@ -28,7 +45,8 @@ StructureWatch::StructureWatch(std::vector<Structure> structures, const std::vec
     }
     for (Structure& structure : structures) {
         const double watched = watched_mm(tissues[structure.tissue]);
-        DistanceField field(structure.mask, watched + largest_radius_mm);
+        DistanceField field =
+            field_of(structure.mask, watched + largest_radius_mm, tissues[structure.tissue].name);
         watched_.push_back({.mask = std::move(structure.mask),
                             .field = std::move(field),
                             .watched_mm = watched,
@@ -60,6 +78,7 @@ void StructureWatch::update(const ToolState& tool) {
     const double dt_s = last_s_ ? std::max(0.0, tool.time_s - *last_s_) : 0.0;
     last_s_ = tool.time_s;
     distances_.clear();
+    if (tool.time_s <= 0.0) return;
     for (Watched& one : watched_) {
         update(one, tool, dt_s);
         const StructureDistance& now = one.account.last;

@@ -33,14 +33,16 @@ class StructureWatch {
   public:
     /// Of nothing.
     StructureWatch() = default;
-    /// `structures`: of one bone, by the index of their tissue.
+    /// `structures`: of one bone, by the index of their tissue. Throws std::length_error, in one line, for one
+    /// whose distance field would be too large.
     StructureWatch(std::vector<Structure> structures, const std::vector<Tissue>& tissues,
                    const std::vector<Burr>& burrs);
 
     bool empty() const { return watched_.empty(); }
     /// A change of the bone, before it is applied: from the fractions `before` to `after`.
     void note(const BrickChange& change, BrickFractions before, BrickFractions after);
-    /// The next state of the session, when all changes before it have been noted.
+    /// The next state of the session, when all changes before it have been noted. One of time 0 counts for
+    /// nothing: it is where the scene begins, the device has not been read yet.
     void update(const ToolState& tool);
 
     /// Of each structure that is near or was touched, as of the last state.

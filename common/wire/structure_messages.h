@@ -16,9 +16,9 @@ namespace osteomill {
 
 /// In one message; even where nothing compresses it fits a frame.
 inline constexpr std::size_t most_bricks_of_structure_piece = 128;
-/// Of all structures together: 256 MiB of masks, 2 dm^3 at 0.1 mm. A mask's own size on the wire bounds
+/// Of all structures together: 128 MiB of masks, 1 dm^3 at 0.1 mm. A mask's own size on the wire bounds
 /// nothing.
-inline constexpr std::size_t most_structure_bricks = std::size_t{1} << 19U;
+inline constexpr std::size_t most_structure_bricks = std::size_t{1} << 18U;
 
 /// All messages of these structures. Throws std::invalid_argument for more bricks than are sent.
 std::vector<v1::StructureBricks> structure_pieces(std::span<const Structure> structures);

@@ -12,14 +12,17 @@ bool is_to_be_warned_of(const StructureDistance& now, const Tissue& tissue) {
     return now.touches || (now.distance_mm && *now.distance_mm < tissue.warn_mm);
 }
 
-std::string touches_in_words(const StructureDistance& now, const Tissue& tissue) {
-    std::string words =
-        fmt::format("touched: {}, {} at {:.1f} s, for {:.1f} s", tissue.name,
-                    now.touches_so_far == 1 ? "once" : fmt::format("{} times, first", now.touches_so_far),
-                    now.first_touch_s, now.touched_s);
+/// Two lines, so that none is too long for a panel.
+void add_touches(PanelText& text, const StructureDistance& now, const Tissue& tissue) {
+    const bool is_one = now.touches_so_far == 1;
+    text.push_back(
+        {{Tone::warning, is_one ? fmt::format("touched: {}", tissue.name)
+                                : fmt::format("touched: {}, {} times", tissue.name, now.touches_so_far)}});
+    std::string when = fmt::format("{} {:.1f} s, for {:.1f} s{}", is_one ? "at" : "first at",
+                                   now.first_touch_s, now.touched_s, is_one ? "" : " in all");
     const double mm3 = std::max(now.removed_mm3, now.entered_mm3);
-    if (mm3 > 0.0) words += fmt::format(", {:.2f} mm\u00b3", mm3);
-    return words;
+    if (mm3 > 0.0) when += fmt::format(", {:.2f} mm\u00b3", mm3);
+    text.push_back({{Tone::plain, std::move(when)}});
 }
 
 }  // namespace
@@ -39,8 +42,7 @@ PanelText structure_text(const OverlayContent& content) {
         text.push_back({{Tone::dim, "no protected structure near"}});
     }
     for (const StructureDistance& now : content.link.distances)
-        if (now.touches_so_far > 0)
-            text.push_back({{Tone::warning, touches_in_words(now, tissues[now.tissue])}});
+        if (now.touches_so_far > 0) add_touches(text, now, tissues[now.tissue]);
     return text;
 }
 

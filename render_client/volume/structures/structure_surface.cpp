@@ -45,10 +45,23 @@ class SurfaceNet {
     /// Voxels of `edge` by `edge` by `edge`, counted from the structure's first.
     SurfaceNet(const StructureMask& structure, const VoxelBounds& bounds, int edge) {
         const glm::ivec3 size = size_in_bricks(structure.grid());
+        std::vector<std::uint32_t> counts;  // of one brick's, so that each is looked up once
         for (const StructureBrick& brick : structure.bricks()) {
             const glm::ivec3 first = brick_edge_voxels * brick_position(size, brick.brick) - bounds.first;
-            brick.voxels.for_each(
-                [&](std::size_t offset) { ++filled_[key_of((first + voxel_in_brick(offset)) / edge)]; });
+            const glm::ivec3 base = glm::max(first, 0) / edge;
+            const int across = brick_edge_voxels / edge + 2;
+            counts.assign(static_cast<std::size_t>(across * across * across), 0);
+            brick.voxels.for_each([&](std::size_t offset) {
+                const glm::ivec3 at = (first + voxel_in_brick(offset)) / edge - base;
+                ++counts[static_cast<std::size_t>(at.x + across * (at.y + across * at.z))];
+            });
+            glm::ivec3 at;
+            std::size_t next = 0;
+            for (at.z = 0; at.z < across; ++at.z)
+                for (at.y = 0; at.y < across; ++at.y)
+                    for (at.x = 0; at.x < across; ++at.x)
+                        if (const std::uint32_t count = counts[next++]; count > 0)
+                            filled_[key_of(base + at)] += count;
         }
         const double least = least_part * edge * edge * edge;
         std::erase_if(filled_, [&](const auto& entry) { return entry.second < least; });

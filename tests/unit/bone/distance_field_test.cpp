@@ -176,5 +176,13 @@ TEST(DistanceField, CostsMemoryNearTheStructureOnly) {
     EXPECT_LT(field.memory_bytes(), 20'000'000U);
 }
 
+TEST(DistanceField, OfAStructureThatIsTooLargeIsRefused) {
+    const Grid huge{.size_voxels = {4096, 4096, 4096}, .spacing_mm = 0.1, .origin_mm = {}};
+    std::vector<StructureBrick> bricks;
+    for (BrickIndex brick = 0; brick < 256 * 256 * 256; brick += 97)
+        bricks.push_back({brick, VoxelMask().set(7)});
+    EXPECT_THROW(DistanceField(StructureMask(huge, std::move(bricks)), 1.0), std::length_error);
+}
+
 }  // namespace
 }  // namespace osteomill

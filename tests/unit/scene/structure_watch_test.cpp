@@ -108,7 +108,7 @@ TEST_F(StructureWatchTest, TakesTheTrueHeadOfAnotherBurr) {
     StructureWatch watch({{0, testing::ball_mask(grid_, {0.0, 0.0, 0.0}, nerve_radius_mm)}},
                          {{.label = 2, .name = "nerve", .is_protected = true}}, {cylinder});
     // Its side passes the nerve 4 mm above the burr's centre, where its ball is far away.
-    ToolState tool{.burr_position_mm = {nerve_radius_mm + 1.0 + 0.7, 0.0, -4.0}};
+    ToolState tool{.time_s = 0.1, .burr_position_mm = {nerve_radius_mm + 1.0 + 0.7, 0.0, -4.0}};
     watch.update(tool);
     ASSERT_EQ(watch.distances().size(), 1u);
     EXPECT_NEAR(*watch.distances()[0].distance_mm, 0.7, 0.08);
@@ -134,6 +134,13 @@ TEST_F(StructureWatchTest, CountsBoneOfItThatIsMilledAndGivenBack) {
     EXPECT_EQ(restored->touches_so_far, 1u);
     EXPECT_NEAR(restored->removed_mm3, 0.0, 1e-12);
     EXPECT_NEAR(watch_.accounts().front().given_back_mm3, voxel_mm3, 1e-12);
+}
+
+TEST_F(StructureWatchTest, TakesNoNoticeOfWhereTheSceneBegins) {
+    watch_.update({.time_s = 0.0, .burr_position_mm = {0.0, 0.0, 0.0}});
+    EXPECT_TRUE(watch_.distances().empty());
+    EXPECT_EQ(at({0.0, 0.0, 9.0}), nullptr);
+    EXPECT_FALSE(watch_.accounts().front().nearest_mm);
 }
 
 TEST(StructureWatchOfNothing, CostsNothing) {

@@ -45,14 +45,14 @@ TEST_F(StructureTexts, KeepATouchOnTheScreen) {
     content_.link.distances = {
         {.tissue = 1, .distance_mm = -0.1, .touches = true, .touches_so_far = 1, .first_touch_s = 3.14}};
     EXPECT_THAT(lines_of(structure_text(content_)),
-                ElementsAre("facial nerve: touching", "touched: facial nerve, once at 3.1 s, for 0.0 s"));
+                ElementsAre("facial nerve: touching", "touched: facial nerve", "at 3.1 s, for 0.0 s"));
     EXPECT_THAT(lines_of(structure_warnings(content_)),
                 ElementsAre("PROTECTED: the burr touches facial nerve"));
     content_.link.distances = {
         {.tissue = 1, .touches_so_far = 2, .first_touch_s = 3.14, .touched_s = 1.5, .entered_mm3 = 0.25}};
     EXPECT_THAT(lines_of(structure_text(content_)),
-                ElementsAre("no protected structure near",
-                            "touched: facial nerve, 2 times, first at 3.1 s, for 1.5 s, 0.25 mm\u00b3"));
+                ElementsAre("no protected structure near", "touched: facial nerve, 2 times",
+                            "first at 3.1 s, for 1.5 s in all, 0.25 mm\u00b3"));
     EXPECT_THAT(structure_warnings(content_), IsEmpty());
 }
 

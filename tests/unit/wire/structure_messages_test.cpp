@@ -130,7 +130,7 @@ TEST(StructureBricks, AreBoundedInAll) {
         for (int k = 0; k < 128; ++k) piece.add_brick(brick++);
         refused = refusal(assembler, piece);
     }
-    EXPECT_EQ(refused, "structure refused: there are more than 524288 bricks");
+    EXPECT_EQ(refused, "structure refused: there are more than 262144 bricks");
 }
 
 TEST(StructureDistances, ComeAsTheyWereSent) {
