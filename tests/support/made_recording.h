@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <iterator>
 #include <optional>
 #include <string>
@@ -13,6 +14,7 @@
 #include "common/files/whole_file.h"
 #include "common/recording/packet_reader.h"
 #include "common/wire/scene_messages.h"
+#include "common/wire/structure_messages.h"
 #include "haptic_server/streaming/session_recorder.h"
 #include "tests/support/random_carving.h"
 #include "tests/support/replica_sink.h"
@@ -25,6 +27,9 @@ struct MadeRecordingOptions {
     std::uint32_t seed = 4;
     bool ends = true;  ///< with a goodbye
     std::uint32_t protocol_major = osteomill::protocol_major;
+    std::vector<Structure> structures{};
+    /// What is told of them with state i; none: nothing.
+    std::function<std::vector<StructureDistance>(int i)> distances{};
 };
 
 struct MadeRecording {
@@ -56,13 +61,15 @@ inline MadeRecording make_recording(const std::filesystem::path& file,
     SessionInfo session = recorded_session_info();
     session.protocol_major = options.protocol_major;
     const Stamp began{std::chrono::seconds(1'700'000'000) + std::chrono::nanoseconds(7)};
-    std::optional<SessionRecorder> recorder(std::in_place, file, began, to_message(session), mirror, packer);
+    std::optional<SessionRecorder> recorder(std::in_place, file, began, to_message(session), mirror, packer,
+                                            structure_pieces(options.structures));
     ToolState tool;
     for (int i = 0; i < options.states; ++i) {
         if (i > 0)
             for (int run = 0; run < 10; ++run) carve_somewhere(made.after, random, to_mirror);
         recorder->note(mirror.take_changes());
         tool.time_s = MadeRecording::period_s * i;
+        if (options.distances) recorder->note(options.distances(i));
         tool.spindle_on = i % 2 == 1;
         tool.burr = 1;
         recorder->record(tool, i % 20 == 0, true);

@@ -7,6 +7,7 @@
 #include <functional>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <glm/vec4.hpp>
 #include <limits>
 #include <random>
 #include <stdexcept>

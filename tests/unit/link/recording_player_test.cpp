@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 
+#include "tests/support/ball_structure.h"
 #include "tests/support/made_recording.h"
 #include "tests/support/temporary_folder.h"
 
@@ -161,6 +162,33 @@ TEST_F(RecordingPlayerTest, KeepsKeyFramesNoLargerThanWhatWasMilled) {
     // 7 of them, of at most all bricks; these hold random numbers, which do not compress.
     EXPECT_GT(player.key_frame_bytes(), 1000U);
     EXPECT_LT(player.key_frame_bytes(), 7 * player.bone()->stored_bricks() * 4200);
+}
+
+TEST_F(RecordingPlayerTest, BringsProtectedStructuresWithTheBoneAndTheirDistancesAtAnyTime) {
+    const Structure nerve{0, testing::ball_mask({.size_voxels = {64, 48, 32}}, {2.0, 2.0, 1.5}, 1.0)};
+    testing::make_recording(folder_ / "b.pcap",
+                            {.states = 400, .structures = {nerve}, .distances = [](int i) {
+                                 StructureDistance at{.tissue = 0, .distance_mm = 0.01 * i};
+                                 if (i > 300) at.distance_mm.reset();
+                                 return std::vector{at};
+                             }});
+    RecordingPlayer player(folder_ / "b.pcap");
+    Viewer viewer(player);
+    const LinkUpdate& first = viewer.look();
+    EXPECT_TRUE(first.bone_replaced);
+    ASSERT_EQ(first.structures.size(), 1u);
+    EXPECT_TRUE(first.structures[0].mask == nerve.mask);
+    const auto distance_at = [&](double time_s) {
+        player.seek(time_s);
+        viewer.arrive();
+        EXPECT_TRUE(viewer.last().structures.empty()) << "once is enough";
+        return viewer.last().distances.at(0).distance_mm;
+    };
+    player.pause();
+    EXPECT_NEAR(*distance_at(10.0), 2.0, 1e-9);
+    EXPECT_FALSE(distance_at(17.0));
+    EXPECT_NEAR(*distance_at(3.0), 0.6, 1e-9) << "wound back";
+    EXPECT_NEAR(*distance_at(0.0), 0.0, 1e-9) << "to the beginning";
 }
 
 }  // namespace

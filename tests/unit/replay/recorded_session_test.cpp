@@ -101,5 +101,19 @@ TEST_F(RecordedSessionTest, EndsWithItsSessionOrWithWhatCannotBeRead) {
     EXPECT_NE(second.error().find("a.pcap, packet "), std::string::npos) << second.error();
 }
 
+TEST_F(RecordedSessionTest, TellsTheDistancesThatWereRecorded) {
+    testing::make_recording(folder_ / "b.pcap", {.distances = [](int i) {
+                                return std::vector{StructureDistance{.tissue = 0, .distance_mm = 0.01 * i}};
+                            }});
+    Playhead playhead(folder_ / "b.pcap");
+    BoneReplica mirror(playhead.bone());
+    RecordedSession session(playhead, 1.0, clock());
+    session.update(mirror, 1);
+    pass(4.0);
+    session.update(mirror, 1);
+    ASSERT_EQ(session.distances().size(), 1u);
+    EXPECT_NEAR(*session.distances()[0].distance_mm, 0.8, 1e-9);
+}
+
 }  // namespace
 }  // namespace osteomill

@@ -8,6 +8,7 @@
 #include "common/wire/scene_messages.h"
 #include "common/wire/sealed_frame.h"
 #include "common/wire/session_receiver.h"
+#include "haptic_server/streaming/client_message.h"
 #include "tests/support/ball_structure.h"
 #include "tests/support/block.h"
 #include "tests/support/random_carving.h"
@@ -400,6 +401,28 @@ TEST_F(ClientFeedTest, TellsWhereProtectedStructuresAreBeforeTheFirstState) {
     feed_->note(std::span(&nearer, 1));
     feed_->request_state({.time_s = 0.06}, false);
     EXPECT_TRUE(feed_->next());
+}
+
+TEST_F(ClientFeedTest, SparesAnOlderClientWhatItWouldNotUnderstand) {
+    const std::vector<v1::StructureBricks> pieces = structure_pieces(
+        std::vector<Structure>{{0, testing::ball_mask(mirror_->bone().grid(), {3.0, 3.0, 3.0}, 2.0)}});
+    for (const std::uint32_t minor : {9u, 10u, 11u}) {
+        ClientFeed feed({}, *mirror_, packer_);
+        AnsweredStates answers;
+        ChangePacker change_packer;
+        v1::ClientFrame hello;
+        hello.mutable_hello()->set_protocol_minor(minor);
+        (void)take_client_message(
+            hello, {.feed = feed, .answers = answers, .packer = change_packer, .structures = &pieces}, {});
+        std::size_t structures = 0;
+        FrameDecoder decoder;
+        while (const auto bytes = feed.next()) {
+            decoder.append({reinterpret_cast<const std::uint8_t*>(bytes->data()), bytes->size()});
+            const auto opened = open_frame(*decoder.next(), Seal::required);
+            structures += std::get<v1::ServerFrame>(opened).has_structure_bricks() ? 1 : 0;
+        }
+        EXPECT_EQ(structures, minor < 10 ? 0u : pieces.size()) << minor;
+    }
 }
 
 }  // namespace
