@@ -82,9 +82,10 @@ DeviceParts make_bridge_arm(const ServerOptions& options, Scene& scene, const st
     };
     if (!arm->await(gives_up)) return parts;
     const DeviceLimits limits = arm->limits();
-    out.write(fmt::format("arm {} has joined: {:.3g} N, {:.3g} N/mm, {:.3g} g; there and back {:.3g} ms\n",
-                          arm->name(), limits.max_force_n, limits.max_stiffness_n_per_mm,
-                          1000.0 * limits.apparent_mass_kg, 1000.0 * arm->round_trip_s()));
+    out.write(fmt::format(
+        "arm {} has joined: {:.3g} N, {:.3g} g; {:.2f} ms there and back, with which {:.3g} N/mm hold\n",
+        arm->name(), limits.max_force_n, 1000.0 * limits.apparent_mass_kg, 1000.0 * arm->round_trip_s(),
+        limits.max_stiffness_n_per_mm));
     // A scene that does not say how the arm sits on the patient: the middle of its workspace is the start.
     if (scene.device == DeviceMapping{})
         scene.device.offset_mm = scene.start_pose.position_mm - arm->workspace_middle_mm();

@@ -1,9 +1,12 @@
 #include "haptic_server/device/bridge/bridge_arm.h"
 
+#include <algorithm>
 #include <chrono>
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
 #include <utility>
+
+#include "haptic_server/device/bridge/delay_stiffness.h"
 
 namespace osteomill {
 
@@ -11,6 +14,9 @@ namespace {
 
 constexpr int longest_wait_ms = 5;
 constexpr auto nap = std::chrono::milliseconds(5);
+constexpr std::uint64_t ns_per_ms = 1'000'000;
+/// A pose that no force of the loop has answered by then is answered with the one before.
+constexpr std::uint64_t longest_answer_ns = 3 * ns_per_ms;
 
 glm::dvec3 vector_of(const double (&values)[3]) {
     return {values[0], values[1], values[2]};
@@ -45,7 +51,7 @@ glm::dvec3 BridgeArm::workspace_middle_mm() const {
 
 DeviceLimits BridgeArm::limits() const {
     return {.max_force_n = arm_.max_force_n,
-            .max_stiffness_n_per_mm = arm_.max_stiffness_n_per_mm,
+            .max_stiffness_n_per_mm = stiffness_share(round_trip_s()) * arm_.max_stiffness_n_per_mm,
             .apparent_mass_kg = arm_.apparent_mass_kg,
             .position_resolution_mm = arm_.position_step_mm};
 }
@@ -65,6 +71,7 @@ DeviceState BridgeArm::read(double now_s) noexcept {
 void BridgeArm::write(const glm::dvec3& force_n) noexcept {
     forces_.back() = force_n;
     forces_.publish();
+    socket_.wake();
 }
 
 void BridgeArm::stop() noexcept {
@@ -72,14 +79,15 @@ void BridgeArm::stop() noexcept {
     if (thread_.joinable()) thread_.join();
 }
 
-BridgeForce BridgeArm::wanted(std::uint64_t now_ns) {
-    if (forces_.refresh()) force_ns_ = now_ns;
-    const bool is_fresh =
-        force_ns_ != 0 && now_ns - force_ns_ < std::uint64_t{1'000'000} * longest_force_age_ms;
-    if (!is_fresh) return {};
+BridgeForce BridgeArm::wanted(std::uint64_t now_ns) const {
+    if (!is_driven(now_ns)) return {};
     const glm::dvec3& force_n = forces_.front();
     // Bone pushes at the burr, the hand holds the handle.
     return {.force_n = force_n, .torque_n_mm = glm::cross(tool_from_handle_mm_, force_n), .is_off = false};
+}
+
+bool BridgeArm::is_driven(std::uint64_t now_ns) const {
+    return force_ns_ != 0 && now_ns - force_ns_ < ns_per_ms * longest_force_age_ms;
 }
 
 void BridgeArm::take_pose(std::uint64_t now_ns) {
@@ -113,26 +121,44 @@ void BridgeArm::take_pose(std::uint64_t now_ns) {
     readings_.publish();
 }
 
+void BridgeArm::tell_who_waits() {
+    if (has_joined_.load(std::memory_order_relaxed)) return;
+    const std::optional<double> round_trip_s = host_.round_trip_p99_s();
+    if (!round_trip_s) return;
+    if (*round_trip_s > longest_delay_s) {
+        notice_.store("the arm is too far away: 4 ms there and back is the most that force bears",
+                      std::memory_order_relaxed);
+        return;
+    }
+    arm_ = *host_.arm();
+    round_trip_s_.store(*round_trip_s);
+    has_joined_.store(true, std::memory_order_release);
+}
+
 void BridgeArm::run() {
     std::array<std::uint8_t, OMB_MESSAGE_BYTES + 1> buffer{};  // one more, so that what is too long is seen
     PeerAddress from;
     BridgeCounts before;
+    std::uint64_t asked_ns = 0;
     while (!stops_.load(std::memory_order_relaxed)) {
         const std::optional<std::size_t> bytes = socket_.receive(buffer, from, longest_wait_ms);
         const std::uint64_t now_ns = omb_now_ns();
+        const bool has_force = forces_.refresh();
+        if (has_force) force_ns_ = now_ns;
         if (bytes) {
-            const auto answer = host_.take(std::span(buffer).first(*bytes), from, now_ns, wanted(now_ns));
-            if (answer) socket_.send(*answer, from);
-            if (host_.has_fresh_pose()) take_pose(now_ns);
-            if (!has_joined_.load(std::memory_order_relaxed) && host_.has_fresh_pose()) {
-                if (const std::optional<double> round_trip_s = host_.round_trip_p99_s()) {
-                    arm_ = *host_.arm();
-                    round_trip_s_.store(*round_trip_s);
-                    has_joined_.store(true, std::memory_order_release);
-                }
+            if (host_.awaits_answer() == false) asked_ns = now_ns;
+            if (const auto welcome = host_.take(std::span(buffer).first(*bytes), from, now_ns))
+                socket_.send(*welcome, from);
+            if (host_.has_fresh_pose()) {
+                take_pose(now_ns);
+                tell_who_waits();
             }
         }
-        if (host_.has_fresh_pose() && bytes) continue;
+        // The loop's next force knows of this pose, so that is what answers it; but it need not run.
+        const bool is_overdue = !is_driven(now_ns) || now_ns - asked_ns > longest_answer_ns;
+        if (host_.awaits_answer() && (has_force || is_overdue))
+            socket_.send(host_.answer(now_ns, wanted(now_ns)), host_.peer());
+        if (bytes && host_.has_fresh_pose()) continue;
         const BridgeCounts& now = host_.counts();
         if (*host_.refusal() != 0)
             notice_.store(host_.refusal(), std::memory_order_relaxed);

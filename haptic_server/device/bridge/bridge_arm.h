@@ -1,6 +1,6 @@
-// An arm that lives in a process of its own, as the loops see it. A thread answers each of the arm's messages
-// at once with the newest force (bridge_host.h says what is said); the haptic loop takes the newest pose and
-// leaves the newest force, and waits for neither.
+// An arm that lives in a process of its own, as the loops see it. A thread talks to it (bridge_host.h says
+// what is said); the haptic loop takes the newest pose and leaves a force, and waits for neither. That force
+// answers the arm at once, so that it comes a tick late and no later.
 #pragma once
 
 #include <atomic>
@@ -51,6 +51,7 @@ class BridgeArm final : public HapticDevice {
     glm::dvec3 workspace_middle_mm() const;
 
     std::string name() const override;
+    /// The arm's own; of its stiffness what holds with the delay that was measured.
     DeviceLimits limits() const override;
     /// An arm has joined already: await() has been called.
     void start() override {}
@@ -74,7 +75,9 @@ class BridgeArm final : public HapticDevice {
 
     void run();
     void take_pose(std::uint64_t now_ns);
-    BridgeForce wanted(std::uint64_t now_ns);
+    bool is_driven(std::uint64_t now_ns) const;
+    BridgeForce wanted(std::uint64_t now_ns) const;
+    void tell_who_waits();
 
     // Of the thread.
     DatagramSocket socket_;

@@ -121,48 +121,53 @@ std::optional<double> BridgeHost::round_trip_p99_s() const {
     return 1e-9 * static_cast<double>(sorted[rank]);
 }
 
-std::optional<BridgeMessage> BridgeHost::take_pose(const omb_header& header, const std::uint8_t* message,
-                                                   std::uint64_t now_ns, const BridgeForce& wanted) {
+void BridgeHost::take_pose(const omb_header& header, const std::uint8_t* message, std::uint64_t now_ns) {
     omb_pose pose;
     omb_get_pose(message, &pose);
     if (header.sequence <= heard_) {
         ++counts_.out_of_order;
-        return std::nullopt;
+        return;
     }
     if (!is_possible(pose)) {
         ++counts_.impossible;
-        return std::nullopt;
+        return;
     }
     counts_.lost += heard_ == 0 ? 0 : header.sequence - heard_ - 1;
     heard_ = header.sequence;
     heard_ns_ = now_ns;
+    asked_clock_ns_ = header.clock_ns;
+    awaits_answer_ = true;
     // What we sent, and how long it lay there, is all counted by one clock each: no clocks need agree.
     const std::uint64_t round_trip_ns = now_ns - pose.echo_clock_ns - pose.kept_ns;
-    if (round_trip_ns > latest_round_trip_ns) {
+    is_late_ = round_trip_ns > latest_round_trip_ns;
+    if (is_late_) {
         ++counts_.late;
-    } else {
-        ++counts_.poses;
-        measure(round_trip_ns);
-        pose_ = pose;
-        has_fresh_pose_ = true;
+        return;
     }
+    ++counts_.poses;
+    measure(round_trip_ns);
+    pose_ = pose;
+    has_fresh_pose_ = true;
+}
+
+BridgeMessage BridgeHost::answer(std::uint64_t now_ns, const BridgeForce& wanted) {
+    awaits_answer_ = false;
     omb_force force{};
-    if (has_fresh_pose_ && !wanted.is_off) {
+    force.is_off = wanted.is_off || is_late_ ? 1 : 0;
+    if (force.is_off == 0) {
         store(wanted.force_n, force.force_n);
         store(wanted.torque_n_mm, force.torque_n_mm);
-    } else {
-        force.is_off = 1;
     }
-    force.echo_sequence = header.sequence;
-    force.echo_clock_ns = header.clock_ns;
-    BridgeMessage answer = begun(OMB_FORCE, session_, now_ns);
-    omb_put_force(answer.data(), &force);
-    omb_seal(answer.data(), &key_);
-    return answer;
+    force.echo_sequence = heard_;
+    force.echo_clock_ns = asked_clock_ns_;
+    BridgeMessage message = begun(OMB_FORCE, session_, now_ns);
+    omb_put_force(message.data(), &force);
+    omb_seal(message.data(), &key_);
+    return message;
 }
 
 std::optional<BridgeMessage> BridgeHost::take(std::span<const std::uint8_t> datagram, const PeerAddress& from,
-                                              std::uint64_t now_ns, const BridgeForce& wanted) {
+                                              std::uint64_t now_ns) {
     has_fresh_pose_ = false;
     omb_header header;
     if (omb_get_header(datagram.data(), datagram.size(), &key_, &header) == 0) {
@@ -177,6 +182,7 @@ std::optional<BridgeMessage> BridgeHost::take(std::span<const std::uint8_t> data
         peer_ = from;
         arm_ = candidate_.arm;
         heard_ = 0;
+        awaits_answer_ = false;
         refusal_ = "";
         round_trips_ns_.clear();
         next_round_trip_ = 0;
@@ -186,12 +192,14 @@ std::optional<BridgeMessage> BridgeHost::take(std::span<const std::uint8_t> data
         ++counts_.refused;
         return std::nullopt;
     }
-    if (header.kind == OMB_POSE) return take_pose(header, datagram.data(), now_ns, wanted);
-    if (header.kind == OMB_GOODBYE && header.sequence > heard_) {
+    if (header.kind == OMB_POSE) {
+        take_pose(header, datagram.data(), now_ns);
+    } else if (header.kind == OMB_GOODBYE && header.sequence > heard_) {
         session_ = 0;
-        return std::nullopt;
+        awaits_answer_ = false;
+    } else {
+        ++counts_.refused;
     }
-    ++counts_.refused;
     return std::nullopt;
 }
 

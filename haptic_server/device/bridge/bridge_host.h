@@ -55,10 +55,17 @@ class BridgeHost {
     /// `random` gives numbers that nobody can guess.
     BridgeHost(const omb_key& key, std::function<std::uint64_t()> random);
 
-    /// What to send back to `from`; nullopt: nothing. Takes what is no message, too. Does not throw but for
-    /// memory.
+    /// What to send back to `from` at once; nullopt: nothing. Takes what is no message, too. Does not throw
+    /// but for memory.
     std::optional<BridgeMessage> take(std::span<const std::uint8_t> datagram, const PeerAddress& from,
-                                      std::uint64_t now_ns, const BridgeForce& wanted);
+                                      std::uint64_t now_ns);
+
+    /// Whether the arm's newest pose has not been answered.
+    bool awaits_answer() const { return awaits_answer_; }
+    /// Answers it: to be sent to peer().
+    BridgeMessage answer(std::uint64_t now_ns, const BridgeForce& wanted);
+    /// The arm that is served.
+    const PeerAddress& peer() const { return peer_; }
 
     /// Whether the last take() was of a pose to act on.
     bool has_fresh_pose() const { return has_fresh_pose_; }
@@ -88,8 +95,7 @@ class BridgeHost {
     BridgeMessage begun(omb_kind kind, std::uint64_t session, std::uint64_t now_ns);
     std::optional<BridgeMessage> take_hello(const std::uint8_t* message, const PeerAddress& from,
                                             std::uint64_t now_ns);
-    std::optional<BridgeMessage> take_pose(const omb_header& header, const std::uint8_t* message,
-                                           std::uint64_t now_ns, const BridgeForce& wanted);
+    void take_pose(const omb_header& header, const std::uint8_t* message, std::uint64_t now_ns);
     void measure(std::uint64_t round_trip_ns);
 
     omb_key key_;
@@ -103,6 +109,9 @@ class BridgeHost {
     std::uint64_t heard_ns_ = 0;
     omb_pose pose_{};
     bool has_fresh_pose_ = false;
+    bool awaits_answer_ = false;
+    bool is_late_ = false;              // the pose that awaits an answer
+    std::uint64_t asked_clock_ns_ = 0;  // as it stood in it
     BridgeCounts counts_;
     std::vector<std::uint64_t> round_trips_ns_;
     std::size_t next_round_trip_ = 0;

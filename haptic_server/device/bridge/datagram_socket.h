@@ -25,10 +25,14 @@ class DatagramSocket {
     /// The port, where the system chose it.
     const BridgeAddress& address() const { return where_; }
 
-    /// Waits for a datagram, `longest_wait_ms` at most. Its length, or the buffer's if it is longer; nullopt:
-    /// none came.
+    /// Waits for a datagram or for wake(), `longest_wait_ms` at most. The datagram's length, or the buffer's
+    /// if it is longer; nullopt: none came.
     std::optional<std::size_t> receive(std::span<std::uint8_t> buffer, PeerAddress& from,
                                        int longest_wait_ms) noexcept;
+
+    /// Ends a receive() of another thread, or the next. Real-time safe: one call of the system that never
+    /// waits.
+    void wake() noexcept;
 
     /// What cannot be sent now is lost.
     void send(std::span<const std::uint8_t> datagram, const PeerAddress& to) noexcept;
@@ -36,6 +40,7 @@ class DatagramSocket {
   private:
     BridgeAddress where_;
     int socket_ = -1;
+    int wake_ = -1;  // an eventfd
 };
 
 }  // namespace osteomill

@@ -7,6 +7,7 @@
 #include <glm/geometric.hpp>
 #include <thread>
 
+#include "haptic_server/device/bridge/delay_stiffness.h"
 #include "tests/support/eventually.h"
 #include "tests/unit/device/bridge/bridge_pair.h"
 
@@ -87,7 +88,7 @@ TEST_F(BridgedArm, IsWhatTheArmSaysItIs) {
     begin(testing::some_arm(), testing::ready_pose());
     EXPECT_EQ(device.name(), "test arm");
     EXPECT_EQ(device.limits().max_force_n, 3.0);
-    EXPECT_EQ(device.limits().max_stiffness_n_per_mm, 1.5);
+    EXPECT_EQ(device.limits().max_stiffness_n_per_mm, 1.5 * stiffness_share(device.round_trip_s()));
     EXPECT_EQ(device.limits().apparent_mass_kg, 0.05);
     EXPECT_GT(device.round_trip_s(), 0.0);
 }

@@ -93,7 +93,7 @@ TEST(BridgeHost, TakesNoArmThatCannotBe) {
             omb_put_hello(hello.data(), 5, &arm);
             omb_seal(hello.data(), &none);
             BridgeHost host({}, [] { return std::uint64_t{9}; });
-            EXPECT_FALSE(host.take(hello, {1}, 1, {}));
+            EXPECT_FALSE(host.take(hello, {1}, 1));
             EXPECT_STREQ(host.refusal(), why_impossible(arm));
         }
     }
@@ -185,7 +185,7 @@ TEST(BridgeHost, IsMovedByNoGarbage) {
         for (auto& byte : garbage)
             if (random() % 8 == 0) byte = static_cast<std::uint8_t>(random());
         if (garbage.size() > 8) garbage[8] ^= 0x55;  // another session
-        bridge.host.take(garbage, {9, 9}, bridge.now_ns, bridge.wanted);
+        bridge.host.take(garbage, {9, 9}, bridge.now_ns);
         EXPECT_FALSE(bridge.host.has_fresh_pose());
     }
     bridge.exchange(10);

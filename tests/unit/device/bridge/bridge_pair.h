@@ -66,10 +66,11 @@ class BridgePair {
     }
     void deliver(const Datagram& datagram, const PeerAddress& from) {
         peer = from;
-        const auto answer = host.take(datagram, from, now_ns, wanted);
+        auto said = host.take(datagram, from, now_ns);
         if (host.has_fresh_pose()) ++fresh_poses;
-        if (!answer) return;
-        answers.emplace_back(answer->begin(), answer->end());
+        if (host.awaits_answer()) said = host.answer(now_ns, wanted);
+        if (!said) return;
+        answers.emplace_back(said->begin(), said->end());
         for (const Datagram& one : pass_back(answers.back())) socket_.send(one, from);
     }
     void exchange(int times) {
