@@ -1,7 +1,10 @@
 #include "haptic_server/report/session_plots.h"
 
+#include <algorithm>
 #include <glm/geometric.hpp>
 #include <map>
+#include <string>
+#include <utility>
 
 #include "haptic_server/report/removal_metrics.h"
 
@@ -43,6 +46,25 @@ std::vector<PlotLine> removed_lines(const SessionTrace& trace) {
     return all;
 }
 
+/// Of those that were ever near. Where a structure is further than is looked at, the line stays there.
+std::vector<PlotLine> distance_lines(const SessionTrace& trace) {
+    std::vector<PlotLine> lines;
+    for (const StructureAccount& account : trace.structures) {
+        if (!account.nearest_mm) continue;
+        const Tissue& tissue = trace.session.tissues[account.last.tissue];
+        PlotLine& line = lines.emplace_back();
+        line.name = tissue.name;
+        for (const TraceSample& sample : trace.samples) {
+            const auto now =
+                std::ranges::find(sample.distances, account.last.tissue, &StructureDistance::tissue);
+            line.x.push_back(sample.time_s);
+            line.y.push_back(now != sample.distances.end() ? now->distance_mm.value_or(watched_mm(tissue))
+                                                           : watched_mm(tissue));
+        }
+    }
+    return lines;
+}
+
 }  // namespace
 
 std::vector<SvgPlot> session_plots(const SessionTrace& trace) {
@@ -64,6 +86,13 @@ std::vector<SvgPlot> session_plots(const SessionTrace& trace) {
         {.title = "Depth of the burr's tip below first contact", .y_text = "mm", .lines = {std::move(depth)}},
         {.title = "Removed bone", .y_text = "mm³", .lines = removed_lines(trace)},
         {.title = "Speed of the burr", .y_text = "mm/s", .lines = {std::move(speed)}}};
+    if (std::vector<PlotLine> distances = distance_lines(trace); !distances.empty()) {
+        std::string title = "Distance to protected structures";
+        if (distances.size() == 1) title = "Distance to " + distances[0].name;
+        plots.push_back({.title = title + " (level at the top: further off)",
+                         .y_text = "mm",
+                         .lines = std::move(distances)});
+    }
     for (SvgPlot& plot : plots) {
         plot.x_text = "time (s)";
         plot.moments = moments_of(trace);

@@ -60,6 +60,7 @@ void add_sample(SessionTrace& trace, Playhead& playhead, StructureWatch& structu
          .is_paused = playhead.status().is_paused,
          .levels = take_over(playhead.take_changes(), playhead.bone(), trace.at_end, structures)});
     structures.update(tool);
+    trace.samples.back().distances = structures.distances();
     if (tool.peak_force_n) trace.peak_force_n = tool.peak_force_n;
     trace.events.insert(trace.events.end(), playhead.events().begin(), playhead.events().end());
 }

@@ -37,7 +37,8 @@ struct TraceSample {
     std::size_t burr = 0;
     bool spindle_on = false;
     bool is_paused = false;
-    std::vector<TissueLevels> levels{};  ///< only of tissues that changed; ascending labels
+    std::vector<TissueLevels> levels{};          ///< only of tissues that changed; ascending labels
+    std::vector<StructureDistance> distances{};  ///< to protected structures that are near or were touched
 
     std::int64_t milled() const;
     std::int64_t restored() const;
