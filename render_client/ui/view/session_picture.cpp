@@ -39,7 +39,8 @@ glm::dvec3 middle_of(const Grid& grid, const VoxelBox& box) {
 std::vector<TissueColour> tissue_colours(const SessionInfo* session) {
     std::vector<TissueColour> colours;
     if (!session) return colours;
-    for (const Tissue& tissue : session->tissues) colours.push_back({tissue.label, tissue.colour_rgb});
+    for (const Tissue& tissue : session->tissues)
+        colours.push_back({tissue.label, tissue.colour_rgb, tissue.opacity});
     return colours;
 }
 
