@@ -16,4 +16,14 @@ StructureMask structure_in_bone(const Bone& bone, std::uint8_t label) {
     return {bone.grid(), std::move(bricks)};
 }
 
+bool is_in_bone(const Bone& bone, std::uint8_t label) {
+    const BoneContent& content = bone.content();
+    for (std::size_t slot = 0; slot < content.tissue.size(); ++slot) {
+        const BrickFractions fractions = bone.fractions(static_cast<std::int32_t>(slot));
+        for (std::size_t offset = 0; offset < brick_voxel_count; ++offset)
+            if (content.tissue[slot][offset] == label && fractions[offset] > 0) return true;
+    }
+    return false;
+}
+
 }  // namespace osteomill

@@ -10,6 +10,7 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "common/bone/structure_in_bone.h"
 #include "common/wire/tool_look.h"
 
 namespace osteomill {
@@ -36,11 +37,14 @@ glm::dvec3 middle_of(const Grid& grid, const VoxelBox& box) {
     return 0.5 * (centre_of_voxel_mm(grid, box.first) + centre_of_voxel_mm(grid, box.first + box.size - 1));
 }
 
-std::vector<TissueColour> tissue_colours(const SessionInfo* session) {
+/// A tissue that no bone bears makes nothing translucent: all bone would be drawn the slower way for it.
+std::vector<TissueColour> tissue_colours(const SessionInfo* session, const Bone& bone) {
     std::vector<TissueColour> colours;
     if (!session) return colours;
-    for (const Tissue& tissue : session->tissues)
-        colours.push_back({tissue.label, tissue.colour_rgb, tissue.opacity});
+    for (const Tissue& tissue : session->tissues) {
+        const bool shows_through = tissue.opacity < 1.0 && is_in_bone(bone, tissue.label);
+        colours.push_back({tissue.label, tissue.colour_rgb, shows_through ? tissue.opacity : 1.0});
+    }
     return colours;
 }
 
@@ -128,7 +132,7 @@ SessionPicture::News SessionPicture::news() const {
 
 void SessionPicture::replace_bone() {
     const bool first = !textures_;
-    const std::vector<TissueColour> tissues = tissue_colours(source_.session());
+    const std::vector<TissueColour> tissues = tissue_colours(source_.session(), *source_.bone());
     bone_problem_.clear();
     picture_.forget_bone();
     // The old textures go first: both together might not fit.
