@@ -398,6 +398,32 @@ static inline void omb_clamp(double v[3], double most) {
     }
 }
 
+/* Of a rotation matrix, row by row: its columns are the handle's axes in device space (Shepperd's choice of the
+ * largest, J. Guidance and Control 1:223, 1978). */
+static inline void omb_quaternion(const double r[3][3], double quaternion[4]) {
+    const double trace = r[0][0] + r[1][1] + r[2][2];
+    double scale;
+    int i = 0, j, k;
+    if (trace > 0.0) {
+        scale = 2.0 * omb_sqrt(1.0 + trace);
+        quaternion[0] = 0.25 * scale;
+        quaternion[1] = (r[2][1] - r[1][2]) / scale;
+        quaternion[2] = (r[0][2] - r[2][0]) / scale;
+        quaternion[3] = (r[1][0] - r[0][1]) / scale;
+        return;
+    }
+    if (r[1][1] > r[0][0]) i = 1;
+    if (r[2][2] > r[i][i]) i = 2;
+    j = (i + 1) % 3;
+    k = (i + 2) % 3;
+    scale = 2.0 * omb_sqrt(1.0 + r[i][i] - r[j][j] - r[k][k]);
+    if (!(scale > 0.0)) scale = 1.0; /* no rotation at all; the server refuses what comes of it */
+    quaternion[0] = (r[k][j] - r[j][k]) / scale;
+    quaternion[1 + i] = 0.25 * scale;
+    quaternion[1 + j] = (r[j][i] + r[i][j]) / scale;
+    quaternion[1 + k] = (r[k][i] + r[i][k]) / scale;
+}
+
 /* What is left of a force that answers a pose of that age: 1, falling from 5 ms on, 0 from 50 ms on. */
 static inline double omb_trust(uint64_t age_ns) {
     if (age_ns <= OMB_HOLD_NS) return 1.0;

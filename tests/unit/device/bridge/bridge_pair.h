@@ -49,29 +49,39 @@ class BridgePair {
     }
     ~BridgePair() { omb_close(&link); }
 
-    /// A millisecond later both have spoken. What `pass_on` makes of each datagram to the server is
-    /// delivered.
+    /// A millisecond later both have spoken.
     omb_state exchange() {
         now_ns += 1'000'000;
+        const omb_state state = say();
+        answer();
+        return state;
+    }
+    /// The arm speaks, now, and the server hears what `pass_on` makes of each datagram.
+    omb_state say() {
         const omb_state state = omb_exchange_at(&link, &pose, &force, now_ns);
         if (is_server_stopped) return state;
         Datagram buffer(OMB_MESSAGE_BYTES + 1);
         PeerAddress from;
+        bool is_fresh = false;
         while (const auto bytes = socket_.receive(buffer, from, 0)) {
             const Datagram said(buffer.begin(), buffer.begin() + static_cast<std::ptrdiff_t>(*bytes));
             sent.push_back(said);
-            for (const Datagram& one : pass_on(said)) deliver(one, from);
+            for (const Datagram& one : pass_on(said)) {
+                hear(one, from);
+                is_fresh = is_fresh || host.has_fresh_pose();
+            }
         }
+        has_fresh_pose = is_fresh;
         return state;
     }
+    /// The server answers.
+    void answer() {
+        if (host.awaits_answer()) send_back(host.answer(now_ns, wanted));
+    }
+    /// As if it came from there.
     void deliver(const Datagram& datagram, const PeerAddress& from) {
-        peer = from;
-        auto said = host.take(datagram, from, now_ns);
-        if (host.has_fresh_pose()) ++fresh_poses;
-        if (host.awaits_answer()) said = host.answer(now_ns, wanted);
-        if (!said) return;
-        answers.emplace_back(said->begin(), said->end());
-        for (const Datagram& one : pass_back(answers.back())) socket_.send(one, from);
+        hear(datagram, from);
+        answer();
     }
     void exchange(int times) {
         for (int i = 0; i < times; ++i) exchange();
@@ -81,6 +91,17 @@ class BridgePair {
     double given_n() const { return omb_length(force.force_n); }
 
   private:
+    void hear(const Datagram& datagram, const PeerAddress& from) {
+        peer = from;
+        const auto welcome = host.take(datagram, from, now_ns);
+        if (host.has_fresh_pose()) ++fresh_poses;
+        if (welcome) send_back(*welcome);
+    }
+    void send_back(const BridgeMessage& message) {
+        answers.emplace_back(message.begin(), message.end());
+        for (const Datagram& one : pass_back(answers.back())) socket_.send(one, peer);
+    }
+
     TemporaryFolder folder_;
     DatagramSocket socket_;
     std::uint64_t random_ = 1;
@@ -101,6 +122,7 @@ class BridgePair {
     std::vector<Datagram> answers;  // of the server
     PeerAddress peer;
     int fresh_poses = 0;
+    bool has_fresh_pose = false;  ///< among what was heard last
     bool is_server_stopped = false;
     std::uint64_t now_ns = 1'000'000'000;
 };

@@ -3,7 +3,9 @@
 #include <openssl/hmac.h>
 
 #include <array>
+#include <cmath>
 #include <cstring>
+#include <glm/gtc/quaternion.hpp>
 #include <random>
 #include <vector>
 
@@ -121,6 +123,24 @@ TEST(BridgeMessage, ARootIsFoundWithoutAMathLibrary) {
     EXPECT_EQ(omb_sqrt(0.0), 0.0);
     EXPECT_EQ(omb_sqrt(-1.0), 0.0);
     EXPECT_EQ(omb_sqrt(std::nan("")), 0.0);
+}
+
+TEST(BridgeMessage, ARotationIsItsQuaternion) {
+    std::mt19937_64 random(6);
+    const auto real = [&] { return std::normal_distribution(0.0, 1.0)(random); };
+    for (int i = 0; i < 1000; ++i) {
+        glm::dquat turn = glm::normalize(glm::dquat(real(), real(), real(), real()));
+        // Half turns, too, where the real part is nothing.
+        if (i % 4 == 0) turn = glm::normalize(glm::dquat(0.0, i % 3 == 0 ? 0.0 : real(), real(), real()));
+        const glm::dmat3 matrix(turn);
+        double rotation[3][3];
+        for (int row = 0; row < 3; ++row)
+            for (int column = 0; column < 3; ++column) rotation[row][column] = matrix[column][row];
+        double q[4];
+        omb_quaternion(rotation, q);
+        const double same = std::abs(turn.w * q[0] + turn.x * q[1] + turn.y * q[2] + turn.z * q[3]);
+        EXPECT_NEAR(same, 1.0, 1e-12);
+    }
 }
 
 }  // namespace
