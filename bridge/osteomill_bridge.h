@@ -373,6 +373,7 @@ static inline void omb_get_force(const uint8_t message[OMB_MESSAGE_BYTES], omb_f
 #define OMB_SILENT_NS 50000000u   /* after so long it is zero */
 #define OMB_GONE_NS 250000000u    /* after so long the server is asked anew who it is */
 #define OMB_HELLO_EVERY_NS 20000000u
+#define OMB_RELEASE_S 0.012 /* what is still given then, after this process itself stood still, goes in so long */
 #define OMB_RETURN_S 0.1 /* a force that was off comes back over so long */
 
 /* Without libm. 0 for what is no positive number. */
@@ -433,11 +434,11 @@ static inline double omb_trust(uint64_t age_ns) {
 
 /* Moves `given` towards `wanted`, by at most `most_step`. */
 static inline void omb_approach(double given[3], const double wanted[3], double most_step) {
-    double step[3];
+    double step[3], length;
     int i;
     for (i = 0; i < 3; ++i) step[i] = wanted[i] - given[i];
-    omb_clamp(step, most_step);
-    for (i = 0; i < 3; ++i) given[i] += step[i];
+    length = omb_length(step);
+    for (i = 0; i < 3; ++i) given[i] = length > most_step ? given[i] + step[i] * most_step / length : wanted[i];
 }
 
 /* ---- The link ---------------------------------------------------------------------------------------------- */
@@ -687,7 +688,7 @@ static inline void omb_hear(omb_link* link, const uint8_t* message, size_t bytes
 /* For tests with a clock of their own; else omb_exchange(). */
 static inline omb_state omb_exchange_at(omb_link* link, const omb_pose* pose, omb_force* force, uint64_t now_ns) {
     uint8_t message[OMB_MESSAGE_BYTES + 1]; /* one more, so that what is too long is seen to be */
-    double trust = 0.0, step_s;
+    double trust = 0.0, step_s, n_per_s, n_mm_per_s;
     uint64_t silent_ns, age_ns;
     int i, left;
     for (left = 64; left > 0; --left) { /* a flood does not keep it for ever */
@@ -728,12 +729,11 @@ static inline omb_state omb_exchange_at(omb_link* link, const omb_pose* pose, om
         force->force_n[i] *= trust;
         force->torque_n_mm[i] *= trust;
     }
-    omb_approach(link->given_n, force->force_n, step_s * link->arm.max_slew_n_per_s);
-    omb_approach(link->given_n_mm, force->torque_n_mm, 100.0 * step_s * link->arm.max_slew_n_per_s);
-    if (!(trust > 0.0)) { /* a slow slew does not keep it */
-        memset(link->given_n, 0, sizeof link->given_n);
-        memset(link->given_n_mm, 0, sizeof link->given_n_mm);
-    }
+    /* While it comes or goes, gently; and to nothing at all where nothing is wanted. */
+    n_per_s = trust < 1.0 ? link->arm.max_force_n / OMB_RELEASE_S : link->arm.max_slew_n_per_s;
+    n_mm_per_s = trust < 1.0 ? link->arm.max_torque_n_mm / OMB_RELEASE_S : 100.0 * link->arm.max_slew_n_per_s;
+    omb_approach(link->given_n, force->force_n, step_s * n_per_s);
+    omb_approach(link->given_n_mm, force->torque_n_mm, step_s * n_mm_per_s);
     memcpy(force->force_n, link->given_n, sizeof link->given_n);
     memcpy(force->torque_n_mm, link->given_n_mm, sizeof link->given_n_mm);
     if (link->session == 0) return OMB_SEEKING;

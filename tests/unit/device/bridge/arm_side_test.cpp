@@ -64,6 +64,17 @@ TEST(ArmSide, FadesTheForceWithin50MsOfSilenceAndBringsItBackWithoutAJump) {
     EXPECT_NEAR(bridge.given_n(), 2.0, 1e-9);
 }
 
+// The arm kept the last force meanwhile; now it must go, but not at a stroke.
+TEST(ArmSide, LetsGoInAFewMillisecondsWhenItHasItselfStoodStill) {
+    BridgePair bridge;
+    bridge.wanted.force_n = {3.0, 0.0, 0.0};
+    bridge.exchange(200);
+    ASSERT_NEAR(bridge.given_n(), 3.0, 1e-9);
+    bridge.now_ns += 1'000'000'000;
+    EXPECT_LT(largest_jump_n(bridge, 12), 0.51) << "two milliseconds' worth at the first";
+    EXPECT_LT(bridge.given_n(), 1e-9 + 3.0 * 12 / 100) << "what comes back does so gently";
+}
+
 TEST(ArmSide, GivesNothingThatTheArmDoesNot) {
     BridgePair bridge;
     bridge.exchange(200);
@@ -89,13 +100,13 @@ TEST(ArmSide, GivesNothingWhileItIsNotReadyOrTheServerHoldsStill) {
     BridgePair bridge;
     bridge.exchange(200);
     bridge.pose.status &= ~static_cast<std::uint32_t>(OMB_READY);
-    bridge.exchange();
+    EXPECT_LT(largest_jump_n(bridge, 13), 0.3);
     EXPECT_EQ(bridge.given_n(), 0.0);
     bridge.pose.status |= OMB_READY;
     EXPECT_LT(largest_jump_n(bridge, 200), 0.02);
     EXPECT_NEAR(bridge.given_n(), 1.0, 1e-9);
     bridge.wanted.is_off = true;
-    bridge.exchange(2);
+    EXPECT_LT(largest_jump_n(bridge, 14), 0.3);
     EXPECT_EQ(bridge.given_n(), 0.0);
     EXPECT_EQ(bridge.force.is_off, 1u);
 }
