@@ -12,6 +12,7 @@
 
 #include "common/program/option_checks.h"
 #include "haptic_server/imaging/progress.h"
+#include "studies/bridge/bridge_options.h"
 #include "studies/calibration/calibration_options.h"
 #include "studies/force/case_report.h"
 #include "studies/force/force_study.h"
@@ -229,6 +230,8 @@ int main(int argc, char** argv) {
     const CLI::App* const is_calibration = osteomill::study::add_calibration(app, calibration);
     osteomill::study::SessionsStudyOptions sessions;
     sessions.version = OSTEOMILL_VERSION;
+    osteomill::study::BridgeStudyOptions bridge;
+    const CLI::App* const is_bridge = osteomill::study::add_bridge(app, bridge);
     const CLI::App* const is_sessions = osteomill::study::add_sessions(app, sessions);
     try {
         app.parse(argc, argv);
@@ -237,7 +240,7 @@ int main(int argc, char** argv) {
             throw CLI::RequiresError("--voxel-mm", "--cases or --random");
         if (app.get_subcommands().empty())
             throw CLI::RequiredError(
-                "a study to run: force, stability, polishing, render, realtime, calibrate or sessions");
+                "a study to run: force, stability, polishing, render, realtime, bridge, calibrate or sessions");
     } catch (const CLI::ParseError& error) {
         if (error.get_exit_code() == 0) return app.exit(error);
         std::cerr << "osteomill_study: " << error.what() << " (see --help)\n";
@@ -254,6 +257,8 @@ int main(int argc, char** argv) {
             run(realtime);
         else if (is_calibration->parsed())
             run(calibration);
+        else if (is_bridge->parsed())
+            osteomill::study::run_bridge_study(bridge, surroundings());
         else if (is_sessions->parsed())
             osteomill::study::run_sessions_study(sessions, surroundings());
         else

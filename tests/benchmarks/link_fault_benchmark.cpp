@@ -29,7 +29,7 @@
 #include "render_client/link/bone_link.h"
 #include "tests/support/child_process.h"
 #include "tests/support/link_proxy.h"
-#include "tests/support/private_network.h"
+#include "studies/bridge/private_network.h"
 #include "tests/support/stranger.h"
 #include "tests/support/temporary_folder.h"
 
@@ -69,12 +69,12 @@ class Watcher {
 /// Where a session takes place.
 struct Stage {
     std::uint16_t port = 0;
-    PrivateNetwork* network = nullptr;  // none: loopback
+    study::PrivateNetwork* network = nullptr;  // none: loopback
     double seconds = 0.0;
     std::vector<std::unique_ptr<LinkProxy>> proxies{};  // outlive who comes through them
     std::vector<std::unique_ptr<Watcher>> watchers{};   // to be polled; the first has the fault
 
-    std::string address() const { return network != nullptr ? PrivateNetwork::server_address : "127.0.0.1"; }
+    std::string address() const { return network != nullptr ? study::PrivateNetwork::server_address : "127.0.0.1"; }
     void watch(const std::string& where, std::uint16_t at) {
         watchers.push_back(std::make_unique<Watcher>(where, at));
     }
@@ -195,8 +195,8 @@ void write_motion(const std::filesystem::path& csv, double seconds) {
 void run_session(const std::string& server_program, const Fault& beside, const Fault* fault, double seconds) {
     const TemporaryFolder folder;
     const std::string report = (folder / "server.json").string();
-    std::optional<PrivateNetwork> network;
-    std::optional<PrivateNetwork::Stay> there;
+    std::optional<study::PrivateNetwork> network;
+    std::optional<study::PrivateNetwork::Stay> there;
     const std::string motion = (folder / "motion.csv").string();
     write_motion(motion, seconds);
     std::vector<std::string> command{server_program,
@@ -228,7 +228,7 @@ void run_session(const std::string& server_program, const Fault& beside, const F
         for (; !steady->is_finished() && !is_over; std::this_thread::sleep_for(10ms)) steady->poll();
     });
     std::thread faulty([&] {
-        std::optional<PrivateNetwork::Stay> here;
+        std::optional<study::PrivateNetwork::Stay> here;
         if (network) here.emplace(network->client());
         if (fault != nullptr) fault->happen(stage);
         while (!is_over) stage.pass(50ms);
@@ -255,7 +255,7 @@ void run_session(const std::string& server_program, const Fault& beside, const F
 }
 
 void run(const std::string& server_program, double seconds, const std::set<std::string>& wanted) {
-    const std::string why_no_cable = PrivateNetwork::why_not();
+    const std::string why_no_cable = study::PrivateNetwork::why_not();
     // A session with each fault and one without; beside its length each takes a second or two.
     constexpr double beside_s = 2.0;
     double all_s = 0.0;

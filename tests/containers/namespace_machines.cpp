@@ -1,7 +1,7 @@
 #include <stdexcept>
 
 #include "tests/containers/two_machines.h"
-#include "tests/support/private_network.h"
+#include "studies/bridge/private_network.h"
 
 namespace osteomill::testing {
 
@@ -16,7 +16,7 @@ class Namespaces final : public TwoMachines {
     std::string folder() const override { return folder_.string(); }
     std::string viewer_address() const override { return "10.213.77.2"; }
     std::string server_for(Machine where) const override {
-        return where == Machine::viewer ? PrivateNetwork::server_address : "127.0.0.1";
+        return where == Machine::viewer ? study::PrivateNetwork::server_address : "127.0.0.1";
     }
     Command run(Machine where, const std::string& program, const Command& arguments) const override {
         const std::string& machine = where == Machine::viewer ? network_.client() : network_.server();
@@ -30,7 +30,7 @@ class Namespaces final : public TwoMachines {
   private:
     std::filesystem::path folder_;
     std::filesystem::path programs_;
-    PrivateNetwork network_;
+    study::PrivateNetwork network_;
 };
 
 }  // namespace
@@ -43,7 +43,7 @@ FoundMachines find_machines(const std::filesystem::path& folder, const std::file
     } catch (const std::runtime_error& error) {
         found.why_no_containers = error.what();
     }
-    found.why_none = PrivateNetwork::why_not();
+    found.why_none = study::PrivateNetwork::why_not();
     if (found.why_none.empty()) found.machines = std::make_unique<Namespaces>(folder, programs);
     return found;
 }

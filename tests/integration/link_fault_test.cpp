@@ -21,7 +21,7 @@
 #include "tests/support/eventually.h"
 #include "tests/support/link_proxy.h"
 #include "tests/support/milling_motion.h"
-#include "tests/support/private_network.h"
+#include "studies/bridge/private_network.h"
 #include "tests/support/stranger.h"
 #include "tests/support/temporary_folder.h"
 
@@ -190,17 +190,17 @@ TEST_F(LinkFaults, OfAServerKilledWhileItRecordsLeaveAFileAndClientsForTheNext) 
 }
 
 TEST_F(LinkFaults, OfANarrowCableAndOneThatIsPulledLeaveTheBoneEqual) {
-    if (const std::string why = PrivateNetwork::why_not(); !why.empty()) GTEST_SKIP() << why;
-    PrivateNetwork cable;
+    if (const std::string why = study::PrivateNetwork::why_not(); !why.empty()) GTEST_SKIP() << why;
+    study::PrivateNetwork cable;
     cable.limit_rate("64kbit");
     {
-        const PrivateNetwork::Stay there(cable.server());
+        const study::PrivateNetwork::Stay there(cable.server());
         start_server({"--listen", "0.0.0.0:0", "--insecure-network"});
     }
     Links links;
     {
-        const PrivateNetwork::Stay there(cable.client());
-        links.push_back(std::make_unique<BoneLink>(PrivateNetwork::server_address, port_));
+        const study::PrivateNetwork::Stay there(cable.client());
+        links.push_back(std::make_unique<BoneLink>(study::PrivateNetwork::server_address, port_));
     }
     ASSERT_TRUE(poll_until(links, is_live));
     EXPECT_TRUE(poll_until(links, [](const LinkUpdate& update) { return update.frames >= 20; }));

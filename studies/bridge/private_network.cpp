@@ -1,4 +1,4 @@
-#include "tests/support/private_network.h"
+#include "studies/bridge/private_network.h"
 
 #include <fcntl.h>
 #include <sched.h>
@@ -10,7 +10,7 @@
 #include <stdexcept>
 #include <system_error>
 
-namespace osteomill::testing {
+namespace osteomill::study {
 
 namespace {
 
@@ -94,4 +94,4 @@ PrivateNetwork::Stay::~Stay() {
     ::close(home_);
 }
 
-}  // namespace osteomill::testing
+}  // namespace osteomill::study

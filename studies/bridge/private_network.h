@@ -3,7 +3,7 @@
 
 #include <string>
 
-namespace osteomill::testing {
+namespace osteomill::study {
 
 class PrivateNetwork {
   public:
@@ -52,4 +52,4 @@ class PrivateNetwork {
     Namespace client_;
 };
 
-}  // namespace osteomill::testing
+}  // namespace osteomill::study

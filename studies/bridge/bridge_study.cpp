@@ -1,0 +1,66 @@
+#include "studies/bridge/bridge_study.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <ostream>
+#include <string>
+
+#include "studies/bridge/private_network.h"
+#include "studies/bridge/round_trips.h"
+#include "studies/report/output_files.h"
+
+namespace osteomill::study {
+
+namespace {
+
+nlohmann::ordered_json in_numbers(const std::vector<double>& trips_us) {
+    return {{"count", trips_us.size()},
+            {"p50_us", quantile(trips_us, 0.5)},
+            {"p99_us", quantile(trips_us, 0.99)},
+            {"p999_us", quantile(trips_us, 0.999)}};
+}
+
+}  // namespace
+
+void run_bridge_study(const BridgeStudyOptions& options, const StudySurroundings& surroundings) {
+    make_folder(options.out);
+    const double seconds = options.quick ? 2.0 : options.seconds;
+    nlohmann::ordered_json found;
+    surroundings.said << fmt::format("{:<34}{:>28}{:>28}{:>12}\n", "", "bridge p50/p99/p99.9, us",
+                                     "bare echo", "p99, times");
+    const auto measure = [&](const std::string& name, const Ends& ends) {
+        const RoundTrips trips = measure_round_trips(ends, seconds);
+        const auto row = [](const std::vector<double>& us) {
+            return fmt::format("{:.0f} / {:.0f} / {:.0f}", quantile(us, 0.5), quantile(us, 0.99),
+                               quantile(us, 0.999));
+        };
+        const double times = quantile(trips.bridge_us, 0.99) / quantile(trips.echo_us, 0.99);
+        surroundings.said << fmt::format("{:<34}{:>28}{:>28}{:>12.2f}\n", name, row(trips.bridge_us),
+                                         row(trips.echo_us), times);
+        found[name] = {{"bridge", in_numbers(trips.bridge_us)},
+                       {"echo", in_numbers(trips.echo_us)},
+                       {"p99_ratio", times}};
+    };
+    const BridgePath path{fmt::format("/tmp/osteomill_study_{}", getpid())};
+    const BridgeAddress udp = ListenAddress{.port = 17020};
+    measure("Unix socket", {.where = path});
+    measure("Unix socket, key", {.where = path, .has_key = true});
+    measure("UDP, loopback", {.where = udp});
+    measure("UDP, loopback, key", {.where = udp, .has_key = true});
+    if (const std::string why_not = PrivateNetwork::why_not(); why_not.empty()) {
+        const PrivateNetwork network;
+        measure("UDP, two namespaces, key",
+                {.where = ListenAddress{.address = PrivateNetwork::server_address, .port = 17020},
+                 .server_namespace = network.server(),
+                 .arm_namespace = network.client(),
+                 .has_key = true});
+    } else {
+        surroundings.said << "two namespaces: left out; " << why_not << '\n';
+    }
+    write_json(found, options.out / "bridge.json");
+}
+
+}  // namespace osteomill::study

@@ -1,0 +1,31 @@
+// Round trips of the bridge's messages and of a bare echo, a thousand a second, in turns, so that what else
+// the machine does falls on both.
+#pragma once
+
+#include <vector>
+
+#include "haptic_server/device/bridge/bridge_address.h"
+
+namespace osteomill::study {
+
+struct RoundTrips {
+    std::vector<double> bridge_us;  ///< from an arm's pose to the force that answers it
+    std::vector<double> echo_us;    ///< of a datagram of the same size that comes back as it is
+};
+
+/// Where the ends are: threads made within `at_server` and `at_arm` are there.
+struct Ends {
+    BridgeAddress where;  ///< of the server; the echo is at a place beside it
+    std::string server_namespace{};
+    std::string arm_namespace{};  ///< empty: where this process is
+    bool has_key = false;
+};
+
+/// Measures for so long, after a settling of a tenth of a second. Throws std::runtime_error where no socket
+/// can be had or nothing is answered.
+RoundTrips measure_round_trips(const Ends& ends, double seconds);
+
+/// Of at least one: what a share (0 to 1) of them do not exceed.
+double quantile(std::vector<double> values, double share);
+
+}  // namespace osteomill::study
