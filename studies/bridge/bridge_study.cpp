@@ -8,6 +8,7 @@
 #include <ostream>
 #include <string>
 
+#include "studies/bridge/delay_rows.h"
 #include "studies/bridge/private_network.h"
 #include "studies/bridge/round_trips.h"
 #include "studies/report/output_files.h"
@@ -59,6 +60,19 @@ void run_bridge_study(const BridgeStudyOptions& options, const StudySurroundings
                  .has_key = true});
     } else {
         surroundings.said << "two namespaces: left out; " << why_not << '\n';
+    }
+    surroundings.said << fmt::format("\n{:<34}{:>28}{:>28}{:>12}\n", "there and back, +- 25 %",
+                                     "stable, all of the stiffness", "what the server takes", "share");
+    for (const DelayRow& row : delay_rows(options.quick, [](double) {})) {
+        surroundings.said << fmt::format("{:<34}{:>28}{:>28}{:>12.2f}\n", fmt::format("{} ms", row.bridge_ms),
+                                         fmt::format("{} of {}", row.stable_with_all, row.cases),
+                                         fmt::format("{} of {}", row.stable_with_share, row.cases),
+                                         row.share);
+        found["delays"].push_back({{"bridge_ms", row.bridge_ms},
+                                   {"cases", row.cases},
+                                   {"stable_with_all", row.stable_with_all},
+                                   {"stable_with_share", row.stable_with_share},
+                                   {"share", row.share}});
     }
     write_json(found, options.out / "bridge.json");
 }

@@ -123,10 +123,10 @@ void BridgeArm::take_pose(std::uint64_t now_ns) {
 
 void BridgeArm::tell_who_waits() {
     if (has_joined_.load(std::memory_order_relaxed)) return;
-    const std::optional<double> round_trip_s = host_.round_trip_p99_s();
+    const std::optional<double> round_trip_s = host_.round_trip_median_s();
     if (!round_trip_s) return;
     if (*round_trip_s > longest_delay_s) {
-        notice_.store("the arm is too far away: 4 ms there and back is the most that force bears",
+        notice_.store("the arm is too far away: 3 ms there and back is the most that force bears",
                       std::memory_order_relaxed);
         return;
     }

@@ -44,7 +44,7 @@ class BridgeArm final : public HapticDevice {
     bool await(const std::function<bool()>& gives_up);
 
     const BridgeAddress& address() const { return socket_.address(); }
-    /// What 99 of 100 messages take to the arm and back, when it had joined.
+    /// What half of the messages took to the arm and back when it joined, the arm's own wait included.
     double round_trip_s() const { return round_trip_s_.load(); }
 
     /// Device space.

@@ -113,10 +113,10 @@ void BridgeHost::measure(std::uint64_t round_trip_ns) {
     next_round_trip_ = (next_round_trip_ + 1) % round_trips_kept;
 }
 
-std::optional<double> BridgeHost::round_trip_p99_s() const {
+std::optional<double> BridgeHost::round_trip_median_s() const {
     if (round_trips_ns_.size() < round_trips_kept) return std::nullopt;
     std::vector<std::uint64_t> sorted = round_trips_ns_;
-    const std::size_t rank = (99 * sorted.size()) / 100;
+    const std::size_t rank = sorted.size() / 2;
     std::nth_element(sorted.begin(), sorted.begin() + static_cast<std::ptrdiff_t>(rank), sorted.end());
     return 1e-9 * static_cast<double>(sorted[rank]);
 }

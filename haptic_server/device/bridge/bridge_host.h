@@ -77,9 +77,8 @@ class BridgeHost {
     /// The arm has said goodbye, or nothing for long.
     bool is_gone(std::uint64_t now_ns) const { return session_ == 0 || now_ns - heard_ns_ > gone_ns; }
 
-    /// What of 100 messages 99 take less than to the arm and back, from the last round trips; nullopt before
-    /// there are enough.
-    std::optional<double> round_trip_p99_s() const;
+    /// What half of the last messages took to the arm and back; nullopt before there are enough.
+    std::optional<double> round_trip_median_s() const;
 
     /// Why the arm's hello was refused last, a text that lives for ever; empty where none was.
     const char* refusal() const { return refusal_; }

@@ -5,8 +5,9 @@
 
 namespace osteomill {
 
-/// With more between a reading and its force the coupling's own damper shakes the arm, and no spring helps.
-inline constexpr double longest_delay_s = 0.004;
+/// With more between a reading and its force the coupling's own damper shakes the arm, and no spring helps:
+/// osteomill_study bridge.
+inline constexpr double longest_delay_s = 0.003;
 
 /// What of the stiffness that an arm renders by itself is left with `delay_s` between a reading and its force;
 /// 1 up to a millisecond, a tick, with which the coupling reckons anyway. The stiffest wall that holds on a
