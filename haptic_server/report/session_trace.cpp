@@ -48,6 +48,9 @@ std::vector<TissueLevels> take_over(const std::vector<BrickChange>& changes, con
 void add_sample(SessionTrace& trace, Playhead& playhead, StructureWatch& structures) {
     const ToolState& tool = *playhead.tool();
     if (trace.samples.empty()) trace.began_unix_ns = tool.taken_unix_ns;
+    const bool is_placed = std::ranges::any_of(playhead.events(), [](const ControlEvent& event) {
+        return event.action == SessionAction::place && !event.is_refused;
+    });
     trace.samples.push_back(
         {.time_s = tool.time_s,
          .hand_mm = tool.hand_position_mm,
@@ -58,6 +61,7 @@ void add_sample(SessionTrace& trace, Playhead& playhead, StructureWatch& structu
          .burr = tool.burr,
          .spindle_on = tool.spindle_on,
          .is_paused = playhead.status().is_paused,
+         .is_placed = is_placed,
          .levels = take_over(playhead.take_changes(), playhead.bone(), trace.at_end, structures)});
     structures.update(tool);
     trace.samples.back().distances = structures.distances();

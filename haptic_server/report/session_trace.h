@@ -37,6 +37,7 @@ struct TraceSample {
     std::size_t burr = 0;
     bool spindle_on = false;
     bool is_paused = false;
+    bool is_placed = false;  ///< the tool was put elsewhere, in the interval before this sample or after it
     std::vector<TissueLevels> levels{};          ///< only of tissues that changed; ascending labels
     std::vector<StructureDistance> distances{};  ///< to protected structures that are near or were touched
 
@@ -61,6 +62,9 @@ struct SessionTrace {
     double dt_s(std::size_t i) const {
         return i == 0 ? 0.0 : std::max(0.0, samples[i].time_s - samples[i - 1].time_s);
     }
+    /// The tool was put elsewhere in this interval, so that no hand has moved that far. A placement is told
+    /// of in the first frame after it, whose tool may be of the tick before.
+    bool leaps(std::size_t i) const { return i > 0 && (samples[i].is_placed || samples[i - 1].is_placed); }
     double mm3(std::int64_t levels) const {
         return static_cast<double>(levels) / 255.0 * voxel_volume_mm3(at_start.grid());
     }

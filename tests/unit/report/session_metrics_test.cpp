@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <glm/geometric.hpp>
 
+#include "haptic_server/report/session_plots.h"
 #include "tests/support/ball_structure.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/written_session.h"
@@ -100,6 +101,32 @@ TEST_F(ReportedSession, TellsIdleTimeFromPausesAndFromTheTurningSpindle) {
     EXPECT_NEAR(motion.paused_s, 1.0, 1e-9);
     EXPECT_NEAR(motion.spindle_s, 1.0, 1e-9);
     EXPECT_NEAR(motion.path_mm, 4.0, 1e-9);
+}
+
+TEST_F(ReportedSession, CountsNoPlacementAsAWayOfTheHand) {
+    // 5 mm/s along x; the tool is placed 40 mm off twice. The frame that tells of it may have the tool of
+    // before.
+    for (int i = 0; i <= 100; ++i) {
+        const double placed_mm = (i >= 30 ? 40.0 : 0.0) + (i >= 61 ? 40.0 : 0.0);
+        tool_.hand_position_mm = tool_.burr_position_mm = {0.25 * i, placed_mm, 10.0};
+        if (i == 30 || i == 60)
+            written_->event({.time_s = tool_.time_s, .action = SessionAction::place, .text = "there"});
+        if (i == 80)  // nothing came of it
+            written_->event({.time_s = tool_.time_s,
+                             .action = SessionAction::place,
+                             .text = "too far",
+                             .is_refused = true});
+        frame();
+    }
+    const SessionTrace read = trace();
+    const MotionMetrics motion = session_metrics(read).motion;
+    EXPECT_NEAR(motion.path_mm, 0.25 * 96, 1e-9) << "two frames about each placement are left out";
+    EXPECT_NEAR(motion.time_s, 5.0, 1e-9);
+    EXPECT_FALSE(motion.smoothness) << "a straight line at constant speed has no jerk";
+    for (const SvgPlot& plot : session_plots(read))
+        if (plot.title == "Speed of the burr") {
+            EXPECT_LT(*std::ranges::max_element(plot.lines.at(0).y), 5.001);
+        }
 }
 
 TEST_F(ReportedSession, GivesEachTissueItsForceAndVolume) {
