@@ -17,7 +17,7 @@ enum class SessionAction : std::uint8_t {
     undo,    ///< the last stroke that took bone; a stroke lasts from spindle on to off
     redo,    ///< the stroke undone last
     reset,   ///< undoes all strokes; each can be redone
-    save,    ///< the bone as it is
+    save,    ///< the bone as it is, or its surface
     finish,  ///< ends the session, everything saved
     place,   ///< the tool somewhere else: the patient is moved and turned under the device
 };
@@ -29,7 +29,7 @@ struct SessionControl {
     static constexpr std::size_t longest_text = 200;  ///< bytes
 
     SessionAction action = SessionAction::none;
-    std::string text{};  ///< of a mark: its note
+    std::string text{};  ///< of a mark: its note; of save: ".stl", ".ply" or ".obj" for the surface
     ToolPose pose{};     ///< of place: where the burr shall be, patient LPS; the axis is a unit vector
 
     bool operator==(const SessionControl&) const = default;

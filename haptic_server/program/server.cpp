@@ -38,6 +38,8 @@
 #include "haptic_server/report/write_report.h"
 #include "haptic_server/streaming/live_session.h"
 #include "haptic_server/streaming/streaming_server.h"
+#include "haptic_server/surface/mesh_file.h"
+#include "haptic_server/surface/surface_mesh.h"
 
 namespace osteomill {
 
@@ -127,6 +129,12 @@ Streaming make_streaming(StreamingOptions wanted, const ServerOptions& options, 
     if (options.listen)
         out.write(fmt::format("listening on {}:{}\n", options.listen->address, streaming.server->port()));
     return streaming;
+}
+
+void save_surface(const std::filesystem::path& path, const Bone& bone) {
+    const SurfaceMesh mesh = surface_of(bone);
+    if (mesh.triangles.empty()) throw std::runtime_error("nothing is left of the bone");
+    write_mesh(path, mesh);
 }
 
 /// Everything that a run leaves behind, written although one of them fails; the first failure is thrown.
@@ -235,9 +243,13 @@ void run_server(const ServerOptions& options, const std::string& version, const 
                                          log ? &*log : nullptr, milling_log ? &*milling_log : nullptr);
     SessionKeeper::Save save;
     if (options.save_bone)
-        save = [&](const Bone& now) -> std::string {
+        save = [&](const Bone& now, const std::string& mesh_ending) -> std::string {
             try {
-                save_bone(*options.save_bone, source, now);
+                if (mesh_ending.empty())
+                    save_bone(*options.save_bone, source, now);
+                else
+                    save_surface(std::filesystem::path(*options.save_bone).replace_extension(mesh_ending),
+                                 now);
             } catch (const std::exception& error) {
                 return error.what();
             }

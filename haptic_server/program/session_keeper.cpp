@@ -1,11 +1,14 @@
 #include "haptic_server/program/session_keeper.h"
 
+#include <fmt/format.h>
 #include <spdlog/spdlog.h>
+
+#include "haptic_server/surface/mesh_file.h"
 
 namespace osteomill {
 
 SessionControls::Requests SessionKeeper::requests() {
-    return {.save = [this](const Bone& bone) { return save(bone); },
+    return {.save = [this](const Bone& bone, const std::string& ending) { return save(bone, ending); },
             .finish =
                 [this] {
                     wants_end_.store(true);
@@ -13,14 +16,17 @@ SessionControls::Requests SessionKeeper::requests() {
                 }};
 }
 
-std::string SessionKeeper::save(const Bone& bone) {
+std::string SessionKeeper::save(const Bone& bone, const std::string& mesh_ending) {
+    // The rest of the name is the server's: no client says where on this disk is written.
+    if (!mesh_ending.empty() && !is_mesh_ending(mesh_ending))
+        return fmt::format("a surface is saved as {}", mesh_endings);
     if (!save_) return "the server was started without --save-bone";
     if (is_saving_.exchange(true)) return "the last one is still being saved";
     wait();
-    thread_ = std::thread([this, copy = bone] {
-        const std::string error = save_(copy);
+    thread_ = std::thread([this, copy = bone, mesh_ending] {
+        const std::string error = save_(copy, mesh_ending);
         if (error.empty())
-            spdlog::info("the bone was saved");
+            spdlog::info("the bone was saved{}", mesh_ending.empty() ? "" : " as a surface, " + mesh_ending);
         else
             spdlog::error("the bone was not saved: {}", error);
         is_saving_.store(false);

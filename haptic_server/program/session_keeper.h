@@ -13,8 +13,9 @@ namespace osteomill {
 
 class SessionKeeper {
   public:
-    /// Writes a bone; says in one line why it could not, or nothing. Called on a thread of its own.
-    using Save = std::function<std::string(const Bone&)>;
+    /// Writes a bone, or its surface where there is an ending of mesh_endings; says in one line why it could
+    /// not, or nothing. Called on a thread of its own.
+    using Save = std::function<std::string(const Bone&, const std::string& mesh_ending)>;
 
     /// An empty `save`: there is no file to save in, and it is refused.
     explicit SessionKeeper(Save save) : save_(std::move(save)) {}
@@ -34,7 +35,7 @@ class SessionKeeper {
     }
 
   private:
-    std::string save(const Bone& bone);
+    std::string save(const Bone& bone, const std::string& mesh_ending);
 
     Save save_;
     std::thread thread_;

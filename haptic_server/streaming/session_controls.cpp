@@ -48,7 +48,7 @@ bool SessionControls::act(const SessionControl& control, const Bone& bone, const
             is_paused_ = control.action == SessionAction::pause;
             break;
         case SessionAction::save:
-            say(control, requests_.save(bone));
+            say(control, requests_.save(bone, control.text));
             return true;
         case SessionAction::finish:
             say(control, requests_.finish());

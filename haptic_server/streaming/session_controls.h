@@ -28,7 +28,8 @@ class SessionControls {
   public:
     /// What is asked of others. Each returns why it cannot be done; an empty line: it will be.
     struct Requests {
-        std::function<std::string(const Bone&)> save{};
+        /// `text`: as what; empty for the bone itself.
+        std::function<std::string(const Bone&, const std::string& text)> save{};
         std::function<std::string()> finish{};
         /// Where the burr goes that is wanted there, or why nowhere. Empty where a tool cannot be placed.
         std::function<std::variant<ToolPose, std::string>(const Bone&, const ToolPose&, std::size_t burr)>

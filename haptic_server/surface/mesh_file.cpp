@@ -127,6 +127,11 @@ bool is_mesh_name(const std::filesystem::path& path) {
     return writer_for(path) != nullptr;
 }
 
+bool is_mesh_ending(const std::string& ending) {
+    const std::filesystem::path name("bone" + ending);
+    return name.extension() == ending && is_mesh_name(name);
+}
+
 void write_mesh(const std::filesystem::path& path, const SurfaceMesh& mesh) {
     const Write write = writer_for(path);
     if (write == nullptr)

@@ -9,6 +9,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 #include <string_view>
 
 #include "haptic_server/surface/surface_mesh.h"
@@ -17,6 +18,9 @@ namespace osteomill {
 
 /// Whether write_mesh knows the ending of this name.
 bool is_mesh_name(const std::filesystem::path& path);
+
+/// Whether this is one of the endings, and nothing else: ".stl".
+bool is_mesh_ending(const std::string& ending);
 
 /// The endings, as options name them.
 inline constexpr std::string_view mesh_endings = ".stl, .ply or .obj";

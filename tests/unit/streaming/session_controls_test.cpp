@@ -20,7 +20,7 @@ class SessionControlsTest : public ::testing::Test, public ChangeSink {
           changes_(1 << 20, milled_.shared_content()),
           controls_(gate_, restored_, placements_,
                     {.save =
-                         [this](const Bone& bone) {
+                         [this](const Bone& bone, const std::string&) {
                              saved_ = checksum(bone);
                              return std::string(can_save_ ? "" : "the disk is full");
                          },
