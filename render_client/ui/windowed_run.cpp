@@ -40,12 +40,16 @@ constexpr std::chrono::milliseconds driving_period(10);
 constexpr std::chrono::milliseconds shortest_period(4);
 constexpr double longest_wait_s = 0.1;
 
-void move_camera(SessionPicture& session, float wheel_notches, bool left_turns) {
+void move_camera(SessionPicture& session, Commands& commands, float wheel_notches, bool left_turns) {
     const ImGuiIO& io = ImGui::GetIO();
     if (io.WantCaptureMouse) return;  // a panel has it
     const glm::dvec2 moved_px(io.MouseDelta.x, io.MouseDelta.y);
     const bool right = io.MouseDown[ImGuiMouseButton_Right];
-    if (io.MouseDown[ImGuiMouseButton_Middle] || (right && io.KeyShift))
+    const bool moves_bone = commands.is_clutched();
+    const bool left = io.MouseDown[ImGuiMouseButton_Left];
+    if (moves_bone && (left || right) && !io.KeyShift)
+        commands.turn_bone(-orbit_rad_per_px * moved_px.x, orbit_rad_per_px * moved_px.y);
+    else if (io.MouseDown[ImGuiMouseButton_Middle] || ((right || (moves_bone && left)) && io.KeyShift))
         pan(session.camera(), moved_px, session.size_px());
     else if (right || (left_turns && io.MouseDown[ImGuiMouseButton_Left]))
         orbit(session.camera(), -orbit_rad_per_px * moved_px.x, orbit_rad_per_px * moved_px.y);
@@ -119,16 +123,17 @@ class Drawing {
         commands_.tell(link.events, std::chrono::duration<double>(now - began_).count());
         drills_ = source_.player() == nullptr && link.status == LinkStatus::live && session_.tool() &&
                   session_.session() && session_.session()->accepts_operator;
-        shared_.desk.show(
-            {.drills = drills_,
-             .burr_count = session_.session() ? session_.session()->burrs.size() : 0,
-             .camera = session_.camera(),
-             .size_px = session_.size_px(),
-             .panels_have_mouse = ImGui::GetIO().WantCaptureMouse || session_.view().click_places,
-             .panels = panels_.input_boxes(),
-             .panels_have_keyboard = has_keyboard(),
-             .drag_tilts = session_.view().drag_tilts,
-             .holds_still = link.controls.is_paused});
+        shared_.desk.show({.drills = drills_,
+                           .burr_count = session_.session() ? session_.session()->burrs.size() : 0,
+                           .camera = session_.camera(),
+                           .size_px = session_.size_px(),
+                           .panels_have_mouse = ImGui::GetIO().WantCaptureMouse ||
+                                                session_.view().click_places || session_.view().moves_bone,
+                           .panels = panels_.input_boxes(),
+                           .panels_have_keyboard = has_keyboard(),
+                           .drag_tilts = session_.view().drag_tilts,
+                           .is_clutched = commands_.is_clutched(),
+                           .holds_still = link.controls.is_paused});
         session_.show_operator(shared_.desk.command());
 
         const RecordingPlayer* player = source_.player();
@@ -145,9 +150,10 @@ class Drawing {
         session_.resize(input_.framebuffer_size_px);
         session_.view().scale = static_cast<float>(options_.ui_scale.value_or(input_.content_scale));
         panels_.feed(input_);
+        commands_.work_clutch();
         const gl::Framebuffer& framebuffer = session_.draw(elapsed_s);
         // Dear ImGui took the input in while the panels were drawn; it takes effect in the next frame.
-        move_camera(session_, panels_.wheel_notches(), !drills_);
+        move_camera(session_, commands_, panels_.wheel_notches(), !drills_);
         for (const Action action :
              actions_of(input_.presses, situation_of(drills_, source_.player() != nullptr)))
             if (!has_keyboard() || action == Action::end) commands_.take(action);
@@ -155,6 +161,7 @@ class Drawing {
             !ImGui::GetIO().WantCaptureMouse)
             commands_.place_at({ImGui::GetIO().MousePos.x, ImGui::GetIO().MousePos.y});
         commands_.take(session_.take_wishes());
+        commands_.work_clutch();
         input_.forget_events();
         const std::string notice = session_.view().notice;
         commands_.write_pictures(framebuffer, std::chrono::duration<double>(start - began_).count());

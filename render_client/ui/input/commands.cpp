@@ -101,6 +101,12 @@ void Commands::take(Action action) {
         case Action::place:
             view.click_places = !view.click_places && session_.link().controls.may_control;
             break;
+        case Action::move_bone:
+            view.moves_bone = !view.moves_bone && session_.link().controls.may_control;
+            break;
+        case Action::save_surface:
+            if (session_.link().controls.may_control) view.question = SessionQuestion::surface;
+            break;
         case Action::undo:
             ask(SessionAction::undo);
             break;
@@ -171,10 +177,49 @@ void Commands::place_at(const glm::dvec2& pixel) {
     source_.send_control({.action = SessionAction::place, .pose = pose});
 }
 
+void Commands::work_clutch() {
+    ViewSettings& view = session_.view();
+    const LinkUpdate& link = session_.link();
+    const auto& tool = session_.tool();
+    const bool can = link.status == LinkStatus::live && link.controls.may_control && tool;
+    if (view.moves_bone && !can) view.moves_bone = false;
+    if (view.moves_bone && !clutch_.is_held()) {
+        clutch_.hold(session_.camera(), {tool->burr_position_mm, tool->spindle_axis});
+        clutch_paused_ = !link.controls.is_paused;
+        if (clutch_paused_) ask(SessionAction::pause);
+    }
+    if (!clutch_.is_held()) {
+        // Nobody answers any more.
+        if (link.status != LinkStatus::live && std::exchange(waits_for_place_, false))
+            session_.show_tool_at(std::nullopt);
+        return;
+    }
+    const ToolPose pose = clutch_.pose(session_.camera());
+    session_.show_tool_at(pose);
+    if (view.moves_bone) return;
+    waits_for_place_ = can && clutch_.has_moved(session_.camera());
+    clutch_.let_go();
+    if (waits_for_place_)
+        source_.send_control({.action = SessionAction::place, .pose = pose});
+    else
+        session_.show_tool_at(std::nullopt);
+    if (clutch_paused_ && link.status == LinkStatus::live) ask(SessionAction::resume);
+}
+
+void Commands::turn_bone(double azimuth_change_rad, double elevation_change_rad) {
+    Camera& camera = session_.camera();
+    const glm::dvec3 before_mm = clutch_.pose(camera).position_mm;
+    orbit(camera, azimuth_change_rad, elevation_change_rad);
+    camera.target_mm += before_mm - clutch_.pose(camera).position_mm;
+}
+
 void Commands::tell(const std::vector<ControlEvent>& events, double now_s) {
     for (const ControlEvent& event : events) {
         // The hand would pull the tool back to where it was.
         if (event.action == SessionAction::place && !event.is_refused) desk_.release();
+        if (event.action == SessionAction::place && std::exchange(waits_for_place_, false) &&
+            !clutch_.is_held())
+            session_.show_tool_at(std::nullopt);
         say(event.is_refused ? fmt::format("no {}: {}", name_of(event.action), event.text)
                              : fmt::format("{} {}", words_for(event.action), event.text),
             now_s);

@@ -6,6 +6,7 @@
 
 #include "render_client/ui/input/key_bindings.h"
 #include "render_client/ui/input/operator_desk.h"
+#include "render_client/ui/view/bone_clutch.h"
 #include "render_client/ui/view/picture_export.h"
 #include "render_client/ui/view/session_picture.h"
 
@@ -23,6 +24,13 @@ class Commands {
     /// Puts the tool on the bone that is seen at a pixel, the handpiece upright on it; a click beside the
     /// bone does nothing.
     void place_at(const glm::dvec2& pixel);
+    /// Before and after each frame: takes hold of the tool while the bone is moved under it, and has it
+    /// placed when that is over. Meanwhile the session is paused.
+    void work_clutch();
+    /// Whether mouse and keys move the bone.
+    bool is_clutched() const { return clutch_.is_held(); }
+    /// Turns the bone about the burr, which stays where it is.
+    void turn_bone(double azimuth_change_rad, double elevation_change_rad);
     /// Says what came of what was asked of the session.
     void tell(const std::vector<ControlEvent>& events, double now_s);
     /// Call after each frame: writes what was asked for, and says so, or what went wrong, for a few seconds.
@@ -43,6 +51,9 @@ class Commands {
     SessionSource& source_;
     RecordingPlayer* player_;  // null where no recording is shown
     PictureExport pictures_;
+    BoneClutch clutch_;
+    bool clutch_paused_ = false;    // the session, which goes on afterwards
+    bool waits_for_place_ = false;  // what was asked for is shown until the server has answered
     bool picture_wanted_ = false;
     bool export_wanted_ = false;
     bool end_wanted_ = false;

@@ -29,6 +29,8 @@ enum class Action {
     previous_burr,
     tilt,
     place,
+    move_bone,
+    save_surface,
     undo,
     redo,
     hold,

@@ -30,7 +30,7 @@ void OperatorDesk::step(const WindowInput& input, double elapsed_s) {
             // What the hand wants is only known once it rests on the tool: an intent of its own making would
             // drag the tool away.
             hand_.follow(*tool, picture_.burr_count);
-            if (input.is_focused && !input.is_minimised)
+            if (input.is_focused && !input.is_minimised && !picture_.is_clutched)
                 move_hand(input, std::min(elapsed_s, longest_step_s));
             else
                 let_go();

@@ -32,6 +32,7 @@ struct DeskPicture {
     std::vector<PixelBox> panels{};     ///< y down
     bool panels_have_keyboard = false;  ///< a text is being written
     bool drag_tilts = false;            ///< the mouse tilts the handpiece instead of moving it
+    bool is_clutched = false;           ///< mouse and keys move the bone: the hand lets go
     bool holds_still = false;           ///< the session is paused: a pedal that was left down comes up
 };
 

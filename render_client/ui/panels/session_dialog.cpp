@@ -23,6 +23,8 @@ Question question_of(const OverlayContent& content) {
             return {"Undo every stroke? Each can be redone.", "Reset"};
         case SessionQuestion::finish:
             return {"Finish the session, for everybody? All is saved.", "Finish"};
+        case SessionQuestion::surface:
+            return {"Save the surface of the bone as it is, beside the server's --save-bone, as:", "STL"};
         case SessionQuestion::end:
             return {"End this program? The session goes on without it.", "End"};
         case SessionQuestion::none:
@@ -43,6 +45,9 @@ void answer(const OverlayContent& content) {
             break;
         case SessionQuestion::finish:
             wishes.controls.push_back({SessionAction::finish});
+            break;
+        case SessionQuestion::surface:
+            wishes.controls.push_back({SessionAction::save, ".stl"});
             break;
         case SessionQuestion::end:
             wishes.ends_program = true;
@@ -78,6 +83,14 @@ void draw_session_dialog(const OverlayContent& content, const PanelPlace& place)
     }
     is_answered |= ImGui::Button(question.yes) || ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Enter));
     ImGui::SameLine();
+    if (content.view->question == SessionQuestion::surface)
+        for (const auto& [kind, ending] : {std::pair("PLY", ".ply"), {"OBJ", ".obj"}}) {
+            if (ImGui::Button(kind)) {
+                content.wishes->controls.push_back({SessionAction::save, ending});
+                content.view->question = SessionQuestion::none;
+            }
+            ImGui::SameLine();
+        }
     const bool is_given_up = ImGui::Button("Go on");
     if (is_answered)
         answer(content);

@@ -4,15 +4,34 @@
 #include <imgui.h>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
 #include <string>
 
+#include "common/scene/burr_profile.h"
 #include "render_client/ui/panels/input_panel.h"
 
 namespace osteomill {
 
 namespace {
 
-enum class Tool { pedal, burr, tilt, place, slices, undo, redo, reset, pause, mark, save, finish };
+enum class Tool {
+    pedal,
+    burr,
+    tilt,
+    place,
+    bone,
+    slices,
+    undo,
+    redo,
+    reset,
+    pause,
+    mark,
+    save,
+    surface,
+    finish
+};
 
 struct ToolButton {
     Tool tool;
@@ -56,11 +75,19 @@ std::vector<ToolButton> buttons(const OverlayContent& content) {
                            .is_on = content.view->drag_tilts});
     }
     buttons.push_back({.tool = Tool::place,
-                       .sign = "\u2316",
+                       .sign = "\u25C9",
                        .word = "Place",
                        .tip = "then click on bone: there the tool goes, the handpiece upright on it (L)",
                        .is_enabled = may,
                        .is_on = content.view->click_places});
+    buttons.push_back(
+        {.tool = Tool::bone,
+         .sign = "\u21C4",
+         .word = content.view->moves_bone ? "Let go" : "Move bone",
+         .tip = "left drag turns the bone under the tool, with shift it moves it, the wheel brings it "
+                "nearer; press again to go on there (B)",
+         .is_enabled = may,
+         .is_on = content.view->moves_bone});
     if (content.session != nullptr && content.session->has_ct)
         buttons.push_back({.tool = Tool::slices,
                            .sign = "\u25A6",
@@ -101,6 +128,11 @@ std::vector<ToolButton> buttons(const OverlayContent& content) {
                        .word = "Save",
                        .tip = "the bone as it is, where the server saves it (F6)",
                        .is_enabled = may});
+    buttons.push_back({.tool = Tool::surface,
+                       .sign = "\u25B3",
+                       .word = "Surface",
+                       .tip = "the bone's surface as it is, as STL, PLY or OBJ (F8)",
+                       .is_enabled = may});
     buttons.push_back({.tool = Tool::finish,
                        .sign = "\u25A0",
                        .word = "Finish",
@@ -137,6 +169,9 @@ void press(Tool tool, const OverlayContent& content) {
         case Tool::place:
             content.view->click_places = !content.view->click_places;
             break;
+        case Tool::bone:
+            content.view->moves_bone = !content.view->moves_bone;
+            break;
         case Tool::slices:
             content.view->slices_shown = !content.view->slices_shown;
             break;
@@ -159,38 +194,83 @@ void press(Tool tool, const OverlayContent& content) {
         case Tool::save:
             wishes.controls.push_back({SessionAction::save});
             break;
+        case Tool::surface:
+            content.view->question = SessionQuestion::surface;
+            break;
         case Tool::finish:
             content.view->question = SessionQuestion::finish;
             break;
     }
 }
 
-/// The head's outline at twice its size on an ordinary display.
-void draw_burr(const Burr& burr, const ImVec2& centre, float most_px) {
-    const float radius =
-        std::clamp(static_cast<float>(burr.diameter_mm) * 0.1f * most_px, 1.5f, 0.5f * most_px);
+/// The head's section through the spindle, tip down, with its shank, to the scale of the largest of a set: a
+/// pixel for each `mm_per_px`.
+void draw_burr(const Burr& burr, const ImVec2& first, const ImVec2& size, float mm_per_px) {
+    constexpr int steps = 24;  // of half the outline
     ImDrawList& canvas = *ImGui::GetWindowDrawList();
-    const ImU32 colour = ImGui::GetColorU32(ImGuiCol_Text);
-    canvas.AddLine({centre.x, centre.y}, {centre.x, centre.y - 0.5f * most_px}, colour, 2.0f);
-    if (burr.is_ball())
-        canvas.AddCircleFilled(centre, radius, colour);
-    else
-        canvas.AddRectFilled({centre.x - radius, centre.y - 0.4f * most_px},
-                             {centre.x + radius, centre.y + 0.4f * most_px}, colour, 2.0f);
+    const ImU32 ink = ImGui::GetColorU32(ImGuiCol_Text);
+    const float radius_mm = static_cast<float>(burr.radius_mm());
+    const float middle = first.x + 0.5f * size.x;
+    // The tip lies half a diameter below the head's origin.
+    const auto at = [&](float out_mm, float height_mm) {
+        return ImVec2{middle + out_mm / mm_per_px,
+                      first.y + size.y - std::max(height_mm + radius_mm, 0.0f) / mm_per_px};
+    };
+    std::array<ImVec2, 2 * steps + 2> points;
+    float top_mm = radius_mm;
+    if (burr.is_ball()) {
+        for (int i = 0; i <= steps; ++i) {
+            const float angle = std::numbers::pi_v<float> * static_cast<float>(i) / steps;
+            points[i] = at(radius_mm * std::sin(angle), -radius_mm * std::cos(angle));
+        }
+    } else {
+        const BurrProfile profile(burr.head, burr.diameter_mm);
+        for (int i = 0; i <= steps; ++i) {
+            const OutlinePoint point = profile.outline_at(profile.outline_length() * i / steps);
+            points[i] = at(static_cast<float>(point.radius), static_cast<float>(point.height));
+        }
+        top_mm = static_cast<float>(profile.top_height());
+    }
+    for (int i = 0; i <= steps; ++i) {
+        const ImVec2& right = points[steps - i];
+        points[steps + 1 + i] = {2.0f * middle - right.x, right.y};
+    }
+    canvas.AddLine(at(0.0f, 0.9f * top_mm), {middle, first.y}, ImGui::GetColorU32(ImGuiCol_TextDisabled),
+                   2.0f);
+    canvas.AddConvexPolyFilled(points.data(), static_cast<int>(points.size()), ink);
+    // As many edges as can be seen from one side.
+    for (int edge = 1; edge < burr.edges / 2; ++edge) {
+        const float across = 2.0f * static_cast<float>(edge) / static_cast<float>(burr.edges / 2) - 1.0f;
+        const int seen = steps / 2;
+        const float half = points[seen].x - middle;
+        canvas.AddLine({middle + 0.8f * across * half, points[steps / 4].y},
+                       {middle + 0.8f * across * half, points[3 * steps / 4].y},
+                       ImGui::GetColorU32(ImGuiCol_PopupBg), 1.0f);
+    }
+}
+
+/// Of the largest head of a set, from its tip to where it ends, or across.
+float largest_mm(const std::vector<Burr>& burrs) {
+    double largest_mm = 0.5;
+    for (const Burr& burr : burrs) largest_mm = std::max({largest_mm, burr.diameter_mm, burr.head.length_mm});
+    return static_cast<float>(largest_mm);
 }
 
 void draw_burr_list(const OverlayContent& content) {
     if (!ImGui::BeginPopup("burrs")) return;
-    const float height = 1.6f * ImGui::GetFontSize();
+    const float height = 2.6f * ImGui::GetFontSize();
+    const float mm_per_px = 1.15f * largest_mm(content.session->burrs) / height;
     for (std::size_t i = 0; i < content.session->burrs.size(); ++i) {
         const Burr& burr = content.session->burrs[i];
-        const std::string text = fmt::format("        {}: {}, {} edges, {:.0f} rpm##{}", i + 1,
+        const std::string text = fmt::format("           {}: {}, {} edges, {:.0f} rpm##{}", i + 1,
                                              burr_words(burr), burr.edges, 60.0 * burr.spindle_rev_per_s, i);
         const ImVec2 place = ImGui::GetCursorScreenPos();
+        ImGui::PushStyleVar(ImGuiStyleVar_SelectableTextAlign, {0.0f, 0.5f});
         if (ImGui::Selectable(text.c_str(), content.operator_command && content.operator_command->burr == i,
                               0, {0.0f, height}))
             content.wishes->burr = i;
-        draw_burr(burr, {place.x + 0.6f * height, place.y + 0.5f * height}, height);
+        ImGui::PopStyleVar();
+        draw_burr(burr, {place.x, place.y + 1.0f}, {height, height - 2.0f}, mm_per_px);
     }
     ImGui::EndPopup();
 }

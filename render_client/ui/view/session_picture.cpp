@@ -183,13 +183,14 @@ const gl::Framebuffer& SessionPicture::draw(double elapsed_s) {
                        .background_low = theme.background_low,
                        .background_high = theme.background_high});
     std::optional<DrawnTool> tool;
-    if (tool_) tool = drawn_tool();
+    const std::optional<ToolState> shown = shown_tool();
+    if (shown) tool = drawn_tool(*shown);
     const gl::Framebuffer& picture =
         picture_.draw(textures_ ? &*textures_ : nullptr, tool ? &*tool : nullptr, camera_);
     panels_.begin(size_px_, elapsed_s, view_.theme, view_.scale);
     draw_overlay({.link = link_,
                   .session = source_.session(),
-                  .tool = tool_,
+                  .tool = shown,
                   .history = &history_,
                   .camera = &camera_,
                   .view = &view_,
@@ -227,15 +228,23 @@ void SessionPicture::turn_burr(double elapsed_s) {
     spin_rad_ = std::remainder(spin_rad_ + change, 2.0 * std::numbers::pi);
 }
 
-DrawnTool SessionPicture::drawn_tool() const {
-    DrawnTool drawn{.state = *tool_, .spin_rad = spin_rad_};
+std::optional<ToolState> SessionPicture::shown_tool() const {
+    std::optional<ToolState> shown = tool_;
+    if (!shown || !shown_pose_) return shown;
+    shown->burr_position_mm = shown->hand_position_mm = shown_pose_->position_mm;
+    shown->spindle_axis = shown_pose_->spindle_axis;
+    return shown;
+}
+
+DrawnTool SessionPicture::drawn_tool(const ToolState& state) const {
+    DrawnTool drawn{.state = state, .spin_rad = spin_rad_};
     const SessionInfo* session = source_.session();
-    if (session && tool_->burr < session->burrs.size()) {
-        const Burr& burr = session->burrs[tool_->burr];
+    if (session && state.burr < session->burrs.size()) {
+        const Burr& burr = session->burrs[state.burr];
         drawn.burr = {burr.diameter_mm, burr.head, burr.edges, burr.sense == SpindleSense::clockwise};
     }
-    if (operator_command_ &&
-        glm::distance(operator_command_->hand_target_mm, tool_->burr_position_mm) > nearest_shown_target_mm)
+    if (operator_command_ && !shown_pose_ &&
+        glm::distance(operator_command_->hand_target_mm, state.burr_position_mm) > nearest_shown_target_mm)
         drawn.hand_target_mm = operator_command_->hand_target_mm;
     return drawn;
 }

@@ -62,6 +62,9 @@ class SessionPicture {
     SessionWishes take_wishes() { return std::exchange(wishes_, {}); }
     void show_operator(const std::optional<OperatorCommand>& command) { operator_command_ = command; }
 
+    /// Shows the tool there instead of where the session has it; nothing: no longer.
+    void show_tool_at(const std::optional<ToolPose>& pose) { shown_pose_ = pose; }
+
     bool has_bone() const { return textures_.has_value(); }
     /// Whether a burr turns in the picture: it does for as long as the source tells of it.
     bool has_turning_burr() const;
@@ -81,7 +84,9 @@ class SessionPicture {
     void replace_bone();
     News news() const;
     void ask_for_ct();
-    DrawnTool drawn_tool() const;
+    /// The tool as it is shown.
+    std::optional<ToolState> shown_tool() const;
+    DrawnTool drawn_tool(const ToolState& state) const;
     void turn_burr(double elapsed_s);
 
     SessionSource& source_;
@@ -113,6 +118,7 @@ class SessionPicture {
     std::uint64_t ct_asked_in_ = 0;  // which connection; 0: none
     SessionWishes wishes_;
     bool takes_wishes_ = false;
+    std::optional<ToolPose> shown_pose_;
     double spin_rad_ = 0.0;
     double frame_s_ = 0.0;  ///< between frames, in the mean over the last ten or so
     std::uint64_t dirty_bricks_uploaded_ = 0;

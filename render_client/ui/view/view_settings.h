@@ -14,10 +14,11 @@ namespace osteomill {
 /// What a person is asked in the middle of the picture.
 enum class SessionQuestion {
     none,
-    mark,    ///< what is worth a note?
-    reset,   ///< undo everything?
-    finish,  ///< end the session for everybody?
-    end,     ///< end this program?
+    mark,     ///< what is worth a note?
+    reset,    ///< undo everything?
+    finish,   ///< end the session for everybody?
+    surface,  ///< as which kind of file is the bone's surface saved?
+    end,      ///< end this program?
 };
 
 struct ViewSettings {
@@ -33,6 +34,7 @@ struct ViewSettings {
     SessionQuestion question = SessionQuestion::none;
     std::array<char, SessionControl::longest_text + 1> note{};  ///< of a mark, while it is written
     bool click_places = false;  ///< the next click on bone says where the tool goes
+    bool moves_bone = false;    ///< drags move and turn the bone under the tool, which holds still
     bool drag_tilts = false;    ///< the left button tilts the handpiece instead of moving it
     std::string notice;         ///< one line for a few seconds; empty: none
 };
