@@ -145,6 +145,13 @@ std::string text_of(const ToolButton& button, bool has_words) {
     return has_words ? button.sign + " " + button.word : button.sign;
 }
 
+/// For a small picture: the least used are left to their keys.
+std::vector<ToolButton> without_least_used(std::vector<ToolButton> buttons) {
+    std::erase_if(buttons,
+                  [](const ToolButton& b) { return b.tool == Tool::bone || b.tool == Tool::surface; });
+    return buttons;
+}
+
 glm::vec2 size_of(const std::vector<ToolButton>& buttons, bool has_words) {
     const ImGuiStyle& style = ImGui::GetStyle();
     float width = 2.0f * style.WindowPadding.x - style.ItemSpacing.x;
@@ -284,14 +291,15 @@ bool has_tool_bar(const OverlayContent& content) {
 
 std::vector<glm::vec2> tool_bar_sizes(const OverlayContent& content, const PanelPainter&) {
     const auto all = buttons(content);
-    return {size_of(all, true), size_of(all, false)};
+    return {size_of(all, true), size_of(all, false), size_of(without_least_used(all), false)};
 }
 
 void draw_tool_bar(const OverlayContent& content, const PanelPlace& place) {
     const InputPanel window("tool bar", place);
     const bool has_words = place.choice == 0;
     bool is_first = true;
-    for (const ToolButton& button : buttons(content)) {
+    const auto all = buttons(content);
+    for (const ToolButton& button : place.choice < 2 ? all : without_least_used(all)) {
         if (!std::exchange(is_first, false)) ImGui::SameLine();
         ImGui::BeginDisabled(!button.is_enabled);
         if (button.is_on)

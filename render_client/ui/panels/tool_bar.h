@@ -14,7 +14,7 @@ namespace osteomill {
 /// Whether there is a session of which anything can be asked, by whomever.
 bool has_tool_bar(const OverlayContent& content);
 
-/// With words, and with signs alone.
+/// With words, with signs alone, and of those only the most used.
 std::vector<glm::vec2> tool_bar_sizes(const OverlayContent& content, const PanelPainter& painter);
 /// What is pressed goes into content.wishes and content.view.
 void draw_tool_bar(const OverlayContent& content, const PanelPlace& place);
