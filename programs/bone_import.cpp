@@ -1,8 +1,11 @@
 // bone_import: a scan in, a bone file out.
 #include <CLI/CLI.hpp>
 #include <exception>
+#include <filesystem>
 #include <fstream>
 #include <iostream>
+#include <optional>
+#include <utility>
 
 #include "common/program/option_checks.h"
 #include "common/program/program_output.h"
@@ -10,6 +13,7 @@
 #include "haptic_server/imaging/import_bone.h"
 #include "haptic_server/imaging/memory_estimate.h"
 #include "haptic_server/program/case_folder.h"
+#include "haptic_server/program/scan_preview.h"
 
 namespace {
 
@@ -20,12 +24,39 @@ constexpr int exit_usage = 2;
 struct Texts {
     std::string region;
     std::string case_folder;
-    std::string segmentation;
+    osteomill::CaseParts parts;
+    std::vector<std::string> segmentations;
+    std::string colours;
+    std::string target;
+    std::string preview;
     std::string rescale;
     std::string intensity_window;
     std::string series;
     double threshold_hu = 0.0;
 };
+
+constexpr double preview_spacing_mm = 0.5;
+
+/// The whole scan, coarse, by way of a file that is gone afterwards.
+void preview(osteomill::ImportOptions options, const std::filesystem::path& picture,
+             const osteomill::ImportSurroundings& surroundings) {
+    const std::optional<osteomill::Region> region = std::exchange(options.region, std::nullopt);
+    options.threshold_hu.reset();
+    options.output = picture.string() + ".coarse.nrrd";
+    osteomill::CtVolume ct;
+    try {
+        osteomill::import_bone(options, surroundings);
+        ct = osteomill::whole_ct(options.output);
+    } catch (...) {
+        std::error_code ignored;
+        std::filesystem::remove(options.output, ignored);
+        throw;
+    }
+    std::filesystem::remove(options.output);
+    surroundings.messages << osteomill::summary_of(ct);
+    osteomill::write_preview(ct, region, picture);
+    surroundings.messages << "preview: " << picture.string() << '\n';
+}
 
 void add_options(CLI::App& app, osteomill::ImportOptions& options, Texts& texts) {
     app.add_option("INPUT", options.input, "DICOM folder, or a NRRD, NIfTI or MetaImage file")->required();
@@ -35,9 +66,29 @@ void add_options(CLI::App& app, osteomill::ImportOptions& options, Texts& texts)
                    "folder to make a case in, instead: case.toml, bone.nrrd and the segmentation")
         ->type_name("DIR")
         ->excludes(output);
-    app.add_option("--segmentation", texts.segmentation,
-                   "with --case: tissues, as 3D Slicer writes them (.seg.nrrd), or a label map (NRRD, NIfTI)")
+    app.add_option("--preview", texts.preview,
+                   "instead of a bone: say what the scan covers and its HU, and draw three slices of it, at "
+                   "0.5 mm unless --spacing-mm says otherwise, with the --region")
+        ->type_name("PICTURE.png")
+        ->excludes(output)
+        ->excludes("--case");
+    app.add_option("--segmentation", texts.segmentations,
+                   "with --case: tissues, as 3D Slicer writes them (.seg.nrrd), or a label map (NRRD, "
+                   "NIfTI); again for "
+                   "each further file")
         ->type_name("FILE");
+    app.add_option(
+           "--colours", texts.colours,
+           "names and colours of a label map's labels: a colour table of 3D Slicer (.ctbl) or ITK-SNAP")
+        ->type_name("FILE");
+    app.add_option("--protect", texts.parts.is_protected,
+                   "with --segmentation: a segment that must not be touched; again for each further one")
+        ->type_name("NAME");
+    app.add_option("--warn-mm", texts.parts.warn_mm, "of the protected: warn of a burr that is nearer")
+        ->check(osteomill::within(0.0, 50.0))
+        ->capture_default_str();
+    app.add_option("--target", texts.target, "with --segmentation: the segment that is to be removed")
+        ->type_name("NAME");
     app.add_option("--spacing-mm", options.spacing_mm, "edge of a voxel of the result")
         ->capture_default_str()
         ->check(osteomill::within(0.01, 10.0));
@@ -62,7 +113,7 @@ void add_options(CLI::App& app, osteomill::ImportOptions& options, Texts& texts)
         ->excludes(rescale);
 }
 
-void parse_texts(const CLI::App& app, const Texts& texts, osteomill::ImportOptions& options) {
+void parse_texts(const CLI::App& app, Texts& texts, osteomill::ImportOptions& options) {
     if (app.count("--threshold-hu") > 0) options.threshold_hu = texts.threshold_hu;
     if (options.keeps_soft_tissue && !options.threshold_hu)
         throw std::invalid_argument("--keep-soft-tissue: goes with --threshold-hu; without, all HU are kept");
@@ -71,10 +122,20 @@ void parse_texts(const CLI::App& app, const Texts& texts, osteomill::ImportOptio
     if (app.count("--rescale") > 0) options.to_hu = osteomill::parse_rescale(texts.rescale);
     if (app.count("--intensity-window") > 0)
         options.to_hu = osteomill::parse_intensity_window(texts.intensity_window);
-    if (texts.case_folder.empty() && !texts.segmentation.empty())
+    if (texts.case_folder.empty() && !texts.segmentations.empty())
         throw std::invalid_argument("--segmentation: goes with --case");
+    for (const char* option : {"--colours", "--protect", "--warn-mm", "--target"})
+        if (texts.segmentations.empty() && app.count(option) > 0)
+            throw std::invalid_argument(std::string(option) + ": goes with --segmentation");
+    texts.parts.segmentations.assign(texts.segmentations.begin(), texts.segmentations.end());
+    if (!texts.colours.empty()) texts.parts.colours = texts.colours;
+    if (!texts.target.empty()) texts.parts.target = texts.target;
+    if (!texts.preview.empty()) {
+        if (app.count("--spacing-mm") == 0) options.spacing_mm = preview_spacing_mm;
+        return;
+    }
     if (texts.case_folder.empty() && options.output.empty())
-        throw std::invalid_argument("give OUTPUT.nrrd or --case DIR (see --help)");
+        throw std::invalid_argument("give OUTPUT.nrrd, --case DIR or --preview PICTURE.png (see --help)");
     if (!texts.case_folder.empty()) options.output = osteomill::bone_of_case(texts.case_folder);
     if (options.output.extension() != ".nrrd")
         throw std::invalid_argument("OUTPUT '" + options.output.string() + "': its name must end in .nrrd");
@@ -107,16 +168,17 @@ int main(int argc, char** argv) {
         std::ostream messages(&buffer);
         messages << std::unitbuf;
         try {
-            const auto segmentation = texts.segmentation.empty()
-                                          ? std::nullopt
-                                          : std::optional<std::filesystem::path>(texts.segmentation);
-            if (!texts.case_folder.empty()) osteomill::begin_case(texts.case_folder, segmentation);
             std::ifstream meminfo("/proc/meminfo");
-            osteomill::import_bone(options,
-                                   {.messages = messages,
-                                    .is_terminal = output.err->is_terminal(),
-                                    .available_memory_bytes = osteomill::available_memory_bytes(meminfo)});
-            if (!texts.case_folder.empty()) osteomill::finish_case(texts.case_folder, segmentation, messages);
+            const osteomill::ImportSurroundings surroundings{
+                .messages = messages,
+                .is_terminal = output.err->is_terminal(),
+                .available_memory_bytes = osteomill::available_memory_bytes(meminfo)};
+            if (!texts.case_folder.empty()) osteomill::begin_case(texts.case_folder, texts.parts);
+            if (texts.preview.empty())
+                osteomill::import_bone(options, surroundings);
+            else
+                preview(options, texts.preview, surroundings);
+            if (!texts.case_folder.empty()) osteomill::finish_case(texts.case_folder, texts.parts, messages);
         } catch (const std::exception& error) {
             messages << "bone_import: " << error.what() << '\n';
             exit_code = exit_failure;

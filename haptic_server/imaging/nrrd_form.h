@@ -22,6 +22,8 @@ struct NrrdForm {
     Grid grid;
     /// NRRD's "byte skip": so many decoded bytes stand before the voxels, and readers pass over them.
     std::uint64_t bytes_before_voxels = 0;
+    /// Values of a voxel, one after the other; over 1 as the first axis, as 3D Slicer layers a segmentation.
+    int layers = 1;
     std::map<std::string, std::string> key_values{};  ///< "key:=value"
 };
 

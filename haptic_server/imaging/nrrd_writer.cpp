@@ -36,21 +36,24 @@ std::string escaped(const std::string& text) {
 std::string header_of(const NrrdForm& form) {
     const Grid& grid = form.grid;
     const double h = grid.spacing_mm;
+    const bool has_layers = form.layers > 1;
     std::string text = fmt::format(
         "NRRD0005\n"
         "# Complete NRRD file format specification at:\n"
         "# http://teem.sourceforge.net/nrrd/format.html\n"
         "type: {}\n"
-        "dimension: 3\n"
+        "dimension: {}\n"
         "space: left-posterior-superior\n"
-        "sizes: {} {} {}\n"
-        "space directions: ({},0,0) (0,{},0) (0,0,{})\n"
-        "kinds: domain domain domain\n"
+        "sizes: {}{} {} {}\n"
+        "space directions: {}({},0,0) (0,{},0) (0,0,{})\n"
+        "kinds: {}domain domain domain\n"
         "endian: little\n"
         "encoding: gzip\n"
         "space origin: ({},{},{})\n",
-        form.voxel == NrrdVoxel::int16 ? "int16" : "uint8", grid.size_voxels.x, grid.size_voxels.y,
-        grid.size_voxels.z, h, h, h, grid.origin_mm.x, grid.origin_mm.y, grid.origin_mm.z);
+        form.voxel == NrrdVoxel::int16 ? "int16" : "uint8", has_layers ? 4 : 3,
+        has_layers ? fmt::format("{} ", form.layers) : "", grid.size_voxels.x, grid.size_voxels.y,
+        grid.size_voxels.z, has_layers ? "none " : "", h, h, h, has_layers ? "list " : "", grid.origin_mm.x,
+        grid.origin_mm.y, grid.origin_mm.z);
     if (form.bytes_before_voxels > 0) text += fmt::format("byte skip: {}\n", form.bytes_before_voxels);
     for (const auto& [key, value] : form.key_values)
         text += fmt::format("{}:={}\n", escaped(key), escaped(value));
@@ -116,7 +119,8 @@ void NrrdWriter::add(std::span<const std::byte> bytes) {
 }
 
 void NrrdWriter::commit(const std::map<std::string, std::string>& key_values) {
-    if (added_ != form_.bytes_before_voxels + voxel_count(form_.grid) * bytes_of(form_.voxel))
+    const std::uint64_t values = voxel_count(form_.grid) * static_cast<std::uint64_t>(form_.layers);
+    if (added_ != form_.bytes_before_voxels + values * bytes_of(form_.voxel))
         throw std::logic_error("the bytes of a NRRD are not those that its header promises");
     form_.key_values = key_values;
     const std::string header = header_of(form_);

@@ -23,8 +23,8 @@ class NrrdWriter {
     NrrdWriter(const NrrdWriter&) = delete;
     NrrdWriter& operator=(const NrrdWriter&) = delete;
 
-    /// The next bytes: first those before the voxels, then the voxels, x fastest, then y, then z, little
-    /// endian. Throws ImagingError, with the reason, where they cannot be written.
+    /// The next bytes: first those before the voxels, then the voxels, of each all layers, x fastest, then y,
+    /// then z, little endian. Throws ImagingError, with the reason, where they cannot be written.
     void add(std::span<const std::byte> bytes);
 
     /// Ends the file and switches to it at once; until then the old one is as it was. `key_values` take the

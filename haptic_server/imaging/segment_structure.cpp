@@ -4,6 +4,7 @@
 #include <glm/common.hpp>
 #include <glm/vector_relational.hpp>
 #include <limits>
+#include <map>
 #include <optional>
 #include <span>
 #include <utility>
@@ -78,6 +79,39 @@ std::optional<VoxelBounds> bricks_over(const SourceImage& image, const ImageBox&
     return VoxelBounds{glm::ivec3(low) / brick_edge_voxels, glm::ivec3(high) / brick_edge_voxels};
 }
 
+/// Where the segmentation's voxel (0, 0, 0) lies in the grid, if its voxels are the grid's.
+std::optional<glm::ivec3> place_on_lattice(const SourceImage& image, const Grid& grid) {
+    constexpr double of_a_voxel = 1e-3;
+    const glm::dvec3 first = to_voxel_coordinates(grid, image.origin_mm);
+    const glm::dvec3 last = to_voxel_coordinates(grid, position_mm(image, glm::dvec3(image.size_voxels - 1)));
+    const glm::dvec3 place = glm::round(first);
+    if (image.direction != glm::dmat3(1.0) ||
+        glm::any(glm::greaterThan(glm::abs(first - place), glm::dvec3(of_a_voxel))) ||
+        glm::any(glm::greaterThan(glm::abs(last - place - glm::dvec3(image.size_voxels - 1)),
+                                  glm::dvec3(of_a_voxel))))
+        return std::nullopt;
+    return glm::ivec3(place);
+}
+
+StructureMask on_lattice(const SegmentVoxels& voxels, const ImageBox& box, const glm::ivec3& place,
+                         const Grid& grid) {
+    const glm::ivec3 size = size_in_bricks(grid);
+    std::map<BrickIndex, VoxelMask> found;
+    glm::ivec3 voxel;
+    for (voxel.z = box.first.z; voxel.z <= box.last.z; ++voxel.z)
+        for (voxel.y = box.first.y; voxel.y <= box.last.y; ++voxel.y)
+            for (voxel.x = box.first.x; voxel.x <= box.last.x; ++voxel.x) {
+                const glm::ivec3 at = voxel + place;
+                if (!voxels(voxel) || glm::any(glm::lessThan(at, glm::ivec3(0))) ||
+                    glm::any(glm::greaterThanEqual(at, grid.size_voxels)))
+                    continue;
+                found[brick_index(size, at / brick_edge_voxels)].set(offset_in_brick(at % brick_edge_voxels));
+            }
+    std::vector<StructureBrick> bricks;
+    for (const auto& [brick, mask] : found) bricks.push_back({brick, mask});
+    return {grid, std::move(bricks)};
+}
+
 }  // namespace
 
 StructureMask structure_of(const Segmentation& segmentation, const Segment& segment, const Grid& grid) {
@@ -85,6 +119,8 @@ StructureMask structure_of(const Segmentation& segmentation, const Segment& segm
     const SegmentVoxels voxels(segmentation, segment);
     const std::optional<ImageBox> bounds = voxels.bounds();
     const SourceImage& image = segmentation.image;
+    if (const auto place = place_on_lattice(image, grid); place && bounds)
+        return on_lattice(voxels, *bounds, *place, grid);
     const std::optional<VoxelBounds> bricks =
         bounds ? bricks_over(image, *bounds, grid) : std::optional<VoxelBounds>();
     if (!bricks) return {grid, {}};

@@ -133,8 +133,12 @@ std::vector<Segment> numbered_segments(const Segmentation& segmentation) {
 
 Segmentation read_segmentation(const std::filesystem::path& path) {
     const OpenedLabels found = open_labels(path);
-    Segmentation segmentation{
-        .path = path, .image = found.opened.image, .layers = found.layers, .segments = {}, .labels = {}};
+    Segmentation segmentation{.path = path,
+                              .image = found.opened.image,
+                              .layers = found.layers,
+                              .segments = {},
+                              .is_plain_map = false,
+                              .labels = {}};
     segmentation.segments = named_segments(path, found.layers);
     if (segmentation.segments.empty() && found.layers > 1)
         throw ImagingError(path, "has layers, but names no segments (Segment0_Name)");
@@ -143,8 +147,21 @@ Segmentation read_segmentation(const std::filesystem::path& path) {
         if (!names.insert(segment.name).second)
             throw ImagingError(path, fmt::format("has two segments called \"{}\"", segment.name));
     read_labels(found.opened, segmentation);
-    if (segmentation.segments.empty()) segmentation.segments = numbered_segments(segmentation);
+    segmentation.is_plain_map = segmentation.segments.empty();
+    if (segmentation.is_plain_map) segmentation.segments = numbered_segments(segmentation);
     return segmentation;
+}
+
+void name_segments(Segmentation& segmentation, const ColourTable& table) {
+    if (!segmentation.is_plain_map)
+        throw ImagingError(segmentation.path,
+                           "names its segments itself; a colour table is for plain label maps");
+    for (Segment& segment : segmentation.segments) {
+        const auto found = table.find(segment.label);
+        if (found == table.end()) continue;
+        segment.name = found->second.name;
+        segment.colour_rgb = found->second.colour_rgb;
+    }
 }
 
 const Segment& segment_named(const Segmentation& segmentation, const std::string& name) {

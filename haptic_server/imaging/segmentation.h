@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "haptic_server/imaging/colour_table.h"
 #include "haptic_server/imaging/source_image.h"
 
 namespace osteomill {
@@ -28,12 +29,17 @@ struct Segmentation {
     SourceImage image;  ///< without values
     int layers = 1;
     std::vector<Segment> segments;
+    bool is_plain_map = false;          ///< the segments' names are their labels
     std::vector<std::uint16_t> labels;  ///< voxel after voxel, i fastest; of each all layers
 };
 
 /// Throws ImagingError, in one line, for what open_labels refuses, names that do not fit their labels, labels
 /// that are no whole numbers from 0 to 65535, and more voxels than memory is given to (2^31).
 Segmentation read_segmentation(const std::filesystem::path& path);
+
+/// Gives the segments of a plain label map the names and colours of their labels; those that the table does
+/// not know keep theirs. Throws ImagingError for a segmentation that names its segments itself.
+void name_segments(Segmentation& segmentation, const ColourTable& table);
 
 /// Throws ImagingError, with the nearest name, where the segmentation has none of that name.
 const Segment& segment_named(const Segmentation& segmentation, const std::string& name);

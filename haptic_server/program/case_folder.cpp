@@ -3,8 +3,10 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <array>
 #include <ostream>
+#include <set>
 #include <stdexcept>
 #include <system_error>
 #include <utility>
@@ -15,6 +17,7 @@
 #include "common/scene/scene_file.h"
 #include "haptic_server/imaging/phantom.h"
 #include "haptic_server/imaging/segment_structure.h"
+#include "haptic_server/imaging/segmentation_file.h"
 #include "haptic_server/program/bone_source.h"
 #include "haptic_server/program/scene_on_bone.h"
 
@@ -23,6 +26,7 @@ namespace osteomill {
 namespace {
 
 constexpr const char* scene_name = "case.toml";
+constexpr const char* segmentation_name = "segmentation.seg.nrrd";
 constexpr std::size_t most_tissues = 255;
 /// For segments of which the file says no colour.
 constexpr std::array<std::array<std::uint8_t, 3>, 6> palette{
@@ -34,47 +38,80 @@ constexpr const char* preface =
     "# to warn, in mm. A tissue whose stiffness is to differ from what its CT numbers say takes\n"
     "# relative_stiffness or material.\n\n";
 
-std::filesystem::path copied_segmentation(const std::filesystem::path& folder,
-                                          const std::filesystem::path& segmentation) {
-    const std::string name = segmentation.filename().string();
-    for (const char* ending : {".seg.nrrd", ".nrrd", ".nii.gz", ".nii"}) {
-        if (!name.ends_with(ending)) continue;
-        const std::string copy = std::string("segmentation") + ending;
-        WholeFile file(folder / copy);
-        std::error_code failed;
-        std::filesystem::copy_file(segmentation, file.part(),
-                                   std::filesystem::copy_options::overwrite_existing, failed);
-        if (failed)
-            throw std::runtime_error(fmt::format("{}: cannot be copied into {}: {}", segmentation.string(),
-                                                 folder.string(), failed.message()));
-        file.commit();
-        return copy;
-    }
-    throw std::runtime_error(
-        fmt::format("{}: a case takes a segmentation in one file: .seg.nrrd, .nrrd, .nii or .nii.gz",
-                    segmentation.string()));
+Segmentation read(const std::filesystem::path& path, const CaseParts& parts) {
+    Segmentation segmentation = read_segmentation(path);
+    if (parts.colours && segmentation.is_plain_map)
+        name_segments(segmentation, read_colour_table(*parts.colours));
+    return segmentation;
 }
 
-std::vector<Tissue> tissues_of(const Segmentation& segmentation, const Grid& grid, std::ostream& messages) {
-    std::vector<Tissue> tissues;
-    for (const Segment& segment : segmentation.segments) {
-        if (structure_of(segmentation, segment, grid).empty()) {
-            messages << fmt::format("{}: segment \"{}\" lies outside the bone; left out\n",
-                                    segmentation.path.string(), segment.name);
-            continue;
+/// Of all segmentations, without a name twice.
+std::set<std::string> segment_names(const CaseParts& parts) {
+    std::set<std::string> names;
+    for (const auto& path : parts.segmentations)
+        for (const Segment& segment : read(path, parts).segments)
+            if (!names.insert(segment.name).second)
+                throw std::runtime_error(fmt::format("{}: has a segment \"{}\", as one before has; rename it",
+                                                     path.string(), segment.name));
+    return names;
+}
+
+void require_name(const std::string& option, const std::string& name, const std::set<std::string>& names) {
+    if (names.contains(name)) return;
+    const std::optional<std::string> nearest = nearest_name(name, {names.begin(), names.end()});
+    throw std::runtime_error(fmt::format("{}: no segment is called \"{}\"{}", option, name,
+                                         nearest ? fmt::format("; did you mean \"{}\"?", *nearest)
+                                         : names.empty()
+                                             ? "; give --segmentation"
+                                             : fmt::format("; there are {}", fmt::join(names, ", "))));
+}
+
+/// Those in the bone's box.
+std::vector<NamedStructure> structures_of(const CaseParts& parts, const Grid& grid, std::ostream& messages) {
+    std::vector<NamedStructure> structures;
+    for (const auto& path : parts.segmentations) {
+        const Segmentation segmentation = read(path, parts);
+        for (const Segment& segment : segmentation.segments) {
+            StructureMask mask = structure_of(segmentation, segment, grid);
+            if (mask.empty()) {
+                messages << fmt::format("{}: segment \"{}\" lies outside the bone; left out\n", path.string(),
+                                        segment.name);
+                continue;
+            }
+            structures.push_back(
+                {.name = segment.name,
+                 .colour_rgb = segment.colour_rgb.value_or(palette[structures.size() % palette.size()]),
+                 .mask = std::move(mask)});
         }
-        if (tissues.size() == most_tissues)
-            throw std::runtime_error(fmt::format("{}: has more than {} segments in the bone's box",
-                                                 segmentation.path.string(), most_tissues));
-        tissues.push_back(
-            {.label = static_cast<std::uint8_t>(tissues.size() + 1),
-             .name = segment.name,
-             .colour_rgb = segment.colour_rgb.value_or(palette[tissues.size() % palette.size()]),
-             .segment = segment.name});
     }
-    if (tissues.empty())
+    if (structures.size() > most_tissues)
         throw std::runtime_error(
-            fmt::format("{}: none of its segments lies in the bone's box", segmentation.path.string()));
+            fmt::format("the segmentations have more than {} segments in the bone's box", most_tissues));
+    if (structures.empty() && !parts.segmentations.empty())
+        throw std::runtime_error(fmt::format("{}: none of its segments lies in the bone's box",
+                                             parts.segmentations.front().string()));
+    return structures;
+}
+
+std::vector<Tissue> tissues_of(const std::vector<NamedStructure>& structures, const CaseParts& parts) {
+    std::vector<Tissue> tissues;
+    for (const NamedStructure& one : structures) {
+        Tissue tissue{.label = static_cast<std::uint8_t>(tissues.size() + 1),
+                      .name = one.name,
+                      .colour_rgb = one.colour_rgb,
+                      .segment = one.name};
+        if (std::ranges::find(parts.is_protected, one.name) != parts.is_protected.end()) {
+            tissue.is_protected = true;
+            tissue.warn_mm = parts.warn_mm;
+        }
+        tissues.push_back(tissue);
+    }
+    std::set<std::string> names;
+    for (const Tissue& tissue : tissues) names.insert(tissue.name);
+    for (const std::string& name : parts.is_protected)
+        if (!names.contains(name))
+            throw std::runtime_error(fmt::format(
+                "--protect: no voxel of the bone's box is in \"{}\": it would guard nothing", name));
     return tissues;
 }
 
@@ -98,13 +135,15 @@ std::string name_of_case(const std::filesystem::path& folder) {
     return (whole.has_filename() ? whole : whole.parent_path()).filename().string();
 }
 
-void begin_case(const std::filesystem::path& folder,
-                const std::optional<std::filesystem::path>& segmentation) {
+void begin_case(const std::filesystem::path& folder, const CaseParts& parts) {
     std::error_code failed;
     if (std::filesystem::exists(folder / scene_name, failed))
         throw std::runtime_error(fmt::format(
             "{}: holds a case already; give another --case, or take it away first", folder.string()));
-    if (segmentation) read_segmentation(*segmentation);  // refused before an hour of work
+    // All that can be refused is refused before an hour of work.
+    const std::set<std::string> names = segment_names(parts);
+    for (const std::string& name : parts.is_protected) require_name("--protect", name, names);
+    if (parts.target) require_name("--target", *parts.target, names);
     std::filesystem::create_directories(folder, failed);
     if (!std::filesystem::is_directory(folder))
         throw std::runtime_error(fmt::format("{}: cannot be made a folder", folder.string()));
@@ -114,18 +153,25 @@ std::filesystem::path bone_of_case(const std::filesystem::path& folder) {
     return folder / "bone.nrrd";
 }
 
-void finish_case(const std::filesystem::path& folder,
-                 const std::optional<std::filesystem::path>& segmentation, std::ostream& messages) {
+void finish_case(const std::filesystem::path& folder, const CaseParts& parts, std::ostream& messages) {
     Scene scene = scene_of_bone_file(bone_of_case(folder));
     scene.name = name_of_case(folder);
-    std::filesystem::path copy;
-    if (segmentation) {
-        const Grid grid = BoneFile(bone_of_case(folder)).grid();
-        scene.tissues = tissues_of(read_segmentation(*segmentation), grid, messages);
-        copy = copied_segmentation(folder, *segmentation);
+    std::filesystem::path segmentation;
+    if (!parts.segmentations.empty()) {
+        const auto structures = structures_of(parts, BoneFile(bone_of_case(folder)).grid(), messages);
+        scene.tissues = tissues_of(structures, parts);
+        write_segmentation(folder / segmentation_name, structures);
+        segmentation = segmentation_name;
+        if (parts.target) scene.plan = Plan{.region = TissueRegion{*parts.target}};
     }
-    place_on_bone(scene, load_bone(scene).bone);
-    scene.bone = FileSource{.path = bone_of_case("").filename(), .threshold_hu = {}, .segmentation = copy};
+    // As it will be loaded: what would be refused then is refused now.
+    Scene loaded = scene;
+    loaded.bone = FileSource{.path = bone_of_case(folder),
+                             .threshold_hu = {},
+                             .segmentation = segmentation.empty() ? segmentation : folder / segmentation};
+    place_on_bone(scene, load_bone(loaded).bone);
+    scene.bone =
+        FileSource{.path = bone_of_case("").filename(), .threshold_hu = {}, .segmentation = segmentation};
     write_whole_file(folder / scene_name, preface + write_scene(scene));
 }
 

@@ -26,6 +26,7 @@
 #include "haptic_server/loop/real_time.h"
 #include "haptic_server/loop/thread_priority.h"
 #include "haptic_server/program/bone_source.h"
+#include "haptic_server/program/case_placement.h"
 #include "haptic_server/program/device_parts.h"
 #include "haptic_server/program/measurements.h"
 #include "haptic_server/program/report_folder.h"
@@ -63,6 +64,8 @@ Scene load_scene(const ServerOptions& options) {
         }
     }
     if (options.trajectory) scene.trajectory.source = *options.trajectory;
+    if (options.case_folder)
+        scene.start_pose = placement_of_case(*options.case_folder).value_or(scene.start_pose);
     return scene;
 }
 
@@ -95,7 +98,8 @@ struct Streaming {
 Streaming make_streaming(StreamingOptions wanted, const ServerOptions& options, const Scene& scene,
                          Bone mirror, MillingSession& session, const DeviceParts& device,
                          std::vector<Structure> structures, const std::string& version,
-                         SessionKeeper::Save save, std::function<CtVolume()> make_ct, LineStream& out) {
+                         SessionKeeper::Save save, std::function<CtVolume()> make_ct,
+                         std::optional<ToolPose>& placed, LineStream& out) {
     wanted.listens = options.listen.has_value();
     wanted.paced_by_session = options.session.clock == ClockKind::virtual_time;
     if (options.record)
@@ -107,6 +111,8 @@ Streaming make_streaming(StreamingOptions wanted, const ServerOptions& options, 
         requests.place = [burrs = scene.burrs](const Bone& bone, const ToolPose& place, std::size_t burr) {
             return clear_place(bone, burr_hull(burrs[burr]), place);
         };
+    // Of the streaming thread, which is over when it is read.
+    requests.placed = [&placed](const ToolPose& pose) { placed = pose; };
     streaming.controls = std::make_unique<SessionControls>(*session.gate(), *session.restored(),
                                                            session.placements(), std::move(requests));
     streaming.shown = std::make_unique<LiveSession>(
@@ -255,12 +261,13 @@ void run_server(const ServerOptions& options, const std::string& version, const 
             }
             return {};
         };
+    std::optional<ToolPose> placed;
     std::function<CtVolume()> make_ct;
     if (has_ct(source, session->bone().grid())) make_ct = [&] { return ct_of(source, most_ct_voxels); };
     const Streaming streaming =
         is_shown ? make_streaming(std::move(streaming_as_typed), options, scene, *std::move(mirror), *session,
                                   device, std::move(loaded.structures), version, std::move(save),
-                                  std::move(make_ct), *output.out)
+                                  std::move(make_ct), placed, *output.out)
                  : Streaming{};
 
     cost.startup_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
@@ -293,6 +300,9 @@ void run_server(const ServerOptions& options, const std::string& version, const 
     RunOutputs outputs;
     outputs.write([&] {
         if (options.save_bone) save_and_tell(*options.save_bone, source, session->bone(), *output.err);
+    });
+    outputs.write([&] {
+        if (options.case_folder && placed) remember_placement(*options.case_folder, *placed);
     });
     outputs.write([&] { close_log(log); });
     outputs.write([&] { close_log(milling_log); });

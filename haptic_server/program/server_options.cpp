@@ -334,6 +334,7 @@ ServerOptions checked(const Typed& typed, const AccessOptions& access) {
     if (!typed.case_name.empty()) {
         options.scene = scene_of_case(typed.case_name);
         options.case_name = name_of_case(typed.case_name);
+        if (options.scene != typed.case_name) options.case_folder = typed.case_name;
     }
     options.bone = path_if_given(typed.bone);
     options.grip = typed.grip == "light" ? Grip::light : Grip::firm;

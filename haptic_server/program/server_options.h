@@ -35,7 +35,8 @@ struct ServerOptions {
     std::optional<std::filesystem::path> record;     ///< of a report, too: recording_in() its folder
     std::optional<std::filesystem::path> report;     ///< folder
     std::string trainee;
-    std::string case_name;  ///< for people; empty: of no case
+    std::string case_name;                             ///< for people; empty: of no case
+    std::optional<std::filesystem::path> case_folder;  ///< of one that is not built in
     std::optional<std::filesystem::path> save_bone;
     std::optional<std::filesystem::path> json;
     std::optional<std::filesystem::path> json_histograms;  ///< beside json

@@ -1,0 +1,192 @@
+#include "haptic_server/program/case_folder.h"
+
+#include <gmock/gmock.h>
+
+#include <fstream>
+#include <glm/geometric.hpp>
+#include <map>
+#include <numbers>
+#include <sstream>
+#include <stdexcept>
+
+#include "common/scene/scene_file.h"
+#include "haptic_server/imaging/segmentation_file.h"
+#include "haptic_server/program/bone_source.h"
+#include "haptic_server/program/case_placement.h"
+#include "tests/support/block_file.h"
+#include "tests/support/temporary_folder.h"
+
+namespace osteomill {
+namespace {
+
+using ::testing::HasSubstr;
+
+/// Of testing::write_block, and a margin of 2 mm around it where no bone is.
+const Grid around_block{.size_voxels = {68, 60, 52}, .spacing_mm = 0.2, .origin_mm = {-6.7, -5.9, -6.1}};
+
+StructureMask ball(const glm::dvec3& centre_mm, double radius_mm) {
+    std::map<BrickIndex, VoxelMask> bricks;
+    glm::ivec3 v;
+    for (v.z = 0; v.z < around_block.size_voxels.z; ++v.z)
+        for (v.y = 0; v.y < around_block.size_voxels.y; ++v.y)
+            for (v.x = 0; v.x < around_block.size_voxels.x; ++v.x)
+                if (glm::distance(centre_of_voxel_mm(around_block, v), centre_mm) < radius_mm)
+                    bricks[brick_index(size_in_bricks(around_block), v / brick_edge_voxels)].set(
+                        offset_in_brick(v % brick_edge_voxels));
+    std::vector<StructureBrick> all;
+    for (const auto& [brick, voxels] : bricks) all.push_back({brick, voxels});
+    return {around_block, std::move(all)};
+}
+
+class CaseFolder : public ::testing::Test {
+  protected:
+    CaseFolder() {
+        write_segmentation(segmentation, {{"target", {0, 200, 0}, ball({0.0, 0.0, 0.0}, 1.5)},
+                                          {"nerve", {250, 220, 30}, ball({0.0, 0.0, -2.5}, 1.0)},
+                                          {"flap", {200, 200, 200}, ball({0.0, 0.0, 0.0}, 2.0)},
+                                          {"air", {1, 2, 3}, ball({0.0, -5.5, -5.5}, 0.3)}});
+    }
+    /// What was said, of an error or on the way.
+    std::string made(const CaseParts& parts) {
+        std::ostringstream messages;
+        try {
+            begin_case(folder, parts);
+            testing::write_block(bone_of_case(folder));
+            finish_case(folder, parts, messages);
+        } catch (const std::runtime_error& error) {
+            return error.what();
+        }
+        return messages.str();
+    }
+    Scene scene() const { return read_scene(folder / "case.toml"); }
+
+    testing::TemporaryFolder where;
+    std::filesystem::path folder = where / "my case";
+    std::filesystem::path segmentation = where / "s.seg.nrrd";
+};
+
+TEST_F(CaseFolder, HoldsASceneThatLoadsByItself) {
+    const std::string messages = made(
+        {.segmentations = {segmentation}, .is_protected = {"nerve"}, .warn_mm = 2.5, .target = "target"});
+    EXPECT_THAT(messages, HasSubstr("segment \"air\" lies outside the bone; left out"));
+    std::filesystem::remove(segmentation);
+    const Scene read = scene();
+    EXPECT_EQ(read.name, "my case");
+    ASSERT_EQ(read.tissues.size(), 3U);
+    EXPECT_EQ(read.tissues[1].name, "nerve");
+    EXPECT_TRUE(read.tissues[1].is_protected);
+    EXPECT_EQ(read.tissues[1].warn_mm, 2.5);
+    EXPECT_FALSE(read.tissues[0].is_protected);
+    ASSERT_TRUE(read.plan);
+    EXPECT_EQ(std::get<TissueRegion>(read.plan->region).tissue, "target");
+    const LoadedBone loaded = load_bone(read);
+    ASSERT_EQ(loaded.structures.size(), 1U);
+    const double ball_mm3 = 4.0 / 3.0 * std::numbers::pi;
+    EXPECT_NEAR(loaded.structures[0].mask.volume_mm3(), ball_mm3, 0.05 * ball_mm3);
+    // The flap is the later of the two, but what is planned lies over it.
+    const double target_mm3 = loaded.source.loaded_mm3.at(read.tissues[0].label);
+    EXPECT_NEAR(target_mm3, 1.5 * 1.5 * 1.5 * ball_mm3, 0.1 * target_mm3);
+}
+
+TEST_F(CaseFolder, OfAScanAloneHasNoTissues) {
+    EXPECT_EQ(made({}), "");
+    EXPECT_TRUE(scene().tissues.empty());
+    EXPECT_FALSE(std::filesystem::exists(folder / "segmentation.seg.nrrd"));
+    EXPECT_FALSE(load_bone(scene()).bone.content().brick_of_slot.empty());
+}
+
+TEST_F(CaseFolder, IsNeverOverwritten) {
+    made({});
+    EXPECT_THAT(made({}), HasSubstr("my case: holds a case already"));
+}
+
+TEST_F(CaseFolder, IsRefusedBeforeTheWorkWhereANameIsNone) {
+    EXPECT_THAT(made({.segmentations = {segmentation}, .is_protected = {"nerv"}}),
+                HasSubstr("--protect: no segment is called \"nerv\"; did you mean \"nerve\"?"));
+    EXPECT_THAT(
+        made({.segmentations = {segmentation}, .target = "something else"}),
+        HasSubstr("--target: no segment is called \"something else\"; there are air, flap, nerve, target"));
+    EXPECT_THAT(made({.segmentations = {segmentation, segmentation}}),
+                HasSubstr("as one before has; rename it"));
+    EXPECT_THAT(made({.segmentations = {where / "nowhere.nrrd"}}), HasSubstr("nowhere.nrrd"));
+    EXPECT_FALSE(std::filesystem::exists(folder));
+}
+
+TEST_F(CaseFolder, GuardsNothingThatIsNotThere) {
+    EXPECT_THAT(made({.segmentations = {segmentation}, .is_protected = {"air"}}),
+                HasSubstr("--protect: no voxel of the bone's box is in \"air\": it would guard nothing"));
+    EXPECT_FALSE(std::filesystem::exists(folder / "case.toml"));
+}
+
+TEST_F(CaseFolder, SaysWhatThePlanCannotRemove) {
+    EXPECT_THAT(made({.segmentations = {segmentation}, .is_protected = {"flap"}, .target = "target"}),
+                HasSubstr("no voxel of the bone is of the plan's tissue \"target\""));
+}
+
+TEST_F(CaseFolder, TakesLabelMapsWithNamesAndColours) {
+    const std::filesystem::path map = where / "map.nrrd";
+    {
+        std::ofstream out(map, std::ios::binary);
+        out << "NRRD0004\ntype: uint8\ndimension: 3\nspace: left-posterior-superior\nsizes: 4 4 4\n"
+               "space directions: (2,0,0) (0,2,0) (0,0,2)\nspace origin: (-3,-3,-3)\nencoding: raw\n\n";
+        for (int i = 0; i < 64; ++i) out.put(i / 16 < 2 ? '\1' : '\5');
+    }
+    const std::filesystem::path colours = where / "names.ctbl";
+    std::ofstream(colours) << "1 lower_half 10 20 30 255\n5 upper_half 40 50 60 255\n9 unused 0 0 0 0\n";
+    made({.segmentations = {map, segmentation}, .colours = colours, .is_protected = {"lower half"}});
+    const Scene read = scene();
+    ASSERT_EQ(read.tissues.size(), 5U);
+    EXPECT_EQ(read.tissues[0].name, "lower half");
+    EXPECT_EQ(read.tissues[0].colour_rgb, (std::array<std::uint8_t, 3>{10, 20, 30}));
+    EXPECT_TRUE(read.tissues[0].is_protected);
+    EXPECT_EQ(load_bone(read).structures.size(), 1U);
+}
+
+TEST(SceneOfCase, IsAFolderOrBuiltIn) {
+    EXPECT_EQ(scene_of_case("tooth"), "tooth");
+    try {
+        scene_of_case("tooht");
+        FAIL();
+    } catch (const std::invalid_argument& error) {
+        EXPECT_THAT(error.what(), HasSubstr("built in are"));
+        EXPECT_THAT(error.what(), HasSubstr("did you mean tooth?"));
+    }
+    const testing::TemporaryFolder folder;
+    EXPECT_THROW(scene_of_case(folder.path().string()), std::invalid_argument);
+    std::ofstream(folder / "case.toml") << "name = 'x'\n";
+    EXPECT_EQ(scene_of_case(folder.path().string()), (folder / "case.toml").string());
+    EXPECT_EQ(name_of_case(folder.path() / ""), folder.path().filename().string());
+}
+
+TEST(CasePlacement, IsReadAsItWasWritten) {
+    const testing::TemporaryFolder folder;
+    EXPECT_FALSE(placement_of_case(folder.path()));
+    const ToolPose pose{{-40.0, 22.5, 750.125}, glm::normalize(glm::dvec3(1.0, -2.0, 0.5))};
+    remember_placement(folder.path(), pose);
+    const auto read = placement_of_case(folder.path());
+    ASSERT_TRUE(read);
+    EXPECT_LT(glm::distance(read->position_mm, pose.position_mm), 1e-3);
+    EXPECT_LT(glm::distance(read->spindle_axis, pose.spindle_axis), 1e-5);
+}
+
+TEST(CasePlacement, IsRefusedWithItsLineWhereItIsNone) {
+    const testing::TemporaryFolder folder;
+    for (const auto& [text, words] :
+         {std::pair("position_mm = [ 1, 2 ]\n", "position_mm"),
+          std::pair("position_mm = [ 1, 2, 3 ]\n", "spindle_axis"),
+          std::pair("position_mm = [ 1, 2, 3 ]\nspindle_axis = [ 0, 0, 0 ]\n", "has no length"),
+          std::pair("position_mm = [ 1, 2, 3 ]\nspindle_axis = [ 0, 0, 1 ]\nspeed = 1\n", "speed"),
+          std::pair("not toml", "placement.toml:1")}) {
+        std::ofstream(folder / "placement.toml") << text;
+        try {
+            placement_of_case(folder.path());
+            FAIL() << text;
+        } catch (const SceneError& error) {
+            EXPECT_THAT(error.what(), HasSubstr(words));
+            EXPECT_THAT(error.what(), HasSubstr("placement.toml"));
+        }
+    }
+}
+
+}  // namespace
+}  // namespace osteomill
