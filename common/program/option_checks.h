@@ -1,13 +1,25 @@
-// Checks of an option's number, for CLI11: in words that name no limit which nobody could reach, and deaf to
-// no NaN, as the library's own are.
+// Checks of an option's value, for CLI11: in words that name no limit which nobody could reach, deaf to no
+// NaN, as the library's own are, and for a choice without C++ containers.
 #pragma once
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <string>
+#include <vector>
 
 namespace osteomill {
+
+inline CLI::Validator one_of(const std::vector<std::string>& names) {
+    return CLI::Validator(
+        [names](std::string& value) {
+            if (std::find(names.begin(), names.end(), value) != names.end()) return std::string();
+            return fmt::format("'{}' is not one of {}", value, fmt::join(names, ", "));
+        },
+        fmt::format("{}", fmt::join(names, "|")));
+}
 
 template <typename IsRight>
 CLI::Validator number_that(std::string what, std::string description, IsRight is_right) {

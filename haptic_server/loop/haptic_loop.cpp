@@ -15,6 +15,7 @@ HapticLoop::HapticLoop(const HapticLoopParts& parts, const HapticLoopOptions& op
     : parts_(parts),
       options_(options),
       safety_(options.tick_s, parts.device.limits().max_force_n),
+      gives_force_(parts.device.limits().gives_force),
       hand_pose_(options.start_pose),
       burr_pose_(options.start_pose),
       burr_(options.start_burr, options.burr_count) {}
@@ -97,8 +98,10 @@ void HapticLoop::tick(double now_s, std::uint64_t missed_periods) noexcept {
     if (safety_.has_just_let_go()) parts_.coupling.reset();
     if (!safety_.holds_tool()) burr_pose_ = hand_pose_;
 
-    force_in_device_n_ = force_in_device_n(options_.mapping, force_n);
-    parts_.device.write(force_in_device_n_);
+    const glm::dvec3 written_n = force_in_device_n(options_.mapping, force_n);
+    parts_.device.write(written_n);
+    // A force that nobody feels gives the hand no energy.
+    if (gives_force_) force_in_device_n_ = written_n;
     peak_force_n_ = std::max(peak_force_n_, glm::length(force_n));
     if (latest.touches_protected) protected_until_s_ = now_s + protected_shown_s;
 

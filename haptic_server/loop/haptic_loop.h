@@ -83,8 +83,9 @@ class HapticLoop {
     HapticLoopParts parts_;
     HapticLoopOptions options_;
     SafetyMonitor safety_;
+    bool gives_force_;
     EnergyMeter energy_;
-    glm::dvec3 force_in_device_n_{0.0};  // last written
+    glm::dvec3 force_in_device_n_{0.0};  // last written and felt
 
     ToolPose hand_pose_;  // patient LPS; the last that was read
     ToolPose burr_pose_;

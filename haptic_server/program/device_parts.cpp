@@ -18,6 +18,7 @@
 #include "haptic_server/device/hid/hidapi_transport.h"
 #include "haptic_server/device/hid/profile_file.h"
 #include "haptic_server/device/hid/space_mouse.h"
+#include "haptic_server/device/tracker/tracked_tool.h"
 #include "haptic_server/device/trajectory.h"
 #include "haptic_server/loop/clock.h"
 #include "haptic_server/loop/real_time.h"
@@ -93,12 +94,30 @@ DeviceParts make_bridge_arm(const ServerOptions& options, Scene& scene, const st
     return parts;
 }
 
+DeviceParts make_tracked_tool(const ServerOptions& options, Scene& scene, LineStream& out) {
+    TrackerSetup setup = read_tracker_setup(options.tracker_registration);
+    out.write(residual_line(setup) + "\n");
+    scene.device = setup.registration.mapping;
+    DeviceParts parts;
+    parts.device = std::make_unique<TrackedTool>(
+        TrackerReceiver::Parts{.server = options.tracker,
+                               .name = options.tracker_name,
+                               .pedal = {},
+                               .now_s = [clock = RealClock()] { return clock.now_s(); },
+                               .on_thread_start = [] { ask_for_real_time(device_priority); }},
+        std::move(setup.handpiece),
+        ToolPose{position_in_device_mm(scene.device, scene.start_pose.position_mm),
+                 direction_in_device(scene.device, scene.start_pose.spindle_axis)});
+    return parts;
+}
+
 }  // namespace
 
 DeviceParts make_device(const ServerOptions& options, Scene& scene, const std::atomic<bool>& stop,
                         LineStream& out) {
     if (options.device == DeviceKind::hid) return make_haptic_arm(options, scene);
     if (options.device == DeviceKind::bridge) return make_bridge_arm(options, scene, stop, out);
+    if (options.device == DeviceKind::tracker) return make_tracked_tool(options, scene, out);
     const HandModel hand = hand_model(options.grip);
     DeviceParts parts;
     if (options.device == DeviceKind::space_mouse) {

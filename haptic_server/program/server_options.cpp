@@ -10,7 +10,6 @@
 #include <vector>
 
 #include "common/files/distinct_files.h"
-#include "haptic_server/device/hid/profile_file.h"
 #include "haptic_server/imaging/phantom.h"
 #include "haptic_server/program/case_folder.h"
 #include "haptic_server/program/report_folder.h"
@@ -24,11 +23,7 @@ struct Typed {
     std::string scene;
     std::string case_name;
     std::string bone;
-    std::string device = "simulated";
-    std::string device_profile;
-    std::string bridge;
-    std::string bridge_key;
-    bool lists_devices = false;
+    DeviceOptions device;
     std::string grip = "firm";
     std::string trajectory;
     std::string coupling;
@@ -51,16 +46,6 @@ struct Typed {
     std::string log_milling_csv;
 };
 
-/// CLI11's own message for a choice prints C++ containers; this one reads like the rest of the program.
-CLI::Validator one_of(const std::vector<std::string>& names) {
-    return CLI::Validator(
-        [names](std::string& value) {
-            if (std::find(names.begin(), names.end(), value) != names.end()) return std::string();
-            return fmt::format("'{}' is not one of {}", value, fmt::join(names, ", "));
-        },
-        fmt::format("{}", fmt::join(names, "|")));
-}
-
 CLI::Validator a_coupling() {
     return CLI::Validator(
         [](std::string& value) {
@@ -74,8 +59,10 @@ CLI::Validator a_coupling() {
         "");
 }
 
-/// The default coupling solves the cutting law; what has none is interpolated.
-std::string default_coupling(bool has_cutting_law) {
+/// The default coupling solves the cutting law; what has none is interpolated. A hand that feels no force is
+/// not held: the burr is where it is.
+std::string default_coupling(bool has_cutting_law, DeviceKind device = DeviceKind::simulated) {
+    if (device == DeviceKind::tracker) return "hold";
     return has_cutting_law ? coupling_names().front() : "interpolate";
 }
 
@@ -89,8 +76,10 @@ std::string force_model_help() {
 
 std::string coupling_help() {
     std::string text = fmt::format(
-        "What stands between the model and the hand ({}; {} with a force model that has no cutting law):",
-        default_coupling(true), default_coupling(false));
+        "What stands between the model and the hand ({}; {} with a force model that has no cutting law; {} "
+        "with "
+        "--device tracker):",
+        default_coupling(true), default_coupling(false), default_coupling(true, DeviceKind::tracker));
     for (const CouplingEntry& coupling : couplings())
         text += fmt::format("\n  {}: {}", coupling.name, coupling.text);
     return text +
@@ -109,27 +98,7 @@ void declare(CLI::App& app, Typed& typed) {
         ->excludes("--scene");
     app.add_option("--bone", typed.bone, "Bone from a file that bone_import wrote, instead of the scene's")
         ->type_name("FILE.nrrd");
-    app.add_option("--device", typed.device,
-                   "Who moves the tool: a simulated hand, a client's mouse, a haptic arm over USB HID, a 3D "
-                   "mouse, whose force clients show, or any arm behind a bridge (docs/device-bridge.md)")
-        ->check(one_of({"simulated", "client", "hid", "spacemouse", "bridge"}))
-        ->capture_default_str();
-    app.add_option("--device-profile", typed.device_profile,
-                   fmt::format("Which haptic arm --device hid drives: {}, or a TOML file of your own ({})",
-                               fmt::join(shipped_profile_names(), ", "), ServerOptions{}.device_profile))
-        ->type_name("NAME|FILE.toml");
-    app.add_option(
-           "--bridge", typed.bridge,
-           fmt::format("Where --device bridge meets the arm's process: unix:PATH or udp:ADDRESS:PORT ({})",
-                       to_text(ServerOptions{}.bridge)))
-        ->type_name("ADDRESS");
-    app.add_option(
-           "--bridge-key", typed.bridge_key,
-           "With --device bridge: a secret of 32 bytes or more that the arm's side has, too; needed for one "
-           "on another machine")
-        ->type_name("FILE");
-    app.add_flag("--list-devices", typed.lists_devices,
-                 "Say which haptic devices are plugged in and whether they can be used, and end");
+    typed.device.declare(app);
     app.add_option("--grip", typed.grip, "How the simulated hand holds the arm")
         ->check(one_of({"light", "firm"}))
         ->capture_default_str();
@@ -211,14 +180,14 @@ std::optional<ListenAddress> listen_address(const Typed& typed) {
     return parse_listen_address(typed.listen);
 }
 
-std::string checked_coupling(const Typed& typed) {
+std::string checked_coupling(const Typed& typed, DeviceKind device) {
     const bool has_cutting_law = find_force_model(typed.force_model).has_cutting_law;
-    if (typed.coupling.empty()) return default_coupling(has_cutting_law);
+    if (typed.coupling.empty()) return default_coupling(has_cutting_law, device);
     if (find_coupling(typed.coupling).needs_cutting_law && !has_cutting_law) {
         throw std::invalid_argument(
             fmt::format("--coupling {}: solves the cutting law, and --force-model {} has none; take "
                         "--coupling {}",
-                        typed.coupling, typed.force_model, default_coupling(has_cutting_law)));
+                        typed.coupling, typed.force_model, default_coupling(has_cutting_law, device)));
     }
     return typed.coupling;
 }
@@ -277,6 +246,8 @@ void require_distinct_files(const ServerOptions& options, const AccessOptions& a
     add("--trajectory", options.trajectory, false);
     if (options.scene) add("--scene", *options.scene, false);
     add("--device-profile", options.device_profile, false);
+    if (!options.tracker_registration.empty())
+        add("--tracker-registration", options.tracker_registration, false);
     add("--operators", options.operators, false);
     add("--controls", options.controls, false);
     add("--json", options.json, true);
@@ -297,39 +268,17 @@ void require_distinct_files(const ServerOptions& options, const AccessOptions& a
 
 ServerOptions checked(const Typed& typed, const AccessOptions& access) {
     const bool is_virtual = typed.clock == "virtual";
-    const bool is_client = typed.device == "client";
-    const bool is_hid = typed.device == "hid";
-    const bool is_simulated = typed.device == "simulated";
+    ServerOptions options;
+    static_cast<DeviceChoice&>(options) = typed.device.checked();
+    const bool is_client = options.device == DeviceKind::client;
+    const bool is_simulated = options.device == DeviceKind::simulated;
     if (!is_simulated && is_virtual) {
-        throw std::invalid_argument(fmt::format("--device {}: a person needs --clock real", typed.device));
+        throw std::invalid_argument(
+            fmt::format("--device {}: a person needs --clock real", name_of(options.device)));
     }
     if (!is_simulated && !typed.trajectory.empty()) {
         throw std::invalid_argument("--trajectory: only --device simulated follows one");
     }
-    if (!is_hid && !typed.device_profile.empty()) {
-        throw std::invalid_argument("--device-profile: goes with --device hid");
-    }
-    ServerOptions options;
-    options.lists_devices = typed.lists_devices;
-    if (is_hid) options.device = DeviceKind::hid;
-    if (is_client) options.device = DeviceKind::client;
-    const bool is_bridge = typed.device == "bridge";
-    if (is_bridge) options.device = DeviceKind::bridge;
-    for (const auto& [option, text] :
-         {std::pair("--bridge", &typed.bridge), std::pair("--bridge-key", &typed.bridge_key)})
-        if (!is_bridge && !text->empty())
-            throw std::invalid_argument(fmt::format("{}: goes with --device bridge", option));
-    try {
-        if (!typed.bridge.empty()) options.bridge = parse_bridge_address(typed.bridge);
-    } catch (const std::invalid_argument& error) {
-        throw std::invalid_argument(fmt::format("--bridge: {}", error.what()));
-    }
-    options.bridge_key = path_if_given(typed.bridge_key);
-    if (!options.bridge_key && !is_local(options.bridge))
-        throw std::invalid_argument(
-            "--bridge: an arm on another machine needs --bridge-key, so that nobody else moves the tool");
-    if (typed.device == "spacemouse") options.device = DeviceKind::space_mouse;
-    if (!typed.device_profile.empty()) options.device_profile = typed.device_profile;
     if (!typed.scene.empty()) options.scene = typed.scene;
     if (!typed.case_name.empty()) {
         options.scene = scene_of_case(typed.case_name);
@@ -340,7 +289,7 @@ ServerOptions checked(const Typed& typed, const AccessOptions& access) {
     options.grip = typed.grip == "light" ? Grip::light : Grip::firm;
     options.trajectory = path_if_given(typed.trajectory);
     options.session.clock = is_virtual ? ClockKind::virtual_time : ClockKind::real;
-    options.session.coupling = checked_coupling(typed);
+    options.session.coupling = checked_coupling(typed, options.device);
     options.session.force_model = typed.force_model;
     options.session.vibration = checked_vibration(typed);
     options.session.duration_s = typed.duration_s;

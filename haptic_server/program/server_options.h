@@ -7,25 +7,18 @@
 #include <string>
 
 #include "haptic_server/command_line/command_line.h"
-#include "haptic_server/device/bridge/bridge_address.h"
 #include "haptic_server/device/hand_model.h"
 #include "haptic_server/loop/milling_session.h"
+#include "haptic_server/program/device_options.h"
 #include "haptic_server/streaming/access_options.h"
 
 namespace osteomill {
 
-enum class DeviceKind { simulated, client, hid, space_mouse, bridge };
-
-struct ServerOptions {
+struct ServerOptions : DeviceChoice {
     std::optional<std::string>
         scene;  ///< a phantom's name or a TOML file; absent: the bone's own, or the tooth
     std::optional<std::filesystem::path> bone;
-    DeviceKind device = DeviceKind::simulated;
-    std::string device_profile = "woodenhaptics_v2015";  ///< a shipped profile's name or a TOML file
-    bool lists_devices = false;                          ///< and does nothing else
     Grip grip = Grip::firm;
-    BridgeAddress bridge = ListenAddress{.port = 7020};  ///< of DeviceKind::bridge
-    std::optional<std::filesystem::path> bridge_key;     ///< a secret that its arm has, too
     std::optional<std::filesystem::path> trajectory;
     MillingSessionOptions session;
     std::optional<ListenAddress> listen;  ///< nullopt: nobody is served

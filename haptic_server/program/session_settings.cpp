@@ -4,26 +4,6 @@
 
 namespace osteomill {
 
-namespace {
-
-const char* name_of(DeviceKind device) {
-    switch (device) {
-        case DeviceKind::client:
-            return "client";
-        case DeviceKind::hid:
-            return "hid";
-        case DeviceKind::space_mouse:
-            return "spacemouse";
-        case DeviceKind::bridge:
-            return "bridge";
-        case DeviceKind::simulated:
-            break;
-    }
-    return "simulated";
-}
-
-}  // namespace
-
 nlohmann::ordered_json session_settings(const ServerOptions& options, const Scene& scene,
                                         const std::string& version) {
     const Burr& burr = scene.burrs.at(scene.start_burr);

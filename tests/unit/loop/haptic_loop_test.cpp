@@ -309,6 +309,19 @@ TEST(HapticLoop, LetsGoOfAHandThatTheForceDrivesAndLocksTheSpindle) {
     EXPECT_TRUE(bench.command().spindle_on);
 }
 
+TEST(HapticLoop, DrivesNoHandWithAForceThatNobodyFeels) {
+    Bench bench;
+    bench.device.device_limits.gives_force = false;
+    bench.coupling.force = [](const HandState&) { return glm::dvec3(2.0, 0.0, 0.0); };
+    bench.device.script = [](double now_s) {
+        return DeviceState{.position_mm = {150.0 * now_s, 0.0, 0.0}, .pedal = true};
+    };
+    bench.run(500);
+    EXPECT_EQ(bench.shown().fault, describe(Fault::none));
+    EXPECT_EQ(bench.shown().force_n, glm::dvec3(2.0, 0.0, 0.0)) << "clients are shown it";
+    EXPECT_EQ(bench.loop().most_energy_to_hand_mj(), 0.0);
+}
+
 TEST(HapticLoop, DoesNotMistakeAHandThatPushesForOneThatIsPushed) {
     Bench bench;
     bench.coupling.force = [](const HandState&) { return glm::dvec3(-3.0, 0.0, 0.0); };

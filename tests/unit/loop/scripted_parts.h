@@ -16,6 +16,7 @@ inline constexpr double tick_s = 0.001;
 class ScriptedDevice final : public HapticDevice {
   public:
     std::function<DeviceState(double)> script = [](double) { return DeviceState{}; };
+    DeviceLimits device_limits;
     std::vector<glm::dvec3> written_n;
     int started = 0;
     int stopped = 0;
@@ -23,7 +24,7 @@ class ScriptedDevice final : public HapticDevice {
     ScriptedDevice() { written_n.reserve(100'000); }
 
     std::string name() const override { return "scripted"; }
-    DeviceLimits limits() const override { return {}; }
+    DeviceLimits limits() const override { return device_limits; }
     void start() override { ++started; }
     DeviceState read(double now_s) noexcept override { return script(now_s); }
     void write(const glm::dvec3& force_n) noexcept override { written_n.push_back(force_n); }
