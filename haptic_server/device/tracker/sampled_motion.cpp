@@ -8,7 +8,9 @@ namespace osteomill {
 namespace {
 
 constexpr double drift_s_per_s = 1e-3;
-constexpr double lateness_memory_s = 5.0;
+constexpr double lateness_memory_s = 20.0;
+/// A sample that is a little later than any was does not hold playback up.
+constexpr double lateness_margin = 1.1;
 /// Stamps that step by more than this were set, not measured.
 constexpr double longest_step_s = 1.0;
 constexpr double silent_periods = 5.0;
@@ -106,11 +108,11 @@ std::optional<SampledMotion::Pose> SampledMotion::at(double now_s) noexcept {
     if (now_s - newest().arrival_s > silence_s) begin_anew();
     if (count_ < 3) return std::nullopt;
 
-    delay_s_ = std::min(delay_periods * period_s_ + lateness_s_, longest_delay_s);
+    delay_s_ = std::min(delay_periods * period_s_ + lateness_margin * lateness_s_, longest_delay_s);
     const double wanted_s = now_s - offset_s_ - delay_s_;
     const double last_s = nth(count_ - 2).stamp_s;  // the last with a neighbour on both sides
     if (!plays_) {
-        played_s_ = std::clamp(wanted_s, nth(0).stamp_s, last_s);
+        played_s_ = std::clamp(wanted_s, nth(1).stamp_s, last_s);
         plays_ = true;
     }
     const double behind = (wanted_s - played_s_ - elapsed_s) / (in_time_periods * period_s_);

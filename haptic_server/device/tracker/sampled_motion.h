@@ -5,21 +5,21 @@
 // that clock with a delay of two sample periods and the lateness that was seen lately:
 //
 //     offset   = least of (arrival - stamp), with room for clocks that drift by 1 ms/s
-//     lateness = most of (arrival - stamp - offset), forgotten with a time constant of 5 s
-//     delay    = 2 periods + lateness;    period: the median of the last differences of stamps
+//     lateness = most of (arrival - stamp - offset), forgotten with a time constant of 20 s
+//     delay    = 2 periods + 1.1 lateness;    period: the median of the last differences of stamps
 //
 // Between samples i and i + 1 the position is the cubic with their positions and, as slopes there, those of
 // the parabolas through each and its neighbours (Catmull-Rom, for uneven times); the orientation is slerp.
-// That takes one sample more than those two, hence the second period; of a circle of 2 mm at 1 Hz sampled at
-// 20 Hz it leaves some um where straight lines would leave 25. A motion that stops within one period
+// That takes one sample more than those two, hence the second period. Of a circle of 2 mm, once a second,
+// sampled at 20 Hz it misses 0.5 um where straight lines would miss 25. A motion that stops within one period
 // overshoots by at most 4/27 of the last way.
 //
 // Playback never jumps: where the next sample is late it stands at the last but one, and then goes at most
-// catch_up times as fast until it is back in time; so the burr's way is the same, sample by sample, whatever
+// catch_up times as fast until it is back in time. So the burr's way is the same, sample by sample, whatever
 // the link does.
 //
-// Nothing is played before three samples, or when none has come for five periods (50 ms at least, 250 ms at
-// most): the tool is lost, and what comes later begins anew. So does a clock that was set.
+// Nothing is played before there are three samples, nor when none has come for five periods (50 ms at least,
+// 250 ms at most): the tool is lost, and what comes later begins anew. So does a clock that was set.
 #pragma once
 
 #include <array>

@@ -1,0 +1,222 @@
+// haptic_server and a tracker: the library's own server, which sends motions as trackers do.
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <chrono>
+#include <fstream>
+#include <functional>
+#include <glm/geometric.hpp>
+#include <glm/gtc/quaternion.hpp>
+#include <nlohmann/json.hpp>
+#include <numbers>
+#include <random>
+#include <sstream>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "tests/support/child_process.h"
+#include "tests/support/temporary_folder.h"
+#include "tests/support/tracker_server.h"
+
+namespace osteomill::testing {
+namespace {
+
+using namespace std::chrono_literals;
+using ::testing::HasSubstr;
+
+using Command = std::vector<std::string>;
+
+/// Where the burr is in the patient, and whether the pedal is down.
+struct Moment {
+    glm::dvec3 burr_mm{0.0};
+    bool pedal = false;
+};
+using Motion = std::function<Moment(double time_s)>;
+
+/// How a tracker's samples come.
+struct Sending {
+    double rate_hz = 100.0;
+    double jitter_s = 0.0;
+    double lost = 0.0;
+};
+
+class TrackerPrograms : public ::testing::Test {
+  protected:
+    TrackerPrograms() {
+        std::ofstream out(file("tracker.toml"));
+        out << "[tool]\nburr_centre_mm = [" << centre_mm.x << ", " << centre_mm.y << ", " << centre_mm.z
+            << "]\nspindle_axis = [0, 0, 1]\n[pedal]\nstring = 'Pedal'\n";
+        out.precision(12);
+        for (const glm::dvec3& point_mm : {glm::dvec3(0.0), glm::dvec3(80.0, 0.0, 5.0),
+                                           glm::dvec3(10.0, 70.0, 0.0), glm::dvec3(-20.0, 5.0, 60.0)}) {
+            const glm::dvec3 tracker_mm = in_tracker(point_mm);
+            out << "[[points]]\ntracker_mm = [" << tracker_mm.x << ", " << tracker_mm.y << ", "
+                << tracker_mm.z << "]\npatient_mm = [" << point_mm.x << ", " << point_mm.y << ", "
+                << point_mm.z << "]\n";
+        }
+    }
+    std::string file(const std::string& name) const { return (folder_ / name).string(); }
+    glm::dvec3 in_tracker(const glm::dvec3& patient_mm) const {
+        return tracker_turn * patient_mm + tracker_mm;
+    }
+
+    Command server(double seconds, const std::string& scene = "cube") {
+        return {HAPTIC_SERVER,
+                "--device",
+                "tracker",
+                "--tracker",
+                "127.0.0.1:" + std::to_string(tracker_.port()),
+                "--tracker-registration",
+                file("tracker.toml"),
+                "--tracker-name",
+                "Drill",
+                "--scene",
+                scene,
+                "--listen",
+                "none",
+                "--json",
+                file("run.json"),
+                "--duration-s",
+                std::to_string(seconds)};
+    }
+    double removed_mm3() const {
+        std::ifstream in(file("run.json"));
+        return nlohmann::json::parse(in).at("removed_mm3").at("total").get<double>();
+    }
+    /// The handpiece leans and turns while it goes; the marker is where that puts it.
+    void send(const Moment& moment, double time_s) {
+        const glm::dquat in_patient =
+            glm::angleAxis(0.3 * std::sin(2.0 * time_s), glm::dvec3(0.6, 0.8, 0.0)) *
+            glm::angleAxis(time_s, glm::dvec3(0.0, 0.0, 1.0));
+        const glm::dquat turn = tracker_turn * in_patient;
+        tracker_.send("Pointer", glm::dvec3(0.0), turn, 1.7e9 + time_s);
+        tracker_.send("Drill", in_tracker(moment.burr_mm) - turn * centre_mm, turn, 1.7e9 + time_s);
+        tracker_.send("Pedal", moment.pedal ? "1" : "0");
+    }
+    /// Samples in order, each late by its share of the jitter.
+    void play(const Motion& motion, double duration_s, const Sending& how) {
+        std::mt19937 random(9);
+        std::uniform_real_distribution<double> share(0.0, 1.0);
+        const auto began = std::chrono::steady_clock::now();
+        for (int i = 0; i / how.rate_hz < duration_s; ++i) {
+            const double time_s = i / how.rate_hz;
+            std::this_thread::sleep_until(
+                began + std::chrono::duration<double>(time_s + how.jitter_s * share(random)));
+            if (share(random) >= how.lost) send(motion(time_s), time_s);
+        }
+    }
+
+    const glm::dquat tracker_turn = glm::normalize(glm::dquat(0.4, -0.2, 0.7, 0.5));
+    const glm::dvec3 tracker_mm{120.0, -340.0, -1250.0};
+    const glm::dvec3 centre_mm{3.0, -7.0, -140.0};
+    TrackerServer tracker_;
+    TemporaryFolder folder_;
+};
+
+/// A second in the air, down by 1 mm into the cube (its top is z = 0, the burr's radius 2.5 mm), 20 mm along,
+/// up.
+Moment groove(double time_s) {
+    const double down_s = std::clamp(time_s - 1.0, 0.0, 0.5);
+    const double along_s = std::clamp(time_s - 1.7, 0.0, 2.0);
+    const double up_s = std::clamp(time_s - 3.9, 0.0, 0.5);
+    return {{-10.0 + 10.0 * along_s, 0.0, 5.0 - 7.0 * down_s + 7.0 * up_s}, time_s > 0.5};
+}
+constexpr double groove_s = 4.8;
+
+/// A segment of the circle times the way, and a cap at its ends.
+double groove_mm3() {
+    constexpr double r = 2.5, h = 1.0;
+    const double segment = r * r * std::acos((r - h) / r) - (r - h) * std::sqrt(2.0 * r * h - h * h);
+    return 20.0 * segment + std::numbers::pi * h * h * (3.0 * r - h) / 3.0;
+}
+
+TEST_F(TrackerPrograms, MillsTheSweptVolumeAtAnyRateAndJitter) {
+    for (const Sending& how : {Sending{20.0}, Sending{60.0, 0.02, 0.05}, Sending{500.0, 0.03}}) {
+        ChildProcess running(server(7.0));
+        ASSERT_TRUE(running.line_after("registered by 4 points: residual 0.00 mm", 60s)) << running.err();
+        ASSERT_TRUE(tracker_.accept());
+        play(groove, groove_s, how);
+        ASSERT_EQ(running.wait(60s), 0) << running.err();
+        EXPECT_NEAR(removed_mm3(), groove_mm3(), 0.01 * groove_mm3()) << how.rate_hz << " Hz";
+        tracker_.hang_up();
+    }
+}
+
+TEST_F(TrackerPrograms, MillsARecordedMotionAsItWasMilled) {
+    // A hand's motion through the cavity of a tooth, as a session logged the burr.
+    const Finished recorded =
+        run_program({HAPTIC_SERVER, "--clock", "virtual", "--scene", "tooth", "--duration-s", "6",
+                     "--log-csv", file("motion.csv"), "--json", file("run.json")});
+    ASSERT_EQ(recorded.status, 0) << recorded.err;
+    const double expected_mm3 = removed_mm3();
+    ASSERT_GT(expected_mm3, 1.0);
+    std::vector<Moment> moments;
+    std::ifstream csv(file("motion.csv"));
+    std::string line;
+    std::getline(csv, line);
+    while (std::getline(csv, line)) {
+        std::vector<double> values;
+        std::istringstream cells(line);
+        for (std::string cell; std::getline(cells, cell, ',');) values.push_back(std::stod(cell));
+        moments.push_back({{values[4], values[5], values[6]}, values[12] != 0.0});
+    }
+    const auto motion = [&](double time_s) {
+        const double at_s = std::max(0.0, time_s - 1.0);  // what turns the force on takes a while in the air
+        return moments[std::min(moments.size() - 1, static_cast<std::size_t>(1000.0 * at_s))];
+    };
+    ChildProcess running(server(8.5, "tooth"));
+    ASSERT_TRUE(tracker_.accept());
+    play(motion, 7.2, {.rate_hz = 100.0, .jitter_s = 0.01});
+    ASSERT_EQ(running.wait(60s), 0) << running.err();
+    EXPECT_NEAR(removed_mm3(), expected_mm3, 0.03 * expected_mm3);
+}
+
+TEST_F(TrackerPrograms, StopsTheSpindleWhenTheTrackerIsSilentAndGoesOn) {
+    ChildProcess running(server(9.0));
+    ASSERT_TRUE(tracker_.accept());
+    play(groove, 2.7, {});  // half of it
+    std::this_thread::sleep_for(700ms);
+    tracker_.hang_up();
+    ASSERT_TRUE(tracker_.accept()) << "it comes again by itself";
+    play([](double) { return Moment{{0.0, 0.0, 5.0}, false}; }, 1.0, {});
+    ASSERT_EQ(running.wait(60s), 0) << running.err();
+    EXPECT_THAT(running.err(), HasSubstr("the haptic device does not answer: force off"));
+    EXPECT_LT(removed_mm3(), 0.55 * groove_mm3());
+    EXPECT_GT(removed_mm3(), 0.4 * groove_mm3());
+}
+
+TEST_F(TrackerPrograms, SaysInOneLineWhatIsWrong) {
+    std::ofstream(file("line.toml"))
+        << "[tool]\nburr_centre_mm=[0,0,1]\nspindle_axis=[0,0,1]\n[pedal]\nalways=true\n"
+           "[[points]]\ntracker_mm=[0,0,0]\npatient_mm=[0,0,0]\n"
+           "[[points]]\ntracker_mm=[9,0,0]\npatient_mm=[9,0,0]\n"
+           "[[points]]\ntracker_mm=[5,0,0]\npatient_mm=[5,0,0]\n";
+    const std::string good = file("tracker.toml");
+    for (const auto& [more, status, words] :
+         {std::tuple(Command{}, 2, "needs --tracker-registration"),
+          std::tuple(Command{"--tracker-registration", good, "--tracker", "192.168.7.10:18944"}, 2,
+                     "ssh -L 18944:localhost:18944 192.168.7.10"),
+          std::tuple(Command{"--tracker-registration", good, "--tracker", "here"}, 2,
+                     "--tracker: 'here' has no port"),
+          std::tuple(Command{"--tracker-registration", good, "--tracker-name", std::string(21, 'x')}, 2,
+                     "at most 20 characters"),
+          std::tuple(Command{"--tracker-registration", good, "--clock", "virtual"}, 2,
+                     "a person needs --clock real"),
+          std::tuple(Command{"--tracker-registration", "/nowhere.toml"}, 1, "/nowhere.toml"),
+          std::tuple(Command{"--tracker-registration", file("line.toml")}, 1,
+                     "the points lie on one line")}) {
+        Command command{HAPTIC_SERVER, "--listen", "none", "--device", "tracker"};
+        command.insert(command.end(), more.begin(), more.end());
+        const Finished run = run_program(command);
+        EXPECT_EQ(run.status, status) << words;
+        EXPECT_THAT(run.err, HasSubstr(words));
+        EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << run.err;
+    }
+    const Finished other = run_program({HAPTIC_SERVER, "--tracker-registration", good});
+    EXPECT_EQ(other.status, 2);
+    EXPECT_THAT(other.err, HasSubstr("--tracker-registration: goes with --device tracker"));
+}
+
+}  // namespace
+}  // namespace osteomill::testing
