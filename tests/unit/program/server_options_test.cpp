@@ -55,6 +55,28 @@ TEST(ServerOptions, DriveAHapticArmInRealTime) {
     EXPECT_THAT(error_of({"--device-profile", "polhem_v1"}), HasSubstr("--device hid"));
 }
 
+TEST(ServerOptions, PutTheBurrOfATrackedHandWhereTheHandIs) {
+    const std::vector<const char*> tracked{"--device", "tracker", "--tracker-registration", "t.toml"};
+    const auto with = [&](std::vector<const char*> more) {
+        more.insert(more.begin(), tracked.begin(), tracked.end());
+        return more;
+    };
+    const ServerOptions options = *parse(tracked).options;
+    EXPECT_EQ(options.device, DeviceKind::tracker);
+    EXPECT_EQ(options.session.coupling, "hold");
+    EXPECT_EQ(options.session.milling_rate_hz, 1000.0);
+    EXPECT_EQ(options.tracker.port, 18944);
+    EXPECT_EQ(parse(with({"--coupling", "implicit"})).options->session.coupling, "implicit");
+    EXPECT_EQ(parse(with({"--force-model", "morris"})).options->session.coupling, "hold");
+    EXPECT_EQ(parse(with({"--tracker", "[::1]:20000"})).options->tracker.port, 20000);
+    EXPECT_THAT(error_of(with({"--tracker", "10.0.0.7:18944"})),
+                HasSubstr("ssh -L 18944:localhost:18944 10.0.0.7"));
+    EXPECT_THAT(error_of(with({"--tracker", "127.0.0.1:0"})), HasSubstr("port 0"));
+    EXPECT_THAT(error_of({"--device", "tracker"}), HasSubstr("--tracker-registration"));
+    EXPECT_THAT(error_of({"--tracker-name", "Drill"}), HasSubstr("goes with --device tracker"));
+    EXPECT_THAT(error_of(with({"--json", "t.toml"})), HasSubstr("--tracker-registration"));
+}
+
 TEST(ServerOptions, MillAtThePublishedRateWithThePublishedCoupling) {
     EXPECT_EQ(parse({}).options->session.milling_rate_hz, 1000.0);
     EXPECT_EQ(parse({"--coupling", "interpolate"}).options->session.milling_rate_hz, 100.0);
