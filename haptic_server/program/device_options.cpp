@@ -31,6 +31,7 @@ constexpr std::array named_devices{NamedDevice{"simulated", DeviceKind::simulate
 
 std::vector<std::string> device_names() {
     std::vector<std::string> names;
+    names.reserve(named_devices.size());
     for (const auto& [name, kind] : named_devices) names.emplace_back(name);
     return names;
 }

@@ -138,6 +138,8 @@ TEST_F(TrackerPrograms, MillsTheSweptVolumeAtAnyRateAndJitter) {
         ASSERT_TRUE(tracker_.accept());
         play(groove, groove_s, how);
         ASSERT_EQ(running.wait(60s), 0) << running.err();
+        RecordProperty(std::to_string(static_cast<int>(how.rate_hz)) + "_hz_error_percent",
+                       std::to_string(100.0 * (removed_mm3() / groove_mm3() - 1.0)));
         EXPECT_NEAR(removed_mm3(), groove_mm3(), 0.01 * groove_mm3()) << how.rate_hz << " Hz";
         tracker_.hang_up();
     }
@@ -169,6 +171,7 @@ TEST_F(TrackerPrograms, MillsARecordedMotionAsItWasMilled) {
     ASSERT_TRUE(tracker_.accept());
     play(motion, 7.2, {.rate_hz = 100.0, .jitter_s = 0.01});
     ASSERT_EQ(running.wait(60s), 0) << running.err();
+    RecordProperty("error_percent", std::to_string(100.0 * (removed_mm3() / expected_mm3 - 1.0)));
     EXPECT_NEAR(removed_mm3(), expected_mm3, 0.03 * expected_mm3);
 }
 

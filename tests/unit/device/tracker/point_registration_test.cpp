@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 
+#include <array>
 #include <glm/gtc/quaternion.hpp>
 #include <random>
 
@@ -21,8 +22,8 @@ struct Registered : ::testing::Test {
     }
     DeviceMapping random_motion() {
         std::normal_distribution<double> any;
-        const glm::dquat turn =
-            glm::normalize(glm::dquat(any(random), any(random), any(random), any(random)));
+        const std::array<double, 4> q{any(random), any(random), any(random), any(random)};
+        const glm::dquat turn = glm::normalize(glm::dquat(q[0], q[1], q[2], q[3]));
         return {.rotation = glm::mat3_cast(turn), .offset_mm = random_vector(2000.0)};
     }
     std::vector<PointPair> pairs(const DeviceMapping& motion, std::size_t count) {
@@ -62,7 +63,7 @@ TEST_F(Registered, LeavesTheResidualThatNoiseLeaves) {
     for (int run = 0; run < runs; ++run) {
         auto points = pairs(random_motion(), count);
         for (PointPair& point : points)
-            point.tracker_mm += glm::dvec3(noise(random), noise(random), noise(random));
+            point.tracker_mm += glm::dvec3{noise(random), noise(random), noise(random)};
         const double rms_mm = registered(points, 20.0).rms_mm;
         sum += rms_mm * rms_mm;
     }
@@ -71,11 +72,17 @@ TEST_F(Registered, LeavesTheResidualThatNoiseLeaves) {
 }
 
 TEST_F(Registered, NamesThePointThatIsOff) {
-    auto points = pairs(random_motion(), 6);
-    points[4].tracker_mm += glm::dvec3(0.0, 30.0, 0.0);
-    EXPECT_THAT([&] { registered(points, 2.0); },
+    const DeviceMapping motion = random_motion();
+    std::vector<PointPair> corners;
+    for (int i = 0; i < 8; ++i) {
+        const glm::dvec3 patient_mm(i % 2 * 80.0, i / 2 % 2 * 60.0, i / 4 * 50.0);
+        corners.push_back(
+            {"point " + std::to_string(i), position_in_device_mm(motion, patient_mm), patient_mm});
+    }
+    corners[4].tracker_mm += glm::dvec3(0.0, 15.0, 0.0);
+    EXPECT_THAT([&] { registered(corners, 2.0); },
                 ThrowsMessage<std::invalid_argument>(HasSubstr("point 'point 4' is ")));
-    EXPECT_EQ(registered(points, 20.0).worst, 4u);
+    EXPECT_EQ(registered(corners, 20.0).worst, 4u);
 }
 
 TEST_F(Registered, RefusesAMirrorImage) {
