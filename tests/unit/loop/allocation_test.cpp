@@ -12,6 +12,7 @@
 #include "haptic_server/coupling/handpiece_vibration.h"
 #include "haptic_server/device/client_device.h"
 #include "haptic_server/device/simulated_device.h"
+#include "haptic_server/device/tracker/sampled_motion.h"
 #include "haptic_server/loop/haptic_loop.h"
 #include "haptic_server/loop/milling_loop.h"
 #include "tests/support/block.h"
@@ -128,6 +129,20 @@ TEST(RealTimeCode, AllocatesNothingWithAnOperator) {
         input.publish();
     };
     expect_no_allocation(force_model_names().front(), coupling_names().front(), device, say_again);
+}
+
+TEST(RealTimeCode, AllocatesNothingWhileItPlaysATrackersSamples) {
+    SampledMotion motion;
+    int played = 0;
+    const std::size_t before = testing::allocation_count();
+    for (int tick = 0; tick < 5000; ++tick) {
+        const double now_s = 0.001 * tick;
+        if (tick % 7 == 0 && tick % 1000 < 800)  // a silence in each second
+            motion.take({.stamp_s = 5.0 + now_s, .arrival_s = now_s, .position_mm = {now_s, 0.0, 0.0}});
+        if (motion.at(now_s)) ++played;
+    }
+    EXPECT_EQ(testing::allocation_count(), before);
+    EXPECT_GT(played, 3500);
 }
 
 TEST(RealTimeCode, WouldBeCaughtAllocating) {
