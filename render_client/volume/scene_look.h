@@ -3,7 +3,11 @@
 
 #include <cstddef>
 #include <glm/vec3.hpp>
+#include <memory>
 #include <vector>
+
+#include "common/bone/ct_volume.h"
+#include "render_client/volume/ct_slice.h"
 
 namespace osteomill {
 
@@ -20,6 +24,9 @@ inline constexpr std::size_t most_cut_planes = 4;
 
 struct SceneLook {
     std::vector<CutPlane> cuts;
+    std::shared_ptr<const CtVolume>
+        ct{};  ///< shown in grey in the cuts' faces; null: they have the bone's colours
+    HuWindow ct_window{};
     glm::vec3 background_low{0.035f, 0.040f, 0.048f};  ///< linear RGB at the picture's lower edge
     glm::vec3 background_high{0.115f, 0.130f, 0.150f};
 

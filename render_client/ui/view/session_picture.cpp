@@ -180,6 +180,8 @@ const gl::Framebuffer& SessionPicture::draw(double elapsed_s) {
         set_shading({.shading = shading_.shading, .transfer = view_.transfer.function()});
     const Theme& theme = theme_of(view_.theme);
     picture_.set_look({.cuts = view_.cuts.planes(),
+                       .ct = view_.slices_shown ? slices_.ct() : nullptr,
+                       .ct_window = slices_.window(),
                        .background_low = theme.background_low,
                        .background_high = theme.background_high});
     std::optional<DrawnTool> tool;

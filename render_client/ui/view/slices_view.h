@@ -29,7 +29,7 @@ class SlicesView {
 
     /// A CT has come. The slices first cross in its middle, unless cross_at() has said where.
     void set_ct(std::shared_ptr<const CtVolume> ct);
-    const CtVolume* ct() const { return ct_.get(); }
+    const std::shared_ptr<const CtVolume>& ct() const { return ct_; }
 
     /// Patient LPS; kept within the CT, once that is there.
     void cross_at(const glm::dvec3& position_mm);

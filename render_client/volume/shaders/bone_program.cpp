@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <string>
 #include <string_view>
 
@@ -12,7 +14,11 @@ namespace osteomill {
 
 namespace {
 
-enum TextureUnit { fraction_unit, blocks_unit, table_unit, code_unit, colours_unit, surface_unit };
+enum TextureUnit { fraction_unit, blocks_unit, table_unit, code_unit, colours_unit, surface_unit, ct_unit };
+
+bool shows_ct(const SceneLook& look) {
+    return look.ct != nullptr && !look.cuts.empty();
+}
 
 std::string constant(const char* name, bool value) {
     return fmt::format("const bool {} = {};\n", name, value);
@@ -29,6 +35,7 @@ gl::Program BoneProgram::make(const Variant& variant) const {
                                   constant("bone_codes_are_tissues", variant.codes_are_tissues) +
                                   constant("bone_has_surface_colours", variant.has_surface_colours) +
                                   constant("bone_is_translucent", variant.is_translucent) +
+                                  constant("cuts_show_ct", variant.cuts_show_ct) +
                                   fmt::format("const int cut_count = {};\n", variant.cut_count);
     gl::Program program = make_program(shader_text({&own_.vertex, 1}), shader_text(files, constants));
     program.use();
@@ -38,6 +45,7 @@ gl::Program BoneProgram::make(const Variant& variant) const {
     program.set("bone_colour_code", code_unit);
     program.set("bone_colours", colours_unit);
     program.set("bone_surface_colours", surface_unit);
+    program.set("cut_ct", ct_unit);
     return program;
 }
 
@@ -53,7 +61,8 @@ const gl::Program& BoneProgram::use(const BoneTextures& bone, const SceneLook& l
                                               .codes_are_tissues = bone.codes_are_tissues(),
                                               .has_surface_colours = bone.surface_colours() != nullptr,
                                               .is_translucent = bone.is_translucent(),
-                                              .cut_count = cut_count(look)});
+                                              .cut_count = cut_count(look),
+                                              .cuts_show_ct = shows_ct(look)});
     program.use();
     program.set("bone_size", glm::vec3(bone.box().size));
     program.set("bone_texture_size", glm::vec3(bone.fraction().size()));
@@ -70,7 +79,33 @@ const gl::Program& BoneProgram::use(const BoneTextures& bone, const SceneLook& l
         bone.colour_code()->bind(code_unit);
     else
         gl::Texture3D::unbind(code_unit);
+    if (shows_ct(look))
+        bind_ct(program, bone, look);
+    else
+        gl::Texture3D::unbind(ct_unit);
     return program;
+}
+
+void BoneProgram::bind_ct(const gl::Program& program, const BoneTextures& bone, const SceneLook& look) {
+    const Grid& grid = look.ct->grid;
+    if (!ct_ || ct_->ct != look.ct)
+        ct_ = std::make_unique<CtTexture>(
+            CtTexture{look.ct,
+                      {.level_hu = std::nan(""), .window_hu = 0.0},
+                      gl::Texture3D(gl::VoxelFormat::interpolated_byte, grid.size_voxels)});
+    if (ct_->window != look.ct_window) {
+        std::vector<std::uint8_t> grey(look.ct->hu.size());
+        std::ranges::transform(look.ct->hu, grey.begin(),
+                               [&](std::int16_t hu) { return look.ct_window.grey(hu); });
+        ct_->grey.upload(glm::ivec3(0), grid.size_voxels, grey);
+        ct_->window = look.ct_window;
+    }
+    const glm::dvec3 half_mm(0.5 * grid.spacing_mm);
+    const glm::dvec3 first = bone.to_box_voxels(grid.origin_mm - half_mm);
+    const glm::dvec3 end = bone.to_box_voxels(centre_of_voxel_mm(grid, grid.size_voxels - 1) + half_mm);
+    program.set("cut_ct_origin", glm::vec3(first));
+    program.set("cut_ct_scale", glm::vec3(1.0 / (end - first)));
+    ct_->grey.bind(ct_unit);
 }
 
 }  // namespace osteomill

@@ -2,10 +2,12 @@
 // with the bone's textures and the uniforms of both bound.
 #pragma once
 
+#include <memory>
 #include <utility>
 #include <vector>
 
 #include "render_client/volume/gl/program.h"
+#include "render_client/volume/gl/texture3d.h"
 #include "render_client/volume/scene_look.h"
 #include "render_client/volume/shaders/shader_programs.h"
 #include "render_client/volume/textures/bone_textures.h"
@@ -35,13 +37,22 @@ class BoneProgram {
         bool has_surface_colours = false;
         bool is_translucent = false;
         int cut_count = 0;
+        bool cuts_show_ct = false;
 
         bool operator==(const Variant&) const = default;
     };
     gl::Program make(const Variant& variant) const;
     const gl::Program& program_for(const Variant& variant);
+    void bind_ct(const gl::Program& program, const BoneTextures& bone, const SceneLook& look);
 
     ProgramFiles own_;
+    /// The CT of the look, as grey; made when a cut is first to show it.
+    struct CtTexture {
+        std::shared_ptr<const CtVolume> ct;
+        HuWindow window;
+        gl::Texture3D grey;
+    };
+    std::unique_ptr<CtTexture> ct_;
     std::vector<std::pair<Variant, gl::Program>> programs_;  ///< made when a bone first needs them
 };
 

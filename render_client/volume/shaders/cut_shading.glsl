@@ -3,15 +3,22 @@
 //     vec3  shown_pixel(vec3 point, vec3 direction)    as surface_pixel, but for the faces of cuts, which are flat and
 //                                                      open to the sky
 
+//     const bool cuts_show_ct              given ahead of this file: the faces have the CT's grey
+
 const float cut_face_depth = 0.1;  // voxels within which a renderer finds a face
+
+uniform sampler3D cut_ct;               // grey as it is shown
+uniform vec3 cut_ct_origin, cut_ct_scale;  // texture coordinates: scale * (point - origin)
 
 vec3 shown_pixel(vec3 point, vec3 direction) {
     for (int cut = 0; cut < cut_count; ++cut) {
         vec3 normal = cut_planes[cut].xyz;
         // Where bone does not go on behind the cut it is the bone's own surface that is seen.
         if (cut_planes[cut].w - dot(normal, point) < cut_face_depth &&
-            fraction_at(point + 0.5 * normal) >= bone_surface)
+            fraction_at(point + 0.5 * normal) >= bone_surface) {
+            if (cuts_show_ct) return vec3(texture(cut_ct, cut_ct_scale * (point - cut_ct_origin)).r);
             return display(lit(look_at(point - 0.6 * normal).rgb, normal, 1.0));
+        }
     }
     return surface_pixel(point, direction);
 }

@@ -1,6 +1,7 @@
 #include "render_client/volume/scene_look.h"
 
 #include <cmath>
+#include <memory>
 
 #include "render_client/volume/passes/raycast_renderer.h"
 #include "render_client/volume/passes/scene_picture.h"
@@ -56,6 +57,42 @@ TEST_F(SceneLookTest, CutShowsTheTissuesInsideAsAFlatFaceWhereTheCutIs) {
 
     picture.set_look({});
     EXPECT_EQ(picture.draw(&textures, nullptr, camera).read_back(), whole) << "cuts are for the eye only";
+}
+
+// HU rise by 100 a mm to the patient's left, on a grid of its own.
+TEST_F(SceneLookTest, CutShowsTheCtWhereThatIsWanted) {
+    const BoneTextures textures(peach(), colours);
+    Camera camera = camera_on({0.0, 0.0, 0.0}, 6.0);
+    camera.azimuth_rad = camera.elevation_rad = 0.0;
+    RaycastRenderer renderer;
+    ScenePicture picture(renderer, size_px);
+    const SceneLook plain{.cuts = {{{0.0, -1.0, 0.0}, 0.5}}};
+    picture.set_look(plain);
+    const Picture coloured = picture.draw(&textures, nullptr, camera).read_back();
+
+    CtVolume ct{.grid = {.size_voxels = {41, 31, 31}, .spacing_mm = 0.5, .origin_mm = {-10.0, -7.0, -7.5}},
+                .hu = {}};
+    for (int place = 0; place < 41 * 31 * 31; ++place)
+        ct.hu.push_back(static_cast<std::int16_t>(std::lround(100.0 * (-10.0 + 0.5 * (place % 41)))));
+    SceneLook look = plain;
+    look.ct = std::make_shared<const CtVolume>(ct);
+    look.ct_window = {.level_hu = 0.0, .window_hu = 600.0};
+    picture.set_look(look);
+    const Picture grey = picture.draw(&textures, nullptr, camera).read_back();
+    const double px_per_mm = 1.0 / mm_per_px_at(camera, {0.0, -0.5, 0.0}, size_px);
+    for (const double left_mm : {-2.0, -1.0, 0.0, 0.7, 2.0}) {
+        const auto* pixel = grey.at(middle.x + static_cast<int>(std::lround(left_mm * px_per_mm)), middle.y);
+        const double wanted = 127.5 + 255.0 * 100.0 * left_mm / 600.0;
+        for (int channel = 0; channel < 3; ++channel) EXPECT_NEAR(pixel[channel], wanted, 4.0) << left_mm;
+    }
+    // Another window is another grey.
+    look.ct_window.window_hu = 2000.0;
+    picture.set_look(look);
+    const Picture flat = picture.draw(&textures, nullptr, camera).read_back();
+    const auto* flatter = flat.at(middle.x + static_cast<int>(2.0 * px_per_mm), middle.y);
+    EXPECT_NEAR(flatter[0], 127.5 + 255.0 * 200.0 / 2000.0, 4.0);
+    picture.set_look(plain);
+    EXPECT_EQ(picture.draw(&textures, nullptr, camera).read_back(), coloured);
 }
 
 TEST_F(SceneLookTest, SeveralCutsLeaveWhatNoneTakesAway) {
