@@ -12,7 +12,19 @@ namespace osteomill {
 namespace {
 
 constexpr std::uint8_t half_full = 128;
-constexpr std::array<std::uint8_t, 4> border_colour{255, 150, 40, 255};
+constexpr std::array<std::uint8_t, 3> border_colour{255, 150, 40};
+
+/// The place of a tissue, their number for other bone, one more for neither. A structure's mask goes before
+/// what bone bears there.
+std::size_t what_is_at(const Bone& bone, std::span<const SliceTissue> tissues, const glm::ivec3& voxel) {
+    for (std::size_t i = 0; i < tissues.size(); ++i)
+        if (tissues[i].mask && tissues[i].mask->contains(voxel)) return i;
+    if (bone.fraction_at(voxel) < half_full) return tissues.size() + 1;
+    const std::uint8_t label = tissues.empty() ? std::uint8_t{0} : bone.tissue_at(voxel);
+    for (std::size_t i = 0; label != 0 && i < tissues.size(); ++i)
+        if (!tissues[i].mask && tissues[i].label == label) return i;
+    return tissues.size();
+}
 
 }  // namespace
 
@@ -55,11 +67,14 @@ std::uint8_t HuWindow::grey(double hu) const {
     return static_cast<std::uint8_t>(std::lround(255.0 * std::clamp(share, 0.0, 1.0)));
 }
 
-std::vector<std::uint8_t> slice_picture(const CtVolume& ct, const Bone* bone, const SliceView& view,
+std::vector<std::uint8_t> slice_picture(const CtVolume& ct, const Bone* bone,
+                                        std::span<const SliceTissue> tissues, const SliceView& view,
                                         const HuWindow& window) {
     const auto edge = static_cast<std::size_t>(view.edge_px);
     std::vector<std::uint8_t> pixels(4 * edge * edge);
-    std::vector<std::uint8_t> is_bone(edge * edge);
+    // What each pixel is of: a tissue, by its place; other bone; neither.
+    const std::size_t neither = tissues.size() + 1;
+    std::vector<std::size_t> what(edge * edge, neither);
     for (std::size_t y = 0; y < edge; ++y)
         for (std::size_t x = 0; x < edge; ++x) {
             const glm::dvec3 at = view.position_mm(glm::dvec2(x, y) + 0.5);
@@ -70,14 +85,17 @@ std::vector<std::uint8_t> slice_picture(const CtVolume& ct, const Bone* bone, co
             if (bone == nullptr) continue;
             const glm::dvec3 voxel = glm::round(to_voxel_coordinates(bone->grid(), at));
             if (glm::any(glm::greaterThan(glm::abs(voxel), glm::dvec3(1e6)))) continue;
-            is_bone[index] = bone->fraction_at(glm::ivec3(voxel)) >= half_full ? 1 : 0;
+            what[index] = what_is_at(*bone, tissues, glm::ivec3(voxel));
         }
     for (std::size_t y = 0; y + 1 < edge; ++y)
         for (std::size_t x = 0; x + 1 < edge; ++x) {
             const std::size_t index = x + edge * y;
-            if (is_bone[index] != is_bone[index + 1] || is_bone[index] != is_bone[index + edge])
-                std::copy(border_colour.begin(), border_colour.end(),
-                          pixels.begin() + static_cast<std::ptrdiff_t>(4 * index));
+            const std::size_t here =
+                std::min({what[index], what[index + 1], what[index + edge]});  // a tissue before the bone
+            if (here == what[index] && what[index] == what[index + 1] && what[index] == what[index + edge])
+                continue;
+            const auto& colour = here < tissues.size() ? tissues[here].colour_rgb : border_colour;
+            std::copy(colour.begin(), colour.end(), pixels.begin() + static_cast<std::ptrdiff_t>(4 * index));
         }
     return pixels;
 }

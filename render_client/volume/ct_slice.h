@@ -6,10 +6,13 @@
 #include <cstdint>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
+#include <optional>
+#include <span>
 #include <vector>
 
 #include "common/bone/bone.h"
 #include "common/bone/ct_volume.h"
+#include "common/bone/structure_mask.h"
 
 namespace osteomill {
 
@@ -47,9 +50,17 @@ struct HuWindow {
     bool operator==(const HuWindow&) const = default;
 };
 
+/// A tissue whose border is drawn: where its mask is, or where the bone bears its label.
+struct SliceTissue {
+    std::uint8_t label = 0;
+    std::array<std::uint8_t, 3> colour_rgb{};
+    std::optional<StructureMask> mask{};
+};
+
 /// Pixels of four bytes, row by row from the upper left corner: the CT in grey, and over it, where `bone` is
-/// given, the border of what is left of it in orange.
-std::vector<std::uint8_t> slice_picture(const CtVolume& ct, const Bone* bone, const SliceView& view,
+/// given, the border of what is left of it in orange, and of each tissue in its colour.
+std::vector<std::uint8_t> slice_picture(const CtVolume& ct, const Bone* bone,
+                                        std::span<const SliceTissue> tissues, const SliceView& view,
                                         const HuWindow& window);
 
 }  // namespace osteomill

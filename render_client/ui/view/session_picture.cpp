@@ -93,7 +93,10 @@ void SessionPicture::take_in_bone(bool first_of_tool) {
         picture_.mark_dirty(*textures_, textures_->update(*bone, link_.changes));
         dirty_bricks_uploaded_ += link_.changes.size();
     }
-    if (link_.bone_replaced) picture_.forget_structures();
+    if (link_.bone_replaced) {
+        picture_.forget_structures();
+        if (const SessionInfo* session = source_.session()) slices_.set_tissues(session->tissues);
+    }
     for (const Structure& structure : link_.structures) take_in_structure(structure);
     if (first_of_tool && camera_ == first_view_) reset_camera();
 }
@@ -102,6 +105,7 @@ void SessionPicture::take_in_structure(const Structure& structure) {
     const SessionInfo* session = source_.session();
     if (!session || structure.tissue >= session->tissues.size()) return;
     const Tissue& tissue = session->tissues[structure.tissue];
+    slices_.set_mask(structure.tissue, structure.mask);
     picture_.add_structure(
         surface_of(soft_part(structure.mask, *source_.bone()), linear_from_srgb(tissue.colour_rgb)),
         tissue.opacity);

@@ -29,6 +29,18 @@ void SlicesView::set_ct(std::shared_ptr<const CtVolume> ct) {
     cross_at(cross_mm_.value_or(0.5 * (low_mm + high_mm)));
 }
 
+void SlicesView::set_tissues(std::span<const Tissue> tissues) {
+    tissues_.clear();
+    for (const Tissue& tissue : tissues)
+        tissues_.push_back({.label = tissue.label, .colour_rgb = tissue.colour_rgb, .mask = {}});
+    for (auto& drawn : drawn_) drawn.reset();
+}
+
+void SlicesView::set_mask(std::size_t tissue, const StructureMask& mask) {
+    if (tissue < tissues_.size()) tissues_[tissue].mask = mask;
+    for (auto& drawn : drawn_) drawn.reset();
+}
+
 void SlicesView::cross_at(const glm::dvec3& position_mm) {
     cross_mm_ = ct_ ? glm::clamp(position_mm, ct_->grid.origin_mm, last_mm(*ct_)) : position_mm;
 }
@@ -55,7 +67,7 @@ const gl::PictureTexture& SlicesView::picture(SlicePlane plane, int edge_px, con
                           drawn->ct == ct_.get() && drawn->bone_version == bone_version;
     if (!is_fresh) {
         if (!drawn) drawn.emplace();
-        drawn->texture.upload({edge_px, edge_px}, slice_picture(*ct_, bone, wanted, window_));
+        drawn->texture.upload({edge_px, edge_px}, slice_picture(*ct_, bone, tissues_, wanted, window_));
         drawn->view = wanted;
         drawn->window = window_;
         drawn->ct = ct_.get();

@@ -5,9 +5,12 @@
 #include <array>
 #include <memory>
 #include <optional>
+#include <span>
+#include <vector>
 
 #include "common/bone/bone.h"
 #include "common/bone/ct_volume.h"
+#include "common/scene/scene.h"
 #include "render_client/volume/ct_slice.h"
 #include "render_client/volume/gl/picture_texture.h"
 
@@ -31,6 +34,11 @@ class SlicesView {
     void set_ct(std::shared_ptr<const CtVolume> ct);
     const std::shared_ptr<const CtVolume>& ct() const { return ct_; }
 
+    /// Whose borders are drawn, in this order: of a session's tissues those that bone bears.
+    void set_tissues(std::span<const Tissue> tissues);
+    /// One of them lies here, whether bone is there or not.
+    void set_mask(std::size_t tissue, const StructureMask& mask);
+
     /// Patient LPS; kept within the CT, once that is there.
     void cross_at(const glm::dvec3& position_mm);
     const std::optional<glm::dvec3>& cross_mm() const { return cross_mm_; }
@@ -50,6 +58,7 @@ class SlicesView {
     glm::dvec3 centre_mm_{0.0};  // of the pictures, but for where across their planes they are
     double width_mm_ = 30.0;
     HuWindow window_;
+    std::vector<SliceTissue> tissues_;
     std::array<std::optional<DrawnSlice>, 3> drawn_;
 };
 

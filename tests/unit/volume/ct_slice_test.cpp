@@ -38,7 +38,7 @@ TEST(CtSlice, ShowsHuInTheWindowAndTheBorderOfTheBone) {
     const SliceView view{
         .plane = SlicePlane::coronal, .centre_mm = {0, 0, 0}, .mm_per_px = 0.1, .edge_px = 100};
     const HuWindow window{.level_hu = 300.0, .window_hu = 1000.0};
-    const auto pixels = slice_picture(ct, &bone, view, window);
+    const auto pixels = slice_picture(ct, &bone, {}, view, window);
     ASSERT_EQ(pixels.size(), 4U * 100U * 100U);
     const auto at = [&](int x, int y) { return &pixels[4 * static_cast<std::size_t>(x + 100 * y)]; };
     EXPECT_EQ(at(50, 50)[0], 128);
@@ -51,6 +51,14 @@ TEST(CtSlice, ShowsHuInTheWindowAndTheBorderOfTheBone) {
             EXPECT_NEAR(glm::length(view.position_mm({x + 0.5, y + 0.5})), 4.0, 0.25);
         }
     EXPECT_GT(orange, 150) << "all the way round a circle of 80 pixels";
+    // A nerve in the bone: a cube, whose section is a square.
+    StructureMask nerve(grid, {{brick_index(size_in_bricks(grid), {2, 1, 1}), VoxelMask().set_all()}});
+    const std::vector<SliceTissue> tissues{{.label = 1, .colour_rgb = {10, 250, 20}, .mask = nerve}};
+    const auto with_nerve = slice_picture(ct, &bone, tissues, view, window);
+    int green = 0;
+    for (std::size_t i = 0; i < with_nerve.size(); i += 4)
+        if (with_nerve[i] == 10 && with_nerve[i + 1] == 250) ++green;
+    EXPECT_NEAR(green, 4 * 32, 6) << "3.2 mm square, 0.1 mm a pixel";
     EXPECT_EQ(window.grey(-500.0), 0);
     EXPECT_EQ(window.grey(1000.0), 255);
 }
