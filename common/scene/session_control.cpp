@@ -24,6 +24,8 @@ const char* name_of(SessionAction action) {
             return "finish";
         case SessionAction::place:
             return "place";
+        case SessionAction::speed:
+            return "speed";
     }
     return "nothing";
 }

@@ -20,6 +20,7 @@ enum class SessionAction : std::uint8_t {
     save,    ///< the bone as it is, or its surface
     finish,  ///< ends the session, everything saved
     place,   ///< the tool somewhere else: the patient is moved and turned under the device
+    speed,   ///< of the spindle, in place of the burrs' own
 };
 
 /// As a person says it: "undo".
@@ -29,11 +30,19 @@ struct SessionControl {
     static constexpr std::size_t longest_text = 200;  ///< bytes
 
     SessionAction action = SessionAction::none;
-    std::string text{};  ///< of a mark: its note; of save: ".stl", ".ply" or ".obj" for the surface
-    ToolPose pose{};     ///< of place: where the burr shall be, patient LPS; the axis is a unit vector
+    std::string text{};        ///< of a mark: its note; of save: ".stl", ".ply" or ".obj" for the surface
+    ToolPose pose{};           ///< of place: where the burr shall be, patient LPS; the axis is a unit vector
+    double spindle_rpm = 0.0;  ///< of speed; 0: each burr's own
 
     bool operator==(const SessionControl&) const = default;
 };
+
+/// Speeds that a spindle can be told, rev/min, as a scene's burrs have them.
+inline constexpr double least_spindle_rpm = 100.0;
+inline constexpr double most_spindle_rpm = 500'000.0;
+inline bool is_spindle_speed(double rpm) {
+    return rpm == 0.0 || (rpm >= least_spindle_rpm && rpm <= most_spindle_rpm);
+}
 
 /// Something that was asked for has been done, or refused.
 struct ControlEvent {

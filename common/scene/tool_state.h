@@ -9,6 +9,7 @@
 #include <type_traits>
 
 #include "common/scene/bounded_line.h"
+#include "common/scene/burr.h"
 #include "common/scene/solve_counts.h"
 
 namespace osteomill {
@@ -48,7 +49,14 @@ struct ToolState {
     std::optional<glm::dvec3> shank_torque_n_mm{};
     /// Largest force on the hand since the server began. Nothing where the server does not say.
     std::optional<double> peak_force_n{};
+    /// Of the spindle, where it is not the burr's own: it was chosen, or is on the way there.
+    std::optional<double> spindle_rpm{};
 };
 static_assert(std::is_trivially_copyable_v<ToolState>);
+
+/// Of the spindle while it turns, with `burr`, the tool's; rev/min.
+inline double spindle_rpm(const ToolState& tool, const Burr& burr) {
+    return tool.spindle_rpm.value_or(60.0 * burr.spindle_rev_per_s);
+}
 
 }  // namespace osteomill

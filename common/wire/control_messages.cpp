@@ -11,11 +11,11 @@ namespace osteomill {
 namespace {
 
 static_assert(static_cast<int>(SessionAction::mark) == v1::SESSION_ACTION_MARK &&
-                  static_cast<int>(SessionAction::place) == v1::SESSION_ACTION_PLACE,
+                  static_cast<int>(SessionAction::speed) == v1::SESSION_ACTION_SPEED,
               "the actions have the numbers of the message");
 
 SessionAction action_from(v1::SessionAction action) {
-    const bool is_known = action >= v1::SESSION_ACTION_MARK && action <= v1::SESSION_ACTION_PLACE;
+    const bool is_known = action >= v1::SESSION_ACTION_MARK && action <= v1::SESSION_ACTION_SPEED;
     return is_known ? static_cast<SessionAction>(action) : SessionAction::none;
 }
 
@@ -29,6 +29,7 @@ v1::SessionControl to_message(const SessionControl& control) {
         write(control.pose.position_mm, *message.mutable_burr_position_mm());
         write(control.pose.spindle_axis, *message.mutable_spindle_axis());
     }
+    if (control.action == SessionAction::speed) message.set_spindle_rpm(control.spindle_rpm);
     return message;
 }
 
@@ -64,6 +65,12 @@ std::variant<SessionControl, WireError> session_control_from(const v1::SessionCo
         if (!is_finite(control.pose.position_mm) || !std::isfinite(length) || length < 1e-6)
             return WireError{"the place for the tool is not a finite position and a direction"};
         control.pose.spindle_axis /= length;
+    }
+    if (action == SessionAction::speed) {
+        control.spindle_rpm = message.spindle_rpm();
+        if (!is_spindle_speed(control.spindle_rpm))
+            return WireError{"the spindle cannot turn at " + std::to_string(control.spindle_rpm) +
+                             " rpm: 100 to 500000, or 0 for each burr's own"};
     }
     return control;
 }

@@ -126,6 +126,7 @@ v1::ToolState to_message(const ToolState& tool) {
     }
     if (tool.shank_torque_n_mm) write(*tool.shank_torque_n_mm, *message.mutable_shank_torque_n_mm());
     if (tool.peak_force_n) message.set_peak_force_n(*tool.peak_force_n);
+    if (tool.spindle_rpm) message.set_spindle_rpm(*tool.spindle_rpm);
     return message;
 }
 
@@ -255,9 +256,11 @@ std::variant<ToolState, WireError> tool_from(const v1::ToolState& message, std::
                       .relaxed = message.solve().relaxed(),
                       .damped = message.solve().damped()};
     if (message.has_peak_force_n()) tool.peak_force_n = message.peak_force_n();
+    if (message.has_spindle_rpm()) tool.spindle_rpm = message.spindle_rpm();
     if (message.has_shank_torque_n_mm()) tool.shank_torque_n_mm = read(message.shank_torque_n_mm());
     if (!std::isfinite(tool.time_s) || !std::isfinite(tool.removed_mm3) ||
         !std::isfinite(tool.depth_mm.value_or(0.0)) || !std::isfinite(tool.peak_force_n.value_or(0.0)) ||
+        !std::isfinite(tool.spindle_rpm.value_or(0.0)) ||
         !std::isfinite(tool.solve.value_or(SolveCounts{}).max_residual_n) ||
         !is_finite(tool.shank_torque_n_mm.value_or(glm::dvec3(0.0))) || !is_finite(tool.burr_position_mm) ||
         !is_finite(tool.spindle_axis) || !is_finite(tool.hand_position_mm) || !is_finite(tool.force_n))

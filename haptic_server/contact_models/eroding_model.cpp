@@ -47,8 +47,8 @@ ErodingModel::ErodingModel(Bone bone, std::vector<Burr> burrs, const std::vector
     : bone_(std::move(bone)),
       burrs_(std::move(burrs)),
       law_(std::move(law)),
-      bricks_(largest_radius_voxels(burrs_, bone_.grid().spacing_mm) + BurrContact::margin_voxels),
-      erosion_(largest_radius_voxels(burrs_, bone_.grid().spacing_mm)),
+      bricks_(largest_radius_voxels(burrs_.all(), bone_.grid().spacing_mm) + BurrContact::margin_voxels),
+      erosion_(largest_radius_voxels(burrs_.all(), bone_.grid().spacing_mm)),
       account_(bone_.grid(), tissues) {}
 
 void ErodingModel::erode(const glm::dvec3& position_mm, double dose, ChangeSink& changes) noexcept {
@@ -69,7 +69,7 @@ void ErodingModel::step(const BurrCommand& command, double time_s, ChangeSink& c
     has_position_ = true;
     burr_ = command.burr;
 
-    const Burr& burr = burrs_[burr_];
+    const Burr& burr = burrs_.turn(burr_, command.speed_share);
     const Grid& grid = bone_.grid();
     const glm::dvec3 centre = to_voxel_coordinates(grid, position_mm);
     const double radius = burr.radius_mm() / grid.spacing_mm;

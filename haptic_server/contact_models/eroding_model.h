@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "common/scene/scene.h"
+#include "common/scene/turning_burrs.h"
 #include "haptic_server/contact_models/contact_law.h"
 #include "haptic_server/contact_models/erosion.h"
 #include "haptic_server/contact_models/force_model.h"
@@ -39,7 +40,7 @@ class ErodingModel final : public ForceModel {
     void erode(const glm::dvec3& position_mm, double dose, ChangeSink& changes) noexcept;
 
     Bone bone_;
-    std::vector<Burr> burrs_;
+    TurningBurrs burrs_;
     std::unique_ptr<ContactLaw> law_;
     BrickNeighbourhood bricks_;
     Erosion erosion_;

@@ -33,6 +33,12 @@ constexpr double longest_wait_s = 0.001 - 1e-7;
 /// Nobody feels the direction of a step that crosses the whole bone.
 constexpr double most_substeps = 64.0;
 
+std::vector<Burr> as_summed(std::vector<Burr> burrs, const MillingSettings& settings) {
+    if (!settings.has_edge_forces)
+        for (Burr& burr : burrs) burr.edge_coefficients_n_per_mm = glm::dvec3(0.0);
+    return burrs;
+}
+
 /// Of a spindle that tilts on its way.
 glm::dvec3 axis_between(const glm::dvec3& from, const glm::dvec3& to, double share) {
     const glm::dvec3 axis = glm::mix(from, to, share);
@@ -89,17 +95,16 @@ class ForceOfRemoved final : public RemovalSink {
 MillingModel::MillingModel(Bone bone, std::vector<Burr> burrs, const std::vector<Tissue>& tissues,
                            const MillingSettings& settings)
     : bone_(std::move(bone)),
-      burrs_(std::move(burrs)),
+      burrs_(as_summed(std::move(burrs), settings)),
       settings_(settings),
       edge_shares_(tissues),
       has_edge_shares_(!edge_shares_.are_all_one()),
       chips_(settings.bins),
       tooth_(settings.instants_per_tooth, settings.instructions),
       account_(bone_.grid(), tissues) {
-    if (burrs_.empty()) throw std::invalid_argument("the milling model needs at least one burr");
+    if (burrs_.all().empty()) throw std::invalid_argument("the milling model needs at least one burr");
     probes_.reserve(burrs_.size());
-    for (Burr& burr : burrs_) {
-        if (!settings.has_edge_forces) burr.edge_coefficients_n_per_mm = glm::dvec3(0.0);
+    for (const Burr& burr : burrs_.all()) {
         require_valid(burr, bone_.grid().spacing_mm);
         if (settings.summation == ForceSummation::bins) require_ball(burr, "the force over bins");
         heads_.emplace_back();
@@ -207,6 +212,7 @@ void MillingModel::step(const BurrCommand& command, double time_s, ChangeSink& c
         carved_at_position_ = false;
         since_milled_s_ = 0.0;
     }
+    burrs_.turn(burr_, command.speed_share);
     if (command.spindle_on) {
         mill(command, changes, result);
     } else {
@@ -217,7 +223,8 @@ void MillingModel::step(const BurrCommand& command, double time_s, ChangeSink& c
     }
     account_.end_step(command, result);
     if (command.wants_engagement)
-        probes_[burr_].sample(bone_, command.pose.position_mm, command.pose.spindle_axis, result.engagement);
+        probes_[burr_].sample(bone_, command.pose.position_mm, command.pose.spindle_axis, command.speed_share,
+                              result.engagement);
 }
 
 void MillingModel::restore(const BrickChange& change, BrickFractions fractions,

@@ -12,6 +12,7 @@
 #include "common/scene/burr_profile.h"
 #include "common/scene/edge_shares.h"
 #include "common/scene/scene.h"
+#include "common/scene/turning_burrs.h"
 #include "haptic_server/contact_models/force_model.h"
 #include "haptic_server/contact_models/milling_settings.h"
 #include "haptic_server/contact_models/removal_account.h"
@@ -59,7 +60,7 @@ class MillingModel final : public ForceModel {
                        Force& force, MillingResult& result) noexcept;
 
     Bone bone_;
-    std::vector<Burr> burrs_;
+    TurningBurrs burrs_;
     std::vector<EngagementProbe> probes_;            // by burr
     std::vector<std::optional<BurrProfile>> heads_;  // likewise, in voxels; nothing for a ball
     MillingSettings settings_;

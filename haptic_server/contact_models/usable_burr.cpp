@@ -41,6 +41,7 @@ void require_ball(const Burr& burr, const char* model) {
 bool is_usable(const BurrCommand& command, std::size_t burr_count) noexcept {
     return is_finite(command.pose.position_mm) && is_finite(command.pose.spindle_axis) &&
            std::abs(glm::length(command.pose.spindle_axis) - 1.0) < 1e-6 &&
+           std::isfinite(command.speed_share) && command.speed_share > 0.0 &&
            std::isfinite(command.elapsed_s) && command.elapsed_s > 0.0 && command.burr < burr_count;
 }
 

@@ -19,6 +19,7 @@ struct HandState {
     glm::dvec3 velocity_mm_per_s{0.0};
     bool spindle_on = false;
     std::size_t burr = 0;
+    double speed_share = 1.0;  ///< of the spindle's speed to the burr's own
 };
 
 struct CouplingOutput {

@@ -165,7 +165,7 @@ glm::dvec3 HandpieceVibration::tick(const HandState& hand, const MillingResult& 
         silence();
         return force_n_;
     }
-    const Burr& burr = burrs_[hand.burr];
+    const Burr& burr = burrs_.turn(hand.burr, hand.speed_share);
     turned_rev_ += burr.spindle_rev_per_s * hand.tick_s;
     turned_rev_ -= std::floor(turned_rev_);
     look_at_cut(latest, burr);

@@ -40,6 +40,7 @@
 #include <vector>
 
 #include "common/scene/burr.h"
+#include "common/scene/turning_burrs.h"
 #include "haptic_server/coupling/coupling.h"
 
 namespace osteomill {
@@ -95,7 +96,7 @@ class HandpieceVibration {
     /// The sines, within all limits.
     glm::dvec3 allowed_n(const Burr& burr, double tick_s, double mean_n) const noexcept;
 
-    std::vector<Burr> burrs_;
+    TurningBurrs burrs_;
     VibrationLimits limits_;
     double turned_rev_ = 0.0;  // within a turn
     Sine turn_;                // what is felt, and what the cut would have it be

@@ -49,13 +49,14 @@ EngagementProbe::EngagementProbe(const Burr& burr, double spacing_mm, const Edge
 }
 
 void EngagementProbe::sample(const Bone& bone, const glm::dvec3& position_mm, const glm::dvec3& spindle_axis,
-                             Engagement& out) noexcept {
-    sample_burr(bone, position_mm, spindle_axis, out);
+                             double speed_share, Engagement& out) noexcept {
+    sample_burr(bone, position_mm, spindle_axis, speed_share, out);
     shank_.sample(bone, position_mm, spindle_axis, out);
 }
 
 void EngagementProbe::sample_burr(const Bone& bone, const glm::dvec3& position_mm,
-                                  const glm::dvec3& spindle_axis, Engagement& out) noexcept {
+                                  const glm::dvec3& spindle_axis, double speed_share,
+                                  Engagement& out) noexcept {
     out.burr_position_mm = position_mm;
     out.count = 0;
     const double h = bone.grid().spacing_mm;
@@ -87,7 +88,7 @@ void EngagementProbe::sample_burr(const Bone& bone, const glm::dvec3& position_m
             EngagedPatch& engaged = out.patches[out.count++];
             engaged = {.normal = normal,
                        .gap_mm = static_cast<double>(crossing.offset_voxels) * h,
-                       .cutting_n_s_per_mm = stiffness * (frame * patch.cutting_n_s_per_mm),
+                       .cutting_n_s_per_mm = stiffness / speed_share * (frame * patch.cutting_n_s_per_mm),
                        .area_mm2 = patch.area_mm2};
             if (has_edge_force_) {
                 const std::uint8_t label =

@@ -23,14 +23,20 @@ class EngagementProbe {
   public:
     explicit EngagementProbe(const Burr& burr, double spacing_mm, const EdgeShares& edge_shares = {});
 
-    /// Fills `out` for a burr at `position_mm` with its spindle along `spindle_axis` (unit). The surface of
-    /// the bone is where the trilinear fraction crosses one half. Real-time safe.
+    /// Fills `out` for a burr at `position_mm` with its spindle along `spindle_axis` (unit), which turns at
+    /// `speed_share` (positive) of the burr's own speed. The surface of the bone is where the trilinear
+    /// fraction crosses one half. Real-time safe.
     void sample(const Bone& bone, const glm::dvec3& position_mm, const glm::dvec3& spindle_axis,
-                Engagement& out) noexcept;
+                double speed_share, Engagement& out) noexcept;
+    /// Likewise at the burr's own speed.
+    void sample(const Bone& bone, const glm::dvec3& position_mm, const glm::dvec3& spindle_axis,
+                Engagement& out) noexcept {
+        sample(bone, position_mm, spindle_axis, 1.0, out);
+    }
 
   private:
     void sample_burr(const Bone& bone, const glm::dvec3& position_mm, const glm::dvec3& spindle_axis,
-                     Engagement& out) noexcept;
+                     double speed_share, Engagement& out) noexcept;
 
     /// Patches are looked at four at a time: a vector that every processor has.
     static constexpr std::size_t four = 4;

@@ -17,6 +17,7 @@ struct BurrCommand {
     ToolPose pose;  ///< at the end of the step, patient LPS; the axis is a unit vector
     bool spindle_on = false;
     std::size_t burr = 0;          ///< index into the scene's set
+    double speed_share = 1.0;      ///< of the spindle's speed to the burr's own, positive
     double elapsed_s = 0.0;        ///< duration of the step, positive
     bool wants_engagement = true;  ///< false: nobody will look at the result's engagement, save its time
     /// The burr that shall be put in this one's place; nothing: none.

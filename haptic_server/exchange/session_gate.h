@@ -1,5 +1,5 @@
-// Whether the session is to hold still, as whoever looks after it tells the haptic loop: while it does, there
-// is neither force nor spindle, and nothing but undo changes the bone.
+// What whoever looks after a session tells the haptic loop: how fast the spindle turns, and whether to hold
+// still. While it does, there is neither force nor spindle, and nothing but undo changes the bone.
 #pragma once
 
 #include <atomic>
@@ -16,6 +16,8 @@ struct SessionGate {
     std::atomic<std::uint64_t> restored_changes{0};
     /// Number of the placement that the haptic loop has made last.
     std::atomic<std::uint64_t> placed{0};
+    /// Speed of the spindle that was chosen; 0: each burr's own.
+    std::atomic<double> spindle_rev_per_s{0.0};
 };
 
 /// The tool shall be elsewhere, though the hand stays where it is: what changes is how the device sits on the

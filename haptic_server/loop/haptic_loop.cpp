@@ -18,7 +18,8 @@ HapticLoop::HapticLoop(const HapticLoopParts& parts, const HapticLoopOptions& op
       gives_force_(parts.device.limits().gives_force),
       hand_pose_(options.start_pose),
       burr_pose_(options.start_pose),
-      burr_(options.start_burr, options.burr_count) {}
+      burr_(options.start_burr, options.burr_count),
+      speed_(options.spindle_rev_per_s) {}
 
 HandState HapticLoop::hand_state(double now_s, double elapsed_s, const DeviceState& device) noexcept {
     const DeviceMapping& mapping = options_.mapping;
@@ -54,6 +55,12 @@ void HapticLoop::place(const DeviceState& device) noexcept {
     parts_.gate->placed.store(wanted.number, std::memory_order_release);
 }
 
+double HapticLoop::speed_share(double elapsed_s) noexcept {
+    if (parts_.gate == nullptr) return 1.0;
+    const double chosen = parts_.gate->spindle_rev_per_s.load(std::memory_order_relaxed);
+    return speed_.tick(burr_.burr(), chosen, spindle_turned_, elapsed_s);
+}
+
 void HapticLoop::tick(double now_s, std::uint64_t missed_periods) noexcept {
     const double elapsed_s = options_.tick_s * static_cast<double>(1 + missed_periods);
     const DeviceState device = parts_.device.read(now_s);
@@ -78,6 +85,7 @@ void HapticLoop::tick(double now_s, std::uint64_t missed_periods) noexcept {
 
     HandState hand{.now_s = now_s, .tick_s = elapsed_s, .pose = hand_pose_, .burr = burr_.burr()};
     if (safety_.has_hand()) hand = hand_state(now_s, elapsed_s, device);
+    hand.speed_share = speed_share(elapsed_s);
 
     glm::dvec3 wanted_n(0.0);
     glm::dvec3 shank_torque_n_mm(0.0);
@@ -122,10 +130,14 @@ void HapticLoop::tick(double now_s, std::uint64_t missed_periods) noexcept {
         .depth_mm = depth_mm(in_contact),
         .solve = parts_.coupling.solve_counts(),
         .shank_torque_n_mm = options_.has_shank ? std::optional(shank_torque_n_mm) : std::nullopt,
-        .peak_force_n = peak_force_n_};
+        .peak_force_n = peak_force_n_,
+        .spindle_rpm = hand.speed_share != 1.0
+                           ? std::optional(60.0 * hand.speed_share * speed_.own_rev_per_s(burr_.burr()))
+                           : std::nullopt};
     publish({.pose = burr_pose_,
              .spindle_on = spindle_on,
              .burr = burr_.burr(),
+             .speed_share = hand.speed_share,
              .elapsed_s = elapsed_s,
              .wanted_burr = burr_.wanted()},
             tool);

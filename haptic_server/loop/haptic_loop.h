@@ -25,6 +25,7 @@
 #include "haptic_server/exchange/triple_buffer.h"
 #include "haptic_server/loop/burr_change.h"
 #include "haptic_server/loop/force_log.h"
+#include "haptic_server/loop/spindle_speed.h"
 #include "haptic_server/safety/energy_meter.h"
 #include "haptic_server/safety/safety_monitor.h"
 
@@ -49,8 +50,9 @@ struct HapticLoopOptions {
     DeviceMapping mapping{};
     std::size_t burr_count = 1;  ///< of the scene's set
     std::size_t start_burr = 0;
-    bool has_shank = false;           ///< any burr of the set: its torque is told
-    double removed_before_mm3 = 0.0;  ///< by the sessions before: what is told goes on from there
+    std::vector<double> spindle_rev_per_s{};  ///< of each burr; empty: no other can be chosen
+    bool has_shank = false;                   ///< any burr of the set: its torque is told
+    double removed_before_mm3 = 0.0;          ///< by the sessions before: what is told goes on from there
     /// What the hand did before the first tick.
     ToolPose start_pose{};
 };
@@ -77,6 +79,7 @@ class HapticLoop {
     void place(const DeviceState& device) noexcept;
     bool holds_still(const MillingResult& latest) const noexcept;
     void publish(const BurrCommand& command, const ToolState& tool) noexcept;
+    double speed_share(double elapsed_s) noexcept;
     double depth_mm(bool in_contact) noexcept;
     void log(const ToolState& tool) noexcept;
 
@@ -90,6 +93,7 @@ class HapticLoop {
     ToolPose hand_pose_;  // patient LPS; the last that was read
     ToolPose burr_pose_;
     BurrChanger burr_;
+    SpindleSpeed speed_;
     bool spindle_turned_ = false;  // in the last tick
     double protected_until_s_ = 0.0;
 

@@ -54,6 +54,12 @@ ToolState tool_at_start(const Scene& scene) {
             .burr = scene.start_burr};
 }
 
+std::vector<double> spindle_speeds(const std::vector<Burr>& burrs) {
+    std::vector<double> rev_per_s;
+    for (const Burr& burr : burrs) rev_per_s.push_back(burr.spindle_rev_per_s);
+    return rev_per_s;
+}
+
 std::optional<HandpieceVibration> make_vibration(const Scene& scene, const HapticDevice& device,
                                                  const MillingSessionOptions& options) {
     if (!options.vibration) return std::nullopt;
@@ -129,6 +135,7 @@ MillingSession::MillingSession(const Scene& scene, Bone bone, HapticDevice& devi
                     .mapping = scene.device,
                     .burr_count = scene.burrs.size(),
                     .start_burr = scene.start_burr,
+                    .spindle_rev_per_s = spindle_speeds(scene.burrs),
                     .has_shank = has_shank(scene.burrs),
                     .removed_before_mm3 = std::accumulate(options.removed_before_mm3.begin(),
                                                           options.removed_before_mm3.end(), 0.0),

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <fstream>
@@ -16,19 +17,27 @@ namespace {
 
 constexpr std::string_view header = "t_s,action,text";
 
-std::vector<std::string_view> action_names() {
-    std::vector<std::string_view> names;
-    for (auto action = SessionAction::mark; action <= SessionAction::finish;
-         action = static_cast<SessionAction>(static_cast<int>(action) + 1))
-        names.emplace_back(name_of(action));
-    return names;
-}
+/// A placement needs a position, and has no place here.
+constexpr std::array actions{SessionAction::mark, SessionAction::pause,  SessionAction::resume,
+                             SessionAction::undo, SessionAction::redo,   SessionAction::reset,
+                             SessionAction::save, SessionAction::finish, SessionAction::speed};
 
 SessionAction action_named(std::string_view name) {
-    const auto names = action_names();
-    for (std::size_t i = 0; i < names.size(); ++i)
-        if (names[i] == name) return static_cast<SessionAction>(i + 1);
+    std::vector<std::string_view> names;
+    for (const SessionAction action : actions) {
+        if (name == name_of(action)) return action;
+        names.emplace_back(name_of(action));
+    }
     throw std::invalid_argument(fmt::format("action '{}' is not one of {}", name, fmt::join(names, ", ")));
+}
+
+double number_in(std::string_view text, const char* name, const char* what) {
+    double number = 0.0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+    if (error != std::errc{} || end != text.data() + text.size() || !(number >= 0.0) ||
+        !std::isfinite(number))
+        throw std::invalid_argument(fmt::format("{} '{}' is not {}, 0 or more", name, text, what));
+    return number;
 }
 
 TimedControl timed_control(std::string_view line) {
@@ -38,15 +47,17 @@ TimedControl timed_control(std::string_view line) {
         throw std::invalid_argument(fmt::format("has fewer than the three columns {}", header));
     const std::string_view time = line.substr(0, first);
     TimedControl timed;
-    const auto [end, error] = std::from_chars(time.data(), time.data() + time.size(), timed.time_s);
-    if (error != std::errc{} || end != time.data() + time.size() || !(timed.time_s >= 0.0) ||
-        !std::isfinite(timed.time_s))
-        throw std::invalid_argument(fmt::format("t_s '{}' is not a number of seconds, 0 or more", time));
+    timed.time_s = number_in(time, "t_s", "a number of seconds");
     timed.control.action = action_named(line.substr(first + 1, second - first - 1));
     timed.control.text = line.substr(second + 1);
     if (timed.control.text.size() > SessionControl::longest_text)
         throw std::invalid_argument(fmt::format("the text has {} bytes; {} are the most",
                                                 timed.control.text.size(), SessionControl::longest_text));
+    if (timed.control.action == SessionAction::speed) {
+        timed.control.spindle_rpm = number_in(timed.control.text, "the speed", "a number of rev/min");
+        if (!is_spindle_speed(timed.control.spindle_rpm))
+            throw std::invalid_argument("the speed is 100 to 500000 rpm, or 0 for each burr's own");
+    }
     return timed;
 }
 

@@ -4,10 +4,11 @@
 //     t_s,action,text
 //     4.0,mark,before the second stroke
 //     5.5,undo,
+//     6.0,speed,30000
 //
 // The first line must be this header. Times ascend or repeat. `action` is mark, pause, resume, undo, redo,
-// reset, save or finish; `text`, all that follows, is a mark's note. Blank lines and lines that begin with #
-// are skipped. Anything else is refused with file and line.
+// reset, save, finish or speed; `text`, all that follows, is a mark's note, or rev/min (0: each burr's own).
+// Blank lines and lines that begin with # are skipped. Anything else is refused with file and line.
 #pragma once
 
 #include <deque>

@@ -47,6 +47,9 @@ bool SessionControls::act(const SessionControl& control, const Bone& bone, const
         case SessionAction::resume:
             is_paused_ = control.action == SessionAction::pause;
             break;
+        case SessionAction::speed:
+            choose_speed(control);
+            return true;
         case SessionAction::save:
             say(control, requests_.save(bone, control.text));
             return true;
@@ -109,6 +112,13 @@ bool SessionControls::place(const SessionControl& control, const Bone& bone, con
     placements_.publish();
     is_being_placed_ = true;
     return false;
+}
+
+void SessionControls::choose_speed(const SessionControl& control) {
+    gate_.spindle_rev_per_s.store(control.spindle_rpm / 60.0, std::memory_order_relaxed);
+    say({.action = control.action,
+         .text = control.spindle_rpm == 0.0 ? "each burr's own"
+                                            : fmt::format("{:.0f} rpm", control.spindle_rpm)});
 }
 
 void SessionControls::queue_restored() {

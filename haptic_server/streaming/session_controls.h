@@ -1,5 +1,6 @@
-// Looks after a session on behalf of whoever controls it: pause, undo and redo by strokes, marks, saving, the
-// end. On the streaming thread, which knows all that was milled from its own copy of the bone.
+// Looks after a session on behalf of whoever controls it: pause, undo and redo by strokes, marks, the speed
+// of the spindle, saving, the end. On the streaming thread, which knows all that was milled from its own copy
+// of the bone.
 //
 // Undo goes the way of milling, backwards: what the journal remembers is queued for the milling loop, which
 // writes it into its bone while the spindle is off, and comes back as changes that restore, for the copy of
@@ -40,7 +41,8 @@ class SessionControls {
     /// So many wait at most; what comes then is refused.
     static constexpr std::size_t most_waiting = 64;
 
-    /// The one writer of gate.holds_still, of `restored` and of `placements`; all outlive it.
+    /// The one writer of gate.holds_still and gate.spindle_rev_per_s, of `restored` and of `placements`; all
+    /// outlive it.
     SessionControls(SessionGate& gate, ChangeQueue& restored, TripleBuffer<Placement>& placements,
                     Requests requests)
         : gate_(gate), restored_(restored), placements_(placements), requests_(std::move(requests)) {}
@@ -62,6 +64,7 @@ class SessionControls {
     bool act(const SessionControl& control, const Bone& bone, const ToolState& tool);
     bool restore(SessionAction action, const Bone& bone, const ToolState& tool);
     bool place(const SessionControl& control, const Bone& bone, const ToolState& tool);
+    void choose_speed(const SessionControl& control);
     void queue_restored();
     bool is_restoring() const { return !waits_for_room_.empty() || confirmed_ < queued_; }
     void say(const SessionControl& control, std::string refusal = {});

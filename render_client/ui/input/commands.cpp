@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <stdexcept>
 #include <utility>
 
@@ -36,6 +37,8 @@ const char* words_for(SessionAction done) {
             return "the session ends";
         case SessionAction::place:
             return "the tool is";
+        case SessionAction::speed:
+            return "the spindle's speed:";
         case SessionAction::none:
             break;
     }
@@ -131,6 +134,12 @@ void Commands::take(Action action) {
         case Action::previous_burr:
             desk_.choose_previous_burr();
             break;
+        case Action::faster:
+            change_speed(1.1);
+            break;
+        case Action::slower:
+            change_speed(1.0 / 1.1);
+            break;
         case Action::play_or_pause:
             player_->is_playing() ? player_->pause() : player_->play();
             break;
@@ -145,6 +154,15 @@ void Commands::take(Action action) {
 
 void Commands::ask(SessionAction action) {
     source_.send_control({action});
+}
+
+void Commands::change_speed(double factor) {
+    const auto& tool = session_.tool();
+    const SessionInfo* scene = source_.session();
+    if (!tool || scene == nullptr || tool->burr >= scene->burrs.size()) return;
+    const double rpm = factor * spindle_rpm(*tool, scene->burrs[tool->burr]);
+    source_.send_control({.action = SessionAction::speed,
+                          .spindle_rpm = std::clamp(rpm, least_spindle_rpm, most_spindle_rpm)});
 }
 
 void Commands::ask_to_end() {

@@ -45,6 +45,8 @@ class Commands {
   private:
     void say(std::string notice, double now_s);
     void ask(SessionAction action);
+    /// Of the spindle.
+    void change_speed(double factor);
 
     SessionPicture& session_;
     OperatorDesk& desk_;

@@ -56,6 +56,8 @@ const std::vector<KeyBinding>& table() {
          "choose a burr"},
         {hand, drilling, {GLFW_KEY_RIGHT_BRACKET}, Action::next_burr, "]", "the next burr"},
         {hand, drilling, {GLFW_KEY_LEFT_BRACKET}, Action::previous_burr, "[", "the burr before"},
+        {hand, live, {GLFW_KEY_PERIOD}, Action::faster, ".", "the spindle turns faster by a tenth"},
+        {hand, live, {GLFW_KEY_COMMA}, Action::slower, ",", "slower"},
         {session,
          live,
          {GLFW_KEY_L},

@@ -27,6 +27,8 @@ enum class Action {
     end,
     next_burr,
     previous_burr,
+    faster,
+    slower,
     tilt,
     place,
     move_bone,

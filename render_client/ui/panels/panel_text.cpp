@@ -53,9 +53,9 @@ PanelText tool_text(const OverlayContent& content) {
             burr.is_ball() ? "burr" : head_shape_names[static_cast<std::size_t>(burr.head.shape)];
         text.push_back(
             line(Tone::plain, fmt::format("{} {:.1f} mm, {} edges", head, burr.diameter_mm, burr.edges)));
-        text.push_back(tool.spindle_on ? line(Tone::good, fmt::format("spindle {:.0f} rpm",
-                                                                      60.0 * burr.spindle_rev_per_s))
-                                       : line(Tone::dim, "spindle off"));
+        text.push_back(tool.spindle_on
+                           ? line(Tone::good, fmt::format("spindle {:.0f} rpm", spindle_rpm(tool, burr)))
+                           : line(Tone::dim, "spindle off"));
     }
     text.push_back(line(Tone::plain, fmt::format("removed {:.2f} mm\u00b3", tool.removed_mm3)));
     text.push_back(line(Tone::dim, fmt::format("time {:.1f} s", tool.time_s)));

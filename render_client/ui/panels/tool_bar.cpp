@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <optional>
 #include <string>
 
 #include "common/scene/burr_profile.h"
@@ -49,6 +50,15 @@ std::string burr_words(const Burr& burr) {
                              burr.diameter_mm);
 }
 
+/// The one that was chosen; of an arm with a choice of its own the one in the tool.
+std::optional<std::size_t> burr_in_use(const OverlayContent& content) {
+    if (content.session == nullptr) return std::nullopt;
+    std::optional<std::size_t> burr;
+    if (content.tool) burr = content.tool->burr;
+    if (content.operator_command) burr = content.operator_command->burr;
+    return burr && *burr < content.session->burrs.size() ? burr : std::nullopt;
+}
+
 std::vector<ToolButton> buttons(const OverlayContent& content) {
     const SessionStatus& can = content.link.controls;
     const bool may = can.may_control;
@@ -61,12 +71,14 @@ std::vector<ToolButton> buttons(const OverlayContent& content) {
                            .tip = "the spindle turns until you press again, or while SPACE is held",
                            .is_enabled = may && !can.is_paused,
                            .is_on = command.pedal});
-        if (content.session && command.burr < content.session->burrs.size())
-            buttons.push_back({.tool = Tool::burr,
-                               .sign = "\u25CE",
-                               .word = burr_words(content.session->burrs[command.burr]),
-                               .tip = "choose a burr (1 to 9, [ ])",
-                               .is_enabled = may});
+    }
+    if (const std::optional<std::size_t> burr = burr_in_use(content))
+        buttons.push_back({.tool = Tool::burr,
+                           .sign = "\u25CE",
+                           .word = burr_words(content.session->burrs[*burr]),
+                           .tip = "choose a burr (1 to 9, [ ]) and the spindle's speed (, .)",
+                           .is_enabled = may});
+    if (content.operator_command) {
         buttons.push_back({.tool = Tool::tilt,
                            .sign = "\u2197",
                            .word = "Tilt",
@@ -263,6 +275,33 @@ float largest_mm(const std::vector<Burr>& burrs) {
     return static_cast<float>(largest_mm);
 }
 
+/// Sends the speed when the slider is let go, not on its way.
+void draw_speed(const OverlayContent& content) {
+    if (!content.tool || content.tool->burr >= content.session->burrs.size()) return;
+    constexpr float slowest_rpm = 1000.0f;
+    constexpr float fastest_rpm = 100'000.0f;
+    const Burr& burr = content.session->burrs[content.tool->burr];
+    const double own_rpm = 60.0 * burr.spindle_rev_per_s;
+    ImGui::Separator();
+    // While it is dragged the slider has a value of its own.
+    ImGuiStorage& storage = *ImGui::GetStateStorage();
+    const ImGuiID dragged = ImGui::GetID("dragged rpm");
+    float rpm = storage.GetFloat(dragged, 0.0f);
+    if (rpm == 0.0f) rpm = static_cast<float>(spindle_rpm(*content.tool, burr));
+    ImGui::SetNextItemWidth(14.0f * ImGui::GetFontSize());
+    ImGui::SliderFloat("##rpm", &rpm, std::min(slowest_rpm, static_cast<float>(own_rpm)),
+                       std::max(fastest_rpm, static_cast<float>(own_rpm)), "%.0f rpm",
+                       ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp);
+    storage.SetFloat(dragged, ImGui::IsItemActive() ? rpm : 0.0f);
+    const auto choose = [&](double chosen_rpm) {
+        content.wishes->controls.push_back({.action = SessionAction::speed, .spindle_rpm = chosen_rpm});
+    };
+    if (ImGui::IsItemDeactivatedAfterEdit())
+        choose(std::clamp(100.0 * std::round(rpm / 100.0), least_spindle_rpm, most_spindle_rpm));
+    ImGui::SameLine();
+    if (ImGui::Button(fmt::format("its own: {:.0f}", own_rpm).c_str())) choose(0.0);
+}
+
 void draw_burr_list(const OverlayContent& content) {
     if (!ImGui::BeginPopup("burrs")) return;
     const float height = 2.6f * ImGui::GetFontSize();
@@ -273,12 +312,14 @@ void draw_burr_list(const OverlayContent& content) {
                                              burr_words(burr), burr.edges, 60.0 * burr.spindle_rev_per_s, i);
         const ImVec2 place = ImGui::GetCursorScreenPos();
         ImGui::PushStyleVar(ImGuiStyleVar_SelectableTextAlign, {0.0f, 0.5f});
-        if (ImGui::Selectable(text.c_str(), content.operator_command && content.operator_command->burr == i,
-                              0, {0.0f, height}))
+        const auto flags =
+            content.operator_command ? ImGuiSelectableFlags_None : ImGuiSelectableFlags_Disabled;
+        if (ImGui::Selectable(text.c_str(), burr_in_use(content) == i, flags, {0.0f, height}))
             content.wishes->burr = i;
         ImGui::PopStyleVar();
         draw_burr(burr, {place.x, place.y + 1.0f}, {height, height - 2.0f}, mm_per_px);
     }
+    draw_speed(content);
     ImGui::EndPopup();
 }
 

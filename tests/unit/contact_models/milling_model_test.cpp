@@ -72,6 +72,39 @@ TEST_F(MillingModelTest, SaysWhenProtectedTissueIsRemoved) {
     EXPECT_GT(model.removed_mm3()[2], 0.0);
 }
 
+TEST_F(MillingModelTest, ChipsAndTheirForceHalveAtTwiceTheSpeed) {
+    const auto step_at = [&](double rev_per_s, double speed_share) {
+        burr.spindle_rev_per_s = rev_per_s;
+        MillingModel model(block(), {burr}, {});
+        BurrCommand command = at({-1.0, 0.0, 0.5}, true);
+        command.speed_share = speed_share;
+        model.step(command, 0.0, changes, *result);
+        command.pose.position_mm.x = -0.94;
+        model.step(command, 0.01, changes, *result);
+        return *result;
+    };
+    const auto own = std::make_unique<MillingResult>(step_at(100.0, 1.0));
+    const auto twice = std::make_unique<MillingResult>(step_at(100.0, 2.0));
+    EXPECT_NEAR(glm::length(twice->force_n) / glm::length(own->force_n), 0.5, 1e-6);
+    EXPECT_EQ(twice->removed_mm3, own->removed_mm3);
+    const auto faster_burr = std::make_unique<MillingResult>(step_at(200.0, 1.0));
+    EXPECT_EQ(twice->force_n, faster_burr->force_n);
+    ASSERT_EQ(twice->engagement.count, faster_burr->engagement.count);
+    for (std::size_t i = 0; i < twice->engagement.count; ++i)
+        EXPECT_EQ(twice->engagement.patches[i].cutting_n_s_per_mm,
+                  faster_burr->engagement.patches[i].cutting_n_s_per_mm);
+}
+
+TEST_F(MillingModelTest, RefusesASpeedThatIsNone) {
+    MillingModel model(block(), {burr}, {});
+    for (const double share : {0.0, -1.0, std::numeric_limits<double>::quiet_NaN()}) {
+        BurrCommand command = at({-1.0, 0.0, 0.5}, true);
+        command.speed_share = share;
+        model.step(command, 0.0, changes, *result);
+        EXPECT_FALSE(result->valid);
+    }
+}
+
 TEST_F(MillingModelTest, StifferBoneNeedsProportionallyMoreForce) {
     const auto force_in = [&](double stiffness) {
         MillingModel model(testing::with_stiffness(block(), stiffness), {burr}, {});

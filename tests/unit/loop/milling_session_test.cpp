@@ -139,6 +139,27 @@ TEST(MillingSession, IsTheSameToTheBitEachTime) {
     EXPECT_EQ(first.peak_force_n, second.peak_force_n);
 }
 
+TEST(MillingSession, AtAChosenSpeedIsTheSameAsWithABurrOfThatSpeed) {
+    const auto milled = [](double own_rev_per_s, double chosen_rev_per_s) {
+        Scene scene = block_scene();
+        scene.burrs[0].spindle_rev_per_s = own_rev_per_s;
+        SimulatedDevice device = simulated(scene);
+        MillingSessionOptions options = virtual_options(2.0);
+        options.can_be_controlled = true;
+        const auto session = std::make_unique<MillingSession>(scene, block(), device, options);
+        session->gate()->spindle_rev_per_s = chosen_rev_per_s;
+        const std::atomic<bool> never{false};
+        session->run(never);
+        return session->report();
+    };
+    const MillingSessionReport slow = milled(250.0, 0.0);
+    const MillingSessionReport chosen = milled(250.0, 500.0);
+    const MillingSessionReport fast = milled(500.0, 0.0);
+    EXPECT_EQ(chosen.bone_checksum, fast.bone_checksum);
+    EXPECT_EQ(chosen.peak_force_n, fast.peak_force_n);
+    EXPECT_NE(chosen.bone_checksum, slow.bone_checksum);
+}
+
 TEST(MillingSession, StepsTheModelAtItsRateEvenWhereThatDoesNotDivideTheTicks) {
     for (const double rate_hz : {100.0, 300.0, 770.0, 1000.0, 2500.0, 10'000.0}) {
         MillingSessionOptions options = virtual_options(1.0);

@@ -31,9 +31,12 @@ TEST(ControlScript, IsReadLineByLine) {
 
 TEST(ControlScript, KnowsEveryAction) {
     const ControlScript script = read(
-        "t_s,action,text\n0,mark,\n0,pause,\n0,resume,\n0,undo,\n0,redo,\n0,reset,\n0,save,\n0,finish,\n");
-    EXPECT_EQ(script.size(), 8U);
-    EXPECT_EQ(script.back().control.action, SessionAction::finish);
+        "t_s,action,text\n0,mark,\n0,pause,\n0,resume,\n0,undo,\n0,redo,\n0,reset,\n0,save,\n0,finish,\n"
+        "1,speed,30000\n1,speed,0\n");
+    EXPECT_EQ(script.size(), 10U);
+    EXPECT_EQ(script[7].control.action, SessionAction::finish);
+    EXPECT_EQ(script[8].control.spindle_rpm, 30'000.0);
+    EXPECT_EQ(script[9].control.spindle_rpm, 0.0);
 }
 
 TEST(ControlScript, SaysWithFileAndLineWhatIsWrong) {
@@ -41,12 +44,17 @@ TEST(ControlScript, SaysWithFileAndLineWhatIsWrong) {
     EXPECT_EQ(refusal("time\n"), "s.csv:1: the first line must be t_s,action,text");
     EXPECT_EQ(refusal("t_s,action,text\n1,undo\n"),
               "s.csv:2: has fewer than the three columns t_s,action,text");
-    EXPECT_EQ(refusal("t_s,action,text\n1,undu,\n"),
-              "s.csv:2: action 'undu' is not one of mark, pause, resume, undo, redo, reset, save, finish");
+    EXPECT_EQ(
+        refusal("t_s,action,text\n1,undu,\n"),
+        "s.csv:2: action 'undu' is not one of mark, pause, resume, undo, redo, reset, save, finish, speed");
     EXPECT_EQ(refusal("t_s,action,text\n-1,undo,\n"),
               "s.csv:2: t_s '-1' is not a number of seconds, 0 or more");
     EXPECT_EQ(refusal("t_s,action,text\nnan,undo,\n"),
               "s.csv:2: t_s 'nan' is not a number of seconds, 0 or more");
+    EXPECT_EQ(refusal("t_s,action,text\n1,speed,fast\n"),
+              "s.csv:2: the speed 'fast' is not a number of rev/min, 0 or more");
+    EXPECT_EQ(refusal("t_s,action,text\n1,speed,99\n"),
+              "s.csv:2: the speed is 100 to 500000 rpm, or 0 for each burr's own");
     EXPECT_EQ(refusal("t_s,action,text\n2,undo,\n1,redo,\n"),
               "s.csv:3: t_s must not be earlier than on the line before");
     EXPECT_EQ(refusal("t_s,action,text\n2,mark," + std::string(201, 'x') + "\n"),

@@ -199,6 +199,20 @@ TEST_F(SessionControlsTest, MarksSavesAndFinishesAndSaysWhatCameOfIt) {
     EXPECT_TRUE(is_finished_);
 }
 
+TEST_F(SessionControlsTest, TellsTheHapticLoopTheSpindlesSpeed) {
+    controls_.control({.action = SessionAction::speed, .spindle_rpm = 30'000.0});
+    frame();
+    EXPECT_EQ(gate_.spindle_rev_per_s, 500.0);
+    EXPECT_FALSE(holds_still());
+    controls_.control({.action = SessionAction::speed, .spindle_rpm = 0.0});
+    frame();
+    EXPECT_EQ(gate_.spindle_rev_per_s, 0.0);
+    const auto events = controls_.take_events();
+    ASSERT_EQ(events.size(), 2U);
+    EXPECT_EQ(events[0].text, "30000 rpm");
+    EXPECT_EQ(events[1].text, "each burr's own");
+}
+
 TEST_F(SessionControlsTest, HasTheToolPlacedWhereItIsClearWhileTheSessionHoldsStill) {
     controls_.control({.action = SessionAction::place, .pose = {{1.0, 2.0, 3.0}, {0.0, 0.0, 1.0}}});
     frame();

@@ -14,6 +14,17 @@ TEST(ControlMessages, CarryEveryControl) {
     }
 }
 
+TEST(ControlMessages, CarryASpeedThatASpindleCanHave) {
+    for (const double rpm : {0.0, 100.0, 40'000.0, 500'000.0}) {
+        const SessionControl control{.action = SessionAction::speed, .spindle_rpm = rpm};
+        EXPECT_EQ(std::get<SessionControl>(session_control_from(to_message(control))), control);
+    }
+    for (const double rpm : {-1.0, 99.0, 500'001.0, std::numeric_limits<double>::quiet_NaN()}) {
+        const SessionControl control{.action = SessionAction::speed, .spindle_rpm = rpm};
+        EXPECT_TRUE(std::holds_alternative<WireError>(session_control_from(to_message(control)))) << rpm;
+    }
+}
+
 TEST(ControlMessages, CarryEventsAndStatus) {
     const ControlEvent event{
         .time_s = 1.5, .action = SessionAction::redo, .text = "nothing was undone", .is_refused = true};

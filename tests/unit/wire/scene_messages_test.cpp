@@ -183,6 +183,9 @@ TEST(SceneMessages, BringBackTheLargestForceWhereItIsSaid) {
     ToolState tool;
     EXPECT_FALSE(std::get<ToolState>(tool_from(to_message(tool), 1)).peak_force_n);
     tool.peak_force_n = 2.5;
+    EXPECT_FALSE(std::get<ToolState>(tool_from(to_message(tool), 1)).spindle_rpm);
+    tool.spindle_rpm = 30'000.0;
+    EXPECT_EQ(std::get<ToolState>(tool_from(to_message(tool), 1)).spindle_rpm, 30'000.0);
     EXPECT_EQ(std::get<ToolState>(tool_from(to_message(tool), 1)).peak_force_n, 2.5);
     tool.peak_force_n = std::nan("");
     EXPECT_TRUE(std::holds_alternative<WireError>(tool_from(to_message(tool), 1)));
