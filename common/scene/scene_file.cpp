@@ -330,6 +330,8 @@ std::string write_scene(const Scene& scene) {
             table.insert("relative_stiffness", tissue.strength->relative_stiffness);
             table.insert("relative_edge", tissue.strength->relative_edge);
         }
+        if (tissue.stiffness_factor != 1.0) table.insert("stiffness_factor", tissue.stiffness_factor);
+        if (!tissue.is_cuttable) table.insert("cuttable", false);
         tissues.push_back(std::move(table));
     }
     if (!tissues.empty()) root.insert("tissues", tissues);

@@ -9,6 +9,7 @@
 //     [stiffness]      knots = [[150, 0.02], [1600, 1.0], ...]: HU, relative stiffness
 //     [[tissues]]      label = 1, name = "enamel", colour = "#f6f4ec", protected = false,
 //                      material = "enamel"   or   relative_stiffness = 3.0, relative_edge = 3.0
+//                      or   stiffness_factor = 1.2; cuttable = false
 //     [[burrs]]        name, diameter_mm, edges, rpm, cutting_coefficients_n_per_mm2 = [K_t, K_r, K_a],
 //                      edge_coefficients_n_per_mm = [K_te, K_re, K_ae],
 //                      turns = "clockwise", shank = [[height_mm, radius_mm], ...]

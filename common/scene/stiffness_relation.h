@@ -28,9 +28,18 @@ struct TissueStiffness {
     bool operator==(const TissueStiffness&) const = default;
 };
 
+/// A tissue whose stiffness is a multiple of what follows from CT numbers.
+struct TissueFactor {
+    std::uint8_t label = 0;
+    double factor = 1.0;
+
+    bool operator==(const TissueFactor&) const = default;
+};
+
 struct StiffnessRelation {
     std::vector<StiffnessKnot> knots;        ///< ascending in HU, at least one
     std::vector<TissueStiffness> tissues{};  ///< which have a stiffness of their own
+    std::vector<TissueFactor> factors{};     ///< others that have a factor
 
     bool operator==(const StiffnessRelation&) const = default;
 };

@@ -54,6 +54,13 @@ std::vector<Tissue> read_tissues(std::vector<TomlReader> readers, bool has_segme
         tissue.colour_rgb = read_colour(reader);
         tissue.is_protected = reader.truth("protected").value_or(false);
         tissue.strength = read_strength(reader);
+        const std::optional<double> factor = reader.number("stiffness_factor", {0.01, 100.0});
+        if (factor && tissue.strength)
+            reader.fail("stiffness_factor",
+                        "'stiffness_factor' multiplies what the CT numbers say; take out 'material' or "
+                        "'relative_stiffness'");
+        tissue.stiffness_factor = factor.value_or(1.0);
+        tissue.is_cuttable = reader.truth("cuttable").value_or(true);
         tissue.segment = reader.text("segment").value_or("");
         tissue.opacity = reader.number("opacity", {0.0, 1.0}).value_or(1.0);
         tissue.warn_mm = reader.number("warn_mm", {0.0, 10.0}).value_or(usual_warn_mm(tissue.is_protected));

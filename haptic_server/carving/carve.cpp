@@ -26,8 +26,7 @@ void carve_short(Bone& bone, const Sweep& ball, const CarveSettings& settings, C
     const VoxelRange slices = rows.slices();
     if (rows.columns().empty() || rows.rows().empty() || slices.empty()) return;
 
-    CarveKernel kernel(bone, base, SweepSeenFrom(ball, origin, settings.coverage), settings.instructions,
-                       changes, sink);
+    CarveKernel kernel(bone, base, SweepSeenFrom(ball, origin, settings.coverage), settings, changes, sink);
     for (int first = slices.first; first < slices.end;) {
         const int end = std::min(slices.end, (first / brick_edge_voxels + 1) * brick_edge_voxels);
         const BrickLayer layer(bone, base, rows, first);

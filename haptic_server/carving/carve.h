@@ -5,6 +5,7 @@
 
 #include "common/bone/bone.h"
 #include "common/bone/brick_change.h"
+#include "common/scene/uncut_tissues.h"
 #include "haptic_server/carving/removed_voxels.h"
 #include "haptic_server/carving/sweep.h"
 #include "haptic_server/carving/voxel_coverage.h"
@@ -21,6 +22,7 @@ enum class CarveHistory {
 struct CarveSettings {
     VoxelCoverage coverage = VoxelCoverage::smoothed;
     InstructionSet instructions = best_instruction_set();
+    const UncutTissues* uncut = nullptr;  ///< what is left alone; null: nothing
 };
 
 /// Carves a sweep given in voxel coordinates (whole numbers are voxel centres, radius in voxels). Hands each

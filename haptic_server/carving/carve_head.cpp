@@ -80,12 +80,13 @@ class SweptHead {
 /// Carves one short sweep.
 class HeadCarver {
   public:
-    HeadCarver(Bone& bone, const HeadSweep& sweep, VoxelCoverage coverage, ChangeSink& changes,
+    HeadCarver(Bone& bone, const HeadSweep& sweep, const CarveSettings& settings, ChangeSink& changes,
                RemovalSink& removed) noexcept
         : bone_(bone),
           head_(sweep),
-          coverage_(coverage),
-          touched_within_(rim_voxels(coverage) + 1e-6),
+          coverage_(settings.coverage),
+          uncut_(settings.uncut),
+          touched_within_(rim_voxels(settings.coverage) + 1e-6),
           changes_(changes),
           sink_(removed) {
         const glm::dvec3 axis = sweep.frame[2];
@@ -161,6 +162,7 @@ class HeadCarver {
         std::uint8_t& fraction = bone_.fractions(slot)[offset];
         const std::int32_t old = fraction;
         if (old == 0) return false;
+        if (uncut_ != nullptr && uncut_->of_label[bone_.content().tissue_in(slot, offset)]) return false;
         const glm::ivec3 position = corner + voxel;
         const std::int32_t left =
             std::min(old, level_left_at(coverage_, head_.swept(glm::dvec3(position), touched_within_)));
@@ -194,6 +196,7 @@ class HeadCarver {
     Bone& bone_;
     SweptHead head_;
     VoxelCoverage coverage_;
+    const UncutTissues* uncut_;
     double touched_within_;
     ChangeSink& changes_;
     RemovalSink& sink_;
@@ -208,7 +211,7 @@ double distance_from(const HeadSweep& sweep, const glm::dvec3& point) noexcept {
     return SweptHead(sweep).swept(point, std::numeric_limits<double>::infinity());
 }
 
-void carve_head(Bone& bone, const HeadSweep& sweep, VoxelCoverage coverage, ChangeSink& changes,
+void carve_head(Bone& bone, const HeadSweep& sweep, const CarveSettings& settings, ChangeSink& changes,
                 RemovalSink& removed) noexcept {
     const double reach =
         std::max(-sweep.profile.tip_height(), sweep.profile.top_height()) + sweep.profile.largest_radius();
@@ -219,7 +222,7 @@ void carve_head(Bone& bone, const HeadSweep& sweep, VoxelCoverage coverage, Chan
     glm::dvec3 from = near.from;
     for (double part = 1.0; part <= parts; part += 1.0) {
         const glm::dvec3 to = part == parts ? near.to : near.from + along * (part / parts);
-        HeadCarver(bone, {sweep.profile, sweep.frame, from, to}, coverage, changes, removed).carve();
+        HeadCarver(bone, {sweep.profile, sweep.frame, from, to}, settings, changes, removed).carve();
         from = to;
     }
 }

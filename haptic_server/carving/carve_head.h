@@ -26,9 +26,9 @@ struct HeadSweep {
 /// voxel for sweeps of up to four voxels. Real-time safe.
 double distance_from(const HeadSweep& sweep, const glm::dvec3& point) noexcept;
 
-/// As carve(), but all of the head is looked at in each step: a brick and a block of four voxels at a time,
-/// by their distance from the surface. Real-time safe.
-void carve_head(Bone& bone, const HeadSweep& sweep, VoxelCoverage coverage, ChangeSink& changes,
+/// As carve() with settings.coverage and settings.uncut, but all of the head is looked at in each step: a
+/// brick and a block of four voxels at a time, by their distance from the surface. Real-time safe.
+void carve_head(Bone& bone, const HeadSweep& sweep, const CarveSettings& settings, ChangeSink& changes,
                 RemovalSink& removed) noexcept;
 
 }  // namespace osteomill

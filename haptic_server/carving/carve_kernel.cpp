@@ -16,8 +16,13 @@ using simd::Ints;
 static_assert(simd::width == RemovedVoxels::lanes);
 
 CarveKernel::CarveKernel(Bone& bone, const glm::ivec3& base, const SweepSeenFrom& sweep,
-                         InstructionSet instructions, ChangeSink& changes, RemovalSink& removed) noexcept
-    : bone_(bone), sweep_(sweep), instructions_(instructions), changes_(changes), sink_(removed) {
+                         const CarveSettings& settings, ChangeSink& changes, RemovalSink& removed) noexcept
+    : bone_(bone),
+      sweep_(sweep),
+      instructions_(settings.instructions),
+      uncut_(settings.uncut),
+      changes_(changes),
+      sink_(removed) {
     voxels_.base = base;
 }
 
@@ -115,6 +120,14 @@ struct CarveKernel::Loops {
         }
     }
 
+    /// Of tissue that no burr cuts all is left.
+    void keep_uncut(const EightVoxels& voxels, std::int32_t slot, Ints& left) const {
+        for (int i = 0; i < eight; ++i) {
+            const auto offset = static_cast<std::size_t>(voxels.offset[i]);
+            if (to.uncut_->of_label[to.bone_.content().tissue_in(slot, offset)]) left[i] = 255;
+        }
+    }
+
     /// Adds eight voxels and what they lose to a batch that has room for them.
     [[gnu::always_inline]] static void append(RemovedVoxels& out, const EightVoxels& voxels,
                                               const Floats& levels, const Ints& slot) {
@@ -158,6 +171,10 @@ struct CarveKernel::Loops {
             if (simd::any(left_a.is_unsure | left_b.is_unsure)) [[unlikely]] {
                 make_sure<coverage>(sweep, a, left_a);
                 make_sure<coverage>(sweep, b, left_b);
+            }
+            if (to.uncut_ != nullptr) [[unlikely]] {
+                keep_uncut(a, slot, left_a.left);
+                keep_uncut(b, slot, left_b.left);
             }
             carve_eight(a, left_a.left, slots, i);
             carve_eight(b, left_b.left, slots, i + simd::width);

@@ -10,6 +10,7 @@
 #include "common/bone/bone.h"
 #include "common/bone/brick_change.h"
 #include "haptic_server/carving/brick_layer.h"
+#include "haptic_server/carving/carve.h"
 #include "haptic_server/carving/crescent_rows.h"
 #include "haptic_server/carving/removed_voxels.h"
 #include "haptic_server/carving/voxel_coverage.h"
@@ -21,7 +22,7 @@ class CarveKernel {
     /// `base`: the voxel that positions are counted from, the first of a brick; `sweep` is seen from it.
     /// Bricks that changed go to `changes`, what voxels lose to `removed`, the last of it with
     /// hand_on_voxels(); in a fixed order. Real-time safe, and so is all the rest.
-    CarveKernel(Bone& bone, const glm::ivec3& base, const SweepSeenFrom& sweep, InstructionSet instructions,
+    CarveKernel(Bone& bone, const glm::ivec3& base, const SweepSeenFrom& sweep, const CarveSettings& settings,
                 ChangeSink& changes, RemovalSink& removed) noexcept;
 
     /// Lowers what the sweep covers of the bricks in row `brick_y` of a layer. `z`: the slices of the layer
@@ -48,6 +49,7 @@ class CarveKernel {
     Bone& bone_;
     SweepSeenFrom sweep_;
     InstructionSet instructions_;
+    const UncutTissues* uncut_;
     ChangeSink& changes_;
     RemovalSink& sink_;
     /// Neighbouring voxels of a row of a brick: offset of the first, and how many, in one number.

@@ -49,13 +49,14 @@ ErodingModel::ErodingModel(Bone bone, std::vector<Burr> burrs, const std::vector
       law_(std::move(law)),
       bricks_(largest_radius_voxels(burrs_.all(), bone_.grid().spacing_mm) + BurrContact::margin_voxels),
       erosion_(largest_radius_voxels(burrs_.all(), bone_.grid().spacing_mm)),
-      account_(bone_.grid(), tissues) {}
+      account_(bone_.grid(), tissues),
+      uncut_(tissues) {}
 
 void ErodingModel::erode(const glm::dvec3& position_mm, double dose, ChangeSink& changes) noexcept {
     const Grid& grid = bone_.grid();
     const Ball ball{to_voxel_coordinates(grid, position_mm), burrs_[burr_].radius_mm() / grid.spacing_mm};
     ErosionEntry entry(bone_.content(), account_);
-    erosion_.erode(bone_, ball, dose, changes, entry);
+    erosion_.erode(bone_, ball, dose, changes, entry, uncut_);
 }
 
 void ErodingModel::step(const BurrCommand& command, double time_s, ChangeSink& changes,

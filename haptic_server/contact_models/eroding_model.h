@@ -13,6 +13,7 @@
 
 #include "common/scene/scene.h"
 #include "common/scene/turning_burrs.h"
+#include "common/scene/uncut_tissues.h"
 #include "haptic_server/contact_models/contact_law.h"
 #include "haptic_server/contact_models/erosion.h"
 #include "haptic_server/contact_models/force_model.h"
@@ -45,6 +46,7 @@ class ErodingModel final : public ForceModel {
     BrickNeighbourhood bricks_;
     Erosion erosion_;
     RemovalAccount account_;
+    UncutTissues uncut_;
 
     bool has_position_ = false;  // position_mm_ and burr_ hold the last step's
     glm::dvec3 position_mm_{0.0};

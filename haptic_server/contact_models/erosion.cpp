@@ -22,8 +22,8 @@ Erosion::Erosion(double largest_radius_voxels)
     : edge_(edge_around(largest_radius_voxels)),
       remainders_(static_cast<std::size_t>(edge_) * edge_ * edge_, half_a_code) {}
 
-void Erosion::erode(Bone& bone, const Ball& ball, double dose, ChangeSink& changes,
-                    ErosionSink& removed) noexcept {
+void Erosion::erode(Bone& bone, const Ball& ball, double dose, ChangeSink& changes, ErosionSink& removed,
+                    const UncutTissues& uncut) noexcept {
     const BoneContent& content = bone.content();
     // A dose of more than a whole voxel takes no more than the voxel.
     const double steps = std::min(dose, 1.0 / least_stiffness) * 255.0 * steps_per_code;
@@ -46,6 +46,7 @@ void Erosion::erode(Bone& bone, const Ball& ball, double dose, ChangeSink& chang
             const double cover = cover_of(ball, x * x + across_squared);
             if (cover <= 0.0) continue;
             const std::size_t offset = row.row_offset + static_cast<std::size_t>(x_in_brick);
+            if (uncut.has_any && uncut.of_label[content.tissue_in(row.slot, offset)]) continue;
             const double stiffness = std::max(content.stiffness_in(row.slot, offset), least_stiffness);
             std::uint16_t& left_over = remainder(row.first + glm::ivec3(i, 0, 0));
             const std::uint64_t lost = left_over + static_cast<std::uint64_t>(steps * cover / stiffness);

@@ -19,6 +19,7 @@
 
 #include "common/bone/bone.h"
 #include "common/bone/brick_change.h"
+#include "common/scene/uncut_tissues.h"
 #include "haptic_server/contact_models/ball_rows.h"
 
 namespace osteomill {
@@ -43,7 +44,9 @@ class Erosion {
 
     /// Erodes what `ball` (voxel coordinates) covers by `dose` = e dt, the share of a voxel of stiffness 1
     /// that is fully covered. Pushes the change of each brick. Real-time safe.
-    void erode(Bone& bone, const Ball& ball, double dose, ChangeSink& changes, ErosionSink& removed) noexcept;
+    /// Tissue of `uncut` stays.
+    void erode(Bone& bone, const Ball& ball, double dose, ChangeSink& changes, ErosionSink& removed,
+               const UncutTissues& uncut = {}) noexcept;
 
   private:
     std::uint16_t& remainder(const glm::ivec3& voxel) {

@@ -99,6 +99,7 @@ MillingModel::MillingModel(Bone bone, std::vector<Burr> burrs, const std::vector
       settings_(settings),
       edge_shares_(tissues),
       has_edge_shares_(!edge_shares_.are_all_one()),
+      uncut_(tissues),
       chips_(settings.bins),
       tooth_(settings.instants_per_tooth, settings.instructions),
       account_(bone_.grid(), tissues) {
@@ -110,7 +111,7 @@ MillingModel::MillingModel(Bone bone, std::vector<Burr> burrs, const std::vector
         heads_.emplace_back();
         if (!burr.is_ball())
             heads_.back().emplace(burr.head, burr.diameter_mm, 1.0 / bone_.grid().spacing_mm);
-        probes_.emplace_back(burr, bone_.grid().spacing_mm, edge_shares_);
+        probes_.emplace_back(burr, bone_.grid().spacing_mm, edge_shares_, uncut_);
     }
 }
 
@@ -119,12 +120,14 @@ void MillingModel::carve_and_sum(const Sweep& sweep, const CuttingStep& cutting,
                                  ChangeSink& changes, Force& force, MillingResult& result) noexcept {
     const bool have_shares = has_edge_shares_ && burrs_[burr_].has_edge_force();
     ForceOfRemoved removed(bone_.content(), have_shares ? &edge_shares_ : nullptr, account_, force);
+    const CarveSettings carving{.coverage = settings_.coverage,
+                                .instructions = settings_.instructions,
+                                .uncut = uncut_.has_any ? &uncut_ : nullptr};
     if (cutting.head != nullptr)
-        carve_head(bone_, {*cutting.head, cutting.frame, sweep.from, sweep.to}, settings_.coverage, changes,
-                   removed);
+        carve_head(bone_, {*cutting.head, cutting.frame, sweep.from, sweep.to}, carving, changes, removed);
     else
-        carve(bone_, sweep, carved_at_position_ ? CarveHistory::carved_at_from : CarveHistory::none,
-              {.coverage = settings_.coverage, .instructions = settings_.instructions}, changes, removed);
+        carve(bone_, sweep, carved_at_position_ ? CarveHistory::carved_at_from : CarveHistory::none, carving,
+              changes, removed);
     result.force_n += share * force.force_n();
 }
 

@@ -13,6 +13,7 @@
 #include "common/scene/edge_shares.h"
 #include "common/scene/scene.h"
 #include "common/scene/turning_burrs.h"
+#include "common/scene/uncut_tissues.h"
 #include "haptic_server/contact_models/force_model.h"
 #include "haptic_server/contact_models/milling_settings.h"
 #include "haptic_server/contact_models/removal_account.h"
@@ -66,6 +67,7 @@ class MillingModel final : public ForceModel {
     MillingSettings settings_;
     EdgeShares edge_shares_;
     bool has_edge_shares_;
+    UncutTissues uncut_;
     BinnedForce chips_;
     InstantaneousForce tooth_;
     RemovalAccount account_;

@@ -43,7 +43,7 @@ void BurrProxy::place(const glm::dvec3& position_mm) noexcept {
     position_mm_ = carving_mm_ = target_mm_ = position_mm;
     apart_mj_ = to_hand_mj_ = 0.0;
     map_step_ = 0;
-    shank_ = {};
+    walls_ = {};
     correction_.reset();
     cut_mm_.fill(0.0);
 }
@@ -57,24 +57,30 @@ void BurrProxy::take_over(const MillingResult& latest) noexcept {
     remember_cuts(engagement);
 }
 
-std::span<const Contact> BurrProxy::gather_contacts(double longest_mm, double step_s, bool spindle_on,
+std::span<const Contact> BurrProxy::gather_contacts(double longest_mm, double step_s, Meets meets,
                                                     const Engagement& engagement) noexcept {
     std::size_t count = 0;
     const glm::dvec3 moved = position_mm_ - engagement.burr_position_mm;
-    const double yields_mm = engagement.has_edge_force && spindle_on ? edge_yields_mm : 0.0;
+    const double yields_mm = engagement.has_edge_force && meets == Meets::chips ? edge_yields_mm : 0.0;
     const auto add = [&](const glm::dvec3& normal, const glm::dvec3& force_n_per_mm, double begins_mm,
                          const glm::dvec3& yield_n) {
         if (begins_mm <= longest_mm)
             contacts_[count++] = {normal, force_n_per_mm, begins_mm, yield_n, yields_mm};
     };
+    const auto add_wall = [&](const glm::dvec3& normal, double area_mm2, double begins_mm) {
+        if (begins_mm <= longest_mm)
+            contacts_[count++] = {.normal = normal,
+                                  .force_n_per_mm = -wall_n_per_mm3 * area_mm2 * normal,
+                                  .begins_mm = begins_mm};
+    };
     for (std::size_t i = 0; i < engagement.count; ++i) {
         const EngagedPatch& patch = engagement.patches[i];
         const double along = glm::dot(patch.normal, moved);
-        if (!spindle_on) {
-            add(patch.normal, -wall_n_per_mm3 * patch.area_mm2 * patch.normal, patch.gap_mm - along,
-                glm::dvec3(0.0));
+        if (meets == Meets::all_as_walls || patch.is_wall) {
+            add_wall(patch.normal, patch.area_mm2, patch.gap_mm - along);
             continue;
         }
+        if (meets == Meets::walls_only) continue;
         const double share = touching_share(patch.gap_mm / engagement.spacing_mm);
         const double begins = cut_mm_[i] - along;
         const double begins_beyond_gap = std::max(patch.gap_mm, cut_mm_[i]) - along;
@@ -86,18 +92,14 @@ std::span<const Contact> BurrProxy::gather_contacts(double longest_mm, double st
     }
     for (std::size_t i = 0; i < engagement.shank_count; ++i) {
         const ShankPatch& patch = engagement.shank_patches[i];
-        const double begins_mm = patch.gap_mm - glm::dot(patch.normal, moved);
-        if (begins_mm <= longest_mm)
-            contacts_[count++] = {.normal = patch.normal,
-                                  .force_n_per_mm = -wall_n_per_mm3 * patch.area_mm2 * patch.normal,
-                                  .begins_mm = begins_mm};
+        add_wall(patch.normal, patch.area_mm2, patch.gap_mm - glm::dot(patch.normal, moved));
     }
     return {contacts_.data(), count};
 }
 
-BurrProxy::ShankReaction BurrProxy::shank_reaction(const glm::dvec3& step_mm,
-                                                   const Engagement& engagement) const noexcept {
-    ShankReaction reaction;
+BurrProxy::WallReaction BurrProxy::wall_reaction(const glm::dvec3& step_mm,
+                                                 const Engagement& engagement) const noexcept {
+    WallReaction reaction;
     const glm::dvec3 moved = position_mm_ + step_mm - engagement.burr_position_mm;
     for (std::size_t i = 0; i < engagement.shank_count; ++i) {
         const ShankPatch& patch = engagement.shank_patches[i];
@@ -106,6 +108,12 @@ BurrProxy::ShankReaction BurrProxy::shank_reaction(const glm::dvec3& step_mm,
         const glm::dvec3 force_n = -wall_n_per_mm3 * patch.area_mm2 * beyond_mm * patch.normal;
         reaction.force_n += force_n;
         reaction.torque_n_mm += glm::cross(patch.arm_mm, force_n);
+    }
+    for (std::size_t i = 0; engagement.has_walls && i < engagement.count; ++i) {
+        const EngagedPatch& patch = engagement.patches[i];
+        const double beyond_mm = glm::dot(patch.normal, moved) - patch.gap_mm;
+        if (patch.is_wall && beyond_mm > 0.0)
+            reaction.force_n -= wall_n_per_mm3 * patch.area_mm2 * beyond_mm * patch.normal;
     }
     return reaction;
 }
@@ -144,7 +152,7 @@ ContactStep BurrProxy::balance_with_bone(const LinearPull& pull, const glm::dvec
     };
     ContactStep solved = solve();
     const auto is_balanced = [&] { return solved.residual_n <= balance_tolerance_n; };
-    const glm::dvec3 cutting_n = solved.bone_force_n - shank_reaction(solved.step_mm, engagement).force_n;
+    const glm::dvec3 cutting_n = solved.bone_force_n - wall_reaction(solved.step_mm, engagement).force_n;
     const double energy_mj = drive_mj(cutting_n, solved.step_mm, hand_step_mm);
     const bool runs_away = energy_mj > 0.0 && apart_mj_ + energy_mj > allowed_apart_mj;
     if (is_balanced() && !runs_away) return solved;
@@ -178,7 +186,7 @@ void BurrProxy::cut_toward(const glm::dvec3& target_mm, const LinearPull& pull, 
     to_hand_mj_ *= std::max(0.0, 1.0 - tick_s / to_hand_memory_s);
     // The force may turn the step sideways, but hardly makes it longer than the pull (K_r, K_a >= 0).
     const double longest_mm = glm::length(pull_mm) + 2.0 * engagement.spacing_mm;
-    const auto contacts = gather_contacts(longest_mm, tick_s, true, engagement);
+    const auto contacts = gather_contacts(longest_mm, tick_s, Meets::chips, engagement);
     ContactStep solved{.step_mm = pull_mm};
     if (!contacts.empty()) {
         solved = balance_with_bone(pull, hand_step_mm, tick_s, contacts, engagement);
@@ -186,8 +194,8 @@ void BurrProxy::cut_toward(const glm::dvec3& target_mm, const LinearPull& pull, 
         if (solved.bone_force_n == glm::dvec3(0.0)) solved.step_mm = pull_mm;
     }
     counts_.max_residual_n = std::max(counts_.max_residual_n, solved.residual_n);
-    shank_ = shank_reaction(solved.step_mm, engagement);
-    const glm::dvec3 cutting_n = solved.bone_force_n - shank_.force_n;
+    walls_ = wall_reaction(solved.step_mm, engagement);
+    const glm::dvec3 cutting_n = solved.bone_force_n - walls_.force_n;
     apart_mj_ = std::clamp(apart_mj_ + drive_mj(cutting_n, solved.step_mm, hand_step_mm), 0.0, most_apart_mj);
     if (!contacts.empty())
         to_hand_mj_ = std::max(0.0, to_hand_mj_ - glm::dot(pull.force_n(solved.step_mm), hand_step_mm));
@@ -202,20 +210,20 @@ void BurrProxy::cut_toward(const glm::dvec3& target_mm, const LinearPull& pull, 
     trail(solved.bone_force_n != glm::dvec3(0.0), engagement);
 }
 
-void BurrProxy::press_toward(const glm::dvec3& target_mm, const LinearPull& pull, double tick_s,
+void BurrProxy::press_toward(const glm::dvec3& target_mm, const LinearPull& pull, Meets meets,
                              const Engagement& engagement) noexcept {
     const double longest_mm = glm::distance(target_mm, position_mm_) + 2.0 * engagement.spacing_mm;
-    const auto contacts = gather_contacts(longest_mm, tick_s, false, engagement);
+    const auto contacts = gather_contacts(longest_mm, 0.0, meets, engagement);
     correction_.reset();
     apart_mj_ = to_hand_mj_ = 0.0;
     if (contacts.empty()) {
-        shank_ = {};
+        walls_ = {};
         position_mm_ = target_mm;
         return;
     }
     const ContactStep solved = relaxed_step(pull, contacts);
     iterations_ += solved.iterations;
-    shank_ = shank_reaction(solved.step_mm, engagement);
+    walls_ = wall_reaction(solved.step_mm, engagement);
     counts_.max_residual_n = std::max(counts_.max_residual_n, solved.residual_n);
     if (solved.bone_force_n == glm::dvec3(0.0))
         position_mm_ = target_mm;
@@ -232,8 +240,17 @@ void BurrProxy::advance(const glm::dvec3& target_mm, const LinearPull& pull, dou
     if (spindle_on)
         cut_toward(target_mm, pull, tick_s, latest.engagement);
     else
-        press_toward(target_mm, pull, tick_s, latest.engagement);
+        press_toward(target_mm, pull, Meets::all_as_walls, latest.engagement);
     if (!spindle_on) carving_mm_ = position_mm_;
+    target_mm_ = target_mm;
+}
+
+void BurrProxy::advance_on_walls(const glm::dvec3& target_mm, const LinearPull& pull,
+                                 const MillingResult& latest) noexcept {
+    take_over(latest);
+    iterations_ = 0;
+    press_toward(target_mm, pull, Meets::walls_only, latest.engagement);
+    carving_mm_ = position_mm_;
     target_mm_ = target_mm;
 }
 

@@ -22,7 +22,7 @@
 // patch gives way by edge_yields_mm before it cuts, and the burr that carves trails the proxy by up to
 // carving_trails_mm, so that what is pressed in is still there when the next map comes.
 //
-// The shank is a wall, with the spindle on and off:
+// The shank is a wall, with the spindle on and off, and so is bone that no burr cuts to the head:
 //
 //     F(d) = - sum of k A_j n_j max(0, n_j . (p + d - p_map) - gap_j)
 //
@@ -75,16 +75,22 @@ class BurrProxy {
     void advance(const glm::dvec3& target_mm, const LinearPull& pull, double tick_s, bool spindle_on,
                  const MillingResult& latest) noexcept;
 
+    /// Likewise on what no burr cuts alone, whether the spindle turns or not: for couplings whose burr is
+    /// elsewhere free.
+    void advance_on_walls(const glm::dvec3& target_mm, const LinearPull& pull,
+                          const MillingResult& latest) noexcept;
+
     const glm::dvec3& position_mm() const { return position_mm_; }
     /// Where the burr carves: the same, but for what gives way before edges cut.
     const glm::dvec3& carving_mm() const { return carving_mm_; }
     /// Iterations that the last advance took, for benchmarks.
     int iterations() const { return iterations_; }
     const SolveCounts& counts() const { return counts_; }
-    /// Whether bone pushed on the shank in the last advance, and the moment of that about the burr's centre,
-    /// N mm, patient axes.
-    bool shank_touches() const { return shank_.force_n != glm::dvec3(0.0); }
-    const glm::dvec3& shank_torque_n_mm() const { return shank_.torque_n_mm; }
+    /// Whether, in the last advance, bone pushed on the shank, or on the head without being cut. With the
+    /// spindle off only the first is told.
+    bool touches_wall() const { return walls_.force_n != glm::dvec3(0.0); }
+    /// Moment of the push on the shank about the burr's centre, N mm, patient axes.
+    const glm::dvec3& shank_torque_n_mm() const { return walls_.torque_n_mm; }
 
     /// Between these gaps a patch counts as touching by a share.
     static constexpr double surely_touching_voxels = 0.1;
@@ -113,18 +119,21 @@ class BurrProxy {
     static constexpr int most_attempts = 4;
 
   private:
-    /// Of bone on the shank.
-    struct ShankReaction {
+    /// Of bone that is a wall: the moment is that on the shank.
+    struct WallReaction {
         glm::dvec3 force_n{0.0};
         glm::dvec3 torque_n_mm{0.0};
     };
 
     void take_over(const MillingResult& latest) noexcept;
+    /// What of the head's surroundings a step may meet.
+    enum class Meets : std::uint8_t { chips, walls_only, all_as_walls };
+
     /// Contacts that a step of `step_s` may meet that is no longer than `longest_mm`.
-    std::span<const Contact> gather_contacts(double longest_mm, double step_s, bool spindle_on,
+    std::span<const Contact> gather_contacts(double longest_mm, double step_s, Meets meets,
                                              const Engagement& engagement) noexcept;
     /// At the end of a step from where the proxy is.
-    ShankReaction shank_reaction(const glm::dvec3& step_mm, const Engagement& engagement) const noexcept;
+    WallReaction wall_reaction(const glm::dvec3& step_mm, const Engagement& engagement) const noexcept;
     void remember_cuts(const Engagement& engagement) noexcept;
     /// Takes the burr that carves along with the proxy, which bone holds or does not.
     void trail(bool is_held, const Engagement& engagement) noexcept;
@@ -136,8 +145,8 @@ class BurrProxy {
     /// With the spindle on.
     void cut_toward(const glm::dvec3& target_mm, const LinearPull& pull, double tick_s,
                     const Engagement& engagement) noexcept;
-    /// With the spindle off.
-    void press_toward(const glm::dvec3& target_mm, const LinearPull& pull, double tick_s,
+    /// Without cutting.
+    void press_toward(const glm::dvec3& target_mm, const LinearPull& pull, Meets meets,
                       const Engagement& engagement) noexcept;
 
     double wall_friction_;
@@ -152,7 +161,7 @@ class BurrProxy {
     int iterations_ = 0;
     std::array<double, Engagement::max_patches>
         cut_mm_{};  // by patch: advance from p_map to which the proxy has cut
-    ShankReaction shank_;
+    WallReaction walls_;
     std::array<Contact, 2 * Engagement::max_patches + Engagement::max_shank_patches>
         contacts_{};  // a patch of the burr may have two
 };

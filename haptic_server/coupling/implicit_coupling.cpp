@@ -14,7 +14,7 @@ CouplingOutput ImplicitCoupling::tick(const HandState& hand, const MillingResult
         hand_.reset();
         placed_ = true;
     }
-    const bool on_wall = !hand.spindle_on || proxy_.shank_touches();
+    const bool on_wall = !hand.spindle_on || proxy_.touches_wall();
     const glm::dvec3 position_mm = hand_.update(hand.pose.position_mm, hand.tick_s, on_wall);
     const LinearPull pull = spring_.follow_hand(position_mm, hand.tick_s);
     proxy_.advance(position_mm, pull, hand.tick_s, hand.spindle_on, latest);

@@ -22,6 +22,9 @@ struct EngagedPatch {
     /// -(sigma K_te e_psi + K_re n + K_ae e_kappa) s N_phi dA / (2 pi r).
     glm::dvec3 edge_n{0.0};
     double area_mm2 = 0.0;
+    /// Bone that no burr cuts is in front of it: with the spindle on, too, it is a wall, and the forces above
+    /// are zero.
+    bool is_wall = false;
 };
 
 /// One patch of the shank behind the burr that has bone within reach in front of it. Nothing cuts there:
@@ -44,6 +47,7 @@ struct Engagement {
     glm::dvec3 burr_position_mm{0.0};  ///< patient LPS; the position for which the gaps hold
     double spacing_mm = 0.1;           ///< of the bone's voxels: gaps are good to about a tenth of it
     bool has_edge_force = false;       ///< of the burr; without, edge_n is zero
+    bool has_walls = false;            ///< some patch is one
     std::size_t count = 0;
     std::array<EngagedPatch, max_patches> patches;
     std::size_t shank_count = 0;  ///< 0 for a burr without a shank

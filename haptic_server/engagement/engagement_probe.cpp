@@ -22,10 +22,12 @@ constexpr float half = 127.5f;
 
 }  // namespace
 
-EngagementProbe::EngagementProbe(const Burr& burr, double spacing_mm, const EdgeShares& edge_shares)
+EngagementProbe::EngagementProbe(const Burr& burr, double spacing_mm, const EdgeShares& edge_shares,
+                                 const UncutTissues& uncut)
     : radius_mm_(burr.radius_mm()),
       has_edge_force_(burr.has_edge_force()),
       edge_shares_(edge_shares),
+      uncut_(uncut),
       patches_(burr_patches(burr, spacing_mm)),
       bounding_radius_mm_(burr.is_ball() ? burr.radius_mm()
                                          : BurrProfile(burr.head, burr.diameter_mm).bounding_radius()),
@@ -62,6 +64,7 @@ void EngagementProbe::sample_burr(const Bone& bone, const glm::dvec3& position_m
     const double h = bone.grid().spacing_mm;
     out.spacing_mm = h;
     out.has_edge_force = has_edge_force_;
+    out.has_walls = false;
     const glm::dvec3 centre = to_voxel_coordinates(bone.grid(), position_mm);
     const double radius = radius_mm_ / h;
     const glm::dvec3 middle = centre + middle_height_mm_ / h * spindle_axis;
@@ -90,7 +93,10 @@ void EngagementProbe::sample_burr(const Bone& bone, const glm::dvec3& position_m
                        .gap_mm = static_cast<double>(crossing.offset_voxels) * h,
                        .cutting_n_s_per_mm = stiffness / speed_share * (frame * patch.cutting_n_s_per_mm),
                        .area_mm2 = patch.area_mm2};
-            if (has_edge_force_) {
+            if (uncut_.has_any && is_uncut(surface, outward, crossing)) {
+                engaged.is_wall = out.has_walls = true;
+                engaged.cutting_n_s_per_mm = glm::dvec3(0.0);
+            } else if (has_edge_force_) {
                 const std::uint8_t label =
                     bricks_.tissue(surface + (crossing.offset_voxels + 1.0f) * outward);
                 engaged.edge_n =
@@ -98,6 +104,12 @@ void EngagementProbe::sample_burr(const Bone& bone, const glm::dvec3& position_m
             }
         }
     }
+}
+
+bool EngagementProbe::is_uncut(const glm::vec3& surface, const glm::vec3& outward,
+                               const Crossing& crossing) const noexcept {
+    // Where bone begins, rather than behind: a layer on top of it is still to be cut.
+    return uncut_.of_label[bricks_.tissue(surface + (crossing.offset_voxels + 0.5f) * outward)];
 }
 
 EngagementProbe::FourFractions EngagementProbe::sample_four(std::size_t first, const glm::mat3& frame,

@@ -10,6 +10,7 @@
 #include "common/bone/bone.h"
 #include "common/scene/burr.h"
 #include "common/scene/edge_shares.h"
+#include "common/scene/uncut_tissues.h"
 #include "haptic_server/engagement/brick_neighbourhood.h"
 #include "haptic_server/engagement/burr_patches.h"
 #include "haptic_server/engagement/engagement.h"
@@ -21,7 +22,8 @@ namespace osteomill {
 /// constructed.
 class EngagementProbe {
   public:
-    explicit EngagementProbe(const Burr& burr, double spacing_mm, const EdgeShares& edge_shares = {});
+    explicit EngagementProbe(const Burr& burr, double spacing_mm, const EdgeShares& edge_shares = {},
+                             const UncutTissues& uncut = {});
 
     /// Fills `out` for a burr at `position_mm` with its spindle along `spindle_axis` (unit), which turns at
     /// `speed_share` (positive) of the burr's own speed. The surface of the bone is where the trilinear
@@ -55,10 +57,14 @@ class EngagementProbe {
     FourFractions sample_four(std::size_t first, const glm::mat3& frame, const glm::vec3& centre,
                               float radius_voxels) const noexcept;
     static Crossing first_crossing(const FourFractions& along, std::size_t lane);
+    /// Whether what begins at a crossing is bone that no burr cuts.
+    bool is_uncut(const glm::vec3& surface, const glm::vec3& outward,
+                  const Crossing& crossing) const noexcept;
 
     double radius_mm_;
     bool has_edge_force_;
     EdgeShares edge_shares_;
+    UncutTissues uncut_;
     std::vector<BurrPatch> patches_;
     double bounding_radius_mm_;  // of a ball about the head's middle
     double middle_height_mm_ = 0.0;

@@ -130,24 +130,34 @@ std::uint8_t stiffness_code(double relative) {
     return static_cast<std::uint8_t>(std::clamp(std::lround(relative / stiffness_per_code), 1L, 255L));
 }
 
-/// Stiffness codes for every HU of 16 bits, so that a voxel costs a look-up, and of the tissues that have one
-/// of their own.
+/// Stiffness codes for every HU of 16 bits, so that a voxel costs a look-up, and of the tissues that have
+/// one, or a factor, of their own.
 struct CodeTable {
     explicit CodeTable(const StiffnessRelation& relation) : of_hu(65536) {
         for (int hu = -32768; hu < 32768; ++hu)
             of_hu[static_cast<std::size_t>(hu + 32768)] = stiffness_code(relative_stiffness(relation, hu));
         for (const TissueStiffness& tissue : relation.tissues)
             of_tissue[tissue.label] = stiffness_code(tissue.relative_stiffness);
+        for (const TissueFactor& tissue : relation.factors) {
+            auto& codes = of_hu_in[tissue.label];
+            codes.resize(65536);
+            for (int hu = -32768; hu < 32768; ++hu)
+                codes[static_cast<std::size_t>(hu + 32768)] =
+                    stiffness_code(tissue.factor * relative_stiffness(relation, hu));
+        }
     }
 
     std::uint8_t at(const HuLayer& field, bool labelled, const glm::ivec3& voxel) const {
-        if (labelled)
-            if (const std::uint8_t code = of_tissue[field.label(voxel)]; code != 0) return code;
-        return of_hu[static_cast<std::size_t>(field.hu(voxel) + 32768.0)];
+        const auto hu = static_cast<std::size_t>(field.hu(voxel) + 32768.0);
+        if (!labelled) return of_hu[hu];
+        const std::uint8_t label = field.label(voxel);
+        if (of_tissue[label] != 0) return of_tissue[label];
+        return of_hu_in[label].empty() ? of_hu[hu] : of_hu_in[label][hu];
     }
 
     std::vector<std::uint8_t> of_hu;
-    std::array<std::uint8_t, 256> of_tissue{};  // 0: as the HU say
+    std::array<std::uint8_t, 256> of_tissue{};              // 0: as the HU say
+    std::array<std::vector<std::uint8_t>, 256> of_hu_in{};  // by tissue; empty: as of_hu
 };
 
 struct BrickChannels {

@@ -36,7 +36,7 @@ constexpr const char* preface =
     "# Set protected = true for what must not be touched; warn_mm is then the distance from the burr at "
     "which\n"
     "# to warn, in mm. A tissue whose stiffness is to differ from what its CT numbers say takes\n"
-    "# relative_stiffness or material.\n\n";
+    "# relative_stiffness, material, stiffness_factor or cuttable.\n\n";
 
 Segmentation read(const std::filesystem::path& path, const CaseParts& parts) {
     Segmentation segmentation = read_segmentation(path);

@@ -72,7 +72,7 @@ TEST(CarveHead, LeavesWhatLiesOutsideTheAnalyticSweep) {
         Bone bone = block();
         ForgottenChanges changes;
         CountedLevels removed;
-        carve_head(bone, motion.sweep(), VoxelCoverage::smoothed, changes, removed);
+        carve_head(bone, motion.sweep(), CarveSettings{}, changes, removed);
         double kept = 0.0, worst_voxels = 0.0;
         const BoneContent& content = bone.content();
         for (std::size_t slot = 0; slot < content.brick_of_slot.size(); ++slot) {
@@ -103,13 +103,13 @@ TEST(CarveHead, IsTheSameInOneStepOrInMany) {
         Bone many = block();
         ForgottenChanges changes;
         CountedLevels of_once, of_many;
-        carve_head(once, motion.sweep(), VoxelCoverage::smoothed, changes, of_once);
+        carve_head(once, motion.sweep(), CarveSettings{}, changes, of_once);
         for (int i = 0; i < 17; ++i) {
             const auto at = [&](int step) { return motion.from + (motion.to - motion.from) * (step / 17.0); };
-            carve_head(many, {motion.profile, burr_frame(motion.axis), at(i), at(i + 1)},
-                       VoxelCoverage::smoothed, changes, of_many);
+            carve_head(many, {motion.profile, burr_frame(motion.axis), at(i), at(i + 1)}, CarveSettings{},
+                       changes, of_many);
         }
-        carve_head(many, motion.sweep(), VoxelCoverage::smoothed, changes, of_many);
+        carve_head(many, motion.sweep(), CarveSettings{}, changes, of_many);
         EXPECT_NEAR(of_once.levels / of_many.levels, 1.0, 1e-3);
         EXPECT_NEAR((bone_volume_mm3(block()) - bone_volume_mm3(many)) / std::pow(spacing_mm, 3) * 255.0,
                     of_many.levels, 1.0)
@@ -125,8 +125,7 @@ TEST(CarveHead, TakesTheSameAsTheBall) {
     const BurrProfile ball({}, 2.3, 1.0 / spacing_mm);
     const glm::dvec3 from(33.2, 41.7, 60.3), to(45.9, 38.1, 55.2);
     carve(by_ball, {from, to, 11.5}, CarveHistory::none, {}, changes, of_ball);
-    carve_head(by_head, {ball, burr_frame({0.6, 0.0, 0.8}), from, to}, VoxelCoverage::smoothed, changes,
-               of_head);
+    carve_head(by_head, {ball, burr_frame({0.6, 0.0, 0.8}), from, to}, CarveSettings{}, changes, of_head);
     EXPECT_NEAR(of_head.levels / of_ball.levels, 1.0, 1e-4);
 }
 
@@ -137,7 +136,7 @@ TEST(CarveHead, LooksNowhereFarFromTheBone) {
     const BurrProfile head(usual_head(HeadShape::cylinder, 2.0, 6.0), 2.0, 1.0 / spacing_mm);
     for (const double far : {500.0, -1e6, 1e12})
         carve_head(bone, {head, burr_frame({0.0, 0.0, 1.0}), {far, far, 3.0}, {far, far + 40.0, 3.0}},
-                   VoxelCoverage::smoothed, changes, removed);
+                   CarveSettings{}, changes, removed);
     EXPECT_EQ(removed.levels, 0.0);
 }
 

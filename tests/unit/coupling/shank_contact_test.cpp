@@ -44,9 +44,26 @@ TEST(ShankContact, IsAWallWithTheSpindleOnAndOff) {
         // K (x - p) = k A (p - gap)
         EXPECT_NEAR(proxy.position_mm().x, (1.5 * 1.0 + 500.0 * 0.1) / 501.5, 1e-9) << spindle_on;
         EXPECT_NEAR(proxy.position_mm().y, 2.0, 1e-9) << "and free along it";
-        EXPECT_TRUE(proxy.shank_touches());
+        EXPECT_TRUE(proxy.touches_wall());
         advance(proxy, {0.0, 2.0, 0.0}, spindle_on, *bone);
-        EXPECT_FALSE(proxy.shank_touches());
+        EXPECT_FALSE(proxy.touches_wall());
+        EXPECT_EQ(proxy.shank_torque_n_mm(), glm::dvec3(0.0));
+    }
+}
+
+TEST(HeadOnWhatNoBurrCuts, MeetsAWallWithTheSpindleOnAndOff) {
+    for (const bool spindle_on : {false, true}) {
+        BurrProxy proxy;
+        proxy.place(glm::dvec3(0.0));
+        auto bone = std::make_unique<MillingResult>();
+        bone->step = 1;
+        bone->engagement.count = 1;
+        bone->engagement.has_walls = true;
+        bone->engagement.patches[0] = {
+            .normal = {1.0, 0.0, 0.0}, .gap_mm = 0.1, .area_mm2 = 0.5, .is_wall = true};
+        for (int i = 1; i <= 1000; ++i) advance(proxy, {0.001 * i, 0.002 * i, 0.0}, spindle_on, *bone);
+        EXPECT_NEAR(proxy.position_mm().x, (1.5 * 1.0 + 500.0 * 0.1) / 501.5, 1e-9) << spindle_on;
+        EXPECT_NEAR(proxy.position_mm().y, 2.0, 1e-9) << "and free along it";
         EXPECT_EQ(proxy.shank_torque_n_mm(), glm::dvec3(0.0));
     }
 }

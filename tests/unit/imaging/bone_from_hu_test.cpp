@@ -67,6 +67,23 @@ TEST(BoneFromHu, ATissueWithAStiffnessOfItsOwnHasItWhateverItsCtNumbers) {
         << "no labels, no tissues";
 }
 
+TEST(BoneFromHu, ATissueWithAFactorIsSoMuchStifferThanItsCtNumbersSay) {
+    const Grid grid{.size_voxels = {16, 16, 16}};
+    HuVolume volume{.grid = grid,
+                    .hu = std::vector<std::int16_t>(4096, 1600),
+                    .tissue = std::vector<std::uint8_t>(4096, 3)};
+    std::fill_n(volume.tissue.begin(), 256 * 8, std::uint8_t{4});
+    StiffnessRelation relation = default_stiffness_relation();
+    relation.factors = {{4, 0.5}};
+    const Bone bone = bone_from_hu(volume, threshold_hu, relation);
+    EXPECT_DOUBLE_EQ(bone.stiffness_at({5, 5, 2}), 0.5);
+    EXPECT_DOUBLE_EQ(bone.stiffness_at({5, 5, 12}), 1.0);
+    relation.factors = {{4, 100.0}};
+    EXPECT_DOUBLE_EQ(bone_from_hu(volume, threshold_hu, relation).stiffness_at({5, 5, 2}),
+                     largest_relative_stiffness)
+        << "what a voxel can say";
+}
+
 TEST(BoneFromHu, AMixedVoxelOnTheSurfaceIsAsStiffAsTheBoneBesideItAndBearsItsLabel) {
     const Grid grid{.size_voxels = {16, 16, 16}};
     HuVolume volume{.grid = grid,

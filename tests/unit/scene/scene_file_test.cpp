@@ -136,6 +136,19 @@ TEST(SceneFile, ATissueTakesItsStrengthFromAMaterialOrItsOwnNumbers) {
     EXPECT_THAT(error_of(tissue + "relative_stiffness = 9\n"), HasSubstr("'relative_stiffness' is 9"));
 }
 
+TEST(SceneFile, ATissueMayHaveAFactorAndMayNotBeCut) {
+    const std::string tissue = smallest + "[[tissues]]\nlabel = 4\nname = \"x\"\ncolour = \"#ffffff\"\n";
+    EXPECT_TRUE(parse_scene(tissue, "my.toml").tissues[0].is_cuttable);
+    const Scene scene = parse_scene(tissue + "stiffness_factor = 1.5\ncuttable = false\n", "my.toml");
+    EXPECT_FALSE(scene.tissues[0].is_cuttable);
+    EXPECT_EQ(stiffness_of(scene).factors, (std::vector<TissueFactor>{{4, 1.5}}));
+    EXPECT_EQ(parse_scene(write_scene(scene), "again.toml"), scene);
+    EXPECT_THAT(error_of(tissue + "material = \"enamel\"\nstiffness_factor = 2\n"),
+                HasSubstr("'stiffness_factor' multiplies what the CT numbers say"));
+    EXPECT_THAT(error_of(tissue + "stiffness_factor = 0\n"), HasSubstr("'stiffness_factor' is 0"));
+    EXPECT_THAT(error_of(tissue + "cuttable = 1\n"), HasSubstr("cuttable"));
+}
+
 TEST(SceneFile, AMisspeltKeyGetsTheNearestOne) {
     EXPECT_THAT(error_of(smallest + "[trajectory]\nmotion = \"hold\"\nspeed = 3\n"),
                 AllOf(HasSubstr("did you mean 'speed_mm_per_s'?"), HasSubstr("choose one of: motion, file")));
