@@ -35,8 +35,8 @@ constexpr const char* preface =
     "# A case of Osteomill: a scene file (docs/scenes.md). Paths are relative to this folder.\n"
     "# Set protected = true for what must not be touched; warn_mm is then the distance from the burr at "
     "which\n"
-    "# to warn, in mm. A tissue whose stiffness is to differ from what its CT numbers say takes\n"
-    "# relative_stiffness, material, stiffness_factor or cuttable.\n\n";
+    "# to warn, in mm. What its CT numbers say of a tissue's stiffness, stiffness_factor multiplies, and\n"
+    "# relative_stiffness or material replaces; no burr takes what has cuttable = false.\n\n";
 
 Segmentation read(const std::filesystem::path& path, const CaseParts& parts) {
     Segmentation segmentation = read_segmentation(path);

@@ -107,6 +107,9 @@ Streaming make_streaming(StreamingOptions wanted, const ServerOptions& options, 
     Streaming streaming;
     streaming.keeper = std::make_unique<SessionKeeper>(std::move(save));
     SessionControls::Requests requests = streaming.keeper->requests();
+    if (options.report)
+        requests.finish_words =
+            fmt::format("its report: {} on the server", (*options.report / "report.html").string());
     if (device.simulated == nullptr)
         requests.place = [burrs = scene.burrs](const Bone& bone, const ToolPose& place, std::size_t burr) {
             return clear_place(bone, burr_hull(burrs[burr]), place);

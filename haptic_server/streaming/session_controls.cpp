@@ -54,7 +54,7 @@ bool SessionControls::act(const SessionControl& control, const Bone& bone, const
             say(control, requests_.save(bone, control.text));
             return true;
         case SessionAction::finish:
-            say(control, requests_.finish());
+            say({.action = control.action, .text = requests_.finish_words}, requests_.finish());
             return true;
         case SessionAction::mark:
         case SessionAction::none:

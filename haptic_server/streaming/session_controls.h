@@ -32,6 +32,8 @@ class SessionControls {
         /// `text`: as what; empty for the bone itself.
         std::function<std::string(const Bone&, const std::string& text)> save{};
         std::function<std::string()> finish{};
+        /// What who finishes is told, such as where the report will be.
+        std::string finish_words{};
         /// Where the burr goes that is wanted there, or why nowhere. Empty where a tool cannot be placed.
         std::function<std::variant<ToolPose, std::string>(const Bone&, const ToolPose&, std::size_t burr)>
             place{};

@@ -1,6 +1,7 @@
 // A session whose strokes are undone, redone and marked, recorded and shown again: the real programs.
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <fstream>
 #include <limits>
 #include <nlohmann/json.hpp>
@@ -100,6 +101,26 @@ TEST_F(SessionControlsProgram, LeavesARecordingThatHoldsEveryUndoAndMark) {
     EXPECT_EQ(json("player.json").at("bone_checksum"), measured.at("bone_checksum"));
 }
 
+TEST_F(SessionControlsProgram, SavesTheSurfaceBesideTheBone) {
+    run("3.2,save,.stl\n3.3,save,\n", {"--save-bone", file("left.nrrd")});
+    // A binary STL: 80 bytes, a count, 50 bytes for each triangle.
+    ASSERT_TRUE(std::filesystem::exists(file("left.stl")));
+    std::ifstream in(file("left.stl"), std::ios::binary);
+    in.seekg(80);
+    std::uint32_t triangles = 0;
+    in.read(reinterpret_cast<char*>(&triangles), sizeof triangles);
+    EXPECT_GT(triangles, 1000U);
+    EXPECT_EQ(std::filesystem::file_size(file("left.stl")), 84 + 50 * std::uintmax_t{triangles});
+}
+
+TEST_F(SessionControlsProgram, NeedsMoreForceAtALowerSpeed) {
+    const auto own = run("");  // 40 000 rpm
+    const auto slower = run("0,speed,1000\n");
+    const auto back = run("0,speed,10000\n0.05,speed,0\n");
+    EXPECT_GT(slower.at("peak_force_n").get<double>(), 1.3 * own.at("peak_force_n").get<double>());
+    EXPECT_EQ(back.at("bone_checksum"), own.at("bone_checksum"));
+}
+
 TEST_F(SessionControlsProgram, HoldsStillWhilePaused) {
     // Paused through the second stroke: nothing of it is cut, though the pedal comes and goes.
     const auto first = run("1.5,finish,\n");
@@ -114,7 +135,7 @@ TEST_F(SessionControlsProgram, SaysInOneLineWhatIsWrongWithAScript) {
     EXPECT_EQ(finished.status, 1);
     EXPECT_EQ(finished.err, "haptic_server: " + file("script.csv") +
                                 ":2: action 'undu' is not one of mark, pause, resume, undo, redo, reset, "
-                                "save, finish\n");
+                                "save, finish, speed\n");
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <limits>
@@ -153,6 +154,34 @@ TEST_F(StructuresProgram, TellHowFarTheBurrIsFromASoftStructure) {
     ASSERT_EQ(csv.status, 0) << csv.err;
     EXPECT_THAT(text("tool.csv"), HasSubstr(",nearest_structure,nearest_structure_mm\n"));
     EXPECT_THAT(text("tool.csv"), HasSubstr(",\"nerve\",0."));
+}
+
+TEST_F(StructuresProgram, OfACaseThatWasImportedWithItsSegmentationAreGuarded) {
+    const auto import = [&](const std::string& folder, const std::string& protect) {
+        return run_program({BONE_IMPORT, file("bone.nrrd"), "--case", file(folder), "--threshold-hu", "300",
+                            "--segmentation", file("nerve.seg.nrrd"), "--protect", protect, "--warn-mm",
+                            "0.8"});
+    };
+    const Finished imported = import("case", "nerve");
+    ASSERT_EQ(imported.status, 0) << imported.err;
+    const Finished again = import("case", "nerve");
+    EXPECT_NE(again.status, 0) << "a case is never overwritten";
+    EXPECT_THAT(again.err, HasSubstr(file("case")));
+    const Finished wrong = import("other", "nevre");
+    EXPECT_NE(wrong.status, 0);
+    EXPECT_THAT(wrong.err, HasSubstr("nevre"));
+    EXPECT_FALSE(std::filesystem::exists(file("other")));
+
+    const Finished served =
+        run_program({HAPTIC_SERVER, "--clock", "virtual", "--case", file("case"), "--trajectory",
+                     file("motion.csv"), "--json", file("case.json"), "--report", file("case_report")});
+    ASSERT_EQ(served.status, 0) << served.err;
+    EXPECT_THAT(served.err, HasSubstr("the burr touches nerve"));
+    const auto structure = nlohmann::json::parse(text("case.json")).at("structures").at(0);
+    EXPECT_EQ(structure.at("name"), "nerve");
+    EXPECT_EQ(structure.at("touches"), 1);
+    EXPECT_LT(structure.at("nearest_mm").get<double>(), -0.2);
+    EXPECT_THAT(text("case_report/report.html"), HasSubstr("nerve"));
 }
 
 // The pulp of the built-in tooth is bone of a protected label: what is gone of it is what was milled of that

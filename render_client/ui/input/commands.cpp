@@ -34,7 +34,7 @@ const char* words_for(SessionAction done) {
         case SessionAction::save:
             return "the server saves the bone";
         case SessionAction::finish:
-            return "the session ends";
+            return "the session ends;";
         case SessionAction::place:
             return "the tool is";
         case SessionAction::speed:
