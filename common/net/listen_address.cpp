@@ -37,6 +37,11 @@ ListenAddress parse_listen_address(const std::string& text) {
     return result;
 }
 
+std::string to_text(const ListenAddress& where) {
+    const bool is_v6 = where.address.find(':') != std::string::npos;
+    return fmt::format(fmt::runtime(is_v6 ? "[{}]:{}" : "{}:{}"), where.address, where.port);
+}
+
 bool is_loopback(const ListenAddress& where) {
     return boost::asio::ip::make_address(where.address).is_loopback();
 }

@@ -15,6 +15,9 @@ struct ListenAddress {
 /// std::invalid_argument with one line that says what would be right.
 ListenAddress parse_listen_address(const std::string& text);
 
+/// As it is typed.
+std::string to_text(const ListenAddress& where);
+
 /// Whether only this machine can reach it.
 bool is_loopback(const ListenAddress& where);
 

@@ -1,7 +1,7 @@
 #include "studies/bridge/delay_rows.h"
 
 #include "haptic_server/device/arm_model.h"
-#include "haptic_server/device/bridge/delay_stiffness.h"
+#include "haptic_server/device/delay_stiffness.h"
 #include "studies/stability/map/map_points.h"
 #include "studies/stability/scene/map_run.h"
 

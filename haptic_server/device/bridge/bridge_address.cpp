@@ -28,9 +28,7 @@ BridgeAddress parse_bridge_address(const std::string& text) {
 
 std::string to_text(const BridgeAddress& where) {
     if (const auto* path = std::get_if<BridgePath>(&where)) return "unix:" + path->path.string();
-    const auto& udp = std::get<ListenAddress>(where);
-    if (udp.address.find(':') != std::string::npos) return fmt::format("udp:[{}]:{}", udp.address, udp.port);
-    return fmt::format("udp:{}:{}", udp.address, udp.port);
+    return "udp:" + to_text(std::get<ListenAddress>(where));
 }
 
 bool is_local(const BridgeAddress& where) {

@@ -6,7 +6,7 @@
 #include <glm/gtc/quaternion.hpp>
 #include <utility>
 
-#include "haptic_server/device/bridge/delay_stiffness.h"
+#include "haptic_server/device/delay_stiffness.h"
 
 namespace osteomill {
 

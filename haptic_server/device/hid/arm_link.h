@@ -28,7 +28,7 @@
 #include "haptic_server/device/hid/arm_kinematics.h"
 #include "haptic_server/device/hid/arm_profile.h"
 #include "haptic_server/device/hid/arm_report.h"
-#include "haptic_server/device/hid/clutch.h"
+#include "haptic_server/device/clutch.h"
 #include "haptic_server/device/hid/hid_transport.h"
 #include "haptic_server/device/hid/stylus_switch.h"
 #include "haptic_server/device/position_sensor.h"

@@ -7,7 +7,7 @@
 #include <glm/geometric.hpp>
 #include <thread>
 
-#include "haptic_server/device/bridge/delay_stiffness.h"
+#include "haptic_server/device/delay_stiffness.h"
 #include "tests/support/eventually.h"
 #include "tests/unit/device/bridge/bridge_pair.h"
 

@@ -1,4 +1,4 @@
-#include "haptic_server/device/bridge/delay_stiffness.h"
+#include "haptic_server/device/delay_stiffness.h"
 
 #include <gtest/gtest.h>
 

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "haptic_server/device/hid/clutch.h"
+#include "haptic_server/device/clutch.h"
 
 namespace osteomill {
 namespace {
