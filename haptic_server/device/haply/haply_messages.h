@@ -1,0 +1,63 @@
+// What Haply's local service and a program say to each other: JSON in WebSocket messages (docs.haply.co,
+// Inverse SDK, "WebSocket Protocol", versions 3.1 to 3.5). The service states all devices at once when a
+// program connects, and then once for each message of the program:
+//
+//   {"inverse3": [{"device_id": "049D", "config": {...}, "state": {"cursor_position": {"x": 0.0, ...},
+//                  "cursor_velocity": {...}, ...}, "status": {"calibrated": true, ...}}],
+//    "wireless_verse_grip": [{"device_id": "61548", "state": {"orientation": {"w": 1.0, ...},
+//                             "buttons": {"a": false, "b": false, "c": false}}}],
+//    "verse_grip": [{"device_id": "...", "state": {"orientation": {...}, "button": false}}]}
+//
+// The program answers with a force on the cursor, which holds until its next message. Metres and newtons, in
+// the service's own axes. A wired grip has one button; it counts as `a`.
+#pragma once
+
+#include <glm/gtc/quaternion.hpp>
+#include <glm/vec3.hpp>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace osteomill {
+
+/// The arm, as stated in one message. What a message does not say of its status is empty.
+struct HaplyInverse3 {
+    std::string device_id;
+    glm::dvec3 position_m{0.0};
+    std::optional<glm::dvec3> velocity_m_per_s{};
+    std::optional<bool> is_calibrated{};
+    std::optional<bool> has_power{};
+};
+
+/// The handle.
+struct HaplyGrip {
+    glm::dquat turn{1.0, 0.0, 0.0, 0.0};  ///< grip's frame to the service's axes
+    bool button_a = false;
+    bool button_b = false;
+    bool button_c = false;
+};
+
+/// How the components of a force are called: the field was renamed between the versions of the service.
+enum class HaplyForceField { values, vector };
+
+struct HaplyState {
+    std::optional<HaplyInverse3> arm;  ///< none: it is not there
+    std::optional<HaplyGrip> grip;     ///< the first that is connected, wireless ones before wired ones
+    bool numbers_session = false;      ///< only the first message of newer services does
+};
+
+/// Positions beyond it are no arm's.
+inline constexpr double farthest_m = 5.0;
+
+/// What a message says of the arm `device_id`, or of the first where that is empty. Nullopt: it is no state,
+/// or what it says of the arm or its grip means nothing (no numbers, no rotation). Throws nothing.
+std::optional<HaplyState> parse_haply_state(std::string_view text, std::string_view device_id) noexcept;
+
+/// A force on the cursor of an arm, as `text`. A component that is not finite is zero.
+void write_haply_force(std::string& text, std::string_view device_id, const glm::dvec3& force_n,
+                       HaplyForceField field);
+
+/// Asks for the state of all devices, and does nothing.
+inline constexpr std::string_view haply_question = R"({"session":{"force_render_full_state":{}}})";
+
+}  // namespace osteomill
