@@ -27,7 +27,8 @@ constexpr std::array named_devices{NamedDevice{"simulated", DeviceKind::simulate
                                    NamedDevice{"hid", DeviceKind::hid},
                                    NamedDevice{"spacemouse", DeviceKind::space_mouse},
                                    NamedDevice{"bridge", DeviceKind::bridge},
-                                   NamedDevice{"tracker", DeviceKind::tracker}};
+                                   NamedDevice{"tracker", DeviceKind::tracker},
+                                   NamedDevice{"haply", DeviceKind::haply}};
 
 std::vector<std::string> device_names() {
     std::vector<std::string> names;
@@ -46,6 +47,16 @@ auto named_by(const char* option, Read&& read) {
     }
 }
 
+/// Of a server to connect to that proves nothing of itself. `usual`: its port.
+void require_own_machine(const char* option, const char* why, const ListenAddress& server, int usual) {
+    if (server.port == 0)
+        throw std::invalid_argument(fmt::format("{}: port 0 is nowhere; {} is usual", option, usual));
+    if (!is_loopback(server))
+        throw std::invalid_argument(
+            fmt::format("{}: {}, so it is taken from this machine alone; for {}: ssh -L {}:localhost:{} {}",
+                        option, why, server.address, server.port, server.port, server.address));
+}
+
 }  // namespace
 
 std::string name_of(DeviceKind device) {
@@ -55,10 +66,12 @@ std::string name_of(DeviceKind device) {
 }
 
 void DeviceOptions::declare(CLI::App& app) {
-    app.add_option("--device", device_,
-                   "Who moves the tool: a simulated hand, a client's mouse, a haptic arm over USB HID, a 3D "
-                   "mouse, whose force clients show, any arm behind a bridge (docs/device-bridge.md), or a "
-                   "handpiece that a tracker sees and that gives no force (docs/hardware.md)")
+    app.add_option(
+           "--device", device_,
+           "Who moves the tool: a simulated hand, a client's mouse, a haptic arm over USB HID, a 3D "
+           "mouse, whose force clients show, any arm behind a bridge (docs/device-bridge.md), a "
+           "handpiece that a tracker sees and that gives no force, or Haply's Inverse3 over its local "
+           "service (docs/hardware.md)")
         ->check(one_of(device_names()))
         ->capture_default_str();
     app.add_option("--device-profile", device_profile_,
@@ -87,6 +100,10 @@ void DeviceOptions::declare(CLI::App& app) {
                    "With --device tracker: how the tool stands to its marker, its pedal, and three or more "
                    "points that place the tracker on the patient")
         ->type_name("FILE.toml");
+    app.add_option("--haply", haply_,
+                   fmt::format("With --device haply: where Haply's service listens, on this machine ({}:{})",
+                               DeviceChoice{}.haply.address, DeviceChoice{}.haply.port))
+        ->type_name("ADDRESS:PORT");
     app.add_flag("--list-devices", lists_devices_,
                  "Say which haptic devices are plugged in and whether they can be used, and end");
 }
@@ -101,12 +118,14 @@ DeviceChoice DeviceOptions::checked() const {
          {std::tuple("--device-profile", &device_profile_, hid), std::tuple("--bridge", &bridge_, bridge),
           std::tuple("--bridge-key", &bridge_key_, bridge), std::tuple("--tracker", &tracker_, tracker),
           std::tuple("--tracker-name", &tracker_name_, tracker),
-          std::tuple("--tracker-registration", &tracker_registration_, tracker)})
+          std::tuple("--tracker-registration", &tracker_registration_, tracker),
+          std::tuple("--haply", &haply_, haply)})
         if (choice.device != kind && !text->empty())
             throw std::invalid_argument(fmt::format("{}: goes with --device {}", option, name_of(kind)));
     if (!device_profile_.empty()) choice.device_profile = device_profile_;
     check_bridge(choice);
     check_tracker(choice);
+    check_haply(choice);
     return choice;
 }
 
@@ -122,12 +141,7 @@ void DeviceOptions::check_tracker(DeviceChoice& choice) const {
     if (choice.device != DeviceKind::tracker) return;
     if (!tracker_.empty())
         choice.tracker = named_by("--tracker", [&] { return parse_listen_address(tracker_); });
-    if (choice.tracker.port == 0) throw std::invalid_argument("--tracker: port 0 is nowhere; 18944 is usual");
-    if (!is_loopback(choice.tracker))
-        throw std::invalid_argument(fmt::format(
-            "--tracker: OpenIGTLink does not say who sends, so it is taken from this machine alone; for {}: "
-            "ssh -L {}:localhost:{} {}",
-            choice.tracker.address, choice.tracker.port, choice.tracker.port, choice.tracker.address));
+    require_own_machine("--tracker", "OpenIGTLink does not say who sends", choice.tracker, 18944);
     if (tracker_name_.size() > TransformStream::longest_name)
         throw std::invalid_argument(
             fmt::format("--tracker-name: a name of OpenIGTLink has at most {} characters",
@@ -138,6 +152,12 @@ void DeviceOptions::check_tracker(DeviceChoice& choice) const {
             "--device tracker: needs --tracker-registration FILE.toml, which places the tracker on the "
             "patient");
     choice.tracker_registration = tracker_registration_;
+}
+
+void DeviceOptions::check_haply(DeviceChoice& choice) const {
+    if (choice.device != DeviceKind::haply) return;
+    if (!haply_.empty()) choice.haply = named_by("--haply", [&] { return parse_listen_address(haply_); });
+    require_own_machine("--haply", "Haply's service does not say who it is", choice.haply, 10001);
 }
 
 }  // namespace osteomill

@@ -11,7 +11,7 @@
 
 namespace osteomill {
 
-enum class DeviceKind { simulated, client, hid, space_mouse, bridge, tracker };
+enum class DeviceKind { simulated, client, hid, space_mouse, bridge, tracker, haply };
 
 /// As --device has it.
 std::string name_of(DeviceKind device);
@@ -25,6 +25,7 @@ struct DeviceChoice {
     ListenAddress tracker{.port = 18944};        ///< of DeviceKind::tracker: its server; on this machine
     std::string tracker_name;                    ///< of its TRANSFORMs; empty: the first that comes
     std::filesystem::path tracker_registration;  ///< of DeviceKind::tracker
+    ListenAddress haply{.port = 10001};          ///< of DeviceKind::haply: its service; on this machine
 };
 
 class DeviceOptions {
@@ -37,6 +38,7 @@ class DeviceOptions {
   private:
     void check_bridge(DeviceChoice& choice) const;
     void check_tracker(DeviceChoice& choice) const;
+    void check_haply(DeviceChoice& choice) const;
 
     std::string device_ = "simulated";
     std::string device_profile_;
@@ -45,6 +47,7 @@ class DeviceOptions {
     std::string tracker_;
     std::string tracker_name_;
     std::string tracker_registration_;
+    std::string haply_;
     bool lists_devices_ = false;
 };
 

@@ -14,6 +14,7 @@
 #include "haptic_server/device/bridge/bridge_arm.h"
 #include "haptic_server/device/client_device.h"
 #include "haptic_server/device/hand_model.h"
+#include "haptic_server/device/haply/haply_arm.h"
 #include "haptic_server/device/hid/hid_arm.h"
 #include "haptic_server/device/hid/hidapi_transport.h"
 #include "haptic_server/device/hid/profile_file.h"
@@ -63,6 +64,18 @@ std::uint64_t random_number() {
     return (std::uint64_t{random()} << 32U) | random();
 }
 
+/// Waits for an arm, and says in `out` what it says. False: `stop` came first.
+template <typename Arm>
+bool has_come(Arm& arm, const std::atomic<bool>& stop, LineStream& out) {
+    std::string said;
+    return arm.await([&] {
+        const std::string notice = arm.notice();
+        if (notice != said && !notice.empty()) out.write(notice + "\n");
+        said = notice;
+        return stop.load();
+    });
+}
+
 DeviceParts make_bridge_arm(const ServerOptions& options, Scene& scene, const std::atomic<bool>& stop,
                             LineStream& out) {
     BridgeArm::Parts bridge{.burr_count = scene.burrs.size(),
@@ -73,15 +86,7 @@ DeviceParts make_bridge_arm(const ServerOptions& options, Scene& scene, const st
     if (options.bridge_key) bridge.key = read_key(*options.bridge_key);
     auto arm = std::make_unique<BridgeArm>(options.bridge, std::move(bridge));
     out.write(fmt::format("waiting for an arm at {}\n", to_text(arm->address())));
-    DeviceParts parts;
-    std::string said = arm->notice();
-    const auto gives_up = [&] {
-        const std::string notice = arm->notice();
-        if (notice != said && !notice.empty()) out.write(notice + "\n");
-        said = notice;
-        return stop.load();
-    };
-    if (!arm->await(gives_up)) return parts;
+    if (!has_come(*arm, stop, out)) return {};
     const DeviceLimits limits = arm->limits();
     out.write(fmt::format(
         "arm {} has joined: {:.3g} N, {:.3g} g; {:.2f} ms there and back, with which {:.3g} N/mm hold\n",
@@ -90,6 +95,29 @@ DeviceParts make_bridge_arm(const ServerOptions& options, Scene& scene, const st
     // A scene that does not say how the arm sits on the patient: the middle of its workspace is the start.
     if (scene.device == DeviceMapping{})
         scene.device.offset_mm = scene.start_pose.position_mm - arm->workspace_middle_mm();
+    DeviceParts parts;
+    parts.device = std::move(arm);
+    return parts;
+}
+
+DeviceParts make_haply_arm(const ServerOptions& options, Scene& scene, const std::atomic<bool>& stop,
+                           LineStream& out) {
+    auto arm = std::make_unique<HaplyArm>(
+        HaplyLinkParts{.service = options.haply,
+                       .burr_count = scene.burrs.size(),
+                       .start_burr = scene.start_burr,
+                       .start_axis = direction_in_device(scene.device, scene.start_pose.spindle_axis),
+                       .on_thread_start = [] { ask_for_real_time(device_priority); }});
+    out.write(fmt::format("waiting for an Inverse3 of the Haply service at {}\n", to_text(options.haply)));
+    if (!has_come(*arm, stop, out)) return {};
+    out.write(
+        fmt::format("Haply Inverse3 is there: {:.2f} ms from a reading to its force, with which {:.3g} "
+                    "N/mm hold\n",
+                    1000.0 * arm->delay_s(), arm->limits().max_stiffness_n_per_mm));
+    // A scene that does not say how the arm sits on the patient: the middle of its workspace is the start.
+    if (scene.device == DeviceMapping{})
+        scene.device.offset_mm = scene.start_pose.position_mm - arm->workspace_middle_mm();
+    DeviceParts parts;
     parts.device = std::move(arm);
     return parts;
 }
@@ -117,6 +145,7 @@ DeviceParts make_device(const ServerOptions& options, Scene& scene, const std::a
                         LineStream& out) {
     if (options.device == DeviceKind::hid) return make_haptic_arm(options, scene);
     if (options.device == DeviceKind::bridge) return make_bridge_arm(options, scene, stop, out);
+    if (options.device == DeviceKind::haply) return make_haply_arm(options, scene, stop, out);
     if (options.device == DeviceKind::tracker) return make_tracked_tool(options, scene, out);
     const HandModel hand = hand_model(options.grip);
     DeviceParts parts;

@@ -95,7 +95,7 @@ class BridgeArm final : public HapticDevice {
     TripleBuffer<glm::dvec3> forces_;
     std::atomic<bool> has_joined_{false};
     std::atomic<double> round_trip_s_{0.0};
-    std::atomic<const char*> notice_{"no arm has joined yet"};
+    std::atomic<const char*> notice_{""};
     std::atomic<bool> stops_{false};
 
     // Of the loop, and of whoever waits before it runs.

@@ -77,6 +77,20 @@ TEST(ServerOptions, PutTheBurrOfATrackedHandWhereTheHandIs) {
     EXPECT_THAT(error_of(with({"--json", "t.toml"})), HasSubstr("--tracker-registration"));
 }
 
+TEST(ServerOptions, LookForHaplysServiceOnThisMachine) {
+    const ServerOptions usual = *parse({"--device", "haply"}).options;
+    EXPECT_EQ(usual.device, DeviceKind::haply);
+    EXPECT_EQ(usual.session.coupling, "implicit");
+    EXPECT_EQ(to_text(usual.haply), "127.0.0.1:10001");
+    EXPECT_EQ(to_text(parse({"--device", "haply", "--haply", "[::1]:10002"}).options->haply), "[::1]:10002");
+    EXPECT_THAT(error_of({"--device", "haply", "--haply", "10.0.0.7:10001"}),
+                HasSubstr("ssh -L 10001:localhost:10001 10.0.0.7"));
+    EXPECT_THAT(error_of({"--device", "haply", "--haply", "localhost:0"}), HasSubstr("port 0"));
+    EXPECT_THAT(error_of({"--device", "haply", "--haply", "haply"}),
+                HasSubstr("--haply: 'haply' has no port"));
+    EXPECT_THAT(error_of({"--haply", "localhost:10001"}), HasSubstr("goes with --device haply"));
+}
+
 TEST(ServerOptions, MillAtThePublishedRateWithThePublishedCoupling) {
     EXPECT_EQ(parse({}).options->session.milling_rate_hz, 1000.0);
     EXPECT_EQ(parse({"--coupling", "interpolate"}).options->session.milling_rate_hz, 100.0);
