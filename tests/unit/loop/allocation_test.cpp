@@ -1,9 +1,11 @@
 // Real-time code does not allocate: this program counts every call of operator new.
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <functional>
 #include <memory>
 #include <string>
+#include <thread>
 #include <utility>
 #include <vector>
 
@@ -11,11 +13,13 @@
 #include "haptic_server/coupling/couplings.h"
 #include "haptic_server/coupling/handpiece_vibration.h"
 #include "haptic_server/device/client_device.h"
+#include "haptic_server/device/haply/haply_arm.h"
 #include "haptic_server/device/simulated_device.h"
 #include "haptic_server/device/tracker/sampled_motion.h"
 #include "haptic_server/loop/haptic_loop.h"
 #include "haptic_server/loop/milling_loop.h"
 #include "tests/support/block.h"
+#include "tests/support/haply_service.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/unit/loop/counting_new.h"
 
@@ -143,6 +147,23 @@ TEST(RealTimeCode, AllocatesNothingWhileItPlaysATrackersSamples) {
     }
     EXPECT_EQ(testing::allocation_count(), before);
     EXPECT_GT(played, 3500);
+}
+
+// Its thread does, for messages.
+TEST(RealTimeCode, AllocatesNothingBetweenTheLoopAndHaplysService) {
+    testing::HaplyService service;
+    HaplyArm arm(HaplyLinkParts{.service = {.port = service.port()}});
+    ASSERT_TRUE(arm.await([] { return false; }));
+    int taken = 0;
+    const std::size_t before = testing::allocation_count_here();
+    for (int tick = 0; taken < 200; ++tick) {
+        const DeviceState state = arm.read(0.001 * tick);
+        if (state.connected) ++taken;
+        arm.write({0.01 * (tick % 10), 0.0, 0.0});
+        std::this_thread::sleep_for(std::chrono::microseconds(200));
+    }
+    EXPECT_EQ(testing::allocation_count_here(), before);
+    EXPECT_GT(service.largest_force_n(), 0.0) << "there was something to do";
 }
 
 TEST(RealTimeCode, WouldBeCaughtAllocating) {

@@ -7,5 +7,7 @@ namespace osteomill::testing {
 
 /// Calls of operator new so far, on all threads.
 std::size_t allocation_count();
+/// The same, of this thread.
+std::size_t allocation_count_here();
 
 }  // namespace osteomill::testing
