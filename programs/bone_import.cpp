@@ -6,12 +6,15 @@
 #include <iostream>
 #include <optional>
 #include <utility>
+#include <vector>
 
 #include "common/program/option_checks.h"
 #include "common/program/program_output.h"
 #include "common/program/stop_signals.h"
 #include "haptic_server/imaging/import_bone.h"
 #include "haptic_server/imaging/memory_estimate.h"
+#include "haptic_server/imaging/segmentation.h"
+#include "haptic_server/imaging/segmentation_file.h"
 #include "haptic_server/program/case_folder.h"
 #include "haptic_server/program/scan_preview.h"
 
@@ -38,8 +41,8 @@ struct Texts {
 constexpr double preview_spacing_mm = 0.5;
 
 /// The whole scan, coarse, by way of a file that is gone afterwards.
-void preview(osteomill::ImportOptions options, const std::filesystem::path& picture,
-             const osteomill::ImportSurroundings& surroundings) {
+void preview(osteomill::ImportOptions options, const std::vector<std::filesystem::path>& segmentations,
+             const std::filesystem::path& picture, const osteomill::ImportSurroundings& surroundings) {
     const std::optional<osteomill::Region> region = std::exchange(options.region, std::nullopt);
     options.threshold_hu.reset();
     options.output = picture.string() + ".coarse.nrrd";
@@ -55,6 +58,9 @@ void preview(osteomill::ImportOptions options, const std::filesystem::path& pict
     std::filesystem::remove(options.output);
     surroundings.messages << osteomill::summary_of(ct);
     osteomill::write_preview(ct, region, picture);
+    for (const auto& file : segmentations)
+        for (const osteomill::Segment& segment : osteomill::read_segmentation(file).segments)
+            surroundings.messages << "segment " << segment.name << '\n';
     surroundings.messages << "preview: " << picture.string() << '\n';
 }
 
@@ -74,8 +80,7 @@ void add_options(CLI::App& app, osteomill::ImportOptions& options, Texts& texts)
         ->excludes("--case");
     app.add_option("--segmentation", texts.segmentations,
                    "with --case: tissues, as 3D Slicer writes them (.seg.nrrd), or a label map (NRRD, "
-                   "NIfTI); again for "
-                   "each further file")
+                   "NIfTI); again for each further file; with --preview their names are said")
         ->type_name("FILE");
     app.add_option(
            "--colours", texts.colours,
@@ -122,8 +127,8 @@ void parse_texts(const CLI::App& app, Texts& texts, osteomill::ImportOptions& op
     if (app.count("--rescale") > 0) options.to_hu = osteomill::parse_rescale(texts.rescale);
     if (app.count("--intensity-window") > 0)
         options.to_hu = osteomill::parse_intensity_window(texts.intensity_window);
-    if (texts.case_folder.empty() && !texts.segmentations.empty())
-        throw std::invalid_argument("--segmentation: goes with --case");
+    if (texts.case_folder.empty() && texts.preview.empty() && !texts.segmentations.empty())
+        throw std::invalid_argument("--segmentation: goes with --case or --preview");
     for (const char* option : {"--colours", "--protect", "--warn-mm", "--target"})
         if (texts.segmentations.empty() && app.count(option) > 0)
             throw std::invalid_argument(std::string(option) + ": goes with --segmentation");
@@ -177,7 +182,7 @@ int main(int argc, char** argv) {
             if (texts.preview.empty())
                 osteomill::import_bone(options, surroundings);
             else
-                preview(options, texts.preview, surroundings);
+                preview(options, texts.parts.segmentations, texts.preview, surroundings);
             if (!texts.case_folder.empty()) osteomill::finish_case(texts.case_folder, texts.parts, messages);
         } catch (const std::exception& error) {
             messages << "bone_import: " << error.what() << '\n';

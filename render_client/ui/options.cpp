@@ -214,6 +214,10 @@ ParsedOptions parse_options(int argument_count, const char* const* arguments, co
                    "Size of panels and letters (the display's; 1 offscreen), 0.5 to 4")
         ->check(within(0.5, 4.0));
     app.add_flag("!--no-panels", options.panels, "Only the picture: no panels over it");
+    app.add_option_function<std::string>(
+           "--home", [&](const std::string& folder) { options.home = folder; },
+           "Where cases and reports are of sessions that are started from the window ($HOME/osteomill)")
+        ->type_name("DIR");
     app.add_flag("--offscreen", options.offscreen, "Draw without a display; write pictures instead");
     auto* frames = app.add_option("--frames", options.frames,
                                   "Offscreen: end after so many frames (300), or sooner with the session")

@@ -3,6 +3,7 @@
 #include <epoxy/gl.h>
 // GLFW comes after libepoxy, which brings OpenGL's declarations.
 #include <GLFW/glfw3.h>
+#include <fmt/format.h>
 #include <imgui.h>
 
 #include <atomic>
@@ -14,6 +15,7 @@
 #include "render_client/ui/input/commands.h"
 #include "render_client/ui/input/input_mailbox.h"
 #include "render_client/ui/input/operator_desk.h"
+#include "render_client/ui/panels/start_panel.h"
 #include "render_client/ui/view/redraw.h"
 #include "render_client/ui/view/screenshots.h"
 #include "render_client/ui/view/session_picture.h"
@@ -60,6 +62,16 @@ void move_camera(SessionPicture& session, Commands& commands, float wheel_notche
         zoom(session.camera(), std::pow(zoom_per_notch, wheel_notches));
 }
 
+/// A session can be started from the window that it would connect to.
+bool can_start_here(const RenderOptions& options) {
+    const bool is_here = options.host == "127.0.0.1" || options.host == "localhost" || options.host == "::1";
+    return is_here && !options.replay && !options.tls && !options.until_server_ends;
+}
+
+std::string listen_address(const RenderOptions& options) {
+    return fmt::format("{}:{}", options.host == "::1" ? "[::1]" : "127.0.0.1", options.port);
+}
+
 /// What the two threads of a window share.
 struct Shared {
     InputMailbox mailbox{};
@@ -86,6 +98,12 @@ class Drawing {
         session_.view().cuts = options.cuts;
         session_.view().panels_shown = options.panels;
         session_.offer_controls();
+        if (can_start_here(options)) {
+            start_.emplace(StartPlaces{.programs = folder_of_this_program(),
+                                       .home = options.home.value_or(home_of_cases()),
+                                       .listen = listen_address(options)});
+            session_.offer_start(*start_);
+        }
         redraw_.note_change(began_);
     }
 
@@ -114,7 +132,7 @@ class Drawing {
             commands_.ask_to_end();
             redraw_.note_change(now);
         }
-        if (happened.has_news) redraw_.note_change(now);
+        if (happened.has_news || (start_ && start_->page.poll())) redraw_.note_change(now);
         input_.append(happened);
 
         const SessionPicture::News news = session_.take_in();
@@ -188,6 +206,7 @@ class Drawing {
     Shared& shared_;
     const Clock::time_point began_ = Clock::now();
     Panels panels_;
+    std::optional<StartScreen> start_;
     SessionPicture session_;
     Commands commands_;
     Screenshots screenshots_;

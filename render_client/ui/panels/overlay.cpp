@@ -12,6 +12,7 @@
 #include "render_client/ui/panels/playback_panel.h"
 #include "render_client/ui/panels/session_dialog.h"
 #include "render_client/ui/panels/slices_panel.h"
+#include "render_client/ui/panels/start_panel.h"
 #include "render_client/ui/panels/structure_text.h"
 #include "render_client/ui/panels/tissue_legend.h"
 #include "render_client/ui/panels/tool_bar.h"
@@ -136,6 +137,11 @@ void draw_overlay(const OverlayContent& content, const glm::ivec2& size_px) {
     if (content.view->question != SessionQuestion::none && content.wishes != nullptr)
         panels.add_asked_for(Anchor::middle, session_dialog_size(content, painter),
                              [&](const PanelPlace& place) { draw_session_dialog(content, place); });
+    if (content.start != nullptr && content.start->is_due(content.link.status))
+        panels.add_asked_for(Anchor::middle, start_panel_size(picture - 2.0f * margin),
+                             [&](const PanelPlace& place) {
+                                 draw_start_panel(content.start->page, content.start->picture, place);
+                             });
     if (content.view->panels_shown) {
         add_controls(panels, content, painter, picture, side_width);
         add_readings(panels, content, painter, size_px, side_width);

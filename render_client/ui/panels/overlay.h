@@ -16,6 +16,8 @@
 
 namespace osteomill {
 
+struct StartScreen;
+
 /// The pointers are never null but where it says so; what a panel changes, it changes through them.
 struct OverlayContent {
     LinkUpdate link;
@@ -35,6 +37,8 @@ struct OverlayContent {
     /// Takes what is asked for with buttons; null where there is nobody to press them, as in offscreen
     /// pictures.
     SessionWishes* wishes = nullptr;
+    /// Null where no session is started from here.
+    StartScreen* start = nullptr;
     /// Null unless a recording is shown.
     RecordingPlayer* player = nullptr;
     /// Why there is no bone in the picture, where there is none for a reason.

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "render_client/ui/panels/input_panel.h"
+#include "render_client/ui/panels/start_panel.h"
 
 namespace osteomill {
 
@@ -26,6 +27,8 @@ Question question_of(const OverlayContent& content) {
         case SessionQuestion::surface:
             return {"Save the surface of the bone as it is, beside the server's --save-bone, as:", "STL"};
         case SessionQuestion::end:
+            if (content.start != nullptr && content.start->page.is_session_running())
+                return {"End this program, and the session that it started? All is saved.", "End"};
             return {"End this program? The session goes on without it.", "End"};
         case SessionQuestion::none:
             break;

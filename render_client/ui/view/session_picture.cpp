@@ -207,6 +207,7 @@ const gl::Framebuffer& SessionPicture::draw(double elapsed_s) {
                   .bone = source_.bone(),
                   .bone_version = bone_version_,
                   .wishes = takes_wishes_ ? &wishes_ : nullptr,
+                  .start = start_,
                   .player = source_.player(),
                   .bone_problem = bone_problem_,
                   .has_bone = has_bone()},

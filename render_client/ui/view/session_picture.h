@@ -58,6 +58,8 @@ class SessionPicture {
     ViewSettings& view() { return view_; }
     /// Panels take what a person asks of the session, from now on.
     void offer_controls() { takes_wishes_ = true; }
+    /// Where there is no session, one can be started with this, which outlives the picture.
+    void offer_start(StartScreen& start) { start_ = &start; }
     /// What was asked for since the last call.
     SessionWishes take_wishes() { return std::exchange(wishes_, {}); }
     void show_operator(const std::optional<OperatorCommand>& command) { operator_command_ = command; }
@@ -118,6 +120,7 @@ class SessionPicture {
     std::uint64_t ct_asked_in_ = 0;  // which connection; 0: none
     SessionWishes wishes_;
     bool takes_wishes_ = false;
+    StartScreen* start_ = nullptr;
     std::optional<ToolPose> shown_pose_;
     double spin_rad_ = 0.0;
     double frame_s_ = 0.0;  ///< between frames, in the mean over the last ten or so

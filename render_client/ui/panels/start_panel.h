@@ -1,0 +1,40 @@
+// The panel of the start page (start/start_page.h): cases to choose from, a scan to import, files to choose.
+// Drawn with Dear ImGui; needs an ImGui frame to be open.
+#pragma once
+
+#include <glm/vec2.hpp>
+
+#include "render_client/link/bone_link.h"
+#include "render_client/ui/panels/layout.h"
+#include "render_client/ui/panels/panel_painter.h"
+#include "render_client/ui/start/start_page.h"
+#include "render_client/volume/gl/picture_texture.h"
+
+namespace osteomill {
+
+/// The picture of the scan that is looked at, on the GPU. Needs the OpenGL context, as a PictureTexture does.
+struct StartPicture {
+    std::optional<gl::PictureTexture> texture{};
+    std::uint64_t number = 0;          ///< of the page's picture that it has
+    std::optional<glm::dvec2> drag{};  ///< where a drag began, pixels of the picture
+};
+
+struct StartScreen {
+    explicit StartScreen(StartPlaces places) : page(std::move(places)) {}
+
+    /// Whether there is nothing else to do: no session, or one that has ended.
+    bool is_due(LinkStatus status) const {
+        return status == LinkStatus::connecting || status == LinkStatus::finished ||
+               (status == LinkStatus::lost && page.has_served());
+    }
+
+    StartPage page;
+    StartPicture picture{};
+};
+
+/// As large as is useful, within `available`.
+glm::vec2 start_panel_size(const glm::vec2& available);
+
+void draw_start_panel(StartPage& page, StartPicture& picture, const PanelPlace& place);
+
+}  // namespace osteomill

@@ -1,0 +1,38 @@
+// The cases that can be started on this machine: those built in, and the folders that a person has imported.
+#pragma once
+
+#include <array>
+#include <ctime>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace osteomill {
+
+inline constexpr std::array<const char*, 3> built_in_cases{"tooth", "cube", "head"};
+
+struct ShelvedCase {
+    std::string name;
+    std::string argument;  ///< of haptic_server --case
+
+    bool operator==(const ShelvedCase&) const = default;
+};
+
+/// The user's, where cases and reports go unless an option says otherwise: $HOME/osteomill, or "osteomill"
+/// here.
+std::filesystem::path home_of_cases();
+
+/// The built-in ones, then every folder of `folder` with a case.toml, by name. A folder that is not there has
+/// none.
+std::vector<ShelvedCase> cases_in(const std::filesystem::path& folder);
+
+/// Why a case cannot have this name, in one line; empty where it can: letters, digits, - _ . and blanks, 1 to
+/// 60, no dot first, none like it in `folder`.
+std::string wrong_with_name(const std::string& name, const std::filesystem::path& folder);
+
+/// Where a session that begins at `began` has its report: case, trainee and the local time, in `reports`.
+/// What no name of a file should have becomes _.
+std::filesystem::path report_folder(const std::filesystem::path& reports, const std::string& case_name,
+                                    const std::string& trainee, std::time_t began);
+
+}  // namespace osteomill

@@ -1,0 +1,44 @@
+// Another program that this one runs: what it writes is read as it comes, and it ends with its owner.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace osteomill {
+
+class ChildProgram {
+  public:
+    /// Without a shell; `command[0]` is a path. Throws std::runtime_error with one line where it cannot be
+    /// run.
+    explicit ChildProgram(const std::vector<std::string>& command);
+    /// Asks it to end, waits for that as long as a report takes, and then has it killed.
+    ~ChildProgram();
+    ChildProgram(const ChildProgram&) = delete;
+    ChildProgram& operator=(const ChildProgram&) = delete;
+
+    /// Takes in what it has written and whether it has ended; never waits. True where there is news.
+    bool poll();
+    /// What it wrote to both of its streams, of late.
+    const std::string& output() const { return output_; }
+    /// The last line of that which says something.
+    std::string last_line() const;
+    bool is_running() const { return !status_.has_value(); }
+    /// Nothing while it runs; of one that a signal ended minus that signal.
+    const std::optional<int>& status() const { return status_; }
+    /// As CTRL-C does.
+    void ask_to_end() const;
+
+    static constexpr std::size_t most_output_bytes = 64 * 1024;
+
+  private:
+    bool read_output();
+    bool look_for_end(bool waits);
+
+    int pid_ = -1;
+    int pipe_ = -1;
+    std::string output_;
+    std::optional<int> status_;
+};
+
+}  // namespace osteomill

@@ -1,0 +1,54 @@
+#include "render_client/ui/start/import_form.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace osteomill {
+
+double voxels_of(const ImportForm& form) {
+    const glm::dvec3 edges = (form.region.high_mm - form.region.low_mm) / form.spacing_mm + 1.0;
+    return edges.x * edges.y * edges.z;
+}
+
+std::vector<std::string> look_command(const std::string& bone_import, const ImportForm& form,
+                                      const std::filesystem::path& picture) {
+    std::vector<std::string> command{bone_import, form.scan.string(), "--preview", picture.string()};
+    for (const auto& file : form.segmentations) command.push_back("--segmentation=" + file.string());
+    return command;
+}
+
+std::vector<std::string> import_command(const std::string& bone_import, const ImportForm& form,
+                                        const std::filesystem::path& folder) {
+    const glm::dvec3& low = form.region.low_mm;
+    const glm::dvec3& high = form.region.high_mm;
+    // With '=': a region may begin with a minus.
+    std::vector<std::string> command{bone_import,
+                                     form.scan.string(),
+                                     "--case",
+                                     folder.string(),
+                                     fmt::format("--region={:.2f},{:.2f},{:.2f},{:.2f},{:.2f},{:.2f}", low.x,
+                                                 low.y, low.z, high.x, high.y, high.z),
+                                     fmt::format("--threshold-hu={}", form.threshold_hu),
+                                     fmt::format("--spacing-mm={}", form.spacing_mm)};
+    if (form.keeps_soft_tissue) command.emplace_back("--keep-soft-tissue");
+    for (const auto& file : form.segmentations) command.push_back("--segmentation=" + file.string());
+    for (const SegmentChoice& segment : form.segments) {
+        if (segment.is_protected) command.push_back("--protect=" + segment.name);
+        if (segment.is_target) command.push_back("--target=" + segment.name);
+    }
+    return command;
+}
+
+void take_look(ImportForm& form, const ScanLook& look, bool is_another_scan) {
+    if (is_another_scan) form.region = look.covers;
+    std::vector<SegmentChoice> segments;
+    for (const std::string& name : look.segments) {
+        const auto known = std::find_if(form.segments.begin(), form.segments.end(),
+                                        [&](const SegmentChoice& choice) { return choice.name == name; });
+        segments.push_back(known == form.segments.end() ? SegmentChoice{.name = name} : *known);
+    }
+    form.segments = std::move(segments);
+}
+
+}  // namespace osteomill

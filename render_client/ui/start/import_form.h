@@ -1,0 +1,48 @@
+// What a person fills in to make a case of a scan, and the commands that follow from it.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "render_client/ui/start/scan_look.h"
+
+namespace osteomill {
+
+struct SegmentChoice {
+    std::string name;
+    bool is_protected = false;
+    bool is_target = false;  ///< of one at most
+};
+
+struct ImportForm {
+    std::filesystem::path scan{};
+    std::vector<std::filesystem::path> segmentations{};
+    std::vector<SegmentChoice> segments{};
+    ScanBox region{};
+    double threshold_hu = 300.0;
+    double spacing_mm = 0.1;
+    bool keeps_soft_tissue = true;  ///< for people who look at the CT in the window
+    std::string name{};
+};
+
+/// A bone of more voxels is refused, before an hour is spent on it.
+inline constexpr double most_imported_voxels = 1.5e9;
+/// Of the preview's picture.
+inline constexpr double preview_mm_per_px = 0.5;
+
+double voxels_of(const ImportForm& form);
+
+/// bone_import, as a path, with what it takes to look at the scan and at the segmentations.
+std::vector<std::string> look_command(const std::string& bone_import, const ImportForm& form,
+                                      const std::filesystem::path& picture);
+/// Likewise to make a case of it in `folder`.
+std::vector<std::string> import_command(const std::string& bone_import, const ImportForm& form,
+                                        const std::filesystem::path& folder);
+
+/// Takes what a look brought: its segments, of which those that were there keep what was chosen; and, where
+/// the scan is another, the region: all of it.
+void take_look(ImportForm& form, const ScanLook& look, bool is_another_scan);
+
+}  // namespace osteomill

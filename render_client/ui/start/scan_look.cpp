@@ -1,0 +1,96 @@
+#include "render_client/ui/start/scan_look.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <glm/common.hpp>
+#include <sstream>
+#include <string_view>
+
+namespace osteomill {
+
+namespace {
+
+constexpr double gap_px = 4.0;  // between the slices of the picture
+
+double row_mm(const ScanBox& covers, double mm_per_px, const PreviewSlice& slice, double row_px) {
+    const double down_mm = (row_px - 0.5) * mm_per_px;
+    const int axis = slice.down_axis;
+    return slice.is_down_reversed ? covers.high_mm[axis] - down_mm : covers.low_mm[axis] + down_mm;
+}
+
+double row_px(const ScanBox& covers, double mm_per_px, const PreviewSlice& slice, double at_mm) {
+    const int axis = slice.down_axis;
+    return (slice.is_down_reversed ? covers.high_mm[axis] - at_mm : at_mm - covers.low_mm[axis]) / mm_per_px +
+           0.5;
+}
+
+}  // namespace
+
+std::optional<ScanLook> read_scan_look(const std::string& preview_output) {
+    ScanLook look;
+    bool has_box = false;
+    std::istringstream lines(preview_output);
+    for (std::string line; std::getline(lines, line);) {
+        ScanBox box;
+        if (std::sscanf(line.c_str(), "covers %lf,%lf,%lf,%lf,%lf,%lf", &box.low_mm.x, &box.low_mm.y,
+                        &box.low_mm.z, &box.high_mm.x, &box.high_mm.y, &box.high_mm.z) == 6) {
+            look.covers = box;
+            has_box = true;
+        }
+        std::sscanf(line.c_str(), "HU from %lf to %lf", &look.least_hu, &look.most_hu);
+        constexpr std::string_view segment = "segment ";
+        if (line.starts_with(segment)) look.segments.push_back(line.substr(segment.size()));
+    }
+    if (!has_box) return std::nullopt;
+    return look;
+}
+
+std::array<PreviewSlice, 3> preview_slices(const ScanBox& covers, double mm_per_px) {
+    std::array<PreviewSlice, 3> slices{{{0, 1, false, {}, {}}, {0, 2, true, {}, {}}, {1, 2, true, {}, {}}}};
+    const glm::dvec3 size_px = glm::round((covers.high_mm - covers.low_mm) / mm_per_px) + 1.0;
+    double left_px = 0.0;
+    for (PreviewSlice& slice : slices) {
+        slice.first_px = {left_px, 0.0};
+        slice.size_px = {size_px[slice.right_axis], size_px[slice.down_axis]};
+        left_px += slice.size_px.x + gap_px;
+    }
+    return slices;
+}
+
+std::optional<ScanBox> dragged_box(const ScanBox& covers, const ScanBox& before, double mm_per_px,
+                                   const glm::dvec2& from_px, const glm::dvec2& to_px) {
+    for (const PreviewSlice& slice : preview_slices(covers, mm_per_px)) {
+        const glm::dvec2 in_slice = from_px - slice.first_px;
+        if (in_slice.x < 0.0 || in_slice.y < 0.0 || in_slice.x > slice.size_px.x ||
+            in_slice.y > slice.size_px.y)
+            continue;
+        ScanBox box = before;
+        const auto set = [&](int axis, double a_mm, double b_mm) {
+            box.low_mm[axis] = std::clamp(std::min(a_mm, b_mm), covers.low_mm[axis], covers.high_mm[axis]);
+            box.high_mm[axis] = std::clamp(std::max(a_mm, b_mm), covers.low_mm[axis], covers.high_mm[axis]);
+        };
+        const auto right_mm = [&](double px) {
+            return covers.low_mm[slice.right_axis] + (px - slice.first_px.x - 0.5) * mm_per_px;
+        };
+        set(slice.right_axis, right_mm(from_px.x), right_mm(to_px.x));
+        set(slice.down_axis, row_mm(covers, mm_per_px, slice, from_px.y),
+            row_mm(covers, mm_per_px, slice, to_px.y));
+        return box;
+    }
+    return std::nullopt;
+}
+
+std::array<glm::dvec2, 2> box_in_slice(const ScanBox& covers, const ScanBox& box, double mm_per_px,
+                                       const PreviewSlice& slice) {
+    const int axis = slice.right_axis;
+    const double a = row_px(covers, mm_per_px, slice, box.low_mm[slice.down_axis]);
+    const double b = row_px(covers, mm_per_px, slice, box.high_mm[slice.down_axis]);
+    const auto column = [&](double mm) {
+        return slice.first_px.x + (mm - covers.low_mm[axis]) / mm_per_px + 0.5;
+    };
+    return {glm::dvec2(column(box.low_mm[axis]), std::min(a, b)),
+            glm::dvec2(column(box.high_mm[axis]), std::max(a, b))};
+}
+
+}  // namespace osteomill

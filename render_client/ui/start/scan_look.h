@@ -1,0 +1,52 @@
+// A look at a scan before it is imported: what bone_import --preview said of it, and where in its picture of
+// three slices something lies in the patient.
+#pragma once
+
+#include <array>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace osteomill {
+
+/// A box, patient LPS.
+struct ScanBox {
+    glm::dvec3 low_mm{0.0};
+    glm::dvec3 high_mm{0.0};
+
+    bool operator==(const ScanBox&) const = default;
+};
+
+struct ScanLook {
+    ScanBox covers;  ///< centres of the outermost voxels
+    double least_hu = 0.0;
+    double most_hu = 0.0;
+    std::vector<std::string> segments{};  ///< names, as segmentations have them
+};
+
+/// Nothing where the text does not say what a scan covers.
+std::optional<ScanLook> read_scan_look(const std::string& preview_output);
+
+/// One of the picture's slices: axial, coronal, sagittal.
+struct PreviewSlice {
+    int right_axis, down_axis;
+    bool is_down_reversed;
+    glm::dvec2 first_px;  ///< upper left corner
+    glm::dvec2 size_px;
+};
+
+/// Of a picture with a pixel for each `mm_per_px`.
+std::array<PreviewSlice, 3> preview_slices(const ScanBox& covers, double mm_per_px);
+
+/// The box with two of its sides as they were dragged in a slice, from one pixel of the picture to another;
+/// kept within the scan. Nothing where the first lies in no slice.
+std::optional<ScanBox> dragged_box(const ScanBox& covers, const ScanBox& before, double mm_per_px,
+                                   const glm::dvec2& from_px, const glm::dvec2& to_px);
+
+/// Where a box is in a slice, pixels of the picture: upper left and lower right corner.
+std::array<glm::dvec2, 2> box_in_slice(const ScanBox& covers, const ScanBox& box, double mm_per_px,
+                                       const PreviewSlice& slice);
+
+}  // namespace osteomill

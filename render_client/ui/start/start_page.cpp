@@ -1,0 +1,215 @@
+#include "render_client/ui/start/start_page.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cctype>
+#include <cstdlib>
+#include <ctime>
+#include <stdexcept>
+
+#include "render_client/volume/png_file.h"
+
+namespace osteomill {
+
+namespace {
+
+std::filesystem::path cases_of(const StartPlaces& places) {
+    return places.home / "cases";
+}
+
+/// A new folder for what is gone soon.
+std::filesystem::path scratch_folder() {
+    std::string name = (std::filesystem::temp_directory_path() / "osteomill_look_XXXXXX").string();
+    if (::mkdtemp(name.data()) == nullptr)
+        throw std::runtime_error("no folder for temporary files can be made in " +
+                                 std::filesystem::temp_directory_path().string());
+    return name;
+}
+
+void remove_quietly(const std::filesystem::path& folder) {
+    std::error_code ignored;
+    if (!folder.empty()) std::filesystem::remove_all(folder, ignored);
+}
+
+/// Of a scan's path: what a person calls it.
+std::string name_of_scan(const std::filesystem::path& scan) {
+    std::string name = scan.filename().string();
+    name = name.substr(0, name.find('.'));
+    for (char& letter : name)
+        if (std::isalnum(static_cast<unsigned char>(letter)) == 0 && letter != '-') letter = '_';
+    return name.empty() ? "case" : name.substr(0, 40);
+}
+
+/// "haptic_server: " and the like are for terminals.
+std::string without_program(const std::string& line) {
+    const std::size_t colon = line.find(": ");
+    const bool is_program = colon != std::string::npos && line.find(' ') > colon;
+    return is_program ? line.substr(colon + 2) : line;
+}
+
+}  // namespace
+
+std::filesystem::path folder_of_this_program() {
+    std::error_code error;
+    return std::filesystem::read_symlink("/proc/self/exe", error).parent_path();
+}
+
+StartPage::StartPage(StartPlaces places) : places_(std::move(places)), cases_(cases_in(cases_of(places_))) {
+    if (const char* user = std::getenv("USER"); user != nullptr) trainee = user;
+}
+
+void StartPage::show(View view) {
+    if (view == View::cases) cases_ = cases_in(cases_of(places_));
+    const bool browses = view == View::scan_browser || view == View::segmentation_browser;
+    if (browses && listing_.folder.empty()) {
+        const char* home = std::getenv("HOME");
+        browse(home != nullptr && *home != '\0' ? home : "/");
+    }
+    message_.clear();
+    view_ = view;
+}
+
+void StartPage::start() {
+    if (is_session_running() || chosen >= cases_.size()) return;
+    const ShelvedCase& wanted = cases_[chosen];
+    report_.reset();
+    report_folder_ = report_folder(places_.home / "reports", wanted.name, trainee, std::time(nullptr));
+    std::vector<std::string> command{program("haptic_server"),
+                                     "--case=" + wanted.argument,
+                                     "--device=client",
+                                     "--listen=" + places_.listen,
+                                     "--report=" + report_folder_.string(),
+                                     "--save-bone=" + (report_folder_ / "bone.nrrd").string()};
+    if (!trainee.empty()) command.push_back("--trainee=" + trainee);
+    try {
+        std::filesystem::create_directories(places_.home / "reports");
+        server_ = std::make_unique<ChildProgram>(command);
+        message_ = fmt::format("{} is being made ready ...", wanted.name);
+    } catch (const std::exception& error) {
+        message_ = error.what();
+    }
+}
+
+void StartPage::open_report() {
+    if (!report_) return;
+    try {
+        opener_ =
+            std::make_unique<ChildProgram>(std::vector<std::string>{"/usr/bin/xdg-open", report_->string()});
+        message_.clear();
+    } catch (const std::exception&) {
+        message_ = "no browser is known here; open it by hand";
+    }
+}
+
+void StartPage::take(const std::filesystem::path& path) {
+    if (view_ == View::scan_browser) {
+        form = {.scan = path, .name = name_of_scan(path)};
+        look_.reset();
+        picture_.reset();
+        show(View::import);
+        look_at_scan(true);
+    } else if (view_ == View::segmentation_browser) {
+        form.segmentations.push_back(path);
+        show(View::import);
+        look_at_scan(false);
+    }
+}
+
+void StartPage::look_at_scan(bool is_another_scan) {
+    give_up_work();
+    try {
+        scratch_ = scratch_folder();
+        work_ = Work::look;
+        is_another_scan_ = is_another_scan;
+        worker_ =
+            std::make_unique<ChildProgram>(look_command(program("bone_import"), form, scratch_ / "look.png"));
+        message_ = "looking at the scan ...";
+    } catch (const std::exception& error) {
+        message_ = error.what();
+    }
+}
+
+void StartPage::import() {
+    if (is_working() || !look_) return;
+    message_ = wrong_with_name(form.name, cases_of(places_));
+    if (!message_.empty()) return;
+    if (voxels_of(form) > most_imported_voxels) {
+        message_ = fmt::format(
+            "the region has {:.1f} thousand million voxels; {:.1f} are the most: drag a smaller one",
+            1e-9 * voxels_of(form), 1e-9 * most_imported_voxels);
+        return;
+    }
+    try {
+        std::filesystem::create_directories(cases_of(places_));
+        work_ = Work::import;
+        worker_ = std::make_unique<ChildProgram>(
+            import_command(program("bone_import"), form, cases_of(places_) / form.name));
+        message_ = "importing ...";
+    } catch (const std::exception& error) {
+        message_ = error.what();
+    }
+}
+
+void StartPage::give_up_work() {
+    worker_.reset();
+    remove_quietly(scratch_);
+    scratch_.clear();
+    message_.clear();
+}
+
+void StartPage::end_of_work() {
+    const bool is_good = worker_->status() == 0;
+    const std::string said = worker_->output();
+    const std::string last = without_program(worker_->last_line());
+    worker_.reset();
+    message_ = is_good ? std::string() : last.empty() ? "it failed without a word" : last;
+    if (work_ == Work::import && is_good) {
+        show(View::cases);
+        for (std::size_t i = 0; i < cases_.size(); ++i)
+            if (cases_[i].name == form.name) chosen = i;
+        message_ = fmt::format("{} is there", form.name);
+    } else if (work_ == Work::look && is_good) {
+        look_ = read_scan_look(said);
+        try {
+            picture_ = read_png(scratch_ / "look.png");
+            ++picture_number_;
+        } catch (const std::exception& error) {
+            message_ = error.what();
+        }
+        if (look_) take_look(form, *look_, is_another_scan_);
+    } else if (work_ == Work::look && !form.segmentations.empty() && !is_another_scan_) {
+        form.segmentations.pop_back();  // the one that was just added cannot be read
+    }
+    remove_quietly(scratch_);
+    scratch_.clear();
+}
+
+bool StartPage::poll() {
+    bool has_news = false;
+    if (worker_ && worker_->poll()) {
+        has_news = true;
+        if (!worker_->is_running())
+            end_of_work();
+        else if (const std::string line = without_program(worker_->last_line()); !line.empty())
+            message_ = line;
+    }
+    if (server_ && server_->poll()) {
+        has_news = true;
+        if (!server_->is_running()) {
+            const std::filesystem::path page = report_folder_ / "report.html";
+            std::error_code ignored;
+            if (std::filesystem::exists(page, ignored)) report_ = page;
+            message_ = server_->status() == 0 ? std::string() : without_program(server_->last_line());
+            server_.reset();
+        }
+    }
+    if (opener_ && opener_->poll() && !opener_->is_running()) {
+        has_news = true;
+        if (opener_->status() != 0) message_ = "no browser is known here; open it by hand";
+        opener_.reset();
+    }
+    return has_news;
+}
+
+}  // namespace osteomill

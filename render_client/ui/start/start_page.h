@@ -1,0 +1,97 @@
+// The start page: a session on this machine from the window alone. It knows the cases that there are, makes
+// one of a scan, starts haptic_server for it as a program of its own, and says where the report is. No
+// drawing here (panels/start_panel.h).
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "render_client/ui/start/case_shelf.h"
+#include "render_client/ui/start/child_program.h"
+#include "render_client/ui/start/folder_listing.h"
+#include "render_client/ui/start/import_form.h"
+#include "render_client/volume/picture.h"
+
+namespace osteomill {
+
+struct StartPlaces {
+    std::filesystem::path programs;  ///< where haptic_server and bone_import are
+    std::filesystem::path home;      ///< has the folders cases and reports
+    std::string listen;              ///< HOST:PORT that the window connects to
+};
+
+/// Beside the program that runs.
+std::filesystem::path folder_of_this_program();
+
+class StartPage {
+  public:
+    enum class View { cases, import, scan_browser, segmentation_browser };
+
+    explicit StartPage(StartPlaces places);
+    /// Ends what it started: a session's server writes its report first.
+    ~StartPage() { give_up_work(); }
+
+    /// Once in a while: looks after the programs that run. True where there is something new to show.
+    bool poll();
+
+    View view() const { return view_; }
+    void show(View view);
+    /// One line about what went wrong or is going on; empty: nothing.
+    const std::string& message() const { return message_; }
+
+    const std::vector<ShelvedCase>& cases() const { return cases_; }
+    std::size_t chosen = 0;  ///< of cases()
+    std::string trainee{};   ///< whose session it will be
+    void start();
+    bool is_session_running() const { return server_ != nullptr && server_->is_running(); }
+    /// Started a session that has ended.
+    bool has_served() const { return !report_folder_.empty() && server_ == nullptr; }
+    /// Of the last session, once it is written.
+    const std::optional<std::filesystem::path>& report() const { return report_; }
+    void open_report();
+
+    ImportForm form{};
+    /// Of the scan, once it was looked at.
+    const std::optional<ScanLook>& look() const { return look_; }
+    const std::optional<Picture>& picture() const { return picture_; }
+    std::uint64_t picture_number() const { return picture_number_; }  ///< another for each picture
+    bool is_working() const { return worker_ != nullptr; }            ///< looks or imports
+    void import();
+    void give_up_work();
+
+    const FolderListing& listing() const { return listing_; }
+    void browse(const std::filesystem::path& folder) { listing_ = list_folder(folder); }
+    /// A file, or a folder of DICOM, for what the browser was opened for.
+    void take(const std::filesystem::path& path);
+
+  private:
+    std::string program(const char* name) const { return (places_.programs / name).string(); }
+    void look_at_scan(bool is_another_scan);
+    void end_of_work();
+
+    StartPlaces places_;
+    View view_ = View::cases;
+    std::string message_;
+    std::vector<ShelvedCase> cases_;
+    FolderListing listing_;
+
+    enum class Work { look, import };
+    Work work_ = Work::look;
+    bool is_another_scan_ = false;
+    std::unique_ptr<ChildProgram> worker_;
+    std::filesystem::path scratch_;  // of the look that is under way
+    std::optional<ScanLook> look_;
+    std::optional<Picture> picture_;
+    std::uint64_t picture_number_ = 0;
+
+    std::unique_ptr<ChildProgram> server_;
+    std::filesystem::path report_folder_;
+    std::optional<std::filesystem::path> report_;
+    std::unique_ptr<ChildProgram> opener_;
+};
+
+}  // namespace osteomill
