@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <csignal>
 #include <cstdlib>
+#include <filesystem>
 #include <fstream>
 #include <functional>
 #include <iterator>
@@ -16,6 +17,7 @@
 
 #include "common/recording/playhead.h"
 #include "render_client/volume/png_file.h"
+#include "tests/support/block_file.h"
 #include "tests/support/virtual_display.h"
 
 namespace osteomill::testing {
@@ -249,6 +251,53 @@ TEST_F(WindowTest, UndoesMarksAndFinishesASessionByKeys) {
     EXPECT_EQ(last, Playhead(folder("session.pcap")).bone_checksum()) << "the bone is whole again";
     press("Escape");
     EXPECT_EQ(window_->wait(60s), 0) << "after the session nobody is asked: " << window_->err();
+}
+
+TEST_F(WindowTest, ImportsAScanAndStartsASessionOfItByMouse) {
+    server_->send_signal(SIGINT);  // its port is free then
+    ASSERT_TRUE(server_->wait(60s));
+    display_.emplace(glm::ivec2(1280, 800));
+    std::filesystem::create_directories(folder("home"));
+    write_block(folder("home/scan.nrrd"));
+    std::ofstream(folder("home/torn.nrrd")) << "NRRD0004\n";
+    window_.emplace(
+        display_->shown_here({"/usr/bin/env", "HOME=" + folder("home"), "USER=anna", RENDER_CLIENT,
+                              "--connect", address_, "--window-size", "1280x800"}));
+    ASSERT_TRUE(
+        display_->xdotool({"search", "--sync", "--onlyvisible", "--name", "^Osteomill$", "windowfocus"}));
+    const auto click = [&](int x, int y) {
+        std::this_thread::sleep_for(1s);
+        ASSERT_TRUE(display_->xdotool({"mousemove", std::to_string(x), std::to_string(y), "sleep", "0.3",
+                                       "mousedown", "1", "sleep", "0.2", "mouseup", "1"}));
+    };
+    const auto is_there = [&](const std::string& file) {
+        return comes_true([&] { return std::filesystem::exists(folder("home/osteomill/" + file)); });
+    };
+    // The page is in the middle, 812 x 616 pixels; its buttons are along its lower edge.
+    const auto first_file = [&] { click(300, 170); };
+    const auto second_file = [&] { click(300, 188); };
+    const auto lower_left_button = [&](int y) { click(262, y); };
+    click(350, 643);  // Import a scan
+    second_file();    // a torn one: nothing but a line
+    click(330, 129);  // Back
+    first_file();
+    std::this_thread::sleep_for(3s);
+    lower_left_button(655);  // Import
+    ASSERT_TRUE(is_there("cases/scan/bone.nrrd")) << window_->err();
+    ASSERT_TRUE(is_there("cases/scan/case.toml"));
+    lower_left_button(643);  // Start
+    ASSERT_TRUE(comes_true([&] { return shows_bone(display_->screen()); })) << window_->err();
+    ASSERT_TRUE(is_there("reports"));
+    press("F10");
+    std::this_thread::sleep_for(1s);
+    press("Return");
+    EXPECT_TRUE(comes_true([&] {
+        for (const auto& report : std::filesystem::directory_iterator(folder("home/osteomill/reports")))
+            if (std::filesystem::exists(report.path() / "report.html")) return true;
+        return false;
+    }));
+    press("Escape");
+    EXPECT_EQ(window_->wait(60s), 0) << window_->err();
 }
 
 TEST_F(WindowTest, DrawsOnlyWhatChanges) {

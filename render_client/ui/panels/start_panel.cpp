@@ -61,6 +61,8 @@ void draw_cases(StartPage& page) {
     if (button("Start", !page.is_session_running())) page.start();
     ImGui::SameLine();
     if (button("Import a scan ...", !page.is_session_running())) page.show(StartPage::View::scan_browser);
+    ImGui::SameLine();
+    if (ImGui::Button("Hide this")) page.is_hidden = true;
     if (page.report()) {
         ImGui::AlignTextToFramePadding();
         ImGui::TextUnformatted("The last session:");
@@ -207,7 +209,7 @@ void draw_import(StartPage& page, StartPicture& picture) {
         if (page.is_working())
             page.give_up_work();
         else
-            page.show(StartPage::View::cases);
+            page.show(page.look() ? StartPage::View::cases : StartPage::View::scan_browser);
     }
     draw_message(page);
 }
@@ -216,7 +218,7 @@ void draw_import(StartPage& page, StartPicture& picture) {
 
 glm::vec2 start_panel_size(const glm::vec2& available) {
     const float letter = ImGui::GetFontSize();
-    return glm::min(available, glm::vec2(46.0f * letter, 40.0f * letter));
+    return glm::min(available, glm::vec2(58.0f * letter, 44.0f * letter));
 }
 
 void draw_start_panel(StartPage& page, StartPicture& picture, const PanelPlace& place) {

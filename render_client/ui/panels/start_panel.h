@@ -24,8 +24,9 @@ struct StartScreen {
 
     /// Whether there is nothing else to do: no session, or one that has ended.
     bool is_due(LinkStatus status) const {
-        return status == LinkStatus::connecting || status == LinkStatus::finished ||
-               (status == LinkStatus::lost && page.has_served());
+        const bool has_none = status == LinkStatus::connecting || status == LinkStatus::finished ||
+                              (status == LinkStatus::lost && page.has_served());
+        return has_none && !page.is_hidden;
     }
 
     StartPage page;

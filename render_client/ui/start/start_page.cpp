@@ -74,6 +74,7 @@ void StartPage::start() {
     if (is_session_running() || chosen >= cases_.size()) return;
     const ShelvedCase& wanted = cases_[chosen];
     report_.reset();
+    is_hidden = false;
     report_folder_ = report_folder(places_.home / "reports", wanted.name, trainee, std::time(nullptr));
     std::vector<std::string> command{program("haptic_server"),
                                      "--case=" + wanted.argument,

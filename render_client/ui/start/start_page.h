@@ -53,6 +53,7 @@ class StartPage {
     /// Of the last session, once it is written.
     const std::optional<std::filesystem::path>& report() const { return report_; }
     void open_report();
+    bool is_hidden = false;  ///< until the next session: what is left of the last is looked at
 
     ImportForm form{};
     /// Of the scan, once it was looked at.

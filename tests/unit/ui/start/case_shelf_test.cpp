@@ -1,0 +1,48 @@
+#include "render_client/ui/start/case_shelf.h"
+
+#include <gmock/gmock.h>
+
+#include <fstream>
+
+#include "tests/support/temporary_folder.h"
+
+namespace osteomill {
+namespace {
+
+using ::testing::HasSubstr;
+
+TEST(CaseShelf, HasTheBuiltInCasesAndWhatWasImported) {
+    const testing::TemporaryFolder folder;
+    for (const char* name : {"zygoma", "a jaw", "no case"})
+        std::filesystem::create_directories(folder / name);
+    std::ofstream(folder / "zygoma/case.toml") << "name = \"z\"\n";
+    std::ofstream(folder / "a jaw/case.toml") << "name = \"j\"\n";
+    std::ofstream(folder / "a file") << "nothing";
+    const auto cases = cases_in(folder / ".");
+    ASSERT_EQ(cases.size(), 5U);
+    EXPECT_EQ(cases[0], (ShelvedCase{"tooth", "tooth"}));
+    EXPECT_EQ(cases[3].name, "a jaw");
+    EXPECT_EQ(std::filesystem::path(cases[4].argument), folder / "./zygoma");
+    EXPECT_EQ(cases_in(folder / "not there").size(), 3U);
+}
+
+TEST(CaseShelf, RefusesNamesThatWouldBeNoFolderOrAreTaken) {
+    const testing::TemporaryFolder folder;
+    std::filesystem::create_directories(folder / "taken");
+    EXPECT_EQ(wrong_with_name("jaw of A-1_b.2", folder / "."), "");
+    for (const char* bad : {"", ".hidden", "a/b", "..", " blank", "blank ", "new\nline"})
+        EXPECT_THAT(wrong_with_name(bad, folder / "."), HasSubstr("letters")) << bad;
+    EXPECT_THAT(wrong_with_name(std::string(61, 'x'), folder / "."), HasSubstr("60"));
+    EXPECT_THAT(wrong_with_name("taken", folder / "."), HasSubstr("already"));
+    EXPECT_THAT(wrong_with_name("tooth", folder / "."), HasSubstr("built in"));
+}
+
+TEST(CaseShelf, NamesAReportByCaseTraineeAndTime) {
+    ::setenv("TZ", "UTC", 1);
+    EXPECT_EQ(report_folder("/r", "a jaw", "Anna O'Hara/../x", 0),
+              "/r/a_jaw-Anna_O_Hara_.._x-19700101-000000");
+    EXPECT_EQ(report_folder("/r", "tooth", "", 86400), "/r/tooth-nobody-19700102-000000");
+}
+
+}  // namespace
+}  // namespace osteomill

@@ -1,0 +1,95 @@
+#include "render_client/ui/start/scan_look.h"
+
+#include <gtest/gtest.h>
+
+#include <glm/geometric.hpp>
+
+#include "render_client/ui/start/import_form.h"
+
+namespace osteomill {
+namespace {
+
+const ScanBox covers{{-10.0, 20.0, 700.0}, {9.5, 39.5, 729.5}};
+
+TEST(ScanLook, ReadsWhatAPreviewSays) {
+    const auto look = read_scan_look(
+        "reading slices\ncovers -10,20,700,9.5,39.5,729.5 (mm, patient LPS: x0,y0,z0,x1,y1,z1)\n"
+        "HU from -1024 to 3071\nsegment Facial nerve\nsegment Dura\npreview: x.png\n");
+    ASSERT_TRUE(look);
+    EXPECT_EQ(look->covers, covers);
+    EXPECT_EQ(look->least_hu, -1024.0);
+    EXPECT_EQ(look->most_hu, 3071.0);
+    EXPECT_EQ(look->segments, (std::vector<std::string>{"Facial nerve", "Dura"}));
+    EXPECT_FALSE(read_scan_look("bone_import: cannot be read\n"));
+    EXPECT_FALSE(read_scan_look("covers 1,2,3 (mm)\n"));
+}
+
+TEST(ScanLook, KnowsWhereTheSlicesAreInThePicture) {
+    const auto slices = preview_slices(covers, 0.5);
+    EXPECT_EQ(slices[0].size_px, glm::dvec2(40, 40));
+    EXPECT_EQ(slices[1].size_px, glm::dvec2(40, 60));
+    EXPECT_EQ(slices[1].first_px, glm::dvec2(44, 0));
+    EXPECT_EQ(slices[2].first_px, glm::dvec2(88, 0));
+}
+
+TEST(ScanLook, ADragSetsTheTwoSidesThatItsSliceShows) {
+    // Axial: x to the right, y down, half a millimetre a pixel, from the middle of the first.
+    auto box = dragged_box(covers, covers, 0.5, {10.5, 4.5}, {20.5, 14.5});
+    ASSERT_TRUE(box);
+    EXPECT_EQ(box->low_mm, glm::dvec3(-5.0, 22.0, 700.0));
+    EXPECT_EQ(box->high_mm, glm::dvec3(0.0, 27.0, 729.5));
+    // Coronal: z runs up; dragged from below to above, and beyond the scan.
+    box = dragged_box(covers, *box, 0.5, {44 + 30.5, 20.5}, {44 + 10.5, -50.0});
+    EXPECT_EQ(box->low_mm, glm::dvec3(-5.0, 22.0, 719.5));
+    EXPECT_EQ(box->high_mm, glm::dvec3(5.0, 27.0, 729.5));
+    EXPECT_FALSE(dragged_box(covers, *box, 0.5, {42.0, 5.0}, {60.0, 5.0})) << "between two slices";
+    EXPECT_FALSE(dragged_box(covers, *box, 0.5, {5.0, 55.0}, {6.0, 56.0})) << "below the first";
+}
+
+TEST(ScanLook, ABoxIsShownWhereItWasDragged) {
+    const glm::dvec2 from(50.5, 12.5), to(70.5, 42.5);
+    const auto box = dragged_box(covers, covers, 0.5, from, to);
+    const auto corners = box_in_slice(covers, *box, 0.5, preview_slices(covers, 0.5)[1]);
+    EXPECT_LT(glm::distance(corners[0], from), 1e-9);
+    EXPECT_LT(glm::distance(corners[1], to), 1e-9);
+}
+
+TEST(ImportForm, BecomesACommand) {
+    ImportForm form{.scan = "/s/head", .name = "head 1"};
+    form.region = {{-60.0, 10.0, 730.0}, {-20.0, 50.0, 770.0}};
+    form.segmentations = {"/s/a b.seg.nrrd"};
+    form.segments = {
+        {.name = "Dura", .is_protected = true}, {.name = "Tumour", .is_target = true}, {.name = "x"}};
+    const std::vector<std::string> expected{"bone_import",
+                                            "/s/head",
+                                            "--case",
+                                            "/c/head 1",
+                                            "--region=-60.00,10.00,730.00,-20.00,50.00,770.00",
+                                            "--threshold-hu=300",
+                                            "--spacing-mm=0.1",
+                                            "--keep-soft-tissue",
+                                            "--segmentation=/s/a b.seg.nrrd",
+                                            "--protect=Dura",
+                                            "--target=Tumour"};
+    EXPECT_EQ(import_command("bone_import", form, "/c/head 1"), expected);
+    EXPECT_NEAR(voxels_of(form), 401.0 * 401.0 * 401.0, 1.0);
+    EXPECT_EQ(look_command("bone_import", form, "/t/look.png"),
+              (std::vector<std::string>{"bone_import", "/s/head", "--preview", "/t/look.png",
+                                        "--segmentation=/s/a b.seg.nrrd"}));
+}
+
+TEST(ImportForm, KeepsWhatWasChosenWhenSegmentsComeOrGo) {
+    ImportForm form;
+    take_look(form, {.covers = covers, .segments = {"Dura", "Nerve"}}, true);
+    EXPECT_EQ(form.region, covers);
+    form.segments[1].is_protected = true;
+    form.region.low_mm.x = 0.0;
+    take_look(form, {.covers = covers, .segments = {"Nerve", "Tumour"}}, false);
+    ASSERT_EQ(form.segments.size(), 2U);
+    EXPECT_TRUE(form.segments[0].is_protected);
+    EXPECT_FALSE(form.segments[1].is_protected);
+    EXPECT_EQ(form.region.low_mm.x, 0.0) << "the scan is the same";
+}
+
+}  // namespace
+}  // namespace osteomill
