@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Fuzzes with what the preset `fuzz` built, as many targets at once as there are cores.
 #   tests/fuzz/run.sh SECONDS [TARGET...]     all of them, or some: frame_decoder server_session client_session recording scene
-#                                             nrrd_header meta_image_header nifti_header dicom_header
+#                                             haply_state nrrd_header meta_image_header nifti_header dicom_header
 # SECONDS are for each target. What is found lies in build/fuzz/findings; give it to build/fuzz/bin/fuzz_TARGET to see it
 # again, and put it into tests/fuzz/seeds/TARGET once it is fixed.
 set -euo pipefail
@@ -10,7 +10,7 @@ cd "$(dirname "$0")/../.."
 seconds=${1:?"usage: tests/fuzz/run.sh SECONDS [TARGET...]"}
 shift
 targets=("$@")
-[ ${#targets[@]} -gt 0 ] || targets=(client_session recording server_session scene frame_decoder
+[ ${#targets[@]} -gt 0 ] || targets=(client_session recording server_session scene frame_decoder haply_state
     dicom_header nrrd_header meta_image_header nifti_header)
 mkdir -p build/fuzz/findings
 

@@ -62,9 +62,9 @@ INSTANTIATE_TEST_SUITE_P(
     Of, FuzzSeeds,
     ::testing::Values(Target{"frame_decoder", frame_decoder}, Target{"server_session", server_session},
                       Target{"client_session", client_session}, Target{"recording", recording},
-                      Target{"scene", scene, {OSTEOMILL_SCENES}}, Target{"nrrd_header", nrrd_header},
-                      Target{"meta_image_header", meta_image_header}, Target{"nifti_header", nifti_header},
-                      Target{"dicom_header", dicom_header}),
+                      Target{"scene", scene, {OSTEOMILL_SCENES}}, Target{"haply_state", haply_state},
+                      Target{"nrrd_header", nrrd_header}, Target{"meta_image_header", meta_image_header},
+                      Target{"nifti_header", nifti_header}, Target{"dicom_header", dicom_header}),
     [](const auto& instance) { return instance.param.name; });
 
 }  // namespace

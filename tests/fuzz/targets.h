@@ -42,6 +42,10 @@ void recording(Bytes input);
 /// come back from write_scene as it was.
 void scene(Bytes input);
 
+/// What Haply's service says, against parse_haply_state. Finding: any exception; an arm or a grip where no
+/// number is; an arm of another name than was asked for; a force for it that is no JSON.
+void haply_state(Bytes input);
+
 /// The first bytes of an image file, against our own readers of headers (ITK and GDCM never see what these
 /// refuse). Finding: any exception but a complaint of one line; voxels, files, sizes or a geometry beyond
 /// the limits that were to be held.
