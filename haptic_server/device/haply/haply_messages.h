@@ -8,8 +8,10 @@
 //                             "buttons": {"a": false, "b": false, "c": false}}}],
 //    "verse_grip": [{"device_id": "...", "state": {"orientation": {...}, "button": false}}]}
 //
-// The program answers with a force on the cursor, which holds until its next message. Metres and newtons, in
-// the service's own axes. A wired grip has one button; it counts as `a`.
+// The program answers with a force on the cursor, for one exchange: an arm that is told nothing more goes
+// idle
+// ("Control Commands"). Metres and newtons, in the service's own axes. A wired grip has one button; it counts
+// as `a`.
 #pragma once
 
 #include <glm/gtc/quaternion.hpp>

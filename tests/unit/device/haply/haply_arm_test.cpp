@@ -76,7 +76,7 @@ class HaplyArmOnService : public ::testing::Test {
 
 TEST_F(HaplyArmOnService, HasLimitsThatHoldWithItsDelay) {
     begin();
-    EXPECT_EQ(arm->limits().max_force_n, 10.0);
+    EXPECT_EQ(arm->limits().max_force_n, inverse3_profile.max_force_n);
     EXPECT_GT(arm->delay_s(), 0.001);
     EXPECT_LE(arm->delay_s(), longest_delay_s);
     EXPECT_EQ(arm->limits().max_stiffness_n_per_mm,
@@ -119,9 +119,11 @@ TEST_F(HaplyArmOnService, FeelsItsForceInEitherDialect) {
 TEST_F(HaplyArmOnService, GetsNoMoreForceThanItBears) {
     begin();
     ASSERT_TRUE(is_felt({}));
-    EXPECT_TRUE(becomes([&](const DeviceState&) { return service->force_n()->z > 9.999; }, {0.0, 0.0, 50.0}));
+    EXPECT_TRUE(becomes(
+        [&](const DeviceState&) { return service->force_n()->z > inverse3_profile.max_force_n - 1e-5; },
+        {0.0, 0.0, 50.0}));
     for (int i = 0; i < 50; ++i) tick({30.0, -40.0, 50.0});
-    EXPECT_LE(service->largest_force_n(), 10.0 + 1e-5);
+    EXPECT_LE(service->largest_force_n(), inverse3_profile.max_force_n + 1e-5);
     EXPECT_TRUE(becomes([&](const DeviceState&) { return *service->force_n() == glm::dvec3(0.0); },
                         {std::nan(""), 0.0, 0.0}));
 }
