@@ -195,6 +195,8 @@ void HaplyLink::consider_force(Clock::time_point now) noexcept {
     const bool is_fresh = has_force_ && now - forced_ <= longest_force_age;
     const bool is_small = is_fresh && glm::length(forces_.front()) <= small_force_n;
     const bool may_drive = is_fresh && is_arm_able_ && !is_clutch_;
+    // Neither a loop that stood still nor one that thinks its force is felt goes on where it was.
+    if ((drives_ && !is_fresh) || (may_drive && !drives_ && !is_small)) was_lost_ = true;
     if (is_small && is_arm_able_) was_lost_ = false;
     drives_ = may_drive && !was_lost_ && (drives_ || is_small);
 }

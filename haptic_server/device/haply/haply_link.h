@@ -3,10 +3,10 @@
 //
 //   the loop leaves a force -> it is sent -> the service answers with a state -> the loop's next tick has it
 //
-// The thread does not rely on the service to let go: it says when there is no force. The arm gets a
-// force only while the loop renews it, the arm is there and calibrated, and the clutch is open; and after any
-// of these was not so, only once the loop has wanted a small one. After the arm, the service or its answers
-// were missing, it is also said not to be there until then: the loop sees each loss, however short it was.
+// The thread does not rely on the service to let go: it says when there is no force. The arm gets one only
+// while the loop renews it, the arm is there and calibrated, and the clutch is open; and after any of these
+// was not so, only once the loop has wanted a small one. Until it has, the arm is said not to be there, so
+// that the loop takes its force away and brings it back gently, however short it was.
 #pragma once
 
 #include <array>

@@ -136,6 +136,7 @@ TEST_F(HaplyArmOnService, MeetsNoHandWithAForceThatWasThereBefore) {
         return service->messages() > before + 50;
     }));
     EXPECT_EQ(service->largest_force_n(), 0.0);
+    EXPECT_TRUE(eventually([&] { return !arm->read(now_s).connected; })) << "or it would not know";
     EXPECT_TRUE(is_felt({0.05, 0.0, 0.0}));
     EXPECT_TRUE(is_felt({2.0, 0.0, 0.0}));
 }
@@ -145,6 +146,8 @@ TEST_F(HaplyArmOnService, LosesTheForceThatTheLoopDoesNotRenew) {
     ASSERT_TRUE(is_felt({}));
     ASSERT_TRUE(is_felt({2.0, 0.0, 0.0}));
     EXPECT_TRUE(eventually([&] { return *service->force_n() == glm::dvec3(0.0); }));
+    EXPECT_TRUE(eventually([&] { return !arm->read(now_s).connected; })) << "or it would not know";
+    EXPECT_TRUE(is_felt({2.0, 0.0, 0.0}));
 }
 
 TEST_F(HaplyArmOnService, TakesTheForceOffAtItsEnd) {
