@@ -23,8 +23,8 @@ using ::testing::HasSubstr;
 
 using Command = std::vector<std::string>;
 
-/// A hand that goes to and fro by 2 mm over the start, slowly down by 4 mm and up again, with the pedal down:
-/// a spring of 0.5 N/mm to an arm of 50 g. Bone pushes it back.
+/// A hand that goes to and fro by 2 mm over the start, slowly down by 3.6 mm and up again, each time 1 mm
+/// deeper, with the pedal down: a spring of 0.5 N/mm to an arm of 50 g. Bone pushes it back.
 class Hand {
   public:
     HaplyService::Devices operator()(double time_s, const glm::dvec3& force_n) {
@@ -32,8 +32,10 @@ class Hand {
         const double span_s = std::clamp(time_s - time_s_, 0.0, 0.01);
         time_s_ = time_s;
         const double phase = time_s - std::floor(time_s);
+        const double round = std::floor(time_s / 8.0);
+        const double into_s = time_s - 8.0 * round;
         const double down_mm =
-            time_s < 6.0 ? std::min(4.0, 0.6 * time_s) : std::max(-1.0, 4.0 - 5.0 * (time_s - 6.0));
+            round + (into_s < 6.0 ? 0.6 * into_s : std::max(-1.0 - round, 3.6 - 5.0 * (into_s - 6.0)));
         const glm::dvec3 target_mm(phase < 0.5 ? 8.0 * phase - 2.0 : 6.0 - 8.0 * phase, 0.0, -down_mm);
         for (int i = 0; i < 20; ++i) {
             const double step_s = span_s / 20.0;
@@ -44,7 +46,7 @@ class Hand {
         HaplyService::Devices devices = still();
         devices.position_m += 0.001 * position_mm_;
         devices.velocity_m_per_s = 0.001 * velocity_mm_per_s_;
-        devices.a = time_s > 0.5;
+        devices.a = into_s > 0.5;
         return devices;
     }
     /// Where the server puts the start, the grip pointing down.
