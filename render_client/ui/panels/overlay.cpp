@@ -137,6 +137,8 @@ void draw_overlay(const OverlayContent& content, const glm::ivec2& size_px) {
     if (content.view->question != SessionQuestion::none && content.wishes != nullptr)
         panels.add_asked_for(Anchor::middle, session_dialog_size(content, painter),
                              [&](const PanelPlace& place) { draw_session_dialog(content, place); });
+    if (content.start != nullptr && content.link.status == LinkStatus::finished)
+        content.start->page.note_end_of_session();
     if (content.start != nullptr && content.start->is_due(content.link.status))
         panels.add_asked_for(Anchor::middle, start_panel_size(picture - 2.0f * margin),
                              [&](const PanelPlace& place) {

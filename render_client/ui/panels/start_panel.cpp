@@ -197,6 +197,8 @@ void draw_import(StartPage& page, StartPicture& picture) {
         ImGui::SameLine();
         ImGui::TextDisabled("%.0f million voxels", 1e-6 * voxels_of(form));
         ImGui::BeginChild("segments", list_size(3.5f), false);
+        if (button("Look there", !page.is_working())) page.look_at_region();
+        ImGui::SameLine();
         if (button("Add a segmentation ...", !page.is_working()))
             page.show(StartPage::View::segmentation_browser);
         draw_segments(form);

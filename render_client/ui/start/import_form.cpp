@@ -6,29 +6,38 @@
 
 namespace osteomill {
 
+namespace {
+
+/// With '=': a region may begin with a minus.
+std::string region_option(const ScanBox& region) {
+    const glm::dvec3& low = region.low_mm;
+    const glm::dvec3& high = region.high_mm;
+    return fmt::format("--region={:.2f},{:.2f},{:.2f},{:.2f},{:.2f},{:.2f}", low.x, low.y, low.z, high.x,
+                       high.y, high.z);
+}
+
+}  // namespace
+
 double voxels_of(const ImportForm& form) {
     const glm::dvec3 edges = (form.region.high_mm - form.region.low_mm) / form.spacing_mm + 1.0;
     return edges.x * edges.y * edges.z;
 }
 
 std::vector<std::string> look_command(const std::string& bone_import, const ImportForm& form,
-                                      const std::filesystem::path& picture) {
+                                      const std::filesystem::path& picture, bool at_region) {
     std::vector<std::string> command{bone_import, form.scan.string(), "--preview", picture.string()};
+    if (at_region) command.push_back(region_option(form.region));
     for (const auto& file : form.segmentations) command.push_back("--segmentation=" + file.string());
     return command;
 }
 
 std::vector<std::string> import_command(const std::string& bone_import, const ImportForm& form,
                                         const std::filesystem::path& folder) {
-    const glm::dvec3& low = form.region.low_mm;
-    const glm::dvec3& high = form.region.high_mm;
-    // With '=': a region may begin with a minus.
     std::vector<std::string> command{bone_import,
                                      form.scan.string(),
                                      "--case",
                                      folder.string(),
-                                     fmt::format("--region={:.2f},{:.2f},{:.2f},{:.2f},{:.2f},{:.2f}", low.x,
-                                                 low.y, low.z, high.x, high.y, high.z),
+                                     region_option(form.region),
                                      fmt::format("--threshold-hu={}", form.threshold_hu),
                                      fmt::format("--spacing-mm={}", form.spacing_mm)};
     if (form.keeps_soft_tissue) command.emplace_back("--keep-soft-tissue");

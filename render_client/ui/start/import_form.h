@@ -34,9 +34,10 @@ inline constexpr double preview_mm_per_px = 0.5;
 
 double voxels_of(const ImportForm& form);
 
-/// bone_import, as a path, with what it takes to look at the scan and at the segmentations.
+/// bone_import, as a path, with what it takes to look at the scan and at the segmentations; at the slices
+/// through the middle of the region, or of the scan.
 std::vector<std::string> look_command(const std::string& bone_import, const ImportForm& form,
-                                      const std::filesystem::path& picture);
+                                      const std::filesystem::path& picture, bool at_region);
 /// Likewise to make a case of it in `folder`.
 std::vector<std::string> import_command(const std::string& bone_import, const ImportForm& form,
                                         const std::filesystem::path& folder);

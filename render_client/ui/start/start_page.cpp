@@ -92,6 +92,10 @@ void StartPage::start() {
     }
 }
 
+void StartPage::note_end_of_session() {
+    if (is_session_running()) message_ = "the session has ended; its report is being written ...";
+}
+
 void StartPage::open_report() {
     if (!report_) return;
     try {
@@ -123,8 +127,8 @@ void StartPage::look_at_scan(bool is_another_scan) {
         scratch_ = scratch_folder();
         work_ = Work::look;
         is_another_scan_ = is_another_scan;
-        worker_ =
-            std::make_unique<ChildProgram>(look_command(program("bone_import"), form, scratch_ / "look.png"));
+        worker_ = std::make_unique<ChildProgram>(
+            look_command(program("bone_import"), form, scratch_ / "look.png", !is_another_scan));
         message_ = "looking at the scan ...";
     } catch (const std::exception& error) {
         message_ = error.what();

@@ -47,6 +47,8 @@ class StartPage {
     std::size_t chosen = 0;  ///< of cases()
     std::string trainee{};   ///< whose session it will be
     void start();
+    /// The window has seen the end of it: what remains to be done is its report.
+    void note_end_of_session();
     bool is_session_running() const { return server_ != nullptr && server_->is_running(); }
     /// Started a session that has ended.
     bool has_served() const { return !report_folder_.empty() && server_ == nullptr; }
@@ -61,6 +63,8 @@ class StartPage {
     const std::optional<Picture>& picture() const { return picture_; }
     std::uint64_t picture_number() const { return picture_number_; }  ///< another for each picture
     bool is_working() const { return worker_ != nullptr; }            ///< looks or imports
+    /// The slices through the middle of the region.
+    void look_at_region() { look_at_scan(false); }
     void import();
     void give_up_work();
 

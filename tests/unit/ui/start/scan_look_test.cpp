@@ -73,9 +73,10 @@ TEST(ImportForm, BecomesACommand) {
                                             "--target=Tumour"};
     EXPECT_EQ(import_command("bone_import", form, "/c/head 1"), expected);
     EXPECT_NEAR(voxels_of(form), 401.0 * 401.0 * 401.0, 1.0);
-    EXPECT_EQ(look_command("bone_import", form, "/t/look.png"),
+    EXPECT_EQ(look_command("bone_import", form, "/t/look.png", false),
               (std::vector<std::string>{"bone_import", "/s/head", "--preview", "/t/look.png",
                                         "--segmentation=/s/a b.seg.nrrd"}));
+    EXPECT_EQ(look_command("bone_import", form, "/t/look.png", true).at(4), expected.at(4));
 }
 
 TEST(ImportForm, KeepsWhatWasChosenWhenSegmentsComeOrGo) {
