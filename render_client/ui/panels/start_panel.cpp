@@ -62,6 +62,8 @@ void draw_cases(StartPage& page) {
     ImGui::SameLine();
     if (button("Import a scan ...", !page.is_session_running())) page.show(StartPage::View::scan_browser);
     ImGui::SameLine();
+    if (button("Compare all sessions", !page.is_working())) page.compare_sessions();
+    ImGui::SameLine();
     if (ImGui::Button("Hide this")) page.is_hidden = true;
     if (page.report()) {
         ImGui::AlignTextToFramePadding();

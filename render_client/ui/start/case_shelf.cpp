@@ -18,6 +18,19 @@ bool is_plain(char letter) {
            letter == '.';
 }
 
+/// The folders in `folder` that have this file, by name.
+std::vector<std::filesystem::path> folders_with(const std::filesystem::path& folder, const char* file) {
+    std::vector<std::filesystem::path> found;
+    std::error_code error;
+    for (std::filesystem::directory_iterator entry(folder, error), end; !error && entry != end;
+         entry.increment(error)) {
+        std::error_code ignored;
+        if (std::filesystem::is_regular_file(entry->path() / file, ignored)) found.push_back(entry->path());
+    }
+    std::sort(found.begin(), found.end());
+    return found;
+}
+
 std::string for_a_file(std::string text) {
     std::replace_if(
         text.begin(), text.end(), [](char letter) { return !is_plain(letter); }, '_');
@@ -35,19 +48,14 @@ std::filesystem::path home_of_cases() {
 
 std::vector<ShelvedCase> cases_in(const std::filesystem::path& folder) {
     std::vector<ShelvedCase> cases;
-    std::error_code error;
-    for (std::filesystem::directory_iterator entry(folder, error), end; !error && entry != end;
-         entry.increment(error)) {
-        std::error_code ignored;
-        if (std::filesystem::is_regular_file(entry->path() / "case.toml", ignored))
-            cases.push_back({entry->path().filename().string(), entry->path().string()});
-    }
-    std::sort(cases.begin(), cases.end(),
-              [](const ShelvedCase& a, const ShelvedCase& b) { return a.name < b.name; });
-    std::vector<ShelvedCase> all;
-    for (const char* name : built_in_cases) all.push_back({name, name});
-    all.insert(all.end(), cases.begin(), cases.end());
-    return all;
+    for (const char* name : built_in_cases) cases.push_back({name, name});
+    for (const auto& path : folders_with(folder, "case.toml"))
+        cases.push_back({path.filename().string(), path.string()});
+    return cases;
+}
+
+std::vector<std::filesystem::path> sessions_in(const std::filesystem::path& reports) {
+    return folders_with(reports, "session.pcap");
 }
 
 std::string wrong_with_name(const std::string& name, const std::filesystem::path& folder) {

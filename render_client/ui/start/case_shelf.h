@@ -30,6 +30,9 @@ std::vector<ShelvedCase> cases_in(const std::filesystem::path& folder);
 /// 60, no dot first, none like it in `folder`.
 std::string wrong_with_name(const std::string& name, const std::filesystem::path& folder);
 
+/// The folders of `reports` that hold a recorded session, by name.
+std::vector<std::filesystem::path> sessions_in(const std::filesystem::path& reports);
+
 /// Where a session that begins at `began` has its report: case, trainee and the local time, in `reports`.
 /// What no name of a file should have becomes _.
 std::filesystem::path report_folder(const std::filesystem::path& reports, const std::string& case_name,

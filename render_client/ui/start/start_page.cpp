@@ -174,6 +174,8 @@ void StartPage::end_of_work() {
         for (std::size_t i = 0; i < cases_.size(); ++i)
             if (cases_[i].name == form.name) chosen = i;
         message_ = fmt::format("{} is there", form.name);
+    } else if (work_ == Work::compare && is_good) {
+        open_page(places_.home / "comparison" / "sessions.html");
     } else if (work_ == Work::look && is_good) {
         look_ = read_scan_look(said);
         try {
@@ -211,7 +213,7 @@ bool StartPage::poll() {
     }
     if (opener_ && opener_->poll() && !opener_->is_running()) {
         has_news = true;
-        if (opener_->status() != 0) message_ = "no browser is known here; open it by hand";
+        if (opener_->status() != 0) message_ = "no browser is known here; open it by hand: " + message_;
         opener_.reset();
     }
     return has_news;

@@ -54,7 +54,12 @@ class StartPage {
     bool has_served() const { return !report_folder_.empty() && server_ == nullptr; }
     /// Of the last session, once it is written.
     const std::optional<std::filesystem::path>& report() const { return report_; }
-    void open_report();
+    /// In the user's browser.
+    void open_report() {
+        if (report_) open_page(*report_);
+    }
+    /// Of every session in the reports: tables and learning curves, which are opened when they are there.
+    void compare_sessions();
     bool is_hidden = false;  ///< until the next session: what is left of the last is looked at
 
     ImportForm form{};
@@ -75,6 +80,7 @@ class StartPage {
 
   private:
     std::string program(const char* name) const { return (places_.programs / name).string(); }
+    void open_page(const std::filesystem::path& page);
     void look_at_scan(bool is_another_scan);
     void end_of_work();
 
@@ -84,7 +90,7 @@ class StartPage {
     std::vector<ShelvedCase> cases_;
     FolderListing listing_;
 
-    enum class Work { look, import };
+    enum class Work { look, import, compare };
     Work work_ = Work::look;
     bool is_another_scan_ = false;
     std::unique_ptr<ChildProgram> worker_;

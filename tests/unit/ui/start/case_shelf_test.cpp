@@ -37,6 +37,17 @@ TEST(CaseShelf, RefusesNamesThatWouldBeNoFolderOrAreTaken) {
     EXPECT_THAT(wrong_with_name("tooth", folder / "."), HasSubstr("built in"));
 }
 
+TEST(CaseShelf, KnowsTheSessionsThatWereRecorded) {
+    const testing::TemporaryFolder folder;
+    for (const char* name : {"b", "a", "torn"}) std::filesystem::create_directories(folder / name);
+    for (const char* file : {"a/session.pcap", "b/session.pcap", "torn/session.part.pcap"})
+        std::ofstream(folder / file) << "x";
+    const auto sessions = sessions_in(folder / ".");
+    ASSERT_EQ(sessions.size(), 2U);
+    EXPECT_EQ(sessions[0].filename(), "a");
+    EXPECT_TRUE(sessions_in(folder / "nowhere").empty());
+}
+
 TEST(CaseShelf, NamesAReportByCaseTraineeAndTime) {
     ::setenv("TZ", "UTC", 1);
     EXPECT_EQ(report_folder("/r", "a jaw", "Anna O'Hara/../x", 0),
