@@ -96,14 +96,32 @@ void StartPage::note_end_of_session() {
     if (is_session_running()) message_ = "the session has ended; its report is being written ...";
 }
 
-void StartPage::open_report() {
-    if (!report_) return;
+void StartPage::open_page(const std::filesystem::path& page) {
+    message_ = page.string();
     try {
         opener_ =
-            std::make_unique<ChildProgram>(std::vector<std::string>{"/usr/bin/xdg-open", report_->string()});
-        message_.clear();
+            std::make_unique<ChildProgram>(std::vector<std::string>{"/usr/bin/xdg-open", page.string()});
     } catch (const std::exception&) {
-        message_ = "no browser is known here; open it by hand";
+        message_ = "no browser is known here; open it by hand: " + page.string();
+    }
+}
+
+void StartPage::compare_sessions() {
+    if (is_working()) return;
+    const auto sessions = sessions_in(places_.home / "reports");
+    if (sessions.empty()) {
+        message_ = "there is no session yet in " + (places_.home / "reports").string();
+        return;
+    }
+    std::vector<std::string> command{program("osteomill_study"), "sessions", "--out",
+                                     (places_.home / "comparison").string()};
+    for (const auto& session : sessions) command.push_back(session.string());
+    try {
+        work_ = Work::compare;
+        worker_ = std::make_unique<ChildProgram>(command);
+        message_ = "comparing ...";
+    } catch (const std::exception& error) {
+        message_ = error.what();
     }
 }
 
