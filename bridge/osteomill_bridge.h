@@ -164,27 +164,40 @@ static inline void omb_sha256_block(uint32_t state[8], const uint8_t block[64]) 
         0xa2bfe8a1u, 0xa81a664bu, 0xc24b8b70u, 0xc76c51a3u, 0xd192e819u, 0xd6990624u, 0xf40e3585u, 0x106aa070u,
         0x19a4c116u, 0x1e376c08u, 0x2748774cu, 0x34b0bcb5u, 0x391c0cb3u, 0x4ed8aa4au, 0x5b9cca4fu, 0x682e6ff3u,
         0x748f82eeu, 0x78a5636fu, 0x84c87814u, 0x8cc70208u, 0x90befffau, 0xa4506cebu, 0xbef9a3f7u, 0xc67178f2u};
-    uint32_t w[64], v[8];
+    uint32_t w[64];
+    uint32_t a = state[0], b = state[1], c = state[2], d = state[3];
+    uint32_t e = state[4], f = state[5], g = state[6], h = state[7];
     int i;
     for (i = 0; i < 16; ++i)
         w[i] = (uint32_t)block[4 * i] << 24 | (uint32_t)block[4 * i + 1] << 16 | (uint32_t)block[4 * i + 2] << 8 |
                (uint32_t)block[4 * i + 3];
     for (i = 16; i < 64; ++i) {
-        const uint32_t a = w[i - 15], b = w[i - 2];
-        w[i] = w[i - 16] + (omb_turn(a, 7) ^ omb_turn(a, 18) ^ (a >> 3)) + w[i - 7] +
-               (omb_turn(b, 17) ^ omb_turn(b, 19) ^ (b >> 10));
+        const uint32_t x = w[i - 15], y = w[i - 2];
+        w[i] = w[i - 16] + (omb_turn(x, 7) ^ omb_turn(x, 18) ^ (x >> 3)) + w[i - 7] +
+               (omb_turn(y, 17) ^ omb_turn(y, 19) ^ (y >> 10));
     }
-    memcpy(v, state, sizeof v);
     for (i = 0; i < 64; ++i) {
-        const uint32_t s1 = omb_turn(v[4], 6) ^ omb_turn(v[4], 11) ^ omb_turn(v[4], 25);
-        const uint32_t t1 = v[7] + s1 + ((v[4] & v[5]) ^ (~v[4] & v[6])) + k[i] + w[i];
-        const uint32_t s0 = omb_turn(v[0], 2) ^ omb_turn(v[0], 13) ^ omb_turn(v[0], 22);
-        const uint32_t t2 = s0 + ((v[0] & v[1]) ^ (v[0] & v[2]) ^ (v[1] & v[2]));
-        memmove(v + 1, v, 7 * sizeof v[0]);
-        v[4] += t1;
-        v[0] = t1 + t2;
+        const uint32_t s1 = omb_turn(e, 6) ^ omb_turn(e, 11) ^ omb_turn(e, 25);
+        const uint32_t t1 = h + s1 + ((e & f) ^ (~e & g)) + k[i] + w[i];
+        const uint32_t s0 = omb_turn(a, 2) ^ omb_turn(a, 13) ^ omb_turn(a, 22);
+        const uint32_t t2 = s0 + ((a & b) ^ (a & c) ^ (b & c));
+        h = g;
+        g = f;
+        f = e;
+        e = d + t1;
+        d = c;
+        c = b;
+        b = a;
+        a = t1 + t2;
     }
-    for (i = 0; i < 8; ++i) state[i] += v[i];
+    state[0] += a;
+    state[1] += b;
+    state[2] += c;
+    state[3] += d;
+    state[4] += e;
+    state[5] += f;
+    state[6] += g;
+    state[7] += h;
 }
 
 static inline void omb_sha256_begin(omb_sha256* sha) {
@@ -195,20 +208,23 @@ static inline void omb_sha256_begin(omb_sha256* sha) {
 }
 
 static inline void omb_sha256_add(omb_sha256* sha, const uint8_t* data, size_t bytes) {
-    size_t i;
-    for (i = 0; i < bytes; ++i) {
-        sha->block[sha->bytes++ % 64] = data[i];
-        if (sha->bytes % 64 == 0) omb_sha256_block(sha->state, sha->block);
+    while (bytes > 0) {
+        const size_t at = sha->bytes % 64;
+        const size_t part = bytes < 64 - at ? bytes : 64 - at;
+        memcpy(sha->block + at, data, part);
+        sha->bytes += part;
+        data += part;
+        bytes -= part;
+        if (at + part == 64) omb_sha256_block(sha->state, sha->block);
     }
 }
 
 static inline void omb_sha256_end(omb_sha256* sha, uint8_t digest[32]) {
+    static const uint8_t padding[64] = {0x80};
     const uint64_t bits = 8 * sha->bytes;
-    const uint8_t one = 0x80, zero = 0;
     uint8_t length[8];
     int i;
-    omb_sha256_add(sha, &one, 1);
-    while (sha->bytes % 64 != 56) omb_sha256_add(sha, &zero, 1);
+    omb_sha256_add(sha, padding, (sha->bytes % 64 < 56 ? 56 : 120) - sha->bytes % 64);
     for (i = 0; i < 8; ++i) length[i] = (uint8_t)(bits >> (56 - 8 * i));
     omb_sha256_add(sha, length, 8);
     for (i = 0; i < 32; ++i) digest[i] = (uint8_t)(sha->state[i / 4] >> (24 - 8 * (i % 4)));
@@ -217,34 +233,36 @@ static inline void omb_sha256_end(omb_sha256* sha, uint8_t digest[32]) {
 /* A secret that both ends read from a file: 32 bytes at least. */
 typedef struct omb_key {
     int is_given;
-    uint8_t block[64]; /* as HMAC takes it */
+    omb_sha256 inner, outer; /* behind the first block of each, which is the key's alone */
 } omb_key;
 
 static inline void omb_set_key(omb_key* key, const uint8_t* secret, size_t bytes) {
+    uint8_t block[64] = {0}, pad[64];
+    int i;
     memset(key, 0, sizeof *key);
     key->is_given = 1;
     if (bytes > 64) {
         omb_sha256 sha;
         omb_sha256_begin(&sha);
         omb_sha256_add(&sha, secret, bytes);
-        omb_sha256_end(&sha, key->block);
+        omb_sha256_end(&sha, block);
     } else {
-        memcpy(key->block, secret, bytes);
+        memcpy(block, secret, bytes);
     }
+    for (i = 0; i < 64; ++i) pad[i] = block[i] ^ 0x36;
+    omb_sha256_begin(&key->inner);
+    omb_sha256_add(&key->inner, pad, 64);
+    for (i = 0; i < 64; ++i) pad[i] = block[i] ^ 0x5c;
+    omb_sha256_begin(&key->outer);
+    omb_sha256_add(&key->outer, pad, 64);
 }
 
 static inline void omb_hmac(const omb_key* key, const uint8_t* data, size_t bytes, uint8_t digest[32]) {
-    omb_sha256 sha;
-    uint8_t pad[64], inner[32];
-    int i;
-    for (i = 0; i < 64; ++i) pad[i] = key->block[i] ^ 0x36;
-    omb_sha256_begin(&sha);
-    omb_sha256_add(&sha, pad, 64);
+    omb_sha256 sha = key->inner;
+    uint8_t inner[32];
     omb_sha256_add(&sha, data, bytes);
     omb_sha256_end(&sha, inner);
-    for (i = 0; i < 64; ++i) pad[i] = key->block[i] ^ 0x5c;
-    omb_sha256_begin(&sha);
-    omb_sha256_add(&sha, pad, 64);
+    sha = key->outer;
     omb_sha256_add(&sha, inner, 32);
     omb_sha256_end(&sha, digest);
 }
