@@ -240,7 +240,8 @@ int main(int argc, char** argv) {
             throw CLI::RequiresError("--voxel-mm", "--cases or --random");
         if (app.get_subcommands().empty())
             throw CLI::RequiredError(
-                "a study to run: force, stability, polishing, render, realtime, bridge, calibrate or sessions");
+                "a study to run: force, stability, polishing, render, realtime, bridge, calibrate or "
+                "sessions");
     } catch (const CLI::ParseError& error) {
         if (error.get_exit_code() == 0) return app.exit(error);
         std::cerr << "osteomill_study: " << error.what() << " (see --help)\n";

@@ -33,8 +33,8 @@ class StructureWatch {
   public:
     /// Of nothing.
     StructureWatch() = default;
-    /// `structures`: of one bone, by the index of their tissue. Throws std::length_error, in one line, for one
-    /// whose distance field would be too large.
+    /// `structures`: of one bone, by the index of their tissue. Throws std::length_error, in one line, for
+    /// one whose distance field would be too large.
     StructureWatch(std::vector<Structure> structures, const std::vector<Tissue>& tissues,
                    const std::vector<Burr>& burrs);
 

@@ -5,8 +5,8 @@
 #include <optional>
 #include <vector>
 
-#include "common/net/tls_options.h"
 #include "common/net/listen_address.h"
+#include "common/net/tls_options.h"
 #include "haptic_server/streaming/streaming_options.h"
 
 namespace osteomill {

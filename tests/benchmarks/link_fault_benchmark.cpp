@@ -27,9 +27,9 @@
 #include <vector>
 
 #include "render_client/link/bone_link.h"
+#include "studies/bridge/private_network.h"
 #include "tests/support/child_process.h"
 #include "tests/support/link_proxy.h"
-#include "studies/bridge/private_network.h"
 #include "tests/support/stranger.h"
 #include "tests/support/temporary_folder.h"
 
@@ -74,7 +74,9 @@ struct Stage {
     std::vector<std::unique_ptr<LinkProxy>> proxies{};  // outlive who comes through them
     std::vector<std::unique_ptr<Watcher>> watchers{};   // to be polled; the first has the fault
 
-    std::string address() const { return network != nullptr ? study::PrivateNetwork::server_address : "127.0.0.1"; }
+    std::string address() const {
+        return network != nullptr ? study::PrivateNetwork::server_address : "127.0.0.1";
+    }
     void watch(const std::string& where, std::uint16_t at) {
         watchers.push_back(std::make_unique<Watcher>(where, at));
     }

@@ -1,7 +1,7 @@
 #include <stdexcept>
 
-#include "tests/containers/two_machines.h"
 #include "studies/bridge/private_network.h"
+#include "tests/containers/two_machines.h"
 
 namespace osteomill::testing {
 

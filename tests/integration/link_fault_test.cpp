@@ -16,12 +16,12 @@
 
 #include "haptic_server/program/resident_memory.h"
 #include "render_client/link/bone_link.h"
+#include "studies/bridge/private_network.h"
 #include "tests/support/block_file.h"
 #include "tests/support/child_process.h"
 #include "tests/support/eventually.h"
 #include "tests/support/link_proxy.h"
 #include "tests/support/milling_motion.h"
-#include "studies/bridge/private_network.h"
 #include "tests/support/stranger.h"
 #include "tests/support/temporary_folder.h"
 

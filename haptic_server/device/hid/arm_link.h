@@ -24,11 +24,11 @@
 #include <cstdint>
 #include <optional>
 
+#include "haptic_server/device/clutch.h"
 #include "haptic_server/device/haptic_device.h"
 #include "haptic_server/device/hid/arm_kinematics.h"
 #include "haptic_server/device/hid/arm_profile.h"
 #include "haptic_server/device/hid/arm_report.h"
-#include "haptic_server/device/clutch.h"
 #include "haptic_server/device/hid/hid_transport.h"
 #include "haptic_server/device/hid/stylus_switch.h"
 #include "haptic_server/device/position_sensor.h"

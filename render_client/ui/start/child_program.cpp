@@ -8,7 +8,6 @@
 
 #include <array>
 #include <cerrno>
-#include <chrono>
 #include <csignal>
 #include <cstring>
 #include <stdexcept>
@@ -18,7 +17,6 @@ namespace osteomill {
 
 namespace {
 
-constexpr std::chrono::seconds longest_end{20};
 constexpr std::chrono::milliseconds between_looks{20};
 
 [[noreturn]] void fail(const std::string& program, int error) {
@@ -36,7 +34,8 @@ struct FileActions {
 
 }  // namespace
 
-ChildProgram::ChildProgram(const std::vector<std::string>& command) {
+ChildProgram::ChildProgram(const std::vector<std::string>& command, std::chrono::seconds longest_end)
+    : longest_end_(longest_end) {
     std::array<int, 2> ends{};
     if (::pipe2(ends.data(), O_CLOEXEC) != 0) fail(command.at(0), errno);
     ::fcntl(ends[0], F_SETFL, O_NONBLOCK);
@@ -59,7 +58,7 @@ ChildProgram::ChildProgram(const std::vector<std::string>& command) {
 
 ChildProgram::~ChildProgram() {
     ask_to_end();
-    const auto last = std::chrono::steady_clock::now() + longest_end;
+    const auto last = std::chrono::steady_clock::now() + longest_end_;
     while (!look_for_end(false) && std::chrono::steady_clock::now() < last) {
         read_output();  // one that writes to a full pipe does not end
         std::this_thread::sleep_for(between_looks);

@@ -1,6 +1,7 @@
 // Another program that this one runs: what it writes is read as it comes, and it ends with its owner.
 #pragma once
 
+#include <chrono>
 #include <optional>
 #include <string>
 #include <vector>
@@ -11,8 +12,10 @@ class ChildProgram {
   public:
     /// Without a shell; `command[0]` is a path. Throws std::runtime_error with one line where it cannot be
     /// run.
-    explicit ChildProgram(const std::vector<std::string>& command);
-    /// Asks it to end, waits for that as long as a report takes, and then has it killed.
+    /// `longest_end`: how long it is waited for when it is asked to end.
+    explicit ChildProgram(const std::vector<std::string>& command,
+                          std::chrono::seconds longest_end = std::chrono::seconds(2));
+    /// Asks it to end, waits for that, and then has it killed.
     ~ChildProgram();
     ChildProgram(const ChildProgram&) = delete;
     ChildProgram& operator=(const ChildProgram&) = delete;
@@ -35,6 +38,7 @@ class ChildProgram {
     bool read_output();
     bool look_for_end(bool waits);
 
+    std::chrono::seconds longest_end_;
     int pid_ = -1;
     int pipe_ = -1;
     std::string output_;

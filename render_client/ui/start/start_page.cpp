@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <cctype>
+#include <chrono>
 #include <cstdlib>
 #include <ctime>
 #include <stdexcept>
@@ -13,6 +14,9 @@
 namespace osteomill {
 
 namespace {
+
+/// A large bone is saved, and a report drawn.
+constexpr std::chrono::seconds longest_report{60};
 
 std::filesystem::path cases_of(const StartPlaces& places) {
     return places.home / "cases";
@@ -85,7 +89,7 @@ void StartPage::start() {
     if (!trainee.empty()) command.push_back("--trainee=" + trainee);
     try {
         std::filesystem::create_directories(places_.home / "reports");
-        server_ = std::make_unique<ChildProgram>(command);
+        server_ = std::make_unique<ChildProgram>(command, longest_report);
         message_ = fmt::format("{} is being made ready ...", wanted.name);
     } catch (const std::exception& error) {
         message_ = error.what();

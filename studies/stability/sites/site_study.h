@@ -21,7 +21,7 @@ struct SiteStudyOptions {
     int walks = 0;
     std::uint64_t seed = 1;
     bool has_edge_forces = false;  ///< burrs whose edges rub with 0.3 N/mm, as the tooth scene's
-    std::string only{};  ///< cases whose name holds this; one alone writes trace.csv, too
+    std::string only{};            ///< cases whose name holds this; one alone writes trace.csv, too
     int jobs = 1;
 };
 

@@ -56,8 +56,16 @@ TEST(ChildProgram, IsAskedToEndAndSaysWithWhichSignal) {
 
 TEST(ChildProgram, MayWriteWhatItLikesWhileItEndsWithItsOwner) {
     // More than a pipe holds: one that is not read would never end.
-    shell("trap 'head -c 1000000 /dev/zero; exit 0' TERM; echo ready; while :; do sleep 0.01; done");
+    (void)shell("trap 'head -c 1000000 /dev/zero; exit 0' TERM; echo ready; while :; do sleep 0.01; done");
     SUCCEED() << "it is over";
+}
+
+TEST(ChildProgram, ThatDoesNotListenIsKilled) {
+    for (const char* deaf : {"trap '' TERM; echo ready; while :; do sleep 0.01; done", "kill -STOP $$"}) {
+        ChildProgram program({"/bin/sh", "-c", deaf}, std::chrono::seconds(0));
+        std::this_thread::sleep_for(std::chrono::milliseconds(100));
+    }
+    SUCCEED() << "both are over";
 }
 
 TEST(ChildProgram, IsRememberedForNoMoreThanTheLastOfIt) {
