@@ -52,6 +52,15 @@ std::string without_program(const std::string& line) {
     return is_program ? line.substr(colon + 2) : line;
 }
 
+/// Of a session's program; empty where all went well.
+std::string end_in_words(const ChildProgram& server, const std::filesystem::path& report_folder) {
+    const int status = server.status().value_or(0);
+    if (status < 0)
+        return fmt::format("haptic_server was ended by signal {}; what it had recorded is in {}", -status,
+                           report_folder.string());
+    return status == 0 ? std::string() : without_program(server.last_line());
+}
+
 }  // namespace
 
 std::filesystem::path folder_of_this_program() {
@@ -229,7 +238,7 @@ bool StartPage::poll() {
             const std::filesystem::path page = report_folder_ / "report.html";
             std::error_code ignored;
             if (std::filesystem::exists(page, ignored)) report_ = page;
-            message_ = server_->status() == 0 ? std::string() : without_program(server_->last_line());
+            message_ = end_in_words(*server_, report_folder_);
             server_.reset();
         }
     }
