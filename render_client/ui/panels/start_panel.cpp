@@ -23,7 +23,10 @@ void text_field(const char* label, std::string& text, float width) {
 }
 
 void number_field(const char* label, double& number, const char* format) {
-    ImGui::SetNextItemWidth(5.0f * ImGui::GetFontSize());
+    // Six of them stand in a row, with words for two more.
+    const float letter = ImGui::GetFontSize();
+    ImGui::SetNextItemWidth(std::clamp((ImGui::GetWindowContentRegionMax().x - 12.0f * letter) / 6.0f,
+                                       3.0f * letter, 5.0f * letter));
     ImGui::InputDouble(label, &number, 0.0, 0.0, format);
 }
 
@@ -196,13 +199,13 @@ void draw_import(StartPage& page, StartPicture& picture) {
         form.spacing_mm = std::clamp(form.spacing_mm, 0.02, 10.0);
         ImGui::SameLine();
         ImGui::Checkbox("keep soft tissue", &form.keeps_soft_tissue);
-        ImGui::SameLine();
-        ImGui::TextDisabled("%.0f million voxels", 1e-6 * voxels_of(form));
         ImGui::BeginChild("segments", list_size(3.5f), false);
         if (button("Look there", !page.is_working())) page.look_at_region();
         ImGui::SameLine();
         if (button("Add a segmentation ...", !page.is_working()))
             page.show(StartPage::View::segmentation_browser);
+        ImGui::SameLine();
+        ImGui::TextDisabled("%.0f million voxels", 1e-6 * voxels_of(form));
         draw_segments(form);
         ImGui::EndChild();
         text_field("name of the case", form.name, 14.0f * ImGui::GetFontSize());
