@@ -61,7 +61,7 @@ RenderReport run_offscreen(const RenderOptions& options, SessionSource& source,
     gl::require_opengl_3_3();
     Panels panels;
     SessionPicture session(source, panels, options.window_size_px.value_or(default_size_px),
-                           FrameQuality::full, options.renderer, options.look);
+                           FrameQuality::full, options.renderer, options.look, options.stereo);
     session.limit_textures({.budget_bytes = options.texture_budget_bytes});
     session.view().theme = options.theme;
     session.view().cuts = options.cuts;

@@ -133,10 +133,31 @@ void add_look(CLI::App& app, RenderOptions& options) {
         ->type_name("SIDE[:MM]");
 }
 
+void add_stereo(CLI::App& app, StereoSettings& stereo) {
+    add_choice(app, "--stereo", {"off", "side-by-side", "top-bottom", "rows", "quad-buffer"},
+               std::vector{StereoLayout::off, StereoLayout::side_by_side, StereoLayout::top_bottom,
+                           StereoLayout::rows, StereoLayout::quad_buffer},
+               stereo.layout, "Draw for two eyes, as a 3D display takes it (off)");
+    app.add_option("--interpupillary", stereo.interpupillary_mm,
+                   "mm between the two eyes, 0 to 200 (0.08 of the convergence, as in a microscope)")
+        ->check(within(0.0, 200.0))
+        ->type_name("MM");
+    app.add_option("--convergence", stereo.convergence_mm,
+                   "mm from the eyes to what is seen at the display's depth, 1 to 10000 (what the view turns "
+                   "about)")
+        ->check(within(1.0, 10000.0))
+        ->type_name("MM");
+}
+
 /// What the options together get wrong; empty where they agree.
 std::string contradiction(const RenderOptions& options) {
     if (options.offscreen && options.until_server_ends)
         return "--until-server-ends is for a window; an offscreen run always ends with its session";
+    if (options.offscreen && options.stereo.layout == StereoLayout::quad_buffer)
+        return "--stereo quad-buffer is for a window; offscreen, use side-by-side, top-bottom or rows";
+    if (options.stereo.layout == StereoLayout::off &&
+        (options.stereo.interpupillary_mm || options.stereo.convergence_mm))
+        return "--interpupillary and --convergence need --stereo";
     if (options.screenshot_every > 0 && options.screenshots.empty())
         return "--screenshot-every needs --screenshots DIR";
     return {};
@@ -207,6 +228,7 @@ ParsedOptions parse_options(int argument_count, const char* const* arguments, co
            "Size of the picture (1280x800; 960x600 offscreen)")
         ->type_name("WxH");
     add_look(app, options);
+    add_stereo(app, options.stereo);
     app.add_option("--theme", options.theme, "Colours: dark or light (dark)")
         ->transform(CLI::CheckedTransformer(theme_names).description(""))
         ->type_name("NAME");

@@ -12,6 +12,7 @@
 #include "render_client/ui/view/cut_settings.h"
 #include "render_client/volume/passes/renderer_choice.h"
 #include "render_client/volume/shading_settings.h"
+#include "render_client/volume/stereo.h"
 #include "render_client/volume/textures/texture_plan.h"
 
 namespace osteomill {
@@ -25,6 +26,7 @@ struct RenderOptions {
     double speed = 1.0;                           ///< of the recording: recorded seconds a second
     RendererChoice renderer = RendererChoice::raycast;
     ShadingSettings look;
+    StereoSettings stereo;
     CutSettings cuts;  ///< the bone's bounds are not known yet
     bool offscreen = false;
     int frames = 300;                   ///< offscreen: ends after so many

@@ -90,7 +90,7 @@ class Drawing {
           window_(window),
           shared_(shared),
           session_(source, panels_, shared.mailbox.take().framebuffer_size_px, FrameQuality::on_demand,
-                   options.renderer, options.look),
+                   options.renderer, options.look, options.stereo),
           commands_(session_, shared.desk, source, options.screenshots),
           screenshots_(options.screenshots, screenshot_interval(options)) {
         session_.limit_textures({.budget_bytes = options.texture_budget_bytes});
@@ -187,7 +187,7 @@ class Drawing {
 
         if (session_.has_bone()) screenshots_.after_frame(framebuffer);
         if (session_over_) screenshots_.after_last_frame(framebuffer);
-        framebuffer.copy_colour_to_window();
+        session_.copy_to_window();
         window_.show_frame();
         const Clock::duration took = Clock::now() - start;
         const double took_s = std::chrono::duration<double>(took).count();
@@ -269,7 +269,8 @@ class DrawingThread {
 
 RenderReport run_in_window(const RenderOptions& options, SessionSource& source,
                            const std::function<bool()>& stop_asked) {
-    Window window(options.window_size_px.value_or(default_size_px), "Osteomill");
+    Window window(options.window_size_px.value_or(default_size_px), "Osteomill",
+                  options.stereo.layout == StereoLayout::quad_buffer);
     Shared shared{.desk = OperatorDesk(source)};
     shared.mailbox.post(window.take_input());
     RenderReport report;
@@ -288,6 +289,9 @@ RenderReport run_in_window(const RenderOptions& options, SessionSource& source,
         }
         const Clock::time_point now = Clock::now();
         WindowInput input = window.take_input();
+        // Pointed at is the left eye's picture, which is the left, or the upper, half of the window.
+        if (options.stereo.layout == StereoLayout::side_by_side) input.cursor.x *= 2.0;
+        if (options.stereo.layout == StereoLayout::top_bottom) input.cursor.y *= 2.0;
         if (window.take_close_asked()) {
             shared.close_asked = true;
             input.has_news = true;

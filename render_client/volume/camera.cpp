@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/common.hpp>
 #include <glm/ext/matrix_clip_space.hpp>
 #include <glm/ext/matrix_transform.hpp>
 #include <glm/geometric.hpp>
@@ -21,7 +22,7 @@ glm::dvec3 Camera::forward() const {
 }
 
 glm::dvec3 Camera::eye_mm() const {
-    return target_mm - distance_mm * forward();
+    return target_mm - distance_mm * forward() + eye_right_mm * right();
 }
 
 glm::dvec3 Camera::right() const {
@@ -33,12 +34,23 @@ glm::dvec3 Camera::up() const {
 }
 
 glm::dmat4 Camera::view() const {
-    return glm::lookAt(eye_mm(), target_mm, up());
+    return glm::lookAt(eye_mm(), eye_mm() + forward(), up());
+}
+
+glm::dvec2 Camera::half_extent(const glm::ivec2& size_px) const {
+    const double half_height = std::tan(0.5 * field_of_view_rad);
+    return {half_height * pixel_aspect * size_px.x / std::max(size_px.y, 1), half_height};
+}
+
+glm::dvec3 Camera::middle_ray() const {
+    return forward() + middle_slope * right();
 }
 
 glm::dmat4 Camera::projection(const glm::ivec2& size_px) const {
-    const double aspect = static_cast<double>(size_px.x) / std::max(size_px.y, 1);
-    return glm::perspective(field_of_view_rad, aspect, near_mm, far_mm);
+    const double aspect = pixel_aspect * size_px.x / std::max(size_px.y, 1);
+    glm::dmat4 projection = glm::perspective(field_of_view_rad, aspect, near_mm, far_mm);
+    projection[2][0] = middle_slope / half_extent(size_px).x;
+    return projection;
 }
 
 Camera camera_on(const glm::dvec3& centre_mm, double radius_mm) {
@@ -60,7 +72,8 @@ void orbit(Camera& camera, double azimuth_change_rad, double elevation_change_ra
 
 void pan(Camera& camera, const glm::dvec2& moved_px, const glm::ivec2& size_px) {
     const double mm_per_px = mm_per_px_at(camera, camera.target_mm, size_px);
-    camera.target_mm += mm_per_px * (moved_px.y * camera.up() - moved_px.x * camera.right());
+    camera.target_mm +=
+        mm_per_px * (moved_px.y * camera.up() - camera.pixel_aspect * moved_px.x * camera.right());
 }
 
 void zoom(Camera& camera, double distance_factor) {
@@ -76,15 +89,16 @@ double mm_per_px_at(const Camera& camera, const glm::dvec3& position_mm, const g
 glm::dvec2 pixel_of(const Camera& camera, const glm::dvec3& position_mm, const glm::ivec2& size_px) {
     const double mm_per_px = mm_per_px_at(camera, position_mm, size_px);
     const glm::dvec3 from_eye = position_mm - camera.eye_mm();
-    return {0.5 * size_px.x + glm::dot(from_eye, camera.right()) / mm_per_px,
+    const double from_middle_mm =
+        glm::dot(from_eye, camera.right()) - camera.middle_slope * glm::dot(from_eye, camera.forward());
+    return {0.5 * size_px.x + from_middle_mm / (camera.pixel_aspect * mm_per_px),
             0.5 * size_px.y - glm::dot(from_eye, camera.up()) / mm_per_px};
 }
 
 glm::dvec3 direction_through(const Camera& camera, const glm::dvec2& pixel, const glm::ivec2& size_px) {
-    const double half_height = std::tan(0.5 * camera.field_of_view_rad);
-    const glm::dvec2 from_middle = (pixel - 0.5 * glm::dvec2(size_px)) / (0.5 * std::max(size_px.y, 1));
-    return glm::normalize(camera.forward() +
-                          half_height * (from_middle.x * camera.right() - from_middle.y * camera.up()));
+    const glm::dvec2 from_middle =
+        camera.half_extent(size_px) * (2.0 * pixel / glm::max(glm::dvec2(size_px), 1.0) - 1.0);
+    return glm::normalize(camera.middle_ray() + from_middle.x * camera.right() - from_middle.y * camera.up());
 }
 
 }  // namespace osteomill

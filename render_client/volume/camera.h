@@ -19,6 +19,9 @@ struct Camera {
     double field_of_view_rad = 0.6;  ///< vertical
     double near_mm = 1.0;
     double far_mm = 1000.0;
+    double eye_right_mm = 0.0;  ///< how far the eye is to the right of the middle: one of a pair (stereo.h)
+    double middle_slope = 0.0;  ///< of the ray through the picture's middle: mm to the right a mm forward
+    double pixel_aspect = 1.0;  ///< width of a pixel, as it is shown, over its height
 
     bool operator==(const Camera&) const = default;
 
@@ -26,6 +29,10 @@ struct Camera {
     glm::dvec3 forward() const;  ///< unit; right and up complete it to the axes of the picture
     glm::dvec3 right() const;
     glm::dvec3 up() const;
+    /// Half the picture's width and height at distance 1, `size_px` as below.
+    glm::dvec2 half_extent(const glm::ivec2& size_px) const;
+    /// The ray through the picture's middle; 1 along forward().
+    glm::dvec3 middle_ray() const;
     glm::dmat4 view() const;
     /// OpenGL's clip space; `size_px` is the picture's.
     glm::dmat4 projection(const glm::ivec2& size_px) const;
@@ -41,7 +48,7 @@ void pan(Camera& camera, const glm::dvec2& moved_px, const glm::ivec2& size_px);
 /// Multiplies the distance, within the limits that keep the bone between near and far.
 void zoom(Camera& camera, double distance_factor);
 
-/// mm that a pixel spans at a point's depth.
+/// mm that a pixel's height spans at a point's depth.
 double mm_per_px_at(const Camera& camera, const glm::dvec3& position_mm, const glm::ivec2& size_px);
 
 /// Unit direction from the eye through a pixel (y down, from the picture's upper left corner).

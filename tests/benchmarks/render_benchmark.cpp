@@ -33,7 +33,8 @@ double cpu_s() {
 /// A client with its server played, and no window.
 class Client {
   public:
-    explicit Client(FrameQuality quality) : picture_(session_, panels_, size_px, quality) {
+    explicit Client(FrameQuality quality, StereoLayout layout = StereoLayout::off)
+        : picture_(session_, panels_, size_px, quality, RendererChoice::raycast, {}, {.layout = layout}) {
         // The first frame uploads, compiles and draws all of it: not what is measured.
         frame();
         frame();
@@ -91,6 +92,27 @@ void OrbitAtFullQuality(benchmark::State& state) {
 }
 BENCHMARK(OrbitAtFullQuality)->Iterations(20)->UseManualTime()->Unit(benchmark::kMillisecond);
 
+/// The view turns at full quality, for two eyes: of half the pixels each, as side by side, or of all, as
+/// where there is a buffer for each eye.
+void OrbitInStereo(benchmark::State& state) {
+    Client client(FrameQuality::full, static_cast<StereoLayout>(state.range(0)));
+    for ([[maybe_unused]] auto _ : state) {
+        orbit(client.picture().camera(), orbit_rad_a_frame, 0.0);
+        client.frame();
+        state.SetIterationTime(client.last_s());
+    }
+    client.report(state);
+}
+BENCHMARK(OrbitInStereo)
+    ->ArgName("layout")
+    ->Arg(static_cast<int>(StereoLayout::off))
+    ->Arg(static_cast<int>(StereoLayout::side_by_side))
+    ->Arg(static_cast<int>(StereoLayout::rows))
+    ->Arg(static_cast<int>(StereoLayout::quad_buffer))
+    ->Iterations(20)
+    ->UseManualTime()
+    ->Unit(benchmark::kMillisecond);
+
 /// The view turns; scale is the mean resolution that it took.
 void OrbitOnDemand(benchmark::State& state) {
     Client client(FrameQuality::on_demand);
@@ -147,6 +169,25 @@ BENCHMARK(CarveUnderStillCamera)
     ->ArgName("on_demand")
     ->Arg(static_cast<int>(FrameQuality::full))
     ->Arg(static_cast<int>(FrameQuality::on_demand))
+    ->Iterations(200)
+    ->UseManualTime()
+    ->Unit(benchmark::kMillisecond);
+
+/// The same at full quality for two eyes.
+void CarveInStereo(benchmark::State& state) {
+    Client client(FrameQuality::full, static_cast<StereoLayout>(state.range(0)));
+    client.session().mill(true);
+    for ([[maybe_unused]] auto _ : state) {
+        client.frame();
+        state.SetIterationTime(client.last_s());
+    }
+    client.report(state);
+}
+BENCHMARK(CarveInStereo)
+    ->ArgName("layout")
+    ->Arg(static_cast<int>(StereoLayout::off))
+    ->Arg(static_cast<int>(StereoLayout::side_by_side))
+    ->Arg(static_cast<int>(StereoLayout::quad_buffer))
     ->Iterations(200)
     ->UseManualTime()
     ->Unit(benchmark::kMillisecond);

@@ -70,7 +70,7 @@ PixelBox box_of(const ImDrawData& drawn, const ImDrawList& list, const ImDrawCmd
     const glm::vec2 scale(drawn.FramebufferScale.x, drawn.FramebufferScale.y);
     const glm::ivec2 first(glm::floor((low - origin) * scale));
     const glm::ivec2 end(glm::ceil((high - origin) * scale));
-    const int height = static_cast<int>(drawn.DisplaySize.y * scale.y);
+    const int height = static_cast<int>(std::lround(drawn.DisplaySize.y * scale.y));
     return {{first.x, height - end.y}, end - first};
 }
 
@@ -153,13 +153,15 @@ void Panels::feed(const WindowInput& input) {
     io.KeyAlt = input.alt;
 }
 
-void Panels::begin(const glm::ivec2& size_px, double elapsed_s, ThemeName theme, float scale) {
+void Panels::begin(const glm::ivec2& size_px, const glm::ivec2& drawn_px, double elapsed_s, ThemeName theme,
+                   float scale) {
     if (theme != theme_ || scale != scale_) set_style(theme, scale);
     ImGui_ImplOpenGL3_NewFrame();
     ImGuiIO& io = ImGui::GetIO();
     io.DeltaTime = static_cast<float>(std::max(elapsed_s, 1e-4));
     io.DisplaySize = {static_cast<float>(size_px.x), static_cast<float>(size_px.y)};
-    io.DisplayFramebufferScale = {1.0f, 1.0f};
+    io.DisplayFramebufferScale = {static_cast<float>(drawn_px.x) / io.DisplaySize.x,
+                                  static_cast<float>(drawn_px.y) / io.DisplaySize.y};
     ImGui::NewFrame();
     wheel_notches_ = io.MouseWheel;
 }
@@ -174,10 +176,13 @@ std::vector<PixelBox> Panels::input_boxes() const {
     return boxes;
 }
 
-std::vector<PixelBox> Panels::end() {
+std::vector<PixelBox> Panels::end(std::span<const gl::Framebuffer* const> pictures) {
     ImGui::Render();
     const ImDrawData* drawn = ImGui::GetDrawData();
-    ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
+    for (const gl::Framebuffer* picture : pictures) {
+        picture->bind();
+        ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
+    }
     return boxes_of(*drawn);
 }
 

@@ -6,10 +6,12 @@
 #pragma once
 
 #include <glm/vec2.hpp>
+#include <span>
 #include <vector>
 
 #include "render_client/ui/input/window_input.h"
 #include "render_client/ui/panels/theme.h"
+#include "render_client/volume/gl/framebuffer.h"
 #include "render_client/volume/passes/pixel_box.h"
 
 namespace osteomill {
@@ -25,10 +27,12 @@ class Panels {
     void feed(const WindowInput& input);
 
     /// Opens an ImGui frame, in the colours of `theme` and with letters and controls `scale` times as large
-    /// as on an ordinary display. `elapsed_s` is the time since the last one.
-    void begin(const glm::ivec2& size_px, double elapsed_s, ThemeName theme, float scale);
-    /// Draws what was put into the frame into the bound framebuffer; returns where that is.
-    std::vector<PixelBox> end();
+    /// as on an ordinary display. `elapsed_s` is the time since the last one. Panels are laid out in a
+    /// picture of `size_px` and drawn into pictures of `drawn_px`, which differ where two eyes share one.
+    void begin(const glm::ivec2& size_px, const glm::ivec2& drawn_px, double elapsed_s, ThemeName theme,
+               float scale);
+    /// Draws what was put into the frame into each of these pictures; returns where that is in them.
+    std::vector<PixelBox> end(std::span<const gl::Framebuffer* const> pictures);
 
     /// Where the panels that take the mouse were in the last frame, pixels, y down.
     std::vector<PixelBox> input_boxes() const;

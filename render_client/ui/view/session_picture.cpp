@@ -51,12 +51,13 @@ std::vector<TissueColour> tissue_colours(const SessionInfo* session, const Bone&
 }  // namespace
 
 SessionPicture::SessionPicture(SessionSource& source, Panels& panels, const glm::ivec2& size_px,
-                               FrameQuality quality, RendererChoice renderer, const ShadingSettings& look)
+                               FrameQuality quality, RendererChoice renderer, const ShadingSettings& look,
+                               const StereoSettings& stereo)
     : source_(source),
       panels_(panels),
       renderer_(make_renderer(renderer)),
       shading_(look),
-      picture_(*renderer_, size_px, quality == FrameQuality::on_demand ? &draw_timer_ : nullptr),
+      picture_(*renderer_, size_px, quality == FrameQuality::on_demand, stereo),
       size_px_(picture_.size_px()) {
     view_.transfer = TransferEditor(look.transfer);
 }
@@ -191,9 +192,8 @@ const gl::Framebuffer& SessionPicture::draw(double elapsed_s) {
     std::optional<DrawnTool> tool;
     const std::optional<ToolState> shown = shown_tool();
     if (shown) tool = drawn_tool(*shown);
-    const gl::Framebuffer& picture =
-        picture_.draw(textures_ ? &*textures_ : nullptr, tool ? &*tool : nullptr, camera_);
-    panels_.begin(size_px_, elapsed_s, view_.theme, view_.scale);
+    picture_.draw(textures_ ? &*textures_ : nullptr, tool ? &*tool : nullptr, camera_);
+    panels_.begin(size_px_, picture_.eye_size_px(), elapsed_s, view_.theme, view_.scale);
     draw_overlay({.link = link_,
                   .session = source_.session(),
                   .tool = shown,
@@ -212,12 +212,12 @@ const gl::Framebuffer& SessionPicture::draw(double elapsed_s) {
                   .bone_problem = bone_problem_,
                   .has_bone = has_bone()},
                  size_px_);
-    picture_.cover(panels_.end());
+    picture_.cover(panels_.end(picture_.pictures()));
     drawn_link_ = link_;
     drawn_state_ = tool_;
     drawn_command_ = operator_command_;
     has_undrawn_bone_ = false;
-    return picture;
+    return picture_.compose();
 }
 
 bool SessionPicture::has_turning_burr() const {

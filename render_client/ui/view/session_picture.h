@@ -9,10 +9,9 @@
 #include "render_client/ui/panels/panels.h"
 #include "render_client/ui/report.h"
 #include "render_client/ui/session_source.h"
-#include "render_client/volume/gl/draw_timer.h"
 #include "render_client/volume/gl/offscreen_context.h"
 #include "render_client/volume/passes/renderer_choice.h"
-#include "render_client/volume/passes/scene_picture.h"
+#include "render_client/volume/passes/stereo_picture.h"
 
 namespace osteomill {
 
@@ -25,7 +24,8 @@ class SessionPicture {
   public:
     SessionPicture(SessionSource& source, Panels& panels, const glm::ivec2& size_px,
                    FrameQuality quality = FrameQuality::full,
-                   RendererChoice renderer = RendererChoice::raycast, const ShadingSettings& look = {});
+                   RendererChoice renderer = RendererChoice::raycast, const ShadingSettings& look = {},
+                   const StereoSettings& stereo = {});
 
     /// Of the bones that come from now on.
     void limit_textures(const TextureLimits& limits) { texture_limits_ = limits; }
@@ -41,6 +41,8 @@ class SessionPicture {
     News take_in();
     /// Draws bone, tool and panels; leaves the framebuffer bound. `elapsed_s`: since the last frame.
     const gl::Framebuffer& draw(double elapsed_s);
+    /// What was drawn last, for the window whose context is current.
+    void copy_to_window() const { picture_.copy_to_window(); }
 
     /// How long the whole frame took, waiting excluded: what quality on demand goes by.
     void frame_took(double frame_s) { picture_.frame_took(frame_s); }
@@ -95,8 +97,7 @@ class SessionPicture {
     Panels& panels_;
     std::unique_ptr<BoneRenderer> renderer_;
     ShadingSettings shading_;
-    gl::DrawTimer draw_timer_;
-    ScenePicture picture_;
+    StereoPicture picture_;
     glm::ivec2 size_px_;
     Camera camera_;
     Camera first_view_;

@@ -37,7 +37,7 @@ std::string offered_opengl() {
 
 }  // namespace
 
-Window::Window(const glm::ivec2& size_px, const std::string& title) {
+Window::Window(const glm::ivec2& size_px, const std::string& title, bool quad_buffer) {
     if (!std::getenv("DISPLAY") && !std::getenv("WAYLAND_DISPLAY"))
         throw gl::NoOpenGl("no display (neither DISPLAY nor WAYLAND_DISPLAY is set); use --offscreen");
     if (!glfwInit()) throw gl::NoOpenGl("no window: " + last_glfw_error() + "; use --offscreen");
@@ -46,7 +46,14 @@ Window::Window(const glm::ivec2& size_px, const std::string& title) {
     glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
     glfwWindowHint(GLFW_OPENGL_FORWARD_COMPAT, GLFW_TRUE);
     glfwWindowHint(GLFW_CONTEXT_ROBUSTNESS, GLFW_LOSE_CONTEXT_ON_RESET);
+    glfwWindowHint(GLFW_STEREO, quad_buffer ? GLFW_TRUE : GLFW_FALSE);
     window_ = glfwCreateWindow(size_px.x, size_px.y, title.c_str(), nullptr, nullptr);
+    if (quad_buffer && !window_) {
+        glfwTerminate();
+        throw std::runtime_error(
+            "--stereo quad-buffer: this display or its driver has no buffers for two eyes; use side-by-side, "
+            "top-bottom or rows");
+    }
     if (!window_) {
         const std::string found = offered_opengl();
         glfwTerminate();

@@ -15,8 +15,9 @@ namespace osteomill {
 class Window {
   public:
     /// Throws gl::NoOpenGl where there is no display or no OpenGL 3.3; the message says what to do. The
-    /// context is current on no thread.
-    Window(const glm::ivec2& size_px, const std::string& title);
+    /// context is current on no thread. `quad_buffer`: with a back buffer for each eye; std::runtime_error
+    /// where the driver has none.
+    Window(const glm::ivec2& size_px, const std::string& title, bool quad_buffer = false);
     Window(const Window&) = delete;
     Window& operator=(const Window&) = delete;
     ~Window();

@@ -74,9 +74,18 @@ void Framebuffer::copy_to(const Framebuffer& target, const PixelBox& box) const 
                       GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT, GL_NEAREST);
 }
 
-void Framebuffer::copy_colour_to_window() const {
+void Framebuffer::copy_colour_to(const Framebuffer& target, const glm::ivec2& first) const {
+    const glm::ivec2 end = first + size_px_;
+    glBindFramebuffer(GL_READ_FRAMEBUFFER, id_);
+    glBindFramebuffer(GL_DRAW_FRAMEBUFFER, target.id_);
+    glBlitFramebuffer(0, 0, size_px_.x, size_px_.y, first.x, first.y, end.x, end.y, GL_COLOR_BUFFER_BIT,
+                      GL_NEAREST);
+}
+
+void Framebuffer::copy_colour_to_window(GLenum buffer) const {
     glBindFramebuffer(GL_READ_FRAMEBUFFER, id_);
     glBindFramebuffer(GL_DRAW_FRAMEBUFFER, 0);
+    glDrawBuffer(buffer);
     glBlitFramebuffer(0, 0, size_px_.x, size_px_.y, 0, 0, size_px_.x, size_px_.y, GL_COLOR_BUFFER_BIT,
                       GL_NEAREST);
     glBindFramebuffer(GL_FRAMEBUFFER, 0);

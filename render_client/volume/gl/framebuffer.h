@@ -22,8 +22,11 @@ class Framebuffer {
     void bind() const;
     /// glBlitFramebuffer of colour and depth within a box; sizes must be equal.
     void copy_to(const Framebuffer& target, const PixelBox& box) const;
-    /// glBlitFramebuffer of colour to the window's framebuffer, lower left corners together.
-    void copy_colour_to_window() const;
+    /// glBlitFramebuffer of colour to another picture, the lower left corner to pixel `first` of it.
+    void copy_colour_to(const Framebuffer& target, const glm::ivec2& first) const;
+    /// glBlitFramebuffer of colour to the window's framebuffer, lower left corners together. `buffer` is one
+    /// that the window has: GL_BACK, or GL_BACK_LEFT and GL_BACK_RIGHT where it has one for each eye.
+    void copy_colour_to_window(GLenum buffer = GL_BACK) const;
     /// Binds the colour, read between pixels by linear interpolation, to GL_TEXTURE0 + unit, and the depth,
     /// not interpolated, to the next unit.
     void bind_textures(int unit) const;

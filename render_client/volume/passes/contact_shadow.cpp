@@ -1,7 +1,5 @@
 #include "render_client/volume/passes/contact_shadow.h"
 
-#include <glm/trigonometric.hpp>
-
 #include "render_client/volume/passes/pixel_box.h"
 #include "render_client/volume/shaders/shader_files.h"
 
@@ -19,14 +17,13 @@ ContactShadow::ContactShadow() : program_(make_program(contact_shadow_files)) {}
 void ContactShadow::draw(const gl::Framebuffer& bone, const glm::dvec3& burr_mm, double radius_mm,
                          const glm::dvec3& spindle_axis, const Camera& camera, TileMask& covered) const {
     const glm::ivec2& size_px = covered.size_px();
-    const double half_height = glm::tan(0.5 * camera.field_of_view_rad);
-    const double half_width = half_height * size_px.x / size_px.y;
+    const glm::dvec2 half_extent = camera.half_extent(size_px);
     const glm::dmat4 projection = camera.projection(size_px);
     program_.use();
     program_.set("bone_depth", depth_unit);
-    program_.set("forward", glm::vec3(camera.forward()));
-    program_.set("right", glm::vec3(half_width * camera.right()));
-    program_.set("up", glm::vec3(half_height * camera.up()));
+    program_.set("middle_ray", glm::vec3(camera.middle_ray()));
+    program_.set("right", glm::vec3(half_extent.x * camera.right()));
+    program_.set("up", glm::vec3(half_extent.y * camera.up()));
     program_.set("eye", glm::vec3((camera.eye_mm() - burr_mm) / radius_mm));
     program_.set("spindle_axis", glm::vec3(spindle_axis));
     program_.set("picture_size", glm::vec2(size_px));

@@ -42,8 +42,13 @@ VoxelBox in_whole_blocks(const VoxelBox& box, const glm::ivec3& origin) {
 }  // namespace
 
 IncrementalBonePass::IncrementalBonePass(BoneRenderer& renderer, const glm::ivec2& size_px,
-                                         Stopwatch* stopwatch)
-    : renderer_(renderer), stopwatch_(stopwatch), layer_(size_px), coarse_({1, 1}), stale_(size_px) {}
+                                         Stopwatch* stopwatch, double frame_s)
+    : renderer_(renderer),
+      stopwatch_(stopwatch),
+      control_(frame_s),
+      layer_(size_px),
+      coarse_({1, 1}),
+      stale_(size_px) {}
 
 void IncrementalBonePass::resize(const glm::ivec2& size_px) {
     layer_ = gl::Framebuffer(size_px);

@@ -26,7 +26,9 @@ class IncrementalBonePass {
   public:
     /// `stopwatch` makes it draw on demand, at whatever quality keeps the rate of frames; null: always in
     /// full, however long it takes. Both must outlive the layer. The size is at least one pixel each way.
-    IncrementalBonePass(BoneRenderer& renderer, const glm::ivec2& size_px, Stopwatch* stopwatch);
+    /// `frame_s` is the part of a frame's time that it may take.
+    IncrementalBonePass(BoneRenderer& renderer, const glm::ivec2& size_px, Stopwatch* stopwatch,
+                        double frame_s = target_frame_s);
 
     void resize(const glm::ivec2& size_px);
     /// Cuts and background; another look than before makes all of it stale.

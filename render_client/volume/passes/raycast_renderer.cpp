@@ -1,7 +1,5 @@
 #include "render_client/volume/passes/raycast_renderer.h"
 
-#include <glm/trigonometric.hpp>
-
 #include "render_client/volume/shaders/look_uniforms.h"
 
 namespace osteomill {
@@ -21,14 +19,14 @@ RaycastRenderer::RaycastRenderer(const RaycastSettings& settings)
 
 void RaycastRenderer::draw(const BoneTextures& bone, const Camera& camera, const glm::ivec2& size_px) {
     background_.draw(look(), size_px);
-    const double half_height = glm::tan(0.5 * camera.field_of_view_rad);
-    const double half_width = half_height * size_px.x / size_px.y;
+    const glm::dvec2 half_extent = camera.half_extent(size_px);
     const gl::Program& program = bone_program_.use(bone, look());
     program.set("step_length", settings_.step_voxels);
     program.set("skips", settings_.skipping == EmptySpaceSkipping::distance_map ? 1 : 0);
     program.set("forward", glm::vec3(camera.forward()));
-    program.set("right", glm::vec3(half_width * camera.right()));
-    program.set("up", glm::vec3(half_height * camera.up()));
+    program.set("middle_ray", glm::vec3(camera.middle_ray()));
+    program.set("right", glm::vec3(half_extent.x * camera.right()));
+    program.set("up", glm::vec3(half_extent.y * camera.up()));
     program.set("eye", glm::vec3(bone.to_box_voxels(camera.eye_mm())));
     program.set("picture_size", glm::vec2(size_px));
     set_background_uniforms(program, look());

@@ -5,8 +5,9 @@
 
 namespace osteomill {
 
-ScenePicture::ScenePicture(BoneRenderer& renderer, const glm::ivec2& size_px, Stopwatch* stopwatch)
-    : layer_(renderer, glm::max(size_px, 1), stopwatch),
+ScenePicture::ScenePicture(BoneRenderer& renderer, const glm::ivec2& size_px, Stopwatch* stopwatch,
+                           double frame_s)
+    : layer_(renderer, glm::max(size_px, 1), stopwatch, frame_s),
       picture_(layer_.size_px()),
       covered_(layer_.size_px()) {}
 

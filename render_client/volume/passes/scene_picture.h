@@ -16,7 +16,9 @@ class ScenePicture {
   public:
     /// `stopwatch` makes it draw on demand, at whatever quality keeps the rate of frames; null: always in
     /// full. Renderer and stopwatch must outlive it.
-    ScenePicture(BoneRenderer& renderer, const glm::ivec2& size_px, Stopwatch* stopwatch = nullptr);
+    /// `frame_s` is the part of a frame's time that it may take on demand.
+    ScenePicture(BoneRenderer& renderer, const glm::ivec2& size_px, Stopwatch* stopwatch = nullptr,
+                 double frame_s = target_frame_s);
 
     /// Sizes of less than one pixel count as one.
     void resize(const glm::ivec2& size_px);
@@ -46,6 +48,8 @@ class ScenePicture {
     void frame_took(double frame_s) { layer_.frame_took(frame_s); }
     PictureQuality quality() const { return layer_.quality(); }
     const glm::ivec2& size_px() const { return picture_.size_px(); }
+    /// What draw() drew into.
+    const gl::Framebuffer& framebuffer() const { return picture_; }
 
   private:
     IncrementalBonePass layer_;

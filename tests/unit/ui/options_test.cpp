@@ -43,6 +43,19 @@ TEST(Options, ChooseRendererShadingAndTransferFunctionByName) {
     expect_refused({"--transfer", "skin"}, "ct-window");
 }
 
+TEST(Options, DrawForTwoEyes) {
+    EXPECT_EQ(parsed({}).options.stereo, StereoSettings{});
+    const ParsedOptions result =
+        parsed({"--stereo", "rows", "--interpupillary", "2.5", "--convergence", "30"});
+    ASSERT_FALSE(result.no_run.has_value()) << result.no_run->message;
+    EXPECT_EQ(result.options.stereo, (StereoSettings{StereoLayout::rows, 2.5, 30.0}));
+    expect_refused({"--stereo", "anaglyph"}, "quad-buffer");
+    expect_refused({"--stereo", "rows", "--convergence", "0"}, "--convergence: 0 is not within 1 to 10000");
+    expect_refused({"--stereo", "rows", "--interpupillary", "nan"}, "--interpupillary");
+    expect_refused({"--interpupillary", "60"}, "need --stereo");
+    expect_refused({"--offscreen", "--stereo", "quad-buffer"}, "is for a window");
+}
+
 TEST(Options, OpenTheBoneByTheSidesThatAreToGo) {
     EXPECT_FALSE(parsed({}).options.cuts.any());
     const ParsedOptions result = parsed({"--cut", "front", "--cut", "left:-2.5"});
