@@ -39,6 +39,7 @@ const gl::Framebuffer& ScenePicture::draw(const BoneTextures* bone, const DrawnT
         tool_renderer_.draw(*tool, camera, covered_);
     }
     if (bone) structures_.draw(camera, layer_.look(), covered_);
+    if (bone && tool) tool_renderer_.draw_seen_through(*tool, camera, picture_.size_px());
     return picture_;
 }
 

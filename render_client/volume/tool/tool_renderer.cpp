@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/common.hpp>
 #include <glm/ext/matrix_transform.hpp>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
@@ -22,6 +23,37 @@ glm::dmat4 z_to(const glm::dvec3& axis) {
     return {glm::dvec4(x, 0.0), glm::dvec4(y, 0.0), glm::dvec4(z, 0.0), glm::dvec4(0.0, 0.0, 0.0, 1.0)};
 }
 
+glm::dmat4 pose_of(const DrawnTool& tool) {
+    const glm::dmat4 at_burr =
+        glm::translate(glm::dmat4(1.0), tool.state.burr_position_mm) * z_to(tool.state.spindle_axis);
+    return glm::rotate(at_burr, tool.spin_rad, glm::dvec3(0, 0, 1));
+}
+
+// Values of sees_through in tool.frag.glsl.
+constexpr float leave_out = 1.0f;
+constexpr float leave_only = 2.0f;
+
+/// What the shank must not hide: the burr and what is round it, on the screen.
+struct HiddenField {
+    bool is_before_eye = false;
+    glm::dvec2 middle_px{0.0};  ///< y up
+    double radius_px = 1.0;
+    double radius_mm = 1.0;
+};
+
+/// From afar the burr alone would be too small a hole to look through.
+constexpr double least_radius_px = 8.0;
+constexpr double edge_radii = 2.5;  // as in tool.frag.glsl
+
+HiddenField field_of(const DrawnTool& tool, const Camera& camera, const glm::ivec2& size_px) {
+    const glm::dvec3& burr_mm = tool.state.burr_position_mm;
+    if (glm::dot(burr_mm - camera.eye_mm(), camera.forward()) < camera.near_mm) return {};
+    const double mm_per_px = mm_per_px_at(camera, burr_mm, size_px);
+    const double radius_px = std::max(0.5 * tool.burr.diameter_mm / mm_per_px, least_radius_px);
+    const glm::dvec2 down = pixel_of(camera, burr_mm, size_px);
+    return {true, {down.x, size_px.y - down.y}, radius_px, radius_px * mm_per_px};
+}
+
 }  // namespace
 
 ToolRenderer::ToolRenderer()
@@ -29,21 +61,32 @@ ToolRenderer::ToolRenderer()
       // Orange and sky blue of Okabe and Ito's palette: told apart by every kind of colour vision.
       arrow_(unit_arrow(linear_from_srgb({230, 159, 0}))),
       ghost_(unit_sphere(linear_from_srgb({86, 180, 233}))),
-      burr_(burr_and_shank(burr_shape_)) {}
+      head_(burr_head(burr_shape_)),
+      shank_(burr_shank(burr_shape_)) {}
 
 void ToolRenderer::draw(const DrawnTool& tool, const Camera& camera, TileMask& covered) {
     if (tool.burr != burr_shape_) {
         burr_shape_ = tool.burr;
-        burr_ = gl::Mesh(burr_and_shank(burr_shape_));
+        head_ = gl::Mesh(burr_head(burr_shape_));
+        shank_ = gl::Mesh(burr_shank(burr_shape_));
     }
     const glm::dmat4 view_projection = camera.projection(covered.size_px()) * camera.view();
     program_.use();
     program_.set("eye", glm::vec3(camera.eye_mm()));
-    const glm::dmat4 at_burr =
-        glm::translate(glm::dmat4(1.0), tool.state.burr_position_mm) * z_to(tool.state.spindle_axis);
+    const HiddenField field = field_of(tool, camera, covered.size_px());
+    program_.set("field_middle_px", glm::vec2(field.middle_px));
+    program_.set("field_radius_px", static_cast<float>(field.radius_px));
+    program_.set("field_radius_mm", static_cast<float>(field.radius_mm));
+    program_.set("burr_centre", glm::vec3(tool.state.burr_position_mm));
+    program_.set("forward", glm::vec3(camera.forward()));
+    const glm::dmat4 at_burr = pose_of(tool);
     glEnable(GL_DEPTH_TEST);
-    draw_mesh(burr_, glm::rotate(at_burr, tool.spin_rad, glm::dvec3(0, 0, 1)), view_projection,
-              {.polish = 1.0f}, covered);
+    draw_mesh(head_, at_burr, view_projection, {.polish = 1.0f}, covered);
+    // Through what is left out one must not look into the shank.
+    glEnable(GL_CULL_FACE);
+    draw_mesh(shank_, at_burr, view_projection,
+              {.polish = 1.0f, .sees_through = field.is_before_eye ? leave_out : 0.0f}, covered);
+    glDisable(GL_CULL_FACE);
 
     const double force_n = glm::length(tool.state.force_n);
     if (std::isfinite(force_n) && force_n > shortest_arrow_n) {
@@ -74,15 +117,50 @@ void ToolRenderer::draw(const DrawnTool& tool, const Camera& camera, TileMask& c
     }
 }
 
+// First the depth of what is nearest, then its colour: the shank is seen through once, not twice.
+void ToolRenderer::draw_seen_through(const DrawnTool& tool, const Camera& camera,
+                                     const glm::ivec2& size_px) const {
+    const HiddenField field = field_of(tool, camera, size_px);
+    if (!field.is_before_eye) return;
+    const glm::dvec2 middle = glm::clamp(field.middle_px, -1e6, 1e6);
+    const double reach = std::min(edge_radii * field.radius_px, 1e6) + 1.0;
+    const glm::ivec2 first = glm::max(glm::ivec2(middle - reach), 0);
+    const glm::ivec2 end = glm::min(glm::ivec2(middle + reach) + 1, size_px);
+    if (end.x <= first.x || end.y <= first.y) return;
+    program_.use();
+    place_mesh(pose_of(tool), camera.projection(size_px) * camera.view(),
+               {.polish = 1.0f, .sees_through = leave_only});
+    glEnable(GL_SCISSOR_TEST);
+    glScissor(first.x, first.y, end.x - first.x, end.y - first.y);
+    glEnable(GL_CULL_FACE);
+    glDepthFunc(GL_LEQUAL);
+    glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
+    shank_.draw();
+    glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+    glEnable(GL_BLEND);
+    glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
+    shank_.draw();
+    glDisable(GL_BLEND);
+    glDepthFunc(GL_LESS);
+    glDisable(GL_CULL_FACE);
+    glDisable(GL_SCISSOR_TEST);
+}
+
 void ToolRenderer::draw_mesh(const gl::Mesh& mesh, const glm::dmat4& model, const glm::dmat4& view_projection,
                              const Finish& finish, TileMask& covered) const {
     mark_box(covered, mesh.low(), mesh.high(), view_projection * model);
+    place_mesh(model, view_projection, finish);
+    mesh.draw();
+}
+
+void ToolRenderer::place_mesh(const glm::dmat4& model, const glm::dmat4& view_projection,
+                              const Finish& finish) const {
     program_.set("to_clip", glm::mat4(view_projection * model));
     program_.set("to_patient", glm::mat4(model));
     program_.set("normal_to_patient", glm::mat3(glm::transpose(glm::inverse(glm::dmat3(model)))));
     program_.set("opacity", finish.opacity);
     program_.set("polish", finish.polish);
-    mesh.draw();
+    program_.set("sees_through", finish.sees_through);
 }
 
 }  // namespace osteomill

@@ -1,5 +1,6 @@
 // A renderer of what is not bone: the burr with its shank, the force on the hand as an arrow, the hand's
-// target as a ghost. All are meshes, tested against the depth that the bone left.
+// target as a ghost. All are meshes, tested against the depth that the bone left. Where the shank lies before
+// the burr, or the field round it, it is seen through.
 #pragma once
 
 #include <glm/vec3.hpp>
@@ -33,21 +34,27 @@ class ToolRenderer {
     /// Draws over the bound framebuffer, whose depth is that of Camera::projection and whose size that of the
     /// mask; marks the tiles that it may have drawn into.
     void draw(const DrawnTool& tool, const Camera& camera, TileMask& covered);
+    /// The part of the shank that is seen through: over all that draw and others have drawn behind it. Right
+    /// after draw, of the same tool and camera.
+    void draw_seen_through(const DrawnTool& tool, const Camera& camera, const glm::ivec2& size_px) const;
 
   private:
     struct Finish {
         float opacity = 1.0f;
-        float polish = 0.0f;  ///< 0 matt, 1 steel
+        float polish = 0.0f;     ///< 0 matt, 1 steel
+        float sees_through = 0;  ///< as in tool.frag.glsl
     };
     /// The program must be in use.
     void draw_mesh(const gl::Mesh& mesh, const glm::dmat4& model, const glm::dmat4& view_projection,
                    const Finish& finish, TileMask& covered) const;
+    void place_mesh(const glm::dmat4& model, const glm::dmat4& view_projection, const Finish& finish) const;
 
     gl::Program program_;
     gl::Mesh arrow_;
     gl::Mesh ghost_;
     BurrShape burr_shape_;
-    gl::Mesh burr_;
+    gl::Mesh head_;
+    gl::Mesh shank_;
 };
 
 }  // namespace osteomill

@@ -137,29 +137,28 @@ Triangles fluted_head(const BurrShape& burr, const BurrProfile& profile) {
 
 }  // namespace
 
-Triangles burr_and_shank(const BurrShape& burr) {
+Triangles burr_head(const BurrShape& burr) {
+    if (burr.head.shape == HeadShape::ball) return fluted_sphere(burr);
+    return fluted_head(burr, BurrProfile(burr.head, burr.diameter_mm));
+}
+
+Triangles burr_shank(const BurrShape& burr) {
     const double radius = 0.5 * burr.diameter_mm;
     const double shank = radius > 1.0 ? handpiece_shank_radius_mm : turbine_shank_radius_mm;
     double neck = 0.45 * radius;
     double head_end = radius;
-    Triangles tool;
-    if (burr.head.shape == HeadShape::ball) {
-        tool = fluted_sphere(burr);
-    } else {
-        const BurrProfile profile(burr.head, burr.diameter_mm);
-        tool = fluted_head(burr, profile);
-        head_end = profile.top_height();
+    if (burr.head.shape != HeadShape::ball) {
+        head_end = BurrProfile(burr.head, burr.diameter_mm).top_height();
         neck = std::min(neck, 0.4 * burr.head.neck_diameter_mm);
     }
     const double neck_end = head_end + std::max(2.0, 1.2 * radius);
     const double taper_end = neck_end + 3.0;
-    append(tool, lathe({{head_end - 0.2 * radius, neck},
-                        {neck_end, neck},
-                        {taper_end, shank},
-                        {taper_end + shank_length_mm, shank},
-                        {taper_end + shank_length_mm, 0.0}},
-                       marked_shank));
-    return tool;
+    return lathe({{head_end - 0.2 * radius, neck},
+                  {neck_end, neck},
+                  {taper_end, shank},
+                  {taper_end + shank_length_mm, shank},
+                  {taper_end + shank_length_mm, 0.0}},
+                 marked_shank);
 }
 
 Triangles unit_arrow(const glm::vec3& linear_rgb) {

@@ -15,9 +15,12 @@ struct BurrShape {
     bool operator==(const BurrShape&) const = default;
 };
 
-/// Fluted head, tapered neck and cylindrical shank in the burr frame: +z from tip to shank, mm. The flutes
-/// are cut into the head, so the outline is the burr's true one.
-Triangles burr_and_shank(const BurrShape& burr);
+/// Fluted head in the burr frame: +z from tip to shank, mm. The flutes are cut into the head, so the outline
+/// is the burr's true one.
+Triangles burr_head(const BurrShape& burr);
+
+/// Tapered neck and cylindrical shank in the same frame. Its lower end is open, within the head.
+Triangles burr_shank(const BurrShape& burr);
 
 /// An arrow from the origin along +z of length 1 with a shaft and a head.
 Triangles unit_arrow(const glm::vec3& linear_rgb);

@@ -44,6 +44,58 @@ TEST_F(ScenePictureTest, HidesTheToolBehindBoneAndShowsItInFront) {
     EXPECT_NE(middle(picture.draw(&textures, &in_front, camera).read_back()), middle(bone_alone));
 }
 
+TEST_F(ScenePictureTest, ShowsTheBurrThroughAShankBeforeIt) {
+    Camera camera = camera_on({0.0, 0.0, 3.2}, 15.0);
+    camera.elevation_rad = 1.5;
+    DrawnTool tool = burr_at({0.0, 0.0, 3.2});
+    tool.state.spindle_axis = -camera.forward();
+    const gl::Framebuffer plain(size_px);
+    plain.bind();
+    const std::array<float, 3> background{0.2f, 0.9f, 0.2f};  // steel is grey
+    glClearColor(background[0], background[1], background[2], 1.0f);
+    glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+    ToolRenderer tool_renderer;
+    TileMask covered(size_px);
+    tool_renderer.draw(tool, camera, covered);
+    const auto burr = plain.read_back().at(size_px.x / 2, size_px.y / 2);
+    tool_renderer.draw_seen_through(tool, camera, size_px);
+    const auto mixed = plain.read_back().at(size_px.x / 2, size_px.y / 2);
+    EXPECT_NEAR(burr[1], burr[0], 30) << "the burr, not the green behind it";
+    EXPECT_FALSE(std::equal(mixed.begin(), mixed.end(), burr.begin())) << "the shank is to be seen, a little";
+    // A part of 0.22 of it.
+    for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR(mixed[i], burr[i], 0.22 * 255 + 1) << i;
+}
+
+TEST_F(ScenePictureTest, ChangesThePictureOfAShankOnlyWhereItHides) {
+    const BoneTextures textures(ball(), {});
+    RaycastRenderer renderer;
+    ToolRenderer tool_renderer;
+    DrawnTool tool = burr_at({0.0, 0.0, 3.2});
+    for (const double elevation_rad : {-0.2, 0.0, 0.2, 0.5, 0.9, 1.2, 1.5}) {
+        Camera camera = camera_on({0.0, 0.0, 3.2}, 6.0);
+        camera.elevation_rad = elevation_rad;
+        ScenePicture scene(renderer, size_px);
+        scene.draw(&textures, nullptr, camera);
+        const Picture without = scene.draw(&textures, nullptr, camera).read_back();
+        const Picture with = scene.draw(&textures, &tool, camera).read_back();
+        // The next frame restores all that was drawn.
+        EXPECT_EQ(scene.draw(&textures, nullptr, camera).read_back(), without) << elevation_rad;
+        // From aside the second pass has nothing to draw.
+        gl::Framebuffer plain(size_px);
+        plain.bind();
+        glClearColor(0.2f, 0.4f, 0.6f, 1.0f);
+        glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+        TileMask covered(size_px);
+        tool_renderer.draw(tool, camera, covered);
+        const Picture before = plain.read_back();
+        tool_renderer.draw_seen_through(tool, camera, size_px);
+        const bool is_seen_through = !(plain.read_back() == before);
+        if (elevation_rad <= 0.2 || elevation_rad >= 1.2) {
+            EXPECT_EQ(is_seen_through, elevation_rad > 1.0) << elevation_rad;
+        }
+    }
+}
+
 /// A hilly slab as wide as the grid, so that walls shade each other.
 Bone hills() {
     return made_bone(grid, [](const glm::dvec3& p) {

@@ -8,6 +8,13 @@
 namespace osteomill::tool_shape_test {
 namespace {
 
+Triangles burr_and_shank(const BurrShape& burr) {
+    Triangles tool = burr_head(burr);
+    const Triangles shank = burr_shank(burr);
+    tool.vertices.insert(tool.vertices.end(), shank.vertices.begin(), shank.vertices.end());
+    return tool;
+}
+
 TEST(ToolShape, HasTheBurrsRadiusAndAShankTowardsPlusZ) {
     const Triangles tool = burr_and_shank({.diameter_mm = 3.0, .edges = 6, .clockwise = true});
     float lowest = 0.0f, highest = 0.0f, widest_of_burr = 0.0f;
