@@ -13,6 +13,8 @@ constexpr std::array<double, 11> divisors{1.0, 1.25, 1.5, 1.75, 2.0, 2.25, 2.5, 
 constexpr double coarsest_whole = 4.0;
 constexpr double coarsest_parts = 2.0;
 constexpr double least_part_for_drawing = 0.25;
+constexpr double frames_in_one_at_rest = 3.0;
+constexpr double least_part_at_rest = 0.5;
 constexpr double rise_a_measurement = 0.5;
 constexpr double fall_a_measurement = 0.2;
 constexpr double full_enough_to_refine = 0.8;
@@ -48,9 +50,17 @@ void DetailControl::frame_took(double frame_s, double drawing_s) {
 }
 
 std::int64_t DetailControl::affordable_pixels(Extent extent) const {
+    return pixels_in(extent, std::max(frame_s_ - rest_s_, least_part_for_drawing * frame_s_));
+}
+
+std::int64_t DetailControl::affordable_pixels_at_rest() const {
+    const double frame_s = frames_in_one_at_rest * frame_s_;
+    return pixels_in(Extent::parts, std::max(frame_s - rest_s_, least_part_at_rest * frame_s));
+}
+
+std::int64_t DetailControl::pixels_in(Extent extent, double room_s) const {
     const bool parts_known = extent == Extent::parts && parts_.s_per_px > 0.0;
     const double s_per_px = parts_known ? parts_.s_per_px : whole_.s_per_px;
-    const double room_s = std::max(frame_s_ - rest_s_, least_part_for_drawing * frame_s_);
     constexpr auto most = std::numeric_limits<std::int64_t>::max();
     const double affordable = s_per_px > 0.0 ? room_s / s_per_px : static_cast<double>(most);
     return affordable < static_cast<double>(most) ? static_cast<std::int64_t>(affordable) : most;

@@ -3,10 +3,11 @@
 // whole.
 //
 // A frame has room for `target_frame_s` less what the rest of it takes (tool, panels, showing the picture),
-// but at least for a quarter of it. What is known follows a measurement by half of the difference upwards and
-// by a fifth downwards: a frame that comes late is worse than one that is a little coarse. Parts of a picture
-// under a still camera are counted by themselves: they are where the bone is, and dearer than the average
-// that background lowers.
+// but at least for a quarter of it. Where nothing moves, a frame may take three times as long, and half of
+// that is the least: then nobody sees its rate, but how long the picture stays coarse. What is known follows
+// a measurement by half of the difference upwards and by a fifth downwards: a frame that comes late is worse
+// than one that is a little coarse. Parts of a picture under a still camera are counted by themselves: they
+// are where the bone is, and dearer than the average that background lowers.
 #pragma once
 
 #include <cstdint>
@@ -31,6 +32,8 @@ class DetailControl {
 
     /// Pixels for which there is room in a frame; without limit as long as nothing is known.
     std::int64_t affordable_pixels(Extent extent) const;
+    /// The same of parts, while neither camera nor bone moves.
+    std::int64_t affordable_pixels_at_rest() const;
 
     /// By how much to divide width and height of so many pixels: 1 for full resolution, up to
     /// 4 for a whole picture and 2 for parts: one that is coarser hides what the hand works at. It falls
@@ -43,6 +46,8 @@ class DetailControl {
         double s_per_px = 0.0;  ///< zero: nothing was measured yet
         double divisor = 1.0;
     };
+
+    std::int64_t pixels_in(Extent extent, double room_s) const;
 
     double frame_s_;
     double rest_s_ = 0.0;

@@ -85,6 +85,7 @@ TileMask IncrementalBonePass::update(const BoneTextures& bone, const Camera& cam
         fresh = tiles_of_changes(bone, camera, shading_reach_voxels);
         misplaced = tiles_of_changes(bone, camera, surface_reach_voxels);
     }
+    frames_of_calm_ = moved || !dirty_.empty() ? 0 : frames_of_calm_ + 1;
     dirty_.clear();
     camera_ = camera;
     frames_at_rest_ = moved ? 0 : frames_at_rest_ + 1;
@@ -93,14 +94,15 @@ TileMask IncrementalBonePass::update(const BoneTextures& bone, const Camera& cam
     if (!stale_.any()) return stale_;
 
     const Extent extent = moved ? Extent::whole : Extent::parts;
+    std::int64_t room_px = frames_of_calm_ >= frames_before_refining ? control_.affordable_pixels_at_rest()
+                                                                     : control_.affordable_pixels(extent);
     const bool fits = !stopwatch_ || (moved ? control_.divisor_for(extent, stale_.pixels()) == 1.0
-                                            : stale_.pixels() <= control_.affordable_pixels(extent));
+                                            : stale_.pixels() <= room_px);
     if (fits) {
         const TileMask drawn = stale_;
         draw_exact(bone, camera, drawn, extent);
         return drawn;
     }
-    std::int64_t room_px = control_.affordable_pixels(extent);
     TileMask exact(size_px());
     if (misplaced.any()) {
         const double divisor = control_.divisor_for(extent, misplaced.pixels());

@@ -78,7 +78,8 @@ class IncrementalBonePass {
     std::size_t next_tile_ = 0;      ///< whose turn it is to be refined
     std::vector<VoxelBox> dirty_;  ///< voxels of the bone's grid, whole blocks: shading reads means over them
     std::optional<Camera> camera_;  ///< that the layer shows; none: there is nothing in it yet
-    int frames_at_rest_ = 0;
+    int frames_at_rest_ = 0;        ///< of the camera
+    int frames_of_calm_ = 0;        ///< of camera and bone
     std::int64_t drawn_this_frame_px_ = 0;
     bool measures_this_frame_ = false;
     std::optional<Measured> measured_;  ///< what the stopwatch runs, or ran, for
