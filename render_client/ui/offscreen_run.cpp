@@ -64,6 +64,9 @@ RenderReport run_offscreen(const RenderOptions& options, SessionSource& source,
                            FrameQuality::full, options.renderer, options.look, options.stereo);
     session.limit_textures({.budget_bytes = options.texture_budget_bytes});
     session.view().theme = options.theme;
+    session.view().light_field = options.light_field;
+    session.view().inset = options.inset;
+    session.set_first_magnification(options.magnification);
     session.view().cuts = options.cuts;
     session.view().scale = static_cast<float>(options.ui_scale.value_or(1.0));
     session.view().panels_shown = options.panels;

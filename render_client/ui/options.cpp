@@ -16,6 +16,7 @@
 #include "common/net/tls_options.h"
 #include "common/program/option_checks.h"
 #include "render_client/link/recording_player.h"
+#include "render_client/volume/magnification.h"
 
 namespace osteomill {
 
@@ -149,6 +150,18 @@ void add_stereo(CLI::App& app, StereoSettings& stereo) {
         ->type_name("MM");
 }
 
+void add_microscope(CLI::App& app, RenderOptions& options) {
+    std::vector<std::string> steps;
+    for (const double step : magnification_steps) steps.push_back(fmt::format("{}", step));
+    add_choice(app, "--magnification", steps,
+               std::vector<double>(magnification_steps.begin(), magnification_steps.end()),
+               options.magnification, "Of the first view, in the steps of a microscope (1)");
+    app.add_flag("--light-field", options.light_field, "Show only a microscope's round field");
+    add_choice(app, "--inset", {"off", "endoscope", "axial"},
+               std::vector{InsetKind::off, InsetKind::endoscope, InsetKind::axial}, options.inset,
+               "A second, small view: along the handpiece, or an axial section through the burr (off)");
+}
+
 /// What the options together get wrong; empty where they agree.
 std::string contradiction(const RenderOptions& options) {
     if (options.offscreen && options.until_server_ends)
@@ -229,6 +242,7 @@ ParsedOptions parse_options(int argument_count, const char* const* arguments, co
         ->type_name("WxH");
     add_look(app, options);
     add_stereo(app, options.stereo);
+    add_microscope(app, options);
     app.add_option("--theme", options.theme, "Colours: dark or light (dark)")
         ->transform(CLI::CheckedTransformer(theme_names).description(""))
         ->type_name("NAME");

@@ -10,6 +10,7 @@
 #include "common/net/tls_files.h"
 #include "render_client/ui/panels/theme.h"
 #include "render_client/ui/view/cut_settings.h"
+#include "render_client/ui/view/inset_view.h"
 #include "render_client/volume/passes/renderer_choice.h"
 #include "render_client/volume/shading_settings.h"
 #include "render_client/volume/stereo.h"
@@ -27,6 +28,9 @@ struct RenderOptions {
     RendererChoice renderer = RendererChoice::raycast;
     ShadingSettings look;
     StereoSettings stereo;
+    double magnification = 1.0;
+    bool light_field = false;
+    InsetKind inset = InsetKind::off;
     CutSettings cuts;  ///< the bone's bounds are not known yet
     bool offscreen = false;
     int frames = 300;                   ///< offscreen: ends after so many

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <imgui.h>
 
+#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <cmath>
@@ -30,6 +31,8 @@ using Clock = std::chrono::steady_clock;
 constexpr glm::ivec2 default_size_px(1280, 800);
 constexpr double orbit_rad_per_px = 0.008;
 constexpr double zoom_per_notch = 0.88;
+/// Of the picture's height, for as long as a key is held.
+constexpr double view_motion_a_s = 0.5;
 constexpr double cut_mm_per_notch = 0.5;
 /// A display without vertical synchronisation must not take the cores from a server beside it: twice the
 /// rate of its frames is smooth. So often the link is looked at, too, where nothing is drawn.
@@ -95,6 +98,9 @@ class Drawing {
           screenshots_(options.screenshots, screenshot_interval(options)) {
         session_.limit_textures({.budget_bytes = options.texture_budget_bytes});
         session_.view().theme = options.theme;
+        session_.view().light_field = options.light_field;
+        session_.view().inset = options.inset;
+        session_.set_first_magnification(options.magnification);
         session_.view().cuts = options.cuts;
         session_.view().panels_shown = options.panels;
         session_.offer_controls();
@@ -132,7 +138,8 @@ class Drawing {
             commands_.ask_to_end();
             redraw_.note_change(now);
         }
-        if (happened.has_news || (start_ && start_->page.poll())) redraw_.note_change(now);
+        const bool view_moves = view_motion() != glm::ivec2(0);
+        if (happened.has_news || view_moves || (start_ && start_->page.poll())) redraw_.note_change(now);
         input_.append(happened);
 
         const SessionPicture::News news = session_.take_in();
@@ -172,6 +179,10 @@ class Drawing {
         const gl::Framebuffer& framebuffer = session_.draw(elapsed_s);
         // Dear ImGui took the input in while the panels were drawn; it takes effect in the next frame.
         move_camera(session_, commands_, panels_.wheel_notches(), !drills_);
+        pan(session_.camera(),
+            -view_motion_a_s * std::min(elapsed_s, longest_wait_s) * session_.size_px().y *
+                glm::dvec2(view_motion()),
+            session_.size_px());
         for (const Action action :
              actions_of(input_.presses, situation_of(drills_, source_.player() != nullptr)))
             if (!has_keyboard() || action == Action::end) commands_.take(action);
@@ -195,6 +206,10 @@ class Drawing {
         if (has_new_notice) redraw_.note_change(start + took);
         session_.frame_took(took_s);
         frame_times_.add(1e3 * took_s);
+    }
+
+    glm::ivec2 view_motion() const {
+        return has_keyboard() ? glm::ivec2(0) : held_view_motion(input_.keys_down);
     }
 
     /// A text is being written: letters are no commands.

@@ -30,6 +30,8 @@ struct SceneLook {
     glm::vec3 background_low{0.035f, 0.040f, 0.048f};  ///< linear RGB at the picture's lower edge
     glm::vec3 background_high{0.115f, 0.130f, 0.150f};
 
+    bool light_field = false;  ///< only what is in a microscope's round field is lit
+
     bool operator==(const SceneLook&) const = default;
 };
 

@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "render_client/volume/magnification.h"
 #include "render_client/volume/surface_pick.h"
 
 namespace osteomill {
@@ -87,6 +88,16 @@ void Commands::take(Action action) {
             break;
         case Action::first_view:
             session_.reset_camera();
+            break;
+        case Action::magnify:
+        case Action::widen:
+            magnify_by_step(session_.camera(), action == Action::magnify);
+            break;
+        case Action::light_field:
+            view.light_field = !view.light_field;
+            break;
+        case Action::inset:
+            view.inset = static_cast<InsetKind>((static_cast<int>(view.inset) + 1) % 3);
             break;
         case Action::screenshot:
             picture_wanted_ = true;

@@ -87,6 +87,16 @@ const std::vector<KeyBinding>& table() {
         {view, always, {}, Action::none, "wheel", "zoom"},
         {view, always, {}, Action::none, "click on the cube", "look at that side"},
         {view, always, {GLFW_KEY_HOME}, Action::first_view, "HOME", "the first view again"},
+        {view,
+         always,
+         {GLFW_KEY_A, GLFW_KEY_D, GLFW_KEY_E, GLFW_KEY_Q},
+         Action::none,
+         "A, D, E, Q (held)",
+         "the view to the left, right, up, down"},
+        {view, always, {GLFW_KEY_EQUAL, GLFW_KEY_KP_ADD}, Action::magnify, "+", "magnify by a step"},
+        {view, always, {GLFW_KEY_MINUS, GLFW_KEY_KP_SUBTRACT}, Action::widen, "-", "see more by a step"},
+        {view, always, {GLFW_KEY_V}, Action::light_field, "V", "a microscope's round field: on, off"},
+        {view, always, {GLFW_KEY_I}, Action::inset, "I", "second view: endoscope, axial, off"},
         {cuts, always, {GLFW_KEY_X}, Action::cut_x, "X", "cut left/right: on, other half, off"},
         {cuts, always, {GLFW_KEY_Y}, Action::cut_y, "Y", "cut front/back"},
         {cuts, always, {GLFW_KEY_Z}, Action::cut_z, "Z", "cut above/below"},
@@ -125,6 +135,11 @@ bool holds(const KeyBinding& binding, Situation situation) {
 Situation situation_of(bool drills, bool shows_recording) {
     if (drills) return Situation::drilling;
     return shows_recording ? Situation::playing : Situation::looking_on;
+}
+
+glm::ivec2 held_view_motion(const std::bitset<WindowInput::most_keys>& keys_down) {
+    const auto held = [&](int key) { return keys_down[static_cast<std::size_t>(key)] ? 1 : 0; };
+    return {held(GLFW_KEY_D) - held(GLFW_KEY_A), held(GLFW_KEY_Q) - held(GLFW_KEY_E)};
 }
 
 std::span<const KeyBinding> key_bindings() {

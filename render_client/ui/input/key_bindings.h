@@ -1,9 +1,13 @@
 // Bindings of keys and mouse: one table, from which the window acts and F1's help is printed.
 #pragma once
 
+#include <bitset>
+#include <glm/vec2.hpp>
 #include <span>
 #include <string>
 #include <vector>
+
+#include "render_client/ui/input/window_input.h"
 
 namespace osteomill {
 
@@ -22,6 +26,10 @@ enum class Action {
     cut_z,
     cut_view,
     first_view,
+    magnify,
+    widen,
+    light_field,
+    inset,
     screenshot,
     export_frames,
     end,
@@ -66,6 +74,9 @@ struct KeyBinding {
     const char* name = "";  ///< of key or mouse, for people
     const char* meaning = "";
 };
+
+/// Where the keys that are held move the view, in steps of one: x to the right, y down.
+glm::ivec2 held_view_motion(const std::bitset<WindowInput::most_keys>& keys_down);
 
 std::span<const KeyBinding> key_bindings();
 

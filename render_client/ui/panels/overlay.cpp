@@ -6,6 +6,7 @@
 #include "render_client/ui/panels/cube_panel.h"
 #include "render_client/ui/panels/cuts_panel.h"
 #include "render_client/ui/panels/help_panel.h"
+#include "render_client/ui/panels/inset_panel.h"
 #include "render_client/ui/panels/live_plot.h"
 #include "render_client/ui/panels/panel_painter.h"
 #include "render_client/ui/panels/picture_marks.h"
@@ -62,6 +63,17 @@ void add_plot(PanelList& panels, const OverlayContent& content, const PanelPaint
         draw_live_plot(painter, *content.history, *content.tool, static_cast<PlotDetail>(place.choice),
                        place);
     });
+}
+
+void add_inset(PanelList& panels, const OverlayContent& content, const PanelPainter& painter,
+               const glm::ivec2& size_px) {
+    const bool is_known = content.session && content.tool->burr < content.session->burrs.size();
+    const double diameter_mm = is_known ? content.session->burrs[content.tool->burr].diameter_mm : 0.0;
+    const glm::dvec2 burr_px = pixel_of(*content.camera, content.tool->burr_position_mm, size_px);
+    panels.add(inset_anchor(burr_px, glm::vec2(size_px)), {glm::vec2(content.inset->size_px())},
+               [&, diameter_mm](const PanelPlace& place) {
+                   draw_inset(painter, *content.inset, content.view->inset, diameter_mm, place);
+               });
 }
 
 /// What the user works with.
@@ -144,6 +156,7 @@ void draw_overlay(const OverlayContent& content, const glm::ivec2& size_px) {
                              [&](const PanelPlace& place) {
                                  draw_start_panel(content.start->page, content.start->picture, place);
                              });
+    if (content.inset != nullptr && content.tool) add_inset(panels, content, painter, size_px);
     if (content.view->panels_shown) {
         add_controls(panels, content, painter, picture, side_width);
         add_readings(panels, content, painter, size_px, side_width);

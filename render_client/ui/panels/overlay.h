@@ -32,7 +32,8 @@ struct OverlayContent {
     std::optional<OperatorCommand> operator_command;
     /// Null where no slices are shown.
     SlicesView* slices = nullptr;
-    const Bone* bone = nullptr;  ///< null until one has come
+    const gl::Framebuffer* inset = nullptr;  ///< null where no second view is shown
+    const Bone* bone = nullptr;              ///< null until one has come
     std::uint64_t bone_version = 0;
     /// Takes what is asked for with buttons; null where there is nobody to press them, as in offscreen
     /// pictures.

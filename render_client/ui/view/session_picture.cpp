@@ -12,6 +12,8 @@
 
 #include "common/bone/structure_in_bone.h"
 #include "common/wire/tool_look.h"
+#include "render_client/ui/panels/inset_panel.h"
+#include "render_client/volume/magnification.h"
 
 namespace osteomill {
 
@@ -58,6 +60,7 @@ SessionPicture::SessionPicture(SessionSource& source, Panels& panels, const glm:
       renderer_(make_renderer(renderer)),
       shading_(look),
       picture_(*renderer_, size_px, quality == FrameQuality::on_demand, stereo),
+      renderer_choice_(renderer),
       size_px_(picture_.size_px()) {
     view_.transfer = TransferEditor(look.transfer);
 }
@@ -91,7 +94,9 @@ void SessionPicture::take_in_bone(bool first_of_tool) {
     if (link_.bone_replaced || (!textures_ && bone_problem_.empty())) {
         replace_bone();
     } else if (textures_ && !link_.changes.empty()) {
-        picture_.mark_dirty(*textures_, textures_->update(*bone, link_.changes));
+        const auto changed = textures_->update(*bone, link_.changes);
+        picture_.mark_dirty(*textures_, changed);
+        if (inset_) inset_->mark_dirty(*textures_, changed);
         dirty_bricks_uploaded_ += link_.changes.size();
     }
     if (link_.bone_replaced) {
@@ -140,6 +145,7 @@ void SessionPicture::replace_bone() {
     const std::vector<TissueColour> tissues = tissue_colours(source_.session(), *source_.bone());
     bone_problem_.clear();
     picture_.forget_bone();
+    if (inset_) inset_->forget_bone();
     // The old textures go first: both together might not fit.
     textures_.reset();
     try {
@@ -174,6 +180,7 @@ void SessionPicture::reset_camera() {
         first_view_.target_mm = glm::clamp(tool_->burr_position_mm, middle_mm - half_mm, middle_mm + half_mm);
         zoom(first_view_, std::max(closest_first_view_mm / glm::length(half_mm), tool_part_of_first_view));
     }
+    set_magnification(first_view_, first_magnification_);
     camera_ = first_view_;
 }
 
@@ -184,15 +191,18 @@ const gl::Framebuffer& SessionPicture::draw(double elapsed_s) {
     if (view_.transfer.take_change())
         set_shading({.shading = shading_.shading, .transfer = view_.transfer.function()});
     const Theme& theme = theme_of(view_.theme);
-    picture_.set_look({.cuts = view_.cuts.planes(),
-                       .ct = view_.slices_shown ? slices_.ct() : nullptr,
-                       .ct_window = slices_.window(),
-                       .background_low = theme.background_low,
-                       .background_high = theme.background_high});
+    const SceneLook look{.cuts = view_.cuts.planes(),
+                         .ct = view_.slices_shown ? slices_.ct() : nullptr,
+                         .ct_window = slices_.window(),
+                         .background_low = theme.background_low,
+                         .background_high = theme.background_high,
+                         .light_field = view_.light_field};
+    picture_.set_look(look);
     std::optional<DrawnTool> tool;
     const std::optional<ToolState> shown = shown_tool();
     if (shown) tool = drawn_tool(*shown);
     picture_.draw(textures_ ? &*textures_ : nullptr, tool ? &*tool : nullptr, camera_);
+    const gl::Framebuffer* inset = draw_inset(tool, look);
     panels_.begin(size_px_, picture_.eye_size_px(), elapsed_s, view_.theme, view_.scale);
     draw_overlay({.link = link_,
                   .session = source_.session(),
@@ -204,6 +214,7 @@ const gl::Framebuffer& SessionPicture::draw(double elapsed_s) {
                   .quality = picture_.quality(),
                   .operator_command = operator_command_,
                   .slices = view_.slices_shown ? &slices_ : nullptr,
+                  .inset = inset,
                   .bone = source_.bone(),
                   .bone_version = bone_version_,
                   .wishes = takes_wishes_ ? &wishes_ : nullptr,
@@ -218,6 +229,17 @@ const gl::Framebuffer& SessionPicture::draw(double elapsed_s) {
     drawn_command_ = operator_command_;
     has_undrawn_bone_ = false;
     return picture_.compose();
+}
+
+const gl::Framebuffer* SessionPicture::draw_inset(const std::optional<DrawnTool>& tool,
+                                                  const SceneLook& look) {
+    if (view_.inset == InsetKind::off) {
+        inset_.reset();
+        return nullptr;
+    }
+    if (!textures_ || !tool) return nullptr;
+    if (!inset_) inset_.emplace(renderer_choice_);
+    return &inset_->draw(view_.inset, *textures_, *tool, look, inset_edge_px(glm::vec2(size_px_)));
 }
 
 bool SessionPicture::has_turning_burr() const {

@@ -54,6 +54,8 @@ class SessionPicture {
     Camera& camera() { return camera_; }
     /// The first view again: of the tool's surroundings, or of all the bone while there is no tool.
     void reset_camera();
+    /// Of the first view.
+    void set_first_magnification(double factor) { first_magnification_ = factor; }
     /// Another look takes new textures, as a new bone does; the view stays. Throws std::invalid_argument
     /// where its transfer function is none.
     void set_shading(const ShadingSettings& look);
@@ -92,15 +94,20 @@ class SessionPicture {
     std::optional<ToolState> shown_tool() const;
     DrawnTool drawn_tool(const ToolState& state) const;
     void turn_burr(double elapsed_s);
+    /// Null where none is wanted, or there is nothing to see in it.
+    const gl::Framebuffer* draw_inset(const std::optional<DrawnTool>& tool, const SceneLook& look);
 
     SessionSource& source_;
     Panels& panels_;
     std::unique_ptr<BoneRenderer> renderer_;
     ShadingSettings shading_;
     StereoPicture picture_;
+    RendererChoice renderer_choice_;
+    std::optional<InsetView> inset_;  ///< while it is shown
     glm::ivec2 size_px_;
     Camera camera_;
     Camera first_view_;
+    double first_magnification_ = 1.0;
     std::optional<BoneTextures> textures_;
     TextureLimits texture_limits_;
     std::string bone_problem_;

@@ -8,6 +8,7 @@
 #include "render_client/ui/panels/theme.h"
 #include "render_client/ui/panels/transfer_editor.h"
 #include "render_client/ui/view/cut_settings.h"
+#include "render_client/ui/view/inset_view.h"
 
 namespace osteomill {
 
@@ -31,6 +32,8 @@ struct ViewSettings {
     CutSettings cuts;
     TransferEditor transfer;
     bool slices_shown = false;
+    bool light_field = false;  ///< a microscope's round field
+    InsetKind inset = InsetKind::off;
     SessionQuestion question = SessionQuestion::none;
     std::array<char, SessionControl::longest_text + 1> note{};  ///< of a mark, while it is written
     bool click_places = false;  ///< the next click on bone says where the tool goes

@@ -30,6 +30,8 @@ class Framebuffer {
     /// Binds the colour, read between pixels by linear interpolation, to GL_TEXTURE0 + unit, and the depth,
     /// not interpolated, to the next unit.
     void bind_textures(int unit) const;
+    /// OpenGL's name of the colour, for who draws it elsewhere.
+    GLuint colour_texture() const { return colour_; }
     /// glReadPixels of the colour; the first row is the top one.
     Picture read_back() const;
     /// Depth (0 near to 1 far) of a pixel counted from the lower left corner.

@@ -3,10 +3,12 @@
 // and nothing else is copied.
 #pragma once
 
+#include <optional>
 #include <span>
 
 #include "render_client/volume/passes/contact_shadow.h"
 #include "render_client/volume/passes/incremental_bone_pass.h"
+#include "render_client/volume/passes/light_field.h"
 #include "render_client/volume/structures/structure_renderer.h"
 #include "render_client/volume/tool/tool_renderer.h"
 
@@ -56,6 +58,7 @@ class ScenePicture {
     ToolRenderer tool_renderer_;
     StructureRenderer structures_;
     ContactShadow contact_shadow_;
+    std::optional<LightField> light_field_;  ///< once it was wanted
     gl::Framebuffer picture_;
     TileMask covered_;  ///< where the picture does not show the layer
 };

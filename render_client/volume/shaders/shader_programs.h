@@ -18,6 +18,7 @@ inline constexpr ProgramFiles gathered_light_files{
 inline constexpr ProgramFiles contact_shadow_files{"camera_rays.vert.glsl",
                                                    {"lighting.glsl", "contact_shadow.frag.glsl"}};
 inline constexpr ProgramFiles upscale_files{"upscale.vert.glsl", {"upscale.frag.glsl"}};
+inline constexpr ProgramFiles light_field_files{"upscale.vert.glsl", {"light_field.frag.glsl"}};
 inline constexpr ProgramFiles interleave_rows_files{"upscale.vert.glsl", {"interleave_rows.frag.glsl"}};
 inline constexpr ProgramFiles structure_files{"structure.vert.glsl",
                                               {"cuts.glsl", "lighting.glsl", "structure.frag.glsl"}};

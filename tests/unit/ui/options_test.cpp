@@ -56,6 +56,20 @@ TEST(Options, DrawForTwoEyes) {
     expect_refused({"--offscreen", "--stereo", "quad-buffer"}, "is for a window");
 }
 
+TEST(Options, LookThroughAMicroscope) {
+    const ParsedOptions plain = parsed({});
+    EXPECT_EQ(plain.options.magnification, 1.0);
+    EXPECT_FALSE(plain.options.light_field);
+    EXPECT_EQ(plain.options.inset, InsetKind::off);
+    const ParsedOptions result = parsed({"--magnification", "1.6", "--light-field", "--inset", "axial"});
+    ASSERT_FALSE(result.no_run.has_value()) << result.no_run->message;
+    EXPECT_EQ(result.options.magnification, 1.6);
+    EXPECT_TRUE(result.options.light_field);
+    EXPECT_EQ(result.options.inset, InsetKind::axial);
+    expect_refused({"--magnification", "3"}, "is '3', not one of 0.4, 0.6, 1, 1.6, 2.5");
+    expect_refused({"--inset", "coronal"}, "endoscope");
+}
+
 TEST(Options, OpenTheBoneByTheSidesThatAreToGo) {
     EXPECT_FALSE(parsed({}).options.cuts.any());
     const ParsedOptions result = parsed({"--cut", "front", "--cut", "left:-2.5"});

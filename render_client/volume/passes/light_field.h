@@ -1,0 +1,20 @@
+// A microscope's round field of light over a picture: black beyond it, as seen through the eyepieces.
+#pragma once
+
+#include "render_client/volume/gl/full_screen.h"
+#include "render_client/volume/gl/program.h"
+
+namespace osteomill {
+
+class LightField {
+  public:
+    LightField();
+    /// Into the bound framebuffer.
+    void draw(const glm::ivec2& size_px, double pixel_aspect) const;
+
+  private:
+    gl::Program program_;
+    gl::FullScreen full_screen_;
+};
+
+}  // namespace osteomill
