@@ -246,8 +246,10 @@ ParsedOptions parse_options(int argument_count, const char* const* arguments, co
     app.add_option("--theme", options.theme, "Colours: dark or light (dark)")
         ->transform(CLI::CheckedTransformer(theme_names).description(""))
         ->type_name("NAME");
-    app.add_option("--ui-scale", options.ui_scale,
-                   "Size of panels and letters (the display's; 1 offscreen), 0.5 to 4")
+    app.add_option(
+           "--ui-scale", options.ui_scale,
+           "Size of panels and letters (the display's; 1 offscreen), 0.5 to 4; above 1 less where the window "
+           "has no room for it")
         ->check(within(0.5, 4.0));
     app.add_flag("!--no-panels", options.panels, "Only the picture: no panels over it");
     app.add_option_function<std::string>(

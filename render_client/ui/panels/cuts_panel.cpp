@@ -40,7 +40,8 @@ glm::vec2 cuts_panel_size(const PanelPainter& painter) {
 }
 
 void draw_cuts_panel(CutSettings& cuts, const Camera& camera, const PanelPlace& place) {
-    const InputPanel window("cuts", place);
+    const InputPanel window("cuts", place, InputPanel::Background::filled,
+                            place.choice == 0 ? InputPanel::Size::whole : InputPanel::Size::scrolls);
     for (std::size_t index = 0; index < CutSettings::count; ++index) {
         ImGui::PushID(static_cast<int>(index));
         draw_row(cuts, index, camera);

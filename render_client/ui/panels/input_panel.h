@@ -12,14 +12,21 @@ class InputPanel {
   public:
     enum class Background { filled, none };
 
-    InputPanel(const char* name, const PanelPlace& place, Background background = Background::filled) {
+    /// In a place smaller than it wants to be it scrolls.
+    enum class Size { whole, scrolls };
+
+    InputPanel(const char* name, const PanelPlace& place, Background background = Background::filled,
+               Size size = Size::whole) {
         ImGui::SetNextWindowPos({place.first.x, place.first.y}, ImGuiCond_Always);
         ImGui::SetNextWindowSize({place.size.x, place.size.y}, ImGuiCond_Always);
-        ImGui::Begin(name, nullptr,
-                     ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
-                         ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoFocusOnAppearing |
-                         ImGuiWindowFlags_NoNav |
-                         (background == Background::none ? ImGuiWindowFlags_NoBackground : 0));
+        ImGui::Begin(
+            name, nullptr,
+            (size == Size::whole ? ImGuiWindowFlags_NoDecoration
+                                 : ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize |
+                                       ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_HorizontalScrollbar) |
+                ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
+                ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_NoNav |
+                (background == Background::none ? ImGuiWindowFlags_NoBackground : 0));
     }
     ~InputPanel() { ImGui::End(); }
     InputPanel(const InputPanel&) = delete;

@@ -1,6 +1,8 @@
 #include "render_client/ui/panels/layout.h"
 
 #include <algorithm>
+#include <cmath>
+#include <utility>
 
 namespace osteomill {
 
@@ -66,17 +68,62 @@ std::optional<PanelPlace> find_place(const Places& taken, const PanelWish& wish,
 
 }  // namespace
 
-Places lay_out(std::span<const PanelWish> wishes, const glm::vec2& picture, float margin) {
-    Places places;
-    for (const PanelWish& wish : wishes) {
-        std::optional<PanelPlace> found;
-        for (std::size_t choice = 0; choice < wish.sizes.size() && !found; ++choice) {
-            found = find_place(places, wish, wish.sizes[choice], picture, margin);
-            if (found) found->choice = choice;
-        }
-        places.push_back(found);
+Places lay_out(std::span<const PanelWish> wishes, const glm::vec2& picture, float margin,
+               const std::optional<PanelPlace>& burr) {
+    // Last the burr, for those that give way to it. Where it is not there, its place is empty.
+    Places taken(wishes.size() + 1);
+    const auto find = [&](const PanelWish& wish, std::size_t choice) {
+        taken.back() = wish.gives_way ? burr : std::nullopt;
+        auto found = find_place(taken, wish, wish.sizes[choice], picture, margin);
+        if (found) found->choice = choice;
+        return found;
+    };
+    for (std::size_t i = 0; i < wishes.size(); ++i)
+        if (wishes[i].is_kept && !wishes[i].sizes.empty())
+            taken[i] = find(wishes[i], wishes[i].sizes.size() - 1);
+    for (std::size_t i = 0; i < wishes.size(); ++i) {
+        const std::optional<PanelPlace> kept = std::exchange(taken[i], std::nullopt);
+        for (std::size_t choice = 0; choice < wishes[i].sizes.size() && !taken[i]; ++choice)
+            taken[i] = find(wishes[i], choice);
+        if (!taken[i]) taken[i] = kept;
     }
-    return places;
+    taken.pop_back();
+    return taken;
+}
+
+std::vector<glm::vec2> shrinking_sizes(const glm::vec2& whole, const glm::vec2& picture, float margin,
+                                       float line_height) {
+    const float beside_middle = 0.5f * (1.0f - free_middle_part) * picture.x - 2.0f * margin;
+    const float narrow = std::min(whole.x, std::max(beside_middle, 1.0f));
+    const float line = std::min(line_height, whole.y);
+    return {whole,
+            {whole.x, 0.7f * whole.y},
+            {narrow, whole.y},
+            {narrow, 0.6f * whole.y},
+            {narrow, 0.35f * whole.y},
+            {narrow, line}};
+}
+
+std::optional<glm::vec2> free_place(std::span<const glm::vec2> places, const glm::vec2& size,
+                                    std::span<const std::optional<PanelPlace>> panels,
+                                    const glm::vec2& picture) {
+    for (const glm::vec2& first : places) {
+        const PanelPlace place{first, size, 0};
+        const glm::vec2 end = first + size;
+        if (first.x < 0.0f || first.y < 0.0f || end.x > picture.x || end.y > picture.y) continue;
+        const bool is_free = std::none_of(panels.begin(), panels.end(), [&](const auto& panel) {
+            return panel && meet(*panel, place, 0.0f);
+        });
+        if (is_free) return first;
+    }
+    return std::nullopt;
+}
+
+float scale_that_fits(float wanted, const glm::vec2& picture) {
+    constexpr glm::vec2 smallest_window(500.0f, 400.0f);  // that has room for them as large as usual
+    const float room = std::min(picture.x / smallest_window.x, picture.y / smallest_window.y);
+    // In steps: letters are made anew for each, and a window is pulled larger pixel by pixel.
+    return std::min(wanted, std::max(0.25f * std::floor(4.0f * room), 1.0f));
 }
 
 }  // namespace osteomill

@@ -14,7 +14,9 @@ enum class Anchor { upper_left, upper_right, lower_left, lower_right, top, botto
 struct PanelWish {
     Anchor anchor = Anchor::upper_left;
     std::vector<glm::vec2> sizes;
-    bool may_cover_middle = false;  ///< the user asked for it and cannot do without
+    bool may_cover_middle = false;  ///< a page or a question: it wants to be read and answered
+    bool is_kept = false;           ///< room for its last size is kept, whatever is more important
+    bool gives_way = false;         ///< to the burr, wherever that is; what is pressed must not flee
 };
 
 struct PanelPlace {
@@ -27,9 +29,25 @@ struct PanelPlace {
 /// panel. A panel goes to its anchor; where others are, it moves past them: down from an upper anchor, up
 /// from a lower one. One whose first size fits nowhere there gets its next, and none if none fits: a small
 /// window shows fewer panels.
-/// The middle of the picture, where the burr is, stays free of all that may not cover it.
+/// The middle of the picture, where one works, stays free of all that may not cover it; and so does `burr`,
+/// what the burr takes of the picture, of all that give way.
 std::vector<std::optional<PanelPlace>> lay_out(std::span<const PanelWish> wishes, const glm::vec2& picture,
-                                               float margin);
+                                               float margin,
+                                               const std::optional<PanelPlace>& burr = std::nullopt);
+
+/// Sizes for a panel of controls: whole, then lower, then as narrow as fits beside the free middle, last its
+/// first line alone. Smaller than whole it scrolls.
+std::vector<glm::vec2> shrinking_sizes(const glm::vec2& whole, const glm::vec2& picture, float margin,
+                                       float line_height);
+
+/// The first of `places` for a label of `size` that lies in the picture and meets none of the panels.
+std::optional<glm::vec2> free_place(std::span<const glm::vec2> places, const glm::vec2& size,
+                                    std::span<const std::optional<PanelPlace>> panels,
+                                    const glm::vec2& picture);
+
+/// How large panels may be drawn that are wanted `wanted` times as large as usual: less in a window that has
+/// no room for it, but never less than usual for that.
+float scale_that_fits(float wanted, const glm::vec2& picture);
 
 /// How much of the picture's width and height that is.
 inline constexpr float free_middle_part = 0.2f;

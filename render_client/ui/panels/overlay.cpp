@@ -2,6 +2,7 @@
 
 #include <functional>
 #include <glm/common.hpp>
+#include <glm/geometric.hpp>
 
 #include "render_client/ui/panels/cube_panel.h"
 #include "render_client/ui/panels/cuts_panel.h"
@@ -34,20 +35,24 @@ class PanelList {
         wishes_.push_back({.anchor = anchor, .sizes = std::move(sizes)});
         draws_.push_back(std::move(draw));
     }
-    /// One that the user opened.
-    void add_asked_for(Anchor anchor, const glm::vec2& size, Draw draw) {
+    /// A page or a question, which the user opened.
+    void add_page(Anchor anchor, const glm::vec2& size, Draw draw) {
         add(anchor, {size}, std::move(draw));
         wishes_.back().may_cover_middle = true;
     }
-    void let_last_cover_middle() { wishes_.back().may_cover_middle = true; }
+    void keep_last() { wishes_.back().is_kept = true; }
+    void let_last_give_way() { wishes_.back().gives_way = true; }
     void add_text(const PanelPainter& painter, Anchor anchor, const PanelText& text, float widest) {
         add(anchor, {painter.size_of(text, widest)},
             [&painter, text](const PanelPlace& place) { painter.draw(text, place); });
     }
-    void draw_in(const glm::vec2& picture, float margin) const {
-        const auto places = lay_out(wishes_, picture, margin);
+    /// Returns where they are.
+    std::vector<std::optional<PanelPlace>> draw_in(const glm::vec2& picture, float margin,
+                                                   const std::optional<PanelPlace>& burr) const {
+        auto places = lay_out(wishes_, picture, margin, burr);
         for (std::size_t i = 0; i < places.size(); ++i)
             if (places[i]) draws_[i](*places[i]);
+        return places;
     }
 
   private:
@@ -80,19 +85,23 @@ void add_inset(PanelList& panels, const OverlayContent& content, const PanelPain
 void add_controls(PanelList& panels, const OverlayContent& content, const PanelPainter& painter,
                   const glm::vec2& picture, float side_width) {
     ViewSettings& view = *content.view;
+    const auto shrunk = [&](const glm::vec2& whole) {
+        return shrinking_sizes(whole, picture, margin_px * painter.scale(),
+                               ImGui::GetFrameHeight() + 2.0f * ImGui::GetStyle().WindowPadding.y);
+    };
     if (content.slices != nullptr) {
-        panels.add(Anchor::lower_left, slices_panel_sizes(painter),
-                   [&](const PanelPlace& place) { draw_slices_panel(content, painter, place); });
-        panels.let_last_cover_middle();
+        std::vector<glm::vec2> sizes = slices_panel_sizes(painter);
+        const auto smaller = shrunk(sizes.back());
+        sizes.insert(sizes.end(), smaller.begin() + 1, smaller.end());
+        panels.add(Anchor::lower_left, std::move(sizes),
+                   [&](const PanelPlace& place) { draw_slices_panel(content, place); });
     }
     if (view.cuts_panel_shown)
-        panels.add_asked_for(Anchor::upper_left, cuts_panel_size(painter), [&](const PanelPlace& place) {
-            draw_cuts_panel(view.cuts, *content.camera, place);
-        });
+        panels.add(Anchor::upper_left, shrunk(cuts_panel_size(painter)),
+                   [&](const PanelPlace& place) { draw_cuts_panel(view.cuts, *content.camera, place); });
     if (view.transfer_panel_shown)
-        panels.add_asked_for(Anchor::upper_left, transfer_panel_size(painter), [&](const PanelPlace& place) {
-            draw_transfer_panel(painter, view.transfer, place);
-        });
+        panels.add(Anchor::upper_left, shrunk(transfer_panel_size(painter)),
+                   [&](const PanelPlace& place) { draw_transfer_panel(painter, view.transfer, place); });
     if (content.operator_command)
         panels.add_text(painter, Anchor::lower_left, operator_text(content), side_width);
     if (content.player != nullptr)
@@ -103,22 +112,51 @@ void add_controls(PanelList& panels, const OverlayContent& content, const PanelP
 /// What the user reads.
 void add_readings(PanelList& panels, const OverlayContent& content, const PanelPainter& painter,
                   const glm::ivec2& size_px, float side_width) {
-    if (content.tool) add_plot(panels, content, painter);
-    panels.add_text(painter, Anchor::upper_left, session_text(content), side_width);
-    if (content.tool) panels.add_text(painter, Anchor::upper_right, tool_text(content), side_width);
-    if (const PanelText structures = structure_text(content); !structures.empty())
-        panels.add_text(painter, Anchor::upper_right, structures, side_width);
+    // Length and force are read at any time, but not under a page or a question, which is to be seen whole.
+    const bool is_page_open = content.view->help_shown || content.view->question != SessionQuestion::none ||
+                              (content.start != nullptr && content.start->is_due(content.link.status));
     if (content.has_bone) {
-        panels.add(Anchor::upper_right, {cube_size(painter)},
-                   [&](const PanelPlace& place) { draw_cube(painter, *content.camera, place); });
         const ScaleBar bar = scale_bar_of(*content.camera, size_px);
         panels.add(Anchor::bottom, {scale_bar_size(painter, bar)},
                    [&painter, bar](const PanelPlace& place) { draw_scale_bar(painter, bar, place); });
+        if (!is_page_open) panels.keep_last();
     }
+    if (content.tool) {
+        add_plot(panels, content, painter);
+        if (!is_page_open) panels.keep_last();
+        panels.let_last_give_way();
+    }
+    const auto add_text = [&](Anchor anchor, const PanelText& text) {
+        panels.add_text(painter, anchor, text, side_width);
+        panels.let_last_give_way();
+    };
+    add_text(Anchor::upper_left, session_text(content));
+    if (content.tool) add_text(Anchor::upper_right, tool_text(content));
+    if (const PanelText structures = structure_text(content); !structures.empty())
+        add_text(Anchor::upper_right, structures);
+    if (content.has_bone)
+        panels.add(Anchor::upper_right, {cube_size(painter)},
+                   [&](const PanelPlace& place) { draw_cube(painter, *content.camera, place); });
     // A transfer function puts other colours in place of the tissues'.
-    if (content.session && !content.session->tissues.empty() && !content.view->transfer.function())
+    if (content.session && !content.session->tissues.empty() && !content.view->transfer.function()) {
         panels.add(Anchor::upper_left, {legend_size(painter, content.session->tissues)},
                    [&](const PanelPlace& place) { draw_legend(painter, content.session->tissues, place); });
+        panels.let_last_give_way();
+    }
+}
+
+/// What the burr takes of the picture; none where it is not in it.
+std::optional<PanelPlace> burr_in(const OverlayContent& content, const glm::ivec2& size_px) {
+    if (!content.tool || !content.has_bone || content.session == nullptr ||
+        content.tool->burr >= content.session->burrs.size())
+        return std::nullopt;
+    const glm::dvec3& burr_mm = content.tool->burr_position_mm;
+    if (glm::dot(burr_mm - content.camera->eye_mm(), content.camera->forward()) < content.camera->near_mm)
+        return std::nullopt;
+    const auto radius = static_cast<float>(content.session->burrs[content.tool->burr].radius_mm() /
+                                           mm_per_px_at(*content.camera, burr_mm, size_px));
+    return PanelPlace{glm::vec2(pixel_of(*content.camera, burr_mm, size_px)) - radius,
+                      glm::vec2(2.0f * radius), 0};
 }
 
 }  // namespace
@@ -126,8 +164,6 @@ void add_readings(PanelList& panels, const OverlayContent& content, const PanelP
 void draw_overlay(const OverlayContent& content, const glm::ivec2& size_px) {
     const PanelPainter painter(theme_of(content.view->theme), content.view->scale);
     const glm::vec2 picture(size_px);
-    if (content.tool && content.has_bone && content.view->panels_shown)
-        draw_force_label(painter, *content.tool, *content.camera, size_px);
     draw_slices_cross(content, painter, size_px);
     const float margin = margin_px * painter.scale();
     const float side_width =
@@ -136,7 +172,7 @@ void draw_overlay(const OverlayContent& content, const glm::ivec2& size_px) {
     if (content.view->help_shown) {
         const Situation situation =
             situation_of(content.operator_command.has_value(), content.player != nullptr);
-        panels.add_asked_for(
+        panels.add_page(
             Anchor::middle, help_size(painter, situation, picture - 2.0f * margin),
             [&painter, situation](const PanelPlace& place) { draw_help(painter, situation, place); });
     }
@@ -147,21 +183,23 @@ void draw_overlay(const OverlayContent& content, const glm::ivec2& size_px) {
     if (const PanelText warnings = warning_text(content); !warnings.empty())
         panels.add_text(painter, Anchor::top, warnings, picture.x - 2.0f * margin);
     if (content.view->question != SessionQuestion::none && content.wishes != nullptr)
-        panels.add_asked_for(Anchor::middle, session_dialog_size(content, painter),
-                             [&](const PanelPlace& place) { draw_session_dialog(content, place); });
+        panels.add_page(Anchor::middle, session_dialog_size(content, painter),
+                        [&](const PanelPlace& place) { draw_session_dialog(content, place); });
     if (content.start != nullptr && content.link.status == LinkStatus::finished)
         content.start->page.note_end_of_session();
     if (content.start != nullptr && content.start->is_due(content.link.status))
-        panels.add_asked_for(Anchor::middle, start_panel_size(picture - 2.0f * margin),
-                             [&](const PanelPlace& place) {
-                                 draw_start_panel(content.start->page, content.start->picture, place);
-                             });
+        panels.add_page(Anchor::middle, start_panel_size(picture - 2.0f * margin),
+                        [&](const PanelPlace& place) {
+                            draw_start_panel(content.start->page, content.start->picture, place);
+                        });
     if (content.inset != nullptr && content.tool) add_inset(panels, content, painter, size_px);
     if (content.view->panels_shown) {
         add_controls(panels, content, painter, picture, side_width);
         add_readings(panels, content, painter, size_px, side_width);
     }
-    panels.draw_in(picture, margin);
+    const auto places = panels.draw_in(picture, margin, burr_in(content, size_px));
+    if (content.tool && content.has_bone && content.view->panels_shown)
+        draw_force_label(painter, *content.tool, *content.camera, size_px, places);
 }
 
 }  // namespace osteomill

@@ -124,8 +124,11 @@ void Panels::load_letters(float scale) {
         config.SizePixels = std::round(built_in_letter_px * scale);
         atlas.AddFontDefault(&config);
     }
-    // The back end uploads the new ones when the next frame begins.
-    ImGui_ImplOpenGL3_DestroyDeviceObjects();
+    // The first ones the back end uploads by itself. Not all of its objects are made anew for others: it
+    // would go on to write into buffers of the old ones' size.
+    if (scale_ == 0.0f) return;
+    ImGui_ImplOpenGL3_DestroyFontsTexture();
+    ImGui_ImplOpenGL3_CreateFontsTexture();
 }
 
 void Panels::feed(const WindowInput& input) {

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -40,15 +41,21 @@ void draw_scale_bar(const PanelPainter& painter, const ScaleBar& bar, const Pane
 }
 
 void draw_force_label(const PanelPainter& painter, const ToolState& tool, const Camera& camera,
-                      const glm::ivec2& size_px) {
+                      const glm::ivec2& size_px, std::span<const std::optional<PanelPlace>> panels) {
     const double force_n = glm::length(tool.force_n);
     if (!std::isfinite(force_n) || force_n < shortest_arrow_n) return;
     const glm::dvec3 head_mm = tool.burr_position_mm + arrow_mm_per_n * tool.force_n;
     if (glm::dot(head_mm - camera.eye_mm(), camera.forward()) < camera.near_mm) return;
     const glm::vec2 head(pixel_of(camera, head_mm, size_px));
     const float beside = 8.0f * painter.scale();
-    painter.draw_on_picture({head.x + beside, head.y - 0.5f * ImGui::GetFontSize()},
-                            fmt::format("{:.2f} N", force_n));
+    const std::string text = fmt::format("{:.2f} N", force_n);
+    const glm::vec2 size(painter.width_of(text), ImGui::GetFontSize());
+    const glm::vec2 middle = head - 0.5f * size;
+    const glm::vec2 across(0.5f * size.x + beside, 0.0f), along(0.0f, size.y + beside);
+    const std::array places{middle + across,         middle - across,         middle - along,
+                            middle + along,          middle + across - along, middle + across + along,
+                            middle - across - along, middle - across + along};
+    if (const auto place = free_place(places, size, panels, size_px)) painter.draw_on_picture(*place, text);
 }
 
 }  // namespace osteomill

@@ -11,8 +11,9 @@ ScaleBar scale_bar_of(const Camera& camera, const glm::ivec2& size_px);
 glm::vec2 scale_bar_size(const PanelPainter& painter, const ScaleBar& bar);
 void draw_scale_bar(const PanelPainter& painter, const ScaleBar& bar, const PanelPlace& place);
 
-/// Nothing where there is no arrow.
+/// Beside the arrow's head, or where the panels leave it free near there. Nothing where there is no arrow;
+/// the plot has the force as well.
 void draw_force_label(const PanelPainter& painter, const ToolState& tool, const Camera& camera,
-                      const glm::ivec2& size_px);
+                      const glm::ivec2& size_px, std::span<const std::optional<PanelPlace>> panels);
 
 }  // namespace osteomill

@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 #include <imgui.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -21,7 +23,7 @@ constexpr float narrowest_window_hu = 50.0f;
 constexpr float widest_window_hu = 5000.0f;
 
 int edge_px(std::size_t choice) {
-    return static_cast<int>(std::round(edges[choice] * ImGui::GetFontSize()));
+    return static_cast<int>(std::round(edges[std::min(choice, edges.size() - 1)] * ImGui::GetFontSize()));
 }
 
 float rows() {
@@ -139,15 +141,16 @@ std::vector<glm::vec2> slices_panel_sizes(const PanelPainter&) {
     return sizes;
 }
 
-void draw_slices_panel(const OverlayContent& content, const PanelPainter& painter, const PanelPlace& place) {
-    const InputPanel window("slices", place);
+void draw_slices_panel(const OverlayContent& content, const PanelPlace& place) {
+    const InputPanel window(
+        "slices", place, InputPanel::Background::filled,
+        place.choice < edges.size() ? InputPanel::Size::whole : InputPanel::Size::scrolls);
     SlicesView& slices = *content.slices;
     if (slices.ct() == nullptr) {
         const bool has_ct =
             content.player == nullptr && content.session != nullptr && content.session->has_ct;
-        painter.draw_text(
-            place.first + painter.padding(), painter.theme()[Tone::plain],
-            has_ct ? "the CT is on its way" : "there is no CT to show: a recording, or a bone without one");
+        ImGui::TextWrapped("%s", has_ct ? "the CT is on its way"
+                                        : "there is no CT to show: a recording, or a bone without one");
         return;
     }
     const int edge = edge_px(place.choice);

@@ -12,7 +12,7 @@ namespace osteomill {
 
 /// Best first.
 std::vector<glm::vec2> slices_panel_sizes(const PanelPainter& painter);
-void draw_slices_panel(const OverlayContent& content, const PanelPainter& painter, const PanelPlace& place);
+void draw_slices_panel(const OverlayContent& content, const PanelPlace& place);
 
 /// Where the slices cross, in the picture of the bone.
 void draw_slices_cross(const OverlayContent& content, const PanelPainter& painter, const glm::ivec2& size_px);

@@ -129,7 +129,8 @@ glm::vec2 transfer_panel_size(const PanelPainter& painter) {
 }
 
 void draw_transfer_panel(const PanelPainter& painter, TransferEditor& editor, const PanelPlace& place) {
-    const InputPanel window("transfer", place);
+    const InputPanel window("transfer", place, InputPanel::Background::filled,
+                            place.choice == 0 ? InputPanel::Size::whole : InputPanel::Size::scrolls);
     draw_presets(editor);
     if (!editor.function()) {
         ImGui::TextDisabled("tissues, or stiffness, in their own");

@@ -13,6 +13,7 @@
 #include "common/bone/structure_in_bone.h"
 #include "common/wire/tool_look.h"
 #include "render_client/ui/panels/inset_panel.h"
+#include "render_client/ui/panels/layout.h"
 #include "render_client/volume/magnification.h"
 
 namespace osteomill {
@@ -203,6 +204,7 @@ const gl::Framebuffer& SessionPicture::draw(double elapsed_s) {
     if (shown) tool = drawn_tool(*shown);
     picture_.draw(textures_ ? &*textures_ : nullptr, tool ? &*tool : nullptr, camera_);
     const gl::Framebuffer* inset = draw_inset(tool, look);
+    view_.scale = scale_that_fits(view_.scale, size_px_);
     panels_.begin(size_px_, picture_.eye_size_px(), elapsed_s, view_.theme, view_.scale);
     draw_overlay({.link = link_,
                   .session = source_.session(),

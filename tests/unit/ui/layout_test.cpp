@@ -64,6 +64,63 @@ TEST(Layout, KeepsTheMiddleFree) {
     EXPECT_TRUE(places[1]) << "help may";
 }
 
+TEST(Layout, KeepsScaleBarAndForceWhateverIsOpen) {
+    const std::vector<std::vector<glm::vec2>> controls{{{294, 230}}, {{320, 240}}, {{378, 190}}};
+    for (const float wanted : {1.0f, 2.0f})
+        for (const glm::vec2 picture : {glm::vec2(500, 400), glm::vec2(640, 400), glm::vec2(500, 900),
+                                        glm::vec2(800, 600), glm::vec2(1280, 800), glm::vec2(2560, 1440)})
+            for (unsigned open = 0; open < 8; ++open) {
+                const float scale = scale_that_fits(wanted, picture);
+                const float gap = 12.0f * scale;
+                std::vector<PanelWish> wishes{{Anchor::top, {scale * glm::vec2(440, 36)}}};
+                for (unsigned i = 0; i < 3; ++i)
+                    if ((open >> i & 1U) != 0)
+                        wishes.push_back(
+                            {i < 2 ? Anchor::upper_left : Anchor::lower_left,
+                             shrinking_sizes(scale * controls[i][0], picture, gap, 36.0f * scale)});
+                const std::size_t bar = wishes.size();
+                wishes.push_back({Anchor::bottom, {scale * glm::vec2(110, 32)}, false, true});
+                wishes.push_back({Anchor::lower_right,
+                                  {scale * glm::vec2(296, 310), scale * glm::vec2(296, 60)},
+                                  false,
+                                  true,
+                                  true});
+                // A burr off the middle.
+                const PanelPlace burr{0.55f * picture, glm::vec2(30.0f), 0};
+                const auto places = lay_out(wishes, picture, gap, burr);
+                ASSERT_TRUE(places[bar]) << picture.x << " x " << picture.y << ", " << scale << ", " << open;
+                ASSERT_TRUE(places[bar + 1])
+                    << picture.x << " x " << picture.y << ", " << scale << ", " << open;
+                EXPECT_FALSE(overlap(*places[bar + 1], burr));
+                const PanelPlace middle{0.4f * picture, 0.2f * picture, 0};
+                for (std::size_t i = 0; i < places.size(); ++i) {
+                    if (!places[i]) continue;
+                    EXPECT_FALSE(overlap(*places[i], middle)) << i;
+                    for (std::size_t j = 0; j < i; ++j)
+                        if (places[j]) {
+                            EXPECT_FALSE(overlap(*places[i], *places[j])) << i << " and " << j;
+                        }
+                }
+                // One alone is always there to work with.
+                if (open == 1 || open == 2 || open == 4) {
+                    EXPECT_TRUE(places[1]);
+                }
+            }
+}
+
+TEST(Layout, FindsAFreePlaceForALabel) {
+    const std::vector<std::optional<PanelPlace>> panels{PanelPlace{{0, 0}, {100, 100}, 0}, std::nullopt};
+    const std::vector<glm::vec2> places{{90, 50}, {290, 50}, {110, 50}};
+    EXPECT_EQ(free_place(places, {20, 10}, panels, {300, 200}), glm::vec2(110, 50));
+    EXPECT_EQ(free_place(std::span(places).first(2), {20, 10}, panels, {300, 200}), std::nullopt);
+}
+
+TEST(Layout, DrawsLargeOnlyWhereThereIsRoom) {
+    EXPECT_EQ(scale_that_fits(2.0f, {1000, 800}), 2.0f);
+    EXPECT_EQ(scale_that_fits(2.0f, {500, 400}), 1.0f);
+    EXPECT_EQ(scale_that_fits(0.8f, {300, 200}), 0.8f);
+}
+
 TEST(Layout, GivesALessImportantPanelItsSmallerSizeAndThenNone) {
     const std::vector<PanelWish> wishes{{Anchor::upper_left, {{90, 50}}},
                                         {Anchor::lower_left, {{90, 80}, {90, 30}}},
