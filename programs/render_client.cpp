@@ -3,6 +3,7 @@
 
 #include <cstdio>
 #include <exception>
+#include <filesystem>
 #include <memory>
 #include <stdexcept>
 #include <string>
@@ -12,6 +13,7 @@
 #include "common/program/stop_signals.h"
 #include "render_client/ui/offscreen_run.h"
 #include "render_client/ui/options.h"
+#include "render_client/ui/view/look_file.h"
 #include "render_client/ui/windowed_run.h"
 
 namespace {
@@ -23,8 +25,11 @@ std::unique_ptr<osteomill::SessionSource> make_session(const osteomill::RenderOp
 }
 
 /// A recording is finished whatever else goes wrong.
-void run(const osteomill::RenderOptions& options) {
+void run(osteomill::RenderOptions options) {
     using namespace osteomill;
+    std::error_code failed;
+    if (!options.look_file.empty() && std::filesystem::exists(options.look_file, failed))
+        options.look.transfer = read_look(options.look_file);
     const auto stop_asked = [&stop = stop_on_signals()] { return stop.load(); };
     const auto session = make_session(options);
     std::exception_ptr failure;

@@ -121,6 +121,10 @@ void add_look(CLI::App& app, RenderOptions& options) {
     }
     add_choice(app, "--transfer", names, presets, options.look.transfer,
                "Colour and opacity by stiffness; unless given, tissues in their own colours");
+    app.add_option("--look", options.look_file,
+                   "The same as edited before (F5): read from this file, if it is there, and saved to it")
+        ->type_name("FILE")
+        ->excludes("--transfer");
     app.add_option_function<std::vector<std::string>>(
            "--cut",
            [&](const std::vector<std::string>& texts) {
@@ -181,6 +185,7 @@ std::string same_files(const RenderOptions& options, const TlsOptions& tls) {
     std::vector<NamedFile> files = tls.files_read();
     if (options.replay) files.push_back({"--replay", *options.replay, false});
     if (options.record) files.push_back({"--record", *options.record});
+    if (!options.look_file.empty()) files.push_back({"--look", options.look_file});
     if (!options.json.empty()) files.push_back({"--json", options.json});
     try {
         require_distinct(files);

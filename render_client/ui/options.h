@@ -27,6 +27,8 @@ struct RenderOptions {
     double speed = 1.0;                           ///< of the recording: recorded seconds a second
     RendererChoice renderer = RendererChoice::raycast;
     ShadingSettings look;
+    std::filesystem::path
+        look_file;  ///< its curves are read from there, if it exists, and saved; empty: the case's
     StereoSettings stereo;
     double magnification = 1.0;
     bool light_field = false;

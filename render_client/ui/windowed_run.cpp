@@ -13,10 +13,12 @@
 #include <exception>
 #include <thread>
 
+#include "common/scene/scene_file.h"
 #include "render_client/ui/input/commands.h"
 #include "render_client/ui/input/input_mailbox.h"
 #include "render_client/ui/input/operator_desk.h"
 #include "render_client/ui/panels/start_panel.h"
+#include "render_client/ui/view/look_file.h"
 #include "render_client/ui/view/redraw.h"
 #include "render_client/ui/view/screenshots.h"
 #include "render_client/ui/view/session_picture.h"
@@ -103,6 +105,7 @@ class Drawing {
         session_.set_first_magnification(options.magnification);
         session_.view().cuts = options.cuts;
         session_.view().panels_shown = options.panels;
+        session_.view().look_has_file = look_.has_file();
         session_.offer_controls();
         if (can_start_here(options)) {
             start_.emplace(StartPlaces{.programs = folder_of_this_program(),
@@ -142,6 +145,8 @@ class Drawing {
         if (happened.has_news || view_moves || (start_ && start_->page.poll())) redraw_.note_change(now);
         input_.append(happened);
 
+        work_look(std::chrono::duration<double>(now - began_).count());
+
         const SessionPicture::News news = session_.take_in();
         const LinkUpdate& link = session_.link();
         session_over_ = options_.until_server_ends && link.status == LinkStatus::finished;
@@ -167,6 +172,20 @@ class Drawing {
             redraw_.note_change(now);
         // A notice goes after some seconds.
         if (news == SessionPicture::News::figures || !session_.view().notice.empty()) redraw_.note_figures();
+    }
+
+    /// Another case brings another look; one that was edited is saved where that is asked for.
+    void work_look(double now_s) {
+        ViewSettings& view = session_.view();
+        try {
+            if (start_ && !start_->page.look_file().empty())
+                if (const auto look = look_.open(start_->page.look_file())) view.transfer.choose(*look);
+        } catch (const SceneError& error) {
+            commands_.say(error.what(), now_s);
+        }
+        view.look_has_file = look_.has_file();
+        if (std::exchange(view.look_save_wanted, false))
+            commands_.say(look_.save(view.transfer.function()), now_s);
     }
 
     void draw(Clock::time_point start) {
@@ -222,6 +241,7 @@ class Drawing {
     const Clock::time_point began_ = Clock::now();
     Panels panels_;
     std::optional<StartScreen> start_;
+    LookKeeper look_{options_.look_file, options_.look.transfer};
     SessionPicture session_;
     Commands commands_;
     Screenshots screenshots_;

@@ -42,8 +42,10 @@ class Commands {
     /// Whether every frame is written, so that they have to come.
     bool is_exporting() const { return export_wanted_; }
 
-  private:
+    /// One line, for a few seconds.
     void say(std::string notice, double now_s);
+
+  private:
     void ask(SessionAction action);
     /// Of the spindle.
     void change_speed(double factor);

@@ -101,7 +101,7 @@ void add_controls(PanelList& panels, const OverlayContent& content, const PanelP
                    [&](const PanelPlace& place) { draw_cuts_panel(view.cuts, *content.camera, place); });
     if (view.transfer_panel_shown)
         panels.add(Anchor::upper_left, shrunk(transfer_panel_size(painter)),
-                   [&](const PanelPlace& place) { draw_transfer_panel(painter, view.transfer, place); });
+                   [&](const PanelPlace& place) { draw_transfer_panel(painter, view, place); });
     if (content.operator_command)
         panels.add_text(painter, Anchor::lower_left, operator_text(content), side_width);
     if (content.player != nullptr)

@@ -96,6 +96,11 @@ void StartPage::start() {
                                      "--report=" + report_folder_.string(),
                                      "--save-bone=" + (report_folder_ / "bone.nrrd").string()};
     if (!trainee.empty()) command.push_back("--trainee=" + trainee);
+    // A case that is built in has no folder of its own.
+    std::error_code failed;
+    look_file_ = std::filesystem::is_directory(wanted.argument, failed)
+                     ? std::filesystem::path(wanted.argument) / "look.toml"
+                     : places_.home / "looks" / (wanted.name + ".toml");
     try {
         std::filesystem::create_directories(places_.home / "reports");
         server_ = std::make_unique<ChildProgram>(command, longest_report);

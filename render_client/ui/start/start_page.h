@@ -49,6 +49,8 @@ class StartPage {
     void start();
     /// The window has seen the end of it: what remains to be done is its report.
     void note_end_of_session();
+    /// Where the look is kept of the case that was started last; empty before.
+    const std::filesystem::path& look_file() const { return look_file_; }
     bool is_session_running() const { return server_ != nullptr && server_->is_running(); }
     /// Started a session that has ended.
     bool has_served() const { return !report_folder_.empty() && server_ == nullptr; }
@@ -101,6 +103,7 @@ class StartPage {
 
     std::unique_ptr<ChildProgram> server_;
     std::filesystem::path report_folder_;
+    std::filesystem::path look_file_;
     std::optional<std::filesystem::path> report_;
     std::unique_ptr<ChildProgram> opener_;
 };

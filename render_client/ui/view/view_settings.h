@@ -31,6 +31,8 @@ struct ViewSettings {
     bool transfer_panel_shown = false;
     CutSettings cuts;
     TransferEditor transfer;
+    bool look_has_file = false;     ///< the curves of `transfer` can be saved
+    bool look_save_wanted = false;  ///< and somebody pressed the button
     bool slices_shown = false;
     bool light_field = false;  ///< a microscope's round field
     InsetKind inset = InsetKind::off;
