@@ -103,7 +103,12 @@ void draw_axes(const PanelPainter& painter, const Field& field) {
     for (double hu = 0.0; hu <= Field::highest_hu(); hu += step_hu) {
         const glm::vec2 at = field.pixel_of_hu(hu, 0.0);
         canvas.AddLine(to_imgui(at), {at.x, at.y + tick}, ink, painter.scale());
-        write({at.x, at.y + tick}, hu == 0.0 ? 0.0f : 0.5f, fmt::format("{:.0f}", hu));
+        const std::string text = fmt::format("{:.0f}", hu);
+        // The unit stands at the end.
+        if (at.x + 0.5f * tick_letters * painter.width_of(text) >
+            field.first().x + field.size().x - painter.width_of("HU"))
+            continue;
+        write({at.x, at.y + tick}, hu == 0.0 ? 0.0f : 0.5f, text);
     }
     write(field.first() + field.size() + glm::vec2(0.0f, tick), 1.0f, "HU");
     for (const double opacity : {0.0, 0.5, 1.0}) {
