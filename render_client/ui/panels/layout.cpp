@@ -66,10 +66,9 @@ std::optional<PanelPlace> find_place(const Places& taken, const PanelWish& wish,
     return std::nullopt;
 }
 
-}  // namespace
-
-Places lay_out(std::span<const PanelWish> wishes, const glm::vec2& picture, float margin,
-               const std::optional<PanelPlace>& burr) {
+/// With the first so many sizes of each left out.
+Places lay_out_from(std::span<const std::size_t> first_choices, std::span<const PanelWish> wishes,
+                    const glm::vec2& picture, float margin, const std::optional<PanelPlace>& burr) {
     // Last the burr, for those that give way to it. Where it is not there, its place is empty.
     Places taken(wishes.size() + 1);
     const auto find = [&](const PanelWish& wish, std::size_t choice) {
@@ -83,12 +82,34 @@ Places lay_out(std::span<const PanelWish> wishes, const glm::vec2& picture, floa
             taken[i] = find(wishes[i], wishes[i].sizes.size() - 1);
     for (std::size_t i = 0; i < wishes.size(); ++i) {
         const std::optional<PanelPlace> kept = std::exchange(taken[i], std::nullopt);
-        for (std::size_t choice = 0; choice < wishes[i].sizes.size() && !taken[i]; ++choice)
+        for (std::size_t choice = first_choices[i]; choice < wishes[i].sizes.size() && !taken[i]; ++choice)
             taken[i] = find(wishes[i], choice);
         if (!taken[i]) taken[i] = kept;
     }
     taken.pop_back();
     return taken;
+}
+
+}  // namespace
+
+Places lay_out(std::span<const PanelWish> wishes, const glm::vec2& picture, float margin,
+               const std::optional<PanelPlace>& burr) {
+    std::vector<std::size_t> first_choices(wishes.size(), 0);
+    for (;;) {
+        Places places = lay_out_from(first_choices, wishes, picture, margin, burr);
+        // The largest of those that were opened shrinks for one that has no place, until none can.
+        const bool all_are_there = std::none_of(places.begin(), places.end(), [&](const auto& place) {
+            return !place && wishes[static_cast<std::size_t>(&place - places.data())].is_asked_for;
+        });
+        std::optional<std::size_t> largest;
+        const auto area = [&](std::size_t i) { return places[i]->size.x * places[i]->size.y; };
+        for (std::size_t i = 0; i < places.size() && !all_are_there; ++i)
+            if (places[i] && wishes[i].is_asked_for && places[i]->choice + 1 < wishes[i].sizes.size() &&
+                (!largest || area(i) > area(*largest)))
+                largest = i;
+        if (!largest) return places;
+        first_choices[*largest] = places[*largest]->choice + 1;
+    }
 }
 
 std::vector<glm::vec2> shrinking_sizes(const glm::vec2& whole, const glm::vec2& picture, float margin,

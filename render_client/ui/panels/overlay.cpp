@@ -40,6 +40,10 @@ class PanelList {
         add(anchor, {size}, std::move(draw));
         wishes_.back().may_cover_middle = true;
     }
+    void add_asked_for(Anchor anchor, std::vector<glm::vec2> sizes, Draw draw) {
+        add(anchor, std::move(sizes), std::move(draw));
+        wishes_.back().is_asked_for = true;
+    }
     void keep_last() { wishes_.back().is_kept = true; }
     void let_last_give_way() { wishes_.back().gives_way = true; }
     void add_text(const PanelPainter& painter, Anchor anchor, const PanelText& text, float widest) {
@@ -93,15 +97,16 @@ void add_controls(PanelList& panels, const OverlayContent& content, const PanelP
         std::vector<glm::vec2> sizes = slices_panel_sizes(painter);
         const auto smaller = shrunk(sizes.back());
         sizes.insert(sizes.end(), smaller.begin() + 1, smaller.end());
-        panels.add(Anchor::lower_left, std::move(sizes),
-                   [&](const PanelPlace& place) { draw_slices_panel(content, place); });
+        panels.add_asked_for(Anchor::lower_left, std::move(sizes),
+                             [&](const PanelPlace& place) { draw_slices_panel(content, place); });
     }
     if (view.cuts_panel_shown)
-        panels.add(Anchor::upper_left, shrunk(cuts_panel_size(painter)),
-                   [&](const PanelPlace& place) { draw_cuts_panel(view.cuts, *content.camera, place); });
+        panels.add_asked_for(
+            Anchor::upper_left, shrunk(cuts_panel_size(painter)),
+            [&](const PanelPlace& place) { draw_cuts_panel(view.cuts, *content.camera, place); });
     if (view.transfer_panel_shown)
-        panels.add(Anchor::upper_left, shrunk(transfer_panel_size(painter)),
-                   [&](const PanelPlace& place) { draw_transfer_panel(painter, view, place); });
+        panels.add_asked_for(Anchor::upper_left, shrunk(transfer_panel_size(painter)),
+                             [&](const PanelPlace& place) { draw_transfer_panel(painter, view, place); });
     if (content.operator_command)
         panels.add_text(painter, Anchor::lower_left, operator_text(content), side_width);
     if (content.player != nullptr)
