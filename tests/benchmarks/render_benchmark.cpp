@@ -136,6 +136,7 @@ void RefineAfterOrbit(benchmark::State& state) {
         ViewSettings& view = client.picture().view();
         view.help_shown = view.cuts_panel_shown = view.transfer_panel_shown = view.slices_shown = true;
     }
+    if (state.range(1) == 1) client.picture().view().transfer.choose(transfer_presets()[1]);
     double longest_s = 0.0;
     double frames = 0.0;
     for ([[maybe_unused]] auto _ : state) {
@@ -156,9 +157,8 @@ void RefineAfterOrbit(benchmark::State& state) {
     state.counters["frames"] = frames / static_cast<double>(state.iterations());
 }
 BENCHMARK(RefineAfterOrbit)
-    ->ArgName("all_panels")
-    ->Arg(0)
-    ->Arg(1)
+    ->ArgNames({"all_panels", "see_through"})
+    ->ArgsProduct({{0, 1}, {0, 1}})
     ->Iterations(15)
     ->UseManualTime()
     ->Unit(benchmark::kMillisecond);
