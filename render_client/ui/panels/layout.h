@@ -31,8 +31,8 @@ struct PanelPlace {
 /// from a lower one. One whose first size fits nowhere there gets its next, and none if none fits: a small
 /// window shows fewer panels.
 /// The middle of the picture, where one works, stays free of all that may not cover it; and so does `burr`,
-/// what the burr takes of the picture, of all that give way. Of those that the user opened the largest shrinks
-/// until all have a place, or none can.
+/// what the burr takes of the picture, of all that give way. Of those that the user opened the largest
+/// shrinks until all have a place, or none can.
 std::vector<std::optional<PanelPlace>> lay_out(std::span<const PanelWish> wishes, const glm::vec2& picture,
                                                float margin,
                                                const std::optional<PanelPlace>& burr = std::nullopt);
