@@ -8,6 +8,7 @@
 #include <stdexcept>
 #include <thread>
 
+#include "render_client/ui/view/redraw.h"
 #include "render_client/ui/view/screenshots.h"
 #include "render_client/ui/view/session_picture.h"
 #include "render_client/volume/gl/offscreen_context.h"
@@ -73,22 +74,34 @@ RenderReport run_offscreen(const RenderOptions& options, SessionSource& source,
     FrameTimes frame_times;
 
     bool going_on = wait_for_bone(session, stop_asked);
-    Clock::time_point previous = Clock::now() - frame_period;
+    Redraw redraw;
+    redraw.note_change(Clock::now());
+    const gl::Framebuffer* framebuffer = nullptr;  // of the last frame that was drawn
+    Clock::time_point drawn = Clock::now() - frame_period;
     Clock::time_point due = Clock::now();
     for (int frame = 1; going_on; ++frame) {
         const Clock::time_point start = Clock::now();
-        session.take_in();
+        const SessionPicture::News news = session.take_in();
+        if (news == SessionPicture::News::change) redraw.note_change(start);
+        if (news == SessionPicture::News::figures) redraw.note_figures();
         const LinkStatus status = session.link().status;
-        const gl::Framebuffer& framebuffer = session.draw(seconds(start - previous));
-        previous = start;
-        // Reading a pixel waits until the frame is finished, as showing it would.
-        framebuffer.depth_at({0, 0});
-        frame_times.add(1e3 * seconds(Clock::now() - start));
-
         going_on = frame < options.frames && status != LinkStatus::finished &&
                    status != LinkStatus::refused && !stop_asked();
-        screenshots.after_frame(framebuffer);
-        if (!going_on) screenshots.after_last_frame(framebuffer);
+
+        // What is written shows the newest figures, too.
+        const bool is_written = !going_on || screenshots.is_next_due();
+        if (framebuffer == nullptr || redraw.is_due(start) ||
+            (is_written && news != SessionPicture::News::none)) {
+            framebuffer = &session.draw(seconds(start - drawn));
+            drawn = start;
+            // Reading a pixel waits until the frame is finished, as showing it would.
+            framebuffer->depth_at({0, 0});
+            const Clock::duration took = Clock::now() - start;
+            redraw.drew(start, took);
+            frame_times.add(1e3 * seconds(took));
+        }
+        screenshots.after_frame(*framebuffer);
+        if (!going_on) screenshots.after_last_frame(*framebuffer);
         due = std::max(due + frame_period, Clock::now());
         if (going_on) std::this_thread::sleep_until(due);
     }

@@ -21,9 +21,9 @@ struct RenderReport {
     std::string link_status;
 };
 
-/// Keys: frames, frame_ms {p50, p99, max}, gl_renderer, bone_checksum (16 hex digits), bone_textures
-/// {layout: "dense" or "atlas", coarsening, mib} (null without a bone), dirty_bricks_uploaded,
-/// checksum_mismatches, link_status.
+/// Keys: frames (that were drawn: a still scene is not drawn again), frame_ms {p50, p99, max}, gl_renderer,
+/// bone_checksum (16 hex digits), bone_textures {layout: "dense" or "atlas", coarsening, mib} (null without a
+/// bone), dirty_bricks_uploaded, checksum_mismatches, link_status.
 std::string to_json(const RenderReport& report);
 
 /// Replaces the file as a whole. Throws std::runtime_error naming the file where it cannot be written.

@@ -1,6 +1,6 @@
-// The rule for when a window draws: while what it shows changes, and a little longer; where nothing changes
-// but figures (the time, the delay of the link), once a second, or less often where a frame is dear; else not
-// at all. No clock: the caller says what time it is.
+// The rule for when a window draws, or a run without one: while what it shows changes, and a little longer;
+// where nothing changes but figures (the time, the delay of the link), once a second, or less often where a
+// frame is dear; else not at all. No clock: the caller says what time it is.
 #pragma once
 
 #include <algorithm>

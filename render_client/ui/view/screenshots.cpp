@@ -12,8 +12,9 @@ Screenshots::Screenshots(std::filesystem::path folder, int every_frames)
 }
 
 void Screenshots::after_frame(const gl::Framebuffer& picture) {
+    const bool is_due = is_next_due();
     ++frame_;
-    if (folder_.empty() || frame_ % every_frames_ != 0) return;
+    if (!is_due) return;
     write_png(picture.read_back(), folder_ / fmt::format("frame_{:04}.png", frame_));
 }
 

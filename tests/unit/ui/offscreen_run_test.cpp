@@ -34,6 +34,49 @@ bool never() {
     return false;
 }
 
+/// A session of which nothing is heard any more after its first polls, its burr at rest.
+class StillSession final : public SessionSource {
+  public:
+    explicit StillSession(int polls_with_motion) : polls_left_(polls_with_motion) {}
+
+    LinkUpdate poll() override {
+        if (polls_left_-- > 0) {
+            last_ = session_.poll();
+            if (last_.tool) last_.tool->spindle_on = false;
+            return last_;
+        }
+        LinkUpdate nothing_new;
+        nothing_new.status = last_.status;
+        nothing_new.status_line = last_.status_line;
+        nothing_new.frames_per_s = last_.frames_per_s;
+        return nothing_new;
+    }
+    const Bone* bone() const override { return session_.bone(); }
+    const SessionInfo* session() const override { return session_.session(); }
+    void send_operator(const OperatorCommand&) override {}
+
+  private:
+    int polls_left_;
+    ScriptedSession session_{1000};
+    LinkUpdate last_;
+};
+
+/// How many frames, 1/30 s apart at the least, begin while a change settles, the first and the last with
+/// them.
+constexpr std::size_t most_settling_frames = 10;
+
+TEST_F(OffscreenRunTest, DrawsAStillSceneNoMore) {
+    options_.frames = 40;
+    options_.screenshot_every = 20;
+    StillSession session(5);
+    const RenderReport report = run_offscreen(options_, session, never);
+    EXPECT_GE(report.frame_times.count(), 1u);
+    EXPECT_LE(report.frame_times.count(), 5 + most_settling_frames) << "of 40";
+    for (const char* name : {"frame_0020.png", "frame_0040.png", "final.png"})
+        EXPECT_TRUE(std::filesystem::exists(folder_ / name)) << name;
+    EXPECT_EQ(read_png(folder_ / "frame_0020.png").rgb, read_png(folder_ / "final.png").rgb);
+}
+
 TEST_F(OffscreenRunTest, EndsAfterItsFramesAndWritesEveryKthAndTheLast) {
     options_.frames = 5;
     options_.screenshot_every = 2;
