@@ -735,8 +735,9 @@ static inline omb_state omb_exchange_at(omb_link* link, const omb_pose* pose, om
         omb_say(link, message);
         if (!link->newest.is_off && (pose->status & OMB_READY)) trust = omb_trust(age_ns);
     }
-    /* After a long gap no long step. */
-    step_s = 1e-9 * (double)(now_ns - link->given_ns < 2000000u ? now_ns - link->given_ns : 2000000u);
+    /* After a long gap no long step, and while the force goes none longer than of a loop on time. */
+    step_s = 1e-9 * (double)(now_ns - link->given_ns);
+    if (step_s > (trust < 1.0 ? 0.001 : 0.002)) step_s = trust < 1.0 ? 0.001 : 0.002;
     link->given_ns = now_ns;
     if (trust > link->trust + step_s / OMB_RETURN_S) trust = link->trust + step_s / OMB_RETURN_S;
     link->trust = trust;
