@@ -18,6 +18,8 @@ CLI::App* add_render(CLI::App& app, RenderStudyOptions& options) {
             "width of the pictures, 4:3 (640; 240 with --quick)")
         ->check(CLI::Range(64, 4096));
     render->add_flag("--quick", options.quick, "fewer settings, smaller pictures: under a minute");
+    render->add_flag("--zooms", options.zooms_only,
+                     "only the pictures of every bone at three zooms, into OUT/zooms");
     return render;
 }
 

@@ -13,6 +13,7 @@
 #include "studies/render/gallery.h"
 #include "studies/render/upload_cost.h"
 #include "studies/report/chart.h"
+#include "studies/render/zooms.h"
 #include "studies/report/output_files.h"
 
 namespace osteomill::study {
@@ -48,6 +49,10 @@ class RenderStudy {
         say("drawn by {}", gl::renderer_name());
         // For the charts' titles.
         write(gl::renderer_name() + "\n", "gl_renderer.txt");
+        if (options_.zooms_only) {
+            zooms();
+            return;
+        }
 
         const TrialBone tooth =
             with_progress("phantom", [](const Progress& progress) { return done(tooth_trial(), progress); });
@@ -155,6 +160,17 @@ class RenderStudy {
             return json;
         };
         return {{"by_volume", rows(by_volume, "edge_voxels")}, {"by_window", rows(by_window, "kilopixels")}};
+    }
+
+    void zooms() const {
+        const std::filesystem::path folder = options_.out / "zooms";
+        make_folder(folder);
+        with_progress("zooms", [&](const Progress& progress) {
+            write_zooms(size_px_, folder, options_.scans, progress);
+            progress(1.0);
+        });
+        say("pictures (PNG) of every bone at three zooms are in {}{}", folder.string(),
+            options_.scans ? "" : "; real CT skipped: OSTEOMILL_SCANS does not name the folder of trial scans");
     }
 
     void gallery(const TrialBone& trial) const {

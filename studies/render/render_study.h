@@ -11,6 +11,7 @@ namespace osteomill::study {
 
 struct RenderStudyOptions {
     std::filesystem::path out;
+    bool zooms_only = false;                       ///< only the pictures at three zooms
     bool quick = false;                            ///< fewer settings, smaller pictures: under a minute
     std::optional<glm::ivec2> size_px{};           ///< of the pictures; none: 640 x 480, 240 x 180 if quick
     std::optional<std::filesystem::path> scans{};  ///< a folder of trial scans; none: the phantom alone

@@ -47,10 +47,16 @@ TrialBone with_views(const std::string& name, Bone bone, std::vector<TissueColou
 }  // namespace
 
 TrialBone tooth_trial() {
-    const Scene scene = phantom_scene("tooth");
+    TrialBone trial = phantom_trial("tooth");
+    trial.name = "tooth phantom";
+    return trial;
+}
+
+TrialBone phantom_trial(const std::string& name) {
+    const Scene scene = phantom_scene(name);
     std::vector<TissueColour> tissues;
     for (const Tissue& tissue : scene.tissues) tissues.push_back({tissue.label, tissue.colour_rgb});
-    return with_views("tooth phantom", load_bone(scene).bone, tissues, 7.0);
+    return with_views(name, load_bone(scene).bone, tissues, 7.0);
 }
 
 TrialBone skull_trial(const std::filesystem::path& scans, const std::filesystem::path& folder) {

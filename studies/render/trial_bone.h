@@ -23,6 +23,9 @@ struct TrialBone {
 /// The phantom of the default scene, 512 x 512 x 128 voxels.
 TrialBone tooth_trial();
 
+/// The phantom of another scene (see phantom_names), of which the close-up shows 7 mm round.
+TrialBone phantom_trial(const std::string& name);
+
 /// 40 mm of the skull in the folder of trial scans, 400^3 voxels, imported by way of a file in `folder` which
 /// is removed again. Throws std::runtime_error where the scan is not there.
 TrialBone skull_trial(const std::filesystem::path& scans, const std::filesystem::path& folder);
