@@ -126,6 +126,11 @@ double cover(const HuLayer& field, const glm::ivec3& voxel, double threshold_hu)
     return std::clamp(0.5 + excess / steepness, 0.0, 1.0);
 }
 
+double cover(const HuSlices& slices, const HuLayer& field, const glm::ivec3& voxel, double threshold_hu) {
+    if (!slices.surface_distance_voxels) return cover(field, voxel, threshold_hu);
+    return std::clamp(0.5 - slices.surface_distance_voxels(voxel), 0.0, 1.0);
+}
+
 std::uint8_t stiffness_code(double relative) {
     return static_cast<std::uint8_t>(std::clamp(std::lround(relative / stiffness_per_code), 1L, 255L));
 }
@@ -183,17 +188,18 @@ void fill_voxel(const HuLayer& field, const CodeTable& codes, bool labelled, con
     }
 }
 
-BrickChannels channels_of(const HuLayer& field, const CodeTable& codes, bool labelled, const Grid& grid,
+BrickChannels channels_of(const HuSlices& slices, const HuLayer& field, const CodeTable& codes,
                           double threshold_hu, const glm::ivec3& brick, bool is_all_bone) {
     BrickChannels channels;
     const glm::ivec3 first = brick * brick_edge_voxels;
-    const glm::ivec3 end = glm::min(first + brick_edge_voxels, grid.size_voxels);
+    const glm::ivec3 end = glm::min(first + brick_edge_voxels, slices.grid.size_voxels);
     for (int z = first.z; z < end.z; ++z)
         for (int y = first.y; y < end.y; ++y)
             for (int x = first.x; x < end.x; ++x) {
                 const glm::ivec3 voxel(x, y, z);
-                const double covered = is_all_bone ? 1.0 : cover(field, voxel, threshold_hu);
-                if (covered * 255.0 >= 0.5) fill_voxel(field, codes, labelled, voxel, covered, channels);
+                const double covered = is_all_bone ? 1.0 : cover(slices, field, voxel, threshold_hu);
+                if (covered * 255.0 >= 0.5)
+                    fill_voxel(field, codes, slices.labelled, voxel, covered, channels);
             }
     return channels;
 }
@@ -263,8 +269,8 @@ Bone bone_from_hu(const HuSlices& slices, double threshold_hu, const StiffnessRe
             for (int x = 0; x < size_bricks.x; ++x) {
                 const auto [lowest, highest] = layer.range_around_brick(x);
                 if (highest < threshold_hu) continue;
-                collector.add({x, y, z}, channels_of(layer, codes, slices.labelled, slices.grid, threshold_hu,
-                                                     {x, y, z}, lowest >= threshold_hu));
+                collector.add({x, y, z}, channels_of(slices, layer, codes, threshold_hu, {x, y, z},
+                                                     lowest >= threshold_hu));
             }
         }
     }

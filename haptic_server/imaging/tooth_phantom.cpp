@@ -145,6 +145,37 @@ double across_surface(double material_hu, double outside_hu, double distance_vox
                : phantom_threshold_hu + (outside_hu - phantom_threshold_hu) * std::min(1.0, distance_voxels);
 }
 
+struct Distances {
+    double tooth_mm;
+    double socket_mm;  ///< of the jaw with the hole for the tooth
+    double nearest_mm() const { return std::min(tooth_mm, socket_mm); }
+};
+
+bool is_near_tooth(const glm::dvec3& p) {
+    return std::abs(p.x) < 7.0 && std::abs(p.y) < 6.5;
+}
+
+/// The bodies' own measures of distance, which blending and slopes stretch.
+Distances distances_at(const glm::dvec3& p) {
+    const double tooth = is_near_tooth(p) ? tooth_mm(p) : 1.0;
+    return {tooth, std::max(jaw_mm(p), ligament_mm - tooth)};
+}
+
+/// Distance from the surface to first order: the measure over its slope.
+double surface_distance_mm(const glm::dvec3& p, double spacing_mm) {
+    const double measure = distances_at(p).nearest_mm();
+    // Far off it does not matter, and slopes are between a half and two.
+    if (std::abs(measure) > 2.0 * spacing_mm) return measure;
+    const double step_mm = 0.25 * spacing_mm;
+    glm::dvec3 rise(0.0);
+    for (int axis = 0; axis < 3; ++axis) {
+        glm::dvec3 step(0.0);
+        step[axis] = step_mm;
+        rise[axis] = distances_at(p + step).nearest_mm() - distances_at(p - step).nearest_mm();
+    }
+    return measure / std::max(glm::length(rise) / (2.0 * step_mm), 0.5);
+}
+
 void fill_slice(const Grid& grid, int z, std::span<std::int16_t> hu, std::span<std::uint8_t> tissue) {
     std::fill(hu.begin(), hu.end(), air_hu);
     std::fill(tissue.begin(), tissue.end(), std::uint8_t{0});
@@ -153,17 +184,16 @@ void fill_slice(const Grid& grid, int z, std::span<std::int16_t> hu, std::span<s
         for (int x = 0; x < grid.size_voxels.x; ++x) {
             const glm::dvec3 p = centre_of_voxel_mm(grid, {x, y, z});
             if (std::abs(p.y) > 7.7 || std::abs(p.x) > 23.2) continue;
-            const bool near_tooth = std::abs(p.x) < 7.0 && std::abs(p.y) < 6.5;
-            const double tooth = near_tooth ? tooth_mm(p) : 1.0;
-            const double socket = std::max(jaw_mm(p), ligament_mm - tooth);
-            const double nearest = std::min(tooth, socket);
+            const Distances distances = distances_at(p);
+            const double nearest = distances.nearest_mm();
             const auto index = static_cast<std::size_t>(x + grid.size_voxels.x * y);
             if (nearest >= h) {
-                if (near_tooth && jaw_mm(p) < 0.0) hu[index] = static_cast<std::int16_t>(ligament_hu);
+                if (is_near_tooth(p) && jaw_mm(p) < 0.0) hu[index] = static_cast<std::int16_t>(ligament_hu);
                 continue;
             }
-            const Material material =
-                tooth <= socket ? material_of_tooth(p, tooth) : material_of_jaw(p, jaw_mm(p), tooth);
+            const Material material = distances.tooth_mm <= distances.socket_mm
+                                          ? material_of_tooth(p, distances.tooth_mm)
+                                          : material_of_jaw(p, jaw_mm(p), distances.tooth_mm);
             const double outside_hu = jaw_mm(p) < 0.0 ? ligament_hu : air_hu;
             hu[index] =
                 static_cast<std::int16_t>(std::lround(across_surface(material.hu, outside_hu, nearest / h)));
@@ -177,11 +207,17 @@ HuSlices make_tooth_phantom() {
     const Grid grid{.size_voxels = {512, 512, 128}, .spacing_mm = 0.1, .origin_mm = {-25.55, -25.55, -8.45}};
     return {.grid = grid,
             .labelled = true,
-            .read = [grid, z = 0](std::span<std::int16_t> hu, std::span<std::uint8_t> tissue) mutable {
-                const std::size_t slice = 512 * 512;
-                for (std::size_t at = 0; at < hu.size(); at += slice)
-                    fill_slice(grid, z++, hu.subspan(at, slice), tissue.subspan(at, slice));
-            }};
+            .read =
+                [grid, z = 0](std::span<std::int16_t> hu, std::span<std::uint8_t> tissue) mutable {
+                    const std::size_t slice = 512 * 512;
+                    for (std::size_t at = 0; at < hu.size(); at += slice)
+                        fill_slice(grid, z++, hu.subspan(at, slice), tissue.subspan(at, slice));
+                },
+            .surface_distance_voxels =
+                [grid](const glm::ivec3& voxel) {
+                    return surface_distance_mm(centre_of_voxel_mm(grid, voxel), grid.spacing_mm) /
+                           grid.spacing_mm;
+                }};
 }
 
 }  // namespace osteomill

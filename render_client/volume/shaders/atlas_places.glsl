@@ -15,12 +15,14 @@ ivec3 first_texel_of(ivec3 brick) {
     return ivec3(texelFetch(bone_tile_table, brick, 0).xyz) * tile_edge + tile_border;
 }
 
-vec3 texture_place(vec3 point) {
+vec3 texture_place_beside(vec3 point, vec3 offset) {
     ivec3 brick = brick_at(point);
     // A point beyond the box gets what the outermost border holds: nothing.
-    vec3 within = clamp(point - vec3(brick) * brick_edge, -0.5, brick_edge + 0.5);
+    vec3 within = clamp(point + offset - vec3(brick) * brick_edge, -0.5, brick_edge + 0.5);
     return (vec3(first_texel_of(brick)) + within) / bone_texture_size;
 }
+
+vec3 texture_place(vec3 point) { return texture_place_beside(point, vec3(0.0)); }
 
 ivec3 texel_shift(vec3 point) {
     ivec3 brick = brick_at(point);

@@ -14,7 +14,7 @@ namespace osteomill {
 
 namespace {
 
-enum TextureUnit { fraction_unit, blocks_unit, table_unit, code_unit, colours_unit, surface_unit, ct_unit };
+enum TextureUnit { fraction_unit, blocks_unit, table_unit, code_unit, colours_unit, surface_unit, ct_unit, smoothed_unit };
 
 bool shows_ct(const SceneLook& look) {
     return look.ct != nullptr && !look.cuts.empty();
@@ -33,6 +33,7 @@ gl::Program BoneProgram::make(const Variant& variant) const {
     files.insert(files.end(), own_.fragment.begin(), own_.fragment.end());
     const std::string constants = constant("bone_has_colour_code", variant.has_colour_code) +
                                   constant("bone_codes_are_tissues", variant.codes_are_tissues) +
+                                  constant("bone_has_smoothed", variant.has_smoothed) +
                                   constant("bone_has_surface_colours", variant.has_surface_colours) +
                                   constant("bone_is_translucent", variant.is_translucent) +
                                   constant("cuts_show_ct", variant.cuts_show_ct) +
@@ -46,6 +47,7 @@ gl::Program BoneProgram::make(const Variant& variant) const {
     program.set("bone_colours", colours_unit);
     program.set("bone_surface_colours", surface_unit);
     program.set("cut_ct", ct_unit);
+    program.set("bone_smoothed", smoothed_unit);
     return program;
 }
 
@@ -59,6 +61,7 @@ const gl::Program& BoneProgram::use(const BoneTextures& bone, const SceneLook& l
     const gl::Program& program = program_for({.layout = bone.plan().layout,
                                               .has_colour_code = bone.colour_code().has_value(),
                                               .codes_are_tissues = bone.codes_are_tissues(),
+                                              .has_smoothed = bone.smoothed() != nullptr,
                                               .has_surface_colours = bone.surface_colours() != nullptr,
                                               .is_translucent = bone.is_translucent(),
                                               .cut_count = cut_count(look),
@@ -73,6 +76,7 @@ const gl::Program& BoneProgram::use(const BoneTextures& bone, const SceneLook& l
     bone.blocks().bind(blocks_unit);
     bone.colours().bind(colours_unit);
     if (bone.tile_table()) bone.tile_table()->bind(table_unit);
+    if (bone.smoothed() != nullptr) bone.smoothed()->bind(smoothed_unit);
     if (bone.surface_colours() != nullptr) bone.surface_colours()->bind(surface_unit);
     // A sampler that nothing is fetched from may not find a texture of another kind on its unit.
     if (bone.colour_code())

@@ -34,6 +34,7 @@ class BoneProgram {
         BoneLayout layout = BoneLayout::dense;
         bool has_colour_code = false;
         bool codes_are_tissues = false;
+        bool has_smoothed = false;
         bool has_surface_colours = false;
         bool is_translucent = false;
         int cut_count = 0;

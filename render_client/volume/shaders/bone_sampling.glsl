@@ -7,10 +7,13 @@
 //     vec3  bone_size                               uniform: the box, voxels
 //     vec3  texture_place(vec3 point)               where a texture that is placed as the fractions are
 //                                                   (AtlasLayout) holds the point, 0 to 1 along each edge
+//     vec3  texture_place_beside(vec3 point, vec3 offset)
+//                                                   the place of point + offset, at most half a voxel away, in the
+//                                                   tile of the point: which knows what lies beside bone, too
 //     ivec3 texel_shift(vec3 point)                 texel less voxel number, for the voxels of the box within
 //                                                   one of the point
 //     float fraction_at(vec3 point)                 0 to 1, trilinear between voxels
-//     vec3  gradient_at(vec3 point)                 of the fraction, 1 / voxel; points into the bone
+//     vec3  gradient_at(vec3 point)                 of the (smoothed) fraction, 1 / voxel; points into the bone
 //     vec3  normal_at(vec3 point, vec3 otherwise)   unit, out of the bone; `otherwise` where nothing slopes
 //     vec4  look_at(vec3 point)                     linear RGB and opacity of the bone that is or was there
 //     vec4  smooth_look_at(vec3 point)              the same without a trace of the voxels' steps
@@ -25,11 +28,13 @@
 //     bool  bone_has_colour_code                    else all bone looks alike
 //     bool  bone_codes_are_tissues                  codes are alike within a tissue; else they are stiffness
 //     bool  bone_is_translucent                     opacities are per mm, else bone is solid
+//     bool  bone_has_smoothed                       normals are those of the smoothed fractions
 //     bool  bone_has_surface_colours                else surface_colour_at means nothing
 //     float bone_mm_per_voxel
 
 uniform sampler3D bone_fraction;
 uniform sampler3D bone_blocks;
+uniform sampler3D bone_smoothed;
 uniform usampler3D bone_colour_code;
 uniform sampler2D bone_colours;
 uniform sampler3D bone_surface_colours;
@@ -40,23 +45,38 @@ const float block_edge = 4.0;
 
 float fraction_at(vec3 point) { return textureLod(bone_fraction, texture_place(point), 0.0).r; }
 
-// Eight corners about a point: the mean slope between them. A fraction rises from none to all within about one
-// voxel, so corners much farther apart would saturate and turn normals by ten degrees, and the derivative itself
-// jumps between voxels. At 0.4 voxels pictures are within 40 dB of the derivative's (osteomill_study render).
-const float corner_reach = 0.4;
+// The slope of a fraction, which rises from none to all within one voxel, turns with the lattice: normals would be
+// off by 6 degrees at the 95th percentile, and light shows that as rings. Smoothed over the voxels across which the
+// slope is measured they are not: over 0.9 degrees (osteomill_study render, "normals").
+const float corner_reach = 0.45;
 
 vec3 side_of_corner(int corner) {
     return vec3(corner & 1, (corner >> 1) & 1, (corner >> 2) & 1) * 2.0 - 1.0;
 }
 
-vec3 gradient_at(vec3 point) {
+// Eight corners about the point: the mean slope between them.
+vec3 gradient_of_smoothed(vec3 point) {
     vec3 gradient = vec3(0.0);
     for (int corner = 0; corner < 8; ++corner) {
         vec3 side = side_of_corner(corner);
-        gradient += side * fraction_at(point + corner_reach * side);
+        gradient += side * textureLod(bone_smoothed, texture_place_beside(point, corner_reach * side), 0.0).r;
     }
     return gradient / (8.0 * corner_reach);
 }
+
+// Where there is no memory for smoothed fractions: 4^3 samples a voxel apart, which smooth about as much across the
+// slope as along it.
+vec3 gradient_by_samples(vec3 point) {
+    vec3 gradient = vec3(0.0);
+    for (int sample_number = 0; sample_number < 64; ++sample_number) {
+        vec3 offset = vec3(sample_number & 3, (sample_number >> 2) & 3, sample_number >> 4) - 1.5;
+        vec3 weight = mix(vec3(5.0), vec3(1.0), greaterThan(abs(offset), vec3(1.0)));
+        gradient += sign(offset) * weight.yzx * weight.zxy * fraction_at(point + offset);
+    }
+    return gradient / 576.0;
+}
+
+vec3 gradient_at(vec3 point) { return bone_has_smoothed ? gradient_of_smoothed(point) : gradient_by_samples(point); }
 
 vec3 normal_at(vec3 point, vec3 otherwise) {
     vec3 gradient = gradient_at(point);

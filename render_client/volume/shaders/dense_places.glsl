@@ -3,4 +3,5 @@
 uniform vec3 bone_size;
 
 vec3 texture_place(vec3 point) { return point / bone_size; }
+vec3 texture_place_beside(vec3 point, vec3 offset) { return (point + offset) / bone_size; }
 ivec3 texel_shift(vec3 point) { return ivec3(0); }

@@ -8,7 +8,7 @@ namespace osteomill {
 /// beyond each; one in reserve.
 inline constexpr int shading_reach_voxels = 19;
 /// The same for where a surface is and which way it faces, which is what a carve is seen by: gradient_at
-/// reads 2 voxels away; one in reserve.
-inline constexpr int surface_reach_voxels = 3;
+/// reads 2 voxels away what is smoothed over 3; one in reserve.
+inline constexpr int surface_reach_voxels = 6;
 
 }  // namespace osteomill

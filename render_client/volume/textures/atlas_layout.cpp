@@ -88,8 +88,10 @@ std::vector<PlacedVoxels> AtlasLayout::all(const BoneContent& content) const {
 std::span<const PlacedVoxels> AtlasLayout::that_show(const Bone& bone, std::span<const VoxelBox> changed,
                                                      int reach_voxels) {
     shown_.clear();
+    // What is smoothed reaches into the borders of tiles, beyond the box.
+    const VoxelBox held = grown(box_, layout_ == BoneLayout::atlas ? tile_border_voxels : 0);
     for (const VoxelBox& box : changed) {
-        const VoxelBox voxels = overlap(grown(box, reach_voxels), box_);
+        const VoxelBox voxels = overlap(grown(box, reach_voxels), held);
         if (voxels.count() == 0) continue;
         if (layout_ == BoneLayout::atlas)
             add_atlas_changes(bone, voxels);

@@ -42,9 +42,10 @@ std::optional<VisibleBone> without_hidden(const Bone& bone, const LookTable& tab
     return VisibleBone(bone, table);
 }
 
-std::size_t bytes_per_voxel(const LookTable& table, Shading shading) {
-    return std::size_t{1} + (table.channel ? 1 : 0) +
-           (shading == Shading::surface_voxels ? sizeof(SurfaceTexel) : 0);
+VoxelBytes bytes_per_voxel(const LookTable& table, Shading shading) {
+    const bool published = shading == Shading::surface_voxels;
+    return {.needed = std::size_t{1} + (table.channel ? 1 : 0) + (published ? sizeof(SurfaceTexel) : 0),
+            .smoothed = published ? std::size_t{0} : std::size_t{1}};
 }
 
 std::optional<gl::Texture3D> upload_tile_table(const BoneContent& content, const AtlasLayout& places) {
@@ -97,6 +98,7 @@ BoneTextures::BoneTextures(const Bone& bone, std::optional<CoarseBone> copy, con
       tile_table_(upload_tile_table(shown(bone).content(), places_)),
       colour_code_(upload_colour_code(shown(bone), places_, table_)),
       colours_(table_.by_code) {
+    if (plan_.smoothed) smoothed_.emplace(shown(bone), places_);
     if (shading == Shading::surface_voxels) surface_.emplace(shown(bone), table_, places_);
     const glm::ivec3& size = empty_space_.size_blocks();
     for (int z = 0; z < size.z; ++z) upload_blocks({{0, 0, z}, {size.x, size.y, 1}});
@@ -110,6 +112,7 @@ std::span<const VoxelBox> BoneTextures::update(const Bone& bone, std::span<const
     for (const PlacedVoxels& placed : places_.that_show(drawn, changed_))
         upload_voxels(fraction_, drawn, BoneChannel::fraction, placed, scratch_);
     for (const VoxelBox& blocks : empty_space_.update(drawn, changes)) upload_blocks(blocks);
+    if (smoothed_) smoothed_->update(drawn, places_, changed_);
     if (surface_) surface_->update(drawn, places_, changed_);
     return changed_;
 }

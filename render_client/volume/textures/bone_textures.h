@@ -1,7 +1,8 @@
 // The bone as 3D textures: its fractions, which are carved, without what its look hides; one byte a voxel of
 // what colours it (tissue label or stiffness code), only where the bone has such a channel; the colours of
-// its surface voxels, only where the look asks for them; and a map for skipping empty space and for ambient
-// light. Dense, as a brick atlas, or of a coarser copy, as memory allows.
+// its surface voxels, only where the look asks for them; the fractions smoothed, for normals; and a map for
+// skipping empty space and for ambient light. Dense, as a brick atlas, or of a coarser copy, as memory
+// allows.
 #pragma once
 
 #include <optional>
@@ -14,6 +15,7 @@
 #include "render_client/volume/textures/changed_boxes.h"
 #include "render_client/volume/textures/coarse_bone.h"
 #include "render_client/volume/textures/empty_space.h"
+#include "render_client/volume/textures/smoothed_fraction.h"
 #include "render_client/volume/textures/surface_texture.h"
 #include "render_client/volume/textures/texture_plan.h"
 #include "render_client/volume/textures/visible_bone.h"
@@ -45,6 +47,8 @@ class BoneTextures {
     const AtlasLayout& places() const { return places_; }
 
     const gl::Texture3D& fraction() const { return fraction_; }
+    /// The fractions, smoothed for normals; none where the look or the memory has no place for them.
+    const gl::Texture3D* smoothed() const { return smoothed_ ? &smoothed_->texture() : nullptr; }
     /// What `colours` is looked up by, placed as the fractions are; none for a homogeneous, unlabelled bone.
     const std::optional<gl::Texture3D>& colour_code() const { return colour_code_; }
     /// Whether they are labels, alike within a tissue, and not stiffness.
@@ -85,6 +89,7 @@ class BoneTextures {
     std::optional<gl::Texture3D> tile_table_;
     std::optional<gl::Texture3D> colour_code_;
     gl::LookupTable colours_;
+    std::optional<SmoothedTexture> smoothed_;
     std::optional<SurfaceTexture> surface_;
     std::vector<VoxelBox> changed_;  ///< by the last update
     std::vector<std::uint8_t> scratch_;

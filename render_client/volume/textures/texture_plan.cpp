@@ -34,19 +34,24 @@ bool fits_edges(const VoxelBox& box, std::size_t stored_bricks, BoneLayout layou
 
 }  // namespace
 
-std::vector<TexturePlan> texture_plans(const BoneContent& content, std::size_t bytes_per_voxel,
+std::vector<TexturePlan> texture_plans(const BoneContent& content, const VoxelBytes& bytes_per_voxel,
                                        const TextureLimits& limits) {
     const int longest_edge_texels = limits.longest_edge_texels.value();
     std::vector<TexturePlan> plans;
     for (int coarsening = 1; coarsening <= coarsest; coarsening *= 2) {
         const std::vector<BrickIndex> bricks = coarse_bricks(content, coarsening);
         const VoxelBox box = box_of_bricks(size_in_bricks(coarse_grid(content.grid, coarsening)), bricks);
-        for (const BoneLayout layout : {BoneLayout::dense, BoneLayout::atlas}) {
-            if (limits.layout && limits.layout != layout) continue;
-            if (!fits_edges(box, bricks.size(), layout, longest_edge_texels)) continue;
-            const std::size_t bytes =
-                bytes_of_plan(bytes_per_voxel, box, bricks.size(), layout, longest_edge_texels);
-            if (bytes <= limits.budget_bytes) plans.push_back({layout, coarsening, bytes});
+        for (const bool smoothed : {true, false}) {
+            if (smoothed && bytes_per_voxel.smoothed == 0) continue;
+            const std::size_t per_voxel = bytes_per_voxel.needed + (smoothed ? bytes_per_voxel.smoothed : 0);
+            const std::size_t most_bytes = smoothed ? limits.budget_bytes / 2 : limits.budget_bytes;
+            for (const BoneLayout layout : {BoneLayout::dense, BoneLayout::atlas}) {
+                if (limits.layout && limits.layout != layout) continue;
+                if (!fits_edges(box, bricks.size(), layout, longest_edge_texels)) continue;
+                const std::size_t bytes =
+                    bytes_of_plan(per_voxel, box, bricks.size(), layout, longest_edge_texels);
+                if (bytes <= most_bytes) plans.push_back({layout, coarsening, bytes, smoothed});
+            }
         }
     }
     return plans;

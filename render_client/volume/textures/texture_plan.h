@@ -23,14 +23,21 @@ struct TexturePlan {
     BoneLayout layout = BoneLayout::dense;
     int coarsening = 1;     ///< voxels of the bone along an edge of a voxel that is drawn
     std::size_t bytes = 0;  ///< of all textures together, as the driver is asked for them
+    bool smoothed = false;  ///< with a texture of smoothed fractions, for normals (smoothed_fraction.h)
 
     bool operator==(const TexturePlan&) const = default;
 };
 
+/// Bytes that a voxel takes in all the textures that hold voxels.
+struct VoxelBytes {
+    std::size_t needed = 1;
+    std::size_t smoothed = 0;  ///< more for smoothed fractions; 0: the look has no use for them
+};
+
 /// Every way that keeps within the limits, best first: the bone itself before coarser copies of it (by 2, 4,
-/// 8), dense before atlas. `bytes_per_voxel` of all the textures that hold voxels; `longest_edge_texels` of
-/// the limits must be given.
-std::vector<TexturePlan> texture_plans(const BoneContent& content, std::size_t bytes_per_voxel,
+/// 8), smoothed before not, dense before atlas. Smoother normals are a luxury: they are had only where all
+/// stays within half of the budget. `longest_edge_texels` of the limits must be given.
+std::vector<TexturePlan> texture_plans(const BoneContent& content, const VoxelBytes& bytes_per_voxel,
                                        const TextureLimits& limits);
 
 /// "a dense texture, 21 MiB", "a brick atlas, 412 MiB, of a copy 2 times coarser".

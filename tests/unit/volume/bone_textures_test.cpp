@@ -107,7 +107,9 @@ TEST_F(BoneTexturesTest, AskTheDriverForTheBytesThatTheyPlanned) {
     const Bone bone = ball();
     for (const BoneLayout layout : {BoneLayout::dense, BoneLayout::atlas}) {
         const BoneTextures textures(bone, {}, {}, {.layout = layout});
+        ASSERT_NE(textures.smoothed(), nullptr);
         std::size_t bytes = VoxelBox{{}, textures.fraction().size()}.count();
+        bytes += VoxelBox{{}, textures.smoothed()->size()}.count();
         bytes += 2 * VoxelBox{{}, textures.blocks().size()}.count();
         if (textures.tile_table()) bytes += 4 * VoxelBox{{}, textures.tile_table()->size()}.count();
         EXPECT_EQ(textures.plan().bytes, bytes);

@@ -20,8 +20,8 @@ class ShaderFilesTest : public OffscreenTest {};
 /// The constants of a variant of BoneProgram.
 std::string variant_constants(int bits) {
     std::string text;
-    for (const char* name : {"bone_has_colour_code", "bone_codes_are_tissues", "bone_has_surface_colours",
-                             "bone_is_translucent", "cuts_show_ct"}) {
+    for (const char* name : {"bone_has_colour_code", "bone_codes_are_tissues", "bone_has_smoothed",
+                             "bone_has_surface_colours", "bone_is_translucent", "cuts_show_ct"}) {
         text += std::string("const bool ") + name + (bits % 2 == 1 ? " = true;\n" : " = false;\n");
         bits /= 2;
     }
@@ -50,7 +50,7 @@ TEST_F(ShaderFilesTest, AllCompileInAllTheirPrograms) {
     for (const ProgramFiles& files : {raycast_files, slice_files})
         for (const char* places : {"dense_places.glsl", "atlas_places.glsl"}) {
             const auto names = behind_bone_sampling(places, files);
-            for (const int bits : {0, 1, 2 + 1, 4, 8, 16, 32 + 16, 63})
+            for (const int bits : {0, 1, 2 + 1, 4, 8, 16, 32, 64 + 32, 127})
                 EXPECT_NO_THROW(make_program(shader_text({&files.vertex, 1}),
                                              shader_text(names, variant_constants(bits))))
                     << files.vertex << " behind " << places << ", variant " << bits;

@@ -19,7 +19,7 @@ Bone two_bricks() {
 TEST(TexturePlan, PrefersADenseTextureThenAnAtlasThenCoarserCopies) {
     const Bone bone = two_bricks();
     const auto plans =
-        texture_plans(bone.content(), 1, {.budget_bytes = plenty, .longest_edge_texels = 2048});
+        texture_plans(bone.content(), {1}, {.budget_bytes = plenty, .longest_edge_texels = 2048});
     ASSERT_EQ(plans.size(), 8U);
     EXPECT_EQ(plans[0].layout, BoneLayout::dense);
     EXPECT_EQ(plans[0].bytes, 640U * 16 * 16 + 2U * 162 * 6 * 6);
@@ -34,7 +34,7 @@ TEST(TexturePlan, PrefersADenseTextureThenAnAtlasThenCoarserCopies) {
 TEST(TexturePlan, KeepsToTheBudget) {
     const Bone bone = two_bricks();
     const TextureLimits limits{.budget_bytes = 50'000, .longest_edge_texels = 2048};
-    const auto plans = texture_plans(bone.content(), 1, limits);
+    const auto plans = texture_plans(bone.content(), {1}, limits);
     ASSERT_FALSE(plans.empty());
     EXPECT_EQ(plans.front().layout, BoneLayout::atlas);
     for (const TexturePlan& plan : plans) EXPECT_LE(plan.bytes, limits.budget_bytes);
@@ -42,15 +42,30 @@ TEST(TexturePlan, KeepsToTheBudget) {
 
 TEST(TexturePlan, KeepsToTheLongestEdge) {
     const Bone bone = two_bricks();
-    const auto plans = texture_plans(bone.content(), 1, {.budget_bytes = plenty, .longest_edge_texels = 256});
+    const auto plans =
+        texture_plans(bone.content(), {1}, {.budget_bytes = plenty, .longest_edge_texels = 256});
     ASSERT_FALSE(plans.empty());
     EXPECT_EQ(plans.front().layout, BoneLayout::atlas);
     EXPECT_EQ(plans.front().coarsening, 1);
 }
 
+TEST(TexturePlan, HasSmoothedFractionsWithinHalfOfTheBudget) {
+    const Bone bone = two_bricks();
+    const auto plans = [&](std::size_t budget_bytes) {
+        return texture_plans(bone.content(), {.needed = 1, .smoothed = 1},
+                             {.budget_bytes = budget_bytes, .longest_edge_texels = 2048});
+    };
+    // Dense, both take 339'344 bytes; as an atlas, 58'480.
+    EXPECT_EQ(plans(2 * 339'344)[0], (TexturePlan{BoneLayout::dense, 1, 339'344, true}));
+    EXPECT_EQ(plans(2 * 339'343)[0], (TexturePlan{BoneLayout::atlas, 1, 58'480, true}));
+    EXPECT_FALSE(plans(2 * 58'479)[0].smoothed);
+    EXPECT_EQ(plans(2 * 58'479)[0].coarsening, 1) << "rather than coarser bone";
+}
+
 TEST(TexturePlan, HasNoneWhereNothingFits) {
     const Bone bone = two_bricks();
-    EXPECT_TRUE(texture_plans(bone.content(), 1, {.budget_bytes = 100, .longest_edge_texels = 2048}).empty());
+    EXPECT_TRUE(
+        texture_plans(bone.content(), {1}, {.budget_bytes = 100, .longest_edge_texels = 2048}).empty());
 }
 
 TEST(TexturePlan, IsDescribedInOneLine) {
