@@ -13,7 +13,7 @@ namespace osteomill::study {
 /// Where a surface's normal comes from.
 enum class ReferenceGradient {
     trilinear,     ///< the derivative of the interpolated fraction itself
-    eight_corners  ///< the shaders' wider differences, in double precision
+    eight_corners  ///< the shaders' differences of smoothed fractions, in double precision
 };
 
 struct ReferenceSettings {

@@ -5,6 +5,7 @@
 #include <glm/geometric.hpp>
 #include <stdexcept>
 
+#include "render_client/volume/textures/smoothed_fraction.h"
 #include "render_client/volume/textures/visible_bone.h"
 
 namespace osteomill::study {
@@ -34,7 +35,7 @@ struct Place {
 };
 
 /// Distance of the eight corners from the point, voxels: as in the shaders.
-constexpr double corner_reach = 0.4;
+constexpr double corner_reach = 0.45;
 
 }  // namespace
 
@@ -55,6 +56,9 @@ ReferenceVolume::ReferenceVolume(const Bone& whole, std::span<const TissueColour
     const EmptySpace blocks(bone, box_);
     mean_size_ = blocks.size_blocks();
     mean_fraction_ = blocks.mean_fraction();
+    FractionSmoother smoother;
+    const std::span<const std::uint8_t> smoothed = smoother.smooth(bone, box_);
+    smoothed_.assign(smoothed.begin(), smoothed.end());
     if (look.shading == Shading::surface_voxels) surface_ = SurfaceShader(table_).shade(bone, box_);
 }
 
@@ -100,10 +104,19 @@ glm::dvec3 ReferenceVolume::trilinear_gradient_at(const glm::dvec3& point) const
     return gradient;
 }
 
+double ReferenceVolume::smoothed_at(const glm::dvec3& point) const {
+    const Place at(point);
+    double sum = 0.0;
+    for (int corner = 0; corner < 8; ++corner)
+        if (const glm::ivec3 voxel = at.low + corner_of(corner); contains(voxel))
+            sum += weight_of(corner, at.part) * smoothed_[place(voxel)] / 255.0;
+    return sum;
+}
+
 glm::dvec3 ReferenceVolume::eight_corner_gradient_at(const glm::dvec3& point) const {
     glm::dvec3 gradient(0.0);
     for (int corner = 0; corner < 8; ++corner)
-        gradient += side_of(corner) * fraction_at(point + corner_reach * side_of(corner));
+        gradient += side_of(corner) * smoothed_at(point + corner_reach * side_of(corner));
     return gradient / (8.0 * corner_reach);
 }
 

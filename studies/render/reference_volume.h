@@ -22,8 +22,9 @@ struct Cell {
 
 class ReferenceVolume {
   public:
-    /// The look as render_client would show it. Takes a dense copy of the stored box: a byte a voxel, two
-    /// where bone has codes, six with surface voxels. Throws std::runtime_error for a bone without bricks.
+    /// The look as render_client would show it. Takes a dense copy of the stored box: a byte a voxel, one
+    /// smoothed, one where bone has codes, four with surface voxels. Throws std::runtime_error for a bone
+    /// without bricks.
     ReferenceVolume(const Bone& bone, std::span<const TissueColour> tissues, const ShadingSettings& look);
 
     const VoxelBox& box() const { return box_; }
@@ -36,7 +37,8 @@ class ReferenceVolume {
     double fraction_at(const glm::dvec3& point) const;
     /// Derivative of the trilinear interpolation, 1 / voxel.
     glm::dvec3 trilinear_gradient_at(const glm::dvec3& point) const;
-    /// The shaders' estimate: differences over eight corners of a cube round the point.
+    /// The shaders' estimate: differences of the smoothed fractions over eight corners of a cube round the
+    /// point.
     glm::dvec3 eight_corner_gradient_at(const glm::dvec3& point) const;
     /// The same of the fraction times the opacity of the nearest voxel.
     glm::dvec3 density_gradient_at(const glm::dvec3& point) const;
@@ -51,6 +53,7 @@ class ReferenceVolume {
     double ambient_occlusion(const glm::dvec3& point, const glm::dvec3& normal) const;
 
   private:
+    double smoothed_at(const glm::dvec3& point) const;
     double density_at(const glm::dvec3& point) const;
     double mean_fraction_at(const glm::dvec3& point) const;
     std::uint8_t code_at(const glm::ivec3& voxel) const;
@@ -64,6 +67,7 @@ class ReferenceVolume {
     LookTable table_;
     glm::ivec3 mean_size_{0};
     std::vector<std::uint8_t> fraction_{};
+    std::vector<std::uint8_t> smoothed_{};  ///< the shaders' own bytes
     std::vector<std::uint8_t> code_{};
     std::vector<std::uint8_t> mean_fraction_{};
     std::vector<SurfaceTexel> surface_{};
