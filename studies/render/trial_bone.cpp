@@ -44,6 +44,20 @@ TrialBone with_views(const std::string& name, Bone bone, std::vector<TissueColou
     return {name, std::move(bone), std::move(tissues), overview, close_up};
 }
 
+TrialBone scan_trial(const std::string& name, ImportOptions options, const std::filesystem::path& folder) {
+    options.output = folder / "trial.nrrd";
+    options.spacing_mm = 0.1;
+    options.threshold_hu = 300.0;
+    std::ostringstream unheard;
+    std::ifstream meminfo("/proc/meminfo");
+    import_bone(options, {.messages = unheard, .available_memory_bytes = available_memory_bytes(meminfo)});
+    Scene scene;
+    scene.bone = FileSource{.path = options.output};
+    Bone bone = load_bone(scene).bone;
+    std::filesystem::remove(options.output);
+    return with_views(name, std::move(bone), {}, 9.0);
+}
+
 }  // namespace
 
 TrialBone tooth_trial() {
@@ -60,20 +74,18 @@ TrialBone phantom_trial(const std::string& name) {
 }
 
 TrialBone skull_trial(const std::filesystem::path& scans, const std::filesystem::path& folder) {
-    const std::filesystem::path file = folder / "skull.nrrd";
-    std::ostringstream unheard;
-    std::ifstream meminfo("/proc/meminfo");
-    import_bone({.input = scans / "head_ct",
-                 .output = file,
-                 .spacing_mm = 0.1,
-                 .threshold_hu = 300.0,
-                 .region = parse_region("-60,10,730,-20,50,770")},
-                {.messages = unheard, .available_memory_bytes = available_memory_bytes(meminfo)});
-    Scene scene;
-    scene.bone = FileSource{.path = file};
-    Bone bone = load_bone(scene).bone;
-    std::filesystem::remove(file);
-    return with_views("skull CT", std::move(bone), {}, 9.0);
+    return scan_trial(
+        "skull CT",
+        {.input = scans / "head_ct", .output = {}, .region = parse_region("-60,10,730,-20,50,770")}, folder);
+}
+
+TrialBone vault_trial(const std::filesystem::path& scans, const std::filesystem::path& folder) {
+    return scan_trial("vault CT",
+                      {.input = scans / "cadaver_head" / "cthead.nrrd",
+                       .output = {},
+                       .region = parse_region("108,110,-40,148,150,0"),
+                       .to_hu = parse_rescale("1,-1000")},
+                      folder);
 }
 
 TrialBone gyroid_trial(int edge_voxels) {

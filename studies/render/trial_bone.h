@@ -30,6 +30,9 @@ TrialBone phantom_trial(const std::string& name);
 /// is removed again. Throws std::runtime_error where the scan is not there.
 TrialBone skull_trial(const std::filesystem::path& scans, const std::filesystem::path& folder);
 
+/// 40 mm of the top of the head of which the slices are 2 mm apart, as above.
+TrialBone vault_trial(const std::filesystem::path& scans, const std::filesystem::path& folder);
+
 /// A shape with hollows and thin walls (two interwoven sheets of a gyroid in a ball) of `edge_voxels` along
 /// each axis: the same picture at any size.
 TrialBone gyroid_trial(int edge_voxels);

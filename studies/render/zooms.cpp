@@ -78,6 +78,7 @@ void write_zooms(const glm::ivec2& size_px, const std::filesystem::path& folder,
     if (!scans) return;
     const TrialBone skull = skull_trial(*scans, folder);
     for (const NamedLook& look : all) pictures.write(skull, look);
+    pictures.write(vault_trial(*scans, folder), all.front());
     progress(1.0);
 }
 
