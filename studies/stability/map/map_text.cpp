@@ -71,19 +71,19 @@ std::string text_of(const MapCase& c) {
 
 ordered_json json_of(const MapPoint& point) {
     const MapCase& c = point.run;
-    ordered_json json{{"part", name_of(point.part)},
-                      {"method", c.method},
-                      {"scene", name_of(c.scene)},
-                      {"grip", name_of(c.grip)},
-                      {"milling_rate_hz", c.milling_rate_hz},
-                      {"delay_ticks", c.delay_ticks},
-                      {"is_ideal_device", c.is_ideal_device},
-                      {"spindle_rpm", c.spindle_rpm},
-                      {"depth_mm", c.depth_mm},
-                      {"relative_stiffness", c.relative_stiffness},
-                      {"wall_n_per_mm", c.wall_n_per_mm}};
-    if (c.edge_n_per_mm != 0.0) json["edge_n_per_mm"] = c.edge_n_per_mm;
-    return json;
+    ordered_json row{{"part", name_of(point.part)},
+                     {"method", c.method},
+                     {"scene", name_of(c.scene)},
+                     {"grip", name_of(c.grip)},
+                     {"milling_rate_hz", c.milling_rate_hz},
+                     {"delay_ticks", c.delay_ticks},
+                     {"is_ideal_device", c.is_ideal_device},
+                     {"spindle_rpm", c.spindle_rpm},
+                     {"depth_mm", c.depth_mm},
+                     {"relative_stiffness", c.relative_stiffness},
+                     {"wall_n_per_mm", c.wall_n_per_mm}};
+    if (c.edge_n_per_mm != 0.0) row["edge_n_per_mm"] = c.edge_n_per_mm;
+    return row;
 }
 
 ordered_json json_of(const MapSelection& selection) {
