@@ -12,23 +12,13 @@ using Srgb = std::array<std::uint8_t, 3>;
 
 // Relative stiffness 1 is the cortical bone of the burr's coefficients; trabecular bone lies around a tenth
 // of it, enamel above twice.
-constexpr std::array<StiffnessColour, 5> stiffness_knots{{{0.0, {150, 84, 62}},
-                                                          {0.15, {196, 134, 100}},
-                                                          {0.5, {226, 197, 156}},
-                                                          {1.0, {238, 222, 190}},
-                                                          {2.5, {248, 246, 238}}}};
-
-glm::vec3 colour_of_stiffness(double relative_stiffness) {
-    for (std::size_t knot = 1; knot < stiffness_knots.size(); ++knot) {
-        const StiffnessColour& low = stiffness_knots[knot - 1];
-        const StiffnessColour& high = stiffness_knots[knot];
-        if (relative_stiffness > high.relative_stiffness) continue;
-        const double part = (relative_stiffness - low.relative_stiffness) /
-                            (high.relative_stiffness - low.relative_stiffness);
-        return glm::mix(linear_from_srgb(low.srgb), linear_from_srgb(high.srgb), static_cast<float>(part));
-    }
-    return linear_from_srgb(stiffness_knots.back().srgb);
-}
+// CT blurs thin walls and surfaces, which then look softer than they are: so only marrow is reddish.
+constexpr std::array<StiffnessColour, 6> stiffness_knots{{{0.0, {176, 122, 92}},
+                                                          {0.04, {204, 164, 126}},
+                                                          {0.12, {222, 193, 152}},
+                                                          {0.4, {234, 213, 176}},
+                                                          {1.0, {242, 228, 200}},
+                                                          {2.5, {250, 248, 242}}}};
 
 }  // namespace
 
@@ -55,6 +45,18 @@ ColourTable colours_by_tissue(std::span<const TissueColour> tissues) {
 
 std::span<const StiffnessColour> stiffness_colours() {
     return stiffness_knots;
+}
+
+glm::vec3 colour_of_stiffness(double relative_stiffness) {
+    for (std::size_t knot = 1; knot < stiffness_knots.size(); ++knot) {
+        const StiffnessColour& low = stiffness_knots[knot - 1];
+        const StiffnessColour& high = stiffness_knots[knot];
+        if (relative_stiffness > high.relative_stiffness) continue;
+        const double part = (relative_stiffness - low.relative_stiffness) /
+                            (high.relative_stiffness - low.relative_stiffness);
+        return glm::mix(linear_from_srgb(low.srgb), linear_from_srgb(high.srgb), static_cast<float>(part));
+    }
+    return linear_from_srgb(stiffness_knots.back().srgb);
 }
 
 ColourTable colours_by_stiffness(double stiffness_per_code) {

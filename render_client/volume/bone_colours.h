@@ -36,6 +36,9 @@ ColourTable colours_by_tissue(std::span<const TissueColour> tissues);
 /// The knots between which bone is coloured by stiffness, ascending.
 std::span<const StiffnessColour> stiffness_colours();
 
+/// Linear RGB of bone of a stiffness, in linear light between the knots.
+glm::vec3 colour_of_stiffness(double relative_stiffness);
+
 /// Colours by stiffness code: spongy bone reddish brown, dentine and cortical bone ivory, enamel near white.
 ColourTable colours_by_stiffness(double stiffness_per_code);
 

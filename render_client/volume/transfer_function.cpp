@@ -14,10 +14,10 @@ namespace osteomill {
 
 namespace {
 
-// From soft tissue up to enamel: spongy bone and thin walls of 300 HU are dark grey, cortical bone and
+// From soft tissue up to enamel: spongy bone and thin walls of 300 HU are mid-grey, cortical bone and
 // dentine light, enamel white.
-constexpr double window_centre_hu = 800.0;
-constexpr double window_width_hu = 2400.0;
+constexpr double window_centre_hu = 450.0;
+constexpr double window_width_hu = 2900.0;
 
 TransferFunction bone_preset() {
     TransferFunction bone{.name = "bone"};
@@ -30,8 +30,8 @@ TransferFunction tooth_preset() {
     // Dentine is about as stiff as cortical bone, so the jaw's outer wall stands with the teeth.
     return {.name = "tooth",
             .mode = TransferMode::translucent,
-            .points = {{0.0, {176, 96, 84}, 0.10},
-                       {0.3, {196, 134, 100}, 0.12},
+            .points = {{0.0, {196, 150, 122}, 0.06},
+                       {0.3, {214, 178, 138}, 0.10},
                        {0.8, {226, 190, 130}, 0.45},
                        {1.2, {236, 214, 170}, 0.60},
                        {1.6, {246, 244, 236}, 0.92},

@@ -50,7 +50,7 @@ TEST(TransferPresets, AreValidAndDifferInWhatTheyHide) {
     EXPECT_LT(look_of(tooth, trabecular).a, 0.2f);
     EXPECT_GT(look_of(tooth, enamel).a, 0.9f);
     EXPECT_EQ(look_of(window, trabecular).a, 1.0f);
-    EXPECT_LT(look_of(window, trabecular).r, 0.2f);
+    EXPECT_LT(look_of(window, trabecular).r, 0.25f);
     EXPECT_EQ(look_of(window, enamel), glm::vec4(1.0f));
 }
 
