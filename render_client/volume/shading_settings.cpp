@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
+
+#include "render_client/volume/tissue_shades.h"
 
 namespace osteomill {
 
@@ -14,23 +17,32 @@ LookTable by_stiffness(const BoneContent& content, const TransferFunction& trans
         table.by_code.fill(look_of(transfer, content.homogeneous_stiffness));
         return table;
     }
-    table.channel = BoneChannel::stiffness;
+    table.codes.channel = BoneChannel::stiffness;
     for (std::size_t code = 0; code < table.by_code.size(); ++code)
         table.by_code[code] = look_of(transfer, static_cast<double>(code) * content.stiffness_per_code);
     return table;
 }
 
 LookTable opaque(std::optional<BoneChannel> channel, const ColourTable& colours) {
-    LookTable table{.channel = channel};
+    LookTable table{.codes = {.channel = channel}};
     for (std::size_t code = 0; code < colours.size(); ++code)
         table.by_code[code] = glm::vec4(colours[code], 1.0f);
     return table;
 }
 
-LookTable by_tissue(std::span<const TissueColour> tissues) {
+LookTable by_tissue(const BoneContent& content, std::span<const TissueColour> tissues) {
     LookTable table = opaque(BoneChannel::tissue, colours_by_tissue(tissues));
+    std::array<std::uint8_t, 256> label_by_code{};
+    std::iota(label_by_code.begin(), label_by_code.end(), std::uint8_t{0});
+    if (const std::optional<TissueShades> shades = tissue_shades(content, tissues)) {
+        table = opaque(std::nullopt, shades->by_code);
+        table.codes = shades->codes;
+        label_by_code = shades->label;
+    }
     for (const TissueColour& tissue : tissues) {
-        table.by_code[tissue.label].a = static_cast<float>(std::clamp(tissue.opacity, 0.0, 1.0));
+        for (std::size_t code = 0; code < label_by_code.size(); ++code)
+            if (label_by_code[code] == tissue.label)
+                table.by_code[code].a = static_cast<float>(std::clamp(tissue.opacity, 0.0, 1.0));
         if (tissue.opacity > 0.0 && tissue.opacity < 1.0) table.mode = TransferMode::translucent;
     }
     return table;
@@ -41,7 +53,7 @@ LookTable by_tissue(std::span<const TissueColour> tissues) {
 LookTable look_table(const BoneContent& content, std::span<const TissueColour> tissues,
                      const ShadingSettings& look) {
     if (look.transfer) return by_stiffness(content, *look.transfer);
-    if (!content.tissue.empty()) return by_tissue(tissues);
+    if (!content.tissue.empty()) return by_tissue(content, tissues);
     if (!content.stiffness.empty())
         return opaque(BoneChannel::stiffness, colours_by_stiffness(content.stiffness_per_code));
     ColourTable plain;
@@ -50,7 +62,7 @@ LookTable look_table(const BoneContent& content, std::span<const TissueColour> t
 }
 
 double colour_depth_voxels(const LookTable& table) {
-    return table.channel == BoneChannel::stiffness ? 2.5 : 1.0;
+    return table.codes.channel == BoneChannel::stiffness || table.codes.are_of_both() ? 2.5 : 1.0;
 }
 
 std::array<std::uint8_t, 256> shown_part_by_code(const LookTable& table) {
@@ -61,7 +73,7 @@ std::array<std::uint8_t, 256> shown_part_by_code(const LookTable& table) {
         parts[code] = static_cast<std::uint8_t>(std::lround(255.0f * part));
     }
     // Code 0 is a voxel of which the channel knows nothing: it may be bone all the same.
-    if (table.channel) parts[0] = 255;
+    if (table.codes.exist()) parts[0] = 255;
     return parts;
 }
 

@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "render_client/volume/bone_colours.h"
-#include "render_client/volume/textures/voxel_box.h"
+#include "render_client/volume/textures/voxel_codes.h"
 #include "render_client/volume/transfer_function.h"
 
 namespace osteomill {
@@ -20,7 +20,7 @@ enum class Shading {
 struct ShadingSettings {
     Shading shading = Shading::gradient;
     /// Colour and opacity by stiffness. Absent: the colours and opacities of the tissues where the bone is
-    /// labelled, else the colours of its stiffness.
+    /// labelled, in shades by stiffness, else the colours of its stiffness.
     std::optional<TransferFunction> transfer{};
 
     bool operator==(const ShadingSettings&) const = default;
@@ -28,7 +28,7 @@ struct ShadingSettings {
 
 /// A look, worked out for one bone's codes.
 struct LookTable {
-    std::optional<BoneChannel> channel{};  ///< what the codes are; none: all bone looks like code 0
+    VoxelCodes codes{};  ///< without any all bone looks like code 0
     std::array<glm::vec4, 256> by_code{};  ///< linear RGB and opacity
     TransferMode mode = TransferMode::surface;
 };

@@ -119,7 +119,7 @@ class ReferenceRays {
                 glm::pow(glm::dvec3(surface_colour) / std::max(surface_colour.a, 1e-3), glm::dvec3(2.2));
             return glm::mix(colour * light_within, linear, std::min(2.0 * surface_colour.a, 1.0));
         }
-        const glm::dvec3 gradient = volume_.density_gradient_at(point);
+        const glm::dvec3 gradient = volume_.eight_corner_gradient_at(point);
         const double steepness = glm::length(gradient);
         if (steepness < 1e-4) return colour * light_within;
         return glm::mix(colour * light_within, lit(colour, -gradient / steepness, 1.0),

@@ -1,5 +1,6 @@
 #include "studies/render/reference_volume.h"
 
+#include <algorithm>
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -49,14 +50,14 @@ ReferenceVolume::ReferenceVolume(const Bone& whole, std::span<const TissueColour
     const Bone& bone = visible.bone();
     fraction_.resize(box_.count());
     copy_channel(bone, BoneChannel::fraction, box_, fraction_);
-    if (table_.channel) {
+    if (table_.codes.exist()) {
         code_.resize(box_.count());
-        copy_channel(bone, *table_.channel, box_, code_);
+        copy_codes(bone, table_.codes, box_, code_);
     }
     const EmptySpace blocks(bone, box_);
     mean_size_ = blocks.size_blocks();
     mean_fraction_ = blocks.mean_fraction();
-    FractionSmoother smoother;
+    FractionSmoother smoother(table_);
     const std::span<const std::uint8_t> smoothed = smoother.smooth(bone, box_);
     smoothed_.assign(smoothed.begin(), smoothed.end());
     if (look.shading == Shading::surface_voxels) surface_ = SurfaceShader(table_).shade(bone, box_);
@@ -120,19 +121,8 @@ glm::dvec3 ReferenceVolume::eight_corner_gradient_at(const glm::dvec3& point) co
     return gradient / (8.0 * corner_reach);
 }
 
-glm::dvec3 ReferenceVolume::density_gradient_at(const glm::dvec3& point) const {
-    glm::dvec3 gradient(0.0);
-    for (int corner = 0; corner < 8; ++corner)
-        gradient += side_of(corner) * density_at(point + corner_reach * side_of(corner));
-    return gradient / (8.0 * corner_reach);
-}
-
 std::uint8_t ReferenceVolume::code_at(const glm::ivec3& voxel) const {
     return code_.empty() ? std::uint8_t{0} : code_[place(glm::clamp(voxel, glm::ivec3(0), box_.size - 1))];
-}
-
-double ReferenceVolume::density_at(const glm::dvec3& point) const {
-    return fraction_at(point) * static_cast<double>(table_.by_code[code_at(glm::ivec3(glm::floor(point)))].a);
 }
 
 glm::dvec4 ReferenceVolume::look_at(const glm::dvec3& point) const {
@@ -155,6 +145,7 @@ glm::dvec4 ReferenceVolume::look_at(const glm::dvec3& point) const {
 glm::dvec4 ReferenceVolume::smooth_look_at(const glm::dvec3& point) const {
     const glm::dvec4 unknown(table_.by_code[0]);
     if (code_.empty()) return unknown;
+    if (table_.codes.are_mostly_alike()) return wide_look_at(point);
     const glm::ivec3 nearest(glm::floor(point));
     const glm::dvec3 off = point - glm::dvec3(nearest) - 0.5;
     // By step along an axis, -1 to 1.
@@ -172,6 +163,30 @@ glm::dvec4 ReferenceVolume::smooth_look_at(const glm::dvec3& point) const {
         known += weight;
     }
     return known > 0.0 ? sum / known : unknown;
+}
+
+glm::dvec4 ReferenceVolume::wide_look_at(const glm::dvec3& point) const {
+    const Place at(point);
+    // Tents before the place and after it, by step along an axis, -1 to 2.
+    const auto weight = [](double away) {
+        constexpr double tent_offset = 0.85;
+        return 0.5 * (std::max(1.0 - std::abs(away - tent_offset), 0.0) +
+                      std::max(1.0 - std::abs(away + tent_offset), 0.0));
+    };
+    glm::dvec4 sum(0.0);
+    double known = 0.0;
+    for (int z = -1; z <= 2; ++z)
+        for (int y = -1; y <= 2; ++y)
+            for (int x = -1; x <= 2; ++x) {
+                const std::uint8_t code = code_at(at.low + glm::ivec3(x, y, z));
+                const glm::dvec4 look(table_.by_code[code]);
+                if (code == 0 || look.a == 0.0) continue;
+                const double share =
+                    weight(x - at.part.x) * weight(y - at.part.y) * weight(z - at.part.z) + 1e-5;
+                sum += share * look;
+                known += share;
+            }
+    return known > 0.0 ? sum / known : glm::dvec4(table_.by_code[0]);
 }
 
 glm::dvec4 ReferenceVolume::look_under(const glm::dvec3& point, const glm::dvec3& normal) const {

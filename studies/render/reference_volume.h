@@ -40,11 +40,9 @@ class ReferenceVolume {
     /// The shaders' estimate: differences of the smoothed fractions over eight corners of a cube round the
     /// point.
     glm::dvec3 eight_corner_gradient_at(const glm::dvec3& point) const;
-    /// The same of the fraction times the opacity of the nearest voxel.
-    glm::dvec3 density_gradient_at(const glm::dvec3& point) const;
     /// Linear RGB and opacity, blended from the eight nearest voxels that are shown.
     glm::dvec4 look_at(const glm::dvec3& point) const;
-    /// Likewise of the 27 nearest, by the quadratic B-spline.
+    /// Likewise of the 27 nearest, by the quadratic B-spline, or of tissues of the 4^3 nearest, more widely.
     glm::dvec4 smooth_look_at(const glm::dvec3& point) const;
     glm::dvec4 look_under(const glm::dvec3& point, const glm::dvec3& normal) const;
     /// Display RGB times alpha, and alpha, of surface voxels.
@@ -53,8 +51,8 @@ class ReferenceVolume {
     double ambient_occlusion(const glm::dvec3& point, const glm::dvec3& normal) const;
 
   private:
+    glm::dvec4 wide_look_at(const glm::dvec3& point) const;
     double smoothed_at(const glm::dvec3& point) const;
-    double density_at(const glm::dvec3& point) const;
     double mean_fraction_at(const glm::dvec3& point) const;
     std::uint8_t code_at(const glm::ivec3& voxel) const;
     bool contains(const glm::ivec3& voxel) const;

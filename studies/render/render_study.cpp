@@ -12,8 +12,8 @@
 #include "studies/render/frame_scaling.h"
 #include "studies/render/gallery.h"
 #include "studies/render/upload_cost.h"
-#include "studies/report/chart.h"
 #include "studies/render/zooms.h"
+#include "studies/report/chart.h"
 #include "studies/report/output_files.h"
 
 namespace osteomill::study {
@@ -170,7 +170,8 @@ class RenderStudy {
             progress(1.0);
         });
         say("pictures (PNG) of every bone at three zooms are in {}{}", folder.string(),
-            options_.scans ? "" : "; real CT skipped: OSTEOMILL_SCANS does not name the folder of trial scans");
+            options_.scans ? ""
+                           : "; real CT skipped: OSTEOMILL_SCANS does not name the folder of trial scans");
     }
 
     void gallery(const TrialBone& trial) const {

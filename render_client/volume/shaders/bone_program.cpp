@@ -14,7 +14,16 @@ namespace osteomill {
 
 namespace {
 
-enum TextureUnit { fraction_unit, blocks_unit, table_unit, code_unit, colours_unit, surface_unit, ct_unit, smoothed_unit };
+enum TextureUnit {
+    fraction_unit,
+    blocks_unit,
+    table_unit,
+    code_unit,
+    colours_unit,
+    surface_unit,
+    ct_unit,
+    smoothed_unit
+};
 
 bool shows_ct(const SceneLook& look) {
     return look.ct != nullptr && !look.cuts.empty();
@@ -32,7 +41,7 @@ gl::Program BoneProgram::make(const Variant& variant) const {
     files.insert(files.end(), bone_sampling_files.begin(), bone_sampling_files.end());
     files.insert(files.end(), own_.fragment.begin(), own_.fragment.end());
     const std::string constants = constant("bone_has_colour_code", variant.has_colour_code) +
-                                  constant("bone_codes_are_tissues", variant.codes_are_tissues) +
+                                  constant("bone_codes_are_mostly_alike", variant.codes_are_mostly_alike) +
                                   constant("bone_has_smoothed", variant.has_smoothed) +
                                   constant("bone_has_surface_colours", variant.has_surface_colours) +
                                   constant("bone_is_translucent", variant.is_translucent) +
@@ -60,7 +69,7 @@ const gl::Program& BoneProgram::program_for(const Variant& variant) {
 const gl::Program& BoneProgram::use(const BoneTextures& bone, const SceneLook& look) {
     const gl::Program& program = program_for({.layout = bone.plan().layout,
                                               .has_colour_code = bone.colour_code().has_value(),
-                                              .codes_are_tissues = bone.codes_are_tissues(),
+                                              .codes_are_mostly_alike = bone.codes_are_mostly_alike(),
                                               .has_smoothed = bone.smoothed() != nullptr,
                                               .has_surface_colours = bone.surface_colours() != nullptr,
                                               .is_translucent = bone.is_translucent(),

@@ -33,7 +33,7 @@ class BoneProgram {
     struct Variant {
         BoneLayout layout = BoneLayout::dense;
         bool has_colour_code = false;
-        bool codes_are_tissues = false;
+        bool codes_are_mostly_alike = false;
         bool has_smoothed = false;
         bool has_surface_colours = false;
         bool is_translucent = false;

@@ -21,8 +21,10 @@ vec3 surface_pixel(vec3 point, vec3 direction) {
     return display(lit(look_under(point, normal).rgb, normal, ambient_occlusion(point, normal)));
 }
 
-// Slope of the density, which also shows borders between tissues of different opacity.
+// Slope of the density, which also shows borders between tissues of different opacity: where one sees through bone,
+// smoothed fractions count by opacity.
 vec3 density_gradient_at(vec3 point) {
+    if (bone_has_smoothed) return gradient_of_smoothed(point);
     vec3 gradient = vec3(0.0);
     for (int corner = 0; corner < 8; ++corner) {
         vec3 side = side_of_corner(corner);

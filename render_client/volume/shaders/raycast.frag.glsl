@@ -37,7 +37,8 @@ bool find_bone(inout float index) {
     return false;
 }
 
-void draw_surface(float index) {
+// How far along the ray the surface before a sample within bone is.
+float surface_before(float index) {
     float outside = enter + max(index - 1.0, 0.0) * step_length;
     float inside = enter + index * step_length;
     for (int halving = 0; halving < 6; ++halving) {
@@ -45,23 +46,34 @@ void draw_surface(float index) {
         if (fraction_at(eye + middle * direction) >= bone_surface) inside = middle;
         else outside = middle;
     }
+    return inside;
+}
+
+void draw_surface(float index) {
+    float inside = surface_before(index);
     pixel = vec4(shown_pixel(eye + inside * direction, direction), 1.0);
     gl_FragDepth = depth_of(inside);
 }
 
-// Front to back, until hardly any light comes through.
+// Front to back, until hardly any light comes through. Samples count from where the ray enters bone: counted from
+// where it enters the box, their layers would be seen in the surface, like the grain of wood.
 void draw_translucent(float index) {
     vec3 light = vec3(0.0);
     float through = 1.0;
+    float next = -1.0;
     gl_FragDepth = 1.0;
     do {
+        if (index != next) {
+            enter = surface_before(index) + 0.5 * step_length;
+            index = 0.0;
+        }
         float distance_along = enter + index * step_length;
         vec3 p = eye + distance_along * direction;
         vec4 piece = translucent_piece(p, step_length);
         light += through * piece.rgb;
         through *= 1.0 - piece.a;
         if (gl_FragDepth == 1.0 && look_at(p).a >= solid_opacity) gl_FragDepth = depth_of(distance_along);
-        index += 1.0;
+        next = index += 1.0;
     } while (through > darkest_seen && find_bone(index));
     light += through * background_at(gl_FragCoord.xy / picture_size);
     pixel = vec4(display(light), 1.0);

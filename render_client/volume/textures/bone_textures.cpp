@@ -33,8 +33,15 @@ gl::Texture3D upload_channel(const Bone& bone, BoneChannel channel, const AtlasL
 
 std::optional<gl::Texture3D> upload_colour_code(const Bone& bone, const AtlasLayout& places,
                                                 const LookTable& table) {
-    if (!table.channel) return std::nullopt;
-    return upload_channel(bone, *table.channel, places, gl::VoxelFormat::byte_code);
+    if (!table.codes.exist()) return std::nullopt;
+    gl::Texture3D texture(gl::VoxelFormat::byte_code, places.texture_size());
+    std::vector<std::uint8_t> scratch;
+    for (const PlacedVoxels& placed : places.all(bone.content())) {
+        scratch.resize(placed.voxels.count());
+        copy_codes(bone, table.codes, placed.voxels, scratch);
+        texture.upload(placed.first_texel, placed.voxels.size, scratch);
+    }
+    return texture;
 }
 
 std::optional<VisibleBone> without_hidden(const Bone& bone, const LookTable& table) {
@@ -44,7 +51,7 @@ std::optional<VisibleBone> without_hidden(const Bone& bone, const LookTable& tab
 
 VoxelBytes bytes_per_voxel(const LookTable& table, Shading shading) {
     const bool published = shading == Shading::surface_voxels;
-    return {.needed = std::size_t{1} + (table.channel ? 1 : 0) + (published ? sizeof(SurfaceTexel) : 0),
+    return {.needed = std::size_t{1} + (table.codes.exist() ? 1 : 0) + (published ? sizeof(SurfaceTexel) : 0),
             .smoothed = published ? std::size_t{0} : std::size_t{1}};
 }
 
@@ -98,7 +105,7 @@ BoneTextures::BoneTextures(const Bone& bone, std::optional<CoarseBone> copy, con
       tile_table_(upload_tile_table(shown(bone).content(), places_)),
       colour_code_(upload_colour_code(shown(bone), places_, table_)),
       colours_(table_.by_code) {
-    if (plan_.smoothed) smoothed_.emplace(shown(bone), places_);
+    if (plan_.smoothed) smoothed_.emplace(shown(bone), table_, places_);
     if (shading == Shading::surface_voxels) surface_.emplace(shown(bone), table_, places_);
     const glm::ivec3& size = empty_space_.size_blocks();
     for (int z = 0; z < size.z; ++z) upload_blocks({{0, 0, z}, {size.x, size.y, 1}});

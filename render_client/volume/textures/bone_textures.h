@@ -51,8 +51,8 @@ class BoneTextures {
     const gl::Texture3D* smoothed() const { return smoothed_ ? &smoothed_->texture() : nullptr; }
     /// What `colours` is looked up by, placed as the fractions are; none for a homogeneous, unlabelled bone.
     const std::optional<gl::Texture3D>& colour_code() const { return colour_code_; }
-    /// Whether they are labels, alike within a tissue, and not stiffness.
-    bool codes_are_tissues() const { return table_.channel == BoneChannel::tissue; }
+    /// Whether neighbours mostly have the same, as within a tissue.
+    bool codes_are_mostly_alike() const { return table_.codes.are_mostly_alike(); }
     const gl::LookupTable& colours() const { return colours_; }
     /// Display RGB times alpha, and alpha, of the surface voxels; none unless the look shades them.
     const gl::Texture3D* surface_colours() const { return surface_ ? &surface_->texture() : nullptr; }

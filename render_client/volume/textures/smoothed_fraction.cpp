@@ -1,6 +1,8 @@
 #include "render_client/volume/textures/smoothed_fraction.h"
 
 #include <array>
+#include <cmath>
+#include <glm/common.hpp>
 
 namespace osteomill {
 
@@ -9,6 +11,9 @@ namespace {
 /// (1, 2, 1) three times over.
 constexpr std::array<std::uint32_t, 2 * smoothing_reach_voxels + 1> weights{1, 6, 15, 20, 15, 6, 1};
 constexpr unsigned weights_bits = 6;  ///< they add up to 2^6
+
+/// Of what is hardly seen: its surface must have a slope that a byte can tell the direction of.
+constexpr float least_share = 0.3f;
 
 /// Sums of neighbours `stride` apart, of `count` places from the first on; `shift` takes bits away, rounding.
 /// Whole runs of places at once, because that is what a compiler makes fast.
@@ -25,6 +30,21 @@ void sum_neighbours(const From* from, To* to, std::size_t count, std::size_t str
 
 }  // namespace
 
+FractionSmoother::FractionSmoother(const LookTable& table) : voxel_codes_(table.codes) {
+    if (table.mode != TransferMode::translucent) return;
+    for (const glm::vec4& look : table.by_code)
+        share_by_code_.push_back(
+            static_cast<std::uint8_t>(std::lround(255.0f * glm::mix(least_share, 1.0f, look.a))));
+}
+
+void FractionSmoother::count_by_opacity(const Bone& bone, const VoxelBox& box) {
+    code_.resize(box.count());
+    copy_codes(bone, voxel_codes_, box, code_);
+    for (std::size_t voxel = 0; voxel < code_.size(); ++voxel)
+        fraction_[voxel] =
+            static_cast<std::uint8_t>((fraction_[voxel] * share_by_code_[code_[voxel]] + 127) / 255);
+}
+
 std::span<const std::uint8_t> FractionSmoother::smooth(const Bone& bone, const VoxelBox& box) {
     const VoxelBox bordered{box.first - smoothing_reach_voxels, box.size + 2 * smoothing_reach_voxels};
     const auto row = static_cast<std::size_t>(bordered.size.x);
@@ -32,6 +52,7 @@ std::span<const std::uint8_t> FractionSmoother::smooth(const Bone& bone, const V
     const std::size_t all = bordered.count();
     fraction_.resize(all);
     copy_channel(bone, BoneChannel::fraction, bordered, fraction_);
+    if (!share_by_code_.empty()) count_by_opacity(bone, bordered);
     // A pass leaves its sum where its first neighbour was, so that the box ends up in the first places of
     // each row. Of a sum 14 bits are kept, six more than come out.
     sums_along_x_.resize(all);
@@ -50,8 +71,8 @@ std::span<const std::uint8_t> FractionSmoother::smooth(const Bone& bone, const V
     return smoothed_;
 }
 
-SmoothedTexture::SmoothedTexture(const Bone& bone, const AtlasLayout& places)
-    : texture_(gl::VoxelFormat::interpolated_byte, places.texture_size()) {
+SmoothedTexture::SmoothedTexture(const Bone& bone, const LookTable& table, const AtlasLayout& places)
+    : smoother_(table), texture_(gl::VoxelFormat::interpolated_byte, places.texture_size()) {
     for (const PlacedVoxels& placed : places.all(bone.content())) smooth(bone, placed);
 }
 

@@ -5,12 +5,16 @@
 // each axis, a Gaussian of 1.2 voxels, spread the rise over the voxels that a slope is measured across; then
 // it is 0.9 degrees (osteomill_study render, "normals"). Where the surface lies is still for the fractions
 // themselves to say: smoothed ones lose thin walls.
+//
+// Where one sees through bone, fractions count the more the more opaque their tissue is: so borders between
+// tissues have slopes, too, and are lit.
 #pragma once
 
 #include <span>
 #include <vector>
 
 #include "render_client/volume/gl/texture3d.h"
+#include "render_client/volume/shading_settings.h"
 #include "render_client/volume/textures/atlas_layout.h"
 
 namespace osteomill {
@@ -21,12 +25,20 @@ inline constexpr int smoothing_reach_voxels = 3;
 /// The smoothing, and its memory for what lies between the passes.
 class FractionSmoother {
   public:
+    explicit FractionSmoother(const LookTable& table);
+
     /// Smoothed fractions of a box of the bone's grid, 0 to 255, x fastest; there is no bone outside the
     /// stored bricks. Valid until the next call.
     std::span<const std::uint8_t> smooth(const Bone& bone, const VoxelBox& box);
 
   private:
+    void count_by_opacity(const Bone& bone, const VoxelBox& box);
+
+    VoxelCodes voxel_codes_;
+    /// How much a voxel of each code counts, 0 to 255; empty where all count in full.
+    std::vector<std::uint8_t> share_by_code_;
     std::vector<std::uint8_t> fraction_;  ///< of the box and a border
+    std::vector<std::uint8_t> code_;      ///< likewise
     std::vector<std::uint16_t> sums_along_x_, sums_along_xy_;
     std::vector<std::uint8_t> smoothed_;
 };
@@ -35,7 +47,7 @@ class FractionSmoother {
 class SmoothedTexture {
   public:
     /// Smooths all of the bone. Throws gl::NoTextureMemory where the driver has none for a byte a voxel.
-    SmoothedTexture(const Bone& bone, const AtlasLayout& places);
+    SmoothedTexture(const Bone& bone, const LookTable& table, const AtlasLayout& places);
 
     /// Smooths again what a change of these voxels reaches. `places` are those of the constructor.
     void update(const Bone& bone, AtlasLayout& places, std::span<const VoxelBox> changed);

@@ -10,8 +10,7 @@ SurfaceTexture::SurfaceTexture(const Bone& bone, const LookTable& table, const A
 }
 
 void SurfaceTexture::update(const Bone& bone, AtlasLayout& places, std::span<const VoxelBox> changed) {
-    constexpr int neighbours_reach_voxels = 1;
-    for (const PlacedVoxels& placed : places.that_show(bone, changed, neighbours_reach_voxels))
+    for (const PlacedVoxels& placed : places.that_show(bone, changed, 1 + smoothing_reach_voxels))
         shade(bone, placed);
 }
 

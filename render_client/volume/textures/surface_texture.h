@@ -14,7 +14,7 @@ class SurfaceTexture {
     /// Shades all of the bone. Throws gl::NoTextureMemory where the driver has none for four bytes a voxel.
     SurfaceTexture(const Bone& bone, const LookTable& table, const AtlasLayout& places);
 
-    /// Shades again what a change of these voxels can have changed: themselves and one voxel round them.
+    /// Shades again what a change of these voxels can have changed: themselves and what is near them.
     /// `places` are those of the constructor.
     void update(const Bone& bone, AtlasLayout& places, std::span<const VoxelBox> changed);
 

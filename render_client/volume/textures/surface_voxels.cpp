@@ -13,17 +13,25 @@ namespace {
 constexpr int most_columns = 62;
 constexpr std::size_t row_word_bytes = 8;
 
-/// Step to a neighbour, numbered x fastest; number 13 is the voxel itself.
-glm::ivec3 step_to(int number) {
-    return glm::ivec3(number % 3, number / 3 % 3, number / 9) - 1;
-}
+/// A step to a neighbour, and its direction over the distance, times six, which makes all of them whole:
+/// distances squared are 1, 2 or 3.
+struct Neighbour {
+    glm::ivec3 step;
+    glm::ivec3 direction;
+};
 
-/// Six times the direction to a neighbour over the distance: whole, because distances squared are 1, 2 or 3.
-glm::ivec3 direction_to(int number) {
-    const glm::ivec3 step = step_to(number);
-    const int distance_squared = step.x * step.x + step.y * step.y + step.z * step.z;
-    return distance_squared == 0 ? glm::ivec3(0) : step * (6 / distance_squared);
-}
+/// Half of the 26: the others lie opposite.
+constexpr std::array<Neighbour, 13> half_of_neighbours = [] {
+    std::array<Neighbour, 13> half{};
+    for (int number = 14; number < 27; ++number) {
+        const glm::ivec3 step(number % 3 - 1, number / 3 % 3 - 1, number / 9 - 1);
+        const int distance_squared = step.x * step.x + step.y * step.y + step.z * step.z;
+        const int scale = 6 / distance_squared;
+        half[static_cast<std::size_t>(number - 14)] = {step,
+                                                       {scale * step.x, scale * step.y, scale * step.z}};
+    }
+    return half;
+}();
 
 constexpr std::uint64_t top_bit_of_each = 0x8080808080808080U;
 
@@ -33,65 +41,39 @@ std::uint64_t top_bits(std::uint64_t bytes) {
     return ((bytes & top_bit_of_each) >> 7U) * 0x0102040810204080U >> 56U;
 }
 
-/// Which voxels of a row are less than half full, and which of these are not empty.
-struct RowBits {
-    std::uint64_t outside = 0;
-    std::uint64_t partial = 0;
-};
-
-/// Of at most 64 voxels; reads up to seven bytes beyond them.
-RowBits bits_of_row(const std::uint8_t* fractions, std::size_t count) {
+/// Which voxels of a row are less than half full; of at most 64, but it reads up to seven bytes beyond them.
+std::uint64_t outside_of_row(const std::uint8_t* fractions, std::size_t count) {
     static_assert(std::endian::native == std::endian::little);
-    RowBits bits;
+    std::uint64_t outside = 0;
     for (std::size_t x = 0; x < count; x += row_word_bytes) {
         std::uint64_t bytes = 0;
         std::memcpy(&bytes, fractions + x, row_word_bytes);
-        const std::uint64_t below_half = ~bytes;
-        const std::uint64_t not_empty = (bytes & ~top_bit_of_each) + ~top_bit_of_each;
-        bits.outside |= top_bits(below_half) << x;
-        bits.partial |= top_bits(below_half & not_empty) << x;
+        outside |= top_bits(~bytes) << x;
     }
-    const std::uint64_t within = count == 64 ? ~std::uint64_t{0} : (std::uint64_t{1} << count) - 1;
-    return {bits.outside & within, bits.partial & within};
-}
-
-/// Three bits of each of three rows that follow each other, from the bit before `bit` on.
-std::uint32_t nine_bits(const std::uint64_t* rows, int bit) {
-    const int before = bit - 1;
-    return static_cast<std::uint32_t>((rows[0] >> before & 7U) | (rows[1] >> before & 7U) << 3U |
-                                      (rows[2] >> before & 7U) << 6U);
+    return count == 64 ? outside : outside & ((std::uint64_t{1} << count) - 1);
 }
 
 }  // namespace
 
-SurfaceShader::SurfaceShader(const LookTable& table) : channel_(table.channel) {
+SurfaceShader::SurfaceShader(const LookTable& table) : voxel_codes_(table.codes), smoother_(table) {
     for (std::size_t code = 0; code < table.by_code.size(); ++code)
         display_by_code_[code] = glm::vec3(255.0 * display(glm::dvec3(table.by_code[code])));
-    for (int number = 0; number < 27; ++number)
-        directions_[static_cast<std::size_t>(number)] = direction_to(number);
-    for (int layer = 0; layer < 3; ++layer)
-        for (std::size_t outside = 0; outside < 512; ++outside) {
-            glm::ivec3 sum(0);
-            for (int bit = 0; bit < 9; ++bit)
-                if ((outside >> bit & 1U) != 0) sum += direction_to(9 * layer + bit);
-            directions_of_layer_[static_cast<std::size_t>(layer)][outside] = glm::i8vec3(sum);
-        }
 }
 
 const std::vector<SurfaceTexel>& SurfaceShader::shade(const Bone& bone, const VoxelBox& box) {
     const VoxelBox bordered{box.first - 1, box.size + 2};
     fraction_.resize(bordered.count() + row_word_bytes);
     copy_channel(bone, BoneChannel::fraction, bordered, std::span(fraction_).first(bordered.count()));
-    if (channel_) {
+    if (voxel_codes_.exist()) {
         code_.resize(box.count());
-        copy_channel(bone, *channel_, box, code_);
+        copy_stiffest_codes(bone, voxel_codes_, box, code_);
     }
     rows_per_layer_ = static_cast<std::size_t>(bordered.size.y);
     outside_.resize(rows_per_layer_ * static_cast<std::size_t>(bordered.size.z));
-    partial_.resize(outside_.size());
-    for (int number = 0; number < 27; ++number) {
-        const glm::ivec3 step = step_to(number);
-        offsets_[static_cast<std::size_t>(number)] =
+    smoothed_ = smoother_.smooth(bone, bordered);
+    for (std::size_t i = 0; i < offsets_.size(); ++i) {
+        const glm::ivec3& step = half_of_neighbours[i].step;
+        offsets_[i] =
             (static_cast<std::ptrdiff_t>(step.z) * bordered.size.y + step.y) * bordered.size.x + step.x;
     }
     texels_.assign(box.count(), {});
@@ -103,10 +85,8 @@ const std::vector<SurfaceTexel>& SurfaceShader::shade(const Bone& bone, const Vo
 void SurfaceShader::shade_columns(const glm::ivec3& size, int first_x, int columns) {
     const auto row_length = static_cast<std::size_t>(size.x) + 2;
     for (std::size_t row = 0; row < outside_.size(); ++row) {
-        const RowBits bits =
-            bits_of_row(fraction_.data() + row * row_length + first_x, static_cast<std::size_t>(columns) + 2);
-        outside_[row] = bits.outside;
-        partial_[row] = bits.partial;
+        outside_[row] = outside_of_row(fraction_.data() + row * row_length + first_x,
+                                       static_cast<std::size_t>(columns) + 2);
     }
     const std::uint64_t without_borders = ((std::uint64_t{1} << columns) - 1) << 1U;
     for (int z = 0; z < size.z; ++z)
@@ -122,26 +102,16 @@ void SurfaceShader::shade_columns(const glm::ivec3& size, int first_x, int colum
             for (; surface != 0; surface &= surface - 1) {
                 const int bit = std::countr_zero(surface);
                 const std::size_t place = first_place + bit - 1;
-                texels_[place] = texel(outward(fraction_.data() + row * row_length + first_x + bit, row, bit),
-                                       channel_ ? code_[place] : std::uint8_t{0});
+                texels_[place] = texel(outward(smoothed_.data() + row * row_length + first_x + bit),
+                                       voxel_codes_.exist() ? code_[place] : std::uint8_t{0});
             }
         }
 }
 
-glm::ivec3 SurfaceShader::outward(const std::uint8_t* own, std::size_t row, int bit) const {
-    glm::ivec3 to_outside(0);
-    std::uint32_t partial = 0;
-    std::size_t first = row - rows_per_layer_ - 1;
-    for (std::size_t layer = 0; layer < 3; ++layer, first += rows_per_layer_) {
-        to_outside += glm::ivec3(directions_of_layer_[layer][nine_bits(&outside_[first], bit)]);
-        partial |= nine_bits(&partial_[first], bit) << 9 * layer;
-    }
-    // As if all that is outside were empty, less what is not.
-    glm::ivec3 sum = static_cast<int>(*own) * to_outside;
-    for (; partial != 0; partial &= partial - 1) {
-        const auto number = static_cast<std::size_t>(std::countr_zero(partial));
-        sum -= static_cast<int>(own[offsets_[number]]) * directions_[number];
-    }
+glm::ivec3 SurfaceShader::outward(const std::uint8_t* own_smoothed) const {
+    glm::ivec3 sum(0);
+    for (std::size_t i = 0; i < offsets_.size(); ++i)
+        sum += (own_smoothed[-offsets_[i]] - own_smoothed[offsets_[i]]) * half_of_neighbours[i].direction;
     return sum;
 }
 

@@ -2,10 +2,8 @@
 // voxel that is shown. What draws a bone draws this one as it would any other, and skips what is hidden as it
 // skips empty space.
 //
-// A voxel at the edge of bone mixes bone and air, and its CT number makes it softer than the bone in it.
-// Taken at its word it would be hidden here and shown there, and leave a surface full of pits. So what
-// decides by stiffness is the stiffest of a voxel and its 26 neighbours; that of tissues is the voxel's own
-// label.
+// What decides by stiffness is the stiffest of a voxel and its 26 neighbours (copy_stiffest_codes), else a
+// surface would be full of pits; by tissue, the voxel's own label.
 #pragma once
 
 #include <span>
@@ -27,9 +25,7 @@ class VisibleBone {
   private:
     void take_over(const Bone& bone, std::int32_t slot);
 
-    void take_codes(const Bone& bone, std::int32_t slot);
-
-    std::optional<BoneChannel> channel_;
+    VoxelCodes voxel_codes_;
     std::array<std::uint8_t, 256> shown_part_;
     Bone visible_;
     ByteBrick codes_{};  ///< of the brick that is taken over

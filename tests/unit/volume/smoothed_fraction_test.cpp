@@ -39,7 +39,7 @@ double expected(const Bone& bone, const glm::ivec3& voxel) {
 
 TEST(SmoothedFraction, IsTheBinomialMeanOfTheNeighboursInAnyBox) {
     const Bone bone = speckled();
-    FractionSmoother smoother;
+    FractionSmoother smoother{{}};
     for (const VoxelBox& box : {VoxelBox{{0, 0, 0}, {32, 32, 16}}, VoxelBox{{-2, 5, 3}, {18, 18, 18}},
                                 VoxelBox{{7, 9, 2}, {1, 1, 1}}, VoxelBox{{13, 1, 4}, {5, 30, 2}}}) {
         const auto smoothed = smoother.smooth(bone, box);
@@ -56,9 +56,21 @@ TEST(SmoothedFraction, IsTheBinomialMeanOfTheNeighboursInAnyBox) {
 TEST(SmoothedFraction, LeavesFullAndEmptyAsTheyAre) {
     const Grid grid{.size_voxels = glm::ivec3(48)};
     const Bone bone = made_bone(grid, [](const glm::dvec3& p) { return 2.4 - p.z; });
-    FractionSmoother smoother;
+    FractionSmoother smoother{{}};
     EXPECT_EQ(smoother.smooth(bone, {glm::ivec3(20), glm::ivec3(1)})[0], 255);
     EXPECT_EQ(smoother.smooth(bone, {{20, 20, 30}, glm::ivec3(1)})[0], 0);
+}
+
+TEST(SmoothedFraction, CountsByOpacityWhereOneSeesThrough) {
+    const Grid grid{.size_voxels = glm::ivec3(32)};
+    const Bone bone = made_bone(
+        grid, [](const glm::dvec3&) { return 1.0; },
+        [](const glm::dvec3& p) { return static_cast<std::uint8_t>(p.x < 1.55 ? 1 : 2); });
+    const std::vector<TissueColour> tissues{{1, {200, 180, 160}, 1.0}, {2, {200, 180, 160}, 0.2}};
+    FractionSmoother smoother(look_table(bone.content(), tissues, {}));
+    EXPECT_EQ(smoother.smooth(bone, {{8, 16, 16}, glm::ivec3(1)})[0], 255);
+    // Three tenths, and a fifth of the rest.
+    EXPECT_NEAR(smoother.smooth(bone, {{24, 16, 16}, glm::ivec3(1)})[0], 255 * 0.44, 1.0);
 }
 
 }  // namespace

@@ -66,11 +66,11 @@ TEST(VisibleBone, KeepsTheSoftRimOfHardBoneAcrossBricks) {
 
 TEST(ShadingSettings, TakesTissuesUnlessATransferFunctionIsGiven) {
     const Bone bone = labelled();
-    EXPECT_EQ(look_table(bone.content(), {}, {}).channel, BoneChannel::tissue);
+    EXPECT_EQ(look_table(bone.content(), {}, {}).codes.channel, BoneChannel::tissue);
     EXPECT_FALSE(hides_bone(look_table(bone.content(), {}, {})));
     // Homogeneous: all bone has one stiffness, so one look.
     const LookTable table = look_table(bone.content(), {}, {.transfer = transfer_presets()[0]});
-    EXPECT_FALSE(table.channel.has_value());
+    EXPECT_FALSE(table.codes.exist());
     EXPECT_EQ(table.by_code[0], look_of(transfer_presets()[0], 1.0));
     EXPECT_THROW(look_table(bone.content(), {}, {.transfer = TransferFunction{.name = "empty"}}),
                  std::invalid_argument);

@@ -1,0 +1,31 @@
+// Shades of tissues: within a tissue whose stiffness varies, soft bone is darker and redder than the tissue's
+// colour and hard bone whiter, so that a segmented tooth still shows enamel on dentine, a jaw its cortical
+// bone.
+//
+// A tissue's own colour stands for its median stiffness. What is softer or harder has that colour times the
+// ratio in which bone_colours.h colours the two stiffnesses where no tissues are known.
+#pragma once
+
+#include <array>
+#include <glm/vec3.hpp>
+#include <optional>
+#include <span>
+
+#include "render_client/volume/bone_colours.h"
+#include "render_client/volume/textures/voxel_codes.h"
+
+namespace osteomill {
+
+struct TissueShades {
+    VoxelCodes codes{};                     ///< of tissue and stiffness
+    std::array<glm::vec3, 256> by_code{};   ///< linear RGB
+    std::array<std::uint8_t, 256> label{};  ///< of each code
+};
+
+/// Shades for the tissues of a bone. None where the bone lacks labels or stiffness, or no tissue's stiffness
+/// varies by a tenth or more between its softer and its harder voxels: then labels alone say as much. Bone
+/// without a label is shaded like a tissue that has no colour of its own. Which stiffness is how frequent is
+/// taken from a thousand bricks at most, evenly spread.
+std::optional<TissueShades> tissue_shades(const BoneContent& content, std::span<const TissueColour> tissues);
+
+}  // namespace osteomill
