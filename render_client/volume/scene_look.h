@@ -23,13 +23,16 @@ struct CutPlane {
 inline constexpr std::size_t most_cut_planes = 4;
 
 struct SceneLook {
-    std::vector<CutPlane> cuts;
+    std::vector<CutPlane> cuts{};
     std::shared_ptr<const CtVolume>
         ct{};  ///< shown in grey in the cuts' faces; null: they have the bone's colours
     HuWindow ct_window{};
     glm::vec3 background_low{0.035f, 0.040f, 0.048f};  ///< linear RGB at the picture's lower edge
     glm::vec3 background_high{0.115f, 0.130f, 0.150f};
 
+    /// Highlights of the lamps on the bone, as on wet bone: 0 matt, 1 as bright as the lamps. Not on surface
+    /// voxels.
+    float specular = 0.0f;
     bool light_field = false;  ///< only what is in a microscope's round field is lit
 
     bool operator==(const SceneLook&) const = default;

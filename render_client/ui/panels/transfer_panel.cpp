@@ -173,7 +173,7 @@ void draw_point_controls(TransferEditor& editor) {
 
 glm::vec2 transfer_panel_size(const PanelPainter& painter) {
     const float letter = ImGui::GetFontSize();
-    return {21.0f * letter, 2.0f * ImGui::GetFrameHeightWithSpacing() + field_height * letter +
+    return {21.0f * letter, 3.0f * ImGui::GetFrameHeightWithSpacing() + field_height * letter +
                                 2.0f * painter.line_height() + 3.0f * ImGui::GetStyle().ItemSpacing.y +
                                 2.0f * ImGui::GetStyle().WindowPadding.y + letter};
 }
@@ -189,6 +189,8 @@ void draw_transfer_panel(const PanelPainter& painter, ViewSettings& view, const 
         ImGui::SameLine();
         if (ImGui::Button("save", {save_width, 0.0f})) view.look_save_wanted = true;
     }
+    ImGui::SetNextItemWidth(-2.5f * letter);
+    ImGui::SliderFloat("wet", &view.specular, 0.0f, 1.0f, "%.2f", ImGuiSliderFlags_AlwaysClamp);
     if (!editor.function()) {
         ImGui::TextDisabled("tissues, or stiffness, in their own");
         ImGui::TextDisabled("colours; choose a preset to edit it");

@@ -45,6 +45,7 @@ gl::Program BoneProgram::make(const Variant& variant) const {
                                   constant("bone_has_smoothed", variant.has_smoothed) +
                                   constant("bone_has_surface_colours", variant.has_surface_colours) +
                                   constant("bone_is_translucent", variant.is_translucent) +
+                                  constant("bone_shines", variant.shines) +
                                   constant("cuts_show_ct", variant.cuts_show_ct) +
                                   fmt::format("const int cut_count = {};\n", variant.cut_count);
     gl::Program program = make_program(shader_text({&own_.vertex, 1}), shader_text(files, constants));
@@ -73,6 +74,7 @@ const gl::Program& BoneProgram::use(const BoneTextures& bone, const SceneLook& l
                                               .has_smoothed = bone.smoothed() != nullptr,
                                               .has_surface_colours = bone.surface_colours() != nullptr,
                                               .is_translucent = bone.is_translucent(),
+                                              .shines = look.specular > 0.0f,
                                               .cut_count = cut_count(look),
                                               .cuts_show_ct = shows_ct(look)});
     program.use();
@@ -80,6 +82,7 @@ const gl::Program& BoneProgram::use(const BoneTextures& bone, const SceneLook& l
     program.set("bone_texture_size", glm::vec3(bone.fraction().size()));
     program.set("bone_mm_per_voxel", static_cast<float>(bone.grid().spacing_mm));
     program.set("bone_colour_depth", static_cast<float>(bone.colour_depth_voxels()));
+    program.set("specular", look.specular);
     set_cut_uniforms(program, look, bone);
     bone.fraction().bind(fraction_unit);
     bone.blocks().bind(blocks_unit);

@@ -5,9 +5,12 @@
 //     vec4  translucent_piece(vec3 point, float length)
 //                                                       linear RGB times alpha, and alpha, of so many voxels
 //                                                       of a ray around a point within translucent bone
+//     const bool  bone_shines                           given ahead of this file: it has highlights
 //     const float bone_surface                          the fraction at which bone begins
 //     const float solid_opacity                         translucent bone counts for depth from this opacity
 //     on
+
+uniform float specular;
 
 const float bone_surface = 0.5;
 const float solid_opacity = 0.5;
@@ -18,7 +21,10 @@ vec3 surface_pixel(vec3 point, vec3 direction) {
         return colour.rgb / max(colour.a, 1e-3);
     }
     vec3 normal = normal_at(point, -direction);
-    return display(lit(look_under(point, normal).rgb, normal, ambient_occlusion(point, normal)));
+    float openness = ambient_occlusion(point, normal);
+    vec3 light = lit(look_under(point, normal).rgb, normal, openness);
+    if (bone_shines) light += specular * openness * highlight(normal, -direction);
+    return display(light);
 }
 
 // Slope of the density, which also shows borders between tissues of different opacity: where one sees through bone,

@@ -13,11 +13,6 @@ uniform vec3 forward;
 in vec3 patient_position, patient_normal, surface_colour;
 out vec4 pixel;
 
-// Blinn's highlight of the two lamps.
-float highlight(vec3 normal, vec3 to_eye, vec3 lamp) {
-    return pow(max(dot(normal, normalize(to_eye + lamp)), 0.0), 48.0);
-}
-
 const float clear_radii = 1.5, edge_radii = 2.5;      // off the burr's centre: seen through within, solid beyond
 const float solid_depth = 1.0, clear_depth = 2.0;     // before the burr, in radii
 const float clear_opacity = 0.22;
@@ -34,7 +29,6 @@ void main() {
     if (sees_through > 0.0 && (in_the_way > 0.0) != (sees_through > 1.5)) discard;
     vec3 normal = normalize(patient_normal);
     vec3 to_eye = normalize(eye - patient_position);
-    float shine = highlight(normal, to_eye, key_direction) + 0.4 * highlight(normal, to_eye, fill_direction);
-    vec3 light = 1.25 * lit(surface_colour, normal, 1.0) + 0.55 * polish * shine;
+    vec3 light = 1.25 * lit(surface_colour, normal, 1.0) + 0.55 * polish * highlight(normal, to_eye);
     pixel = vec4(display(light), opacity * mix(1.0, clear_opacity, in_the_way));
 }

@@ -70,6 +70,13 @@ TEST(Options, LookThroughAMicroscope) {
     expect_refused({"--inset", "coronal"}, "endoscope");
 }
 
+TEST(Options, MakeTheBoneWet) {
+    EXPECT_EQ(parsed({}).options.specular, 0.0);
+    EXPECT_EQ(parsed({"--specular", "0.4"}).options.specular, 0.4);
+    expect_refused({"--specular", "2"}, "--specular: 2 is not within 0 to 1");
+    expect_refused({"--specular", "wet"}, "--specular");
+}
+
 TEST(Options, OpenTheBoneByTheSidesThatAreToGo) {
     EXPECT_FALSE(parsed({}).options.cuts.any());
     const ParsedOptions result = parsed({"--cut", "front", "--cut", "left:-2.5"});

@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "render_client/volume/passes/raycast_renderer.h"
+#include "render_client/volume/passes/renderer_choice.h"
 #include "render_client/volume/passes/scene_picture.h"
 #include "tests/unit/volume/made_bone.h"
 #include "tests/unit/volume/offscreen_test.h"
@@ -120,6 +121,34 @@ TEST_F(SceneLookTest, BackgroundIsTheLooks) {
     const int light = picture.draw(&textures, nullptr, camera).read_back().at(120, 2)[1];
     EXPECT_LT(dark, 110);
     EXPECT_GT(light, 190);
+}
+
+TEST_F(SceneLookTest, WetBoneHasHighlightsWhereALampIsMirroredAndElsewhereIsAsItWas) {
+    const Bone ball = made_bone(grid, [](const glm::dvec3& p) { return 3.0 - glm::length(p); });
+    Camera camera = camera_on({0.0, 0.0, 0.0}, 4.0);
+    for (const RendererChoice choice : {RendererChoice::raycast, RendererChoice::slices}) {
+        const BoneTextures textures(ball, {});
+        const auto renderer = make_renderer(choice);
+        ScenePicture picture(*renderer, size_px);
+        const Picture matt = picture.draw(&textures, nullptr, camera).read_back();
+        picture.set_look({.specular = 0.5f});
+        const Picture wet = picture.draw(&textures, nullptr, camera).read_back();
+        int brighter = 0, as_before = 0;
+        for (std::size_t i = 0; i < wet.rgb.size(); i += 3) {
+            ASSERT_GE(wet.rgb[i] + 1, matt.rgb[i]);
+            brighter += wet.rgb[i] > matt.rgb[i] + 20 ? 1 : 0;
+            as_before += wet.rgb[i] == matt.rgb[i] && matt.rgb[i] > 120 ? 1 : 0;
+        }
+        EXPECT_GT(brighter, 100);
+        EXPECT_GT(as_before, 5 * brighter);
+    }
+    // As published: matt, always.
+    const BoneTextures published(ball, {}, {.shading = Shading::surface_voxels});
+    RaycastRenderer renderer;
+    ScenePicture picture(renderer, size_px);
+    const Picture matt = picture.draw(&published, nullptr, camera).read_back();
+    picture.set_look({.specular = 0.5f});
+    EXPECT_EQ(picture.draw(&published, nullptr, camera).read_back(), matt);
 }
 
 }  // namespace

@@ -20,8 +20,9 @@ class ShaderFilesTest : public OffscreenTest {};
 /// The constants of a variant of BoneProgram.
 std::string variant_constants(int bits) {
     std::string text;
-    for (const char* name : {"bone_has_colour_code", "bone_codes_are_mostly_alike", "bone_has_smoothed",
-                             "bone_has_surface_colours", "bone_is_translucent", "cuts_show_ct"}) {
+    for (const char* name :
+         {"bone_has_colour_code", "bone_codes_are_mostly_alike", "bone_has_smoothed",
+          "bone_has_surface_colours", "bone_is_translucent", "bone_shines", "cuts_show_ct"}) {
         text += std::string("const bool ") + name + (bits % 2 == 1 ? " = true;\n" : " = false;\n");
         bits /= 2;
     }
