@@ -35,11 +35,11 @@ class RemovalAccount {
         result.engagement.count = 0;
     }
 
-    /// Bone of a tissue lost `levels` of a voxel's 255. Real-time safe.
+    /// Bone of a tissue lost `levels` of a voxel's 255; a voxel that lost none is not touched. Real-time safe.
     void take(std::uint8_t tissue, double levels) noexcept {
         step_levels_ += levels;
         levels_[tissue] += levels;
-        step_touches_protected_ |= protected_[tissue];
+        step_touches_protected_ |= levels > 0.0 && protected_[tissue];
     }
 
     /// Between steps: bone of a tissue gained `levels` of a voxel's 255 back, or lost them again (negative).
