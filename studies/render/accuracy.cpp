@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <memory>
 #include <set>
 #include <thread>
@@ -16,6 +17,13 @@ namespace {
 
 const ShadingSettings by_gradient{};
 const ShadingSettings by_surface_voxels{.shading = Shading::surface_voxels};
+
+/// As one sees through the tooth's bone.
+const ShadingSettings& see_through() {
+    static const ShadingSettings look{
+        .transfer = *std::ranges::find(transfer_presets(), "tooth", &TransferFunction::name)};
+    return look;
+}
 
 std::unique_ptr<BoneRenderer> renderer_of(const DrawingSetting& setting) {
     if (setting.renderer == RendererChoice::slices)
@@ -36,7 +44,8 @@ References references_of(const TrialBone& trial, const Camera& camera, const Sha
     const ReferenceVolume volume(trial.bone, trial.tissues, look);
     ReferenceSettings settings{.threads = std::max(1u, std::thread::hardware_concurrency())};
     Picture model = reference_image(volume, camera, size_px, settings);
-    if (look.shading == Shading::surface_voxels) return {model, model};
+    // Where normals do not come from the fraction's slope alone there is one reference.
+    if (look.shading == Shading::surface_voxels || look.transfer) return {model, model};
     settings.gradient = ReferenceGradient::trilinear;
     return {std::move(model), reference_image(volume, camera, size_px, settings)};
 }
@@ -79,6 +88,11 @@ std::vector<DrawingSetting> drawing_settings(bool quick) {
                             .label = fmt::format("step {}", step),
                             .step_voxels = step,
                             .skips = false});
+    for (const float step : quick ? std::set{usual} : std::set{0.25f, usual, 1.0f})
+        settings.push_back({.family = "rays through see-through bone",
+                            .label = fmt::format("step {}", step),
+                            .look = see_through(),
+                            .step_voxels = step});
     for (const int divisor : {2, 3, 4})
         settings.push_back({.family = "rays at lower resolution",
                             .label = fmt::format("1 / {}", divisor),
@@ -101,10 +115,11 @@ std::vector<DrawingPoint> measure(const TrialBone& trial, const std::vector<Draw
                                   const glm::ivec2& size_px, bool quick, const Progress& progress) {
     std::vector<std::pair<std::string, Camera>> views{{"overview", trial.overview}};
     if (!quick) views.emplace_back("close-up", trial.close_up);
-    const double all = static_cast<double>(2 * views.size() + views.size() * settings.size());
+    const double all = static_cast<double>(3 * views.size() + views.size() * settings.size());
     double done = 0.0;
     std::vector<DrawingPoint> points;
-    for (const ShadingSettings& look : {by_gradient, by_surface_voxels}) {
+    const std::array looks{by_gradient, by_surface_voxels, see_through()};
+    for (const ShadingSettings& look : looks) {
         const BoneTextures textures(trial.bone, trial.tissues, look);
         for (const auto& [view, camera] : views) {
             const References references = references_of(trial, camera, look, size_px);

@@ -9,8 +9,10 @@
 #include "haptic_server/imaging/progress.h"
 #include "render_client/volume/gl/offscreen_context.h"
 #include "studies/render/accuracy.h"
+#include "studies/render/carved_sphere.h"
 #include "studies/render/frame_scaling.h"
 #include "studies/render/gallery.h"
+#include "studies/render/normals.h"
 #include "studies/render/upload_cost.h"
 #include "studies/render/zooms.h"
 #include "studies/report/chart.h"
@@ -54,6 +56,7 @@ class RenderStudy {
             return;
         }
 
+        found["surfaces"] = surfaces();
         const TrialBone tooth =
             with_progress("phantom", [](const Progress& progress) { return done(tooth_trial(), progress); });
         std::vector<DrawingPoint> points = accuracy_of(tooth);
@@ -92,6 +95,38 @@ class RenderStudy {
 
     void write(const std::string& table, const std::string& name) const {
         write_text(table, options_.out / name);
+    }
+
+    /// Normals, and how smooth a cut looks.
+    ordered_json surfaces() const {
+        constexpr unsigned seed = 1;
+        const std::vector<NormalError> errors = with_progress("surfaces", [](const Progress& progress) {
+            std::vector<NormalError> measured = normal_errors(seed);
+            progress(1.0);
+            return measured;
+        });
+        write(csv_of(errors), "normals.csv");
+        ordered_json normals = ordered_json::array();
+        for (const NormalError& e : errors) {
+            say("normals, {}: {}: {:.2f} degrees in the median, {:.2f} at the 95th percentile{}", e.surface,
+                e.method, e.median_deg, e.p95_deg, e.is_default ? " (default)" : "");
+            normals.push_back({{"surface", e.surface},
+                               {"method", e.method},
+                               {"is_default", e.is_default},
+                               {"median_deg", e.median_deg},
+                               {"p95_deg", e.p95_deg}});
+        }
+        const double wall_p95_deg = carved_sphere_normals_p95_deg();
+        say("wall cut by a sphere: normals {:.2f} degrees at the 95th percentile (goal: within 1)",
+            wall_p95_deg);
+        ordered_json pictures = ordered_json::array();
+        for (const double px_per_voxel : {4.0, 10.0, 20.0}) {
+            const double found_db = carved_sphere_psnr_db(px_per_voxel);
+            say("wall cut by a sphere, {} pixels a voxel: {:.1f} dB against the analytic picture (goal: 42)",
+                px_per_voxel, found_db);
+            pictures.push_back({{"px_per_voxel", px_per_voxel}, {"psnr_db", found_db}});
+        }
+        return {{"normals", normals}, {"cut_wall", {{"p95_deg", wall_p95_deg}, {"pictures", pictures}}}};
     }
 
     std::vector<DrawingPoint> accuracy_of(const TrialBone& trial) const {

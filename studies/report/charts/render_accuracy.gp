@@ -10,15 +10,17 @@ legend = 190.0
 height = 620*rows + 30 + legend
 set terminal svg size (columns > 1 ? 900*columns + 100 : 1250),height dynamic font 'DejaVu Sans,15' background 'white'
 set output folder.'/render_accuracy.svg'
-array Family[6] = ['rays shaded by gradient', 'rays to surface voxels', 'rays without skipping', \
-                   'rays at lower resolution', 'slices shaded by gradient', 'slices of surface voxels (published)']
-array Colour[6] = [blue, sky, grey, green, red, amber]
-array Point[6] = [7, 6, 3, 9, 5, 4]
+array Family[7] = ['rays shaded by gradient', 'rays to surface voxels', 'rays without skipping', \
+                   'rays at lower resolution', 'slices shaded by gradient', 'slices of surface voxels (published)', \
+                   'rays through see-through bone']
+array Colour[7] = [blue, sky, grey, green, red, amber, black]
+array Point[7] = [7, 6, 3, 9, 5, 4, 11]
 # What the families of the table are, and what changes along each line, from above.
-array Title[6] = ['rays, lit by the gradient', 'rays to surface voxels', 'rays that skip no empty bricks', \
-                  'rays at lower resolution', 'slices, lit by the gradient', 'slices of surface voxels (published)']
+array Title[7] = ['rays, lit by the gradient', 'rays to surface voxels', 'rays that skip no empty bricks', \
+                  'rays at lower resolution', 'slices, lit by the gradient', 'slices of surface voxels (published)', \
+                  'rays through see-through bone']
 settings(i) = system("awk -F, '$1 == 1 && $3 == \"".Family[i]."\" { print $4 }' '".table."' | paste -sd, | sed 's/, *\\(step\\|spacing\\) /, /g; s/,\\([^ ]\\)/, \\1/g'")
-do for [i=1:6] { Title[i] = Title[i].': '.settings(i) }
+do for [i=1:7] { Title[i] = Title[i].': '.settings(i) }
 of(p, i, what) = column('panel_number') == p && strcol('family') eq Family[i] ? column(what) : NaN
 set datafile missing NaN
 set logscale x
@@ -38,7 +40,7 @@ do for [p=1:panels] {
     } else {
         unset key
     }
-    plot for [i=1:6] table using 'frame_ms':(of(p, i, 'psnr_db')) with linespoints \
+    plot for [i=1:7] table using 'frame_ms':(of(p, i, 'psnr_db')) with linespoints \
              lc rgb Colour[i] pt Point[i] ps 1.1 lw 1.2 title Title[i], \
          table using 'frame_ms':(of(p, 1, 'psnr_trilinear_db')) with points pt 1 ps 1.1 lw 1.5 lc rgb blue \
              title 'rays, lit by the gradient, against a reference lit by slopes of linear interpolation', \
