@@ -65,6 +65,7 @@ RenderReport run_offscreen(const RenderOptions& options, SessionSource& source,
                            FrameQuality::full, options.renderer, options.look, options.stereo);
     session.limit_textures({.budget_bytes = options.texture_budget_bytes});
     session.view().theme = options.theme;
+    session.view().ambient_occlusion = options.ambient_occlusion;
     session.view().specular = static_cast<float>(options.specular);
     session.view().light_field = options.light_field;
     session.view().inset = options.inset;

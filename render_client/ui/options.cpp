@@ -125,6 +125,8 @@ void add_look(CLI::App& app, RenderOptions& options) {
                    "The same as edited before (F5): read from this file, if it is there, and saved to it")
         ->type_name("FILE")
         ->excludes("--transfer");
+    app.add_flag("!--no-ambient-occlusion", options.ambient_occlusion,
+                 "No soft shadow of the bone on itself, a little faster; never with surface-voxels");
     app.add_option("--specular", options.specular,
                    "Highlights on the bone, as where it is wet, 0 to 1 (0: matt); not with surface-voxels")
         ->check(within(0.0, 1.0));

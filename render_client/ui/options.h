@@ -31,6 +31,7 @@ struct RenderOptions {
         look_file;  ///< its curves are read from there, if it exists, and saved; empty: the case's
     StereoSettings stereo;
     double magnification = 1.0;
+    bool ambient_occlusion = true;
     double specular = 0.0;  ///< highlights on bone
     bool light_field = false;
     InsetKind inset = InsetKind::off;

@@ -100,6 +100,7 @@ class Drawing {
           screenshots_(options.screenshots, screenshot_interval(options)) {
         session_.limit_textures({.budget_bytes = options.texture_budget_bytes});
         session_.view().theme = options.theme;
+        session_.view().ambient_occlusion = options.ambient_occlusion;
         session_.view().specular = static_cast<float>(options.specular);
         session_.view().light_field = options.light_field;
         session_.view().inset = options.inset;

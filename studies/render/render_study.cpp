@@ -12,6 +12,7 @@
 #include "studies/render/carved_sphere.h"
 #include "studies/render/frame_scaling.h"
 #include "studies/render/gallery.h"
+#include "studies/render/light_cost.h"
 #include "studies/render/normals.h"
 #include "studies/render/upload_cost.h"
 #include "studies/render/zooms.h"
@@ -61,6 +62,7 @@ class RenderStudy {
             with_progress("phantom", [](const Progress& progress) { return done(tooth_trial(), progress); });
         std::vector<DrawingPoint> points = accuracy_of(tooth);
         found["upload"] = uploads(tooth);
+        found["light"] = light(tooth);
         found["frames"] = frames(tooth);
         gallery(tooth);
         if (options_.scans && !options_.quick) {
@@ -172,6 +174,22 @@ class RenderStudy {
                             {"bricks", r.bricks},
                             {"gradient", json_of(r.gradient)},
                             {"surface_voxels", json_of(r.surface_voxels)}});
+        }
+        return json;
+    }
+
+    ordered_json light(const TrialBone& trial) const {
+        const std::vector<LightRow> rows = with_progress("light", [&](const Progress& progress) {
+            std::vector<LightRow> measured = light_costs(trial, size_px_, options_.quick ? 5 : 25);
+            progress(1.0);
+            return measured;
+        });
+        write(csv_of(rows), "light.csv");
+        ordered_json json = ordered_json::array();
+        for (const LightRow& row : rows) {
+            say("light: {}: {:.2f} ms, {:.2f} ms of all threads", row.what, row.cost.wall_ms,
+                row.cost.cpu_ms);
+            json.push_back({{"what", row.what}, {"cost", json_of(row.cost)}});
         }
         return json;
     }

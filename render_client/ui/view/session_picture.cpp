@@ -197,6 +197,7 @@ const gl::Framebuffer& SessionPicture::draw(double elapsed_s) {
                          .ct_window = slices_.window(),
                          .background_low = theme.background_low,
                          .background_high = theme.background_high,
+                         .ambient_occlusion = view_.ambient_occlusion,
                          .specular = view_.specular,
                          .light_field = view_.light_field};
     picture_.set_look(look);

@@ -34,6 +34,7 @@ struct ViewSettings {
     bool look_has_file = false;     ///< the curves of `transfer` can be saved
     bool look_save_wanted = false;  ///< and somebody pressed the button
     bool slices_shown = false;
+    bool ambient_occlusion = true;
     float specular = 0.0f;     ///< highlights on bone, see SceneLook
     bool light_field = false;  ///< a microscope's round field
     InsetKind inset = InsetKind::off;

@@ -45,6 +45,7 @@ gl::Program BoneProgram::make(const Variant& variant) const {
                                   constant("bone_has_smoothed", variant.has_smoothed) +
                                   constant("bone_has_surface_colours", variant.has_surface_colours) +
                                   constant("bone_is_translucent", variant.is_translucent) +
+                                  constant("bone_is_occluded", variant.is_occluded) +
                                   constant("bone_shines", variant.shines) +
                                   constant("cuts_show_ct", variant.cuts_show_ct) +
                                   fmt::format("const int cut_count = {};\n", variant.cut_count);
@@ -74,6 +75,7 @@ const gl::Program& BoneProgram::use(const BoneTextures& bone, const SceneLook& l
                                               .has_smoothed = bone.smoothed() != nullptr,
                                               .has_surface_colours = bone.surface_colours() != nullptr,
                                               .is_translucent = bone.is_translucent(),
+                                              .is_occluded = look.ambient_occlusion,
                                               .shines = look.specular > 0.0f,
                                               .cut_count = cut_count(look),
                                               .cuts_show_ct = shows_ct(look)});

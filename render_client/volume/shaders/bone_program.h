@@ -37,6 +37,7 @@ class BoneProgram {
         bool has_smoothed = false;
         bool has_surface_colours = false;
         bool is_translucent = false;
+        bool is_occluded = true;
         bool shines = false;
         int cut_count = 0;
         bool cuts_show_ct = false;

@@ -5,6 +5,7 @@
 //     vec4  translucent_piece(vec3 point, float length)
 //                                                       linear RGB times alpha, and alpha, of so many voxels
 //                                                       of a ray around a point within translucent bone
+//     const bool  bone_is_occluded                      given ahead of this file: bone near by takes light away
 //     const bool  bone_shines                           given ahead of this file: it has highlights
 //     const float bone_surface                          the fraction at which bone begins
 //     const float solid_opacity                         translucent bone counts for depth from this opacity
@@ -21,7 +22,7 @@ vec3 surface_pixel(vec3 point, vec3 direction) {
         return colour.rgb / max(colour.a, 1e-3);
     }
     vec3 normal = normal_at(point, -direction);
-    float openness = ambient_occlusion(point, normal);
+    float openness = bone_is_occluded ? ambient_occlusion(point, normal) : 1.0;
     vec3 light = lit(look_under(point, normal).rgb, normal, openness);
     if (bone_shines) light += specular * openness * highlight(normal, -direction);
     return display(light);

@@ -70,7 +70,9 @@ TEST(Options, LookThroughAMicroscope) {
     expect_refused({"--inset", "coronal"}, "endoscope");
 }
 
-TEST(Options, MakeTheBoneWet) {
+TEST(Options, LightTheBone) {
+    EXPECT_TRUE(parsed({}).options.ambient_occlusion);
+    EXPECT_FALSE(parsed({"--no-ambient-occlusion"}).options.ambient_occlusion);
     EXPECT_EQ(parsed({}).options.specular, 0.0);
     EXPECT_EQ(parsed({"--specular", "0.4"}).options.specular, 0.4);
     expect_refused({"--specular", "2"}, "--specular: 2 is not within 0 to 1");

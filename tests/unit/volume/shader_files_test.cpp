@@ -22,7 +22,7 @@ std::string variant_constants(int bits) {
     std::string text;
     for (const char* name :
          {"bone_has_colour_code", "bone_codes_are_mostly_alike", "bone_has_smoothed",
-          "bone_has_surface_colours", "bone_is_translucent", "bone_shines", "cuts_show_ct"}) {
+          "bone_has_surface_colours", "bone_is_translucent", "bone_is_occluded", "bone_shines", "cuts_show_ct"}) {
         text += std::string("const bool ") + name + (bits % 2 == 1 ? " = true;\n" : " = false;\n");
         bits /= 2;
     }
