@@ -58,7 +58,7 @@ bool wait_for_bone(SessionPicture& session, const std::function<bool()>& stop_as
 RenderReport run_offscreen(const RenderOptions& options, SessionSource& source,
                            const std::function<bool()>& stop_asked) {
     Screenshots screenshots(options.screenshots, screenshot_interval(options));
-    gl::OffscreenContext context;
+    const gl::OffscreenContext context(options.gpu);
     gl::require_opengl_3_3();
     Panels panels;
     SessionPicture session(source, panels, options.window_size_px.value_or(default_size_px),

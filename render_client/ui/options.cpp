@@ -173,6 +173,8 @@ void add_microscope(CLI::App& app, RenderOptions& options) {
 
 /// What the options together get wrong; empty where they agree.
 std::string contradiction(const RenderOptions& options) {
+    if (options.gpu && !options.offscreen)
+        return "--gpu needs --offscreen; a window is drawn where its display is";
     if (options.offscreen && options.until_server_ends)
         return "--until-server-ends is for a window; an offscreen run always ends with its session";
     if (options.offscreen && options.stereo.layout == StereoLayout::quad_buffer)
@@ -267,6 +269,11 @@ ParsedOptions parse_options(int argument_count, const char* const* arguments, co
            "Where cases and reports are of sessions that are started from the window ($HOME/osteomill)")
         ->type_name("DIR");
     app.add_flag("--offscreen", options.offscreen, "Draw without a display; write pictures instead");
+    app.add_option(
+           "--gpu", options.gpu,
+           "Offscreen: draw on this GPU of several, counted from 0 (the first; where there is none, Mesa's "
+           "software rasteriser)")
+        ->check(CLI::Range(0, 63));
     auto* frames = app.add_option("--frames", options.frames,
                                   "Offscreen: end after so many frames (300), or sooner with the session")
                        ->check(CLI::Range(1, 1'000'000));

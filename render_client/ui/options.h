@@ -37,6 +37,7 @@ struct RenderOptions {
     InsetKind inset = InsetKind::off;
     CutSettings cuts;  ///< the bone's bounds are not known yet
     bool offscreen = false;
+    std::optional<int> gpu{};           ///< offscreen: which of the machine's, from 0; absent: the first
     int frames = 300;                   ///< offscreen: ends after so many
     bool until_server_ends = false;     ///< in a window: close it when the session is over
     std::filesystem::path screenshots;  ///< empty writes none

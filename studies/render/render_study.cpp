@@ -11,6 +11,7 @@
 #include "studies/render/accuracy.h"
 #include "studies/render/carved_sphere.h"
 #include "studies/render/frame_scaling.h"
+#include "studies/render/full_rate/full_rate.h"
 #include "studies/render/gallery.h"
 #include "studies/render/light_cost.h"
 #include "studies/render/normals.h"
@@ -44,6 +45,7 @@ class RenderStudy {
     RenderStudy(const RenderStudyOptions& options, const StudySurroundings& surroundings)
         : options_(options),
           surroundings_(surroundings),
+          context_(options.gpu),
           size_px_(options.size_px.value_or(options.quick ? glm::ivec2(240, 180) : glm::ivec2(640, 480))) {}
 
     void run() {
@@ -238,14 +240,19 @@ class RenderStudy {
 
     const RenderStudyOptions& options_;
     const StudySurroundings& surroundings_;
+    gl::OffscreenContext context_;
     glm::ivec2 size_px_;
-    gl::OffscreenContext context_{};
 };
 
 }  // namespace
 
 void run_render_study(const RenderStudyOptions& options, const StudySurroundings& surroundings) {
-    RenderStudy(options, surroundings).run();
+    if (options.full_rate_only)
+        measure_full_rate(
+            {.out = options.out, .size_px = options.size_px, .frames = options.frames, .gpu = options.gpu},
+            surroundings);
+    else
+        RenderStudy(options, surroundings).run();
 }
 
 }  // namespace osteomill::study

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "render_client/ui/view/session_picture.h"
-#include "tests/benchmarks/phantom_session.h"
+#include "studies/render/phantom_session.h"
 
 namespace osteomill {
 namespace {

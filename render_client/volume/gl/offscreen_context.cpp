@@ -5,6 +5,9 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <vector>
+
+#include "render_client/volume/gl/graphics_devices.h"
 
 namespace osteomill::gl {
 
@@ -66,8 +69,39 @@ std::string offered_opengl(EGLDisplay display) {
 
 }  // namespace
 
-OffscreenContext::OffscreenContext() {
+OffscreenContext::OffscreenContext(std::optional<int> gpu) {
     if (!epoxy_has_egl()) fail("libEGL.so.1 is missing");
+    const std::vector<GraphicsDevice> gpus = gpus_among(graphics_devices());
+    if (gpu) {
+        if (*gpu < 0 || static_cast<std::size_t>(*gpu) >= gpus.size())
+            throw NoOpenGl(gpus.empty()
+                               ? fmt::format("GPU {}: EGL lists none", *gpu)
+                               : fmt::format("GPU {}: EGL lists {}, counted from 0", *gpu, gpus.size()));
+        if (!starts_on(gpus[static_cast<std::size_t>(*gpu)].egl_device))
+            throw NoOpenGl(fmt::format("GPU {}: it draws no OpenGL 3.3 without a display", *gpu));
+        return;
+    }
+    for (const GraphicsDevice& each : gpus)
+        if (starts_on(each.egl_device)) return;
+    start_surfaceless();
+}
+
+bool OffscreenContext::starts_on(void* egl_device) {
+    display_ = eglGetPlatformDisplayEXT(EGL_PLATFORM_DEVICE_EXT, egl_device, nullptr);
+    if (display_ == EGL_NO_DISPLAY || !eglInitialize(display_, nullptr, nullptr)) return false;
+    context_ = make_context(display_);
+    if (context_ != EGL_NO_CONTEXT) {
+        if (eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, context_)) {
+            if (!is_software_renderer(renderer_name())) return true;
+            eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
+        }
+        eglDestroyContext(display_, context_);
+    }
+    eglTerminate(display_);
+    return false;
+}
+
+void OffscreenContext::start_surfaceless() {
     display_ = surfaceless_display();
     context_ = make_context(display_);
     if (context_ == EGL_NO_CONTEXT) {

@@ -1,7 +1,9 @@
-// An OpenGL 3.3 core context without a window or a display server (EGL, surfaceless platform). Made current
-// in the constructor, on the calling thread; draw into a Framebuffer.
+// An OpenGL 3.3 core context without a window or a display server (EGL): on the first GPU that has one, else
+// on whatever draws without a surface, which may be Mesa's software rasteriser. Made current in the
+// constructor, on the calling thread; draw into a Framebuffer.
 #pragma once
 
+#include <optional>
 #include <stdexcept>
 #include <string>
 
@@ -14,13 +16,16 @@ struct NoOpenGl : std::runtime_error {
 
 class OffscreenContext {
   public:
-    /// Throws NoOpenGl.
-    OffscreenContext();
+    /// `gpu`: that one of the machine's GPUs, counted from 0 in EGL's order, and no other. Throws NoOpenGl.
+    explicit OffscreenContext(std::optional<int> gpu = std::nullopt);
     OffscreenContext(const OffscreenContext&) = delete;
     OffscreenContext& operator=(const OffscreenContext&) = delete;
     ~OffscreenContext();
 
   private:
+    bool starts_on(void* egl_device);
+    void start_surfaceless();
+
     void* display_ = nullptr;
     void* context_ = nullptr;
 };

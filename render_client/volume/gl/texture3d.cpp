@@ -90,6 +90,10 @@ void Texture3D::read_back(std::span<std::uint8_t> texels) const {
     glGetTexImage(GL_TEXTURE_3D, 0, texel_format(format_).transferred, GL_UNSIGNED_BYTE, texels.data());
 }
 
+std::size_t Texture3D::bytes() const {
+    return byte_count(size_, format_);
+}
+
 void Texture3D::bind(int unit) const {
     glActiveTexture(GL_TEXTURE0 + static_cast<GLenum>(unit));
     glBindTexture(GL_TEXTURE_3D, id_);

@@ -42,6 +42,8 @@ class Texture3D {
     static void unbind(int unit);
 
     const glm::ivec3& size() const { return size_; }
+    /// As the driver was asked for them.
+    std::size_t bytes() const;
 
   private:
     GLuint id_ = 0;

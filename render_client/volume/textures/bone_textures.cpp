@@ -124,6 +124,16 @@ std::span<const VoxelBox> BoneTextures::update(const Bone& bone, std::span<const
     return changed_;
 }
 
+std::vector<TextureSize> BoneTextures::sizes() const {
+    std::vector<TextureSize> sizes{{"fractions", fraction_.bytes()}};
+    if (colour_code_) sizes.push_back({"colour codes", colour_code_->bytes()});
+    if (smoothed_) sizes.push_back({"smoothed fractions", smoothed_->texture().bytes()});
+    if (surface_) sizes.push_back({"surface voxels", surface_->texture().bytes()});
+    if (tile_table_) sizes.push_back({"tiles of bricks", tile_table_->bytes()});
+    sizes.push_back({"empty space", blocks_.bytes()});
+    return sizes;
+}
+
 void BoneTextures::upload_blocks(const VoxelBox& blocks) {
     const glm::ivec3& size = empty_space_.size_blocks();
     scratch_.resize(2 * blocks.count());

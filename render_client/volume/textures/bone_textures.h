@@ -39,6 +39,8 @@ class BoneTextures {
 
     /// How the bone is held: in which layout, how much coarser than it is, in how many bytes.
     const TexturePlan& plan() const { return plan_; }
+    /// What plan() adds up, texture by texture.
+    std::vector<TextureSize> sizes() const;
     /// The grid that is drawn: the bone's own or, of a coarser copy, the copy's.
     const Grid& grid() const { return grid_; }
     /// The part of grid() that the textures hold, in whole bricks.

@@ -28,6 +28,12 @@ struct TexturePlan {
     bool operator==(const TexturePlan&) const = default;
 };
 
+/// One of a bone's textures.
+struct TextureSize {
+    std::string name{};  ///< what it holds: "fractions" ...
+    std::size_t bytes = 0;
+};
+
 /// Bytes that a voxel takes in all the textures that hold voxels.
 struct VoxelBytes {
     std::size_t needed = 1;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "common/bone/bone.h"
@@ -10,8 +11,6 @@
 #include "render_client/volume/picture.h"
 
 namespace osteomill {
-
-inline constexpr glm::ivec2 compared_size_px(640, 480);
 
 class MeasuredPicture {
   public:
@@ -27,8 +26,14 @@ class MeasuredPicture {
     virtual Picture picture() = 0;
 };
 
-/// `step_voxels` is the distance of samples along a ray, or as the product has it where it is zero.
-std::unique_ptr<MeasuredPicture> our_picture(const Bone& bone, float step_voxels);
+/// How a picture is made.
+struct PictureSetting {
+    glm::ivec2 size_px{640, 480};
+    float step_voxels = 0.0f;  ///< distance of samples along a ray; 0: as the product, or the library, has it
+    std::optional<int> gpu{};  ///< as of gl::OffscreenContext
+};
+
+std::unique_ptr<MeasuredPicture> our_picture(const Bone& bone, const PictureSetting& setting);
 
 enum class VtkMapper { gpu, cpu };
 
@@ -36,9 +41,10 @@ enum class VtkMapper { gpu, cpu };
 /// that we upload.
 enum class VtkVolume { whole_grid, cropped };
 
-/// Needs an X display. The fractions as VTK's scalars, an opacity that rises steeply round one half, shaded
-/// without highlights by a lamp at the camera, which is VTK's cheapest light.
+/// In an OpenGL context of ours, so on the same device and without a display. The fractions as VTK's scalars,
+/// an opacity that rises steeply round one half, shaded without highlights by a lamp at the camera, which is
+/// VTK's cheapest light.
 std::unique_ptr<MeasuredPicture> vtk_picture(const Bone& bone, VtkVolume volume, VtkMapper mapper,
-                                             float step_voxels);
+                                             const PictureSetting& setting);
 
 }  // namespace osteomill

@@ -15,8 +15,11 @@ RaycastSettings settings_with(float step_voxels) {
 
 class OurPicture final : public MeasuredPicture {
   public:
-    OurPicture(const Bone& bone, float step_voxels)
-        : textures_(bone, {}), renderer_(settings_with(step_voxels)), scene_(renderer_, compared_size_px) {}
+    OurPicture(const Bone& bone, const PictureSetting& setting)
+        : context_(setting.gpu),
+          textures_(bone, {}),
+          renderer_(settings_with(setting.step_voxels)),
+          scene_(renderer_, setting.size_px) {}
 
     void look_from(const Camera& camera) override { camera_ = camera; }
     void changed(const Bone& bone, std::span<const BrickChange> changes) override {
@@ -42,8 +45,8 @@ class OurPicture final : public MeasuredPicture {
 
 }  // namespace
 
-std::unique_ptr<MeasuredPicture> our_picture(const Bone& bone, float step_voxels) {
-    return std::make_unique<OurPicture>(bone, step_voxels);
+std::unique_ptr<MeasuredPicture> our_picture(const Bone& bone, const PictureSetting& setting) {
+    return std::make_unique<OurPicture>(bone, setting);
 }
 
 }  // namespace osteomill

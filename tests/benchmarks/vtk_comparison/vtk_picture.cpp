@@ -2,20 +2,23 @@
 #include <vtkColorTransferFunction.h>
 #include <vtkFixedPointVolumeRayCastMapper.h>
 #include <vtkGPUVolumeRayCastMapper.h>
+#include <vtkGenericOpenGLRenderWindow.h>
 #include <vtkImageData.h>
 #include <vtkNew.h>
 #include <vtkPiecewiseFunction.h>
 #include <vtkPointData.h>
-#include <vtkRenderWindow.h>
 #include <vtkRenderer.h>
 #include <vtkSmartPointer.h>
 #include <vtkUnsignedCharArray.h>
 #include <vtkVolume.h>
 #include <vtkVolumeProperty.h>
+#include <vtk_glew.h>
 
 #include <algorithm>
 #include <glm/trigonometric.hpp>
+#include <stdexcept>
 
+#include "render_client/volume/gl/offscreen_context.h"
 #include "render_client/volume/textures/voxel_box.h"
 #include "tests/benchmarks/vtk_comparison/measured_picture.h"
 
@@ -28,6 +31,32 @@ namespace {
 constexpr double clear_code = 0.4 * 255.0;
 constexpr double opaque_code = 0.6 * 255.0;
 constexpr double one_voxel = 1.0;
+
+/// A window of VTK's that draws in whichever OpenGL context is current. VTK 9.1 takes GLEW's word that there
+/// is no OpenGL where there is no X display, although GLEW has found all of its functions by then.
+class WindowInOurContext final : public vtkGenericOpenGLRenderWindow {
+  public:
+    static WindowInOurContext* New() { VTK_STANDARD_NEW_BODY(WindowInOurContext); }
+    vtkTypeMacro(WindowInOurContext, vtkGenericOpenGLRenderWindow)
+
+    void OpenGLInitContext() override {
+        ContextCreationTime.Modified();
+        if (Initialized) return;
+        const GLenum result = glewInit();
+        GlewInitValid = result == GLEW_OK || result == GLEW_ERROR_NO_GLX_DISPLAY;
+        if (!GlewInitValid) throw std::runtime_error("VTK finds no OpenGL in our context");
+        Initialized = true;
+    }
+
+  private:
+    WindowInOurContext() {
+        SetIsDirect(1);
+        SetSupportsOpenGL(1);
+        SetIsCurrent(true);
+        SetReadyForRendering(true);
+        SetFrameBlitModeToNoBlit();  // a context without a surface has nothing to show it on
+    }
+};
 
 vtkSmartPointer<vtkImageData> image_of(const Bone& bone, const VoxelBox& box) {
     auto image = vtkSmartPointer<vtkImageData>::New();
@@ -60,12 +89,15 @@ vtkSmartPointer<vtkVolumeMapper> make_mapper(VtkMapper kind, double step_mm) {
 
 class VtkPicture final : public MeasuredPicture {
   public:
-    VtkPicture(const Bone& bone, VtkVolume extent, VtkMapper kind, float step_voxels)
-        : box_(extent == VtkVolume::cropped ? stored_box(bone.content())
+    VtkPicture(const Bone& bone, VtkVolume extent, VtkMapper kind, const PictureSetting& setting)
+        : context_(setting.gpu),
+          size_px_(setting.size_px),
+          box_(extent == VtkVolume::cropped ? stored_box(bone.content())
                                             : VoxelBox{{}, bone.grid().size_voxels}),
           image_(image_of(bone, box_)),
-          mapper_(make_mapper(kind, (step_voxels > 0.0f ? static_cast<double>(step_voxels) : one_voxel) *
-                                        bone.grid().spacing_mm)) {
+          mapper_(make_mapper(
+              kind, (setting.step_voxels > 0.0f ? static_cast<double>(setting.step_voxels) : one_voxel) *
+                        bone.grid().spacing_mm)) {
         mapper_->SetInputData(image_);
         vtkNew<vtkPiecewiseFunction> opacity;
         opacity->AddPoint(clear_code, 0.0);
@@ -87,7 +119,7 @@ class VtkPicture final : public MeasuredPicture {
         renderer_->AddVolume(volume);
         window_->SetOffScreenRendering(1);
         window_->SetMultiSamples(0);
-        window_->SetSize(compared_size_px.x, compared_size_px.y);
+        window_->SetSize(size_px_.x, size_px_.y);
         window_->AddRenderer(renderer_);
     }
 
@@ -120,30 +152,31 @@ class VtkPicture final : public MeasuredPicture {
     }
     void draw_after_change() override { draw_all(); }
     Picture picture() override {
-        Picture picture(compared_size_px);
+        Picture picture(size_px_);
         vtkNew<vtkUnsignedCharArray> pixels;
-        window_->GetPixelData(0, 0, compared_size_px.x - 1, compared_size_px.y - 1, 0, pixels);
-        const std::size_t row_bytes = 3u * compared_size_px.x;
-        for (std::size_t row = 0; row < static_cast<std::size_t>(compared_size_px.y); ++row)
-            std::copy_n(
-                pixels->GetPointer(0) + (static_cast<std::size_t>(compared_size_px.y) - 1 - row) * row_bytes,
-                row_bytes, picture.rgb.begin() + static_cast<std::ptrdiff_t>(row * row_bytes));
+        window_->GetPixelData(0, 0, size_px_.x - 1, size_px_.y - 1, 0, pixels, 0);
+        const std::size_t row_bytes = 3u * size_px_.x;
+        for (std::size_t row = 0; row < static_cast<std::size_t>(size_px_.y); ++row)
+            std::copy_n(pixels->GetPointer(0) + (static_cast<std::size_t>(size_px_.y) - 1 - row) * row_bytes,
+                        row_bytes, picture.rgb.begin() + static_cast<std::ptrdiff_t>(row * row_bytes));
         return picture;
     }
 
   private:
+    gl::OffscreenContext context_;
+    glm::ivec2 size_px_;
     VoxelBox box_;
     vtkSmartPointer<vtkImageData> image_;
     vtkSmartPointer<vtkVolumeMapper> mapper_;
     vtkNew<vtkRenderer> renderer_;
-    vtkNew<vtkRenderWindow> window_;
+    vtkNew<WindowInOurContext> window_;
 };
 
 }  // namespace
 
 std::unique_ptr<MeasuredPicture> vtk_picture(const Bone& bone, VtkVolume volume, VtkMapper mapper,
-                                             float step_voxels) {
-    return std::make_unique<VtkPicture>(bone, volume, mapper, step_voxels);
+                                             const PictureSetting& setting) {
+    return std::make_unique<VtkPicture>(bone, volume, mapper, setting);
 }
 
 }  // namespace osteomill

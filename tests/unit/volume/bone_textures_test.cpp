@@ -30,6 +30,17 @@ TEST_F(BoneTexturesTest, HoldTheBoneCroppedToItsBricks) {
     EXPECT_EQ(texels(textures.fraction()), expected);
 }
 
+TEST_F(BoneTexturesTest, TakeAsManyBytesAsWerePlanned) {
+    const Bone bone = ball();
+    for (const BoneLayout layout : {BoneLayout::dense, BoneLayout::atlas})
+        for (const Shading shading : {Shading::gradient, Shading::surface_voxels}) {
+            const BoneTextures textures(bone, {}, {.shading = shading}, {.layout = layout});
+            std::size_t bytes = 0;
+            for (const TextureSize& each : textures.sizes()) bytes += each.bytes;
+            EXPECT_EQ(bytes, textures.plan().bytes);
+        }
+}
+
 /// Mean fractions of all blocks; the distances beside them may be shorter after a carve than they must be.
 std::vector<std::uint8_t> mean_fractions(const BoneTextures& textures) {
     const std::vector<std::uint8_t> pairs = texels(textures.blocks(), 2);

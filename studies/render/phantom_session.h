@@ -1,7 +1,9 @@
-// A session without a server: the tooth phantom, 512 x 512 x 128 voxels, and the 5 mm burr, which goes round
-// within the crown as deep as it is told to, at 6 mm/s in steps of a thirtieth of a second.
+// A session without a server: a phantom and the 5 mm burr, which goes round where the phantom's own
+// trajectory starts (in the tooth's crown, on the head's vault), ever deeper, at 6 mm/s in steps of a
+// thirtieth of a second.
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "common/bone/brick_change.h"
@@ -9,15 +11,17 @@
 
 namespace osteomill {
 
-/// The phantom as a server with its default scene has it.
-Bone tooth_phantom_bone();
+/// The phantom as a server with its scene has it. Throws std::invalid_argument for an unknown name.
+Bone phantom_bone(const std::string& phantom);
 
 class PhantomSession final : public SessionSource {
   public:
-    PhantomSession();
+    explicit PhantomSession(const std::string& phantom = "tooth");
 
     /// From the next poll on the burr moves and cuts; before, and after it was stopped, it rests.
     void mill(bool on) { mills_ = on; }
+    /// The next poll brings the bone as it is now, as after a reconnection: for another picture of it.
+    void begin_anew() { first_ = true; }
     /// Carves and tells of it, all in one: not part of what a client does in a frame.
     void step();
 
@@ -28,6 +32,7 @@ class PhantomSession final : public SessionSource {
 
   private:
     Bone bone_;
+    glm::dvec3 middle_mm_;  ///< round which the burr goes
     SessionInfo info_;
     ToolState tool_;
     bool mills_ = false;

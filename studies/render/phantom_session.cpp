@@ -1,12 +1,12 @@
-#include "tests/benchmarks/phantom_session.h"
+#include "studies/render/phantom_session.h"
 
 #include <cmath>
 #include <map>
 #include <utility>
-#include <variant>
 
 #include "haptic_server/carving/carve.h"
 #include "haptic_server/imaging/phantom.h"
+#include "haptic_server/program/bone_source.h"
 
 namespace osteomill {
 
@@ -32,19 +32,19 @@ class Nobody final : public RemovalSink {
 
 }  // namespace
 
-Bone tooth_phantom_bone() {
-    return bone_from_hu(std::get<HuSlices>(make_phantom("tooth")), phantom_threshold_hu,
-                        default_stiffness_relation());
+Bone phantom_bone(const std::string& phantom) {
+    return load_bone(phantom_scene(phantom)).bone;
 }
 
-PhantomSession::PhantomSession() : bone_(tooth_phantom_bone()) {
-    const Scene scene = phantom_scene("tooth");
+PhantomSession::PhantomSession(const std::string& phantom) : bone_(phantom_bone(phantom)) {
+    const Scene scene = phantom_scene(phantom);
+    middle_mm_ = scene.trajectory.start_mm;
     info_.scene_name = scene.name;
     info_.burrs = scene.burrs;
     info_.tissues = scene.tissues;
     tool_.burr = five_mm_burr;
     tool_.spindle_on = true;
-    tool_.burr_position_mm = scene.trajectory.start_mm + glm::dvec3(circle_radius_mm, 0.0, 2.0);
+    tool_.burr_position_mm = middle_mm_ + glm::dvec3(circle_radius_mm, 0.0, 2.0);
     tool_.force_n = {0.3, -0.2, 0.8};
 }
 
@@ -55,11 +55,10 @@ void PhantomSession::step() {
     const glm::dvec3 from_mm = tool_.burr_position_mm;
     way_mm_ += feed_mm_per_s * frame_s;
     const double angle_rad = way_mm_ / circle_radius_mm;
-    const glm::dvec3 middle_mm = phantom_scene("tooth").trajectory.start_mm;
     // 0.5 mm deeper a turn: there is bone ahead at every step.
     const double sunk_mm = way_mm_ / (2.0 * 3.14159265358979 * circle_radius_mm) * 0.5;
-    tool_.burr_position_mm = middle_mm + glm::dvec3(circle_radius_mm * std::cos(angle_rad),
-                                                    circle_radius_mm * std::sin(angle_rad), 2.0 - sunk_mm);
+    tool_.burr_position_mm = middle_mm_ + glm::dvec3(circle_radius_mm * std::cos(angle_rad),
+                                                     circle_radius_mm * std::sin(angle_rad), 2.0 - sunk_mm);
     const Grid& grid = bone_.grid();
     CarvedVoxels carved;
     Nobody nobody;

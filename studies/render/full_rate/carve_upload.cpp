@@ -1,0 +1,59 @@
+#include "studies/render/full_rate/carve_upload.h"
+
+#include <epoxy/gl.h>
+
+#include <stdexcept>
+
+#include "render_client/volume/textures/bone_textures.h"
+#include "studies/render/phantom_session.h"
+#include "tests/unit/volume/made_bone.h"
+
+namespace osteomill::study {
+
+namespace {
+
+constexpr double ball_radius_mm = 2.5;
+
+std::vector<TissueColour> colours_of(const SessionInfo& session) {
+    std::vector<TissueColour> colours;
+    for (const Tissue& tissue : session.tissues) colours.push_back({tissue.label, tissue.colour_rgb});
+    return colours;
+}
+
+}  // namespace
+
+CarveUpload upload_carves(const std::string& phantom, int times, const Progress& progress) {
+    PhantomSession session(phantom);
+    const Bone& bone = *session.bone();
+    BoneTextures textures(bone, colours_of(*session.session()));
+    CarveUpload found{.plan = textures.plan(), .textures = textures.sizes()};
+    progress(0.5);
+
+    Bone with_ball = bone;
+    const auto ball = carve_sphere(with_ball, session.poll().tool->burr_position_mm, ball_radius_mm);
+    if (ball.empty()) throw std::runtime_error("the burr meets no bone in the phantom " + phantom);
+    found.bricks_of_ball = ball.size();
+    FrameStopwatch by_ball;
+    const auto take_over = [&](const Bone& now, std::span<const BrickChange> changes) {
+        textures.update(now, changes);
+        glFinish();
+    };
+    for (int time = 0; time < times; ++time) {
+        by_ball.time([&] { take_over(with_ball, ball); });
+        take_over(bone, ball);  // Not what is measured, but without it there were nothing new.
+    }
+    found.by_ball = by_ball.frames();
+
+    session.mill(true);
+    FrameStopwatch by_frame;
+    for (int time = 0; time < times; ++time) {
+        session.step();
+        const LinkUpdate update = session.poll();
+        by_frame.time([&] { take_over(bone, update.changes); });
+    }
+    found.by_frame = by_frame.frames();
+    progress(1.0);
+    return found;
+}
+
+}  // namespace osteomill::study

@@ -1,0 +1,25 @@
+// What a bone's textures hold and what it costs to take a carve over into them.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "render_client/volume/textures/texture_plan.h"
+#include "studies/render/full_rate/finished_frames.h"
+#include "studies/report/progress.h"
+
+namespace osteomill::study {
+
+struct CarveUpload {
+    TexturePlan plan{};
+    std::vector<TextureSize> textures{};
+    FrameMilliseconds by_frame{};  ///< what the 5 mm burr cuts from one frame to the next
+    FrameMilliseconds by_ball{};   ///< a ball of 5 mm at once, at the burr's first place
+    std::size_t bricks_of_ball = 0;
+};
+
+/// Of a phantom, by render_client's default look and limits, `times` carves of either kind, each until OpenGL
+/// has finished. Needs a current context. Throws std::runtime_error where the burr meets no bone.
+CarveUpload upload_carves(const std::string& phantom, int times, const Progress& progress);
+
+}  // namespace osteomill::study

@@ -1,0 +1,58 @@
+#include "studies/render/full_rate/finished_frames.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <ctime>
+#include <nlohmann/json.hpp>
+#include <numeric>
+
+namespace osteomill::study {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double cpu_now_ms() {
+    std::timespec now{};
+    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+    return 1e3 * static_cast<double>(now.tv_sec) + 1e-6 * static_cast<double>(now.tv_nsec);
+}
+
+}  // namespace
+
+double percentile(std::vector<double> values, double share) {
+    const auto place =
+        values.begin() + std::lround(std::ceil(share * static_cast<double>(values.size()))) - 1;
+    const auto nearest = std::max(place, values.begin());
+    std::nth_element(values.begin(), nearest, values.end());
+    return *nearest;
+}
+
+double frames_per_s(const FrameMilliseconds& frames) {
+    return 1e3 * static_cast<double>(frames.wall.size()) /
+           std::accumulate(frames.wall.begin(), frames.wall.end(), 0.0);
+}
+
+nlohmann::ordered_json json_of(const FrameMilliseconds& frames) {
+    return {{"wall_ms", frames.wall}, {"gpu_ms", frames.gpu}, {"cpu_ms", frames.cpu}};
+}
+
+FrameMilliseconds frames_of(const nlohmann::ordered_json& json) {
+    return {.wall = json.at("wall_ms"), .gpu = json.at("gpu_ms"), .cpu = json.at("cpu_ms")};
+}
+
+void FrameStopwatch::time(const std::function<void()>& work) {
+    const double cpu_before_ms = cpu_now_ms();
+    const Clock::time_point start = Clock::now();
+    timer_.start();
+    work();
+    timer_.stop();
+    frames_.wall.push_back(std::chrono::duration<double, std::milli>(Clock::now() - start).count());
+    frames_.cpu.push_back(cpu_now_ms() - cpu_before_ms);
+    std::optional<double> took_s = timer_.take_s();
+    while (!took_s) took_s = timer_.take_s();
+    frames_.gpu.push_back(1e3 * *took_s);
+}
+
+}  // namespace osteomill::study

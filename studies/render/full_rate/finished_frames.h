@@ -1,0 +1,43 @@
+// Times of frames that were finished: each drawn to its last pixel before the next began, as showing it
+// needs.
+#pragma once
+
+#include <functional>
+#include <nlohmann/json_fwd.hpp>
+#include <vector>
+
+#include "render_client/volume/gl/draw_timer.h"
+
+namespace osteomill::study {
+
+/// By frame, in order.
+struct FrameMilliseconds {
+    std::vector<double> wall{};  ///< until the picture was there
+    std::vector<double>
+        gpu{};  ///< the driver's own work (GL_TIME_ELAPSED); of a software rasteriser wall time
+    std::vector<double> cpu{};  ///< of all threads of the process
+};
+
+/// The value that `share` (0 to 1) of all do not exceed, the nearest of them; not of none.
+double percentile(std::vector<double> values, double share);
+/// Frames a second, over all of them.
+double frames_per_s(const FrameMilliseconds& frames);
+
+nlohmann::ordered_json json_of(const FrameMilliseconds& frames);
+/// Throws nlohmann::json::exception where it is none.
+FrameMilliseconds frames_of(const nlohmann::ordered_json& json);
+
+class FrameStopwatch {
+  public:
+    /// Needs a current OpenGL context, in which nothing else measures GL_TIME_ELAPSED.
+    FrameStopwatch() = default;
+    /// `work` draws one frame and returns when its pixels are there.
+    void time(const std::function<void()>& work);
+    const FrameMilliseconds& frames() const { return frames_; }
+
+  private:
+    gl::DrawTimer timer_;
+    FrameMilliseconds frames_;
+};
+
+}  // namespace osteomill::study

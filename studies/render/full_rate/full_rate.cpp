@@ -1,0 +1,255 @@
+#include "studies/render/full_rate/full_rate.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <ostream>
+#include <vector>
+
+#include "haptic_server/imaging/progress.h"
+#include "render_client/volume/gl/graphics_devices.h"
+#include "render_client/volume/gl/offscreen_context.h"
+#include "studies/render/full_rate/carve_upload.h"
+#include "studies/render/full_rate/vtk_frames.h"
+#include "studies/render/full_rate/window_frames.h"
+#include "studies/report/chart.h"
+#include "studies/report/output_files.h"
+
+namespace osteomill::study {
+
+namespace {
+
+using nlohmann::ordered_json;
+
+constexpr glm::ivec2 full_size_px(2560, 1440);
+constexpr glm::ivec2 software_size_px(640, 360);
+constexpr int full_frames = 600;
+constexpr int software_frames = 8;
+/// VTK uploads the whole volume for each cut: of the head 4 GiB a frame.
+constexpr int most_vtk_frames = 60;
+constexpr int uploads = 50;
+constexpr double bytes_per_mib = 1024.0 * 1024.0;
+
+struct Row {
+    std::string phantom{};
+    std::string motion{};
+    std::string drawer{};  ///< "window", "vtk-gpu"
+    std::string gl_renderer{};
+    FrameMilliseconds frames{};
+};
+
+class FullRate {
+  public:
+    FullRate(const FullRateOptions& options, const StudySurroundings& surroundings)
+        : options_(options),
+          surroundings_(surroundings),
+          context_(options.gpu),
+          gl_renderer_(gl::renderer_name()),
+          is_software_(gl::is_software_renderer(gl_renderer_)),
+          size_px_(options.size_px.value_or(is_software_ ? software_size_px : full_size_px)),
+          frames_(options.frames.value_or(is_software_ ? software_frames : full_frames)) {}
+
+    void run() {
+        say_what_is_measured();
+        ordered_json found{{"gl_renderer", gl_renderer_},
+                           {"is_software_renderer", is_software_},
+                           {"size_px", {size_px_.x, size_px_.y}},
+                           {"frames_of_a_row", frames_}};
+        for (const char* const phantom : {"tooth", "head"}) {
+            found["bones"][phantom] = upload(phantom);
+            draw(phantom);
+        }
+        say("");
+        say("{:<7}{:<21}{:<9}{:>10}{:>9}{:>9}{:>9}{:>9}  {}", "bone", "motion", "by", "frames/s", "p50 ms",
+            "p99 ms", "GPU ms", "CPU ms", "GL renderer");
+        for (const Row& row : rows_) {
+            say("{:<7}{:<21}{:<9}{:>10.1f}{:>9.2f}{:>9.2f}{:>9.2f}{:>9.2f}  {}", row.phantom, row.motion,
+                row.drawer, frames_per_s(row.frames), percentile(row.frames.wall, 0.5),
+                percentile(row.frames.wall, 0.99), percentile(row.frames.gpu, 0.5),
+                percentile(row.frames.cpu, 0.5), row.gl_renderer);
+            found["rows"].push_back(json_of_row(row));
+        }
+        compare_eyes(found);
+        compare_with_vtk(found);
+        write_text(csv(), options_.out / "full_rate.csv");
+        write_text(gl_renderer_ + "\n", options_.out / "gl_renderer.txt");
+        write_json(found, options_.out / "full_rate.json");
+        draw_chart(chart_scripts(), "render_full_rate", options_.out);
+        say("full_rate.json, full_rate.csv, render_full_rate.svg and pictures (PNG) are in {}",
+            options_.out.string());
+    }
+
+  private:
+    template <typename... Arguments>
+    void say(fmt::format_string<Arguments...> format, Arguments&&... arguments) const {
+        surroundings_.said << fmt::format(format, std::forward<Arguments>(arguments)...) << std::endl;
+    }
+
+    void say_what_is_measured() const {
+        say("drawn by {}, {} x {}, {} frames a row, every pixel at full quality, each frame finished before "
+            "the "
+            "next",
+            gl_renderer_, size_px_.x, size_px_.y, frames_);
+        if (!is_software_) return;
+        say("no GPU: a software rasteriser draws, and the goals are not for it");
+        if (!options_.size_px || !options_.frames)
+            say("reduced for it from {} x {} and {} frames a row, and VTK draws the tooth alone; for all "
+                "pixels and "
+                "frames: --size-px {}x{} --frames {}",
+                full_size_px.x, full_size_px.y, full_frames, full_size_px.x, full_size_px.y, full_frames);
+    }
+
+    ordered_json upload(const std::string& phantom) const {
+        ProgressLine line(surroundings_.progress, surroundings_.is_terminal, phantom + ", uploads");
+        const CarveUpload found = upload_carves(phantom, is_software_ ? frames_ : uploads, line.reporter());
+        ordered_json textures;
+        std::string parts;
+        for (const TextureSize& each : found.textures) {
+            textures[each.name] = each.bytes;
+            parts += fmt::format("{}{} {:.0f}", parts.empty() ? "" : ", ", each.name,
+                                 static_cast<double>(each.bytes) / bytes_per_mib);
+        }
+        say("{}: {}{} ({} MiB)", phantom, description(found.plan),
+            found.plan.coarsening == 1 ? ", of the bone itself" : "", parts);
+        say("{}: upload of what the 5 mm burr cuts in a frame {:.3f} ms, p99 {:.3f}; of a ball of 5 mm at "
+            "once, {} "
+            "bricks, {:.3f} ms (goal on a GPU: below 0.2; {})",
+            phantom, percentile(found.by_frame.wall, 0.5), percentile(found.by_frame.wall, 0.99),
+            found.bricks_of_ball, percentile(found.by_ball.wall, 0.5), gl_renderer_);
+        return {{"texture_bytes", found.plan.bytes},
+                {"textures", textures},
+                {"layout", found.plan.layout == BoneLayout::dense ? "dense" : "atlas"},
+                {"times_coarser", found.plan.coarsening},
+                {"has_smoothed_fractions", found.plan.smoothed},
+                {"upload_of_frame", json_of(found.by_frame)},
+                {"upload_of_5_mm_ball", json_of(found.by_ball)},
+                {"bricks_of_5_mm_ball", found.bricks_of_ball}};
+    }
+
+    void draw(const std::string& phantom) {
+        DrawingTask task{.phantom = phantom, .size_px = size_px_, .frames = frames_};
+        {
+            ProgressLine line(surroundings_.progress, surroundings_.is_terminal, phantom + ", window");
+            const WindowFrames drawn =
+                draw_window(task, options_.out / ("window_" + phantom + ".png"), line.reporter());
+            for (const auto& [motion, frames] :
+                 {std::pair{"orbit", &drawn.orbit}, std::pair{"carve", &drawn.carve},
+                  std::pair{"orbit, side by side", &drawn.orbit_side_by_side},
+                  std::pair{"orbit, quad buffer", &drawn.orbit_both_whole}})
+                rows_.push_back({phantom, motion, "window", gl_renderer_, *frames});
+            task.first_view = drawn.first_view;
+        }
+        draw_vtk(task);
+    }
+
+    void draw_vtk(DrawingTask task) {
+        const auto program = vtk_program();
+        if (!program) {
+            say("{}: VTK left out: vtk_comparison is not there; it is built where libvtk9-dev is installed",
+                task.phantom);
+            return;
+        }
+        if (is_software_ && task.phantom == "head") {
+            say("head: VTK left out: its dense texture of 4 GiB is for a GPU");
+            return;
+        }
+        task.frames = std::min(task.frames, most_vtk_frames);
+        ProgressLine line(surroundings_.progress, surroundings_.is_terminal, task.phantom + ", VTK");
+        try {
+            const VtkFrames drawn = draw_by_vtk(*program, task, options_.gpu, options_.out);
+            rows_.push_back({task.phantom, "orbit", "vtk-gpu", drawn.gl_renderer, drawn.orbit});
+            rows_.push_back({task.phantom, "carve", "vtk-gpu", drawn.gl_renderer, drawn.carve});
+        } catch (const std::runtime_error& error) {
+            say("{}: VTK left out: {}", task.phantom, error.what());
+        }
+    }
+
+    const Row* row_of(const std::string& phantom, const std::string& motion,
+                      const std::string& drawer) const {
+        const auto found = std::ranges::find_if(rows_, [&](const Row& row) {
+            return row.phantom == phantom && row.motion == motion && row.drawer == drawer;
+        });
+        return found == rows_.end() ? nullptr : &*found;
+    }
+
+    void compare_eyes(ordered_json& found) const {
+        for (const char* const phantom : {"tooth", "head"}) {
+            const double one_ms = percentile(row_of(phantom, "orbit", "window")->frames.wall, 0.5);
+            const double halves =
+                percentile(row_of(phantom, "orbit, side by side", "window")->frames.wall, 0.5) / one_ms;
+            const double wholes =
+                percentile(row_of(phantom, "orbit, quad buffer", "window")->frames.wall, 0.5) / one_ms;
+            say("{}: two eyes take {:.2f} times one eye's time side by side, {:.2f} times in a quad buffer, "
+                "where "
+                "each has all pixels (goal: below 1.7)",
+                phantom, halves, wholes);
+            found["two_eyes_to_one"][phantom] = {{"side_by_side", halves}, {"quad_buffer", wholes}};
+        }
+    }
+
+    void compare_with_vtk(ordered_json& found) const {
+        for (const char* const phantom : {"tooth", "head"})
+            for (const char* const motion : motion_names) {
+                const Row* const vtk = row_of(phantom, motion, "vtk-gpu");
+                if (vtk == nullptr) continue;
+                const Row& window = *row_of(phantom, motion, "window");
+                if (vtk->gl_renderer != window.gl_renderer) {
+                    say("{}, {}: no ratio to VTK's, which was drawn by {}", phantom, motion,
+                        vtk->gl_renderer);
+                    continue;
+                }
+                const double ratio = percentile(vtk->frames.wall, 0.5) / percentile(window.frames.wall, 0.5);
+                say("{}, {}: VTK's GPU mapper takes {:.1f} times as long, without tool and panels (goal: 10)",
+                    phantom, motion, ratio);
+                found["vtk_to_window"][phantom][motion] = ratio;
+            }
+    }
+
+    ordered_json json_of_row(const Row& row) const {
+        ordered_json json{{"bone", row.phantom},
+                          {"motion", row.motion},
+                          {"by", row.drawer},
+                          {"gl_renderer", row.gl_renderer},
+                          {"frames_per_s", frames_per_s(row.frames)},
+                          {"p50_ms", percentile(row.frames.wall, 0.5)},
+                          {"p99_ms", percentile(row.frames.wall, 0.99)},
+                          {"gpu_p50_ms", percentile(row.frames.gpu, 0.5)},
+                          {"gpu_p99_ms", percentile(row.frames.gpu, 0.99)},
+                          {"cpu_p50_ms", percentile(row.frames.cpu, 0.5)}};
+        json["frames"] = json_of(row.frames);
+        return json;
+    }
+
+    std::string csv() const {
+        std::string csv =
+            "bone,motion,by,width_px,height_px,frames,frames_per_s,p50_ms,p99_ms,gpu_p50_ms,gpu_p99_ms,cpu_"
+            "p50_ms,gl_"
+            "renderer\n";
+        for (const Row& row : rows_)
+            csv += fmt::format("{},\"{}\",{},{},{},{},{:.3f},{:.4f},{:.4f},{:.4f},{:.4f},{:.4f},\"{}\"\n",
+                               row.phantom, row.motion, row.drawer, size_px_.x, size_px_.y,
+                               row.frames.wall.size(), frames_per_s(row.frames),
+                               percentile(row.frames.wall, 0.5), percentile(row.frames.wall, 0.99),
+                               percentile(row.frames.gpu, 0.5), percentile(row.frames.gpu, 0.99),
+                               percentile(row.frames.cpu, 0.5), row.gl_renderer);
+        return csv;
+    }
+
+    const FullRateOptions& options_;
+    const StudySurroundings& surroundings_;
+    gl::OffscreenContext context_;
+    std::string gl_renderer_;
+    bool is_software_;
+    glm::ivec2 size_px_;
+    int frames_;
+    std::vector<Row> rows_{};
+};
+
+}  // namespace
+
+void measure_full_rate(const FullRateOptions& options, const StudySurroundings& surroundings) {
+    FullRate(options, surroundings).run();
+}
+
+}  // namespace osteomill::study
