@@ -5,11 +5,16 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/common.hpp>
+#include <glm/vec2.hpp>
+#include <limits>
 #include <stdexcept>
 
 namespace osteomill {
 
 namespace {
+
+/// How much longer than a cube's an atlas' edge may be.
+constexpr int spare_rows = 4;
 
 VoxelBox grown(const VoxelBox& box, int reach_voxels) {
     return {box.first - reach_voxels, box.size + 2 * reach_voxels};
@@ -36,11 +41,24 @@ VoxelBox enclosing(const VoxelBox& a, const VoxelBox& b) {
 glm::ivec3 atlas_size_tiles(std::size_t stored_bricks, int longest_edge_texels) {
     // The table of tiles counts them in bytes.
     const int longest = std::min(longest_edge_texels / tile_edge_texels, 256);
-    const auto tiles = static_cast<double>(stored_bricks + 1);
-    const int edge = std::clamp(static_cast<int>(std::ceil(std::cbrt(tiles))), 1, std::max(longest, 1));
-    const double layers = std::ceil(tiles / (static_cast<double>(edge) * edge));
-    if (layers > longest) return {};
-    return {edge, edge, static_cast<int>(layers)};
+    const auto tiles = static_cast<std::int64_t>(stored_bricks) + 1;
+    const auto layers_on = [&](const glm::ivec2& layer) {
+        const std::int64_t in_layer = std::int64_t{1} * layer.x * layer.y;
+        return (tiles + in_layer - 1) / in_layer;
+    };
+    const int edge = std::clamp(static_cast<int>(std::ceil(std::cbrt(static_cast<double>(tiles)))), 1,
+                                std::max(longest, 1));
+    // Of the shapes that are nearly cubes, the one with the fewest tiles to spare.
+    glm::ivec3 best(0);
+    std::int64_t fewest = std::numeric_limits<std::int64_t>::max();
+    for (int y = edge; y <= std::min(edge + spare_rows, longest); ++y)
+        for (int x = y; x <= std::min(edge + spare_rows, longest); ++x) {
+            const std::int64_t layers = layers_on({x, y});
+            if (layers > longest || layers * x * y >= fewest) continue;
+            fewest = layers * x * y;
+            best = {x, y, static_cast<int>(layers)};
+        }
+    return best;
 }
 
 AtlasLayout::AtlasLayout(const BoneContent& content, BoneLayout layout, int longest_edge_texels)

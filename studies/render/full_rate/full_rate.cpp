@@ -112,6 +112,8 @@ class FullRate {
         }
         say("{}: {}{} ({} MiB)", phantom, description(found.plan),
             found.plan.coarsening == 1 ? ", of the bone itself" : "", parts);
+        say("{}: {} bricks, of which {} are solid with all that is round them", phantom, found.bricks,
+            found.solid_bricks);
         say("{}: upload of what the 5 mm burr cuts in a frame {:.3f} ms, p99 {:.3f}; of a ball of 5 mm at "
             "once, {} "
             "bricks, {:.3f} ms (goal on a GPU: below 0.2; {})",
@@ -119,6 +121,8 @@ class FullRate {
             found.bricks_of_ball, percentile(found.by_ball.wall, 0.5), gl_renderer_);
         return {{"texture_bytes", found.plan.bytes},
                 {"textures", textures},
+                {"bricks", found.bricks},
+                {"solid_bricks", found.solid_bricks},
                 {"layout", found.plan.layout == BoneLayout::dense ? "dense" : "atlas"},
                 {"times_coarser", found.plan.coarsening},
                 {"has_smoothed_fractions", found.plan.smoothed},
@@ -135,8 +139,8 @@ class FullRate {
                 draw_window(task, options_.out / ("window_" + phantom + ".png"), line.reporter());
             for (const auto& [motion, frames] :
                  {std::pair{"orbit", &drawn.orbit}, std::pair{"carve", &drawn.carve},
-                  std::pair{"orbit, side by side", &drawn.orbit_side_by_side},
-                  std::pair{"orbit, quad buffer", &drawn.orbit_both_whole}})
+                  std::pair{"orbit side by side", &drawn.orbit_side_by_side},
+                  std::pair{"orbit quad buffer", &drawn.orbit_both_whole}})
                 rows_.push_back({phantom, motion, "window", gl_renderer_, *frames});
             task.first_view = drawn.first_view;
         }
@@ -177,9 +181,9 @@ class FullRate {
         for (const char* const phantom : {"tooth", "head"}) {
             const double one_ms = percentile(row_of(phantom, "orbit", "window")->frames.wall, 0.5);
             const double halves =
-                percentile(row_of(phantom, "orbit, side by side", "window")->frames.wall, 0.5) / one_ms;
+                percentile(row_of(phantom, "orbit side by side", "window")->frames.wall, 0.5) / one_ms;
             const double wholes =
-                percentile(row_of(phantom, "orbit, quad buffer", "window")->frames.wall, 0.5) / one_ms;
+                percentile(row_of(phantom, "orbit quad buffer", "window")->frames.wall, 0.5) / one_ms;
             say("{}: two eyes take {:.2f} times one eye's time side by side, {:.2f} times in a quad buffer, "
                 "where "
                 "each has all pixels (goal: below 1.7)",

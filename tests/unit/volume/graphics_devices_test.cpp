@@ -39,9 +39,9 @@ TEST(OffscreenContext, RefusesAGpuThatIsNotThere) {
 
 using OffscreenContextTest = OffscreenTest;
 
-TEST_F(OffscreenContextTest, DrawsOnAGpuWhereOneDraws) {
-    const std::size_t gpus = gl::gpus_among(gl::graphics_devices()).size();
-    if (gpus == 0) EXPECT_TRUE(gl::is_software_renderer(gl::renderer_name())) << gl::renderer_name();
+TEST_F(OffscreenContextTest, IsOfTheRasteriserWhereThereIsNoGpu) {
+    if (!gl::gpus_among(gl::graphics_devices()).empty()) GTEST_SKIP() << "there is a GPU";
+    EXPECT_TRUE(gl::is_software_renderer(gl::renderer_name())) << gl::renderer_name();
 }
 
 }  // namespace
