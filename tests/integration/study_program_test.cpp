@@ -165,6 +165,36 @@ TEST_F(StudyProgram, DrawsAndMeasuresPicturesQuickly) {
     EXPECT_TRUE(std::filesystem::exists(out_ + "/pictures/tooth_phantom_slices_surface_voxels_after.png"));
 }
 
+TEST_F(StudyProgram, MeasuresTheFullRateOfWhatDraws) {
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+    GTEST_SKIP() << "what it runs is run by the unit tests; under a sanitizer it takes minutes";
+#endif
+    const Outcome outcome = run("render --full-rate --frames 1 --size-px 160x90 --out " + out_);
+    if (outcome.err.find("no OpenGL") != std::string::npos)
+        GTEST_SKIP() << "needs OpenGL without a display: " << outcome.err;
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+    const auto found = nlohmann::json::parse(text_of(out_ + "/full_rate.json"));
+    const std::string renderer = found.at("gl_renderer");
+    EXPECT_EQ(outcome.out.find("no GPU: a software rasteriser draws") != std::string::npos,
+              found.at("is_software_renderer").get<bool>());
+    int of_window = 0;
+    for (const auto& row : found.at("rows")) {
+        EXPECT_GT(row.at("p99_ms"), 0.0) << row;
+        EXPECT_FALSE(row.at("gl_renderer").get<std::string>().empty());
+        if (row.at("by") != "window") continue;
+        EXPECT_EQ(row.at("gl_renderer"), renderer);
+        ++of_window;
+    }
+    EXPECT_EQ(of_window, 8) << "two bones: orbit, carve, two ways of stereo";
+    const auto& head = found.at("bones").at("head");
+    EXPECT_EQ(head.at("times_coarser"), 1) << "the bone itself";
+    EXPECT_LE(head.at("texture_bytes"), 629u << 20U) << "what a graphics card has to have for a whole head";
+    EXPECT_THAT(text_of(out_ + "/render_full_rate.svg"), HasSubstr("</svg>"));
+    expect_refused("render --gpu 63 --full-rate --out " + out_, 1, "GPU 63: EGL lists ");
+    expect_refused("render --full-rate --size-px wide --out " + out_, 2, "'wide', not WIDTHxHEIGHT");
+    expect_refused("render --size-px 160x90 --out " + out_, 2, "--full-rate");
+}
+
 TEST_F(StudyProgram, CalibratesBoneAndFoam) {
     const Outcome outcome = run("calibrate " OSTEOMILL_TEST_DATA "/calibration_runs.csv --out " + out_);
     ASSERT_EQ(outcome.exit_code, 0) << outcome.err;

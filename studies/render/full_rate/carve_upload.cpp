@@ -2,7 +2,6 @@
 
 #include <epoxy/gl.h>
 
-#include <algorithm>
 #include <stdexcept>
 
 #include "render_client/volume/textures/bone_textures.h"
@@ -21,30 +20,13 @@ std::vector<TissueColour> colours_of(const SessionInfo& session) {
     return colours;
 }
 
-/// Bricks that are full with all that smoothed fractions of their tile's border reach.
-std::size_t count_solid_bricks(const Bone& bone) {
-    constexpr int reach = tile_border_voxels + smoothing_reach_voxels;
-    const VoxelBox round_brick{glm::ivec3(-reach), glm::ivec3(brick_edge_voxels + 2 * reach)};
-    std::vector<std::uint8_t> fractions(round_brick.count());
-    std::size_t solid = 0;
-    for (const BrickIndex index : bone.content().brick_of_slot) {
-        const glm::ivec3 first = brick_position(bone.content().size_bricks, index) * brick_edge_voxels;
-        copy_channel(bone, BoneChannel::fraction, {first + round_brick.first, round_brick.size}, fractions);
-        if (std::ranges::all_of(fractions, [](std::uint8_t fraction) { return fraction == 255; })) ++solid;
-    }
-    return solid;
-}
-
 }  // namespace
 
 CarveUpload upload_carves(const std::string& phantom, int times, const Progress& progress) {
     PhantomSession session(phantom);
     const Bone& bone = *session.bone();
     BoneTextures textures(bone, colours_of(*session.session()));
-    CarveUpload found{.plan = textures.plan(),
-                      .textures = textures.sizes(),
-                      .bricks = bone.stored_bricks(),
-                      .solid_bricks = count_solid_bricks(bone)};
+    CarveUpload found{.plan = textures.plan(), .textures = textures.sizes()};
     progress(0.5);
 
     Bone with_ball = bone;

@@ -13,8 +13,6 @@ namespace osteomill::study {
 struct CarveUpload {
     TexturePlan plan{};
     std::vector<TextureSize> textures{};
-    std::size_t bricks = 0;
-    std::size_t solid_bricks = 0;  ///< full of bone, they and the voxels round them: alike in every texture
     FrameMilliseconds by_frame{};  ///< what the 5 mm burr cuts from one frame to the next
     FrameMilliseconds by_ball{};   ///< a ball of 5 mm at once, at the burr's first place
     std::size_t bricks_of_ball = 0;

@@ -112,8 +112,6 @@ class FullRate {
         }
         say("{}: {}{} ({} MiB)", phantom, description(found.plan),
             found.plan.coarsening == 1 ? ", of the bone itself" : "", parts);
-        say("{}: {} bricks, of which {} are solid with all that is round them", phantom, found.bricks,
-            found.solid_bricks);
         say("{}: upload of what the 5 mm burr cuts in a frame {:.3f} ms, p99 {:.3f}; of a ball of 5 mm at "
             "once, {} "
             "bricks, {:.3f} ms (goal on a GPU: below 0.2; {})",
@@ -121,8 +119,6 @@ class FullRate {
             found.bricks_of_ball, percentile(found.by_ball.wall, 0.5), gl_renderer_);
         return {{"texture_bytes", found.plan.bytes},
                 {"textures", textures},
-                {"bricks", found.bricks},
-                {"solid_bricks", found.solid_bricks},
                 {"layout", found.plan.layout == BoneLayout::dense ? "dense" : "atlas"},
                 {"times_coarser", found.plan.coarsening},
                 {"has_smoothed_fractions", found.plan.smoothed},

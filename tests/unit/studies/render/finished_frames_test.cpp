@@ -1,0 +1,49 @@
+#include "studies/render/full_rate/finished_frames.h"
+
+#include <nlohmann/json.hpp>
+
+#include "render_client/volume/gl/framebuffer.h"
+#include "tests/unit/volume/offscreen_test.h"
+
+namespace osteomill::study {
+namespace {
+
+TEST(Percentile, IsTheNearestOfTheValues) {
+    EXPECT_EQ(percentile({3.0}, 0.0), 3.0);
+    EXPECT_EQ(percentile({3.0}, 0.99), 3.0);
+    EXPECT_EQ(percentile({4.0, 1.0, 3.0, 2.0}, 0.5), 2.0);
+    std::vector<double> hundred;
+    for (int value = 100; value > 0; --value) hundred.push_back(value);
+    EXPECT_EQ(percentile(hundred, 0.99), 99.0);
+    EXPECT_EQ(percentile(hundred, 1.0), 100.0);
+}
+
+TEST(FramesPerSecond, AreOfAllFramesTogether) {
+    EXPECT_DOUBLE_EQ(frames_per_s({.wall = {1.0, 3.0}}), 500.0);
+}
+
+using FrameStopwatchTest = OffscreenTest;
+
+TEST_F(FrameStopwatchTest, TimesEachFrameByThreeClocks) {
+    const gl::Framebuffer framebuffer({32, 32});
+    FrameStopwatch stopwatch;
+    int drawn = 0;
+    for (int frame = 0; frame < 3; ++frame)
+        stopwatch.time([&] {
+            ++drawn;
+            framebuffer.bind();
+            glClear(GL_COLOR_BUFFER_BIT);
+            framebuffer.depth_at({0, 0});
+        });
+    EXPECT_EQ(drawn, 3);
+    const FrameMilliseconds read = frames_of(json_of(stopwatch.frames()));
+    for (const std::vector<double>* times : {&read.wall, &read.gpu, &read.cpu}) {
+        ASSERT_EQ(times->size(), 3U);
+        for (const double time_ms : *times) EXPECT_GE(time_ms, 0.0);
+    }
+    EXPECT_EQ(read.wall, stopwatch.frames().wall);
+    EXPECT_EQ(read.gpu, stopwatch.frames().gpu);
+}
+
+}  // namespace
+}  // namespace osteomill::study
