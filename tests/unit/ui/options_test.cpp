@@ -129,6 +129,8 @@ TEST(Options, RefuseInOneLineThatNamesWhatIsWrong) {
     expect_refused({"--window-size", "0x10"}, "--window-size");
     expect_refused({"--offscreen", "--frames", "0"}, "--frames");
     expect_refused({"--frames", "5"}, "--offscreen");
+    expect_refused({"--gpu", "1"}, "--offscreen");
+    expect_refused({"--offscreen", "--gpu", "-1"}, "--gpu");
     expect_refused({"--offscreen", "--screenshot-every", "2"}, "--screenshots");
     expect_refused({"--offscreen", "--until-server-ends"}, "--until-server-ends");
     expect_refused({"--no-such-option"}, "--no-such-option");
