@@ -1,5 +1,7 @@
 #include "studies/render/full_rate/vtk_frames.h"
 
+#include <fmt/format.h>
+
 #include <chrono>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -21,7 +23,11 @@ void run_to_its_end(const std::vector<std::string>& command) {
         std::this_thread::sleep_for(between_looks);
         program.poll();
     }
-    if (*program.status() != 0) throw std::runtime_error(program.last_line());
+    if (*program.status() == 0) return;
+    const std::string last_line = program.last_line();
+    throw std::runtime_error(last_line.empty()
+                                 ? fmt::format("{} ended with status {}", command[0], *program.status())
+                                 : last_line);
 }
 
 }  // namespace
