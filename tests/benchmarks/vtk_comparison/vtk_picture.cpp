@@ -37,7 +37,6 @@ constexpr double one_voxel = 1.0;
 class WindowInOurContext final : public vtkGenericOpenGLRenderWindow {
   public:
     static WindowInOurContext* New() { VTK_STANDARD_NEW_BODY(WindowInOurContext); }
-    vtkTypeMacro(WindowInOurContext, vtkGenericOpenGLRenderWindow)
 
     void OpenGLInitContext() override {
         ContextCreationTime.Modified();
