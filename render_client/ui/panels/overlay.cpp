@@ -139,9 +139,11 @@ void add_readings(PanelList& panels, const OverlayContent& content, const PanelP
     if (content.tool) add_text(Anchor::upper_right, tool_text(content));
     if (const PanelText structures = structure_text(content); !structures.empty())
         add_text(Anchor::upper_right, structures);
-    if (content.has_bone)
+    if (content.has_bone) {
         panels.add(Anchor::upper_right, {cube_size(painter)},
                    [&](const PanelPlace& place) { draw_cube(painter, *content.camera, place); });
+        panels.let_last_give_way();
+    }
     // A transfer function puts other colours in place of the tissues'.
     if (content.session && !content.session->tissues.empty() && !content.view->transfer.function()) {
         panels.add(Anchor::upper_left, {legend_size(painter, content.session->tissues)},
