@@ -40,10 +40,10 @@ glm::dvec3 gradient_of_samples(const ReferenceVolume& volume, const glm::dvec3& 
     glm::dvec3 gradient(0.0);
     for (int sample = 0; sample < 64; ++sample) {
         const glm::dvec3 offset = glm::dvec3(sample & 3, sample >> 2 & 3, sample >> 4) - 1.5;
-        const auto weight = [](double away) { return std::abs(away) > 1.0 ? 1.0 : 5.0; };
-        const glm::dvec3 w(weight(offset.x), weight(offset.y), weight(offset.z));
-        gradient += glm::sign(offset) * glm::dvec3(w.y * w.z, w.z * w.x, w.x * w.y) *
-                    volume.fraction_at(point + offset);
+        const glm::dvec3 is_outer(std::abs(offset.x) > 1.0, std::abs(offset.y) > 1.0,
+                                  std::abs(offset.z) > 1.0);
+        const glm::dvec3 w = 3.5 - 2.5 * is_outer, along = glm::sign(offset) * (1.0 + 0.5 * is_outer);
+        gradient += along * glm::dvec3(w.y * w.z, w.z * w.x, w.x * w.y) * volume.fraction_at(point + offset);
     }
     return gradient;
 }

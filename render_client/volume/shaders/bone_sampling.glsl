@@ -70,10 +70,11 @@ vec3 gradient_by_samples(vec3 point) {
     vec3 gradient = vec3(0.0);
     for (int sample_number = 0; sample_number < 64; ++sample_number) {
         vec3 offset = vec3(sample_number & 3, (sample_number >> 2) & 3, sample_number >> 4) - 1.5;
-        vec3 weight = mix(vec3(5.0), vec3(1.0), greaterThan(abs(offset), vec3(1.0)));
-        gradient += sign(offset) * weight.yzx * weight.zxy * fraction_at(point + offset);
+        bvec3 is_outer = greaterThan(abs(offset), vec3(1.0));
+        vec3 across = mix(vec3(3.5), vec3(1.0), is_outer), along = sign(offset) * mix(vec3(1.0), vec3(1.5), is_outer);
+        gradient += along * across.yzx * across.zxy * fraction_at(point + offset);
     }
-    return gradient / 576.0;
+    return gradient / 445.5;
 }
 
 vec3 gradient_at(vec3 point) { return bone_has_smoothed ? gradient_of_smoothed(point) : gradient_by_samples(point); }
