@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "common/scene/burr.h"
+#include "common/scene/motor.h"
 #include "common/scene/plan.h"
 #include "common/scene/stiffness_relation.h"
 
@@ -100,7 +101,8 @@ struct Scene {
     std::vector<Tissue> tissues;
     std::vector<Burr> burrs;  ///< never empty
     std::size_t start_burr = 0;
-    double wall_friction = 0.2;  ///< Coulomb's, of a burr at rest on bone
+    double wall_friction = 0.2;    ///< Coulomb's, of a burr at rest on bone
+    std::optional<Motor> motor{};  ///< whose speed falls under load, as it is heard
     DeviceMapping device;
     ToolPose start_pose;
     TrajectorySpec trajectory;

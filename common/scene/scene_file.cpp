@@ -147,6 +147,17 @@ Burr read_burr(TomlReader& reader) {
     return burr;
 }
 
+Motor read_motor(TomlReader reader) {
+    Motor motor;
+    motor.stall_torque_n_mm =
+        required(reader, "stall_torque_n_mm", reader.number("stall_torque_n_mm", {0.01, 10'000.0}));
+    motor.steady_torque_n_mm = reader.number("steady_torque_n_mm", {0.0, 10'000.0}).value_or(0.0);
+    reader.refuse_other_keys();
+    if (motor.steady_torque_n_mm >= motor.stall_torque_n_mm)
+        reader.fail("steady_torque_n_mm", "'steady_torque_n_mm' must be below 'stall_torque_n_mm'");
+    return motor;
+}
+
 DeviceMapping read_device(TomlReader reader) {
     DeviceMapping mapping;
     if (const auto rows = reader.rows("rotation", 3)) {
@@ -220,6 +231,7 @@ Scene read_all(TomlReader reader, const std::filesystem::path& folder) {
     }
     scene.start_burr = reader.choice("start_burr", burr_names).value_or(0);
     scene.wall_friction = reader.number("wall_friction", {0.0, 1.0}).value_or(scene.wall_friction);
+    if (auto table = reader.table("motor")) scene.motor = read_motor(*table);
     if (auto table = reader.table("device")) scene.device = read_device(*table);
     if (auto table = reader.table("start_pose")) scene.start_pose = read_pose(*table);
     if (auto table = reader.table("trajectory"))
@@ -338,6 +350,9 @@ std::string write_scene(const Scene& scene) {
     toml::array burrs;
     for (const Burr& burr : scene.burrs) burrs.push_back(burr_table(burr));
     root.insert("burrs", burrs);
+    if (scene.motor)
+        root.insert("motor", toml::table{{"stall_torque_n_mm", scene.motor->stall_torque_n_mm},
+                                         {"steady_torque_n_mm", scene.motor->steady_torque_n_mm}});
     root.insert("device", toml::table{{"rotation", rows_of(scene.device.rotation)},
                                       {"scale", scene.device.scale},
                                       {"offset_mm", list(scene.device.offset_mm)}});

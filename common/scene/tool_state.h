@@ -10,6 +10,7 @@
 
 #include "common/scene/bounded_line.h"
 #include "common/scene/burr.h"
+#include "common/scene/cut_state.h"
 #include "common/scene/solve_counts.h"
 
 namespace osteomill {
@@ -51,6 +52,8 @@ struct ToolState {
     std::optional<double> peak_force_n{};
     /// Of the spindle, where it is not the burr's own: it was chosen, or is on the way there.
     std::optional<double> spindle_rpm{};
+    /// What the edges cut; the streaming server adds it. Nothing where nothing is cut, or it is not said.
+    std::optional<CutState> cut{};
 };
 static_assert(std::is_trivially_copyable_v<ToolState>);
 

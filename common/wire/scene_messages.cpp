@@ -70,6 +70,28 @@ std::optional<BurrHead> head_from(const v1::BurrDescription& message) {
     return read;
 }
 
+v1::CutState to_message(const CutState& cut) {
+    v1::CutState message;
+    message.set_force_n(static_cast<float>(cut.force_n));
+    message.set_tooth_ripple_n(static_cast<float>(cut.tooth_ripple_n));
+    message.set_relative_stiffness(static_cast<float>(cut.relative_stiffness));
+    if (cut.loaded_rpm) message.set_loaded_rpm(static_cast<float>(*cut.loaded_rpm));
+    return message;
+}
+
+CutState cut_from(const v1::CutState& message) {
+    CutState cut{.force_n = static_cast<double>(message.force_n()),
+                 .tooth_ripple_n = static_cast<double>(message.tooth_ripple_n()),
+                 .relative_stiffness = static_cast<double>(message.relative_stiffness())};
+    if (message.has_loaded_rpm()) cut.loaded_rpm = static_cast<double>(message.loaded_rpm());
+    return cut;
+}
+
+bool is_finite(const CutState& cut) {
+    return std::isfinite(cut.force_n) && std::isfinite(cut.tooth_ripple_n) &&
+           std::isfinite(cut.relative_stiffness) && std::isfinite(cut.loaded_rpm.value_or(0.0));
+}
+
 }  // namespace
 
 v1::BurrDescription to_message(const Burr& burr) {
@@ -127,6 +149,7 @@ v1::ToolState to_message(const ToolState& tool) {
     if (tool.shank_torque_n_mm) write(*tool.shank_torque_n_mm, *message.mutable_shank_torque_n_mm());
     if (tool.peak_force_n) message.set_peak_force_n(*tool.peak_force_n);
     if (tool.spindle_rpm) message.set_spindle_rpm(*tool.spindle_rpm);
+    if (tool.cut) *message.mutable_cut() = to_message(*tool.cut);
     return message;
 }
 
@@ -257,10 +280,11 @@ std::variant<ToolState, WireError> tool_from(const v1::ToolState& message, std::
                       .damped = message.solve().damped()};
     if (message.has_peak_force_n()) tool.peak_force_n = message.peak_force_n();
     if (message.has_spindle_rpm()) tool.spindle_rpm = message.spindle_rpm();
+    if (message.has_cut()) tool.cut = cut_from(message.cut());
     if (message.has_shank_torque_n_mm()) tool.shank_torque_n_mm = read(message.shank_torque_n_mm());
     if (!std::isfinite(tool.time_s) || !std::isfinite(tool.removed_mm3) ||
         !std::isfinite(tool.depth_mm.value_or(0.0)) || !std::isfinite(tool.peak_force_n.value_or(0.0)) ||
-        !std::isfinite(tool.spindle_rpm.value_or(0.0)) ||
+        !std::isfinite(tool.spindle_rpm.value_or(0.0)) || !is_finite(tool.cut.value_or(CutState{})) ||
         !std::isfinite(tool.solve.value_or(SolveCounts{}).max_residual_n) ||
         !is_finite(tool.shank_torque_n_mm.value_or(glm::dvec3(0.0))) || !is_finite(tool.burr_position_mm) ||
         !is_finite(tool.spindle_axis) || !is_finite(tool.hand_position_mm) || !is_finite(tool.force_n))

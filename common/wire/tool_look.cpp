@@ -14,7 +14,8 @@ constexpr double quiet_turn_rad = quiet_motion_mm / 100.0;
 bool looks_the_same(const ToolState& sent, const ToolState& now) {
     return sent.burr == now.burr && sent.spindle_on == now.spindle_on &&
            sent.removed_mm3 == now.removed_mm3 && sent.touches_protected == now.touches_protected &&
-           sent.fault == now.fault && sent.notice == now.notice && sent.driver == now.driver &&
+           sent.cut.has_value() == now.cut.has_value() && sent.fault == now.fault &&
+           sent.notice == now.notice && sent.driver == now.driver &&
            glm::distance(sent.burr_position_mm, now.burr_position_mm) <= quiet_motion_mm &&
            glm::distance(sent.hand_position_mm, now.hand_position_mm) <= quiet_motion_mm &&
            glm::distance(sent.spindle_axis, now.spindle_axis) <= quiet_turn_rad &&

@@ -15,7 +15,9 @@ constexpr double time_tolerance_s = 1e-7;
 }  // namespace
 
 MillingLoop::MillingLoop(const MillingLoopParts& parts, double command_period_s)
-    : parts_(parts), command_period_s_(command_period_s) {
+    : parts_(parts),
+      command_period_s_(command_period_s),
+      cut_(std::vector<Burr>(parts.burrs.begin(), parts.burrs.end()), parts.motor) {
     for (const Burr& burr : parts.burrs) hulls_.push_back(burr_hull(burr));
 }
 
@@ -62,6 +64,13 @@ void MillingLoop::restore(double elapsed_s) noexcept {
     parts_.gate->restored_changes.fetch_add(count, std::memory_order_release);
 }
 
+void MillingLoop::report_cut(const MillingResult& result, double speed_share) noexcept {
+    cut_.add(result, elapsed_s_);
+    if (!cut_.is_due()) return;
+    parts_.cuts->back() = cut_.take(result, speed_share);
+    parts_.cuts->publish();
+}
+
 void MillingLoop::step(double time_s, double elapsed_s) noexcept {
     if (parts_.commands.refresh()) {
         if (!has_command_) pose_ = parts_.commands.front().pose;
@@ -105,6 +114,7 @@ void MillingLoop::step(double time_s, double elapsed_s) noexcept {
     result.wanted_burr = command.wanted_burr;
     result.room_for_change_mm = room_for_change_mm(command);
     published_mm_ = command.pose.position_mm;
+    if (parts_.cuts != nullptr) report_cut(result, command.speed_share);
     parts_.results.publish();
     elapsed_s_ = removed_mm3_ = 0.0;
     impulse_n_s_ = glm::dvec3(0.0);

@@ -6,6 +6,7 @@
 #pragma once
 
 #include <algorithm>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -16,6 +17,7 @@
 #include "haptic_server/exchange/session_gate.h"
 #include "haptic_server/exchange/triple_buffer.h"
 #include "haptic_server/loop/burr_hull.h"
+#include "haptic_server/loop/cut_report.h"
 #include "haptic_server/loop/milling_log.h"
 
 namespace osteomill {
@@ -29,6 +31,8 @@ struct MillingLoopParts {
     std::span<const Burr> burrs{};         ///< of the scene: what may be put in the burr's place
     ChangeQueue* restored = nullptr;       ///< read: bone to be given back by undo; null: none ever is
     SessionGate* gate = nullptr;           ///< written, with `restored`
+    TripleBuffer<std::optional<CutState>>* cuts = nullptr;  ///< written; null: nobody wants to hear
+    std::optional<Motor> motor{};                           ///< of the scene, for `cuts`
 };
 
 class MillingLoop {
@@ -54,10 +58,12 @@ class MillingLoop {
     /// MillingResult::room_for_change_mm. Looks beyond both burrs and their shanks by a voxel, and by twice
     /// what the tool went since the last result: when this one is read it will have moved on.
     double room_for_change_mm(const BurrCommand& command) const noexcept;
+    void report_cut(const MillingResult& result, double speed_share) noexcept;
 
     MillingLoopParts parts_;
     double command_period_s_;
     std::vector<std::vector<HullBall>> hulls_{};  // by burr
+    CutReport cut_;
     bool has_command_ = false;
     ToolPose start_;                // where the burr was when the newest command came
     ToolPose pose_;                 // where it is

@@ -148,7 +148,9 @@ MillingSession::MillingSession(const Scene& scene, Bone bone, HapticDevice& devi
                      .log = milling_log,
                      .burrs = burrs_,
                      .restored = restored(),
-                     .gate = gate()},
+                     .gate = gate(),
+                     .cuts = options.changes_are_consumed ? &cuts_ : nullptr,
+                     .motor = scene.motor},
                     tick_s),
       haptic_ticks_(tick_s, 0.0,
                     [this](double time_s, std::uint64_t missed) {

@@ -100,6 +100,9 @@ class MillingSession {
     SessionGate* gate() { return restored_ ? &gate_ : nullptr; }
     ChangeQueue* restored() { return restored_.get(); }
     TripleBuffer<Placement>& placements() { return placements_; }
+    /// For the streaming server, too: what the edges cut, for people to hear. Stays empty where nobody
+    /// consumes changes.
+    TripleBuffer<std::optional<CutState>>& cuts() { return cuts_; }
 
     /// Starts the device, runs until the duration has passed or `stop` is set, stops the device. Calls
     /// `on_progress`, if given, on the caller's thread: about every 20 ms, on the virtual clock every 33 ms
@@ -142,6 +145,7 @@ class MillingSession {
     TripleBuffer<MillingResult> results_;
     TripleBuffer<BurrCommand> commands_;
     TripleBuffer<ToolState> tool_;
+    TripleBuffer<std::optional<CutState>> cuts_;
     TripleBuffer<ToolState> status_;
     std::optional<HandpieceVibration> vibration_;
     HapticLoop haptic_loop_;

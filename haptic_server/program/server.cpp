@@ -121,6 +121,7 @@ Streaming make_streaming(StreamingOptions wanted, const ServerOptions& options, 
     streaming.shown = std::make_unique<LiveSession>(
         session.tool(), session.changes(), streaming.controls.get(),
         options.controls ? read_control_script(*options.controls) : ControlScript{});
+    streaming.shown->listen_to(session.cuts());
     SessionInfo info =
         session_info(scene, device.operator_channel != nullptr, device.device->limits().max_force_n, version);
     info.has_ct = static_cast<bool>(make_ct);

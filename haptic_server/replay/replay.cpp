@@ -13,6 +13,7 @@
 #include "haptic_server/replay/recorded_bones.h"
 #include "haptic_server/replay/recorded_session.h"
 #include "haptic_server/replay/recording_csv.h"
+#include "haptic_server/replay/recording_sound.h"
 #include "haptic_server/replay/recording_summary.h"
 #include "haptic_server/report/write_report.h"
 #include "haptic_server/streaming/streaming_server.h"
@@ -46,11 +47,15 @@ std::string write_bones(const ReplayOptions& options, const std::atomic<bool>& s
 void read(const ReplayOptions& options, const std::atomic<bool>& stop) {
     std::optional<RecordingCsv> csv;
     if (options.csv) csv.emplace(*options.csv);
+    std::optional<RecordingSound> sound;
+    if (options.sound) sound.emplace(*options.sound);
     const RecordingSummary summary = summarise(options.recording, [&](const Playhead& playhead) {
         require_going_on(stop);
         if (csv) csv->add(playhead);
+        if (sound) sound->add(playhead);
     });
     if (csv) csv->close();
+    if (sound) sound->close();
     // Names may be what a hostile file holds: bytes that are no UTF-8 must not cost the whole report.
     if (options.json)
         write_whole_file(
@@ -104,7 +109,7 @@ void run_replay(const ReplayOptions& options, const std::atomic<bool>& stop, con
         if (options.surface || options.difference) error = write_bones(options, stop);
         if (options.report)
             error = write_report(options.recording, *options.report, [&] { require_going_on(stop); });
-        if (options.info || options.json || options.csv) read(options, stop);
+        if (options.info || options.json || options.csv || options.sound) read(options, stop);
         if (!error.empty()) throw std::runtime_error(error);
         return;
     }

@@ -25,6 +25,7 @@ ReplayCommandLine parse_replay_command_line(int argc, const char* const* argv, c
     std::string csv;
     std::string surface;
     std::string difference;
+    std::string sound;
     std::string report;
     CLI::App app(
         "Shows a recording of haptic_server --record to render clients, from the moment that the first one "
@@ -54,6 +55,8 @@ ReplayCommandLine parse_replay_command_line(int argc, const char* const* argv, c
     app.add_option("--difference", difference,
                    "Write what was removed of each voxel, 0 to 255, to this .nrrd; serve nobody")
         ->type_name("FILE");
+    app.add_option("--sound", sound, "Write what the burr sounds like to this .wav; serve nobody")
+        ->type_name("FILE");
     app.add_option(
            "--report", report,
            "Write the session's report (report.html, metrics.csv, metrics.json: docs/metrics.md) into "
@@ -64,27 +67,31 @@ ReplayCommandLine parse_replay_command_line(int argc, const char* const* argv, c
     if (!csv.empty()) options.csv = csv;
     if (!surface.empty()) options.surface = surface;
     if (!difference.empty()) options.difference = difference;
+    if (!sound.empty()) options.sound = sound;
     if (!report.empty()) options.report = report;
     if (options.surface && !is_mesh_name(*options.surface))
         throw std::invalid_argument(fmt::format("--surface: '{}' must end in {}", surface, mesh_endings));
     if (options.difference && options.difference->extension() != ".nrrd")
         throw std::invalid_argument(fmt::format("--difference: '{}' must end in .nrrd", difference));
+    if (options.sound && options.sound->extension() != ".wav")
+        throw std::invalid_argument(fmt::format("--sound: '{}' must end in .wav", sound));
     std::vector<NamedFile> files = access.files_read();
     files.push_back({"FILE", options.recording, false});
     if (options.json) files.push_back({"--json", *options.json});
     if (options.csv) files.push_back({"--csv", *options.csv});
     if (options.surface) files.push_back({"--surface", *options.surface});
     if (options.difference) files.push_back({"--difference", *options.difference});
+    if (options.sound) files.push_back({"--sound", *options.sound});
     if (options.report)
         for (const char* name : {"report.html", "metrics.csv", "metrics.json"})
             files.push_back({"--report", *options.report / name});
     require_distinct(files);
     for (const CLI::Option* serving : {where, speed, from})
         if (options.only_reads() && serving->count() > 0)
-            throw std::invalid_argument(fmt::format(
-                "{} is for showing a recording; --info, --json, --csv, --surface, --difference and "
-                "--report read all of it",
-                serving->get_name()));
+            throw std::invalid_argument(
+                fmt::format("{} is for showing a recording; --info, --json, --csv, --surface, --difference, "
+                            "--sound and --report read all of it",
+                            serving->get_name()));
     try {
         options.listen = parse_listen_address(listen);
     } catch (const std::invalid_argument& error) {

@@ -21,11 +21,11 @@ struct ReplayOptions {
     std::optional<std::filesystem::path> csv;
     std::optional<std::filesystem::path> surface;     ///< of the bone that is left
     std::optional<std::filesystem::path> difference;  ///< what was removed since the recording began
-
-    std::optional<std::filesystem::path> report;  ///< folder for the session's report
+    std::optional<std::filesystem::path> sound;       ///< of the burr, as WAV
+    std::optional<std::filesystem::path> report;      ///< folder for the session's report
 
     /// Whether it is only looked into, and shown to nobody.
-    bool only_reads() const { return info || json || csv || surface || difference || report; }
+    bool only_reads() const { return info || json || csv || surface || difference || sound || report; }
 };
 
 using ReplayCommandLine = Asked<ReplayOptions>;

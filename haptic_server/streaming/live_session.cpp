@@ -33,7 +33,11 @@ ToolState LiveSession::update(BoneReplica& mirror, std::size_t) {
     });
     if (refused > 0) spdlog::error("{} changes do not fit the bone that clients are shown", refused);
     tool_.refresh();
-    const ToolState& tool = tool_.front();
+    ToolState tool = tool_.front();
+    if (cuts_ != nullptr) {
+        cuts_->refresh();
+        if (tool.spindle_on) tool.cut = cuts_->front();
+    }
     if (!structures_.empty()) {
         structures_.update(tool);
         for (const std::string& line : structure_log_->lines(structures_.distances(), tool.time_s))

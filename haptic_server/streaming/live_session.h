@@ -34,6 +34,8 @@ class LiveSession final : public StreamSource {
     void offer_ct(std::function<CtVolume()> make) { make_ct_ = std::move(make); }
     /// The protected structures that are looked at from now on. Approaches and touches are logged.
     void watch(StructureWatch structures, std::vector<Tissue> tissues);
+    /// What the edges cut is told with the tool from now on. The one reader of `cuts`, which outlives it.
+    void listen_to(TripleBuffer<std::optional<CutState>>& cuts) { cuts_ = &cuts; }
     /// What came of them; once the streaming server has ended.
     const StructureWatch& structures() const { return structures_; }
     ToolState update(BoneReplica& mirror, std::size_t viewers) override;
@@ -47,6 +49,7 @@ class LiveSession final : public StreamSource {
     void note_for_structures(const BrickChange& change, BrickFractions after, const Bone& bone);
 
     TripleBuffer<ToolState>& tool_;
+    TripleBuffer<std::optional<CutState>>* cuts_ = nullptr;
     ChangeQueue& changes_;
     SessionControls* controls_;
     ControlScript script_;

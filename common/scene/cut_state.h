@@ -1,0 +1,20 @@
+// What the burr's edges do in bone, in few numbers: the force within the tooth period, for whoever makes the
+// cut heard. Nothing that is felt depends on it.
+#pragma once
+
+#include <optional>
+
+namespace osteomill {
+
+struct CutState {
+    double force_n = 0.0;  ///< of the bone on the burr, mean over the last tooth periods
+    /// Amplitude of that force's first harmonic of the tooth period; 0 where the force model has no edges.
+    double tooth_ripple_n = 0.0;
+    double relative_stiffness = 1.0;  ///< of the bone in front of the edges; 1: cortical bone
+    /// What the load leaves of the spindle's speed. Nothing where the scene has no motor.
+    std::optional<double> loaded_rpm{};
+
+    bool operator==(const CutState&) const = default;
+};
+
+}  // namespace osteomill
