@@ -11,6 +11,7 @@
 #include "common/log/line_sink.h"
 #include "common/program/program_output.h"
 #include "common/program/stop_signals.h"
+#include "render_client/sound/quiet_sound_libraries.h"
 #include "render_client/ui/offscreen_run.h"
 #include "render_client/ui/options.h"
 #include "render_client/ui/view/look_file.h"
@@ -50,6 +51,7 @@ void run(osteomill::RenderOptions options) {
 int main(int argument_count, char** arguments) {
     using namespace osteomill;
     ignore_signals_of_streams();
+    quiet_sound_libraries();
     const ParsedOptions parsed = parse_options(argument_count, arguments, OSTEOMILL_VERSION);
     if (parsed.no_run) {
         if (parsed.no_run->exit_code == 0)

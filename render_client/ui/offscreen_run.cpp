@@ -8,6 +8,7 @@
 #include <stdexcept>
 #include <thread>
 
+#include "render_client/sound/session_sound.h"
 #include "render_client/ui/view/redraw.h"
 #include "render_client/ui/view/screenshots.h"
 #include "render_client/ui/view/session_picture.h"
@@ -73,6 +74,8 @@ RenderReport run_offscreen(const RenderOptions& options, SessionSource& source,
     session.view().cuts = options.cuts;
     session.view().scale = static_cast<float>(options.ui_scale.value_or(1.0));
     session.view().panels_shown = options.panels;
+    SessionSound sound;
+    if (options.sound) sound.switch_to(true);
     FrameTimes frame_times;
 
     bool going_on = wait_for_bone(session, stop_asked);
@@ -84,6 +87,7 @@ RenderReport run_offscreen(const RenderOptions& options, SessionSource& source,
     for (int frame = 1; going_on; ++frame) {
         const Clock::time_point start = Clock::now();
         const SessionPicture::News news = session.take_in();
+        sound.hear(session.tool(), session.session());
         if (news == SessionPicture::News::change) redraw.note_change(start);
         if (news == SessionPicture::News::figures) redraw.note_figures();
         const LinkStatus status = session.link().status;

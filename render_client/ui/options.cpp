@@ -264,6 +264,7 @@ ParsedOptions parse_options(int argument_count, const char* const* arguments, co
            "has no room for it")
         ->check(within(0.5, 4.0));
     app.add_flag("!--no-panels", options.panels, "Only the picture: no panels over it");
+    app.add_flag("--sound", options.sound, "The burr can be heard: its edges in bone, by tissue and load");
     app.add_option_function<std::string>(
            "--home", [&](const std::string& folder) { options.home = folder; },
            "Where cases and reports are of sessions that are started from the window ($HOME/osteomill)")

@@ -14,6 +14,7 @@
 #include <thread>
 
 #include "common/scene/scene_file.h"
+#include "render_client/sound/session_sound.h"
 #include "render_client/ui/input/commands.h"
 #include "render_client/ui/input/input_mailbox.h"
 #include "render_client/ui/input/operator_desk.h"
@@ -107,6 +108,7 @@ class Drawing {
         session_.set_first_magnification(options.magnification);
         session_.view().cuts = options.cuts;
         session_.view().panels_shown = options.panels;
+        session_.view().sound = options.sound;
         session_.view().look_has_file = look_.has_file();
         session_.offer_controls();
         if (can_start_here(options)) {
@@ -148,6 +150,7 @@ class Drawing {
         input_.append(happened);
 
         work_look(std::chrono::duration<double>(now - began_).count());
+        work_sound(std::chrono::duration<double>(now - began_).count());
 
         const SessionPicture::News news = session_.take_in();
         const LinkUpdate& link = session_.link();
@@ -188,6 +191,15 @@ class Drawing {
         view.look_has_file = look_.has_file();
         if (std::exchange(view.look_save_wanted, false))
             commands_.say(look_.save(view.transfer.function()), now_s);
+    }
+
+    /// On and off as a person wants it; without a loudspeaker it is off again.
+    void work_sound(double now_s) {
+        bool& wanted = session_.view().sound;
+        if (wanted != sound_.is_on()) commands_.say(sound_.switch_to(wanted), now_s);
+        if (const std::string lost = sound_.hear(session_.tool(), session_.session()); !lost.empty())
+            commands_.say(lost, now_s);
+        wanted = sound_.is_on();
     }
 
     void draw(Clock::time_point start) {
@@ -246,6 +258,7 @@ class Drawing {
     LookKeeper look_{options_.look_file, options_.look.transfer};
     SessionPicture session_;
     Commands commands_;
+    SessionSound sound_;
     Screenshots screenshots_;
     FrameTimes frame_times_;
     Redraw redraw_;

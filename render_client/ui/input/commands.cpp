@@ -96,6 +96,9 @@ void Commands::take(Action action) {
         case Action::light_field:
             view.light_field = !view.light_field;
             break;
+        case Action::sound:
+            view.sound = !view.sound;
+            break;
         case Action::inset:
             view.inset = static_cast<InsetKind>((static_cast<int>(view.inset) + 1) % 3);
             break;

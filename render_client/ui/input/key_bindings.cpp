@@ -108,6 +108,7 @@ const std::vector<KeyBinding>& table() {
         {panels, always, {GLFW_KEY_F4}, Action::cuts_panel, "F4", "panel of the cuts"},
         {panels, always, {GLFW_KEY_F5}, Action::transfer_panel, "F5", "panel of colours and opacity"},
         {panels, always, {GLFW_KEY_F7}, Action::slices, "F7", "slices of the CT"},
+        {panels, always, {GLFW_KEY_F9}, Action::sound, "F9", "the burr's sound: on, off"},
         {panels,
          always,
          {GLFW_KEY_F11},

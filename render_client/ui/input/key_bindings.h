@@ -30,6 +30,7 @@ enum class Action {
     widen,
     light_field,
     inset,
+    sound,
     screenshot,
     export_frames,
     end,

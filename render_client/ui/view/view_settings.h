@@ -36,6 +36,7 @@ struct ViewSettings {
     bool slices_shown = false;
     bool ambient_occlusion = true;
     float specular = 0.0f;     ///< highlights on bone, see SceneLook
+    bool sound = false;        ///< the burr is to be heard
     bool light_field = false;  ///< a microscope's round field
     InsetKind inset = InsetKind::off;
     SessionQuestion question = SessionQuestion::none;
