@@ -31,8 +31,10 @@ constexpr double grain_level = 0.35;
 constexpr double growl_level = 0.12;
 constexpr double run_out_beat = 0.3;
 constexpr double flutter_share = 1.5;
-/// Of the force, at least: a model without edges tells of none, and a cut is heard.
-constexpr double least_ripple = 0.2;
+/// Of the tooth note, where the force is even or its model has no edges: burrs are not that even.
+constexpr double even_share = 0.4;
+/// A load of a twentieth halves the whine.
+constexpr double drowns = 20.0;
 
 // Pitch.
 constexpr double highest_full_hz = 17'000.0;
@@ -102,10 +104,11 @@ BurrSound::Heard BurrSound::heard_of(const SoundCue& cue) const noexcept {
     // Where nothing is cut the last cut fades with the colour that it had.
     if (!(cue.force_n > 0.0))
         return {.fall = wanted_.fall, .strain = cue.strain, .grain_hz = wanted_.grain_hz};
-    const double ripple_n = std::max(cue.tooth_ripple_n, least_ripple * cue.force_n);
-    return {.load = loudness(cue.force_n),
-            .ripple = loudness(ripple_n),
-            .fall = std::min(most_fall, 0.5 * ripple_n / cue.force_n),
+    const double load = loudness(cue.force_n);
+    const double fall = std::min(most_fall, 0.5 * cue.tooth_ripple_n / cue.force_n);
+    return {.load = load,
+            .tooth = load * (even_share + (1.0 - even_share) * fall),
+            .fall = fall,
             .strain = cue.strain,
             .grain_hz = std::clamp(cortical_grain_hz * std::pow(cue.relative_stiffness, grain_power),
                                    least_grain_hz, most_grain_hz)};
@@ -118,7 +121,7 @@ void BurrSound::follow() noexcept {
     rev_per_s_ += share_of(is_off ? coasts_s : runs_up_s) * (cue_.rev_per_s - rev_per_s_);
     const double share = share_of(follows_s);
     heard_.load += share * (wanted_.load - heard_.load);
-    heard_.ripple += share * (wanted_.ripple - heard_.ripple);
+    heard_.tooth += share * (wanted_.tooth - heard_.tooth);
     heard_.fall += share * (wanted_.fall - heard_.fall);
     heard_.strain += share * (wanted_.strain - heard_.strain);
     heard_.grain_hz += share * (wanted_.grain_hz - heard_.grain_hz);
@@ -169,9 +172,10 @@ double BurrSound::next_sample() noexcept {
     const double angle = two_pi * turned_rev_;
     const double beat = 1.0 + run_out_beat * std::sin(angle);
     const double uneven = 1.0 + flutter_share * flutter_;
-    const double tooth = (air_tooth_level + tooth_level * heard_.ripple * uneven) * beat * tooth_note();
-    const double whine = whine_level * (std::sin(angle) * pass(rev_per_s_) +
-                                        0.4 * std::sin(2.0 * angle) * pass(2.0 * rev_per_s_));
+    const double tooth = (air_tooth_level + tooth_level * heard_.tooth * uneven) * beat * tooth_note();
+    const double whine =
+        whine_level / (1.0 + drowns * heard_.load) *
+        (std::sin(angle) * pass(rev_per_s_) + 0.4 * std::sin(2.0 * angle) * pass(2.0 * rev_per_s_));
     const double grain = grain_level * heard_.load * uneven * grain_.pass(white());
     const double turning = audible_share(rev_per_s_) * (tooth + whine + grain);
     const double growl = growl_level * heard_.strain * heard_.strain * std::sin(two_pi * growl_turned_);

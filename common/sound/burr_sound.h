@@ -3,8 +3,8 @@
 //     tooth note   the force within the tooth period: a row of harmonics of edges * revolutions, each r times
 //                  the one below, with r = ripple / (2 force), as of a train of pulses (Poisson's kernel).
 //                  Louder with the force; run-out lets it beat once a turn
-//     whine        of the spindle in air, at its revolutions, and the edges in the air, faint
-//     grain        noise of the chips, in a band that follows what is cut: dark in soft bone, bright in
+//     whine        of the spindle in air, at its revolutions, and the edges in the air, faint; a cut drowns
+//     it grain        noise of the chips, in a band that follows what is cut: dark in soft bone, bright in
 //     enamel growl        of a motor that is held, mains' pitch; all that is left of a stall
 //
 // The spindle runs up, slows down and coasts as a motor does, and everything else follows its cue within
@@ -51,9 +51,9 @@ class BurrSound {
 
     /// What an ear makes of a cue; all on their way to what the newest says.
     struct Heard {
-        double load = 0.0;    // loudness of the force, 0 to 1
-        double ripple = 0.0;  // likewise, of the ripple
-        double fall = 0.0;    // r, from harmonic to harmonic
+        double load = 0.0;   // loudness of the force, 0 to 1
+        double tooth = 0.0;  // of the tooth note: an even force has less of it
+        double fall = 0.0;   // r, from harmonic to harmonic
         double strain = 0.0;
         double grain_hz = 1000.0;
     };

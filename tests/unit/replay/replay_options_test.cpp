@@ -28,6 +28,7 @@ TEST(ReplayOptions, ServeAtAnySpeedFromAnyTime) {
     EXPECT_TRUE(parse({"a.pcap", "--csv", "a.csv"}).options->only_reads());
     EXPECT_TRUE(parse({"a.pcap", "--surface", "a.ply"}).options->only_reads());
     EXPECT_TRUE(parse({"a.pcap", "--difference", "a.nrrd"}).options->only_reads());
+    EXPECT_TRUE(parse({"a.pcap", "--sound", "a.wav"}).options->only_reads());
 }
 
 TEST(ReplayOptions, AreRefusedWhereTheyMakeNoSense) {
@@ -40,6 +41,9 @@ TEST(ReplayOptions, AreRefusedWhereTheyMakeNoSense) {
                                                   {"a.pcap", "--surface", "a.step"},
                                                   {"a.pcap", "--surface", "a.stl", "--csv", "a.stl"},
                                                   {"a.pcap", "--difference", "a.stl"},
+                                                  {"a.pcap", "--sound", "a.mp3"},
+                                                  {"a.pcap", "--sound", "a.wav", "--from-s", "1"},
+                                                  {"a.wav", "--sound", "a.wav"},
                                                   {"a.pcap", "--surface", "a.stl", "--speed", "2"},
                                                   {"a.pcap", "--loop"}})
         EXPECT_THROW(parse(wrong), std::invalid_argument);

@@ -318,5 +318,22 @@ TEST(SceneFile, ReadsAPlanAndWritesItBack) {
     EXPECT_THAT(error_of(tissues + "tissue = \"lesion\"\nmargin = 1\n"), HasSubstr("margin"));
 }
 
+TEST(SceneFile, HasAMotorWhoseSpeedFallsToAStall) {
+    EXPECT_FALSE(parse_scene(smallest, "my.toml").motor);
+    const Scene scene =
+        parse_scene(smallest + "[motor]\nstall_torque_n_mm = 3.0\nsteady_torque_n_mm = 1.0\n", "my.toml");
+    EXPECT_EQ(scene.motor, (Motor{.stall_torque_n_mm = 3.0, .steady_torque_n_mm = 1.0}));
+    EXPECT_EQ(parse_scene(write_scene(scene), "again.toml").motor, scene.motor);
+    EXPECT_EQ(speed_share_under(*scene.motor, 0.0), 1.0);
+    EXPECT_EQ(speed_share_under(*scene.motor, 1.0), 1.0);
+    EXPECT_EQ(speed_share_under(*scene.motor, 2.0), 0.5);
+    EXPECT_EQ(speed_share_under(*scene.motor, 3.0), 0.0);
+    EXPECT_EQ(speed_share_under(*scene.motor, 9.0), 0.0);
+    for (const char* wrong :
+         {"[motor]\n", "[motor]\nstall_torque_n_mm = 0\n", "[motor]\nstall_torque_n_mm = 1\nrpm = 3\n",
+          "[motor]\nstall_torque_n_mm = 1\nsteady_torque_n_mm = 1\n"})
+        EXPECT_THROW(parse_scene(smallest + wrong, "my.toml"), SceneError) << wrong;
+}
+
 }  // namespace
 }  // namespace osteomill

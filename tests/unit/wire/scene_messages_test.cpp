@@ -179,6 +179,24 @@ TEST(SceneMessages, BringBackPlanTraineeAndSettings) {
     EXPECT_FALSE(std::get<SessionInfo>(session_info_from(hello)).plan);
 }
 
+TEST(SceneMessages, BringBackTheCutAndSpendNoByteWhereThereIsNone) {
+    ToolState tool;
+    const std::size_t bytes_without = to_message(tool).ByteSizeLong();
+    EXPECT_FALSE(to_message(tool).has_cut());
+    EXPECT_FALSE(std::get<ToolState>(tool_from(to_message(tool), 1)).cut);
+    tool.cut = {.force_n = 0.5, .tooth_ripple_n = 0.25, .relative_stiffness = 2.0};
+    EXPECT_EQ(std::get<ToolState>(tool_from(to_message(tool), 1)).cut, tool.cut);
+    tool.cut->loaded_rpm = 0.0;  // a stall
+    EXPECT_EQ(std::get<ToolState>(tool_from(to_message(tool), 1)).cut, tool.cut);
+    EXPECT_LE(to_message(tool).ByteSizeLong(), bytes_without + 23);
+    for (double* number : {&tool.cut->force_n, &tool.cut->tooth_ripple_n, &tool.cut->relative_stiffness,
+                           &*tool.cut->loaded_rpm}) {
+        const double before = std::exchange(*number, std::nan(""));
+        EXPECT_TRUE(std::holds_alternative<WireError>(tool_from(to_message(tool), 1)));
+        *number = before;
+    }
+}
+
 TEST(SceneMessages, BringBackTheLargestForceWhereItIsSaid) {
     ToolState tool;
     EXPECT_FALSE(std::get<ToolState>(tool_from(to_message(tool), 1)).peak_force_n);
