@@ -8,7 +8,7 @@ FROM ${PROGRAMS} AS programs
 FROM ${BASE}
 RUN apt-get update -qq \
     && DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends \
-        fonts-dejavu-core libegl1 libepoxy0 libfmt9 libgl1 libgl1-mesa-dri libglfw3 libpcap0.8 libpng16-16 libprotobuf32 \
+        fonts-dejavu-core libasound2 libegl1 libepoxy0 libfmt9 libgl1 libgl1-mesa-dri libglfw3 libopenal1 libpcap0.8 libpng16-16 libprotobuf32 \
         libspdlog1.10 libssl3 libstb0 libtomlplusplus3 libxxhash0 libzstd1 \
     && rm -rf /var/lib/apt/lists/* \
     && useradd --uid 10001 --create-home osteomill \

@@ -334,6 +334,28 @@ TEST_F(WindowTest, DrawsOnlyWhatChanges) {
     EXPECT_EQ(window_->wait(60s), 0) << window_->err();
 }
 
+TEST_F(WindowTest, SaysInOneLineThatThereIsNoSoundAndTriesAgain) {
+    ::setenv("ALSOFT_DRIVERS", "solaris", 1);  // of which there is none
+    open_window({});
+    ::unsetenv("ALSOFT_DRIVERS");
+    EXPECT_EQ(window_->err(), "");
+    const auto has_said = [&](int lines) {
+        return comes_true([&] {
+            (void)window_->line_after("no such line", 1s);
+            return lines_of(window_->err()) == lines;
+        });
+    };
+    press("F9");
+    EXPECT_TRUE(has_said(1)) << window_->err();
+    EXPECT_THAT(window_->err(), HasSubstr("no sound: OpenAL finds no output"));
+    press("F9");
+    EXPECT_TRUE(has_said(2)) << window_->err();
+    server_->send_signal(SIGINT);
+    ASSERT_EQ(server_->wait(60s), 0);
+    press("Escape");
+    EXPECT_EQ(window_->wait(60s), 0) << window_->err();
+}
+
 TEST_F(WindowTest, EndsWithOneLineWhenTheDisplayGoes) {
     open_window({});
     display_->break_down();
