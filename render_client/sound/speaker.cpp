@@ -25,7 +25,7 @@ Speaker::Speaker() : device_(alcOpenDevice(nullptr)) {
     context_.reset(alcCreateContext(device_.get(), nullptr));
     if (!context_ || alcMakeContextCurrent(context_.get()) == ALC_FALSE)
         throw NoSound("OpenAL finds an output, and cannot play through it");
-    device_name_ = alcGetString(device_.get(), ALC_DEVICE_SPECIFIER);
+    device_name_ = alcGetString(device_.get(), ALC_ALL_DEVICES_SPECIFIER);
     tells_of_loss_ = alcIsExtensionPresent(device_.get(), "ALC_EXT_disconnect") == ALC_TRUE;
     alGenSources(1, &source_);
     alGenBuffers(static_cast<ALsizei>(buffers), buffers_.data());
