@@ -117,8 +117,7 @@ BurrSound::Heard BurrSound::heard_of(const SoundCue& cue) const noexcept {
 void BurrSound::follow() noexcept {
     unheard_s_ += sample_s;
     if (unheard_s_ > patience_s) hear({.edges = cue_.edges});
-    const bool is_off = cue_.rev_per_s == 0.0 && cue_.strain == 0.0;
-    rev_per_s_ += share_of(is_off ? coasts_s : runs_up_s) * (cue_.rev_per_s - rev_per_s_);
+    rev_per_s_ += share_of(is_wanted() ? runs_up_s : coasts_s) * (cue_.rev_per_s - rev_per_s_);
     const double share = share_of(follows_s);
     heard_.load += share * (wanted_.load - heard_.load);
     heard_.tooth += share * (wanted_.tooth - heard_.tooth);
@@ -129,8 +128,7 @@ void BurrSound::follow() noexcept {
 }
 
 bool BurrSound::has_come_to_rest() const noexcept {
-    return cue_.rev_per_s <= 0.0 && cue_.strain == 0.0 && rev_per_s_ < standing_rev_per_s &&
-           heard_.strain < inaudible_strain;
+    return !is_wanted() && rev_per_s_ < standing_rev_per_s && heard_.strain < inaudible_strain;
 }
 
 void BurrSound::turn() noexcept {

@@ -34,7 +34,7 @@ class BurrSound {
     void render(std::span<float> samples) noexcept;
 
     /// Neither sounding nor about to: render() gives zeros until it hears of a spindle that turns.
-    bool is_silent() const noexcept { return cue_.rev_per_s <= 0.0 && rev_per_s_ == 0.0; }
+    bool is_silent() const noexcept { return !is_wanted() && rev_per_s_ == 0.0; }
 
   private:
     /// Two-pole band-pass whose middle may move from sample to sample (Zavalishin's state variable filter).
@@ -58,6 +58,8 @@ class BurrSound {
         double grain_hz = 1000.0;
     };
 
+    /// Whether the cue's spindle turns, or would if its load let it.
+    bool is_wanted() const noexcept { return cue_.rev_per_s > 0.0 || cue_.strain > 0.0; }
     Heard heard_of(const SoundCue& cue) const noexcept;
     bool has_come_to_rest() const noexcept;
     void follow() noexcept;

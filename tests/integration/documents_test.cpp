@@ -107,6 +107,7 @@ TEST(Documents, DescribeEveryKeyOfAScene) {
     Scene scene;
     scene.burrs = default_burr_set(1.0);
     scene.burrs[0].shank = {{0.5, 0.2}, {5.0, 0.2}};
+    scene.motor = Motor{.stall_torque_n_mm = 1.0};
     scene.tissues.push_back({.label = 1, .name = "bone"});
     std::set<std::string> keys{"phantom", "file", "motion"};  // of which a scene has one
     scene.bone = FileSource{.path = "bone.nrrd", .threshold_hu = 300.0};
