@@ -46,7 +46,7 @@ struct RenderOptions {
     ThemeName theme = ThemeName::dark;
     std::optional<double> ui_scale;  ///< of panels and letters; absent: the display's, 1 offscreen
     bool panels = true;
-    bool sound = false;  ///< the burr can be heard
+    bool sound = false;                         ///< the burr can be heard
     std::optional<std::filesystem::path> home;  ///< cases and reports of sessions started from the window
     std::size_t texture_budget_bytes = default_texture_budget_bytes;  ///< for the bone
     std::filesystem::path json;                                       ///< empty writes none
