@@ -1,11 +1,11 @@
-// The sound of a burr, sample by sample: what a microphone beside the handpiece would hear.
+// The sound of a burr, sample by sample: what a microphone beside the handpiece would hear. Four parts:
 //
-//     tooth note   the force within the tooth period: a row of harmonics of edges * revolutions, each r times
-//                  the one below, with r = ripple / (2 force), as of a train of pulses (Poisson's kernel).
-//                  Louder with the force; run-out lets it beat once a turn
-//     whine        of the spindle in air, at its revolutions, and the edges in the air, faint; a cut drowns
-//     it grain        noise of the chips, in a band that follows what is cut: dark in soft bone, bright in
-//     enamel growl        of a motor that is held, mains' pitch; all that is left of a stall
+// - Tooth note, the force within the tooth period: a row of harmonics of edges * revolutions, each r times
+//   the one below, with r = ripple / (2 force), as of a train of pulses (Poisson's kernel). Louder with the
+//   force; run-out lets it beat once a turn.
+// - Whine of the spindle in air, at its revolutions, and the edges in the air, faint; a cut drowns it.
+// - Grain, noise of the chips, in a band that follows what is cut: dark in soft bone, bright in enamel.
+// - Growl of a motor that is held, at mains' pitch; all that is left of a stall.
 //
 // The spindle runs up, slows down and coasts as a motor does, and everything else follows its cue within
 // some hundredths of a second, so that cues thirty times a second make no clicks. Nothing sounds above 20
