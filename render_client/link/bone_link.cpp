@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <memory>
 #include <utility>
 
 #include "common/wire/ct_pieces.h"
@@ -55,7 +56,8 @@ class BoneLink::Impl {
     }
 
     void take(BoneArrived arrived, LinkUpdate& update) {
-        replica_.take(std::move(arrived));
+        if (auto before = replica_.take(std::move(arrived)))
+            connection_.discard(std::make_shared<BoneReplica>(*std::move(before)));
         update.bone_replaced = true;
         update.structures.clear();
     }

@@ -83,12 +83,8 @@ void RecordingPlayer::seek(double time_s) {
 
 void RecordingPlayer::go_towards_target(LinkUpdate& update) {
     if (target_s_ < playhead_->time_s()) wind_back();
-    if (std::exchange(is_fresh_, false)) {
-        // As it first was: textures are made for the most bone that there will be.
-        update.bone_replaced = true;
-        shown_structures_ = 0;
-        return;
-    }
+    // As it first was: textures are made for the most bone that there will be.
+    if (std::exchange(is_fresh_, false)) return announce_bone(update);
     if (!error_.empty()) return;
     for (int frames = 0; frames < most_frames_a_poll; ++frames) {
         keys_->before_step(*playhead_);
@@ -102,7 +98,8 @@ void RecordingPlayer::go_towards_target(LinkUpdate& update) {
             case Playhead::Step::new_bone:
                 keys_.emplace(playhead_->mark());
                 session_begins_s_ = playhead_->time_s();
-                is_fresh_ = true;
+                // At once: whoever makes textures of the one before may not read another in its place.
+                announce_bone(update);
                 return;
             case Playhead::Step::goodbye:
                 break;
@@ -113,6 +110,11 @@ void RecordingPlayer::go_towards_target(LinkUpdate& update) {
                 return;
         }
     }
+}
+
+void RecordingPlayer::announce_bone(LinkUpdate& update) {
+    update.bone_replaced = true;
+    shown_structures_ = 0;
 }
 
 void RecordingPlayer::wind_back() {

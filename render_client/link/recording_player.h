@@ -52,6 +52,7 @@ class RecordingPlayer {
   private:
     void open();
     void go_towards_target(LinkUpdate& update);
+    void announce_bone(LinkUpdate& update);
     void wind_back();
     std::string status_line() const;
 

@@ -99,6 +99,10 @@ void ServerConnection::send(const v1::CompareBone& request, std::uint64_t sessio
     });
 }
 
+void ServerConnection::discard(std::shared_ptr<void> unused) {
+    asio::post(io_, [unused = std::move(unused)]() mutable { unused.reset(); });
+}
+
 void ServerConnection::resume() {
     asio::post(io_, [this] {
         if (std::exchange(is_paused_, false)) read();

@@ -64,6 +64,8 @@ class ServerConnection {
     std::optional<ToolState> newest_tool() const;
     /// Dropped if that session is over.
     void send(const v1::CompareBone& request, std::uint64_t session_number);
+    /// Frees it on the receiving thread: a large bone takes a tenth of a second.
+    void discard(std::shared_ptr<void> unused);
     /// There is room in the queue again.
     void resume();
     /// Why nothing more is recorded; empty while all is well, and where nothing is to be.

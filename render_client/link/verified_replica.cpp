@@ -9,8 +9,10 @@ void VerifiedReplica::begin(SessionInfo session) {
     repair_.reset();
 }
 
-void VerifiedReplica::take(BoneArrived arrived) {
+std::optional<BoneReplica> VerifiedReplica::take(BoneArrived arrived) {
+    std::optional<BoneReplica> before = std::exchange(replica_, std::nullopt);
     replica_.emplace(std::move(arrived.bone), std::move(arrived.checksum));
+    return before;
 }
 
 std::variant<VerifiedReplica::Applied, WireError> VerifiedReplica::take(const StateArrived& arrived) {

@@ -36,8 +36,8 @@ class VerifiedReplica {
 
     /// A server has said hello. The bone stays the one before, if any, until its own has come.
     void begin(SessionInfo session);
-    /// Of the session that began last.
-    void take(BoneArrived arrived);
+    /// Of the session that began last. Returns what it takes the place of, which takes its time to be freed.
+    std::optional<BoneReplica> take(BoneArrived arrived);
     /// An error says why a fresh bone is needed: part of the frame may have been applied, or the repair has
     /// failed. There must be a bone of this session.
     std::variant<Applied, WireError> take(const StateArrived& arrived);

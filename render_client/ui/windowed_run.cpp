@@ -99,6 +99,10 @@ class Drawing {
                    options.renderer, options.look, options.stereo),
           commands_(session_, shared.desk, source, options.screenshots),
           screenshots_(options.screenshots, screenshot_interval(options)) {
+        if (auto second = window.second_context()) {
+            storage_.emplace(std::move(second));
+            session_.make_storage_by(*storage_);
+        }
         session_.limit_textures({.budget_bytes = options.texture_budget_bytes});
         session_.view().theme = options.theme;
         session_.view().ambient_occlusion = options.ambient_occlusion;
@@ -255,6 +259,7 @@ class Drawing {
     const Clock::time_point began_ = Clock::now();
     Panels panels_;
     std::optional<StartScreen> start_;
+    std::optional<gl::StorageThread> storage_;
     LookKeeper look_{options_.look_file, options_.look.transfer};
     SessionPicture session_;
     Commands commands_;

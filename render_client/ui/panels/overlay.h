@@ -44,6 +44,8 @@ struct OverlayContent {
     RecordingPlayer* player = nullptr;
     /// Why there is no bone in the picture, where there is none for a reason.
     std::string bone_problem;
+    /// How much of a bone or a look that is to be shown is ready; nothing where all is shown.
+    std::optional<int> preparation_percent{};
     bool has_bone = false;
 };
 

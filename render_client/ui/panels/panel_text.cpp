@@ -22,13 +22,22 @@ bool has_problem(LinkStatus status) {
     return status == LinkStatus::connecting || status == LinkStatus::lost || status == LinkStatus::refused;
 }
 
+/// How much of a bone that is on its way has come.
+std::string received_part(const LinkUpdate& link) {
+    if (link.status != LinkStatus::receiving_snapshot || link.snapshot_bricks_total == 0) return {};
+    return fmt::format(": {} %", std::uint64_t{100} * link.snapshot_bricks / link.snapshot_bricks_total);
+}
+
 }  // namespace
 
 PanelText session_text(const OverlayContent& content) {
     PanelText text;
     if (content.session) text.push_back(line(Tone::plain, content.session->scene_name));
-    text.push_back(
-        line(has_problem(content.link.status) ? Tone::warning : Tone::plain, content.link.status_line));
+    text.push_back(line(has_problem(content.link.status) ? Tone::warning : Tone::plain,
+                        content.link.status_line + received_part(content.link)));
+    if (content.preparation_percent)
+        text.push_back(
+            line(Tone::plain, fmt::format("preparing the bone: {} %", *content.preparation_percent)));
     text.push_back(line(Tone::dim, fmt::format("picture {:.0f} frames/s, {}", content.render_frames_per_s,
                                                quality_in_words(content.quality))));
     text.push_back(

@@ -4,13 +4,13 @@
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <numbers>
 #include <stdexcept>
 
-#include "common/bone/structure_in_bone.h"
 #include "common/wire/tool_look.h"
 #include "render_client/ui/panels/inset_panel.h"
 #include "render_client/ui/panels/layout.h"
@@ -40,16 +40,17 @@ glm::dvec3 middle_of(const Grid& grid, const VoxelBox& box) {
     return 0.5 * (centre_of_voxel_mm(grid, box.first) + centre_of_voxel_mm(grid, box.first + box.size - 1));
 }
 
-/// A tissue that no bone bears makes nothing translucent: all bone would be drawn the slower way for it.
-std::vector<TissueColour> tissue_colours(const SessionInfo* session, const Bone& bone) {
+std::vector<TissueColour> tissue_colours(const SessionInfo* session) {
     std::vector<TissueColour> colours;
     if (!session) return colours;
-    for (const Tissue& tissue : session->tissues) {
-        const bool shows_through = tissue.opacity < 1.0 && is_in_bone(bone, tissue.label);
-        colours.push_back({tissue.label, tissue.colour_rgb, shows_through ? tissue.opacity : 1.0});
-    }
+    for (const Tissue& tissue : session->tissues)
+        colours.push_back({tissue.label, tissue.colour_rgb, tissue.opacity});
     return colours;
 }
+
+/// Of a frame, for preparing what it will show: with a frame's drawing it stays well below what is felt as
+/// waiting.
+constexpr std::chrono::milliseconds preparing_slice(15);
 
 }  // namespace
 
@@ -59,7 +60,8 @@ SessionPicture::SessionPicture(SessionSource& source, Panels& panels, const glm:
     : source_(source),
       panels_(panels),
       renderer_(make_renderer(renderer)),
-      shading_(look),
+      bone_(look),
+      frame_quality_(quality),
       picture_(*renderer_, size_px, quality == FrameQuality::on_demand, stereo),
       renderer_choice_(renderer),
       size_px_(picture_.size_px()) {
@@ -90,16 +92,15 @@ void SessionPicture::ask_for_ct() {
 }
 
 void SessionPicture::take_in_bone(bool first_of_tool) {
-    has_undrawn_bone_ = has_undrawn_bone_ || link_.bone_replaced || !link_.changes.empty();
-    const Bone* bone = source_.bone();
-    if (link_.bone_replaced || (!textures_ && bone_problem_.empty())) {
-        replace_bone();
-    } else if (textures_ && !link_.changes.empty()) {
-        const auto changed = textures_->update(*bone, link_.changes);
-        picture_.mark_dirty(*textures_, changed);
-        if (inset_) inset_->mark_dirty(*textures_, changed);
-        dirty_bricks_uploaded_ += link_.changes.size();
+    const bool is_first = !std::exchange(has_taken_bone_, true);
+    if (link_.bone_replaced || is_first) {
+        bone_.replace(*source_.bone(), tissue_colours(source_.session()));
+        has_undrawn_bone_ = true;
+    } else {
+        bone_.note(link_.changes);
+        if (has_bone()) dirty_bricks_uploaded_ += link_.changes.size();
     }
+    work_on_bone();
     if (link_.bone_replaced) {
         picture_.forget_structures();
         if (const SessionInfo* session = source_.session()) slices_.set_tissues(session->tissues);
@@ -131,50 +132,62 @@ SessionPicture::News SessionPicture::news() const {
     if (has_undrawn_bone_ || has_moved || link_.ct || hand_has_moved || has_turning_burr() ||
         !quality().refined || link_.status != was.status || link_.status_line != was.status_line ||
         link_.recording_error != was.recording_error || link_.controls != was.controls ||
-        link_.distances != was.distances || link_.snapshot_bricks != was.snapshot_bricks ||
-        link_.checksum_mismatches != was.checksum_mismatches ||
+        link_.distances != was.distances || link_.checksum_mismatches != was.checksum_mismatches ||
         link_.rejected_frames != was.rejected_frames || link_.bricks_repaired != was.bricks_repaired)
         return News::change;
     const bool time_goes_on = tool_ && tool_->time_s != drawn_state_->time_s;
-    const bool is_figure_new =
-        time_goes_on || link_.frames_per_s != was.frames_per_s || link_.bytes_per_s != was.bytes_per_s;
+    const bool is_figure_new = time_goes_on || link_.snapshot_bricks != was.snapshot_bricks ||
+                               preparation_percent() != drawn_percent_ ||
+                               link_.frames_per_s != was.frames_per_s || link_.bytes_per_s != was.bytes_per_s;
     return is_figure_new ? News::figures : News::none;
 }
 
-void SessionPicture::replace_bone() {
-    const bool first = !textures_;
-    const std::vector<TissueColour> tissues = tissue_colours(source_.session(), *source_.bone());
-    bone_problem_.clear();
+void SessionPicture::work_on_bone() {
+    using Clock = std::chrono::steady_clock;
+    const Clock::time_point end = Clock::now() + preparing_slice;
+    const auto has_time = [&] { return frame_quality_ == FrameQuality::full || Clock::now() < end; };
+    const BoneOnScreen::Outcome outcome = bone_.work(*source_.bone(), has_time);
+    if (outcome.is_news()) has_undrawn_bone_ = true;
+    if (outcome.other_textures) {
+        show_other_textures();
+    } else if (!outcome.changed.empty()) {
+        picture_.mark_dirty(*bone_.textures(), outcome.changed);
+        if (inset_) inset_->mark_dirty(*bone_.textures(), outcome.changed);
+    }
+}
+
+void SessionPicture::show_other_textures() {
     picture_.forget_bone();
     if (inset_) inset_->forget_bone();
-    // The old textures go first: both together might not fit.
-    textures_.reset();
-    try {
-        textures_.emplace(*source_.bone(), tissues, shading_, texture_limits_);
-    } catch (const std::runtime_error& error) {
-        bone_problem_ = error.what();
-        return;
-    }
-    if (textures_->plan().layout != BoneLayout::dense || textures_->plan().coarsening > 1)
-        spdlog::info("the bone is drawn from {}", description(textures_->plan()));
-    const glm::dvec3 half_mm = 0.5 * textures_->grid().spacing_mm * glm::dvec3(textures_->box().size);
-    const glm::dvec3 middle_mm = middle_of(textures_->grid(), textures_->box());
+    const BoneTextures* textures = bone_.textures();
+    if (textures == nullptr) return;
+    if (textures->plan().layout != BoneLayout::dense || textures->plan().coarsening > 1)
+        spdlog::info("the bone is drawn from {}", description(textures->plan()));
+    const glm::dvec3 half_mm = 0.5 * textures->grid().spacing_mm * glm::dvec3(textures->box().size);
+    const glm::dvec3 middle_mm = middle_of(textures->grid(), textures->box());
     view_.cuts.set_bounds(middle_mm - half_mm, middle_mm + half_mm);
     // After a reconnection the view stays where the user left it.
-    if (first) reset_camera();
+    if (!std::exchange(has_first_view_, true)) reset_camera();
+}
+
+std::optional<int> SessionPicture::preparation_percent() const {
+    const std::optional<double> done = bone_.preparation();
+    if (!done) return std::nullopt;
+    return static_cast<int>(100.0 * *done);
 }
 
 void SessionPicture::set_shading(const ShadingSettings& look) {
-    if (look == shading_) return;
+    if (look == bone_.look()) return;
     if (look.transfer) require_valid(*look.transfer);
-    shading_ = look;
-    if (textures_) replace_bone();
+    bone_.set_look(look);
+    if (source_.bone() && has_taken_bone_) work_on_bone();
 }
 
 void SessionPicture::reset_camera() {
-    if (!textures_) return;
-    const glm::dvec3 half_mm = 0.5 * textures_->grid().spacing_mm * glm::dvec3(textures_->box().size);
-    const glm::dvec3 middle_mm = middle_of(textures_->grid(), textures_->box());
+    const BoneTextures* textures = bone_.textures();
+    if (textures == nullptr) return;
+    const glm::dvec3 half_mm = 0.5 * textures->grid().spacing_mm * glm::dvec3(textures->box().size);
+    const glm::dvec3 middle_mm = middle_of(textures->grid(), textures->box());
     first_view_ = camera_on(middle_mm, glm::length(half_mm));
     if (tool_ && glm::length(half_mm) > closest_first_view_mm) {
         // All of a jaw would leave the drilled spot a few pixels wide.
@@ -190,7 +203,7 @@ const gl::Framebuffer& SessionPicture::draw(double elapsed_s) {
     // The mean of times, not of rates: a few frames that come at once would count for hundreds a second.
     frame_s_ = frame_s_ > 0.0 ? 0.9 * frame_s_ + 0.1 * elapsed_s : elapsed_s;
     if (view_.transfer.take_change())
-        set_shading({.shading = shading_.shading, .transfer = view_.transfer.function()});
+        set_shading({.shading = bone_.look().shading, .transfer = view_.transfer.function()});
     const Theme& theme = theme_of(view_.theme);
     const SceneLook look{.cuts = view_.cuts.planes(),
                          .ct = view_.slices_shown ? slices_.ct() : nullptr,
@@ -204,7 +217,7 @@ const gl::Framebuffer& SessionPicture::draw(double elapsed_s) {
     std::optional<DrawnTool> tool;
     const std::optional<ToolState> shown = shown_tool();
     if (shown) tool = drawn_tool(*shown);
-    picture_.draw(textures_ ? &*textures_ : nullptr, tool ? &*tool : nullptr, camera_);
+    picture_.draw(bone_.textures(), tool ? &*tool : nullptr, camera_);
     const gl::Framebuffer* inset = draw_inset(tool, look);
     view_.scale = scale_that_fits(view_.scale, size_px_);
     panels_.begin(size_px_, picture_.eye_size_px(), elapsed_s, view_.theme, view_.scale);
@@ -224,13 +237,15 @@ const gl::Framebuffer& SessionPicture::draw(double elapsed_s) {
                   .wishes = takes_wishes_ ? &wishes_ : nullptr,
                   .start = start_,
                   .player = source_.player(),
-                  .bone_problem = bone_problem_,
+                  .bone_problem = bone_.problem(),
+                  .preparation_percent = preparation_percent(),
                   .has_bone = has_bone()},
                  size_px_);
     picture_.cover(panels_.end(picture_.pictures()));
     drawn_link_ = link_;
     drawn_state_ = tool_;
     drawn_command_ = operator_command_;
+    drawn_percent_ = preparation_percent();
     has_undrawn_bone_ = false;
     return picture_.compose();
 }
@@ -241,9 +256,9 @@ const gl::Framebuffer* SessionPicture::draw_inset(const std::optional<DrawnTool>
         inset_.reset();
         return nullptr;
     }
-    if (!textures_ || !tool) return nullptr;
+    if (!has_bone() || !tool) return nullptr;
     if (!inset_) inset_.emplace(renderer_choice_);
-    return &inset_->draw(view_.inset, *textures_, *tool, look, inset_edge_px(glm::vec2(size_px_)));
+    return &inset_->draw(view_.inset, *bone_.textures(), *tool, look, inset_edge_px(glm::vec2(size_px_)));
 }
 
 bool SessionPicture::has_turning_burr() const {
@@ -291,7 +306,7 @@ RenderReport SessionPicture::report() const {
     RenderReport report;
     report.gl_renderer = gl::renderer_name();
     if (const Bone* bone = source_.bone()) report.bone_checksum = checksum(*bone);
-    if (textures_) report.textures = textures_->plan();
+    if (has_bone()) report.textures = bone_.textures()->plan();
     report.dirty_bricks_uploaded = dirty_bricks_uploaded_;
     report.checksum_mismatches = link_.checksum_mismatches;
     report.link_status = link_.status_line;

@@ -9,6 +9,7 @@
 #include "render_client/ui/panels/panels.h"
 #include "render_client/ui/report.h"
 #include "render_client/ui/session_source.h"
+#include "render_client/ui/view/bone_on_screen.h"
 #include "render_client/volume/gl/offscreen_context.h"
 #include "render_client/volume/passes/renderer_choice.h"
 #include "render_client/volume/passes/stereo_picture.h"
@@ -28,7 +29,9 @@ class SessionPicture {
                    const StereoSettings& stereo = {});
 
     /// Of the bones that come from now on.
-    void limit_textures(const TextureLimits& limits) { texture_limits_ = limits; }
+    void limit_textures(const TextureLimits& limits) { bone_.limit(limits); }
+    /// Makes the memory of large textures from now on; must outlive the picture.
+    void make_storage_by(gl::StorageThread& thread) { bone_.make_storage_by(thread); }
 
     /// What a poll of the source brought, or what has to be drawn for another reason.
     enum class News {
@@ -37,7 +40,8 @@ class SessionPicture {
         change    ///< something that moves, appears or goes; also a picture that is to be refined
     };
 
-    /// Polls the source and brings the textures up to date. What is new is so since the last draw.
+    /// Polls the source and brings the textures up to date: at full quality to the end, on demand for some
+    /// milliseconds, so that those of a large bone take many calls. What is new is so since the last draw.
     News take_in();
     /// Draws bone, tool and panels; leaves the framebuffer bound. `elapsed_s`: since the last frame.
     const gl::Framebuffer& draw(double elapsed_s);
@@ -56,7 +60,8 @@ class SessionPicture {
     void reset_camera();
     /// Of the first view.
     void set_first_magnification(double factor) { first_magnification_ = factor; }
-    /// Another look takes new textures, as a new bone does; the view stays. Throws std::invalid_argument
+    /// Another look takes new textures, as a new bone does; the view stays, and the picture until they are
+    /// ready. Throws std::invalid_argument
     /// where its transfer function is none.
     void set_shading(const ShadingSettings& look);
     ViewSettings& view() { return view_; }
@@ -71,11 +76,13 @@ class SessionPicture {
     /// Shows the tool there instead of where the session has it; nothing: no longer.
     void show_tool_at(const std::optional<ToolPose>& pose) { shown_pose_ = pose; }
 
-    bool has_bone() const { return textures_.has_value(); }
+    bool has_bone() const { return bone_.textures() != nullptr; }
+    /// How much of what is to be drawn is ready, in percent, while the bone or a look is prepared.
+    std::optional<int> preparation_percent() const;
     /// Whether a burr turns in the picture: it does for as long as the source tells of it.
     bool has_turning_burr() const;
     /// Why the bone that is there cannot be drawn; empty while it can.
-    const std::string& bone_problem() const { return bone_problem_; }
+    const std::string& bone_problem() const { return bone_.problem(); }
     const LinkUpdate& link() const { return link_; }
     /// Null until a server has said hello.
     const SessionInfo* session() const { return source_.session(); }
@@ -87,7 +94,8 @@ class SessionPicture {
   private:
     void take_in_bone(bool first_of_tool);
     void take_in_structure(const Structure& structure);
-    void replace_bone();
+    void work_on_bone();
+    void show_other_textures();
     News news() const;
     void ask_for_ct();
     /// The tool as it is shown.
@@ -100,7 +108,8 @@ class SessionPicture {
     SessionSource& source_;
     Panels& panels_;
     std::unique_ptr<BoneRenderer> renderer_;
-    ShadingSettings shading_;
+    BoneOnScreen bone_;
+    FrameQuality frame_quality_;
     StereoPicture picture_;
     RendererChoice renderer_choice_;
     std::optional<InsetView> inset_;  ///< while it is shown
@@ -108,9 +117,8 @@ class SessionPicture {
     Camera camera_;
     Camera first_view_;
     double first_magnification_ = 1.0;
-    std::optional<BoneTextures> textures_;
-    TextureLimits texture_limits_;
-    std::string bone_problem_;
+    bool has_taken_bone_ = false;
+    bool has_first_view_ = false;
     LinkUpdate link_;
     std::optional<ToolState> tool_;
     double tool_age_s_ = 0.0;  ///< since it came, as far as frames were drawn since
@@ -120,6 +128,7 @@ class SessionPicture {
     std::optional<ToolState> drawn_state_;
     std::optional<OperatorCommand> drawn_command_;
     bool has_undrawn_bone_ = true;
+    std::optional<int> drawn_percent_;
     ToolHistory history_;
     std::optional<OperatorCommand> operator_command_;
     ViewSettings view_;

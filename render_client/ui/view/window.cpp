@@ -35,6 +35,16 @@ std::string offered_opengl() {
     return found;
 }
 
+class UnseenContext final : public gl::SecondContext {
+  public:
+    explicit UnseenContext(GLFWwindow* window) : window_(window) {}
+    void make_current() override { glfwMakeContextCurrent(window_); }
+    void release() override { glfwMakeContextCurrent(nullptr); }
+
+  private:
+    GLFWwindow* window_;
+};
+
 }  // namespace
 
 Window::Window(const glm::ivec2& size_px, const std::string& title, bool quad_buffer) {
@@ -61,6 +71,8 @@ Window::Window(const glm::ivec2& size_px, const std::string& title, bool quad_bu
                            "; install a graphics driver, or Mesa's software one: apt-get install "
                            "libgl1-mesa-dri libgl1");
     }
+    glfwWindowHint(GLFW_VISIBLE, GLFW_FALSE);
+    unseen_ = glfwCreateWindow(1, 1, "", nullptr, window_);
     watch_display(&is_display_gone_);
     watch_input();
 }
@@ -103,7 +115,13 @@ void Window::watch_input() {
     input_.has_news = true;
 }
 
+std::unique_ptr<gl::SecondContext> Window::second_context() const {
+    if (unseen_ == nullptr) return nullptr;
+    return std::make_unique<UnseenContext>(unseen_);
+}
+
 Window::~Window() {
+    if (unseen_ != nullptr) glfwDestroyWindow(unseen_);
     glfwDestroyWindow(window_);
     glfwTerminate();
 }

@@ -4,9 +4,11 @@
 
 #include <atomic>
 #include <glm/vec2.hpp>
+#include <memory>
 #include <string>
 
 #include "render_client/ui/input/window_input.h"
+#include "render_client/volume/gl/second_context.h"
 
 struct GLFWwindow;
 
@@ -34,6 +36,8 @@ class Window {
 
     // Thread that draws.
 
+    /// One that shares the window's textures and must not outlive it; null where the driver makes none.
+    std::unique_ptr<gl::SecondContext> second_context() const;
     void make_context_current();
     void release_context();
     /// Throws std::runtime_error where the display has gone or the graphics card was reset.
@@ -45,6 +49,7 @@ class Window {
     void watch_input();
 
     GLFWwindow* window_ = nullptr;
+    GLFWwindow* unseen_ = nullptr;  ///< has the second context
     WindowInput input_;
     std::atomic<bool> is_display_gone_{false};
 };

@@ -31,7 +31,7 @@ EGLDisplay surfaceless_display() {
     return display;
 }
 
-EGLContext make_context(EGLDisplay display) {
+EGLContext make_context(EGLDisplay display, EGLContext shares_with = EGL_NO_CONTEXT) {
     // Left out, the surface type would be a window's, which no surfaceless configuration has.
     constexpr std::array<EGLint, 5> config_wish{EGL_SURFACE_TYPE, 0, EGL_RENDERABLE_TYPE, EGL_OPENGL_BIT,
                                                 EGL_NONE};
@@ -47,8 +47,26 @@ EGLContext make_context(EGLDisplay display) {
     if (!eglBindAPI(EGL_OPENGL_API)) return EGL_NO_CONTEXT;
     if (!eglChooseConfig(display, config_wish.data(), &config, 1, &configs) || configs < 1)
         return EGL_NO_CONTEXT;
-    return eglCreateContext(display, config, EGL_NO_CONTEXT, context_wish.data());
+    return eglCreateContext(display, config, shares_with, context_wish.data());
 }
+
+class SecondEglContext final : public SecondContext {
+  public:
+    SecondEglContext(EGLDisplay display, EGLContext context) : display_(display), context_(context) {}
+    ~SecondEglContext() override { eglDestroyContext(display_, context_); }
+    SecondEglContext(const SecondEglContext&) = delete;
+    SecondEglContext& operator=(const SecondEglContext&) = delete;
+
+    void make_current() override {
+        eglBindAPI(EGL_OPENGL_API);
+        eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, context_);
+    }
+    void release() override { eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT); }
+
+  private:
+    EGLDisplay display_;
+    EGLContext context_;
+};
 
 /// What EGL offers where it is not OpenGL 3.3, in words.
 std::string offered_opengl(EGLDisplay display) {
@@ -120,6 +138,12 @@ OffscreenContext::~OffscreenContext() {
     eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
     eglDestroyContext(display_, context_);
     eglTerminate(display_);
+}
+
+std::unique_ptr<SecondContext> OffscreenContext::second() const {
+    const EGLContext context = make_context(display_, context_);
+    if (context == EGL_NO_CONTEXT) return nullptr;
+    return std::make_unique<SecondEglContext>(display_, context);
 }
 
 std::string renderer_name() {

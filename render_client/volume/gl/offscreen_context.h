@@ -3,9 +3,12 @@
 // constructor, on the calling thread; draw into a Framebuffer.
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <stdexcept>
 #include <string>
+
+#include "render_client/volume/gl/second_context.h"
 
 namespace osteomill::gl {
 
@@ -21,6 +24,9 @@ class OffscreenContext {
     OffscreenContext(const OffscreenContext&) = delete;
     OffscreenContext& operator=(const OffscreenContext&) = delete;
     ~OffscreenContext();
+
+    /// One that shares its textures and must not outlive it; null where the driver makes none.
+    std::unique_ptr<SecondContext> second() const;
 
   private:
     bool starts_on(void* egl_device);

@@ -10,7 +10,7 @@ namespace osteomill::gl {
 namespace {
 
 struct TexelFormat {
-    GLint stored;
+    GLenum stored;
     GLenum transferred;
     GLint filter;
     std::size_t bytes;
@@ -42,8 +42,12 @@ Texture3D::Texture3D(VoxelFormat format, const glm::ivec3& size) : format_(forma
     const TexelFormat texels = texel_format(format);
     glGenTextures(1, &id_);
     glBindTexture(GL_TEXTURE_3D, id_);
-    glTexImage3D(GL_TEXTURE_3D, 0, texels.stored, size.x, size.y, size.z, 0, texels.transferred,
-                 GL_UNSIGNED_BYTE, nullptr);
+    // While memory is made the other way, Mesa lets no context of the program touch a texture.
+    if (epoxy_gl_version() >= 42 || epoxy_has_gl_extension("GL_ARB_texture_storage"))
+        glTexStorage3D(GL_TEXTURE_3D, 1, texels.stored, size.x, size.y, size.z);
+    else
+        glTexImage3D(GL_TEXTURE_3D, 0, static_cast<GLint>(texels.stored), size.x, size.y, size.z, 0,
+                     texels.transferred, GL_UNSIGNED_BYTE, nullptr);
     glTexParameteri(GL_TEXTURE_3D, GL_TEXTURE_MIN_FILTER, texels.filter);
     glTexParameteri(GL_TEXTURE_3D, GL_TEXTURE_MAG_FILTER, texels.filter);
     glTexParameteri(GL_TEXTURE_3D, GL_TEXTURE_MAX_LEVEL, 0);
@@ -102,6 +106,11 @@ void Texture3D::bind(int unit) const {
 void Texture3D::unbind(int unit) {
     glActiveTexture(GL_TEXTURE0 + static_cast<GLenum>(unit));
     glBindTexture(GL_TEXTURE_3D, 0);
+}
+
+void Texture3D::unbind_all() {
+    constexpr int units = 16;  // of a fragment shader, at the least
+    for (int unit = 0; unit < units; ++unit) unbind(unit);
 }
 
 int max_texture3d_edge() {

@@ -26,7 +26,7 @@ struct NoTextureMemory : std::runtime_error {
 
 class Texture3D {
   public:
-    /// glTexImage3D: storage for `size` texels, contents undefined. Throws NoTextureMemory.
+    /// Storage for `size` texels, contents undefined. Throws NoTextureMemory.
     Texture3D(VoxelFormat format, const glm::ivec3& size);
     Texture3D(Texture3D&& other) noexcept;
     Texture3D& operator=(Texture3D&& other) noexcept;
@@ -40,6 +40,8 @@ class Texture3D {
     void bind(int unit) const;
     /// Leaves no 3D texture on GL_TEXTURE0 + unit.
     static void unbind(int unit);
+    /// Leaves none on any unit that a program is sure to have.
+    static void unbind_all();
 
     const glm::ivec3& size() const { return size_; }
     /// As the driver was asked for them.

@@ -36,6 +36,13 @@ VoxelBox enclosing(const VoxelBox& a, const VoxelBox& b) {
     return {low, high - low};
 }
 
+/// Of a dense texture, in whole bricks: a region takes a few milliseconds, also where it is smoothed.
+int rows_a_region(int row_voxels) {
+    constexpr int voxels_a_region = 1 << 19;
+    return std::max(voxels_a_region / (row_voxels * brick_edge_voxels * brick_edge_voxels), 1) *
+           brick_edge_voxels;
+}
+
 }  // namespace
 
 glm::ivec3 atlas_size_tiles(std::size_t stored_bricks, int longest_edge_texels) {
@@ -88,11 +95,14 @@ PlacedVoxels AtlasLayout::of_brick(const glm::ivec3& brick, std::int32_t slot) c
 std::vector<PlacedVoxels> AtlasLayout::all(const BoneContent& content) const {
     std::vector<PlacedVoxels> all;
     if (layout_ == BoneLayout::dense) {
-        // Layers, so that no dense copy of the whole bone is ever made.
-        for (int z = 0; z < box_.size.z; z += brick_edge_voxels) {
-            const glm::ivec3 first(0, 0, z);
-            all.push_back({{box_.first + first, {box_.size.x, box_.size.y, brick_edge_voxels}}, first});
-        }
+        // Parts of layers: no dense copy of the whole bone is ever made, and none takes long.
+        const int rows = rows_a_region(box_.size.x);
+        for (int z = 0; z < box_.size.z; z += brick_edge_voxels)
+            for (int y = 0; y < box_.size.y; y += rows) {
+                const glm::ivec3 first(0, y, z);
+                const glm::ivec3 size(box_.size.x, std::min(rows, box_.size.y - y), brick_edge_voxels);
+                all.push_back({{box_.first + first, size}, first});
+            }
         return all;
     }
     // No voxel lies before the grid: the empty tile comes out empty.

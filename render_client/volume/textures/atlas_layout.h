@@ -39,8 +39,8 @@ class AtlasLayout {
     /// Everything that a stored brick's texels show: its voxels, in an atlas with their border.
     PlacedVoxels of_brick(const glm::ivec3& brick, std::int32_t slot) const;
 
-    /// All that has to be uploaded at first, in regions one brick high or of one tile, the empty tile among
-    /// them.
+    /// All that has to be uploaded at first, in regions one brick high and of at most half a million voxels
+    /// or one row of bricks, or of one tile, the empty tile among them.
     std::vector<PlacedVoxels> all(const BoneContent& content) const;
 
     /// What shows these voxels, and those up to `reach_voxels` around them: themselves and, in an atlas, the

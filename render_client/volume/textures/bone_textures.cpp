@@ -1,19 +1,14 @@
 #include "render_client/volume/textures/bone_textures.h"
 
-#include <fmt/format.h>
-
+#include <chrono>
 #include <glm/common.hpp>
-#include <stdexcept>
 #include <utility>
+
+#include "render_client/volume/textures/texture_build.h"
 
 namespace osteomill {
 
 namespace {
-
-const Bone& drawable(const Bone& bone) {
-    if (bone.stored_bricks() == 0) throw std::runtime_error("the bone has no voxel to draw");
-    return bone;
-}
 
 void upload_voxels(gl::Texture3D& texture, const Bone& bone, BoneChannel channel, const PlacedVoxels& placed,
                    std::vector<std::uint8_t>& scratch) {
@@ -22,37 +17,9 @@ void upload_voxels(gl::Texture3D& texture, const Bone& bone, BoneChannel channel
     texture.upload(placed.first_texel, placed.voxels.size, scratch);
 }
 
-gl::Texture3D upload_channel(const Bone& bone, BoneChannel channel, const AtlasLayout& places,
-                             gl::VoxelFormat format) {
-    gl::Texture3D texture(format, places.texture_size());
-    std::vector<std::uint8_t> scratch;
-    for (const PlacedVoxels& placed : places.all(bone.content()))
-        upload_voxels(texture, bone, channel, placed, scratch);
-    return texture;
-}
-
-std::optional<gl::Texture3D> upload_colour_code(const Bone& bone, const AtlasLayout& places,
-                                                const LookTable& table) {
-    if (!table.codes.exist()) return std::nullopt;
-    gl::Texture3D texture(gl::VoxelFormat::byte_code, places.texture_size());
-    std::vector<std::uint8_t> scratch;
-    for (const PlacedVoxels& placed : places.all(bone.content())) {
-        scratch.resize(placed.voxels.count());
-        copy_codes(bone, table.codes, placed.voxels, scratch);
-        texture.upload(placed.first_texel, placed.voxels.size, scratch);
-    }
-    return texture;
-}
-
-std::optional<VisibleBone> without_hidden(const Bone& bone, const LookTable& table) {
-    if (!hides_bone(table)) return std::nullopt;
-    return VisibleBone(bone, table);
-}
-
-VoxelBytes bytes_per_voxel(const LookTable& table, Shading shading) {
-    const bool published = shading == Shading::surface_voxels;
-    return {.needed = std::size_t{1} + (table.codes.exist() ? 1 : 0) + (published ? sizeof(SurfaceTexel) : 0),
-            .smoothed = published ? std::size_t{0} : std::size_t{1}};
+/// Waits for a texture in steps that leave the processor to others.
+Steps arrival(std::future<gl::Texture3D>& texture) {
+    while (texture.wait_for(std::chrono::milliseconds(1)) != std::future_status::ready) co_yield 0.0;
 }
 
 std::optional<gl::Texture3D> upload_tile_table(const BoneContent& content, const AtlasLayout& places) {
@@ -67,48 +34,79 @@ std::optional<gl::Texture3D> upload_tile_table(const BoneContent& content, const
 
 BoneTextures::BoneTextures(const Bone& bone, std::span<const TissueColour> tissues,
                            const ShadingSettings& look, const TextureLimits& limits)
-    : BoneTextures(
-          first_that_fits(drawable(bone), look_table(bone.content(), tissues, look), look.shading, limits)) {}
-
-BoneTextures BoneTextures::first_that_fits(const Bone& bone, const LookTable& table, Shading shading,
-                                           const TextureLimits& limits) {
-    TextureLimits driven = limits;
-    driven.longest_edge_texels = limits.longest_edge_texels.value_or(gl::max_texture3d_edge());
-    std::string refusal = fmt::format("the limit is {} MiB of textures of at most {} texels an edge",
-                                      limits.budget_bytes >> 20U, *driven.longest_edge_texels);
-    for (const TexturePlan& plan : texture_plans(bone.content(), bytes_per_voxel(table, shading), driven)) {
-        try {
-            std::optional<CoarseBone> copy;
-            if (plan.coarsening > 1) copy.emplace(bone, plan.coarsening);
-            return {bone, std::move(copy), table, shading, plan, *driven.longest_edge_texels};
-        } catch (const gl::NoTextureMemory& error) {
-            refusal = error.what();
-        }
-    }
-    throw std::runtime_error(fmt::format(
-        "the bone's {} bricks of 16^3 voxels exceed the graphics memory, even {} times coarser: {}",
-        bone.stored_bricks(), coarsest, refusal));
-}
+    : BoneTextures(TextureBuild(bone, {tissues.begin(), tissues.end()}, look, limits).all_at_once()) {}
 
 BoneTextures::BoneTextures(const Bone& bone, std::optional<CoarseBone> copy, const LookTable& table,
                            Shading shading, const TexturePlan& plan, int longest_edge_texels)
     : plan_(plan),
       table_(table),
+      shading_(shading),
       copy_(std::move(copy)),
-      visible_(without_hidden(copied(bone), table_)),
-      grid_(shown(bone).grid()),
-      places_(shown(bone).content(), plan.layout, longest_edge_texels),
-      empty_space_(shown(bone), places_.box()),
-      fraction_(
-          upload_channel(shown(bone), BoneChannel::fraction, places_, gl::VoxelFormat::interpolated_byte)),
-      blocks_(gl::VoxelFormat::interpolated_bytes, empty_space_.size_blocks()),
-      tile_table_(upload_tile_table(shown(bone).content(), places_)),
-      colour_code_(upload_colour_code(shown(bone), places_, table_)),
-      colours_(table_.by_code) {
-    if (plan_.smoothed) smoothed_.emplace(shown(bone), table_, places_);
-    if (shading == Shading::surface_voxels) surface_.emplace(shown(bone), table_, places_);
-    const glm::ivec3& size = empty_space_.size_blocks();
-    for (int z = 0; z < size.z; ++z) upload_blocks({{0, 0, z}, {size.x, size.y, 1}});
+      grid_(copied(bone).grid()),
+      places_(copied(bone).content(), plan.layout, longest_edge_texels),
+      empty_space_(places_.box()),
+      colours_(table_.by_code) {}
+
+Steps BoneTextures::fill(const Bone& bone, gl::StorageThread* storage) {
+    // All are asked for at first: while they are made, what needs none is done.
+    const glm::ivec3 texels = places_.texture_size();
+    auto fraction = make_texture(storage, gl::VoxelFormat::interpolated_byte, texels);
+    auto blocks = make_texture(storage, gl::VoxelFormat::interpolated_bytes, empty_space_.size_blocks());
+    std::future<gl::Texture3D> code, smoothed, surface;
+    if (table_.codes.exist()) code = make_texture(storage, gl::VoxelFormat::byte_code, texels);
+    if (plan_.smoothed) smoothed = make_texture(storage, gl::VoxelFormat::interpolated_byte, texels);
+    if (shading_ == Shading::surface_voxels)
+        surface = make_texture(storage, gl::VoxelFormat::interpolated_rgba, texels);
+
+    if (hides_bone(table_)) {
+        visible_.emplace(table_);
+        for (Steps part = visible_->fill(copied(bone)); part.step();) co_yield part_of(part, 0.0, 0.1);
+    }
+    const Bone& drawn = shown(bone);
+    for (Steps part = empty_space_.fill(drawn); part.step();) co_yield part_of(part, 0.1, 0.4);
+    tile_table_ = upload_tile_table(drawn.content(), places_);
+
+    for (Steps wait = arrival(blocks); wait.step();) co_yield 0.4;
+    blocks_ = blocks.get();
+    const glm::ivec3 size = empty_space_.size_blocks();
+    for (int z = 0; z < size.z; ++z) {
+        upload_blocks({{0, 0, z}, {size.x, size.y, 1}});
+        co_yield 0.4 + 0.1 * z / size.z;
+    }
+    for (Steps wait = arrival(fraction); wait.step();) co_yield 0.5;
+    fraction_ = fraction.get();
+    const auto upload_fractions = [&](const PlacedVoxels& placed) {
+        upload_voxels(*fraction_, drawn, BoneChannel::fraction, placed, scratch_);
+    };
+    for (Steps part = for_all(drawn, upload_fractions); part.step();) co_yield part_of(part, 0.5, 0.6);
+    if (table_.codes.exist()) {
+        for (Steps wait = arrival(code); wait.step();) co_yield 0.6;
+        colour_code_ = code.get();
+        const auto upload_codes = [&](const PlacedVoxels& placed) {
+            scratch_.resize(placed.voxels.count());
+            copy_codes(drawn, table_.codes, placed.voxels, scratch_);
+            colour_code_->upload(placed.first_texel, placed.voxels.size, scratch_);
+        };
+        for (Steps part = for_all(drawn, upload_codes); part.step();) co_yield part_of(part, 0.6, 0.7);
+    }
+    if (plan_.smoothed) {
+        for (Steps wait = arrival(smoothed); wait.step();) co_yield 0.7;
+        smoothed_.emplace(table_, smoothed.get());
+        for (Steps part = smoothed_->fill(drawn, places_); part.step();) co_yield part_of(part, 0.7, 1.0);
+    }
+    if (shading_ == Shading::surface_voxels) {
+        for (Steps wait = arrival(surface); wait.step();) co_yield 0.7;
+        surface_.emplace(table_, surface.get());
+        for (Steps part = surface_->fill(drawn, places_); part.step();) co_yield part_of(part, 0.7, 1.0);
+    }
+}
+
+Steps BoneTextures::for_all(const Bone& drawn, std::function<void(const PlacedVoxels&)> upload) {
+    const std::vector<PlacedVoxels> all = places_.all(drawn.content());
+    for (std::size_t region = 0; region < all.size(); ++region) {
+        upload(all[region]);
+        co_yield static_cast<double>(region) / static_cast<double>(all.size());
+    }
 }
 
 std::span<const VoxelBox> BoneTextures::update(const Bone& bone, std::span<const BrickChange> changes) {
@@ -117,7 +115,7 @@ std::span<const VoxelBox> BoneTextures::update(const Bone& bone, std::span<const
     const Bone& drawn = shown(bone);
     changed_ = changed_boxes(drawn.content(), changes);
     for (const PlacedVoxels& placed : places_.that_show(drawn, changed_))
-        upload_voxels(fraction_, drawn, BoneChannel::fraction, placed, scratch_);
+        upload_voxels(*fraction_, drawn, BoneChannel::fraction, placed, scratch_);
     for (const VoxelBox& blocks : empty_space_.update(drawn, changes)) upload_blocks(blocks);
     if (smoothed_) smoothed_->update(drawn, places_, changed_);
     if (surface_) surface_->update(drawn, places_, changed_);
@@ -146,7 +144,7 @@ void BoneTextures::upload_blocks(const VoxelBox& blocks) {
                 *texel++ = empty_space_.distance()[block];
             }
         }
-    blocks_.upload(blocks.first, blocks.size, scratch_);
+    blocks_->upload(blocks.first, blocks.size, scratch_);
 }
 
 glm::dvec3 BoneTextures::to_box_voxels(const glm::dvec3& position_mm) const {

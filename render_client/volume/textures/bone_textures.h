@@ -5,13 +5,16 @@
 // allows.
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <span>
 
 #include "common/bone/bone.h"
 #include "render_client/volume/gl/lookup_table.h"
+#include "render_client/volume/gl/storage_thread.h"
 #include "render_client/volume/gl/texture3d.h"
 #include "render_client/volume/shading_settings.h"
+#include "render_client/volume/steps.h"
 #include "render_client/volume/textures/changed_boxes.h"
 #include "render_client/volume/textures/coarse_bone.h"
 #include "render_client/volume/textures/empty_space.h"
@@ -24,10 +27,10 @@ namespace osteomill {
 
 class BoneTextures {
   public:
-    /// Uploads all of it, cropped to the stored bricks, by the first of texture_plans for which the driver
-    /// has memory. Another look takes other textures. Throws std::runtime_error where the bone has no brick
-    /// and, naming sizes, where nothing fits; std::invalid_argument where the look's transfer function is
-    /// none.
+    /// Uploads all of it at once (TextureBuild does so in steps), cropped to the stored bricks, by the first
+    /// of texture_plans for which the driver has memory. Another look takes other textures. Throws
+    /// std::runtime_error where the bone has no brick and, naming sizes, where nothing fits;
+    /// std::invalid_argument where the look's transfer function is none.
     BoneTextures(const Bone& bone, std::span<const TissueColour> tissues, const ShadingSettings& look = {},
                  const TextureLimits& limits = {});
 
@@ -48,7 +51,7 @@ class BoneTextures {
     /// Where the bricks of grid() lie in fraction(), colour_code() and surface_colours().
     const AtlasLayout& places() const { return places_; }
 
-    const gl::Texture3D& fraction() const { return fraction_; }
+    const gl::Texture3D& fraction() const { return *fraction_; }
     /// The fractions, smoothed for normals; none where the look or the memory has no place for them.
     const gl::Texture3D* smoothed() const { return smoothed_ ? &smoothed_->texture() : nullptr; }
     /// What `colours` is looked up by, placed as the fractions are; none for a homogeneous, unlabelled bone.
@@ -65,29 +68,36 @@ class BoneTextures {
     /// AtlasLayout::tile_table; none in a dense layout.
     const std::optional<gl::Texture3D>& tile_table() const { return tile_table_; }
     /// For each block of EmptySpace, two bytes: its mean fraction and its distance.
-    const gl::Texture3D& blocks() const { return blocks_; }
+    const gl::Texture3D& blocks() const { return *blocks_; }
 
     /// A point of patient space in texture coordinates counted in voxels: (0, 0, 0) is the box's corner.
     glm::dvec3 to_box_voxels(const glm::dvec3& position_mm) const;
 
   private:
+    friend class TextureBuild;
+
+    /// Of nothing as yet: to be filled. `copy` is filled already.
     BoneTextures(const Bone& bone, std::optional<CoarseBone> copy, const LookTable& table, Shading shading,
                  const TexturePlan& plan, int longest_edge_texels);
-    static BoneTextures first_that_fits(const Bone& bone, const LookTable& table, Shading shading,
-                                        const TextureLimits& limits);
+    /// Makes the textures, by `storage` where it is not null, and uploads all of the bone. Throws
+    /// gl::NoTextureMemory.
+    Steps fill(const Bone& bone, gl::StorageThread* storage);
+    /// Uploads region by region.
+    Steps for_all(const Bone& drawn, std::function<void(const PlacedVoxels&)> upload);
     const Bone& copied(const Bone& bone) const { return copy_ ? copy_->bone() : bone; }
     const Bone& shown(const Bone& bone) const { return visible_ ? visible_->bone() : copied(bone); }
     void upload_blocks(const VoxelBox& blocks);
 
     TexturePlan plan_;
     LookTable table_;
+    Shading shading_;
     std::optional<CoarseBone> copy_;      ///< only where the bone itself exceeds the memory
     std::optional<VisibleBone> visible_;  ///< of the copy, if any; only where the look hides bone
     Grid grid_;
     AtlasLayout places_;
     EmptySpace empty_space_;
-    gl::Texture3D fraction_;
-    gl::Texture3D blocks_;
+    std::optional<gl::Texture3D> fraction_;
+    std::optional<gl::Texture3D> blocks_;
     std::optional<gl::Texture3D> tile_table_;
     std::optional<gl::Texture3D> colour_code_;
     gl::LookupTable colours_;

@@ -58,34 +58,6 @@ void pick_codes(const Bone& fine, const glm::ivec3& fine_brick, std::int32_t fin
     });
 }
 
-Bone coarse_copy(const Bone& fine, int coarsening) {
-    const BoneContent& content = fine.content();
-    auto coarse = std::make_shared<BoneContent>();
-    coarse->grid = coarse_grid(content.grid, coarsening);
-    coarse->size_bricks = size_in_bricks(coarse->grid);
-    coarse->brick_of_slot = coarse_bricks(content, coarsening);
-    coarse->slot_of_brick = BrickTable(coarse->brick_of_slot);
-    coarse->homogeneous_stiffness = content.homogeneous_stiffness;
-    coarse->stiffness_per_code = content.stiffness_per_code;
-    const std::size_t slots = coarse->brick_of_slot.size();
-    if (!content.stiffness.empty()) coarse->stiffness.resize(slots);
-    if (!content.tissue.empty()) coarse->tissue.resize(slots);
-    std::vector<ByteBrick> fractions(slots);
-    for (std::size_t fine_slot = 0; fine_slot < fine.stored_bricks(); ++fine_slot) {
-        const BrickIndex index = content.brick_of_slot[fine_slot];
-        const glm::ivec3 brick = brick_position(content.size_bricks, index);
-        const auto slot = static_cast<std::size_t>(coarse->slot_of_brick.find(
-            brick_index(coarse->size_bricks, coarse_brick_of(content, index, coarsening))));
-        const auto from = static_cast<std::int32_t>(fine_slot);
-        average_fractions(fine, brick, from, coarsening, fractions[slot]);
-        if (!content.stiffness.empty())
-            pick_codes(fine, brick, from, coarsening, content.stiffness[fine_slot], coarse->stiffness[slot]);
-        if (!content.tissue.empty())
-            pick_codes(fine, brick, from, coarsening, content.tissue[fine_slot], coarse->tissue[slot]);
-    }
-    return {std::move(coarse), std::move(fractions)};
-}
-
 }  // namespace
 
 Grid coarse_grid(const Grid& grid, int coarsening) {
@@ -106,8 +78,42 @@ std::vector<BrickIndex> coarse_bricks(const BoneContent& content, int coarsening
     return bricks;
 }
 
-CoarseBone::CoarseBone(const Bone& fine, int coarsening)
-    : coarsening_(coarsening), bone_(coarse_copy(fine, coarsening)) {}
+CoarseBone::CoarseBone(const Bone& fine, int coarsening) : CoarseBone(coarsening) {
+    finish(fill(fine));
+}
+
+Steps CoarseBone::fill(const Bone& fine) {
+    const BoneContent& content = fine.content();
+    auto coarse = std::make_shared<BoneContent>();
+    coarse->grid = coarse_grid(content.grid, coarsening_);
+    coarse->size_bricks = size_in_bricks(coarse->grid);
+    coarse->brick_of_slot = coarse_bricks(content, coarsening_);
+    coarse->slot_of_brick = BrickTable(coarse->brick_of_slot);
+    coarse->homogeneous_stiffness = content.homogeneous_stiffness;
+    coarse->stiffness_per_code = content.stiffness_per_code;
+    co_yield 0.0;
+    const std::size_t slots = coarse->brick_of_slot.size();
+    const std::size_t stiffness_slots = content.stiffness.empty() ? 0 : slots;
+    const std::size_t tissue_slots = content.tissue.empty() ? 0 : slots;
+    for (Steps part = grow(coarse->stiffness, stiffness_slots, {}); part.step();) co_yield 0.0;
+    for (Steps part = grow(coarse->tissue, tissue_slots, {}); part.step();) co_yield 0.0;
+    std::vector<ByteBrick> fractions;
+    for (Steps part = grow(fractions, slots, {}); part.step();) co_yield 0.0;
+    for (std::size_t fine_slot = 0; fine_slot < fine.stored_bricks(); ++fine_slot) {
+        const BrickIndex index = content.brick_of_slot[fine_slot];
+        const glm::ivec3 brick = brick_position(content.size_bricks, index);
+        const auto slot = static_cast<std::size_t>(coarse->slot_of_brick.find(
+            brick_index(coarse->size_bricks, coarse_brick_of(content, index, coarsening_))));
+        const auto from = static_cast<std::int32_t>(fine_slot);
+        average_fractions(fine, brick, from, coarsening_, fractions[slot]);
+        if (!content.stiffness.empty())
+            pick_codes(fine, brick, from, coarsening_, content.stiffness[fine_slot], coarse->stiffness[slot]);
+        if (!content.tissue.empty())
+            pick_codes(fine, brick, from, coarsening_, content.tissue[fine_slot], coarse->tissue[slot]);
+        co_yield static_cast<double>(fine_slot) / static_cast<double>(fine.stored_bricks());
+    }
+    bone_.emplace(std::move(coarse), std::move(fractions));
+}
 
 std::span<const BrickChange> CoarseBone::update(const Bone& fine, std::span<const BrickChange> changes) {
     const BoneContent& content = fine.content();
@@ -117,8 +123,8 @@ std::span<const BrickChange> CoarseBone::update(const Bone& fine, std::span<cons
         if (fine_slot == BoneContent::no_slot) continue;
         const glm::ivec3 brick = brick_position(content.size_bricks, index);
         const BrickIndex coarse =
-            brick_index(bone_.content().size_bricks, coarse_brick_of(content, index, coarsening_));
-        average_fractions(fine, brick, fine_slot, coarsening_, bone_.fractions(bone_.slot(coarse)));
+            brick_index(bone_->content().size_bricks, coarse_brick_of(content, index, coarsening_));
+        average_fractions(fine, brick, fine_slot, coarsening_, bone_->fractions(bone_->slot(coarse)));
         VoxelMask& coarse_voxels = changed[coarse];
         voxels.for_each([&](std::size_t offset) {
             coarse_voxels.set(

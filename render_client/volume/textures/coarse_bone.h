@@ -2,11 +2,13 @@
 // for 2^3, 4^3 or 8^3 of the bone's.
 #pragma once
 
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "common/bone/bone.h"
 #include "common/bone/brick_change.h"
+#include "render_client/volume/steps.h"
 
 namespace osteomill {
 
@@ -23,16 +25,22 @@ class CoarseBone {
     /// `coarsening` is 2, 4 or 8. A coarse voxel's fraction is the mean of the bone's; its stiffness and its
     /// tissue are those of the voxel among them that was fullest.
     CoarseBone(const Bone& fine, int coarsening);
+    /// Of a bone that is yet to be copied: see fill.
+    explicit CoarseBone(int coarsening) : coarsening_(coarsening) {}
+
+    /// Copies the bone, once. Bricks that change meanwhile are to be told to update afterwards.
+    Steps fill(const Bone& fine);
 
     /// Follows changes of the fine bone (that of the constructor, milled or refilled since). Returns what
     /// they change in this copy, ascending; valid until the next call.
     std::span<const BrickChange> update(const Bone& fine, std::span<const BrickChange> changes);
 
-    const Bone& bone() const { return bone_; }
+    /// Once it is filled.
+    const Bone& bone() const { return *bone_; }
 
   private:
     int coarsening_;
-    Bone bone_;
+    std::optional<Bone> bone_;
     std::vector<BrickChange> changed_;
 };
 

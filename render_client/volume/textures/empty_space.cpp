@@ -40,25 +40,36 @@ class RowRelaxation {
 
 }  // namespace
 
-EmptySpace::EmptySpace(const Bone& bone, const VoxelBox& box)
+EmptySpace::EmptySpace(const VoxelBox& box)
     : box_(box),
       size_blocks_(box.size / block_edge_voxels + 2),
-      distance_(VoxelBox{{}, size_blocks_}.count(), farthest),
-      mean_fraction_(distance_.size(), 0),
-      reached_by_(distance_.size(), 0),
-      reach_of_slot_(bone.stored_bricks()),
-      size_tiles_((size_blocks_ + (tile_edge_blocks - 1)) / tile_edge_blocks) {
+      size_tiles_((size_blocks_ + (tile_edge_blocks - 1)) / tile_edge_blocks) {}
+
+EmptySpace::EmptySpace(const Bone& bone, const VoxelBox& box) : EmptySpace(box) {
+    finish(fill(bone));
+}
+
+Steps EmptySpace::fill(const Bone& bone) {
+    const std::size_t blocks = VoxelBox{{}, size_blocks_}.count();
+    for (Steps part = grow(distance_, blocks, farthest); part.step();) co_yield part_of(part, 0.0, 0.1);
+    for (Steps part = grow(mean_fraction_, blocks, std::uint8_t{0}); part.step();)
+        co_yield part_of(part, 0.1, 0.2);
+    for (Steps part = grow(reached_by_, blocks, std::uint8_t{0}); part.step();)
+        co_yield part_of(part, 0.2, 0.25);
+    for (Steps part = grow(reach_of_slot_, bone.stored_bricks(), {}); part.step();)
+        co_yield part_of(part, 0.25, 0.3);
     tile_is_changed_.resize(VoxelBox{{}, size_tiles_}.count(), 0);
     for (std::size_t slot = 0; slot < bone.stored_bricks(); ++slot) {
         const BrickIndex brick = bone.content().brick_of_slot[slot];
         take_in(bone, brick_position(bone.content().size_bricks, brick), static_cast<std::int32_t>(slot));
         for (const glm::ivec3& block : newly_reached_) distance_[index(block)] = 0;
         newly_reached_.clear();
+        co_yield 0.3 + 0.3 * static_cast<double>(slot) / static_cast<double>(bone.stored_bricks());
     }
     for (const VoxelBox& tile : changed_tiles_)
         tile_is_changed_[brick_index(size_tiles_, tile.first / tile_edge_blocks)] = 0;
     changed_tiles_.clear();
-    spread_everywhere();
+    for (Steps part = spread_everywhere(); part.step();) co_yield part_of(part, 0.6, 1.0);
 }
 
 std::span<const VoxelBox> EmptySpace::update(const Bone& bone, std::span<const BrickChange> changes) {
@@ -109,7 +120,7 @@ void EmptySpace::take_in(const Bone& bone, const glm::ivec3& brick, std::int32_t
     }
 }
 
-void EmptySpace::spread_everywhere() {
+Steps EmptySpace::spread_everywhere() {
     // Two sweeps over half of the 26 neighbours each give the exact chessboard distance (Borgefors 1984).
     RowRelaxation relaxation(size_blocks_.x);
     const auto sweep_row = [&](int y, int z, int side) {
@@ -127,10 +138,15 @@ void EmptySpace::spread_everywhere() {
         else
             for (int x = size_blocks_.x - 2; x >= 0; --x) RowRelaxation::lower(row[x], row[x + 1]);
     };
-    for (int z = 0; z < size_blocks_.z; ++z)
+    const double layers = 2.0 * size_blocks_.z;
+    for (int z = 0; z < size_blocks_.z; ++z) {
         for (int y = 0; y < size_blocks_.y; ++y) sweep_row(y, z, 1);
-    for (int z = size_blocks_.z - 1; z >= 0; --z)
+        co_yield z / layers;
+    }
+    for (int z = size_blocks_.z - 1; z >= 0; --z) {
         for (int y = size_blocks_.y - 1; y >= 0; --y) sweep_row(y, z, -1);
+        co_yield 1.0 - z / layers;
+    }
 }
 
 void EmptySpace::spread_from_reached() {

@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "common/bone/brick_change.h"
+#include "render_client/volume/steps.h"
 #include "render_client/volume/textures/block_summary.h"
 #include "render_client/volume/textures/voxel_box.h"
 
@@ -26,6 +27,11 @@ class EmptySpace {
   public:
     /// `box` is aligned to bricks (see stored_box).
     EmptySpace(const Bone& bone, const VoxelBox& box);
+    /// Of a bone that is yet to be taken in: see fill.
+    explicit EmptySpace(const VoxelBox& box);
+
+    /// Takes all of the bone in, once. Bricks that change meanwhile are to be told to update afterwards.
+    Steps fill(const Bone& bone);
 
     /// Brings the maps up to date after fractions were lowered or raised. Bricks that are not
     /// stored change nothing. Returns boxes of blocks, none of which overlap, that hold every change; they
@@ -38,7 +44,7 @@ class EmptySpace {
 
   private:
     void take_in(const Bone& bone, const glm::ivec3& brick, std::int32_t slot);
-    void spread_everywhere();
+    Steps spread_everywhere();
     void spread_from_reached();
     void mark_changed(const glm::ivec3& block);
     std::size_t index(const glm::ivec3& block) const {

@@ -72,8 +72,16 @@ std::span<const std::uint8_t> FractionSmoother::smooth(const Bone& bone, const V
 }
 
 SmoothedTexture::SmoothedTexture(const Bone& bone, const LookTable& table, const AtlasLayout& places)
-    : smoother_(table), texture_(gl::VoxelFormat::interpolated_byte, places.texture_size()) {
-    for (const PlacedVoxels& placed : places.all(bone.content())) smooth(bone, placed);
+    : SmoothedTexture(table, gl::Texture3D(gl::VoxelFormat::interpolated_byte, places.texture_size())) {
+    finish(fill(bone, places));
+}
+
+Steps SmoothedTexture::fill(const Bone& bone, const AtlasLayout& places) {
+    const std::vector<PlacedVoxels> all = places.all(bone.content());
+    for (std::size_t region = 0; region < all.size(); ++region) {
+        smooth(bone, all[region]);
+        co_yield static_cast<double>(region) / static_cast<double>(all.size());
+    }
 }
 
 void SmoothedTexture::update(const Bone& bone, AtlasLayout& places, std::span<const VoxelBox> changed) {

@@ -11,10 +11,12 @@
 #pragma once
 
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "render_client/volume/gl/texture3d.h"
 #include "render_client/volume/shading_settings.h"
+#include "render_client/volume/steps.h"
 #include "render_client/volume/textures/atlas_layout.h"
 
 namespace osteomill {
@@ -48,6 +50,12 @@ class SmoothedTexture {
   public:
     /// Smooths all of the bone. Throws gl::NoTextureMemory where the driver has none for a byte a voxel.
     SmoothedTexture(const Bone& bone, const LookTable& table, const AtlasLayout& places);
+    /// Takes a texture of the size that the places have, of VoxelFormat::interpolated_byte; see fill.
+    SmoothedTexture(const LookTable& table, gl::Texture3D texture)
+        : smoother_(table), texture_(std::move(texture)) {}
+
+    /// Smooths all of the bone. What changes meanwhile is to be told to update afterwards.
+    Steps fill(const Bone& bone, const AtlasLayout& places);
 
     /// Smooths again what a change of these voxels reaches. `places` are those of the constructor.
     void update(const Bone& bone, AtlasLayout& places, std::span<const VoxelBox> changed);

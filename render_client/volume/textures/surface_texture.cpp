@@ -5,8 +5,16 @@
 namespace osteomill {
 
 SurfaceTexture::SurfaceTexture(const Bone& bone, const LookTable& table, const AtlasLayout& places)
-    : shader_(table), texture_(gl::VoxelFormat::interpolated_rgba, places.texture_size()) {
-    for (const PlacedVoxels& placed : places.all(bone.content())) shade(bone, placed);
+    : SurfaceTexture(table, gl::Texture3D(gl::VoxelFormat::interpolated_rgba, places.texture_size())) {
+    finish(fill(bone, places));
+}
+
+Steps SurfaceTexture::fill(const Bone& bone, const AtlasLayout& places) {
+    const std::vector<PlacedVoxels> all = places.all(bone.content());
+    for (std::size_t region = 0; region < all.size(); ++region) {
+        shade(bone, all[region]);
+        co_yield static_cast<double>(region) / static_cast<double>(all.size());
+    }
 }
 
 void SurfaceTexture::update(const Bone& bone, AtlasLayout& places, std::span<const VoxelBox> changed) {

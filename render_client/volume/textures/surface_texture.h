@@ -2,8 +2,10 @@
 #pragma once
 
 #include <span>
+#include <utility>
 
 #include "render_client/volume/gl/texture3d.h"
+#include "render_client/volume/steps.h"
 #include "render_client/volume/textures/atlas_layout.h"
 #include "render_client/volume/textures/surface_voxels.h"
 
@@ -13,6 +15,12 @@ class SurfaceTexture {
   public:
     /// Shades all of the bone. Throws gl::NoTextureMemory where the driver has none for four bytes a voxel.
     SurfaceTexture(const Bone& bone, const LookTable& table, const AtlasLayout& places);
+    /// Takes a texture of the size that the places have, of VoxelFormat::interpolated_rgba; see fill.
+    SurfaceTexture(const LookTable& table, gl::Texture3D texture)
+        : shader_(table), texture_(std::move(texture)) {}
+
+    /// Shades all of the bone. What changes meanwhile is to be told to update afterwards.
+    Steps fill(const Bone& bone, const AtlasLayout& places);
 
     /// Shades again what a change of these voxels can have changed: themselves and what is near them.
     /// `places` are those of the constructor.

@@ -2,29 +2,43 @@
 
 #include <algorithm>
 #include <array>
+#include <utility>
+#include <vector>
 
 namespace osteomill {
 
-VisibleBone::VisibleBone(const Bone& bone, const LookTable& table)
-    : voxel_codes_(table.codes), shown_part_(shown_part_by_code(table)), visible_(bone) {
-    for (std::size_t slot = 0; slot < bone.stored_bricks(); ++slot)
-        take_over(bone, static_cast<std::int32_t>(slot));
+VisibleBone::VisibleBone(const LookTable& table)
+    : voxel_codes_(table.codes), shown_part_(shown_part_by_code(table)) {}
+
+VisibleBone::VisibleBone(const Bone& bone, const LookTable& table) : VisibleBone(table) {
+    finish(fill(bone));
+}
+
+Steps VisibleBone::fill(const Bone& bone) {
+    std::vector<ByteBrick> fractions;
+    fractions.reserve(bone.stored_bricks());
+    while (fractions.size() < bone.stored_bricks()) {
+        const auto slot = static_cast<std::int32_t>(fractions.size());
+        take_over(bone, slot, fractions.emplace_back());
+        co_yield static_cast<double>(slot) / static_cast<double>(bone.stored_bricks());
+    }
+    visible_.emplace(bone.shared_content(), std::move(fractions));
 }
 
 void VisibleBone::follow(const Bone& bone, std::span<const BrickChange> changes) {
     for (const BrickChange& change : changes)
         if (const std::int32_t slot = bone.slot(change.brick); slot != BoneContent::no_slot)
-            take_over(bone, slot);
+            take_over(bone, slot, visible_->fractions(slot));
 }
 
-void VisibleBone::take_over(const Bone& bone, std::int32_t slot) {
+void VisibleBone::take_over(const Bone& bone, std::int32_t slot,
+                            std::span<std::uint8_t, brick_voxel_count> shown) {
     const BoneContent& content = bone.content();
     const glm::ivec3 brick =
         brick_position(content.size_bricks, content.brick_of_slot[static_cast<std::size_t>(slot)]);
     copy_stiffest_codes(bone, voxel_codes_, {brick * brick_edge_voxels, glm::ivec3(brick_edge_voxels)},
                         codes_);
     const auto whole = bone.fractions(slot);
-    const auto shown = visible_.fractions(slot);
     for (std::size_t offset = 0; offset < brick_voxel_count; ++offset)
         shown[offset] = static_cast<std::uint8_t>((whole[offset] * shown_part_[codes_[offset]] + 127) / 255);
 }

@@ -6,28 +6,37 @@
 // surface would be full of pits; by tissue, the voxel's own label.
 #pragma once
 
+#include <optional>
 #include <span>
 
 #include "common/bone/brick_change.h"
 #include "render_client/volume/shading_settings.h"
+#include "render_client/volume/steps.h"
 
 namespace osteomill {
 
 class VisibleBone {
   public:
     VisibleBone(const Bone& bone, const LookTable& table);
+    /// Of a bone that is yet to be taken over: see fill.
+    explicit VisibleBone(const LookTable& table);
+
+    /// Takes all of the bone over, once. Bricks that change meanwhile are to be followed afterwards.
+    Steps fill(const Bone& bone);
 
     /// Takes over the bricks that changed of `bone`, which is the bone of the constructor, carved since.
     void follow(const Bone& bone, std::span<const BrickChange> changes);
 
-    const Bone& bone() const { return visible_; }
+    /// Once it is filled.
+    const Bone& bone() const { return *visible_; }
 
   private:
-    void take_over(const Bone& bone, std::int32_t slot);
+    /// What is shown of a brick.
+    void take_over(const Bone& bone, std::int32_t slot, std::span<std::uint8_t, brick_voxel_count> shown);
 
     VoxelCodes voxel_codes_;
     std::array<std::uint8_t, 256> shown_part_;
-    Bone visible_;
+    std::optional<Bone> visible_;
     ByteBrick codes_{};  ///< of the brick that is taken over
 };
 

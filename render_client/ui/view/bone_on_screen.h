@@ -1,0 +1,79 @@
+// The bone as it is drawn: its textures, made and kept up to date a little at a time, so that a picture never
+// waits long for them. While the textures of another bone, or for another look, are made, those before go on
+// being drawn, where both together keep within the memory that is allowed.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "render_client/ui/view/gathered_changes.h"
+#include "render_client/volume/textures/texture_build.h"
+
+namespace osteomill {
+
+class BoneOnScreen {
+  public:
+    explicit BoneOnScreen(ShadingSettings look) : look_(std::move(look)) {}
+
+    /// Of the bones that come from now on.
+    void limit(const TextureLimits& limits) { limits_ = limits; }
+    /// Makes large textures' memory from now on; must outlive this, as the driver's context must.
+    void make_storage_by(gl::StorageThread& thread) { storage_ = &thread; }
+
+    /// Another bone has come: it is prepared by work(). `tissues` as they are drawn.
+    void replace(const Bone& bone, std::vector<TissueColour> tissues);
+    /// It changed there.
+    void note(std::span<const BrickChange> changes);
+    /// Another look takes other textures. Those for an earlier one are made to the end before, so that one
+    /// who drags a curve sees something of it.
+    void set_look(const ShadingSettings& look) { look_ = look; }
+    const ShadingSettings& look() const { return look_; }
+
+    struct Outcome {
+        bool other_textures = false;      ///< or none any more: all is to be drawn anew
+        std::vector<VoxelBox> changed{};  ///< else: voxels of textures()->grid()
+        bool is_news() const { return other_textures || !changed.empty(); }
+    };
+    /// Prepares, and uploads what changed, until there is nothing left to do or no time; a step at least.
+    /// `bone` is the one that replace() had last, at the same place.
+    Outcome work(const Bone& bone, const std::function<bool()>& has_time);
+
+    /// Null until the first are complete, and where there is no room for them beside those to come.
+    const BoneTextures* textures() const { return shown_ ? &shown_->textures : nullptr; }
+    /// How much of the preparation is done, 0 to 1, while one goes on.
+    std::optional<double> preparation() const;
+    /// Why the bone that came last cannot be drawn; empty while it can.
+    const std::string& problem() const { return problem_; }
+
+  private:
+    struct Shown {
+        BoneTextures textures;
+        ShadingSettings look;
+        bool is_of_former_bone = false;  ///< another has come since
+    };
+    void begin(const Bone& bone);
+    void build(const Bone& bone, const std::function<bool()>& has_time, Outcome& outcome);
+    /// Drops what is shown where that is in the way. True: the build began anew.
+    bool make_room(const Bone& bone, Outcome& outcome);
+    void show(Outcome& outcome);
+    void fail(const std::string& problem, Outcome& outcome);
+    void drop_shown(Outcome& outcome);
+    void drop(std::shared_ptr<void> unused);
+
+    ShadingSettings look_;
+    TextureLimits limits_;
+    gl::StorageThread* storage_ = nullptr;
+    std::vector<TissueColour> tissues_;
+    std::shared_ptr<Shown> shown_;
+    GatheredChanges unshown_;
+    std::shared_ptr<TextureBuild> build_;
+    ShadingSettings build_look_;
+    GatheredChanges unbuilt_;  ///< what changed while it went on
+    std::string problem_;
+};
+
+}  // namespace osteomill

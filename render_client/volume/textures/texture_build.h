@@ -1,0 +1,57 @@
+// The making of a bone's textures in steps of a few milliseconds: a head of 2048^3 voxels takes seconds, and
+// whoever draws has a window to answer for meanwhile.
+//
+// The bone may be carved between steps. A step reads it as it then is, so what changed since the beginning
+// must be told to BoneTextures::update at the end; then they are as if made of the bone as it ended up. (Two
+// things may differ: distances of empty space may be shorter than they might be, and of a coarser copy,
+// voxels keep the code of what was fullest when they were read.)
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "render_client/volume/textures/bone_textures.h"
+
+namespace osteomill {
+
+class TextureBuild {
+  public:
+    /// `bone` must stay where it is, and the same but for its fractions, for as long as there are steps. A
+    /// tissue that no bone bears makes nothing translucent: all bone would be drawn the slower way for it.
+    /// `storage` makes the textures' memory; null: the steps do, however long that takes. Throws
+    /// std::invalid_argument where the look's transfer function is none.
+    TextureBuild(const Bone& bone, std::vector<TissueColour> tissues, const ShadingSettings& look,
+                 const TextureLimits& limits, gl::StorageThread* storage = nullptr);
+    TextureBuild(const TextureBuild&) = delete;
+    TextureBuild& operator=(const TextureBuild&) = delete;
+
+    /// Goes on by a step. False: all is made. Throws std::runtime_error, naming sizes, as BoneTextures does.
+    bool step() { return steps_.step(); }
+    /// 0 to 1.
+    double done() const { return steps_.done(); }
+
+    /// Once it is known: how the bone will be held.
+    const std::optional<TexturePlan>& plan() const { return plan_; }
+    /// Whether the driver had no memory for a better plan.
+    bool has_settled_for_less() const { return has_settled_for_less_; }
+
+    /// After the last step, once.
+    BoneTextures take() { return std::move(*made_); }
+    BoneTextures all_at_once();
+
+  private:
+    Steps build(const Bone& bone);
+    Steps make_absent_opaque(const Bone& bone);
+
+    std::vector<TissueColour> tissues_;
+    ShadingSettings look_;
+    TextureLimits limits_;
+    gl::StorageThread* storage_;
+    std::optional<TexturePlan> plan_;
+    bool has_settled_for_less_ = false;
+    std::optional<BoneTextures> made_;
+    Steps steps_;  // last, since it works on the others
+};
+
+}  // namespace osteomill
