@@ -71,9 +71,14 @@ bool BoneOnScreen::make_room(const Bone& bone, Outcome& outcome) {
 }
 
 void BoneOnScreen::show(Outcome& outcome) {
-    if (shown_) drop_shown(outcome);
-    shown_ = std::make_shared<Shown>(Shown{build_->take(), build_look_});
+    const std::shared_ptr<Shown> made = std::make_shared<Shown>(Shown{build_->take(), build_look_});
     build_.reset();
+    // While a curve is dragged, a picture is as dear as the one before and need not turn coarse.
+    const bool costs_as_before = shown_ && !shown_->is_of_former_bone &&
+                                 shown_->textures.is_translucent() == made->textures.is_translucent();
+    if (shown_) drop_shown(outcome);
+    shown_ = made;
+    outcome.cost = costs_as_before ? DrawingCost::as_before : DrawingCost::unknown;
     unshown_ = std::exchange(unbuilt_, {});
     outcome.other_textures = true;
 }

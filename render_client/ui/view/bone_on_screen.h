@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "render_client/ui/view/gathered_changes.h"
+#include "render_client/volume/passes/detail_control.h"
 #include "render_client/volume/textures/texture_build.h"
 
 namespace osteomill {
@@ -34,8 +35,9 @@ class BoneOnScreen {
     const ShadingSettings& look() const { return look_; }
 
     struct Outcome {
-        bool other_textures = false;      ///< or none any more: all is to be drawn anew
-        std::vector<VoxelBox> changed{};  ///< else: voxels of textures()->grid()
+        bool other_textures = false;              ///< or none any more: all is to be drawn anew
+        DrawingCost cost = DrawingCost::unknown;  ///< of a picture of them
+        std::vector<VoxelBox> changed{};          ///< else: voxels of textures()->grid()
         bool is_news() const { return other_textures || !changed.empty(); }
     };
     /// Prepares, and uploads what changed, until there is nothing left to do or no time; a step at least.

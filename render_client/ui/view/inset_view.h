@@ -26,7 +26,7 @@ class InsetView {
     explicit InsetView(RendererChoice renderer);
 
     // As of ScenePicture.
-    void forget_bone() { picture_.forget_bone(); }
+    void forget_bone(DrawingCost cost) { picture_.forget_bone(cost); }
     void mark_dirty(const BoneTextures& bone, std::span<const VoxelBox> changed) {
         picture_.mark_dirty(bone, changed);
     }

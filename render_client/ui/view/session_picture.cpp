@@ -149,16 +149,16 @@ void SessionPicture::work_on_bone() {
     const BoneOnScreen::Outcome outcome = bone_.work(*source_.bone(), has_time);
     if (outcome.is_news()) has_undrawn_bone_ = true;
     if (outcome.other_textures) {
-        show_other_textures();
+        show_other_textures(outcome.cost);
     } else if (!outcome.changed.empty()) {
         picture_.mark_dirty(*bone_.textures(), outcome.changed);
         if (inset_) inset_->mark_dirty(*bone_.textures(), outcome.changed);
     }
 }
 
-void SessionPicture::show_other_textures() {
-    picture_.forget_bone();
-    if (inset_) inset_->forget_bone();
+void SessionPicture::show_other_textures(DrawingCost cost) {
+    picture_.forget_bone(cost);
+    if (inset_) inset_->forget_bone(cost);
     const BoneTextures* textures = bone_.textures();
     if (textures == nullptr) return;
     if (textures->plan().layout != BoneLayout::dense || textures->plan().coarsening > 1)

@@ -95,7 +95,7 @@ class SessionPicture {
     void take_in_bone(bool first_of_tool);
     void take_in_structure(const Structure& structure);
     void work_on_bone();
-    void show_other_textures();
+    void show_other_textures(DrawingCost cost);
     News news() const;
     void ask_for_ct();
     /// The tool as it is shown.

@@ -18,6 +18,7 @@ constexpr double least_part_at_rest = 0.5;
 constexpr double rise_a_measurement = 0.5;
 constexpr double fall_a_measurement = 0.2;
 constexpr double full_enough_to_refine = 0.8;
+constexpr double assumed_s_per_px = 1e-6;
 
 /// Follows a rise faster than a fall; the first measurement is all that is known.
 double followed(double known, double measured) {
@@ -41,12 +42,19 @@ DetailControl::DetailControl(double frame_s) : frame_s_(frame_s) {
 
 void DetailControl::drew(Extent extent, std::int64_t pixels, double took_s) {
     if (pixels <= 0 || !(took_s > 0.0)) return;
+    const double measured = took_s / static_cast<double>(pixels);
     double& s_per_px = (extent == Extent::whole ? whole_ : parts_).s_per_px;
-    s_per_px = followed(s_per_px, took_s / static_cast<double>(pixels));
+    // The first part may show nothing but background, and must not pass for what all parts cost.
+    if (extent == Extent::parts && s_per_px == 0.0) s_per_px = std::max(whole_.s_per_px, measured);
+    s_per_px = followed(s_per_px, measured);
 }
 
 void DetailControl::frame_took(double frame_s, double drawing_s) {
     rest_s_ = followed(rest_s_, std::max(frame_s - drawing_s, 0.0));
+}
+
+void DetailControl::forget_costs() {
+    whole_.s_per_px = parts_.s_per_px = 0.0;
 }
 
 std::int64_t DetailControl::affordable_pixels(Extent extent) const {
@@ -60,9 +68,9 @@ std::int64_t DetailControl::affordable_pixels_at_rest() const {
 
 std::int64_t DetailControl::pixels_in(Extent extent, double room_s) const {
     const bool parts_known = extent == Extent::parts && parts_.s_per_px > 0.0;
-    const double s_per_px = parts_known ? parts_.s_per_px : whole_.s_per_px;
+    const double known_s_per_px = parts_known ? parts_.s_per_px : whole_.s_per_px;
     constexpr auto most = std::numeric_limits<std::int64_t>::max();
-    const double affordable = s_per_px > 0.0 ? room_s / s_per_px : static_cast<double>(most);
+    const double affordable = room_s / (known_s_per_px > 0.0 ? known_s_per_px : assumed_s_per_px);
     return affordable < static_cast<double>(most) ? static_cast<std::int64_t>(affordable) : most;
 }
 

@@ -7,7 +7,9 @@
 // that is the least: then nobody sees its rate, but how long the picture stays coarse. What is known follows
 // a measurement by half of the difference upwards and by a fifth downwards: a frame that comes late is worse
 // than one that is a little coarse. Parts of a picture under a still camera are counted by themselves: they
-// are where the bone is, and dearer than the average that background lowers.
+// are where the bone is, and dearer than the average that background lowers. Before anything was measured a
+// pixel counts as dear as a software rasteriser makes it: a first picture that is coarse for a moment is
+// better than a second without an answer.
 #pragma once
 
 #include <cstdint>
@@ -16,6 +18,9 @@ namespace osteomill {
 
 /// What was drawn: a whole picture, or parts of one under a still camera.
 enum class Extent { whole, parts };
+
+/// What a picture of another bone, or in another look, takes to draw.
+enum class DrawingCost { as_before, unknown };
 
 /// The goal under motion; what is shown then is smooth to the eye.
 inline constexpr double target_frame_s = 1.0 / 30.0;
@@ -30,7 +35,10 @@ class DetailControl {
     /// How long a whole frame took, waiting excluded, and the drawing of bone in it.
     void frame_took(double frame_s, double drawing_s);
 
-    /// Pixels for which there is room in a frame; without limit as long as nothing is known.
+    /// What is drawn from now on costs otherwise.
+    void forget_costs();
+
+    /// Pixels for which there is room in a frame.
     std::int64_t affordable_pixels(Extent extent) const;
     /// The same of parts, while neither camera nor bone moves.
     std::int64_t affordable_pixels_at_rest() const;

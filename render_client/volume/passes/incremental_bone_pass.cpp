@@ -62,9 +62,12 @@ void IncrementalBonePass::set_look(const SceneLook& look) {
     forget();
 }
 
-void IncrementalBonePass::forget() {
+void IncrementalBonePass::forget(DrawingCost cost) {
     camera_.reset();
     dirty_.clear();
+    if (cost == DrawingCost::as_before) return;
+    control_.forget_costs();
+    if (measured_) measured_->is_history = true;
 }
 
 void IncrementalBonePass::mark_dirty(const BoneTextures& bone, std::span<const VoxelBox> changed) {
@@ -122,6 +125,7 @@ void IncrementalBonePass::learn() {
     if (!stopwatch_ || !measured_) return;
     const std::optional<double> took_s = stopwatch_->take_s();
     if (!took_s) return;
+    if (measured_->is_history) return measured_.reset();
     control_.drew(measured_->extent, measured_->pixels, *took_s);
     if (frame_s_) {
         // What was drawn besides in that frame cost about as much a pixel.

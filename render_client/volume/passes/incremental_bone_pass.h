@@ -35,7 +35,7 @@ class IncrementalBonePass {
     void set_look(const SceneLook& look);
     const SceneLook& look() const { return renderer_.look(); }
     /// Another bone: all of it is stale.
-    void forget();
+    void forget(DrawingCost cost = DrawingCost::as_before);
     /// These voxels of `bone` changed since the last update: what its own update returned.
     void mark_dirty(const BoneTextures& bone, std::span<const VoxelBox> changed);
 
@@ -54,6 +54,7 @@ class IncrementalBonePass {
         Extent extent;
         std::int64_t pixels;
         std::int64_t pixels_of_frame = 0;  ///< with what else was drawn in that frame
+        bool is_history = false;           ///< what was drawn then is drawn no more
     };
 
     void learn();

@@ -27,7 +27,7 @@ class ScenePicture {
     /// Cuts and background, from the next draw on.
     void set_look(const SceneLook& look) { layer_.set_look(look); }
     /// The bone was replaced: its layer is drawn anew.
-    void forget_bone() { layer_.forget(); }
+    void forget_bone(DrawingCost cost = DrawingCost::unknown) { layer_.forget(cost); }
     /// Another soft structure beside the bone.
     void add_structure(const StructureSurface& surface, double opacity) { structures_.add(surface, opacity); }
     /// None any more; the next picture is drawn anew.

@@ -64,9 +64,9 @@ void StereoPicture::set_look(const SceneLook& look) {
     if (is_new && right_) right_->forget_bone();
 }
 
-void StereoPicture::forget_bone() {
-    left_.forget_bone();
-    if (right_) right_->forget_bone();
+void StereoPicture::forget_bone(DrawingCost cost) {
+    left_.forget_bone(cost);
+    if (right_) right_->forget_bone(cost);
 }
 
 void StereoPicture::add_structure(const StructureSurface& surface, double opacity) {

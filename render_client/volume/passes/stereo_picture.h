@@ -22,7 +22,7 @@ class StereoPicture {
     // As of ScenePicture, for both eyes.
     void resize(const glm::ivec2& size_px);
     void set_look(const SceneLook& look);
-    void forget_bone();
+    void forget_bone(DrawingCost cost = DrawingCost::unknown);
     void add_structure(const StructureSurface& surface, double opacity);
     void forget_structures();
     void mark_dirty(const BoneTextures& bone, std::span<const VoxelBox> changed);

@@ -18,10 +18,13 @@ DetailControl knowing(double s_per_px, double rest_s = 0.0) {
     return control;
 }
 
-TEST(DetailControl, DrawsInFullWhileNothingIsKnown) {
+TEST(DetailControl, DrawsCoarselyWhileNothingIsKnownAndAfterThatAsWhatWasMeasuredAllows) {
     DetailControl control(frame_s);
+    EXPECT_EQ(control.divisor_for(Extent::whole, pixels), 4.0);
+    control.drew(Extent::whole, pixels / 16, 1e-3);
     EXPECT_EQ(control.divisor_for(Extent::whole, pixels), 1.0);
-    EXPECT_GT(control.affordable_pixels(Extent::parts), 1'000'000'000);
+    control.forget_costs();
+    EXPECT_EQ(control.divisor_for(Extent::whole, pixels), 4.0);
 }
 
 TEST(DetailControl, DrawsInFullWhatFits) {
@@ -100,11 +103,18 @@ TEST(DetailControl, TakesPartsToCostWhatTheWholeDoesUntilItKnowsBetter) {
     EXPECT_NEAR(static_cast<double>(control.affordable_pixels(Extent::whole)), pixels, 1.0);
 }
 
+TEST(DetailControl, DoesNotTakeAFirstPartOfBackgroundForWhatAllPartsCost) {
+    DetailControl control = knowing(frame_s / pixels);
+    control.drew(Extent::parts, 2304, 1e-9);
+    EXPECT_LT(control.affordable_pixels(Extent::parts), pixels * 1.3);
+}
+
 TEST(DetailControl, LearnsNothingFromNoPixelsAndNoTime) {
     DetailControl control(frame_s);
     control.drew(Extent::whole, 0, 1.0);
     control.drew(Extent::whole, 1000, 0.0);
-    EXPECT_EQ(control.divisor_for(Extent::whole, pixels), 1.0);
+    EXPECT_EQ(control.affordable_pixels(Extent::whole),
+              DetailControl(frame_s).affordable_pixels(Extent::whole));
     EXPECT_THROW(DetailControl(0.0), std::invalid_argument);
 }
 
