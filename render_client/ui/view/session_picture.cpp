@@ -48,10 +48,6 @@ std::vector<TissueColour> tissue_colours(const SessionInfo* session) {
     return colours;
 }
 
-/// Of a frame, for preparing what it will show: with a frame's drawing it stays well below what is felt as
-/// waiting.
-constexpr std::chrono::milliseconds preparing_slice(15);
-
 }  // namespace
 
 SessionPicture::SessionPicture(SessionSource& source, Panels& panels, const glm::ivec2& size_px,
@@ -144,7 +140,7 @@ SessionPicture::News SessionPicture::news() const {
 
 void SessionPicture::work_on_bone() {
     using Clock = std::chrono::steady_clock;
-    const Clock::time_point end = Clock::now() + preparing_slice;
+    const Clock::time_point end = Clock::now() + preparing_slice_;
     const auto has_time = [&] { return frame_quality_ == FrameQuality::full || Clock::now() < end; };
     const BoneOnScreen::Outcome outcome = bone_.work(*source_.bone(), has_time);
     if (outcome.is_news()) has_undrawn_bone_ = true;

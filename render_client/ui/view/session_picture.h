@@ -2,6 +2,7 @@
 // What a window and an offscreen run have in common.
 #pragma once
 
+#include <chrono>
 #include <optional>
 #include <utility>
 
@@ -32,6 +33,10 @@ class SessionPicture {
     void limit_textures(const TextureLimits& limits) { bone_.limit(limits); }
     /// Makes the memory of large textures from now on; must outlive the picture.
     void make_storage_by(gl::StorageThread& thread) { bone_.make_storage_by(thread); }
+
+    /// On demand, a call of take_in prepares what is to be drawn for so long, and a step at least. With a
+    /// frame's drawing it stays well below what is felt as waiting.
+    void prepare_for(std::chrono::milliseconds slice) { preparing_slice_ = slice; }
 
     /// What a poll of the source brought, or what has to be drawn for another reason.
     enum class News {
@@ -110,6 +115,7 @@ class SessionPicture {
     std::unique_ptr<BoneRenderer> renderer_;
     BoneOnScreen bone_;
     FrameQuality frame_quality_;
+    std::chrono::milliseconds preparing_slice_{15};
     StereoPicture picture_;
     RendererChoice renderer_choice_;
     std::optional<InsetView> inset_;  ///< while it is shown

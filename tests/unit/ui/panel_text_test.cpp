@@ -73,6 +73,19 @@ TEST_F(PanelTexts, TellWhatTheServerWaitsFor) {
     EXPECT_FALSE(has_tone(warning_text(content_), Tone::warning)) << "nothing is wrong";
 }
 
+TEST_F(PanelTexts, TellHowFarABoneHasComeAndIsPrepared) {
+    EXPECT_THAT(plain(session_text(content_)), ::testing::Not(HasSubstr("preparing")));
+    content_.link.status = LinkStatus::receiving_snapshot;
+    content_.link.status_line = "receiving the bone from 127.0.0.1:7010";
+    content_.link.snapshot_bricks = 300;
+    content_.link.snapshot_bricks_total = 400;
+    EXPECT_THAT(plain(session_text(content_)), HasSubstr("receiving the bone from 127.0.0.1:7010: 75 %\n"));
+    content_.link.status = LinkStatus::live;
+    content_.preparation_percent = 43;
+    EXPECT_THAT(plain(session_text(content_)), HasSubstr("preparing the bone: 43 %\n"));
+    EXPECT_FALSE(has_tone(session_text(content_), Tone::warning)) << "nothing is wrong";
+}
+
 TEST_F(PanelTexts, TellTheToolAndTheSession) {
     EXPECT_THAT(plain(tool_text(content_)), HasSubstr("burr 3.0 mm, 8 edges\nspindle off\nremoved 1.23 mm"));
     EXPECT_FALSE(has_tone(session_text(content_), Tone::warning));

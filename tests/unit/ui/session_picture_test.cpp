@@ -1,0 +1,111 @@
+#include "render_client/ui/view/session_picture.h"
+
+#include "tests/unit/ui/scripted_session.h"
+#include "tests/unit/volume/offscreen_test.h"
+
+namespace osteomill::session_picture_test {
+namespace {
+
+const glm::ivec2 size_px(320, 240);
+constexpr double frame_s = 1.0 / 30.0;
+
+/// The scripted session, of which a link tells as it is told to.
+class ToldSession final : public SessionSource {
+  public:
+    LinkUpdate poll() override {
+        LinkUpdate update = session_.poll();
+        update.status = status;
+        if (replaces) update.bone_replaced = std::exchange(replaces, false);
+        return update;
+    }
+    const Bone* bone() const override { return session_.bone(); }
+    const SessionInfo* session() const override { return session_.session(); }
+    void send_operator(const OperatorCommand&) override {}
+
+    LinkStatus status = LinkStatus::live;
+    bool replaces = false;
+
+  private:
+    ScriptedSession session_{100'000};
+};
+
+class SessionPictureTest : public OffscreenTest {
+  protected:
+    void SetUp() override {
+        OffscreenTest::SetUp();
+        if (IsSkipped()) return;
+        panels_.emplace();
+        picture_.emplace(session_, *panels_, size_px, FrameQuality::on_demand);
+        picture_->prepare_for(std::chrono::milliseconds(0));
+    }
+    void TearDown() override {
+        picture_.reset();
+        panels_.reset();
+        OffscreenTest::TearDown();
+    }
+    Picture draw() { return picture_->draw(frame_s).read_back(); }
+    void prepare() {
+        for (int call = 0; call < 100'000 && picture_->preparation_percent(); ++call) picture_->take_in();
+    }
+
+    ToldSession session_;
+    std::optional<Panels> panels_;
+    std::optional<SessionPicture> picture_;
+};
+
+TEST_F(SessionPictureTest, AnswersAndTellsHowFarItIsWhileTheBoneIsPrepared) {
+    picture_->take_in();
+    ASSERT_EQ(picture_->preparation_percent(), 0);
+    draw();
+    const Picture before = draw();
+    picture_->view().help_shown = true;
+    for (int frame = 0; frame < 3; ++frame) {
+        picture_->take_in();
+        draw();
+    }
+    EXPECT_NE(draw(), before) << "help appears";
+    EXPECT_FALSE(picture_->has_bone());
+    int last = 0;
+    for (int call = 0; call < 100'000 && picture_->preparation_percent(); ++call) {
+        EXPECT_GE(*picture_->preparation_percent(), last);
+        last = *picture_->preparation_percent();
+        picture_->take_in();
+    }
+    EXPECT_GT(last, 50);
+    EXPECT_TRUE(picture_->has_bone());
+}
+
+TEST_F(SessionPictureTest, ShowsTheBoneOfASessionThatIsLostMeanwhile) {
+    picture_->take_in();
+    session_.status = LinkStatus::lost;
+    prepare();
+    EXPECT_TRUE(picture_->has_bone());
+    EXPECT_EQ(picture_->link().status, LinkStatus::lost);
+}
+
+TEST_F(SessionPictureTest, KeepsViewAndPictureWhileABoneComesAgain) {
+    picture_->take_in();
+    prepare();
+    orbit(picture_->camera(), 0.5, 0.2);
+    const Camera turned = picture_->camera();
+    session_.replaces = true;
+    picture_->take_in();
+    EXPECT_TRUE(picture_->preparation_percent());
+    EXPECT_TRUE(picture_->has_bone()) << "the one before";
+    prepare();
+    EXPECT_TRUE(picture_->has_bone());
+    EXPECT_EQ(picture_->camera(), turned);
+}
+
+TEST_F(SessionPictureTest, SaysThatABoneIsTooLargeOnce) {
+    picture_->limit_textures({.budget_bytes = 1000});
+    picture_->take_in();
+    prepare();
+    EXPECT_NE(picture_->bone_problem().find("exceed the graphics memory"), std::string::npos);
+    picture_->take_in();
+    EXPECT_FALSE(picture_->preparation_percent());
+    EXPECT_FALSE(picture_->has_bone());
+}
+
+}  // namespace
+}  // namespace osteomill::session_picture_test
