@@ -34,8 +34,8 @@ std::string help_of_program(const std::string& program, const std::string& subco
     if (program == built_on_demand) return "--rounds --frames";
     const std::filesystem::path file = std::filesystem::path(PROGRAMS) / program;
     if (!std::filesystem::exists(file)) throw std::runtime_error("there is no program " + program);
-    if (program == "link_benchmark" || program == "link_fault_benchmark" ||
-        program == "spindle_off_benchmark")
+    if (program == "large_bone_benchmark" || program == "link_benchmark" ||
+        program == "link_fault_benchmark" || program == "spindle_off_benchmark")
         return {};
     const auto [entry, is_new] = known.try_emplace(program + ' ' + subcommand);
     if (is_new) {
