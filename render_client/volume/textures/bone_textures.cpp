@@ -123,12 +123,12 @@ std::span<const VoxelBox> BoneTextures::update(const Bone& bone, std::span<const
 }
 
 std::vector<TextureSize> BoneTextures::sizes() const {
-    std::vector<TextureSize> sizes{{"fractions", fraction_.bytes()}};
+    std::vector<TextureSize> sizes{{"fractions", fraction_->bytes()}};
     if (colour_code_) sizes.push_back({"colour codes", colour_code_->bytes()});
     if (smoothed_) sizes.push_back({"smoothed fractions", smoothed_->texture().bytes()});
     if (surface_) sizes.push_back({"surface voxels", surface_->texture().bytes()});
     if (tile_table_) sizes.push_back({"tiles of bricks", tile_table_->bytes()});
-    sizes.push_back({"empty space", blocks_.bytes()});
+    sizes.push_back({"empty space", blocks_->bytes()});
     return sizes;
 }
 
