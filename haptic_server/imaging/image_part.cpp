@@ -30,7 +30,7 @@ Turn turn_to_lps(const SourceImage& image) {
 
 }  // namespace
 
-ImageBox voxels_for(const SourceImage& image, const Region& region, int margin_voxels) {
+ImageBox voxels_for(const SourceImage& image, const Region& region, const glm::ivec3& margin_voxels) {
     glm::dvec3 low(1e30);
     glm::dvec3 high(-1e30);
     for (int corner = 0; corner < 8; ++corner) {
@@ -41,8 +41,9 @@ ImageBox voxels_for(const SourceImage& image, const Region& region, int margin_v
         high = glm::max(high, at);
     }
     const glm::dvec3 end = glm::dvec3(image.size_voxels - 1);
-    return {.first = glm::ivec3(glm::clamp(glm::floor(low) - double(margin_voxels), glm::dvec3(0.0), end)),
-            .last = glm::ivec3(glm::clamp(glm::ceil(high) + double(margin_voxels), glm::dvec3(0.0), end))};
+    return {
+        .first = glm::ivec3(glm::clamp(glm::floor(low) - glm::dvec3(margin_voxels), glm::dvec3(0.0), end)),
+        .last = glm::ivec3(glm::clamp(glm::ceil(high) + glm::dvec3(margin_voxels), glm::dvec3(0.0), end))};
 }
 
 std::uint64_t voxel_count(const ImageBox& box) {

@@ -15,8 +15,9 @@ struct ImageBox {
     glm::ivec3 last{0};
 };
 
-/// Voxels that a region needs: those in it and `margin_voxels` around, within the image.
-ImageBox voxels_for(const SourceImage& image, const Region& region, int margin_voxels);
+/// Voxels that a region needs: those in it and `margin_voxels` around, along the image's axes, within the
+/// image.
+ImageBox voxels_for(const SourceImage& image, const Region& region, const glm::ivec3& margin_voxels);
 
 std::uint64_t voxel_count(const ImageBox& box);
 

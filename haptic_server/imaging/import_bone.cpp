@@ -24,6 +24,7 @@
 #include "haptic_server/imaging/progress.h"
 #include "haptic_server/imaging/refine.h"
 #include "haptic_server/imaging/scratch_values.h"
+#include "haptic_server/imaging/slice_shapes.h"
 
 namespace osteomill {
 
@@ -37,6 +38,8 @@ double gibibytes(std::uint64_t bytes) {
 struct ImportPlan {
     Grid grid;
     ImageBox needed;
+    std::optional<int>
+        axis_of_shapes{};  ///< of the part: along it, contours are followed from slice to slice
 };
 
 /// As few voxels as a scan may have, a bone may have.
@@ -53,6 +56,28 @@ void require_plausible_size(const Grid& grid) {
     }
 }
 
+/// Without a threshold there is no contour to follow.
+std::optional<int> followed_axis(const ImportOptions& options, const glm::dvec3& spacing_mm) {
+    return options.threshold_hu ? axis_of_far_slices(spacing_mm) : std::nullopt;
+}
+
+/// Refining draws on the voxels around; smoothing for a coarser grid reaches as far as its voxels, a contour
+/// that is followed from slice to slice as far as it is looked for.
+glm::ivec3 margin_voxels(const ImportOptions& options, const SourceImage& image) {
+    const double finest_mm = std::min({image.spacing_mm.x, image.spacing_mm.y, image.spacing_mm.z});
+    glm::ivec3 margin(refine_margin_voxels +
+                      static_cast<int>(std::min(2.0 * options.spacing_mm / finest_mm, 1e6)));
+    const std::optional<int> axis = followed_axis(options, image.spacing_mm);
+    for (int other = 0; axis && other < 3; ++other)
+        if (other != *axis)
+            margin[other] =
+                std::max(margin[other],
+                         static_cast<int>(std::min(
+                             contour_reach_mm(image.spacing_mm, *axis) / image.spacing_mm[other], 1e6)) +
+                             1);
+    return margin;
+}
+
 ImportPlan plan(const ImportOptions& options, const SourceImage& image, std::ostream& messages) {
     const Region extent = extent_of(image);
     Region region = extent;
@@ -63,23 +88,26 @@ ImportPlan plan(const ImportOptions& options, const SourceImage& image, std::ost
                 messages << fmt::format("--region clipped to {} (mm, patient LPS): the image ends there\n",
                                         to_text(region));
         }
-        // Refining draws on the voxels around; smoothing for a coarser grid reaches as far as its voxels.
-        const double finest_mm = std::min({image.spacing_mm.x, image.spacing_mm.y, image.spacing_mm.z});
-        const int margin =
-            refine_margin_voxels + static_cast<int>(std::min(2.0 * options.spacing_mm / finest_mm, 1e6));
         const Grid grid = grid_over(region, options.spacing_mm);
         require_plausible_size(grid);
-        return {.grid = grid, .needed = voxels_for(image, region, margin)};
+        const ImageBox needed = voxels_for(image, region, margin_voxels(options, image));
+        return {.grid = grid,
+                .needed = needed,
+                .axis_of_shapes = followed_axis(options, part_of(image, needed).spacing_mm)};
     } catch (const std::invalid_argument& error) {
         throw ImagingError(options.input, error.what());
     }
 }
 
+/// Values of the region, and what is known of the shapes in its slices.
+std::uint64_t scratch_floats(const ImportPlan& work) {
+    return voxel_count(work.needed) * (work.axis_of_shapes ? 1 + SliceShapes::floats_per_voxel : 1);
+}
+
 void require_memory(const ImportOptions& options, const OpenedImage& opened, const ImportPlan& work,
                     const ImportSurroundings& surroundings) {
     const SourceImage& image = opened.image;
-    const std::uint64_t needed =
-        import_memory_bytes(opened.reading_bytes, voxel_count(work.needed), work.grid);
+    const std::uint64_t needed = import_memory_bytes(opened.reading_bytes, scratch_floats(work), work.grid);
     if (needed > most_import_bytes && opened.reading_bytes > most_import_bytes / 3)
         throw ImagingError(options.input,
                            fmt::format("has pixels of which {:.1f} GiB would be held at once, more than an "
@@ -121,7 +149,7 @@ ImagingError no_bone(const ImportOptions& options, int highest_hu) {
 
 /// The region's part in HU; of the rest of the scan no more than a slice is looked at.
 void read_part(const ImportOptions& options, const OpenedImage& opened, const ImageBox& needed,
-               const ScratchValues& part, const ImportSurroundings& surroundings) {
+               std::span<float> values, const ScratchValues& part, const ImportSurroundings& surroundings) {
     std::size_t replaced = 0;
     HuHistogram histogram;
     {
@@ -130,7 +158,7 @@ void read_part(const ImportOptions& options, const OpenedImage& opened, const Im
             [&](int k, std::span<float> slice) {
                 replaced += make_hu(options, slice);
                 histogram.add(slice);
-                put_slice(opened.image, needed, k, slice, part.values());
+                put_slice(opened.image, needed, k, slice, values);
                 part.let_go();
             },
             progress.reporter());
@@ -167,8 +195,9 @@ class SliceRing {
 /// Refines, clears what is far from bone if there is a threshold and soft tissue is not kept, writes: a few
 /// slices at a time, on all cores.
 /// Returns how many voxels are bone; 0 without a threshold.
-std::uint64_t write_refined(const ImportOptions& options, const Refiner& refiner, const ScratchValues& part,
-                            const Grid& grid, BoneFileWriter& writer, const ReportProgress& report) {
+std::uint64_t write_refined(const ImportOptions& options, const Refiner& refiner,
+                            const ScratchValues& scratch, const Grid& grid, BoneFileWriter& writer,
+                            const ReportProgress& report) {
     const int slices = grid.size_voxels.z;
     const int at_once = slices_at_once(grid);
     const bool clears = options.threshold_hu && !options.keeps_soft_tissue;
@@ -192,7 +221,7 @@ std::uint64_t write_refined(const ImportOptions& options, const Refiner& refiner
             note_highest(hu);
             if (near) near->look_at(refined + i, hu);
         });
-        part.let_go();
+        scratch.let_go();
         refined += now;
         // The last ones wait for what comes above them.
         const int ready = (refined == slices ? slices : refined - reach) - written;
@@ -228,14 +257,20 @@ void import_bone(const ImportOptions& options, const ImportSurroundings& surroun
         require_memory(options, opened, work, surroundings);
         std::map<std::string, std::string> key_values;
         if (options.threshold_hu) key_values[threshold_key] = threshold_text(*options.threshold_hu);
-        const ScratchValues part(voxel_count(work.needed), most_scan_bytes, scratch_folder(options));
-        read_part(options, opened, work.needed, part, surroundings);
+        const ScratchValues scratch(scratch_floats(work), most_scan_bytes, scratch_folder(options));
+        const auto let_go = [&] { scratch.let_go(); };
+        const std::span<float> values = scratch.values().first(voxel_count(work.needed));
+        read_part(options, opened, work.needed, values, scratch, surroundings);
+        const SourceImage part = part_of(opened.image, work.needed);
+        std::optional<SliceShapes> shapes;
+        if (work.axis_of_shapes)
+            shapes.emplace(part, values, *work.axis_of_shapes, *options.threshold_hu, options.spacing_mm,
+                           scratch.values().subspan(values.size()), let_go);
         ProgressLine progress(surroundings.messages, surroundings.is_terminal, "refining");
-        const Refiner refiner(part_of(opened.image, work.needed), part.values(), work.grid,
-                              [&] { part.let_go(); });
+        const Refiner refiner(part, values, work.grid, shapes ? &*shapes : nullptr, let_go);
         BoneFileWriter writer(options.output, work.grid, std::move(key_values));
         const std::uint64_t bone_voxels =
-            write_refined(options, refiner, part, work.grid, writer, progress.reporter());
+            write_refined(options, refiner, scratch, work.grid, writer, progress.reporter());
         say_if_all_is_bone(options, work.grid, bone_voxels, surroundings.messages);
         writer.commit();
     } catch (const std::bad_alloc&) {

@@ -28,11 +28,11 @@ int slices_at_once(const Grid& result) {
     return std::clamp(fit - slices_around, 1, brick_edge_voxels);
 }
 
-std::uint64_t import_memory_bytes(std::uint64_t reading_bytes, std::uint64_t part_voxels,
+std::uint64_t import_memory_bytes(std::uint64_t reading_bytes, std::uint64_t part_floats,
                                   const Grid& result) {
     const std::uint64_t refining =
         slice_bytes(result) * static_cast<std::uint64_t>(slices_at_once(result) + slices_around);
-    return program_bytes + std::min(part_voxels * float_bytes, most_scan_bytes) +
+    return program_bytes + std::min(part_floats * float_bytes, most_scan_bytes) +
            std::max(reading_bytes, refining);
 }
 

@@ -7,6 +7,7 @@
 
 #include "common/bone/grid.h"
 #include "haptic_server/imaging/cubic_spline.h"
+#include "haptic_server/imaging/slice_shapes.h"
 #include "haptic_server/imaging/source_image.h"
 
 namespace osteomill {
@@ -18,15 +19,17 @@ inline constexpr int refine_margin_voxels = 8;
 /// Samples a part of a scan (as image_part.h leaves it) at the centres of the grid's voxels by its cubic
 /// B-spline, smoothed first along axes where the grid is coarser. Results are clamped to the range of the
 /// part's own values: a spline overshoots beside steep edges, and HU that no voxel had would be bone that is
-/// not there. Outside the part (corners of a turned scan) there is air. Rounded to whole HU.
+/// not there. Outside the part (corners of a turned scan) there is air. Rounded to whole HU. Where slices are
+/// far apart and bone's contour moves between them, HU come from where the slices have the same depth in
+/// bone.
 class Refiner {
   public:
     /// Turns `values`, the part's, into the spline's coefficients, on all cores; they must outlive it.
-    /// `part.values` are not looked at. `pause`: see filter_lines. Throws std::invalid_argument for a bad
-    /// grid.
+    /// `part.values` are not looked at. `shapes`: those of the same part, or nullptr; they must outlive it.
+    /// `pause`: see filter_lines. Throws std::invalid_argument for a bad grid.
     Refiner(
         const SourceImage& part, std::span<float> values, const Grid& grid,
-        const std::function<void()>& pause = [] {});
+        const SliceShapes* shapes = nullptr, const std::function<void()>& pause = [] {});
     ~Refiner();
 
     /// One slice of the grid, x fastest. From any number of threads.

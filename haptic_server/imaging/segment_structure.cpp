@@ -132,7 +132,7 @@ StructureMask structure_of(const Segmentation& segmentation, const Segment& segm
     const glm::dvec3 end_mm = centre_of_voxel_mm(part_grid, part_grid.size_voxels - 1);
     const double finest_mm = std::min({image.spacing_mm.x, image.spacing_mm.y, image.spacing_mm.z});
     const int margin = refine_margin_voxels + static_cast<int>(2.0 * grid.spacing_mm / finest_mm);
-    const ImageBox reach = voxels_for(image, {part_grid.origin_mm, end_mm}, margin);
+    const ImageBox reach = voxels_for(image, {part_grid.origin_mm, end_mm}, glm::ivec3(margin));
     const ImageBox box{glm::max(reach.first, bounds->first - margin),
                        glm::min(reach.last, bounds->last + margin)};
     if (glm::any(glm::greaterThan(box.first, box.last))) return {grid, {}};

@@ -3,11 +3,13 @@
 #include <sys/wait.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <fstream>
 #include <sstream>
 
 #include "tests/support/dense_bone_file.h"
+#include "tests/support/raw_images.h"
 #include "tests/support/synthetic_dicom.h"
 #include "tests/support/temporary_folder.h"
 
@@ -99,6 +101,59 @@ TEST_F(BoneImport, ClipsARegionAndSaysSo) {
     ASSERT_EQ(outcome.exit_status, 0) << outcome.last();
     EXPECT_THAT(outcome.lines.front(), HasSubstr("clipped to -3.0,-2.0,1.0,6.0,0.0,4.0"));
     EXPECT_EQ(read_bone_file(output_).volume.grid.origin_mm, glm::dvec3(-3.0, -2.0, 1.0));
+}
+
+/// A dome whose slices are 2 mm apart and whose pixels 0.5.
+std::string dome() {
+    std::string file = testing::with(testing::nrrd_header(), "sizes: 3 4 5", "sizes: 121 121 13");
+    file = testing::with(file, "(1,0,0) (0,1,0)", "(0.5,0,0) (0,0.5,0)");
+    file = testing::with(file, "(1,2,3)", "(-30,-30,0)");
+    for (int z = 0; z < 13; ++z)
+        for (int y = 0; y < 121; ++y)
+            for (int x = 0; x < 121; ++x) {
+                const double depth_mm = 40.0 - std::hypot(0.5 * x - 30.0, 0.5 * y - 30.0, 2.0 * z + 20.0);
+                const auto hu = static_cast<std::int16_t>(std::clamp(600.0 + 2000.0 * depth_mm, 0.0, 1200.0));
+                file.append(reinterpret_cast<const char*>(&hu), sizeof hu);
+            }
+    return file;
+}
+
+TEST_F(BoneImport, OfSlicesFarApartHasNoStairs) {
+    testing::write_bytes(folder_ / "dome.nrrd", dome());
+    const std::string options = "--spacing-mm 0.5 --threshold-hu 600 --keep-soft-tissue";
+    ASSERT_EQ(import(folder_ / "dome.nrrd", options).exit_status, 0);
+    const HuVolume bone = read_bone_file(output_).volume;
+    const auto hu = [&](const glm::ivec3& voxel) {
+        const glm::ivec3 size = bone.grid.size_voxels;
+        return bone.hu[static_cast<std::size_t>(voxel.x + size.x * (voxel.y + size.y * voxel.z))];
+    };
+    // Where the surface leans by 25 to 45 degrees, halfway between slices.
+    for (const int z : {14, 18, 22, 26})
+        for (int x = 61; x < 120; ++x) {
+            const double before = hu({x, 60, z}) - 600.0;
+            const double after = hu({x + 1, 60, z}) - 600.0;
+            if (before < 0.0 || after >= 0.0) continue;
+            const double at_mm = 0.5 * (x + before / (before - after)) - 30.0;
+            EXPECT_NEAR(std::hypot(at_mm, 0.5 * z + 20.0), 40.0, 0.1) << z;
+        }
+}
+
+TEST_F(BoneImport, OfARegionOfSlicesFarApartIsThatPartOfTheWhole) {
+    testing::write_bytes(folder_ / "dome.nrrd", dome());
+    const std::string options = "--spacing-mm 0.5 --threshold-hu 600 --keep-soft-tissue";
+    ASSERT_EQ(import(folder_ / "dome.nrrd", options).exit_status, 0);
+    const HuVolume whole = read_bone_file(output_).volume;
+    ASSERT_EQ(import(folder_ / "dome.nrrd", options + " --region 10,-5,6,20,5,14").exit_status, 0);
+    const HuVolume part = read_bone_file(output_).volume;
+    const glm::ivec3 size = whole.grid.size_voxels;
+    std::size_t i = 0;
+    for (int z = 0; z < part.grid.size_voxels.z; ++z)
+        for (int y = 0; y < part.grid.size_voxels.y; ++y)
+            for (int x = 0; x < part.grid.size_voxels.x; ++x, ++i)
+                ASSERT_NEAR(
+                    part.hu[i],
+                    whole.hu[static_cast<std::size_t>(x + 80 + size.x * (y + 50 + size.y * (z + 12)))], 1)
+                    << x << ' ' << y << ' ' << z;
 }
 
 TEST_F(BoneImport, RefusesInOneLine) {

@@ -137,7 +137,8 @@ TEST(Refine, AgreesWithTheWholeWhereOnlyARegionIsCut) {
     const Grid grid = grid_over(region, 0.25);
     const ImageBox all{.first = {0, 0, 0}, .last = image.size_voxels - 1};
     const HuVolume whole = refine(cut(image, all), grid);
-    const HuVolume part = refine(cut(image, voxels_for(image, region, refine_margin_voxels)), grid);
+    const HuVolume part =
+        refine(cut(image, voxels_for(image, region, glm::ivec3(refine_margin_voxels))), grid);
     for (std::size_t i = 0; i < whole.hu.size(); ++i) ASSERT_NEAR(whole.hu[i], part.hu[i], 1) << i;
 }
 

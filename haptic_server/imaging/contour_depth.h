@@ -1,0 +1,23 @@
+// How deep in bone each pixel of one slice of a scan lies, measured within the slice: the distance from the
+// contour HU = threshold, mm, positive in bone, negative outside. Right to a small part of a pixel, since the
+// contour runs between the pixels as their HU say.
+#pragma once
+
+#include <span>
+
+namespace osteomill {
+
+/// One slice, its pixels row after row. HU are finite; lengths are those of the slice.
+struct SlicePixels {
+    int columns = 0;
+    int rows = 0;
+    double column_mm = 1.0;  ///< from a pixel to its neighbour in the row
+    double row_mm = 1.0;     ///< from a row to the next
+    std::span<const float> hu{};
+};
+
+/// Fills `depth_mm`, as long as the slice. Where the contour is further than `reach_mm`: that, with its sign.
+void contour_depth_mm(const SlicePixels& slice, double threshold_hu, double reach_mm,
+                      std::span<float> depth_mm);
+
+}  // namespace osteomill
