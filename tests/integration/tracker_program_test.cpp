@@ -50,10 +50,9 @@ class TrackerPrograms : public ::testing::Test {
         out.precision(12);
         for (const glm::dvec3& point_mm : {glm::dvec3(0.0), glm::dvec3(80.0, 0.0, 5.0),
                                            glm::dvec3(10.0, 70.0, 0.0), glm::dvec3(-20.0, 5.0, 60.0)}) {
-            const glm::dvec3 tracker_mm = in_tracker(point_mm);
-            out << "[[points]]\ntracker_mm = [" << tracker_mm.x << ", " << tracker_mm.y << ", "
-                << tracker_mm.z << "]\npatient_mm = [" << point_mm.x << ", " << point_mm.y << ", "
-                << point_mm.z << "]\n";
+            const glm::dvec3 seen_mm = in_tracker(point_mm);
+            out << "[[points]]\ntracker_mm = [" << seen_mm.x << ", " << seen_mm.y << ", " << seen_mm.z
+                << "]\npatient_mm = [" << point_mm.x << ", " << point_mm.y << ", " << point_mm.z << "]\n";
         }
     }
     std::string file(const std::string& name) const { return (folder_ / name).string(); }

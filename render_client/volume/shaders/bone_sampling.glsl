@@ -101,27 +101,39 @@ float density_at(vec3 point) {
 
 vec4 surface_colour_at(vec3 point) { return textureLod(bone_surface_colours, texture_place(point), 0.0); }
 
-// Looks of the eight nearest voxels blended trilinearly, so that tissues meet without steps. What is hidden
-// does not tinge what stands beside it.
-vec4 look_at(vec3 point) {
-    if (!bone_has_colour_code) return texelFetch(bone_colours, ivec2(0), 0);
-    vec3 place = point - 0.5;
-    ivec3 low = ivec3(floor(place));
-    vec3 part = place - vec3(low);
-    ivec3 shift = texel_shift(point);
+// Looks of eight voxels blended trilinearly; `part` is the place between them.
+vec4 blended_eight(uint codes[8], vec3 part) {
     vec4 sum = vec4(0.0);
     float known = 0.0;
     for (int corner = 0; corner < 8; ++corner) {
-        ivec3 side = ivec3(corner & 1, (corner >> 1) & 1, (corner >> 2) & 1);
-        uint code = code_at(low + side, shift);
-        vec4 look = texelFetch(bone_colours, ivec2(int(code), 0), 0);
-        if (code == 0u || look.a == 0.0) continue;
-        vec3 weights = mix(1.0 - part, part, vec3(side));
+        vec4 look = texelFetch(bone_colours, ivec2(int(codes[corner]), 0), 0);
+        if (codes[corner] == 0u || look.a == 0.0) continue;
+        vec3 weights = mix(1.0 - part, part, vec3(corner & 1, (corner >> 1) & 1, corner >> 2));
         float weight = weights.x * weights.y * weights.z + 1e-5;
         sum += weight * look;
         known += weight;
     }
     return known > 0.0 ? sum / known : texelFetch(bone_colours, ivec2(0), 0);
+}
+
+// Looks of the eight nearest voxels, so that tissues meet without steps. What is hidden does not tinge what stands
+// beside it.
+vec4 look_at(vec3 point) {
+    if (!bone_has_colour_code) return texelFetch(bone_colours, ivec2(0), 0);
+    ivec3 low = ivec3(floor(point - 0.5));
+    ivec3 shift = texel_shift(point);
+    uint codes[8];
+    uint others = 0u;
+    for (int corner = 0; corner < 8; ++corner) {
+        codes[corner] = code_at(low + ivec3(corner & 1, (corner >> 1) & 1, corner >> 2), shift);
+        others |= codes[corner] ^ codes[0];
+    }
+    vec4 look = texelFetch(bone_colours, ivec2(int(codes[0]), 0), 0);
+    // A loop of one turn or none, because a software rasteriser computes both sides of a branch but leaves a loop in
+    // which there is no pixel of a group.
+    int turns = others != 0u || codes[0] == 0u || look.a == 0.0 ? 1 : 0;
+    for (int turn = 0; turn < turns; ++turn) look = blended_eight(codes, point - 0.5 - vec3(low));
+    return look;
 }
 
 // Whether among the 4^3 nearest voxels, of which `low` is the first, one of the inner eight or of the corners has

@@ -2,9 +2,11 @@
 //
 //     vec3  surface_pixel(vec3 point, vec3 direction)   display RGB of the bone's surface at a point, seen
 //                                                       along a unit direction
-//     vec4  translucent_piece(vec3 point, float length)
+//     vec4  translucent_piece(vec3 point, float length, float through, out float opacity)
 //                                                       linear RGB times alpha, and alpha, of so many voxels
-//                                                       of a ray around a point within translucent bone
+//                                                       of a ray around a point within translucent bone, to
+//                                                       which that part of light comes through; and the opacity
+//                                                       of the tissue there
 //     const bool  bone_is_occluded                      given ahead of this file: bone near by takes light away
 //     const bool  bone_shines                           given ahead of this file: it has highlights
 //     const float bone_surface                          the fraction at which bone begins
@@ -31,8 +33,15 @@ vec3 surface_pixel(vec3 point, vec3 direction) {
 // Slope of the density, which also shows borders between tissues of different opacity: where one sees through bone,
 // smoothed fractions count by opacity.
 vec3 density_gradient_at(vec3 point) {
-    if (bone_has_smoothed) return gradient_of_smoothed(point);
     vec3 gradient = vec3(0.0);
+    if (bone_has_smoothed) {
+        // Four of the eight corners: a ray asks this many times.
+        for (int corner = 0; corner < 4; ++corner) {
+            vec3 side = side_of_corner((corner << 1) | ((0x6 >> corner) & 1));
+            gradient += side * textureLod(bone_smoothed, texture_place_beside(point, corner_reach * side), 0.0).r;
+        }
+        return gradient / (4.0 * corner_reach);
+    }
     for (int corner = 0; corner < 8; ++corner) {
         vec3 side = side_of_corner(corner);
         gradient += side * density_at(point + corner_reach * side);
@@ -57,12 +66,14 @@ vec3 translucent_colour(vec3 point, vec3 colour) {
 
 // From the surface on bone takes light away in proportion to how far the fraction has risen beyond it, so
 // that samples meet no edge.
-vec4 translucent_piece(vec3 point, float length_voxels) {
+vec4 translucent_piece(vec3 point, float length_voxels, float through, out float opacity) {
+    opacity = 0.0;
     float filled = 2.0 * fraction_at(point) - 1.0;
     if (filled <= 0.0) return vec4(0.0);
     vec4 look = look_at(point);
+    opacity = look.a;
     float alpha = 1.0 - pow(1.0 - min(look.a, 0.999), filled * length_voxels * bone_mm_per_voxel);
     // What is hardly seen is not worth its normal.
-    vec3 colour = alpha < 0.002 ? look.rgb * light_within : translucent_colour(point, look.rgb);
+    vec3 colour = through * alpha < 0.004 ? look.rgb * light_within : translucent_colour(point, look.rgb);
     return vec4(alpha * colour, alpha);
 }

@@ -69,10 +69,11 @@ void draw_translucent(float index) {
         }
         float distance_along = enter + index * step_length;
         vec3 p = eye + distance_along * direction;
-        vec4 piece = translucent_piece(p, step_length);
+        float opacity;
+        vec4 piece = translucent_piece(p, step_length, through, opacity);
         light += through * piece.rgb;
         through *= 1.0 - piece.a;
-        if (gl_FragDepth == 1.0 && look_at(p).a >= solid_opacity) gl_FragDepth = depth_of(distance_along);
+        if (gl_FragDepth == 1.0 && opacity >= solid_opacity) gl_FragDepth = depth_of(distance_along);
         next = index += 1.0;
     } while (through > darkest_seen && find_bone(index));
     light += through * background_at(gl_FragCoord.xy / picture_size);

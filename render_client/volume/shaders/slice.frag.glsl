@@ -14,7 +14,8 @@ void main() {
     pixel = vec4(0.0);
     if (fraction_at(sampled) < bone_surface || is_cut_away(sampled)) discard;
     if (drawn_pass == light_pass) {
-        pixel = translucent_piece(sampled, length(along));
+        float opacity;
+        pixel = translucent_piece(sampled, length(along), 1.0, opacity);
         return;
     }
     if (drawn_pass == depth_pass) {
