@@ -74,6 +74,6 @@ vec4 translucent_piece(vec3 point, float length_voxels, float through, out float
     opacity = look.a;
     float alpha = 1.0 - pow(1.0 - min(look.a, 0.999), filled * length_voxels * bone_mm_per_voxel);
     // What is hardly seen is not worth its normal.
-    vec3 colour = through * alpha < 0.004 ? look.rgb * light_within : translucent_colour(point, look.rgb);
+    vec3 colour = through * alpha < 0.003 * length_voxels ? look.rgb * light_within : translucent_colour(point, look.rgb);
     return vec4(alpha * colour, alpha);
 }

@@ -19,7 +19,7 @@ array Point[7] = [7, 6, 3, 9, 5, 4, 11]
 array Title[7] = ['rays, lit by the gradient', 'rays to surface voxels', 'rays that skip no empty bricks', \
                   'rays at lower resolution', 'slices, lit by the gradient', 'slices of surface voxels (published)', \
                   'rays through see-through bone']
-settings(i) = system("awk -F, '$1 == 1 && $3 == \"".Family[i]."\" { print $4 }' '".table."' | paste -sd, | sed 's/, *\\(step\\|spacing\\) /, /g; s/,\\([^ ]\\)/, \\1/g'")
+settings(i) = system("awk -F, '$1 == 1 && $5 == \"".Family[i]."\" { print $6 }' '".table."' | paste -sd, | sed 's/, *\\(step\\|spacing\\) /, /g; s/,\\([^ ]\\)/, \\1/g'")
 do for [i=1:7] { Title[i] = Title[i].': '.settings(i) }
 of(p, i, what) = column('panel_number') == p && strcol('family') eq Family[i] ? column(what) : NaN
 set datafile missing NaN
