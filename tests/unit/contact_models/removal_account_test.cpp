@@ -12,7 +12,7 @@ Tissue tissue(std::uint8_t label, bool is_protected) {
     return made;
 }
 
-class RemovalAccountTest : public testing::Test {
+class RemovalAccountTest : public ::testing::Test {
   protected:
     MillingResult step(std::uint8_t label, double levels) {
         MillingResult result;
