@@ -7,7 +7,7 @@
 #include <cstddef>
 #include <vector>
 
-namespace osteomill {
+namespace osteomill::contour_depth_test {
 namespace {
 
 constexpr double threshold_hu = 300.0;
@@ -61,4 +61,4 @@ TEST(ContourDepth, OfBoneThatTouchesInACornerSeesBothContours) {
 }
 
 }  // namespace
-}  // namespace osteomill
+}  // namespace osteomill::contour_depth_test

@@ -15,7 +15,7 @@
 #include "haptic_server/imaging/region.h"
 #include "tests/support/scanned_body.h"
 
-namespace osteomill {
+namespace osteomill::slice_shapes_test {
 namespace {
 
 const Region middle{.low_mm = glm::dvec3(-7.0), .high_mm = glm::dvec3(7.0)};
@@ -173,4 +173,4 @@ TEST(SliceShapes, FollowContoursWhicheverWayTheScanIsTurned) {
 }
 
 }  // namespace
-}  // namespace osteomill
+}  // namespace osteomill::slice_shapes_test
