@@ -37,8 +37,11 @@ SimulatedDevice simulated(const Scene& scene) {
                            ArmModel{}, hand_model(Grip::firm));
 }
 
+// GCC's names for them, then clang's.
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 constexpr bool sanitiser_ignores_locks = true;
+#elif defined(__has_feature)
+constexpr bool sanitiser_ignores_locks = __has_feature(address_sanitizer) || __has_feature(thread_sanitizer);
 #else
 constexpr bool sanitiser_ignores_locks = false;
 #endif
