@@ -13,8 +13,8 @@
 #include "common/program/stop_signals.h"
 #include "haptic_server/imaging/import_bone.h"
 #include "haptic_server/imaging/memory_estimate.h"
-#include "haptic_server/imaging/segmentation.h"
-#include "haptic_server/imaging/segmentation_file.h"
+#include "haptic_server/imaging/segmentation/segmentation.h"
+#include "haptic_server/imaging/segmentation/segmentation_file.h"
 #include "haptic_server/program/case_folder.h"
 #include "haptic_server/program/scan_preview.h"
 

@@ -12,19 +12,19 @@
 #include <stdexcept>
 #include <vector>
 
-#include "haptic_server/imaging/hu_file.h"
-#include "haptic_server/imaging/hu_histogram.h"
-#include "haptic_server/imaging/image_part.h"
-#include "haptic_server/imaging/image_reader.h"
+#include "haptic_server/imaging/bone_file/hu_file.h"
+#include "haptic_server/imaging/formats/image_reader.h"
+#include "haptic_server/imaging/formats/plausible_geometry.h"
 #include "haptic_server/imaging/imaging_error.h"
 #include "haptic_server/imaging/in_parallel.h"
 #include "haptic_server/imaging/memory_estimate.h"
-#include "haptic_server/imaging/near_bone.h"
-#include "haptic_server/imaging/plausible_geometry.h"
 #include "haptic_server/imaging/progress.h"
-#include "haptic_server/imaging/refine.h"
-#include "haptic_server/imaging/scratch_values.h"
-#include "haptic_server/imaging/slice_shapes.h"
+#include "haptic_server/imaging/resampling/hu_histogram.h"
+#include "haptic_server/imaging/resampling/image_part.h"
+#include "haptic_server/imaging/resampling/near_bone.h"
+#include "haptic_server/imaging/resampling/refine.h"
+#include "haptic_server/imaging/resampling/scratch_values.h"
+#include "haptic_server/imaging/resampling/slice_shapes.h"
 
 namespace osteomill {
 

@@ -8,8 +8,8 @@
 #include <string>
 #include <variant>
 
-#include "haptic_server/imaging/intensity.h"
-#include "haptic_server/imaging/region.h"
+#include "haptic_server/imaging/resampling/intensity.h"
+#include "haptic_server/imaging/resampling/region.h"
 
 namespace osteomill {
 

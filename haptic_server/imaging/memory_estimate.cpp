@@ -5,8 +5,8 @@
 #include <string>
 
 #include "common/bone/brick.h"
-#include "haptic_server/imaging/near_bone.h"
-#include "haptic_server/imaging/nrrd_form.h"
+#include "haptic_server/imaging/bone_file/nrrd_form.h"
+#include "haptic_server/imaging/resampling/near_bone.h"
 
 namespace osteomill {
 

@@ -6,11 +6,11 @@
 #include <utility>
 #include <variant>
 
-#include "haptic_server/imaging/bone_of_file.h"
-#include "haptic_server/imaging/carved_bone.h"
-#include "haptic_server/imaging/ct_overview.h"
+#include "haptic_server/imaging/bone_file/bone_of_file.h"
+#include "haptic_server/imaging/bone_file/carved_bone.h"
+#include "haptic_server/imaging/bone_file/ct_overview.h"
 #include "haptic_server/imaging/imaging_error.h"
-#include "haptic_server/imaging/phantom.h"
+#include "haptic_server/imaging/phantoms/phantom.h"
 
 namespace osteomill {
 

@@ -8,10 +8,10 @@
 
 #include "common/bone/ct_volume.h"
 #include "common/scene/scene.h"
-#include "haptic_server/imaging/hu_file.h"
+#include "haptic_server/imaging/bone_file/hu_file.h"
+#include "haptic_server/imaging/bone_file/removed_volumes.h"
 #include "haptic_server/imaging/hu_volume.h"
 #include "haptic_server/imaging/progress.h"
-#include "haptic_server/imaging/removed_volumes.h"
 #include "haptic_server/program/structures.h"
 
 namespace osteomill {

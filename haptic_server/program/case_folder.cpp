@@ -15,9 +15,9 @@
 #include "common/files/whole_file.h"
 #include "common/scene/nearest_name.h"
 #include "common/scene/scene_file.h"
-#include "haptic_server/imaging/phantom.h"
-#include "haptic_server/imaging/segment_structure.h"
-#include "haptic_server/imaging/segmentation_file.h"
+#include "haptic_server/imaging/phantoms/phantom.h"
+#include "haptic_server/imaging/segmentation/segment_structure.h"
+#include "haptic_server/imaging/segmentation/segmentation_file.h"
 #include "haptic_server/program/bone_source.h"
 #include "haptic_server/program/scene_on_bone.h"
 

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "common/files/whole_file.h"
-#include "haptic_server/imaging/hu_file.h"
+#include "haptic_server/imaging/bone_file/hu_file.h"
 
 namespace osteomill {
 

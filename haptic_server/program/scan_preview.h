@@ -7,7 +7,7 @@
 #include <string>
 
 #include "common/bone/ct_volume.h"
-#include "haptic_server/imaging/region.h"
+#include "haptic_server/imaging/resampling/region.h"
 
 namespace osteomill {
 

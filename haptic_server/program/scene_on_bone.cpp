@@ -5,7 +5,7 @@
 #include <limits>
 #include <optional>
 
-#include "haptic_server/imaging/phantom.h"
+#include "haptic_server/imaging/phantoms/phantom.h"
 
 namespace osteomill {
 

@@ -20,7 +20,7 @@
 #include "haptic_server/device/hid/device_list.h"
 #include "haptic_server/device/hid/hidapi_transport.h"
 #include "haptic_server/imaging/memory_estimate.h"
-#include "haptic_server/imaging/phantom.h"
+#include "haptic_server/imaging/phantoms/phantom.h"
 #include "haptic_server/imaging/progress.h"
 #include "haptic_server/loop/force_log.h"
 #include "haptic_server/loop/real_time.h"

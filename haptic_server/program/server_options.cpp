@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "common/files/distinct_files.h"
-#include "haptic_server/imaging/phantom.h"
+#include "haptic_server/imaging/phantoms/phantom.h"
 #include "haptic_server/program/case_folder.h"
 #include "haptic_server/program/report_folder.h"
 

@@ -7,8 +7,8 @@
 
 #include "common/bone/structure_in_bone.h"
 #include "haptic_server/imaging/imaging_error.h"
-#include "haptic_server/imaging/region.h"
-#include "haptic_server/imaging/segment_structure.h"
+#include "haptic_server/imaging/resampling/region.h"
+#include "haptic_server/imaging/segmentation/segment_structure.h"
 
 namespace osteomill {
 

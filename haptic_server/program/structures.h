@@ -7,7 +7,7 @@
 #include "common/bone/bone.h"
 #include "common/scene/scene.h"
 #include "common/scene/structure.h"
-#include "haptic_server/imaging/bone_of_file.h"
+#include "haptic_server/imaging/bone_file/bone_of_file.h"
 
 namespace osteomill {
 

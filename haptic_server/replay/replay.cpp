@@ -9,7 +9,7 @@
 
 #include "common/files/whole_file.h"
 #include "common/program/stop_signals.h"
-#include "haptic_server/imaging/removed_bone.h"
+#include "haptic_server/imaging/bone_file/removed_bone.h"
 #include "haptic_server/replay/recorded_bones.h"
 #include "haptic_server/replay/recorded_session.h"
 #include "haptic_server/replay/recording_csv.h"

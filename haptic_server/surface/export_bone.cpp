@@ -7,9 +7,9 @@
 #include <stdexcept>
 
 #include "common/files/distinct_files.h"
-#include "haptic_server/imaging/bone_of_file.h"
+#include "haptic_server/imaging/bone_file/bone_of_file.h"
+#include "haptic_server/imaging/bone_file/removed_bone.h"
 #include "haptic_server/imaging/imaging_error.h"
-#include "haptic_server/imaging/removed_bone.h"
 #include "haptic_server/surface/mesh_file.h"
 #include "haptic_server/surface/surface_mesh.h"
 

@@ -13,7 +13,7 @@
 #include "common/scene/structure_watch.h"
 #include "haptic_server/imaging/import_bone.h"
 #include "haptic_server/imaging/memory_estimate.h"
-#include "haptic_server/imaging/phantom.h"
+#include "haptic_server/imaging/phantoms/phantom.h"
 #include "haptic_server/program/bone_source.h"
 
 namespace osteomill::study {

@@ -8,7 +8,7 @@
 #include <utility>
 #include <variant>
 
-#include "haptic_server/imaging/phantom.h"
+#include "haptic_server/imaging/phantoms/phantom.h"
 #include "haptic_server/imaging/progress.h"
 #include "studies/polishing/claims.h"
 #include "studies/polishing/polishing_run.h"

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "haptic_server/carving/carve.h"
-#include "haptic_server/imaging/phantom.h"
+#include "haptic_server/imaging/phantoms/phantom.h"
 #include "haptic_server/program/bone_source.h"
 
 namespace osteomill {

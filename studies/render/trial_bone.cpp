@@ -9,7 +9,7 @@
 
 #include "haptic_server/imaging/import_bone.h"
 #include "haptic_server/imaging/memory_estimate.h"
-#include "haptic_server/imaging/phantom.h"
+#include "haptic_server/imaging/phantoms/phantom.h"
 #include "haptic_server/program/bone_source.h"
 #include "render_client/volume/textures/voxel_box.h"
 #include "tests/unit/volume/made_bone.h"

@@ -5,7 +5,7 @@
 #include <fstream>
 #include <stdexcept>
 
-#include "haptic_server/imaging/digest.h"
+#include "haptic_server/imaging/bone_file/digest.h"
 #include "haptic_server/report/session_metrics.h"
 
 namespace osteomill::study {

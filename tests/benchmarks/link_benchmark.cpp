@@ -23,7 +23,7 @@
 
 #include "common/wire/scene_messages.h"
 #include "haptic_server/device/simulated_device.h"
-#include "haptic_server/imaging/phantom.h"
+#include "haptic_server/imaging/phantoms/phantom.h"
 #include "haptic_server/loop/milling_session.h"
 #include "haptic_server/program/bone_source.h"
 #include "haptic_server/streaming/client_feed.h"

@@ -2,12 +2,12 @@
 #include <algorithm>
 #include <cmath>
 
-#include "haptic_server/imaging/dicom_pixels.h"
+#include "haptic_server/imaging/dicom/dicom_pixels.h"
+#include "haptic_server/imaging/formats/meta_image_header.h"
+#include "haptic_server/imaging/formats/nifti_header.h"
+#include "haptic_server/imaging/formats/nrrd_header.h"
+#include "haptic_server/imaging/formats/plausible_geometry.h"
 #include "haptic_server/imaging/imaging_error.h"
-#include "haptic_server/imaging/meta_image_header.h"
-#include "haptic_server/imaging/nifti_header.h"
-#include "haptic_server/imaging/nrrd_header.h"
-#include "haptic_server/imaging/plausible_geometry.h"
 #include "tests/fuzz/targets.h"
 
 namespace osteomill::fuzz {

@@ -1,7 +1,7 @@
 // A small bone file as a whole, for tests.
 #pragma once
 
-#include "haptic_server/imaging/hu_file.h"
+#include "haptic_server/imaging/bone_file/hu_file.h"
 #include "haptic_server/imaging/hu_volume.h"
 
 namespace osteomill::testing {

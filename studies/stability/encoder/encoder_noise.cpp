@@ -13,7 +13,7 @@
 
 #include "haptic_server/device/simulated_device.h"
 #include "haptic_server/imaging/hu_volume.h"
-#include "haptic_server/imaging/phantom.h"
+#include "haptic_server/imaging/phantoms/phantom.h"
 #include "haptic_server/imaging/progress.h"
 #include "haptic_server/loop/milling_session.h"
 #include "studies/report/chart.h"

@@ -10,7 +10,7 @@
 #include <stdexcept>
 
 #include "common/scene/scene_file.h"
-#include "haptic_server/imaging/segmentation_file.h"
+#include "haptic_server/imaging/segmentation/segmentation_file.h"
 #include "haptic_server/program/bone_source.h"
 #include "haptic_server/program/case_placement.h"
 #include "tests/support/block_file.h"

@@ -5,9 +5,9 @@
 #include <random>
 #include <stdexcept>
 
-#include "haptic_server/imaging/carved_bone.h"
-#include "haptic_server/imaging/hu_file.h"
-#include "haptic_server/imaging/nrrd_file.h"
+#include "haptic_server/imaging/bone_file/carved_bone.h"
+#include "haptic_server/imaging/bone_file/hu_file.h"
+#include "haptic_server/imaging/bone_file/nrrd_file.h"
 #include "tests/support/temporary_folder.h"
 
 namespace osteomill {

@@ -1,0 +1,38 @@
+// What one DICOM file's header says about its image. GDCM stays behind this.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "haptic_server/imaging/dicom/slice_geometry.h"
+
+namespace osteomill {
+
+struct DicomHeader {
+    std::string series_uid;
+    std::string series_description;
+    std::string transfer_syntax;  ///< in words where GDCM knows them
+    int rows = 0;                 ///< 0: no image (a report, a DICOMDIR)
+    int columns = 0;
+    int samples_per_pixel = 1;
+    bool has_pixel_data = false;
+    bool is_uncompressed = false;  ///< the pixels stand in the file as they are
+    std::string modality;          ///< CT, MR, ...; empty where the file does not say
+    std::string no_grey_image;     ///< why it holds no CT numbers whatever its pixels, in words; or empty
+    /// Where the file states the sign of its pixels, if its JPEG 2000 codestream states the other; GDCM would
+    /// take the file's word and clamp.
+    std::optional<std::uint64_t> wrong_sign_begin{};
+    bool codestream_is_signed = false;
+    /// Where each frame lies; std::nullopt of a frame that the header does not place, see `fault`.
+    std::vector<std::optional<SlicePlacement>> frames;
+    std::string fault;  ///< why the frames make no volume, in words; empty where they may
+};
+
+/// std::nullopt where the file is not DICOM at all. Throws ImagingError where it cannot be opened, begins as
+/// DICOM and then cannot be parsed (cut off), nests its sequences beyond reason, or has pixels that are not
+/// there or cannot be decoded (dicom_scan.h).
+std::optional<DicomHeader> read_dicom_header(const std::filesystem::path& path);
+
+}  // namespace osteomill

@@ -1,0 +1,94 @@
+#include "haptic_server/imaging/dicom/dicom_image.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <optional>
+#include <stdexcept>
+
+#include "haptic_server/imaging/dicom/dicom_frames.h"
+#include "haptic_server/imaging/formats/plausible_geometry.h"
+#include "haptic_server/imaging/imaging_error.h"
+
+namespace osteomill {
+
+namespace {
+
+/// What a user should know of files that are read nevertheless.
+void note_doubts(const std::filesystem::path& folder, const DicomSeries& series, SourceImage& image) {
+    const auto wrong = std::count_if(series.files.begin(), series.files.end(), [](const DicomFile& file) {
+        return file.header.wrong_sign_begin.has_value();
+    });
+    if (wrong > 0) {
+        const bool is_signed =
+            std::find_if(series.files.begin(), series.files.end(), [](const DicomFile& file) {
+                return file.header.wrong_sign_begin.has_value();
+            })->header.codestream_is_signed;
+        image.notes.push_back(fmt::format(
+            "{}: warning: {} file(s) say {} pixels (0028,0103) where their JPEG 2000 codestream says {}; the "
+            "codestream is followed",
+            folder.string(), wrong, is_signed ? "unsigned" : "signed", is_signed ? "signed" : "unsigned"));
+    }
+    const std::string& modality = series.files.front().header.modality;
+    if (!modality.empty() && modality != "CT")
+        image.notes.push_back(
+            fmt::format("{}: warning: its modality is {}, not CT; its values are taken for "
+                        "HU unless --rescale or --intensity-window makes HU of them",
+                        folder.string(), modality));
+}
+
+void read_stack(const std::vector<DicomSlice>& slices, const std::vector<std::size_t>& order,
+                const std::map<std::filesystem::path, DicomHeader>& header_of_file, const TakeSlice& take,
+                const ReportProgress& report) {
+    std::optional<DicomFrames> frames;
+    std::filesystem::path open;
+    for (std::size_t k = 0; k < order.size(); ++k) {
+        const DicomSlice& slice = slices[order[k]];
+        if (slice.file != open) {
+            frames.reset();
+            frames.emplace(DicomFile{slice.file, header_of_file.at(slice.file)});
+        }
+        open = slice.file;
+        take(static_cast<int>(k), frames->frame(slice.frame));
+        report(static_cast<double>(k + 1) / static_cast<double>(order.size()));
+    }
+}
+
+}  // namespace
+
+OpenedImage open_series(const std::filesystem::path& folder, const DicomSeries& series) {
+    const std::vector<DicomSlice> slices = slices_of(series);
+    std::vector<SlicePlacement> placements;
+    for (const DicomSlice& slice : slices) placements.push_back(slice.placement);
+    SliceStack stack;
+    try {
+        stack = stack_slices(placements);
+    } catch (const std::invalid_argument& error) {
+        throw ImagingError(folder, error.what());
+    }
+    std::map<std::filesystem::path, DicomHeader> header_of_file;
+    for (const DicomFile& file : series.files) header_of_file[file.path] = file.header;
+
+    OpenedImage opened;
+    opened.image.size_voxels = {placements.front().columns, placements.front().rows,
+                                static_cast<int>(placements.size())};
+    opened.image.spacing_mm = stack.spacing_mm;
+    opened.image.origin_mm = stack.origin_mm;
+    opened.image.direction = stack.direction;
+    try {
+        require_plausible_geometry(opened.image);
+    } catch (const std::invalid_argument& error) {
+        throw ImagingError(folder, error.what());
+    }
+    note_doubts(folder, series, opened.image);
+    opened.read_slices = [slices, order = stack.order, header_of_file](const TakeSlice& take,
+                                                                       const ReportProgress& report) {
+        read_stack(slices, order, header_of_file, take, report);
+    };
+    for (const DicomFile& file : series.files)
+        opened.reading_bytes = std::max(opened.reading_bytes, DicomFrames::bytes_to_read(file));
+    return opened;
+}
+
+}  // namespace osteomill

@@ -1,0 +1,58 @@
+// The bytes of a file from an offset on, decoded, one after the other: what does not fit in memory is read
+// so.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+
+#include "haptic_server/imaging/formats/regular_file.h"
+
+namespace osteomill {
+
+enum class Encoding {
+    raw,
+    gzip,          ///< one member or several, each with its CRC
+    zlib_or_gzip,  ///< whichever begins
+    hex,           ///< two digits for each byte, blanks anywhere between
+    text,          ///< numbers in decimal, blanks between; the bytes are those of the text
+};
+
+inline bool is_compressed(Encoding encoding) {
+    return encoding == Encoding::gzip || encoding == Encoding::zlib_or_gzip;
+}
+
+class ByteSource {
+  public:
+    /// From `offset` to the end of the file.
+    ByteSource(std::shared_ptr<const RegularFile> file, std::uint64_t offset, Encoding encoding);
+    ~ByteSource();
+    ByteSource(ByteSource&&) noexcept;
+    ByteSource& operator=(ByteSource&&) = delete;
+
+    /// The next bytes, as many as there is room for. Throws ImagingError where the file ends before, or what
+    /// was encoded is damaged.
+    void read(std::span<std::byte> bytes);
+    /// The same, but for what ends earlier; how many there were.
+    std::size_t read_some(std::span<std::byte> bytes);
+    void skip(std::uint64_t count);
+    /// To be called after the last read: compressed data must end here, their checksum, which covers all of
+    /// them, must fit, and nothing may follow. Throws ImagingError.
+    void finish();
+
+  private:
+    class Inflater;
+    std::size_t read_hex(std::span<std::byte> bytes);
+
+    std::shared_ptr<const RegularFile> file_;
+    std::uint64_t offset_;
+    Encoding encoding_;
+    std::unique_ptr<Inflater> inflater_;  // of compressed data
+    std::uint64_t given_ = 0;             // bytes, decoded
+};
+
+/// Whether a file of `file_bytes` may hold `bytes` in this encoding: deflate packs 1032 into one at most.
+bool can_hold(std::uint64_t file_bytes, std::uint64_t bytes, Encoding encoding);
+
+}  // namespace osteomill

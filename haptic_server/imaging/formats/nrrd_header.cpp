@@ -1,0 +1,343 @@
+#include "haptic_server/imaging/formats/nrrd_header.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <charconv>
+#include <cmath>
+#include <cstdlib>
+#include <optional>
+#include <sstream>
+#include <stdexcept>
+#include <string_view>
+
+#include "haptic_server/imaging/formats/plausible_geometry.h"
+#include "haptic_server/imaging/formats/regular_file.h"
+#include "haptic_server/imaging/imaging_error.h"
+
+namespace osteomill {
+
+namespace {
+
+constexpr std::size_t most_axes = 16;
+constexpr std::size_t most_data_files = 65535;
+
+/// The field that holds what is there, in its short form for messages.
+std::string shortened(const std::string& text) {
+    return text.size() <= 80 ? text : text.substr(0, 77) + "...";
+}
+
+std::string without_blanks_around(std::string text) {
+    const auto is_space = [](unsigned char c) { return std::isspace(c) != 0; };
+    text.erase(text.begin(), std::find_if_not(text.begin(), text.end(), is_space));
+    text.erase(std::find_if_not(text.rbegin(), text.rend(), is_space).base(), text.end());
+    return text;
+}
+
+/// "datafile" is "data file"; names differ by nothing but blanks and case.
+std::string field_name(std::string name) {
+    std::transform(name.begin(), name.end(), name.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    constexpr std::array aliases{
+        std::pair{"datafile", "data file"},       std::pair{"lineskip", "line skip"},
+        std::pair{"byteskip", "byte skip"},       std::pair{"axismins", "axis mins"},
+        std::pair{"axismaxs", "axis maxs"},       std::pair{"blocksize", "block size"},
+        std::pair{"sampleunits", "sample units"}, std::pair{"centerings", "centers"},
+        std::pair{"oldmin", "old min"},           std::pair{"oldmax", "old max"}};
+    for (const auto& [alias, usual] : aliases)
+        if (name == alias) return usual;
+    return name;
+}
+
+/// The numbers of "(a,b,c) (d,e,f)" or "a b c", one list per word; a word that is no number gives NaN.
+std::vector<std::vector<double>> numbers_of_words(std::string text) {
+    // Blanks within parentheses belong to the word.
+    bool inside = false;
+    std::erase_if(text, [&](char c) {
+        if (c == '(') inside = true;
+        if (c == ')') inside = false;
+        return inside && c == ' ';
+    });
+    std::vector<std::vector<double>> words;
+    std::istringstream line(text);
+    for (std::string word; line >> word;) {
+        std::replace_if(
+            word.begin(), word.end(), [](char c) { return c == '(' || c == ')' || c == ','; }, ' ');
+        std::istringstream parts(word);
+        std::vector<double> numbers;
+        for (std::string part; parts >> part;) {
+            char* end = nullptr;
+            const double value = std::strtod(part.c_str(), &end);
+            numbers.push_back(*end == '\0' ? value : std::nan(""));
+        }
+        words.push_back(numbers);
+    }
+    return words;
+}
+
+std::optional<std::string> field(const NrrdHeader& header, const char* name) {
+    const auto found = header.fields.find(name);
+    if (found == header.fields.end()) return std::nullopt;
+    return found->second;
+}
+
+template <typename Number>
+std::optional<Number> whole_number(const std::string& text) {
+    Number number{};
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+    if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
+    return number;
+}
+
+std::vector<std::string> words_of(const std::string& text) {
+    std::istringstream line(text);
+    return {std::istream_iterator<std::string>(line), {}};
+}
+
+std::optional<VoxelType> type_of(std::string name) {
+    std::transform(name.begin(), name.end(), name.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    struct Type {
+        VoxelType type;
+        std::vector<std::string_view> names;
+    };
+    static const std::vector<Type> types{
+        {VoxelType::int8, {"signed char", "int8", "int8_t"}},
+        {VoxelType::uint8, {"uchar", "unsigned char", "uint8", "uint8_t"}},
+        {VoxelType::int16, {"short", "short int", "signed short", "signed short int", "int16", "int16_t"}},
+        {VoxelType::uint16, {"ushort", "unsigned short", "unsigned short int", "uint16", "uint16_t"}},
+        {VoxelType::int32, {"int", "signed int", "int32", "int32_t"}},
+        {VoxelType::uint32, {"uint", "unsigned int", "uint32", "uint32_t"}},
+        {VoxelType::int64,
+         {"longlong", "long long", "long long int", "signed long long", "signed long long int", "int64",
+          "int64_t"}},
+        {VoxelType::uint64,
+         {"ulonglong", "unsigned long long", "unsigned long long int", "uint64", "uint64_t"}},
+        {VoxelType::float32, {"float"}},
+        {VoxelType::float64, {"double"}}};
+    for (const Type& known : types)
+        if (std::find(known.names.begin(), known.names.end(), name) != known.names.end()) return known.type;
+    return std::nullopt;
+}
+
+std::vector<std::uint64_t> sizes_of(const NrrdHeader& header, const std::filesystem::path& path) {
+    const std::string text = field(header, "sizes").value_or("");
+    const auto dimension = whole_number<std::size_t>(field(header, "dimension").value_or(""));
+    std::vector<std::uint64_t> sizes;
+    for (const std::string& word : words_of(text))
+        sizes.push_back(whole_number<std::uint64_t>(word).value_or(0));
+    if (!dimension || *dimension < 1 || *dimension > most_axes || sizes.size() != *dimension)
+        throw ImagingError(path,
+                           fmt::format("is cut off or damaged: dimension '{}' and sizes '{}'",
+                                       shortened(field(header, "dimension").value_or("")), shortened(text)));
+    return sizes;
+}
+
+Encoding encoding_of(const NrrdHeader& header, const std::filesystem::path& path) {
+    std::string name = field(header, "encoding").value_or("");
+    std::transform(name.begin(), name.end(), name.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    if (name == "raw") return Encoding::raw;
+    if (name == "gzip" || name == "gz") return Encoding::gzip;
+    if (name == "txt" || name == "text" || name == "ascii") return Encoding::text;
+    if (name == "hex") return Encoding::hex;
+    throw ImagingError(path,
+                       fmt::format("encoding '{}' is not read; save it as raw or gzip", shortened(name)));
+}
+
+std::vector<std::string> numbered_files(const std::vector<std::string>& words) {
+    constexpr std::int64_t most = 1'000'000'000;
+    std::array<std::int64_t, 3> number{};  // first, last, step
+    bool good = words.size() == 4 || words.size() == 5;
+    for (std::size_t i = 0; good && i < number.size(); ++i) {
+        number[i] = whole_number<std::int64_t>(words[i + 1]).value_or(most + 1);
+        good = std::abs(number[i]) <= most && (i == 2 || number[i] >= 0);
+    }
+    const auto [first, last, step] = number;
+    if (!good || step == 0 || (last - first) / step < 0)
+        throw std::invalid_argument("a pattern of data files is 'name%03d.raw FIRST LAST STEP'");
+    std::vector<std::string> names;
+    for (std::int64_t i = first; step > 0 ? i <= last : i >= last; i += step) {
+        if (names.size() == most_data_files) throw std::invalid_argument("more than 65535 data files");
+        names.push_back(numbered_name(words[0], i));
+    }
+    if (names.empty()) throw std::invalid_argument("a pattern of data files that names none");
+    return names;
+}
+
+std::vector<std::string> data_files_of(const NrrdHeader& header) {
+    const std::optional<std::string> text = field(header, "data file");
+    if (!text) return {};
+    const std::vector<std::string> words = words_of(*text);
+    if (words.empty()) throw std::invalid_argument("'data file' names none");
+    if (words[0] == "LIST") {
+        if (words.size() > 2 || header.listed_files.empty())
+            throw std::invalid_argument("'data file: LIST' names none");
+        return header.listed_files;
+    }
+    if (text->find('%') != std::string::npos) return numbered_files(words);
+    return {*text};
+}
+
+void require_numbers(const NrrdHeader& header, const std::filesystem::path& path) {
+    require_spacing(path, header.fields);
+    // Where a field has no number for an axis it says so ("none", "NaN"), but not in the origin.
+    for (const char* name : {"spacings", "space directions", "space origin", "axis mins", "axis maxs",
+                             "thicknesses", "measurement frame"}) {
+        const std::optional<std::string> text = field(header, name);
+        if (!text) continue;
+        const bool none_allowed = std::string_view(name) != "space origin";
+        for (const std::vector<double>& word : numbers_of_words(*text))
+            for (const double number : word)
+                if (!(std::abs(number) <= farthest_position_mm) && !(std::isnan(number) && none_allowed))
+                    throw ImagingError(path,
+                                       implausible_position(fmt::format("{} '{}'", name, shortened(*text))));
+    }
+}
+
+/// Where the lines to skip are over.
+std::uint64_t after_lines(const RegularFile& file, std::uint64_t begin, std::uint64_t lines) {
+    if (lines == 0) return begin;
+    std::vector<std::uint8_t> bytes(most_nrrd_header_bytes);
+    bytes.resize(file.read_at(begin, std::as_writable_bytes(std::span(bytes))));
+    std::size_t at = 0;
+    for (std::uint64_t line = 0; line < lines; ++line) {
+        const auto found = std::find(bytes.begin() + static_cast<std::ptrdiff_t>(at), bytes.end(), '\n');
+        if (found == bytes.end())
+            throw ImagingError(file.path(), fmt::format("does not begin with the {} lines that its header "
+                                                        "says to skip (line skip)",
+                                                        lines));
+        at = static_cast<std::size_t>(found - bytes.begin()) + 1;
+    }
+    return begin + at;
+}
+
+VoxelPart part_in(const std::filesystem::path& path, std::uint64_t begin, std::uint64_t bytes,
+                  const NrrdLayout& layout) {
+    const RegularFile file(path);
+    VoxelPart part{.file = path, .begin = after_lines(file, begin, layout.line_skip), .bytes = bytes};
+    if (layout.byte_skip < 0) {
+        part.begin = std::max(part.begin, file.size() - std::min(file.size(), bytes));
+    } else if (layout.encoding == Encoding::gzip) {
+        part.skipped_bytes = static_cast<std::uint64_t>(layout.byte_skip);
+    } else {
+        part.begin += static_cast<std::uint64_t>(layout.byte_skip);
+    }
+    return part;
+}
+
+}  // namespace
+
+NrrdHeader parse_nrrd_header(std::span<const std::uint8_t> bytes, const std::filesystem::path& path) {
+    const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+    if (text.substr(0, 4) != "NRRD")
+        throw ImagingError(path, "is not a NRRD file (its first line must begin with NRRD)");
+    NrrdHeader header;
+    bool listing = false;
+    std::size_t at = 0;
+    for (bool first = true; at < text.size(); first = false) {
+        const std::size_t end = std::min(text.find('\n', at), text.size());
+        std::string line(text.substr(at, end - at));
+        if (end == text.size() && text.size() >= most_nrrd_header_bytes)
+            throw ImagingError(path, "has a header without end: no blank line within a mebibyte");
+        at = std::min(end + 1, text.size());
+        if (line.empty() || line == "\r") break;
+        if (line.find('\0') != std::string::npos)
+            throw ImagingError(path, "is damaged: a zero byte in its header");
+        line = without_blanks_around(line);
+        if (first || line.empty()) continue;
+        if (listing) {
+            if (header.listed_files.size() == most_data_files)
+                throw ImagingError(path, "names more than 65535 data files");
+            header.listed_files.push_back(line);
+            continue;
+        }
+        const std::size_t colon = line.find(':');
+        if (line[0] == '#' || colon == std::string::npos) continue;
+        if (colon + 1 < line.size() && line[colon + 1] == '=') continue;
+        const std::string name = field_name(line.substr(0, colon));
+        const std::string value = without_blanks_around(line.substr(colon + 1));
+        if (!header.fields.emplace(name, value).second)
+            throw ImagingError(path, fmt::format("has the field '{}' twice", shortened(name)));
+        listing = name == "data file" && value.substr(0, 4) == "LIST" &&
+                  (value.size() == 4 || std::isspace(static_cast<unsigned char>(value[4])) != 0);
+    }
+    header.bytes = at;
+    return header;
+}
+
+NrrdLayout nrrd_layout(const NrrdHeader& header, const std::filesystem::path& path) {
+    require_numbers(header, path);
+    const std::vector<std::uint64_t> sizes = sizes_of(header, path);
+    const std::string type = field(header, "type").value_or("");
+    const std::optional<VoxelType> voxel_type = type_of(type);
+    if (!voxel_type)
+        throw ImagingError(
+            path, fmt::format("type '{}' is none of a grey image, such as int16 or float", shortened(type)));
+    NrrdLayout layout;
+    layout.voxels.type = *voxel_type;
+    layout.voxels.big_endian = field(header, "endian") == "big";
+    layout.encoding = encoding_of(header, path);
+    const std::string lines = field(header, "line skip").value_or("0");
+    const std::string skip = field(header, "byte skip").value_or("0");
+    const auto line_skip = whole_number<std::uint64_t>(lines);
+    const auto byte_skip = whole_number<std::int64_t>(skip);
+    const bool at_end_allowed = layout.encoding == Encoding::raw;
+    constexpr std::int64_t most_skipped = std::int64_t{1} << 40;
+    if (!line_skip || *line_skip > most_nrrd_header_bytes || !byte_skip || *byte_skip > most_skipped ||
+        *byte_skip < (at_end_allowed ? -1 : 0))
+        throw ImagingError(path, fmt::format("line skip '{}' and byte skip '{}' lead nowhere",
+                                             shortened(lines), shortened(skip)));
+    layout.line_skip = *line_skip;
+    layout.byte_skip = *byte_skip;
+    try {
+        const std::uint64_t voxels = plausible_voxel_count(sizes);
+        // A number in decimal takes a digit, and a blank from the next.
+        layout.voxel_bytes =
+            layout.encoding == Encoding::text ? 2 * voxels - 1 : voxels * bytes_of(*voxel_type);
+        layout.data_files = data_files_of(header);
+    } catch (const std::invalid_argument& error) {
+        throw ImagingError(path, error.what());
+    }
+    if (!layout.data_files.empty() && layout.voxel_bytes % layout.data_files.size() != 0)
+        throw ImagingError(path, fmt::format("{} data files cannot share {} bytes of voxels evenly",
+                                             layout.data_files.size(), layout.voxel_bytes));
+    return layout;
+}
+
+std::map<std::string, std::string> read_nrrd_header(const std::filesystem::path& path) {
+    return parse_nrrd_header(RegularFile(path).first_bytes(most_nrrd_header_bytes), path).fields;
+}
+
+void require_spacing(const std::filesystem::path& path, const std::map<std::string, std::string>& header) {
+    for (const char* name : {"spacings", "space directions"}) {
+        const auto found = header.find(name);
+        if (found == header.end()) continue;
+        for (const std::vector<double>& word : numbers_of_words(found->second)) {
+            // The list of a segmentation's layers has none.
+            if (name == std::string_view("space directions") && word.size() == 1 && std::isnan(word[0]) &&
+                header.contains("dimension") && header.at("dimension") == "4")
+                continue;
+            double squared = 0.0;
+            for (const double number : word) squared += number * number;
+            if (!(squared > 0.0) || !std::isfinite(squared))
+                throw ImagingError(path, std::string(name) + " '" + shortened(found->second) +
+                                             "': every axis needs a spacing in mm that is a number above 0");
+        }
+    }
+}
+
+VoxelData nrrd_voxel_data(const NrrdHeader& header, const NrrdLayout& layout,
+                          const std::filesystem::path& path) {
+    VoxelData data{.encoding = layout.encoding, .parts = {}};
+    if (layout.data_files.empty())
+        data.parts.push_back(part_in(path, header.bytes, layout.voxel_bytes, layout));
+    for (const std::string& name : layout.data_files)
+        data.parts.push_back(
+            part_in(data_file_beside(path, name), 0, layout.voxel_bytes / layout.data_files.size(), layout));
+    return data;
+}
+
+}  // namespace osteomill

@@ -1,0 +1,128 @@
+#include "haptic_server/imaging/formats/voxel_data.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <memory>
+#include <stdexcept>
+
+#include "haptic_server/imaging/formats/regular_file.h"
+#include "haptic_server/imaging/imaging_error.h"
+
+namespace osteomill {
+
+namespace {
+
+constexpr std::size_t piece_bytes = 1u << 18;
+/// Deflate shrinks nothing more than 1032 times; a scan, even of labels, is far from that.
+constexpr std::uint64_t most_shrunk = 500;
+constexpr std::uint64_t suspicious_bytes = std::uint64_t{1} << 30U;
+
+std::uint64_t bytes_there(const RegularFile& file, const VoxelPart& part) {
+    return file.size() - std::min(file.size(), part.begin);
+}
+
+void require_bytes(const RegularFile& file, const VoxelPart& part, Encoding encoding) {
+    const std::uint64_t bytes = encoding == Encoding::hex ? 2 * part.bytes : part.bytes;
+    if (bytes_there(file, part) < bytes)
+        throw ImagingError(part.file, fmt::format("is cut off: {} of {} bytes of voxels are there",
+                                                  bytes_there(file, part), bytes));
+}
+
+void require_no_bomb(const RegularFile& file, const VoxelPart& part) {
+    if (part.bytes > suspicious_bytes && part.bytes / most_shrunk > bytes_there(file, part))
+        throw ImagingError(part.file, fmt::format("says that {} bytes hold {} bytes of voxels; no scan "
+                                                  "compresses so",
+                                                  bytes_there(file, part), part.bytes));
+}
+
+}  // namespace
+
+std::string numbered_name(std::string_view pattern, std::int64_t number) {
+    const auto refuse = [&] {
+        return std::invalid_argument(fmt::format(
+            "the file pattern '{}': it must hold one number and no other %, such as slice%03d.raw", pattern));
+    };
+    // As long as a path may be, of as many slices as there may be, would fill the memory.
+    constexpr std::size_t longest_name = 1024;
+    if (pattern.size() > longest_name)
+        throw std::invalid_argument(fmt::format("a file pattern of more than {} letters", longest_name));
+    const std::size_t percent = pattern.find('%');
+    if (percent == std::string_view::npos || pattern.find('%', percent + 1) != std::string_view::npos)
+        throw refuse();
+    std::string_view rest = pattern.substr(percent + 1);
+    const std::size_t digits = std::min(rest.find_first_not_of("0123456789"), rest.size());
+    if (digits == rest.size() || rest[digits] != 'd' || digits > 3) throw refuse();
+    int width = 0;
+    std::from_chars(rest.data(), rest.data() + digits, width);
+    // Without the zero printf fills up with blanks, which no file is named with.
+    if (width > 99 || (digits > 0 && rest[0] != '0')) throw refuse();
+    return std::string(pattern.substr(0, percent)) + fmt::format("{:0{}d}", number, width) +
+           std::string(rest.substr(digits + 1));
+}
+
+std::filesystem::path data_file_beside(const std::filesystem::path& header, const std::string& name) {
+    const std::filesystem::path given(name);
+    const auto refuse = [&](const std::string& reason) {
+        return ImagingError(header, "its voxels are in '" + name.substr(0, 256) + "', which " + reason);
+    };
+    if (name.empty() || name.find('\0') != std::string::npos || !given.has_filename())
+        throw refuse("is no name of a file");
+    if (given.is_absolute() || std::find(given.begin(), given.end(), "..") != given.end())
+        throw refuse("leads out of the header's folder; put the file beside it");
+    const std::filesystem::path file = header.parent_path() / given;
+    std::error_code failed;
+    const std::filesystem::file_status status = std::filesystem::status(file, failed);
+    if (!std::filesystem::exists(status)) throw refuse("is not there");
+    if (!std::filesystem::is_regular_file(status)) throw refuse("is not a file");
+    // A link beside the header may still lead elsewhere.
+    const std::filesystem::path folder =
+        std::filesystem::canonical(header.has_parent_path() ? header.parent_path() : ".", failed);
+    const std::filesystem::path real = failed ? file : std::filesystem::canonical(file, failed);
+    const auto [folder_end, unused] = std::mismatch(folder.begin(), folder.end(), real.begin(), real.end());
+    if (failed || folder_end != folder.end())
+        throw refuse("is a link that leads out of the header's folder; put the file beside it");
+    return file;
+}
+
+void read_voxel_data(const VoxelData& data, const TakeBytes& take) {
+    std::vector<std::byte> piece(piece_bytes);
+    for (const VoxelPart& part : data.parts) {
+        ByteSource source(std::make_shared<const RegularFile>(part.file), part.begin, data.encoding);
+        source.skip(part.skipped_bytes);
+        if (data.encoding == Encoding::text) {
+            while (const std::size_t read = source.read_some(piece)) take(std::span(piece).first(read));
+            take(std::as_bytes(std::span(" ", 1)));
+            continue;
+        }
+        for (std::uint64_t left = part.bytes; left > 0;) {
+            const auto now =
+                std::span(piece).first(static_cast<std::size_t>(std::min<std::uint64_t>(piece.size(), left)));
+            source.read(now);
+            take(now);
+            left -= now.size();
+        }
+        source.finish();
+    }
+}
+
+std::uint64_t require_room(const VoxelData& data) {
+    std::uint64_t more = 0;
+    for (const VoxelPart& part : data.parts) {
+        const RegularFile file(part.file);
+        if (is_compressed(data.encoding)) {
+            require_no_bomb(file, part);
+            continue;
+        }
+        require_bytes(file, part, data.encoding);
+        if (data.encoding != Encoding::raw) continue;
+        more = bytes_there(file, part) - part.bytes;
+        if (more > 0 && data.parts.size() > 1)
+            throw ImagingError(part.file, fmt::format("holds {} bytes, where {} make its slice of the image",
+                                                      bytes_there(file, part), part.bytes));
+    }
+    return more;
+}
+
+}  // namespace osteomill

@@ -1,0 +1,115 @@
+#include "haptic_server/imaging/resampling/cubic_spline.h"
+
+#include <itkGaussianOperator.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <vector>
+
+#include "haptic_server/imaging/resampling/line_filter.h"
+
+namespace osteomill {
+
+namespace {
+
+constexpr double fwhm_per_sigma = 2.3548200450309493;
+/// A result coarser by less than this is not worth smoothing.
+constexpr double coarser_tolerance = 1.01;
+
+/// Of the cubic spline's filter, sqrt(3) - 2: what a value adds to coefficients fades by this a voxel.
+const double pole = std::sqrt(3.0) - 2.0;
+/// The first coefficient is a sum over the line; what fades below this share is left out.
+constexpr double tolerance = 1e-10;
+
+/// Unser 1999, box 2.
+void line_to_coefficients(std::span<double> line) {
+    const std::size_t size = line.size();
+    if (size == 1) return;
+    const double gain = (1.0 - pole) * (1.0 - 1.0 / pole);
+    for (double& value : line) value *= gain;
+    const auto horizon = static_cast<std::size_t>(std::ceil(std::log(tolerance) / std::log(std::abs(pole))));
+    double power = pole;
+    if (horizon < size) {
+        double sum = line[0];
+        for (std::size_t i = 1; i < horizon; ++i, power *= pole) sum += power * line[i];
+        line[0] = sum;
+    } else {
+        double mirrored_power = std::pow(pole, static_cast<double>(size - 1));
+        double sum = line[0] + mirrored_power * line[size - 1];
+        mirrored_power *= mirrored_power / pole;
+        for (std::size_t i = 1; i + 1 < size; ++i, power *= pole, mirrored_power /= pole)
+            sum += (power + mirrored_power) * line[i];
+        line[0] = sum / (1.0 - power * power);
+    }
+    for (std::size_t i = 1; i < size; ++i) line[i] += pole * line[i - 1];
+    line[size - 1] = pole / (pole * pole - 1.0) * (pole * line[size - 2] + line[size - 1]);
+    for (std::size_t i = size - 1; i-- > 0;) line[i] = pole * (line[i + 1] - line[i]);
+}
+
+/// ITK's discrete Gaussian (Lindeberg's, of Bessel functions), cut off where a hundredth is left outside.
+std::vector<double> gaussian(double sigma_voxels) {
+    itk::GaussianOperator<double, 1> kernel;
+    kernel.SetDirection(0);
+    kernel.SetVariance(sigma_voxels * sigma_voxels);
+    kernel.SetMaximumError(0.01);
+    kernel.SetMaximumKernelWidth(static_cast<unsigned>(std::ceil(8.0 * sigma_voxels)) + 3);
+    kernel.CreateDirectional();
+    return {kernel.Begin(), kernel.End()};
+}
+
+/// The line's ends repeat beyond them.
+void convolve(const std::vector<double>& kernel, std::span<double> line) {
+    const std::vector<double> before(line.begin(), line.end());
+    const auto reach = static_cast<std::ptrdiff_t>(kernel.size() / 2);
+    const auto last = static_cast<std::ptrdiff_t>(line.size()) - 1;
+    for (std::ptrdiff_t i = 0; i <= last; ++i) {
+        double sum = 0.0;
+        for (std::ptrdiff_t k = -reach; k <= reach; ++k)
+            sum += kernel[static_cast<std::size_t>(k + reach)] *
+                   before[static_cast<std::size_t>(std::clamp(i + k, std::ptrdiff_t{0}, last))];
+        line[static_cast<std::size_t>(i)] = sum;
+    }
+}
+
+int mirrored(int index, int size) {
+    if (size == 1) return 0;
+    const int period = 2 * (size - 1);
+    const int within = ((index % period) + period) % period;
+    return std::min(within, period - within);
+}
+
+}  // namespace
+
+SplineTaps spline_taps(double at, int size) {
+    const double below = std::floor(at);
+    const double t = at - below;
+    const double u = 1.0 - t;
+    const std::array<double, 4> weight{u * u * u / 6.0, (4.0 - 6.0 * t * t + 3.0 * t * t * t) / 6.0,
+                                       (4.0 - 6.0 * u * u + 3.0 * u * u * u) / 6.0, t * t * t / 6.0};
+    SplineTaps taps;
+    for (int i = 0; i < 4; ++i) {
+        const auto tap = static_cast<std::size_t>(i);
+        taps.index[tap] = mirrored(static_cast<int>(below) - 1 + i, size);
+        taps.weight[tap] = static_cast<float>(weight[tap]);
+    }
+    return taps;
+}
+
+void values_to_coefficients(const Lattice& lattice) {
+    for (int axis = 0; axis < 3; ++axis)
+        filter_lines(lattice.size_voxels, lattice.values, axis, line_to_coefficients, lattice.pause);
+}
+
+void smooth_for_spacing(const Lattice& lattice, double spacing_mm) {
+    for (int axis = 2; axis >= 0; --axis) {
+        const double ratio = spacing_mm / lattice.spacing_mm[axis];
+        if (ratio < coarser_tolerance) continue;
+        const std::vector<double> kernel = gaussian(std::sqrt(ratio * ratio - 1.0) / fwhm_per_sigma);
+        filter_lines(
+            lattice.size_voxels, lattice.values, axis,
+            [&](std::span<double> line) { convolve(kernel, line); }, lattice.pause);
+    }
+}
+
+}  // namespace osteomill

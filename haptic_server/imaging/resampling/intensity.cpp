@@ -1,0 +1,65 @@
+#include "haptic_server/imaging/resampling/intensity.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <stdexcept>
+#include <utility>
+
+#include "haptic_server/imaging/hu_volume.h"
+
+namespace osteomill {
+
+namespace {
+
+std::pair<double, double> two_numbers(const char* option, const char* form, const std::string& text) {
+    const auto refuse = [&] {
+        throw std::invalid_argument(fmt::format("{} '{}': it is {}, two numbers", option, text, form));
+    };
+    char* end = nullptr;
+    const double first = std::strtod(text.c_str(), &end);
+    if (end == text.c_str() || *end != ',') refuse();
+    const char* rest = end + 1;
+    const double second = std::strtod(rest, &end);
+    if (end == rest || *end != '\0' || !std::isfinite(first) || !std::isfinite(second)) refuse();
+    return {first, second};
+}
+
+}  // namespace
+
+Rescale parse_rescale(const std::string& text) {
+    const auto [slope, intercept] = two_numbers("--rescale", "SLOPE,INTERCEPT", text);
+    if (slope == 0.0) throw std::invalid_argument("--rescale '" + text + "': the slope may not be 0");
+    return {.slope = slope, .intercept = intercept};
+}
+
+IntensityWindow parse_intensity_window(const std::string& text) {
+    const auto [low, high] = two_numbers("--intensity-window", "LOW,HIGH", text);
+    if (!(low < high))
+        throw std::invalid_argument("--intensity-window '" + text + "': LOW must be below HIGH");
+    return {.low = low, .high = high};
+}
+
+void rescale_values(const Rescale& rescale, std::span<float> values) {
+    for (float& value : values) value = static_cast<float>(rescale.slope * value + rescale.intercept);
+}
+
+void window_values(const IntensityWindow& window, std::span<float> values) {
+    const double hu_per_step = window_top_hu / (window.high - window.low);
+    for (float& value : values)
+        value = static_cast<float>(std::clamp((value - window.low) * hu_per_step, 0.0, window_top_hu));
+}
+
+std::size_t replace_not_finite(std::span<float> values) {
+    std::size_t replaced = 0;
+    for (float& value : values) {
+        if (std::isfinite(value)) continue;
+        value = air_hu;
+        ++replaced;
+    }
+    return replaced;
+}
+
+}  // namespace osteomill

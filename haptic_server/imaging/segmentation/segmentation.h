@@ -1,0 +1,47 @@
+// A segmentation: which voxels of a scan belong to which structures, as 3D Slicer writes it (.seg.nrrd, with
+// names and overlapping layers) or as a plain label map (NRRD, NIfTI), whose segments bear their number as
+// name.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "haptic_server/imaging/formats/source_image.h"
+#include "haptic_server/imaging/segmentation/colour_table.h"
+
+namespace osteomill {
+
+struct Segment {
+    std::string name;
+    int layer = 0;
+    std::uint16_t label = 0;  ///< within its layer
+    std::optional<std::array<std::uint8_t, 3>> colour_rgb{};
+
+    bool operator==(const Segment&) const = default;
+};
+
+struct Segmentation {
+    std::filesystem::path path;
+    SourceImage image;  ///< without values
+    int layers = 1;
+    std::vector<Segment> segments;
+    bool is_plain_map = false;          ///< the segments' names are their labels
+    std::vector<std::uint16_t> labels;  ///< voxel after voxel, i fastest; of each all layers
+};
+
+/// Throws ImagingError, in one line, for what open_labels refuses, names that do not fit their labels, labels
+/// that are no whole numbers from 0 to 65535, and more voxels than memory is given to (2^31).
+Segmentation read_segmentation(const std::filesystem::path& path);
+
+/// Gives the segments of a plain label map the names and colours of their labels; those that the table does
+/// not know keep theirs. Throws ImagingError for a segmentation that names its segments itself.
+void name_segments(Segmentation& segmentation, const ColourTable& table);
+
+/// Throws ImagingError, with the nearest name, where the segmentation has none of that name.
+const Segment& segment_named(const Segmentation& segmentation, const std::string& name);
+
+}  // namespace osteomill

@@ -1,0 +1,82 @@
+#include "haptic_server/imaging/formats/meta_image_header.h"
+
+#include <gmock/gmock.h>
+
+#include "haptic_server/imaging/imaging_error.h"
+#include "tests/support/raw_images.h"
+
+namespace osteomill::meta_image_header_test {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using testing::meta_header;
+using testing::with;
+
+MetaImageHeader parse(const std::string& text) {
+    return parse_meta_image_header({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()},
+                                   "x.mhd");
+}
+
+std::string refusal(const std::string& text) {
+    try {
+        parse(text);
+    } catch (const ImagingError& error) {
+        return error.what();
+    }
+    return "accepted";
+}
+
+TEST(MetaImageHeader, SaysWhereTheImageLiesAndItsVoxels) {
+    const std::string text = meta_header("LOCAL", "TransformMatrix = 0 1 0 1 0 0 0 0 -1\n");
+    const MetaImageHeader header = parse(text + "voxels = 1\n");
+    EXPECT_EQ(header.image.size_voxels, glm::ivec3(3, 4, 5));
+    EXPECT_EQ(header.image.spacing_mm, glm::dvec3(1.0, 1.0, 2.0));
+    EXPECT_EQ(header.image.origin_mm, glm::dvec3(1.0, 2.0, 3.0));
+    EXPECT_EQ(header.image.direction[0], glm::dvec3(0.0, 1.0, 0.0));
+    EXPECT_EQ(header.image.direction[2], glm::dvec3(0.0, 0.0, -1.0));
+    EXPECT_EQ(header.bytes, text.size());
+    EXPECT_EQ(header.voxels.type, VoxelType::int16);
+    EXPECT_FALSE(header.voxels.big_endian);
+    EXPECT_TRUE(header.data_files.empty());
+}
+
+TEST(MetaImageHeader, CountsTheFilesOfItsSlices) {
+    EXPECT_THAT(parse(meta_header("s%02d.raw 3 11 2")).data_files,
+                ElementsAre("s03.raw", "s05.raw", "s07.raw", "s09.raw", "s11.raw"));
+    EXPECT_THAT(parse(meta_header("s%d.raw")).data_files, ::testing::SizeIs(5)) << "from 1, one a slice";
+    EXPECT_THAT(parse(meta_header("LIST\na\nb\nc\nd\ne\n")).data_files, ElementsAre("a", "b", "c", "d", "e"));
+    EXPECT_THAT(parse(meta_header("one file.raw")).data_files, ElementsAre("one file.raw"));
+    EXPECT_THAT(refusal(meta_header("s%d.raw 1 4 1")), HasSubstr("names 4 files, where DimSize has 5"));
+    EXPECT_THAT(refusal(meta_header("s%d.raw 5 1 1")), HasSubstr("names 0 files"));
+    EXPECT_THAT(refusal(meta_header("s%d.raw 1 5 1 7")), HasSubstr("FIRST LAST STEP"));
+    EXPECT_THAT(refusal(meta_header("s%d.raw -1 5 1")), HasSubstr("FIRST LAST STEP"));
+    EXPECT_THAT(refusal(meta_header("LIST\na\nb")), HasSubstr("names 2 files"));
+    EXPECT_THAT(refusal(meta_header("s%s")), HasSubstr("no other %"));
+}
+
+TEST(MetaImageHeader, RefusesWhatCannotBe) {
+    EXPECT_THAT(refusal("NDims = 3\n"), HasSubstr("no line ElementDataFile"));
+    EXPECT_THAT(refusal(std::string(most_meta_image_header_bytes, 'a')), HasSubstr("no end"));
+    EXPECT_THAT(refusal(with(meta_header(), "NDims = 3", "NDims = -1")), HasSubstr("-1 dimensions"));
+    EXPECT_THAT(refusal(with(meta_header(), "3 4 5", "3 4")), HasSubstr("DimSize '3 4' must be 3 numbers"));
+    EXPECT_THAT(refusal(with(meta_header(), "3 4 5", "3 4 nan")), HasSubstr("DimSize"));
+    EXPECT_THAT(refusal(with(meta_header(), "MET_SHORT", "MET_STRING")), HasSubstr("ElementType"));
+    EXPECT_THAT(refusal(meta_header("LOCAL", "DimSize = 1 2 3\n")), HasSubstr("stands there twice"));
+    EXPECT_THAT(refusal(meta_header("LOCAL", "Origin = 1 2 3\n")), HasSubstr("says again"));
+    EXPECT_THAT(refusal(meta_header("LOCAL", "HeaderSize = -2\n")), HasSubstr("HeaderSize"));
+    EXPECT_THAT(refusal(meta_header("LOCAL", "ElementNumberOfChannels = 3\n")), HasSubstr("colour"));
+    EXPECT_THAT(refusal(with(meta_header(), "BinaryData = True", "BinaryData = False")), HasSubstr("text"));
+    EXPECT_THAT(refusal(meta_header("LOCAL", "DistanceUnits = cm\n")), HasSubstr("must be mm"));
+}
+
+TEST(MetaImageHeader, RefusesAGeometryThatNoScanHas) {
+    EXPECT_THAT(refusal(with(meta_header(), "1 2 3", "1e308 0 0")), HasSubstr("Offset"));
+    EXPECT_THAT(refusal(with(meta_header(), "1 1 2", "1e-9 1 1")), HasSubstr("ElementSpacing 1e-09 mm"));
+    EXPECT_THAT(refusal(with(meta_header(), "1 1 2", "1 nan 1")), HasSubstr("above 0"));
+    EXPECT_THAT(refusal(meta_header("LOCAL", "TransformMatrix = 1 0 0 1 1 0 0 0 1\n")),
+                HasSubstr("not perpendicular"));
+}
+
+}  // namespace
+}  // namespace osteomill::meta_image_header_test

@@ -1,0 +1,63 @@
+#include "haptic_server/imaging/segmentation/colour_table.h"
+
+#include <gmock/gmock.h>
+
+#include <fstream>
+
+#include "haptic_server/imaging/imaging_error.h"
+#include "tests/support/temporary_folder.h"
+
+namespace osteomill {
+namespace {
+
+using ::testing::HasSubstr;
+
+class ColourTableFile : public ::testing::Test {
+  protected:
+    void write(const std::string& text) const { std::ofstream(path_) << text; }
+    std::string refusal(const std::string& text) const {
+        write(text);
+        try {
+            read_colour_table(path_);
+        } catch (const ImagingError& error) {
+            return error.what();
+        }
+        return "";
+    }
+    testing::TemporaryFolder folder_;
+    std::filesystem::path path_ = folder_ / "colours.ctbl";
+};
+
+TEST_F(ColourTableFile, IsReadAsSlicerWritesIt) {
+    write(
+        "# Color table file\n# 3 values\n0 background 0 0 0 0\n1 Upper_Skull 216 101 79 255\n\n5 canal 0 255 "
+        "0 255\n");
+    const ColourTable table = read_colour_table(path_);
+    EXPECT_EQ(table.size(), 3U);
+    EXPECT_EQ(table.at(1), (ColourOfLabel{"Upper Skull", {216, 101, 79}}));
+    EXPECT_EQ(table.at(5).name, "canal");
+}
+
+TEST_F(ColourTableFile, IsReadAsItkSnapWritesIt) {
+    write(
+        "####\n# ITK-SnAP Label Description File\n    0     0    0    0        0  0  0    \"Clear Label\"\n"
+        "    2    70  130  180        1  1  1    \"nerve, left\"\r\n");
+    const ColourTable table = read_colour_table(path_);
+    EXPECT_EQ(table.at(2), (ColourOfLabel{"nerve, left", {70, 130, 180}}));
+}
+
+TEST_F(ColourTableFile, IsRefusedInOneLineWhereItIsNone) {
+    EXPECT_THAT(refusal(""), HasSubstr("names no label"));
+    EXPECT_THAT(refusal("1 bone 1 2\n"), HasSubstr("line 1: is no line of a colour table"));
+    EXPECT_THAT(refusal("\n1 bone 1 2 256 255\n"), HasSubstr("line 2"));
+    EXPECT_THAT(refusal("70000 bone 1 2 3 255\n"), HasSubstr("line 1"));
+    EXPECT_THAT(refusal("1 a 1 2 3 255\n1 b 1 2 3 255\n"), HasSubstr("label 1 comes twice"));
+    EXPECT_THAT(refusal("1 a 1 2 3 255\n2 a 1 2 3 255\n"), HasSubstr("\"a\" is named twice"));
+    EXPECT_THAT(refusal(std::string(1'100'000, '#')), HasSubstr("over a megabyte"));
+    EXPECT_THAT(refusal(std::string("\0\1\2\3 x\"\n", 8)), HasSubstr("line 1"));
+    path_ = folder_ / "nowhere";
+    EXPECT_THROW(read_colour_table(path_), ImagingError);
+}
+
+}  // namespace
+}  // namespace osteomill

@@ -1,0 +1,153 @@
+#include "haptic_server/imaging/segmentation/segmentation.h"
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <fstream>
+#include <functional>
+#include <glm/geometric.hpp>
+#include <numbers>
+
+#include "haptic_server/imaging/imaging_error.h"
+#include "haptic_server/imaging/segmentation/segment_structure.h"
+#include "tests/support/temporary_folder.h"
+
+namespace osteomill {
+namespace {
+
+using ::testing::HasSubstr;
+
+const std::string two_segments =
+    "Segment0_ID:=Segment_1\nSegment0_Name:=bone\nSegment0_Color:=1 0.5 "
+    "0\nSegment0_LabelValue:=1\nSegment0_Layer:=0\n"
+    "Segment1_ID:=Segment_2\nSegment1_Name:=nerve canal\nSegment1_LabelValue:=3\nSegment1_Layer:=1\n";
+
+class SegmentationFile : public ::testing::Test {
+  protected:
+    void write(const std::string& header, const std::string& voxels) const {
+        std::ofstream(path_, std::ios::binary) << "NRRD0004\n" << header << "\n" << voxels;
+    }
+    std::string refusal() const {
+        try {
+            read_segmentation(path_);
+        } catch (const ImagingError& error) {
+            return error.what();
+        }
+        return "";
+    }
+    testing::TemporaryFolder folder_;
+    std::filesystem::path path_ = folder_ / "segmentation.seg.nrrd";
+};
+
+std::string layered_header(const std::string& keys) {
+    return "type: unsigned char\ndimension: 4\nspace: right-anterior-superior\nsizes: 2 3 2 2\n"
+           "space directions: none (1,0,0) (0,1,0) (0,0,2)\nkinds: list domain domain domain\n"
+           "encoding: raw\nspace origin: (10,20,30)\n" +
+           keys;
+}
+
+TEST_F(SegmentationFile, HasNamesAndLayersAsSlicerWritesThem) {
+    std::string voxels(2 * 3 * 2 * 2, '\0');
+    voxels[0] = 1;  // voxel (0, 0, 0): bone and nerve overlap
+    voxels[1] = 3;
+    voxels[2 * 5 + 1] = 3;  // voxel (2, 1, 0)
+    write(layered_header(two_segments), voxels);
+    const Segmentation read = read_segmentation(path_);
+    EXPECT_EQ(read.layers, 2);
+    EXPECT_EQ(read.image.size_voxels, glm::ivec3(3, 2, 2));
+    ASSERT_EQ(read.segments.size(), 2U);
+    EXPECT_EQ(read.segments[0].name, "bone");
+    EXPECT_EQ(read.segments[0].colour_rgb, (std::array<std::uint8_t, 3>{255, 128, 0}));
+    EXPECT_EQ(read.segments[1].name, "nerve canal");
+    EXPECT_EQ(read.segments[1].layer, 1);
+    EXPECT_EQ(read.segments[1].label, 3);
+    EXPECT_FALSE(read.segments[1].colour_rgb);
+    // RAS: x and y point the other way in LPS.
+    EXPECT_EQ(position_mm(read.image, {2, 1, 0}), glm::dvec3(-12.0, -21.0, 30.0));
+    EXPECT_EQ(read.labels[1], 3);
+    EXPECT_EQ(segment_named(read, "bone").label, 1);
+    const Grid grid{.size_voxels = {60, 60, 60}, .spacing_mm = 0.1, .origin_mm = {-14.0, -23.0, 28.0}};
+    const StructureMask nerve = structure_of(read, segment_named(read, "nerve canal"), grid);
+    EXPECT_TRUE(nerve.contains({20, 20, 20}));
+    EXPECT_TRUE(nerve.contains({40, 30, 20}));
+    EXPECT_FALSE(nerve.contains({30, 30, 20}));
+}
+
+TEST_F(SegmentationFile, NamesTheNearestSegment) {
+    write(layered_header(two_segments), std::string(24, '\1'));
+    const Segmentation read = read_segmentation(path_);
+    EXPECT_THROW(
+        try { segment_named(read, "nerve cannal"); } catch (const ImagingError& error) {
+            EXPECT_THAT(error.what(), HasSubstr("did you mean \"nerve canal\""));
+            throw;
+        },
+        ImagingError);
+}
+
+TEST_F(SegmentationFile, IsRefusedInOneLineWhereItIsNone) {
+    EXPECT_THAT(refusal(), HasSubstr("segmentation.seg.nrrd"));
+    write(layered_header(two_segments), "torn");
+    EXPECT_NE(refusal(), "");
+    write(layered_header(""), std::string(24, '\1'));
+    EXPECT_THAT(refusal(), HasSubstr("names no segments"));
+    write(layered_header("Segment0_Name:=a\nSegment0_Layer:=2\n"), std::string(24, '\1'));
+    EXPECT_THAT(refusal(), HasSubstr("Segment0_Layer '2'"));
+    write(layered_header("Segment0_Name:=a\nSegment0_LabelValue:=-7\n"), std::string(24, '\1'));
+    EXPECT_THAT(refusal(), HasSubstr("Segment0_LabelValue '-7'"));
+    write(layered_header("Segment0_Name:=a\nSegment1_Name:=a\n"), std::string(24, '\1'));
+    EXPECT_THAT(refusal(), HasSubstr("two segments called \"a\""));
+    const std::string ct =
+        "type: short\ndimension: 3\nspace: LPS\nsizes: 2 2 2\nspace directions: (1,0,0) (0,1,0) (0,0,1)\n"
+        "endian: little\nencoding: raw\nspace origin: (0,0,0)\n";
+    write(ct, std::string(16, '\xfc'));
+    EXPECT_THAT(refusal(), HasSubstr("is no label map"));
+}
+
+// A sphere of 6 mm, of which the scan's voxels of 0.5 x 0.5 x 1.2 mm say only whether their centre is inside.
+TEST_F(SegmentationFile, ComesOntoTheBonesGridWithoutTheScansStaircase) {
+    constexpr double radius_mm = 6.0;
+    const glm::dvec3 spacing_mm(0.5, 0.5, 1.2);
+    const glm::ivec3 size(36, 36, 16);
+    const glm::dvec3 middle_mm(8.8, 8.6, 9.1);
+    std::string voxels;
+    for (int k = 0; k < size.z; ++k)
+        for (int j = 0; j < size.y; ++j)
+            for (int i = 0; i < size.x; ++i)
+                voxels +=
+                    glm::distance(spacing_mm * glm::dvec3(i, j, k), middle_mm) < radius_mm ? '\5' : '\0';
+    write(
+        "type: unsigned char\ndimension: 3\nspace: left-posterior-superior\nsizes: 36 36 16\n"
+        "space directions: (0.5,0,0) (0,0.5,0) (0,0,1.2)\nencoding: raw\nspace origin: (0,0,0)\n",
+        voxels);
+    const Segmentation read = read_segmentation(path_);
+    ASSERT_EQ(read.segments.size(), 1U);
+    EXPECT_EQ(read.segments[0].name, "5");  // a plain label map: its number
+    const Grid grid{.size_voxels = {90, 90, 95}, .spacing_mm = 0.2, .origin_mm = {}};
+    const StructureMask mask = structure_of(read, read.segments[0], grid);
+    const double exact_mm3 = 4.0 / 3.0 * std::numbers::pi * std::pow(radius_mm, 3);
+    EXPECT_NEAR(mask.volume_mm3(), exact_mm3, 0.02 * exact_mm3);
+    double worst_mm = 0.0;
+    double sum_mm = 0.0;
+    int count = 0;
+    glm::ivec3 v;
+    for (v.z = 1; v.z < 94; ++v.z)
+        for (v.y = 1; v.y < 89; ++v.y)
+            for (v.x = 1; v.x < 89; ++v.x) {
+                const bool in = mask.contains(v);
+                if (in == mask.contains(v + glm::ivec3(1, 0, 0)) &&
+                    in == mask.contains(v + glm::ivec3(0, 1, 0)) &&
+                    in == mask.contains(v + glm::ivec3(0, 0, 1)))
+                    continue;
+                const double off_mm =
+                    std::abs(glm::distance(centre_of_voxel_mm(grid, v), middle_mm) - radius_mm);
+                worst_mm = std::max(worst_mm, off_mm);
+                sum_mm += off_mm;
+                ++count;
+            }
+    EXPECT_LT(worst_mm, 0.8);        // two thirds of the scan's coarsest voxel
+    EXPECT_LT(sum_mm / count, 0.2);  // a voxel of the bone's grid in the mean
+}
+
+}  // namespace
+}  // namespace osteomill
