@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/geometric.hpp>
+
+#include "common/scene/hand_limits.h"
 
 namespace osteomill {
 
@@ -18,11 +21,26 @@ constexpr double delay_periods = 2.0;
 /// Playback that is off by so much of a period is brought back at the full rate.
 constexpr double in_time_periods = 0.5;
 
+glm::dvec3 shortened(const glm::dvec3& v, double longest) noexcept {
+    const double length = glm::length(v);
+    return length > longest ? v * (longest / length) : v;
+}
+
+/// Whether a hand may have come from one to the other.
+bool is_reachable(const SampledMotion::Sample& from, const SampledMotion::Sample& to) noexcept {
+    const double span_s = std::abs(to.stamp_s - from.stamp_s);
+    const double way_mm = glm::distance(from.position_mm, to.position_mm);
+    const double turn_rad = 2.0 * std::acos(std::min(1.0, std::abs(glm::dot(from.turn, to.turn))));
+    return way_mm <= SampledMotion::noise_mm + fastest_hand_mm_per_s * span_s &&
+           turn_rad <= SampledMotion::turn_noise_rad + SampledMotion::fastest_turn_rad_per_s * span_s;
+}
+
 }  // namespace
 
 void SampledMotion::begin_anew() noexcept {
     count_ = 0;
     differences_ = 0;
+    outlier_.reset();
     plays_ = false;
 }
 
@@ -49,18 +67,25 @@ void SampledMotion::take(Sample sample) noexcept {
         if (count_ > 0 && sample.arrival_s - newest().arrival_s < longest_step_s)
             sample.stamp_s = std::max(sample.stamp_s, newest().stamp_s + 0.5 * period_s_);
     }
-    if (count_ > 0) {
-        const double step_s = sample.stamp_s - newest().stamp_s;
-        const double waited_s = sample.arrival_s - newest().arrival_s;
-        if (std::abs(step_s - waited_s) > longest_step_s || waited_s > longest_step_s) {
-            begin_anew();
-        } else if (step_s <= 0.0) {
-            return;
-        } else {
-            learn_period(step_s);
-            learn_lateness(sample, waited_s);
-        }
+    if (count_ == 0) return keep(sample);
+    const double step_s = sample.stamp_s - newest().stamp_s;
+    const double waited_s = sample.arrival_s - newest().arrival_s;
+    const bool was_set = std::abs(step_s - waited_s) > longest_step_s || waited_s > longest_step_s;
+    if (!was_set && step_s < least_apart_s) return;
+    if (!was_set && is_reachable(newest(), sample)) {
+        learn_period(step_s);
+        learn_lateness(sample, waited_s);
+        return keep(sample);
     }
+    const bool is_confirmed = outlier_ && is_reachable(*outlier_, sample);
+    outlier_ = sample;
+    if (!was_set && !is_confirmed) return;
+    begin_anew();
+    keep(sample);
+}
+
+void SampledMotion::keep(const Sample& sample) noexcept {
+    outlier_.reset();
     if (count_ == 0) {
         offset_s_ = sample.arrival_s - sample.stamp_s;
         lateness_s_ = 0.0;
@@ -78,10 +103,11 @@ glm::dvec3 SampledMotion::slope(std::size_t i) const noexcept {
         return (nth(from + 1).position_mm - nth(from).position_mm) /
                (nth(from + 1).stamp_s - nth(from).stamp_s);
     };
-    if (i == 0) return chord(0);
+    if (i == 0) return shortened(chord(0), fastest_hand_mm_per_s);
     const double before_s = nth(i).stamp_s - nth(i - 1).stamp_s;
     const double after_s = nth(i + 1).stamp_s - nth(i).stamp_s;
-    return (after_s * chord(i - 1) + before_s * chord(i)) / (before_s + after_s);
+    return shortened((after_s * chord(i - 1) + before_s * chord(i)) / (before_s + after_s),
+                     fastest_hand_mm_per_s);
 }
 
 SampledMotion::Pose SampledMotion::pose_between(std::size_t i, double time_s) const noexcept {
@@ -95,9 +121,21 @@ SampledMotion::Pose SampledMotion::pose_between(std::size_t i, double time_s) co
     // Hermite: from + a u + (3 way - 2 a - b) u^2 + (a + b - 2 way) u^3
     const glm::dvec3 square = 3.0 * way - 2.0 * a - b;
     const glm::dvec3 cube = a + b - 2.0 * way;
-    return {.position_mm = from.position_mm + u * (a + u * (square + u * cube)),
-            .velocity_mm_per_s = (a + u * (2.0 * square + 3.0 * u * cube)) / span_s,
-            .turn = glm::slerp(from.turn, to.turn, u)};
+    const glm::dvec3 curve_mm = from.position_mm + u * (a + u * (square + u * cube));
+    const glm::dvec3 velocity_mm_per_s = (a + u * (2.0 * square + 3.0 * u * cube)) / span_s;
+    Pose pose{.position_mm = curve_mm,
+              .velocity_mm_per_s = velocity_mm_per_s,
+              .turn = glm::slerp(from.turn, to.turn, u)};
+    const double squared = glm::dot(way, way);
+    const double along = squared > 0.0 ? glm::dot(curve_mm - from.position_mm, way) / squared : 0.0;
+    const glm::dvec3 on_line_mm = from.position_mm + std::clamp(along, 0.0, 1.0) * way;
+    if (glm::distance(curve_mm, on_line_mm) > most_bulge_mm) {
+        pose.position_mm = on_line_mm + shortened(curve_mm - on_line_mm, most_bulge_mm);
+        const bool moves_along = along > 0.0 && along < 1.0;
+        pose.velocity_mm_per_s =
+            moves_along ? way * (glm::dot(velocity_mm_per_s, way) / squared) : glm::dvec3(0.0);
+    }
+    return pose;
 }
 
 std::optional<SampledMotion::Pose> SampledMotion::at(double now_s) noexcept {
@@ -105,7 +143,8 @@ std::optional<SampledMotion::Pose> SampledMotion::at(double now_s) noexcept {
     at_s_ = now_s;
     if (count_ == 0) return std::nullopt;
     const double silence_s = std::clamp(silent_periods * period_s_, least_silence_s, most_silence_s);
-    if (now_s - newest().arrival_s > silence_s) begin_anew();
+    // A loop that stood still itself does not play what it missed.
+    if (now_s - newest().arrival_s > silence_s || (plays_ && elapsed_s > silence_s)) begin_anew();
     if (count_ < 3) return std::nullopt;
 
     delay_s_ = std::min(delay_periods * period_s_ + lateness_margin * lateness_s_, longest_delay_s);

@@ -11,8 +11,13 @@
 // Between samples i and i + 1 the position is the cubic with their positions and, as slopes there, those of
 // the parabolas through each and its neighbours (Catmull-Rom, for uneven times); the orientation is slerp.
 // That takes one sample more than those two, hence the second period. Of a circle of 2 mm, once a second,
-// sampled at 20 Hz it misses 0.5 um where straight lines would miss 25. A motion that stops within one period
-// overshoots by at most 4/27 of the last way.
+// sampled at 20 Hz it misses 0.5 um where straight lines would miss 25. Slopes are no steeper than a hand is
+// fast, and the cubic stays within most_bulge_mm of the straight line: the burr goes nowhere where no sample
+// was near.
+//
+// Samples less than least_apart_s apart are one, the first: what lies between them is the tracker's noise,
+// and no motion. A sample that a hand cannot have reached is passed over; where the next confirms it, the
+// marker is elsewhere (it was hidden, or another is taken for it), and the motion begins anew there.
 //
 // Playback never jumps: where the next sample is late it stands at the last but one, and then goes at most
 // catch_up times as fast until it is back in time. So the burr's way is the same, sample by sample, whatever
@@ -38,6 +43,15 @@ class SampledMotion {
     static constexpr double catch_up = 1.5;
     static constexpr double least_silence_s = 0.05;
     static constexpr double most_silence_s = 0.25;
+    /// Half a period at the fastest rate.
+    static constexpr double least_apart_s = 0.5 / fastest_rate_hz;
+    /// Half a voxel of 0.1 mm.
+    static constexpr double most_bulge_mm = 0.05;
+    /// What noise and a long lever from marker to burr may add to fastest_hand_mm_per_s between two samples.
+    static constexpr double noise_mm = 1.0;
+    /// A wrist that flicks; and the noise of a small marker.
+    static constexpr double fastest_turn_rad_per_s = 20.0;
+    static constexpr double turn_noise_rad = 0.1;
 
     struct Sample {
         double stamp_s = 0.0;    ///< the sender's clock; 0: it has none, and the arrival stands for it
@@ -51,7 +65,8 @@ class SampledMotion {
         glm::dquat turn{1.0, 0.0, 0.0, 0.0};
     };
 
-    /// One more sample. One that is no newer than the last does nothing. Real-time safe, as all here.
+    /// One more sample. One that is no newer than the last by least_apart_s does nothing. Real-time safe, as
+    /// all here.
     void take(Sample sample) noexcept;
 
     /// Where the tool is at `now_s` (the clock of arrival_s; never decreases); nothing while it is
@@ -71,12 +86,14 @@ class SampledMotion {
     void begin_anew() noexcept;
     void learn_period(double difference_s) noexcept;
     void learn_lateness(const Sample& sample, double since_last_s) noexcept;
+    void keep(const Sample& sample) noexcept;
     Pose pose_between(std::size_t i, double time_s) const noexcept;
     glm::dvec3 slope(std::size_t i) const noexcept;
 
     std::array<Sample, most_samples> samples_{};
     std::size_t first_ = 0;
     std::size_t count_ = 0;
+    std::optional<Sample> outlier_;  // the newest sample, where no hand can have reached it
     std::array<double, period_samples> differences_s_{};
     std::size_t differences_ = 0;
     double period_s_ = 1.0 / slowest_rate_hz;

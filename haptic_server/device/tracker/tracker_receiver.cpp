@@ -111,6 +111,8 @@ void TrackerReceiver::listen_to(int socket) {
                               ? "the tracker's TRANSFORMs are damaged, or no rigid motions"
                           : now.of_other_names != before.of_other_names
                               ? "the tracker sends TRANSFORMs, but of other names; see --tracker-name"
+                          : now.hidden != before.hidden
+                              ? "the tracker does not see the marker"
                               : "the tracker is connected and sends no TRANSFORM: is the marker seen?",
                           std::memory_order_relaxed);
             if (now_s - heard_s > longest_silence_s) return;

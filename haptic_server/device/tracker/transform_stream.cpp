@@ -41,15 +41,53 @@ std::uint64_t number_at(std::span<const std::uint8_t> bytes, std::size_t at, std
     return value;
 }
 
-/// What a body holds, without the extended header and the metadata of protocol 3.
-std::optional<std::span<const std::uint8_t>> content_of(std::span<const std::uint8_t> body,
-                                                        std::uint16_t version) {
-    if (version < 2) return body;
+/// Of a message's body.
+struct Parts {
+    std::span<const std::uint8_t> content;
+    std::span<const std::uint8_t> metadata_header{};
+    std::span<const std::uint8_t> metadata{};
+};
+
+/// Without the extended header of protocol 2 and later. Nothing where sizes contradict each other.
+std::optional<Parts> parts_of(std::span<const std::uint8_t> body, std::uint16_t version) {
+    if (version < 2) return Parts{body};
     if (body.size() < extended_header_bytes) return std::nullopt;
     const std::uint64_t before = number_at(body, 0, 2);
-    const std::uint64_t after = number_at(body, 2, 2) + number_at(body, 4, 4);
+    const std::uint64_t header_bytes = number_at(body, 2, 2);
+    const std::uint64_t after = header_bytes + number_at(body, 4, 4);
     if (before < extended_header_bytes || before + after > body.size()) return std::nullopt;
-    return body.subspan(before, body.size() - before - after);
+    const std::span<const std::uint8_t> behind = body.last(after);
+    return Parts{body.subspan(before, body.size() - before - after), behind.first(header_bytes),
+                 behind.subspan(header_bytes)};
+}
+
+std::string lower_case(std::span<const std::uint8_t> text) {
+    std::string result(text.begin(), text.end());
+    std::transform(result.begin(), result.end(), result.begin(),
+                   [](char c) { return static_cast<char>(std::tolower(static_cast<unsigned char>(c))); });
+    return result;
+}
+
+/// Whether the metadata leaves the marker seen: PlusServer writes "TransformStatus" and "TransformValid", its
+/// later versions "Status". What is cut off says nothing.
+bool says_seen(const Parts& parts) {
+    constexpr std::size_t count_bytes = 2, entry_bytes = 8;  // lengths of key and value, an encoding between
+    if (parts.metadata_header.size() < count_bytes) return true;
+    std::span<const std::uint8_t> entries = parts.metadata_header.subspan(count_bytes);
+    std::span<const std::uint8_t> rest = parts.metadata;
+    for (auto left = number_at(parts.metadata_header, 0, 2); left > 0 && entries.size() >= entry_bytes;
+         --left) {
+        const std::uint64_t key_bytes = number_at(entries, 0, 2);
+        const std::uint64_t value_bytes = number_at(entries, 4, 4);
+        if (key_bytes + value_bytes > rest.size()) return true;
+        const std::string key = lower_case(rest.first(key_bytes));
+        const std::string value = lower_case(rest.subspan(key_bytes, value_bytes));
+        if ((key == "status" || key == "transformstatus") && value != "ok") return false;
+        if (key == "transformvalid" && value != "true" && value != "1") return false;
+        rest = rest.subspan(key_bytes + value_bytes);
+        entries = entries.subspan(entry_bytes);
+    }
+    return true;
 }
 
 /// Seconds of OpenIGTLink's time: 32 bits of seconds, 32 of their fraction.
@@ -67,12 +105,11 @@ bool is_rotation(const glm::dmat3& turn) {
     return glm::determinant(turn) > 0.0;
 }
 
-bool means_down(std::string text) {
+bool means_down(std::span<const std::uint8_t> said) {
+    std::string text = lower_case(said);
     while (!text.empty() &&
            (std::isspace(static_cast<unsigned char>(text.back())) != 0 || text.back() == '\0'))
         text.pop_back();
-    std::transform(text.begin(), text.end(), text.begin(),
-                   [](char c) { return static_cast<char>(std::tolower(static_cast<unsigned char>(c))); });
     return text == "1" || text == "on" || text == "true" || text == "down";
 }
 
@@ -144,16 +181,17 @@ bool TransformStream::begin_message() {
 void TransformStream::end_message() {
     if (kind_ != Kind::other) {
         const std::span<std::uint8_t> body = std::span(message_).subspan(IGTL_HEADER_SIZE);
-        const auto content = content_of(body, version_);
-        if (!content || crc64(body.data(), body.size(), 0) != crc_)
+        const std::optional<Parts> parts = parts_of(body, version_);
+        if (!parts || crc64(body.data(), body.size(), 0) != crc_)
             ++counts_.damaged;
         else
-            kind_ == Kind::transform ? take_transform(*content) : take_string(*content);
+            kind_ == Kind::transform ? take_transform(parts->content, says_seen(*parts))
+                                     : take_string(parts->content);
     }
     restart();
 }
 
-void TransformStream::take_transform(std::span<const std::uint8_t> content) {
+void TransformStream::take_transform(std::span<const std::uint8_t> content, bool is_seen) {
     std::array<igtl_float32, 12> values{};
     static_assert(sizeof values == IGTL_TRANSFORM_SIZE);
     if (content.size() != sizeof values) {
@@ -173,6 +211,10 @@ void TransformStream::take_transform(std::span<const std::uint8_t> content) {
         ++counts_.damaged;
         return;
     }
+    if (!is_seen || (turn == glm::dmat3(1.0) && sample.position_mm == glm::dvec3(0.0))) {
+        ++counts_.hidden;
+        return;
+    }
     sample.turn = glm::normalize(glm::quat_cast(turn));
     ++counts_.samples;
     sinks_.sample(sample);
@@ -184,8 +226,7 @@ void TransformStream::take_string(std::span<const std::uint8_t> content) {
         ++counts_.damaged;
         return;
     }
-    const auto text = content.subspan(IGTL_STRING_HEADER_SIZE);
-    sinks_.pedal(means_down(std::string(text.begin(), text.end())));
+    sinks_.pedal(means_down(content.subspan(IGTL_STRING_HEADER_SIZE)));
 }
 
 }  // namespace osteomill

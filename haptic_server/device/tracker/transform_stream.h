@@ -3,8 +3,10 @@
 // protocol versions 1 to 3: of the later ones the extended header and the metadata are passed over). Messages
 // of other types and names are skipped without being kept, whatever they hold.
 //
-// TRANSFORM: a rotation in float32, column by column, then the position in mm. STRING: text; the pedal is
-// down where it is "1", "on", "true" or "down" in either case.
+// TRANSFORM: a rotation in float32, column by column, then the position in mm. A marker that is hidden is no
+// sample: some servers then send the identity, to the bit (where no marker is), newer ones say so
+// in metadata ("TransformStatus" that is not "OK"). STRING: text; the pedal is down where it is "1", "on",
+// "true" or "down" in either case.
 #pragma once
 
 #include <array>
@@ -44,6 +46,7 @@ class TransformStream {
         std::uint64_t samples = 0;
         std::uint64_t of_other_names = 0;  ///< TRANSFORMs
         std::uint64_t damaged = 0;         ///< wrong CRC, size or contents
+        std::uint64_t hidden = 0;          ///< TRANSFORMs that say that the marker is not seen
     };
 
     /// `name`: whose TRANSFORMs; empty: the first that is seen. `pedal`: whose STRINGs; empty: nobody's.
@@ -63,7 +66,7 @@ class TransformStream {
 
     bool begin_message();
     void end_message();
-    void take_transform(std::span<const std::uint8_t> content);
+    void take_transform(std::span<const std::uint8_t> content, bool is_seen);
     void take_string(std::span<const std::uint8_t> content);
 
     std::string name_;

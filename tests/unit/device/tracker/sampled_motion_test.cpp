@@ -205,6 +205,147 @@ TEST(SampledMotion, FollowsClocksThatDrift) {
     }
 }
 
+/// Plays `samples` as they come and gives how far the burr was from the nearest of all straight lines between
+/// two that follow each other, at the most.
+double farthest_from_its_samples_mm(const std::vector<SampledMotion::Sample>& samples) {
+    SampledMotion motion;
+    std::size_t next = 0;
+    double farthest_mm = 0.0;
+    for (double now_s = 0.0; now_s < samples.back().arrival_s + 0.5; now_s += tick_s) {
+        for (; next < samples.size() && samples[next].arrival_s <= now_s; ++next) motion.take(samples[next]);
+        const auto pose = motion.at(now_s);
+        if (!pose) continue;
+        EXPECT_TRUE(std::isfinite(glm::length(pose->velocity_mm_per_s)));
+        double nearest_mm = 1e9;
+        for (std::size_t i = 1; i < samples.size(); ++i) {
+            const glm::dvec3 from = samples[i - 1].position_mm, way = samples[i].position_mm - from;
+            const double squared = glm::dot(way, way);
+            const double share = squared > 0.0 ? glm::dot(pose->position_mm - from, way) / squared : 0.0;
+            nearest_mm = std::min(nearest_mm,
+                                  glm::distance(pose->position_mm, from + std::clamp(share, 0.0, 1.0) * way));
+        }
+        farthest_mm = std::max(farthest_mm, nearest_mm);
+    }
+    return farthest_mm;
+}
+
+TEST(SampledMotion, FollowsNoSlopeOfSamplesCloserThanTheTrackersNoise) {
+    for (const double apart_s : {1e-9, 5e-5, 1e-3, 2e-3}) {
+        std::vector<SampledMotion::Sample> samples;
+        for (int i = 0; i < 300; ++i) {
+            const double time_s = 0.01 * i;
+            const glm::dvec3 position_mm(1.5 * std::sin(3.0 * time_s), 0.0,
+                                         std::max(5.0, 10.0 - 4.0 * time_s));
+            samples.push_back({.stamp_s = 9.0 + time_s, .arrival_s = time_s, .position_mm = position_mm});
+            if (i % 25 == 0)
+                samples.push_back({.stamp_s = 9.0 + time_s + apart_s,
+                                   .arrival_s = time_s,
+                                   .position_mm = position_mm + glm::dvec3(0.0, 0.0, 0.2)});
+        }
+        EXPECT_LE(farthest_from_its_samples_mm(samples), SampledMotion::most_bulge_mm + 1e-9) << apart_s;
+    }
+}
+
+/// Of a hand that is as fast as hands are, at odd times.
+std::vector<SampledMotion::Sample> wild_samples(std::mt19937& random) {
+    std::uniform_real_distribution<double> share(-1.0, 1.0);
+    std::vector<SampledMotion::Sample> samples{{.stamp_s = 3.0}};
+    for (int i = 0; i < 200; ++i) {
+        const double span_s = std::pow(10.0, -2.0 + share(random)) + SampledMotion::least_apart_s;
+        SampledMotion::Sample next = samples.back();
+        next.stamp_s += span_s;
+        next.arrival_s += span_s;
+        next.position_mm += glm::dvec3(share(random), share(random), share(random)) * (250.0 * span_s);
+        samples.push_back(next);
+    }
+    return samples;
+}
+
+TEST(SampledMotion, StaysByItsSamplesHoweverTheHandJerks) {
+    std::mt19937 random(17);
+    for (int run = 0; run < 30; ++run)
+        EXPECT_LE(farthest_from_its_samples_mm(wild_samples(random)), SampledMotion::most_bulge_mm + 1e-9);
+}
+
+TEST(SampledMotion, StaysAmongItsSamplesWhateverTheirStampsAre) {
+    std::mt19937 random(23);
+    std::uniform_real_distribution<double> share(-1.0, 1.0);
+    for (int run = 0; run < 40; ++run) {
+        std::vector<SampledMotion::Sample> samples = wild_samples(random);
+        glm::dvec3 least_mm(0.0), most_mm(0.0);
+        SampledMotion motion;
+        for (std::size_t i = 0; i < samples.size(); ++i) {
+            SampledMotion::Sample& sample = samples[i];
+            if (run % 4 == 0) sample.stamp_s = 0.0;                     // none
+            if (run % 4 == 1) sample.stamp_s = 3.0;                     // stands still
+            if (run % 4 == 2) sample.stamp_s = 9.0 - sample.arrival_s;  // runs backwards
+            if (run % 4 == 3) sample.stamp_s += 0.05 * share(random);   // to and fro
+            least_mm = glm::min(least_mm, sample.position_mm);
+            most_mm = glm::max(most_mm, sample.position_mm);
+            motion.take(sample);
+            const auto pose = motion.at(sample.arrival_s);
+            if (!pose) continue;
+            EXPECT_NE(run % 4, 1) << "no time, no motion";
+            EXPECT_NE(run % 4, 2);
+            for (int axis = 0; axis < 3; ++axis) {
+                EXPECT_GE(pose->position_mm[axis], least_mm[axis] - SampledMotion::most_bulge_mm);
+                EXPECT_LE(pose->position_mm[axis], most_mm[axis] + SampledMotion::most_bulge_mm);
+            }
+        }
+    }
+}
+
+TEST(SampledMotion, PassesOverOneSampleThatNoHandReachesAndIsLostAtTwo) {
+    for (const int strange : {1, 2}) {
+        SampledMotion motion;
+        bool was_lost = false;
+        for (int tick = 0; tick < 600; ++tick) {
+            const double now_s = tick * tick_s;
+            if (tick % 10 == 0) {
+                const int i = tick / 10;
+                const bool is_strange = i >= 30 && i < 30 + strange;
+                motion.take({.stamp_s = 5.0 + now_s,
+                             .arrival_s = now_s,
+                             .position_mm = {0.0, 0.0, is_strange ? -25.0 : 5.0}});
+            }
+            const auto pose = motion.at(now_s);
+            if (tick > 40 && !pose) was_lost = true;
+            if (!pose) continue;
+            EXPECT_EQ(pose->position_mm.z, 5.0) << "no way to there and back";
+        }
+        EXPECT_EQ(was_lost, strange == 2);
+        EXPECT_TRUE(motion.at(0.6)) << "and is back";
+    }
+}
+
+TEST(SampledMotion, IsLostWhereTheMarkerTurnsAsNoHandDoes) {
+    SampledMotion motion;
+    for (int i = 0; i < 20; ++i) motion.take({.stamp_s = 1.0 + 0.01 * i, .arrival_s = 0.01 * i});
+    ASSERT_TRUE(motion.at(0.19));
+    const glm::dquat over = glm::angleAxis(2.0, glm::dvec3(1.0, 0.0, 0.0));
+    motion.take({.stamp_s = 1.2, .arrival_s = 0.2, .turn = over});
+    ASSERT_TRUE(motion.at(0.2));
+    motion.take({.stamp_s = 1.21, .arrival_s = 0.21, .turn = over});
+    EXPECT_FALSE(motion.at(0.21));
+}
+
+TEST(SampledMotion, IsLostOverALoopThatStoodStill) {
+    SampledMotion motion;
+    const auto hear = [&](double from_s, double to_s, double arrival_s) {
+        for (double at_s = from_s; at_s < to_s; at_s += 0.01)
+            motion.take({.stamp_s = 1.0 + at_s,
+                         .arrival_s = std::max(at_s, arrival_s),
+                         .position_mm = {20.0 * at_s, 0.0, 0.0}});
+    };
+    hear(0.0, 0.2, 0.0);
+    ASSERT_TRUE(motion.at(0.2));
+    hear(0.2, 0.9, 0.9);  // all at once
+    EXPECT_FALSE(motion.at(0.9));
+    hear(0.9, 0.95, 0.0);
+    ASSERT_TRUE(motion.at(0.95));
+    EXPECT_GT(motion.at(0.951)->position_mm.x, 17.9) << "nothing of the time between is played";
+}
+
 TEST(SampledMotion, IsFiniteWhateverTheTimesAre) {
     std::mt19937 random(11);
     std::uniform_real_distribution<double> share(0.0, 1.0);

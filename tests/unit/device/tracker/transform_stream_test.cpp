@@ -107,23 +107,64 @@ TEST_F(Heard, TakesTheFirstNameWhereNoneIsSaid) {
     EXPECT_EQ(samples.size(), 1u);
 }
 
-TEST_F(Heard, PassesOverExtendedHeaderAndMetadata) {
-    // Protocol 3: extended header of 12 bytes (sizes of itself, metadata's header and body; message id) in
-    // front, metadata behind.
-    const Bytes plain = transform("Drill", {4.0, 5.0, 6.0}, turn);
-    Bytes body{0, 12, 0, 2, 0, 0, 0, 5, 0, 0, 0, 9};
-    body.insert(body.end(), plain.begin() + 58, plain.end());
-    body.insert(body.end(), {0, 0, 'h', 'e', 'l', 'l', 'o'});
-    Bytes message(plain.begin(), plain.begin() + 58);
+/// Of protocol 3: an extended header of 12 bytes (sizes of itself, metadata's header and metadata; message
+/// id) in front, metadata behind.
+Bytes with_metadata(const Bytes& plain, const Bytes& header, const std::string& metadata) {
+    constexpr std::ptrdiff_t head = 58;
+    Bytes body{0, 12, 0, static_cast<std::uint8_t>(header.size()),
+               0, 0,  0, static_cast<std::uint8_t>(metadata.size()),
+               0, 0,  0, 9};
+    body.insert(body.end(), plain.begin() + head, plain.end());
+    body.insert(body.end(), header.begin(), header.end());
+    body.insert(body.end(), metadata.begin(), metadata.end());
+    Bytes message(plain.begin(), plain.begin() + head);
     message[1] = 2;  // version
     message[49] = static_cast<std::uint8_t>(body.size());
     const std::uint64_t crc = crc64(body.data(), body.size(), 0);
     for (std::size_t i = 0; i < 8; ++i) message[50 + i] = static_cast<std::uint8_t>(crc >> (56 - 8 * i));
     message.insert(message.end(), body.begin(), body.end());
+    return message;
+}
+
+/// Of one entry: how many, length of the key, encoding, length of the value.
+Bytes one_entry(const std::string& key, const std::string& value) {
+    return {0, 1, 0, static_cast<std::uint8_t>(key.size()),  0, 3,
+            0, 0, 0, static_cast<std::uint8_t>(value.size())};
+}
+
+TEST_F(Heard, PassesOverExtendedHeaderAndMetadata) {
     TransformStream stream = this->stream();
-    ASSERT_TRUE(stream.feed(message));
+    ASSERT_TRUE(stream.feed(with_metadata(transform("Drill", {4.0, 5.0, 6.0}, turn), {0, 0}, "hello")));
     ASSERT_EQ(samples.size(), 1u);
     EXPECT_EQ(samples[0].position_mm, glm::dvec3(4.0, 5.0, 6.0));
+}
+
+TEST_F(Heard, TakesAHiddenMarkerForNoSample) {
+    const Bytes plain = transform("Drill", {4.0, 5.0, 6.0}, turn);
+    for (const auto& [key, value, is_seen] :
+         {std::tuple("TransformStatus", "OK", true), std::tuple("TransformStatus", "OUT_OF_VIEW", false),
+          std::tuple("Status", "INVALID", false), std::tuple("status", "ok", true),
+          std::tuple("TransformValid", "False", false), std::tuple("TransformValid", "True", true),
+          std::tuple("Colour", "INVALID", true)}) {
+        samples.clear();
+        TransformStream stream = this->stream();
+        const std::string metadata = std::string(key) + value;
+        ASSERT_TRUE(stream.feed(with_metadata(plain, one_entry(key, value), metadata)));
+        EXPECT_EQ(samples.size(), is_seen ? 1u : 0u) << metadata;
+        EXPECT_EQ(stream.counts().hidden, is_seen ? 0u : 1u) << metadata;
+        // Cut off: it says nothing, and is read nowhere beyond its end.
+        ASSERT_TRUE(stream.feed(with_metadata(plain, one_entry(key, value), "Stat")));
+        ASSERT_TRUE(stream.feed(with_metadata(plain, {0, 9, 0}, "")));
+    }
+    samples.clear();
+    TransformStream stream = this->stream();
+    const glm::dquat none(1.0, 0.0, 0.0, 0.0);
+    ASSERT_TRUE(stream.feed(transform("Drill", glm::dvec3(0.0), none)));
+    EXPECT_TRUE(samples.empty()) << "the identity";
+    EXPECT_EQ(stream.counts().hidden, 1u);
+    ASSERT_TRUE(stream.feed(transform("Drill", {0.0, 0.0, 0.001}, none)));
+    ASSERT_TRUE(stream.feed(transform("Drill", glm::dvec3(0.0), turn)));
+    EXPECT_EQ(samples.size(), 2u);
 }
 
 TEST_F(Heard, CountsWhatIsDamagedAndGoesOn) {
