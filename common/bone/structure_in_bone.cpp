@@ -1,5 +1,6 @@
 #include "common/bone/structure_in_bone.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace osteomill {
@@ -16,13 +17,13 @@ StructureMask structure_in_bone(const Bone& bone, std::uint8_t label) {
     return {bone.grid(), std::move(bricks)};
 }
 
-bool is_in_bone(const Bone& bone, std::uint8_t label) {
-    const BoneContent& content = bone.content();
-    for (std::size_t slot = 0; slot < content.tissue.size(); ++slot) {
-        const BrickFractions fractions = bone.fractions(static_cast<std::int32_t>(slot));
-        for (std::size_t offset = 0; offset < brick_voxel_count; ++offset)
-            if (content.tissue[slot][offset] == label && fractions[offset] > 0) return true;
-    }
+bool brick_has_label(const Bone& bone, std::size_t slot, std::uint8_t label) {
+    const ByteBrick& labels = bone.content().tissue[slot];
+    auto at = std::ranges::find(labels, label);
+    if (at == labels.end()) return false;
+    const BrickFractions fractions = bone.fractions(static_cast<std::int32_t>(slot));
+    for (; at != labels.end(); ++at)
+        if (*at == label && fractions[static_cast<std::size_t>(at - labels.begin())] > 0) return true;
     return false;
 }
 

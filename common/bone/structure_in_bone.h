@@ -11,7 +11,8 @@ namespace osteomill {
 /// The voxels of the bone's bricks that bear the label, whatever is left of them; empty where none does.
 StructureMask structure_in_bone(const Bone& bone, std::uint8_t label);
 
-/// Whether any bone that is left bears it.
-bool is_in_bone(const Bone& bone, std::uint8_t label);
+/// Whether any bone that is left in the brick of that slot has the label. Brick by brick: a large bone takes
+/// long.
+bool brick_has_label(const Bone& bone, std::size_t slot, std::uint8_t label);
 
 }  // namespace osteomill

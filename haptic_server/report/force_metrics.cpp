@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <map>
 
-#include "haptic_server/report/percentile.h"
+#include "common/statistics/percentile.h"
 #include "haptic_server/report/removal_metrics.h"
 
 namespace osteomill {

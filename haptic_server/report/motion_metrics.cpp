@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <glm/geometric.hpp>
 
-#include "haptic_server/report/percentile.h"
+#include "common/statistics/percentile.h"
 #include "haptic_server/report/smoothness.h"
 
 namespace osteomill {

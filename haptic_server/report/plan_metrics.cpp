@@ -6,7 +6,7 @@
 #include <glm/geometric.hpp>
 #include <numeric>
 
-#include "haptic_server/report/percentile.h"
+#include "common/statistics/percentile.h"
 #include "haptic_server/report/planned_region.h"
 
 namespace osteomill {

@@ -4,7 +4,7 @@
 #include <glm/geometric.hpp>
 #include <utility>
 
-#include "haptic_server/report/percentile.h"
+#include "common/statistics/percentile.h"
 #include "haptic_server/report/smoothness.h"
 
 namespace osteomill {

@@ -3,6 +3,8 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "common/statistics/percentile.h"
+
 namespace osteomill::study {
 
 namespace {

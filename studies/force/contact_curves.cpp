@@ -4,6 +4,7 @@
 
 #include <glm/geometric.hpp>
 
+#include "common/statistics/percentile.h"
 #include "haptic_server/contact_models/force_models.h"
 #include "studies/force/bone_block.h"
 #include "studies/force/path_run.h"

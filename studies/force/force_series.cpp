@@ -50,15 +50,6 @@ double ripple(const ForceSeries& series, double window_s) {
     return std::sqrt(squares / static_cast<double>(windows)) / glm::length(mean);
 }
 
-double percentile(std::span<const double> values, double quantile) {
-    if (values.empty()) return 0.0;
-    std::vector<double> sorted(values.begin(), values.end());
-    const double rank = std::ceil(std::clamp(quantile, 0.0, 1.0) * static_cast<double>(sorted.size()));
-    const auto index = static_cast<std::size_t>(std::max(rank, 1.0)) - 1;
-    std::nth_element(sorted.begin(), sorted.begin() + static_cast<std::ptrdiff_t>(index), sorted.end());
-    return sorted[index];
-}
-
 double log_log_slope(std::span<const double> x, std::span<const double> y) {
     if (x.size() != y.size() || x.size() < 2)
         throw std::invalid_argument("a slope needs two points or more, each with x and y");

@@ -26,9 +26,6 @@ double relative_error(const glm::dvec3& value, const glm::dvec3& reference);
 /// where a step is longer): what a hand that follows no faster than that feels. 0 for a mean of zero.
 double ripple(const ForceSeries& series, double window_s = 0.01);
 
-/// The value below which the share `quantile` (0 to 1) of the values lies (nearest rank); 0 for no values.
-double percentile(std::span<const double> values, double quantile);
-
 /// Least-squares slope of log y against log x: the order of convergence. Values must be positive; throws
 /// std::invalid_argument for fewer than two, or where x does not vary.
 double log_log_slope(std::span<const double> x, std::span<const double> y);

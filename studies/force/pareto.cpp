@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "common/statistics/percentile.h"
 #include "studies/force/full_scan.h"
 
 namespace osteomill::study {

@@ -10,6 +10,7 @@
 #include <random>
 
 #include "common/scene/burr_frame.h"
+#include "common/statistics/percentile.h"
 
 namespace osteomill::study {
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "common/bone/bone_builder.h"
+#include "common/statistics/percentile.h"
 #include "studies/force/bone_block.h"
 #include "studies/force/full_scan.h"
 #include "studies/force/path_run.h"

@@ -21,6 +21,7 @@
 #include <memory>
 #include <vector>
 
+#include "common/statistics/percentile.h"
 #include "haptic_server/engagement/shank_probe.h"
 #include "haptic_server/loop/milling_loop.h"
 #include "studies/force/bone_block.h"
@@ -50,11 +51,7 @@ class Times {
             std::chrono::duration<double, std::micro>(std::chrono::steady_clock::now() - began).count());
     }
     double last_us() const { return us_.back(); }
-    double percentile_us(double share) {
-        const auto place = static_cast<std::size_t>(share * static_cast<double>(us_.size() - 1));
-        std::nth_element(us_.begin(), us_.begin() + static_cast<std::ptrdiff_t>(place), us_.end());
-        return us_[place];
-    }
+    double percentile_us(double share) const { return percentile(us_, share); }
 
   private:
     std::vector<double> us_;

@@ -3,15 +3,16 @@
 
 #include <vector>
 
+#include "common/statistics/percentile.h"
+
 namespace osteomill {
 
 class FrameTimes {
   public:
     void add(double frame_ms) { frames_ms_.push_back(frame_ms); }
     std::size_t count() const { return frames_ms_.size(); }
-    /// The smallest time that at least `part` (0 to 1) of the frames did not exceed (nearest rank); 0 without
-    /// frames.
-    double percentile_ms(double part) const;
+    /// `share` from 0 to 1; 0 without frames.
+    double percentile_ms(double share) const { return percentile(frames_ms_, share); }
 
   private:
     std::vector<double> frames_ms_;

@@ -2,9 +2,10 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <stdexcept>
 #include <utility>
+
+#include "common/bone/structure_in_bone.h"
 
 namespace osteomill {
 
@@ -14,16 +15,6 @@ VoxelBytes bytes_per_voxel(const LookTable& table, Shading shading) {
     const bool published = shading == Shading::surface_voxels;
     return {.needed = std::size_t{1} + (table.codes.exist() ? 1 : 0) + (published ? sizeof(SurfaceTexel) : 0),
             .smoothed = published ? std::size_t{0} : std::size_t{1}};
-}
-
-bool bears(const Bone& bone, std::size_t slot, std::uint8_t label) {
-    const ByteBrick& labels = bone.content().tissue[slot];
-    auto at = std::ranges::find(labels, label);
-    if (at == labels.end()) return false;
-    const BrickFractions fractions = bone.fractions(static_cast<std::int32_t>(slot));
-    for (; at != labels.end(); ++at)
-        if (*at == label && fractions[static_cast<std::size_t>(at - labels.begin())] > 0) return true;
-    return false;
 }
 
 }  // namespace
@@ -78,7 +69,7 @@ Steps TextureBuild::make_absent_opaque(const Bone& bone) {
         if (tissue.opacity >= 1.0) continue;
         bool is_there = false;
         for (std::size_t slot = 0; slot < bone.content().tissue.size() && !is_there; ++slot) {
-            is_there = bears(bone, slot, tissue.label);
+            is_there = brick_has_label(bone, slot, tissue.label);
             co_yield 0.0;
         }
         if (!is_there) tissue.opacity = 1.0;

@@ -1,8 +1,6 @@
 #include "studies/render/full_rate/finished_frames.h"
 
-#include <algorithm>
 #include <chrono>
-#include <cmath>
 #include <ctime>
 #include <nlohmann/json.hpp>
 #include <numeric>
@@ -20,14 +18,6 @@ double cpu_now_ms() {
 }
 
 }  // namespace
-
-double percentile(std::vector<double> values, double share) {
-    const auto place =
-        values.begin() + std::lround(std::ceil(share * static_cast<double>(values.size()))) - 1;
-    const auto nearest = std::max(place, values.begin());
-    std::nth_element(values.begin(), nearest, values.end());
-    return *nearest;
-}
 
 double frames_per_s(const FrameMilliseconds& frames) {
     return 1e3 * static_cast<double>(frames.wall.size()) /

@@ -18,8 +18,6 @@ struct FrameMilliseconds {
     std::vector<double> cpu{};  ///< of all threads of the process
 };
 
-/// The value that `share` (0 to 1) of all do not exceed, the nearest of them; not of none.
-double percentile(std::vector<double> values, double share);
 /// Frames a second, over all of them.
 double frames_per_s(const FrameMilliseconds& frames);
 

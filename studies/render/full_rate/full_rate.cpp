@@ -7,6 +7,7 @@
 #include <ostream>
 #include <vector>
 
+#include "common/statistics/percentile.h"
 #include "haptic_server/imaging/progress.h"
 #include "render_client/volume/gl/graphics_devices.h"
 #include "render_client/volume/gl/offscreen_context.h"

@@ -4,6 +4,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
+#include "common/statistics/percentile.h"
 #include "haptic_server/contact_models/milling_model.h"
 #include "haptic_server/coupling/couplings.h"
 #include "studies/force/bone_block.h"

@@ -19,14 +19,14 @@ TEST(StructureInBone, IsWhereTheBoneBearsTheLabelWhateverIsLeft) {
     const StructureMask nerve = structure_in_bone(bone, 3);
     EXPECT_EQ(nerve.voxel_count(), 1u);
     EXPECT_TRUE(nerve.contains({16 + 7, 0, 0}));
-    EXPECT_TRUE(is_in_bone(bone, 3));
-    EXPECT_FALSE(is_in_bone(bone, 5));
+    EXPECT_TRUE(brick_has_label(bone, 0, 3));
+    EXPECT_FALSE(brick_has_label(bone, 0, 5));
     EXPECT_TRUE(structure_in_bone(bone, 5).empty());
 
     bone.fractions(0)[7] = 0;
     EXPECT_TRUE(structure_in_bone(bone, 3) == nerve) << "milled, it is still where it was";
-    EXPECT_FALSE(is_in_bone(bone, 3));
-    EXPECT_TRUE(is_in_bone(bone, 4));
+    EXPECT_FALSE(brick_has_label(bone, 0, 3));
+    EXPECT_TRUE(brick_has_label(bone, 0, 4));
 }
 
 TEST(StructureInBone, IsNowhereInABoneWithoutLabels) {
@@ -37,7 +37,6 @@ TEST(StructureInBone, IsNowhereInABoneWithoutLabels) {
     builder.add_brick({0, 0, 0}, fraction, nullptr, nullptr);
     const Bone bone = std::move(builder).build();
     EXPECT_TRUE(structure_in_bone(bone, 0).empty());
-    EXPECT_FALSE(is_in_bone(bone, 0));
 }
 
 }  // namespace

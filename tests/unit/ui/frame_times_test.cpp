@@ -5,12 +5,12 @@
 namespace osteomill::frame_times_test {
 namespace {
 
-TEST(FrameTimes, GivesTheNearestRank) {
+TEST(FrameTimes, GivesPercentilesOfFramesInAnyOrder) {
     FrameTimes times;
-    for (int ms = 100; ms >= 1; --ms) times.add(ms);
-    EXPECT_EQ(times.percentile_ms(0.5), 50.0);
-    EXPECT_EQ(times.percentile_ms(0.99), 99.0);
-    EXPECT_EQ(times.percentile_ms(1.0), 100.0);
+    for (int ms = 101; ms >= 1; --ms) times.add(ms);
+    EXPECT_EQ(times.percentile_ms(0.5), 51.0);
+    EXPECT_EQ(times.percentile_ms(0.99), 100.0);
+    EXPECT_EQ(times.percentile_ms(1.0), 101.0);
 }
 
 TEST(FrameTimes, IsZeroWithoutFrames) {

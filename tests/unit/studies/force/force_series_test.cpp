@@ -37,14 +37,6 @@ TEST(Ripple, DoesNotSeeWhatAveragesOutWithinTenMilliseconds) {
     EXPECT_DOUBLE_EQ(ripple(series, 0.001), 0.5);
 }
 
-TEST(Percentile, IsTheNearestRank) {
-    const std::vector<double> values{5.0, 1.0, 4.0, 2.0, 3.0};
-    EXPECT_EQ(percentile(values, 0.5), 3.0);
-    EXPECT_EQ(percentile(values, 0.99), 5.0);
-    EXPECT_EQ(percentile(values, 0.0), 1.0);
-    EXPECT_EQ(percentile({}, 0.5), 0.0);
-}
-
 TEST(LogLogSlope, IsTheOrderOfAPowerLaw) {
     const std::vector<double> h{0.4, 0.2, 0.1, 0.05};
     std::vector<double> error;

@@ -8,16 +8,6 @@
 namespace osteomill::study {
 namespace {
 
-TEST(Percentile, IsTheNearestOfTheValues) {
-    EXPECT_EQ(percentile({3.0}, 0.0), 3.0);
-    EXPECT_EQ(percentile({3.0}, 0.99), 3.0);
-    EXPECT_EQ(percentile({4.0, 1.0, 3.0, 2.0}, 0.5), 2.0);
-    std::vector<double> hundred;
-    for (int value = 100; value > 0; --value) hundred.push_back(value);
-    EXPECT_EQ(percentile(hundred, 0.99), 99.0);
-    EXPECT_EQ(percentile(hundred, 1.0), 100.0);
-}
-
 TEST(FramesPerSecond, AreOfAllFramesTogether) {
     EXPECT_DOUBLE_EQ(frames_per_s({.wall = {1.0, 3.0}}), 500.0);
 }
