@@ -72,7 +72,8 @@ TEST(Confinement, OfTheServiceIsWhatSystemdCallsOk) {
     const std::string text = bytes_of(unit);
     for (const char* needed :
          {"DeviceAllow=char-hidraw rw", "LimitRTPRIO=50", "LimitMEMLOCK=infinity", "RestrictRealtime=no",
-          "SupplementaryGroups=plugdev", "StateDirectory=osteomill"})
+          "SupplementaryGroups=plugdev", "StateDirectory=osteomill", "RuntimeDirectory=osteomill",
+          "RestrictAddressFamilies=AF_INET AF_INET6 AF_UNIX"})
         EXPECT_THAT(text, HasSubstr(std::string("\n") + needed + "\n"));
 }
 
