@@ -14,6 +14,10 @@ namespace osteomill {
 /// is its owner, a group may read it.
 void require_private(const std::filesystem::path& key);
 
+/// Whether the certificate's extended key usage names the role: serverAuth or clientAuth. One without that
+/// extension names none.
+bool may_act_as(const X509& certificate, TlsContext::Role role);
+
 /// Throws std::runtime_error, in one line, where the certificate has expired, does not hold yet, or lacks the
 /// extended key usage of the role: serverAuth or clientAuth. `file` is where it came from.
 void require_fit(const X509& certificate, const std::filesystem::path& file, TlsContext::Role role);

@@ -33,6 +33,22 @@ struct stat look_at(const std::filesystem::path& file) {
     return found;
 }
 
+using Number = std::unique_ptr<ASN1_INTEGER, decltype(&ASN1_INTEGER_free)>;
+
+/// That of the extension; null where the list has none.
+Number number_of(const X509_CRL& list) {
+    return {static_cast<ASN1_INTEGER*>(X509_CRL_get_ext_d2i(&list, NID_crl_number, nullptr, nullptr)),
+            &ASN1_INTEGER_free};
+}
+
+/// By their numbers, which a CA only raises, or else by their dates.
+bool is_older(const X509_CRL& list, const X509_CRL& than) {
+    const Number number = number_of(list);
+    const Number number_of_other = number_of(than);
+    if (number && number_of_other) return ASN1_INTEGER_cmp(number.get(), number_of_other.get()) < 0;
+    return ASN1_TIME_compare(X509_CRL_get0_lastUpdate(&list), X509_CRL_get0_lastUpdate(&than)) < 0;
+}
+
 bool is_same(const struct stat& a, const struct stat& b) {
     return a.st_dev == b.st_dev && a.st_ino == b.st_ino && a.st_size == b.st_size &&
            a.st_mtim.tv_sec == b.st_mtim.tv_sec && a.st_mtim.tv_nsec == b.st_mtim.tv_nsec &&
@@ -63,7 +79,9 @@ RevocationLists::Look RevocationLists::refresh(Time now) {
     if (is_same(found, seen_)) return {};
     seen_ = found;
     try {
-        install(read());
+        Lists lists = read();
+        require_not_older(lists);
+        install(std::move(lists));
         return {.has_news = true};
     } catch (const std::runtime_error& error) {
         return {.failure = std::string(error.what()) + "; the list before it holds on"};
@@ -125,6 +143,16 @@ void RevocationLists::require_good(X509_CRL& list) const {
     if (until != nullptr && X509_cmp_current_time(until) <= 0)
         throw std::runtime_error(file_.string() + ": has expired, on " + text_of(*until) +
                                  "; a new list is needed (make_lab_certificates.sh FOLDER revoke)");
+}
+
+void RevocationLists::require_not_older(const Lists& lists) const {
+    for (const auto& list : lists)
+        for (const auto& held : lists_)
+            if (X509_NAME_cmp(X509_CRL_get_issuer(list.get()), X509_CRL_get_issuer(held.get())) == 0 &&
+                is_older(*list, *held))
+                throw std::runtime_error(
+                    file_.string() + ": is of " + text_of(*X509_CRL_get0_lastUpdate(list.get())) +
+                    ", older than the list of " + text_of(*X509_CRL_get0_lastUpdate(held.get())));
 }
 
 void RevocationLists::install(Lists lists) {

@@ -2,8 +2,8 @@
 //
 // A list that has expired revokes nobody and vouches for nobody: while the newest one is of that kind, every
 // certificate is refused, because whoever can keep a new list away could else bring a lost key back. A file
-// that changed and cannot be used (torn while it is written, of another CA, expired) is reported once, and
-// the lists before hold on.
+// that changed and cannot be used (torn while it is written, of another CA, expired, older than the list that
+// holds) is reported once, and the lists before hold on.
 #pragma once
 
 #include <openssl/ssl.h>
@@ -51,6 +51,9 @@ class RevocationLists {
     /// Throws as the constructor does.
     Lists read() const;
     void require_good(X509_CRL& list) const;
+    /// Throws std::runtime_error, in one line, where a list is older than the one of its CA that holds: it
+    /// would bring back whom the newer one revoked.
+    void require_not_older(const Lists& lists) const;
     void install(Lists lists);
 
     const std::filesystem::path file_;

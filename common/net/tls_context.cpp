@@ -22,6 +22,16 @@ void require_readable(const std::filesystem::path& file) {
         throw std::runtime_error(file.string() + ": cannot be read, or is empty; it should be a PEM file");
 }
 
+/// OpenSSL takes a certificate without extended key usage for every role: a lab's CA may also sign web
+/// servers and mail.
+template <TlsContext::Role peer>
+int verify_with_role(X509_STORE_CTX* chain, void*) {
+    if (X509_verify_cert(chain) != 1) return 0;
+    if (may_act_as(*X509_STORE_CTX_get0_cert(chain), peer)) return 1;
+    X509_STORE_CTX_set_error(chain, X509_V_ERR_INVALID_PURPOSE);
+    return 0;
+}
+
 }  // namespace
 
 TlsContext::TlsContext(const TlsFiles& files, Role role)
@@ -50,6 +60,9 @@ TlsContext::TlsContext(const TlsFiles& files, Role role)
     context_.load_verify_file(files.ca.string(), error);
     if (error) throw std::runtime_error(files.ca.string() + ": holds no CA certificate in PEM form");
     context_.set_verify_mode(ssl::verify_peer | ssl::verify_fail_if_no_peer_cert);
+    SSL_CTX_set_cert_verify_callback(
+        native, role == Role::server ? verify_with_role<Role::client> : verify_with_role<Role::server>,
+        nullptr);
     if (files.crl.empty()) return;
     revoked_ = std::make_unique<RevocationLists>(files.crl, files.ca, *native);
     if (revoked_->revokes(own))

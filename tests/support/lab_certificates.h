@@ -33,6 +33,12 @@ class LabCertificates {
     /// A client's whose certificate held until yesterday.
     TlsFiles expired_client() const { return expired(client("past"), "clientAuth"); }
     TlsFiles expired_server() const { return expired(server("past"), "serverAuth"); }
+    /// As a CA signs that knows nothing of roles: without extended key usage.
+    TlsFiles client_without_usage() const {
+        const TlsFiles files = client("plain");
+        sign_anew(files, "keyUsage=critical,digitalSignature", 9);
+        return files;
+    }
     /// The list of revoked certificates, with one more where a name is given.
     std::filesystem::path revoke(const std::string& name = "") const {
         make("revoke " + name);
@@ -52,11 +58,16 @@ class LabCertificates {
     }
     /// The same key with a certificate that held until yesterday.
     TlsFiles expired(const TlsFiles& files, const std::string& usage) const {
-        run("cd " + folder_.path().string() + " && echo extendedKeyUsage=" + usage +
-            " > past.ext && openssl req -new -key past.key -subj /CN=past |"
-            " openssl x509 -req -CA ca.pem -CAkey ca.key -days -1 -extfile past.ext -out past.pem 2> "
-            "/dev/null");
+        sign_anew(files, "extendedKeyUsage=" + usage, -1);
         return files;
+    }
+    /// The same key with another certificate of the lab's CA.
+    void sign_anew(const TlsFiles& files, const std::string& extension, int days) const {
+        const std::string name = files.certificate.stem().string();
+        run("cd " + folder_.path().string() + " && echo " + extension +
+            " > anew.ext && openssl req -new -key " + name + ".key -subj /CN=" + name +
+            " | openssl x509 -req -CA ca.pem -CAkey ca.key -days " + std::to_string(days) +
+            " -extfile anew.ext -out " + name + ".pem 2> /dev/null");
     }
     void make(const std::string& what) const {
         run(std::string(MAKE_LAB_CERTIFICATES) + " " + folder_.path().string() + " " + what);

@@ -120,5 +120,48 @@ TEST_F(RevocationListsTest, KeepWhatTheyKnowWhileTheFileIsTornAndSayItOnceForEac
     EXPECT_TRUE(look().has_news);
 }
 
+TEST_F(RevocationListsTest, GiveWayToNoOlderOne) {
+    write_list(-50, 1000);
+    const std::string older = text();
+    write_list(-40, 1000);
+    const std::string newer = text();
+    TlsContext context(bench_, Role::server);
+    RevocationLists::Time now{};
+    const auto look = [&] { return context.refresh(now += RevocationLists::look_period); };
+    write(older);
+    const auto seen = look();
+    EXPECT_FALSE(seen.has_news);
+    EXPECT_THAT(seen.failure, HasSubstr("crl.pem: is of 20"));
+    EXPECT_THAT(seen.failure, HasSubstr("older than the list of 20"));
+    write(newer);
+    EXPECT_TRUE(look().has_news) << "the same once more is none older";
+    write_list(-30, 1000);
+    EXPECT_TRUE(look().has_news);
+}
+
+// Two lists that a CA signs within a second bear one date.
+TEST_F(RevocationListsTest, GiveWayToNoLowerNumber) {
+    const auto number = [&](long value) {
+        const std::string folder = lab_->folder().string();
+        std::ofstream(lab_->folder() / "crl.number") << (value < 10 ? "0" : "") << value << "\n";
+        std::ofstream(lab_->folder() / "numbered.conf")
+            << "[ca]\ndefault_ca = lab\n[lab]\ndatabase = " << folder
+            << "/revoked.index\ncrlnumber = " << folder << "/crl.number\ndefault_md = sha256\n";
+        const std::string command =
+            "cd " + folder +
+            " && openssl ca -batch -gencrl -crldays 9 -config numbered.conf -cert ca.pem "
+            "-keyfile ca.key -out crl.pem 2> numbered.log";
+        ASSERT_EQ(std::system(command.c_str()), 0);
+    };
+    number(12);
+    TlsContext context(bench_, Role::server);
+    RevocationLists::Time now{};
+    const auto look = [&] { return context.refresh(now += RevocationLists::look_period); };
+    number(11);
+    EXPECT_THAT(look().failure, HasSubstr("older than the list of"));
+    number(13);
+    EXPECT_TRUE(look().has_news);
+}
+
 }  // namespace
 }  // namespace osteomill

@@ -160,6 +160,11 @@ TEST_F(TlsStreamTest, RefusesAServersCertificateFromAClient) {
     EXPECT_THAT(*server_failure_, HasSubstr("purpose"));
 }
 
+TEST_F(TlsStreamTest, RefusesAClientWhoseCertificateNamesNoUsage) {
+    meet_by_hand_with(lab_->client_without_usage());
+    EXPECT_THAT(*server_failure_, HasSubstr("purpose"));
+}
+
 TEST_F(TlsStreamTest, RefusesARevokedClientAndTellsItThatItIsFinal) {
     const TlsFiles lost = lab_->client("lost");
     TlsFiles bench = lab_->server("bench");
