@@ -154,14 +154,14 @@ ContactStep BurrProxy::balance_with_bone(const LinearPull& pull, const glm::dvec
     const auto is_balanced = [&] { return solved.residual_n <= balance_tolerance_n; };
     const glm::dvec3 cutting_n = solved.bone_force_n - wall_reaction(solved.step_mm, engagement).force_n;
     const double energy_mj = drive_mj(cutting_n, solved.step_mm, hand_step_mm);
-    const bool runs_away = energy_mj > 0.0 && apart_mj_ + energy_mj > allowed_apart_mj;
+    const bool runs_away = energy_mj > 0.0 && apart_mj_ + energy_mj > scale_.energy_mj(allowed_apart_mj);
     if (is_balanced() && !runs_away) return solved;
 
     if (is_balanced())
         ++counts_.damped;
     else
         ++counts_.fallbacks;
-    const double for_each_drive = drive_to_damping * (1.0 + to_hand_mj_ / much_to_hand_mj);
+    const double for_each_drive = drive_to_damping * (1.0 + to_hand_mj_ / scale_.energy_mj(much_to_hand_mj));
     for (int attempt = 0; attempt < most_attempts; ++attempt) {
         const double drive_n_s_per_mm = std::max(0.0, -solved.least_resistance_n_per_mm) * tick_s;
         const double wanted_n_s_per_mm = for_each_drive * drive_n_s_per_mm;
@@ -196,12 +196,13 @@ void BurrProxy::cut_toward(const glm::dvec3& target_mm, const LinearPull& pull, 
     counts_.max_residual_n = std::max(counts_.max_residual_n, solved.residual_n);
     walls_ = wall_reaction(solved.step_mm, engagement);
     const glm::dvec3 cutting_n = solved.bone_force_n - walls_.force_n;
-    apart_mj_ = std::clamp(apart_mj_ + drive_mj(cutting_n, solved.step_mm, hand_step_mm), 0.0, most_apart_mj);
+    apart_mj_ = std::clamp(apart_mj_ + drive_mj(cutting_n, solved.step_mm, hand_step_mm), 0.0,
+                           scale_.energy_mj(most_apart_mj));
     if (!contacts.empty())
         to_hand_mj_ = std::max(0.0, to_hand_mj_ - glm::dot(pull.force_n(solved.step_mm), hand_step_mm));
 
     const glm::dvec3 slowed_mm =
-        hand_step_mm + no_longer_than(solved.step_mm - hand_step_mm, most_slip_mm_per_s * tick_s);
+        hand_step_mm + no_longer_than(solved.step_mm - hand_step_mm, most_slip_mm_per_s_ * tick_s);
     const bool slips = glm::length(slowed_mm) < glm::length(solved.step_mm);
     const glm::dvec3 step_mm = slips ? slowed_mm : solved.step_mm;
     position_mm_ = step_mm == pull_mm ? target_mm : position_mm_ + step_mm;

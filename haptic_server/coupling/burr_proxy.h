@@ -35,7 +35,7 @@
 //
 // A massless burr that breaks through would be at the hand within a tick, and the hand would feel the spring
 // let go all at once. A handpiece has mass: with the spindle on, the burr slips past the hand no faster than
-// most_slip_mm_per_s, and the spring lets go over some ticks.
+// most_release_n_per_s stretch the spring, which lets go over some ticks.
 //
 // Edges pull sideways, so bone can drive the burr along: the symmetric part of what it resists may have a
 // negative eigenvalue -N. Then the burr may run away from the hand; and a ring of such contacts may leave no
@@ -58,14 +58,18 @@
 #include "common/scene/solve_counts.h"
 #include "haptic_server/coupling/contact_solve.h"
 #include "haptic_server/coupling/force_correction.h"
+#include "haptic_server/device/device_limits.h"
 #include "haptic_server/exchange/milling_step.h"
 
 namespace osteomill {
 
 class BurrProxy {
   public:
-    /// `wall_friction`: Coulomb's coefficient with the spindle off.
-    explicit BurrProxy(double wall_friction = 0.0) : wall_friction_(wall_friction) {}
+    /// `wall_friction`: Coulomb's coefficient with the spindle off. `arm`: on whose spring the burr is.
+    explicit BurrProxy(double wall_friction = 0.0, const PatientLimits& arm = {})
+        : wall_friction_(wall_friction),
+          scale_(arm.scale),
+          most_slip_mm_per_s_(most_release_n_per_s / arm.max_stiffness_n_per_mm) {}
 
     /// Puts the proxy somewhere, in contact with nothing that it knows of.
     void place(const glm::dvec3& position_mm) noexcept;
@@ -102,9 +106,10 @@ class BurrProxy {
     /// Wall pressure per depth with the spindle off, N/mm^3: a 1 mm burr pressed with 3 N sinks in by 0.04
     /// mm.
     static constexpr double wall_n_per_mm3 = 1000.0;
-    /// Beside the hand's own motion. On a spring of 1.5 N/mm 0.15 N a tick, half of what is felt as a knock.
-    static constexpr double most_slip_mm_per_s = 100.0;
+    /// How fast the spring may let go: 0.15 N a tick, half of what is felt as a knock.
+    static constexpr double most_release_n_per_s = 150.0;
 
+    // Energies are the hand's, at the arm.
     static constexpr double apart_memory_s = 0.05;
     static constexpr double allowed_apart_mj = 0.1;
     static constexpr double most_apart_mj = 1.0;
@@ -150,6 +155,8 @@ class BurrProxy {
                       const Engagement& engagement) noexcept;
 
     double wall_friction_;
+    ArmScale scale_;
+    double most_slip_mm_per_s_;
     glm::dvec3 position_mm_{0.0};
     glm::dvec3 carving_mm_{0.0};
     glm::dvec3 target_mm_{0.0};  // of the last tick

@@ -45,9 +45,8 @@ class Coupling {
 };
 
 struct CouplingOptions {
-    DeviceLimits device;
+    PatientLimits device;
     double milling_period_s = 0.001;
-    double position_resolution_mm = 0.0;  ///< of the device's encoders, in patient space; 0: not to speak of
     /// The model's force is the wall, too, and it has no cutting law: with the spindle off a coupling renders
     /// that force, makes no wall of its own and leaves the burr where the hand is.
     bool model_holds_wall = false;

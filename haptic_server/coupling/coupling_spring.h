@@ -11,17 +11,21 @@
 #include <glm/vec3.hpp>
 
 #include "haptic_server/coupling/contact_solve.h"
+#include "haptic_server/device/device_limits.h"
 
 namespace osteomill {
 
 class CouplingSpring {
   public:
+    /// At the arm.
     static constexpr double damping_n_s_per_mm = 0.004;
     static constexpr double hand_filter_s = 0.001;
 
     /// `burr_filter_s` is tau_p.
-    CouplingSpring(double stiffness_n_per_mm, double burr_filter_s)
-        : stiffness_n_per_mm_(stiffness_n_per_mm), burr_filter_s_(burr_filter_s) {}
+    CouplingSpring(const PatientLimits& arm, double burr_filter_s)
+        : stiffness_n_per_mm_(arm.max_stiffness_n_per_mm),
+          damping_n_s_per_mm_(arm.scale.damping_n_s_per_mm(damping_n_s_per_mm)),
+          burr_filter_s_(burr_filter_s) {}
 
     /// Slack and at rest, both ends at `position_mm`.
     void place(const glm::dvec3& position_mm) noexcept { hand_ = burr_ = {position_mm, glm::dvec3(0.0)}; }
@@ -32,8 +36,8 @@ class CouplingSpring {
         hand_.follow(hand_mm, tick_s, hand_filter_s);
         const double share = share_of_tick(tick_s, burr_filter_s_);
         return {stiffness_n_per_mm_ * (hand_mm - burr_.position_mm) +
-                    damping_n_s_per_mm * (hand_.velocity_mm_per_s - (1.0 - share) * burr_.velocity_mm_per_s),
-                stiffness_n_per_mm_ + damping_n_s_per_mm * share / tick_s};
+                    damping_n_s_per_mm_ * (hand_.velocity_mm_per_s - (1.0 - share) * burr_.velocity_mm_per_s),
+                stiffness_n_per_mm_ + damping_n_s_per_mm_ * share / tick_s};
     }
 
     /// Takes where the burr is after the same tick, and returns the force on the hand. Real-time safe.
@@ -42,7 +46,7 @@ class CouplingSpring {
         // Out of contact the spring is slack at once; what the filters remember must not be felt in air.
         if (hand_.position_mm == burr_mm) burr_ = hand_;
         return -stiffness_n_per_mm_ * (hand_.position_mm - burr_mm) -
-               damping_n_s_per_mm * (hand_.velocity_mm_per_s - burr_.velocity_mm_per_s);
+               damping_n_s_per_mm_ * (hand_.velocity_mm_per_s - burr_.velocity_mm_per_s);
     }
 
   private:
@@ -60,6 +64,7 @@ class CouplingSpring {
     };
 
     double stiffness_n_per_mm_;
+    double damping_n_s_per_mm_;
     double burr_filter_s_;
     End hand_;
     End burr_;

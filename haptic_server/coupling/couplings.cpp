@@ -27,7 +27,7 @@ CouplingFactory direct(ForceEstimate estimate, ForceShape shape) {
 
 CouplingFactory with_damper(CouplingFactory base) {
     return [base = std::move(base)](const CouplingOptions& options) {
-        return std::make_unique<VirtualDamper>(base(options));
+        return std::make_unique<VirtualDamper>(base(options), options);
     };
 }
 

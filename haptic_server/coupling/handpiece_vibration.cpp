@@ -18,7 +18,7 @@ constexpr double two_pi = 2.0 * std::numbers::pi;
 /// Gaps of freshly carved bone scatter by a tenth of a voxel.
 constexpr double touching_voxels = 0.2;
 /// A longer one in a tick is a jump of the device, not the way of a hand.
-constexpr double longest_move_mm = 5.0;
+constexpr double longest_move_mm = 5.0;  // at the arm
 
 double tooth_hz(const Burr& burr) {
     return burr.edges * burr.spindle_rev_per_s;
@@ -90,10 +90,11 @@ HandpieceVibration::HandpieceVibration(std::vector<Burr> burrs, const VibrationL
 
 void HandpieceVibration::follow_hand(const glm::dvec3& hand_mm) noexcept {
     const glm::dvec3 moved_mm = hand_mm - hand_mm_;
-    const bool follows = has_hand_ && glm::length(moved_mm) <= longest_move_mm;
+    const bool follows = has_hand_ && glm::length(moved_mm) <= limits_.scale.length_mm(longest_move_mm);
     has_hand_ = is_finite(hand_mm);
     hand_mm_ = hand_mm;
-    if (follows) store_mj_ = std::min(store_mj_ - glm::dot(force_n_, moved_mm), most_store_mj);
+    const double most_mj = limits_.scale.energy_mj(most_store_mj);
+    if (follows) store_mj_ = std::min(store_mj_ - glm::dot(force_n_, moved_mm), most_mj);
 }
 
 void HandpieceVibration::silence() noexcept {
@@ -150,7 +151,8 @@ glm::dvec3 HandpieceVibration::allowed_n(const Burr& burr, double tick_s, double
     const double tooth_n = tooth_.amplitude_n();
     const double room_n = limits_.max_force_n - mean_n;
     if (!(turn_n + tooth_n > 0.0 && room_n > 0.0)) return glm::dvec3(0.0);
-    const double payable_n = std::max(0.0, store_mj_) / (fastest_mm_per_s * tick_s);
+    const double payable_n =
+        std::max(0.0, store_mj_) / (limits_.scale.speed_mm_per_s(fastest_mm_per_s) * tick_s);
     const double slew_n_per_s = two_pi * (turn_n * burr.spindle_rev_per_s + tooth_n * tooth_hz(burr));
     const double share = std::min({1.0, room_n / (turn_n + tooth_n), payable_n / (turn_n + tooth_n),
                                    share_of_slew * limits_.max_slew_n_per_s / slew_n_per_s});

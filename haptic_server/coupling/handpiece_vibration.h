@@ -48,6 +48,7 @@ namespace osteomill {
 struct VibrationLimits {
     double max_force_n = 0.0;       ///< of the device
     double max_slew_n_per_s = 0.0;  ///< of the force on the hand
+    ArmScale scale{};
 };
 
 class HandpieceVibration {
@@ -56,7 +57,7 @@ class HandpieceVibration {
     /// How fast it follows the cut: slower than a tick, that nothing clicks; faster than a hand can tell.
     static constexpr double follows_s = 0.01;
     static constexpr double share_of_slew = 0.8;
-    static constexpr double most_store_mj = 1.0;
+    static constexpr double most_store_mj = 1.0;  // at the arm, as the speed of the hand
     static constexpr double share_of_work = 0.5;
     /// Faster than a hand that cuts; a step of an arm's encoder within a tick is half as long.
     static constexpr double fastest_mm_per_s = 100.0;
@@ -71,7 +72,7 @@ class HandpieceVibration {
     glm::dvec3 tick(const HandState& hand, const MillingResult& latest, const glm::dvec3& mean_force_n,
                     bool is_felt) noexcept;
 
-    /// What it may still give to the hand; below 0 what it owes.
+    /// What it may still give to the hand, in patient space; below 0 what it owes.
     double store_mj() const noexcept { return store_mj_; }
 
   private:

@@ -3,9 +3,9 @@
 namespace osteomill {
 
 ImplicitCoupling::ImplicitCoupling(const CouplingOptions& options)
-    : hand_(options.position_resolution_mm),
-      proxy_(options.wall_friction),
-      spring_(options.device.max_stiffness_n_per_mm, burr_filter_s) {}
+    : hand_(options.device.position_resolution_mm),
+      proxy_(options.wall_friction, options.device),
+      spring_(options.device, burr_filter_s) {}
 
 CouplingOutput ImplicitCoupling::tick(const HandState& hand, const MillingResult& latest) noexcept {
     if (!placed_) {

@@ -7,7 +7,7 @@ namespace osteomill {
 
 PassivityControl::PassivityControl(std::unique_ptr<Coupling> base, const CouplingOptions& options)
     : base_(std::move(base)),
-      position_(options.position_resolution_mm),
+      position_(options.device.position_resolution_mm),
       apparent_mass_kg_(options.device.apparent_mass_kg) {}
 
 void PassivityControl::reset() noexcept {

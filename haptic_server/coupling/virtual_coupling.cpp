@@ -4,8 +4,8 @@ namespace osteomill {
 
 VirtualCoupling::VirtualCoupling(const CouplingOptions& options)
     : tool_mass_kg_(options.device.apparent_mass_kg),
-      hand_(options.position_resolution_mm),
-      tie_(options.device.max_stiffness_n_per_mm, CouplingSpring::hand_filter_s),
+      hand_(options.device.position_resolution_mm),
+      tie_(options.device, CouplingSpring::hand_filter_s),
       bone_(ForceEstimate::newest, ForceShape::held, options) {}
 
 void VirtualCoupling::reset() noexcept {

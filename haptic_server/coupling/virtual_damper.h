@@ -17,16 +17,19 @@ class VirtualDamper final : public Coupling {
   public:
     /// 5 N s/m. More buzzes: one encoder count (0.055 mm) a millisecond is 55 mm/s, 9 mm/s after a driver's
     /// filter of 5 ms.
-    static constexpr double damping_n_s_per_mm = 0.005;
+    static constexpr double damping_n_s_per_mm = 0.005;  // at the arm
     static constexpr double full_at_n = 0.2;
 
-    explicit VirtualDamper(std::unique_ptr<Coupling> base) : base_(std::move(base)) {}
+    VirtualDamper(std::unique_ptr<Coupling> base, const CouplingOptions& options)
+        : base_(std::move(base)),
+          damping_n_s_per_mm_(options.device.scale.damping_n_s_per_mm(damping_n_s_per_mm)) {}
 
     CouplingOutput tick(const HandState& hand, const MillingResult& latest) noexcept override;
     void reset() noexcept override { base_->reset(); }
 
   private:
     std::unique_ptr<Coupling> base_;
+    double damping_n_s_per_mm_;  // in patient space
 };
 
 }  // namespace osteomill

@@ -15,7 +15,7 @@ ClientDevice::ClientDevice(OperatorChannel& commands, const ToolPose& start_pose
       held_arm_(arm, hand, position_in_device_mm(mapping, start_pose.position_mm)),
       wanted_(start_pose),
       target_(start_pose),
-      limit_(start_pose.position_mm) {}
+      limit_(position_in_device_mm(mapping, start_pose.position_mm)) {}
 
 void ClientDevice::take_over_command(double now_s) noexcept {
     if (!commands_.refresh()) return;
@@ -26,8 +26,10 @@ void ClientDevice::take_over_command(double now_s) noexcept {
         permission_.withdraw();
         return;
     }
-    const glm::dvec3 burr_mm = position_in_patient_mm(mapping_, held_arm_.truth().position_mm());
-    wanted_ = {limit_.limited(command->hand_target_mm, burr_mm, now_s), command->spindle_axis / axis_length};
+    const glm::dvec3 target_mm =
+        limit_.limited(position_in_device_mm(mapping_, command->hand_target_mm),
+                       held_arm_.truth().position_mm(), now_s);
+    wanted_ = {position_in_patient_mm(mapping_, target_mm), command->spindle_axis / axis_length};
     if (!command->pedal) must_be_pressed_anew_ = false;
     pedal_ = command->pedal && !must_be_pressed_anew_;
     burr_ = command->burr;
@@ -38,7 +40,7 @@ void ClientDevice::end_permission() noexcept {
     must_be_pressed_anew_ = must_be_pressed_anew_ || pedal_;
     pedal_ = false;
     wanted_ = target_;
-    limit_.resume_at(target_.position_mm);
+    limit_.resume_at(position_in_device_mm(mapping_, target_.position_mm));
 }
 
 void ClientDevice::set_mapping(const DeviceMapping& mapping) noexcept {

@@ -12,16 +12,9 @@
 #include <string>
 
 #include "common/scene/scene.h"
+#include "haptic_server/device/device_limits.h"
 
 namespace osteomill {
-
-struct DeviceLimits {
-    double max_force_n = 3.3;
-    double max_stiffness_n_per_mm = 1.5;  ///< of a spring that it renders stably
-    double apparent_mass_kg = 0.045;
-    double position_resolution_mm = 0.0;  ///< step of a position reading; 0: none to speak of
-    bool gives_force = true;              ///< false: what is written is shown to people, and felt by nobody
-};
 
 /// One reading, in device space.
 struct DeviceState {

@@ -10,7 +10,7 @@ glm::dvec3 TargetLimit::limited(const glm::dvec3& wanted_mm, const glm::dvec3& b
                                 double now_s) noexcept {
     glm::dvec3 target_mm = wanted_mm;
     const glm::dvec3 reach_mm = wanted_mm - burr_mm;
-    if (const double length_mm = glm::length(reach_mm); length_mm > longest_reach_mm) {
+    if (const double length_mm = glm::length(reach_mm); !(length_mm <= longest_reach_mm)) {
         // The length of a finite vector may be none: it is then too far in any direction.
         target_mm = std::isfinite(length_mm) ? burr_mm + reach_mm * (longest_reach_mm / length_mm) : burr_mm;
         was_out_of_reach_.store(true, std::memory_order_relaxed);

@@ -18,7 +18,7 @@ class TargetLimit {
   public:
     static constexpr double room_mm = 2.0 * longest_reach_mm;
 
-    /// The path begins at `start_mm` (patient LPS, as all of these).
+    /// The path begins at `start_mm` (device space, as all of these: a hand holds the arm).
     explicit TargetLimit(const glm::dvec3& start_mm) : target_mm_(start_mm) {}
 
     /// The path goes on from here: the operator was away.

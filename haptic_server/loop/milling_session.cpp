@@ -64,7 +64,8 @@ std::optional<HandpieceVibration> make_vibration(const Scene& scene, const Hapti
                                                  const MillingSessionOptions& options) {
     if (!options.vibration) return std::nullopt;
     return HandpieceVibration(scene.burrs, {.max_force_n = device.limits().max_force_n,
-                                            .max_slew_n_per_s = ForceGuard::slew_n_per_s});
+                                            .max_slew_n_per_s = ForceGuard::slew_n_per_s,
+                                            .scale = ArmScale(scene.device.scale)});
 }
 
 /// What a thread does before its loop, so that the loop finds all it needs.
@@ -109,9 +110,8 @@ MillingSession::MillingSession(const Scene& scene, Bone bone, HapticDevice& devi
       model_(make_force_model(options.force_model, std::move(bone), scene.burrs, scene.tissues)),
       coupling_(make_coupling(
           options.coupling,
-          {.device = device.limits(),
+          {.device = in_patient_space(device.limits(), ArmScale(scene.device.scale)),
            .milling_period_s = std::max(tick_s, 1.0 / options.milling_rate_hz),
-           .position_resolution_mm = device.limits().position_resolution_mm * scene.device.scale,
            .model_holds_wall = !find_force_model(options.force_model).has_cutting_law,
            .wall_friction = find_force_model(options.force_model).has_friction ? scene.wall_friction : 0.0})),
       changes_(change_queue_bytes, model_->bone().shared_content()),

@@ -11,7 +11,7 @@ namespace {
 constexpr double tick_s = 0.001;
 
 TEST(CouplingSpring, PullsOnTheBurrAsItPushesOnTheHand) {
-    CouplingSpring spring(1.5, 0.01);
+    CouplingSpring spring({.max_stiffness_n_per_mm = 1.5}, 0.01);
     spring.place(glm::dvec3(0.0));
     glm::dvec3 hand(0.0);
     glm::dvec3 burr(0.0);
@@ -26,7 +26,7 @@ TEST(CouplingSpring, PullsOnTheBurrAsItPushesOnTheHand) {
 }
 
 TEST(CouplingSpring, IsSlackAtOnceWhereBurrAndHandMeet) {
-    CouplingSpring spring(1.5, 0.01);
+    CouplingSpring spring({.max_stiffness_n_per_mm = 1.5}, 0.01);
     spring.place(glm::dvec3(0.0));
     spring.follow_hand({1.0, 0.0, 0.0}, tick_s);
     EXPECT_LT(spring.follow_burr(glm::dvec3(0.0), tick_s).x, -1.5) << "spring and damper";

@@ -7,7 +7,7 @@
 namespace osteomill::virtual_coupling_test {
 namespace {
 
-constexpr DeviceLimits device{.max_stiffness_n_per_mm = 1.5, .apparent_mass_kg = 0.045};
+constexpr PatientLimits device{.max_stiffness_n_per_mm = 1.5, .apparent_mass_kg = 0.045};
 
 HandState hand_at(double x_mm) {
     return {.pose = {{x_mm, 0.0, 0.0}, {0.0, 0.0, 1.0}}, .spindle_on = true};

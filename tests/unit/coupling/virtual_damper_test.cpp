@@ -15,7 +15,7 @@ const HandState moving{.pose = {}, .velocity_mm_per_s = {0.0, 40.0, -20.0}};
 
 TEST(VirtualDamper, ResistsMotionInContactOnly) {
     Script base;
-    VirtualDamper damper(std::make_unique<ScriptedCoupling>(base));
+    VirtualDamper damper(std::make_unique<ScriptedCoupling>(base), {});
     EXPECT_EQ(damper.tick(moving, none).force_n, glm::dvec3(0.0)) << "air is free";
     base.says.force_n = {1.0, 0.0, 0.0};
     const glm::dvec3 force_n = damper.tick(moving, none).force_n;
@@ -29,7 +29,7 @@ TEST(VirtualDamper, ResistsMotionInContactOnly) {
 TEST(VirtualDamper, LeavesTheBurrAndPassesAResetOn) {
     Script base;
     base.says.burr_pose.position_mm = {3.0, 2.0, 1.0};
-    VirtualDamper damper(std::make_unique<ScriptedCoupling>(base));
+    VirtualDamper damper(std::make_unique<ScriptedCoupling>(base), {});
     EXPECT_EQ(damper.tick(moving, none).burr_pose.position_mm, base.says.burr_pose.position_mm);
     damper.reset();
     EXPECT_EQ(base.resets, 1);

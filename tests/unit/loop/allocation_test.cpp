@@ -38,7 +38,7 @@ struct Rig {
                                  {used}, {})),
           coupling(
               make_coupling(coupling_name,
-                            {.device = device.limits(),
+                            {.device = in_patient_space(device.limits(), ArmScale()),
                              .milling_period_s = 0.001,
                              .model_holds_wall = !osteomill::find_force_model(force_model).has_cutting_law})),
           vibration({used}, {.max_force_n = 3.3, .max_slew_n_per_s = ForceGuard::slew_n_per_s}),

@@ -15,7 +15,7 @@ namespace {
 double growth_per_s(double stiffness_n_per_mm, std::size_t delay_ticks) {
     constexpr double tick_s = 0.001;
     constexpr std::size_t ticks = 3000;
-    CouplingSpring spring(stiffness_n_per_mm, 0.01);
+    CouplingSpring spring({.max_stiffness_n_per_mm = stiffness_n_per_mm}, 0.01);
     spring.place(glm::dvec3(0.0));
     const study::Bench bench{.body = study::bare_arm(0.5), .delay_ticks = delay_ticks};
     const auto law = [&](double position_m) {

@@ -1,0 +1,35 @@
+// What an arm can do, in its own space and in the patient's: two types, so that one is not taken for the
+// other. arm_scale.h says how a figure converts.
+#pragma once
+
+#include "common/scene/arm_scale.h"
+
+namespace osteomill {
+
+/// In the device's millimetres.
+struct DeviceLimits {
+    double max_force_n = 3.3;
+    double max_stiffness_n_per_mm = 1.5;  ///< of a spring that it renders stably
+    double apparent_mass_kg = 0.045;
+    double position_resolution_mm = 0.0;  ///< step of a position reading; 0: none to speak of
+    bool gives_force = true;              ///< false: what is written is shown to people, and felt by nobody
+};
+
+/// The same in the patient's millimetres, in which couplings reckon.
+struct PatientLimits {
+    double max_force_n = DeviceLimits{}.max_force_n;
+    double max_stiffness_n_per_mm = DeviceLimits{}.max_stiffness_n_per_mm;
+    double apparent_mass_kg = DeviceLimits{}.apparent_mass_kg;
+    double position_resolution_mm = DeviceLimits{}.position_resolution_mm;
+    ArmScale scale{};  ///< for what a coupling itself asks of the arm
+};
+
+constexpr PatientLimits in_patient_space(const DeviceLimits& arm, ArmScale scale) {
+    return {.max_force_n = arm.max_force_n,
+            .max_stiffness_n_per_mm = scale.stiffness_n_per_mm(arm.max_stiffness_n_per_mm),
+            .apparent_mass_kg = scale.mass_kg(arm.apparent_mass_kg),
+            .position_resolution_mm = scale.length_mm(arm.position_resolution_mm),
+            .scale = scale};
+}
+
+}  // namespace osteomill
