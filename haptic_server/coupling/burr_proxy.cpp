@@ -70,7 +70,7 @@ std::span<const Contact> BurrProxy::gather_contacts(double longest_mm, double st
     const auto add_wall = [&](const glm::dvec3& normal, double area_mm2, double begins_mm) {
         if (begins_mm <= longest_mm)
             contacts_[count++] = {.normal = normal,
-                                  .force_n_per_mm = -wall_n_per_mm3 * area_mm2 * normal,
+                                  .force_n_per_mm = -wall_n_per_mm3_ * area_mm2 * normal,
                                   .begins_mm = begins_mm};
     };
     for (std::size_t i = 0; i < engagement.count; ++i) {
@@ -105,7 +105,7 @@ BurrProxy::WallReaction BurrProxy::wall_reaction(const glm::dvec3& step_mm,
         const ShankPatch& patch = engagement.shank_patches[i];
         const double beyond_mm = glm::dot(patch.normal, moved) - patch.gap_mm;
         if (beyond_mm <= 0.0) continue;
-        const glm::dvec3 force_n = -wall_n_per_mm3 * patch.area_mm2 * beyond_mm * patch.normal;
+        const glm::dvec3 force_n = -wall_n_per_mm3_ * patch.area_mm2 * beyond_mm * patch.normal;
         reaction.force_n += force_n;
         reaction.torque_n_mm += glm::cross(patch.arm_mm, force_n);
     }
@@ -113,7 +113,7 @@ BurrProxy::WallReaction BurrProxy::wall_reaction(const glm::dvec3& step_mm,
         const EngagedPatch& patch = engagement.patches[i];
         const double beyond_mm = glm::dot(patch.normal, moved) - patch.gap_mm;
         if (patch.is_wall && beyond_mm > 0.0)
-            reaction.force_n -= wall_n_per_mm3 * patch.area_mm2 * beyond_mm * patch.normal;
+            reaction.force_n -= wall_n_per_mm3_ * patch.area_mm2 * beyond_mm * patch.normal;
     }
     return reaction;
 }
@@ -178,6 +178,16 @@ ContactStep BurrProxy::balance_with_bone(const LinearPull& pull, const glm::dvec
     return solved;
 }
 
+void BurrProxy::move(const glm::dvec3& step_mm, const glm::dvec3& target_mm, double tick_s) noexcept {
+    const glm::dvec3 hand_step_mm = target_mm - target_mm_;
+    const glm::dvec3 slowed_mm =
+        hand_step_mm + no_longer_than(step_mm - hand_step_mm, most_slip_mm_per_s_ * tick_s);
+    if (glm::length(slowed_mm) < glm::length(step_mm))
+        position_mm_ += slowed_mm;
+    else
+        position_mm_ = step_mm == target_mm - position_mm_ ? target_mm : position_mm_ + step_mm;
+}
+
 void BurrProxy::cut_toward(const glm::dvec3& target_mm, const LinearPull& pull, double tick_s,
                            const Engagement& engagement) noexcept {
     const glm::dvec3 pull_mm = target_mm - position_mm_;
@@ -201,37 +211,38 @@ void BurrProxy::cut_toward(const glm::dvec3& target_mm, const LinearPull& pull, 
     if (!contacts.empty())
         to_hand_mj_ = std::max(0.0, to_hand_mj_ - glm::dot(pull.force_n(solved.step_mm), hand_step_mm));
 
-    const glm::dvec3 slowed_mm =
-        hand_step_mm + no_longer_than(solved.step_mm - hand_step_mm, most_slip_mm_per_s_ * tick_s);
-    const bool slips = glm::length(slowed_mm) < glm::length(solved.step_mm);
-    const glm::dvec3 step_mm = slips ? slowed_mm : solved.step_mm;
-    position_mm_ = step_mm == pull_mm ? target_mm : position_mm_ + step_mm;
+    move(solved.step_mm, target_mm, tick_s);
     correction_.add_prediction(cutting_n, tick_s);
     remember_cuts(engagement);
     trail(solved.bone_force_n != glm::dvec3(0.0), engagement);
 }
 
-void BurrProxy::press_toward(const glm::dvec3& target_mm, const LinearPull& pull, Meets meets,
+void BurrProxy::press_toward(const glm::dvec3& target_mm, const LinearPull& pull, double tick_s, Meets meets,
                              const Engagement& engagement) noexcept {
-    const double longest_mm = glm::distance(target_mm, position_mm_) + 2.0 * engagement.spacing_mm;
+    const glm::dvec3 pull_mm = target_mm - position_mm_;
+    const double longest_mm = glm::length(pull_mm) + 2.0 * engagement.spacing_mm;
     const auto contacts = gather_contacts(longest_mm, 0.0, meets, engagement);
     correction_.reset();
     apart_mj_ = to_hand_mj_ = 0.0;
     if (contacts.empty()) {
         walls_ = {};
-        position_mm_ = target_mm;
+        move(pull_mm, target_mm, tick_s);
         return;
     }
     const ContactStep solved = relaxed_step(pull, contacts);
     iterations_ += solved.iterations;
     walls_ = wall_reaction(solved.step_mm, engagement);
     counts_.max_residual_n = std::max(counts_.max_residual_n, solved.residual_n);
-    if (solved.bone_force_n == glm::dvec3(0.0))
-        position_mm_ = target_mm;
-    else if (wall_friction_ > 0.0)
-        position_mm_ += with_friction(solved, pull.stiffness_n_per_mm, wall_friction_);
+    const bool is_held = solved.bone_force_n != glm::dvec3(0.0);
+    const bool rubs = is_held && wall_friction_ > 0.0;
+    const glm::dvec3 held_mm =
+        rubs ? with_friction(solved, pull.stiffness_n_per_mm, wall_friction_) : solved.step_mm;
+    const glm::dvec3 step_mm = is_held ? held_mm : pull_mm;
+    // A wall may stretch the spring as fast as it likes.
+    if (glm::length(pull_mm - step_mm) > glm::length(target_mm_ - position_mm_))
+        position_mm_ += step_mm;
     else
-        position_mm_ += solved.step_mm;
+        move(step_mm, target_mm, tick_s);
 }
 
 void BurrProxy::advance(const glm::dvec3& target_mm, const LinearPull& pull, double tick_s, bool spindle_on,
@@ -241,16 +252,16 @@ void BurrProxy::advance(const glm::dvec3& target_mm, const LinearPull& pull, dou
     if (spindle_on)
         cut_toward(target_mm, pull, tick_s, latest.engagement);
     else
-        press_toward(target_mm, pull, Meets::all_as_walls, latest.engagement);
+        press_toward(target_mm, pull, tick_s, Meets::all_as_walls, latest.engagement);
     if (!spindle_on) carving_mm_ = position_mm_;
     target_mm_ = target_mm;
 }
 
-void BurrProxy::advance_on_walls(const glm::dvec3& target_mm, const LinearPull& pull,
+void BurrProxy::advance_on_walls(const glm::dvec3& target_mm, const LinearPull& pull, double tick_s,
                                  const MillingResult& latest) noexcept {
     take_over(latest);
     iterations_ = 0;
-    press_toward(target_mm, pull, Meets::walls_only, latest.engagement);
+    press_toward(target_mm, pull, tick_s, Meets::walls_only, latest.engagement);
     carving_mm_ = position_mm_;
     target_mm_ = target_mm;
 }

@@ -34,7 +34,8 @@
 // burr, to the last digit, but for two things.
 //
 // A massless burr that breaks through would be at the hand within a tick, and the hand would feel the spring
-// let go all at once. A handpiece has mass: with the spindle on, the burr slips past the hand no faster than
+// let go all at once. So it would where a spindle stops, and what pulled the burr along is a wall from then
+// on. A handpiece has mass, a spindle comes to rest: the burr slips past the hand no faster than
 // most_release_n_per_s stretch the spring, which lets go over some ticks.
 //
 // Edges pull sideways, so bone can drive the burr along: the symmetric part of what it resists may have a
@@ -50,6 +51,7 @@
 // keeps the contacts' normal forces alone: these always have one, and only take energy out.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <glm/vec3.hpp>
@@ -69,6 +71,7 @@ class BurrProxy {
     explicit BurrProxy(double wall_friction = 0.0, const PatientLimits& arm = {})
         : wall_friction_(wall_friction),
           scale_(arm.scale),
+          wall_n_per_mm3_(std::max(wall_n_per_mm3, arm.scale.stiffness_n_per_mm(wall_n_per_mm3))),
           most_slip_mm_per_s_(most_release_n_per_s / arm.max_stiffness_n_per_mm) {}
 
     /// Puts the proxy somewhere, in contact with nothing that it knows of.
@@ -81,7 +84,7 @@ class BurrProxy {
 
     /// Likewise on what no burr cuts alone, whether the spindle turns or not: for couplings whose burr is
     /// elsewhere free.
-    void advance_on_walls(const glm::dvec3& target_mm, const LinearPull& pull,
+    void advance_on_walls(const glm::dvec3& target_mm, const LinearPull& pull, double tick_s,
                           const MillingResult& latest) noexcept;
 
     const glm::dvec3& position_mm() const { return position_mm_; }
@@ -104,7 +107,7 @@ class BurrProxy {
     static constexpr double edge_yields_mm = 0.001;
     static constexpr double carving_trails_mm = 0.005;
     /// Wall pressure per depth with the spindle off, N/mm^3: a 1 mm burr pressed with 3 N sinks in by 0.04
-    /// mm.
+    /// mm, and no farther at the arm either.
     static constexpr double wall_n_per_mm3 = 1000.0;
     /// How fast the spring may let go: 0.15 N a tick, half of what is felt as a knock.
     static constexpr double most_release_n_per_s = 150.0;
@@ -151,11 +154,14 @@ class BurrProxy {
     void cut_toward(const glm::dvec3& target_mm, const LinearPull& pull, double tick_s,
                     const Engagement& engagement) noexcept;
     /// Without cutting.
-    void press_toward(const glm::dvec3& target_mm, const LinearPull& pull, Meets meets,
+    void press_toward(const glm::dvec3& target_mm, const LinearPull& pull, double tick_s, Meets meets,
                       const Engagement& engagement) noexcept;
+    /// By a step toward the target, or as much of it as the spring may let go of in a tick.
+    void move(const glm::dvec3& step_mm, const glm::dvec3& target_mm, double tick_s) noexcept;
 
     double wall_friction_;
     ArmScale scale_;
+    double wall_n_per_mm3_;
     double most_slip_mm_per_s_;
     glm::dvec3 position_mm_{0.0};
     glm::dvec3 carving_mm_{0.0};

@@ -5,7 +5,8 @@ namespace osteomill {
 DirectCoupling::DirectCoupling(ForceEstimate estimate, ForceShape shape, const CouplingOptions& options)
     : wall_n_per_mm_(options.device.max_stiffness_n_per_mm),
       model_holds_wall_(options.model_holds_wall),
-      force_(estimate, shape, options.milling_period_s) {}
+      force_(estimate, shape, options.milling_period_s),
+      wall_(0.0, options.device) {}
 
 void DirectCoupling::reset() noexcept {
     force_.reset();
@@ -19,7 +20,7 @@ const glm::dvec3& DirectCoupling::follow_wall(const HandState& hand, const Milli
     const glm::dvec3& hand_mm = hand.pose.position_mm;
     const LinearPull pull{wall_n_per_mm_ * (hand_mm - wall_.position_mm()), wall_n_per_mm_};
     if (hand.spindle_on)
-        wall_.advance_on_walls(hand_mm, pull, latest);
+        wall_.advance_on_walls(hand_mm, pull, hand.tick_s, latest);
     else
         wall_.advance(hand_mm, pull, hand.tick_s, false, latest);
     return wall_.position_mm();

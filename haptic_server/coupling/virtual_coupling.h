@@ -1,22 +1,21 @@
-// Virtual coupling (Colgate, Stanley and Brown, IROS 1995): a virtual tool with a mass, integrated at the
-// haptic rate under the model's held force, tied to the hand by a spring and a damper. The hand feels the
-// tie, the burr is the tool.
+// Virtual coupling (Colgate, Stanley and Brown, IROS 1995): a virtual tool with a mass, met by the bone and
+// tied to the hand by a spring and a damper. The hand feels the tie, the burr is the tool.
 //
-//     w' = w + T/M (F_model + F_tie)      F_tie = K_c e + B_c de/dt, e = x_hand - p (coupling_spring.h)
-//     p' = p + T w'                       F_hand = -F_tie
+//     M (w' - w) / T = F_tie(w' T) + F_bone(w' T)     F_tie = K_c e + B_c de/dt, e = x_hand - p
+//     p' = p + T w'                                   F_hand = -F_tie      (coupling_spring.h)
 //
-// What the model does at the tool, the hand meets only through a tie that the device can render. But the tool
-// meets the model's force as the device would, held and late: bone that resists like a damper of B needs
-// B < about 2 M / T, and the tool is a mass that is felt in air. M is the device's own apparent mass, which
-// the hand moves anyway: the price in air is twice the inertia, and above about 90 N s/m the tool chatters.
+// Solved at the tick's end, on the engagement map (burr_proxy.h): to the tool a mass is one more pull that
+// grows with its step, M / T^2 for each mm. So bone may resist as it likes. Advanced with a force that is
+// held and a tick late, the tool would chatter above about 90 N s/m.
 //
-// Bone is met as in direct_coupling.h, `hold`, with the tool in the device's place: with the spindle off, a
-// sampled wall.
+// M is the device's own apparent mass, which the hand moves anyway: the price in air is twice the inertia.
+//
+// A model without a cutting law (CouplingOptions::model_holds_wall) has no map: its newest force is held.
 #pragma once
 
+#include "haptic_server/coupling/burr_proxy.h"
 #include "haptic_server/coupling/coupling.h"
 #include "haptic_server/coupling/coupling_spring.h"
-#include "haptic_server/coupling/direct_coupling.h"
 #include "haptic_server/coupling/position_observer.h"
 
 namespace osteomill {
@@ -26,16 +25,17 @@ class VirtualCoupling final : public Coupling {
     explicit VirtualCoupling(const CouplingOptions& options);
 
     CouplingOutput tick(const HandState& hand, const MillingResult& latest) noexcept override;
-    void reset() noexcept override;
+    void reset() noexcept override { placed_ = false; }
+    SolveCounts solve_counts() const noexcept override { return tool_.counts(); }
 
   private:
-    double tool_mass_kg_;
+    double mass_n_s2_per_mm_;
+    bool model_holds_wall_;
     PositionObserver hand_;
     CouplingSpring tie_;
-    DirectCoupling bone_;
+    BurrProxy tool_;
     bool placed_ = false;
-    glm::dvec3 tool_mm_{0.0};
-    glm::dvec3 tool_mm_per_s_{0.0};
+    glm::dvec3 velocity_mm_per_s_{0.0};  // of the tool
 };
 
 }  // namespace osteomill

@@ -26,9 +26,8 @@ void ClientDevice::take_over_command(double now_s) noexcept {
         permission_.withdraw();
         return;
     }
-    const glm::dvec3 target_mm =
-        limit_.limited(position_in_device_mm(mapping_, command->hand_target_mm),
-                       held_arm_.truth().position_mm(), now_s);
+    const glm::dvec3 target_mm = limit_.limited(position_in_device_mm(mapping_, command->hand_target_mm),
+                                                held_arm_.truth().position_mm(), now_s);
     wanted_ = {position_in_patient_mm(mapping_, target_mm), command->spindle_axis / axis_length};
     if (!command->pedal) must_be_pressed_anew_ = false;
     pedal_ = command->pedal && !must_be_pressed_anew_;

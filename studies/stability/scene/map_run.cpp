@@ -161,7 +161,7 @@ MapOutcome run_map_case(const MapCase& c, SceneCache& cache) {
                                         .truth_taken_mj = truth_taken_mj,
                                         .window_begins = plan.timing.settling,
                                         .window_ends = plan.timing.settling + plan.timing.window,
-                                        .spring_n_per_mm = rendered_spring_n_per_mm(c, plan),
+                                        .spring_n_per_mm = rendered_spring_n_per_mm(plan),
                                         .encoder_step_mm = c.is_ideal_device ? 0.0 : ArmModel{}.resolution_mm,
                                         .is_astray = run.is_astray});
     outcome.is_stable = verdict.is_stable;

@@ -78,9 +78,9 @@ ScenePlan plan_of(const MapCase& c) {
     return plan;
 }
 
-double rendered_spring_n_per_mm(const MapCase& c, const ScenePlan& plan) {
+double rendered_spring_n_per_mm(const ScenePlan& plan) {
     if (plan.scene == MapScene::cutting) return plan.mount.stiffness_n_per_mm;
-    return c.method == "virtual-coupling" ? 0.5 * plan.wall_n_per_mm : plan.wall_n_per_mm;
+    return plan.wall_n_per_mm;
 }
 
 glm::dvec3 guided_position_mm(const ScenePlan& plan, std::size_t ticks_before_release) {

@@ -73,9 +73,8 @@ struct ScenePlan {
 
 ScenePlan plan_of(const MapCase& c);
 
-/// Of the spring that the tool's motion may be stored in: the wall's or the mount's; 0: none. A virtual tool
-/// that presses on a wall has both in series.
-double rendered_spring_n_per_mm(const MapCase& c, const ScenePlan& plan);
+/// Of the spring that the tool's motion may be stored in: the wall's or the mount's; 0: none.
+double rendered_spring_n_per_mm(const ScenePlan& plan);
 
 /// The tool's motion in a guided tick, `ticks` before the release or at it.
 glm::dvec3 guided_position_mm(const ScenePlan& plan, std::size_t ticks_before_release);

@@ -1,12 +1,13 @@
-// The implicit coupling cutting bone of one resistance, in one dimension, with nothing but the arm's own
-// damping beside it.
+// The couplings that are solved with the bone, cutting it at one resistance in one dimension, with nothing
+// but the arm's own damping beside it.
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <string>
 
-#include "haptic_server/coupling/implicit_coupling.h"
+#include "haptic_server/coupling/couplings.h"
 #include "studies/stability/bench_run.h"
 
 namespace osteomill::cutting_on_bench_test {
@@ -17,7 +18,8 @@ constexpr double tick_s = 0.001;
 /// Pushes an arm with half a newton into bone that resists like a damper.
 class Cut {
   public:
-    explicit Cut(double resistance_n_s_per_m) : coupling_({.device = {.max_stiffness_n_per_mm = 1.5}}) {
+    Cut(const std::string& coupling, double resistance_n_s_per_m)
+        : coupling_(make_coupling(coupling, {.device = {.max_stiffness_n_per_mm = 1.5}})) {
         result_->step = 1;
         result_->spindle_on = true;
         result_->engagement.count = 1;
@@ -30,21 +32,21 @@ class Cut {
         const HandState hand{.now_s = tick_s * tick_++,
                              .pose = {{1e3 * position_m, 0.0, 0.0}, {0.0, 0.0, 1.0}},
                              .spindle_on = true};
-        return push_n + coupling_.tick(hand, *result_).force_n.x;
+        return push_n + coupling_->tick(hand, *result_).force_n.x;
     }
 
     static constexpr double push_n = 0.5;
 
   private:
-    ImplicitCoupling coupling_;
+    std::unique_ptr<Coupling> coupling_;
     std::unique_ptr<MillingResult> result_ = std::make_unique<MillingResult>();
     int tick_ = 0;
 };
 
-TEST(ImplicitCouplingOnBench, CutsSteadilyWhateverTheResistance) {
+void expect_steady_cut(const std::string& coupling) {
     for (const double resistance_n_s_per_m : {10.0, 40.0, 170.0, 860.0, 3000.0})
         for (const std::size_t delay : {0, 1}) {
-            const auto cut = std::make_shared<Cut>(resistance_n_s_per_m);
+            const auto cut = std::make_shared<Cut>(coupling, resistance_n_s_per_m);
             const study::Bench bench{
                 .body = study::bare_arm(0.5), .substeps = 20, .max_force_n = 3.3, .delay_ticks = delay};
             const auto run = study::run_bench(
@@ -53,8 +55,17 @@ TEST(ImplicitCouplingOnBench, CutsSteadilyWhateverTheResistance) {
             const double feed_m_per_s = Cut::push_n / (resistance_n_s_per_m + 0.5);
             for (std::size_t tick = 2000; tick < run.size(); ++tick)
                 ASSERT_NEAR(run[tick].state.velocity_m_per_s, feed_m_per_s, 0.01 * feed_m_per_s)
-                    << resistance_n_s_per_m << " N s/m, late by " << delay << ", tick " << tick;
+                    << coupling << ", " << resistance_n_s_per_m << " N s/m, late by " << delay << ", tick "
+                    << tick;
         }
+}
+
+TEST(ImplicitCouplingOnBench, CutsSteadilyWhateverTheResistance) {
+    expect_steady_cut("implicit");
+}
+
+TEST(VirtualCouplingOnBench, CutsSteadilyWhateverTheResistance) {
+    expect_steady_cut("virtual-coupling");
 }
 
 }  // namespace

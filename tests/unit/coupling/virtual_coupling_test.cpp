@@ -24,7 +24,7 @@ TEST(VirtualCoupling, FeelsTheToolsMassInAir) {
 }
 
 TEST(VirtualCoupling, PassesASteadyForceOnThroughASpringThatYields) {
-    VirtualCoupling coupling({.device = device});
+    VirtualCoupling coupling({.device = device, .model_holds_wall = true});
     auto result = std::make_unique<MillingResult>();
     CouplingOutput output;
     for (int tick = 0; tick < 2000; ++tick) {

@@ -33,9 +33,9 @@ TEST(DeviceLimits, DescribeOneArmInBothSpaces) {
             << "of a damper";
         EXPECT_DOUBLE_EQ(scale.mass_kg(0.045) * scale.speed_mm_per_s(speed_mm_per_s), 0.045 * speed_mm_per_s)
             << "and the same impulse";
-        EXPECT_DOUBLE_EQ(0.5 * scale.stiffness_n_per_mm(1.5) * scale.length_mm(step_mm) *
-                             scale.length_mm(step_mm),
-                         scale.energy_mj(0.5 * 1.5 * step_mm * step_mm));
+        EXPECT_DOUBLE_EQ(
+            0.5 * scale.stiffness_n_per_mm(1.5) * scale.length_mm(step_mm) * scale.length_mm(step_mm),
+            scale.energy_mj(0.5 * 1.5 * step_mm * step_mm));
     }
 }
 
