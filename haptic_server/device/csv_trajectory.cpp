@@ -10,6 +10,8 @@
 #include <stdexcept>
 #include <string_view>
 
+#include "common/files/table_line.h"
+
 namespace osteomill {
 
 namespace {
@@ -42,12 +44,13 @@ class CsvReader {
         throw std::runtime_error(fmt::format("{}:{}: {}", name_, line_number_, what));
     }
 
-    /// The next line that says something, without a carriage return.
+    /// The next line that says something.
     bool next_line() {
-        while (std::getline(in_, line_)) {
-            ++line_number_;
-            if (!line_.empty() && line_.back() == '\r') line_.pop_back();
-            if (!line_.empty() && line_.front() != '#') return true;
+        try {
+            while (next_table_line(in_, line_, line_number_))
+                if (!line_.empty() && line_.front() != '#') return true;
+        } catch (const std::runtime_error& error) {
+            refuse(error.what());
         }
         return false;
     }

@@ -11,6 +11,8 @@
 #include <string_view>
 #include <vector>
 
+#include "common/files/table_line.h"
+
 namespace osteomill {
 
 namespace {
@@ -70,9 +72,15 @@ ControlScript read_control_script(std::istream& in, const std::string& name) {
     const auto refuse = [&](const std::string& what) {
         throw std::runtime_error(fmt::format("{}:{}: {}", name, std::max<std::size_t>(number, 1), what));
     };
-    for (std::string line; std::getline(in, line);) {
-        ++number;
-        if (!line.empty() && line.back() == '\r') line.pop_back();
+    const auto next = [&](std::string& line) {
+        try {
+            return next_table_line(in, line, number);
+        } catch (const std::runtime_error& error) {
+            refuse(error.what());
+        }
+        return false;
+    };
+    for (std::string line; next(line);) {
         if (line.empty() || line.front() == '#') continue;
         if (!has_header) {
             if (line != header) refuse(fmt::format("the first line must be {}", header));

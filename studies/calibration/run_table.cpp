@@ -12,6 +12,8 @@
 #include <stdexcept>
 #include <string_view>
 
+#include "common/files/table_line.h"
+
 namespace osteomill::study {
 
 namespace {
@@ -155,8 +157,15 @@ std::vector<MeasuredRun> read_runs(const std::filesystem::path& file) {
     std::vector<MeasuredRun> runs;
     std::set<std::string> names;
     std::string text;
-    for (int number = 1; std::getline(in, text); ++number) {
-        if (number == 1 && text.starts_with("\xEF\xBB\xBF")) text.erase(0, 3);  // of a spreadsheet
+    std::size_t number = 0;
+    const auto next = [&] {
+        try {
+            return next_table_line(in, text, number);
+        } catch (const std::runtime_error& error) {
+            throw std::runtime_error(fmt::format("{}:{}: {}", file.string(), number, error.what()));
+        }
+    };
+    while (next()) {
         if (trimmed(text).empty() || text.starts_with('#')) continue;
         const std::string where = fmt::format("{}:{}", file.string(), number);
         if (header.empty()) {
