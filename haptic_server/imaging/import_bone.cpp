@@ -19,6 +19,7 @@
 #include "haptic_server/imaging/in_parallel.h"
 #include "haptic_server/imaging/memory_estimate.h"
 #include "haptic_server/imaging/progress.h"
+#include "haptic_server/imaging/resampling/field_of_view.h"
 #include "haptic_server/imaging/resampling/hu_histogram.h"
 #include "haptic_server/imaging/resampling/image_part.h"
 #include "haptic_server/imaging/resampling/near_bone.h"
@@ -99,9 +100,15 @@ ImportPlan plan(const ImportOptions& options, const SourceImage& image, std::ost
     }
 }
 
-/// Values of the region, and what is known of the shapes in its slices.
+/// A bit a voxel: was it measured?
+std::uint64_t floats_of_field(const ImportPlan& work) {
+    return voxel_count(work.needed) / 32 + 1;
+}
+
+/// Values of the region, which of them were measured, and what is known of the shapes in its slices.
 std::uint64_t scratch_floats(const ImportPlan& work) {
-    return voxel_count(work.needed) * (work.axis_of_shapes ? 1 + SliceShapes::floats_per_voxel : 1);
+    return voxel_count(work.needed) * (work.axis_of_shapes ? 1 + SliceShapes::floats_per_voxel : 1) +
+           floats_of_field(work);
 }
 
 void require_memory(const ImportOptions& options, const OpenedImage& opened, const ImportPlan& work,
@@ -135,11 +142,10 @@ void require_memory(const ImportOptions& options, const OpenedImage& opened, con
                         to_text(extent_of(image))));
 }
 
-std::size_t make_hu(const ImportOptions& options, std::span<float> values) {
-    const std::size_t replaced = replace_not_finite(values);
+void make_hu(const ImportOptions& options, std::span<float> values) {
+    mark_not_finite(values);
     if (const auto* rescale = std::get_if<Rescale>(&options.to_hu)) rescale_values(*rescale, values);
     if (const auto* window = std::get_if<IntensityWindow>(&options.to_hu)) window_values(*window, values);
-    return replaced;
 }
 
 ImagingError no_bone(const ImportOptions& options, int highest_hu) {
@@ -150,22 +156,24 @@ ImagingError no_bone(const ImportOptions& options, int highest_hu) {
 /// The region's part in HU; of the rest of the scan no more than a slice is looked at.
 void read_part(const ImportOptions& options, const OpenedImage& opened, const ImageBox& needed,
                std::span<float> values, const ScratchValues& part, const ImportSurroundings& surroundings) {
-    std::size_t replaced = 0;
     HuHistogram histogram;
     {
         ProgressLine progress(surroundings.messages, surroundings.is_terminal, "reading");
         opened.read_slices(
             [&](int k, std::span<float> slice) {
-                replaced += make_hu(options, slice);
+                make_hu(options, slice);
                 histogram.add(slice);
                 put_slice(opened.image, needed, k, slice, values);
                 part.let_go();
             },
             progress.reporter());
     }
-    if (replaced > 0)
-        surroundings.messages << fmt::format("{}: {} voxels are not numbers; taken as air\n",
-                                             options.input.string(), replaced);
+    if (const std::optional<float> fill = histogram.fill_hu()) {
+        surroundings.messages << fmt::format(
+            "{}: {} HU fill what lies outside its field of view; taken as not measured\n",
+            options.input.string(), *fill);
+        std::ranges::replace(values, *fill, std::numeric_limits<float>::quiet_NaN());
+    }
     const std::string doubt = histogram.doubt();
     if (!doubt.empty())
         surroundings.messages << fmt::format("{}: warning: {}\n", options.input.string(), doubt);
@@ -195,7 +203,7 @@ class SliceRing {
 /// Refines, clears what is far from bone if there is a threshold and soft tissue is not kept, writes: a few
 /// slices at a time, on all cores.
 /// Returns how many voxels are bone; 0 without a threshold.
-std::uint64_t write_refined(const ImportOptions& options, const Refiner& refiner,
+std::uint64_t write_refined(const ImportOptions& options, const Refiner& refiner, const FieldOfView& field,
                             const ScratchValues& scratch, const Grid& grid, BoneFileWriter& writer,
                             const ReportProgress& report) {
     const int slices = grid.size_voxels.z;
@@ -218,6 +226,7 @@ std::uint64_t write_refined(const ImportOptions& options, const Refiner& refiner
         in_parallel(now, [&](int i) {
             const std::span<std::int16_t> hu = ring.slice(refined + i);
             refiner.slice(refined + i, hu);
+            field.clear_outside(grid, refined + i, hu);
             note_highest(hu);
             if (near) near->look_at(refined + i, hu);
         });
@@ -262,15 +271,20 @@ void import_bone(const ImportOptions& options, const ImportSurroundings& surroun
         const std::span<float> values = scratch.values().first(voxel_count(work.needed));
         read_part(options, opened, work.needed, values, scratch, surroundings);
         const SourceImage part = part_of(opened.image, work.needed);
+        const std::span<float> room = scratch.values().subspan(values.size());
+        const FieldOfView field(part, values, std::as_writable_bytes(room.first(floats_of_field(work))));
+        if (!field.is_whole())
+            surroundings.messages << fmt::format("{}: {} voxels were not measured (padding); taken as air\n",
+                                                 options.input.string(), field.voxels_outside());
         std::optional<SliceShapes> shapes;
         if (work.axis_of_shapes)
             shapes.emplace(part, values, *work.axis_of_shapes, *options.threshold_hu, options.spacing_mm,
-                           scratch.values().subspan(values.size()), let_go);
+                           room.subspan(floats_of_field(work)), let_go);
         ProgressLine progress(surroundings.messages, surroundings.is_terminal, "refining");
         const Refiner refiner(part, values, work.grid, shapes ? &*shapes : nullptr, let_go);
         BoneFileWriter writer(options.output, work.grid, std::move(key_values));
         const std::uint64_t bone_voxels =
-            write_refined(options, refiner, scratch, work.grid, writer, progress.reporter());
+            write_refined(options, refiner, field, scratch, work.grid, writer, progress.reporter());
         say_if_all_is_bone(options, work.grid, bone_voxels, surroundings.messages);
         writer.commit();
     } catch (const std::bad_alloc&) {

@@ -1,7 +1,4 @@
 // The four headers of images, whose readers are pure.
-#include <algorithm>
-#include <cmath>
-
 #include "haptic_server/imaging/dicom/dicom_pixels.h"
 #include "haptic_server/imaging/formats/meta_image_header.h"
 #include "haptic_server/imaging/formats/nifti_header.h"
@@ -36,7 +33,9 @@ void nrrd_header(Bytes input) {
     try {
         const NrrdHeader header = parse_nrrd_header(input, "fuzz");
         require(header.bytes <= input.size(), "a header longer than its file");
-        const NrrdLayout layout = nrrd_layout(header, "fuzz");
+        const NrrdImage layout = nrrd_image(header, "fuzz");
+        require_plausible_geometry(layout.image);
+        require(layout.layers >= 1 && layout.layers <= 255, "no layer, or too many");
         require(layout.voxel_bytes > 0 && layout.voxel_bytes <= 2 * most_bytes_of_a_voxel * most_voxels,
                 "voxels without bytes, or too many");
         require(layout.byte_skip >= -1 && layout.line_skip <= most_nrrd_header_bytes, "a skip to nowhere");
@@ -67,12 +66,10 @@ void meta_image_header(Bytes input) {
 void nifti_header(Bytes input) {
     try {
         const NiftiHeader header = parse_nifti_header(input, "fuzz");
-        require(!header.sizes.empty() && header.sizes.size() <= 7, "no dimensions, or too many");
+        require_plausible_geometry(header.image);
         require(header.voxel_bytes > 0 && header.voxel_bytes <= most_bytes_of_a_voxel * most_voxels,
                 "voxels without bytes, or too many");
         require(!header.voxels_follow || header.voxels_begin >= 348, "voxels within the header");
-        for (std::size_t axis = 0; axis < std::min<std::size_t>(3, header.sizes.size()); ++axis)
-            require(is_plausible_spacing(std::abs(header.spacing_mm[axis])), "a spacing that no scan has");
     } catch (const ImagingError& error) {
         require_complaint(error);
     }

@@ -46,7 +46,7 @@ void scene(Bytes input);
 /// number is; an arm of another name than was asked for; a force for it that is no JSON.
 void haply_state(Bytes input);
 
-/// The first bytes of an image file, against our own readers of headers (ITK and GDCM never see what these
+/// The first bytes of an image file, against our own readers of headers (GDCM never sees what these
 /// refuse). Finding: any exception but a complaint of one line; voxels, files, sizes or a geometry beyond
 /// the limits that were to be held.
 void nrrd_header(Bytes input);

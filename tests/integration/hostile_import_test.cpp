@@ -211,11 +211,15 @@ const std::vector<Attack> attacks{
     {"nifti_offset_in_header", file("x.nii", spoiled_nifti(108, 10.0F)), "vox_offset"},
     {"nifti_offset_of_nan", file("x.nii", spoiled_nifti(108, not_a_number)), "vox_offset"},
     {"nifti_huge_offset", file("x.nii", spoiled_nifti(108, 1e30F)), "vox_offset"},
-    {"nifti_tiny_spacing", file("x.nii", spoiled_nifti(80, 1e-9F)), "pixdim"},
+    {"nifti_tiny_spacing", file("x.nii", [] {
+         std::string bytes = spoiled_nifti(80, 1e-9F);
+         put(bytes, 254, std::int16_t{0});
+         return bytes;
+     }()), "pixdim"},
     {"nifti_far_origin", file("x.nii", spoiled_nifti(292, 1e30F)), "sform"},
     {"nifti_negative_size", file("x.nii", spoiled_nifti(42, std::int16_t{-3})), "an axis of"},
     {"nifti_huge_size", file("x.nii", spoiled_nifti(42, std::array<std::int16_t, 3>{2000, 2000, 2000})), "is cut off: 120 of 16000000000 bytes"},
-    {"nifti_slope_of_nan", file("x.nii", spoiled_nifti(112, not_a_number)), "scl_slope"},
+    {"nifti_slope_without_end", file("x.nii", spoiled_nifti(112, std::numeric_limits<float>::infinity())), "scl_slope"},
     {"nifti2_negative_offset", file("x.nii", [] {
          std::string bytes = nifti2();
          put(bytes, 168, std::int64_t{-5});

@@ -1,9 +1,10 @@
-// The pixels of one DICOM file, frame by frame, rescaled to HU. ITK and GDCM stay behind this.
+// The pixels of one DICOM file, frame by frame, rescaled to HU. GDCM stays behind this.
 #pragma once
 
 #include <cstdint>
 #include <memory>
 #include <span>
+#include <vector>
 
 #include "haptic_server/imaging/dicom/dicom_series.h"
 
@@ -17,9 +18,9 @@ class DicomFrames {
     DicomFrames(DicomFrames&&) noexcept;
     DicomFrames& operator=(DicomFrames&&) noexcept;
 
-    /// Columns x rows values, column fastest, with the file's own rescale slope and intercept applied. They
-    /// may be changed, and are there until the next call. Any order of frames. Throws ImagingError where the
-    /// pixels cannot be decoded or are not of the size that the header says.
+    /// Columns x rows values, column fastest, in HU as the file itself says (DicomValues::hu); what is
+    /// padding is not a number. They may be changed, and are there until the next call. Any order of frames.
+    /// Throws ImagingError where the pixels cannot be decoded or are not of the size that the header says.
     std::span<float> frame(unsigned index);
 
     /// What reading takes of memory at most: a frame, or the whole file where it is compressed as a whole.
@@ -29,7 +30,9 @@ class DicomFrames {
     class Source;
     class WholeFile;
     class FrameByFrame;
+    DicomFile file_;
     std::unique_ptr<Source> source_;
+    std::vector<float> values_;
 };
 
 }  // namespace osteomill

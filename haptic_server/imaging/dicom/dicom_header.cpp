@@ -1,15 +1,16 @@
 #include "haptic_server/imaging/dicom/dicom_header.h"
 
-#include <gdcmDataSet.h>
 #include <gdcmReader.h>
-#include <gdcmSequenceOfItems.h>
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdlib>
+#include <glm/geometric.hpp>
 #include <sstream>
 #include <stdexcept>
 
+#include "haptic_server/imaging/dicom/data_set.h"
 #include "haptic_server/imaging/dicom/dicom_pixels.h"
 #include "haptic_server/imaging/dicom/quiet_libraries.h"
 #include "haptic_server/imaging/formats/regular_file.h"
@@ -41,77 +42,47 @@ const Tag rescale_group_tag(0x0028, 0x9145);
 const Tag intercept_tag(0x0028, 0x1052);
 const Tag slope_tag(0x0028, 0x1053);
 const Tag pixel_measures_tag(0x0028, 0x9110);
+const Tag instance_uid_tag(0x0008, 0x0018);
+const Tag image_type_tag(0x0008, 0x0008);
+const Tag slice_thickness_tag(0x0018, 0x0050);
+const Tag slice_spacing_tag(0x0018, 0x0088);
+const Tag detector_spacing_tag(0x0018, 0x1164);
+const Tag rescale_type_tag(0x0028, 0x1054);
+const Tag padding_tag(0x0028, 0x0120);
+const Tag padding_limit_tag(0x0028, 0x0121);
+const Tag modality_lut_tag(0x0028, 0x3000);
+const Tag lut_descriptor_tag(0x0028, 0x3002);
+const Tag lut_data_tag(0x0028, 0x3006);
+const Tag lut_type_tag(0x0028, 0x3004);
 
 /// Everything before the pixels is in here, but in odd files.
 constexpr std::uint64_t first_scanned_bytes = std::uint64_t{64} << 20U;
 /// What is held of a file whose pixels are compressed, or stand before other things.
 constexpr std::uint64_t most_scanned_bytes = std::uint64_t{1} << 30U;
 
-/// An element's bytes as text, without padding; empty where absent.
-std::string text_of(const DataSet& data, const Tag& tag) {
-    if (!data.FindDataElement(tag)) return {};
-    const gdcm::ByteValue* bytes = data.GetDataElement(tag).GetByteValue();
-    if (bytes == nullptr || bytes->GetPointer() == nullptr) return {};
-    std::string text(bytes->GetPointer(), bytes->GetLength());
-    while (!text.empty() && (text.back() == ' ' || text.back() == '\0')) text.pop_back();
-    return text;
+void note(DicomHeader& header, const std::string& words) {
+    if (std::find(header.notes.begin(), header.notes.end(), words) == header.notes.end())
+        header.notes.push_back(words);
 }
 
-/// An unsigned 16-bit number; GDCM hands its bytes over in the machine's order.
-int number_of(const DataSet& data, const Tag& tag, int otherwise) {
-    if (!data.FindDataElement(tag)) return otherwise;
-    const gdcm::ByteValue* bytes = data.GetDataElement(tag).GetByteValue();
-    if (bytes == nullptr || bytes->GetLength() < 2) return otherwise;
-    std::uint16_t number = 0;
-    std::copy_n(bytes->GetPointer(), 2, reinterpret_cast<char*>(&number));
-    return number;
-}
-
-/// "a\b\c" as exactly `count` numbers.
-template <std::size_t count>
-std::optional<std::array<double, count>> numbers_of(const DataSet& data, const Tag& tag) {
-    std::istringstream text(text_of(data, tag));
-    std::array<double, count> numbers{};
-    for (double& number : numbers) {
-        std::string part;
-        if (!std::getline(text, part, '\\')) return std::nullopt;
-        char* end = nullptr;
-        number = std::strtod(part.c_str(), &end);
-        if (end == part.c_str()) return std::nullopt;
-    }
-    return numbers;
-}
-
-/// The first item of a sequence, such as a functional group; null where there is none.
-gdcm::SmartPointer<gdcm::SequenceOfItems> sequence_of(const DataSet& data, const Tag& tag) {
-    if (!data.FindDataElement(tag)) return nullptr;
-    return data.GetDataElement(tag).GetValueAsSQ();
-}
-
-/// Places that a value may stand in: the frame's own group, the one shared by all frames, the file itself.
-struct Places {
-    std::vector<const DataSet*> in;
-    template <std::size_t count>
-    std::optional<std::array<double, count>> find(const Tag& group, const Tag& tag) const {
-        for (const DataSet* data : in) {
-            if (const auto groups = sequence_of(*data, group); groups && groups->GetNumberOfItems() > 0)
-                if (const auto found = numbers_of<count>(groups->GetItem(1).GetNestedDataSet(), tag))
-                    return found;
-            if (const auto found = numbers_of<count>(*data, tag)) return found;
-        }
-        return std::nullopt;
-    }
-};
-
-std::optional<SlicePlacement> placement_of(const Places& places, const DicomHeader& header,
-                                           std::string& missing) {
-    const auto spacing = places.find<2>(pixel_measures_tag, spacing_tag);
+std::optional<SlicePlacement> placement_of(const Places& places, DicomHeader& header, std::string& missing) {
+    auto spacing = places.find<2>(pixel_measures_tag, spacing_tag);
+    if (!spacing && (spacing = places.find<2>(pixel_measures_tag, detector_spacing_tag)))
+        note(header, "has no Pixel Spacing (0028,0030); that of the detector (0018,1164) is taken");
     if (!spacing) missing = "Pixel Spacing (0028,0030)";
-    const auto orientation = places.find<6>(plane_orientation_tag, orientation_tag);
-    if (!orientation && missing.empty()) missing = "Image Orientation (0020,0037)";
+    auto orientation = places.find<6>(plane_orientation_tag, orientation_tag);
     const auto position = places.find<3>(plane_position_tag, position_tag);
-    if (!position && missing.empty()) missing = "Image Position (0020,0032)";
+    if (!position && missing.empty())
+        missing = orientation ? "Image Position (0020,0032)"
+                              : "Image Position and Orientation (0020,0032 and 0037)";
     if (!missing.empty()) return std::nullopt;
+    if (!orientation) {
+        note(header,
+             "warning: has no Image Orientation (0020,0037); left and right are a guess (taken as of a "
+             "patient who lies "
+             "on the back, head first)");
+        orientation = {1.0, 0.0, 0.0, 0.0, 1.0, 0.0};
+    }
     return SlicePlacement{.name = {},
                           .position_mm = {(*position)[0], (*position)[1], (*position)[2]},
                           .along_row = {(*orientation)[0], (*orientation)[1], (*orientation)[2]},
@@ -122,39 +93,144 @@ std::optional<SlicePlacement> placement_of(const Places& places, const DicomHead
                           .rows = header.rows};
 }
 
-/// Frames of one file. Without a group per frame, several frames share one position and cannot be placed.
+/// What turns stored values of a frame into HU; notes where the file does not say that they are HU.
+DicomRescale rescale_of(const Places& places, DicomHeader& header) {
+    const auto slope = places.find<1>(rescale_group_tag, slope_tag);
+    const auto intercept = places.find<1>(rescale_group_tag, intercept_tag);
+    DicomRescale rescale{.slope = slope ? (*slope)[0] : 1.0, .intercept = intercept ? (*intercept)[0] : 0.0};
+    if (!header.values.table && !slope && !intercept)
+        note(header,
+             "warning: says nothing of how its values become HU (no Rescale Slope and Intercept, 0028,1053 "
+             "and 1052), as "
+             "cone-beam scans without calibration do; they are taken for HU unless --rescale or "
+             "--intensity-window says "
+             "otherwise");
+    if (rescale.slope == 0.0) {
+        note(header,
+             "warning: its Rescale Slope (0028,1053) is 0, which would make all values the same; taken as 1");
+        rescale.slope = 1.0;
+    }
+    for (const DataSet* data : places.in) {
+        const auto groups = sequence_of(*data, rescale_group_tag);
+        const bool has_group = groups && groups->GetNumberOfItems() > 0;
+        std::string type =
+            text_of(has_group ? groups->GetItem(1).GetNestedDataSet() : *data, rescale_type_tag);
+        if (type.empty() || type == "HU") continue;
+        note(header, "warning: its Rescale Type (0028,1054) is '" + type.substr(0, 16) +
+                         "', not HU; --rescale or --intensity-window makes HU of its values");
+    }
+    return rescale;
+}
+
+/// A signed or unsigned number of 16 or 32 bits, as the pixels are.
+std::optional<std::int64_t> stored_number(const DataSet& data, const Tag& tag, bool is_signed) {
+    if (!data.FindDataElement(tag)) return std::nullopt;
+    const gdcm::ByteValue* bytes = data.GetDataElement(tag).GetByteValue();
+    if (bytes == nullptr || bytes->GetLength() < 2) return std::nullopt;
+    std::uint16_t number = 0;
+    std::copy_n(bytes->GetPointer(), sizeof number, reinterpret_cast<char*>(&number));
+    return is_signed ? std::int64_t{static_cast<std::int16_t>(number)} : std::int64_t{number};
+}
+
+DicomValues values_of(const DataSet& data, const DicomScan& scan, DicomHeader& header) {
+    DicomValues values;
+    const bool is_signed = scan.pixel_representation.value_or(0) == 1;
+    if (const auto low = stored_number(data, padding_tag, is_signed)) {
+        const std::int64_t high = stored_number(data, padding_limit_tag, is_signed).value_or(*low);
+        values.padding = {.low = std::min(*low, high), .high = std::max(*low, high)};
+    }
+    const auto tables = sequence_of(data, modality_lut_tag);
+    if (!tables || tables->GetNumberOfItems() == 0) return values;
+    const DataSet& lut = tables->GetItem(1).GetNestedDataSet();
+    if (!lut.FindDataElement(lut_descriptor_tag) || !lut.FindDataElement(lut_data_tag)) return values;
+    const gdcm::ByteValue* descriptor = lut.GetDataElement(lut_descriptor_tag).GetByteValue();
+    const gdcm::ByteValue* entries = lut.GetDataElement(lut_data_tag).GetByteValue();
+    if (descriptor == nullptr || entries == nullptr || descriptor->GetLength() < 6) return values;
+    std::array<std::uint16_t, 3> numbers{};  // entries, the first stored value, bits of an entry
+    std::copy_n(descriptor->GetPointer(), sizeof numbers, reinterpret_cast<char*>(numbers.data()));
+    ModalityTable table{.first =
+                            is_signed ? std::int64_t{static_cast<std::int16_t>(numbers[1])} : numbers[1]};
+    const std::size_t count = numbers[0] == 0 ? 65536 : numbers[0];
+    const std::size_t bytes = entries->GetLength() >= 2 * count ? 2 : 1;
+    if (entries->GetLength() < bytes * count) {
+        header.fault = "has a Modality LUT (0028,3000) that is shorter than it says";
+        return values;
+    }
+    for (std::size_t i = 0; i < count; ++i) {
+        std::uint16_t entry = static_cast<std::uint8_t>(entries->GetPointer()[i]);
+        if (bytes == 2) std::copy_n(entries->GetPointer() + 2 * i, 2, reinterpret_cast<char*>(&entry));
+        table.meaning.push_back(static_cast<float>(entry));
+    }
+    if (const std::string type = text_of(lut, lut_type_tag); type != "HU")
+        note(header, "warning: its Modality LUT (0028,3000) is of type '" + type.substr(0, 16) +
+                         "', not HU; --rescale or --intensity-window makes HU of its values");
+    values.table = std::move(table);
+    return values;
+}
+
+/// Frames of a file without a group for each: one behind the other, as far apart as the file says.
+void stack_frames(const DataSet& data, std::size_t count, DicomHeader& header) {
+    header.frames.assign(count, std::nullopt);
+    const Places places{.in = {&data}};
+    auto gap = numbers_of<1>(data, slice_spacing_tag);
+    const bool is_thickness = !gap || (*gap)[0] == 0.0;
+    if (is_thickness) gap = numbers_of<1>(data, slice_thickness_tag);
+    std::string missing;
+    const double gap_mm = gap ? std::abs((*gap)[0]) : 0.0;
+    if (!(gap_mm > 0.0)) missing = "Spacing Between Slices (0018,0088) and no Slice Thickness (0018,0050)";
+    std::optional<SlicePlacement> first;
+    if (missing.empty()) first = placement_of(places, header, missing);
+    if (!first) {
+        header.fault =
+            "is multi-frame, does not say where each frame lies (5200,9230), and has no " + missing;
+        return;
+    }
+    const glm::dvec3 normal = glm::cross(first->along_row, first->along_column);
+    for (std::size_t frame = 0; frame < count; ++frame) {
+        header.frames[frame] = first;
+        header.frames[frame]->position_mm += static_cast<double>(frame) * gap_mm * normal;
+    }
+    std::ostringstream words;
+    words << "is multi-frame and does not say where each frame lies; stacked " << gap_mm << " mm apart ("
+          << (is_thickness ? "Slice Thickness" : "Spacing Between Slices") << ")";
+    note(header, words.str());
+}
+
 void place_frames(const DataSet& data, std::size_t count, DicomHeader& header) {
     const auto shared = sequence_of(data, shared_groups_tag);
     const auto per_frame = sequence_of(data, per_frame_groups_tag);
-    if (count > 1 && (!per_frame || per_frame->GetNumberOfItems() != count)) {
-        header.fault = "is multi-frame and does not say where each frame lies (5200,9230)";
-        header.frames.assign(count, std::nullopt);
-        return;
-    }
-    std::pair<std::optional<std::array<double, 1>>, std::optional<std::array<double, 1>>> first_rescale;
+    const bool has_groups = per_frame && per_frame->GetNumberOfItems() == count;
+    if (count > 1 && !has_groups) stack_frames(data, count, header);
     for (std::size_t frame = 0; frame < count; ++frame) {
         Places places;
-        if (per_frame && per_frame->GetNumberOfItems() == count)
-            places.in.push_back(&per_frame->GetItem(frame + 1).GetNestedDataSet());
+        if (has_groups) places.in.push_back(&per_frame->GetItem(frame + 1).GetNestedDataSet());
         if (shared && shared->GetNumberOfItems() > 0)
             places.in.push_back(&shared->GetItem(1).GetNestedDataSet());
         places.in.push_back(&data);
+        header.rescales.push_back(rescale_of(places, header));
+        if (header.frames.size() == count) continue;
         std::string missing;
         header.frames.push_back(placement_of(places, header, missing));
-        if (!missing.empty()) header.fault = "does not say how it lies in the patient: no " + missing;
-        const auto slope = places.find<1>(rescale_group_tag, slope_tag);
-        const auto intercept = places.find<1>(rescale_group_tag, intercept_tag);
-        if (frame == 0) first_rescale = {slope, intercept};
-        // GDCM applies one rescale to a whole file.
-        if (first_rescale != std::pair(slope, intercept))
-            header.fault =
-                "is multi-frame with a rescale slope or intercept that changes from frame to frame";
+        if (missing.empty()) continue;
+        header.fault = "does not say how it lies in the patient: no " + missing;
+        if (missing.starts_with("Image Position and")) header.not_of_the_scan = "does not lie in the patient";
     }
+}
+
+/// Why it is no slice of a scan, where there is one beside it.
+std::string why_left_out(const DataSet& data, const DicomScan& scan, const DicomHeader& header) {
+    const std::string type = text_of(data, image_type_tag);
+    if (type.find("LOCALIZER") != std::string::npos) return "is a localizer (Image Type)";
+    if (scan.sop_class.starts_with("1.2.840.10008.5.1.4.1.1.7")) return "is a secondary capture";
+    if (header.samples_per_pixel != 1 && type.find("SECONDARY") != std::string::npos)
+        return "is a picture in colour";
+    return header.not_of_the_scan;
 }
 
 std::optional<DicomScan> scan_first(const RegularFile& file, std::uint64_t bytes) {
     std::optional<DicomScan> scan = scan_dicom(file.first_bytes(bytes), file.size());
-    if (scan) require_sound_pixels(*scan);
+    // Labels of one bit beside a scan are sound, and read elsewhere.
+    if (scan && why_no_grey_image(*scan).empty()) require_sound_pixels(*scan);
     return scan;
 }
 
@@ -205,20 +281,26 @@ std::optional<DicomHeader> read_dicom_header(const std::filesystem::path& path) 
     header.samples_per_pixel = number_of(data, samples_tag, 1);
     header.has_pixel_data = scan->has_pixel_data;
     header.is_uncompressed = !scan->is_encapsulated && !syntax.IsEncapsulated() &&
-                             syntax != gdcm::TransferSyntax::DeflatedExplicitVRLittleEndian &&
-                             text_of(data, photometric_tag) == "MONOCHROME2";
+                             syntax != gdcm::TransferSyntax::DeflatedExplicitVRLittleEndian;
     const std::string frames = text_of(data, frames_tag);
     const long count = frames.empty() ? 1 : std::strtol(frames.c_str(), nullptr, 10);
     if (count < 1 || count > 65536)
         throw ImagingError(path, "Number of Frames (0028,0008) is '" + frames + "'");
     header.modality = scan->modality;
     header.no_grey_image = why_no_grey_image(*scan);
+    header.instance_uid = text_of(data, instance_uid_tag);
+    if (!header.no_grey_image.empty()) return header;
+    if (const std::string photometric = text_of(data, photometric_tag);
+        header.samples_per_pixel == 1 && !photometric.empty() && !photometric.starts_with("MONOCHROME"))
+        header.fault = "has pixels in colour (0028,0004 '" + photometric.substr(0, 16) + "')";
+    header.values = values_of(data, *scan, header);
     if (scan->codestream && scan->codestream->is_signed && scan->pixel_representation &&
         *scan->codestream->is_signed != (*scan->pixel_representation == 1)) {
         header.wrong_sign_begin = scan->pixel_representation_begin;
         header.codestream_is_signed = *scan->codestream->is_signed;
     }
     place_frames(data, static_cast<std::size_t>(count), header);
+    header.not_of_the_scan = why_left_out(data, *scan, header);
     return header;
 }
 

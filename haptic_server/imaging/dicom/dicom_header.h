@@ -6,12 +6,14 @@
 #include <string>
 #include <vector>
 
+#include "haptic_server/imaging/dicom/dicom_values.h"
 #include "haptic_server/imaging/dicom/slice_geometry.h"
 
 namespace osteomill {
 
 struct DicomHeader {
     std::string series_uid;
+    std::string instance_uid;  ///< SOP Instance UID
     std::string series_description;
     std::string transfer_syntax;  ///< in words where GDCM knows them
     int rows = 0;                 ///< 0: no image (a report, a DICOMDIR)
@@ -21,12 +23,18 @@ struct DicomHeader {
     bool is_uncompressed = false;  ///< the pixels stand in the file as they are
     std::string modality;          ///< CT, MR, ...; empty where the file does not say
     std::string no_grey_image;     ///< why it holds no CT numbers whatever its pixels, in words; or empty
+    std::string
+        not_of_the_scan;  ///< why it is left out where others are ("is a localizer"), in words; or empty
+    DicomValues values{};
     /// Where the file states the sign of its pixels, if its JPEG 2000 codestream states the other; GDCM would
     /// take the file's word and clamp.
     std::optional<std::uint64_t> wrong_sign_begin{};
     bool codestream_is_signed = false;
     /// Where each frame lies; std::nullopt of a frame that the header does not place, see `fault`.
     std::vector<std::optional<SlicePlacement>> frames;
+    std::vector<DicomRescale> rescales;  ///< one a frame
+    /// What had to be assumed of it, or makes its values doubtful, in words that follow its name.
+    std::vector<std::string> notes;
     std::string fault;  ///< why the frames make no volume, in words; empty where they may
 };
 

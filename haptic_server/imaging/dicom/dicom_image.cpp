@@ -5,9 +5,11 @@
 #include <algorithm>
 #include <map>
 #include <optional>
+#include <set>
 #include <stdexcept>
 
 #include "haptic_server/imaging/dicom/dicom_frames.h"
+#include "haptic_server/imaging/dicom/dicom_segmentation.h"
 #include "haptic_server/imaging/formats/plausible_geometry.h"
 #include "haptic_server/imaging/imaging_error.h"
 
@@ -30,6 +32,10 @@ void note_doubts(const std::filesystem::path& folder, const DicomSeries& series,
             "codestream is followed",
             folder.string(), wrong, is_signed ? "unsigned" : "signed", is_signed ? "signed" : "unsigned"));
     }
+    std::set<std::string> notes;
+    for (const DicomFile& file : series.files)
+        notes.insert(file.header.notes.begin(), file.header.notes.end());
+    for (const std::string& note : notes) image.notes.push_back(fmt::format("{}: {}", folder.string(), note));
     const std::string& modality = series.files.front().header.modality;
     if (!modality.empty() && modality != "CT")
         image.notes.push_back(
@@ -55,8 +61,6 @@ void read_stack(const std::vector<DicomSlice>& slices, const std::vector<std::si
     }
 }
 
-}  // namespace
-
 OpenedImage open_series(const std::filesystem::path& folder, const DicomSeries& series) {
     const std::vector<DicomSlice> slices = slices_of(series);
     std::vector<SlicePlacement> placements;
@@ -76,11 +80,7 @@ OpenedImage open_series(const std::filesystem::path& folder, const DicomSeries& 
     opened.image.spacing_mm = stack.spacing_mm;
     opened.image.origin_mm = stack.origin_mm;
     opened.image.direction = stack.direction;
-    try {
-        require_plausible_geometry(opened.image);
-    } catch (const std::invalid_argument& error) {
-        throw ImagingError(folder, error.what());
-    }
+    settle_geometry(opened.image, folder);
     note_doubts(folder, series, opened.image);
     opened.read_slices = [slices, order = stack.order, header_of_file](const TakeSlice& take,
                                                                        const ReportProgress& report) {
@@ -89,6 +89,49 @@ OpenedImage open_series(const std::filesystem::path& folder, const DicomSeries& 
     for (const DicomFile& file : series.files)
         opened.reading_bytes = std::max(opened.reading_bytes, DicomFrames::bytes_to_read(file));
     return opened;
+}
+
+}  // namespace
+
+namespace {
+
+/// The only segmentation of a folder; nothing where there is none.
+std::optional<std::filesystem::path> segmentation_in(const std::filesystem::path& folder) {
+    std::optional<std::filesystem::path> found;
+    std::error_code failed;
+    for (const auto& entry : std::filesystem::directory_iterator(folder, failed)) {
+        std::error_code unknown;
+        if (!entry.is_regular_file(unknown) || !is_dicom_segmentation(entry.path())) continue;
+        if (found)
+            throw ImagingError(folder,
+                               fmt::format("holds several segmentations, such as {} and {}; give one of them",
+                                           found->filename().string(), entry.path().filename().string()));
+        found = entry.path();
+    }
+    return found;
+}
+
+}  // namespace
+
+OpenedImage open_dicom_folder(const std::filesystem::path& folder,
+                              const std::optional<std::string>& series_uid, DicomPurpose purpose) {
+    if (purpose == DicomPurpose::labels)
+        if (const auto segmentation = segmentation_in(folder)) return open_dicom_segmentation(*segmentation);
+    std::vector<std::string> left_out;
+    const std::vector<DicomSeries> series = find_series(folder, left_out);
+    std::vector<std::string> others;
+    OpenedImage opened = open_series(folder, choose_series(folder, series, series_uid, others));
+    for (const std::string& other : others)
+        opened.image.notes.push_back(
+            fmt::format("{}: passed over series {}; --series picks one", folder.string(), other));
+    for (const std::string& line : left_out)
+        opened.image.notes.push_back(fmt::format("{}: {}", folder.string(), line));
+    return opened;
+}
+
+OpenedImage open_dicom_file(const std::filesystem::path& path, DicomPurpose purpose) {
+    if (purpose == DicomPurpose::labels && is_dicom_segmentation(path)) return open_dicom_segmentation(path);
+    return open_series(path, series_of_file(path));
 }
 
 }  // namespace osteomill

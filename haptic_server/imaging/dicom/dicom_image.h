@@ -1,12 +1,17 @@
-// A DICOM series as an image.
+// A DICOM folder or file as an image.
 #pragma once
 
-#include "haptic_server/imaging/dicom/dicom_series.h"
 #include "haptic_server/imaging/formats/image_reader.h"
 
 namespace osteomill {
 
-/// Places the slices; their pixels are read later. `folder` is for messages. Throws ImagingError.
-OpenedImage open_series(const std::filesystem::path& folder, const DicomSeries& series);
+/// What is looked for in it: a scan, or labels, which may also be a segmentation (SEG).
+enum class DicomPurpose { scan, labels };
+
+/// Places the slices of the series asked for, or else of the largest; their pixels are read later. What else
+/// the folder holds is named in the notes. Throws ImagingError.
+OpenedImage open_dicom_folder(const std::filesystem::path& folder,
+                              const std::optional<std::string>& series_uid, DicomPurpose purpose);
+OpenedImage open_dicom_file(const std::filesystem::path& path, DicomPurpose purpose);
 
 }  // namespace osteomill

@@ -3,7 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <map>
+#include <set>
+#include <utility>
 
 #include "haptic_server/imaging/imaging_error.h"
 
@@ -37,9 +40,54 @@ void require_usable(const DicomFile& file) {
     if (!header.fault.empty()) throw ImagingError(file.path, header.fault);
 }
 
+/// Files that are left out, by the reason.
+class LeftOut {
+  public:
+    void add(const std::string& reason, const std::filesystem::path& file) {
+        files_[reason].push_back(file.filename().string());
+    }
+    std::vector<std::string> lines() const {
+        std::vector<std::string> lines;
+        for (const auto& [reason, files] : files_)
+            lines.push_back(files.size() == 1 ? fmt::format("left out {}, which {}", files[0], reason)
+                                              : fmt::format("left out {} files such as {}, which {}",
+                                                            files.size(), files[0], reason));
+        return lines;
+    }
+
+  private:
+    std::map<std::string, std::vector<std::string>> files_;
+};
+
+/// What two copies of one slice have in common; nothing for files of several frames.
+std::optional<std::pair<std::string, std::array<double, 3>>> identity_of(const DicomHeader& header) {
+    if (header.instance_uid.empty() || header.frames.size() != 1 || !header.frames[0]) return std::nullopt;
+    const glm::dvec3& at = header.frames[0]->position_mm;
+    return std::pair(header.instance_uid, std::array{at.x, at.y, at.z});
+}
+
+/// What is no slice of a scan goes, unless there is nothing else; and so does what is there twice.
+void leave_out(std::vector<DicomFile>& images, LeftOut& left) {
+    const auto is_other = [](const DicomFile& file) { return !file.header.not_of_the_scan.empty(); };
+    const bool is_mixed = !std::all_of(images.begin(), images.end(), is_other);
+    std::set<std::pair<std::string, std::array<double, 3>>> seen;
+    std::vector<DicomFile> kept;
+    for (DicomFile& file : images) {
+        const auto identity = identity_of(file.header);
+        if (is_mixed && is_other(file))
+            left.add(file.header.not_of_the_scan, file.path);
+        else if (identity && !seen.insert(*identity).second)
+            left.add("is a copy of another file (SOP Instance UID)", file.path);
+        else
+            kept.push_back(std::move(file));
+    }
+    images = std::move(kept);
+}
+
 }  // namespace
 
-std::vector<DicomSeries> find_series(const std::filesystem::path& folder) {
+std::vector<DicomSeries> find_series(const std::filesystem::path& folder,
+                                     std::vector<std::string>& left_out) {
     std::vector<std::filesystem::path> paths;
     std::error_code failed;
     for (const auto& entry : std::filesystem::directory_iterator(folder, failed)) {
@@ -54,22 +102,34 @@ std::vector<DicomSeries> find_series(const std::filesystem::path& folder) {
     if (paths.empty()) throw ImagingError(folder, "holds no files (folders in it are not searched)");
     std::sort(paths.begin(), paths.end());
 
-    std::map<std::string, DicomSeries> by_uid;
-    std::map<std::string, DicomSeries> no_images;
+    std::vector<DicomFile> images;
+    LeftOut left;
+    std::optional<DicomFile> no_image;  // to complain of, if there is nothing else
     for (const std::filesystem::path& path : paths) {
         std::optional<DicomHeader> header = read_dicom_header(path);
-        // Reports, presentation states and a DICOMDIR are DICOM, but no image.
-        if (!header || header->rows == 0 || header->columns == 0) continue;
-        DicomSeries& series = (header->no_grey_image.empty() ? by_uid : no_images)[header->series_uid];
-        add(series, {path, std::move(*header)});
+        if (!header) continue;
+        if (!header->no_grey_image.empty()) {
+            left.add(header->no_grey_image, path);
+            if (!no_image) no_image = DicomFile{path, *header};
+        } else if (header->rows > 0 && header->columns > 0) {
+            images.push_back({path, std::move(*header)});
+        }  // else it is a DICOMDIR or the like
     }
-    // A segmentation beside its scan may have more frames than that, and is not it.
-    if (by_uid.empty() && !no_images.empty()) require_usable(no_images.begin()->second.files.front());
-    if (by_uid.empty()) throw ImagingError(folder, "holds no DICOM images");
+    if (images.empty() && no_image) require_usable(*no_image);
+    if (images.empty()) throw ImagingError(folder, "holds no DICOM images");
+    leave_out(images, left);
+    left_out = left.lines();
+    std::map<std::string, DicomSeries> by_uid;
+    for (DicomFile& file : images) {
+        DicomSeries& series = by_uid[file.header.series_uid];
+        add(series, std::move(file));
+    }
     std::vector<DicomSeries> found;
     for (auto& [uid, series] : by_uid) found.push_back(std::move(series));
-    std::stable_sort(found.begin(), found.end(),
-                     [](const DicomSeries& a, const DicomSeries& b) { return a.slices > b.slices; });
+    const auto is_ct = [](const DicomSeries& series) { return series.files.front().header.modality == "CT"; };
+    std::stable_sort(found.begin(), found.end(), [&](const DicomSeries& a, const DicomSeries& b) {
+        return std::pair(is_ct(a), a.slices) > std::pair(is_ct(b), b.slices);
+    });
     return found;
 }
 

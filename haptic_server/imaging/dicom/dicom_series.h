@@ -29,11 +29,13 @@ struct DicomSeries {
     std::size_t slices = 0;        ///< frames of all files
 };
 
-/// The series of a folder (not of the folders in it), largest first, then by UID. Files that are not DICOM,
-/// DICOM without an image's size (reports, a DICOMDIR), and what holds no CT numbers (segmentations) beside
-/// what may, are passed over. Throws ImagingError for a folder that is empty, holds no such image or more
-/// than 65535 files, for a file that cannot be opened, and for a DICOM file that read_dicom_header refuses.
-std::vector<DicomSeries> find_series(const std::filesystem::path& folder);
+/// The series of a folder (not of the folders in it), CT before others, largest first, then by UID. Files
+/// that are not DICOM are passed over. What holds no CT numbers (segmentations, reports) or is no slice of a
+/// scan (a localizer, a secondary capture) beside what may be, and a second copy of a slice, are left out,
+/// and `left_out` gets a line about each kind. Throws ImagingError for a folder that is empty, holds no such
+/// image or more than 65535 files, for a file that cannot be opened, and for a DICOM file that
+/// read_dicom_header refuses.
+std::vector<DicomSeries> find_series(const std::filesystem::path& folder, std::vector<std::string>& left_out);
 
 /// The series asked for, or else the largest. `others` gets one line about each series passed over. Throws
 /// ImagingError, listing the UIDs there are, where there is none of that UID.

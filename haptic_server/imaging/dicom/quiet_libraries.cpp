@@ -2,7 +2,6 @@
 
 #include <fcntl.h>
 #include <gdcmTrace.h>
-#include <itkObject.h>
 #include <unistd.h>
 
 #include <cstdio>
@@ -11,7 +10,6 @@
 namespace osteomill {
 
 QuietLibraries::QuietLibraries() {
-    itk::Object::GlobalWarningDisplayOff();
     gdcm::Trace::WarningOff();
     gdcm::Trace::ErrorOff();
     gdcm::Trace::DebugOff();

@@ -4,9 +4,8 @@
 
 namespace osteomill {
 
-/// While it lives, ITK and GDCM warn nobody and file descriptor 2 leads nowhere (libjpeg, MetaIO and the
-/// NIfTI library print on their own). Standard error belongs to the whole process, so keep it brief, on one
-/// thread.
+/// While it lives, GDCM warns nobody and file descriptor 2 leads nowhere (libjpeg prints on its own).
+/// Standard error belongs to the whole process, so keep it brief, on one thread.
 class QuietLibraries {
   public:
     QuietLibraries();

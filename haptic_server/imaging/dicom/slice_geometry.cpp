@@ -17,6 +17,8 @@ namespace {
 
 /// Direction cosines are printed with six digits or more; 1e-3 is 0.06 degrees.
 constexpr double direction_tolerance = 1e-3;
+/// What settle_geometry makes perpendicular.
+const double most_lean = std::sin(glm::radians(most_shear_degrees));
 constexpr double duplicate_mm = 1e-3;
 constexpr double gap_tolerance_relative = 0.02;
 constexpr double gap_tolerance_mm = 0.02;
@@ -33,7 +35,7 @@ void require_sound(const SlicePlacement& slice) {
         refuse(implausible_position("the position of " + slice.name));
     const bool unit = std::abs(glm::length(slice.along_row) - 1.0) < direction_tolerance &&
                       std::abs(glm::length(slice.along_column) - 1.0) < direction_tolerance;
-    if (!unit || !(std::abs(glm::dot(slice.along_row, slice.along_column)) < direction_tolerance))
+    if (!unit || !(std::abs(glm::dot(slice.along_row, slice.along_column)) < most_lean))
         refuse(fmt::format("the row and column directions of {} are not perpendicular unit vectors",
                            slice.name));
 }
@@ -62,22 +64,29 @@ glm::dvec3 sideways(const SlicePlacement& first, const SlicePlacement& slice, co
     return step - glm::dot(step, normal) * normal;
 }
 
-void require_upright(const std::vector<SlicePlacement>& slices, const std::vector<std::size_t>& order,
-                     const glm::dvec3& normal) {
+/// The slices' step, of length 1: the normal but for a lean that rounding does not explain.
+glm::dvec3 require_upright(const std::vector<SlicePlacement>& slices, const std::vector<std::size_t>& order,
+                           const glm::dvec3& normal) {
     const SlicePlacement& first = slices[order.front()];
     const SlicePlacement& last = slices[order.back()];
     const double allowed_mm = 0.5 * std::min(first.column_pitch_mm, first.row_pitch_mm);
     const double height_mm = glm::dot(last.position_mm - first.position_mm, normal);
     const glm::dvec3 lean = sideways(first, last, normal) / height_mm;
-    if (glm::length(lean) * height_mm > allowed_mm)
+    const bool leans = glm::length(lean) * height_mm > allowed_mm;
+    if (leans && glm::length(lean) > most_lean)
         refuse(fmt::format(
             "gantry tilt of {:.1f} degrees (its slices are sheared by {:.1f} mm); reformat it upright "
             "first",
             glm::degrees(std::atan(glm::length(lean))), glm::length(lean) * height_mm));
-    for (const std::size_t index : order)
-        if (glm::length(sideways(first, slices[index], normal)) > allowed_mm)
-            refuse(fmt::format("{} is shifted sideways by {:.1f} mm against {}", slices[index].name,
-                               glm::length(sideways(first, slices[index], normal)), first.name));
+    const glm::dvec3 step = leans ? normal + lean : normal;
+    for (const std::size_t index : order) {
+        const double along_mm = glm::dot(slices[index].position_mm - first.position_mm, normal);
+        const double off_mm = glm::distance(slices[index].position_mm, first.position_mm + along_mm * step);
+        if (off_mm > allowed_mm)
+            refuse(fmt::format("{} is shifted sideways by {:.1f} mm against {}", slices[index].name, off_mm,
+                               first.name));
+    }
+    return glm::normalize(step);
 }
 
 /// The common gap.
@@ -131,12 +140,12 @@ SliceStack stack_slices(const std::vector<SlicePlacement>& slices) {
             refuse(fmt::format("two slices at the same position: {} and {}", slices[below].name,
                                slices[above].name));
     }
-    require_upright(slices, stack.order, normal);
+    const glm::dvec3 step = require_upright(slices, stack.order, normal);
     const double gap_mm = require_even(slices, stack.order, height_mm);
 
     stack.origin_mm = slices[stack.order.front()].position_mm;
     stack.spacing_mm = {any.column_pitch_mm, any.row_pitch_mm, gap_mm};
-    stack.direction = glm::dmat3(any.along_row, any.along_column, normal);
+    stack.direction = glm::dmat3(glm::normalize(any.along_row), glm::normalize(any.along_column), step);
     return stack;
 }
 

@@ -1,5 +1,5 @@
 // Where the slices of a DICOM series lie, and whether together they make a volume. Pure functions of what the
-// headers say: no files, no ITK.
+// headers say: no files.
 #pragma once
 
 #include <glm/mat3x3.hpp>
@@ -32,9 +32,10 @@ struct SliceStack {
 /// Stacks the slices along their common normal (row x column). Throws std::invalid_argument, in words that
 /// name the slices, for: fewer than two slices; sizes, orientations or pixel spacings that differ; a spacing,
 /// a position or a direction that is not a number or that no scan has (plausible_geometry.h); row and column
-/// not perpendicular; two slices at one position; slices that shift sideways by more than half a pixel over
-/// the stack (gantry tilt, its angle in the message); missing slices; uneven spacing (a gap further from the
-/// median gap than 2 % and 0.02 mm, which is the rounding that scanners print).
+/// further than most_shear_degrees from perpendicular; two slices at one position; slices that lean by more
+/// than that and shift sideways by more than half a pixel over the stack (gantry tilt, its angle in the
+/// message); missing slices; uneven spacing (a gap further from the median gap than 2 % and 0.02 mm, which is
+/// the rounding that scanners print).
 SliceStack stack_slices(const std::vector<SlicePlacement>& slices);
 
 }  // namespace osteomill

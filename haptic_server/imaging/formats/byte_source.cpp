@@ -178,6 +178,26 @@ void ByteSource::finish() {
                            fmt::format("holds more than the {} bytes that its header says", given_));
 }
 
+std::vector<std::uint8_t> first_bytes_inflated(const RegularFile& file, std::size_t most) {
+    std::vector<std::uint8_t> packed = file.first_bytes(std::max(most, buffer_bytes));
+    const bool is_gzip = packed.size() > 1 && packed[0] == 0x1f && packed[1] == 0x8b;
+    if (!is_gzip) {
+        packed.resize(std::min(packed.size(), most));
+        return packed;
+    }
+    z_stream stream{};
+    if (inflateInit2(&stream, window_bits(Encoding::gzip)) != Z_OK) throw std::bad_alloc();
+    std::vector<std::uint8_t> bytes(most);
+    stream.next_in = packed.data();
+    stream.avail_in = static_cast<uInt>(packed.size());
+    stream.next_out = bytes.data();
+    stream.avail_out = static_cast<uInt>(most);
+    inflate(&stream, Z_SYNC_FLUSH);
+    bytes.resize(most - stream.avail_out);
+    inflateEnd(&stream);
+    return bytes;
+}
+
 bool can_hold(std::uint64_t file_bytes, std::uint64_t bytes, Encoding encoding) {
     if (is_compressed(encoding)) return bytes / deflate_ratio <= file_bytes;
     return (encoding == Encoding::hex ? 2 * bytes : bytes) <= file_bytes;

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <memory>
 #include <span>
+#include <vector>
 
 #include "haptic_server/imaging/formats/regular_file.h"
 
@@ -51,6 +52,10 @@ class ByteSource {
     std::unique_ptr<Inflater> inflater_;  // of compressed data
     std::uint64_t given_ = 0;             // bytes, decoded
 };
+
+/// A file's first bytes, at most so many, inflated where they are gzip's. Damage ends them early; what reads
+/// the file finds it.
+std::vector<std::uint8_t> first_bytes_inflated(const RegularFile& file, std::size_t most);
 
 /// Whether a file of `file_bytes` may hold `bytes` in this encoding: deflate packs 1032 into one at most.
 bool can_hold(std::uint64_t file_bytes, std::uint64_t bytes, Encoding encoding);

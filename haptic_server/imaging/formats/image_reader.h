@@ -1,9 +1,11 @@
-// Opens an image of any kind that is read: a DICOM folder or file, NRRD, NIfTI or MetaImage.
+// Opens an image of any kind that is read, scan or labels: a DICOM folder or file, NRRD, NIfTI or MetaImage,
+// by what it holds.
 #pragma once
 
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <optional>
 #include <span>
 #include <string>
@@ -19,10 +21,16 @@ using TakeSlice = std::function<void(int k, std::span<float> values)>;
 
 /// What is known before the voxels are read.
 struct OpenedImage {
-    SourceImage image;  ///< without values
+    SourceImage image{};  ///< without values
+    /// Values of a voxel, side by side in the slices: several of a label map in layers that overlap, as 3D
+    /// Slicer writes them.
+    int layers = 1;
+    /// "key:=value" of a NRRD; the segments of a DICOM segmentation in the words of Slicer's .seg.nrrd.
+    std::map<std::string, std::string> key_values{};
     /// Reads the values slice by slice and hands on each, k ascending, with the file's own rescale (slice by
-    /// slice in DICOM) applied. Throws ImagingError, too, where what was compressed is damaged.
-    std::function<void(const TakeSlice&, const ReportProgress&)> read_slices;
+    /// slice in DICOM) applied. What the file says was not measured (padding) is not a number. Throws
+    /// ImagingError, too, where what was compressed is damaged.
+    std::function<void(const TakeSlice&, const ReportProgress&)> read_slices{};
     /// What that takes of memory at most.
     std::uint64_t reading_bytes = 0;
 
@@ -32,19 +40,12 @@ struct OpenedImage {
 
 /// Reads headers only. `series_uid` picks a series of a DICOM folder; the largest otherwise. Throws
 /// ImagingError, in one line, for all that is no three-dimensional grey image placed in the patient: a path
-/// that does not exist, an unknown kind of file, a damaged header, 2 or 4 dimensions, a single slice, colour,
-/// a geometry that no scan has (plausible_geometry.h), voxels for which the files are too short, and what the
-/// headers, dicom_series.h and slice_geometry.h refuse.
+/// that does not exist, an unknown kind of file, a header that is cut off or says what cannot be, 2 or 4
+/// dimensions, a single slice, colour, a geometry that no scan has (plausible_geometry.h), voxels for which
+/// the files are too short, and what the headers, dicom_series.h and slice_geometry.h refuse.
 OpenedImage open_image(const std::filesystem::path& path, const std::optional<std::string>& series_uid);
 
-/// A label map: one label a voxel, or several in layers that overlap, as 3D Slicer writes them.
-struct OpenedLabels {
-    /// Its slices hold `layers` values a voxel, the layers of a voxel side by side.
-    OpenedImage opened;
-    int layers = 1;
-};
-
-/// As open_image, of NRRD and NIfTI alone; a NRRD may have a first axis of layers.
-OpenedLabels open_labels(const std::filesystem::path& path);
+/// As open_image, of a label map, which may have layers: in any of the formats, and a DICOM segmentation.
+OpenedImage open_labels(const std::filesystem::path& path);
 
 }  // namespace osteomill

@@ -6,14 +6,14 @@
 #include <array>
 #include <charconv>
 #include <cmath>
-#include <cstdlib>
-#include <iterator>
+#include <glm/geometric.hpp>
 #include <map>
 #include <optional>
-#include <sstream>
 #include <stdexcept>
 #include <string_view>
 
+#include "haptic_server/imaging/formats/header_text.h"
+#include "haptic_server/imaging/formats/length_unit.h"
 #include "haptic_server/imaging/formats/plausible_geometry.h"
 #include "haptic_server/imaging/formats/regular_file.h"
 #include "haptic_server/imaging/formats/voxel_data.h"
@@ -32,17 +32,6 @@ constexpr std::array elements{
     MetaElement{"MET_SHORT", VoxelType::int16},   MetaElement{"MET_USHORT", VoxelType::uint16},
     MetaElement{"MET_INT", VoxelType::int32},     MetaElement{"MET_UINT", VoxelType::uint32},
     MetaElement{"MET_FLOAT", VoxelType::float32}, MetaElement{"MET_DOUBLE", VoxelType::float64}};
-
-std::string trimmed(std::string_view text) {
-    const std::size_t first = text.find_first_not_of(" \t\r");
-    if (first == std::string_view::npos) return {};
-    return std::string(text.substr(first, text.find_last_not_of(" \t\r") - first + 1));
-}
-
-std::vector<std::string> words_in(const std::string& text) {
-    std::istringstream line(text);
-    return {std::istream_iterator<std::string>(line), {}};
-}
 
 /// The fields, in whose terms every complaint is made.
 class MetaFields {
@@ -70,11 +59,9 @@ class MetaFields {
     std::int64_t whole(const std::string& name, std::int64_t otherwise) const {
         const std::optional<std::string> value = text(name);
         if (!value) return otherwise;
-        std::int64_t number = 0;
-        const auto [end, error] = std::from_chars(value->data(), value->data() + value->size(), number);
-        if (error != std::errc() || end != value->data() + value->size())
-            refuse(name, "must be a whole number");
-        return number;
+        const auto number = whole_number<std::int64_t>(*value);
+        if (!number) refuse(name, "must be a whole number");
+        return *number;
     }
     bool truth(const std::string& name, bool otherwise) const {
         const std::optional<std::string> value = text(name);
@@ -83,23 +70,20 @@ class MetaFields {
         if (value->starts_with('F') || value->starts_with('f') || *value == "0") return false;
         refuse(name, "must be True or False");
     }
-    template <std::size_t count>
-    std::array<double, count> numbers(const std::string& name) const {
-        const std::vector<std::string> words = words_in(text(name).value_or(""));
-        std::array<double, count> numbers{};
+    std::vector<double> numbers(const std::string& name, std::size_t count) const {
+        const std::vector<std::string> words = words_of(text(name).value_or(""));
         if (words.size() != count) refuse(name, fmt::format("must be {} numbers", count));
-        for (std::size_t i = 0; i < count; ++i) {
-            char* end = nullptr;
-            numbers[i] = std::strtod(words[i].c_str(), &end);
-            if (*end != '\0') refuse(name, fmt::format("must be {} numbers", count));
+        std::vector<double> numbers;
+        for (const std::string& word : words) {
+            const std::optional<double> number = real_number(word);
+            if (!number) refuse(name, fmt::format("must be {} numbers", count));
+            numbers.push_back(*number);
         }
         return numbers;
     }
     [[noreturn]] void refuse(const std::string& name, const std::string& reason) const {
         const std::string value = text(name).value_or("");
-        throw ImagingError(path_,
-                           fmt::format("{} '{}' {}", name.substr(0, 80),
-                                       value.size() <= 80 ? value : value.substr(0, 77) + "...", reason));
+        throw ImagingError(path_, fmt::format("{} '{}' {}", name.substr(0, 80), shortened(value), reason));
     }
 
   private:
@@ -107,48 +91,70 @@ class MetaFields {
     std::map<std::string, std::string> fields_;
 };
 
+/// Millimetres of one of its lengths.
+double mm_of_lengths(const MetaFields& fields, const std::filesystem::path& path, SourceImage& image) {
+    const std::string units = fields.text("DistanceUnits").value_or("mm");
+    if (is_unknown_unit(units)) return 1.0;
+    const std::optional<double> mm = mm_of_unit(units);
+    if (!mm) fields.refuse("DistanceUnits", std::string("is not read; ") + known_units);
+    if (*mm != 1.0)
+        image.notes.push_back(
+            fmt::format("{}: its DistanceUnits are {}; converted to mm", path.string(), shortened(units)));
+    return *mm;
+}
+
+/// Axes beyond the third must have one voxel, and go.
 void read_geometry(const MetaFields& fields, const std::filesystem::path& path, SourceImage& image) {
-    if (const std::int64_t dimensions = fields.whole("NDims", 0); dimensions != 3)
+    const std::int64_t dimensions = fields.whole("NDims", 0);
+    if (dimensions < 3 || dimensions > 10)
         throw ImagingError(path, fmt::format("has {} dimensions (NDims); a volume has 3", dimensions));
-    const std::array<double, 3> size = fields.numbers<3>("DimSize");
-    for (std::size_t axis = 0; axis < 3; ++axis) {
+    const auto axes = static_cast<std::size_t>(dimensions);
+    const std::vector<double> size = fields.numbers("DimSize", axes);
+    for (std::size_t axis = 0; axis < axes; ++axis) {
         if (!(size[axis] >= 1.0 && size[axis] <= static_cast<double>(most_voxels_of_an_axis)) ||
             size[axis] != std::floor(size[axis]))
             fields.refuse("DimSize",
-                          fmt::format("must be three whole numbers from 1 to {}", most_voxels_of_an_axis));
-        image.size_voxels[static_cast<int>(axis)] = static_cast<int>(size[axis]);
+                          fmt::format("must be whole numbers from 1 to {}", most_voxels_of_an_axis));
+        if (axis < 3)
+            image.size_voxels[static_cast<int>(axis)] = static_cast<int>(size[axis]);
+        else if (size[axis] != 1.0)
+            throw ImagingError(path, fmt::format("has {} dimensions (NDims); a volume has 3", dimensions));
     }
+    const double mm = mm_of_lengths(fields, path, image);
     // ElementSize stands in for a spacing that is not there.
     if (const std::string name = fields.text("ElementSpacing") ? "ElementSpacing" : "ElementSize";
         fields.text(name)) {
-        const std::array<double, 3> spacing_mm = fields.numbers<3>(name);
-        for (const double one : spacing_mm)
-            if (!is_plausible_spacing(one)) throw ImagingError(path, implausible_spacing(name, one));
-        image.spacing_mm = {spacing_mm[0], spacing_mm[1], spacing_mm[2]};
+        const std::vector<double> spacing = fields.numbers(name, axes);
+        for (int axis = 0; axis < 3; ++axis) {
+            image.spacing_mm[axis] = spacing[static_cast<std::size_t>(axis)] * mm;
+            if (!is_plausible_spacing(image.spacing_mm[axis]))
+                throw ImagingError(path, implausible_spacing(name, image.spacing_mm[axis]));
+        }
     } else {
         image.notes.push_back(path.string() + ": its header has no spacing; taken as 1 mm");
     }
     if (const std::string name = fields.name_of({"Offset", "Position", "Origin", "ImagePosition"});
         !name.empty()) {
-        const std::array<double, 3> origin_mm = fields.numbers<3>(name);
-        image.origin_mm = {origin_mm[0], origin_mm[1], origin_mm[2]};
+        const std::vector<double> origin = fields.numbers(name, axes);
+        image.origin_mm = mm * glm::dvec3(origin[0], origin[1], origin[2]);
         if (!is_plausible_position(image.origin_mm)) throw ImagingError(path, implausible_position(name));
     }
     if (const std::string name = fields.name_of({"TransformMatrix", "Orientation", "Rotation"});
         !name.empty()) {
-        const std::array<double, 9> matrix = fields.numbers<9>(name);
-        for (std::size_t axis = 0; axis < 3; ++axis)
-            for (std::size_t row = 0; row < 3; ++row)
-                image.direction[static_cast<int>(axis)][static_cast<int>(row)] = matrix[3 * axis + row];
+        const std::vector<double> matrix = fields.numbers(name, axes * axes);
+        for (int axis = 0; axis < 3; ++axis) {
+            for (int row = 0; row < 3; ++row)
+                image.direction[axis][row] =
+                    matrix[axes * static_cast<std::size_t>(axis) + static_cast<std::size_t>(row)];
+            const double length = glm::length(image.direction[axis]);
+            if (!(length > 0.0) || !std::isfinite(length))
+                fields.refuse(name, "has an axis without direction");
+            image.direction[axis] /= length;
+        }
+    } else {
+        note_guessed_orientation(image, path, "its header has no TransformMatrix");
     }
-    if (const std::optional<std::string> units = fields.text("DistanceUnits");
-        units && *units != "mm" && *units != "?")
-        fields.refuse("DistanceUnits", "is not read; it must be mm");
-    try {
-        require_plausible_geometry(image);
-    } catch (const std::invalid_argument& error) {
-        throw ImagingError(path, error.what());
-    }
+    settle_geometry(image, path);
 }
 
 void read_element(const MetaFields& fields, MetaImageHeader& header) {
@@ -162,11 +168,10 @@ void read_element(const MetaFields& fields, MetaImageHeader& header) {
     header.voxels.type = known->type;
     if (fields.whole("ElementNumberOfChannels", 1) != 1)
         fields.refuse("ElementNumberOfChannels", "means colour or vectors; CT has one value a voxel");
-    if (!fields.truth("BinaryData", false))
-        fields.refuse("BinaryData", "means voxels as text, which is not read; it must be True");
     const std::string order = fields.name_of({"BinaryDataByteOrderMSB", "ElementByteOrderMSB"});
     header.voxels.big_endian = !order.empty() && fields.truth(order, false);
     header.encoding = fields.truth("CompressedData", false) ? Encoding::zlib_or_gzip : Encoding::raw;
+    if (!fields.truth("BinaryData", false)) header.encoding = Encoding::text;
     header.header_size = fields.whole("HeaderSize", 0);
     constexpr std::int64_t most_skipped = std::int64_t{1} << 40;
     if (header.header_size > most_skipped || header.header_size < (header.encoding == Encoding::raw ? -1 : 0))
@@ -183,11 +188,9 @@ std::vector<std::string> numbered_slices(const std::vector<std::string>& words, 
     std::array<std::int64_t, 3> number{1, 0, 1};
     if (words.size() > 4) fields.refuse("ElementDataFile", "must be 'name%03d.raw FIRST LAST STEP'");
     for (std::size_t i = 1; i < words.size(); ++i) {
-        const auto [end, error] =
-            std::from_chars(words[i].data(), words[i].data() + words[i].size(), number[i - 1]);
         constexpr std::int64_t most = 1'000'000'000;
-        if (error != std::errc() || end != words[i].data() + words[i].size() || number[i - 1] < 0 ||
-            number[i - 1] > most)
+        number[i - 1] = whole_number<std::int64_t>(words[i]).value_or(-1);
+        if (number[i - 1] < 0 || number[i - 1] > most)
             fields.refuse("ElementDataFile", "must be 'name%03d.raw FIRST LAST STEP', whole numbers");
     }
     const auto [first, last, step] = number;
@@ -229,7 +232,7 @@ std::vector<std::string> listed_slices(const std::vector<std::string>& words, st
 
 void read_data_files(const MetaFields& fields, std::string_view rest, MetaImageHeader& header) {
     const std::string text = fields.text("ElementDataFile").value_or("");
-    const std::vector<std::string> words = words_in(text);
+    const std::vector<std::string> words = words_of(text);
     const int slices = header.image.size_voxels.z;
     if (text == "LOCAL" || text == "Local" || text == "local") return;
     if (words.empty()) fields.refuse("ElementDataFile", "names no file");
@@ -264,13 +267,38 @@ MetaImageHeader parse_meta_image_header(std::span<const std::uint8_t> bytes,
     // A header that ends with its last line has no voxels behind it, but may name their file.
     if (!fields.text("ElementDataFile"))
         throw ImagingError(path, text.size() >= most_meta_image_header_bytes
-                                     ? "cannot be read as MetaImage: its header has no end"
-                                     : "cannot be read as MetaImage: cut off or damaged (no line "
-                                       "ElementDataFile)");
+                                     ? "is no MetaImage: its header has no end"
+                                     : "is cut off: its header has no line ElementDataFile");
     read_geometry(fields, path, header.image);
     read_element(fields, header);
     read_data_files(fields, text.substr(header.bytes), header);
     return header;
+}
+
+ImageFile open_meta_image(const std::filesystem::path& path) {
+    const MetaImageHeader header =
+        parse_meta_image_header(RegularFile(path).first_bytes(most_meta_image_header_bytes), path);
+    ImageFile image{.image = header.image,
+                    .voxels = header.voxels,
+                    .data = {.encoding = header.encoding, .parts = {}},
+                    .key_values = {}};
+    // A number in decimal takes a digit, and a blank from the next.
+    const std::uint64_t all_bytes = header.encoding == Encoding::text
+                                        ? 2 * voxel_count(header.image) - 1
+                                        : voxel_count(header.image) * bytes_of(header.voxels.type);
+    const auto add = [&](const std::filesystem::path& file, std::uint64_t begin, std::uint64_t bytes) {
+        const std::uint64_t size = RegularFile(file).size();
+        const std::uint64_t voxels_begin = header.header_size >= 0
+                                               ? begin + static_cast<std::uint64_t>(header.header_size)
+                                               : size - std::min(size, bytes);
+        image.data.parts.push_back({.file = file, .begin = voxels_begin, .bytes = bytes});
+    };
+    // In the header's own file the voxels follow it; HeaderSize is of files that know nothing of MetaImage.
+    if (header.data_files.empty())
+        image.data.parts.push_back({.file = path, .begin = header.bytes, .bytes = all_bytes});
+    for (const std::string& name : header.data_files)
+        add(data_file_beside(path, name), 0, all_bytes / header.data_files.size());
+    return image;
 }
 
 }  // namespace osteomill

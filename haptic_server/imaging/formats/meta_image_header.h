@@ -1,6 +1,4 @@
-// The text header of a MetaImage (.mha, .mhd). ITK's own reader of this format hands the header's text to
-// printf, copies it into buffers of fixed size, passes over slices that are missing and fills up files that
-// were cut off; so it is not used.
+// The text header of a MetaImage (.mha, .mhd): how the image lies in the patient, and where its values lie.
 #pragma once
 
 #include <cstdint>
@@ -9,9 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "haptic_server/imaging/formats/byte_source.h"
-#include "haptic_server/imaging/formats/source_image.h"
-#include "haptic_server/imaging/formats/voxel_layout.h"
+#include "haptic_server/imaging/formats/image_file.h"
 
 namespace osteomill {
 
@@ -28,10 +24,13 @@ struct MetaImageHeader {
 };
 
 /// Takes the first bytes of a file apart; pure. `path` is for messages. Throws ImagingError for a header
-/// that is cut off or has no end, a field that stands there twice, a number of dimensions other than 3,
-/// colour, a type or an encoding that is not read, a geometry that no scan has (plausible_geometry.h), a
-/// number of data files that is not that of the slices.
+/// that is cut off or has no end, a field that stands there twice, other than three
+/// dimensions (of more than a voxel), colour, a type or an encoding that is not read, a geometry that no scan
+/// has (plausible_geometry.h), a number of data files that is not that of the slices.
 MetaImageHeader parse_meta_image_header(std::span<const std::uint8_t> bytes,
                                         const std::filesystem::path& path);
+
+/// Reads the header, and finds every file of voxels. Throws ImagingError.
+ImageFile open_meta_image(const std::filesystem::path& path);
 
 }  // namespace osteomill

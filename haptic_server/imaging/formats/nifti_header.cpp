@@ -1,16 +1,16 @@
 #include "haptic_server/imaging/formats/nifti_header.h"
 
 #include <fmt/format.h>
-#include <zlib.h>
 
 #include <algorithm>
 #include <bit>
 #include <cmath>
 #include <cstring>
-#include <memory>
+#include <glm/geometric.hpp>
 #include <stdexcept>
 #include <string>
 
+#include "haptic_server/imaging/formats/header_text.h"
 #include "haptic_server/imaging/formats/plausible_geometry.h"
 #include "haptic_server/imaging/formats/regular_file.h"
 #include "haptic_server/imaging/formats/voxel_data.h"
@@ -25,6 +25,8 @@ constexpr std::int32_t nifti2_header_bytes = 540;
 /// Extensions stand between header and voxels; notes about a patient, not another image.
 constexpr double most_voxels_begin = 64.0 * 1024.0 * 1024.0;
 constexpr std::size_t matrix_numbers = 12;
+/// Spacings, directions and positions (of a voxel) that differ by less say the same.
+constexpr double same_within = 1e-3;
 
 /// Values at offsets, in either byte order.
 class NiftiFields {
@@ -57,6 +59,7 @@ struct Stated {
     int bits = 0;
     int qform = 0;
     int sform = 0;
+    int units = 0;
     std::array<double, 6> quaternion_and_offset{};
     std::array<double, matrix_numbers> rows{};
     std::string magic;
@@ -84,6 +87,7 @@ Stated read_nifti1(const NiftiFields& fields) {
     stated.bits = fields.at<std::int16_t>(72);
     stated.qform = fields.at<std::int16_t>(252);
     stated.sform = fields.at<std::int16_t>(254);
+    stated.units = fields.at<std::uint8_t>(123);
     for (std::size_t i = 0; i < 3; ++i) stated.magic += fields.at<char>(344 + i);
     return stated;
 }
@@ -98,6 +102,7 @@ Stated read_nifti2(const NiftiFields& fields) {
     stated.bits = fields.at<std::int16_t>(14);
     stated.qform = fields.at<std::int32_t>(344);
     stated.sform = fields.at<std::int32_t>(348);
+    stated.units = fields.at<std::int32_t>(500);
     for (std::size_t i = 0; i < 3; ++i) stated.magic += fields.at<char>(4 + i);
     return stated;
 }
@@ -107,24 +112,22 @@ struct DataType {
     std::uint64_t bytes = 0;
     VoxelType type = VoxelType::uint8;
 };
-constexpr std::array data_types{DataType{2, 1, VoxelType::uint8},
-                                DataType{256, 1, VoxelType::int8},
-                                DataType{4, 2, VoxelType::int16},
-                                DataType{512, 2, VoxelType::uint16},
-                                DataType{8, 4, VoxelType::int32},
-                                DataType{768, 4, VoxelType::uint32},
-                                DataType{1024, 8, VoxelType::int64},
-                                DataType{1280, 8, VoxelType::uint64},
-                                DataType{16, 4, VoxelType::float32},
-                                DataType{64, 8, VoxelType::float64},
-                                DataType{128, 3},  // colour, which is refused later, by its name
-                                DataType{2304, 4}};
+constexpr std::array data_types{DataType{2, 1, VoxelType::uint8},    DataType{256, 1, VoxelType::int8},
+                                DataType{4, 2, VoxelType::int16},    DataType{512, 2, VoxelType::uint16},
+                                DataType{8, 4, VoxelType::int32},    DataType{768, 4, VoxelType::uint32},
+                                DataType{1024, 8, VoxelType::int64}, DataType{1280, 8, VoxelType::uint64},
+                                DataType{16, 4, VoxelType::float32}, DataType{64, 8, VoxelType::float64}};
 
-void require_sizes(const Stated& stated, const std::filesystem::path& path, NiftiHeader& header) {
+void read_sizes(const Stated& stated, const std::filesystem::path& path, NiftiHeader& header) {
     if (stated.dim[0] < 1 || stated.dim[0] > 7)
         throw ImagingError(path, fmt::format("has {} dimensions (dim[0]); a volume has 3", stated.dim[0]));
+    std::vector<std::uint64_t> sizes;
     for (std::size_t axis = 1; axis <= static_cast<std::size_t>(stated.dim[0]); ++axis)
-        header.sizes.push_back(static_cast<std::uint64_t>(std::max<std::int64_t>(stated.dim[axis], 0)));
+        sizes.push_back(static_cast<std::uint64_t>(std::max<std::int64_t>(stated.dim[axis], 0)));
+    // Beyond space some write 0 for 1.
+    while (sizes.size() > 3 && sizes.back() <= 1) sizes.pop_back();
+    if (stated.datatype == 128 || stated.datatype == 2304)
+        throw ImagingError(path, "has several values a voxel (colour, datatype RGB); CT has one");
     const auto known = std::find_if(data_types.begin(), data_types.end(), [&](const DataType& type) {
         return type.number == stated.datatype && static_cast<int>(8 * type.bytes) == stated.bits;
     });
@@ -133,37 +136,152 @@ void require_sizes(const Stated& stated, const std::filesystem::path& path, Nift
                                              stated.datatype, stated.bits));
     try {
         header.voxels.type = known->type;
-        header.voxel_bytes = plausible_voxel_count(header.sizes) * known->bytes;
+        header.voxel_bytes = plausible_voxel_count(sizes) * known->bytes;
     } catch (const std::invalid_argument& error) {
         throw ImagingError(path, error.what());
     }
+    if (sizes.size() != 3)
+        throw ImagingError(path, fmt::format("has {} dimensions; a volume has 3", sizes.size()));
+    for (int axis = 0; axis < 3; ++axis)
+        header.image.size_voxels[axis] = static_cast<int>(sizes[static_cast<std::size_t>(axis)]);
 }
 
-void require_numbers(const Stated& stated, const std::filesystem::path& path, NiftiHeader& header) {
-    for (std::size_t axis = 0; axis < 3 && axis < header.sizes.size(); ++axis) {
-        header.spacing_mm[axis] = stated.pixdim[axis + 1];
-        // A negative one is read as its amount.
-        if (!is_plausible_spacing(std::abs(header.spacing_mm[axis])))
-            throw ImagingError(path, implausible_spacing("spacing (pixdim)", header.spacing_mm[axis]));
-    }
+void read_rescale(const Stated& stated, const std::filesystem::path& path, NiftiHeader& header) {
+    // A slope of 0 stands for none, and so does one that is not a number, as nibabel writes it.
+    if (stated.slope == 0.0 || std::isnan(stated.slope)) return;
     if (!std::isfinite(stated.slope) || !std::isfinite(stated.intercept))
         throw ImagingError(path, fmt::format("scl_slope {} and scl_inter {} are not numbers", stated.slope,
                                              stated.intercept));
-    // A slope of 0 stands for none.
-    header.voxels.slope = stated.slope == 0.0 ? 1.0 : stated.slope;
+    header.voxels.slope = stated.slope;
     header.voxels.intercept = stated.intercept;
-    const auto plausible = [](double number) { return std::abs(number) <= farthest_position_mm; };
+}
+
+/// An orientation that the header states: steps of the axes, patient RAS, in the header's unit.
+struct NiftiForm {
+    std::array<glm::dvec3, 3> step{};
+    glm::dvec3 origin{0.0};
+};
+
+double shear_of_steps(const NiftiForm& form) {
+    SourceImage image;
+    for (int axis = 0; axis < 3; ++axis)
+        image.direction[axis] = glm::normalize(form.step[static_cast<std::size_t>(axis)]);
+    return shear_of(image);
+}
+
+NiftiForm form_of_sform(const Stated& stated) {
+    NiftiForm form;
+    for (std::size_t row = 0; row < 3; ++row) {
+        const int i = static_cast<int>(row);
+        for (std::size_t axis = 0; axis < 3; ++axis) form.step[axis][i] = stated.rows[4 * row + axis];
+        form.origin[i] = stated.rows[4 * row + 3];
+    }
+    return form;
+}
+
+/// Without a qform: axes along right, anterior, superior.
+NiftiForm form_of_qform(const Stated& stated) {
+    const auto& [b, c, d, x, y, z] = stated.quaternion_and_offset;
+    const bool is_stated = stated.qform > 0;
+    const double length = is_stated ? std::max(std::sqrt(b * b + c * c + d * d), 1.0) : 1.0;
+    const glm::dvec3 q = is_stated ? glm::dvec3(b, c, d) / length : glm::dvec3(0.0);
+    const double a = std::sqrt(std::max(0.0, 1.0 - glm::dot(q, q)));
+    glm::dmat3 rotation;  // columns, as nifti1.h has it
+    rotation[0] = {a * a + q.x * q.x - q.y * q.y - q.z * q.z, 2 * (q.x * q.y + a * q.z),
+                   2 * (q.x * q.z - a * q.y)};
+    rotation[1] = {2 * (q.x * q.y - a * q.z), a * a + q.y * q.y - q.x * q.x - q.z * q.z,
+                   2 * (q.y * q.z + a * q.x)};
+    rotation[2] = {2 * (q.x * q.z + a * q.y), 2 * (q.y * q.z - a * q.x),
+                   a * a + q.z * q.z - q.x * q.x - q.y * q.y};
+    if (is_stated && stated.pixdim[0] < 0.0) rotation[2] = -rotation[2];
+    NiftiForm form;
+    for (std::size_t axis = 0; axis < 3; ++axis)
+        form.step[axis] = std::abs(stated.pixdim[axis + 1]) * rotation[static_cast<int>(axis)];
+    if (is_stated) form.origin = {x, y, z};
+    return form;
+}
+
+/// What of the other statements contradicts the sform, in words; empty where nothing does.
+std::string contradiction(const NiftiForm& sform, const Stated& stated) {
+    std::array<double, 3> length{};
+    for (std::size_t axis = 0; axis < 3; ++axis) length[axis] = glm::length(sform.step[axis]);
+    for (std::size_t axis = 0; axis < 3; ++axis)
+        if (!(std::abs(std::abs(stated.pixdim[axis + 1]) - length[axis]) <= same_within * length[axis]))
+            return fmt::format(
+                "its sform says voxels of {:.6g} x {:.6g} x {:.6g}, its pixdim {:.6g} x {:.6g} x {:.6g}",
+                length[0], length[1], length[2], stated.pixdim[1], stated.pixdim[2], stated.pixdim[3]);
+    if (stated.qform <= 0) return {};
+    const NiftiForm qform = form_of_qform(stated);
+    for (std::size_t axis = 0; axis < 3; ++axis)
+        if (!(glm::distance(qform.step[axis], sform.step[axis]) <= 10.0 * same_within * length[axis]))
+            return fmt::format("its sform and its qform turn axis {} differently", "ijk"[axis]);
+    if (!(glm::distance(qform.origin, sform.origin) <= *std::min_element(length.begin(), length.end())))
+        return fmt::format("its sform and its qform place it {:.6g} apart",
+                           glm::distance(qform.origin, sform.origin));
+    return {};
+}
+
+double mm_of_nifti_unit(int units, const std::filesystem::path& path) {
+    switch (units & 7) {
+        case 0:  // not stated
+        case 2:
+            return 1.0;
+        case 1:
+            return 1000.0;
+        case 3:
+            return 1e-3;
+        default:
+            throw ImagingError(
+                path, fmt::format("xyzt_units {}: m (1), mm (2) and micrometres (3) are read", units & 7));
+    }
+}
+
+void require_numbers(const Stated& stated, double mm, const std::filesystem::path& path) {
+    const auto plausible = [&](double number) { return std::abs(number * mm) <= farthest_position_mm; };
     if (stated.qform > 0 &&
         !(std::all_of(stated.quaternion_and_offset.begin(), stated.quaternion_and_offset.end(), plausible) &&
           plausible(stated.pixdim[0])))
         throw ImagingError(path, implausible_position("its qform (quatern, qoffset)"));
     if (stated.sform > 0 && !std::all_of(stated.rows.begin(), stated.rows.end(), plausible))
         throw ImagingError(path, implausible_position("its sform (srow_x, srow_y, srow_z)"));
-    for (std::size_t axis = 0; stated.sform > 0 && axis < 3; ++axis) {
-        const double length_mm = std::hypot(stated.rows[axis], stated.rows[4 + axis], stated.rows[8 + axis]);
-        if (!is_plausible_spacing(length_mm))
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        const double spacing_mm = std::abs(stated.pixdim[axis + 1]) * mm;
+        const double length_mm =
+            std::hypot(stated.rows[axis], stated.rows[4 + axis], stated.rows[8 + axis]) * mm;
+        if (stated.sform > 0 && !is_plausible_spacing(length_mm))
             throw ImagingError(path, implausible_spacing("spacing of its sform (srow)", length_mm));
+        if (stated.sform <= 0 && !is_plausible_spacing(spacing_mm))
+            throw ImagingError(path, implausible_spacing("spacing (pixdim)", spacing_mm));
     }
+}
+
+void read_geometry(const Stated& stated, const std::filesystem::path& path, SourceImage& image) {
+    const double mm = mm_of_nifti_unit(stated.units, path);
+    require_numbers(stated, mm, path);
+    const NiftiForm form = stated.sform > 0 ? form_of_sform(stated) : form_of_qform(stated);
+    constexpr glm::dvec3 ras_to_lps(-1.0, -1.0, 1.0);
+    for (int axis = 0; axis < 3; ++axis) {
+        const glm::dvec3& step = form.step[static_cast<std::size_t>(axis)];
+        image.spacing_mm[axis] = glm::length(step) * mm;
+        image.direction[axis] = ras_to_lps * step / glm::length(step);
+    }
+    image.origin_mm = ras_to_lps * form.origin * mm;
+    if (mm != 1.0)
+        image.notes.push_back(fmt::format("{}: its units (xyzt_units) are {}; converted to mm", path.string(),
+                                          mm > 1.0 ? "m" : "um"));
+    if (stated.sform > 0) {
+        if (const std::string both = contradiction(form, stated); !both.empty()) {
+            if (shear_of_steps(form) > same_within)
+                throw ImagingError(
+                    path, fmt::format("{}, and {} in the sform, which is no rotation times spacings; "
+                                      "which is meant?",
+                                      both, sheared_axes(image)));
+            image.notes.push_back(fmt::format("{}: warning: {}; the sform is followed", path.string(), both));
+        }
+    } else if (stated.qform <= 0) {
+        note_guessed_orientation(image, path, "it has neither a qform nor a sform");
+    }
+    settle_geometry(image, path);
 }
 
 void require_beginning(const Stated& stated, const std::filesystem::path& path, double header_bytes,
@@ -173,20 +291,6 @@ void require_beginning(const Stated& stated, const std::filesystem::path& path, 
         throw ImagingError(path, fmt::format("its voxels begin at byte {} (vox_offset); it must be {} to {}",
                                              stated.voxels_begin, least, most_voxels_begin));
     header.voxels_begin = static_cast<std::uint64_t>(stated.voxels_begin);
-}
-
-struct CloseGzip {
-    void operator()(gzFile_s* file) const { gzclose(file); }
-};
-
-/// zlib reads plain files as they are.
-std::vector<std::uint8_t> first_bytes_inflated(const std::filesystem::path& path) {
-    { const RegularFile is_one(path); }
-    const std::unique_ptr<gzFile_s, CloseGzip> file(gzopen(path.c_str(), "rb"));
-    std::vector<std::uint8_t> bytes(most_nifti_header_bytes);
-    const int read = file ? gzread(file.get(), bytes.data(), static_cast<unsigned>(bytes.size())) : -1;
-    bytes.resize(static_cast<std::size_t>(std::max(read, 0)));
-    return bytes;
 }
 
 bool is_gzip(const std::filesystem::path& path) {
@@ -215,41 +319,56 @@ std::filesystem::path other_of_pair(const std::filesystem::path& path, const cha
 }
 
 bool is_half(const std::filesystem::path& path, const char* half) {
-    std::string name = path.filename().string();
-    std::transform(name.begin(), name.end(), name.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    const std::string name = lower_case(path.filename().string());
     return name.ends_with(half) || name.ends_with(std::string(half) + ".gz");
 }
 
 }  // namespace
 
-NiftiHeader parse_nifti_header(std::span<const std::uint8_t> bytes, const std::filesystem::path& path) {
-    const auto cut_off = [&] { return ImagingError(path, "cannot be read as NIfTI: cut off or damaged"); };
-    if (bytes.size() < static_cast<std::size_t>(nifti1_header_bytes)) throw cut_off();
+bool begins_as_nifti(std::span<const std::uint8_t> bytes) {
+    if (bytes.size() < sizeof(std::int32_t)) return false;
     for (const bool swapped : {false, true}) {
-        const NiftiFields fields(bytes, swapped);
-        const auto size = fields.at<std::int32_t>(0);
-        const bool is_second = size == nifti2_header_bytes && bytes.size() >= most_nifti_header_bytes;
-        if (size != nifti1_header_bytes && !is_second) continue;
-        Stated stated = is_second ? read_nifti2(fields) : read_nifti1(fields);
-        NiftiHeader header;
-        header.voxels.big_endian = swapped != (std::endian::native == std::endian::big);
-        header.voxels_follow = stated.magic.starts_with("n+");
-        // Analyze 7.5 has other things where NIfTI has these.
-        if (!header.voxels_follow && !stated.magic.starts_with("ni"))
-            stated.qform = stated.sform = 0, stated.slope = stated.intercept = 0.0;
-        require_sizes(stated, path, header);
-        require_numbers(stated, path, header);
-        require_beginning(stated, path, size, header);
-        return header;
+        const auto size = NiftiFields(bytes, swapped).at<std::int32_t>(0);
+        if (size == nifti1_header_bytes || size == nifti2_header_bytes) return true;
     }
-    throw cut_off();
+    return false;
 }
 
-NiftiImage open_nifti(const std::filesystem::path& path) {
+bool is_nifti_voxel_file(const std::filesystem::path& path) {
+    return is_half(path, ".img");
+}
+
+NiftiHeader parse_nifti_header(std::span<const std::uint8_t> bytes, const std::filesystem::path& path) {
+    if (!begins_as_nifti(bytes))
+        throw ImagingError(path, "is no NIfTI: its first number must be 348 or 540, the size of its header");
+    const bool swapped = NiftiFields(bytes, false).at<std::int32_t>(0) != nifti1_header_bytes &&
+                         NiftiFields(bytes, false).at<std::int32_t>(0) != nifti2_header_bytes;
+    const NiftiFields fields(bytes, swapped);
+    const auto size = fields.at<std::int32_t>(0);
+    if (bytes.size() < static_cast<std::size_t>(size))
+        throw ImagingError(path, fmt::format("is cut off: {} of the {} bytes of a NIfTI header are there",
+                                             bytes.size(), size));
+    Stated stated = size == nifti2_header_bytes ? read_nifti2(fields) : read_nifti1(fields);
+    NiftiHeader header;
+    header.voxels.big_endian = swapped != (std::endian::native == std::endian::big);
+    header.voxels_follow = stated.magic.starts_with("n+");
+    // Analyze 7.5 has other things where NIfTI has these.
+    if (!header.voxels_follow && !stated.magic.starts_with("ni")) {
+        stated.qform = stated.sform = stated.units = 0;
+        stated.slope = stated.intercept = 0.0;
+    }
+    read_sizes(stated, path, header);
+    read_rescale(stated, path, header);
+    require_beginning(stated, path, size, header);
+    read_geometry(stated, path, header.image);
+    return header;
+}
+
+ImageFile open_nifti(const std::filesystem::path& path) {
     const bool is_image_half = is_half(path, ".img");
     const std::filesystem::path header_file = is_image_half ? other_of_pair(path, ".hdr") : path;
-    const NiftiHeader header = parse_nifti_header(first_bytes_inflated(header_file), header_file);
+    NiftiHeader header = parse_nifti_header(
+        first_bytes_inflated(RegularFile(header_file), most_nifti_header_bytes), header_file);
     std::filesystem::path voxel_file = path;
     if (is_half(path, ".hdr")) voxel_file = other_of_pair(path, ".img");
     if (voxel_file == header_file && !header.voxels_follow)
@@ -266,7 +385,7 @@ NiftiImage open_nifti(const std::filesystem::path& path) {
         part.skipped_bytes = header.voxels_begin;
     }
     data.parts.push_back(part);
-    return {.header = header, .data = data};
+    return {.image = header.image, .voxels = header.voxels, .data = std::move(data), .key_values = {}};
 }
 
 }  // namespace osteomill

@@ -1,16 +1,12 @@
-// The header of a NIfTI-1 or -2 (or Analyze 7.5) image, held against what it may say before ITK's reader sees
-// it for the geometry: that one takes a spacing that is zero or no number for 1 mm and hangs on an
-// orientation that is no number. It reads no voxels: it would hold all of them, several times over.
+// The header of a NIfTI-1 or -2 (or Analyze 7.5) image: how the image lies in the patient, and where its
+// values lie. Described at https://nifti.nimh.nih.gov.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <span>
-#include <vector>
 
-#include "haptic_server/imaging/formats/voxel_data.h"
-#include "haptic_server/imaging/formats/voxel_layout.h"
+#include "haptic_server/imaging/formats/image_file.h"
 
 namespace osteomill {
 
@@ -19,26 +15,28 @@ inline constexpr std::size_t most_nifti_header_bytes = 540;
 
 struct NiftiHeader {
     bool voxels_follow = true;  ///< in one file; otherwise in an .img beside the .hdr
-    std::vector<std::uint64_t> sizes;
-    VoxelLayout voxels;             ///< of colour, which is refused elsewhere, nothing that holds
+    SourceImage image{};
+    VoxelLayout voxels{};
     std::uint64_t voxel_bytes = 0;  ///< of all voxels
     std::uint64_t voxels_begin = 0;
-    std::array<double, 3> spacing_mm{};
 };
 
-/// Takes the first bytes of a file (inflated) apart; pure. `path` is for messages. Throws ImagingError for a
-/// header that is cut off, for sizes or a type of voxels that cannot be, for a spacing, offset, orientation
-/// or rescale that is not a number or that no scan has, and for voxels that begin within the header or
-/// beyond all reason.
+/// Whether a file that begins with these bytes (inflated) is one.
+bool begins_as_nifti(std::span<const std::uint8_t> bytes);
+
+/// Takes the first bytes of a file (inflated) apart; pure. `path` is for messages. Where sform, qform and
+/// pixdim disagree the sform is followed if it is a rotation times spacings, and that is noted. Throws
+/// ImagingError for a header that is cut off, for sizes or a type of voxels that cannot be, for other than
+/// three dimensions (of more than a voxel), for a unit, spacing, offset, orientation or rescale that is not a
+/// number or that no scan has, and for voxels that begin within the header or beyond all reason.
 NiftiHeader parse_nifti_header(std::span<const std::uint8_t> bytes, const std::filesystem::path& path);
 
-struct NiftiImage {
-    NiftiHeader header;
-    VoxelData data;
-};
+/// Reads the header and finds the voxels. Throws ImagingError. `path` is a file of any name, gzip or not, or
+/// either of a .hdr with its .img (.img.gz).
+ImageFile open_nifti(const std::filesystem::path& path);
 
-/// Reads the header and finds the voxels. Throws ImagingError. `path` is a .nii, .nii.gz, or either of a .hdr
-/// with its .img (.img.gz).
-NiftiImage open_nifti(const std::filesystem::path& path);
+/// Whether the name is that of the half of a pair that holds the voxels, whose content says nothing: .img or
+/// .img.gz.
+bool is_nifti_voxel_file(const std::filesystem::path& path);
 
 }  // namespace osteomill

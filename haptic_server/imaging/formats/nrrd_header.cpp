@@ -4,15 +4,14 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
-#include <charconv>
 #include <cmath>
-#include <cstdlib>
+#include <glm/geometric.hpp>
 #include <optional>
-#include <sstream>
 #include <stdexcept>
 #include <string_view>
 
+#include "haptic_server/imaging/formats/header_text.h"
+#include "haptic_server/imaging/formats/length_unit.h"
 #include "haptic_server/imaging/formats/plausible_geometry.h"
 #include "haptic_server/imaging/formats/regular_file.h"
 #include "haptic_server/imaging/imaging_error.h"
@@ -23,23 +22,11 @@ namespace {
 
 constexpr std::size_t most_axes = 16;
 constexpr std::size_t most_data_files = 65535;
-
-/// The field that holds what is there, in its short form for messages.
-std::string shortened(const std::string& text) {
-    return text.size() <= 80 ? text : text.substr(0, 77) + "...";
-}
-
-std::string without_blanks_around(std::string text) {
-    const auto is_space = [](unsigned char c) { return std::isspace(c) != 0; };
-    text.erase(text.begin(), std::find_if_not(text.begin(), text.end(), is_space));
-    text.erase(std::find_if_not(text.rbegin(), text.rend(), is_space).base(), text.end());
-    return text;
-}
+constexpr std::uint64_t most_layers = 255;
 
 /// "datafile" is "data file"; names differ by nothing but blanks and case.
 std::string field_name(std::string name) {
-    std::transform(name.begin(), name.end(), name.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    name = lower_case(trimmed(name));
     constexpr std::array aliases{
         std::pair{"datafile", "data file"},       std::pair{"lineskip", "line skip"},
         std::pair{"byteskip", "byte skip"},       std::pair{"axismins", "axis mins"},
@@ -67,11 +54,7 @@ std::vector<std::vector<double>> numbers_of_words(std::string text) {
             word.begin(), word.end(), [](char c) { return c == '(' || c == ')' || c == ','; }, ' ');
         std::istringstream parts(word);
         std::vector<double> numbers;
-        for (std::string part; parts >> part;) {
-            char* end = nullptr;
-            const double value = std::strtod(part.c_str(), &end);
-            numbers.push_back(*end == '\0' ? value : std::nan(""));
-        }
+        for (std::string part; parts >> part;) numbers.push_back(real_number(part).value_or(std::nan("")));
         words.push_back(numbers);
     }
     return words;
@@ -83,22 +66,8 @@ std::optional<std::string> field(const NrrdHeader& header, const char* name) {
     return found->second;
 }
 
-template <typename Number>
-std::optional<Number> whole_number(const std::string& text) {
-    Number number{};
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-    if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
-    return number;
-}
-
-std::vector<std::string> words_of(const std::string& text) {
-    std::istringstream line(text);
-    return {std::istream_iterator<std::string>(line), {}};
-}
-
 std::optional<VoxelType> type_of(std::string name) {
-    std::transform(name.begin(), name.end(), name.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    name = lower_case(name);
     struct Type {
         VoxelType type;
         std::vector<std::string_view> names;
@@ -125,26 +94,217 @@ std::optional<VoxelType> type_of(std::string name) {
 std::vector<std::uint64_t> sizes_of(const NrrdHeader& header, const std::filesystem::path& path) {
     const std::string text = field(header, "sizes").value_or("");
     const auto dimension = whole_number<std::size_t>(field(header, "dimension").value_or(""));
+    for (const char* name : {"dimension", "sizes"})
+        if (!header.fields.contains(name))
+            throw ImagingError(path, fmt::format("its header has no field '{}' (cut off?)", name));
     std::vector<std::uint64_t> sizes;
     for (const std::string& word : words_of(text))
         sizes.push_back(whole_number<std::uint64_t>(word).value_or(0));
     if (!dimension || *dimension < 1 || *dimension > most_axes || sizes.size() != *dimension)
-        throw ImagingError(path,
-                           fmt::format("is cut off or damaged: dimension '{}' and sizes '{}'",
-                                       shortened(field(header, "dimension").value_or("")), shortened(text)));
+        throw ImagingError(path, fmt::format("dimension '{}' and sizes '{}' do not fit: as many sizes as "
+                                             "dimensions, 1 to {}",
+                                             shortened(field(header, "dimension").value_or("")),
+                                             shortened(text), most_axes));
     return sizes;
 }
 
 Encoding encoding_of(const NrrdHeader& header, const std::filesystem::path& path) {
-    std::string name = field(header, "encoding").value_or("");
-    std::transform(name.begin(), name.end(), name.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    const std::string name = lower_case(field(header, "encoding").value_or(""));
     if (name == "raw") return Encoding::raw;
     if (name == "gzip" || name == "gz") return Encoding::gzip;
     if (name == "txt" || name == "text" || name == "ascii") return Encoding::text;
     if (name == "hex") return Encoding::hex;
     throw ImagingError(path,
                        fmt::format("encoding '{}' is not read; save it as raw or gzip", shortened(name)));
+}
+
+/// How coordinates of a space become left, posterior, superior.
+struct NrrdSpace {
+    std::size_t dimension = 3;
+    glm::dvec3 signs{1.0};
+    bool is_anatomical = false;
+};
+
+/// "left-posterior-superior", "LPS", with time behind or not; coordinates that say nothing of the patient.
+NrrdSpace space_of(const NrrdHeader& header, const std::filesystem::path& path) {
+    NrrdSpace space;
+    const auto refuse = [&](const char* name) {
+        throw ImagingError(path, fmt::format("{} '{}' is not read; left-posterior-superior (LPS), "
+                                             "right-anterior-superior (RAS) and the like are",
+                                             name, shortened(*field(header, name))));
+    };
+    if (const auto dimension = field(header, "space dimension")) {
+        space.dimension = whole_number<std::size_t>(*dimension).value_or(0);
+        if (space.dimension < 3 || space.dimension > 4) refuse("space dimension");
+    }
+    if (!header.fields.contains("space")) return space;
+    std::string name = lower_case(*field(header, "space"));
+    for (const char* without_patient : {"scanner-xyz", "3d-right-handed", "3d-left-handed"})
+        if (name.starts_with(without_patient)) {
+            space.dimension = name.ends_with("-time") ? 4 : 3;
+            return space;
+        }
+    for (const auto& [word, letter] :
+         {std::pair{"left-", "l"}, std::pair{"right-", "r"}, std::pair{"anterior-", "a"},
+          std::pair{"posterior-", "p"}, std::pair{"superior", "s"}, std::pair{"inferior", "i"},
+          std::pair{"-time", "t"}})
+        if (const std::size_t at = name.find(word); at != std::string::npos)
+            name.replace(at, std::string_view(word).size(), letter);
+    space.is_anatomical = true;
+    space.dimension = name.size();
+    if ((name.size() != 3 && !(name.size() == 4 && name[3] == 't')) || (name[0] != 'l' && name[0] != 'r') ||
+        (name[1] != 'p' && name[1] != 'a') || (name[2] != 's' && name[2] != 'i'))
+        refuse("space");
+    space.signs = {name[0] == 'l' ? 1.0 : -1.0, name[1] == 'p' ? 1.0 : -1.0, name[2] == 's' ? 1.0 : -1.0};
+    return space;
+}
+
+/// Millimetres of one, for each of `count` axes; what a field of quoted names says.
+std::vector<double> mm_of_units(const NrrdHeader& header, const char* name, std::size_t count,
+                                const std::filesystem::path& path, SourceImage& image) {
+    std::vector<double> mm(count, 1.0);
+    const std::optional<std::string> text = field(header, name);
+    if (!text) return mm;
+    std::vector<std::string> units;
+    const bool is_quoted = text->find('"') != std::string::npos;
+    for (std::size_t at = 0; is_quoted && (at = text->find('"', at)) != std::string::npos;) {
+        const std::size_t end = std::min(text->find('"', at + 1), text->size());
+        units.push_back(text->substr(at + 1, end - at - 1));
+        at = end + 1;
+    }
+    if (!is_quoted) units = words_of(*text);
+    for (std::size_t i = 0; i < std::min(count, units.size()); ++i) {
+        if (is_unknown_unit(units[i])) continue;
+        const std::optional<double> known = mm_of_unit(units[i]);
+        // Of an axis of time or of a list it is none of length.
+        if (!known && i < 3)
+            throw ImagingError(path, fmt::format("{} '{}': {}", name, shortened(*text), known_units));
+        mm[i] = known.value_or(1.0);
+    }
+    if (std::any_of(mm.begin(), mm.end(), [](double one) { return one != 1.0; }))
+        image.notes.push_back(
+            fmt::format("{}: its {} are {}; converted to mm", path.string(), name, shortened(*text)));
+    return mm;
+}
+
+/// An axis of the file; nothing in it where it is none of space.
+struct NrrdAxis {
+    std::uint64_t size = 0;
+    std::optional<glm::dvec3> step_mm{};  ///< patient LPS
+};
+
+bool is_kind_of_space(const std::string& kind) {
+    const std::string name = lower_case(kind);
+    return name == "domain" || name == "space" || name == "none" || name.starts_with('?');
+}
+
+std::vector<NrrdAxis> axes_by_directions(const NrrdHeader& header, const NrrdSpace& space,
+                                         const std::vector<std::uint64_t>& sizes,
+                                         const std::vector<double>& mm, const std::filesystem::path& path) {
+    const std::string text = *field(header, "space directions");
+    const auto words = numbers_of_words(text);
+    const auto refuse = [&](const std::string& reason) {
+        throw ImagingError(path, fmt::format("space directions '{}': {}", shortened(text), reason));
+    };
+    if (words.size() != sizes.size())
+        refuse(fmt::format("{} axes need as many vectors, or none", sizes.size()));
+    std::vector<NrrdAxis> axes;
+    for (std::size_t axis = 0; axis < sizes.size(); ++axis) {
+        axes.push_back({.size = sizes[axis]});
+        if (words[axis].size() == 1 && std::isnan(words[axis][0]) && sizes.size() > 3) continue;
+        if (words[axis].size() != space.dimension)
+            refuse(fmt::format("vectors of {} numbers are expected", space.dimension));
+        glm::dvec3 step(0.0);
+        for (int row = 0; row < 3; ++row)
+            step[row] = words[axis][static_cast<std::size_t>(row)] * mm[static_cast<std::size_t>(row)];
+        if (space.dimension == 4 && step == glm::dvec3(0.0)) continue;  // time
+        const double length_mm = glm::length(step);
+        if (!(length_mm > 0.0) || !std::isfinite(length_mm) || length_mm > farthest_position_mm)
+            refuse("every axis needs a spacing in mm that is a number above 0");
+        axes.back().step_mm = space.signs * step;
+    }
+    return axes;
+}
+
+/// Where only spacings are given, or nothing, axes run along the space's own.
+std::vector<NrrdAxis> axes_by_spacings(const NrrdHeader& header, const NrrdSpace& space,
+                                       const std::vector<std::uint64_t>& sizes, SourceImage& image,
+                                       const std::filesystem::path& path) {
+    const std::vector<std::string> kinds = words_of(field(header, "kinds").value_or(""));
+    const std::optional<std::string> text = field(header, "spacings");
+    if (!text) image.notes.push_back(path.string() + ": its header has no spacing; taken as 1 mm");
+    const auto words = numbers_of_words(text.value_or(""));
+    const std::vector<double> mm = mm_of_units(header, "units", sizes.size(), path, image);
+    std::vector<NrrdAxis> axes;
+    int placed = 0;
+    for (std::size_t axis = 0; axis < sizes.size(); ++axis) {
+        axes.push_back({.size = sizes[axis]});
+        const double spacing =
+            !text ? 1.0 : (axis < words.size() && words[axis].size() == 1 ? words[axis][0] : 0.0);
+        const bool is_of_space = (axis >= kinds.size() || is_kind_of_space(kinds[axis])) &&
+                                 !(std::isnan(spacing) && sizes.size() > 3);
+        if (!is_of_space) continue;
+        if (!(spacing > 0.0) || !std::isfinite(spacing))
+            throw ImagingError(
+                path, fmt::format("spacings '{}': every axis needs a spacing in mm that is a number above 0",
+                                  shortened(text.value_or(""))));
+        glm::dvec3 step(0.0);
+        if (placed < 3) step[placed] = space.signs[placed] * spacing * mm[axis];
+        axes.back().step_mm = step;
+        ++placed;
+    }
+    return axes;
+}
+
+/// Leaves out what has but one voxel and is none of space, or is more than space has; the layers go before.
+void place(std::vector<NrrdAxis> axes, NrrdImage& into, const std::filesystem::path& path) {
+    std::erase_if(axes, [](const NrrdAxis& axis) { return axis.size == 1 && !axis.step_mm; });
+    while (axes.size() > 3 && axes.back().size == 1) axes.pop_back();
+    if (axes.size() > 1 && !axes.front().step_mm) {
+        if (axes.front().size > most_layers) throw ImagingError(path, "has more than 255 layers");
+        into.layers = static_cast<int>(axes.front().size);
+        axes.erase(axes.begin());
+    }
+    if (axes.size() != 3 ||
+        std::any_of(axes.begin(), axes.end(), [](const NrrdAxis& axis) { return !axis.step_mm; }))
+        throw ImagingError(path, fmt::format("has {} dimensions; a volume has 3", axes.size()));
+    for (int axis = 0; axis < 3; ++axis) {
+        const NrrdAxis& from = axes[static_cast<std::size_t>(axis)];
+        into.image.size_voxels[axis] = static_cast<int>(from.size);
+        into.image.spacing_mm[axis] = glm::length(*from.step_mm);
+        into.image.direction[axis] = *from.step_mm / into.image.spacing_mm[axis];
+    }
+}
+
+void read_geometry(const NrrdHeader& header, const std::vector<std::uint64_t>& sizes, NrrdImage& into,
+                   const std::filesystem::path& path) {
+    const NrrdSpace space = space_of(header, path);
+    const bool has_directions = header.fields.contains("space directions");
+    const std::vector<double> mm = mm_of_units(header, "space units", space.dimension, path, into.image);
+    place(has_directions ? axes_by_directions(header, space, sizes, mm, path)
+                         : axes_by_spacings(header, space, sizes, into.image, path),
+          into, path);
+    if (const std::optional<std::string> text = field(header, "space origin")) {
+        const auto words = numbers_of_words(*text);
+        if (words.size() != 1 || words[0].size() != space.dimension)
+            throw ImagingError(path, fmt::format("space origin '{}': a vector of {} numbers is expected",
+                                                 shortened(*text), space.dimension));
+        for (int row = 0; row < 3; ++row) {
+            const auto i = static_cast<std::size_t>(row);
+            into.image.origin_mm[row] = space.signs[row] * words[0][i] * mm[i];
+        }
+        if (!is_plausible_position(into.image.origin_mm))
+            throw ImagingError(path,
+                               implausible_position(fmt::format("space origin '{}'", shortened(*text))));
+    }
+    into.is_placed = space.is_anatomical && has_directions;
+    if (!into.is_placed)
+        note_guessed_orientation(
+            into.image, path,
+            header.fields.contains("space")
+                ? "its header says only 'space: " + shortened(*field(header, "space")) + "'"
+                : "its header says nothing of orientation");
+    settle_geometry(into.image, path);
 }
 
 std::vector<std::string> numbered_files(const std::vector<std::string>& words) {
@@ -181,22 +341,6 @@ std::vector<std::string> data_files_of(const NrrdHeader& header) {
     return {*text};
 }
 
-void require_numbers(const NrrdHeader& header, const std::filesystem::path& path) {
-    require_spacing(path, header.fields);
-    // Where a field has no number for an axis it says so ("none", "NaN"), but not in the origin.
-    for (const char* name : {"spacings", "space directions", "space origin", "axis mins", "axis maxs",
-                             "thicknesses", "measurement frame"}) {
-        const std::optional<std::string> text = field(header, name);
-        if (!text) continue;
-        const bool none_allowed = std::string_view(name) != "space origin";
-        for (const std::vector<double>& word : numbers_of_words(*text))
-            for (const double number : word)
-                if (!(std::abs(number) <= farthest_position_mm) && !(std::isnan(number) && none_allowed))
-                    throw ImagingError(path,
-                                       implausible_position(fmt::format("{} '{}'", name, shortened(*text))));
-    }
-}
-
 /// Where the lines to skip are over.
 std::uint64_t after_lines(const RegularFile& file, std::uint64_t begin, std::uint64_t lines) {
     if (lines == 0) return begin;
@@ -215,7 +359,7 @@ std::uint64_t after_lines(const RegularFile& file, std::uint64_t begin, std::uin
 }
 
 VoxelPart part_in(const std::filesystem::path& path, std::uint64_t begin, std::uint64_t bytes,
-                  const NrrdLayout& layout) {
+                  const NrrdImage& layout) {
     const RegularFile file(path);
     VoxelPart part{.file = path, .begin = after_lines(file, begin, layout.line_skip), .bytes = bytes};
     if (layout.byte_skip < 0) {
@@ -226,6 +370,18 @@ VoxelPart part_in(const std::filesystem::path& path, std::uint64_t begin, std::u
         part.begin += static_cast<std::uint64_t>(layout.byte_skip);
     }
     return part;
+}
+
+/// "\\n" is a line break, two backslashes are one.
+std::string unescaped(std::string_view text) {
+    std::string result;
+    for (std::size_t i = 0; i < text.size(); ++i) {
+        if (text[i] == '\\' && i + 1 < text.size() && (text[i + 1] == 'n' || text[i + 1] == '\\'))
+            result += text[++i] == 'n' ? '\n' : '\\';
+        else
+            result += text[i];
+    }
+    return result;
 }
 
 }  // namespace
@@ -246,7 +402,14 @@ NrrdHeader parse_nrrd_header(std::span<const std::uint8_t> bytes, const std::fil
         if (line.empty() || line == "\r") break;
         if (line.find('\0') != std::string::npos)
             throw ImagingError(path, "is damaged: a zero byte in its header");
-        line = without_blanks_around(line);
+        if (line.ends_with('\r')) line.pop_back();
+        // "field: text" or "key:=value", whichever comes first.
+        const std::size_t assigned = line.find(":=");
+        if (!first && !listing && !line.starts_with('#') && assigned < line.find(": ")) {
+            header.key_values[unescaped(line.substr(0, assigned))] = unescaped(line.substr(assigned + 2));
+            continue;
+        }
+        line = trimmed(line);
         if (first || line.empty()) continue;
         if (listing) {
             if (header.listed_files.size() == most_data_files)
@@ -256,9 +419,8 @@ NrrdHeader parse_nrrd_header(std::span<const std::uint8_t> bytes, const std::fil
         }
         const std::size_t colon = line.find(':');
         if (line[0] == '#' || colon == std::string::npos) continue;
-        if (colon + 1 < line.size() && line[colon + 1] == '=') continue;
         const std::string name = field_name(line.substr(0, colon));
-        const std::string value = without_blanks_around(line.substr(colon + 1));
+        const std::string value = trimmed(line.substr(colon + 1));
         if (!header.fields.emplace(name, value).second)
             throw ImagingError(path, fmt::format("has the field '{}' twice", shortened(name)));
         listing = name == "data file" && value.substr(0, 4) == "LIST" &&
@@ -268,17 +430,19 @@ NrrdHeader parse_nrrd_header(std::span<const std::uint8_t> bytes, const std::fil
     return header;
 }
 
-NrrdLayout nrrd_layout(const NrrdHeader& header, const std::filesystem::path& path) {
-    require_numbers(header, path);
+NrrdImage nrrd_image(const NrrdHeader& header, const std::filesystem::path& path) {
     const std::vector<std::uint64_t> sizes = sizes_of(header, path);
     const std::string type = field(header, "type").value_or("");
     const std::optional<VoxelType> voxel_type = type_of(type);
     if (!voxel_type)
         throw ImagingError(
             path, fmt::format("type '{}' is none of a grey image, such as int16 or float", shortened(type)));
-    NrrdLayout layout;
+    NrrdImage layout;
     layout.voxels.type = *voxel_type;
-    layout.voxels.big_endian = field(header, "endian") == "big";
+    const std::string endian = lower_case(field(header, "endian").value_or("little"));
+    if (endian != "little" && endian != "big")
+        throw ImagingError(path, fmt::format("endian '{}' is neither little nor big", shortened(endian)));
+    layout.voxels.big_endian = endian == "big";
     layout.encoding = encoding_of(header, path);
     const std::string lines = field(header, "line skip").value_or("0");
     const std::string skip = field(header, "byte skip").value_or("0");
@@ -304,40 +468,23 @@ NrrdLayout nrrd_layout(const NrrdHeader& header, const std::filesystem::path& pa
     if (!layout.data_files.empty() && layout.voxel_bytes % layout.data_files.size() != 0)
         throw ImagingError(path, fmt::format("{} data files cannot share {} bytes of voxels evenly",
                                              layout.data_files.size(), layout.voxel_bytes));
+    read_geometry(header, sizes, layout, path);
     return layout;
 }
 
-std::map<std::string, std::string> read_nrrd_header(const std::filesystem::path& path) {
-    return parse_nrrd_header(RegularFile(path).first_bytes(most_nrrd_header_bytes), path).fields;
-}
-
-void require_spacing(const std::filesystem::path& path, const std::map<std::string, std::string>& header) {
-    for (const char* name : {"spacings", "space directions"}) {
-        const auto found = header.find(name);
-        if (found == header.end()) continue;
-        for (const std::vector<double>& word : numbers_of_words(found->second)) {
-            // The list of a segmentation's layers has none.
-            if (name == std::string_view("space directions") && word.size() == 1 && std::isnan(word[0]) &&
-                header.contains("dimension") && header.at("dimension") == "4")
-                continue;
-            double squared = 0.0;
-            for (const double number : word) squared += number * number;
-            if (!(squared > 0.0) || !std::isfinite(squared))
-                throw ImagingError(path, std::string(name) + " '" + shortened(found->second) +
-                                             "': every axis needs a spacing in mm that is a number above 0");
-        }
-    }
-}
-
-VoxelData nrrd_voxel_data(const NrrdHeader& header, const NrrdLayout& layout,
-                          const std::filesystem::path& path) {
-    VoxelData data{.encoding = layout.encoding, .parts = {}};
-    if (layout.data_files.empty())
-        data.parts.push_back(part_in(path, header.bytes, layout.voxel_bytes, layout));
-    for (const std::string& name : layout.data_files)
+ImageFile open_nrrd(const std::filesystem::path& path) {
+    NrrdHeader header = parse_nrrd_header(RegularFile(path).first_bytes(most_nrrd_header_bytes), path);
+    const NrrdImage image = nrrd_image(header, path);
+    VoxelData data{.encoding = image.encoding, .parts = {}};
+    if (image.data_files.empty()) data.parts.push_back(part_in(path, header.bytes, image.voxel_bytes, image));
+    for (const std::string& name : image.data_files)
         data.parts.push_back(
-            part_in(data_file_beside(path, name), 0, layout.voxel_bytes / layout.data_files.size(), layout));
-    return data;
+            part_in(data_file_beside(path, name), 0, image.voxel_bytes / image.data_files.size(), image));
+    return {.image = image.image,
+            .layers = image.layers,
+            .voxels = image.voxels,
+            .data = std::move(data),
+            .key_values = std::move(header.key_values)};
 }
 
 }  // namespace osteomill

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <glm/vec3.hpp>
 #include <span>
 #include <string>
@@ -31,8 +32,25 @@ std::string implausible_position(const std::string& what);
 /// the product is above the limits.
 std::uint64_t plausible_voxel_count(std::span<const std::uint64_t> sizes);
 
+/// Axes further from perpendicular than this are no image's but a sheared one's.
+inline constexpr double most_shear_degrees = 0.5;
+
+/// Cosine of the two axes that are furthest from perpendicular, as its amount.
+double shear_of(const SourceImage& image);
+/// "its axes i and j are 88.2 degrees apart": those two.
+std::string sheared_axes(const SourceImage& image);
+
 /// Throws std::invalid_argument for sizes, spacings or an origin outside the limits, and for axes that are
 /// not perpendicular unit vectors.
 void require_plausible_geometry(const SourceImage& image);
+
+/// Makes axes that are perpendicular but for how they were rounded, or up to most_shear_degrees off, truly
+/// perpendicular: the nearest such, about the image's middle, which stays. Notes it where it can be seen.
+/// Then as require_plausible_geometry, but throws ImagingError, naming `path`.
+void settle_geometry(SourceImage& image, const std::filesystem::path& path);
+
+/// Notes that nothing says how the image lies in the patient, so that left and right are a guess.
+void note_guessed_orientation(SourceImage& image, const std::filesystem::path& path,
+                              const std::string& why = "its header says nothing of orientation");
 
 }  // namespace osteomill

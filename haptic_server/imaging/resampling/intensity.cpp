@@ -5,10 +5,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <limits>
 #include <stdexcept>
 #include <utility>
-
-#include "haptic_server/imaging/hu_volume.h"
 
 namespace osteomill {
 
@@ -49,17 +48,14 @@ void rescale_values(const Rescale& rescale, std::span<float> values) {
 void window_values(const IntensityWindow& window, std::span<float> values) {
     const double hu_per_step = window_top_hu / (window.high - window.low);
     for (float& value : values)
-        value = static_cast<float>(std::clamp((value - window.low) * hu_per_step, 0.0, window_top_hu));
+        value = std::isnan(value)
+                    ? value
+                    : static_cast<float>(std::clamp((value - window.low) * hu_per_step, 0.0, window_top_hu));
 }
 
-std::size_t replace_not_finite(std::span<float> values) {
-    std::size_t replaced = 0;
-    for (float& value : values) {
-        if (std::isfinite(value)) continue;
-        value = air_hu;
-        ++replaced;
-    }
-    return replaced;
+void mark_not_finite(std::span<float> values) {
+    for (float& value : values)
+        if (!std::isfinite(value)) value = std::numeric_limits<float>::quiet_NaN();
 }
 
 }  // namespace osteomill

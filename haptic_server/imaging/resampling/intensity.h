@@ -29,7 +29,7 @@ IntensityWindow parse_intensity_window(const std::string& text);
 void rescale_values(const Rescale& rescale, std::span<float> values);
 void window_values(const IntensityWindow& window, std::span<float> values);
 
-/// Sets what is not a finite number to air (-1000 HU); returns how many there were.
-std::size_t replace_not_finite(std::span<float> values);
+/// Makes what is infinite not a number, too: neither was measured.
+void mark_not_finite(std::span<float> values);
 
 }  // namespace osteomill

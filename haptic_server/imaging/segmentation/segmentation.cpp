@@ -3,19 +3,16 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <locale>
 #include <map>
 #include <optional>
 #include <set>
 #include <sstream>
-#include <string_view>
 
 #include "common/scene/nearest_name.h"
+#include "haptic_server/imaging/formats/header_text.h"
 #include "haptic_server/imaging/formats/image_reader.h"
-#include "haptic_server/imaging/formats/nrrd_header.h"
-#include "haptic_server/imaging/formats/regular_file.h"
 #include "haptic_server/imaging/imaging_error.h"
 
 namespace osteomill {
@@ -24,34 +21,9 @@ namespace {
 
 constexpr std::uint64_t most_labels = std::uint64_t{1} << 31U;
 constexpr int most_segments = 4096;
+constexpr float most_off_whole = 0.01F;
 
-using KeyValues = std::map<std::string, std::string, std::less<>>;
-
-/// "key:=value" lines of a NRRD's header.
-KeyValues key_values_of(const std::filesystem::path& path) {
-    const std::vector<std::uint8_t> bytes = RegularFile(path).first_bytes(most_nrrd_header_bytes);
-    std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
-    KeyValues found;
-    if (!text.starts_with("NRRD")) return found;
-    while (!text.empty()) {
-        const std::size_t end = text.find('\n');
-        std::string_view line = text.substr(0, end);
-        text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
-        if (line.ends_with('\r')) line.remove_suffix(1);
-        if (line.empty()) break;
-        const std::size_t at = line.find(":=");
-        if (at != std::string_view::npos && !line.starts_with('#'))
-            found.emplace(line.substr(0, at), line.substr(at + 2));
-    }
-    return found;
-}
-
-std::optional<int> whole_number(std::string_view text) {
-    int number = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-    if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
-    return number;
-}
+using KeyValues = std::map<std::string, std::string>;
 
 /// "0.5 1 0", as Slicer writes colours; nothing for anything else.
 std::optional<std::array<std::uint8_t, 3>> colour_of(const std::string& text) {
@@ -66,28 +38,36 @@ std::optional<std::array<std::uint8_t, 3>> colour_of(const std::string& text) {
     return colour;
 }
 
-/// Segments that the header names; empty for a plain label map.
-std::vector<Segment> named_segments(const std::filesystem::path& path, int layers) {
-    const KeyValues keys = key_values_of(path);
-    std::vector<Segment> segments;
-    const auto number = [&](int segment, const char* what, int fallback, int low, int high) {
+/// Segments that the header names; empty for a plain label map. Versions of 3D Slicer before 4.11 write
+/// neither layer nor label: each segment has a layer of its own.
+std::vector<Segment> named_segments(const std::filesystem::path& path, const OpenedImage& labels) {
+    const KeyValues& keys = labels.key_values;
+    const auto value = [&](int segment, const char* what) -> std::optional<std::string> {
         const auto found = keys.find(fmt::format("Segment{}_{}", segment, what));
-        if (found == keys.end()) return fallback;
-        const std::optional<int> value = whole_number(found->second);
-        if (!value || *value < low || *value > high)
-            throw ImagingError(path, fmt::format("Segment{}_{} '{:.40}' is no whole number from {} to {}",
-                                                 segment, what, found->second, low, high));
-        return *value;
+        return found == keys.end() ? std::nullopt : std::optional(found->second);
     };
+    const auto number = [&](int segment, const char* what, int fallback, int low, int high) {
+        const std::optional<std::string> text = value(segment, what);
+        const std::optional<int> whole = text ? whole_number<int>(trimmed(*text)) : fallback;
+        if (!whole || *whole < low || *whole > high)
+            throw ImagingError(
+                path, fmt::format("Segment{}_{} '{:.40}' is no whole number from {} to {}", segment, what,
+                                  text ? *text : std::to_string(fallback), low, high));
+        return *whole;
+    };
+    std::vector<Segment> segments;
+    std::map<int, int> segments_of_layer;
     for (int i = 0; i < most_segments; ++i) {
-        auto name = keys.find(fmt::format("Segment{}_Name", i));
-        if (name == keys.end()) name = keys.find(fmt::format("Segment{}_ID", i));
-        if (name == keys.end()) break;
-        const auto colour = keys.find(fmt::format("Segment{}_Color", i));
-        segments.push_back({.name = name->second,
-                            .layer = number(i, "Layer", 0, 0, layers - 1),
-                            .label = static_cast<std::uint16_t>(number(i, "LabelValue", 1, 1, 65535)),
-                            .colour_rgb = colour == keys.end() ? std::nullopt : colour_of(colour->second)});
+        std::optional<std::string> name = value(i, "Name");
+        if (!name) name = value(i, "ID");
+        if (!name) break;
+        const int layer = number(i, "Layer", labels.layers > 1 ? i : 0, 0, labels.layers - 1);
+        const int label = number(i, "LabelValue", ++segments_of_layer[layer], 1, 65535);
+        const std::optional<std::string> colour = value(i, "Color");
+        segments.push_back({.name = *name,
+                            .layer = layer,
+                            .label = static_cast<std::uint16_t>(label),
+                            .colour_rgb = colour ? colour_of(*colour) : std::nullopt});
     }
     return segments;
 }
@@ -101,11 +81,13 @@ void read_labels(const OpenedImage& opened, Segmentation& into) {
     opened.read_slices(
         [&](int, std::span<float> slice) {
             for (const float value : slice) {
-                if (!(value >= 0.0F && value <= 65535.0F) || value != std::floor(value))
+                // Slope and intercept leave a label short of whole.
+                const float whole = std::round(value);
+                if (!(whole >= 0.0F && whole <= 65535.0F && std::abs(value - whole) <= most_off_whole))
                     throw ImagingError(
                         into.path,
                         fmt::format("is no label map: it holds {}, no whole number from 0 to 65535", value));
-                into.labels.push_back(static_cast<std::uint16_t>(value));
+                into.labels.push_back(static_cast<std::uint16_t>(whole));
             }
         },
         [](double) {});
@@ -129,26 +111,49 @@ std::vector<Segment> numbered_segments(const Segmentation& segmentation) {
     return segments;
 }
 
+void require_distinct_names(const Segmentation& segmentation) {
+    std::set<std::string> names;
+    for (const Segment& segment : segmentation.segments)
+        if (!names.insert(segment.name).second)
+            throw ImagingError(segmentation.path,
+                               fmt::format("has two segments called \"{}\"", segment.name));
+}
+
+/// Slicer turns blanks of names into underscores and back, by version and format.
+std::string with_blanks(std::string name) {
+    std::ranges::replace(name, '_', ' ');
+    return name;
+}
+
+/// Without what tells the format.
+std::string name_of_file(const std::filesystem::path& path) {
+    std::filesystem::path name = path.filename();
+    for (const char* ending :
+         {".gz", ".nii", ".nrrd", ".nhdr", ".seg", ".mha", ".mhd", ".hdr", ".img", ".dcm"})
+        if (lower_case(name.extension().string()) == ending) name.replace_extension();
+    return name.string();
+}
+
 }  // namespace
 
 Segmentation read_segmentation(const std::filesystem::path& path) {
-    const OpenedLabels found = open_labels(path);
+    const OpenedImage found = open_labels(path);
     Segmentation segmentation{.path = path,
-                              .image = found.opened.image,
+                              .image = found.image,
                               .layers = found.layers,
                               .segments = {},
                               .is_plain_map = false,
                               .labels = {}};
-    segmentation.segments = named_segments(path, found.layers);
+    segmentation.segments = named_segments(path, found);
     if (segmentation.segments.empty() && found.layers > 1)
         throw ImagingError(path, "has layers, but names no segments (Segment0_Name)");
-    std::set<std::string> names;
-    for (const Segment& segment : segmentation.segments)
-        if (!names.insert(segment.name).second)
-            throw ImagingError(path, fmt::format("has two segments called \"{}\"", segment.name));
-    read_labels(found.opened, segmentation);
+    require_distinct_names(segmentation);
+    read_labels(found, segmentation);
     segmentation.is_plain_map = segmentation.segments.empty();
     if (segmentation.is_plain_map) segmentation.segments = numbered_segments(segmentation);
+    // As TotalSegmentator writes them, a file a structure.
+    if (segmentation.is_plain_map && segmentation.segments.size() == 1)
+        segmentation.segments.front().name = name_of_file(path);
     return segmentation;
 }
 
@@ -162,14 +167,19 @@ void name_segments(Segmentation& segmentation, const ColourTable& table) {
         segment.name = found->second.name;
         segment.colour_rgb = found->second.colour_rgb;
     }
+    require_distinct_names(segmentation);
 }
 
 const Segment& segment_named(const Segmentation& segmentation, const std::string& name) {
     std::vector<std::string> names;
+    std::vector<const Segment*> alike;
     for (const Segment& segment : segmentation.segments) {
-        if (segment.name == name) return segment;
+        if (segment.name == name || (segmentation.is_plain_map && name == std::to_string(segment.label)))
+            return segment;
+        if (with_blanks(segment.name) == with_blanks(name)) alike.push_back(&segment);
         names.push_back(segment.name);
     }
+    if (alike.size() == 1) return *alike.front();
     const std::optional<std::string> nearest = nearest_name(name, names);
     throw ImagingError(
         segmentation.path,

@@ -1,6 +1,6 @@
-// A segmentation: which voxels of a scan belong to which structures, as 3D Slicer writes it (.seg.nrrd, with
-// names and overlapping layers) or as a plain label map (NRRD, NIfTI), whose segments bear their number as
-// name.
+// A segmentation: which voxels of a scan belong to which structures, as 3D Slicer writes it (.seg.nrrd or
+// DICOM SEG, with names and overlapping layers) or as a plain label map of any format, whose segments bear
+// their number as name; where there is but one, the file's.
 #pragma once
 
 #include <array>
@@ -29,19 +29,20 @@ struct Segmentation {
     SourceImage image;  ///< without values
     int layers = 1;
     std::vector<Segment> segments;
-    bool is_plain_map = false;          ///< the segments' names are their labels
+    bool is_plain_map = false;          ///< its segments have no names of their own
     std::vector<std::uint16_t> labels;  ///< voxel after voxel, i fastest; of each all layers
 };
 
 /// Throws ImagingError, in one line, for what open_labels refuses, names that do not fit their labels, labels
-/// that are no whole numbers from 0 to 65535, and more voxels than memory is given to (2^31).
+/// that are no whole numbers from 0 to 65535 (within 0.01), and more voxels than memory is given to (2^31).
 Segmentation read_segmentation(const std::filesystem::path& path);
 
 /// Gives the segments of a plain label map the names and colours of their labels; those that the table does
 /// not know keep theirs. Throws ImagingError for a segmentation that names its segments itself.
 void name_segments(Segmentation& segmentation, const ColourTable& table);
 
-/// Throws ImagingError, with the nearest name, where the segmentation has none of that name.
+/// By name; of a plain label map also by number. Throws ImagingError, with the nearest name, where there is
+/// none.
 const Segment& segment_named(const Segmentation& segmentation, const std::string& name);
 
 }  // namespace osteomill

@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 
+#include <cmath>
 #include <random>
 
 namespace osteomill {
@@ -46,7 +47,7 @@ TEST(HuHistogram, TellsAScanWithAnOffsetOf1000) {
     EXPECT_THAT(doubt_of(scan(1000.0F)), HasSubstr("nothing is below -24 and 33 % are near 0"));
     std::vector<float> padded = scan(1000.0F);
     padded.insert(padded.end(), 2000, -1000.0F);  // outside the field of view: -2000, and the offset
-    EXPECT_THAT(doubt_of(padded), HasSubstr("nothing is below -24"));
+    EXPECT_THAT(doubt_of(padded), HasSubstr("nothing is below -24 but the constant -1000 of 6 %"));
     std::vector<float> right = scan(0.0F);
     right.insert(right.end(), 2000, -3024.0F);
     EXPECT_EQ(doubt_of(right), "");
@@ -59,6 +60,28 @@ TEST(HuHistogram, DoubtsNoHeadThatWasCutOutOfItsAir) {
     for (int i = 0; i < 30'000; ++i)
         values.push_back(std::round((i % 4 == 0 ? 1400.0F : 35.0F) + noise(random)));
     EXPECT_EQ(doubt_of(values), "");
+}
+
+TEST(HuHistogram, TakesAConstantOfMinus1000ForAir) {
+    for (const float lowest_tissue : {40.0F, 0.0F, -80.0F}) {
+        std::vector<float> values(7000, -1000.0F);
+        for (int i = 0; i < 3000; ++i)
+            values.push_back(i % 10 == 0 ? 1500.0F : lowest_tissue + static_cast<float>(i % 40));
+        EXPECT_EQ(doubt_of(values), "") << lowest_tissue;
+    }
+}
+
+TEST(HuHistogram, TellsTheConstantAroundAFieldOfView) {
+    const auto fill_of = [](float fill) {
+        std::vector<float> values = scan(0.0F);
+        values.insert(values.end(), 2000, fill);
+        HuHistogram histogram;
+        histogram.add(values);
+        return histogram.fill_hu();
+    };
+    for (const float fill : {-1500.0F, -2000.0F, -3024.0F, -32768.0F}) EXPECT_EQ(fill_of(fill), fill);
+    EXPECT_EQ(fill_of(-1024.0F), std::nullopt) << "air";
+    EXPECT_EQ(fill_of(NAN), std::nullopt);
 }
 
 TEST(HuHistogram, TakesTheVoxelsOfABoneFileAsWell) {

@@ -30,10 +30,11 @@ TEST(Intensity, RefusesTextsThatAreNotTwoNumbers) {
     EXPECT_THROW(parse_intensity_window("5,5"), std::invalid_argument);
 }
 
-TEST(Intensity, TakesVoxelsThatAreNoNumbersForAir) {
+TEST(Intensity, TakesWhatIsInfiniteForNotMeasured) {
     std::array values{1.0F, NAN, INFINITY};
-    EXPECT_EQ(replace_not_finite(values), 2u);
-    EXPECT_EQ(values, (std::array{1.0F, -1000.0F, -1000.0F}));
+    mark_not_finite(values);
+    EXPECT_EQ(values[0], 1.0F);
+    EXPECT_TRUE(std::isnan(values[1]) && std::isnan(values[2]));
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <fstream>
 
 #include "haptic_server/imaging/imaging_error.h"
@@ -46,13 +47,37 @@ TEST_F(ColourTableFile, IsReadAsItkSnapWritesIt) {
     EXPECT_EQ(table.at(2), (ColourOfLabel{"nerve, left", {70, 130, 180}}));
 }
 
+TEST_F(ColourTableFile, IsReadAsTodaysSlicerWritesIt) {
+    for (const char* separator : {",", ";"}) {
+        std::string text =
+            "\xef\xbb\xbfLabelValue,Color_R,Color_G,Color_B,Name\r\n1,244,214,49,facial nerve\r\n2,1,2,3,\"a "
+            "\"\"b\"\"\"\r\n";
+        if (*separator == ';') std::ranges::replace(text, ',', ';');
+        write(text);
+        const ColourTable table = read_colour_table(path_);
+        EXPECT_EQ(table.at(1), (ColourOfLabel{"facial nerve", {244, 214, 49}}));
+        EXPECT_EQ(table.at(2).name, "a \"b\"");
+    }
+}
+
+TEST_F(ColourTableFile, MayHaveNamesThatAreNoneOrTwice) {
+    write(
+        "\xef\xbb\xbf# Color table file\r\n0 (none) 0 0 0 0\r\n1 facial nerve 244 214 49 255\r\n50 ctx 1 1 1 "
+        "255\r\n51 ctx 1 2 3 255\r\n");
+    const ColourTable table = read_colour_table(path_);
+    EXPECT_EQ(table.size(), 3U);
+    EXPECT_EQ(table.at(1), (ColourOfLabel{"facial nerve", {244, 214, 49}}));
+    EXPECT_EQ(table.at(51).name, "ctx");
+}
+
 TEST_F(ColourTableFile, IsRefusedInOneLineWhereItIsNone) {
     EXPECT_THAT(refusal(""), HasSubstr("names no label"));
     EXPECT_THAT(refusal("1 bone 1 2\n"), HasSubstr("line 1: is no line of a colour table"));
     EXPECT_THAT(refusal("\n1 bone 1 2 256 255\n"), HasSubstr("line 2"));
     EXPECT_THAT(refusal("70000 bone 1 2 3 255\n"), HasSubstr("line 1"));
     EXPECT_THAT(refusal("1 a 1 2 3 255\n1 b 1 2 3 255\n"), HasSubstr("label 1 comes twice"));
-    EXPECT_THAT(refusal("1 a 1 2 3 255\n2 a 1 2 3 255\n"), HasSubstr("\"a\" is named twice"));
+    EXPECT_THAT(refusal("\xff\xfe 1"), HasSubstr("UTF-16"));
+    EXPECT_THAT(refusal("LabelValue,Name,Color_R,Color_G,Color_B\n1,a,1,2\n"), HasSubstr("line 2"));
     EXPECT_THAT(refusal(std::string(1'100'000, '#')), HasSubstr("over a megabyte"));
     EXPECT_THAT(refusal(std::string("\0\1\2\3 x\"\n", 8)), HasSubstr("line 1"));
     path_ = folder_ / "nowhere";

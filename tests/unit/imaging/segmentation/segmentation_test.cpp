@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 
 #include <cmath>
+#include <cstring>
 #include <fstream>
 #include <functional>
 #include <glm/geometric.hpp>
@@ -74,6 +75,56 @@ TEST_F(SegmentationFile, HasNamesAndLayersAsSlicerWritesThem) {
     EXPECT_FALSE(nerve.contains({30, 30, 20}));
 }
 
+// As 3D Slicer up to 4.10 writes them: a layer each, and no word of layers or labels.
+TEST_F(SegmentationFile, GivesEachSegmentALayerWhereNoneIsNamed) {
+    std::string voxels(24, '\0');
+    voxels[0] = 1;
+    voxels[3] = 1;
+    write(layered_header("Segment0_Name:=bone\nSegment1_Name:=nerve\n"), voxels);
+    const Segmentation read = read_segmentation(path_);
+    ASSERT_EQ(read.segments.size(), 2U);
+    EXPECT_EQ(read.segments[1], (Segment{.name = "nerve", .layer = 1, .label = 1}));
+}
+
+TEST_F(SegmentationFile, KeepsNamesAsTheyAre) {
+    write(layered_header("Segment0_Name:=a\\nb\\\\c\td \"e\" \xc3\xb6: f\nSegment1_Name:=under_score\n"),
+          std::string(24, '\1'));
+    const Segmentation read = read_segmentation(path_);
+    EXPECT_EQ(read.segments[0].name, "a\nb\\c\td \"e\" \xc3\xb6: f");
+    EXPECT_EQ(&segment_named(read, "under score"), &read.segments[1]);
+}
+
+TEST_F(SegmentationFile, MayBeShortOfWholeByAHundredth) {
+    const auto labels = [&](std::initializer_list<float> values) {
+        std::string voxels;
+        for (const float value : values) {
+            voxels.resize(voxels.size() + 4);
+            std::memcpy(voxels.data() + voxels.size() - 4, &value, 4);
+        }
+        write(
+            "type: float\ndimension: 3\nspace: LPS\nsizes: 2 2 2\nspace directions: (1,0,0) (0,1,0) (0,0,1)\n"
+            "endian: little\nencoding: raw\n",
+            voxels);
+    };
+    labels({0.0F, 0.99999F, 2.009F, 65535.0F, 0.0F, 0.0F, 0.0F, 0.0F});
+    EXPECT_THAT(read_segmentation(path_).labels, ::testing::ElementsAre(0, 1, 2, 65535, 0, 0, 0, 0));
+    labels({0.0F, 0.98F, 2.0F, 0.0F, 0.0F, 0.0F, 0.0F, 0.0F});
+    EXPECT_THAT(refusal(), HasSubstr("it holds 0.98"));
+}
+
+TEST_F(SegmentationFile, MayBeAMetaImage) {
+    path_ = folder_ / "labels.mha";
+    std::ofstream(path_, std::ios::binary)
+        << "ObjectType = Image\nNDims = 3\nBinaryData = True\nTransformMatrix = 1 0 0 0 1 0 0 0 1\nOffset = "
+           "1 2 3\n"
+           "ElementSpacing = 1 1 1\nDimSize = 2 2 2\nElementType = MET_UCHAR\nElementDataFile = LOCAL\n"
+        << std::string("\0\1\2\0\0\0\0\0", 8);
+    const Segmentation read = read_segmentation(path_);
+    ASSERT_EQ(read.segments.size(), 2U);
+    EXPECT_EQ(read.segments[1].name, "2");
+    EXPECT_EQ(read.image.origin_mm, glm::dvec3(1.0, 2.0, 3.0));
+}
+
 TEST_F(SegmentationFile, NamesTheNearestSegment) {
     write(layered_header(two_segments), std::string(24, '\1'));
     const Segmentation read = read_segmentation(path_);
@@ -89,6 +140,8 @@ TEST_F(SegmentationFile, IsRefusedInOneLineWhereItIsNone) {
     EXPECT_THAT(refusal(), HasSubstr("segmentation.seg.nrrd"));
     write(layered_header(two_segments), "torn");
     EXPECT_NE(refusal(), "");
+    write(layered_header("Segment0_Name:=a\nSegment1_Name:=b\nSegment2_Name:=c\n"), std::string(24, '\1'));
+    EXPECT_THAT(refusal(), HasSubstr("Segment2_Layer '2'"));
     write(layered_header(""), std::string(24, '\1'));
     EXPECT_THAT(refusal(), HasSubstr("names no segments"));
     write(layered_header("Segment0_Name:=a\nSegment0_Layer:=2\n"), std::string(24, '\1'));
@@ -122,7 +175,8 @@ TEST_F(SegmentationFile, ComesOntoTheBonesGridWithoutTheScansStaircase) {
         voxels);
     const Segmentation read = read_segmentation(path_);
     ASSERT_EQ(read.segments.size(), 1U);
-    EXPECT_EQ(read.segments[0].name, "5");  // a plain label map: its number
+    EXPECT_EQ(read.segments[0].name, "segmentation");  // the only label of a plain label map: its file's
+    EXPECT_EQ(&segment_named(read, "5"), &read.segments[0]);
     const Grid grid{.size_voxels = {90, 90, 95}, .spacing_mm = 0.2, .origin_mm = {}};
     const StructureMask mask = structure_of(read, read.segments[0], grid);
     const double exact_mm3 = 4.0 / 3.0 * std::numbers::pi * std::pow(radius_mm, 3);

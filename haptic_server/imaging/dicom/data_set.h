@@ -1,0 +1,75 @@
+// Values of a GDCM data set, as text and numbers. Only the sources of this folder see it.
+#pragma once
+
+#include <gdcmDataSet.h>
+#include <gdcmSequenceOfItems.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <cstdlib>
+#include <optional>
+#include <sstream>
+#include <string>
+#include <vector>
+
+namespace osteomill {
+
+/// An element's bytes as text, without padding; empty where absent.
+inline std::string text_of(const gdcm::DataSet& data, const gdcm::Tag& tag) {
+    if (!data.FindDataElement(tag)) return {};
+    const gdcm::ByteValue* bytes = data.GetDataElement(tag).GetByteValue();
+    if (bytes == nullptr || bytes->GetPointer() == nullptr) return {};
+    std::string text(bytes->GetPointer(), bytes->GetLength());
+    while (!text.empty() && (text.back() == ' ' || text.back() == '\0')) text.pop_back();
+    return text;
+}
+
+/// An unsigned 16-bit number; GDCM hands its bytes over in the machine's order.
+inline int number_of(const gdcm::DataSet& data, const gdcm::Tag& tag, int otherwise) {
+    if (!data.FindDataElement(tag)) return otherwise;
+    const gdcm::ByteValue* bytes = data.GetDataElement(tag).GetByteValue();
+    if (bytes == nullptr || bytes->GetLength() < 2) return otherwise;
+    std::uint16_t number = 0;
+    std::copy_n(bytes->GetPointer(), 2, reinterpret_cast<char*>(&number));
+    return number;
+}
+
+/// "a\b\c" as exactly `count` numbers.
+template <std::size_t count>
+std::optional<std::array<double, count>> numbers_of(const gdcm::DataSet& data, const gdcm::Tag& tag) {
+    std::istringstream text(text_of(data, tag));
+    std::array<double, count> numbers{};
+    for (double& number : numbers) {
+        std::string part;
+        if (!std::getline(text, part, '\\')) return std::nullopt;
+        char* end = nullptr;
+        number = std::strtod(part.c_str(), &end);
+        if (end == part.c_str()) return std::nullopt;
+    }
+    return numbers;
+}
+
+/// The first item of a sequence, such as a functional group; null where there is none.
+inline gdcm::SmartPointer<gdcm::SequenceOfItems> sequence_of(const gdcm::DataSet& data,
+                                                             const gdcm::Tag& tag) {
+    if (!data.FindDataElement(tag)) return nullptr;
+    return data.GetDataElement(tag).GetValueAsSQ();
+}
+
+/// Places that a value may stand in: the frame's own group, the one shared by all frames, the file itself.
+struct Places {
+    std::vector<const gdcm::DataSet*> in;
+    template <std::size_t count>
+    std::optional<std::array<double, count>> find(const gdcm::Tag& group, const gdcm::Tag& tag) const {
+        for (const gdcm::DataSet* data : in) {
+            if (const auto groups = sequence_of(*data, group); groups && groups->GetNumberOfItems() > 0)
+                if (const auto found = numbers_of<count>(groups->GetItem(1).GetNestedDataSet(), tag))
+                    return found;
+            if (const auto found = numbers_of<count>(*data, tag)) return found;
+        }
+        return std::nullopt;
+    }
+};
+
+}  // namespace osteomill
