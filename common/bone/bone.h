@@ -34,6 +34,10 @@ struct BoneContent {
         if (stiffness.empty()) return homogeneous_stiffness;
         return stiffness_per_code * stiffness[static_cast<std::size_t>(slot)][offset];
     }
+    /// Labels of a stored brick; nullptr in an unlabelled scene.
+    const ByteBrick* tissues_of(std::int32_t slot) const {
+        return tissue.empty() ? nullptr : &tissue[static_cast<std::size_t>(slot)];
+    }
     /// Tissue label of a voxel in a stored brick; 0 (unlabelled) in an unlabelled scene.
     std::uint8_t tissue_in(std::int32_t slot, std::size_t offset) const {
         return tissue.empty() ? std::uint8_t{0} : tissue[static_cast<std::size_t>(slot)][offset];

@@ -48,6 +48,7 @@ StructureWatch::StructureWatch(std::vector<Structure> structures, const std::vec
         DistanceField field =
             field_of(structure.mask, watched + largest_radius_mm, tissues[structure.tissue].name);
         watched_.push_back({.mask = std::move(structure.mask),
+                            .label = tissues[structure.tissue].label,
                             .field = std::move(field),
                             .watched_mm = watched,
                             .last_touch_s = -std::numeric_limits<double>::infinity()});
@@ -55,14 +56,17 @@ StructureWatch::StructureWatch(std::vector<Structure> structures, const std::vec
     }
 }
 
-void StructureWatch::note(const BrickChange& change, BrickFractions before, BrickFractions after) {
+void StructureWatch::note(const BrickChange& change, BrickFractions before, BrickFractions after,
+                          const ByteBrick* labels) {
     for (Watched& one : watched_) {
         const auto& bricks = one.mask.bricks();
         const auto brick = std::ranges::lower_bound(bricks, change.brick, {}, &StructureBrick::brick);
-        if (brick == bricks.end() || brick->brick != change.brick) continue;
+        const bool in_mask = brick != bricks.end() && brick->brick == change.brick;
+        if (!in_mask && labels == nullptr) continue;
         std::int64_t lost = 0;
-        brick->voxels.for_each([&](std::size_t voxel) {
-            if (change.voxels[voxel]) lost += int{before[voxel]} - int{after[voxel]};
+        change.voxels.for_each([&](std::size_t voxel) {
+            if ((in_mask && brick->voxels[voxel]) || (labels != nullptr && (*labels)[voxel] == one.label))
+                lost += int{before[voxel]} - int{after[voxel]};
         });
         if (change.kind == ChangeKind::restored) {
             one.restored_levels -= lost;

@@ -4,7 +4,8 @@
 // The distance is that from the burr's head to the structure, from a distance field of the structure's own
 // (burr_clearance.h): within half a voxel for a ball. A touch is where they overlap, or bone of the structure
 // was milled since the state before. State i stands for the time since state i - 1. What the head has entered
-// are the structure's voxels whose centre lay inside it at a state.
+// are the structure's voxels whose centre lay inside it at a state. Bone of the structure is what lies in its
+// mask and what bears its tissue's label, such as the voxels of its surface that are bone by less than half.
 //
 // Costs a distance field for each structure, and a mask of what was entered once it is touched. Not for the
 // haptic loop: it allocates.
@@ -39,8 +40,10 @@ class StructureWatch {
                    const std::vector<Burr>& burrs);
 
     bool empty() const { return watched_.empty(); }
-    /// A change of the bone, before it is applied: from the fractions `before` to `after`.
-    void note(const BrickChange& change, BrickFractions before, BrickFractions after);
+    /// A change of the bone, before it is applied: from the fractions `before` to `after`, of a brick whose
+    /// voxels bear `labels` (nullptr: none).
+    void note(const BrickChange& change, BrickFractions before, BrickFractions after,
+              const ByteBrick* labels);
     /// The next state of the session, when all changes before it have been noted. One of time 0 counts for
     /// nothing: it is where the scene begins, the device has not been read yet.
     void update(const ToolState& tool);
@@ -55,6 +58,7 @@ class StructureWatch {
   private:
     struct Watched {
         StructureMask mask;
+        std::uint8_t label;
         DistanceField field;
         double watched_mm;
         StructureAccount account{};

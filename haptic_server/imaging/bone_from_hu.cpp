@@ -152,12 +152,10 @@ struct CodeTable {
         }
     }
 
-    std::uint8_t at(const HuLayer& field, bool labelled, const glm::ivec3& voxel) const {
-        const auto hu = static_cast<std::size_t>(field.hu(voxel) + 32768.0);
-        if (!labelled) return of_hu[hu];
-        const std::uint8_t label = field.label(voxel);
+    std::uint8_t at(double hu, std::uint8_t label) const {
         if (of_tissue[label] != 0) return of_tissue[label];
-        return of_hu_in[label].empty() ? of_hu[hu] : of_hu_in[label][hu];
+        const auto index = static_cast<std::size_t>(hu + 32768.0);
+        return of_hu_in[label].empty() ? of_hu[index] : of_hu_in[label][index];
     }
 
     std::vector<std::uint8_t> of_hu;
@@ -171,21 +169,35 @@ struct BrickChannels {
     ByteBrick tissue{};
 };
 
-/// A voxel on the surface is a mixture with what lies outside: its stiffness and label are those of the bone
-/// beside it.
-void fill_voxel(const HuLayer& field, const CodeTable& codes, bool labelled, const glm::ivec3& voxel,
-                double covered, BrickChannels& out) {
-    const std::size_t offset = offset_in_brick(voxel);
-    const auto code_at = [&](const glm::ivec3& place) { return codes.at(field, labelled, place); };
-    out.fraction[offset] = static_cast<std::uint8_t>(std::lround(255.0 * covered));
-    out.stiffness[offset] = code_at(voxel);
-    if (labelled) out.tissue[offset] = field.label(voxel);
-    const bool unlabelled = labelled && out.tissue[offset] == 0;
-    if (covered >= 1.0 && !unlabelled) return;
-    for (const glm::ivec3& step : face_neighbours) {
-        out.stiffness[offset] = std::max(out.stiffness[offset], code_at(voxel + step));
-        if (unlabelled && out.tissue[offset] == 0) out.tissue[offset] = field.label(voxel + step);
+/// Of a voxel on the surface of which the segmentation says nothing: the label of the voxel beside it on the
+/// side where the HU rise most, which is where the bone of the voxel lies, if that is bone.
+std::uint8_t label_from_inside(const HuLayer& field, const glm::ivec3& voxel, double threshold_hu) {
+    double steepest = 0.0;
+    glm::ivec3 inner = voxel;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        const glm::ivec3 back = voxel + face_neighbours[2 * axis];
+        const glm::ivec3 ahead = voxel + face_neighbours[2 * axis + 1];
+        const double rise = field.hu(ahead) - field.hu(back);
+        if (std::abs(rise) <= steepest) continue;
+        steepest = std::abs(rise);
+        inner = rise > 0.0 ? ahead : back;
     }
+    return field.hu(inner) >= threshold_hu ? field.label(inner) : std::uint8_t{0};
+}
+
+/// A voxel on the surface is a mixture with what lies outside: its HU are those of the bone beside it.
+void fill_voxel(const HuLayer& field, const CodeTable& codes, bool labelled, const glm::ivec3& voxel,
+                double covered, double threshold_hu, BrickChannels& out) {
+    const std::size_t offset = offset_in_brick(voxel);
+    const bool on_surface = covered < 1.0;
+    std::uint8_t label = labelled ? field.label(voxel) : std::uint8_t{0};
+    if (labelled && on_surface && label == 0) label = label_from_inside(field, voxel, threshold_hu);
+    std::uint8_t code = codes.at(field.hu(voxel), label);
+    for (std::size_t i = 0; on_surface && i < face_neighbours.size(); ++i)
+        code = std::max(code, codes.at(field.hu(voxel + face_neighbours[i]), label));
+    out.fraction[offset] = static_cast<std::uint8_t>(std::lround(255.0 * covered));
+    out.stiffness[offset] = code;
+    out.tissue[offset] = label;
 }
 
 BrickChannels channels_of(const HuSlices& slices, const HuLayer& field, const CodeTable& codes,
@@ -199,7 +211,7 @@ BrickChannels channels_of(const HuSlices& slices, const HuLayer& field, const Co
                 const glm::ivec3 voxel(x, y, z);
                 const double covered = is_all_bone ? 1.0 : cover(slices, field, voxel, threshold_hu);
                 if (covered * 255.0 >= 0.5)
-                    fill_voxel(field, codes, slices.labelled, voxel, covered, channels);
+                    fill_voxel(field, codes, slices.labelled, voxel, covered, threshold_hu, channels);
             }
     return channels;
 }

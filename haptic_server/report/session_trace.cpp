@@ -24,7 +24,7 @@ std::vector<TissueLevels> take_over(const std::vector<BrickChange>& changes, con
         if (slot == BoneContent::no_slot) continue;
         const auto left = now.fractions(slot);
         const auto before = kept.fractions(slot);
-        structures.note(change, before, left);
+        structures.note(change, before, left, now.content().tissues_of(slot));
         change.voxels.for_each([&](std::size_t voxel) {
             const int lost = int{before[voxel]} - int{left[voxel]};
             TissueLevels& levels = sums[now.content().tissue_in(slot, voxel)];

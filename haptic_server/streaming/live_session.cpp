@@ -53,7 +53,8 @@ ToolState LiveSession::update(BoneReplica& mirror, std::size_t) {
 
 void LiveSession::note_for_structures(const BrickChange& change, BrickFractions after, const Bone& bone) {
     const std::int32_t slot = bone.slot(change.brick);
-    if (slot != BoneContent::no_slot) structures_.note(change, bone.fractions(slot), after);
+    if (slot != BoneContent::no_slot)
+        structures_.note(change, bone.fractions(slot), after, bone.content().tissues_of(slot));
 }
 
 std::vector<ControlEvent> LiveSession::take_events() {

@@ -99,6 +99,58 @@ TEST(BoneFromHu, AMixedVoxelOnTheSurfaceIsAsStiffAsTheBoneBesideItAndBearsItsLab
     EXPECT_EQ(bone.tissue_at({8, 8, 8}), 3);
 }
 
+/// A block with a surface at z = 0, bone below: the volume in it of what `is_tissue` says of places, mm^3,
+/// and of all bone.
+template <typename IsTissue>
+std::vector<double> volumes_in_block_mm3(const IsTissue& is_tissue) {
+    const Grid grid{.size_voxels = {101, 99, 97}, .spacing_mm = 0.1, .origin_mm = {-5.03, -4.87, -7.26}};
+    HuVolume volume{.grid = grid, .hu = {}, .tissue = {}};
+    for (int z = 0; z < grid.size_voxels.z; ++z)
+        for (int y = 0; y < grid.size_voxels.y; ++y)
+            for (int x = 0; x < grid.size_voxels.x; ++x) {
+                const glm::dvec3 at_mm = centre_of_voxel_mm(grid, {x, y, z});
+                const double depth = std::clamp(-at_mm.z / 0.1, -2.0, 2.0);
+                volume.hu.push_back(static_cast<std::int16_t>(std::lround(threshold_hu + 300.0 * depth)));
+                volume.tissue.push_back(is_tissue(at_mm) ? 7 : 0);
+            }
+    std::vector<double> mm3 =
+        bone_volume_by_tissue_mm3(bone_from_hu(volume, threshold_hu, default_stiffness_relation()));
+    mm3.resize(256);
+    return {mm3[7], mm3[7] + mm3[0]};
+}
+
+constexpr double pi = 3.14159265358979;
+
+double from_line_mm(const glm::dvec3& at_mm, const glm::dvec3& through_mm, const glm::dvec3& along) {
+    return glm::length(glm::cross(at_mm - through_mm, along));
+}
+
+TEST(BoneFromHu, ATissueInBoneIsAsFatAsItsLabels) {
+    const auto ball = [](const glm::dvec3& at_mm) {
+        return glm::length(at_mm - glm::dvec3(0, 0, -3.5)) < 3.0;
+    };
+    EXPECT_NEAR(volumes_in_block_mm3(ball)[0], 36.0 * pi, 0.01 * 36.0 * pi);
+    const auto rod = [](const glm::dvec3& at_mm) {
+        return std::abs(at_mm.x) < 4.0 && from_line_mm(at_mm, {0.0, 0.0, -3.5}, {1.0, 0.0, 0.0}) < 1.0;
+    };
+    EXPECT_NEAR(volumes_in_block_mm3(rod)[0], 8.0 * pi, 0.01 * 8.0 * pi);
+}
+
+TEST(BoneFromHu, ATissueThatComesToTheSurfaceHasOfItWhatLiesOverIt) {
+    // Labelled up to the surface, as a segmentation of bone is: what of the surface's voxels is bone is its
+    // own, sideways it takes nothing.
+    const auto half_ball = [](const glm::dvec3& at_mm) { return at_mm.z < 0.0 && glm::length(at_mm) < 3.0; };
+    EXPECT_NEAR(volumes_in_block_mm3(half_ball)[0], 18.0 * pi, 0.01 * 18.0 * pi);
+    const auto rod = [](const glm::dvec3& at_mm) {
+        return at_mm.z < 0.0 && from_line_mm(at_mm, {0.0, 0.0, 0.0}, {0.0, 0.0, 1.0}) < 1.0;
+    };
+    const double rod_mm3 = pi * 7.31;  // to the lowest voxels' faces
+    EXPECT_NEAR(volumes_in_block_mm3(rod)[0], rod_mm3, 0.01 * rod_mm3);
+    // One that lies on the bone, as a nerve in a groove that has no depth, takes none of it.
+    const auto above = [](const glm::dvec3& at_mm) { return at_mm.z > 0.11 && at_mm.z < 2.0; };
+    EXPECT_EQ(volumes_in_block_mm3(above)[0], 0.0);
+}
+
 TEST(BoneFromHu, RefusesChannelsThatDoNotFit) {
     HuVolume volume{
         .grid = Grid{.size_voxels = {16, 16, 16}}, .hu = std::vector<std::int16_t>(100), .tissue = {}};

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <numbers>
 #include <random>
 
@@ -35,7 +36,7 @@ class StructureWatchTest : public ::testing::Test {
         ByteBrick were, are;
         were.fill(before);
         are.fill(after);
-        watch_.note(change, were, are);
+        watch_.note(change, were, are, nullptr);
     }
 
     Grid grid_{.size_voxels = {64, 64, 64}, .spacing_mm = voxel_edge_mm, .origin_mm = glm::dvec3(-3.15)};
@@ -134,6 +135,18 @@ TEST_F(StructureWatchTest, CountsBoneOfItThatIsMilledAndGivenBack) {
     EXPECT_EQ(restored->touches_so_far, 1u);
     EXPECT_NEAR(restored->removed_mm3, 0.0, 1e-12);
     EXPECT_NEAR(watch_.accounts().front().given_back_mm3, voxel_mm3, 1e-12);
+}
+
+TEST_F(StructureWatchTest, CountsBoneThatBearsItsLabelThoughTheMaskEndsThere) {
+    const glm::ivec3 corner(1, 1, 1);  // far from the mask
+    const BrickChange change{brick_index(size_in_bricks(grid_), corner / brick_edge_voxels),
+                             VoxelMask().set(offset_in_brick(corner)).set(0), ChangeKind::milled};
+    ByteBrick were, labels;
+    were.fill(51);
+    labels.fill(1);
+    labels[offset_in_brick(corner)] = 2;
+    watch_.note(change, were, ByteBrick{}, &labels);
+    EXPECT_NEAR(at({0.0, 0.0, 9.0})->removed_mm3, 0.2 * std::pow(voxel_edge_mm, 3), 1e-12);
 }
 
 TEST_F(StructureWatchTest, TakesNoNoticeOfWhereTheSceneBegins) {
