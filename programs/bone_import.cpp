@@ -178,7 +178,8 @@ int main(int argc, char** argv) {
                 .messages = messages,
                 .is_terminal = output.err->is_terminal(),
                 .available_memory_bytes = osteomill::available_memory_bytes(meminfo)};
-            if (!texts.case_folder.empty()) osteomill::begin_case(texts.case_folder, texts.parts);
+            if (!texts.case_folder.empty())
+                texts.parts = osteomill::begin_case(texts.case_folder, std::move(texts.parts));
             if (texts.preview.empty())
                 osteomill::import_bone(options, surroundings);
             else

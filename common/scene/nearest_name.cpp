@@ -45,4 +45,15 @@ std::optional<std::string> nearest_name(std::string_view written, const std::vec
     return nearest;
 }
 
+std::optional<std::string> same_name(std::string_view written, const std::vector<std::string>& names) {
+    const auto is_like = [&](const std::string& name) {
+        return std::ranges::equal(
+            written, name, [](char a, char b) { return (a == '_' ? ' ' : a) == (b == '_' ? ' ' : b); });
+    };
+    if (std::ranges::find(names, written) != names.end()) return std::string(written);
+    const auto found = std::ranges::find_if(names, is_like);
+    if (found == names.end() || std::ranges::count_if(names, is_like) > 1) return std::nullopt;
+    return *found;
+}
+
 }  // namespace osteomill

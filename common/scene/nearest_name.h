@@ -1,4 +1,4 @@
-// Guesses which of the valid names somebody meant who wrote another.
+// Finds which of the valid names somebody meant who wrote another.
 #pragma once
 
 #include <optional>
@@ -14,5 +14,9 @@ std::size_t edit_distance(std::string_view a, std::string_view b);
 /// The name closest to `written`, if one is close: one begins with the other (three letters or more, such as
 /// "speed" for "speed_mm_per_s"), or no more than half of the longer one's letters differ.
 std::optional<std::string> nearest_name(std::string_view written, const std::vector<std::string>& names);
+
+/// The name that is written, or, where none is, the only one that differs in nothing but blanks and
+/// underscores, which tables of colours put for one another.
+std::optional<std::string> same_name(std::string_view written, const std::vector<std::string>& names);
 
 }  // namespace osteomill

@@ -56,9 +56,12 @@ std::set<std::string> segment_names(const CaseParts& parts) {
     return names;
 }
 
-void require_name(const std::string& option, const std::string& name, const std::set<std::string>& names) {
-    if (names.contains(name)) return;
-    const std::optional<std::string> nearest = nearest_name(name, {names.begin(), names.end()});
+/// As the files spell it.
+std::string known_name(const std::string& option, const std::string& name,
+                       const std::set<std::string>& known) {
+    const std::vector<std::string> names(known.begin(), known.end());
+    if (const auto same = same_name(name, names)) return *same;
+    const std::optional<std::string> nearest = nearest_name(name, names);
     throw std::runtime_error(fmt::format("{}: no segment is called \"{}\"{}", option, name,
                                          nearest ? fmt::format("; did you mean \"{}\"?", *nearest)
                                          : names.empty()
@@ -135,18 +138,19 @@ std::string name_of_case(const std::filesystem::path& folder) {
     return (whole.has_filename() ? whole : whole.parent_path()).filename().string();
 }
 
-void begin_case(const std::filesystem::path& folder, const CaseParts& parts) {
+CaseParts begin_case(const std::filesystem::path& folder, CaseParts parts) {
     std::error_code failed;
     if (std::filesystem::exists(folder / scene_name, failed))
         throw std::runtime_error(fmt::format(
             "{}: holds a case already; give another --case, or take it away first", folder.string()));
     // All that can be refused is refused before an hour of work.
     const std::set<std::string> names = segment_names(parts);
-    for (const std::string& name : parts.is_protected) require_name("--protect", name, names);
-    if (parts.target) require_name("--target", *parts.target, names);
+    for (std::string& name : parts.is_protected) name = known_name("--protect", name, names);
+    if (parts.target) parts.target = known_name("--target", *parts.target, names);
     std::filesystem::create_directories(folder, failed);
     if (!std::filesystem::is_directory(folder))
         throw std::runtime_error(fmt::format("{}: cannot be made a folder", folder.string()));
+    return parts;
 }
 
 std::filesystem::path bone_of_case(const std::filesystem::path& folder) {

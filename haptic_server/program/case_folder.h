@@ -26,9 +26,10 @@ struct CaseParts {
     std::optional<std::string> target{};             ///< the tissue that is to be removed
 };
 
-/// Makes the folder. Throws std::runtime_error where it holds a case already, cannot be made, or a
+/// Makes the folder. Returns the parts with names as the segmentations spell them: blanks and underscores are
+/// alike. Throws std::runtime_error where it holds a case already, cannot be made, or a
 /// segmentation or the colours cannot be read, or a name that is protected or the target is none of theirs.
-void begin_case(const std::filesystem::path& folder, const CaseParts& parts);
+CaseParts begin_case(const std::filesystem::path& folder, CaseParts parts);
 
 /// Where a case's bone lies.
 std::filesystem::path bone_of_case(const std::filesystem::path& folder);

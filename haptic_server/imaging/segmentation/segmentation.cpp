@@ -19,7 +19,7 @@ namespace osteomill {
 
 namespace {
 
-constexpr std::uint64_t most_labels = std::uint64_t{1} << 31U;
+constexpr std::size_t most_runs = std::size_t{1} << 28U;  // 2 GiB
 constexpr int most_segments = 4096;
 constexpr float most_off_whole = 0.01F;
 
@@ -72,42 +72,46 @@ std::vector<Segment> named_segments(const std::filesystem::path& path, const Ope
     return segments;
 }
 
-void read_labels(const OpenedImage& opened, Segmentation& into) {
-    const std::uint64_t count = voxel_count(into.image) * static_cast<std::uint64_t>(into.layers);
-    if (count > most_labels)
-        throw ImagingError(into.path,
-                           fmt::format("has {} labels, more than 2^31; crop it in 3D Slicer", count));
-    into.labels.reserve(count);
+LabelRows read_labels(const std::filesystem::path& path, const OpenedImage& opened) {
+    constexpr float rounding_of_floats = 1e-7F;
+    LabelRows rows(opened.image.size_voxels, opened.layers);
+    std::vector<std::uint16_t> row(static_cast<std::size_t>(opened.image.size_voxels.x) *
+                                   static_cast<std::size_t>(opened.layers));
+    std::vector<bool> seen(65536);
+    int different = 0;
+    const auto label_of = [&](float value) {
+        // Slope and intercept leave a label short of whole.
+        const float whole = std::nearbyint(value);
+        if (!(whole >= 0.0F && whole <= 65535.0F &&
+              std::abs(value - whole) <= most_off_whole + rounding_of_floats * whole))
+            throw ImagingError(
+                path, fmt::format("is no label map: it holds {}, no whole number from 0 to 65535", value));
+        const auto label = static_cast<std::uint16_t>(whole);
+        if (!seen[label]) {
+            seen[label] = true;
+            if (++different > most_segments + 1)
+                throw ImagingError(path, "is no label map: it holds more than 4096 different values");
+        }
+        return label;
+    };
     opened.read_slices(
         [&](int, std::span<float> slice) {
-            for (const float value : slice) {
-                // Slope and intercept leave a label short of whole.
-                const float whole = std::round(value);
-                if (!(whole >= 0.0F && whole <= 65535.0F && std::abs(value - whole) <= most_off_whole))
-                    throw ImagingError(
-                        into.path,
-                        fmt::format("is no label map: it holds {}, no whole number from 0 to 65535", value));
-                into.labels.push_back(static_cast<std::uint16_t>(whole));
+            for (; !slice.empty(); slice = slice.subspan(row.size())) {
+                std::ranges::transform(slice.first(row.size()), row.begin(), label_of);
+                rows.add_row(row);
             }
+            if (rows.runs() > most_runs)
+                throw ImagingError(path, "changes its label too often to be kept; crop it in 3D Slicer");
         },
         [](double) {});
+    return rows;
 }
 
 /// Of a label map without names.
-std::vector<Segment> numbered_segments(const Segmentation& segmentation) {
-    std::vector<bool> seen(65536);
-    for (const std::uint16_t label : segmentation.labels) seen[label] = true;
+std::vector<Segment> numbered_segments(const LabelRows& labels) {
     std::vector<Segment> segments;
-    for (std::size_t label = 1; label < seen.size(); ++label) {
-        if (!seen[label]) continue;
-        if (segments.size() == most_segments)
-            throw ImagingError(segmentation.path,
-                               "is no label map: it holds more than 4096 different values");
-        segments.push_back({.name = std::to_string(label),
-                            .layer = 0,
-                            .label = static_cast<std::uint16_t>(label),
-                            .colour_rgb = {}});
-    }
+    for (const std::uint16_t label : labels.labels_in(0))
+        segments.push_back({.name = std::to_string(label), .layer = 0, .label = label, .colour_rgb = {}});
     return segments;
 }
 
@@ -117,12 +121,6 @@ void require_distinct_names(const Segmentation& segmentation) {
         if (!names.insert(segment.name).second)
             throw ImagingError(segmentation.path,
                                fmt::format("has two segments called \"{}\"", segment.name));
-}
-
-/// Slicer turns blanks of names into underscores and back, by version and format.
-std::string with_blanks(std::string name) {
-    std::ranges::replace(name, '_', ' ');
-    return name;
 }
 
 /// Without what tells the format.
@@ -138,19 +136,15 @@ std::string name_of_file(const std::filesystem::path& path) {
 
 Segmentation read_segmentation(const std::filesystem::path& path) {
     const OpenedImage found = open_labels(path);
-    Segmentation segmentation{.path = path,
-                              .image = found.image,
-                              .layers = found.layers,
-                              .segments = {},
-                              .is_plain_map = false,
-                              .labels = {}};
+    Segmentation segmentation{
+        .path = path, .image = found.image, .segments = {}, .is_plain_map = false, .labels = {}};
     segmentation.segments = named_segments(path, found);
     if (segmentation.segments.empty() && found.layers > 1)
         throw ImagingError(path, "has layers, but names no segments (Segment0_Name)");
     require_distinct_names(segmentation);
-    read_labels(found, segmentation);
+    segmentation.labels = read_labels(path, found);
     segmentation.is_plain_map = segmentation.segments.empty();
-    if (segmentation.is_plain_map) segmentation.segments = numbered_segments(segmentation);
+    if (segmentation.is_plain_map) segmentation.segments = numbered_segments(segmentation.labels);
     // As TotalSegmentator writes them, a file a structure.
     if (segmentation.is_plain_map && segmentation.segments.size() == 1)
         segmentation.segments.front().name = name_of_file(path);
@@ -161,25 +155,23 @@ void name_segments(Segmentation& segmentation, const ColourTable& table) {
     if (!segmentation.is_plain_map)
         throw ImagingError(segmentation.path,
                            "names its segments itself; a colour table is for plain label maps");
+    std::set<std::string> names;
     for (Segment& segment : segmentation.segments) {
-        const auto found = table.find(segment.label);
-        if (found == table.end()) continue;
-        segment.name = found->second.name;
-        segment.colour_rgb = found->second.colour_rgb;
+        if (const auto found = table.find(segment.label); found != table.end()) {
+            segment.name = found->second.name;
+            segment.colour_rgb = found->second.colour_rgb;
+        }
+        if (!names.insert(segment.name).second) segment.name += fmt::format(" ({})", segment.label);
     }
-    require_distinct_names(segmentation);
 }
 
 const Segment& segment_named(const Segmentation& segmentation, const std::string& name) {
     std::vector<std::string> names;
-    std::vector<const Segment*> alike;
-    for (const Segment& segment : segmentation.segments) {
-        if (segment.name == name || (segmentation.is_plain_map && name == std::to_string(segment.label)))
+    for (const Segment& segment : segmentation.segments) names.push_back(segment.name);
+    const std::optional<std::string> same = same_name(name, names);
+    for (const Segment& segment : segmentation.segments)
+        if (segment.name == same || (segmentation.is_plain_map && std::to_string(segment.label) == name))
             return segment;
-        if (with_blanks(segment.name) == with_blanks(name)) alike.push_back(&segment);
-        names.push_back(segment.name);
-    }
-    if (alike.size() == 1) return *alike.front();
     const std::optional<std::string> nearest = nearest_name(name, names);
     throw ImagingError(
         segmentation.path,

@@ -12,6 +12,7 @@
 
 #include "haptic_server/imaging/formats/source_image.h"
 #include "haptic_server/imaging/segmentation/colour_table.h"
+#include "haptic_server/imaging/segmentation/label_rows.h"
 
 namespace osteomill {
 
@@ -27,22 +28,23 @@ struct Segment {
 struct Segmentation {
     std::filesystem::path path;
     SourceImage image;  ///< without values
-    int layers = 1;
     std::vector<Segment> segments;
-    bool is_plain_map = false;          ///< its segments have no names of their own
-    std::vector<std::uint16_t> labels;  ///< voxel after voxel, i fastest; of each all layers
+    bool is_plain_map = false;  ///< its segments have no names of their own
+    LabelRows labels;
 };
 
 /// Throws ImagingError, in one line, for what open_labels refuses, names that do not fit their labels, labels
-/// that are no whole numbers from 0 to 65535 (within 0.01), and more voxels than memory is given to (2^31).
+/// that are no whole numbers from 0 to 65535 (within 0.01), more
+/// than 4096 different ones, and more than memory is given to.
 Segmentation read_segmentation(const std::filesystem::path& path);
 
 /// Gives the segments of a plain label map the names and colours of their labels; those that the table does
-/// not know keep theirs. Throws ImagingError for a segmentation that names its segments itself.
+/// not know keep theirs, and of two with one name the later has its number behind it. Throws ImagingError for
+/// a segmentation that names its segments itself.
 void name_segments(Segmentation& segmentation, const ColourTable& table);
 
-/// By name; of a plain label map also by number. Throws ImagingError, with the nearest name, where there is
-/// none.
+/// By name, blanks and underscores being alike; of a plain label map also by number. Throws ImagingError,
+/// with the nearest name, where there is none.
 const Segment& segment_named(const Segmentation& segmentation, const std::string& name);
 
 }  // namespace osteomill

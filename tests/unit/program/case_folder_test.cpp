@@ -50,9 +50,9 @@ class CaseFolder : public ::testing::Test {
     std::string made(const CaseParts& parts) {
         std::ostringstream messages;
         try {
-            begin_case(folder, parts);
+            const CaseParts known = begin_case(folder, parts);
             testing::write_block(bone_of_case(folder));
-            finish_case(folder, parts, messages);
+            finish_case(folder, known, messages);
         } catch (const std::runtime_error& error) {
             return error.what();
         }
@@ -133,7 +133,7 @@ TEST_F(CaseFolder, TakesLabelMapsWithNamesAndColours) {
     }
     const std::filesystem::path colours = where / "names.ctbl";
     std::ofstream(colours) << "1 lower_half 10 20 30 255\n5 upper_half 40 50 60 255\n9 unused 0 0 0 0\n";
-    made({.segmentations = {map, segmentation}, .colours = colours, .is_protected = {"lower half"}});
+    made({.segmentations = {map, segmentation}, .colours = colours, .is_protected = {"lower_half"}});
     const Scene read = scene();
     ASSERT_EQ(read.tissues.size(), 5U);
     EXPECT_EQ(read.tissues[0].name, "lower half");

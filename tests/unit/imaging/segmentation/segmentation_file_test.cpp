@@ -62,11 +62,11 @@ TEST(SegmentationOnTheBonesGrid, LayersOnlyWhatOverlaps) {
     const StructureMask left = ball({10, 20, 20}, 6);
     const StructureMask right = ball({35, 20, 20}, 6);
     write_segmentation(folder / "apart.seg.nrrd", {{"left", {}, left}, {"right", {}, right}});
-    EXPECT_EQ(read_segmentation(folder / "apart.seg.nrrd").layers, 1);
+    EXPECT_EQ(read_segmentation(folder / "apart.seg.nrrd").labels.layers(), 1);
     write_segmentation(folder / "over.seg.nrrd",
                        {{"left", {}, left}, {"both", {}, ball({22, 20, 20}, 15)}, {"right", {}, right}});
     const Segmentation over = read_segmentation(folder / "over.seg.nrrd");
-    EXPECT_EQ(over.layers, 2);
+    EXPECT_EQ(over.labels.layers(), 2);
     EXPECT_EQ(over.segments[2].layer, 0);
 }
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <fstream>
@@ -55,7 +56,7 @@ TEST_F(SegmentationFile, HasNamesAndLayersAsSlicerWritesThem) {
     voxels[2 * 5 + 1] = 3;  // voxel (2, 1, 0)
     write(layered_header(two_segments), voxels);
     const Segmentation read = read_segmentation(path_);
-    EXPECT_EQ(read.layers, 2);
+    EXPECT_EQ(read.labels.layers(), 2);
     EXPECT_EQ(read.image.size_voxels, glm::ivec3(3, 2, 2));
     ASSERT_EQ(read.segments.size(), 2U);
     EXPECT_EQ(read.segments[0].name, "bone");
@@ -66,7 +67,8 @@ TEST_F(SegmentationFile, HasNamesAndLayersAsSlicerWritesThem) {
     EXPECT_FALSE(read.segments[1].colour_rgb);
     // RAS: x and y point the other way in LPS.
     EXPECT_EQ(position_mm(read.image, {2, 1, 0}), glm::dvec3(-12.0, -21.0, 30.0));
-    EXPECT_EQ(read.labels[1], 3);
+    EXPECT_EQ(read.labels.at(1, {0, 0, 0}), 3);
+    EXPECT_EQ(read.labels.at(1, {1, 0, 0}), 0);
     EXPECT_EQ(segment_named(read, "bone").label, 1);
     const Grid grid{.size_voxels = {60, 60, 60}, .spacing_mm = 0.1, .origin_mm = {-14.0, -23.0, 28.0}};
     const StructureMask nerve = structure_of(read, segment_named(read, "nerve canal"), grid);
@@ -107,7 +109,11 @@ TEST_F(SegmentationFile, MayBeShortOfWholeByAHundredth) {
             voxels);
     };
     labels({0.0F, 0.99999F, 2.009F, 65535.0F, 0.0F, 0.0F, 0.0F, 0.0F});
-    EXPECT_THAT(read_segmentation(path_).labels, ::testing::ElementsAre(0, 1, 2, 65535, 0, 0, 0, 0));
+    const LabelRows read = read_segmentation(path_).labels;
+    EXPECT_EQ(read.at(0, {1, 0, 0}), 1);
+    EXPECT_EQ(read.at(0, {0, 1, 0}), 2);
+    EXPECT_EQ(read.at(0, {1, 1, 0}), 65535);
+    EXPECT_EQ(read.at(0, {1, 1, 1}), 0);
     labels({0.0F, 0.98F, 2.0F, 0.0F, 0.0F, 0.0F, 0.0F, 0.0F});
     EXPECT_THAT(refusal(), HasSubstr("it holds 0.98"));
 }
@@ -201,6 +207,54 @@ TEST_F(SegmentationFile, ComesOntoTheBonesGridWithoutTheScansStaircase) {
             }
     EXPECT_LT(worst_mm, 0.8);        // two thirds of the scan's coarsest voxel
     EXPECT_LT(sum_mm / count, 0.2);  // a voxel of the bone's grid in the mean
+}
+
+void write_map(const std::filesystem::path& path, const std::vector<float>& values) {
+    std::ofstream out(path, std::ios::binary);
+    out << "NRRD0004\ntype: float\ndimension: 3\nspace: LPS\nsizes: 2 2 2\nspace directions: (1,0,0) (0,1,0) "
+           "(0,0,1)\nspace origin: (0,0,0)\nendian: little\nencoding: raw\n\n";
+    out.write(reinterpret_cast<const char*>(values.data()), std::streamsize(4 * values.size()));
+}
+
+TEST_F(SegmentationFile, NamesOfATableThatComeTwiceAreToldApart) {
+    const auto path = folder_ / "map.nrrd";
+    write_map(path, {0.0F, 50.0F, 51.0F, 1.0F, 0.0F, 0.0F, 0.0F, 0.0F});
+    Segmentation read = read_segmentation(path);
+    name_segments(read, {{50, {"ctx", {1, 1, 1}}}, {51, {"ctx", {2, 2, 2}}}});
+    EXPECT_EQ(read.segments[0].name, "1");
+    EXPECT_EQ(read.segments[1].name, "ctx");
+    EXPECT_EQ(read.segments[2].name, "ctx (51)");
+}
+
+// Rods of 2 mm that a segmentation of 0.5 mm shows in four voxels, and a ball of 6 mm.
+TEST_F(SegmentationFile, IsAsLargeOnTheBonesGridAsItsVoxelsAre) {
+    const glm::ivec3 size(28, 26, 24);
+    const glm::dvec3 middle_mm(6.7, 6.2, 5.9);
+    const auto as_large = [&](const std::function<bool(const glm::dvec3&)>& is_in) {
+        std::string voxels;
+        glm::ivec3 v;
+        for (v.z = 0; v.z < size.z; ++v.z)
+            for (v.y = 0; v.y < size.y; ++v.y)
+                for (v.x = 0; v.x < size.x; ++v.x)
+                    voxels += is_in(0.5 * glm::dvec3(v) - middle_mm) ? '\1' : '\0';
+        write(
+            "type: uint8\ndimension: 3\nspace: LPS\nsizes: 28 26 24\nspace directions: (0.5,0,0) (0,0.5,0) "
+            "(0,0,0.5)\nencoding: raw\nspace origin: (0,0,0)\n",
+            voxels);
+        const Segmentation read = read_segmentation(path_);
+        const Grid grid{
+            .size_voxels = {150, 140, 130}, .spacing_mm = 0.1, .origin_mm = {-0.53, -0.52, -0.51}};
+        return structure_of(read, read.segments[0], grid).volume_mm3() /
+               (0.125 * static_cast<double>(std::ranges::count(voxels, '\1')));
+    };
+    for (const glm::dvec3& along : {glm::dvec3(1, 0, 0), glm::dvec3(1, 2, 3), glm::dvec3(-2, 1, 0)})
+        EXPECT_NEAR(as_large([&](const glm::dvec3& at_mm) {
+                        const glm::dvec3 unit = glm::normalize(along);
+                        return std::abs(glm::dot(at_mm, unit)) < 4.5 &&
+                               glm::length(glm::cross(at_mm, unit)) < 1.0;
+                    }),
+                    1.0, 0.01);
+    EXPECT_NEAR(as_large([](const glm::dvec3& at_mm) { return glm::length(at_mm) < 3.0; }), 1.0, 0.01);
 }
 
 }  // namespace
