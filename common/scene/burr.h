@@ -1,6 +1,7 @@
 // A burr: its head, its shank and its cutting coefficients, as the scene declares them.
 #pragma once
 
+#include <array>
 #include <glm/vec3.hpp>
 #include <string>
 #include <vector>
@@ -12,13 +13,16 @@ namespace osteomill {
 
 /// Which way the burr turns, seen from the handpiece (from the shank towards the tip).
 enum class SpindleSense { clockwise, counter_clockwise };
+inline constexpr std::array spindle_sense_names{"clockwise", "counter-clockwise"};
+/// Of a burr of which a scene does not say its speed.
+inline constexpr double default_spindle_rpm = 10'000.0;
 
 struct Burr {
     std::string name{};
     double diameter_mm = 5.0;  ///< the largest of the head
     BurrHead head{};
     int edges = 6;
-    double spindle_rev_per_s = 10'000.0 / 60.0;
+    double spindle_rev_per_s = default_spindle_rpm / 60.0;
     /// K_t, K_r, K_a for bone of relative stiffness 1.
     glm::dvec3 cutting_coefficients_n_per_mm2{230.0, 40.0, 20.0};
     /// K_te, K_re, K_ae for the same bone: force of each mm of edge that cuts, however thin its chip. The

@@ -45,10 +45,6 @@ CylinderRegion read_cylinder(TomlReader reader) {
     return cylinder;
 }
 
-toml::array toml_of(const glm::dvec3& v) {
-    return toml::array{v.x, v.y, v.z};
-}
-
 }  // namespace
 
 Plan read_plan(TomlReader reader, std::span<const Tissue> tissues) {
@@ -67,19 +63,6 @@ Plan read_plan(TomlReader reader, std::span<const Tissue> tissues) {
     if (sphere) plan.region = read_sphere(*sphere);
     if (cylinder) plan.region = read_cylinder(*cylinder);
     return plan;
-}
-
-toml::table plan_table(const Plan& plan) {
-    toml::table table{{"margin_mm", plan.margin_mm}};
-    if (const auto* tissue = std::get_if<TissueRegion>(&plan.region)) table.insert("tissue", tissue->tissue);
-    if (const auto* sphere = std::get_if<SphereRegion>(&plan.region))
-        table.insert("sphere", toml::table{{"centre_mm", toml_of(sphere->centre_mm)},
-                                           {"radius_mm", sphere->radius_mm}});
-    if (const auto* cylinder = std::get_if<CylinderRegion>(&plan.region))
-        table.insert("cylinder", toml::table{{"from_mm", toml_of(cylinder->from_mm)},
-                                             {"to_mm", toml_of(cylinder->to_mm)},
-                                             {"radius_mm", cylinder->radius_mm}});
-    return table;
 }
 
 }  // namespace osteomill

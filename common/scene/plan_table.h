@@ -12,6 +12,5 @@ namespace osteomill {
 /// Takes `tissue`, `sphere` or `cylinder`, and `margin_mm`. Throws SceneError, also for a tissue that is not
 /// one of the scene's.
 Plan read_plan(TomlReader reader, std::span<const Tissue> tissues);
-toml::table plan_table(const Plan& plan);
 
 }  // namespace osteomill

@@ -80,6 +80,7 @@ struct ToolPose {
 /// Motions that code makes. `polishing`: along the surface of a block to and fro, ever deeper. `cavity`:
 /// plunge along the spindle, then circle outwards and deeper to clear a round hole.
 enum class BuiltInTrajectory { hold, polishing, cavity };
+inline constexpr std::array trajectory_names{"hold", "polishing", "cavity"};
 
 /// The target that a simulated hand follows. Lengths are in patient space.
 struct TrajectorySpec {

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
-#include <sstream>
 
 #include "common/scene/plan_table.h"
 #include "common/scene/shallow_toml.h"
@@ -17,17 +16,12 @@ namespace osteomill {
 
 namespace {
 
-constexpr double default_rpm = 10'000.0;
 constexpr double seconds_per_minute = 60.0;
 constexpr double far_mm = 10'000.0;  // no patient is larger than ten metres
 
-const std::vector<std::string> motion_names{"hold", "polishing", "cavity"};
+const std::vector<std::string> motion_names(trajectory_names.begin(), trajectory_names.end());
 const std::vector<std::string> phantom_choices{"tooth", "cube", "head"};
-const std::vector<std::string> sense_names{"clockwise", "counter-clockwise"};
-
-std::string from_key(const std::filesystem::path& path) {
-    return path.generic_string();
-}
+const std::vector<std::string> sense_names(spindle_sense_names.begin(), spindle_sense_names.end());
 
 std::filesystem::path resolved(const std::string& path, const std::filesystem::path& folder) {
     const std::filesystem::path given(path);
@@ -126,7 +120,7 @@ Burr read_burr(TomlReader& reader) {
     burr.head = read_head(reader, burr.diameter_mm);
     burr.edges = static_cast<int>(reader.whole_number("edges", 1, 64).value_or(burr.edges));
     burr.spindle_rev_per_s =
-        reader.number("rpm", {100.0, 500'000.0}).value_or(default_rpm) / seconds_per_minute;
+        reader.number("rpm", {100.0, 500'000.0}).value_or(default_spindle_rpm) / seconds_per_minute;
     burr.cutting_coefficients_n_per_mm2 =
         reader.vector("cutting_coefficients_n_per_mm2").value_or(burr.cutting_coefficients_n_per_mm2);
     const glm::dvec3& k = burr.cutting_coefficients_n_per_mm2;
@@ -222,7 +216,7 @@ Scene read_all(TomlReader reader, const std::filesystem::path& folder) {
     const auto* file = std::get_if<FileSource>(&scene.bone);
     scene.tissues = read_tissues(reader.tables("tissues"), file != nullptr && !file->segmentation.empty());
     for (TomlReader& burr : reader.tables("burrs")) scene.burrs.push_back(read_burr(burr));
-    if (scene.burrs.empty()) scene.burrs = default_burr_set(default_rpm / seconds_per_minute);
+    if (scene.burrs.empty()) scene.burrs = default_burr_set(default_spindle_rpm / seconds_per_minute);
     std::vector<std::string> burr_names;
     for (const Burr& burr : scene.burrs) {
         if (std::find(burr_names.begin(), burr_names.end(), burr.name) != burr_names.end())
@@ -239,54 +233,6 @@ Scene read_all(TomlReader reader, const std::filesystem::path& folder) {
     if (auto table = reader.table("plan")) scene.plan = read_plan(*table, scene.tissues);
     reader.refuse_other_keys();
     return scene;
-}
-
-/// The rpm that reads back as this speed, bit for bit: rounding may put the plain product one step beside it.
-double rpm_of(double rev_per_s) {
-    const double product = rev_per_s * seconds_per_minute;
-    for (const double rpm : {product, std::nextafter(product, 0.0), std::nextafter(product, HUGE_VAL)})
-        if (rpm / seconds_per_minute == rev_per_s) return rpm;
-    return product;
-}
-
-toml::array list(const glm::dvec3& v) {
-    return toml::array{v.x, v.y, v.z};
-}
-
-toml::array rows_of(const glm::dmat3& m) {
-    const glm::dmat3 t = glm::transpose(m);
-    return toml::array{list(t[0]), list(t[1]), list(t[2])};
-}
-
-toml::table burr_table(const Burr& burr) {
-    toml::table table{{"name", burr.name},
-                      {"diameter_mm", burr.diameter_mm},
-                      {"edges", static_cast<std::int64_t>(burr.edges)},
-                      {"rpm", rpm_of(burr.spindle_rev_per_s)},
-                      {"cutting_coefficients_n_per_mm2", list(burr.cutting_coefficients_n_per_mm2)},
-                      {"edge_coefficients_n_per_mm", list(burr.edge_coefficients_n_per_mm)},
-                      {"turns", sense_names[burr.sense == SpindleSense::clockwise ? 0 : 1]},
-                      {"run_out_mm", burr.run_out_mm}};
-    if (!burr.is_ball()) {
-        table.insert("shape", std::string(head_shape_names[static_cast<std::size_t>(burr.head.shape)]));
-        table.insert("length_mm", burr.head.length_mm);
-        if (burr.head.shape != HeadShape::pear) table.insert("tip_diameter_mm", burr.head.tip_diameter_mm);
-        table.insert("neck_diameter_mm", burr.head.neck_diameter_mm);
-    }
-    toml::array shank;
-    for (const ShankPoint& point : burr.shank) shank.push_back(toml::array{point.height_mm, point.radius_mm});
-    if (!shank.empty()) table.insert("shank", shank);
-    return table;
-}
-
-toml::table bone_table(const std::variant<PhantomSource, FileSource>& bone) {
-    if (const auto* phantom = std::get_if<PhantomSource>(&bone))
-        return toml::table{{"phantom", phantom->name}};
-    const auto& file = std::get<FileSource>(bone);
-    toml::table table{{"file", from_key(file.path)}};
-    if (file.threshold_hu) table.insert("threshold_hu", *file.threshold_hu);
-    if (!file.segmentation.empty()) table.insert("segmentation", from_key(file.segmentation));
-    return table;
 }
 
 std::string on_one_line(std::string message) {
@@ -315,63 +261,6 @@ Scene parse_scene(std::string_view text, const std::string& name_for_messages,
 
 Scene read_scene(const std::filesystem::path& path) {
     return parse_scene(read_toml_text(path, "scene file"), path.string(), path.parent_path());
-}
-
-std::string write_scene(const Scene& scene) {
-    toml::table root{{"name", scene.name},
-                     {"start_burr", scene.burrs.at(scene.start_burr).name},
-                     {"wall_friction", scene.wall_friction}};
-    root.insert("bone", bone_table(scene.bone));
-    toml::array knots;
-    for (const StiffnessKnot& knot : scene.stiffness.knots)
-        knots.push_back(toml::array{knot.hu, knot.relative_stiffness});
-    root.insert("stiffness", toml::table{{"knots", knots}});
-    toml::array tissues;
-    for (const Tissue& tissue : scene.tissues) {
-        toml::table table{{"label", static_cast<std::int64_t>(tissue.label)},
-                          {"name", tissue.name},
-                          {"colour", fmt::format("#{:02x}{:02x}{:02x}", tissue.colour_rgb[0],
-                                                 tissue.colour_rgb[1], tissue.colour_rgb[2])},
-                          {"protected", tissue.is_protected},
-                          {"opacity", tissue.opacity}};
-        if (tissue.warn_mm != usual_warn_mm(tissue.is_protected)) table.insert("warn_mm", tissue.warn_mm);
-        if (!tissue.segment.empty()) table.insert("segment", tissue.segment);
-        if (tissue.strength && !tissue.strength->material.empty()) {
-            table.insert("material", tissue.strength->material);
-        } else if (tissue.strength) {
-            table.insert("relative_stiffness", tissue.strength->relative_stiffness);
-            table.insert("relative_edge", tissue.strength->relative_edge);
-        }
-        if (tissue.stiffness_factor != 1.0) table.insert("stiffness_factor", tissue.stiffness_factor);
-        if (!tissue.is_cuttable) table.insert("cuttable", false);
-        tissues.push_back(std::move(table));
-    }
-    if (!tissues.empty()) root.insert("tissues", tissues);
-    toml::array burrs;
-    for (const Burr& burr : scene.burrs) burrs.push_back(burr_table(burr));
-    root.insert("burrs", burrs);
-    if (scene.motor)
-        root.insert("motor", toml::table{{"stall_torque_n_mm", scene.motor->stall_torque_n_mm},
-                                         {"steady_torque_n_mm", scene.motor->steady_torque_n_mm}});
-    root.insert("device", toml::table{{"rotation", rows_of(scene.device.rotation)},
-                                      {"scale", scene.device.scale},
-                                      {"offset_mm", list(scene.device.offset_mm)}});
-    root.insert("start_pose", toml::table{{"position_mm", list(scene.start_pose.position_mm)},
-                                          {"spindle_axis", list(scene.start_pose.spindle_axis)}});
-    toml::table trajectory{{"start_mm", list(scene.trajectory.start_mm)},
-                           {"travel_direction", list(scene.trajectory.travel_direction)},
-                           {"speed_mm_per_s", scene.trajectory.speed_mm_per_s},
-                           {"depth_mm", scene.trajectory.depth_mm},
-                           {"width_mm", scene.trajectory.width_mm}};
-    if (const auto* motion = std::get_if<BuiltInTrajectory>(&scene.trajectory.source))
-        trajectory.insert("motion", motion_names[static_cast<std::size_t>(*motion)]);
-    else
-        trajectory.insert("file", from_key(std::get<std::filesystem::path>(scene.trajectory.source)));
-    root.insert("trajectory", trajectory);
-    if (scene.plan) root.insert("plan", plan_table(*scene.plan));
-    std::ostringstream out;
-    out << root << '\n';
-    return out.str();
 }
 
 }  // namespace osteomill

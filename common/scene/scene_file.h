@@ -48,7 +48,8 @@ Scene read_scene(const std::filesystem::path& path);
 Scene parse_scene(std::string_view text, const std::string& name_for_messages,
                   const std::filesystem::path& folder = {});
 
-/// The scene as TOML, every key written out; parse_scene gives the same scene back.
+/// The scene as TOML for people: what differs from the defaults, a line of comment before each block, every
+/// number in the fewest digits that are it. parse_scene gives the same scene back.
 std::string write_scene(const Scene& scene);
 
 }  // namespace osteomill

@@ -104,17 +104,48 @@ TEST(Documents, DescribeEveryMessageAndFieldOfTheProtocol) {
 TEST(Documents, DescribeEveryKeyOfAScene) {
     const std::string page = text_in_repository("docs/scenes.md");
     const std::regex key("([a-z]\\w*) = ");
-    Scene scene;
-    scene.burrs = default_burr_set(1.0);
-    scene.burrs[0].shank = {{0.5, 0.2}, {5.0, 0.2}};
-    scene.motor = Motor{.stall_torque_n_mm = 1.0};
-    scene.tissues.push_back({.label = 1, .name = "bone"});
-    std::set<std::string> keys{"phantom", "file", "motion"};  // of which a scene has one
-    scene.bone = FileSource{.path = "bone.nrrd", .threshold_hu = 300.0};
+    // Only what differs from the defaults is written.
+    Scene scene{.name = "all",
+                .bone = FileSource{.path = "bone.nrrd", .threshold_hu = 301.0, .segmentation = "s.nrrd"},
+                .stiffness = {.knots = {{1.0, 1.0}}},
+                .burrs = default_burr_set(1.0),
+                .start_burr = 1,
+                .wall_friction = 0.3,
+                .motor = Motor{.stall_torque_n_mm = 2.0, .steady_torque_n_mm = 1.0},
+                .device = {.rotation = glm::dmat3(2.0), .scale = 2.0, .offset_mm = {1.0, 2.0, 3.0}},
+                .start_pose = {{1.0, 2.0, 3.0}, {1.0, 0.0, 0.0}},
+                .trajectory = {.source = BuiltInTrajectory::cavity,
+                               .start_mm = {1.0, 2.0, 3.0},
+                               .travel_direction = {0.0, 1.0, 0.0},
+                               .speed_mm_per_s = 1.0,
+                               .depth_mm = 1.0,
+                               .width_mm = 9.0},
+                .plan = Plan{.region = TissueRegion{"bone"}, .margin_mm = 9.0}};
+    scene.burrs[0] = {.name = "cone",
+                      .head = {.shape = HeadShape::cone},
+                      .edges = 2,
+                      .spindle_rev_per_s = 1.0,
+                      .cutting_coefficients_n_per_mm2 = {1.0, 1.0, 1.0},
+                      .edge_coefficients_n_per_mm = {1.0, 1.0, 1.0},
+                      .sense = SpindleSense::counter_clockwise,
+                      .shank = {{0.5, 0.2}, {5.0, 0.2}},
+                      .run_out_mm = 0.1};
+    Tissue tissue{.label = 1,
+                  .name = "bone",
+                  .is_protected = true,
+                  .strength = TissueStrength{.relative_stiffness = 2.0, .relative_edge = 3.0},
+                  .stiffness_factor = 2.0,
+                  .is_cuttable = false,
+                  .segment = "bone",
+                  .opacity = 0.5,
+                  .warn_mm = 3.0};
+    scene.tissues = {tissue, tissue};
+    scene.tissues[1].strength->material = "enamel";
+    std::set<std::string> keys{"phantom", "file", "sphere", "cylinder"};  // of which a scene has one
     const std::string scene_text = write_scene(scene);
     for (std::sregex_iterator match(scene_text.begin(), scene_text.end(), key), end; match != end; ++match)
         keys.insert((*match)[1]);
-    EXPECT_GT(keys.size(), 20u);
+    EXPECT_GT(keys.size(), 40u);
     for (const std::string& each : keys) EXPECT_THAT(page, HasSubstr("`" + each + "`"));
 }
 

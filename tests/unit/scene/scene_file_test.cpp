@@ -96,7 +96,7 @@ file = "path.csv"
 TEST(SceneFile, ShippedScenesAreReadAndSurviveWriting) {
     int scenes = 0;
     for (const auto& entry : std::filesystem::directory_iterator(OSTEOMILL_SCENES)) {
-        if (entry.path().filename() == "materials.toml") continue;
+        if (entry.path().extension() != ".toml" || entry.path().filename() == "materials.toml") continue;
         const Scene scene = read_scene(entry.path());
         EXPECT_EQ(parse_scene(write_scene(scene), "again.toml"), scene) << entry.path();
         ++scenes;
@@ -174,6 +174,23 @@ TEST(SceneFile, AnySpindleSpeedSurvivesWriting) {
         scene.burrs[0].spindle_rev_per_s = rpm / 60.0;
         ASSERT_EQ(parse_scene(write_scene(scene), "again.toml"), scene) << rpm;
     }
+}
+
+TEST(SceneFile, IsWrittenForPeople) {
+    Scene scene = parse_scene("name = \"a \\\"jaw\\\"\\n\"\n[bone]\nfile = \"bone.nrrd\"\n", "my.toml");
+    EXPECT_EQ(write_scene(scene),
+              "name = \"a \\\"jaw\\\"\\u000a\"\n\n# The bone, and where its tissues are.\n[bone]\nfile = "
+              "\"bone.nrrd\"\n");
+    EXPECT_EQ(parse_scene(write_scene(scene), "again.toml"), scene);
+    scene.start_pose.position_mm = {0.3, -1.0 / 3.0, 1e-9};
+    scene.tissues = {
+        {.label = 200, .name = "nerve", .colour_rgb = {1, 2, 255}, .is_protected = true, .warn_mm = 0.3}};
+    const std::string text = write_scene(scene);
+    EXPECT_THAT(text, HasSubstr("position_mm = [0.3, -0.3333333333333333, 1e-09]\n"));
+    EXPECT_THAT(text,
+                HasSubstr("[[tissues]]\nlabel = 200\nname = \"nerve\"\ncolour = \"#0102ff\"\nprotected = "
+                          "true\nwarn_mm = 0.3\n"));
+    EXPECT_EQ(parse_scene(text, "again.toml"), scene);
 }
 
 TEST(SceneFile, AFileCutOffOrDamagedAnywhereIsASceneOrAnErrorWithItsName) {

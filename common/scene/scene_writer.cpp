@@ -1,0 +1,232 @@
+#include <fmt/format.h>
+
+#include <cmath>
+#include <glm/matrix.hpp>
+#include <glm/vec3.hpp>
+#include <string>
+#include <string_view>
+
+#include "common/scene/scene_file.h"
+#include "common/scene/tissue_tables.h"
+
+namespace osteomill {
+
+namespace {
+
+/// Reads back as the same number, bit for bit.
+std::string toml_text(double number) {
+    return fmt::format("{}", number);
+}
+
+std::string toml_text(bool value) {
+    return value ? "true" : "false";
+}
+
+std::string toml_text(std::string_view text) {
+    std::string quoted = "\"";
+    for (const char letter : text) {
+        const auto code = static_cast<unsigned char>(letter);
+        if (code < 0x20 || code == 0x7f)
+            quoted += fmt::format("\\u{:04x}", code);
+        else if (letter == '"' || letter == '\\')
+            quoted += {'\\', letter};
+        else
+            quoted += letter;
+    }
+    return quoted + '"';
+}
+
+std::string toml_text(const std::string& text) {
+    return toml_text(std::string_view(text));
+}
+
+std::string toml_text(const char* text) {
+    return toml_text(std::string_view(text));
+}
+
+std::string toml_text(const std::filesystem::path& path) {
+    return toml_text(path.generic_string());
+}
+
+std::string toml_text(const glm::dvec3& v) {
+    return fmt::format("[{}, {}, {}]", v.x, v.y, v.z);
+}
+
+/// Keys of one table, each on a line.
+class Keys {
+  public:
+    template <typename Value>
+    Keys& add(const char* key, const Value& value) {
+        text_ += fmt::format("{} = {}\n", key, toml_text(value));
+        return *this;
+    }
+    /// Nothing where the value is what the key's absence means.
+    template <typename Value>
+    Keys& add(const char* key, const Value& value, const Value& usual) {
+        return value == usual ? *this : add(key, value);
+    }
+    Keys& add_text(const std::string& text) {
+        text_ += text;
+        return *this;
+    }
+    /// Empty where there are no keys.
+    std::string below(const char* heading) const { return text_.empty() ? "" : heading + text_; }
+    const std::string& text() const { return text_; }
+
+  private:
+    std::string text_;
+};
+
+/// The rpm that reads back as this speed, bit for bit, in as few digits as there are: rounding may put the
+/// plain product one step beside it.
+double rpm_of(double rev_per_s) {
+    constexpr double seconds_per_minute = 60.0;
+    const double product = rev_per_s * seconds_per_minute;
+    for (const double rpm :
+         {std::round(product), product, std::nextafter(product, 0.0), std::nextafter(product, HUGE_VAL)})
+        if (rpm / seconds_per_minute == rev_per_s) return rpm;
+    return product;
+}
+
+std::string bone_text(const std::variant<PhantomSource, FileSource>& bone) {
+    Keys keys;
+    if (const auto* phantom = std::get_if<PhantomSource>(&bone)) {
+        keys.add("phantom", phantom->name);
+    } else {
+        const auto& file = std::get<FileSource>(bone);
+        keys.add("file", file.path);
+        if (file.threshold_hu) keys.add("threshold_hu", *file.threshold_hu);
+        keys.add("segmentation", file.segmentation, {});
+    }
+    return keys.below("\n# The bone, and where its tissues are.\n[bone]\n");
+}
+
+std::string stiffness_text(const StiffnessRelation& relation) {
+    if (relation.knots == default_stiffness_relation().knots) return {};
+    std::string text =
+        "\n# Relative stiffness by CT number: [HU, stiffness], 1 is cortical bone.\n[stiffness]\nknots = [\n";
+    for (const StiffnessKnot& knot : relation.knots)
+        text += fmt::format("    [{}, {}],\n", knot.hu, knot.relative_stiffness);
+    return text + "]\n";
+}
+
+std::string tissue_text(const Tissue& tissue) {
+    Keys keys;
+    keys.add_text(fmt::format("label = {}\n", tissue.label))
+        .add("name", tissue.name)
+        .add("colour", fmt::format("#{:02x}{:02x}{:02x}", tissue.colour_rgb[0], tissue.colour_rgb[1],
+                                   tissue.colour_rgb[2]))
+        .add("segment", tissue.segment, {})
+        .add("protected", tissue.is_protected, false)
+        .add("warn_mm", tissue.warn_mm, usual_warn_mm(tissue.is_protected))
+        .add("opacity", tissue.opacity, 1.0);
+    if (tissue.strength && !tissue.strength->material.empty())
+        keys.add("material", tissue.strength->material);
+    else if (tissue.strength)
+        keys.add("relative_stiffness", tissue.strength->relative_stiffness)
+            .add("relative_edge", tissue.strength->relative_edge, tissue.strength->relative_stiffness);
+    keys.add("stiffness_factor", tissue.stiffness_factor, 1.0).add("cuttable", tissue.is_cuttable, true);
+    return "\n[[tissues]]\n" + keys.text();
+}
+
+std::string burr_text(const Burr& burr) {
+    Keys keys;
+    keys.add("name", burr.name).add("diameter_mm", burr.diameter_mm);
+    if (!burr.is_ball()) {
+        keys.add("shape", head_shape_names[static_cast<std::size_t>(burr.head.shape)])
+            .add("length_mm", burr.head.length_mm);
+        if (burr.head.shape != HeadShape::pear) keys.add("tip_diameter_mm", burr.head.tip_diameter_mm);
+        keys.add("neck_diameter_mm", burr.head.neck_diameter_mm);
+    }
+    const Burr usual;
+    if (burr.edges != usual.edges) keys.add_text(fmt::format("edges = {}\n", burr.edges));
+    keys.add("rpm", rpm_of(burr.spindle_rev_per_s), default_spindle_rpm)
+        .add("cutting_coefficients_n_per_mm2", burr.cutting_coefficients_n_per_mm2,
+             usual.cutting_coefficients_n_per_mm2)
+        .add("edge_coefficients_n_per_mm", burr.edge_coefficients_n_per_mm, usual.edge_coefficients_n_per_mm);
+    if (burr.sense != usual.sense) keys.add("turns", spindle_sense_names[1]);
+    keys.add("run_out_mm", burr.run_out_mm, usual.run_out_mm);
+    std::string shank;
+    for (const ShankPoint& point : burr.shank)
+        shank += fmt::format("{}[{}, {}]", shank.empty() ? "" : ", ", point.height_mm, point.radius_mm);
+    if (!shank.empty()) keys.add_text(fmt::format("shank = [{}]\n", shank));
+    return "\n[[burrs]]\n" + keys.text();
+}
+
+std::string device_text(const DeviceMapping& device) {
+    const DeviceMapping usual;
+    Keys keys;
+    if (device.rotation != usual.rotation) {
+        const glm::dmat3 rows = glm::transpose(device.rotation);
+        keys.add_text(fmt::format("rotation = [{}, {}, {}]\n", toml_text(rows[0]), toml_text(rows[1]),
+                                  toml_text(rows[2])));
+    }
+    keys.add("scale", device.scale, usual.scale).add("offset_mm", device.offset_mm, usual.offset_mm);
+    return keys.below("\n# How the device lies on the patient.\n[device]\n");
+}
+
+std::string pose_text(const ToolPose& pose) {
+    const ToolPose usual;
+    Keys keys;
+    keys.add("position_mm", pose.position_mm, usual.position_mm)
+        .add("spindle_axis", pose.spindle_axis, usual.spindle_axis);
+    return keys.below(
+        "\n# Where the tool starts: the burr's centre, and the direction from tip to shank.\n[start_pose]\n");
+}
+
+std::string trajectory_text(const TrajectorySpec& trajectory) {
+    const TrajectorySpec usual;
+    if (trajectory == usual) return {};
+    Keys keys;
+    if (const auto* motion = std::get_if<BuiltInTrajectory>(&trajectory.source))
+        keys.add("motion", trajectory_names[static_cast<std::size_t>(*motion)]);
+    else
+        keys.add("file", std::get<std::filesystem::path>(trajectory.source));
+    keys.add("start_mm", trajectory.start_mm, usual.start_mm)
+        .add("travel_direction", trajectory.travel_direction, usual.travel_direction)
+        .add("speed_mm_per_s", trajectory.speed_mm_per_s, usual.speed_mm_per_s)
+        .add("depth_mm", trajectory.depth_mm, usual.depth_mm)
+        .add("width_mm", trajectory.width_mm, usual.width_mm);
+    return keys.below("\n# What a simulated hand does.\n[trajectory]\n");
+}
+
+std::string plan_text(const Plan& plan) {
+    Keys keys;
+    if (const auto* tissue = std::get_if<TissueRegion>(&plan.region)) keys.add("tissue", tissue->tissue);
+    if (const auto* sphere = std::get_if<SphereRegion>(&plan.region))
+        keys.add_text(fmt::format("sphere = {{ centre_mm = {}, radius_mm = {} }}\n",
+                                  toml_text(sphere->centre_mm), sphere->radius_mm));
+    if (const auto* cylinder = std::get_if<CylinderRegion>(&plan.region))
+        keys.add_text(fmt::format("cylinder = {{ from_mm = {}, to_mm = {}, radius_mm = {} }}\n",
+                                  toml_text(cylinder->from_mm), toml_text(cylinder->to_mm),
+                                  cylinder->radius_mm));
+    keys.add("margin_mm", plan.margin_mm, Plan().margin_mm);
+    return keys.below("\n# What is to be removed.\n[plan]\n");
+}
+
+}  // namespace
+
+std::string write_scene(const Scene& scene) {
+    std::string text = Keys()
+                           .add("name", scene.name)
+                           .add("start_burr", scene.burrs.at(scene.start_burr).name, scene.burrs.at(0).name)
+                           .add("wall_friction", scene.wall_friction, Scene().wall_friction)
+                           .text();
+    text += bone_text(scene.bone) + stiffness_text(scene.stiffness);
+    if (!scene.tissues.empty()) text += "\n# Tissues, by their label in the bone.\n";
+    for (const Tissue& tissue : scene.tissues) text += tissue_text(tissue);
+    if (scene.burrs != default_burr_set(Burr().spindle_rev_per_s)) {
+        text += "\n# Burrs to choose from.\n";
+        for (const Burr& burr : scene.burrs) text += burr_text(burr);
+    }
+    if (scene.motor)
+        text += Keys()
+                    .add("stall_torque_n_mm", scene.motor->stall_torque_n_mm)
+                    .add("steady_torque_n_mm", scene.motor->steady_torque_n_mm, 0.0)
+                    .below("\n# How the spindle slows under load, as it is heard.\n[motor]\n");
+    text += device_text(scene.device) + pose_text(scene.start_pose) + trajectory_text(scene.trajectory);
+    if (scene.plan) text += plan_text(*scene.plan);
+    return text;
+}
+
+}  // namespace osteomill
