@@ -2,12 +2,16 @@
 
 #include <gtest/gtest.h>
 
+#include <glm/geometric.hpp>
+#include <glm/vector_relational.hpp>
+#include <utility>
+
 #include "tests/support/block.h"
 
 namespace osteomill {
 namespace {
 
-TEST(SceneOnBone, StartsAboveTheHighestBoneInTheMiddleAndDrillsThere) {
+TEST(SceneOnBone, StartsOutsideTheBoneWhereItIsThinnestAndDrillsThere) {
     Scene scene = scene_of_bone_file("/scans/jaw.nrrd");
     EXPECT_EQ(scene.name, "jaw");
     EXPECT_EQ(std::get<FileSource>(scene.bone).path, "/scans/jaw.nrrd");
@@ -19,6 +23,46 @@ TEST(SceneOnBone, StartsAboveTheHighestBoneInTheMiddleAndDrillsThere) {
     EXPECT_NEAR(mouth.y, -46.0, 2.1);
     EXPECT_GT(scene.start_pose.position_mm.z, 25.0 + scene.burrs[scene.start_burr].radius_mm());
     EXPECT_EQ(scene.start_pose.position_mm.x, mouth.x);
+}
+
+/// A box of bone with a ball of label 1 in it.
+Bone with_target(const Grid& grid, const glm::dvec3& target_mm) {
+    auto builder = BoneBuilder::homogeneous(grid, 1.0, true);
+    glm::ivec3 brick;
+    for (brick.z = 0; brick.z < size_in_bricks(grid).z; ++brick.z)
+        for (brick.y = 0; brick.y < size_in_bricks(grid).y; ++brick.y)
+            for (brick.x = 0; brick.x < size_in_bricks(grid).x; ++brick.x) {
+                ByteBrick fraction{}, tissue{};
+                for (std::size_t offset = 0; offset < brick_voxel_count; ++offset) {
+                    const glm::ivec3 v = brick_edge_voxels * brick + voxel_in_brick(offset);
+                    if (glm::any(glm::greaterThanEqual(v, grid.size_voxels))) continue;
+                    const glm::dvec3 at_mm = centre_of_voxel_mm(grid, v);
+                    const glm::dvec3 off_mm = glm::abs(at_mm);
+                    if (off_mm.x < 8.0 && off_mm.y < 8.0 && off_mm.z < 8.0) fraction[offset] = 255;
+                    tissue[offset] = glm::distance(at_mm, target_mm) < 1.5 ? 1 : 0;
+                }
+                builder.add_brick(brick, fraction, nullptr, &tissue);
+            }
+    return std::move(builder).build();
+}
+
+TEST(SceneOnBone, LooksAtItsTargetFromTheNearestFreeSide) {
+    const Grid all{.size_voxels = {100, 100, 100}, .spacing_mm = 0.25, .origin_mm = glm::dvec3(-12.375)};
+    Scene scene = scene_of_bone_file("x.nrrd");
+    scene.tissues = {{.label = 1, .name = "tumour"}};
+    scene.plan = Plan{.region = TissueRegion{"tumour"}};
+    for (const glm::dvec3& side : {glm::dvec3(1, 0, 0), glm::dvec3(0, -1, 0), glm::dvec3(0, 0, -1)}) {
+        place_on_bone(scene, with_target(all, 5.0 * side));
+        EXPECT_EQ(scene.start_pose.spindle_axis, side);
+        EXPECT_NEAR(glm::dot(scene.start_pose.position_mm, side),
+                    8.0 + 3.0 + scene.burrs[scene.start_burr].radius_mm(), 0.3);
+        EXPECT_NEAR(glm::dot(scene.trajectory.start_mm, side), 8.0, 0.3);
+        EXPECT_NEAR(glm::length(glm::cross(scene.start_pose.position_mm, side)), 0.0, 0.2);
+    }
+    // The grid ends within the bone on that side: it is not free.
+    const Grid cut{.size_voxels = {76, 100, 100}, .spacing_mm = 0.25, .origin_mm = glm::dvec3(-12.375)};
+    place_on_bone(scene, with_target(cut, {4.0, 0.0, 3.0}));
+    EXPECT_EQ(scene.start_pose.spindle_axis, glm::dvec3(0.0, 0.0, 1.0));
 }
 
 TEST(SceneOnBone, ABoneOfWhichNothingIsLeftIsNoError) {
