@@ -11,8 +11,10 @@
 #include "common/program/option_checks.h"
 #include "common/program/program_output.h"
 #include "common/program/stop_signals.h"
+#include "haptic_server/imaging/formats/picture_stack.h"
 #include "haptic_server/imaging/import_bone.h"
 #include "haptic_server/imaging/memory_estimate.h"
+#include "haptic_server/imaging/segmentation/bone_of_labels.h"
 #include "haptic_server/imaging/segmentation/segmentation.h"
 #include "haptic_server/imaging/segmentation/segmentation_file.h"
 #include "haptic_server/program/case_folder.h"
@@ -28,7 +30,10 @@ struct Texts {
     std::string region;
     std::string case_folder;
     osteomill::CaseParts parts;
+    std::vector<std::string> labels;
     std::vector<std::string> segmentations;
+    std::vector<std::string> materials;
+    std::string stack_spacing;
     std::string colours;
     std::string target;
     std::string preview;
@@ -40,15 +45,22 @@ struct Texts {
 
 constexpr double preview_spacing_mm = 0.5;
 
+/// The scan, or the bone of labels where there is none.
+void import(const osteomill::ImportOptions& options, const osteomill::BegunCase& begun,
+            const osteomill::ImportSurroundings& surroundings) {
+    if (begun.labels == 0) return osteomill::import_bone(options, surroundings);
+    osteomill::import_bone(options, osteomill::scan_of_labels(begun, surroundings.messages), surroundings);
+}
+
 /// The whole scan, coarse, by way of a file that is gone afterwards.
-void preview(osteomill::ImportOptions options, const std::vector<std::filesystem::path>& segmentations,
+void preview(osteomill::ImportOptions options, const osteomill::BegunCase& begun,
              const std::filesystem::path& picture, const osteomill::ImportSurroundings& surroundings) {
     const std::optional<osteomill::Region> region = std::exchange(options.region, std::nullopt);
     options.threshold_hu.reset();
     options.output = picture.string() + ".coarse.nrrd";
     osteomill::CtVolume ct;
     try {
-        osteomill::import_bone(options, surroundings);
+        import(options, begun, surroundings);
         ct = osteomill::whole_ct(options.output);
     } catch (...) {
         std::error_code ignored;
@@ -58,14 +70,15 @@ void preview(osteomill::ImportOptions options, const std::vector<std::filesystem
     std::filesystem::remove(options.output);
     surroundings.messages << osteomill::summary_of(ct);
     osteomill::write_preview(ct, region, picture);
-    for (const auto& file : segmentations)
-        for (const osteomill::Segment& segment : osteomill::read_segmentation(file).segments)
+    for (const auto& segmentation : begun.segmentations)
+        for (const osteomill::Segment& segment : segmentation->segments)
             surroundings.messages << "segment " << segment.name << '\n';
     surroundings.messages << "preview: " << picture.string() << '\n';
 }
 
 void add_options(CLI::App& app, osteomill::ImportOptions& options, Texts& texts) {
-    app.add_option("INPUT", options.input, "DICOM folder, or a NRRD, NIfTI or MetaImage file")->required();
+    app.add_option("INPUT", options.input,
+                   "DICOM folder, a NRRD, NIfTI or MetaImage file, or a folder of PNG or TIFF pictures");
     auto* output =
         app.add_option("OUTPUT.nrrd", options.output, "bone file to write (int16 HU, patient LPS, gzip)");
     app.add_option("--case", texts.case_folder,
@@ -78,6 +91,21 @@ void add_options(CLI::App& app, osteomill::ImportOptions& options, Texts& texts)
         ->type_name("PICTURE.png")
         ->excludes(output)
         ->excludes("--case");
+    app.add_option(
+           "--labels", texts.labels,
+           "in place of INPUT, with --case: bone is made of the segments of a label map that are bone "
+           "by their names, or by --material; a folder: all label maps in it, or a stack of pictures; "
+           "again for each further file")
+        ->type_name("FILE");
+    app.add_option(
+           "--material", texts.materials,
+           "what a segment is made of (scenes/materials.toml), such as \"Tooth 36=enamel\"; NAME=soft: "
+           "no bone; again for each further one")
+        ->type_name("NAME=MATERIAL");
+    app.add_option(
+           "--stack-spacing", texts.stack_spacing,
+           "x,y,z in mm: of pixels and slices, where INPUT or labels are a stack of PNG or TIFF pictures")
+        ->type_name("X,Y,Z");
     app.add_option("--segmentation", texts.segmentations,
                    "with --case: tissues, as 3D Slicer writes them (.seg.nrrd), or a label map (NRRD, "
                    "NIfTI); again for each further file; with --preview their names are said")
@@ -118,6 +146,33 @@ void add_options(CLI::App& app, osteomill::ImportOptions& options, Texts& texts)
         ->excludes(rescale);
 }
 
+/// Of labels, which have no CT numbers.
+void parse_labels(const CLI::App& app, Texts& texts, osteomill::ImportOptions& options) {
+    if (!options.input.empty() && !options.output.empty())
+        throw std::invalid_argument("--labels: stands in place of INPUT");
+    if (!options.input.empty())
+        throw std::invalid_argument("--labels: makes a case: give --case DIR in place of '" +
+                                    options.input.string() + "' (labels stand in place of INPUT)");
+    for (const char* option :
+         {"--threshold-hu", "--keep-soft-tissue", "--series", "--rescale", "--intensity-window"})
+        if (app.count(option) > 0)
+            throw std::invalid_argument(std::string(option) + ": goes with a scan, not with --labels");
+    texts.parts.labels.assign(texts.labels.begin(), texts.labels.end());
+    options.input = texts.labels.front();
+    options.threshold_hu = osteomill::threshold_of_labels_hu;
+    options.follows_contours = false;
+}
+
+/// "NAME=MATERIAL"; a name may hold "=", a material none.
+void parse_materials(Texts& texts) {
+    for (const std::string& text : texts.materials) {
+        const std::size_t at = text.rfind('=');
+        if (at == std::string::npos || at == 0)
+            throw std::invalid_argument("--material '" + text + "': give NAME=MATERIAL");
+        texts.parts.materials[text.substr(0, at)] = text.substr(at + 1);
+    }
+}
+
 void parse_texts(const CLI::App& app, Texts& texts, osteomill::ImportOptions& options) {
     if (app.count("--threshold-hu") > 0) options.threshold_hu = texts.threshold_hu;
     if (options.keeps_soft_tissue && !options.threshold_hu)
@@ -127,11 +182,21 @@ void parse_texts(const CLI::App& app, Texts& texts, osteomill::ImportOptions& op
     if (app.count("--rescale") > 0) options.to_hu = osteomill::parse_rescale(texts.rescale);
     if (app.count("--intensity-window") > 0)
         options.to_hu = osteomill::parse_intensity_window(texts.intensity_window);
-    if (texts.case_folder.empty() && texts.preview.empty() && !texts.segmentations.empty())
-        throw std::invalid_argument("--segmentation: goes with --case or --preview");
-    for (const char* option : {"--colours", "--protect", "--warn-mm", "--target"})
-        if (texts.segmentations.empty() && app.count(option) > 0)
-            throw std::invalid_argument(std::string(option) + ": goes with --segmentation");
+    const bool has_segments = !texts.segmentations.empty() || !texts.labels.empty();
+    if (texts.case_folder.empty() && texts.preview.empty() && has_segments)
+        throw std::invalid_argument(std::string(texts.labels.empty() ? "--segmentation" : "--labels") +
+                                    ": goes with --case or --preview");
+    for (const char* option : {"--colours", "--protect", "--warn-mm", "--target", "--material"})
+        if (!has_segments && app.count(option) > 0)
+            throw std::invalid_argument(std::string(option) + ": goes with --segmentation or --labels");
+    if (!texts.labels.empty())
+        parse_labels(app, texts, options);
+    else if (options.input.empty())
+        throw std::invalid_argument("give INPUT, or --labels FILE (see --help)");
+    parse_materials(texts);
+    if (!texts.stack_spacing.empty())
+        options.stack_spacing_mm = texts.parts.stack_spacing_mm =
+            osteomill::parse_stack_spacing(texts.stack_spacing);
     texts.parts.segmentations.assign(texts.segmentations.begin(), texts.segmentations.end());
     if (!texts.colours.empty()) texts.parts.colours = texts.colours;
     if (!texts.target.empty()) texts.parts.target = texts.target;
@@ -178,13 +243,15 @@ int main(int argc, char** argv) {
                 .messages = messages,
                 .is_terminal = output.err->is_terminal(),
                 .available_memory_bytes = osteomill::available_memory_bytes(meminfo)};
-            if (!texts.case_folder.empty())
-                texts.parts = osteomill::begin_case(texts.case_folder, std::move(texts.parts));
+            const bool makes_case = !texts.case_folder.empty();
+            // All that can be refused is refused before an hour of work.
+            const osteomill::BegunCase begun = osteomill::read_case_parts(texts.parts);
+            if (makes_case) osteomill::begin_case(texts.case_folder);
             if (texts.preview.empty())
-                osteomill::import_bone(options, surroundings);
+                import(options, begun, surroundings);
             else
-                preview(options, texts.parts.segmentations, texts.preview, surroundings);
-            if (!texts.case_folder.empty()) osteomill::finish_case(texts.case_folder, texts.parts, messages);
+                preview(options, begun, texts.preview, surroundings);
+            if (makes_case) osteomill::finish_case(texts.case_folder, begun, messages);
         } catch (const std::exception& error) {
             messages << "bone_import: " << error.what() << '\n';
             exit_code = exit_failure;

@@ -19,6 +19,7 @@ struct Material {
     double cutting_n_per_mm2 = 0.0;  ///< K_t
     double edge_n_per_mm = 0.0;      ///< K_te
     MaterialQuality quality = MaterialQuality::assumed;
+    std::vector<std::string> segments{};  ///< words of names of segments that are of it
 
     /// Both as shares of those of the bone for which a burr's coefficients hold: the file's first, cortical
     /// bone.
@@ -28,5 +29,9 @@ struct Material {
 
 /// Those of scenes/materials.toml, built in.
 const std::vector<Material>& shipped_materials();
+
+/// What a segment is made of by its name ("vertebrae_L1", "Lower Teeth"); nullptr where that is no bone, or
+/// says nothing.
+const Material* material_of_segment(const std::string& name);
 
 }  // namespace osteomill

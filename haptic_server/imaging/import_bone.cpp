@@ -14,6 +14,7 @@
 
 #include "haptic_server/imaging/bone_file/hu_file.h"
 #include "haptic_server/imaging/formats/image_reader.h"
+#include "haptic_server/imaging/formats/picture_stack.h"
 #include "haptic_server/imaging/formats/plausible_geometry.h"
 #include "haptic_server/imaging/imaging_error.h"
 #include "haptic_server/imaging/in_parallel.h"
@@ -59,7 +60,7 @@ void require_plausible_size(const Grid& grid) {
 
 /// Without a threshold there is no contour to follow.
 std::optional<int> followed_axis(const ImportOptions& options, const glm::dvec3& spacing_mm) {
-    return options.threshold_hu ? axis_of_far_slices(spacing_mm) : std::nullopt;
+    return options.threshold_hu && options.follows_contours ? axis_of_far_slices(spacing_mm) : std::nullopt;
 }
 
 /// Refining draws on the voxels around; smoothing for a coarser grid reaches as far as its voxels, a contour
@@ -256,11 +257,30 @@ std::filesystem::path scratch_folder(const ImportOptions& options) {
     return options.output.has_parent_path() ? options.output.parent_path() : std::filesystem::path(".");
 }
 
+/// Coloured pictures are labels.
+OpenedImage open_scan(const ImportOptions& options) {
+    if (!is_picture_stack(options.input)) return open_image(options.input, options.series_uid);
+    if (!options.stack_spacing_mm)
+        throw ImagingError(options.input,
+                           "is a stack of pictures, which do not say how far their pixels are "
+                           "apart; give --stack-spacing x,y,z in mm");
+    PictureStack stack = open_picture_stack(options.input, *options.stack_spacing_mm);
+    if (stack.is_coloured)
+        throw ImagingError(options.input,
+                           "holds coloured pictures, which have no CT numbers; where colours are "
+                           "tissues, give --labels in place of INPUT");
+    return stack.opened;
+}
+
 }  // namespace
 
 void import_bone(const ImportOptions& options, const ImportSurroundings& surroundings) {
+    import_bone(options, open_scan(options), surroundings);
+}
+
+void import_bone(const ImportOptions& options, const OpenedImage& opened,
+                 const ImportSurroundings& surroundings) {
     try {
-        const OpenedImage opened = open_image(options.input, options.series_uid);
         for (const std::string& note : opened.image.notes) surroundings.messages << note << '\n';
         const ImportPlan work = plan(options, opened.image, surroundings.messages);
         require_memory(options, opened, work, surroundings);

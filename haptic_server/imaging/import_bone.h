@@ -8,6 +8,7 @@
 #include <string>
 #include <variant>
 
+#include "haptic_server/imaging/formats/image_reader.h"
 #include "haptic_server/imaging/resampling/intensity.h"
 #include "haptic_server/imaging/resampling/region.h"
 
@@ -21,8 +22,11 @@ struct ImportOptions {
     /// Far from bone, too, HU stay as they are. Else a file with a threshold has air there (near_bone.h),
     /// which makes it some times smaller.
     bool keeps_soft_tissue = false;
+    /// Between slices far apart bone's contour is followed, if there is a threshold (slice_shapes.h).
+    bool follows_contours = true;
     std::optional<Region> region{};
     std::optional<std::string> series_uid{};
+    std::optional<glm::dvec3> stack_spacing_mm{};  ///< of an input that is a stack of pictures
     /// What makes HU of the file's values (after the rescale that the file itself states).
     std::variant<std::monostate, Rescale, IntensityWindow> to_hu{};
 };
@@ -36,8 +40,12 @@ struct ImportSurroundings {
 };
 
 /// Reads the scan, cuts the region, refines it, writes the bone file. Throws ImagingError in one line: for
-/// what image_reader.h refuses, a region outside the image, more memory than there is, a threshold that no
-/// voxel reaches, an output that cannot be written.
+/// what image_reader.h and picture_stack.h refuse, a region outside the image, more memory than there is, a
+/// threshold that no voxel reaches, an output that cannot be written.
 void import_bone(const ImportOptions& options, const ImportSurroundings& surroundings);
+
+/// The same of an image that is open already; `options.input` is for messages.
+void import_bone(const ImportOptions& options, const OpenedImage& opened,
+                 const ImportSurroundings& surroundings);
 
 }  // namespace osteomill

@@ -13,9 +13,12 @@
 #include <vector>
 
 #include "common/files/whole_file.h"
+#include "common/scene/material.h"
 #include "common/scene/nearest_name.h"
 #include "common/scene/scene_file.h"
+#include "haptic_server/imaging/formats/picture_stack.h"
 #include "haptic_server/imaging/phantoms/phantom.h"
+#include "haptic_server/imaging/segmentation/bone_of_labels.h"
 #include "haptic_server/imaging/segmentation/segment_structure.h"
 #include "haptic_server/imaging/segmentation/segmentation_file.h"
 #include "haptic_server/program/bone_source.h"
@@ -38,22 +41,61 @@ constexpr const char* preface =
     "# to warn, in mm. What its CT numbers say of a tissue's stiffness, stiffness_factor multiplies, and\n"
     "# relative_stiffness or material replaces; no burr takes what has cuttable = false.\n\n";
 
-Segmentation read(const std::filesystem::path& path, const CaseParts& parts) {
-    Segmentation segmentation = read_segmentation(path);
+/// Of a folder the label maps in it, by name.
+std::vector<std::filesystem::path> label_maps(const std::vector<std::filesystem::path>& paths) {
+    std::vector<std::filesystem::path> maps;
+    std::error_code failed;
+    for (const auto& path : paths) {
+        std::vector<std::filesystem::path> found;
+        if (std::filesystem::is_directory(path, failed))
+            for (const auto& entry : std::filesystem::directory_iterator(path))
+                for (const char* ending : {".nrrd", ".nhdr", ".nii", ".nii.gz", ".mha", ".mhd"})
+                    if (entry.path().filename().string().ends_with(ending)) found.push_back(entry.path());
+        std::ranges::sort(found);
+        if (found.empty()) found = {path};
+        maps.insert(maps.end(), found.begin(), found.end());
+    }
+    return maps;
+}
+
+std::shared_ptr<const Segmentation> read(const std::filesystem::path& path, const CaseParts& parts) {
+    const bool is_stack = parts.stack_spacing_mm && is_picture_stack(path);
+    Segmentation segmentation =
+        is_stack ? read_picture_labels(path, *parts.stack_spacing_mm) : read_segmentation(path);
     if (parts.colours && segmentation.is_plain_map)
         name_segments(segmentation, read_colour_table(*parts.colours));
-    return segmentation;
+    return std::make_shared<const Segmentation>(std::move(segmentation));
 }
 
 /// Of all segmentations, without a name twice.
-std::set<std::string> segment_names(const CaseParts& parts) {
+std::set<std::string> segment_names(const BegunCase& begun) {
     std::set<std::string> names;
-    for (const auto& path : parts.segmentations)
-        for (const Segment& segment : read(path, parts).segments)
+    for (const auto& segmentation : begun.segmentations)
+        for (const Segment& segment : segmentation->segments)
             if (!names.insert(segment.name).second)
                 throw std::runtime_error(fmt::format("{}: has a segment \"{}\", as one before has; rename it",
-                                                     path.string(), segment.name));
+                                                     segmentation->path.string(), segment.name));
     return names;
+}
+
+const Material* material_named(const std::string& name) {
+    std::vector<std::string> names{soft_material};
+    for (const Material& material : shipped_materials()) {
+        if (material.name == name) return &material;
+        names.push_back(material.name);
+    }
+    if (name == soft_material) return nullptr;
+    const std::optional<std::string> nearest = nearest_name(name, names);
+    throw std::runtime_error(
+        nearest ? fmt::format("--material: '{}' is none; did you mean \"{}\"?", name, *nearest)
+                : fmt::format("--material: '{}' is none; there are {}", name, fmt::join(names, ", ")));
+}
+
+/// nullptr: as its CT numbers say, or no bone.
+const Material* material_of(const std::string& segment, const CaseParts& parts, bool is_of_labels) {
+    const auto said = parts.materials.find(segment);
+    if (said != parts.materials.end()) return material_named(said->second);
+    return is_of_labels ? material_of_segment(segment) : nullptr;
 }
 
 /// As the files spell it.
@@ -69,36 +111,45 @@ std::string known_name(const std::string& option, const std::string& name,
                                              : fmt::format("; there are {}", fmt::join(names, ", "))));
 }
 
+/// A structure of a case, and what it is made of.
+struct CaseStructure {
+    NamedStructure structure{};
+    const Material* material = nullptr;
+};
+
 /// Those in the bone's box.
-std::vector<NamedStructure> structures_of(const CaseParts& parts, const Grid& grid, std::ostream& messages) {
-    std::vector<NamedStructure> structures;
-    for (const auto& path : parts.segmentations) {
-        const Segmentation segmentation = read(path, parts);
+std::vector<CaseStructure> structures_of(const BegunCase& begun, const Grid& grid, std::ostream& messages) {
+    std::vector<CaseStructure> structures;
+    for (std::size_t i = 0; i < begun.segmentations.size(); ++i) {
+        const Segmentation& segmentation = *begun.segmentations[i];
+        if (segmentation.segments.empty())
+            messages << fmt::format("{}: no voxel has a label; left out\n", segmentation.path.string());
         for (const Segment& segment : segmentation.segments) {
             StructureMask mask = structure_of(segmentation, segment, grid);
             if (mask.empty()) {
-                messages << fmt::format("{}: segment \"{}\" lies outside the bone; left out\n", path.string(),
-                                        segment.name);
+                messages << fmt::format("{}: segment \"{}\" lies outside the bone; left out\n",
+                                        segmentation.path.string(), segment.name);
                 continue;
             }
-            structures.push_back(
-                {.name = segment.name,
-                 .colour_rgb = segment.colour_rgb.value_or(palette[structures.size() % palette.size()]),
-                 .mask = std::move(mask)});
+            structures.push_back({.structure = {.name = segment.name,
+                                                .colour_rgb = segment.colour_rgb.value_or(
+                                                    palette[structures.size() % palette.size()]),
+                                                .mask = std::move(mask)},
+                                  .material = material_of(segment.name, begun.parts, i < begun.labels)});
         }
     }
     if (structures.size() > most_tissues)
         throw std::runtime_error(
             fmt::format("the segmentations have more than {} segments in the bone's box", most_tissues));
-    if (structures.empty() && !parts.segmentations.empty())
+    if (structures.empty())
         throw std::runtime_error(fmt::format("{}: none of its segments lies in the bone's box",
-                                             parts.segmentations.front().string()));
+                                             begun.segmentations.front()->path.string()));
     return structures;
 }
 
-std::vector<Tissue> tissues_of(const std::vector<NamedStructure>& structures, const CaseParts& parts) {
+std::vector<Tissue> tissues_of(const std::vector<CaseStructure>& structures, const CaseParts& parts) {
     std::vector<Tissue> tissues;
-    for (const NamedStructure& one : structures) {
+    for (const auto& [one, material] : structures) {
         Tissue tissue{.label = static_cast<std::uint8_t>(tissues.size() + 1),
                       .name = one.name,
                       .colour_rgb = one.colour_rgb,
@@ -107,6 +158,10 @@ std::vector<Tissue> tissues_of(const std::vector<NamedStructure>& structures, co
             tissue.is_protected = true;
             tissue.warn_mm = parts.warn_mm;
         }
+        if (material != nullptr)
+            tissue.strength = TissueStrength{.material = material->name,
+                                             .relative_stiffness = material->relative_stiffness,
+                                             .relative_edge = material->relative_edge};
         tissues.push_back(tissue);
     }
     std::set<std::string> names;
@@ -138,35 +193,62 @@ std::string name_of_case(const std::filesystem::path& folder) {
     return (whole.has_filename() ? whole : whole.parent_path()).filename().string();
 }
 
-CaseParts begin_case(const std::filesystem::path& folder, CaseParts parts) {
+BegunCase read_case_parts(CaseParts parts) {
+    BegunCase begun;
+    for (const auto& path : label_maps(parts.labels)) begun.segmentations.push_back(read(path, parts));
+    begun.labels = begun.segmentations.size();
+    for (const auto& path : label_maps(parts.segmentations)) begun.segmentations.push_back(read(path, parts));
+    const std::set<std::string> names = segment_names(begun);
+    for (std::string& name : parts.is_protected) name = known_name("--protect", name, names);
+    if (parts.target) parts.target = known_name("--target", *parts.target, names);
+    for (const auto& [name, material] : std::exchange(parts.materials, {})) {
+        (void)material_named(material);
+        parts.materials[known_name("--material", name, names)] = material;
+    }
+    begun.parts = std::move(parts);
+    return begun;
+}
+
+void begin_case(const std::filesystem::path& folder) {
     std::error_code failed;
     if (std::filesystem::exists(folder / scene_name, failed))
         throw std::runtime_error(fmt::format(
             "{}: holds a case already; give another --case, or take it away first", folder.string()));
-    // All that can be refused is refused before an hour of work.
-    const std::set<std::string> names = segment_names(parts);
-    for (std::string& name : parts.is_protected) name = known_name("--protect", name, names);
-    if (parts.target) parts.target = known_name("--target", *parts.target, names);
     std::filesystem::create_directories(folder, failed);
     if (!std::filesystem::is_directory(folder))
         throw std::runtime_error(fmt::format("{}: cannot be made a folder", folder.string()));
-    return parts;
+}
+
+OpenedImage scan_of_labels(const BegunCase& begun, std::ostream& messages) {
+    const std::vector<std::shared_ptr<const Segmentation>> maps(
+        begun.segmentations.begin(), begun.segmentations.begin() + static_cast<std::ptrdiff_t>(begun.labels));
+    for (const auto& map : maps)
+        for (const Segment& segment : map->segments) {
+            const Material* material = material_of(segment.name, begun.parts, true);
+            messages << fmt::format("\"{}\" is {}\n", segment.name,
+                                    material != nullptr ? "made of " + material->name : "no bone");
+        }
+    return bone_of_labels(maps, [&](const Segment& segment) {
+        return material_of(segment.name, begun.parts, true) != nullptr;
+    });
 }
 
 std::filesystem::path bone_of_case(const std::filesystem::path& folder) {
     return folder / "bone.nrrd";
 }
 
-void finish_case(const std::filesystem::path& folder, const CaseParts& parts, std::ostream& messages) {
+void finish_case(const std::filesystem::path& folder, const BegunCase& begun, std::ostream& messages) {
     Scene scene = scene_of_bone_file(bone_of_case(folder));
     scene.name = name_of_case(folder);
     std::filesystem::path segmentation;
-    if (!parts.segmentations.empty()) {
-        const auto structures = structures_of(parts, BoneFile(bone_of_case(folder)).grid(), messages);
-        scene.tissues = tissues_of(structures, parts);
-        write_segmentation(folder / segmentation_name, structures);
+    if (!begun.segmentations.empty()) {
+        auto structures = structures_of(begun, BoneFile(bone_of_case(folder)).grid(), messages);
+        scene.tissues = tissues_of(structures, begun.parts);
+        std::vector<NamedStructure> named;
+        for (CaseStructure& one : structures) named.push_back(std::move(one.structure));
+        write_segmentation(folder / segmentation_name, named);
         segmentation = segmentation_name;
-        if (parts.target) scene.plan = Plan{.region = TissueRegion{*parts.target}};
+        if (begun.parts.target) scene.plan = Plan{.region = TissueRegion{*begun.parts.target}};
     }
     // As it will be loaded: what would be refused then is refused now.
     Scene loaded = scene;

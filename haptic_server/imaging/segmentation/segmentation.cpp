@@ -13,6 +13,7 @@
 #include "common/scene/nearest_name.h"
 #include "haptic_server/imaging/formats/header_text.h"
 #include "haptic_server/imaging/formats/image_reader.h"
+#include "haptic_server/imaging/formats/picture_stack.h"
 #include "haptic_server/imaging/imaging_error.h"
 
 namespace osteomill {
@@ -151,13 +152,55 @@ Segmentation read_segmentation(const std::filesystem::path& path) {
     return segmentation;
 }
 
+Segmentation read_picture_labels(const std::filesystem::path& path, const glm::dvec3& spacing_mm) {
+    PictureStack stack = open_picture_stack(path, spacing_mm);
+    std::map<std::uint32_t, std::uint16_t> label_of_colour;
+    OpenedImage labels = stack.opened;
+    if (stack.is_coloured)
+        labels.read_slices = [&](const TakeSlice& take, const ReportProgress& report) {
+            stack.opened.read_slices(
+                [&](int k, std::span<float> slice) {
+                    for (float& value : slice) {
+                        if (value == 0.0F) continue;
+                        const auto next = static_cast<std::uint16_t>(label_of_colour.size() + 1);
+                        value =
+                            label_of_colour.emplace(static_cast<std::uint32_t>(value), next).first->second;
+                        if (next > most_segments + 1)
+                            throw ImagingError(path, "is no label map: it holds more than 4096 colours");
+                    }
+                    take(k, slice);
+                },
+                report);
+        };
+    Segmentation segmentation{.path = path,
+                              .image = stack.opened.image,
+                              .segments = {},
+                              .is_plain_map = true,
+                              .is_by_colour = stack.is_coloured,
+                              .labels = {}};
+    segmentation.labels = read_labels(path, labels);
+    if (!stack.is_coloured) segmentation.segments = numbered_segments(segmentation.labels);
+    for (const auto& [colour, label] : label_of_colour)
+        segmentation.segments.push_back({.name = fmt::format("#{:06x}", colour),
+                                         .label = label,
+                                         .colour_rgb = std::array{static_cast<std::uint8_t>(colour >> 16U),
+                                                                  static_cast<std::uint8_t>(colour >> 8U),
+                                                                  static_cast<std::uint8_t>(colour)}});
+    return segmentation;
+}
+
 void name_segments(Segmentation& segmentation, const ColourTable& table) {
     if (!segmentation.is_plain_map)
         throw ImagingError(segmentation.path,
                            "names its segments itself; a colour table is for plain label maps");
     std::set<std::string> names;
     for (Segment& segment : segmentation.segments) {
-        if (const auto found = table.find(segment.label); found != table.end()) {
+        const auto found =
+            segmentation.is_by_colour
+                ? std::ranges::find_if(
+                      table, [&](const auto& row) { return row.second.colour_rgb == segment.colour_rgb; })
+                : table.find(segment.label);
+        if (found != table.end()) {
             segment.name = found->second.name;
             segment.colour_rgb = found->second.colour_rgb;
         }

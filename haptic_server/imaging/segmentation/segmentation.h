@@ -30,17 +30,22 @@ struct Segmentation {
     SourceImage image;  ///< without values
     std::vector<Segment> segments;
     bool is_plain_map = false;  ///< its segments have no names of their own
+    bool is_by_colour = false;  ///< a plain map of coloured pictures
     LabelRows labels;
 };
 
 /// Throws ImagingError, in one line, for what open_labels refuses, names that do not fit their labels, labels
-/// that are no whole numbers from 0 to 65535 (within 0.01), more
-/// than 4096 different ones, and more than memory is given to.
+/// that are no whole numbers from 0 to 65535 (within 0.01), more than 4096 different ones, and more than
+/// memory is given to.
 Segmentation read_segmentation(const std::filesystem::path& path);
 
-/// Gives the segments of a plain label map the names and colours of their labels; those that the table does
-/// not know keep theirs, and of two with one name the later has its number behind it. Throws ImagingError for
-/// a segmentation that names its segments itself.
+/// A stack of pictures (picture_stack.h): grey levels are labels, or every colour but black is one, which
+/// bears it as its name ("#ff0000"). Throws as read_segmentation, and for what open_picture_stack refuses.
+Segmentation read_picture_labels(const std::filesystem::path& path, const glm::dvec3& spacing_mm);
+
+/// Gives the segments of a plain label map the names and colours of their labels, those of coloured pictures
+/// the names of their colours; those that the table does not know keep theirs, and of two with one name the
+/// later has its number behind it. Throws ImagingError for a segmentation that names its segments itself.
 void name_segments(Segmentation& segmentation, const ColourTable& table);
 
 /// By name, blanks and underscores being alike; of a plain label map also by number. Throws ImagingError,

@@ -65,6 +65,8 @@ void draw_cases(StartPage& page) {
     ImGui::SameLine();
     if (button("Import a scan ...", !page.is_session_running())) page.show(StartPage::View::scan_browser);
     ImGui::SameLine();
+    if (button("Import labels ...", !page.is_session_running())) page.show(StartPage::View::labels_browser);
+    ImGui::SameLine();
     if (button("Compare all sessions", !page.is_working())) page.compare_sessions();
     ImGui::SameLine();
     if (ImGui::Button("Hide this")) page.is_hidden = true;
@@ -80,7 +82,7 @@ void draw_cases(StartPage& page) {
 }
 
 void draw_browser(StartPage& page) {
-    const bool is_for_scan = page.view() == StartPage::View::scan_browser;
+    const bool is_for_scan = page.view() != StartPage::View::segmentation_browser;
     ImGui::TextUnformatted(is_for_scan ? "A scan: a DICOM folder, or a NRRD, NIfTI or MetaImage file"
                                        : "A segmentation (.seg.nrrd), or a label map (NRRD, NIfTI)");
     ImGui::TextDisabled("%s", page.listing().folder.c_str());
@@ -193,12 +195,16 @@ void draw_import(StartPage& page, StartPicture& picture) {
         const ImVec2 all = ImGui::GetContentRegionAvail();
         draw_slices(page, picture, {all.x, std::max(all.y - 9.0f * line, 4.0f * line)});
         draw_region(form);
-        number_field("HU threshold", form.threshold_hu, "%.0f");
-        ImGui::SameLine();
+        if (!form.are_labels) {
+            number_field("HU threshold", form.threshold_hu, "%.0f");
+            ImGui::SameLine();
+        }
         number_field("mm a voxel", form.spacing_mm, "%.2f");
         form.spacing_mm = std::clamp(form.spacing_mm, 0.02, 10.0);
-        ImGui::SameLine();
-        ImGui::Checkbox("keep soft tissue", &form.keeps_soft_tissue);
+        if (!form.are_labels) {
+            ImGui::SameLine();
+            ImGui::Checkbox("keep soft tissue", &form.keeps_soft_tissue);
+        }
         ImGui::BeginChild("segments", list_size(3.5f), false);
         if (button("Look there", !page.is_working())) page.look_at_region();
         ImGui::SameLine();
@@ -238,6 +244,7 @@ void draw_start_panel(StartPage& page, StartPicture& picture, const PanelPlace& 
             draw_import(page, picture);
             break;
         case StartPage::View::scan_browser:
+        case StartPage::View::labels_browser:
         case StartPage::View::segmentation_browser:
             draw_browser(page);
             break;

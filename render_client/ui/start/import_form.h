@@ -18,6 +18,7 @@ struct SegmentChoice {
 
 struct ImportForm {
     std::filesystem::path scan{};
+    bool are_labels = false;  ///< the scan is a label map, and bone is made of what is bone in it
     std::vector<std::filesystem::path> segmentations{};
     std::vector<SegmentChoice> segments{};
     ScanBox region{};

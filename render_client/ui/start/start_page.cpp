@@ -74,7 +74,7 @@ StartPage::StartPage(StartPlaces places) : places_(std::move(places)), cases_(ca
 
 void StartPage::show(View view) {
     if (view == View::cases) cases_ = cases_in(cases_of(places_));
-    const bool browses = view == View::scan_browser || view == View::segmentation_browser;
+    const bool browses = view != View::cases && view != View::import;
     if (browses && listing_.folder.empty()) {
         const char* home = std::getenv("HOME");
         browse(home != nullptr && *home != '\0' ? home : "/");
@@ -144,8 +144,8 @@ void StartPage::compare_sessions() {
 }
 
 void StartPage::take(const std::filesystem::path& path) {
-    if (view_ == View::scan_browser) {
-        form = {.scan = path, .name = name_of_scan(path)};
+    if (view_ == View::scan_browser || view_ == View::labels_browser) {
+        form = {.scan = path, .are_labels = view_ == View::labels_browser, .name = name_of_scan(path)};
         look_.reset();
         picture_.reset();
         show(View::import);

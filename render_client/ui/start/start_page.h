@@ -29,7 +29,7 @@ std::filesystem::path folder_of_this_program();
 
 class StartPage {
   public:
-    enum class View { cases, import, scan_browser, segmentation_browser };
+    enum class View { cases, import, scan_browser, labels_browser, segmentation_browser };
 
     explicit StartPage(StartPlaces places);
     /// Ends what it started: a session's server writes its report first.

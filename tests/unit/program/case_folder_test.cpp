@@ -4,12 +4,15 @@
 
 #include <fstream>
 #include <glm/geometric.hpp>
+#include <glm/vec2.hpp>
 #include <map>
 #include <numbers>
 #include <sstream>
 #include <stdexcept>
 
 #include "common/scene/scene_file.h"
+#include "haptic_server/imaging/import_bone.h"
+#include "haptic_server/imaging/segmentation/bone_of_labels.h"
 #include "haptic_server/imaging/segmentation/segmentation_file.h"
 #include "haptic_server/program/bone_source.h"
 #include "haptic_server/program/case_placement.h"
@@ -50,7 +53,8 @@ class CaseFolder : public ::testing::Test {
     std::string made(const CaseParts& parts) {
         std::ostringstream messages;
         try {
-            const CaseParts known = begin_case(folder, parts);
+            const BegunCase known = read_case_parts(parts);
+            begin_case(folder);
             testing::write_block(bone_of_case(folder));
             finish_case(folder, known, messages);
         } catch (const std::runtime_error& error) {
@@ -140,6 +144,79 @@ TEST_F(CaseFolder, TakesLabelMapsWithNamesAndColours) {
     EXPECT_EQ(read.tissues[0].colour_rgb, (std::array<std::uint8_t, 3>{10, 20, 30}));
     EXPECT_TRUE(read.tissues[0].is_protected);
     EXPECT_EQ(load_bone(read).structures.size(), 1U);
+}
+
+/// A jaw without a CT, 0.5 mm: a ball of enamel in one of bone, a rod of nerve beside them.
+void write_jaw_labels(const std::filesystem::path& path) {
+    std::ofstream out(path, std::ios::binary);
+    out << "NRRD0004\ntype: uint8\ndimension: 3\nspace: left-posterior-superior\nsizes: 40 40 40\n"
+           "space directions: (0.5,0,0) (0,0.5,0) (0,0,0.5)\nspace origin: (-9.75,-9.75,-9.75)\nencoding: "
+           "raw\n"
+           "Segment0_Name:=Mandible\nSegment0_LabelValue:=1\nSegment1_Name:=thing\nSegment1_LabelValue:=2\n"
+           "Segment2_Name:=Mandibular canal\nSegment2_LabelValue:=3\n\n";
+    for (int z = 0; z < 40; ++z)
+        for (int y = 0; y < 40; ++y)
+            for (int x = 0; x < 40; ++x) {
+                const glm::dvec3 at_mm = 0.5 * glm::dvec3(x, y, z) - 9.75;
+                const bool is_nerve = glm::length(glm::dvec2(at_mm.y - 8.0, at_mm.z)) < 1.0;
+                const double radius_mm = glm::length(at_mm);
+                out.put(is_nerve ? '\3' : radius_mm < 3.0 ? '\2' : radius_mm < 6.0 ? '\1' : '\0');
+            }
+}
+
+TEST_F(CaseFolder, IsMadeOfLabelsAlone) {
+    const std::filesystem::path labels = where / "jaw.seg.nrrd";
+    write_jaw_labels(labels);
+    std::ostringstream messages;
+    const BegunCase begun = read_case_parts(
+        {.labels = {labels}, .is_protected = {"Mandibular_canal"}, .materials = {{"thing", "enamel"}}});
+    begin_case(folder);
+    const ImportOptions options{.input = labels,
+                                .output = bone_of_case(folder),
+                                .spacing_mm = 0.2,
+                                .threshold_hu = threshold_of_labels_hu,
+                                .follows_contours = false};
+    import_bone(options, scan_of_labels(begun, messages), {.messages = messages});
+    finish_case(folder, begun, messages);
+    EXPECT_THAT(messages.str(), HasSubstr("\"Mandible\" is made of cortical bone"));
+    EXPECT_THAT(messages.str(), HasSubstr("\"thing\" is made of enamel"));
+    EXPECT_THAT(messages.str(), HasSubstr("\"Mandibular canal\" is no bone"));
+    const Scene read = scene();
+    ASSERT_EQ(read.tissues.size(), 3U);
+    EXPECT_EQ(read.tissues[0].strength->material, "cortical bone");
+    EXPECT_EQ(read.tissues[1].strength->material, "enamel");
+    EXPECT_FALSE(read.tissues[2].strength);
+    const LoadedBone loaded = load_bone(read);
+    const std::vector<double>& mm3 = loaded.source.loaded_mm3;
+    const double ball_mm3 = 4.0 / 3.0 * std::numbers::pi * 27.0;
+    EXPECT_NEAR(mm3[2], ball_mm3, 0.01 * ball_mm3);
+    EXPECT_NEAR(mm3[1], 7.0 * ball_mm3, 0.07 * ball_mm3);
+    EXPECT_LT(mm3[0], 0.01 * ball_mm3) << "no gap between them";
+    EXPECT_EQ(mm3.size() > 3 ? mm3[3] : 0.0, 0.0) << "no bone";
+    ASSERT_EQ(loaded.structures.size(), 1U);
+    EXPECT_NEAR(loaded.structures[0].mask.volume_mm3(), std::numbers::pi * 19.7,
+                0.03 * std::numbers::pi * 19.7);
+}
+
+TEST_F(CaseFolder, OfLabelsSaysWhatIsWrongWithThem) {
+    const std::filesystem::path labels = where / "jaw.seg.nrrd";
+    write_jaw_labels(labels);
+    const auto refusal = [](const CaseParts& parts) {
+        try {
+            std::ostringstream messages;
+            scan_of_labels(read_case_parts(parts), messages);
+        } catch (const std::runtime_error& error) {
+            return std::string(error.what());
+        }
+        return std::string();
+    };
+    EXPECT_THAT(refusal({.labels = {labels}, .materials = {{"thing", "enamle"}}}),
+                HasSubstr("did you mean \"enamel\"?"));
+    EXPECT_THAT(refusal({.labels = {labels}, .materials = {{"thin", "enamel"}}}),
+                HasSubstr("did you mean \"thing\"?"));
+    EXPECT_THAT(refusal({.labels = {labels}, .materials = {{"Mandible", "soft"}}}),
+                HasSubstr("none of its segments is bone"));
+    EXPECT_THAT(refusal({.labels = {labels, segmentation}}), HasSubstr("its voxels are not those of"));
 }
 
 TEST(SceneOfCase, IsAFolderOrBuiltIn) {

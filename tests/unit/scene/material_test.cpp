@@ -32,5 +32,23 @@ TEST(Materials, AreStrengthsBesideThePublishedBone) {
     }
 }
 
+TEST(Materials, AreThoseOfSegmentsByTheirNames) {
+    const auto of = [](const char* name) {
+        const Material* material = material_of_segment(name);
+        return material == nullptr ? std::string("none") : material->name;
+    };
+    for (const char* name : {"Bone", "Temporal bone", "vertebrae_L1", "rib_left_12", "Malleus",
+                             "Bony_Labyrinth", "Maxilla & Upper Skull", "femur_right", "LeftMandible"})
+        EXPECT_EQ(of(name), "cortical bone") << name;
+    for (const char* name : {"Upper Teeth", "teeth_lower", "Tooth 36", "dentine"})
+        EXPECT_EQ(of(name), "dentine") << name;
+    EXPECT_EQ(of("tooth_enamel"), "enamel");
+    EXPECT_EQ(of("trabecular bone"), "trabecular bone");
+    for (const char* name :
+         {"Facial_Nerve", "Mandibular canal", "inferior_alveolar_canal_left", "ICA", "Sinus_+_Dura",
+          "bone marrow", "costal_cartilages", "TMJ", "EAC", "IAC", "Tumour", "", "boneless"})
+        EXPECT_EQ(of(name), "none") << name;
+}
+
 }  // namespace
 }  // namespace osteomill

@@ -65,8 +65,8 @@ TEST(ImportForm, BecomesACommand) {
                                             "--case",
                                             "/c/head 1",
                                             "--region=-60.00,10.00,730.00,-20.00,50.00,770.00",
-                                            "--threshold-hu=300",
                                             "--spacing-mm=0.1",
+                                            "--threshold-hu=300",
                                             "--keep-soft-tissue",
                                             "--segmentation=/s/a b.seg.nrrd",
                                             "--protect=Dura",
@@ -77,6 +77,12 @@ TEST(ImportForm, BecomesACommand) {
               (std::vector<std::string>{"bone_import", "/s/head", "--preview", "/t/look.png",
                                         "--segmentation=/s/a b.seg.nrrd"}));
     EXPECT_EQ(look_command("bone_import", form, "/t/look.png", true).at(4), expected.at(4));
+    form.are_labels = true;  // which have no HU
+    form.segmentations.clear();
+    form.segments.clear();
+    EXPECT_EQ(import_command("bone_import", form, "/c/head 1"),
+              (std::vector<std::string>{"bone_import", "--labels=/s/head", "--case", "/c/head 1", expected[4],
+                                        "--spacing-mm=0.1"}));
 }
 
 TEST(ImportForm, KeepsWhatWasChosenWhenSegmentsComeOrGo) {

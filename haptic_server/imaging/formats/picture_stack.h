@@ -1,0 +1,36 @@
+// A volume as a stack of pictures, PNG or TIFF, a slice each: a folder of them in the order of the numbers in
+// their names, or one TIFF of several pages. Micro-CT comes so, and labels as colours.
+//
+// A picture says nothing of the patient: its columns are taken to run left, its rows to the back, the slices
+// up.
+#pragma once
+
+#include <filesystem>
+#include <glm/vec3.hpp>
+#include <string>
+#include <vector>
+
+#include "haptic_server/imaging/formats/image_reader.h"
+
+namespace osteomill {
+
+struct PictureStack {
+    /// Values are grey levels (8 or 16 bits, of TIFF floats, too), or of coloured pictures 0xRRGGBB, which a
+    /// float holds; 0 where a picture is transparent.
+    OpenedImage opened;
+    bool is_coloured = false;
+};
+
+/// "x,y,z" in mm, as --stack-spacing takes it. Throws std::invalid_argument unless it is three numbers above
+/// 0.
+glm::dvec3 parse_stack_spacing(const std::string& text);
+
+/// Whether a path is what open_picture_stack takes, by names alone.
+bool is_picture_stack(const std::filesystem::path& path);
+
+/// Reads what the first picture says of size and form. Throws ImagingError in one line where there are fewer
+/// than two pictures, one cannot be read, or is of a form that is not read; reading the slices, where a
+/// picture has another size or form than the first.
+PictureStack open_picture_stack(const std::filesystem::path& path, const glm::dvec3& spacing_mm);
+
+}  // namespace osteomill

@@ -1,0 +1,107 @@
+#include "haptic_server/imaging/formats/picture_stack.h"
+
+#include <gmock/gmock.h>
+
+#include <fstream>
+
+#include "haptic_server/imaging/imaging_error.h"
+#include "haptic_server/imaging/segmentation/segmentation.h"
+#include "tests/support/picture_files.h"
+#include "tests/support/temporary_folder.h"
+
+namespace osteomill {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+
+const glm::dvec3 spacing_mm(0.2, 0.3, 0.4);
+
+class PictureStackFolder : public ::testing::Test {
+  protected:
+    std::string refusal() const {
+        try {
+            open_picture_stack(folder_.path(), spacing_mm).opened.read_values([](double) {});
+        } catch (const ImagingError& error) {
+            return error.what();
+        }
+        return "";
+    }
+    std::vector<float> values() const {
+        return open_picture_stack(folder_.path(), spacing_mm).opened.read_values([](double) {});
+    }
+    testing::TemporaryFolder folder_;
+};
+
+TEST_F(PictureStackFolder, IsInTheOrderOfTheNumbersInItsNames) {
+    for (const std::uint8_t number : std::vector<std::uint8_t>{9, 10, 100, 1})
+        testing::write_png_picture(folder_ / ("plane" + std::to_string(number) + ".png"), 2, 2,
+                                   PNG_FORMAT_GRAY, {number, 0, 0, 255});
+    std::ofstream(folder_ / "about.txt") << "no picture";
+    const PictureStack stack = open_picture_stack(folder_.path(), spacing_mm);
+    EXPECT_FALSE(stack.is_coloured);
+    EXPECT_EQ(stack.opened.image.size_voxels, glm::ivec3(2, 2, 4));
+    EXPECT_EQ(stack.opened.image.spacing_mm, spacing_mm);
+    EXPECT_THAT(stack.opened.image.notes, ElementsAre(HasSubstr("left and right are a guess")));
+    const std::vector<float> all = values();
+    EXPECT_THAT((std::vector<float>{all[0], all[4], all[8], all[12]}),
+                ElementsAre(1.0F, 9.0F, 10.0F, 100.0F));
+    EXPECT_EQ(all[3], 255.0F);
+}
+
+TEST_F(PictureStackFolder, OfTiffHasAllLevelsAndAllPages) {
+    testing::write_tiff_pages<std::uint16_t>(folder_ / "a1.tif", 3, 4,
+                                             {std::vector<std::uint16_t>(12, 65535)});
+    testing::write_tiff_pages<std::uint16_t>(
+        folder_ / "a2.TIFF", 3, 4, {std::vector<std::uint16_t>(12, 300), std::vector<std::uint16_t>(12, 7)});
+    const std::vector<float> all = values();
+    ASSERT_EQ(all.size(), 36U);
+    EXPECT_THAT((std::vector<float>{all[11], all[12], all[35]}), ElementsAre(65535.0F, 300.0F, 7.0F));
+    EXPECT_TRUE(is_picture_stack(folder_ / "a2.TIFF"));
+    EXPECT_EQ(open_picture_stack(folder_ / "a2.TIFF", spacing_mm).opened.image.size_voxels.z, 2);
+}
+
+TEST_F(PictureStackFolder, OfColoursIsALabelMap) {
+    // Bone, the facial nerve, black, and red that is not seen.
+    const std::vector<std::uint8_t> rgba{255, 249, 219, 255, 244, 214, 49, 255, 0, 0, 0, 255, 255, 0, 0, 0};
+    for (const char* name : {"s0.png", "s1.png"})
+        testing::write_png_picture(folder_ / name, 2, 2, PNG_FORMAT_RGBA, rgba);
+    Segmentation read = read_picture_labels(folder_.path(), spacing_mm);
+    ASSERT_EQ(read.segments.size(), 2U);
+    EXPECT_EQ(read.segments[0].name, "#f4d631");
+    name_segments(read, {{40, {"Bone", {255, 249, 219}}}, {41, {"Facial Nerve", {244, 214, 49}}}});
+    EXPECT_EQ(read.segments[0].name, "Facial Nerve");
+    EXPECT_EQ(read.segments[1].colour_rgb, (std::array<std::uint8_t, 3>{255, 249, 219}));
+    EXPECT_EQ(read.labels.at(0, {0, 0, 1}), segment_named(read, "Bone").label);
+    EXPECT_EQ(read.labels.at(0, {1, 0, 1}), segment_named(read, "Facial_Nerve").label);
+    EXPECT_EQ(read.labels.at(0, {0, 1, 1}), 0);
+    EXPECT_EQ(read.labels.at(0, {1, 1, 1}), 0);
+}
+
+TEST_F(PictureStackFolder, IsRefusedInOneLineWhereItIsNone) {
+    EXPECT_THAT(refusal(), HasSubstr("is no stack of pictures"));
+    const std::vector<std::uint8_t> grey(16, 5);
+    testing::write_png_picture(folder_ / "1.png", 4, 4, PNG_FORMAT_GRAY, grey);
+    EXPECT_THAT(refusal(), HasSubstr("is no stack of pictures"));
+    testing::write_png_picture(folder_ / "2.png", 2, 8, PNG_FORMAT_GRAY, grey);
+    EXPECT_THAT(refusal(), HasSubstr("2.png: is of 2 x 8 pixels, grey; the first of its stack is of 4 x 4"));
+    std::ofstream(folder_ / "2.png", std::ios::binary) << "no PNG at all";
+    EXPECT_THAT(refusal(), HasSubstr("2.png: cannot be read as PNG"));
+    testing::write_png_picture(folder_ / "2.png", 4, 4, PNG_FORMAT_GRAY, grey);
+    std::filesystem::resize_file(folder_ / "2.png", std::filesystem::file_size(folder_ / "2.png") - 20);
+    EXPECT_THAT(refusal(), HasSubstr("2.png: cannot be read as PNG"));
+    std::ofstream(folder_ / "2.png", std::ios::trunc).close();
+    EXPECT_THAT(refusal(), HasSubstr("2.png: cannot be read as PNG"));
+    std::ofstream(folder_ / "3.tif") << "II*";
+    EXPECT_THAT(refusal(), HasSubstr("3.tif: cannot be read as TIFF"));
+}
+
+TEST(StackSpacing, IsThreeLengths) {
+    EXPECT_EQ(parse_stack_spacing("0.192,0.2,1e-1"), glm::dvec3(0.192, 0.2, 0.1));
+    for (const char* text :
+         {"", "1", "1,2", "1,2,3,4", "1,2,0", "1,2,-3", "1,2,x", "1;2;3", "nan,1,1", "inf,1,1", "1,2,3 "})
+        EXPECT_THROW(parse_stack_spacing(text), std::invalid_argument) << text;
+}
+
+}  // namespace
+}  // namespace osteomill
