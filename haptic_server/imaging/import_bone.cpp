@@ -175,7 +175,9 @@ void read_part(const ImportOptions& options, const OpenedImage& opened, const Im
             options.input.string(), *fill);
         std::ranges::replace(values, *fill, std::numeric_limits<float>::quiet_NaN());
     }
-    const std::string doubt = histogram.doubt();
+    // What a window makes is not to look like HU of a scan.
+    const bool is_windowed = std::holds_alternative<IntensityWindow>(options.to_hu);
+    const std::string doubt = is_windowed ? std::string() : histogram.doubt();
     if (!doubt.empty())
         surroundings.messages << fmt::format("{}: warning: {}\n", options.input.string(), doubt);
     // Before the long part: what no voxel of the scan reaches, none of the result does but where it
@@ -260,11 +262,7 @@ std::filesystem::path scratch_folder(const ImportOptions& options) {
 /// Coloured pictures are labels.
 OpenedImage open_scan(const ImportOptions& options) {
     if (!is_picture_stack(options.input)) return open_image(options.input, options.series_uid);
-    if (!options.stack_spacing_mm)
-        throw ImagingError(options.input,
-                           "is a stack of pictures, which do not say how far their pixels are "
-                           "apart; give --stack-spacing x,y,z in mm");
-    PictureStack stack = open_picture_stack(options.input, *options.stack_spacing_mm);
+    PictureStack stack = open_picture_stack(options.input, options.stack_spacing_mm);
     if (stack.is_coloured)
         throw ImagingError(options.input,
                            "holds coloured pictures, which have no CT numbers; where colours are "

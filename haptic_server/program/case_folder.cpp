@@ -59,9 +59,8 @@ std::vector<std::filesystem::path> label_maps(const std::vector<std::filesystem:
 }
 
 std::shared_ptr<const Segmentation> read(const std::filesystem::path& path, const CaseParts& parts) {
-    const bool is_stack = parts.stack_spacing_mm && is_picture_stack(path);
     Segmentation segmentation =
-        is_stack ? read_picture_labels(path, *parts.stack_spacing_mm) : read_segmentation(path);
+        is_picture_stack(path) ? read_picture_labels(path, parts.stack_spacing_mm) : read_segmentation(path);
     if (parts.colours && segmentation.is_plain_map)
         name_segments(segmentation, read_colour_table(*parts.colours));
     return std::make_shared<const Segmentation>(std::move(segmentation));

@@ -108,6 +108,7 @@ TEST(Documents, DescribeEveryKeyOfAScene) {
     Scene scene{.name = "all",
                 .bone = FileSource{.path = "bone.nrrd", .threshold_hu = 301.0, .segmentation = "s.nrrd"},
                 .stiffness = {.knots = {{1.0, 1.0}}},
+                .tissues = {},
                 .burrs = default_burr_set(1.0),
                 .start_burr = 1,
                 .wall_friction = 0.3,

@@ -116,7 +116,12 @@ bool is_picture_stack(const std::filesystem::path& path) {
     return !picture_files(path).empty();
 }
 
-PictureStack open_picture_stack(const std::filesystem::path& path, const glm::dvec3& spacing_mm) {
+PictureStack open_picture_stack(const std::filesystem::path& path,
+                                const std::optional<glm::dvec3>& spacing_mm) {
+    if (!spacing_mm)
+        throw ImagingError(path,
+                           "is a stack of pictures, which do not say how far their pixels are apart; give "
+                           "--stack-spacing x,y,z in mm");
     std::vector<Page> pages = pages_of(picture_files(path));
     if (pages.size() < 2)
         throw ImagingError(path,
@@ -126,7 +131,7 @@ PictureStack open_picture_stack(const std::filesystem::path& path, const glm::dv
     PictureStack stack{.opened = {}, .is_coloured = first.is_coloured};
     SourceImage& image = stack.opened.image;
     image.size_voxels = {first.width, first.height, static_cast<int>(pages.size())};
-    image.spacing_mm = spacing_mm;
+    image.spacing_mm = *spacing_mm;
     image.notes.push_back(
         fmt::format("{}: pictures say nothing of orientation: left and right are a guess (columns to the "
                     "left, rows to the back, slices up)",

@@ -7,6 +7,7 @@
 
 #include <filesystem>
 #include <glm/vec3.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -29,8 +30,9 @@ glm::dvec3 parse_stack_spacing(const std::string& text);
 bool is_picture_stack(const std::filesystem::path& path);
 
 /// Reads what the first picture says of size and form. Throws ImagingError in one line where there are fewer
-/// than two pictures, one cannot be read, or is of a form that is not read; reading the slices, where a
-/// picture has another size or form than the first.
-PictureStack open_picture_stack(const std::filesystem::path& path, const glm::dvec3& spacing_mm);
+/// no spacing is given, or fewer than two pictures, one cannot be read, or is of a form that is not read;
+/// reading the slices, where a picture has another size or form than the first.
+PictureStack open_picture_stack(const std::filesystem::path& path,
+                                const std::optional<glm::dvec3>& spacing_mm);
 
 }  // namespace osteomill

@@ -152,7 +152,8 @@ Segmentation read_segmentation(const std::filesystem::path& path) {
     return segmentation;
 }
 
-Segmentation read_picture_labels(const std::filesystem::path& path, const glm::dvec3& spacing_mm) {
+Segmentation read_picture_labels(const std::filesystem::path& path,
+                                 const std::optional<glm::dvec3>& spacing_mm) {
     PictureStack stack = open_picture_stack(path, spacing_mm);
     std::map<std::uint32_t, std::uint16_t> label_of_colour;
     OpenedImage labels = stack.opened;

@@ -41,7 +41,8 @@ Segmentation read_segmentation(const std::filesystem::path& path);
 
 /// A stack of pictures (picture_stack.h): grey levels are labels, or every colour but black is one, which
 /// bears it as its name ("#ff0000"). Throws as read_segmentation, and for what open_picture_stack refuses.
-Segmentation read_picture_labels(const std::filesystem::path& path, const glm::dvec3& spacing_mm);
+Segmentation read_picture_labels(const std::filesystem::path& path,
+                                 const std::optional<glm::dvec3>& spacing_mm);
 
 /// Gives the segments of a plain label map the names and colours of their labels, those of coloured pictures
 /// the names of their colours; those that the table does not know keep theirs, and of two with one name the

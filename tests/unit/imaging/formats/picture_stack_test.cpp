@@ -80,6 +80,7 @@ TEST_F(PictureStackFolder, OfColoursIsALabelMap) {
 
 TEST_F(PictureStackFolder, IsRefusedInOneLineWhereItIsNone) {
     EXPECT_THAT(refusal(), HasSubstr("is no stack of pictures"));
+    EXPECT_THROW(open_picture_stack(folder_.path(), std::nullopt), ImagingError);
     const std::vector<std::uint8_t> grey(16, 5);
     testing::write_png_picture(folder_ / "1.png", 4, 4, PNG_FORMAT_GRAY, grey);
     EXPECT_THAT(refusal(), HasSubstr("is no stack of pictures"));
