@@ -14,7 +14,8 @@ namespace osteomill {
 namespace {
 
 /// A sweep of at most CrescentRows::longest_step_voxels from where the ball has carved, or a ball at rest.
-void carve_short(Bone& bone, const Sweep& ball, const CarveSettings& settings, ChangeSink& changes,
+/// `changes`: null where the bone stays as it is.
+void carve_short(Bone& bone, const Sweep& ball, const CarveSettings& settings, ChangeSink* changes,
                  RemovalSink& sink) noexcept {
     const glm::ivec3 size = bone.grid().size_voxels;
     const auto reach = static_cast<int>(std::ceil(ball.radius)) + 3;
@@ -44,7 +45,7 @@ void carve(Bone& bone, const Sweep& ball, CarveHistory history, const CarveSetti
     Sweep sweep = ball;
     if (!cut_to_grid(sweep, bone.grid().size_voxels)) return;
     if (history == CarveHistory::none)
-        carve_short(bone, {sweep.from, sweep.from, sweep.radius}, settings, changes, removed);
+        carve_short(bone, {sweep.from, sweep.from, sweep.radius}, settings, &changes, removed);
     const glm::dvec3 along = sweep.to - sweep.from;
     const double length = glm::length(along);
     if (length == 0.0) return;
@@ -53,9 +54,15 @@ void carve(Bone& bone, const Sweep& ball, CarveHistory history, const CarveSetti
     glm::dvec3 from = sweep.from;
     for (double part = 1.0; part <= parts; part += 1.0) {
         const glm::dvec3 to = part == parts ? sweep.to : sweep.from + along * (part / parts);
-        carve_short(bone, {from, to, sweep.radius}, settings, changes, removed);
+        carve_short(bone, {from, to, sweep.radius}, settings, &changes, removed);
         from = to;
     }
+}
+
+void look_ahead(Bone& bone, const Sweep& ball, const CarveSettings& settings,
+                RemovalSink& would_go) noexcept {
+    Sweep sweep = ball;
+    if (cut_to_grid(sweep, bone.grid().size_voxels)) carve_short(bone, sweep, settings, nullptr, would_go);
 }
 
 }  // namespace osteomill

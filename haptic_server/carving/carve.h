@@ -33,4 +33,8 @@ struct CarveSettings {
 void carve(Bone& bone, const Sweep& ball, CarveHistory history, const CarveSettings& settings,
            ChangeSink& changes, RemovalSink& removed) noexcept;
 
+/// Hands to `would_go` what carve() would remove where the ball has carved at `from`, and leaves the bone as
+/// it is. The sweep is no longer than CrescentRows::longest_step_voxels. Real-time safe.
+void look_ahead(Bone& bone, const Sweep& ball, const CarveSettings& settings, RemovalSink& would_go) noexcept;
+
 }  // namespace osteomill

@@ -80,7 +80,8 @@ class SweptHead {
 /// Carves one short sweep.
 class HeadCarver {
   public:
-    HeadCarver(Bone& bone, const HeadSweep& sweep, const CarveSettings& settings, ChangeSink& changes,
+    /// `changes`: null where the bone stays as it is.
+    HeadCarver(Bone& bone, const HeadSweep& sweep, const CarveSettings& settings, ChangeSink* changes,
                RemovalSink& removed) noexcept
         : bone_(bone),
           head_(sweep),
@@ -129,7 +130,7 @@ class HeadCarver {
             for (int y = 0; y < brick_edge_voxels; y += block_edge)
                 for (int x = 0; x < brick_edge_voxels; x += block_edge)
                     has_changed |= carve_block(slot, corner, {x, y, z}, change);
-        if (has_changed) changes_.push(change, bone_.fractions(slot));
+        if (has_changed && changes_ != nullptr) changes_->push(change, bone_.fractions(slot));
     }
 
     bool carve_block(std::int32_t slot, const glm::ivec3& corner, const glm::ivec3& block,
@@ -167,7 +168,7 @@ class HeadCarver {
         const std::int32_t left =
             std::min(old, level_left_at(coverage_, head_.swept(glm::dvec3(position), touched_within_)));
         if (left == old) return false;
-        fraction = static_cast<std::uint8_t>(left);
+        if (changes_ != nullptr) fraction = static_cast<std::uint8_t>(left);
         change.voxels.set(offset);
         enter(slot, offset, position, old - left);
         return true;
@@ -198,7 +199,7 @@ class HeadCarver {
     VoxelCoverage coverage_;
     const UncutTissues* uncut_;
     double touched_within_;
-    ChangeSink& changes_;
+    ChangeSink* changes_;
     RemovalSink& sink_;
     glm::ivec3 first_brick_{0};
     glm::ivec3 end_brick_{0};
@@ -222,9 +223,14 @@ void carve_head(Bone& bone, const HeadSweep& sweep, const CarveSettings& setting
     glm::dvec3 from = near.from;
     for (double part = 1.0; part <= parts; part += 1.0) {
         const glm::dvec3 to = part == parts ? near.to : near.from + along * (part / parts);
-        HeadCarver(bone, {sweep.profile, sweep.frame, from, to}, settings, changes, removed).carve();
+        HeadCarver(bone, {sweep.profile, sweep.frame, from, to}, settings, &changes, removed).carve();
         from = to;
     }
+}
+
+void look_ahead(Bone& bone, const HeadSweep& sweep, const CarveSettings& settings,
+                RemovalSink& would_go) noexcept {
+    HeadCarver(bone, sweep, settings, nullptr, would_go).carve();
 }
 
 }  // namespace osteomill

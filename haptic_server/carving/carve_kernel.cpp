@@ -16,7 +16,7 @@ using simd::Ints;
 static_assert(simd::width == RemovedVoxels::lanes);
 
 CarveKernel::CarveKernel(Bone& bone, const glm::ivec3& base, const SweepSeenFrom& sweep,
-                         const CarveSettings& settings, ChangeSink& changes, RemovalSink& removed) noexcept
+                         const CarveSettings& settings, ChangeSink* changes, RemovalSink& removed) noexcept
     : bone_(bone),
       sweep_(sweep),
       instructions_(settings.instructions),
@@ -196,7 +196,7 @@ struct CarveKernel::Loops {
             if (count == 0) continue;
             const glm::ivec3 brick(brick_x, brick_y, slices.first / brick_edge_voxels);
             carve_list<coverage>(sweep, fast, slot, brick * brick_edge_voxels, count);
-            to.write_back(slot);
+            if (to.changes_ != nullptr) to.write_back(slot);
         }
     }
 
@@ -258,7 +258,7 @@ void CarveKernel::write_back(std::int32_t slot) noexcept {
         }
         left += row->length();
     }
-    if (has_changed) changes_.push(change, bone_.fractions(slot));
+    if (has_changed) changes_->push(change, bone_.fractions(slot));
 }
 
 void CarveKernel::hand_on_voxels() noexcept {

@@ -20,10 +20,10 @@ namespace osteomill {
 class CarveKernel {
   public:
     /// `base`: the voxel that positions are counted from, the first of a brick; `sweep` is seen from it.
-    /// Bricks that changed go to `changes`, what voxels lose to `removed`, the last of it with
-    /// hand_on_voxels(); in a fixed order. Real-time safe, and so is all the rest.
+    /// Bricks that changed go to `changes` (null: the bone is left as it is), what voxels lose to `removed`,
+    /// the last of it with hand_on_voxels(); in a fixed order. Real-time safe, and so is all the rest.
     CarveKernel(Bone& bone, const glm::ivec3& base, const SweepSeenFrom& sweep, const CarveSettings& settings,
-                ChangeSink& changes, RemovalSink& removed) noexcept;
+                ChangeSink* changes, RemovalSink& removed) noexcept;
 
     /// Lowers what the sweep covers of the bricks in row `brick_y` of a layer. `z`: the slices of the layer
     /// that there are.
@@ -50,7 +50,7 @@ class CarveKernel {
     SweepSeenFrom sweep_;
     InstructionSet instructions_;
     const UncutTissues* uncut_;
-    ChangeSink& changes_;
+    ChangeSink* changes_;
     RemovalSink& sink_;
     /// Neighbouring voxels of a row of a brick: offset of the first, and how many, in one number.
     struct Row {

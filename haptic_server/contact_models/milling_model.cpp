@@ -30,6 +30,10 @@ constexpr double longest_head_substep_voxels = 1.0;
 constexpr double shortest_path_voxels = 0.02;
 constexpr double longest_wait_s = 0.001 - 1e-7;
 
+/// How far ahead a burr's edges look for bone at least: as far as it takes to see a face from the levels of
+/// its voxels. Within that of the bone they rub already.
+constexpr double least_look_voxels = 0.25;
+
 /// Nobody feels the direction of a step that crosses the whole bone.
 constexpr double most_substeps = 64.0;
 
@@ -50,16 +54,13 @@ glm::dvec3 axis_between(const glm::dvec3& from, const glm::dvec3& to, double sha
 template <typename Force>
 class ForceOfRemoved final : public RemovalSink {
   public:
-    /// `shares`: null where edges rub as the stiffness says.
-    ForceOfRemoved(const BoneContent& content, const EdgeShares* shares, RemovalAccount& account,
-                   Force& force) noexcept
-        : content_(content), shares_(shares), account_(account), force_(force) {}
+    ForceOfRemoved(const BoneContent& content, RemovalAccount& account, Force& force) noexcept
+        : content_(content), account_(account), force_(force) {}
 
     void take(const RemovedVoxels& removed) noexcept override {
         enter(removed);
         weigh_by_stiffness(content_, removed, weights_);
-        const std::span<const float> weights(weights_.data(), removed.padded_count());
-        force_.add(removed, {.chip = weights, .edge = shares_ ? edge_weights(removed) : weights});
+        force_.add(removed, {weights_.data(), removed.padded_count()});
     }
 
   private:
@@ -73,21 +74,36 @@ class ForceOfRemoved final : public RemovalSink {
                           static_cast<double>(removed.levels[i]));
     }
 
-    std::span<const float> edge_weights(const RemovedVoxels& removed) noexcept {
-        for (std::size_t i = 0; i < removed.count; ++i)
-            edge_weights_[i] =
-                weights_[i] * shares_->of_label[content_.tissue_in(
-                                  removed.slot[i], static_cast<std::size_t>(removed.offset[i]))];
-        for (std::size_t i = removed.count; i < removed.padded_count(); ++i) edge_weights_[i] = 0.0f;
-        return {edge_weights_.data(), removed.padded_count()};
-    }
-
     const BoneContent& content_;
-    const EdgeShares* shares_;
     RemovalAccount& account_;
     Force& force_;
     alignas(64) std::array<float, RemovedVoxels::capacity> weights_;
-    alignas(64) std::array<float, RemovedVoxels::capacity> edge_weights_;
+};
+
+/// Weighs each voxel that edges rub on by its stiffness and its tissue's share, and hands it to the force.
+template <typename Force>
+class ForceOfRubbed final : public RemovalSink {
+  public:
+    /// `shares`: null where edges rub as the stiffness says.
+    ForceOfRubbed(const BoneContent& content, const EdgeShares* shares, const CuttingStep& edges,
+                  Force& force) noexcept
+        : content_(content), shares_(shares), edges_(edges), force_(force) {}
+
+    void take(const RemovedVoxels& rubbed) noexcept override {
+        weigh_by_stiffness(content_, rubbed, weights_);
+        if (shares_ != nullptr)
+            for (std::size_t i = 0; i < rubbed.count; ++i)
+                weights_[i] *= shares_->of_label[content_.tissue_in(
+                    rubbed.slot[i], static_cast<std::size_t>(rubbed.offset[i]))];
+        force_.add_edges(edges_, rubbed, {weights_.data(), rubbed.padded_count()});
+    }
+
+  private:
+    const BoneContent& content_;
+    const EdgeShares* shares_;
+    const CuttingStep& edges_;
+    Force& force_;
+    alignas(64) std::array<float, RemovedVoxels::capacity> weights_;
 };
 
 }  // namespace
@@ -118,11 +134,24 @@ MillingModel::MillingModel(Bone bone, std::vector<Burr> burrs, const std::vector
 template <typename Force>
 void MillingModel::carve_and_sum(const Sweep& sweep, const CuttingStep& cutting, double share,
                                  ChangeSink& changes, Force& force, MillingResult& result) noexcept {
-    const bool have_shares = has_edge_shares_ && burrs_[burr_].has_edge_force();
-    ForceOfRemoved removed(bone_.content(), have_shares ? &edge_shares_ : nullptr, account_, force);
+    ForceOfRemoved removed(bone_.content(), account_, force);
     const CarveSettings carving{.coverage = settings_.coverage,
                                 .instructions = settings_.instructions,
                                 .uncut = uncut_.has_any ? &uncut_ : nullptr};
+    const glm::dvec3 path = sweep.to - sweep.from;
+    // Where the burr has not carved yet, its own place is full of bone.
+    if (burrs_[burr_].has_edge_force() && carved_at_position_ && path != glm::dvec3(0.0)) {
+        const double length = glm::length(path);
+        const glm::dvec3 ahead =
+            path * (std::clamp(length, least_look_voxels, CrescentRows::longest_step_voxels) / length);
+        const CuttingStep edges = cutting.of_edges(burrs_[burr_], sweep.from, ahead);
+        ForceOfRubbed rubbed(bone_.content(), has_edge_shares_ ? &edge_shares_ : nullptr, edges, force);
+        if (cutting.head != nullptr)
+            look_ahead(bone_, HeadSweep{*cutting.head, cutting.frame, sweep.from, sweep.from + ahead},
+                       carving, rubbed);
+        else
+            look_ahead(bone_, Sweep{sweep.from, sweep.from + ahead, sweep.radius}, carving, rubbed);
+    }
     if (cutting.head != nullptr)
         carve_head(bone_, {*cutting.head, cutting.frame, sweep.from, sweep.to}, carving, changes, removed);
     else
@@ -138,8 +167,7 @@ void MillingModel::cut(const BurrCommand& command, const ToolPose& to, double sh
     const Sweep sweep{to_voxel_coordinates(grid, position_mm_), to_voxel_coordinates(grid, to.position_mm),
                       burr.radius_mm() / grid.spacing_mm};
     const CuttingStep cutting(burr, to.spindle_axis, 0.5 * (sweep.from + sweep.to), grid.spacing_mm,
-                              share * since_milled_s_, to.position_mm - position_mm_,
-                              heads_[burr_] ? &*heads_[burr_] : nullptr);
+                              share * since_milled_s_, heads_[burr_] ? &*heads_[burr_] : nullptr);
     if (settings_.summation == ForceSummation::voxels) {
         MeanForce force(cutting, settings_.instructions);
         carve_and_sum(sweep, cutting, share, changes, force, result);

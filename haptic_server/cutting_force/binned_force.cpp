@@ -7,8 +7,6 @@
 #include <numbers>
 #include <stdexcept>
 
-#include "haptic_server/cutting_force/edge_advance.h"
-
 namespace osteomill {
 
 BinnedForce::BinnedForce(const ChipBins& bins)
@@ -16,7 +14,6 @@ BinnedForce::BinnedForce(const ChipBins& bins)
     if (bins.psi < 1 || bins.z < 1)
         throw std::invalid_argument("a chip map needs at least one bin in psi and in z");
     weighted_volume_mm3_.resize(static_cast<std::size_t>(bins.psi) * static_cast<std::size_t>(bins.z));
-    weighted_face_mm2_.resize(weighted_volume_mm3_.size());
 }
 
 void BinnedForce::begin_step(const Burr& burr, const CuttingStep& step) noexcept {
@@ -24,19 +21,17 @@ void BinnedForce::begin_step(const Burr& burr, const CuttingStep& step) noexcept
     radius_mm_ = burr.radius_mm();
     edges_ = burr.edges;
     teeth_ = burr.edges * burr.spindle_rev_per_s * step.elapsed_s;
-    if (holds_any_) {
-        std::fill(weighted_volume_mm3_.begin(), weighted_volume_mm3_.end(), 0.0);
-        std::fill(weighted_face_mm2_.begin(), weighted_face_mm2_.end(), 0.0);
-    }
+    if (holds_any_) std::fill(weighted_volume_mm3_.begin(), weighted_volume_mm3_.end(), 0.0);
     holds_any_ = false;
+    edges_n_ = glm::dvec3(0.0);
 }
 
-void BinnedForce::add(const RemovedVoxels& removed, const ChipWeights& weights) noexcept {
+void BinnedForce::add(const RemovedVoxels& removed, std::span<const float> weights) noexcept {
     holds_any_ |= removed.count > 0;
     const double h = step_.spacing_mm;
     const glm::dvec3 middle = step_.middle_voxels - glm::dvec3(removed.base);
     for (std::size_t i = 0; i < removed.count; ++i) {
-        if (weights.chip[i] == 0.0f) continue;
+        if (weights[i] == 0.0f) continue;
         const glm::dvec3 from_middle_mm = (glm::dvec3(removed.x[i], removed.y[i], removed.z[i]) - middle) * h;
         const glm::dvec3 w(glm::dot(from_middle_mm, step_.frame[0]), glm::dot(from_middle_mm, step_.frame[1]),
                            glm::dot(from_middle_mm, step_.frame[2]));
@@ -46,16 +41,13 @@ void BinnedForce::add(const RemovedVoxels& removed, const ChipWeights& weights) 
         const int bin_z =
             std::clamp(static_cast<int>((w.z + radius_mm_) / slice_height_mm()), 0, bins_.z - 1);
         const auto bin = static_cast<std::size_t>(bin_z * bins_.psi + bin_psi);
-        weighted_volume_mm3_[bin] += static_cast<double>(weights.chip[i]) * h * h * h;
-        if (!step_.has_edge_force) continue;
-        const double distance_mm = glm::length(w);
-        const double half_turn = std::max(static_cast<double>(step_.half_path_voxels) * h / distance_mm,
-                                          static_cast<double>(least_turn));
-        const double advance =
-            edge_advance(glm::dot(w, glm::dvec3(step_.path_direction)) / distance_mm, half_turn);
-        weighted_face_mm2_[bin] += static_cast<double>(weights.edge[i]) * h * h * h *
-                                   static_cast<double>(step_.per_full_chip_mm) / (teeth_ * advance);
+        weighted_volume_mm3_[bin] += static_cast<double>(weights[i]) * h * h * h;
     }
+}
+
+void BinnedForce::add_edges(const CuttingStep& edges, const RemovedVoxels& rubbed,
+                            std::span<const float> weights) noexcept {
+    edges_n_ += edges.newton_per_unit * sum_of_chip_forces(edges, rubbed, weights, InstructionSet::plain);
 }
 
 double BinnedForce::slice_radius_mm(int z) const {
@@ -71,10 +63,8 @@ double BinnedForce::chip_thickness_mm(int psi, int z) const noexcept {
 
 glm::dvec3 BinnedForce::force_n() const noexcept {
     const glm::dvec3 k(step_.coefficients);
-    const glm::dvec3 edge(step_.edge_coefficients_n_per_mm);
-    const double psi_width_rad = 2.0 * std::numbers::pi / bins_.psi;
     glm::dvec3 force{0.0};
-    if (!holds_any_) return force;
+    if (!holds_any_) return step_.frame * edges_n_;
     for (int z = 0; z < bins_.z; ++z) {
         const double cos_kappa = -(-radius_mm_ + (z + 0.5) * slice_height_mm()) / radius_mm_;
         const double sin_kappa = std::sqrt(1.0 - cos_kappa * cos_kappa);
@@ -85,14 +75,11 @@ glm::dvec3 BinnedForce::force_n() const noexcept {
             const glm::dvec3 normal(std::cos(psi) * sin_kappa, std::sin(psi) * sin_kappa, -cos_kappa);
             const glm::dvec3 e_psi(-std::sin(psi), std::cos(psi), 0.0);
             const glm::dvec3 e_kappa(std::cos(psi) * cos_kappa, std::sin(psi) * cos_kappa, sin_kappa);
-            // Edge for each mm of the slice's height, as the chip is.
-            const double edges_per_mm = weighted_face_mm2_[static_cast<std::size_t>(z * bins_.psi + bin)] /
-                                        (slice_radius_mm(z) * psi_width_rad * slice_height_mm());
-            const glm::dvec3 per_mm = chip_mm * k + edges_per_mm * edge;
+            const glm::dvec3 per_mm = chip_mm * k;
             force -= per_mm.x * e_psi + per_mm.y * normal + per_mm.z * e_kappa;
         }
     }
-    return step_.frame * (force * slice_height_mm() * edges_ / static_cast<double>(bins_.psi));
+    return step_.frame * (force * slice_height_mm() * edges_ / static_cast<double>(bins_.psi) + edges_n_);
 }
 
 }  // namespace osteomill

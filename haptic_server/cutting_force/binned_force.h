@@ -26,8 +26,10 @@ class BinnedForce {
     /// Empties the bins.
     void begin_step(const Burr& burr, const CuttingStep& step) noexcept;
 
-    /// As MeanForce::add.
-    void add(const RemovedVoxels& removed, const ChipWeights& weights) noexcept;
+    /// As MeanForce::add and add_edges.
+    void add(const RemovedVoxels& removed, std::span<const float> weights) noexcept;
+    void add_edges(const CuttingStep& edges, const RemovedVoxels& rubbed,
+                   std::span<const float> weights) noexcept;
 
     /// Stiffness-weighted chip thickness of one tooth in a bin, mm: t = sum(s V) / (M r_z dpsi dz), M = N_phi
     /// n_rev dt.
@@ -35,7 +37,7 @@ class BinnedForce {
 
     /// Equation (2): mean over a tooth period of sum T(i,j,k) [K_t K_r K_a]^T t(i,j,k) dz over edges and
     /// slices; N, patient axes. Each edge passes each bin once a revolution, so the mean over instants is a
-    /// sum over bins times N_phi dpsi / 2 pi. Edge forces as in chip_force.h, by the face in each bin.
+    /// sum over bins times N_phi dpsi / 2 pi. Edge forces, which are not of that method, as in chip_force.h.
     glm::dvec3 force_n() const noexcept;
 
   private:
@@ -49,7 +51,7 @@ class BinnedForce {
     double teeth_ = 1.0;                       // that passed each angle during the step
     bool holds_any_ = false;                   // or all bins are empty
     std::vector<double> weighted_volume_mm3_;  // [z][psi]
-    std::vector<double> weighted_face_mm2_;    // likewise, of the face that is cut; zero without edge forces
+    glm::dvec3 edges_n_{0.0};                  // burr axes
 };
 
 }  // namespace osteomill

@@ -20,11 +20,16 @@
 // axis_singularity_kernel.h are taken.
 //
 // An edge that cuts rubs, too (Altintas's linear edge model; Lee and Altintas 1996): dF = (K_te, K_re, K_ae)
-// ds for each mm of it, however thin the chip. A tooth's chip is h = n . d / (N_phi n_rev dt) thick where the
-// burr's path in the step is d, so that K + K_e / h in the place of K is both: s V / (n . d) is the area that
-// the voxel has of the face that is cut. Where V and n . d both are nearly nothing: edge_advance.h. Under an
-// upright burr the face ends at the axis, and the means smear half a voxel of each edge to the side that does
-// not cut: 3 % of the edge force of a 5 mm burr half a millimetre deep.
+// ds for each mm of it, however thin the chip. So that force is of the face that is cut, not of what a step
+// took, which at a slow feed is a level here and there of a voxel's 255. It is summed over the voxels that
+// the burr would cut if it went on by d, a quarter of a voxel or more, each of which has V / (n . d) of the
+// face (edge_advance.h):
+//
+//     f = s V / (n . d) N_phi (-sigma K_te e_psi - K_re n - K_ae e_kappa) / (2 pi r)
+//
+// the law of chips with other coefficients and weights. Under an upright burr the face ends at the axis, and
+// the means smear half a voxel of each edge to the side that does not cut: 3 % of the edge force of a 5 mm
+// burr half a millimetre deep.
 #pragma once
 
 #include <array>
@@ -39,30 +44,30 @@
 
 namespace osteomill {
 
-/// A step, as the force sees it.
+/// A step, as the force sees it: of its chips, or of its edges.
 struct CuttingStep {
-    /// `middle_voxels` is the burr's centre half-way through the step, in voxel coordinates: directions taken
-    /// from the step's end would leave a bias that no refinement removes. `elapsed_s` > 0; `spindle_axis` is
-    /// a unit vector. `path_mm`: from start to end; none: edges do not rub. `head_profile`: in voxels, null
-    /// for a ball; outlives the step.
+    /// Of chips. `middle_voxels` is the burr's centre half-way through the step, in voxel coordinates:
+    /// directions taken from the step's end would leave a bias that no refinement removes. `elapsed_s` > 0;
+    /// `spindle_axis` is a unit vector. `head_profile`: in voxels, null for a ball; outlives the step.
     CuttingStep(const Burr& burr, const glm::dvec3& spindle_axis, const glm::dvec3& middle_voxels,
-                double spacing_mm, double elapsed_s, const glm::dvec3& path_mm = glm::dvec3(0.0),
-                const BurrProfile* head_profile = nullptr);
+                double spacing_mm, double elapsed_s, const BurrProfile* head_profile = nullptr);
+
+    /// Of the edges in such a step: what it takes is bone that the burr would cut on `path_voxels` (not zero)
+    /// from `from_voxels`.
+    CuttingStep of_edges(const Burr& burr, const glm::dvec3& from_voxels,
+                         const glm::dvec3& path_voxels) const;
 
     glm::dmat3 frame;  ///< burr axes in patient axes
     glm::dvec3 middle_voxels;
-    double radius_voxels;
     double spacing_mm;
-    glm::vec3 coefficients;  ///< sigma K_t, K_r, K_a
+    glm::vec3 coefficients;  ///< sigma K_t, K_r, K_a; of edges sigma K_te, K_re, K_ae
     double elapsed_s;
     /// Force in N = this * the sums over `ChipForces`.
     double newton_per_unit;
-    bool has_edge_force;
-    glm::vec3 edge_coefficients_n_per_mm;  ///< sigma K_te, K_re, K_ae
-    glm::vec3 path_direction;              ///< unit, burr axes
-    float per_full_chip_mm;                ///< 1 / h where the path is along the normal
-    float half_path_voxels;
-    const BurrProfile* head;  ///< null: a ball
+    bool is_of_edges = false;
+    glm::vec3 path_direction{0.0f};  ///< of edges: unit, burr axes
+    float half_path_voxels = 0.0f;   ///< likewise
+    const BurrProfile* head;         ///< null: a ball
 };
 
 /// Force of each voxel of a batch, and where the voxel lies; burr axes, voxels. Scratch: set by chip_forces
@@ -76,18 +81,13 @@ struct ChipForces {
     alignas(64) std::array<float, RemovedVoxels::capacity> z;
 };
 
-/// What each removed voxel counts for: relative stiffness times the fraction removed, zero for padding.
-struct ChipWeights {
-    std::span<const float> chip;
-    std::span<const float> edge;  ///< of the edge forces
-};
-
+/// `weights`: what each voxel counts for, relative stiffness times the fraction removed; zero for padding.
 /// Real-time safe.
-void chip_forces(const CuttingStep& step, const RemovedVoxels& removed, const ChipWeights& weights,
+void chip_forces(const CuttingStep& step, const RemovedVoxels& removed, std::span<const float> weights,
                  InstructionSet instructions, ChipForces& out) noexcept;
 
 /// Sum of the same forces; burr axes, in units of CuttingStep::newton_per_unit. Real-time safe.
 glm::dvec3 sum_of_chip_forces(const CuttingStep& step, const RemovedVoxels& removed,
-                              const ChipWeights& weights, InstructionSet instructions) noexcept;
+                              std::span<const float> weights, InstructionSet instructions) noexcept;
 
 }  // namespace osteomill

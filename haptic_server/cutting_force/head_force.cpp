@@ -32,19 +32,16 @@ double advance_share(const CuttingStep& step, const glm::dvec3& position, double
 }
 
 /// Its force, burr axes, in units of CuttingStep::newton_per_unit.
-glm::dvec3 force_of(const CuttingStep& step, const glm::dvec3& position, double weight, double edge_weight) {
+glm::dvec3 force_of(const CuttingStep& step, const glm::dvec3& position, double removed) {
     const double r_squared = position.x * position.x + position.y * position.y;
     const double r = std::sqrt(r_squared);
     const NearestSurface surface = step.head->nearest(r, position.z);
     const double per_r = 1.0 / std::max(r, 0.1);
     const AxisKernel<double> mean = axis_kernel(r_squared, per_r);
 
-    glm::dvec3 k = weight * glm::dvec3(step.coefficients);
-    if (step.has_edge_force) {
-        const double advance = advance_share(step, position, surface.distance);
-        k += static_cast<double>(step.per_full_chip_mm) * edge_weight / advance *
-             glm::dvec3(step.edge_coefficients_n_per_mm);
-    }
+    const double weight =
+        step.is_of_edges ? removed / advance_share(step, position, surface.distance) : removed;
+    const glm::dvec3 k = weight * glm::dvec3(step.coefficients);
     // e_psi / r and e_r / r are the mean swirl times (-y, x) and (x, y).
     const double outward = (k.y * surface.out - k.z * surface.up) * mean.swirl;
     const double around = k.x * mean.swirl;
@@ -54,12 +51,11 @@ glm::dvec3 force_of(const CuttingStep& step, const glm::dvec3& position, double 
 
 }  // namespace
 
-void head_forces(const CuttingStep& step, const RemovedVoxels& removed, const ChipWeights& weights,
+void head_forces(const CuttingStep& step, const RemovedVoxels& removed, std::span<const float> weights,
                  ChipForces& out) noexcept {
     for (std::size_t i = 0; i < removed.padded_count(); ++i) {
         const glm::dvec3 position = position_of(step, removed, i);
-        const glm::dvec3 force = force_of(step, position, static_cast<double>(weights.chip[i]),
-                                          static_cast<double>(weights.edge[i]));
+        const glm::dvec3 force = force_of(step, position, static_cast<double>(weights[i]));
         out.x[i] = static_cast<float>(position.x);
         out.y[i] = static_cast<float>(position.y);
         out.z[i] = static_cast<float>(position.z);
@@ -70,11 +66,10 @@ void head_forces(const CuttingStep& step, const RemovedVoxels& removed, const Ch
 }
 
 glm::dvec3 sum_of_head_forces(const CuttingStep& step, const RemovedVoxels& removed,
-                              const ChipWeights& weights) noexcept {
+                              std::span<const float> weights) noexcept {
     glm::dvec3 sum(0.0);
     for (std::size_t i = 0; i < removed.count; ++i)
-        sum += force_of(step, position_of(step, removed, i), static_cast<double>(weights.chip[i]),
-                        static_cast<double>(weights.edge[i]));
+        sum += force_of(step, position_of(step, removed, i), static_cast<double>(weights[i]));
     return sum;
 }
 

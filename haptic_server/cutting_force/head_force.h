@@ -7,8 +7,8 @@
 //     n = (cos psi n_r, sin psi n_r, n_z)       e_kappa = (-cos psi n_z, -sin psi n_z, n_r)
 //
 // and an edge is as long as the outline. Normals are those of the surface nearest to the voxel. Edges rub on
-// s V / a, with a how far the surface came towards the voxel in the step: along a straight outline that is n
-// . d, and where the outline bends it is of the face that took the voxel, whichever is nearest half-way.
+// s V / a, with a how far the surface comes towards the voxel on the path: along a straight outline that is n
+// . d, and where the outline bends it is of the face that takes the voxel, whichever is nearest half-way.
 #pragma once
 
 #include "haptic_server/cutting_force/chip_force.h"
@@ -16,9 +16,9 @@
 namespace osteomill {
 
 /// As chip_forces() and sum_of_chip_forces(), for a step whose `head` is not null. Real-time safe.
-void head_forces(const CuttingStep& step, const RemovedVoxels& removed, const ChipWeights& weights,
+void head_forces(const CuttingStep& step, const RemovedVoxels& removed, std::span<const float> weights,
                  ChipForces& out) noexcept;
 glm::dvec3 sum_of_head_forces(const CuttingStep& step, const RemovedVoxels& removed,
-                              const ChipWeights& weights) noexcept;
+                              std::span<const float> weights) noexcept;
 
 }  // namespace osteomill

@@ -44,21 +44,32 @@ void InstantaneousForce::turn(const Burr& burr, double elapsed_s) noexcept {
 
 void InstantaneousForce::begin_step(const CuttingStep& step) noexcept {
     step_ = step;
-    step_sum_ = glm::dvec3(0.0);
+    step_sum_ = edges_n_ = glm::dvec3(0.0);
 }
 
 void InstantaneousForce::forget() noexcept {
     impulse_.fill(glm::dvec3(0.0));
-    step_sum_ = glm::dvec3(0.0);
+    step_sum_ = edges_n_ = glm::dvec3(0.0);
     window_s_ = 0.0;
 }
 
-void InstantaneousForce::add(const RemovedVoxels& removed, const ChipWeights& weights) noexcept {
+void InstantaneousForce::add(const RemovedVoxels& removed, std::span<const float> weights) noexcept {
     step_sum_ += sum_of_chip_forces(step_, removed, weights, instructions_);
-    chip_forces(step_, removed, weights, instructions_, forces_);
-    const double to_impulse = step_.newton_per_unit * step_.elapsed_s;
+    sort(step_, removed, weights);
+}
+
+void InstantaneousForce::add_edges(const CuttingStep& edges, const RemovedVoxels& rubbed,
+                                   std::span<const float> weights) noexcept {
+    edges_n_ += edges.newton_per_unit * sum_of_chip_forces(edges, rubbed, weights, instructions_);
+    sort(edges, rubbed, weights);
+}
+
+void InstantaneousForce::sort(const CuttingStep& step, const RemovedVoxels& voxels,
+                              std::span<const float> weights) noexcept {
+    chip_forces(step, voxels, weights, instructions_, forces_);
+    const double to_impulse = step.newton_per_unit * step.elapsed_s;
     const double bins_per_rad = instants_ / pitch_rad_;
-    for (std::size_t i = 0; i < removed.count; ++i) {
+    for (std::size_t i = 0; i < voxels.count; ++i) {
         const glm::dvec3 force(forces_.force_x[i], forces_.force_y[i], forces_.force_z[i]);
         const double x = static_cast<double>(forces_.x[i]);
         const double y = static_cast<double>(forces_.y[i]);
@@ -86,7 +97,8 @@ glm::dvec3 InstantaneousForce::force_at_instant_n(int instant) const noexcept {
 }
 
 glm::dvec3 InstantaneousForce::force_n() const noexcept {
-    if (turn_rad_ >= pitch_rad_ * (1.0 - 1e-9)) return step_.frame * (step_.newton_per_unit * step_sum_);
+    if (turn_rad_ >= pitch_rad_ * (1.0 - 1e-9))
+        return step_.frame * (step_.newton_per_unit * step_sum_ + edges_n_);
     if (window_s_ <= 0.0) return glm::dvec3(0.0);
     // Between the middles of the bins the force is taken to vary linearly, which leaves its mean as it is.
     const double bins_passed = turn_rad_ / pitch_rad_ * instants_;

@@ -31,8 +31,10 @@ class InstantaneousForce {
     /// What add() takes from now on was cut in `step`, which may have lasted for several turns.
     void begin_step(const CuttingStep& step) noexcept;
 
-    /// As MeanForce::add.
-    void add(const RemovedVoxels& removed, const ChipWeights& weights) noexcept;
+    /// As MeanForce::add and add_edges.
+    void add(const RemovedVoxels& removed, std::span<const float> weights) noexcept;
+    void add_edges(const CuttingStep& edges, const RemovedVoxels& rubbed,
+                   std::span<const float> weights) noexcept;
 
     /// Empties the bins: what was cut so far says nothing of the teeth to come.
     void forget() noexcept;
@@ -49,6 +51,8 @@ class InstantaneousForce {
     double turned_rad() const { return turned_rad_; }
 
   private:
+    /// The chips' or edges' forces into the bins.
+    void sort(const CuttingStep& step, const RemovedVoxels& voxels, std::span<const float> weights) noexcept;
     /// Over the bins from `first` on, `width` of them; both in bins, wrapped around the pitch.
     void spread(const glm::dvec3& impulse, double first, double width) noexcept;
 
@@ -61,7 +65,8 @@ class InstantaneousForce {
     double turn_rad_ = 0.0;  // the last
     double turned_rad_ = 0.0;
     double window_s_ = 0.0;
-    glm::dvec3 step_sum_{0.0};                         // of the last step alone, units of the step
+    glm::dvec3 step_sum_{0.0};                         // of the last step's chips alone, its units
+    glm::dvec3 edges_n_{0.0};                          // of its edges alone, burr axes
     std::array<glm::dvec3, most_instants> impulse_{};  // N s, burr axes, over the window
     ChipForces forces_;
 };

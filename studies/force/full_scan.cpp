@@ -85,7 +85,7 @@ class MetBone {
         met_.pad();
         for (std::size_t i = met_.count; i < met_.padded_count(); ++i) weights_[i] = 0.0f;
         const std::span<const float> weights(weights_.data(), met_.padded_count());
-        if (met_.count > 0) force_.add(met_, {.chip = weights, .edge = weights});
+        if (met_.count > 0) force_.add(met_, weights);
         met_.count = 0;
     }
 

@@ -27,6 +27,8 @@ class Draw {
     double uniform(double low, double high) {
         return low + (high - low) * static_cast<double>(bits_() >> 11U) * 0x1p-53;
     }
+    /// Evenly in its logarithm.
+    double logarithmic(double low, double high) { return std::exp(uniform(std::log(low), std::log(high))); }
     bool one_in(double count) { return uniform(0.0, count) < 1.0; }
     /// Evenly over the sphere.
     glm::dvec3 direction() {
@@ -49,7 +51,7 @@ RandomMotion draw_motion(Draw& draw, double voxel_mm) {
               .sense = draw.one_in(2.0) ? SpindleSense::clockwise : SpindleSense::counter_clockwise};
     c.up = draw.direction();
     c.depth_mm = draw.uniform(voxel_mm, c.burr.radius_mm());
-    const double feed_mm_per_s = draw.uniform(0.5, 50.0);
+    const double feed_mm_per_s = draw.logarithmic(0.2, 60.0);
     const double heading_deg = draw.uniform(0.0, 360.0);
     drawn.tilt_deg = draw.uniform(0.0, 70.0);
     drawn.azimuth_deg = draw.uniform(0.0, 360.0);

@@ -18,7 +18,7 @@ void add_voxel(Force& force, const glm::ivec3& voxel, double weighted_fraction) 
     removed.levels[0] = 1.0f;
     removed.pad();
     std::array<float, RemovedVoxels::lanes> weights{static_cast<float>(weighted_fraction)};
-    force.add(removed, {.chip = weights, .edge = weights});
+    force.add(removed, weights);
 }
 
 }  // namespace osteomill::testing
