@@ -30,9 +30,10 @@ constexpr double longest_head_substep_voxels = 1.0;
 constexpr double shortest_path_voxels = 0.02;
 constexpr double longest_wait_s = 0.001 - 1e-7;
 
-/// How far ahead a burr's edges look for bone at least: as far as it takes to see a face from the levels of
-/// its voxels. Within that of the bone they rub already.
-constexpr double least_look_voxels = 0.25;
+/// How far ahead a burr's edges look for bone at least. So far the line where the face ends passes while they
+/// look, and a row of voxels enters the face by and by: of half of it a burr along the lattice feels a
+/// ripple.
+constexpr double least_look_voxels = 1.0;
 
 /// Nobody feels the direction of a step that crosses the whole bone.
 constexpr double most_substeps = 64.0;

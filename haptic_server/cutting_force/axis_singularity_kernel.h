@@ -8,6 +8,8 @@
 // docs/milling-model.md derives the weight.
 #pragma once
 
+#include <algorithm>
+
 namespace osteomill {
 
 /// Radius a of the disc, voxels.
@@ -41,6 +43,23 @@ template <typename Real>
         (5.39530f - t * (15.56784f - t * (20.60255f - t * (11.68240f - t * 2.23097f)))) * per_a;
     const AxisKernel<Real> far = far_axis_kernel(per_r);
     return {t < 1.0f ? swirl : far.swirl, t < 1.0f ? outward : far.outward, t < 1.0f ? inverse : far.inverse};
+}
+
+/// What the swirl lacks on a face that ends in a straight line at the axis, as the one does that the edges of
+/// an upright burr rub on. There the disc reaches over the line, and so do voxels, of which one counts for
+/// the part of it that lies on the face: 0.52 voxels of each edge are lost, pi / 2 times the mean distance
+/// from the line of the disc's weight spread over a voxel. Times (x, y) this is none at the axis, and adds up
+/// to what is lost.
+template <typename Real>
+[[gnu::always_inline]] inline Real swirl_lost_at_line(Real r_squared) {
+    constexpr float per_a_squared = 1.0f / (axis_disc_voxels * axis_disc_voxels);
+    const Real rest = 1.0f - r_squared * per_a_squared;
+    return rest > 0.0f ? 3.85f * per_a_squared * rest * rest : rest * 0.0f;
+}
+
+/// How much of that a line lacks that passes the axis at a distance, voxels.
+inline float share_lost_at_line(float distance_voxels) {
+    return std::max(0.0f, 1.0f - 2.0f * distance_voxels);
 }
 
 }  // namespace osteomill

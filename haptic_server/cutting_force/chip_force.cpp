@@ -29,13 +29,15 @@ struct Constants {
           radial(simd::floats(step.coefficients.y)),
           axial(simd::floats(step.coefficients.z)),
           path_direction(simd::floats3(step.path_direction)),
-          half_path(simd::floats(step.half_path_voxels)) {}
+          half_path(simd::floats(step.half_path_voxels)),
+          line_lost(simd::floats(step.line_lost)) {}
 
     Floats3 x_axis, y_axis, z_axis;  // of the burr
     Floats3 middle;                  // counted from the batch's base
     Floats tangential, radial, axial;
     Floats3 path_direction;  // burr axes; of edges, and so is half_path
     Floats half_path;
+    Floats line_lost;
 };
 
 [[gnu::always_inline]] inline Floats dot(const Floats3& a, const Floats3& b) {
@@ -68,12 +70,13 @@ template <bool of_edges>
     const Floats cos_kappa = -z * per_distance;
     const Floats per_r = per_both * distance;
     const bool any_near = simd::any(r_squared < axis_disc_voxels * axis_disc_voxels);  // few are
-    const AxisKernel<Floats> mean = any_near ? axis_kernel(r_squared, per_r) : far_axis_kernel(per_r);
+    AxisKernel<Floats> mean = any_near ? axis_kernel(r_squared, per_r) : far_axis_kernel(per_r);
 
     Floats weight = removed;
     if constexpr (of_edges) {
         const Floats turn = simd::larger(c.half_path * per_distance, simd::floats(least_turn));
         weight /= edge_advance(dot(position, c.path_direction) * per_distance, turn);
+        mean.swirl += c.line_lost * swirl_lost_at_line(r_squared);
     }
     const Floats swirl = weight * mean.swirl;
     const Floats outward = c.axial * cos_kappa * swirl + c.radial * per_distance * weight * mean.outward;
@@ -161,6 +164,10 @@ CuttingStep CuttingStep::of_edges(const Burr& burr, const glm::dvec3& from_voxel
     step.is_of_edges = true;
     step.path_direction = glm::vec3(glm::transpose(frame) * path_voxels / path);
     step.half_path_voxels = static_cast<float>(0.5 * path);
+    // Under a ball whose path is off the plane across its spindle the face ends that far from the axis.
+    step.line_lost = head != nullptr ? 0.0f
+                                     : share_lost_at_line(static_cast<float>(burr.radius_mm() / spacing_mm) *
+                                                          std::abs(step.path_direction.z));
     return step;
 }
 

@@ -22,14 +22,12 @@
 // An edge that cuts rubs, too (Altintas's linear edge model; Lee and Altintas 1996): dF = (K_te, K_re, K_ae)
 // ds for each mm of it, however thin the chip. So that force is of the face that is cut, not of what a step
 // took, which at a slow feed is a level here and there of a voxel's 255. It is summed over the voxels that
-// the burr would cut if it went on by d, a quarter of a voxel or more, each of which has V / (n . d) of the
+// the burr would cut if it went on by d, a voxel or more, each of which has V / (n . d) of the
 // face (edge_advance.h):
 //
 //     f = s V / (n . d) N_phi (-sigma K_te e_psi - K_re n - K_ae e_kappa) / (2 pi r)
 //
-// the law of chips with other coefficients and weights. Under an upright burr the face ends at the axis, and
-// the means smear half a voxel of each edge to the side that does not cut: 3 % of the edge force of a 5 mm
-// burr half a millimetre deep.
+// the law of chips with other coefficients and weights.
 #pragma once
 
 #include <array>
@@ -67,6 +65,7 @@ struct CuttingStep {
     bool is_of_edges = false;
     glm::vec3 path_direction{0.0f};  ///< of edges: unit, burr axes
     float half_path_voxels = 0.0f;   ///< likewise
+    float line_lost = 0.0f;          ///< likewise: share_lost_at_line() of axis_singularity_kernel.h
     const BurrProfile* head;         ///< null: a ball
 };
 
