@@ -17,18 +17,20 @@ glm::dvec3 position_of(const CuttingStep& step, const RemovedVoxels& removed, st
     return glm::transpose(step.frame) * (voxel - step.middle_voxels);
 }
 
-/// How far the surface came towards the voxel, as a share of the burr's path: its distance at the step's
-/// start less the least, looked for half-way and at the end. Faces that lie along the path within half a
-/// degree count as if they were half a degree off: voxels tell no finer.
-double advance_share(const CuttingStep& step, const glm::dvec3& position, double distance_half_way) {
+/// What edge_advance() is of a ball, from the voxel's distances from the surface at the path's start,
+/// half-way and at its end, between which it runs as a parabola: where the surface comes nearer all the way,
+/// how far; else half of how far it would at its first slope. As a share of the path; faces that lie along
+/// the path within half a degree count as if they were half a degree off: voxels tell no finer.
+double advance_share(const CuttingStep& step, const glm::dvec3& position, double half_way) {
     constexpr double least = 0.01;
     const glm::dvec3 half_path = static_cast<double>(step.half_path_voxels) * glm::dvec3(step.path_direction);
     const auto distance_at = [&](const glm::dvec3& p) {
         return step.head->nearest(std::hypot(p.x, p.y), p.z).distance;
     };
-    const double nearest = std::min(distance_half_way, distance_at(position - half_path));
-    const double path = 2.0 * static_cast<double>(step.half_path_voxels);
-    return std::max((distance_at(position + half_path) - nearest) / path, least);
+    const double start = distance_at(position + half_path);
+    const double end = distance_at(position - half_path);
+    const double advance = std::max(start - end, 1.5 * start - 2.0 * half_way + 0.5 * end);
+    return std::max(0.5 * advance / static_cast<double>(step.half_path_voxels), least);
 }
 
 /// Its force, burr axes, in units of CuttingStep::newton_per_unit.
