@@ -40,6 +40,7 @@ struct ForceOptions {
     osteomill::study::SteadyRun run{};
     std::optional<int> random{};
     std::uint64_t seed = 1;
+    std::optional<double> depth_mm{};
     bool has_edge_forces = false;
     bool has_heads = false;
     bool loads = false;
@@ -64,6 +65,9 @@ void add_force(CLI::App& app, ForceOptions& options) {
             ->excludes(cases)
             ->check(CLI::Range(1, 1'000'000));
     force->add_option("--seed", options.seed, "of the random motions")->needs(random)->capture_default_str();
+    force->add_option("--depth-mm", options.depth_mm, "of all random motions, in the place of their own")
+        ->needs(random)
+        ->check(osteomill::within(0.001, 5.0));
     force->add_flag("--edge-forces", options.has_edge_forces, "burrs whose edges rub, by random coefficients")
         ->needs(random);
     force
@@ -122,6 +126,7 @@ void run(const ForceOptions& options) {
                                               .count = *options.random,
                                               .seed = options.seed,
                                               .voxel_mm = options.run.voxel_mm,
+                                              .depth_mm = options.depth_mm,
                                               .has_edge_forces = options.has_edge_forces,
                                               .has_heads = options.has_heads},
                                              surroundings());

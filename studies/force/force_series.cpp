@@ -36,18 +36,29 @@ double relative_error(const glm::dvec3& value, const glm::dvec3& reference) {
     return difference > 0.0 ? std::numeric_limits<double>::infinity() : 0.0;
 }
 
-double ripple(const ForceSeries& series, double window_s) {
+std::vector<double> deviations(const ForceSeries& series, double window_s) {
     const auto window = static_cast<std::size_t>(std::max(1.0, std::round(window_s / series.step_s)));
     const glm::dvec3 mean = mean_force_n(series);
-    if (mean == glm::dvec3(0.0)) return 0.0;
-    double squares = 0.0;
-    std::size_t windows = 0;
-    for (std::size_t first = 0; first + window <= series.force_n.size(); first += window, ++windows) {
-        const glm::dvec3 off = mean_of(std::span(series.force_n).subspan(first, window)) - mean;
-        squares += glm::dot(off, off);
-    }
-    if (windows == 0) return 0.0;
-    return std::sqrt(squares / static_cast<double>(windows)) / glm::length(mean);
+    std::vector<double> shares;
+    if (mean == glm::dvec3(0.0)) return shares;
+    for (std::size_t first = 0; first + window <= series.force_n.size(); first += window)
+        shares.push_back(glm::distance(mean_of(std::span(series.force_n).subspan(first, window)), mean) /
+                         glm::length(mean));
+    return shares;
+}
+
+double ripple(const ForceSeries& series, double window_s) {
+    const std::vector<double> shares = deviations(series, window_s);
+    if (shares.empty()) return 0.0;
+    return std::sqrt(std::inner_product(shares.begin(), shares.end(), shares.begin(), 0.0) /
+                     static_cast<double>(shares.size()));
+}
+
+double largest_step(const ForceSeries& series) {
+    const double mean_n = glm::length(mean_force_n(series));
+    double largest_n = 0.0;
+    for (const glm::dvec3& force_n : series.force_n) largest_n = std::max(largest_n, glm::length(force_n));
+    return mean_n > 0.0 ? largest_n / mean_n : 0.0;
 }
 
 double log_log_slope(std::span<const double> x, std::span<const double> y) {

@@ -22,9 +22,15 @@ double removal_mm3_per_s(const ForceSeries& series);
 /// |value - reference| / |reference|; infinite where only the reference is zero, 0 where both are.
 double relative_error(const glm::dvec3& value, const glm::dvec3& reference);
 
-/// Root mean square of |F - mean| over |mean|, F being the mean force of each whole `window_s` (of each step
-/// where a step is longer): what a hand that follows no faster than that feels. 0 for a mean of zero.
+/// |F - mean| over |mean|, F being the mean force of each whole `window_s` (of each step where a step is
+/// longer): what a hand that follows no faster than that feels. None for a mean of zero.
+std::vector<double> deviations(const ForceSeries& series, double window_s = 0.01);
+
+/// Their root mean square; 0 for none.
 double ripple(const ForceSeries& series, double window_s = 0.01);
+
+/// The largest |F| of a step over |mean|; 0 for a mean of zero.
+double largest_step(const ForceSeries& series);
 
 /// Least-squares slope of log y against log x: the order of convergence. Values must be positive; throws
 /// std::invalid_argument for fewer than two, or where x does not vary.

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 
 #include "studies/report/surroundings.h"
 
@@ -19,6 +20,7 @@ struct RandomStudyOptions {
     int count = 500;
     std::uint64_t seed = 1;
     double voxel_mm = 0.1;
+    std::optional<double> depth_mm{};  ///< of all; without, each has its own
     bool has_edge_forces = false;
     bool has_heads = false;  ///< other than balls
 };

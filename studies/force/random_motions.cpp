@@ -110,6 +110,14 @@ std::vector<RandomMotion> random_motions(int count, std::uint64_t seed, double v
     return motions;
 }
 
+void set_depth(std::vector<RandomMotion>& motions, double depth_mm) {
+    for (RandomMotion& drawn : motions) {
+        drawn.motion.depth_mm = depth_mm;
+        drawn.motion.previous_groove_mm_higher.reset();
+        drawn.motion.name += fmt::format(", all {:.3f} deep", depth_mm);
+    }
+}
+
 void draw_edge_forces(std::vector<RandomMotion>& motions, std::uint64_t seed) {
     Draw draw(seed);
     for (RandomMotion& drawn : motions) {
@@ -145,6 +153,8 @@ RandomResult measure(const RandomMotion& motion, const MakeModel& make_model) {
                         .reference_n = reference_over_path_n(motion),
                         .force_n = mean_force_n(series),
                         .ripple = ripple(series),
+                        .deviations = deviations(series),
+                        .largest_step = largest_step(series),
                         .step_us = percentile(series.step_us, 0.5)};
     result.error = relative_error(result.force_n, result.reference_n);
     return result;
@@ -154,29 +164,33 @@ std::string csv_of(const std::vector<RandomResult>& results) {
     std::string csv =
         "name,diameter_mm,depth_mm,spindle_tilt_deg,spindle_azimuth_deg,dives,feed_mm_per_s,rpm,edges,"
         "clockwise,groove_mm_higher,milling_rate_hz,voxel_mm,reference_x_n,reference_y_n,reference_z_n,"
-        "force_x_n,force_y_n,force_z_n,error_percent,ripple_percent,step_us\n";
+        "force_x_n,force_y_n,force_z_n,error_percent,ripple_percent,largest_step,step_us\n";
     for (const RandomResult& r : results) {
         const SteadyCase& c = r.motion.motion;
         csv += fmt::format(
             "\"{}\",{:.4f},{:.4f},{:.2f},{:.2f},{:d},{:.5f},{:.0f},{},{:d},{},{:.0f},{},{:.6f},{:.6f},{:.6f},"
-            "{:.6f},{:.6f},{:.6f},{:.4f},{:.4f},{:.2f}\n",
+            "{:.6f},{:.6f},{:.6f},{:.4f},{:.4f},{:.3f},{:.2f}\n",
             c.name, c.burr.diameter_mm, c.depth_mm, r.motion.tilt_deg, r.motion.azimuth_deg, r.motion.dives,
             glm::length(c.velocity_mm_per_s), 60.0 * c.burr.spindle_rev_per_s, c.burr.edges,
             c.burr.sense == SpindleSense::clockwise,
             c.previous_groove_mm_higher ? fmt::format("{:.4f}", *c.previous_groove_mm_higher) : "",
             r.motion.run.milling_rate_hz, r.motion.run.voxel_mm, r.reference_n.x, r.reference_n.y,
             r.reference_n.z, r.force_n.x, r.force_n.y, r.force_n.z, 100.0 * r.error, 100.0 * r.ripple,
-            r.step_us);
+            r.largest_step, r.step_us);
     }
     return csv;
 }
 
 nlohmann::ordered_json summary_of(const std::vector<RandomResult>& results) {
-    std::vector<double> errors, ripples, steps_us;
+    std::vector<double> errors, ripples, windows, largest, steps_us;
     std::vector<const RandomResult*> worst;
     for (const RandomResult& r : results) {
         errors.push_back(100.0 * r.error);
-        if (!r.motion.dives) ripples.push_back(100.0 * r.ripple);
+        if (!r.motion.dives) {
+            ripples.push_back(100.0 * r.ripple);
+            for (const double share : r.deviations) windows.push_back(100.0 * share);
+            if (r.motion.run.milling_rate_hz >= 1000.0) largest.push_back(r.largest_step);
+        }
         steps_us.push_back(r.step_us);
         worst.push_back(&r);
     }
@@ -186,11 +200,15 @@ nlohmann::ordered_json summary_of(const std::vector<RandomResult>& results) {
     worst.resize(std::min(worst.size(), most_named));
     nlohmann::ordered_json summary{{"cases", results.size()},
                                    {"median_error_percent", percentile(errors, 0.5)},
+                                   {"p90_error_percent", percentile(errors, 0.9)},
                                    {"p95_error_percent", percentile(errors, 0.95)},
                                    {"p99_error_percent", percentile(errors, 0.99)},
                                    {"max_error_percent", percentile(errors, 1.0)},
                                    {"ripple_p90_percent", percentile(ripples, 0.9)},
                                    {"ripple_max_percent", percentile(ripples, 1.0)},
+                                   {"window_p95_percent", percentile(windows, 0.95)},
+                                   {"largest_step_p99", percentile(largest, 0.99)},
+                                   {"largest_step_max", percentile(largest, 1.0)},
                                    {"step_us_p50", percentile(steps_us, 0.5)},
                                    {"worst", nlohmann::ordered_json::array()}};
     for (const RandomResult* r : worst)

@@ -12,9 +12,10 @@
 namespace osteomill::study {
 
 /// A motion of a burr of 1 to 5 mm, 4 to 12 edges, either sense of rotation, 5 000 to 80 000 rpm, its spindle
-/// leaning by up to 70 degrees in any direction, at 0.5 to 50 mm/s, one voxel to the equator deep, over a
+/// leaning by up to 70 degrees in any direction, at 0.2 to 60 mm/s, one voxel to the equator deep, over a
 /// surface that lies anyhow. One in three dives, at 5 to 90 degrees; a third of the others follow a groove
-/// that the same burr cut before. Steps of 100 Hz or 1 kHz. All evenly over their ranges.
+/// that the same burr cut before. Steps of 100 Hz or 1 kHz. All evenly over their ranges, the feed
+/// in its logarithm.
 struct RandomMotion {
     SteadyCase motion{};
     SteadyRun run{};
@@ -25,6 +26,9 @@ struct RandomMotion {
 
 /// The same for the same seed on every machine.
 std::vector<RandomMotion> random_motions(int count, std::uint64_t seed, double voxel_mm = 0.1);
+
+/// Brings them all to one depth, which may be less than a voxel; grooves cut before are left out.
+void set_depth(std::vector<RandomMotion>& motions, double depth_mm);
 
 /// Gives their burrs edge forces: K_te and K_re of 0 to 1 N/mm, K_ae of 0 to 0.2. The motions stay the same.
 void draw_edge_forces(std::vector<RandomMotion>& motions, std::uint64_t seed);
@@ -37,9 +41,11 @@ struct RandomResult {
     RandomMotion motion;
     glm::dvec3 reference_n{0.0};  ///< of a dive: its mean over the path
     glm::dvec3 force_n{0.0};
-    double error = 0.0;    ///< of the mean force, a share of the reference
-    double ripple = 0.0;   ///< rms about the mean, a share of it
-    double step_us = 0.0;  ///< median
+    double error = 0.0;                ///< of the mean force, a share of the reference
+    double ripple = 0.0;               ///< rms about the mean, a share of it
+    std::vector<double> deviations{};  ///< of means over 10 ms, shares of the mean
+    double largest_step = 0.0;         ///< a share of the mean
+    double step_us = 0.0;              ///< median
 };
 
 RandomResult measure(const RandomMotion& motion, const MakeModel& make_model);
@@ -47,9 +53,10 @@ RandomResult measure(const RandomMotion& motion, const MakeModel& make_model);
 /// Table with a header, a line a motion.
 std::string csv_of(const std::vector<RandomResult>& results);
 
-/// cases, median_error_percent, p95_error_percent, p99_error_percent, max_error_percent; ripple_p90_percent
-/// and ripple_max_percent of motions along the surface; step_us_p50; worst: the motions farthest off, by
-/// name.
+/// cases, median_error_percent, p90_error_percent and so on to max_error_percent; of motions along the
+/// surface ripple_p90_percent, ripple_max_percent, window_p95_percent (of all means over 10 ms, from their
+/// motion's), largest_step_p99 and _max (of steps at 1 kHz, times the mean); step_us_p50; worst: the motions
+/// farthest off, by name.
 nlohmann::ordered_json summary_of(const std::vector<RandomResult>& results);
 
 }  // namespace osteomill::study

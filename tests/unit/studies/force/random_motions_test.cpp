@@ -24,8 +24,8 @@ TEST(RandomMotions, CoverWhatIsPromised) {
         EXPECT_NEAR(glm::length(c.spindle_axis), 1.0, 1e-9) << c.name;
         EXPECT_NEAR(glm::dot(c.spindle_axis, c.up), std::cos(m.tilt_deg * 3.14159265358979 / 180.0), 1e-9);
         EXPECT_LE(m.tilt_deg, 70.0);
-        EXPECT_GE(glm::length(c.velocity_mm_per_s), 0.5 - 1e-9);
-        EXPECT_LE(glm::length(c.velocity_mm_per_s), 50.0 + 1e-9);
+        EXPECT_GE(glm::length(c.velocity_mm_per_s), 0.2 - 1e-9);
+        EXPECT_LE(glm::length(c.velocity_mm_per_s), 60.0 + 1e-9);
         const double climb = glm::dot(c.velocity_mm_per_s, c.up);
         EXPECT_TRUE(m.dives ? climb < 0.0 : std::abs(climb) < 1e-9) << c.name;
         if (c.previous_groove_mm_higher) {
@@ -39,6 +39,11 @@ TEST(RandomMotions, CoverWhatIsPromised) {
     EXPECT_NEAR(count([](const RandomMotion& m) { return m.motion.burr.sense == SpindleSense::clockwise; }),
                 1000, 120);
     EXPECT_GT(count([](const RandomMotion& m) { return m.motion.depth_mm < 0.3; }), 100);
+    EXPECT_NEAR(count([](const RandomMotion& m) {
+                    return glm::length(m.motion.velocity_mm_per_s) < std::sqrt(0.2 * 60.0);
+                }),
+                1000, 120)
+        << "feeds are even in their logarithm";
 }
 
 TEST(RandomMotions, AreTheSameForTheSameSeedAndOthersForAnother) {
