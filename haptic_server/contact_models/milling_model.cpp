@@ -256,6 +256,7 @@ void MillingModel::step(const BurrCommand& command, double time_s, ChangeSink& c
     account_.end_step(command, result);
     if (command.wants_engagement)
         probes_[burr_].sample(bone_, command.pose.position_mm, command.pose.spindle_axis, command.speed_share,
+                              carved_at_position_ && !uncut_.has_any ? InsideBurr::carved : InsideBurr::any,
                               result.engagement);
 }
 

@@ -9,7 +9,8 @@ namespace osteomill {
 
 BrickNeighbourhood::BrickNeighbourhood(double largest_radius_voxels)
     : edge_(static_cast<int>(std::ceil((2.0 * largest_radius_voxels + 2.0) / brick_edge_voxels)) + 1),
-      slots_(static_cast<std::size_t>(edge_) * edge_ * edge_, BoneContent::no_slot) {}
+      slots_(static_cast<std::size_t>(edge_) * edge_ * edge_, BoneContent::no_slot),
+      fractions_(slots_.size(), nullptr) {}
 
 bool BrickNeighbourhood::gather(const Bone& bone, const glm::dvec3& centre_voxels,
                                 double radius_voxels) noexcept {
@@ -33,8 +34,10 @@ bool BrickNeighbourhood::gather(const Bone& bone, const glm::dvec3& centre_voxel
                 const bool exists = x >= 0 && y >= 0 && z >= 0 && x < size.x && y < size.y && z < size.z;
                 const std::int32_t slot = exists ? bone.slot(brick) : BoneContent::no_slot;
                 const glm::ivec3 position = brick - first_brick;
-                slots_[static_cast<std::size_t>(position.x + edge_ * (position.y + edge_ * position.z))] =
-                    slot;
+                const auto at =
+                    static_cast<std::size_t>(position.x + edge_ * (position.y + edge_ * position.z));
+                slots_[at] = slot;
+                fractions_[at] = slot == BoneContent::no_slot ? nullptr : bone.fractions(slot).data();
                 any |= slot != BoneContent::no_slot;
             }
     return any;

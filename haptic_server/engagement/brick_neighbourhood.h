@@ -15,6 +15,21 @@ namespace osteomill {
 
 static_assert(std::endian::native == std::endian::little);
 
+namespace detail {
+
+/// Two neighbouring bytes.
+inline std::uint64_t pair_at(const std::uint8_t* bytes) {
+    std::uint16_t pair;
+    std::memcpy(&pair, bytes, sizeof pair);
+    return pair;
+}
+/// A voxel's fraction and its seven neighbours', within a brick.
+inline std::uint64_t cube_at(const std::uint8_t* f) {
+    return pair_at(f) | pair_at(f + 16) << 16 | pair_at(f + 256) << 32 | pair_at(f + 272) << 48;
+}
+
+}  // namespace detail
+
 class BrickNeighbourhood {
   public:
     /// Room for balls of up to `largest_radius_voxels`. Allocates.
@@ -38,6 +53,14 @@ class BrickNeighbourhood {
     /// x, then y, then z, the first lowest.
     std::uint64_t corners(const glm::ivec3& first) const;
 
+    /// The same where none of them is the last of its brick along an axis: of the voxel with the index
+    /// `in_brick` in the brick x + edge() (y + edge() z), bricks counted from the base's.
+    std::uint64_t corners_within(std::int32_t brick, std::int32_t in_brick) const {
+        const std::uint8_t* const fractions = fractions_[static_cast<std::size_t>(brick)];
+        return fractions == nullptr ? 0 : detail::cube_at(fractions + in_brick);
+    }
+    int edge() const { return edge_; }
+
     /// Fraction, 0 to 255, trilinear between the centres of voxels, at a position within the ball.
     float fraction(const glm::vec3& position) const;
 
@@ -54,6 +77,7 @@ class BrickNeighbourhood {
     const Bone* bone_ = nullptr;
     glm::ivec3 base_{0};
     std::vector<std::int32_t> slots_;
+    std::vector<const std::uint8_t*> fractions_;  // of the bricks, likewise; null where none is stored
 };
 
 namespace detail {
@@ -72,23 +96,14 @@ template <typename Real>
     return z0 + wz * (z1 - z0);
 }
 
-/// Two neighbouring bytes.
-inline std::uint64_t pair_at(const std::uint8_t* bytes) {
-    std::uint16_t pair;
-    std::memcpy(&pair, bytes, sizeof pair);
-    return pair;
-}
-
 }  // namespace detail
 
 inline std::uint64_t BrickNeighbourhood::corners(const glm::ivec3& first) const {
     const bool within_one_brick = (first.x & 15) != 15 && (first.y & 15) != 15 && (first.z & 15) != 15;
     if (!within_one_brick) return corners_across_bricks(first);
     const std::int32_t at = slot(first);
-    if (at == BoneContent::no_slot) return 0;
-    const std::uint8_t* const f = bone_->fractions(at).data() + offset_in_brick(first);
-    return detail::pair_at(f) | detail::pair_at(f + 16) << 16 | detail::pair_at(f + 256) << 32 |
-           detail::pair_at(f + 272) << 48;
+    return at == BoneContent::no_slot ? 0
+                                      : detail::cube_at(bone_->fractions(at).data() + offset_in_brick(first));
 }
 
 }  // namespace osteomill

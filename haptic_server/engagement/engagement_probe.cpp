@@ -20,6 +20,43 @@ constexpr std::array<float, 4> offsets_voxels{-static_cast<float>(Engagement::re
 /// Half of a voxel's 255 levels: the bone's surface.
 constexpr float half = 127.5f;
 
+using Floats [[gnu::vector_size(16)]] = float;
+using Ints [[gnu::vector_size(16)]] = std::int32_t;
+
+/// Fractions, 0 to 255, at `offset` from the surface of four patches.
+Floats fractions(const BrickNeighbourhood& bricks, const std::array<Floats, 3>& surface,
+                 const std::array<Floats, 3>& outward, float offset) {
+    std::array<Floats, 3> position;
+    std::array<Ints, 3> voxel;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        position[axis] = surface[axis] + offset * outward[axis];
+        voxel[axis] = __builtin_convertvector(position[axis], Ints);
+        position[axis] -= __builtin_convertvector(voxel[axis], Floats);
+    }
+    const Ints brick = (voxel[0] >> 4) + bricks.edge() * ((voxel[1] >> 4) + bricks.edge() * (voxel[2] >> 4));
+    const Ints in_brick = (voxel[0] & 15) | (voxel[1] & 15) << 4 | (voxel[2] & 15) << 8;
+    const Ints is_last = ((voxel[0] & 15) == 15) | ((voxel[1] & 15) == 15) | ((voxel[2] & 15) == 15);
+    // The low and the high four corners of each.
+    Ints low{};
+    Ints high{};
+    bool any = false;
+    for (int lane = 0; lane < 4; ++lane) {
+        const std::uint64_t corners = is_last[lane] != 0
+                                          ? bricks.corners({voxel[0][lane], voxel[1][lane], voxel[2][lane]})
+                                          : bricks.corners_within(brick[lane], in_brick[lane]);
+        low[lane] = static_cast<std::int32_t>(corners & 0xffffffffu);
+        high[lane] = static_cast<std::int32_t>(corners >> 32);
+        any |= corners != 0;
+    }
+    if (!any) return Floats{};
+    std::array<Floats, 8> c;
+    for (int corner = 0; corner < 4; ++corner) {
+        c[static_cast<std::size_t>(corner)] = __builtin_convertvector(low >> (8 * corner) & 255, Floats);
+        c[static_cast<std::size_t>(corner) + 4] = __builtin_convertvector(high >> (8 * corner) & 255, Floats);
+    }
+    return detail::trilinear(c, position[0], position[1], position[2]);
+}
+
 }  // namespace
 
 EngagementProbe::EngagementProbe(const Burr& burr, double spacing_mm, const EdgeShares& edge_shares,
@@ -51,13 +88,13 @@ EngagementProbe::EngagementProbe(const Burr& burr, double spacing_mm, const Edge
 }
 
 void EngagementProbe::sample(const Bone& bone, const glm::dvec3& position_mm, const glm::dvec3& spindle_axis,
-                             double speed_share, Engagement& out) noexcept {
-    sample_burr(bone, position_mm, spindle_axis, speed_share, out);
+                             double speed_share, InsideBurr inside, Engagement& out) noexcept {
+    sample_burr(bone, position_mm, spindle_axis, speed_share, inside, out);
     shank_.sample(bone, position_mm, spindle_axis, out);
 }
 
 void EngagementProbe::sample_burr(const Bone& bone, const glm::dvec3& position_mm,
-                                  const glm::dvec3& spindle_axis, double speed_share,
+                                  const glm::dvec3& spindle_axis, double speed_share, InsideBurr inside,
                                   Engagement& out) noexcept {
     out.burr_position_mm = position_mm;
     out.count = 0;
@@ -75,7 +112,8 @@ void EngagementProbe::sample_burr(const Bone& bone, const glm::dvec3& position_m
     const glm::vec3 centre_in_bricks(centre - glm::dvec3(bricks_.base()));
     const auto radius_voxels = static_cast<float>(radius);
     for (std::size_t first = 0; first < patches_.size(); first += four) {
-        const FourFractions along = sample_four(first, glm::mat3(frame), centre_in_bricks, radius_voxels);
+        const FourFractions along =
+            sample_four(first, glm::mat3(frame), centre_in_bricks, radius_voxels, inside);
         for (std::size_t lane = 0; lane < four && first + lane < patches_.size(); ++lane) {
             const Crossing crossing = first_crossing(along, lane);
             if (!crossing.found) continue;
@@ -113,10 +151,8 @@ bool EngagementProbe::is_uncut(const glm::vec3& surface, const glm::vec3& outwar
 }
 
 EngagementProbe::FourFractions EngagementProbe::sample_four(std::size_t first, const glm::mat3& frame,
-                                                            const glm::vec3& centre,
-                                                            float radius_voxels) const noexcept {
-    using Floats [[gnu::vector_size(16)]] = float;
-    using Ints [[gnu::vector_size(16)]] = std::int32_t;
+                                                            const glm::vec3& centre, float radius_voxels,
+                                                            InsideBurr inside) const noexcept {
     std::array<Floats, 3> normal;
     for (std::size_t axis = 0; axis < 3; ++axis)
         std::memcpy(&normal[axis], &normals_[axis][first], sizeof normal[axis]);
@@ -131,41 +167,21 @@ EngagementProbe::FourFractions EngagementProbe::sample_four(std::size_t first, c
         for (std::size_t i = 0; i < 3; ++i) std::memcpy(&beside[i], &beside_[i][first], sizeof beside[i]);
         surface[at] += frame[0][axis] * beside[0] + frame[1][axis] * beside[1] + frame[2][axis] * beside[2];
     }
-    FourFractions along;
-    for (std::size_t i = 0; i < offsets_voxels.size(); ++i) {
-        std::array<Floats, 3> position;
-        std::array<Ints, 3> voxel;
-        for (std::size_t axis = 0; axis < 3; ++axis) {
-            position[axis] = surface[axis] + offsets_voxels[i] * outward[axis];
-            voxel[axis] = __builtin_convertvector(position[axis], Ints);
-            position[axis] -= __builtin_convertvector(voxel[axis], Floats);
-        }
-        // The low and the high four corners of each.
-        Ints low{};
-        Ints high{};
-        bool any = false;
-        for (int lane = 0; lane < 4; ++lane) {
-            const std::uint64_t corners = bricks_.corners({voxel[0][lane], voxel[1][lane], voxel[2][lane]});
-            low[lane] = static_cast<std::int32_t>(corners & 0xffffffffu);
-            high[lane] = static_cast<std::int32_t>(corners >> 32);
-            any |= corners != 0;
-        }
-        Floats fraction{};
-        if (any) {
-            std::array<Floats, 8> c;
-            for (int corner = 0; corner < 4; ++corner) {
-                c[static_cast<std::size_t>(corner)] =
-                    __builtin_convertvector(low >> (8 * corner) & 255, Floats);
-                c[static_cast<std::size_t>(corner) + 4] =
-                    __builtin_convertvector(high >> (8 * corner) & 255, Floats);
-            }
-            fraction = detail::trilinear(c, position[0], position[1], position[2]);
-        }
+    FourFractions along{};
+    const auto look = [&](std::size_t i) {
+        const Floats fraction = fractions(bricks_, surface, outward, offsets_voxels[i]);
         std::memcpy(along[i].data(), &fraction, sizeof fraction);
-        // Farther out than bone nobody looks.
-        if (any && fraction[0] >= half && fraction[1] >= half && fraction[2] >= half && fraction[3] >= half)
-            break;
+        const auto is_bone = [](float lane) { return lane >= half; };
+        return static_cast<int>(std::count_if(along[i].begin(), along[i].end(), is_bone));
+    };
+    if (inside == InsideBurr::carved) {
+        const int in_bone = look(2);
+        if (in_bone > 0) look(1);
+        if (in_bone < 4) look(3);
+        return along;
     }
+    for (std::size_t i = 0; i < offsets_voxels.size(); ++i)
+        if (look(i) == 4) break;
     return along;
 }
 

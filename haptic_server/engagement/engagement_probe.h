@@ -18,6 +18,12 @@
 
 namespace osteomill {
 
+/// What a probe may take for granted about the bone inside the burr.
+enum class InsideBurr {
+    any,    ///< nothing
+    carved  ///< the burr has carved where it is, and there is nothing that it does not cut
+};
+
 /// Samples the bone around one burr and its shank, at the burr's patches (burr_patches.h). Allocates when
 /// constructed.
 class EngagementProbe {
@@ -29,16 +35,16 @@ class EngagementProbe {
     /// `speed_share` (positive) of the burr's own speed. The surface of the bone is where the trilinear
     /// fraction crosses one half. Real-time safe.
     void sample(const Bone& bone, const glm::dvec3& position_mm, const glm::dvec3& spindle_axis,
-                double speed_share, Engagement& out) noexcept;
-    /// Likewise at the burr's own speed.
+                double speed_share, InsideBurr inside, Engagement& out) noexcept;
+    /// Likewise at the burr's own speed, with any bone inside.
     void sample(const Bone& bone, const glm::dvec3& position_mm, const glm::dvec3& spindle_axis,
                 Engagement& out) noexcept {
-        sample(bone, position_mm, spindle_axis, 1.0, out);
+        sample(bone, position_mm, spindle_axis, 1.0, InsideBurr::any, out);
     }
 
   private:
     void sample_burr(const Bone& bone, const glm::dvec3& position_mm, const glm::dvec3& spindle_axis,
-                     double speed_share, Engagement& out) noexcept;
+                     double speed_share, InsideBurr inside, Engagement& out) noexcept;
 
     /// Patches are looked at four at a time: a vector that every processor has.
     static constexpr std::size_t four = 4;
@@ -52,10 +58,10 @@ class EngagementProbe {
         float bone_offset_voxels = 0.0f;
     };
 
-    /// Patches `first` to `first` + 3; positions farther out than bone in all four are not set. `centre` and
-    /// the bricks in voxels from the bricks' base.
+    /// Patches `first` to `first` + 3; positions farther out than bone in all four are not set, nor are those
+    /// where a carved burr leaves none. `centre` and the bricks in voxels from the bricks' base.
     FourFractions sample_four(std::size_t first, const glm::mat3& frame, const glm::vec3& centre,
-                              float radius_voxels) const noexcept;
+                              float radius_voxels, InsideBurr inside) const noexcept;
     static Crossing first_crossing(const FourFractions& along, std::size_t lane);
     /// Whether what begins at a crossing is bone that no burr cuts.
     bool is_uncut(const glm::vec3& surface, const glm::vec3& outward,
