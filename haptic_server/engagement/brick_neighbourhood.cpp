@@ -65,20 +65,32 @@ float BrickNeighbourhood::fraction(const glm::vec3& position) const {
     return detail::trilinear(c, w.x, w.y, w.z);
 }
 
-std::uint64_t BrickNeighbourhood::corners_across_bricks(const glm::ivec3& first) const {
-    const bool within_x = (first.x & 15) != 15;
-    const auto byte_at = [&](const glm::ivec3& position) -> std::uint64_t {
-        const std::int32_t at = slot(position);
-        return at == BoneContent::no_slot ? 0 : bone_->fractions(at)[offset_in_brick(position)];
-    };
+std::uint64_t BrickNeighbourhood::corners_across(std::int32_t brick, std::int32_t in_brick) const {
+    constexpr int last = brick_edge_voxels - 1;
+    const bool across_x = (in_brick & last) == last;
+    const bool across_y = (in_brick >> 4 & last) == last;
+    const bool across_z = (in_brick >> 8) == last;
     std::uint64_t bytes = 0;
     for (int i = 0; i < 4; ++i) {
-        const glm::ivec3 position = first + glm::ivec3(0, i & 1, i >> 1);
+        // From the last voxel of an axis to the first of the next brick.
+        std::int32_t at = in_brick;
+        std::int32_t of = brick;
+        if ((i & 1) != 0) {
+            at += across_y ? -16 * last : 16;
+            of += across_y ? edge_ : 0;
+        }
+        if ((i >> 1) != 0) {
+            at += across_z ? -256 * last : 256;
+            of += across_z ? edge_ * edge_ : 0;
+        }
         std::uint64_t pair = 0;
-        if (!within_x) {
-            pair = byte_at(position) | byte_at(position + glm::ivec3(1, 0, 0)) << 8;
-        } else if (const std::int32_t at = slot(position); at != BoneContent::no_slot) {
-            pair = detail::pair_at(bone_->fractions(at).data() + offset_in_brick(position));
+        const std::uint8_t* const here = fractions_[static_cast<std::size_t>(of)];
+        if (!across_x) {
+            if (here != nullptr) pair = detail::pair_at(here + at);
+        } else {
+            const std::uint8_t* const next = fractions_[static_cast<std::size_t>(of) + 1];
+            if (here != nullptr) pair = here[at];
+            if (next != nullptr) pair |= std::uint64_t{next[at - last]} << 8;
         }
         bytes |= pair << (16 * i);
     }

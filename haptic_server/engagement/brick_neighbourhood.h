@@ -53,12 +53,13 @@ class BrickNeighbourhood {
     /// x, then y, then z, the first lowest.
     std::uint64_t corners(const glm::ivec3& first) const;
 
-    /// The same where none of them is the last of its brick along an axis: of the voxel with the index
-    /// `in_brick` in the brick x + edge() (y + edge() z), bricks counted from the base's.
+    /// The same of the voxel with the index `in_brick` in the brick x + edge() (y + edge() z), bricks counted
+    /// from the base's: where it is not the last of its brick along any axis, and where it is.
     std::uint64_t corners_within(std::int32_t brick, std::int32_t in_brick) const {
         const std::uint8_t* const fractions = fractions_[static_cast<std::size_t>(brick)];
         return fractions == nullptr ? 0 : detail::cube_at(fractions + in_brick);
     }
+    std::uint64_t corners_across(std::int32_t brick, std::int32_t in_brick) const;
     int edge() const { return edge_; }
 
     /// Fraction, 0 to 255, trilinear between the centres of voxels, at a position within the ball.
@@ -71,8 +72,6 @@ class BrickNeighbourhood {
     std::uint8_t tissue(const glm::vec3& position) const;
 
   private:
-    std::uint64_t corners_across_bricks(const glm::ivec3& first) const;
-
     int edge_;  // of the cube of bricks
     const Bone* bone_ = nullptr;
     glm::ivec3 base_{0};
@@ -99,11 +98,10 @@ template <typename Real>
 }  // namespace detail
 
 inline std::uint64_t BrickNeighbourhood::corners(const glm::ivec3& first) const {
-    const bool within_one_brick = (first.x & 15) != 15 && (first.y & 15) != 15 && (first.z & 15) != 15;
-    if (!within_one_brick) return corners_across_bricks(first);
-    const std::int32_t at = slot(first);
-    return at == BoneContent::no_slot ? 0
-                                      : detail::cube_at(bone_->fractions(at).data() + offset_in_brick(first));
+    const std::int32_t brick = (first.x >> 4) + edge_ * ((first.y >> 4) + edge_ * (first.z >> 4));
+    const auto in_brick = static_cast<std::int32_t>(offset_in_brick(first));
+    const bool within = (first.x & 15) != 15 && (first.y & 15) != 15 && (first.z & 15) != 15;
+    return within ? corners_within(brick, in_brick) : corners_across(brick, in_brick);
 }
 
 }  // namespace osteomill
