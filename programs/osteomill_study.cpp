@@ -142,7 +142,10 @@ void run_on_rails(const osteomill::study::StabilityCommand& command) {
     for (const std::string& method : methods) {
         ProgressLine line(std::cerr, ::isatty(STDERR_FILENO) != 0, method);
         std::vector<study::RailsResult> results;
-        const auto motions = study::motions_on_rails(command.motions_on_rails, command.sites.seed);
+        auto motions = study::motions_on_rails(command.motions_on_rails, command.sites.seed);
+        if (command.run.selection.has_edge_forces)
+            for (study::SteadyCase& motion : motions)
+                motion.burr.edge_coefficients_n_per_mm = {0.3, 0.3, 0.0};
         for (const study::SteadyCase& motion : motions) {
             results.push_back({motion.name, study::run_on_rails(motion, method)});
             line.report(static_cast<double>(results.size()) / static_cast<double>(motions.size()), "");

@@ -20,6 +20,8 @@ constexpr int ticks_to_get_there = 750;
 constexpr int measured_ticks = 250;
 constexpr double least_depth_mm = 0.12;
 constexpr double most_tilt_deg = 60.0;
+/// A slower hand is not there within the run-in: the spring gives way by some tenths of a millimetre first.
+constexpr double least_feed_mm_per_s = 1.0;
 /// A slow spindle at a fast feed would take more force than an arm has.
 constexpr double most_force_n = 3.0;
 
@@ -32,7 +34,7 @@ std::vector<SteadyCase> motions_on_rails(int count, std::uint64_t seed) {
         if (static_cast<int>(motions.size()) == count) break;
         const SteadyCase& c = drawn.motion;
         if (drawn.dives || c.previous_groove_mm_higher || c.depth_mm < least_depth_mm ||
-            drawn.tilt_deg > most_tilt_deg)
+            drawn.tilt_deg > most_tilt_deg || glm::length(c.velocity_mm_per_s) < least_feed_mm_per_s)
             continue;
         if (glm::length(mean_reference_force_n(motion_of(c), bone_of(c))) > most_force_n) continue;
         motions.push_back(c);

@@ -11,8 +11,9 @@
 
 namespace osteomill::study {
 
-/// Burrs of 1 to 5 mm, spindles that lean by up to 60 degrees, depths from 0.12 mm to the equator, over a
-/// surface that lies anyhow; the rest as of random_motions.h. The same for the same seed on every machine.
+/// Burrs of 1 to 5 mm, spindles that lean by up to 60 degrees, feeds from 1 mm/s, depths from 0.12 mm to the
+/// equator, over a surface that lies anyhow; the rest as of random_motions.h. The same for the same seed on
+/// every machine.
 std::vector<SteadyCase> motions_on_rails(int count, std::uint64_t seed);
 
 struct OnRails {
