@@ -49,11 +49,13 @@ ordered_json measure_random(const RandomStudyOptions& options, const std::string
     surroundings.said << fmt::format(
         "{}: {} motions of seed {}: error median {:.2f} %, 90 % within {:.2f}, 95 % within {:.2f}, 99 % "
         "within {:.2f}, worst "
-        "{:.2f} %; ripple along the surface 90 % within {:.2f}, worst {:.2f} %; means over 10 ms there 95 % "
+        "{:.2f} %; along the surface error median {:.2f} %, 90 % within {:.2f}, ripple 90 % within {:.2f}, "
+        "worst {:.2f} %; means over 10 ms there 95 % "
         "within {:.2f} %, largest step at 1 kHz {:.2f} times the mean (99 % under {:.2f})\n",
         name, results.size(), options.seed, summary["median_error_percent"].get<double>(),
         summary["p90_error_percent"].get<double>(), summary["p95_error_percent"].get<double>(),
         summary["p99_error_percent"].get<double>(), summary["max_error_percent"].get<double>(),
+        summary["along_median_error_percent"].get<double>(), summary["along_p90_error_percent"].get<double>(),
         summary["ripple_p90_percent"].get<double>(), summary["ripple_max_percent"].get<double>(),
         summary["window_p95_percent"].get<double>(), summary["largest_step_max"].get<double>(),
         summary["largest_step_p99"].get<double>());
