@@ -23,6 +23,13 @@ void write_nrrd(const std::filesystem::path& folder) {
     write_bytes(folder / "twice", nrrd_header("datafile: x\ndata file: y\nkey:=value\n# more\n"));
     write_bytes(folder / "gzip", with(with(nrrd_header("spacings: 1 nan 2\n"), "raw", "gzip"), "int16",
                                       "unsigned long long int"));
+    write_bytes(folder / "units", with(nrrd_header("space units: \"um\" \"\xc2\xb5m\" \"m\"\n"),
+                                       "left-posterior-superior", "LAST"));
+    write_bytes(folder / "layers",
+                with(with(with(nrrd_header("kinds: list domain domain domain\nSegment0_Name:=a\\nb\n"),
+                               "dimension: 3", "dimension: 4"),
+                          "3 4 5", "2 3 4 5"),
+                     "(1,0,0)", "none (1,0.005,0)"));
 }
 
 void write_meta_image(const std::filesystem::path& folder) {
@@ -37,6 +44,11 @@ void write_meta_image(const std::filesystem::path& folder) {
     write_bytes(folder / "far", with(meta_header(), "1 2 3", "1e308 nan -1e308"));
     write_bytes(folder / "tiny", with(meta_header(), "1 1 2", "1e-9 0 inf"));
     write_bytes(folder / "above", meta_header("../../etc/passwd", "CompressedData = True\n"));
+    write_bytes(folder / "fourth",
+                with(with(with(with(meta_header("LOCAL", "DistanceUnits = um\n"), "NDims = 3", "NDims = 4"),
+                               "3 4 5", "3 4 5 1"),
+                          "1 1 2", "1 1 2 1"),
+                     "1 2 3", "1 2 3 0"));
 }
 
 void write_nifti(const std::filesystem::path& folder) {
@@ -54,6 +66,11 @@ void write_nifti(const std::filesystem::path& folder) {
     write_bytes(folder / "dimensions", spoiled(40, std::int16_t{-1}));
     write_bytes(folder / "large", spoiled(42, std::array<std::int16_t, 3>{32767, 32767, 32767}));
     write_bytes(folder / "pair", with(nifti(8), "n+1", "ni1"));
+    std::string both = spoiled(252, std::int16_t{1});
+    put(both, 123, std::uint8_t{3});
+    put(both, 256, std::array{0.1F, 0.2F, 0.3F, 10.0F, 20.0F, 30.0F});
+    write_bytes(folder / "both_forms", both);
+    write_bytes(folder / "dimensions_of_none", spoiled(40, std::array<std::int16_t, 6>{5, 3, 4, 5, 0, 0}));
 }
 
 void write_dicom(const std::filesystem::path& folder) {

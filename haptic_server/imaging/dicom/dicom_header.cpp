@@ -217,6 +217,19 @@ void place_frames(const DataSet& data, std::size_t count, DicomHeader& header) {
     }
 }
 
+/// Objects whose values are no HU whatever their rescale says, but of the standard's CT (5.1.4.1.1.2).
+void note_doubtful_kind(const DicomScan& scan, DicomHeader& header) {
+    if (!scan.sop_class.empty() && !scan.sop_class.starts_with("1.2.840.10008."))
+        note(header,
+             "warning: is of a private kind (SOP Class " + scan.sop_class +
+                 "); its values are taken for HU unless --rescale or --intensity-window says otherwise");
+    if (scan.sop_class.starts_with("1.2.840.10008.5.1.4.1.1.13.1."))
+        note(header,
+             "warning: is a three-dimensional X-ray image (cone beam), whose grey values are not calibrated; "
+             "they are "
+             "taken for HU unless --rescale or --intensity-window says otherwise");
+}
+
 /// Why it is no slice of a scan, where there is one beside it.
 std::string why_left_out(const DataSet& data, const DicomScan& scan, const DicomHeader& header) {
     const std::string type = text_of(data, image_type_tag);
@@ -299,6 +312,7 @@ std::optional<DicomHeader> read_dicom_header(const std::filesystem::path& path) 
         header.wrong_sign_begin = scan->pixel_representation_begin;
         header.codestream_is_signed = *scan->codestream->is_signed;
     }
+    note_doubtful_kind(*scan, header);
     place_frames(data, static_cast<std::size_t>(count), header);
     header.not_of_the_scan = why_left_out(data, *scan, header);
     return header;

@@ -155,6 +155,13 @@ TEST_F(DicomImage, SaysWhereItsValuesMayBeNoHu) {
         ElementsAre(HasSubstr("is 0, which would make all values the same")));
 }
 
+TEST_F(DicomImage, SaysThatItIsOfAKindWithoutCalibration) {
+    write_series([](RawSlice& slice) { slice.sop_class = "1.3.12.2.1107.5.9.1"; });
+    EXPECT_THAT(open().image.notes, ElementsAre(HasSubstr("is of a private kind")));
+    write_series([](RawSlice& slice) { slice.sop_class = "1.2.840.10008.5.1.4.1.1.13.1.2"; });
+    EXPECT_THAT(open().image.notes, ElementsAre(HasSubstr("cone beam")));
+}
+
 TEST_F(DicomImage, StacksFramesWithoutGroups) {
     RawSlice file;
     file.frames = "3";
