@@ -65,13 +65,16 @@ void note(DicomHeader& header, const std::string& words) {
         header.notes.push_back(words);
 }
 
-std::optional<SlicePlacement> placement_of(const Places& places, DicomHeader& header, std::string& missing) {
+/// `is_alone`: its frames are placed against one another, so that it may lack a position.
+std::optional<SlicePlacement> placement_of(const Places& places, bool is_alone, DicomHeader& header,
+                                           std::string& missing) {
     auto spacing = places.find<2>(pixel_measures_tag, spacing_tag);
     if (!spacing && (spacing = places.find<2>(pixel_measures_tag, detector_spacing_tag)))
         note(header, "has no Pixel Spacing (0028,0030); that of the detector (0018,1164) is taken");
     if (!spacing) missing = "Pixel Spacing (0028,0030)";
     auto orientation = places.find<6>(plane_orientation_tag, orientation_tag);
-    const auto position = places.find<3>(plane_position_tag, position_tag);
+    auto position = places.find<3>(plane_position_tag, position_tag);
+    if (!position && is_alone) position = {0.0, 0.0, 0.0};
     if (!position && missing.empty())
         missing = orientation ? "Image Position (0020,0032)"
                               : "Image Position and Orientation (0020,0032 and 0037)";
@@ -79,8 +82,7 @@ std::optional<SlicePlacement> placement_of(const Places& places, DicomHeader& he
     if (!orientation) {
         note(header,
              "warning: has no Image Orientation (0020,0037); left and right are a guess (taken as of a "
-             "patient who lies "
-             "on the back, head first)");
+             "patient who lies on the back, head first)");
         orientation = {1.0, 0.0, 0.0, 0.0, 1.0, 0.0};
     }
     return SlicePlacement{.name = {},
@@ -101,10 +103,8 @@ DicomRescale rescale_of(const Places& places, DicomHeader& header) {
     if (!header.values.table && !slope && !intercept)
         note(header,
              "warning: says nothing of how its values become HU (no Rescale Slope and Intercept, 0028,1053 "
-             "and 1052), as "
-             "cone-beam scans without calibration do; they are taken for HU unless --rescale or "
-             "--intensity-window says "
-             "otherwise");
+             "and 1052), as cone-beam scans without calibration do; they are taken for HU unless --rescale "
+             "or --intensity-window says otherwise");
     if (rescale.slope == 0.0) {
         note(header,
              "warning: its Rescale Slope (0028,1053) is 0, which would make all values the same; taken as 1");
@@ -179,7 +179,7 @@ void stack_frames(const DataSet& data, std::size_t count, DicomHeader& header) {
     const double gap_mm = gap ? std::abs((*gap)[0]) : 0.0;
     if (!(gap_mm > 0.0)) missing = "Spacing Between Slices (0018,0088) and no Slice Thickness (0018,0050)";
     std::optional<SlicePlacement> first;
-    if (missing.empty()) first = placement_of(places, header, missing);
+    if (missing.empty()) first = placement_of(places, true, header, missing);
     if (!first) {
         header.fault =
             "is multi-frame, does not say where each frame lies (5200,9230), and has no " + missing;
@@ -210,7 +210,7 @@ void place_frames(const DataSet& data, std::size_t count, DicomHeader& header) {
         header.rescales.push_back(rescale_of(places, header));
         if (header.frames.size() == count) continue;
         std::string missing;
-        header.frames.push_back(placement_of(places, header, missing));
+        header.frames.push_back(placement_of(places, false, header, missing));
         if (missing.empty()) continue;
         header.fault = "does not say how it lies in the patient: no " + missing;
         if (missing.starts_with("Image Position and")) header.not_of_the_scan = "does not lie in the patient";

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -23,6 +24,11 @@ struct NrrdHeader {
     std::map<std::string, std::string> key_values;  ///< "key:=value", line breaks and backslashes unescaped
     std::vector<std::string> listed_files;          ///< of "data file: LIST"
     std::size_t bytes = 0;                          ///< up to and with the blank line
+
+    std::optional<std::string> field(const char* name) const {
+        const auto found = fields.find(name);
+        return found == fields.end() ? std::nullopt : std::optional(found->second);
+    }
 };
 
 /// What it means.

@@ -180,6 +180,11 @@ TEST_F(DicomImage, StacksFramesWithoutGroups) {
     EXPECT_EQ(opened.image.spacing_mm.z, 2.0);
     EXPECT_EQ(opened.read_values([](double) {})[24], 5.0F);
     EXPECT_THAT(opened.image.notes, Contains(HasSubstr("stacked 2 mm apart (Spacing Between Slices)")));
+    bytes = with(with(bytes, dicom_element(0x0020, 0x0032, "DS", "0\\0\\0"), ""),
+                 dicom_element(0x0020, 0x0037, "DS", "1\\0\\0\\0\\1\\0"), "");
+    write_bytes(folder_ / "x.dcm", bytes);
+    EXPECT_THAT(open_image(folder_ / "x.dcm", std::nullopt).image.notes,
+                Contains(HasSubstr("left and right are a guess")));
 }
 
 TEST_F(DicomImage, LeavesOutBitsThatHoldNoPixel) {
