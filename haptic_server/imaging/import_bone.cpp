@@ -143,10 +143,12 @@ void require_memory(const ImportOptions& options, const OpenedImage& opened, con
                         to_text(extent_of(image))));
 }
 
-void make_hu(const ImportOptions& options, std::span<float> values) {
-    mark_not_finite(values);
+/// How many are none, since they were not measured.
+std::size_t make_hu(const ImportOptions& options, std::span<float> values) {
+    const std::size_t not_measured = mark_not_finite(values);
     if (const auto* rescale = std::get_if<Rescale>(&options.to_hu)) rescale_values(*rescale, values);
     if (const auto* window = std::get_if<IntensityWindow>(&options.to_hu)) window_values(*window, values);
+    return not_measured;
 }
 
 ImagingError no_bone(const ImportOptions& options, int highest_hu) {
@@ -154,15 +156,17 @@ ImagingError no_bone(const ImportOptions& options, int highest_hu) {
                                        *options.threshold_hu, highest_hu)};
 }
 
-/// The region's part in HU; of the rest of the scan no more than a slice is looked at.
-void read_part(const ImportOptions& options, const OpenedImage& opened, const ImageBox& needed,
+/// The region's part in HU; of the rest of the scan no more than a slice is looked at. Whether all of the
+/// scan was measured; what was not is not a number.
+bool read_part(const ImportOptions& options, const OpenedImage& opened, const ImageBox& needed,
                std::span<float> values, const ScratchValues& part, const ImportSurroundings& surroundings) {
+    std::size_t not_measured = 0;
     HuHistogram histogram;
     {
         ProgressLine progress(surroundings.messages, surroundings.is_terminal, "reading");
         opened.read_slices(
             [&](int k, std::span<float> slice) {
-                make_hu(options, slice);
+                not_measured += make_hu(options, slice);
                 histogram.add(slice);
                 put_slice(opened.image, needed, k, slice, values);
                 part.let_go();
@@ -173,7 +177,12 @@ void read_part(const ImportOptions& options, const OpenedImage& opened, const Im
         surroundings.messages << fmt::format(
             "{}: {} HU fill what lies outside its field of view; taken as not measured\n",
             options.input.string(), *fill);
-        std::ranges::replace(values, *fill, std::numeric_limits<float>::quiet_NaN());
+        const auto slices = static_cast<std::size_t>(part_of(opened.image, needed).size_voxels.z);
+        for (std::size_t k = 0; k < slices; ++k) {
+            std::ranges::replace(values.subspan(k * (values.size() / slices), values.size() / slices), *fill,
+                                 std::numeric_limits<float>::quiet_NaN());
+            part.let_go();
+        }
     }
     // What a window makes is not to look like HU of a scan.
     const bool is_windowed = std::holds_alternative<IntensityWindow>(options.to_hu);
@@ -184,6 +193,7 @@ void read_part(const ImportOptions& options, const OpenedImage& opened, const Im
     // overshoots.
     if (options.threshold_hu && histogram.highest_hu() < *options.threshold_hu)
         throw no_bone(options, histogram.highest_hu());
+    return not_measured == 0 && !histogram.fill_hu();
 }
 
 /// Slices of the result that are at work, by their number.
@@ -206,7 +216,7 @@ class SliceRing {
 /// Refines, clears what is far from bone if there is a threshold and soft tissue is not kept, writes: a few
 /// slices at a time, on all cores.
 /// Returns how many voxels are bone; 0 without a threshold.
-std::uint64_t write_refined(const ImportOptions& options, const Refiner& refiner, const FieldOfView& field,
+std::uint64_t write_refined(const ImportOptions& options, const Refiner& refiner, const FieldOfView* field,
                             const ScratchValues& scratch, const Grid& grid, BoneFileWriter& writer,
                             const ReportProgress& report) {
     const int slices = grid.size_voxels.z;
@@ -229,7 +239,7 @@ std::uint64_t write_refined(const ImportOptions& options, const Refiner& refiner
         in_parallel(now, [&](int i) {
             const std::span<std::int16_t> hu = ring.slice(refined + i);
             refiner.slice(refined + i, hu);
-            field.clear_outside(grid, refined + i, hu);
+            if (field) field->clear_outside(grid, refined + i, hu);
             note_highest(hu);
             if (near) near->look_at(refined + i, hu);
         });
@@ -287,13 +297,15 @@ void import_bone(const ImportOptions& options, const OpenedImage& opened,
         const ScratchValues scratch(scratch_floats(work), most_scan_bytes, scratch_folder(options));
         const auto let_go = [&] { scratch.let_go(); };
         const std::span<float> values = scratch.values().first(voxel_count(work.needed));
-        read_part(options, opened, work.needed, values, scratch, surroundings);
+        const bool is_whole = read_part(options, opened, work.needed, values, scratch, surroundings);
         const SourceImage part = part_of(opened.image, work.needed);
         const std::span<float> room = scratch.values().subspan(values.size());
-        const FieldOfView field(part, values, std::as_writable_bytes(room.first(floats_of_field(work))));
-        if (!field.is_whole())
+        std::optional<FieldOfView> field;
+        if (!is_whole)
+            field.emplace(part, values, std::as_writable_bytes(room.first(floats_of_field(work))), let_go);
+        if (field && field->voxels_outside() > 0)
             surroundings.messages << fmt::format("{}: {} voxels were not measured (padding); taken as air\n",
-                                                 options.input.string(), field.voxels_outside());
+                                                 options.input.string(), field->voxels_outside());
         std::optional<SliceShapes> shapes;
         if (work.axis_of_shapes)
             shapes.emplace(part, values, *work.axis_of_shapes, *options.threshold_hu, options.spacing_mm,
@@ -301,8 +313,8 @@ void import_bone(const ImportOptions& options, const OpenedImage& opened,
         ProgressLine progress(surroundings.messages, surroundings.is_terminal, "refining");
         const Refiner refiner(part, values, work.grid, shapes ? &*shapes : nullptr, let_go);
         BoneFileWriter writer(options.output, work.grid, std::move(key_values));
-        const std::uint64_t bone_voxels =
-            write_refined(options, refiner, field, scratch, work.grid, writer, progress.reporter());
+        const std::uint64_t bone_voxels = write_refined(options, refiner, field ? &*field : nullptr, scratch,
+                                                        work.grid, writer, progress.reporter());
         say_if_all_is_bone(options, work.grid, bone_voxels, surroundings.messages);
         writer.commit();
     } catch (const std::bad_alloc&) {

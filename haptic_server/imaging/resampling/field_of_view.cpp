@@ -53,22 +53,24 @@ float mean_around(std::size_t place, const glm::ivec3& size, std::span<const flo
 
 }  // namespace
 
-FieldOfView::FieldOfView(const SourceImage& part, std::span<float> values, std::span<std::byte> room)
+FieldOfView::FieldOfView(const SourceImage& part, std::span<float> values, std::span<std::byte> room,
+                         const std::function<void()>& pause)
     : part_{.size_voxels = part.size_voxels,
             .spacing_mm = part.spacing_mm,
             .origin_mm = part.origin_mm,
             .direction = part.direction},
       is_outside_(room) {
     const glm::ivec3& size = part_.size_voxels;
+    const auto slice = static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y);
     std::vector<std::pair<std::size_t, float>> layer;
     for (std::size_t place = 0; place < values.size(); ++place) {
+        if (place % slice == 0) pause();
         if (!std::isnan(values[place])) continue;
         is_outside_[place / 8] |= bit_of(place);
         ++voxels_outside_;
         if (const float mean = mean_around(place, size, values); !std::isnan(mean))
             layer.emplace_back(place, mean);
     }
-    if (is_whole()) return;
     for (int depth = 0; depth < refine_margin_voxels; ++depth) {
         for (const auto& [place, mean] : layer) values[place] = mean;
         std::vector<std::size_t> next;
@@ -81,12 +83,14 @@ FieldOfView::FieldOfView(const SourceImage& part, std::span<float> values, std::
         layer.clear();
         for (const std::size_t place : next) layer.emplace_back(place, mean_around(place, size, values));
     }
-    for (float& value : values)
-        if (std::isnan(value)) value = air_hu;
+    for (std::size_t place = 0; place < values.size(); ++place) {
+        if (place % slice == 0) pause();
+        if (std::isnan(values[place])) values[place] = air_hu;
+    }
 }
 
 void FieldOfView::clear_outside(const Grid& grid, int z, std::span<std::int16_t> hu) const {
-    if (is_whole()) return;
+    if (voxels_outside_ == 0) return;
     const glm::dvec3 end = glm::dvec3(part_.size_voxels - 1);
     auto out = hu.begin();
     for (int y = 0; y < grid.size_voxels.y; ++y)

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <span>
 
 #include "common/bone/grid.h"
@@ -16,10 +17,11 @@ class FieldOfView {
   public:
     /// `values` are the part's; those that are not numbers are padding. Where the field goes on they become
     /// the mean of their neighbours, layer by layer, as deep as a spline feels; farther they become air.
-    /// `room`: a bit for each value, all 0, which must outlive it.
-    FieldOfView(const SourceImage& part, std::span<float> values, std::span<std::byte> room);
+    /// `room`: a bit for each value, all 0, which must outlive it. `pause`: see filter_lines.
+    FieldOfView(
+        const SourceImage& part, std::span<float> values, std::span<std::byte> room,
+        const std::function<void()>& pause = [] {});
 
-    bool is_whole() const { return voxels_outside_ == 0; }
     /// How many voxels were not measured.
     std::uint64_t voxels_outside() const { return voxels_outside_; }
     /// Sets to air what of the grid's slice z lies in voxels that were not measured. From any number of

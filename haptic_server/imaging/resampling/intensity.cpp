@@ -53,9 +53,14 @@ void window_values(const IntensityWindow& window, std::span<float> values) {
                     : static_cast<float>(std::clamp((value - window.low) * hu_per_step, 0.0, window_top_hu));
 }
 
-void mark_not_finite(std::span<float> values) {
-    for (float& value : values)
-        if (!std::isfinite(value)) value = std::numeric_limits<float>::quiet_NaN();
+std::size_t mark_not_finite(std::span<float> values) {
+    std::size_t count = 0;
+    for (float& value : values) {
+        if (std::isfinite(value)) continue;
+        value = std::numeric_limits<float>::quiet_NaN();
+        ++count;
+    }
+    return count;
 }
 
 }  // namespace osteomill

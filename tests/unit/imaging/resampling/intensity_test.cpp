@@ -32,7 +32,7 @@ TEST(Intensity, RefusesTextsThatAreNotTwoNumbers) {
 
 TEST(Intensity, TakesWhatIsInfiniteForNotMeasured) {
     std::array values{1.0F, NAN, INFINITY};
-    mark_not_finite(values);
+    EXPECT_EQ(mark_not_finite(values), 2u);
     EXPECT_EQ(values[0], 1.0F);
     EXPECT_TRUE(std::isnan(values[1]) && std::isnan(values[2]));
 }
