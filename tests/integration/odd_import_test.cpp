@@ -5,6 +5,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <cmath>
 #include <fstream>
 #include <iterator>
 
@@ -115,6 +116,30 @@ TEST_F(OddImport, RefusesTextThatIsNoNumbers) {
     EXPECT_THAT(refusal(ones), HasSubstr("fewer numbers than voxels"));
     EXPECT_THAT(refusal(ones + "1x"), HasSubstr("'1x' is no number"));
     EXPECT_THAT(refusal(ones + std::string(1000, '1')), HasSubstr("is no number"));
+}
+
+TEST_F(OddImport, MakesNoBoneOfTheEdgeOfAFieldOfView) {
+    // Soft tissue of 40 HU, cut by a round field, with a post of bone in its middle.
+    std::string voxels;
+    for (int i = 0; i < 8 * 32 * 32; ++i) {
+        const double r = std::hypot(i % 32 - 15.5, i / 32 % 32 - 15.5);
+        const int hu = r > 14.0 ? -3024 : r < 4.0 ? 1500 : 40;
+        voxels += little(static_cast<std::uint32_t>(hu), 2);
+    }
+    write_bytes(folder_ / "padded.nrrd",
+                with(with(nrrd_header(), "3 4 5", "32 32 8"), "(0,0,2)", "(0,0,1)") + voxels);
+    said_ = run_program({BONE_IMPORT, (folder_ / "padded.nrrd").string(), (folder_ / "bone.nrrd").string(),
+                         "--spacing-mm", "0.25", "--threshold-hu", "300"});
+    ASSERT_EQ(said_.status, 0) << said_.err;
+    EXPECT_THAT(said_.err, HasSubstr("-3024 HU fill what lies outside its field of view"));
+    const HuVolume volume = testing::read_bone_file(folder_ / "bone.nrrd").volume;
+    const glm::ivec3 size = volume.grid.size_voxels;
+    int outside_the_post = 0;
+    for (int i = 0; i < size.x * size.y * size.z; ++i) {
+        const double r = std::hypot(0.25 * (i % size.x) - 15.5, 0.25 * (i / size.x % size.y) - 15.5);
+        outside_the_post += r > 6.0 && volume.hu[static_cast<std::size_t>(i)] >= 300 ? 1 : 0;
+    }
+    EXPECT_EQ(outside_the_post, 0);
 }
 
 TEST_F(OddImport, SaysThatBytesFollowTheVoxels) {
