@@ -255,15 +255,14 @@ TEST_F(DicomImage, OfLabelsMayBeASegmentation) {
     EXPECT_EQ(read.image.spacing_mm, glm::dvec3(0.5, 0.5, 2.0));
     EXPECT_EQ(read.image.origin_mm, glm::dvec3(10.0, 20.0, 2.0));
     ASSERT_EQ(read.segments.size(), 3U);
-    const auto has = [&](const char* name, std::size_t voxel) {
+    const auto has = [&](const char* name, int voxel) {
         const Segment& segment = segment_named(read, name);
-        return read.labels[voxel * static_cast<std::size_t>(read.layers) +
-                           static_cast<std::size_t>(segment.layer)] == segment.label;
+        return read.labels.at(segment.layer, {voxel % 4, voxel / 4 % 3, voxel / 12}) == segment.label;
     };
     EXPECT_TRUE(has("bone", 0) && !has("bone", 1) && has("bone", 12) && has("bone", 13));
     EXPECT_TRUE(has("nerve", 36 + 2) && !has("nerve", 2));
     EXPECT_TRUE(has("dura", 0) && has("dura", 1)) << "over bone, in a layer of its own";
-    EXPECT_EQ(read.layers, 2);
+    EXPECT_EQ(read.labels.layers(), 2);
     EXPECT_THAT(refusal(folder_ / "seg.dcm"),
                 HasSubstr("is a segmentation (SEG), which holds no CT numbers"));
 }
