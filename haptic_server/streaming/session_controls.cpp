@@ -7,9 +7,19 @@
 
 namespace osteomill {
 
+namespace {
+
+constexpr const char* bone_is_under_way = "the bone is still being given back";
+
+bool is_stroke_action(SessionAction action) {
+    return action == SessionAction::undo || action == SessionAction::redo || action == SessionAction::reset;
+}
+
+}  // namespace
+
 void SessionControls::control(const SessionControl& control) {
     if (waiting_.size() < most_waiting)
-        waiting_.push_back(control);
+        waiting_.push_back({control});
     else
         say(control, "too much was asked for at once");
 }
@@ -30,88 +40,121 @@ void SessionControls::end_frame(const Bone& bone, const ToolState& tool) {
     // The milling loop may be a step behind the pedal: the stroke has ended when no more comes of it.
     if (!tool.spindle_on && !has_changes_) journal_.end_stroke();
     queue_restored();
-    while (!is_restoring() && !waiting_.empty() && act(waiting_.front(), bone, tool)) waiting_.pop_front();
+    for (Waiting& waiting : waiting_) ++waiting.frames;
+    while (!waiting_.empty()) {
+        const Waiting& next = waiting_.front();
+        const std::string waits_for = act(next, bone, tool);
+        if (!waits_for.empty()) {
+            if (next.frames < longest_wait_frames) break;
+            is_being_placed_ = false;
+            say(next.control, waits_for);
+        }
+        waiting_.pop_front();
+    }
+    for (const auto& [brick, restored] : restoration_) waits_for_room_.push_back(restored);
+    restoration_.clear();
+    queue_restored();
     const bool wants_stillness = is_paused_ || is_restoring() || !waiting_.empty();
     gate_.holds_still.store(wants_stillness, std::memory_order_release);
 }
 
-bool SessionControls::act(const SessionControl& control, const Bone& bone, const ToolState& tool) {
+std::string SessionControls::act(const Waiting& waiting, const Bone& bone, const ToolState& tool) {
+    const SessionControl& control = waiting.control;
+    const bool needs_bone = control.action == SessionAction::save ||
+                            control.action == SessionAction::finish || control.action == SessionAction::place;
+    // What needs no bone waits for its turn alone.
+    const bool can_wait = waiting.frames < longest_wait_frames;
+    if (!is_stroke_action(control.action) && !is_bone_whole() && (needs_bone || can_wait))
+        return bone_is_under_way;
     switch (control.action) {
         case SessionAction::undo:
         case SessionAction::redo:
         case SessionAction::reset:
             return restore(control.action, bone, tool);
         case SessionAction::place:
-            return place(control, bone, tool);
+            return place(waiting, bone, tool);
         case SessionAction::pause:
         case SessionAction::resume:
             is_paused_ = control.action == SessionAction::pause;
             break;
         case SessionAction::speed:
             choose_speed(control);
-            return true;
+            return {};
         case SessionAction::save:
             say(control, requests_.save(bone, control.text));
-            return true;
+            return {};
         case SessionAction::finish:
             say({.action = control.action, .text = requests_.finish_words}, requests_.finish());
-            return true;
+            return {};
         case SessionAction::mark:
         case SessionAction::none:
             break;
     }
     say(control);
-    return true;
+    return {};
 }
 
-bool SessionControls::restore(SessionAction action, const Bone& bone, const ToolState& tool) {
-    if (tool.spindle_on || journal_.has_open_stroke()) return false;
+std::string SessionControls::restore(SessionAction action, const Bone& bone, const ToolState& tool) {
+    if (is_restoring()) return bone_is_under_way;
+    if (tool.spindle_on || journal_.has_open_stroke()) return "the stroke under way does not end";
     const bool redoes = action == SessionAction::redo;
-    if ((redoes ? journal_.redo_steps() : journal_.undo_steps()) == 0) {
-        // A reset that has undone its last stroke is done.
-        const bool is_done = std::exchange(is_resetting_, false);
-        say({action}, is_done ? "" : redoes ? "nothing was undone" : "nothing was milled");
-        return true;
+    const auto steps = [&] { return redoes ? journal_.redo_steps() : journal_.undo_steps(); };
+    if (steps() == 0) {
+        say({action}, redoes ? "nothing was undone" : "nothing was milled");
+        return {};
     }
-    const auto restored = redoes ? journal_.redo(bone) : journal_.undo(bone);
-    waits_for_room_.insert(waits_for_room_.end(), restored.begin(), restored.end());
-    queue_restored();
-    if (action == SessionAction::reset) {
-        is_resetting_ = true;
-        return false;  // its turn comes again, for the stroke before
-    }
+    do {
+        if (redoes)
+            journal_.redo(bone, restoration_);
+        else
+            journal_.undo(bone, restoration_);
+    } while (action == SessionAction::reset && steps() > 0);
     say({action});
-    return true;
+    return {};
 }
 
-bool SessionControls::place(const SessionControl& control, const Bone& bone, const ToolState& tool) {
-    if (is_being_placed_) {
-        if (gate_.placed.load(std::memory_order_acquire) != placement_.number) return false;
-        is_being_placed_ = false;
-        const glm::dvec3& at = placement_.pose.position_mm;
-        const double moved_mm = glm::distance(at, control.pose.position_mm);
-        say({control.action,
-             fmt::format(
-                 "at {:.1f}, {:.1f}, {:.1f} mm LPS{}", at.x, at.y, at.z,
-                 moved_mm > 0.05 ? fmt::format(", {:.1f} mm out of the bone", moved_mm) : std::string())});
-        if (requests_.placed) requests_.placed(placement_.pose);
-        return true;
+std::string SessionControls::place(const Waiting& waiting, const Bone& bone, const ToolState& tool) {
+    // The haptic loop has a frame to place the tool, and another in which it may see that it need not any
+    // more.
+    const int frames_left = longest_wait_frames - waiting.frames;
+    if (!is_being_placed_) {
+        if (!requests_.place) {
+            say(waiting.control, "the simulated hand follows its own way");
+            return {};
+        }
+        if (tool.spindle_on) return "the spindle still turns";
+        if (frames_left < 2) return "what was asked for before it took too long";
+        const auto found = requests_.place(bone, waiting.control.pose, tool.burr);
+        if (const auto* refusal = std::get_if<std::string>(&found)) {
+            say(waiting.control, *refusal);
+            return {};
+        }
+        placement_ = {placement_.number + 1, std::get<ToolPose>(found)};
+        ask_for(placement_);
+        is_being_placed_ = true;
+    } else if (gate_.placed.load(std::memory_order_acquire) == placement_.number) {
+        say_placed(waiting.control);
+        return {};
+    } else if (frames_left == 1) {
+        ask_for({.number = gate_.placed.load(std::memory_order_acquire), .pose = {}});
     }
-    if (!requests_.place) {
-        say(control, "the simulated hand follows its own way");
-        return true;
-    }
-    if (tool.spindle_on) return false;
-    const auto found = requests_.place(bone, control.pose, tool.burr);
-    if (const auto* refusal = std::get_if<std::string>(&found)) {
-        say(control, *refusal);
-        return true;
-    }
-    placement_ = {placement_.number + 1, std::get<ToolPose>(found)};
-    placements_.back() = placement_;
+    const std::string fault(tool.fault.text());
+    return fault.empty() ? "force and spindle do not go off" : fault;
+}
+
+void SessionControls::ask_for(const Placement& placement) {
+    placements_.back() = placement;
     placements_.publish();
-    is_being_placed_ = true;
-    return false;
+}
+
+void SessionControls::say_placed(const SessionControl& control) {
+    is_being_placed_ = false;
+    const glm::dvec3& at = placement_.pose.position_mm;
+    const double moved_mm = glm::distance(at, control.pose.position_mm);
+    say({control.action,
+         fmt::format("at {:.1f}, {:.1f}, {:.1f} mm LPS{}", at.x, at.y, at.z,
+                     moved_mm > 0.05 ? fmt::format(", {:.1f} mm out of the bone", moved_mm) : "")});
+    if (requests_.placed) requests_.placed(placement_.pose);
 }
 
 void SessionControls::choose_speed(const SessionControl& control) {

@@ -4,8 +4,10 @@
 //
 // Undo goes the way of milling, backwards: what the journal remembers is queued for the milling loop, which
 // writes it into its bone while the spindle is off, and comes back as changes that restore, for the copy of
-// the bone, every client and the recording. Meanwhile the session holds still. A command that has to wait for
-// that, or for a stroke to end, waits in its turn.
+// the bone, every client and the recording. Meanwhile the session holds still. What is undone and redone in
+// one frame is one change of the bone, be it a thousand strokes. A command that has to wait for that, for a
+// stroke to end or for the arm waits in its turn, a second at most: then it is refused, with what it waited
+// for.
 #pragma once
 
 #include <deque>
@@ -42,6 +44,8 @@ class SessionControls {
     };
     /// So many wait at most; what comes then is refused.
     static constexpr std::size_t most_waiting = 64;
+    /// Of a streaming server, at 30 Hz: less than a second until whoever asked has the answer.
+    static constexpr int longest_wait_frames = 25;
 
     /// The one writer of gate.holds_still and gate.spindle_rev_per_s, of `restored` and of `placements`; all
     /// outlive it.
@@ -55,20 +59,27 @@ class SessionControls {
     void begin_frame();
     /// For each of them, before it is applied to `bone`.
     void note(const BrickChange& change, const Bone& bone);
-    /// When all are: does what was asked for and can be done now.
+    /// When all are: does what was asked for and can be done now, and refuses what has waited too long.
     void end_frame(const Bone& bone, const ToolState& tool);
 
     std::vector<ControlEvent> take_events() { return std::exchange(events_, {}); }
     SessionStatus status() const;
 
   private:
-    /// False: it has to wait.
-    bool act(const SessionControl& control, const Bone& bone, const ToolState& tool);
-    bool restore(SessionAction action, const Bone& bone, const ToolState& tool);
-    bool place(const SessionControl& control, const Bone& bone, const ToolState& tool);
+    struct Waiting {
+        SessionControl control;
+        int frames = 0;  ///< it has seen since it was asked for
+    };
+    /// What it has to wait for; empty: it is done, or refused.
+    std::string act(const Waiting& waiting, const Bone& bone, const ToolState& tool);
+    std::string restore(SessionAction action, const Bone& bone, const ToolState& tool);
+    std::string place(const Waiting& waiting, const Bone& bone, const ToolState& tool);
+    void ask_for(const Placement& placement);
+    void say_placed(const SessionControl& control);
     void choose_speed(const SessionControl& control);
     void queue_restored();
     bool is_restoring() const { return !waits_for_room_.empty() || confirmed_ < queued_; }
+    bool is_bone_whole() const { return !is_restoring() && restoration_.empty(); }
     void say(const SessionControl& control, std::string refusal = {});
 
     SessionGate& gate_;
@@ -77,7 +88,7 @@ class SessionControls {
     Requests requests_;
     StrokeJournal journal_;
 
-    std::deque<SessionControl> waiting_;
+    std::deque<Waiting> waiting_;
     std::vector<ControlEvent> events_;
     double time_s_ = 0.0;
     bool is_paused_ = false;
@@ -85,7 +96,7 @@ class SessionControls {
 
     Placement placement_;  // the last that was asked for
     bool is_being_placed_ = false;
-    bool is_resetting_ = false;  // has undone a stroke, and goes on
+    StrokeJournal::Restoration restoration_;  // of this frame
     std::deque<StrokeJournal::Restored> waits_for_room_;
     std::uint64_t queued_ = 0;     // since the start
     std::uint64_t confirmed_ = 0;  // of these, those that are in the bone

@@ -33,12 +33,12 @@ void StrokeJournal::end_stroke() {
     done_.push_back(pack(bricks));
 }
 
-std::vector<StrokeJournal::Restored> StrokeJournal::undo(const Bone& bone) {
-    return move(done_, undone_, bone);
+void StrokeJournal::undo(const Bone& bone, Restoration& restoration) {
+    move(done_, undone_, bone, restoration);
 }
 
-std::vector<StrokeJournal::Restored> StrokeJournal::redo(const Bone& bone) {
-    return move(undone_, done_, bone);
+void StrokeJournal::redo(const Bone& bone, Restoration& restoration) {
+    move(undone_, done_, bone, restoration);
 }
 
 std::size_t StrokeJournal::memory_bytes() const {
@@ -48,19 +48,27 @@ std::size_t StrokeJournal::memory_bytes() const {
     return bytes;
 }
 
-std::vector<StrokeJournal::Restored> StrokeJournal::move(std::vector<Stroke>& from, std::vector<Stroke>& to,
-                                                         const Bone& bone) {
+void StrokeJournal::move(std::vector<Stroke>& from, std::vector<Stroke>& to, const Bone& bone,
+                         Restoration& restoration) {
     if (from.empty() || has_open_stroke())
         throw std::logic_error("there is no stroke to restore, or one is under way");
-    std::vector<Restored> restored = unpack(from.back());
+    std::vector<Restored> stroke = unpack(from.back());
     from.pop_back();
-    std::vector<Restored> now = restored;
-    for (Restored& brick : now) {
-        const BrickFractions fractions = std::as_const(bone).fractions(bone.slot(brick.change.brick));
-        brick.change.voxels.for_each([&](std::size_t voxel) { brick.fractions[voxel] = fractions[voxel]; });
+    for (Restored& brick : stroke) {
+        const auto [found, is_new] = restoration.try_emplace(brick.change.brick);
+        Restored& all = found->second;
+        if (is_new) {
+            all.change = {brick.change.brick, {}, ChangeKind::restored};
+            all.fractions.fill(0);
+        }
+        const BrickFractions now = std::as_const(bone).fractions(bone.slot(brick.change.brick));
+        const VoxelMask only_in_bone = brick.change.voxels.without(all.change.voxels);
+        only_in_bone.for_each([&](std::size_t voxel) { all.fractions[voxel] = now[voxel]; });
+        all.change.voxels |= only_in_bone;
+        brick.change.voxels.for_each(
+            [&](std::size_t voxel) { std::swap(brick.fractions[voxel], all.fractions[voxel]); });
     }
-    to.push_back(pack(now));
-    return restored;
+    to.push_back(pack(stroke));
 }
 
 StrokeJournal::Stroke StrokeJournal::pack(const std::vector<Restored>& bricks) {

@@ -28,15 +28,18 @@ class StrokeJournal {
     std::size_t undo_steps() const { return done_.size(); }
     std::size_t redo_steps() const { return undone_.size(); }
 
-    /// What gives the bone back that the last closed stroke took, or takes it again: changes and the
-    /// fractions of their voxels (those of the mask; the others are 0). `bone` is as that stroke left it, or
-    /// found it. No stroke is open, and there is one to undo, to redo.
+    /// A change that restores, and the fractions of its voxels (those of the mask; the others are 0).
     struct Restored {
         BrickChange change;
         ByteBrick fractions;
     };
-    std::vector<Restored> undo(const Bone& bone);
-    std::vector<Restored> redo(const Bone& bone);
+    /// What restores any number of strokes: each brick once.
+    using Restoration = std::map<BrickIndex, Restored>;
+    /// Adds what gives the bone back that the last closed stroke took, or takes it again. `bone`, once all
+    /// that is in `restoration` already is done, is as that stroke left it, or found it. No stroke is open,
+    /// and there is one to undo, to redo.
+    void undo(const Bone& bone, Restoration& restoration);
+    void redo(const Bone& bone, Restoration& restoration);
 
     /// Bytes that the closed strokes take.
     std::size_t memory_bytes() const;
@@ -51,7 +54,7 @@ class StrokeJournal {
     Stroke pack(const std::vector<Restored>& bricks);
     static std::vector<Restored> unpack(const Stroke& stroke);
     /// Takes the last of `from`, which then is at the end of `to` with what the bone has now.
-    std::vector<Restored> move(std::vector<Stroke>& from, std::vector<Stroke>& to, const Bone& bone);
+    void move(std::vector<Stroke>& from, std::vector<Stroke>& to, const Bone& bone, Restoration& restoration);
 
     std::map<BrickIndex, Restored> open_;
     ZstdCompressor compressor_{1};

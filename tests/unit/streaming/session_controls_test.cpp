@@ -155,6 +155,34 @@ TEST_F(SessionControlsTest, ResetsAllStrokesAndRedoesThemOneByOne) {
     }
 }
 
+TEST_F(SessionControlsTest, ResetsManyStrokesInOneChangeOfEachBrick) {
+    const std::uint64_t whole = checksum(milled_);
+    for (int i = 0; i < 200; ++i) {
+        for (int run = 0; run < 3; ++run) testing::carve_somewhere(milled_, random_, *this);
+        frame(true);
+        frame();
+    }
+    const std::uint64_t milled = checksum(milled_);
+    ASSERT_GT(controls_.status().undo_steps, 150U);
+    controls_.control({SessionAction::reset});
+    frames(60);
+    EXPECT_EQ(checksum(mirror_), whole);
+    EXPECT_LE(gate_.restored_changes, milled_.content().brick_of_slot.size());
+    // And all of it again, asked for one by one.
+    std::size_t left = controls_.status().redo_steps;
+    while (left > 0) {
+        for (std::size_t i = 0; i < std::min(left, SessionControls::most_waiting); ++i)
+            controls_.control({SessionAction::redo});
+        frame();
+        EXPECT_EQ(controls_.status().redo_steps, left - std::min(left, SessionControls::most_waiting));
+        left = controls_.status().redo_steps;
+        frames(60);
+    }
+    EXPECT_EQ(checksum(milled_), milled);
+    EXPECT_EQ(checksum(mirror_), milled);
+    for (const ControlEvent& event : controls_.take_events()) EXPECT_FALSE(event.is_refused) << event.text;
+}
+
 TEST_F(SessionControlsTest, RefusesWhatThereIsNothingOf) {
     for (const auto action : {SessionAction::undo, SessionAction::redo, SessionAction::reset})
         controls_.control({action});
@@ -234,6 +262,84 @@ TEST_F(SessionControlsTest, HasTheToolPlacedWhereItIsClearWhileTheSessionHoldsSt
     frame();
     EXPECT_EQ(controls_.take_events().at(0).text, "too far");
     EXPECT_FALSE(holds_still());
+}
+
+TEST_F(SessionControlsTest, AnswersAllInTimeThoughNoArmIsThereToPlace) {
+    controls_.control({.action = SessionAction::place, .pose = {{1.0, 2.0, 3.0}, {0.0, 0.0, 1.0}}});
+    controls_.control({.action = SessionAction::place, .pose = {{2.0, 2.0, 3.0}, {0.0, 0.0, 1.0}}});
+    controls_.control({SessionAction::mark, "behind"});
+    controls_.control({SessionAction::save});
+    controls_.control({SessionAction::finish});
+    for (int i = 0; i < SessionControls::longest_wait_frames; ++i) {
+        EXPECT_TRUE(controls_.take_events().empty());
+        frame();
+    }
+    const auto events = controls_.take_events();
+    ASSERT_EQ(events.size(), 5U);
+    EXPECT_TRUE(events[0].is_refused && events[1].is_refused);
+    EXPECT_EQ(events[0].text, "force and spindle do not go off");
+    EXPECT_EQ(events[2].text, "behind");
+    EXPECT_FALSE(events[2].is_refused || events[3].is_refused || events[4].is_refused);
+    EXPECT_TRUE(is_finished_);
+    EXPECT_FALSE(holds_still());
+    // The arm comes back: it is not placed any more.
+    ASSERT_TRUE(placements_.refresh());
+    EXPECT_EQ(placements_.front().number, gate_.placed);
+    EXPECT_FALSE(placed_);
+    controls_.control({.action = SessionAction::place, .pose = {{5.0, 2.0, 3.0}, {0.0, 0.0, 1.0}}});
+    frame();
+    ASSERT_TRUE(placements_.refresh());
+    gate_.placed = placements_.front().number;
+    frame();
+    EXPECT_FALSE(controls_.take_events().at(0).is_refused);
+    EXPECT_EQ(placed_->position_mm.x, 5.0);
+}
+
+TEST_F(SessionControlsTest, SaysWhatAPlacementWaitedFor) {
+    controls_.control({.action = SessionAction::place, .pose = {{1.0, 2.0, 3.0}, {0.0, 0.0, 1.0}}});
+    for (int i = 0; i < SessionControls::longest_wait_frames; ++i) {
+        controls_.begin_frame();
+        controls_.end_frame(mirror_, {.time_s = 0.0, .fault = "the arm has gone"});
+    }
+    EXPECT_EQ(controls_.take_events().at(0).text, "the arm has gone");
+    // Done at the last moment, it is done.
+    controls_.control({.action = SessionAction::place, .pose = {{1.0, 2.0, 3.0}, {0.0, 0.0, 1.0}}});
+    for (int i = 0; i < SessionControls::longest_wait_frames - 1; ++i) frame();
+    gate_.placed = 2;
+    frame();
+    EXPECT_FALSE(controls_.take_events().at(0).is_refused);
+}
+
+TEST_F(SessionControlsTest, AnswersAllInTimeThoughTheLoopsStandStill) {
+    stroke();
+    controls_.control({SessionAction::undo});
+    for (const auto action :
+         {SessionAction::mark, SessionAction::redo, SessionAction::save, SessionAction::finish,
+          SessionAction::pause, SessionAction::resume, SessionAction::speed})
+        controls_.control({action});
+    for (int i = 0; i < SessionControls::longest_wait_frames; ++i)
+        frame();  // and no step of the milling loop
+    auto events = controls_.take_events();
+    ASSERT_EQ(events.size(), 8U);
+    for (const ControlEvent& event : events) {
+        const bool needs_bone = event.action == SessionAction::redo || event.action == SessionAction::save ||
+                                event.action == SessionAction::finish;
+        EXPECT_EQ(event.is_refused, needs_bone) << name_of(event.action);
+        EXPECT_EQ(event.text == "the bone is still being given back", needs_bone);
+    }
+    EXPECT_TRUE(holds_still());
+    frames(60);
+    EXPECT_FALSE(holds_still());
+    EXPECT_EQ(checksum(milled_), checksum(mirror_));
+    // A spindle that nobody turns off.
+    mill();
+    controls_.control({SessionAction::undo});
+    controls_.control({SessionAction::mark});
+    for (int i = 0; i < SessionControls::longest_wait_frames; ++i) frame(true);
+    events = controls_.take_events();
+    ASSERT_EQ(events.size(), 2U);
+    EXPECT_EQ(events[0].text, "the stroke under way does not end");
+    EXPECT_FALSE(events[1].is_refused);
 }
 
 TEST_F(SessionControlsTest, TakesNoMoreThanItCanRemember) {

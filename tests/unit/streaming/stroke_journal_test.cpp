@@ -24,8 +24,19 @@ class StrokeJournalTest : public ::testing::Test, public ChangeSink {
         for (int i = 0; i < runs; ++i) testing::carve_somewhere(milled_, random_, *this);
         journal_.end_stroke();
     }
-    void restore(const std::vector<StrokeJournal::Restored>& bricks) {
-        for (const auto& brick : bricks) {
+    void undo() {
+        StrokeJournal::Restoration restoration;
+        journal_.undo(mirror_, restoration);
+        restore(restoration);
+    }
+    void redo() {
+        StrokeJournal::Restoration restoration;
+        journal_.redo(mirror_, restoration);
+        restore(restoration);
+    }
+    void restore(const StrokeJournal::Restoration& restoration) {
+        for (const auto& [index, brick] : restoration) {
+            EXPECT_EQ(brick.change.brick, index);
             EXPECT_EQ(brick.change.kind, ChangeKind::restored);
             journal_.note(brick.change, mirror_);  // as it comes back from the milling loop
             EXPECT_TRUE(apply(brick.change, brick.fractions, mirror_));
@@ -49,8 +60,36 @@ TEST_F(StrokeJournalTest, UndoesAndRedoesAnyNumberOfStrokesToTheBit) {
     std::size_t at = 30;
     for (int i = 0; i < 300; ++i) {
         const bool undoes = at == 30 || (at > 0 && random_() % 2 == 0);
-        restore(undoes ? journal_.undo(mirror_) : journal_.redo(mirror_));
+        if (undoes)
+            undo();
+        else
+            redo();
         at += undoes ? -1 : 1;
+        ASSERT_EQ(checksum(mirror_), checksums[at]);
+        ASSERT_EQ(journal_.undo_steps(), at);
+        ASSERT_EQ(journal_.redo_steps(), 30 - at);
+    }
+}
+
+TEST_F(StrokeJournalTest, RestoresAnyNumberOfStrokesInOneChange) {
+    std::vector<std::uint64_t> checksums{checksum(mirror_)};
+    for (int i = 0; i < 30; ++i) {
+        stroke(1 + i * 7);
+        checksums.push_back(checksum(mirror_));
+    }
+    // Walks of any length to and fro, each one change.
+    std::size_t at = 30;
+    for (int i = 0; i < 100; ++i) {
+        StrokeJournal::Restoration walk;
+        for (auto steps = random_() % 50; steps > 0; --steps) {
+            const bool undoes = at == 30 || (at > 0 && random_() % 2 == 0);
+            if (undoes)
+                journal_.undo(mirror_, walk);
+            else
+                journal_.redo(mirror_, walk);
+            at += undoes ? -1 : 1;
+        }
+        restore(walk);
         ASSERT_EQ(checksum(mirror_), checksums[at]);
         ASSERT_EQ(journal_.undo_steps(), at);
         ASSERT_EQ(journal_.redo_steps(), 30 - at);
@@ -60,13 +99,13 @@ TEST_F(StrokeJournalTest, UndoesAndRedoesAnyNumberOfStrokesToTheBit) {
 TEST_F(StrokeJournalTest, ForgetsWhatWasUndoneAsSoonAsTheNextStrokeTakesBone) {
     stroke(20);
     stroke(20);
-    restore(journal_.undo(mirror_));
+    undo();
     EXPECT_EQ(journal_.redo_steps(), 1U);
     const std::uint64_t before = checksum(mirror_);
     stroke(20);
     EXPECT_EQ(journal_.redo_steps(), 0U);
     EXPECT_EQ(journal_.undo_steps(), 2U);
-    restore(journal_.undo(mirror_));
+    undo();
     EXPECT_EQ(checksum(mirror_), before);
 }
 
@@ -74,7 +113,8 @@ TEST_F(StrokeJournalTest, CountsNoStrokeThatTookNothing) {
     journal_.end_stroke();
     journal_.end_stroke();
     EXPECT_EQ(journal_.undo_steps(), 0U);
-    EXPECT_THROW((void)journal_.undo(mirror_), std::logic_error);
+    StrokeJournal::Restoration restoration;
+    EXPECT_THROW(journal_.undo(mirror_, restoration), std::logic_error);
 }
 
 TEST_F(StrokeJournalTest, KeepsNoSecondCopyOfTheBone) {
