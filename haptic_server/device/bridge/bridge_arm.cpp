@@ -131,6 +131,7 @@ void BridgeArm::tell_who_waits() {
         return;
     }
     arm_ = *host_.arm();
+    host_.keep_arm();
     round_trip_s_.store(*round_trip_s);
     has_joined_.store(true, std::memory_order_release);
 }
@@ -160,10 +161,9 @@ void BridgeArm::run() {
             socket_.send(host_.answer(now_ns, wanted(now_ns)), host_.peer());
         if (bytes && host_.has_fresh_pose()) continue;
         const BridgeCounts& now = host_.counts();
-        if (*host_.refusal() != 0)
-            notice_.store(host_.refusal(), std::memory_order_relaxed);
-        else if (host_.is_gone(now_ns))
-            notice_.store(now.refused != before.refused
+        if (host_.is_gone(now_ns))
+            notice_.store(*host_.refusal() != 0 ? host_.refusal()
+                          : now.refused != before.refused
                               ? "no arm is heard; what comes has another key, version or session"
                               : "no arm is heard: is its bridge running?",
                           std::memory_order_relaxed);

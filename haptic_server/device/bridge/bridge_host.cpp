@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 namespace osteomill {
 
@@ -62,8 +61,10 @@ bool is_possible(const omb_pose& pose) {
     return std::isfinite(squared) && std::abs(squared - 1.0) < 0.01;
 }
 
-BridgeHost::BridgeHost(const omb_key& key, std::function<std::uint64_t()> random)
-    : key_(key), random_(std::move(random)) {
+BridgeHost::BridgeHost(const omb_key& key, const std::function<std::uint64_t()>& random) : key_(key) {
+    std::array<std::uint8_t, 32> secret{};
+    for (std::size_t i = 0; i < secret.size(); i += 8) omb_put(&secret[i], random(), 8);
+    omb_set_key(&secret_, secret.data(), secret.size());
     round_trips_ns_.reserve(round_trips_kept);
 }
 
@@ -83,25 +84,63 @@ std::optional<BridgeMessage> BridgeHost::take_hello(const std::uint8_t* message,
         ++counts_.impossible;
         return std::nullopt;
     }
-    // All that the session is built on: force, stiffness, mass.
-    if (arm_ && !is_same(*arm_, arm)) {
+    if (is_another_arm(arm))
         refusal_ = "another arm than the one at the start wants to join: start haptic_server anew for it";
+    if (is_another_arm(arm) || !may_join(from, now_ns)) {
         ++counts_.other_arms;
         return std::nullopt;
     }
-    if (!is_gone(now_ns) && from != peer_) {
-        ++counts_.other_arms;
-        return std::nullopt;
-    }
-    if (candidate_.from != from || candidate_.nonce != nonce || candidate_.session == 0) {
-        std::uint64_t session = random_();
-        if (session == 0) session = 1;
-        candidate_ = {.from = from, .nonce = nonce, .session = session, .arm = arm};
-    }
-    BridgeMessage welcome = begun(OMB_WELCOME, candidate_.session, now_ns);
+    BridgeMessage stated{};
+    omb_put_hello(stated.data(), 0, &arm);
+    Digest digest;
+    omb_hmac(&secret_, stated.data(), stated.size(), digest.data());
+    const std::size_t place = omb_get(digest.data(), 8) % statements_kept;
+    statements_[place] = {arm, digest};
+    BridgeMessage welcome = begun(OMB_WELCOME, cookie(said_ + 1, now_ns, from, place), now_ns);
     omb_put_welcome(welcome.data(), nonce);
     omb_seal(welcome.data(), &key_);
     return welcome;
+}
+
+std::uint64_t BridgeHost::cookie(std::uint64_t welcome_sequence, std::uint64_t welcome_clock_ns,
+                                 const PeerAddress& to, std::size_t statement) const {
+    std::vector<std::uint8_t> greeted(16);
+    omb_put(greeted.data(), welcome_sequence, 8);
+    omb_put(greeted.data() + 8, welcome_clock_ns, 8);
+    const Digest& stated = statements_[statement].digest;
+    greeted.insert(greeted.end(), stated.begin(), stated.end());
+    greeted.insert(greeted.end(), to.begin(), to.end());
+    Digest digest;
+    omb_hmac(&secret_, greeted.data(), greeted.size(), digest.data());
+    return omb_get(digest.data(), 8) / statements_kept * statements_kept + statement;
+}
+
+bool BridgeHost::is_another_arm(const omb_arm& arm) const {
+    return is_arm_kept_ && !is_same(*arm_, arm);
+}
+
+void BridgeHost::try_to_join(const omb_header& header, const std::uint8_t* message, const PeerAddress& from,
+                             std::uint64_t now_ns) {
+    if (!may_join(from, now_ns)) return;
+    omb_pose pose;
+    omb_get_pose(message, &pose);
+    // Of this welcome or an earlier one somebody has joined already; or it is stale.
+    if (pose.echo_sequence <= welcome_ || now_ns - pose.echo_clock_ns > gone_ns) return;
+    const std::size_t statement = header.session % statements_kept;
+    const omb_arm& arm = statements_[statement].arm;
+    if (header.session != cookie(pose.echo_sequence, pose.echo_clock_ns, from, statement) ||
+        is_another_arm(arm))
+        return;
+    if (welcome_ != 0) acts_from_ns_ = heard_ns_ + between_arms_ns;
+    session_ = header.session;
+    welcome_ = pose.echo_sequence;
+    peer_ = from;
+    arm_ = arm;
+    heard_ = 0;
+    awaits_answer_ = false;
+    refusal_ = "";
+    round_trips_ns_.clear();
+    next_round_trip_ = 0;
 }
 
 void BridgeHost::measure(std::uint64_t round_trip_ns) {
@@ -139,11 +178,10 @@ void BridgeHost::take_pose(const omb_header& header, const std::uint8_t* message
     awaits_answer_ = true;
     // What we sent, and how long it lay there, is all counted by one clock each: no clocks need agree.
     const std::uint64_t round_trip_ns = now_ns - pose.echo_clock_ns - pose.kept_ns;
-    is_late_ = round_trip_ns > latest_round_trip_ns;
-    if (is_late_) {
-        ++counts_.late;
-        return;
-    }
+    const bool is_late = round_trip_ns > latest_round_trip_ns;
+    is_answered_off_ = is_late || now_ns < acts_from_ns_;
+    if (is_late) ++counts_.late;
+    if (is_answered_off_) return;
     ++counts_.poses;
     measure(round_trip_ns);
     pose_ = pose;
@@ -153,7 +191,7 @@ void BridgeHost::take_pose(const omb_header& header, const std::uint8_t* message
 BridgeMessage BridgeHost::answer(std::uint64_t now_ns, const BridgeForce& wanted) {
     awaits_answer_ = false;
     omb_force force{};
-    force.is_off = wanted.is_off || is_late_ ? 1 : 0;
+    force.is_off = wanted.is_off || is_answered_off_ ? 1 : 0;
     if (force.is_off == 0) {
         store(wanted.force_n, force.force_n);
         store(wanted.torque_n_mm, force.torque_n_mm);
@@ -175,19 +213,8 @@ std::optional<BridgeMessage> BridgeHost::take(std::span<const std::uint8_t> data
         return std::nullopt;
     }
     if (header.kind == OMB_HELLO) return take_hello(datagram.data(), from, now_ns);
-    const bool is_candidate =
-        candidate_.session != 0 && header.session == candidate_.session && from == candidate_.from;
-    if (is_candidate && header.kind == OMB_POSE) {
-        session_ = candidate_.session;
-        peer_ = from;
-        arm_ = candidate_.arm;
-        heard_ = 0;
-        awaits_answer_ = false;
-        refusal_ = "";
-        round_trips_ns_.clear();
-        next_round_trip_ = 0;
-        candidate_ = {};
-    }
+    if (header.kind == OMB_POSE && header.session != session_)
+        try_to_join(header, datagram.data(), from, now_ns);
     if (session_ == 0 || header.session != session_ || from != peer_) {
         ++counts_.refused;
         return std::nullopt;

@@ -4,7 +4,9 @@
 //
 //   hello -> welcome with a session that nobody can guess -> the first pose of that session: this is the arm
 //
-// A hello alone changes nothing, so one that was recorded and is sent again does no harm.
+// Nothing is remembered of who says hello: the session is a cookie, made of the sender's address, of the
+// welcome's number and time, which the first pose repeats, and of a secret. So hellos that were recorded, or
+// are made up, in whatever number, take no place of anybody's. A welcome is good once, and soon stale.
 #pragma once
 
 #include <array>
@@ -45,15 +47,19 @@ struct BridgeCounts {
 
 class BridgeHost {
   public:
-    /// An arm that has said nothing for so long may be followed by another.
+    /// An arm that has said nothing for so long may be followed by another; a welcome that was answered by
+    /// nothing for so long is stale.
     static constexpr std::uint64_t gone_ns = 250'000'000;
+    /// Poses that follow those of another session sooner are not acted on: the loop must have lost the one
+    /// arm before it has the other, or the tool would leap from one to the other with the spindle on.
+    static constexpr std::uint64_t between_arms_ns = 50'000'000;
     /// A pose that answers a force from longer ago is too old to act on, and so is what would answer it.
     static constexpr std::uint64_t latest_round_trip_ns = 50'000'000;
     /// Round trips that the delay is taken from.
     static constexpr std::size_t round_trips_kept = 256;
 
     /// `random` gives numbers that nobody can guess.
-    BridgeHost(const omb_key& key, std::function<std::uint64_t()> random);
+    BridgeHost(const omb_key& key, const std::function<std::uint64_t()>& random);
 
     /// What to send back to `from` at once; nullopt: nothing. Takes what is no message, too. Does not throw
     /// but for memory.
@@ -67,11 +73,14 @@ class BridgeHost {
     /// The arm that is served.
     const PeerAddress& peer() const { return peer_; }
 
+    /// From now on the arm that is served is the only one that may join: force and coupling are built on it.
+    void keep_arm() { is_arm_kept_ = true; }
+
     /// Whether the last take() was of a pose to act on.
     bool has_fresh_pose() const { return has_fresh_pose_; }
     /// The newest to act on.
     const omb_pose& pose() const { return pose_; }
-    /// The arm that is served; nullopt before the first.
+    /// The arm that is served, or was; nullopt before the first.
     const std::optional<omb_arm>& arm() const { return arm_; }
     const BridgeCounts& counts() const { return counts_; }
     /// The arm has said goodbye, or nothing for long.
@@ -84,32 +93,46 @@ class BridgeHost {
     const char* refusal() const { return refusal_; }
 
   private:
-    struct Candidate {
-        PeerAddress from{};
-        std::uint64_t nonce = 0;
-        std::uint64_t session = 0;
+    using Digest = std::array<std::uint8_t, 32>;
+    /// What arms say of themselves, until one of them joins. Whoever has the key can have said little that
+    /// differs; without it, so many arms must have been made up to push one out.
+    static constexpr std::size_t statements_kept = 1024;
+    struct Statement {
         omb_arm arm{};
+        Digest digest{};
     };
 
     BridgeMessage begun(omb_kind kind, std::uint64_t session, std::uint64_t now_ns);
     std::optional<BridgeMessage> take_hello(const std::uint8_t* message, const PeerAddress& from,
                                             std::uint64_t now_ns);
+    /// The session of whom that welcome greets. Its last digits say which statement.
+    std::uint64_t cookie(std::uint64_t welcome_sequence, std::uint64_t welcome_clock_ns,
+                         const PeerAddress& to, std::size_t statement) const;
+    bool may_join(const PeerAddress& from, std::uint64_t now_ns) const {
+        return is_gone(now_ns) || from == peer_;
+    }
+    bool is_another_arm(const omb_arm& arm) const;
+    void try_to_join(const omb_header& header, const std::uint8_t* message, const PeerAddress& from,
+                     std::uint64_t now_ns);
     void take_pose(const omb_header& header, const std::uint8_t* message, std::uint64_t now_ns);
     void measure(std::uint64_t round_trip_ns);
 
     omb_key key_;
-    std::function<std::uint64_t()> random_;
-    Candidate candidate_;
+    omb_key secret_{};  // of the cookies
+    std::vector<Statement> statements_{statements_kept};
     PeerAddress peer_;
     std::uint64_t session_ = 0;
+    std::uint64_t welcome_ = 0;       // the number of the one that it began with
+    std::uint64_t acts_from_ns_ = 0;  // no pose before does
     std::optional<omb_arm> arm_;
+    bool is_arm_kept_ = false;
     std::uint64_t said_ = 0;   // messages of ours
     std::uint64_t heard_ = 0;  // the newest sequence of the arm's
     std::uint64_t heard_ns_ = 0;
     omb_pose pose_{};
     bool has_fresh_pose_ = false;
     bool awaits_answer_ = false;
-    bool is_late_ = false;              // the pose that awaits an answer
+    bool is_answered_off_ = false;      // the pose that awaits an answer: it is not acted on
     std::uint64_t asked_clock_ns_ = 0;  // as it stood in it
     BridgeCounts counts_;
     std::vector<std::uint64_t> round_trips_ns_;
