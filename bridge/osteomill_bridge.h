@@ -597,7 +597,6 @@ static inline int omb_connect_unix(omb_link* link, const char* path) {
              (unsigned)(link->nonce & 0xffffu));
     link->socket = socket(AF_UNIX, SOCK_DGRAM, 0);
     if (link->socket == OMB_NO_SOCKET) return omb_fail(link, "no socket can be had", path);
-    unlink(own.sun_path);
     if (bind(link->socket, (const struct sockaddr*)&own, sizeof own) != 0)
         return omb_fail(link, "cannot be answered: no socket can be made beside it", path);
     memcpy(link->own_path, own.sun_path, sizeof own.sun_path);

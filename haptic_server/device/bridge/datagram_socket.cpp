@@ -36,7 +36,10 @@ const sockaddr* generic(const sockaddr_un& address) {
     return reinterpret_cast<const sockaddr*>(&address);
 }
 
-/// A socket that nobody listens at any more is removed.
+/// What bind() gives a path of ours.
+constexpr mode_t own_mode = S_IFSOCK | S_IRWXU;
+
+/// A socket of ours that nobody listens at any more is removed.
 void clear_the_way(const BridgeAddress& where, const BridgePath& path) {
     struct stat found {};
     if (lstat(path.path.c_str(), &found) != 0) return;
@@ -44,9 +47,15 @@ void clear_the_way(const BridgeAddress& where, const BridgePath& path) {
     const int probe = socket(AF_UNIX, SOCK_DGRAM | SOCK_CLOEXEC, 0);
     const sockaddr_un address = address_of(path);
     const bool is_heard = probe >= 0 && connect(probe, generic(address), sizeof address) == 0;
+    // A socket of another kind that is listened at answers with another error.
+    const bool is_left = !is_heard && errno == ECONNREFUSED;
     if (probe >= 0) close(probe);
-    if (is_heard) refuse(where, "another program listens there");
-    unlink(path.path.c_str());
+    if (is_left && found.st_uid == geteuid() && found.st_mode == own_mode) {
+        unlink(path.path.c_str());
+        return;
+    }
+    if (is_left) refuse(where, "is a socket that another program has left; remove it, or give another path");
+    refuse(where, "another program listens there; give another path");
 }
 
 int open_path(const BridgeAddress& where, const BridgePath& path) {
@@ -89,12 +98,21 @@ DatagramSocket::DatagramSocket(const BridgeAddress& where) : where_(where) {
         close(wake_);
         throw;
     }
+    struct stat bound {};
+    if (path != nullptr && lstat(path->path.c_str(), &bound) == 0) {
+        path_device_ = bound.st_dev;
+        path_inode_ = bound.st_ino;
+    }
 }
 
 DatagramSocket::~DatagramSocket() {
     close(socket_);
     close(wake_);
-    if (const auto* path = std::get_if<BridgePath>(&where_)) unlink(path->path.c_str());
+    const auto* path = std::get_if<BridgePath>(&where_);
+    struct stat found {};
+    if (path != nullptr && lstat(path->path.c_str(), &found) == 0 && found.st_dev == path_device_ &&
+        found.st_ino == path_inode_)
+        unlink(path->path.c_str());
 }
 
 std::optional<std::size_t> DatagramSocket::receive(std::span<std::uint8_t> buffer, PeerAddress& from,

@@ -2,6 +2,8 @@
 // destructor.
 #pragma once
 
+#include <sys/types.h>
+
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -15,8 +17,9 @@ namespace osteomill {
 class DatagramSocket {
   public:
     /// Throws std::runtime_error in one line where it cannot be had: what is there already, what is missing.
-    /// A path that a server left behind which was killed is taken over; only the user of this process may
-    /// write there.
+    /// A socket that a server left behind which was killed is taken over: one of this user, that only this
+    /// user may write to, as ours are, and that nobody listens at. Nothing else is ever removed, there or at
+    /// the end.
     explicit DatagramSocket(const BridgeAddress& where);
     ~DatagramSocket();
     DatagramSocket(const DatagramSocket&) = delete;
@@ -41,6 +44,9 @@ class DatagramSocket {
     BridgeAddress where_;
     int socket_ = -1;
     int wake_ = -1;  // an eventfd
+    // Of the path: at the end it may be another's.
+    dev_t path_device_ = 0;
+    ino_t path_inode_ = 0;
 };
 
 }  // namespace osteomill

@@ -16,14 +16,20 @@ namespace {
 
 using ::testing::HasSubstr;
 
-/// A socket file that a killed server left.
-void leave_socket(const std::filesystem::path& path) {
-    const int left = socket(AF_UNIX, SOCK_DGRAM, 0);
+/// A socket there, open; as another program makes it, or one of ours.
+int make_socket(const std::filesystem::path& path, int type, mode_t mode = 0755) {
+    const int made = socket(AF_UNIX, type, 0);
     sockaddr_un address{};
     address.sun_family = AF_UNIX;
     std::strncpy(address.sun_path, path.c_str(), sizeof address.sun_path - 1);
-    ASSERT_EQ(bind(left, reinterpret_cast<const sockaddr*>(&address), sizeof address), 0);
-    close(left);
+    EXPECT_EQ(bind(made, reinterpret_cast<const sockaddr*>(&address), sizeof address), 0);
+    EXPECT_EQ(chmod(path.c_str(), mode), 0);
+    return made;
+}
+
+/// A socket file that a killed server left.
+void leave_socket(const std::filesystem::path& path) {
+    close(make_socket(path, SOCK_DGRAM, 0700));
 }
 
 TEST(DatagramSocket, TakesOverWhatAKilledServerLeftAndNothingElse) {
@@ -47,6 +53,47 @@ TEST(DatagramSocket, TakesOverWhatAKilledServerLeftAndNothingElse) {
     EXPECT_THROW(DatagramSocket{where}, std::runtime_error);
     EXPECT_TRUE(std::filesystem::exists(folder / "arm"));
     EXPECT_THROW(DatagramSocket{BridgePath{folder / "nowhere" / "arm"}}, std::runtime_error);
+}
+
+TEST(DatagramSocket, RemovesNothingOfOthers) {
+    const testing::TemporaryFolder folder;
+    const std::filesystem::path path = folder / "arm";
+    const auto refusal = [&]() -> std::string {
+        try {
+            const DatagramSocket taken{BridgeAddress(BridgePath{path})};
+        } catch (const std::runtime_error& error) {
+            return error.what();
+        }
+        return "";
+    };
+    for (const int type : {SOCK_STREAM, SOCK_DGRAM, SOCK_SEQPACKET}) {
+        for (const bool listens : {false, true}) {
+            const int others = make_socket(path, type);
+            if (listens && type != SOCK_DGRAM) { ASSERT_EQ(listen(others, 1), 0); }
+            EXPECT_THAT(refusal(), HasSubstr("another program listens there"));
+            close(others);
+            EXPECT_THAT(refusal(), HasSubstr("is a socket that another program has left; remove it"));
+            EXPECT_TRUE(std::filesystem::exists(path));
+            std::filesystem::remove(path);
+        }
+    }
+    std::filesystem::create_symlink("nowhere", path);
+    EXPECT_THAT(refusal(), HasSubstr("is a file, and no socket"));
+    EXPECT_TRUE(std::filesystem::is_symlink(path));
+    std::filesystem::remove(path);
+    // What stands there at the end is another's.
+    for (const bool is_socket : {false, true}) {
+        {
+            const DatagramSocket own{BridgeAddress(BridgePath{path})};
+            std::filesystem::rename(path, folder / "moved");
+            if (is_socket)
+                leave_socket(path);
+            else
+                std::ofstream(path) << "kept";
+        }
+        EXPECT_TRUE(std::filesystem::exists(path));
+        std::filesystem::remove(path);
+    }
 }
 
 TEST(DatagramSocket, CarriesDatagramsBothWays) {
