@@ -323,6 +323,13 @@ void run_server(const ServerOptions& options, const std::string& version, const 
     outputs.write([&] {
         if (options.json_histograms) write_json(histograms_us(report), *options.json_histograms);
     });
+    outputs.write([&] {
+        if (recording && !recording->error.empty()) throw std::runtime_error(recording->error);
+        if (!options.report) return;
+        const std::string error = write_report(recording_in(*options.report), *options.report, [] {});
+        if (!error.empty()) throw std::runtime_error(error);
+        output.out->write(fmt::format("report: {}\n", (*options.report / "report.html").string()));
+    });
     if (streaming) streaming.server->stop();
     outputs.write([&] {
         if (streaming && streaming.server->mirror_checksum() != report.bone_checksum) {
@@ -330,13 +337,6 @@ void run_server(const ServerOptions& options, const std::string& version, const 
                 fmt::format("the bone that clients were shown ({:016x}) is not the one milled ({:016x})",
                             streaming.server->mirror_checksum(), report.bone_checksum));
         }
-    });
-    outputs.write([&] {
-        if (recording && !recording->error.empty()) throw std::runtime_error(recording->error);
-        if (!options.report) return;
-        const std::string error = write_report(recording_in(*options.report), *options.report, [] {});
-        if (!error.empty()) throw std::runtime_error(error);
-        output.out->write(fmt::format("report: {}\n", (*options.report / "report.html").string()));
     });
     outputs.require_complete();
 }

@@ -1,6 +1,8 @@
 #include "haptic_server/streaming/client_connection.h"
 
+#include <linux/sockios.h>
 #include <netinet/tcp.h>
+#include <sys/ioctl.h>
 
 #include <boost/asio/detail/socket_option.hpp>
 #include <boost/asio/error.hpp>
@@ -91,6 +93,16 @@ void ClientConnection::pump() {
             self->pump();
         });
     });
+}
+
+std::chrono::steady_clock::duration ClientConnection::has_had_end(std::chrono::steady_clock::time_point now) {
+    int on_its_way = 1;
+    const bool is_all_there = feed_.is_finished() && !is_writing_ &&
+                              ioctl(stream_->socket().native_handle(), SIOCOUTQ, &on_its_way) == 0 &&
+                              on_its_way == 0;
+    if (!is_all_there) return {};
+    if (!had_end_at_) had_end_at_ = now;
+    return now - *had_end_at_;
 }
 
 void ClientConnection::close(const std::string& line, bool is_fault) {

@@ -43,6 +43,9 @@ class ClientConnection : public std::enable_shared_from_this<ClientConnection> {
     void show(const ToolState& tool, bool with_checksum);
     /// Writes the next frame, unless one is under way; call after the feed has been given something to say.
     void pump();
+    /// How long the client's machine has had all of the end, by its acknowledgements; zero before. Called
+    /// again and again.
+    std::chrono::steady_clock::duration has_had_end(std::chrono::steady_clock::time_point now);
     /// Cuts the connection.
     void close(const std::string& line, bool is_fault);
     /// ADDRESS:PORT of the client, and the name in its certificate.
@@ -64,6 +67,7 @@ class ClientConnection : public std::enable_shared_from_this<ClientConnection> {
     bool is_served_ = false;
     bool is_writing_ = false;
     bool is_closed_ = false;
+    std::optional<std::chrono::steady_clock::time_point> had_end_at_;
 
     FrameDecoder decoder_{largest_client_frame_bytes};
     TokenBucket messages_{most_messages_per_s, most_messages_at_once};

@@ -126,6 +126,12 @@ void ConnectedClients::say_goodbye(const ToolState& tool, const std::string& rea
     }
 }
 
+void ConnectedClients::part_with_who_stays(Time now) {
+    for (const auto& [id, connection] : std::map(connections_))
+        if (connection->has_had_end(now) >= std::chrono::seconds(1))
+            connection->close("has had the end, and was parted with", false);
+}
+
 void ConnectedClients::cut_off(const std::string& line) {
     for (const auto& [id, connection] : std::map(connections_)) connection->close(line, false);
 }

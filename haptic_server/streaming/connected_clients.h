@@ -64,6 +64,8 @@ class ConnectedClients {
     void end_lease();
     /// Sends everybody the last state and a goodbye. Calls `when_gone` as soon as nobody is left.
     void say_goodbye(const ToolState& tool, const std::string& reason, std::function<void()> when_gone);
+    /// After that: parts with those whose machine has had all of it for a second, though they do not hang up.
+    void part_with_who_stays(Time now);
     void cut_off(const std::string& line);
 
     /// About those who have yet to say who they are; a few lines at a time.

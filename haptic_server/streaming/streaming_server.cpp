@@ -208,9 +208,18 @@ class StreamingServer::Impl {
         update();
         clients_.say_goodbye(tool_, end_of_session, [this] { deadline_.cancel(); });
         if (clients_.count() == 0) return;
-        deadline_.expires_after(longest_goodbye);
-        deadline_.async_wait([this](error_code error) {
-            if (!error) clients_.cut_off("was cut off: it did not read the end in time");
+        wait_for_goodbyes(Clock::now() + longest_goodbye);
+    }
+
+    void wait_for_goodbyes(Clock::time_point until) {
+        deadline_.expires_after(std::chrono::milliseconds(100));
+        deadline_.async_wait([this, until](error_code error) {
+            if (error) return;
+            if (Clock::now() >= until)
+                clients_.cut_off("was cut off: it did not read the end in time");
+            else
+                clients_.part_with_who_stays(Clock::now());
+            if (clients_.count() > 0) wait_for_goodbyes(until);
         });
     }
 
