@@ -6,6 +6,7 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "common/recording/playhead.h"
@@ -99,6 +100,41 @@ TEST_F(SessionControlsProgram, LeavesARecordingThatHoldsEveryUndoAndMark) {
                      "--replay", file("a.pcap"), "--speed", "4"});
     ASSERT_EQ(player.status, 0) << player.err;
     EXPECT_EQ(json("player.json").at("bone_checksum"), measured.at("bone_checksum"));
+}
+
+// By session time, which is the same on any machine.
+TEST_F(SessionControlsProgram, AnswersAtOnceWhatIsAskedForBehindAResetOfManyStrokes) {
+    constexpr int strokes = 100;
+    constexpr double period_s = 0.5;
+    std::ofstream motion(file("motion.csv"));
+    motion << "t_s,x_mm,y_mm,z_mm,axis_x,axis_y,axis_z,pedal\n";
+    for (int i = 0; i < strokes; ++i)
+        for (const auto& [share, z_mm, pedal] :
+             {std::tuple(0.0, 5.0, 0), std::tuple(0.1, 5.0, 1), std::tuple(0.5, 3.5 - 0.01 * i, 1),
+              std::tuple(0.8, 5.0, 1), std::tuple(0.9, 5.0, 0)})
+            motion << period_s * (i + share) << ',' << 0.2 * (i % 20) - 2.0 << ",0," << z_mm << ",0,0,1,"
+                   << pedal << '\n';
+    motion << strokes * period_s + 8.0 << ",0,0,6,0,0,1,0\n";
+    motion.close();
+    const double asked_s = strokes * period_s + 1.0;
+    const std::string at = std::to_string(asked_s);
+    const auto reset =
+        run(at + ",reset,\n" + at + ",mark,behind\n" + at + ",finish,\n", {"--record", file("a.pcap")});
+    EXPECT_EQ(reset.at("removed_mm3").at("total"), 0.0);
+    EXPECT_LT(reset.at("duration_s").get<double>(), asked_s + 1.0);
+    Playhead playhead(file("a.pcap"));
+    std::vector<ControlEvent> events;
+    std::uint32_t redo_steps = 0;
+    while (playhead.step(std::numeric_limits<double>::infinity()) == Playhead::Step::state) {
+        events.insert(events.end(), playhead.events().begin(), playhead.events().end());
+        redo_steps = playhead.status().redo_steps;
+    }
+    ASSERT_EQ(events.size(), 3U);
+    for (const ControlEvent& event : events) {
+        EXPECT_FALSE(event.is_refused) << event.text;
+        EXPECT_LT(event.time_s, asked_s + 1.0);
+    }
+    EXPECT_EQ(redo_steps, static_cast<std::uint32_t>(strokes));
 }
 
 TEST_F(SessionControlsProgram, SavesTheSurfaceBesideTheBone) {
