@@ -269,9 +269,9 @@ std::filesystem::path scratch_folder(const ImportOptions& options) {
     return options.output.has_parent_path() ? options.output.parent_path() : std::filesystem::path(".");
 }
 
-/// Coloured pictures are labels.
 OpenedImage open_scan(const ImportOptions& options) {
-    if (!is_picture_stack(options.input)) return open_image(options.input, options.series_uid);
+    if (!reads_as_pictures(options.input, options.stack_spacing_mm))
+        return open_image(options.input, options.series_uid);
     PictureStack stack = open_picture_stack(options.input, options.stack_spacing_mm);
     if (stack.is_coloured)
         throw ImagingError(options.input,

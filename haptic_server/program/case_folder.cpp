@@ -59,8 +59,9 @@ std::vector<std::filesystem::path> label_maps(const std::vector<std::filesystem:
 }
 
 std::shared_ptr<const Segmentation> read(const std::filesystem::path& path, const CaseParts& parts) {
-    Segmentation segmentation =
-        is_picture_stack(path) ? read_picture_labels(path, parts.stack_spacing_mm) : read_segmentation(path);
+    Segmentation segmentation = reads_as_pictures(path, parts.stack_spacing_mm)
+                                    ? read_picture_labels(path, parts.stack_spacing_mm)
+                                    : read_segmentation(path);
     if (parts.colours && segmentation.is_plain_map)
         name_segments(segmentation, read_colour_table(*parts.colours));
     return std::make_shared<const Segmentation>(std::move(segmentation));

@@ -94,6 +94,33 @@ class StructuresProgram : public ::testing::Test {
     TemporaryFolder folder_;
 };
 
+TEST_F(StructuresProgram, LoseAsMuchInEveryTable) {
+    // A rod of 2 mm along the bone's surface, half in it, and the plan as well as protected.
+    write_volume("nerve.seg.nrrd", "uint8",
+                 "Segment0_Name:=nerve\nSegment0_LabelValue:=1\nSegment0_Layer:=0\n",
+                 [](double, double y_mm, double z_mm) {
+                     return std::string(1, std::hypot(y_mm, z_mm - 2.2) <= 1.0 ? '\1' : '\0');
+                 });
+    write_scene("warn_mm = 0.8");
+    std::ofstream(file("scene.toml"), std::ios::app) << "[plan]\ntissue = \"nerve\"\n";
+    std::ofstream(file("motion.csv")) << "t_s,x_mm,y_mm,z_mm,axis_x,axis_y,axis_z,pedal\n"
+                                         "0.0,0.1,0.6,6,0,0,1,0\n0.2,0.1,0.6,6,0,0,1,1\n"
+                                         "2.0,0.1,0.6,2.6,0,0,1,1\n3.0,2.0,-0.4,2.6,0,0,1,1\n";
+    const Finished served = serve({"--report", file("report")});
+    ASSERT_EQ(served.status, 0) << served.err;
+    const auto live = nlohmann::json::parse(text("server.json"));
+    const double removed_mm3 = live.at("removed_mm3").at("nerve").get<double>();
+    EXPECT_GT(removed_mm3, 0.3);
+    EXPECT_LT(removed_mm3, live.at("removed_mm3").at("total").get<double>());
+    EXPECT_NEAR(live.at("structures").at(0).at("removed_mm3").get<double>(), removed_mm3, 1e-9);
+    const auto metrics = nlohmann::json::parse(text("report/metrics.json")).at("metrics");
+    EXPECT_NEAR(metrics.at("removed_of_tissue_mm3_of").at("nerve").get<double>(), removed_mm3, 1e-9);
+    EXPECT_NEAR(metrics.at("structure_dose_mm3_of").at("nerve").get<double>(), removed_mm3, 1e-9);
+    EXPECT_NEAR(metrics.at("plan_removed_mm3").get<double>(), removed_mm3, 1e-9);
+    // Half of the rod: where the bone ends, within a voxel of it, what is bone is the rod's own.
+    EXPECT_NEAR(metrics.at("plan_mm3").get<double>(), 0.5 * 3.14159 * 9.6, 0.05 * 0.5 * 3.14159 * 9.6);
+}
+
 TEST_F(StructuresProgram, TellHowFarTheBurrIsFromASoftStructure) {
     const Finished served = serve({"--report", file("report")});
     ASSERT_EQ(served.status, 0) << served.err;

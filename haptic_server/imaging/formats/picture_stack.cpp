@@ -6,6 +6,7 @@
 #include <cctype>
 #include <cmath>
 #include <cstdlib>
+#include <iterator>
 #include <stdexcept>
 #include <string_view>
 #include <utility>
@@ -112,8 +113,10 @@ glm::dvec3 parse_stack_spacing(const std::string& text) {
     return spacing_mm;
 }
 
-bool is_picture_stack(const std::filesystem::path& path) {
-    return !picture_files(path).empty();
+bool reads_as_pictures(const std::filesystem::path& path, const std::optional<glm::dvec3>& spacing_mm) {
+    const auto pictures = static_cast<std::ptrdiff_t>(picture_files(path).size());
+    if (pictures == 0 || spacing_mm || !std::filesystem::is_directory(path)) return pictures > 0;
+    return std::distance(std::filesystem::directory_iterator(path), {}) == pictures;
 }
 
 PictureStack open_picture_stack(const std::filesystem::path& path,

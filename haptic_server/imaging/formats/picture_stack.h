@@ -26,8 +26,9 @@ struct PictureStack {
 /// 0.
 glm::dvec3 parse_stack_spacing(const std::string& text);
 
-/// Whether a path is what open_picture_stack takes, by names alone.
-bool is_picture_stack(const std::filesystem::path& path);
+/// Whether open_picture_stack is to take a path: it holds pictures, and a spacing is given, or there is
+/// nothing but pictures. A picture beside a scan makes no stack of it.
+bool reads_as_pictures(const std::filesystem::path& path, const std::optional<glm::dvec3>& spacing_mm);
 
 /// Reads what the first picture says of size and form. Throws ImagingError in one line where there are fewer
 /// no spacing is given, or fewer than two pictures, one cannot be read, or is of a form that is not read;

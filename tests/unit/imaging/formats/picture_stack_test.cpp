@@ -57,7 +57,7 @@ TEST_F(PictureStackFolder, OfTiffHasAllLevelsAndAllPages) {
     const std::vector<float> all = values();
     ASSERT_EQ(all.size(), 36U);
     EXPECT_THAT((std::vector<float>{all[11], all[12], all[35]}), ElementsAre(65535.0F, 300.0F, 7.0F));
-    EXPECT_TRUE(is_picture_stack(folder_ / "a2.TIFF"));
+    EXPECT_TRUE(reads_as_pictures(folder_ / "a2.TIFF", std::nullopt));
     EXPECT_EQ(open_picture_stack(folder_ / "a2.TIFF", spacing_mm).opened.image.size_voxels.z, 2);
 }
 
@@ -95,6 +95,17 @@ TEST_F(PictureStackFolder, IsRefusedInOneLineWhereItIsNone) {
     EXPECT_THAT(refusal(), HasSubstr("2.png: cannot be read as PNG"));
     std::ofstream(folder_ / "3.tif") << "II*";
     EXPECT_THAT(refusal(), HasSubstr("3.tif: cannot be read as TIFF"));
+}
+
+TEST_F(PictureStackFolder, IsNoneWhereAPictureLiesBesideAScan) {
+    EXPECT_FALSE(reads_as_pictures(folder_.path(), spacing_mm));
+    testing::write_png_picture(folder_ / "1.png", 1, 1, PNG_FORMAT_GRAY, {0});
+    EXPECT_TRUE(reads_as_pictures(folder_.path(), std::nullopt));
+    std::ofstream(folder_ / "IM0001") << "DICM";
+    EXPECT_FALSE(reads_as_pictures(folder_.path(), std::nullopt));
+    EXPECT_TRUE(reads_as_pictures(folder_.path(), spacing_mm));
+    EXPECT_FALSE(reads_as_pictures(folder_ / "IM0001", spacing_mm));
+    EXPECT_FALSE(reads_as_pictures(folder_ / "nowhere", spacing_mm));
 }
 
 TEST(StackSpacing, IsThreeLengths) {
