@@ -204,5 +204,20 @@ TEST(Carve, OutsideTheGridDoesNothing) {
     EXPECT_EQ(checksum(bone), before);
 }
 
+TEST(Carve, IsWhatALookAheadTellsAndTheLookLeavesTheBoneAlone) {
+    Bone bone = block();
+    carve_path(bone, {{-1.0, 0.0, 0.0}, {0.0, 0.2, 0.1}});
+    const std::uint64_t before = checksum(bone);
+    const Sweep ahead = in_voxels(bone, {0.0, 0.2, 0.1}, {0.06, 0.25, 0.05});
+    Count seen;
+    look_ahead(bone, ahead, {}, seen);
+    EXPECT_EQ(checksum(bone), before);
+    ForgottenChanges changes;
+    Count removed;
+    carve(bone, ahead, CarveHistory::carved_at_from, {}, changes, removed);
+    EXPECT_GT(seen.levels, 0);
+    EXPECT_EQ(seen.levels, removed.levels);
+}
+
 }  // namespace
 }  // namespace osteomill

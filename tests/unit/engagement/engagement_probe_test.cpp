@@ -9,6 +9,7 @@
 #include <memory>
 #include <numbers>
 
+#include "haptic_server/contact_models/milling_model.h"
 #include "studies/force/reference_force.h"
 #include "tests/support/block.h"
 
@@ -178,6 +179,48 @@ TEST(Engagement, SeesAShallowCutAtTheTipInSeveralRings) {
     for (std::size_t i = 0; i < engagement->count; ++i)
         if (engagement->patches[i].gap_mm < 0.0) area_mm2 += engagement->patches[i].area_mm2;
     EXPECT_NEAR(area_mm2, 2.0 * std::numbers::pi * 2.5 * 0.12, 0.3);
+}
+
+TEST(Engagement, IsTheSameWhereWhatIsInsideACarvedBurrIsPassedOver) {
+    Bone bone = flat_block();
+    const Burr burr{.diameter_mm = 3.0};
+    MillingModel model(bone, {burr}, {});
+    ForgottenChanges changes;
+    auto result = std::make_unique<MillingResult>();
+    for (int i = 0; i <= 20; ++i)
+        model.step({.pose = {{0.031 + 0.02 * i, 0.017, 1.0}, up}, .spindle_on = true, .elapsed_s = 0.001},
+                   0.0, changes, *result);
+    auto any = std::make_unique<Engagement>();
+    EngagementProbe(burr, 0.1).sample(model.bone(), result->pose.position_mm, up, *any);
+    const Engagement& carved = result->engagement;
+    ASSERT_GT(any->count, 100U);
+    ASSERT_EQ(carved.count, any->count);
+    for (std::size_t i = 0; i < any->count; ++i) {
+        EXPECT_EQ(carved.patches[i].normal, any->patches[i].normal);
+        EXPECT_EQ(carved.patches[i].gap_mm, any->patches[i].gap_mm);
+    }
+}
+
+TEST(PatchCrossings, AreTheSameWithEveryInstructionSet) {
+    const Bone bone = flat_block();
+    const std::vector<BurrPatch> patches = burr_patches(Burr{.diameter_mm = 5.0}, 0.1);
+    const glm::dvec3 centre = to_voxel_coordinates(bone.grid(), {0.031, 0.017, 1.9});
+    BrickNeighbourhood bricks(30.0);
+    ASSERT_TRUE(bricks.gather(bone, centre, 28.0));
+    PatchCrossings plain(patches, 0.1, InstructionSet::plain);
+    PatchCrossings best(patches, 0.1);
+    const auto find = [&](PatchCrossings& crossings) {
+        return crossings.find(bricks, glm::mat3(1.0f), glm::vec3(centre - glm::dvec3(bricks.base())), 25.0f,
+                              InsideBurr::any);
+    };
+    const auto a = find(plain);
+    const auto b = find(best);
+    ASSERT_GT(a.size(), 50U);
+    ASSERT_EQ(a.size(), b.size());
+    for (std::size_t i = 0; i < a.size(); ++i) {
+        EXPECT_EQ(a[i].patch, b[i].patch);
+        EXPECT_EQ(a[i].offset_voxels, b[i].offset_voxels);
+    }
 }
 
 }  // namespace
