@@ -55,13 +55,13 @@ bool is_meta_image(const FileStart& start) {
 
 /// Headers and files are held against each other before anything is read.
 OpenedImage opened(const std::filesystem::path& path, ImageFile file) {
+    if (const std::uint64_t more = require_room(file.data); more > 0)
+        file.image.notes.push_back(
+            fmt::format("{}: {} bytes follow its voxels; they are not read", path.string(), more));
     const glm::ivec3 size = file.image.size_voxels;
     if (std::min({size.x, size.y, size.z}) < 2)
         throw ImagingError(path, fmt::format("is a single slice ({} x {} x {} voxels), which is no volume",
                                              size.x, size.y, size.z));
-    if (const std::uint64_t more = require_room(file.data); more > 0)
-        file.image.notes.push_back(
-            fmt::format("{}: {} bytes follow its voxels; they are not read", path.string(), more));
     const glm::ivec3 size_of_values = size * glm::ivec3(file.layers, 1, 1);
     OpenedImage image{.image = std::move(file.image),
                       .layers = file.layers,
