@@ -24,6 +24,7 @@
 #include "studies/report/output_files.h"
 #include "studies/sessions/sessions_options.h"
 #include "studies/stability/encoder/encoder_noise.h"
+#include "studies/stability/encoder/spring_choice.h"
 #include "studies/stability/map/stability_options.h"
 #include "studies/stability/rails/force_response.h"
 #include "studies/stability/rails/motion_on_rails.h"
@@ -166,6 +167,7 @@ void run(const osteomill::study::StabilityCommand& command) {
         return study::run_encoder_study(methods.empty() ? "implicit" : methods.front(), command.run.out,
                                         surroundings());
     }
+    if (command.varies_springs) return study::run_spring_study(command.run.out, surroundings());
     if (command.varies_frequency) return study::run_response_study(command.run.out, surroundings());
     if (command.runs_sites) {
         study::SiteStudyOptions sites = command.sites;

@@ -4,11 +4,11 @@
 
 namespace osteomill {
 
-/// How far from the burr the target may be. Farther off a hand could not feel where it is any more; the
-/// spring of the coupling is long saturated.
+/// How far from the burr the target may be, at the arm (ArmScale). Farther off a hand could not feel where it
+/// is any more; the spring of the coupling is long saturated.
 inline constexpr double longest_reach_mm = 6.0;
 
-/// No hand moves a handpiece faster.
+/// No hand moves an arm faster.
 inline constexpr double fastest_hand_mm_per_s = 500.0;
 
 }  // namespace osteomill

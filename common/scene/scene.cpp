@@ -2,6 +2,15 @@
 
 namespace osteomill {
 
+std::vector<Burr> felt_burrs(const Scene& scene) {
+    std::vector<Burr> burrs = scene.burrs;
+    for (Burr& burr : burrs) {
+        burr.cutting_coefficients_n_per_mm2 *= scene.force_scale;
+        burr.edge_coefficients_n_per_mm *= scene.force_scale;
+    }
+    return burrs;
+}
+
 StiffnessRelation stiffness_of(const Scene& scene) {
     StiffnessRelation relation = scene.stiffness;
     for (const Tissue& tissue : scene.tissues)

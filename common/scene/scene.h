@@ -103,6 +103,7 @@ struct Scene {
     std::vector<Burr> burrs;  ///< never empty
     std::size_t start_burr = 0;
     double wall_friction = 0.2;    ///< Coulomb's, of a burr at rest on bone
+    double force_scale = 1.0;      ///< times what cutting takes: for arms whose friction hides it
     std::optional<Motor> motor{};  ///< whose speed falls under load, as it is heard
     DeviceMapping device;
     ToolPose start_pose;
@@ -111,6 +112,9 @@ struct Scene {
 
     bool operator==(const Scene&) const = default;
 };
+
+/// The scene's burrs as they are felt: their coefficients times its force_scale.
+std::vector<Burr> felt_burrs(const Scene& scene);
 
 /// The scene's relation of stiffness to CT numbers, with the tissues that have a stiffness of their own.
 StiffnessRelation stiffness_of(const Scene& scene);

@@ -225,6 +225,7 @@ Scene read_all(TomlReader reader, const std::filesystem::path& folder) {
     }
     scene.start_burr = reader.choice("start_burr", burr_names).value_or(0);
     scene.wall_friction = reader.number("wall_friction", {0.0, 1.0}).value_or(scene.wall_friction);
+    scene.force_scale = reader.number("force_scale", {0.1, 10.0}).value_or(scene.force_scale);
     if (auto table = reader.table("motor")) scene.motor = read_motor(*table);
     if (auto table = reader.table("device")) scene.device = read_device(*table);
     if (auto table = reader.table("start_pose")) scene.start_pose = read_pose(*table);

@@ -211,6 +211,7 @@ std::string write_scene(const Scene& scene) {
                            .add("name", scene.name)
                            .add("start_burr", scene.burrs.at(scene.start_burr).name, scene.burrs.at(0).name)
                            .add("wall_friction", scene.wall_friction, Scene().wall_friction)
+                           .add("force_scale", scene.force_scale, Scene().force_scale)
                            .text();
     text += bone_text(scene.bone) + stiffness_text(scene.stiffness);
     if (!scene.tissues.empty()) text += "\n# Tissues, by their label in the bone.\n";

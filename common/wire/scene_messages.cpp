@@ -163,6 +163,7 @@ v1::Hello to_message(const SessionInfo& session) {
     for (const Tissue& tissue : session.tissues) *hello.add_tissues() = to_message(tissue);
     hello.set_accepts_operator(session.accepts_operator);
     hello.set_force_limit_n(session.force_limit_n);
+    if (session.reach_mm != longest_reach_mm) hello.set_reach_mm(session.reach_mm);
     hello.set_has_ct(session.has_ct);
     hello.set_accepts_controls(session.accepts_controls);
     if (session.plan) *hello.mutable_plan() = to_message(*session.plan);
@@ -236,6 +237,8 @@ std::variant<SessionInfo, WireError> session_info_from(const v1::Hello& hello) {
     if (auto* error = std::get_if<WireError>(&tissues)) return *error;
     if (!std::isfinite(hello.force_limit_n()) || hello.force_limit_n() < 0.0)
         return WireError{"the force limit is not a finite number of newtons"};
+    if (!std::isfinite(hello.reach_mm()) || hello.reach_mm() < 0.0)
+        return WireError{"the reach of an operator's hand is not a finite number of mm"};
     std::optional<Plan> plan;
     if (hello.has_plan()) {
         auto read = plan_from(hello.plan());
@@ -250,6 +253,7 @@ std::variant<SessionInfo, WireError> session_info_from(const v1::Hello& hello) {
                        .tissues = std::get<0>(std::move(tissues)),
                        .accepts_operator = hello.accepts_operator(),
                        .force_limit_n = hello.force_limit_n(),
+                       .reach_mm = hello.reach_mm() > 0.0 ? hello.reach_mm() : longest_reach_mm,
                        .has_ct = hello.has_ct(),
                        .accepts_controls = hello.accepts_controls(),
                        .plan = std::move(plan),

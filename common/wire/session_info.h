@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "common/scene/hand_limits.h"
 #include "common/scene/scene.h"
 #include "common/wire/protocol_version.h"
 
@@ -21,8 +22,9 @@ struct SessionInfo {
     std::vector<Tissue> tissues{};
     bool accepts_operator = false;  ///< the server runs with --device client
     double force_limit_n = 0.0;
-    bool has_ct = false;            ///< the server has a CT for people to look at
-    bool accepts_controls = false;  ///< the server takes a SessionControl
+    double reach_mm = longest_reach_mm;  ///< from the burr to an operator's target, at most
+    bool has_ct = false;                 ///< the server has a CT for people to look at
+    bool accepts_controls = false;       ///< the server takes a SessionControl
     std::optional<Plan> plan{};
     std::string trainee{};
     std::string case_name{};

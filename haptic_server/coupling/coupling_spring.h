@@ -3,28 +3,26 @@
 //     F_hand = -K_c (x - p) - B_c (v - w)      x the hand, p the burr
 //     v, w: dx/dt and dp/dt through first-order filters of tau_x and tau_p
 //
-// K_c is the spring that the device claims to render. B_c is what keeps it stable where the burr stands
-// still, on a wall. 4 N s/m through 1 ms hold a wall of 1.5 N/mm on a bare arm with one tick of delay to
+// K_c and B_c are the arm's (arm_spring.h). B_c is what keeps it stable where the burr stands still, on a
+// wall. 4 N s/m through 1 ms hold a wall of 1.5 N/mm on a bare arm with one tick of delay to
 // spare; docs/coupling.md has the table of walls that hold, and what encoder steps and friction change.
 #pragma once
 
 #include <glm/vec3.hpp>
 
 #include "haptic_server/coupling/contact_solve.h"
-#include "haptic_server/device/device_limits.h"
+#include "haptic_server/device/arm_spring.h"
 
 namespace osteomill {
 
 class CouplingSpring {
   public:
-    /// At the arm.
-    static constexpr double damping_n_s_per_mm = 0.004;
-    static constexpr double hand_filter_s = 0.001;
+    static constexpr double hand_filter_s = ArmSpring::hand_filter_s;
 
     /// `burr_filter_s` is tau_p.
     CouplingSpring(const PatientLimits& arm, double burr_filter_s)
         : stiffness_n_per_mm_(arm.max_stiffness_n_per_mm),
-          damping_n_s_per_mm_(arm.scale.damping_n_s_per_mm(damping_n_s_per_mm)),
+          damping_n_s_per_mm_(arm.damping_n_s_per_mm),
           burr_filter_s_(burr_filter_s) {}
 
     /// Slack and at rest, both ends at `position_mm`.

@@ -29,7 +29,7 @@ class ImplicitCoupling final : public Coupling {
 
     /// On the burr's side of the damping, ten times the hand's: the proxy moves unevenly, as its map is
     /// refreshed and contacts come and go, and none of that should be felt.
-    static constexpr double burr_filter_s = 0.01;
+    static constexpr double burr_filter_s = ArmSpring::burr_filter_s;
 
   private:
     PositionObserver hand_;

@@ -22,6 +22,8 @@
 #include <glm/common.hpp>
 #include <glm/vec3.hpp>
 
+#include "haptic_server/device/arm_spring.h"
+
 namespace osteomill {
 
 class PositionObserver {
@@ -29,7 +31,7 @@ class PositionObserver {
     /// b: share of a correction that goes into the velocity; 1 / b ticks of memory.
     static constexpr double velocity_share = 0.05;
     /// c and a, where bone is cut.
-    static constexpr double gentle_share = 0.1;
+    static constexpr double gentle_share = ArmSpring::share_of_step;
     static constexpr double gentle_velocity_share = 0.01;
     /// tau, s: longer than the swing of an arm on a stiff wall, shorter than the stops of a hand that sticks
     /// and slips.

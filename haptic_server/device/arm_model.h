@@ -6,6 +6,7 @@
 // the data sheet: viscous friction, 0.1 N s/m, the least that such arms show.
 #pragma once
 
+#include "haptic_server/device/arm_spring.h"
 #include "haptic_server/device/haptic_device.h"
 
 namespace osteomill {
@@ -20,10 +21,12 @@ struct ArmModel {
 };
 
 inline DeviceLimits limits_of(const ArmModel& arm) {
-    return {.max_force_n = arm.max_force_n,
-            .max_stiffness_n_per_mm = arm.max_stiffness_n_per_mm,
-            .apparent_mass_kg = arm.mass_kg,
-            .position_resolution_mm = arm.resolution_mm};
+    return with_stiffest_spring(
+        {.max_force_n = arm.max_force_n,
+         .max_stiffness_n_per_mm = arm.max_stiffness_n_per_mm,
+         .apparent_mass_kg = arm.mass_kg,
+         .position_resolution_mm = arm.resolution_mm},
+        0.0, arm.coulomb_friction_n > 0.0 ? std::optional(arm.coulomb_friction_n) : std::nullopt);
 }
 
 }  // namespace osteomill

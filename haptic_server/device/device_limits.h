@@ -11,8 +11,10 @@ struct DeviceLimits {
     double max_force_n = 3.3;
     double max_stiffness_n_per_mm = 1.5;  ///< of a spring that it renders stably
     double apparent_mass_kg = 0.045;
-    double position_resolution_mm = 0.0;  ///< step of a position reading; 0: none to speak of
-    bool gives_force = true;              ///< false: what is written is shown to people, and felt by nobody
+    double position_resolution_mm = 0.0;       ///< step of a position reading; 0: none to speak of
+    double damping_n_s_per_mm = 0.004;         ///< of the damper beside that spring
+    const char* stiffness_is_limited_by = "";  ///< for people
+    bool gives_force = true;  ///< false: what is written is shown to people, and felt by nobody
 };
 
 /// The same in the patient's millimetres, in which couplings reckon.
@@ -21,6 +23,7 @@ struct PatientLimits {
     double max_stiffness_n_per_mm = DeviceLimits{}.max_stiffness_n_per_mm;
     double apparent_mass_kg = DeviceLimits{}.apparent_mass_kg;
     double position_resolution_mm = DeviceLimits{}.position_resolution_mm;
+    double damping_n_s_per_mm = DeviceLimits{}.damping_n_s_per_mm;
     ArmScale scale{};  ///< for what a coupling itself asks of the arm
 };
 
@@ -29,6 +32,7 @@ constexpr PatientLimits in_patient_space(const DeviceLimits& arm, ArmScale scale
             .max_stiffness_n_per_mm = scale.stiffness_n_per_mm(arm.max_stiffness_n_per_mm),
             .apparent_mass_kg = scale.mass_kg(arm.apparent_mass_kg),
             .position_resolution_mm = scale.length_mm(arm.position_resolution_mm),
+            .damping_n_s_per_mm = scale.damping_n_s_per_mm(arm.damping_n_s_per_mm),
             .scale = scale};
 }
 

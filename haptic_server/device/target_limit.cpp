@@ -35,9 +35,11 @@ const char* TargetLimit::notice() const noexcept {
     // As in hand_limits.h.
     static_assert(longest_reach_mm == 6.0 && fastest_hand_mm_per_s == 500.0);
     if (reach && speed)
-        return "the operator's target was more than 6 mm from the burr, and faster than a hand (500 mm/s): "
+        return "the operator's target was more than 6 mm from the burr at the arm, and faster than a hand "
+               "(500 mm/s): "
                "such targets are clamped";
-    if (reach) return "the operator's target was more than 6 mm from the burr: such targets are clamped";
+    if (reach)
+        return "the operator's target was more than 6 mm from the burr at the arm: such targets are clamped";
     if (speed) return "the operator's target was faster than a hand (500 mm/s): such targets are clamped";
     return "";
 }

@@ -63,9 +63,9 @@ std::vector<double> spindle_speeds(const std::vector<Burr>& burrs) {
 std::optional<HandpieceVibration> make_vibration(const Scene& scene, const HapticDevice& device,
                                                  const MillingSessionOptions& options) {
     if (!options.vibration) return std::nullopt;
-    return HandpieceVibration(scene.burrs, {.max_force_n = device.limits().max_force_n,
-                                            .max_slew_n_per_s = ForceGuard::slew_n_per_s,
-                                            .scale = ArmScale(scene.device.scale)});
+    return HandpieceVibration(felt_burrs(scene), {.max_force_n = device.limits().max_force_n,
+                                                  .max_slew_n_per_s = ForceGuard::slew_n_per_s,
+                                                  .scale = ArmScale(scene.device.scale)});
 }
 
 /// What a thread does before its loop, so that the loop finds all it needs.
@@ -107,7 +107,7 @@ MillingSession::MillingSession(const Scene& scene, Bone bone, HapticDevice& devi
       device_(device),
       log_(log),
       milling_log_(milling_log),
-      model_(make_force_model(options.force_model, std::move(bone), scene.burrs, scene.tissues)),
+      model_(make_force_model(options.force_model, std::move(bone), felt_burrs(scene), scene.tissues)),
       coupling_(make_coupling(
           options.coupling,
           {.device = in_patient_space(device.limits(), ArmScale(scene.device.scale)),
@@ -140,7 +140,7 @@ MillingSession::MillingSession(const Scene& scene, Bone bone, HapticDevice& devi
                     .removed_before_mm3 = std::accumulate(options.removed_before_mm3.begin(),
                                                           options.removed_before_mm3.end(), 0.0),
                     .start_pose = scene.start_pose}),
-      burrs_(scene.burrs),
+      burrs_(felt_burrs(scene)),
       milling_loop_({.model = *model_,
                      .commands = commands_,
                      .results = results_,

@@ -95,6 +95,16 @@ struct Streaming {
     bool has_been_asked_to_finish() const { return keeper && keeper->has_been_asked_to_finish(); }
 };
 
+/// The spring that the hand is on, and why no stiffer; what makes forces others than bone's.
+void say_what_is_felt(const DeviceLimits& arm, const Scene& scene, LineStream& out) {
+    if (arm.gives_force)
+        out.write(fmt::format("the hand is on a spring of {:.3g} N/mm: {}\n", arm.max_stiffness_n_per_mm,
+                              arm.stiffness_is_limited_by));
+    if (scene.force_scale != 1.0)
+        out.write(fmt::format("{}: forces of cutting are {:.3g} times the bone's (force_scale)\n", scene.name,
+                              scene.force_scale));
+}
+
 Streaming make_streaming(StreamingOptions wanted, const ServerOptions& options, const Scene& scene,
                          Bone mirror, MillingSession& session, const DeviceParts& device,
                          std::vector<Structure> structures, const std::string& version,
@@ -236,6 +246,7 @@ void run_server(const ServerOptions& options, const std::string& version, const 
     BoneCost cost{.memory_bytes = memory_bytes(bone), .bone_mm3 = bone_volume_mm3(bone)};
     const DeviceParts device = make_device(options, scene, stop, *output.out);
     if (device.device == nullptr) return;  // stopped before an arm came
+    say_what_is_felt(device.device->limits(), scene, *output.out);
     std::optional<ForceLog> log;
     begin_log(log, options.log_csv,
               has_shank(scene.burrs) ? ForceSample::header_line_with_shank : ForceSample::header_line);

@@ -19,6 +19,7 @@ nlohmann::ordered_json session_settings(const ServerOptions& options, const Scen
                                 {"milling_rate_hz", options.session.milling_rate_hz},
                                 {"clock", options.session.clock == ClockKind::real ? "real" : "virtual"},
                                 {"vibration", options.session.vibration}};
+    if (scene.force_scale != 1.0) json["force_scale"] = scene.force_scale;
     const auto add_file = [&](const char* key, const std::optional<std::filesystem::path>& file) {
         if (file) json[key] = file->filename().string();
     };

@@ -5,6 +5,8 @@
 #include <chrono>
 #include <utility>
 
+#include "common/scene/arm_scale.h"
+
 namespace osteomill {
 
 SessionInfo session_info(const Scene& scene, bool accepts_operator, double force_limit_n,
@@ -15,6 +17,7 @@ SessionInfo session_info(const Scene& scene, bool accepts_operator, double force
             .tissues = scene.tissues,
             .accepts_operator = accepts_operator,
             .force_limit_n = force_limit_n,
+            .reach_mm = ArmScale(scene.device.scale).length_mm(longest_reach_mm),
             .plan = scene.plan};
 }
 

@@ -164,6 +164,7 @@ class Drawing {
                   session_.session() && session_.session()->accepts_operator;
         shared_.desk.show({.drills = drills_,
                            .burr_count = session_.session() ? session_.session()->burrs.size() : 0,
+                           .reach_mm = session_.session() ? session_.session()->reach_mm : longest_reach_mm,
                            .camera = session_.camera(),
                            .size_px = session_.size_px(),
                            .panels_have_mouse = ImGui::GetIO().WantCaptureMouse ||

@@ -1,7 +1,7 @@
 #include "studies/bridge/delay_rows.h"
 
 #include "haptic_server/device/arm_model.h"
-#include "haptic_server/device/delay_stiffness.h"
+#include "haptic_server/device/arm_spring.h"
 #include "studies/stability/map/map_points.h"
 #include "studies/stability/scene/map_run.h"
 
@@ -41,7 +41,9 @@ std::vector<DelayRow> delay_rows(bool quick, const std::function<void(double)>& 
     const std::vector<MapCase> all = cases(quick);
     std::size_t done = 0;
     for (const double bridge_ms : ways_ms) {
-        DelayRow row{.bridge_ms = bridge_ms, .share = stiffness_share(measured_s(bridge_ms))};
+        DelayRow row{.bridge_ms = bridge_ms,
+                     .share = stiffest_spring({.delay_s = measured_s(bridge_ms)}).stiffness_n_per_mm /
+                              ArmModel{}.max_stiffness_n_per_mm};
         for (const MapCase& c : all) {
             ++row.cases;
             if (is_stable(c, bridge_ms, 1.0, cache)) ++row.stable_with_all;

@@ -6,7 +6,7 @@
 #include <glm/gtc/quaternion.hpp>
 #include <utility>
 
-#include "haptic_server/device/delay_stiffness.h"
+#include "haptic_server/device/arm_spring.h"
 
 namespace osteomill {
 
@@ -50,10 +50,11 @@ glm::dvec3 BridgeArm::workspace_middle_mm() const {
 }
 
 DeviceLimits BridgeArm::limits() const {
-    return {.max_force_n = arm_.max_force_n,
-            .max_stiffness_n_per_mm = stiffness_share(round_trip_s()) * arm_.max_stiffness_n_per_mm,
-            .apparent_mass_kg = arm_.apparent_mass_kg,
-            .position_resolution_mm = arm_.position_step_mm};
+    return with_stiffest_spring({.max_force_n = arm_.max_force_n,
+                                 .max_stiffness_n_per_mm = arm_.max_stiffness_n_per_mm,
+                                 .apparent_mass_kg = arm_.apparent_mass_kg,
+                                 .position_resolution_mm = arm_.position_step_mm},
+                                round_trip_s());
 }
 
 DeviceState BridgeArm::read(double now_s) noexcept {

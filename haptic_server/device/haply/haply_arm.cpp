@@ -3,7 +3,7 @@
 #include <chrono>
 #include <thread>
 
-#include "haptic_server/device/delay_stiffness.h"
+#include "haptic_server/device/arm_spring.h"
 #include "haptic_server/device/haply/inverse3_profile.h"
 
 namespace osteomill {
@@ -21,10 +21,11 @@ glm::dvec3 HaplyArm::workspace_middle_mm() const {
 }
 
 DeviceLimits HaplyArm::limits() const {
-    return {.max_force_n = inverse3_profile.max_force_n,
-            .max_stiffness_n_per_mm = stiffness_share(delay_s()) * inverse3_profile.max_stiffness_n_per_mm,
-            .apparent_mass_kg = inverse3_profile.apparent_mass_kg,
-            .position_resolution_mm = inverse3_profile.position_step_mm};
+    return with_stiffest_spring({.max_force_n = inverse3_profile.max_force_n,
+                                 .max_stiffness_n_per_mm = inverse3_profile.max_stiffness_n_per_mm,
+                                 .apparent_mass_kg = inverse3_profile.apparent_mass_kg,
+                                 .position_resolution_mm = inverse3_profile.position_step_mm},
+                                delay_s());
 }
 
 DeviceState HaplyArm::read(double now_s) noexcept {

@@ -5,7 +5,7 @@
 #include <glm/geometric.hpp>
 #include <utility>
 
-#include "haptic_server/device/delay_stiffness.h"
+#include "haptic_server/device/arm_spring.h"
 #include "haptic_server/device/haply/inverse3_profile.h"
 
 namespace osteomill {

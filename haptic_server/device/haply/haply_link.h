@@ -79,7 +79,7 @@ class HaplyLink {
     void write(const glm::dvec3& force_n) noexcept;
 
     /// From a message to its answer, the median of the first while the arm was there; nullopt before there
-    /// are enough, and while that is more than a coupling bears (delay_stiffness.h). Any thread, as is the
+    /// are enough, and while that is more than a coupling bears (arm_spring.h). Any thread, as is the
     /// notice: a text that lives for ever, empty while all is well.
     std::optional<double> round_trip_s() const noexcept;
     const char* notice() const noexcept { return notice_.load(std::memory_order_relaxed); }

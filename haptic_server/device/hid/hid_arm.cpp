@@ -4,6 +4,7 @@
 
 #include <utility>
 
+#include "haptic_server/device/arm_spring.h"
 #include "haptic_server/device/hid/arm_link.h"
 
 namespace osteomill {
@@ -72,10 +73,12 @@ HidArm::HidArm(ArmProfile profile, HidTransport& transport, std::function<double
 
 DeviceLimits HidArm::limits() const {
     constexpr double m_per_mm = 0.001;
-    return {.max_force_n = profile_.max_force_n,
-            .max_stiffness_n_per_mm = m_per_mm * profile_.max_stiffness_n_per_m,
-            .apparent_mass_kg = profile_.apparent_mass_kg,
-            .position_resolution_mm = ArmKinematics(profile_).resolution_mm()};
+    constexpr double delay_s = 0.001;  // an answer to each report
+    return with_stiffest_spring({.max_force_n = profile_.max_force_n,
+                                 .max_stiffness_n_per_mm = m_per_mm * profile_.max_stiffness_n_per_m,
+                                 .apparent_mass_kg = profile_.apparent_mass_kg,
+                                 .position_resolution_mm = ArmKinematics(profile_).resolution_mm()},
+                                delay_s);
 }
 
 DeviceState HidArm::read(double now_s) noexcept {

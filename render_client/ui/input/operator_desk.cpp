@@ -29,12 +29,12 @@ void OperatorDesk::step(const WindowInput& input, double elapsed_s) {
         if (tool && picture_.drills) {
             // What the hand wants is only known once it rests on the tool: an intent of its own making would
             // drag the tool away.
-            hand_.follow(*tool, picture_.burr_count);
+            hand_.follow(*tool, picture_.burr_count, picture_.reach_mm);
             if (input.is_focused && !input.is_minimised && !picture_.is_clutched)
                 move_hand(input, std::min(elapsed_s, longest_step_s));
             else
                 let_go();
-            hand_.follow(*tool, picture_.burr_count);
+            hand_.follow(*tool, picture_.burr_count, picture_.reach_mm);
             // What is sent last lifts the pedal; then the tool is free for others.
             if (hand_.wants_tool() || had_tool_) wish = hand_.command();
             // It may be asked for, but must not jump to where this hand has gone meanwhile.

@@ -25,6 +25,7 @@ namespace osteomill {
 struct DeskPicture {
     bool drills = false;  ///< there is a session that an operator may drill in
     std::size_t burr_count = 0;
+    double reach_mm = longest_reach_mm;  ///< of the hand, from the burr
     Camera camera{};
     glm::ivec2 size_px{1, 1};
     /// A panel has the mouse, or would have it: Dear ImGui knows only a frame later where the pointer is now.

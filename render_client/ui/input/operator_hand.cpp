@@ -12,7 +12,7 @@ constexpr double tilt_rad_per_px = 0.005;
 
 }  // namespace
 
-void OperatorHand::follow(const ToolState& tool, std::size_t burr_count) {
+void OperatorHand::follow(const ToolState& tool, std::size_t burr_count, double reach_mm) {
     if (!tilted_) command_.spindle_axis = tool.spindle_axis;
     if (!burr_chosen_) command_.burr = tool.burr;
     if (burr_count > 0) command_.burr = std::min(command_.burr, burr_count - 1);
@@ -20,10 +20,10 @@ void OperatorHand::follow(const ToolState& tool, std::size_t burr_count) {
         command_.hand_target_mm = tool.hand_position_mm;
         return;
     }
-    const glm::dvec3 reach_mm = command_.hand_target_mm - tool.burr_position_mm;
-    const double length_mm = glm::length(reach_mm);
-    if (length_mm > longest_reach_mm)
-        command_.hand_target_mm = tool.burr_position_mm + longest_reach_mm / length_mm * reach_mm;
+    const glm::dvec3 lead_mm = command_.hand_target_mm - tool.burr_position_mm;
+    const double length_mm = glm::length(lead_mm);
+    if (length_mm > reach_mm)
+        command_.hand_target_mm = tool.burr_position_mm + reach_mm / length_mm * lead_mm;
 }
 
 void OperatorHand::move_in_picture(const glm::dvec2& moved_px, const Camera& camera,

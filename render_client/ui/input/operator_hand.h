@@ -14,10 +14,10 @@ namespace osteomill {
 class OperatorHand {
   public:
     /// Call before and after it is moved: before the hand is taken up it rests on the tool; afterwards the
-    /// target is kept within longest_reach_mm of the burr, so that a mouse that comes back moves the tool at
+    /// target is kept within `reach_mm` of the burr, so that a mouse that comes back moves the tool at
     /// once (that the tool goes no farther the server sees to), and a burr index beyond `burr_count` is
     /// lowered to the last.
-    void follow(const ToolState& tool, std::size_t burr_count);
+    void follow(const ToolState& tool, std::size_t burr_count, double reach_mm = longest_reach_mm);
 
     /// Moves the target in the plane that faces the camera by what the pointer moved (pixels, y down).
     void move_in_picture(const glm::dvec2& moved_px, const Camera& camera, const glm::ivec2& size_px);

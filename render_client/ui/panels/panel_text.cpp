@@ -32,7 +32,12 @@ std::string received_part(const LinkUpdate& link) {
 
 PanelText session_text(const OverlayContent& content) {
     PanelText text;
-    if (content.session) text.push_back(line(Tone::plain, content.session->scene_name));
+    if (content.session) {
+        text.push_back(line(Tone::plain, content.session->scene_name));
+        const auto scale = content.session->settings.find("force_scale");
+        if (scale != content.session->settings.end())
+            text.push_back(line(Tone::warning, "forces of cutting times " + scale->second));
+    }
     text.push_back(line(has_problem(content.link.status) ? Tone::warning : Tone::plain,
                         content.link.status_line + received_part(content.link)));
     if (content.preparation_percent)

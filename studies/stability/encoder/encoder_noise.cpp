@@ -53,12 +53,15 @@ class HighPass {
 /// A simulated arm that keeps the forces written to it.
 class NotingDevice final : public HapticDevice {
   public:
-    NotingDevice(const Scene& scene, const ArmModel& arm)
+    NotingDevice(const Scene& scene, const ArmModel& arm, std::optional<double> stiffness_n_per_mm)
         : arm_(make_trajectory(scene.trajectory, scene.start_pose, scene.burrs, scene.start_burr),
-               scene.device, arm, hand_model(Grip::firm)) {}
+               scene.device, arm, hand_model(Grip::firm)),
+          limits_(arm_.limits()) {
+        if (stiffness_n_per_mm) limits_.max_stiffness_n_per_mm = *stiffness_n_per_mm;
+    }
 
     std::string name() const override { return arm_.name(); }
-    DeviceLimits limits() const override { return arm_.limits(); }
+    DeviceLimits limits() const override { return limits_; }
     void start() override {}
     DeviceState read(double now_s) noexcept override { return arm_.read(now_s); }
     void write(const glm::dvec3& force_n) noexcept override {
@@ -72,6 +75,7 @@ class NotingDevice final : public HapticDevice {
 
   private:
     SimulatedDevice arm_;
+    DeviceLimits limits_;
     std::vector<glm::dvec3> forces_n_;
 };
 
@@ -103,9 +107,10 @@ EncoderNoise noise_of(const std::vector<glm::dvec3>& forces_n) {
     return noise;
 }
 
-EncoderNoise drill_tooth(const ArmModel& arm, const std::string& coupling) {
+EncoderNoise drill_tooth(const ArmModel& arm, const std::string& coupling,
+                         std::optional<double> stiffness_n_per_mm) {
     const Scene scene = phantom_scene("tooth");
-    NotingDevice device(scene, arm);
+    NotingDevice device(scene, arm, stiffness_n_per_mm);
     MillingSession session(
         scene,
         bone_from_hu(std::get<HuSlices>(make_phantom("tooth")), phantom_threshold_hu, stiffness_of(scene)),

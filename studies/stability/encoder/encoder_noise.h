@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <glm/vec3.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -21,8 +22,10 @@ struct EncoderNoise {
 };
 
 /// The lesion of the tooth phantom drilled out by a firm hand on `arm` with the coupling of that name,
-/// virtual clock. Throws std::invalid_argument for an unknown coupling.
-EncoderNoise drill_tooth(const ArmModel& arm, const std::string& coupling);
+/// virtual clock. `stiffness_n_per_mm`: of the spring, in place of what the arm gets. Throws
+/// std::invalid_argument for an unknown coupling.
+EncoderNoise drill_tooth(const ArmModel& arm, const std::string& coupling,
+                         std::optional<double> stiffness_n_per_mm = std::nullopt);
 
 /// Noise and jumps of a record of forces, a tick a millisecond, patient axes; without a force all 0.
 EncoderNoise noise_of(const std::vector<glm::dvec3>& forces_n);

@@ -61,6 +61,12 @@ void add_sites(CLI::App& stability, StabilityCommand& command, CLI::Option* merg
         ->excludes(sites)
         ->excludes(merge)
         ->excludes(encoders);
+    stability
+        .add_flag("--springs", command.varies_springs,
+                  "instead of the map: what a stiffer spring brings and costs each shipped arm")
+        ->excludes(sites)
+        ->excludes(merge)
+        ->excludes(encoders);
     stability.add_option("--seed", command.sites.seed, "of the random walks or motions")
         ->capture_default_str();
     stability

@@ -16,6 +16,7 @@ struct StabilityCommand {
     bool runs_sites = false;                     ///< in place of the map
     int motions_on_rails = 0;                    ///< not 0: these in place of the map
     bool varies_encoders = false;                ///< in place of the map
+    bool varies_springs = false;                 ///< likewise
     bool varies_frequency = false;               ///< in place of the map
     SiteStudyOptions sites{};                    ///< without what the map's options say
 };

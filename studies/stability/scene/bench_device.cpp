@@ -24,8 +24,12 @@ BenchDevice::BenchDevice(const MapCase& c, const ScenePlan& plan)
 
 DeviceLimits BenchDevice::limits() const {
     DeviceLimits limits = limits_of(ArmModel{});
+    limits.max_stiffness_n_per_mm = ArmModel{}.max_stiffness_n_per_mm;  // the map says what it is to render
     limits.position_resolution_mm = resolution_mm_;
     limits.max_stiffness_n_per_mm *= stiffness_share_;
+    if (bridge_ms_ >= 0.0)  // with the damper that the server takes for it
+        limits.damping_n_s_per_mm =
+            stiffest_spring({.delay_s = 0.001 * (1.0 + bridge_ms_)}).damping_n_s_per_mm;
     if (plan_.scene == MapScene::wall) limits.max_stiffness_n_per_mm = plan_.wall_n_per_mm;
     return limits;
 }

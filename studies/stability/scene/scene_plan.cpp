@@ -61,7 +61,7 @@ Mount mount_of(const MapCase& c) {
     return {.stiffness_n_per_mm = c.scene == MapScene::wall
                                       ? c.wall_n_per_mm
                                       : c.stiffness_share * ArmModel{}.max_stiffness_n_per_mm,
-            .damping_n_s_per_mm = CouplingSpring::damping_n_s_per_mm};
+            .damping_n_s_per_mm = DeviceLimits{}.damping_n_s_per_mm};
 }
 
 ScenePlan plan_of(const MapCase& c) {

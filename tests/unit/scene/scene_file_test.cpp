@@ -254,6 +254,17 @@ TEST(SceneFile, ValuesOutOfRangeOrOfTheWrongTypeAreRefused) {
     EXPECT_THAT(error_of(smallest + "[trajectory]\nspeed_mm_per_s = 3\n"), HasSubstr("takes either motion"));
 }
 
+TEST(SceneFile, MakesForcesOfCuttingLargerForAnArmThatNeedsIt) {
+    const Scene scene = parse_scene("force_scale = 2\n" + smallest, "my.toml");
+    EXPECT_EQ(scene.force_scale, 2.0);
+    EXPECT_EQ(parse_scene(write_scene(scene), "again.toml"), scene);
+    const Burr& own = scene.burrs.front();
+    const Burr felt = felt_burrs(scene).front();
+    EXPECT_EQ(felt.cutting_coefficients_n_per_mm2, 2.0 * own.cutting_coefficients_n_per_mm2);
+    EXPECT_EQ(felt.edge_coefficients_n_per_mm, 2.0 * own.edge_coefficients_n_per_mm);
+    EXPECT_THAT(error_of("force_scale = 0\n" + smallest), HasSubstr("'force_scale' is 0"));
+}
+
 TEST(SceneFile, ReadsAndWritesHeadsThatAreNoBall) {
     const auto head = [](const std::string& keys) {
         return parse_scene(smallest + "[[burrs]]\nname = \"b\"\ndiameter_mm = 2\n" + keys, "my.toml");

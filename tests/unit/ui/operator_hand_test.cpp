@@ -50,6 +50,9 @@ TEST(OperatorHand, KeepsTheTargetWithinReachOfTheBurr) {
     hand.follow(tool_at({0.0, 0.0, 5.0}), 6);
     EXPECT_NEAR(glm::distance(hand.command().hand_target_mm, glm::dvec3(0.0, 0.0, 5.0)), longest_reach_mm,
                 1e-9);
+    hand.follow(tool_at({0.0, 0.0, 5.0}), 6, 3.0);
+    EXPECT_NEAR(glm::distance(hand.command().hand_target_mm, glm::dvec3(0.0, 0.0, 5.0)), 3.0, 1e-9)
+        << "two of the arm's millimetres are one of the patient's";
 }
 
 TEST(OperatorHand, ChoosesOnlyBurrsThatThereAre) {

@@ -49,6 +49,13 @@ TEST_F(PanelTexts, SayInAWarningThatAnotherClientHasTheTool) {
     EXPECT_THAT(plain(operator_text(content_)), HasSubstr("another client moves the tool"));
 }
 
+TEST_F(PanelTexts, SayWhereForcesAreNotTheBones) {
+    EXPECT_FALSE(has_tone(session_text(content_), Tone::warning));
+    session_.settings["force_scale"] = "2";
+    EXPECT_THAT(plain(session_text(content_)), HasSubstr("forces of cutting times 2"));
+    EXPECT_TRUE(has_tone(session_text(content_), Tone::warning));
+}
+
 TEST_F(PanelTexts, SayToOneWhoMayOnlyWatchThatItIsSo) {
     EXPECT_TRUE(warning_text(content_).empty());
     content_.tool->driver = ToolDriver::others_only;

@@ -7,7 +7,7 @@
 #include <glm/geometric.hpp>
 #include <thread>
 
-#include "haptic_server/device/delay_stiffness.h"
+#include "haptic_server/device/arm_spring.h"
 #include "tests/support/eventually.h"
 #include "tests/unit/device/bridge/bridge_pair.h"
 
@@ -88,7 +88,10 @@ TEST_F(BridgedArm, IsWhatTheArmSaysItIs) {
     begin(testing::some_arm(), testing::ready_pose());
     EXPECT_EQ(device.name(), "test arm");
     EXPECT_EQ(device.limits().max_force_n, 3.0);
-    EXPECT_EQ(device.limits().max_stiffness_n_per_mm, 1.5 * stiffness_share(device.round_trip_s()));
+    EXPECT_LE(device.limits().max_stiffness_n_per_mm, 1.5);
+    EXPECT_EQ(device.limits().max_stiffness_n_per_mm,
+              stiffest_spring({.claimed_n_per_mm = 1.5, .mass_kg = 0.05, .delay_s = device.round_trip_s()})
+                  .stiffness_n_per_mm);
     EXPECT_EQ(device.limits().apparent_mass_kg, 0.05);
     EXPECT_GT(device.round_trip_s(), 0.0);
 }

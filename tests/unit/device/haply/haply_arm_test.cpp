@@ -6,7 +6,7 @@
 #include <glm/geometric.hpp>
 #include <thread>
 
-#include "haptic_server/device/delay_stiffness.h"
+#include "haptic_server/device/arm_spring.h"
 #include "haptic_server/device/haply/inverse3_profile.h"
 #include "tests/support/eventually.h"
 #include "tests/support/haply_service.h"
@@ -80,7 +80,11 @@ TEST_F(HaplyArmOnService, HasLimitsThatHoldWithItsDelay) {
     EXPECT_GT(arm->delay_s(), 0.001);
     EXPECT_LE(arm->delay_s(), longest_delay_s);
     EXPECT_EQ(arm->limits().max_stiffness_n_per_mm,
-              stiffness_share(arm->delay_s()) * inverse3_profile.max_stiffness_n_per_mm);
+              stiffest_spring({.claimed_n_per_mm = inverse3_profile.max_stiffness_n_per_mm,
+                               .mass_kg = inverse3_profile.apparent_mass_kg,
+                               .position_resolution_mm = inverse3_profile.position_step_mm,
+                               .delay_s = arm->delay_s()})
+                  .stiffness_n_per_mm);
 }
 
 TEST_F(HaplyArmOnService, MovesTheToolByPositionGripAndButtons) {
