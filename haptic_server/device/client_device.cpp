@@ -1,6 +1,8 @@
 #include "haptic_server/device/client_device.h"
 
+#include <algorithm>
 #include <glm/geometric.hpp>
+#include <utility>
 
 #include "common/bone/finite.h"
 #include "common/scene/device_mapping.h"
@@ -8,36 +10,37 @@
 namespace osteomill {
 
 ClientDevice::ClientDevice(OperatorChannel& commands, const ToolPose& start_pose,
-                           const DeviceMapping& mapping, const ArmModel& arm, const HandModel& hand)
+                           const DeviceMapping& mapping, const ArmModel& arm, const HandModel& hand,
+                           std::function<Time()> clock)
     : commands_(commands),
       mapping_(mapping),
       arm_(arm),
       held_arm_(arm, hand, position_in_device_mm(mapping, start_pose.position_mm)),
       wanted_(start_pose),
       target_(start_pose),
-      limit_(position_in_device_mm(mapping, start_pose.position_mm)) {}
+      limit_(position_in_device_mm(mapping, start_pose.position_mm)),
+      clock_(std::move(clock)) {}
 
 void ClientDevice::take_over_command(double now_s) noexcept {
     if (!commands_.refresh()) return;
-    const std::optional<OperatorCommand>& command = commands_.front();
+    const auto& [command, heard, client] = commands_.front();
     const double axis_length = command ? glm::length(command->spindle_axis) : 0.0;
     if (!command || !is_finite(command->hand_target_mm) || !std::isfinite(axis_length) ||
         axis_length < 1e-6) {
         permission_.withdraw();
+        pedal_ = {};
         return;
     }
+    permission_.renew(now_s - std::max(0.0, std::chrono::duration<double>(clock_() - heard).count()));
+    pedal_ = {.is_down = command->pedal, .said_s = permission_.renewed_s(), .speaker = client};
+    if (!permission_.holds(now_s)) return;
     const glm::dvec3 target_mm = limit_.limited(position_in_device_mm(mapping_, command->hand_target_mm),
                                                 held_arm_.truth().position_mm(), now_s);
     wanted_ = {position_in_patient_mm(mapping_, target_mm), command->spindle_axis / axis_length};
-    if (!command->pedal) must_be_pressed_anew_ = false;
-    pedal_ = command->pedal && !must_be_pressed_anew_;
     burr_ = command->burr;
-    permission_.renew(now_s);
 }
 
 void ClientDevice::end_permission() noexcept {
-    must_be_pressed_anew_ = must_be_pressed_anew_ || pedal_;
-    pedal_ = false;
     wanted_ = target_;
     limit_.resume_at(position_in_device_mm(mapping_, target_.position_mm));
 }
@@ -48,6 +51,7 @@ void ClientDevice::set_mapping(const DeviceMapping& mapping) noexcept {
     target_ = {position_in_patient_mm(mapping_, held_arm_.truth().position_mm()),
                direction_in_patient(mapping_, axis_in_device)};
     permission_.withdraw();
+    pedal_ = {};
     end_permission();
 }
 

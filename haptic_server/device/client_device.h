@@ -1,12 +1,13 @@
 // An arm that is not there, moved by an operator over the network: the mouse moves the hand's target, the
 // hand and arm model do the rest, so that the operator's tool yields to bone as an arm in a hand would.
 //
-// What an operator says is good for Permission::by_message_s of session time: without a fresh message the
-// tick lifts the pedal and the hand stands still, whatever the network's threads do. A pedal that was down
-// then has to be lifted and pressed anew: whoever held it while nothing turned may not mean the bone that the
-// burr is at when the messages come back. And it is held to what a hand does (TargetLimit): one message moves
-// the tool by longest_reach_mm at the most.
+// What an operator says is good for Permission::by_message_s after it was heard: without a fresh message the
+// hand stands still, whatever the network's threads do, and so does the spindle (safety/pedal_latch.h). And
+// it is held to what a hand does (TargetLimit): one message moves the tool by longest_reach_mm at the most.
 #pragma once
+
+#include <chrono>
+#include <functional>
 
 #include "common/scene/scene.h"
 #include "haptic_server/device/haptic_device.h"
@@ -22,11 +23,16 @@ class ClientDevice final : public HapticDevice {
     /// Mouse positions come some 60 times a second: the target follows them with this time constant.
     static constexpr double target_filter_s = 0.04;
 
+    using Time = std::chrono::steady_clock::time_point;
+
     /// Reads `commands` as its only reader. The arm starts at rest at `start_pose` (patient LPS). While no
-    /// operator is heard the hand holds its target and the pedal is up. A command that is not finite counts
-    /// as none. The burr that targets are kept near is the arm's tip, but for what the coupling yields.
-    ClientDevice(OperatorChannel& commands, const ToolPose& start_pose, const DeviceMapping& mapping,
-                 const ArmModel& arm, const HandModel& hand);
+    /// operator is heard the hand holds its target. A command that is not finite counts as none. The burr
+    /// that targets are kept near is the arm's tip, but for what the coupling yields. `clock` is what
+    /// commands are dated by.
+    ClientDevice(
+        OperatorChannel& commands, const ToolPose& start_pose, const DeviceMapping& mapping,
+        const ArmModel& arm, const HandModel& hand,
+        std::function<Time()> clock = [] { return std::chrono::steady_clock::now(); });
 
     std::string name() const override { return "operator over the network"; }
     DeviceLimits limits() const override { return limits_of(arm_); }
@@ -51,8 +57,8 @@ class ClientDevice final : public HapticDevice {
     ToolPose target_;  // on the way to wanted_
     TargetLimit limit_;
     Permission permission_;
-    bool pedal_ = false;
-    bool must_be_pressed_anew_ = false;
+    PedalStatement pedal_;
+    std::function<Time()> clock_;
     std::optional<std::size_t> burr_;
     double read_at_s_ = 0.0;
 };

@@ -6,8 +6,10 @@
 //                               +-- lost: read() says connected = false; writes are ignored
 #pragma once
 
+#include <cstdint>
 #include <glm/mat3x3.hpp>
 #include <glm/vec3.hpp>
+#include <limits>
 #include <optional>
 #include <string>
 
@@ -17,12 +19,24 @@
 namespace osteomill {
 
 /// One reading, in device space.
+/// What a device says of its pedal, and when that was said. It is worth what the loop's latch makes of it
+/// (safety/pedal_latch.h): a device states what it knows, keeps no pedal down or up by itself, and where it
+/// knows nothing lets the statement grow old.
+struct PedalStatement {
+    bool is_down = false;
+    /// Session time; by default never. No later than it was said: what came through a queue is as old as the
+    /// last look that found the queue empty.
+    double said_s = -std::numeric_limits<double>::infinity();
+    std::uint64_t speaker = 0;  ///< another number where another arm, client or connection says it
+    double acts_after_s = 0.0;  ///< a press counts so much later: of motions that are played back late
+};
+
 struct DeviceState {
     glm::dvec3 position_mm{0.0};
     glm::dvec3 velocity_mm_per_s{0.0};       ///< the driver's own estimate
     glm::dvec3 spindle_axis{0.0, 0.0, 1.0};  ///< unit vector from tip to shank
-    bool pedal = false;                      ///< spindle on while true
-    std::optional<std::size_t> burr{};       ///< asks for another burr of the scene's set
+    PedalStatement pedal{};
+    std::optional<std::size_t> burr{};  ///< asks for another burr of the scene's set
     bool connected = true;
 };
 

@@ -33,7 +33,7 @@ DeviceState SimulatedDevice::read(double now_s) noexcept {
     return {.position_mm = held_arm_.sensor().position_mm(),
             .velocity_mm_per_s = held_arm_.sensor().velocity_mm_per_s(),
             .spindle_axis = axis_in_device,
-            .pedal = sample.pedal,
+            .pedal = {.is_down = now_s > 0.0 && sample.pedal, .said_s = now_s},
             .burr = sample.burr};
 }
 

@@ -33,6 +33,7 @@ class SimulatedDevice final : public HapticDevice {
     std::string name() const override { return "simulated arm"; }
     DeviceLimits limits() const override { return limits_of(arm_); }
     void start() override {}
+    /// The script's pedal is up before the session: at time 0.
     DeviceState read(double now_s) noexcept override;
     void write(const glm::dvec3& force_n) noexcept override { held_arm_.set_motor_force(force_n); }
     void stop() noexcept override { held_arm_.set_motor_force(glm::dvec3(0.0)); }

@@ -1,6 +1,8 @@
 // The newest command of the operator, from the streaming loop to the device, with --device client.
 #pragma once
 
+#include <chrono>
+#include <cstdint>
 #include <optional>
 
 #include "common/scene/operator_command.h"
@@ -8,8 +10,14 @@
 
 namespace osteomill {
 
-/// Nothing while no operator is connected. The reader gives a command no longer than
+/// What an operator asks for; nothing while none is connected. The reader gives a command no longer than
 /// Permission::by_message_s.
-using OperatorChannel = TripleBuffer<std::optional<OperatorCommand>>;
+struct HeardCommand {
+    std::optional<OperatorCommand> command{};
+    std::chrono::steady_clock::time_point heard{};
+    std::uint64_t client = 0;  ///< another number where another client says it
+};
+
+using OperatorChannel = TripleBuffer<HeardCommand>;
 
 }  // namespace osteomill

@@ -126,7 +126,7 @@ void HapticLoop::tick(double now_s, std::uint64_t missed_periods) noexcept {
         .removed_mm3 = options_.removed_before_mm3 + latest.total_removed_mm3,
         .touches_protected = now_s < protected_until_s_,
         .fault = describe(safety_.fault()),
-        .notice = describe(burr_.waits_for()),
+        .notice = notice(),
         .depth_mm = depth_mm(in_contact),
         .solve = parts_.coupling.solve_counts(),
         .shank_torque_n_mm = options_.has_shank ? std::optional(shank_torque_n_mm) : std::nullopt,
@@ -151,6 +151,12 @@ void HapticLoop::publish(const BurrCommand& command, const ToolState& tool) noex
     parts_.tool.publish();
     parts_.status.back() = tool;
     parts_.status.publish();
+}
+
+const char* HapticLoop::notice() const noexcept {
+    if (burr_.waits_for() == BurrChange::none && safety_.awaits_release())
+        return "the spindle stays off: let go of the pedal, and press it anew";
+    return describe(burr_.waits_for());
 }
 
 double HapticLoop::depth_mm(bool in_contact) noexcept {

@@ -80,6 +80,7 @@ class HapticLoop {
     bool holds_still(const MillingResult& latest) const noexcept;
     void publish(const BurrCommand& command, const ToolState& tool) noexcept;
     double speed_share(double elapsed_s) noexcept;
+    const char* notice() const noexcept;
     double depth_mm(bool in_contact) noexcept;
     void log(const ToolState& tool) noexcept;
 

@@ -18,6 +18,7 @@
 
 #include <glm/vec3.hpp>
 
+#include "haptic_server/device/fading_force.h"
 #include "haptic_server/safety/fault.h"
 
 namespace osteomill {
@@ -26,8 +27,7 @@ class ForceGuard {
   public:
     enum class State { active, fading_out, off, fading_in };
 
-    /// The promise is 50 ms; a fade shorter than this is felt as a knock.
-    static constexpr double fade_out_s = 0.03;
+    static constexpr double fade_out_s = FadingForce::fade_s;
     /// A fault must have been gone this long; keeps one that comes and goes from drumming on the hand.
     static constexpr double settle_s = 0.1;
     /// Slow enough for a hand to notice and brace.

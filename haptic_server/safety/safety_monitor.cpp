@@ -4,18 +4,16 @@
 
 namespace osteomill {
 
-void SafetyMonitor::begin(Fault found, bool pedal, Clearance clearance) noexcept {
+void SafetyMonitor::begin(Fault found, PedalSeen pedal, Clearance clearance) noexcept {
     found_ = found;
     keeps_off_ = found;
     if (found == Fault::none && guard_.state() == ForceGuard::State::off && clearance != Clearance::clear)
         keeps_off_ = clearance == Clearance::in_bone ? Fault::in_bone : guard_.fault();
     if (is_untried_ && found == Fault::none && clearance == Clearance::in_bone) keeps_off_ = Fault::in_bone;
     if (found != Fault::none || clearance != Clearance::unknown) is_untried_ = false;
-    pedal_ = pedal && has_hand();
-    if (found == Fault::device_lost || found == Fault::device_jumped || found == Fault::energy_to_hand ||
-        found == Fault::paused)
-        is_spindle_locked_ = true;
-    if (has_hand() && !pedal) is_spindle_locked_ = false;
+    const bool withdraws =
+        found == Fault::device_jumped || found == Fault::energy_to_hand || found == Fault::paused;
+    pedal_.tick(has_hand() ? pedal : PedalSeen::lapsed, withdraws);
 }
 
 glm::dvec3 SafetyMonitor::pass(const glm::dvec3& wanted_n, bool is_sound, double elapsed_s) noexcept {

@@ -32,15 +32,9 @@
 // lifts it out and feels nothing, nothing is cut, and the force fades in where every wall is in front of the
 // burr. Where the hand moves too fast to know, `off` lasts, too, for the fault that there was.
 //
-// The spindle:
-//
-//             the device was lost or jumped, the force gave the hand energy, or the session was paused
-//   free ------------------------------------> locked
-//     ^                                          |
-//     +----- the pedal was up, device there -----+
-//
-//   free        turns while the pedal is down and the tool touches bone
-//   locked      stays off, however the pedal is: whoever pressed it then did not mean the bone it is in now
+// The spindle turns while the pedal is down, its latch (pedal_latch.h) is free and the tool touches bone. It
+// is locked, besides by what pedal_latch.h says, where the device was lost or jumped, the force gave the hand
+// energy, or the session was paused: whoever pressed the pedal then did not mean the bone it is in now.
 //
 // From no state does a fault lead to a force: in the tick of a fault and in all that follow until settle_s
 // have passed without one and clear of bone, the force only shrinks, and within fade_out_s it is zero.
@@ -53,6 +47,7 @@
 
 #include "haptic_server/safety/fault.h"
 #include "haptic_server/safety/force_guard.h"
+#include "haptic_server/safety/pedal_latch.h"
 #include "haptic_server/safety/watchdog.h"
 
 namespace osteomill {
@@ -65,12 +60,12 @@ class SafetyMonitor {
 
     /// Begins a tick: looks for faults. Real-time safe, like all here.
     void observe(const Observation& seen) noexcept {
-        begin(watchdog_.check(seen), seen.device.pedal, seen.clearance);
+        begin(watchdog_.check(seen), pedal_date_.look(seen.device.pedal, seen.now_s), seen.clearance);
     }
 
     /// Begins a tick with what was found, for whoever looks otherwise. `pedal` counts only of a device that
     /// is there, `clearance` while the force is off or untried.
-    void begin(Fault found, bool pedal, Clearance clearance) noexcept;
+    void begin(Fault found, PedalSeen pedal, Clearance clearance) noexcept;
 
     /// Whether what the device reads can be used in this tick.
     bool has_hand() const { return found_ != Fault::device_lost; }
@@ -88,10 +83,12 @@ class SafetyMonitor {
     /// After pass(): the spindle turns in this tick.
     bool spindle_turns() const { return holds_tool() && wants_spindle(); }
     /// What the coupling is told before pass() of the spindle.
-    bool wants_spindle() const { return pedal_ && !is_spindle_locked_ && has_hand() && !is_untried_; }
+    bool wants_spindle() const { return pedal_.is_pressed() && has_hand() && !is_untried_; }
 
     ForceGuard::State state() const { return guard_.state(); }
-    bool is_spindle_locked() const { return is_spindle_locked_; }
+    bool is_spindle_locked() const { return pedal_.is_locked(); }
+    /// The pedal is held, and turns nothing before it was up.
+    bool awaits_release() const { return pedal_.awaits_release(); }
     /// Nothing is known of the bone in the burr yet, nor was there a fault.
     bool is_untried() const { return is_untried_; }
     /// Why the force is off; none while it is not.
@@ -104,8 +101,8 @@ class SafetyMonitor {
     ForceGuard guard_;
     Fault found_ = Fault::none;      // in this tick
     Fault keeps_off_ = Fault::none;  // the same, and what else keeps an `off` force off
-    bool pedal_ = false;
-    bool is_spindle_locked_ = false;
+    PedalDate pedal_date_;
+    PedalLatch pedal_;
     bool is_untried_ = true;
     bool was_engaged_ = true;
     std::array<std::uint64_t, fault_kinds> fault_counts_{};

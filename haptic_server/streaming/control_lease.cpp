@@ -8,7 +8,8 @@ bool ControlLease::take_input(ClientId client, const OperatorCommand& command, T
     activity_.note(command, now);
     holder_ = client;
     last_heard_ = now;
-    publish(command);
+    output_.back() = {command, now, client};
+    output_.publish();
     return true;
 }
 
@@ -18,7 +19,8 @@ void ControlLease::leave(ClientId client) {
 
 void ControlLease::end() {
     holder_.reset();
-    publish(std::nullopt);
+    output_.back() = {};
+    output_.publish();
 }
 
 void ControlLease::check_silence(Time now) {
@@ -28,11 +30,6 @@ void ControlLease::check_silence(Time now) {
 ToolDriver ControlLease::driver_for(ClientId client) const {
     if (!holder_) return ToolDriver::nobody;
     return *holder_ == client ? ToolDriver::you : ToolDriver::another;
-}
-
-void ControlLease::publish(const std::optional<OperatorCommand>& command) {
-    output_.back() = command;
-    output_.publish();
 }
 
 }  // namespace osteomill

@@ -43,7 +43,6 @@ class ControlLease {
   private:
     /// Whether the holder may keep it though another asks.
     bool is_kept(Time now) const { return now - last_heard_ <= duration && !activity_.is_idle(now); }
-    void publish(const std::optional<OperatorCommand>& command);
 
     OperatorChannel& output_;
     std::optional<ClientId> holder_;

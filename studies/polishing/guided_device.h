@@ -26,7 +26,7 @@ class GuidedDevice final : public HapticDevice {
         const TrajectorySample sample = trajectory_.at(now_s);
         return {.position_mm = sample.target.position_mm,
                 .spindle_axis = sample.target.spindle_axis,
-                .pedal = sample.pedal,
+                .pedal = {.is_down = now_s > 0.0 && sample.pedal, .said_s = now_s},
                 .burr = sample.burr};
     }
     void write(const glm::dvec3&) noexcept override {}

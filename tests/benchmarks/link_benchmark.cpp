@@ -107,7 +107,7 @@ class DeviceOnRails final : public HapticDevice {
         const TrajectorySample now = trajectory_.at(now_s);
         return {.position_mm = now.target.position_mm,
                 .spindle_axis = now.target.spindle_axis,
-                .pedal = now.pedal};
+                .pedal = {.is_down = now_s > 0.0 && now.pedal, .said_s = now_s}};
     }
     void write(const glm::dvec3&) noexcept override {}
     void stop() noexcept override {}

@@ -83,7 +83,7 @@ class ServedBone {
     /// The operator's newest command; nothing while there is no operator.
     const std::optional<OperatorCommand>& operator_command() {
         operator_.refresh();
-        return operator_.front();
+        return operator_.front().command;
     }
 
   private:

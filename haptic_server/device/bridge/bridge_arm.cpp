@@ -58,13 +58,19 @@ DeviceLimits BridgeArm::limits() const {
 }
 
 DeviceState BridgeArm::read(double now_s) noexcept {
-    if (readings_.refresh()) permission_.renew(now_s);
+    const bool is_new = readings_.refresh();
     const Reading& newest = readings_.front();
+    if (is_new)
+        permission_.renew(
+            now_s -
+            std::max(0.0, 1e-9 * static_cast<double>(static_cast<std::int64_t>(omb_now_ns() - newest.said_ns))));
     const bool is_there = permission_.holds(now_s) && newest.is_ready;
     return {.position_mm = newest.tool_mm,
             .velocity_mm_per_s = newest.velocity_mm_per_s,
             .spindle_axis = newest.spindle_axis,
-            .pedal = is_there && newest.pedal,
+            .pedal = {.is_down = newest.pedal,
+                      .said_s = permission_.renewed_s(),
+                      .speaker = newest.session},
             .burr = newest.burr,
             .connected = is_there};
 }
@@ -116,6 +122,8 @@ void BridgeArm::take_pose(std::uint64_t now_ns) {
     if (next_pressed && !was_next_pressed_) burr_ = (burr_ + 1) % parts_.burr_count;
     was_next_pressed_ = next_pressed;
     reading.burr = burr_;
+    reading.said_ns = host_.said_ns();
+    reading.session = host_.session();
     reading.is_ready = (pose.status & OMB_READY) != 0;
     notice_.store(reading.is_ready ? "" : "the arm says that it is not ready: is it calibrated, and held?",
                   std::memory_order_relaxed);

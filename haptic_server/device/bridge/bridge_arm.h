@@ -71,6 +71,8 @@ class BridgeArm final : public HapticDevice {
         bool pedal = false;
         std::size_t burr = 0;
         bool is_ready = false;
+        std::uint64_t said_ns = 0;
+        std::uint64_t session = 0;
     };
 
     void run();

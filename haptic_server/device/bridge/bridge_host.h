@@ -80,6 +80,10 @@ class BridgeHost {
     bool has_fresh_pose() const { return has_fresh_pose_; }
     /// The newest to act on.
     const omb_pose& pose() const { return pose_; }
+    /// Its date by our own clock, which it echoes: it was said no earlier, however long it lay in a queue.
+    std::uint64_t said_ns() const { return pose_.echo_clock_ns + pose_.kept_ns; }
+    /// Another number where another arm has joined, or the same anew.
+    std::uint64_t session() const { return session_; }
     /// The arm that is served, or was; nullopt before the first.
     const std::optional<omb_arm>& arm() const { return arm_; }
     const BridgeCounts& counts() const { return counts_; }

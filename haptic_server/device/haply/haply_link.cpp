@@ -17,6 +17,8 @@ using namespace std::chrono_literals;
 constexpr auto longest_connecting = 500ms;
 constexpr auto longest_sending = 50ms;
 constexpr auto longest_receiving = 5ms;
+/// Between two messages while a force ends.
+constexpr auto fading_pace = 1ms;
 /// Without a force the arm is still read, at the loop's pace; without an arm there is no hurry.
 constexpr int idle_pace_ms = 1;
 constexpr int armless_pace_ms = 10;
@@ -80,9 +82,10 @@ void HaplyLink::run() {
 void HaplyLink::converse(HaplyConnection& connection) {
     field_ = HaplyForceField::values;
     unanswered_ = 1;  // the first message comes by itself
-    understood_ = asked_ = Clock::now();
+    understood_ = asked_ = first_asked_ = Clock::now();
     while (!stops_.load(std::memory_order_relaxed)) {
-        const std::optional<std::string_view> text = connection.receive(longest_receiving);
+        const std::optional<std::string_view> text =
+            connection.receive(sent_force_.is_felt() && !drives_ ? fading_pace : longest_receiving);
         const Clock::time_point now = Clock::now();
         if (!connection.is_open()) {
             say("Haply's service has closed the connection, or speaks no WebSocket");
@@ -96,8 +99,10 @@ void HaplyLink::converse(HaplyConnection& connection) {
             if (unanswered_ > 0) say("Haply's service is connected, and silent");
             break;
         }
-        if (has_arm_ && now - understood_ > silent_after) {
-            lose_arm();
+        if (has_arm_ && now - understood_ > silent_after) lose_arm();
+        const bool is_fading = sent_force_.is_felt() && !drives_;
+        if (is_fading) {
+            // Also into silence, and after nonsense: the service may still hear.
             if (!ask(connection)) return;
         } else if (unanswered_ == 0) {
             has_new_force_.wait(!has_arm_ ? armless_pace_ms : drives_ ? longest_answer_ms : idle_pace_ms);
@@ -145,17 +150,20 @@ void HaplyLink::take_arm(const HaplyInverse3& arm, const std::optional<HaplyGrip
                                 : arm.velocity_m_per_s ? mm_per_m * *arm.velocity_m_per_s
                                                        : sensor_.velocity_mm_per_s();
     newest_.is_ready = is_arm_able_ && !was_lost_;
+    newest_.said = first_asked_;
     publish();
     say(!has_power_ ? "the Inverse3 has no power: plug its power supply in"
         : !is_calibrated_
             ? "the Inverse3 is not calibrated: put its grip into the inkwell until its light is steady"
-        : is_slow_   ? "Haply's service answers too slowly for a force: 2 ms there and back is the most"
-        : !has_grip_ ? "no VerseGrip is there: the tool keeps its direction, and the spindle stays off"
-                     : "");
+        : is_slow_ ? "Haply's service answers too slowly for a force: 2 ms there and back is the most"
+        : !newest_.has_grip ? "no VerseGrip is there: the tool keeps its direction, and the spindle stays off"
+                            : "");
 }
 
 void HaplyLink::take_grip(const std::optional<HaplyGrip>& grip) {
-    has_grip_ = grip.has_value();
+    if (!grip || !newest_.has_grip || grip->device_id != grip_id_) ++newest_.grip;
+    newest_.has_grip = grip.has_value();
+    if (grip) grip_id_ = grip->device_id;
     if (grip) newest_.spindle_axis = grip->turn * inverse3_profile.spindle_axis_in_grip;
     is_clutch_ = grip && grip->button_c;
     const bool next_pressed = grip && grip->button_b;
@@ -167,7 +175,7 @@ void HaplyLink::take_grip(const std::optional<HaplyGrip>& grip) {
 void HaplyLink::lose_arm() noexcept {
     if (has_arm_) was_lost_ = true;
     has_arm_ = is_arm_able_ = drives_ = has_force_ = false;
-    newest_.is_ready = newest_.pedal = false;
+    newest_.is_ready = newest_.pedal = newest_.has_grip = false;
     publish();
 }
 
@@ -205,16 +213,22 @@ bool HaplyLink::ask(HaplyConnection& connection) {
     if (device_id_.empty()) {
         text_ = haply_question;
     } else {
-        write_haply_force(text_, device_id_, drives_ ? limited(forces_.front()) : glm::dvec3(0.0), field_);
+        const double now_s = std::chrono::duration<double>(Clock::now().time_since_epoch()).count();
+        const std::optional<glm::dvec3> wanted_n =
+            drives_ ? std::optional(limited(forces_.front())) : std::nullopt;
+        write_haply_force(text_, device_id_, sent_force_.next(wanted_n, now_s), field_);
     }
     asked_ = Clock::now();
-    ++unanswered_;
+    if (unanswered_++ == 0) first_asked_ = asked_;
     return connection.send(text_, longest_sending);
 }
 
 void HaplyLink::end(HaplyConnection& connection) {
     lose_arm();
-    if (device_id_.empty() || !ask(connection)) return;
+    do {
+        if (device_id_.empty() || !ask(connection)) return;
+        if (sent_force_.is_felt()) connection.receive(fading_pace);
+    } while (sent_force_.is_felt());
     // Closed at once, the connection might take what was said last with it.
     for (const auto until = Clock::now() + longest_sending;
          unanswered_ > 0 && connection.is_open() && Clock::now() < until;)

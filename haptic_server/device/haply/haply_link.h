@@ -22,6 +22,7 @@
 
 #include "common/net/listen_address.h"
 #include "haptic_server/device/clutch.h"
+#include "haptic_server/device/fading_force.h"
 #include "haptic_server/device/haply/haply_connection.h"
 #include "haptic_server/device/haply/haply_messages.h"
 #include "haptic_server/device/haply/wake_up.h"
@@ -36,8 +37,12 @@ struct HaplyReading {
     glm::dvec3 velocity_mm_per_s{0.0};
     glm::dvec3 spindle_axis{0.0, 0.0, 1.0};
     bool pedal = false;     ///< button a
-    std::size_t burr = 0;   ///< button b takes the next
-    bool is_ready = false;  ///< the arm is there, and the rest is so now
+    bool has_grip = false;  ///< or nothing is known of the pedal
+    /// Another number where another grip, or the same on another connection, says it.
+    std::uint64_t grip = 0;
+    std::size_t burr = 0;                          ///< button b takes the next
+    bool is_ready = false;                         ///< the arm is there, and the rest is so now
+    std::chrono::steady_clock::time_point said{};  ///< when the service was asked for it
 };
 
 struct HaplyLinkParts {
@@ -106,7 +111,7 @@ class HaplyLink {
     bool is_arm_able_ = false;  // and calibrated, with power
     bool is_calibrated_ = true;
     bool has_power_ = true;
-    bool has_grip_ = false;
+    std::string grip_id_;
     bool was_lost_ = false;  // and the loop has not shown yet that it knows
     bool drives_ = false;
     bool is_clutch_ = false;
@@ -117,9 +122,11 @@ class HaplyLink {
     Clock::time_point sensed_;
     Clock::time_point forced_;  // when the loop left the newest force
     bool has_force_ = false;
+    FadingForce sent_force_;
     Clock::time_point asked_;
-    Clock::time_point understood_;  // the newest message that made sense
-    int unanswered_ = 0;            // messages of ours
+    Clock::time_point first_asked_;  // of what is unanswered: an answer is no older
+    Clock::time_point understood_;   // the newest message that made sense
+    int unanswered_ = 0;             // messages of ours
     std::string text_;
     std::array<double, answers_measured> round_trips_s_{};
     std::size_t round_trips_ = 0;

@@ -80,7 +80,9 @@ std::optional<HaplyGrip> grip_of(const json& device) {
     const std::optional<glm::dquat> turn = rotation(at(state, "orientation"));
     if (!turn) return std::nullopt;
     const json& buttons = at(state, "buttons");
+    const json& id = at(device, "device_id");
     return HaplyGrip{
+        .device_id = id.is_string() ? id.get<std::string>() : "",
         .turn = *turn,
         .button_a = truth(at(buttons, "a")).value_or(false) || truth(at(state, "button")).value_or(false),
         .button_b = truth(at(buttons, "b")).value_or(false),

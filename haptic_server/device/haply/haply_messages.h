@@ -33,6 +33,7 @@ struct HaplyInverse3 {
 
 /// The handle.
 struct HaplyGrip {
+    std::string device_id;
     glm::dquat turn{1.0, 0.0, 0.0, 0.0};  ///< grip's frame to the service's axes
     bool button_a = false;
     bool button_b = false;

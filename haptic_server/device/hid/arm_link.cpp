@@ -28,6 +28,7 @@ ArmLink::ArmLink(const ArmProfile& profile, HidConnection& connection, double no
     : profile_(profile),
       kinematics_(profile),
       connection_(connection),
+      empty_s_(now_s),
       switch_(profile.switch_use),
       report_s_(now_s),
       sent_s_(now_s),
@@ -37,11 +38,15 @@ ArmLink::~ArmLink() {
     if (!is_gone_) connection_.write(currents_report(generation_, no_current_ma).bytes());
 }
 
-void ArmLink::receive(int wait_ms) noexcept {
+void ArmLink::receive(int wait_ms, double now_s) noexcept {
+    received_s_ = empty_s_;
     std::array<std::uint8_t, most_report_bytes> buffer;
     for (int i = 0; i < most_reports_at_once && !is_gone_; ++i) {
         const int bytes = connection_.read(buffer, i == 0 ? wait_ms : 0);
-        if (bytes == 0) return;
+        if (bytes == 0) {
+            empty_s_ = now_s;
+            return;
+        }
         if (bytes < 0) {
             is_gone_ = true;
             return;
@@ -110,7 +115,7 @@ void ArmLink::read_position(const ArmInput& input, double now_s) noexcept {
     reading_ = {.position_mm = sensor_.position_mm(),
                 .velocity_mm_per_s = sensor_.velocity_mm_per_s(),
                 .spindle_axis = kinematics_.spindle_axis(angles_rad_, input.stylus_counts),
-                .pedal = switch_.is_pedal(),
+                .pedal = {.is_down = switch_.is_pedal(), .said_s = received_s_},
                 .connected = true};
 }
 
@@ -128,12 +133,13 @@ void ArmLink::consider_output(double now_s, const std::optional<glm::dvec3>& wan
 }
 
 void ArmLink::send(double now_s) noexcept {
+    const glm::dvec3 force_n =
+        sent_force_.next(state_ == State::driving ? std::optional(wanted_n_) : std::nullopt, now_s);
     const bool is_silent = now_s - std::max(report_s_, sent_s_) >= wake_after_s;
     if (!is_answer_due_ && !is_silent) return;
     glm::dvec3 currents_a(0.0);
-    if (state_ == State::driving && is_answer_due_)
-        currents_a =
-            capped_currents_a(kinematics_.currents_a(angles_rad_, wanted_n_), profile_.max_current_a);
+    if (is_answer_due_)
+        currents_a = capped_currents_a(kinematics_.currents_a(angles_rad_, force_n), profile_.max_current_a);
     const bool sets_counters = state_ == State::uncalibrated && is_calibrating_;
     const ArmOutput output = sets_counters ? counters_report(profile_.home_counts)
                                            : currents_report(generation_, in_ma(currents_a));

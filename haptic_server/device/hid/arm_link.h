@@ -25,6 +25,7 @@
 #include <optional>
 
 #include "haptic_server/device/clutch.h"
+#include "haptic_server/device/fading_force.h"
 #include "haptic_server/device/haptic_device.h"
 #include "haptic_server/device/hid/arm_kinematics.h"
 #include "haptic_server/device/hid/arm_profile.h"
@@ -57,15 +58,17 @@ class ArmLink {
     ArmLink(const ArmLink&) = delete;
     ArmLink& operator=(const ArmLink&) = delete;
 
-    /// Waits up to `wait_ms` for a report and keeps the newest of those that are there. Allocates nothing.
-    void receive(int wait_ms) noexcept;
+    /// At `now_s` (never decreases), waits up to `wait_ms` for a report and keeps the newest of those that
+    /// are there. Allocates nothing.
+    void receive(int wait_ms, double now_s) noexcept;
 
     /// Takes over what was received, at `now_s` (never decreases), and answers the device. `wanted_n`: the
     /// force on the hand, device space, if there is a fresh one. Allocates nothing.
     void answer(double now_s, const std::optional<glm::dvec3>& wanted_n) noexcept;
 
     State state() const { return state_; }
-    /// Newest reading; `connected` only in `waiting` and `driving`, while reports come.
+    /// Newest reading; `connected` only in `waiting` and `driving`, while reports come. Its pedal was said,
+    /// on the clock of `now_s`, when the queue of reports was last empty before it.
     const DeviceState& reading() const { return reading_; }
     /// What people should know or do, a text that lives for ever; empty while all is well.
     const char* notice() const noexcept;
@@ -86,6 +89,9 @@ class ArmLink {
     State state_ = State::waking;
     ArmGeneration generation_ = ArmGeneration::second;
     std::optional<ArmInput> received_;  // not yet taken over
+    double empty_s_;                    // no report was waiting then
+    double received_s_ = 0.0;           // the newest came after that
+    FadingForce sent_force_;
     bool is_gone_ = false;
     bool is_calibrating_ = false;
     std::uint64_t malformed_count_ = 0;

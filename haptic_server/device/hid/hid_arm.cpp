@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <utility>
 
 #include "haptic_server/device/arm_spring.h"
@@ -17,10 +18,11 @@ constexpr int longest_wait_ms = 5;
 class ArmConversation final : public HidConversation {
   public:
     ArmConversation(const ArmProfile& profile, std::unique_ptr<HidConnection> connection,
-                    std::function<double()> clock_s, TripleBuffer<DeviceState>& readings,
-                    TripleBuffer<glm::dvec3>& forces)
+                    std::function<double()> clock_s, std::uint64_t number,
+                    TripleBuffer<DeviceState>& readings, TripleBuffer<glm::dvec3>& forces)
         : connection_(std::move(connection)),
           clock_s_(std::move(clock_s)),
+          number_(number),
           link_(profile, *connection_, clock_s_()),
           readings_(readings),
           forces_(forces) {
@@ -28,11 +30,12 @@ class ArmConversation final : public HidConversation {
     }
 
     bool exchange() noexcept override {
-        link_.receive(longest_wait_ms);
+        link_.receive(longest_wait_ms, clock_s_());
         std::optional<glm::dvec3> wanted_n;
         if (forces_.refresh()) wanted_n = forces_.front();
         link_.answer(clock_s_(), wanted_n);
         readings_.back() = link_.reading();
+        readings_.back().pedal.speaker = number_;
         readings_.publish();
         return link_.state() != ArmLink::State::gone;
     }
@@ -42,6 +45,7 @@ class ArmConversation final : public HidConversation {
   private:
     std::unique_ptr<HidConnection> connection_;
     std::function<double()> clock_s_;
+    std::uint64_t number_;
     ArmLink link_;
     TripleBuffer<DeviceState>& readings_;
     TripleBuffer<glm::dvec3>& forces_;
@@ -50,17 +54,18 @@ class ArmConversation final : public HidConversation {
 HidWorkerParts parts_of(const ArmProfile& profile, HidTransport& transport, std::function<double()> clock_s,
                         std::function<void()> on_thread_start, TripleBuffer<DeviceState>& readings,
                         TripleBuffer<glm::dvec3>& forces) {
-    return {.transport = transport,
-            .is_wanted = [usb = profile.usb](const HidDeviceInfo& device) { return is_arm_of(usb, device); },
-            .what = fmt::format("haptic arm {} (USB {:04x}:{:04x}, usage {:04x}:{:04x})", profile.name,
-                                profile.usb.vendor_id, profile.usb.product_id, profile.usb.usage_page,
-                                profile.usb.usage),
-            .begin = [profile, clock_s = std::move(clock_s), &readings, &forces](
-                         std::unique_ptr<HidConnection> connection) -> std::unique_ptr<HidConversation> {
-                return std::make_unique<ArmConversation>(profile, std::move(connection), clock_s, readings,
-                                                         forces);
-            },
-            .on_thread_start = std::move(on_thread_start)};
+    return {
+        .transport = transport,
+        .is_wanted = [usb = profile.usb](const HidDeviceInfo& device) { return is_arm_of(usb, device); },
+        .what = fmt::format("haptic arm {} (USB {:04x}:{:04x}, usage {:04x}:{:04x})", profile.name,
+                            profile.usb.vendor_id, profile.usb.product_id, profile.usb.usage_page,
+                            profile.usb.usage),
+        .begin = [profile, clock_s = std::move(clock_s), number = std::uint64_t{0}, &readings, &forces](
+                     std::unique_ptr<HidConnection> connection) mutable -> std::unique_ptr<HidConversation> {
+            return std::make_unique<ArmConversation>(profile, std::move(connection), clock_s, ++number,
+                                                     readings, forces);
+        },
+        .on_thread_start = std::move(on_thread_start)};
 }
 
 }  // namespace
@@ -68,6 +73,7 @@ HidWorkerParts parts_of(const ArmProfile& profile, HidTransport& transport, std:
 HidArm::HidArm(ArmProfile profile, HidTransport& transport, std::function<double()> clock_s,
                std::function<void()> on_thread_start)
     : profile_(std::move(profile)),
+      clock_s_(clock_s),
       worker_(parts_of(profile_, transport, std::move(clock_s), std::move(on_thread_start), readings_,
                        forces_)) {}
 
@@ -82,8 +88,10 @@ DeviceLimits HidArm::limits() const {
 }
 
 DeviceState HidArm::read(double now_s) noexcept {
-    if (readings_.refresh()) permission_.renew(now_s);
+    const bool is_new = readings_.refresh();
     DeviceState newest = readings_.front();
+    if (is_new) permission_.renew(now_s - std::max(0.0, clock_s_() - newest.pedal.said_s));
+    newest.pedal.said_s = permission_.renewed_s();
     if (!permission_.holds(now_s)) newest.connected = false;
     return newest;
 }

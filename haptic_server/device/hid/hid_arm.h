@@ -33,6 +33,7 @@ class HidArm final : public HapticDevice {
 
   private:
     ArmProfile profile_;
+    std::function<double()> clock_s_;
     TripleBuffer<DeviceState> readings_;  // thread to loop
     TripleBuffer<glm::dvec3> forces_;     // loop to thread
     Permission permission_{longest_reading_age_s};

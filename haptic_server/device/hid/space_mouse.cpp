@@ -1,5 +1,6 @@
 #include "haptic_server/device/hid/space_mouse.h"
 
+#include <algorithm>
 #include <glm/geometric.hpp>
 #include <utility>
 
@@ -17,8 +18,12 @@ constexpr int most_reports_at_once = 64;
 class MouseConversation final : public HidConversation {
   public:
     MouseConversation(std::unique_ptr<HidConnection> connection, std::function<double()> clock_s,
-                      TripleBuffer<SpaceMouseReading>& readings)
-        : connection_(std::move(connection)), clock_s_(std::move(clock_s)), readings_(readings) {}
+                      std::uint64_t number, TripleBuffer<SpaceMouseReading>& readings)
+        : connection_(std::move(connection)),
+          clock_s_(std::move(clock_s)),
+          number_(number),
+          readings_(readings),
+          empty_s_(clock_s_()) {}
 
     bool exchange() noexcept override {
         const bool is_plugged = take_reports();
@@ -26,7 +31,8 @@ class MouseConversation final : public HidConversation {
             state_.translation = glm::dvec3(0.0);
             state_.rotation = glm::dvec3(0.0);
         }
-        readings_.back() = {.state = state_, .is_plugged = is_plugged};
+        readings_.back() = {
+            .state = state_, .is_plugged = is_plugged, .said_s = empty_s_, .connection = number_};
         readings_.publish();
         return is_plugged;
     }
@@ -36,10 +42,14 @@ class MouseConversation final : public HidConversation {
   private:
     bool take_reports() noexcept {
         std::array<std::uint8_t, 64> buffer;
+        const double began_s = clock_s_();
         for (int i = 0; i < most_reports_at_once; ++i) {
             const int bytes = connection_->read(buffer, i == 0 ? longest_wait_ms : 0);
             if (bytes < 0) return false;
-            if (bytes == 0) return true;
+            if (bytes == 0) {
+                empty_s_ = began_s;
+                return true;
+            }
             if (state_.take({buffer.data(), static_cast<std::size_t>(bytes)})) reported_s_ = clock_s_();
         }
         return true;
@@ -47,21 +57,24 @@ class MouseConversation final : public HidConversation {
 
     std::unique_ptr<HidConnection> connection_;
     std::function<double()> clock_s_;
+    std::uint64_t number_;
     TripleBuffer<SpaceMouseReading>& readings_;
     SpaceMouseState state_;
     double reported_s_ = 0.0;
+    double empty_s_;
 };
 
 HidWorkerParts parts_of(HidTransport& transport, std::function<double()> clock_s,
                         std::function<void()> on_thread_start, TripleBuffer<SpaceMouseReading>& readings) {
-    return {.transport = transport,
-            .is_wanted = is_space_mouse,
-            .what = "3D mouse (3Dconnexion SpaceMouse)",
-            .begin = [clock_s = std::move(clock_s), &readings](
-                         std::unique_ptr<HidConnection> connection) -> std::unique_ptr<HidConversation> {
-                return std::make_unique<MouseConversation>(std::move(connection), clock_s, readings);
-            },
-            .on_thread_start = std::move(on_thread_start)};
+    return {
+        .transport = transport,
+        .is_wanted = is_space_mouse,
+        .what = "3D mouse (3Dconnexion SpaceMouse)",
+        .begin = [clock_s = std::move(clock_s), number = std::uint64_t{0}, &readings](
+                     std::unique_ptr<HidConnection> connection) mutable -> std::unique_ptr<HidConversation> {
+            return std::make_unique<MouseConversation>(std::move(connection), clock_s, ++number, readings);
+        },
+        .on_thread_start = std::move(on_thread_start)};
 }
 
 }  // namespace
@@ -70,6 +83,7 @@ SpaceMouse::SpaceMouse(const Scene& scene, const ArmModel& arm, const HandModel&
                        HidTransport& transport, std::function<double()> clock_s,
                        std::function<void()> on_thread_start)
     : arm_(arm),
+      clock_s_(clock_s),
       held_arm_(arm, hand, position_in_device_mm(scene.device, scene.start_pose.position_mm)),
       target_mm_(position_in_device_mm(scene.device, scene.start_pose.position_mm)),
       spindle_axis_(direction_in_device(scene.device, scene.start_pose.spindle_axis)),
@@ -90,8 +104,9 @@ void SpaceMouse::move_target(const SpaceMouseState& mouse, double elapsed_s) noe
 }
 
 DeviceState SpaceMouse::read(double now_s) noexcept {
-    if (readings_.refresh()) permission_.renew(now_s);
+    const bool is_new = readings_.refresh();
     const SpaceMouseReading& mouse = readings_.front();
+    if (is_new) permission_.renew(now_s - std::max(0.0, clock_s_() - mouse.said_s));
     const bool is_heard = mouse.is_plugged && permission_.holds(now_s);
     const double elapsed_s = now_s - read_at_s_;
     read_at_s_ = now_s;
@@ -106,7 +121,9 @@ DeviceState SpaceMouse::read(double now_s) noexcept {
     return {.position_mm = held_arm_.sensor().position_mm(),
             .velocity_mm_per_s = held_arm_.sensor().velocity_mm_per_s(),
             .spindle_axis = spindle_axis_,
-            .pedal = is_heard && (mouse.state.buttons & pedal_button) != 0,
+            .pedal = {.is_down = (mouse.state.buttons & pedal_button) != 0,
+                      .said_s = permission_.renewed_s(),
+                      .speaker = mouse.connection},
             .burr = burr_,
             .connected = is_heard};
 }

@@ -27,6 +27,8 @@ namespace osteomill {
 struct SpaceMouseReading {
     SpaceMouseState state;
     bool is_plugged = false;
+    double said_s = 0.0;  ///< by the thread's clock: nothing more was waiting then
+    std::uint64_t connection = 0;
 };
 
 class SpaceMouse final : public HapticDevice {
@@ -58,6 +60,7 @@ class SpaceMouse final : public HapticDevice {
     void move_target(const SpaceMouseState& mouse, double elapsed_s) noexcept;
 
     ArmModel arm_;
+    std::function<double()> clock_s_;
     HeldArm held_arm_;
     glm::dvec3 target_mm_;  // device space, both
     glm::dvec3 spindle_axis_;

@@ -1,12 +1,13 @@
 #include "haptic_server/device/tracker/tracked_tool.h"
 
+#include <algorithm>
 #include <glm/geometric.hpp>
 #include <utility>
 
 namespace osteomill {
 
 TrackedTool::TrackedTool(TrackerReceiver::Parts parts, TrackedHandpiece handpiece, const ToolPose& start_pose)
-    : handpiece_(std::move(handpiece)), receiver_([&] {
+    : handpiece_(std::move(handpiece)), clock_s_(parts.now_s), receiver_([&] {
           parts.pedal = handpiece_.pedal;
           return std::move(parts);
       }()) {
@@ -16,10 +17,9 @@ TrackedTool::TrackedTool(TrackerReceiver::Parts parts, TrackedHandpiece handpiec
 
 void TrackedTool::take(const TrackerReceiver::Item& item, double now_s) noexcept {
     if (item.is_pedal) {
-        if (!item.is_down || !pedal_.holds(now_s)) is_down_ = false;
-        if (item.is_down && !is_down_) pressed_s_ = now_s;
-        is_down_ = item.is_down;
-        pedal_.renew(now_s);
+        pedal_ = {.is_down = item.is_down,
+                  .said_s = now_s - std::max(0.0, clock_s_() - item.said_s),
+                  .speaker = item.connection};
         return;
     }
     const TrackerSample& sample = item.sample;
@@ -42,13 +42,13 @@ DeviceState TrackedTool::read(double now_s) noexcept {
         if (!was_there_) came_back_s_ = now_s;
     }
     was_there_ = pose.has_value();
-    state_.pedal = state_.connected && is_pressed(now_s);
+    if (handpiece_.pedal.empty()) {
+        state_.pedal = {.is_down = now_s - came_back_s_ >= released_s, .said_s = now_s};
+    } else {
+        state_.pedal = pedal_;
+        state_.pedal.acts_after_s = motion_.delay_s();
+    }
     return state_;
-}
-
-bool TrackedTool::is_pressed(double now_s) const noexcept {
-    if (handpiece_.pedal.empty()) return now_s - came_back_s_ >= released_s;
-    return is_down_ && pedal_.holds(now_s) && now_s - pressed_s_ >= motion_.delay_s();
 }
 
 }  // namespace osteomill

@@ -3,14 +3,15 @@
 //
 // The pedal of a STRING message holds for Permission::by_message_s after each; so whoever sends it repeats
 // it. Pressed, it counts as late as the motion is played, or it would cut what the hand passed before;
-// released, at once. A pedal that is always down comes up for a moment where the tool has come back, since a
-// spindle does not start by itself after that (SafetyMonitor).
+// released, at once. Where there is no pedal (one that is always down), to be seen is the permission: it comes
+// up for a moment where the tool has come back, since a spindle does not start by itself after that
+// (safety/pedal_latch.h).
 #pragma once
 
+#include <functional>
 #include <string>
 
 #include "haptic_server/device/haptic_device.h"
-#include "haptic_server/device/permission.h"
 #include "haptic_server/device/tracker/sampled_motion.h"
 #include "haptic_server/device/tracker/tracker_file.h"
 #include "haptic_server/device/tracker/tracker_receiver.h"
@@ -36,14 +37,12 @@ class TrackedTool final : public HapticDevice {
 
   private:
     void take(const TrackerReceiver::Item& item, double now_s) noexcept;
-    bool is_pressed(double now_s) const noexcept;
 
     TrackedHandpiece handpiece_;
+    std::function<double()> clock_s_;
     TrackerReceiver receiver_;
     SampledMotion motion_;
-    Permission pedal_;
-    bool is_down_ = false;
-    double pressed_s_ = 0.0;
+    PedalStatement pedal_;
     bool was_there_ = false;
     double came_back_s_ = 0.0;
     DeviceState state_;

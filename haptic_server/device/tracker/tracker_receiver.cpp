@@ -45,10 +45,12 @@ TrackerReceiver::TrackerReceiver(Parts parts)
       stream_(
           parts_.name, parts_.pedal,
           {.sample =
-               [this](const TrackerSample& sample) {
-                   push({.sample = sample, .is_pedal = false, .is_down = false});
-               },
-           .pedal = [this](bool is_down) { push({.sample = {}, .is_pedal = true, .is_down = is_down}); }}) {}
+               [this](const TrackerSample& sample) { push({.sample = sample, .connection = connection_}); },
+           .pedal =
+               [this](bool is_down) {
+                   push(
+                       {.is_pedal = true, .is_down = is_down, .said_s = empty_s_, .connection = connection_});
+               }}) {}
 
 void TrackerReceiver::start() {
     thread_ = std::thread([this] {
@@ -84,14 +86,19 @@ void TrackerReceiver::run() {
 
 void TrackerReceiver::listen_to(int socket) {
     stream_.restart();
+    ++connection_;
     std::array<std::uint8_t, 65536> buffer;
-    double heard_s = parts_.now_s();
+    double heard_s = empty_s_ = parts_.now_s();
     TransformStream::Counts before = stream_.counts();
     while (!stops_.load(std::memory_order_relaxed)) {
-        pollfd wait{socket, POLLIN, 0};
-        const int ready = poll(&wait, 1, longest_wait_ms);
-        const ssize_t bytes = ready > 0 ? recv(socket, buffer.data(), buffer.size(), 0) : -1;
-        const bool has_nothing_yet = ready == 0 || errno == EAGAIN || errno == EWOULDBLOCK || errno == EINTR;
+        const double looked_s = parts_.now_s();
+        const ssize_t bytes = recv(socket, buffer.data(), buffer.size(), 0);
+        const bool has_nothing_yet = errno == EAGAIN || errno == EWOULDBLOCK || errno == EINTR;
+        if (bytes < 0 && has_nothing_yet) {
+            if (errno != EINTR) empty_s_ = looked_s;
+            pollfd wait{socket, POLLIN, 0};
+            poll(&wait, 1, longest_wait_ms);
+        }
         if (bytes == 0 || (bytes < 0 && !has_nothing_yet)) {
             notice_.store("the tracker's server has closed the connection", std::memory_order_relaxed);
             return;

@@ -20,7 +20,7 @@ class TrackerReceiver {
         ListenAddress server;           ///< where the tracker's server listens
         std::string name;               ///< whose TRANSFORMs; empty: the first that is seen
         std::string pedal;              ///< whose STRINGs; empty: nobody's
-        std::function<double()> now_s;  ///< any clock; what silence is measured with
+        std::function<double()> now_s;  ///< any clock; what silence is measured and the pedal is dated with
         std::function<void()> on_thread_start = [] {};
     };
 
@@ -34,9 +34,11 @@ class TrackerReceiver {
 
     /// What came: a sample, or what the pedal's owner says.
     struct Item {
-        TrackerSample sample;
+        TrackerSample sample{};
         bool is_pedal = false;
         bool is_down = false;
+        double said_s = 0.0;           ///< by the receiver's clock: the socket was last empty then
+        std::uint64_t connection = 0;  ///< that it came by
     };
     /// The next one; one reader. Real-time safe.
     bool pop(Item& item) noexcept { return items_.pop(item); }
@@ -52,6 +54,8 @@ class TrackerReceiver {
 
     Parts parts_;
     TransformStream stream_;
+    double empty_s_ = 0.0;  // the socket held nothing then
+    std::uint64_t connection_ = 0;
     boost::lockfree::spsc_queue<Item, boost::lockfree::capacity<1024>> items_;
     std::atomic<const char*> notice_{"no tracker is connected yet"};
     std::atomic<bool> stops_{false};

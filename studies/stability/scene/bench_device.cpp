@@ -54,14 +54,15 @@ void BenchDevice::move_to_next_tick() {
     tick.taken_mj = ledger_.taken_j();
 }
 
-DeviceState BenchDevice::read(double) noexcept {
+DeviceState BenchDevice::read(double now_s) noexcept {
     if (has_begun_) move_to_next_tick();
     if (observer_) observer_(record_);
     sensor_.read(motion_.position_mm, has_begun_ ? tick_s : 0.0);
+    const PedalStatement pedal{.is_down = has_begun_ && plan_.scene == MapScene::cutting, .said_s = now_s};
     has_begun_ = true;
     return {.position_mm = sensor_.position_mm(),
             .velocity_mm_per_s = sensor_.velocity_mm_per_s(),
-            .pedal = plan_.scene == MapScene::cutting};
+            .pedal = pedal};
 }
 
 glm::dvec3 BenchDevice::over_bridge_n(const glm::dvec3& force_n) {

@@ -3,8 +3,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <glm/geometric.hpp>
+
+#include "tests/support/latched_pedal.h"
 
 namespace osteomill::client_device_test {
 namespace {
@@ -13,16 +16,27 @@ const ToolPose start{{1.0, 2.0, 3.0}, {0.0, 0.0, 1.0}};
 
 struct Desk {
     OperatorChannel input;
-    ClientDevice device{input, start, DeviceMapping{}, ArmModel{}, hand_model(Grip::firm)};
+    ClientDevice::Time now{};
+    ClientDevice device{
+        input, start, DeviceMapping{}, ArmModel{}, hand_model(Grip::firm), [this] { return now; }};
+    testing::LatchedPedal pedal;
     int tick = 0;
+    bool turns = false;  // the spindle, were there no bone
 
-    void say(const std::optional<OperatorCommand>& what) {
-        input.back() = what;
+    void say(const std::optional<OperatorCommand>& what, std::uint64_t client = 1) {
+        input.back() = {.command = what, .heard = now, .client = client};
         input.publish();
+    }
+    DeviceState read(double now_s) {
+        now = ClientDevice::Time(
+            std::chrono::duration_cast<ClientDevice::Time::duration>(std::chrono::duration<double>(now_s)));
+        const DeviceState state = device.read(now_s);
+        turns = pedal.reads(state, now_s);
+        return state;
     }
     DeviceState run(int ticks) {
         DeviceState state;
-        for (int i = 0; i < ticks; ++i) state = device.read(0.001 * tick++);
+        for (int i = 0; i < ticks; ++i) state = read(0.001 * tick++);
         return state;
     }
     /// Says it again every 20 ms, as a client does.
@@ -36,15 +50,15 @@ struct Desk {
     }
 };
 
-OperatorCommand wants(const glm::dvec3& position_mm) {
-    return {.hand_target_mm = position_mm, .pedal = true, .burr = 2};
+OperatorCommand wants(const glm::dvec3& position_mm, bool pedal = true) {
+    return {.hand_target_mm = position_mm, .pedal = pedal, .burr = 2};
 }
 
 TEST(ClientDevice, RestsAtTheStartPoseUntilAnOperatorComes) {
     Desk desk;
     const DeviceState state = desk.run(500);
     EXPECT_LT(glm::distance(state.position_mm, start.position_mm), 0.1);
-    EXPECT_FALSE(state.pedal);
+    EXPECT_FALSE(desk.turns);
     EXPECT_FALSE(state.burr.has_value());
 }
 
@@ -52,7 +66,7 @@ TEST(ClientDevice, GoesWhereTheOperatorPoints) {
     Desk desk;
     const DeviceState state = desk.run_while_saying(wants({11.0, 2.0, 3.0}), 3000);
     EXPECT_NEAR(state.position_mm.x, 11.0, 1.0);
-    EXPECT_TRUE(state.pedal);
+    EXPECT_TRUE(state.pedal.is_down);
     EXPECT_EQ(state.burr, 2u);
 }
 
@@ -81,37 +95,78 @@ TEST(ClientDevice, GoesNoFartherThanAReachForOneMessage) {
 
 TEST(ClientDevice, LiftsThePedalAndStandsStill200MsAfterTheNewestMessage) {
     Desk desk;
-    ASSERT_TRUE(desk.run_while_saying(wants({5.0, 2.0, 3.0}), 101).pedal);  // the last at 100 ms
-    EXPECT_TRUE(desk.run(199).pedal);
-    EXPECT_FALSE(desk.run(2).pedal) << "though nobody says that the operator has gone";
+    desk.run_while_saying(wants({5.0, 2.0, 3.0}, false), 20);
+    desk.run_while_saying(wants({5.0, 2.0, 3.0}), 101);  // the last at 120 ms
+    EXPECT_TRUE(desk.turns);
+    desk.run(198);
+    EXPECT_TRUE(desk.turns);
+    desk.run(3);
+    EXPECT_FALSE(desk.turns) << "though nobody says that the operator has gone";
     desk.run(1000);
     const double rests_mm = desk.run(1).position_mm.x;
     EXPECT_NEAR(desk.run(500).position_mm.x, rests_mm, 0.06);
-    EXPECT_FALSE(desk.run_while_saying(wants({5.0, 2.0, 3.0}), 500).pedal) << "heard again, and still held";
-    OperatorCommand lifted = wants({5.0, 2.0, 3.0});
-    lifted.pedal = false;
-    EXPECT_FALSE(desk.run_while_saying(lifted, 20).pedal);
-    EXPECT_TRUE(desk.run_while_saying(wants({5.0, 2.0, 3.0}), 20).pedal) << "pressed anew";
+    desk.run_while_saying(wants({5.0, 2.0, 3.0}), 500);
+    EXPECT_FALSE(desk.turns) << "heard again, and still held";
+    desk.run_while_saying(wants({5.0, 2.0, 3.0}, false), 20);
+    EXPECT_FALSE(desk.turns);
+    desk.run_while_saying(wants({5.0, 2.0, 3.0}), 20);
+    EXPECT_TRUE(desk.turns) << "pressed anew";
 }
 
 TEST(ClientDevice, GoesByTheTimeOfTheTickHoweverFewTicksThereAre) {
     Desk desk;
+    desk.read(0.85);
+    desk.say(wants({5.0, 2.0, 3.0}, false));
+    desk.read(0.9);
     desk.say(wants({5.0, 2.0, 3.0}));
-    ASSERT_TRUE(desk.device.read(1.0).pedal);
-    EXPECT_FALSE(desk.device.read(1.3).pedal);
+    desk.read(1.0);
+    ASSERT_TRUE(desk.turns);
+    desk.read(1.3);
+    EXPECT_FALSE(desk.turns);
 
     Desk stalled;
+    stalled.read(0.85);
+    stalled.say(wants({5.0, 2.0, 3.0}, false));
+    stalled.read(0.9);
     stalled.say(wants({5.0, 2.0, 3.0}));
-    ASSERT_TRUE(stalled.device.read(1.0).pedal);
+    stalled.read(1.0);
+    ASSERT_TRUE(stalled.turns);
     stalled.say(wants({5.0, 2.0, 3.0}));
-    EXPECT_FALSE(stalled.device.read(1.3).pedal) << "no tick saw that it had ended";
+    stalled.read(1.3);
+    EXPECT_FALSE(stalled.turns) << "no tick saw that it had ended";
+    stalled.say(wants({5.0, 2.0, 3.0}));
+    stalled.read(1.31);
+    EXPECT_FALSE(stalled.turns) << "held all the time";
+}
+
+TEST(ClientDevice, PassesNoPedalOnFromOneOperatorToTheNext) {
+    Desk desk;
+    desk.run_while_saying(wants({5.0, 2.0, 3.0}, false), 20);
+    desk.run_while_saying(wants({5.0, 2.0, 3.0}), 20);
+    ASSERT_TRUE(desk.turns);
+    desk.say(wants({5.0, 2.0, 3.0}), 2);
+    desk.run(50);
+    EXPECT_FALSE(desk.turns) << "the second one held it before";
+}
+
+TEST(ClientDevice, TakesACommandForAsOldAsItIs) {
+    Desk desk;
+    desk.run_while_saying(wants({5.0, 2.0, 3.0}, false), 20);
+    desk.input.back() = {
+        .command = wants({5.0, 2.0, 3.0}), .heard = desk.now - std::chrono::milliseconds(300), .client = 1};
+    desk.input.publish();
+    desk.run(5);
+    EXPECT_FALSE(desk.turns) << "it lay in a queue while the program was stopped";
 }
 
 TEST(ClientDevice, LiftsThePedalAndHoldsStillWhenTheOperatorIsLost) {
     Desk desk;
+    desk.run_while_saying(wants({50.0, 2.0, 3.0}, false), 20);
     desk.run_while_saying(wants({50.0, 2.0, 3.0}), 100);
+    ASSERT_TRUE(desk.turns);
     desk.say(std::nullopt);
-    EXPECT_FALSE(desk.run(1).pedal);
+    desk.run(1);
+    EXPECT_FALSE(desk.turns);
     desk.run(1000);
     const double rests_mm = desk.run(1).position_mm.x;
     EXPECT_LT(rests_mm, 40.0);
@@ -122,14 +177,14 @@ TEST(ClientDevice, PassesOverInputThatIsNotFinite) {
     Desk desk;
     desk.say(wants({NAN, 2.0, 3.0}));
     DeviceState state = desk.run(100);
-    EXPECT_FALSE(state.pedal);
+    EXPECT_FALSE(state.pedal.is_down);
     EXPECT_LT(glm::distance(state.position_mm, start.position_mm), 0.1);
 
     OperatorCommand no_axis = wants({20.0, 2.0, 3.0});
     no_axis.spindle_axis = glm::dvec3(0.0);
     desk.say(no_axis);
     state = desk.run(100);
-    EXPECT_FALSE(state.pedal);
+    EXPECT_FALSE(state.pedal.is_down);
     EXPECT_TRUE(std::isfinite(state.spindle_axis.x));
 }
 

@@ -24,7 +24,7 @@ TEST(SimulatedDevice, FollowsItsTrajectoryInFreeAir) {
     for (int tick = 0; tick <= 3000; ++tick) state = device.read(0.001 * tick);
     EXPECT_NEAR(state.position_mm.x, 10.0, 1.0) << "friction may hold it back by 0.26 N / 0.3 N/mm";
     EXPECT_TRUE(device.is_finished());
-    EXPECT_FALSE(state.pedal);
+    EXPECT_FALSE(state.pedal.is_down);
     EXPECT_TRUE(state.connected);
 }
 

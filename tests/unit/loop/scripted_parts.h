@@ -26,9 +26,19 @@ class ScriptedDevice final : public HapticDevice {
     std::string name() const override { return "scripted"; }
     DeviceLimits limits() const override { return device_limits; }
     void start() override { ++started; }
-    DeviceState read(double now_s) noexcept override { return script(now_s); }
+    /// A script's pedal is said when it is read; at the first reading it is up.
+    DeviceState read(double now_s) noexcept override {
+        DeviceState state = script(now_s);
+        if (state.pedal.said_s < 0.0) state.pedal.said_s = now_s;
+        if (!was_read_) state.pedal.is_down = false;
+        was_read_ = true;
+        return state;
+    }
     void write(const glm::dvec3& force_n) noexcept override { written_n.push_back(force_n); }
     void stop() noexcept override { ++stopped; }
+
+  private:
+    bool was_read_ = false;
 };
 
 /// Wants what `force` says; the burr is rigidly the hand.

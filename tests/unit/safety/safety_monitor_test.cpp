@@ -25,7 +25,7 @@ constexpr double time_to_zero_s = 0.05;  // the promise
 /// What can happen in a tick.
 struct Event {
     Fault fault = Fault::none;
-    bool pedal = false;
+    PedalSeen pedal = PedalSeen::up;
     double wanted_n = 0.0;
     bool is_sound = true;
     double elapsed_s = tick_s;
@@ -36,7 +36,7 @@ struct Event {
 
 std::vector<Event> every_event() {
     std::vector<Event> events;
-    for (const bool pedal : {false, true}) {
+    for (const PedalSeen pedal : {PedalSeen::up, PedalSeen::lapsed, PedalSeen::waiting, PedalSeen::down}) {
         for (const double wanted_n : {0.0, 1.0, 1e300, -1e300, std::nan(""), HUGE_VAL}) {
             events.push_back({Fault::none, pedal, wanted_n});
             for (const Fault fault : all_faults) {
@@ -159,17 +159,17 @@ TEST(SafetyMonitor, TurnsTheSpindleOnlyInAHandThatIsThereAndHasLetGoOfThePedal) 
         const bool locks = event.fault == Fault::device_lost || event.fault == Fault::device_jumped ||
                            event.fault == Fault::energy_to_hand;
         if (to.monitor.spindle_turns()) {
-            ASSERT_TRUE(event.pedal && !event.is_fault());
+            ASSERT_TRUE(event.pedal == PedalSeen::down && !event.is_fault());
             ASSERT_FALSE(from.monitor.is_spindle_locked());
             ASSERT_FALSE(to.monitor.is_untried());
             ASSERT_TRUE(to.monitor.state() == State::active || to.monitor.state() == State::fading_in);
         }
-        if (locks && event.pedal) {
+        if (event.pedal == PedalSeen::lapsed || (locks && event.pedal == PedalSeen::down)) {
             ASSERT_TRUE(to.monitor.is_spindle_locked());
         }
         const bool unlocks = from.monitor.is_spindle_locked() && !to.monitor.is_spindle_locked();
         if (unlocks) {
-            ASSERT_TRUE(!event.pedal && event.fault != Fault::device_lost);
+            ASSERT_TRUE(event.pedal == PedalSeen::up && event.fault != Fault::device_lost);
         }
     });
 }
@@ -181,7 +181,9 @@ TEST(SafetyMonitor, GivesNoForceInsideTheBoneHoweverLongItLasts) {
             if (now.monitor.is_untried()) continue;  // see StartsWithoutAForceInsideTheBone
             const bool was_engaged = now.monitor.fault() == Fault::none;
             for (int i = 0; i < 100; ++i) {
-                now = now.after({.pedal = i % 2 == 0, .wanted_n = 1.0, .clearance = clearance});
+                now = now.after({.pedal = i % 2 == 0 ? PedalSeen::down : PedalSeen::up,
+                                 .wanted_n = 1.0,
+                                 .clearance = clearance});
                 if (was_engaged) continue;
                 ASSERT_LE(glm::length(now.force_n), glm::length(reached.force_n));
                 ASSERT_FALSE(now.monitor.spindle_turns());
@@ -195,7 +197,7 @@ TEST(SafetyMonitor, GivesNoForceInsideTheBoneHoweverLongItLasts) {
 }
 
 TEST(SafetyMonitor, StartsWithoutAForceInsideTheBone) {
-    const Event in_bone{.pedal = true, .wanted_n = 1.0, .clearance = Clearance::in_bone};
+    const Event in_bone{.pedal = PedalSeen::down, .wanted_n = 1.0, .clearance = Clearance::in_bone};
     Reached now;
     for (int i = 0; i < 100; ++i) {
         now = now.after(in_bone);
@@ -210,15 +212,15 @@ TEST(SafetyMonitor, StartsWithoutAForceInsideTheBone) {
 }
 
 TEST(SafetyMonitor, StartsInAirWithTheFirstForceAsSoonAsThatIsKnown) {
-    Reached now;
+    Reached now = Reached{}.after({.wanted_n = 1.0, .clearance = Clearance::unknown});
     for (int i = 0; i < 100; ++i) {
-        now = now.after({.pedal = true, .wanted_n = 1.0, .clearance = Clearance::unknown});
+        now = now.after({.pedal = PedalSeen::down, .wanted_n = 1.0, .clearance = Clearance::unknown});
         ASSERT_TRUE(now.monitor.is_untried());
         ASSERT_EQ(now.force_n, glm::dvec3(0.0));
         ASSERT_FALSE(now.monitor.spindle_turns());
         ASSERT_EQ(now.monitor.fault(), Fault::none);
     }
-    now = now.after({.pedal = true, .wanted_n = 1.0});
+    now = now.after({.pedal = PedalSeen::down, .wanted_n = 1.0});
     EXPECT_EQ(now.force_n.x, 1.0) << "no fading in";
     EXPECT_TRUE(now.monitor.spindle_turns());
 }

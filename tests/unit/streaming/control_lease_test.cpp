@@ -11,7 +11,7 @@ class ControlLeaseTest : public ::testing::Test {
   protected:
     const std::optional<OperatorCommand>& newest() {
         output_.refresh();
-        return output_.front();
+        return output_.front().command;
     }
 
     OperatorChannel output_;

@@ -113,7 +113,7 @@ class BridgedDevice final : public HapticDevice {
         bridge.pose.quaternion[2] = turn.y;
         bridge.pose.quaternion[3] = turn.z;
         bridge.pose.status = OMB_READY | OMB_HAS_VELOCITY | OMB_HAS_ORIENTATION;
-        bridge.pose.buttons = truth.pedal ? 1U : 0U;
+        bridge.pose.buttons = truth.pedal.is_down ? 1U : 0U;
         bridge.now_ns = begin_ns_ + static_cast<std::uint64_t>(std::llround(1e9 * now_s));
         bridge.say();
         const glm::dvec3 given(bridge.force.force_n[0], bridge.force.force_n[1], bridge.force.force_n[2]);
@@ -126,7 +126,7 @@ class BridgedDevice final : public HapticDevice {
                 .velocity_mm_per_s = {pose.velocity_mm_per_s[0], pose.velocity_mm_per_s[1],
                                       pose.velocity_mm_per_s[2]},
                 .spindle_axis = truth.spindle_axis,
-                .pedal = is_there && (pose.buttons & OMB_PEDAL) != 0,
+                .pedal = {.is_down = is_there && (pose.buttons & OMB_PEDAL) != 0, .said_s = now_s},
                 .connected = is_there};
     }
     void write(const glm::dvec3& force_n) noexcept override {

@@ -57,8 +57,7 @@ class HaplyArmOnService : public ::testing::Test {
                        force_n);
     }
     ::testing::AssertionResult is_lost() {
-        return becomes([](const DeviceState& state) { return !state.connected && !state.pedal; },
-                       {1.0, 0.0, 0.0});
+        return becomes([](const DeviceState& state) { return !state.connected; }, {1.0, 0.0, 0.0});
     }
     ::testing::AssertionResult is_back() {
         return becomes([](const DeviceState& state) { return state.connected; });
@@ -96,14 +95,14 @@ TEST_F(HaplyArmOnService, MovesTheToolByPositionGripAndButtons) {
     devices.b = true;
     service->set(devices);
     EXPECT_TRUE(becomes([](const DeviceState& state) {
-        return state.connected && state.pedal && state.burr == 2u &&
+        return state.connected && state.pedal.is_down && state.burr == 2u &&
                glm::length(state.position_mm - glm::dvec3(20.0, -100.0, 200.0)) < 1e-9 &&
                glm::length(state.velocity_mm_per_s - glm::dvec3(100.0, 0.0, -50.0)) < 1e-9 &&
                glm::length(state.spindle_axis - glm::dvec3(0.0, 0.0, -1.0)) < 1e-9;
     }));
     devices.a = devices.b = false;
     service->set(devices);
-    EXPECT_TRUE(becomes([](const DeviceState& state) { return !state.pedal && state.burr == 2u; }));
+    EXPECT_TRUE(becomes([](const DeviceState& state) { return !state.pedal.is_down && state.burr == 2u; }));
     devices.b = true;
     service->set(devices);
     EXPECT_TRUE(becomes([](const DeviceState& state) { return state.burr == 0u; }));
@@ -212,7 +211,7 @@ TEST_F(HaplyArmOnService, IsLostWhileItIsUnpluggedAndComesBackWithoutAForce) {
     devices.position_m.x = 0.05;
     service->set(devices);
     EXPECT_TRUE(becomes([](const DeviceState& state) {
-        return state.connected && state.pedal && std::abs(state.position_mm.x - 50.0) < 1e-9;
+        return state.connected && state.pedal.is_down && std::abs(state.position_mm.x - 50.0) < 1e-9;
     }));
     EXPECT_EQ(*service->force_n(), glm::dvec3(0.0));
     EXPECT_TRUE(is_felt({0.05, 0.0, 0.0}));
@@ -282,10 +281,10 @@ TEST_F(HaplyArmOnService, WithoutAGripHasTheScenesAxisAndThenTheLastOne) {
     const auto stands = [](const DeviceState& state) {
         return glm::length(state.spindle_axis - glm::dvec3(0.0, 0.0, 1.0)) < 1e-9;
     };
-    EXPECT_TRUE(becomes([&](const DeviceState& state) { return stands(state) && state.pedal; }));
+    EXPECT_TRUE(becomes([&](const DeviceState& state) { return stands(state) && state.pedal.is_down; }));
     devices.has_grip = false;
     service->set(devices);
-    EXPECT_TRUE(becomes([&](const DeviceState& state) { return !state.pedal; }));
+    EXPECT_TRUE(becomes([&](const DeviceState& state) { return !state.pedal.is_down; }));
     EXPECT_TRUE(stands(tick({})));
     EXPECT_TRUE(is_felt({0.05, 0.0, 0.0})) << "the arm goes on without it";
 }
@@ -303,14 +302,15 @@ TEST_F(HaplyArmOnService, LetsTheHandGoElsewhereWithTheClutch) {
     for (int i = 0; i < 50; ++i) {
         const DeviceState state = tick({});
         EXPECT_NEAR(state.position_mm.x, 10.0, 1e-9);
-        EXPECT_FALSE(state.pedal) << "it is for drilling";
+        EXPECT_FALSE(state.pedal.is_down) << "it is for drilling";
         EXPECT_EQ(state.velocity_mm_per_s, glm::dvec3(0.0));
     }
     devices.c = false;
     devices.position_m.x += 0.002;
     service->set(devices);
-    EXPECT_TRUE(becomes(
-        [](const DeviceState& state) { return state.pedal && std::abs(state.position_mm.x - 12.0) < 1e-9; }));
+    EXPECT_TRUE(becomes([](const DeviceState& state) {
+        return state.pedal.is_down && std::abs(state.position_mm.x - 12.0) < 1e-9;
+    }));
 }
 
 TEST(HaplyArmAlone, WaitsUntilItIsToldNotTo) {

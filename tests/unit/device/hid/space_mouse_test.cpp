@@ -83,7 +83,8 @@ TEST_F(PluggedMouse, MovesTheToolWhileItIsPushedAndLeavesItWhereItIs) {
     send(axes_report(1, 0, 0, 0));
     const std::array<std::uint8_t, 2> both_buttons{3, 3};
     send(both_buttons);
-    ASSERT_TRUE(eventually([&] { return step().pedal; })) << "so it has been read that the puck is at rest";
+    ASSERT_TRUE(eventually([&] { return step().pedal.is_down; }))
+        << "so it has been read that the puck is at rest";
     for (int i = 0; i < 3000; ++i) step();
     const glm::dvec3 rests_mm = step().position_mm;
     for (int i = 0; i < 1000; ++i) step();
@@ -108,17 +109,17 @@ TEST_F(PluggedMouse, IsLostWhenTheThreadThatReadsItHangs) {
     mouse.start();
     const std::array<std::uint8_t, 2> left_button{3, 1};
     send(left_button);
-    ASSERT_TRUE(eventually([&] { return step().pedal; }));
+    ASSERT_TRUE(eventually([&] { return step().pedal.is_down; }));
     hid.with(
         [&](FakeHidDevice&) {  // the thread waits for it
             EXPECT_TRUE(eventually([&] {
                 for (int i = 0; i < 250; ++i) step();
                 const DeviceState state = step();
-                return !state.pedal && !state.connected;
+                return !state.connected;
             }));
         },
         path);
-    EXPECT_TRUE(eventually([&] { return step().pedal; })) << "it is heard again";
+    EXPECT_TRUE(eventually([&] { return step().pedal.is_down; })) << "it is heard again";
 }
 
 TEST_F(PluggedMouse, IsLostWhenUnplugged) {

@@ -9,6 +9,7 @@
 #include <string>
 #include <thread>
 
+#include "tests/support/latched_pedal.h"
 #include "tests/support/tracker_server.h"
 
 namespace osteomill {
@@ -48,6 +49,7 @@ class TrackedHand : public ::testing::Test {
             }
             std::this_thread::sleep_for(300us);
             state = tool->read(now_s);
+            state.pedal.is_down = pedal_latch.reads(state, now_s);
             if (done(state)) return true;
         }
         return false;
@@ -55,6 +57,7 @@ class TrackedHand : public ::testing::Test {
 
     TrackerServer server;
     std::optional<TrackedTool> tool;
+    testing::LatchedPedal pedal_latch;
     glm::dvec3 position_mm{10.0, 20.0, 30.0};
     glm::dquat turn = glm::angleAxis(std::numbers::pi / 2.0, glm::dvec3(1.0, 0.0, 0.0));  // z to -y
     double now_s = 0.0;
@@ -71,7 +74,7 @@ TEST_F(TrackedHand, PutsTheBurrWhereTheMarkerSays) {
     ASSERT_TRUE(run([](const DeviceState& seen) { return seen.connected; }));
     EXPECT_LT(glm::distance(state.position_mm, glm::dvec3(10.0, -80.0, 30.0)), 1e-3);
     EXPECT_LT(glm::distance(state.spindle_axis, glm::dvec3(0.0, 1.0, 0.0)), 1e-6);
-    EXPECT_FALSE(state.pedal);
+    EXPECT_FALSE(state.pedal.is_down);
     EXPECT_STREQ(tool->notice(), "");
     EXPECT_FALSE(tool->limits().gives_force);
 }
@@ -79,26 +82,34 @@ TEST_F(TrackedHand, PutsTheBurrWhereTheMarkerSays) {
 TEST_F(TrackedHand, HasAPedalThatExpires) {
     begin();
     ASSERT_TRUE(server.accept());
-    ASSERT_TRUE(run([](const DeviceState& seen) { return seen.pedal; }, "on"));
-    ASSERT_TRUE(run([](const DeviceState& seen) { return !seen.pedal; }, "off"));
-    ASSERT_TRUE(run([](const DeviceState& seen) { return seen.pedal; }, "on"));
+    ASSERT_TRUE(run([](const DeviceState& seen) { return seen.connected && seen.pedal.said_s > 0.0; }, "off"));
+    ASSERT_TRUE(run([](const DeviceState& seen) { return seen.pedal.is_down; }, "on"));
+    ASSERT_TRUE(run([](const DeviceState& seen) { return !seen.pedal.is_down; }, "off"));
+    ASSERT_TRUE(run([](const DeviceState& seen) { return seen.pedal.is_down; }, "on"));
     const double silent_s = now_s;
-    ASSERT_TRUE(run([](const DeviceState& seen) { return !seen.pedal; }));
+    ASSERT_TRUE(run([](const DeviceState& seen) { return !seen.pedal.is_down; }));
     EXPECT_TRUE(state.connected);
     EXPECT_LE(now_s - silent_s, Permission::by_message_s + 0.05);
+    const double on_s = now_s;
+    run([&](const DeviceState& seen) { return seen.pedal.is_down || now_s > on_s + 0.5; }, "on");
+    EXPECT_FALSE(state.pedal.is_down) << "silence is no release";
+    const double off_s = now_s;
+    run([&](const DeviceState&) { return now_s > off_s + 0.2; }, "off");
+    ASSERT_TRUE(run([](const DeviceState& seen) { return seen.pedal.is_down; }, "on"));
 }
 
 TEST_F(TrackedHand, IsLostInSilenceAndComesBack) {
     begin("");
     ASSERT_TRUE(server.accept());
-    ASSERT_TRUE(run([](const DeviceState& seen) { return seen.pedal; })) << "a pedal that is always down";
+    ASSERT_TRUE(run([](const DeviceState& seen) { return seen.pedal.is_down; }))
+        << "a pedal that is always down";
     const double silent_s = now_s;
     ASSERT_TRUE(run([](const DeviceState& seen) { return !seen.connected; }, "", false));
     EXPECT_LE(now_s - silent_s, SampledMotion::most_silence_s + 0.05);
-    EXPECT_FALSE(state.pedal);
+    EXPECT_FALSE(state.pedal.is_down);
     ASSERT_TRUE(run([](const DeviceState& seen) { return seen.connected; }));
-    EXPECT_FALSE(state.pedal) << "up for a moment, so that a spindle that was locked can be freed";
-    ASSERT_TRUE(run([](const DeviceState& seen) { return seen.pedal; }));
+    EXPECT_FALSE(state.pedal.is_down) << "up for a moment, so that a spindle that was locked can be freed";
+    ASSERT_TRUE(run([](const DeviceState& seen) { return seen.pedal.is_down; }));
 }
 
 TEST_F(TrackedHand, ConnectsAnewAfterGarbageAndAServerThatWent) {
