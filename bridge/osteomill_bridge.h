@@ -45,6 +45,7 @@ typedef SOCKET omb_socket;
 #include <fcntl.h>
 #include <netdb.h>
 #include <sys/socket.h>
+#include <sys/stat.h>
 #include <sys/types.h>
 #include <sys/un.h>
 #include <time.h>
@@ -529,7 +530,16 @@ static inline int omb_fail(omb_link* link, const char* what, const char* which) 
 static inline int omb_read_key(omb_link* link, const char* file_name) {
     uint8_t secret[4096];
     size_t bytes;
-    FILE* file = fopen(file_name, "rb");
+    FILE* file;
+#ifndef _WIN32
+    /* A pipe or a device might never end; and a secret that others may read or write is none. */
+    struct stat facts;
+    if (stat(file_name, &facts) != 0 || !S_ISREG(facts.st_mode))
+        return omb_fail(link, "cannot be read", file_name);
+    if ((facts.st_mode & (S_IRWXG | S_IRWXO) & ~(facts.st_uid == 0 ? S_IRGRP : 0u)) != 0)
+        return omb_fail(link, "others may read it; chmod 600 it", file_name);
+#endif
+    file = fopen(file_name, "rb");
     if (file == NULL) return omb_fail(link, "cannot be read", file_name);
     bytes = fread(secret, 1, sizeof secret, file);
     fclose(file);

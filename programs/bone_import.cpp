@@ -1,16 +1,23 @@
 // bone_import: a scan in, a bone file out.
 #include <CLI/CLI.hpp>
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
 #include <exception>
 #include <filesystem>
 #include <fstream>
 #include <iostream>
 #include <optional>
+#include <stdexcept>
+#include <string>
 #include <utility>
 #include <vector>
 
 #include "common/program/option_checks.h"
 #include "common/program/program_output.h"
 #include "common/program/stop_signals.h"
+#include "common/scene/tissue_tables.h"
+#include "common/text/plain_text.h"
 #include "haptic_server/imaging/formats/picture_stack.h"
 #include "haptic_server/imaging/import_bone.h"
 #include "haptic_server/imaging/memory_estimate.h"
@@ -51,23 +58,35 @@ void import(const osteomill::ImportOptions& options, const osteomill::BegunCase&
     if (begun.labels == 0) return osteomill::import_bone(options, surroundings);
     osteomill::import_bone(options, osteomill::scan_of_labels(begun, surroundings.messages), surroundings);
 }
+/// A new folder beside a file, gone with this.
+class ScratchFolder {
+  public:
+    explicit ScratchFolder(const std::filesystem::path& file) : path_(file.string() + ".XXXXXX") {
+        if (::mkdtemp(path_.data()) == nullptr)
+            throw std::runtime_error(file.string() + ": cannot be written: " + std::strerror(errno));
+    }
+    ~ScratchFolder() {
+        std::error_code ignored;
+        std::filesystem::remove_all(path_, ignored);
+    }
+    ScratchFolder(const ScratchFolder&) = delete;
+    ScratchFolder& operator=(const ScratchFolder&) = delete;
+
+    std::filesystem::path path() const { return path_; }
+
+  private:
+    std::string path_;
+};
 
 /// The whole scan, coarse, by way of a file that is gone afterwards.
 void preview(osteomill::ImportOptions options, const osteomill::BegunCase& begun,
              const std::filesystem::path& picture, const osteomill::ImportSurroundings& surroundings) {
     const std::optional<osteomill::Region> region = std::exchange(options.region, std::nullopt);
     options.threshold_hu.reset();
-    options.output = picture.string() + ".coarse.nrrd";
-    osteomill::CtVolume ct;
-    try {
-        import(options, begun, surroundings);
-        ct = osteomill::whole_ct(options.output);
-    } catch (...) {
-        std::error_code ignored;
-        std::filesystem::remove(options.output, ignored);
-        throw;
-    }
-    std::filesystem::remove(options.output);
+    const ScratchFolder scratch(picture);
+    options.output = scratch.path() / "coarse.nrrd";
+    import(options, begun, surroundings);
+    const osteomill::CtVolume ct = osteomill::whole_ct(options.output);
     surroundings.messages << osteomill::summary_of(ct);
     osteomill::write_preview(ct, region, picture);
     for (const auto& segmentation : begun.segmentations)
@@ -91,34 +110,35 @@ void add_options(CLI::App& app, osteomill::ImportOptions& options, Texts& texts)
         ->type_name("PICTURE.png")
         ->excludes(output)
         ->excludes("--case");
-    app.add_option(
-           "--labels", texts.labels,
-           "in place of INPUT, with --case: bone is made of the segments of a label map that are bone "
-           "by their names, or by --material; a folder: all label maps in it, or a stack of pictures; "
-           "again for each further file")
+    osteomill::add_texts(
+        app, "--labels", texts.labels,
+        "in place of INPUT, with --case: bone is made of the segments of a label map that are bone "
+        "by their names, or by --material; a folder: all label maps in it, or a stack of pictures; "
+        "again for each further file")
         ->type_name("FILE");
-    app.add_option(
-           "--material", texts.materials,
-           "what a segment is made of (scenes/materials.toml), such as \"Tooth 36=enamel\"; NAME=soft: "
-           "no bone; again for each further one")
+    osteomill::add_texts(
+        app, "--material", texts.materials,
+        "what a segment is made of (scenes/materials.toml), such as \"Tooth 36=enamel\"; NAME=soft: "
+        "no bone; again for each further one")
         ->type_name("NAME=MATERIAL");
     app.add_option(
            "--stack-spacing", texts.stack_spacing,
            "x,y,z in mm: of pixels and slices, where INPUT or labels are a stack of PNG or TIFF pictures")
         ->type_name("X,Y,Z");
-    app.add_option("--segmentation", texts.segmentations,
-                   "with --case: tissues, as 3D Slicer writes them (.seg.nrrd), or a label map (NRRD, "
-                   "NIfTI); again for each further file; with --preview their names are said")
+    osteomill::add_texts(app, "--segmentation", texts.segmentations,
+                         "with --case: tissues, as 3D Slicer writes them (.seg.nrrd), or a label map (NRRD, "
+                         "NIfTI); again for each further file; with --preview their names are said")
         ->type_name("FILE");
     app.add_option(
            "--colours", texts.colours,
            "names and colours of a label map's labels: a colour table of 3D Slicer (.ctbl) or ITK-SNAP")
         ->type_name("FILE");
-    app.add_option("--protect", texts.parts.is_protected,
-                   "with --segmentation: a segment that must not be touched; again for each further one")
+    osteomill::add_texts(
+        app, "--protect", texts.parts.is_protected,
+        "with --segmentation: a segment that must not be touched; again for each further one")
         ->type_name("NAME");
     app.add_option("--warn-mm", texts.parts.warn_mm, "of the protected: warn of a burr that is nearer")
-        ->check(osteomill::within(0.0, 50.0))
+        ->check(osteomill::within(0.0, osteomill::most_warn_mm))
         ->capture_default_str();
     app.add_option("--target", texts.target, "with --segmentation: the segment that is to be removed")
         ->type_name("NAME");
@@ -221,14 +241,14 @@ int main(int argc, char** argv) {
     Texts texts;
     add_options(app, options, texts);
     try {
-        app.parse(argc, argv);
+        osteomill::parse_arguments(app, argc, argv);
         parse_texts(app, texts, options);
     } catch (const CLI::ParseError& error) {
         if (error.get_exit_code() == 0) return app.exit(error);
-        std::cerr << "bone_import: " << error.what() << " (see --help)\n";
+        std::cerr << "bone_import: " << osteomill::printable(error.what()) << " (see --help)\n";
         return exit_usage;
     } catch (const std::invalid_argument& error) {
-        std::cerr << "bone_import: " << error.what() << '\n';
+        std::cerr << "bone_import: " << osteomill::printable(error.what()) << '\n';
         return exit_usage;
     }
     const osteomill::ProgramOutput output;
@@ -253,7 +273,7 @@ int main(int argc, char** argv) {
                 preview(options, begun, texts.preview, surroundings);
             if (makes_case) osteomill::finish_case(texts.case_folder, begun, messages);
         } catch (const std::exception& error) {
-            messages << "bone_import: " << error.what() << '\n';
+            messages << "bone_import: " << osteomill::printable(error.what()) << '\n';
             exit_code = exit_failure;
         }
     }

@@ -7,6 +7,6 @@ int main(int argc, char** argv) {
     return osteomill::run_program(
         "haptic_server", [&] { return osteomill::parse_command_line(argc, argv, OSTEOMILL_VERSION); },
         [](const osteomill::ServerOptions& options, const osteomill::ProgramOutput& output) {
-            osteomill::run_server(options, OSTEOMILL_VERSION, osteomill::stop_on_signals(), output);
+            osteomill::run_server(options, OSTEOMILL_VERSION, &osteomill::stop_on_signals, output);
         });
 }

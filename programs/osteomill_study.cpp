@@ -11,6 +11,7 @@
 #include <string>
 
 #include "common/program/option_checks.h"
+#include "common/text/plain_text.h"
 #include "haptic_server/imaging/progress.h"
 #include "studies/bridge/bridge_options.h"
 #include "studies/calibration/calibration_options.h"
@@ -244,7 +245,7 @@ int main(int argc, char** argv) {
     const CLI::App* const is_bridge = osteomill::study::add_bridge(app, bridge);
     const CLI::App* const is_sessions = osteomill::study::add_sessions(app, sessions);
     try {
-        app.parse(argc, argv);
+        osteomill::parse_arguments(app, argc, argv);
         if (app.got_subcommand("force") && app.get_subcommand("force")->count("--voxel-mm") > 0 &&
             force.cases.empty() && !force.random)
             throw CLI::RequiresError("--voxel-mm", "--cases or --random");
@@ -254,7 +255,7 @@ int main(int argc, char** argv) {
                 "sessions");
     } catch (const CLI::ParseError& error) {
         if (error.get_exit_code() == 0) return app.exit(error);
-        std::cerr << "osteomill_study: " << error.what() << " (see --help)\n";
+        std::cerr << "osteomill_study: " << osteomill::printable(error.what()) << " (see --help)\n";
         return exit_usage;
     }
     try {
@@ -276,7 +277,7 @@ int main(int argc, char** argv) {
             run(force);
         return 0;
     } catch (const std::exception& error) {
-        std::cerr << "osteomill_study: " << error.what() << '\n';
+        std::cerr << "osteomill_study: " << osteomill::printable(error.what()) << '\n';
         return exit_failure;
     }
 }

@@ -11,6 +11,7 @@
 #include "common/log/line_sink.h"
 #include "common/program/program_output.h"
 #include "common/program/stop_signals.h"
+#include "common/text/plain_text.h"
 #include "render_client/sound/quiet_sound_libraries.h"
 #include "render_client/ui/offscreen_run.h"
 #include "render_client/ui/options.h"
@@ -57,7 +58,7 @@ int main(int argument_count, char** arguments) {
         if (parsed.no_run->exit_code == 0)
             std::fputs(parsed.no_run->message.c_str(), stdout);
         else
-            std::fprintf(stderr, "%s\n", parsed.no_run->message.c_str());
+            std::fprintf(stderr, "%s\n", printable(parsed.no_run->message).c_str());
         return parsed.no_run->exit_code;
     }
     const ProgramOutput output;
@@ -66,7 +67,7 @@ int main(int argument_count, char** arguments) {
     try {
         run(parsed.options);
     } catch (const std::exception& error) {
-        output.err->write(fmt::format("render_client: {}\n", error.what()));
+        output.err->say(fmt::format("render_client: {}", error.what()));
         exit_code = 1;
     }
     output.finish();

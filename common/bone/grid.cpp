@@ -4,6 +4,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "common/bone/patient_space.h"
+
 namespace osteomill {
 
 void require_valid(const Grid& grid) {
@@ -12,8 +14,6 @@ void require_valid(const Grid& grid) {
         if (grid.size_voxels[axis] < 1 || grid.size_voxels[axis] > largest)
             throw std::invalid_argument("grid size along axis " + std::to_string(axis) + " is " +
                                         std::to_string(grid.size_voxels[axis]) + ", not 1 to 65536 voxels");
-        if (!std::isfinite(grid.origin_mm[axis]))
-            throw std::invalid_argument("grid origin is not finite along axis " + std::to_string(axis));
     }
     if (!(std::isfinite(grid.spacing_mm) && grid.spacing_mm > 0.0))
         throw std::invalid_argument("grid spacing is " + std::to_string(grid.spacing_mm) +
@@ -23,6 +23,9 @@ void require_valid(const Grid& grid) {
                           std::ceil(grid.size_voxels.z / 16.0);
     if (bricks > 0x1p32)
         throw std::invalid_argument("grid has more than 2^32 bricks of 16^3 voxels; crop it or coarsen it");
+    if (!is_place(grid.origin_mm) || !is_place(centre_of_voxel_mm(grid, grid.size_voxels - 1)))
+        throw std::invalid_argument(
+            "grid reaches more than 10 m from the patient's origin, or its origin is no place");
 }
 
 }  // namespace osteomill

@@ -3,7 +3,7 @@
 #include <stdexcept>
 #include <system_error>
 
-#include "common/files/whole_file.h"
+#include "common/files/session_file.h"
 
 namespace osteomill {
 

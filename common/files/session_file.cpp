@@ -26,13 +26,6 @@ fs::path free_torn_name(const fs::path& part) {
     }
 }
 
-/// Where the part of `path` lies.
-fs::path part_beside(const fs::path& path) {
-    WholeFile file(path);
-    file.keep_part();
-    return file.part();
-}
-
 [[noreturn]] void cannot_begin(const fs::path& path, int reason) {
     throw std::runtime_error(path.string() + ": cannot be written: " + std::strerror(reason));
 }
@@ -40,13 +33,13 @@ fs::path part_beside(const fs::path& path) {
 }  // namespace
 
 SessionFile::SessionFile(const fs::path& path) {
-    const fs::path part = part_beside(path);
-    const bool is_written_directly = fs::exists(part) && !fs::is_regular_file(part);
-    while (!is_written_directly && lock_ < 0) {
-        lock_ = ::open(part.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+    const WriteTarget target = write_target(path, Link::follow);
+    const fs::path part = target.is_direct ? target.path : part_of(target.path);
+    while (!target.is_direct && lock_ < 0) {
+        lock_ = open_new(part);
         if (lock_ >= 0) break;
         if (errno != EEXIST) cannot_begin(path, errno);
-        const int left = ::open(part.c_str(), O_RDONLY | O_CLOEXEC);
+        const int left = ::open(part.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
         const bool is_locked = left >= 0 && ::flock(left, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK;
         if (left >= 0) ::close(left);
         if (is_locked)
@@ -57,7 +50,13 @@ SessionFile::SessionFile(const fs::path& path) {
         if (failed) cannot_begin(part, failed.value());
     }
     if (lock_ >= 0) ::flock(lock_, LOCK_EX | LOCK_NB);
-    file_.emplace(path);
+    file_.emplace(path, target, part);
+}
+
+fs::path part_of(const fs::path& path) {
+    fs::path part = path;
+    part.replace_filename(path.stem().string() + ".part" + path.extension().string());
+    return part;
 }
 
 std::string torn_line(const fs::path& path, const fs::path& torn) {

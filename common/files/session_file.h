@@ -1,8 +1,8 @@
-// A file that is written over a whole session: what has come so far lies in a part beside it (whole_file.h),
-// which becomes the file when the session ends.
+// A file that is written over a whole session: what has come so far lies in a part beside it, NAME.part.EXT,
+// which becomes the file when the session ends (whole_file.h).
 //
-// A part that a killed session left is worth keeping, a torn recording above all: the next session of that
-// name moves it to NAME.torn-N.EXT. Two sessions at a time cannot write the same file.
+// Its name is known, since what a killed session left is worth keeping, a torn recording above all: the next
+// session of that name moves it to NAME.torn-N.EXT. Two sessions at a time cannot write the same file.
 #pragma once
 
 #include <filesystem>
@@ -40,6 +40,9 @@ class SessionFile {
     std::optional<std::filesystem::path> torn_;
     int lock_ = -1;  // a descriptor of the part, for as long as it is this session's; -1 where there is none
 };
+
+/// Where a session's file is written before it is done: NAME.part.EXT beside `path`.
+std::filesystem::path part_of(const std::filesystem::path& path);
 
 /// One line for people about a part of `path` that was moved to `torn`.
 std::string torn_line(const std::filesystem::path& path, const std::filesystem::path& torn);

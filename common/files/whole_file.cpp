@@ -1,13 +1,16 @@
 #include "common/files/whole_file.h"
 
 #include <fcntl.h>
+#include <fmt/format.h>
 #include <unistd.h>
 
 #include <cerrno>
 #include <cstring>
+#include <random>
 #include <stdexcept>
 #include <string>
 #include <system_error>
+#include <utility>
 
 namespace osteomill {
 
@@ -22,7 +25,7 @@ namespace fs = std::filesystem;
 /// Closes its descriptor.
 class Descriptor {
   public:
-    Descriptor(const fs::path& path, int flags) : number_(::open(path.c_str(), flags | O_CLOEXEC, 0666)) {}
+    Descriptor(const fs::path& path, int flags) : number_(::open(path.c_str(), flags | O_CLOEXEC)) {}
     ~Descriptor() {
         if (number_ >= 0) ::close(number_);
     }
@@ -53,22 +56,38 @@ fs::path folder_of(const fs::path& path) {
 
 }  // namespace
 
-fs::path part_of(const fs::path& path) {
-    fs::path part = path;
-    part.replace_filename(path.stem().string() + ".part" + path.extension().string());
-    return part;
-}
-
-WholeFile::WholeFile(const fs::path& path) : path_(path), target_(path) {
+WriteTarget write_target(const fs::path& path, Link link) {
+    WriteTarget target{.path = path};
+    if (link == Link::replace) return target;
     std::error_code ignored;  // what cannot be looked at cannot be written either, which is told then
     if (fs::is_symlink(path, ignored)) {
         const fs::path resolved = fs::weakly_canonical(path, ignored);
-        if (!ignored) target_ = resolved;
+        if (!ignored) target.path = resolved;
     }
-    const fs::file_status status = fs::status(target_, ignored);
-    const bool is_other = fs::exists(status) && !fs::is_regular_file(status);
-    part_ = is_other ? target_ : part_of(target_);
-    owns_part_ = !is_other;
+    const fs::file_status status = fs::status(target.path, ignored);
+    target.is_direct = fs::exists(status) && !fs::is_regular_file(status);
+    return target;
+}
+
+int open_new(const fs::path& path) {
+    return ::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
+}
+
+WholeFile::WholeFile(const fs::path& path, WriteTarget target, const fs::path& part)
+    : path_(path), target_(std::move(target)), part_(part), owns_part_(!target_.is_direct) {}
+
+WholeFile::WholeFile(const fs::path& path, Link link)
+    : path_(path), target_(write_target(path, link)), part_(target_.path), owns_part_(!target_.is_direct) {
+    if (target_.is_direct) return;
+    std::random_device random;
+    int made = -1;
+    do {
+        part_.replace_filename(fmt::format("{}.part-{:08x}{}", target_.path.stem().string(), random(),
+                                           target_.path.extension().string()));
+        made = open_new(part_);
+    } while (made < 0 && errno == EEXIST);
+    if (made < 0) fail(path_, errno);
+    ::close(made);
 }
 
 WholeFile::~WholeFile() {
@@ -80,21 +99,21 @@ void WholeFile::commit() {
     if (!owns_part_) return;
     if (const int reason = sync(part_, O_RDONLY)) fail(path_, reason);
     commit_unsynced();
-    if (const int reason = sync(folder_of(target_), O_RDONLY | O_DIRECTORY)) fail(path_, reason);
+    if (const int reason = sync(folder_of(target_.path), O_RDONLY | O_DIRECTORY)) fail(path_, reason);
 }
 
 void WholeFile::commit_unsynced() {
     if (!owns_part_) return;
     std::error_code failed;
-    fs::rename(part_, target_, failed);
+    fs::rename(part_, target_.path, failed);
     if (failed) fail(path_, failed.value());
     owns_part_ = false;
 }
 
-void write_whole_file(const fs::path& path, std::string_view text) {
-    WholeFile file(path);
+void write_whole_file(const fs::path& path, std::string_view text, Link link) {
+    WholeFile file(path, link);
     {
-        const Descriptor part(file.part(), O_WRONLY | O_CREAT | O_TRUNC);
+        const Descriptor part(file.part(), O_WRONLY | O_TRUNC);
         if (!part.is_open()) fail(path, errno);
         while (!text.empty()) {
             const ssize_t written = ::write(part.number(), text.data(), text.size());

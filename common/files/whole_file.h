@@ -1,8 +1,9 @@
 // A file that is either as it was or whole and new, whenever the program or the machine stops.
 //
-// The content is written to a part beside it (NAME.part.EXT, the extension kept since some libraries choose
-// the format by it), synced to the disk, and renamed over the old file once. A full disk, an error or a kill
-// leaves the old file untouched.
+// The content is written to a part beside it of a name that nobody knows before (NAME.part-1f2e3d4c.EXT, the
+// extension kept since some libraries choose the format by it), synced to the disk, and renamed over the old
+// file once. A full disk, an error or a kill leaves the old file untouched. The part is made anew and never
+// through a link, so that nothing that lies in the folder already is written to.
 #pragma once
 
 #include <filesystem>
@@ -10,11 +11,26 @@
 
 namespace osteomill {
 
+/// What a link under the file's own name means.
+enum class Link {
+    follow,  ///< of a name that somebody gave: what it points to is replaced
+    replace  ///< of a name that this program chose, in a folder that may be from elsewhere: the link is
+             ///< replaced
+};
+
+/// Where a file's content is to lie at last.
+struct WriteTarget {
+    std::filesystem::path path;  ///< links resolved, where they are followed
+    bool is_direct = false;      ///< no regular file (/dev/null, a pipe): written itself, without a part
+};
+WriteTarget write_target(const std::filesystem::path& path, Link link);
+
 class WholeFile {
   public:
-    /// Nothing is written or removed yet. A link is followed, so that what it points to is replaced. What is
-    /// there and no regular file (/dev/null, a pipe) has no part: it is written directly.
-    explicit WholeFile(const std::filesystem::path& path);
+    /// Makes an empty part. Throws std::runtime_error with one line where that cannot be.
+    explicit WholeFile(const std::filesystem::path& path, Link link = Link::follow);
+    /// Takes over a part that is there.
+    WholeFile(const std::filesystem::path& path, WriteTarget target, const std::filesystem::path& part);
     /// Removes the part unless it was committed or kept.
     ~WholeFile();
     WholeFile(const WholeFile&) = delete;
@@ -37,15 +53,16 @@ class WholeFile {
 
   private:
     std::filesystem::path path_;
-    std::filesystem::path target_;  // links resolved
+    WriteTarget target_;
     std::filesystem::path part_;
-    bool owns_part_ = true;
+    bool owns_part_;
 };
 
-/// Where WholeFile writes before it is done: NAME.part.EXT beside `path`.
-std::filesystem::path part_of(const std::filesystem::path& path);
+/// Replaces the file by `text` as a whole. Throws std::runtime_error as WholeFile does.
+void write_whole_file(const std::filesystem::path& path, std::string_view text, Link link = Link::follow);
 
-/// Replaces the file by `text` as a whole. Throws std::runtime_error as WholeFile::commit does.
-void write_whole_file(const std::filesystem::path& path, std::string_view text);
+/// Opens a file to write that nothing bears the name of yet; -1 and errno where that cannot be, EEXIST for
+/// whatever is there, a link, too.
+int open_new(const std::filesystem::path& path);
 
 }  // namespace osteomill

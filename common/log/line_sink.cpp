@@ -5,7 +5,10 @@
 
 #include <array>
 #include <mutex>
+#include <string>
 #include <utility>
+
+#include "common/text/plain_text.h"
 
 namespace osteomill {
 
@@ -24,12 +27,17 @@ class LineSink final : public spdlog::sinks::base_sink<std::mutex> {
 
   private:
     void sink_it_(const spdlog::details::log_msg& message) override {
+        // A message is one line, whatever names and reasons are in it.
+        const std::string payload =
+            printable(std::string_view(message.payload.data(), message.payload.size()));
+        spdlog::details::log_msg printed = message;
+        printed.payload = payload;
         spdlog::memory_buf_t line;
-        formatter_->format(message, line);
+        formatter_->format(printed, line);
         std::string text(line.data(), line.size());
-        if (stream_->is_terminal() && message.color_range_end > message.color_range_start) {
-            text.insert(message.color_range_end, no_colour);
-            text.insert(message.color_range_start, colours.at(static_cast<std::size_t>(message.level)));
+        if (stream_->is_terminal() && printed.color_range_end > printed.color_range_start) {
+            text.insert(printed.color_range_end, no_colour);
+            text.insert(printed.color_range_start, colours.at(static_cast<std::size_t>(message.level)));
         }
         stream_->write(std::move(text));
     }

@@ -5,6 +5,8 @@
 
 #include <utility>
 
+#include "common/text/plain_text.h"
+
 namespace osteomill {
 
 LineStream::LineStream(int descriptor, std::size_t capacity_bytes)
@@ -15,6 +17,10 @@ void LineStream::write(std::string text) {
     say_dropped();
     // Lines keep their order: none passes those that are missing.
     if (dropped_ > 0 || !writer_.push(std::move(text))) ++dropped_;
+}
+
+void LineStream::say(std::string_view line) {
+    write(printable(line) + "\n");
 }
 
 void LineStream::say_dropped() {

@@ -10,6 +10,7 @@
 #include <mutex>
 #include <sstream>
 #include <string>
+#include <string_view>
 
 #include "common/log/background_writer.h"
 
@@ -24,8 +25,10 @@ class LineStream {
 
     // Any thread; none of these waits for the descriptor but finish().
 
-    /// `text`: one or more whole lines, or one that is to be overwritten.
+    /// `text`: one or more whole lines, or one that is to be overwritten; of this program's own words.
     void write(std::string text);
+    /// One line, whatever is in it: printable (plain_text.h), and a line break behind it.
+    void say(std::string_view line);
     /// Whether all is written that was, or never will be: what is worth saying only now is best not said
     /// while older lines wait.
     bool has_caught_up() const { return writer_.is_idle(); }

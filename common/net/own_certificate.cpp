@@ -2,30 +2,13 @@
 
 #include <openssl/bio.h>
 #include <openssl/x509v3.h>
-#include <sys/stat.h>
 
-#include <array>
-#include <cstdio>
 #include <stdexcept>
 #include <string>
 
 #include "common/net/asn1_time.h"
 
 namespace osteomill {
-
-void require_private(const std::filesystem::path& key) {
-    struct stat found {};
-    if (::stat(key.c_str(), &found) != 0)
-        throw std::runtime_error(key.string() + ": cannot be read; it should be a PEM file");
-    // As distributions keep the keys of services: root:ssl-cert, 0640.
-    const mode_t allowed = found.st_uid == 0 ? S_IRWXU | S_IRGRP : S_IRWXU;
-    const mode_t mode = found.st_mode & (S_IRWXU | S_IRWXG | S_IRWXO);
-    if ((mode & ~allowed) == 0) return;
-    std::array<char, 8> octal{};
-    std::snprintf(octal.data(), octal.size(), "%o", static_cast<unsigned>(mode));
-    throw std::runtime_error(key.string() + ": is a private key that others may read (its mode is " +
-                             octal.data() + "); keep it to its owner: chmod 600 " + key.string());
-}
 
 bool may_act_as(const X509& certificate, TlsContext::Role role) {
     // It keeps what it finds out.

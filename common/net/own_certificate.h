@@ -10,10 +10,6 @@
 
 namespace osteomill {
 
-/// Throws std::runtime_error, in one line, where others than its owner may read or write the file; where root
-/// is its owner, a group may read it.
-void require_private(const std::filesystem::path& key);
-
 /// Whether the certificate's extended key usage names the role: serverAuth or clientAuth. One without that
 /// extension names none.
 bool may_act_as(const X509& certificate, TlsContext::Role role);

@@ -6,19 +6,15 @@
 #include <openssl/x509.h>
 #include <openssl/x509v3.h>
 
-#include <fstream>
-#include <iterator>
 #include <stdexcept>
 #include <utility>
 
+#include "common/files/input_file.h"
 #include "common/net/asn1_time.h"
 
 namespace osteomill {
 
 namespace {
-
-/// A hundred thousand certificates.
-constexpr std::uintmax_t longest_file_bytes = 16'000'000;
 
 std::size_t count(const std::string& text, const std::string& what) {
     std::size_t found = 0;
@@ -97,14 +93,7 @@ bool RevocationLists::revokes(X509& certificate) const {
 }
 
 RevocationLists::Lists RevocationLists::read() const {
-    std::error_code none;
-    if (!std::filesystem::is_regular_file(file_, none))
-        throw std::runtime_error(file_.string() +
-                                 ": cannot be read; it should be a list of revoked certificates");
-    if (std::filesystem::file_size(file_, none) > longest_file_bytes)
-        throw std::runtime_error(file_.string() + ": is over 16 MB long, which no list of a lab is");
-    std::ifstream in(file_, std::ios::binary);
-    const std::string text(std::istreambuf_iterator<char>(in), {});
+    const std::string text = read_text(file_, revoked_kind);
 
     Lists lists;
     const std::unique_ptr<BIO, decltype(&BIO_free)> bytes(

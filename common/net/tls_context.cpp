@@ -2,10 +2,11 @@
 
 #include <openssl/ssl.h>
 
-#include <fstream>
+#include <boost/asio/buffer.hpp>
 #include <stdexcept>
 #include <string>
 
+#include "common/files/input_file.h"
 #include "common/net/own_certificate.h"
 
 namespace osteomill {
@@ -14,13 +15,6 @@ namespace ssl = boost::asio::ssl;
 using boost::system::error_code;
 
 namespace {
-
-/// OpenSSL's own words for a file that is not there are those of its BIO layer.
-void require_readable(const std::filesystem::path& file) {
-    std::ifstream in(file);
-    if (in.peek() == std::ifstream::traits_type::eof())
-        throw std::runtime_error(file.string() + ": cannot be read, or is empty; it should be a PEM file");
-}
 
 /// OpenSSL takes a certificate without extended key usage for every role: a lab's CA may also sign web
 /// servers and mail.
@@ -36,7 +30,9 @@ int verify_with_role(X509_STORE_CTX* chain, void*) {
 
 TlsContext::TlsContext(const TlsFiles& files, Role role)
     : role_(role), context_(role == Role::server ? ssl::context::tls_server : ssl::context::tls_client) {
-    for (const auto& file : {files.certificate, files.key, files.ca}) require_readable(file);
+    const std::string certificate = read_text(files.certificate, pem_kind);
+    const std::string key = read_secret(files.key, private_key_kind);
+    const std::string authorities = read_text(files.ca, pem_kind);
     SSL_CTX* const native = context_.native_handle();
     SSL_CTX_set_min_proto_version(native, TLS1_3_VERSION);
     SSL_CTX_set_session_cache_mode(native, SSL_SESS_CACHE_OFF);
@@ -46,18 +42,17 @@ TlsContext::TlsContext(const TlsFiles& files, Role role)
     // Nobody is there to be asked for a passphrase.
     context_.set_password_callback([](std::size_t, ssl::context::password_purpose) { return std::string(); },
                                    error);
-    context_.use_certificate_chain_file(files.certificate.string(), error);
+    context_.use_certificate_chain(boost::asio::buffer(certificate), error);
     if (error) throw std::runtime_error(files.certificate.string() + ": holds no certificate in PEM form");
-    context_.use_private_key_file(files.key.string(), ssl::context::pem, error);
+    context_.use_private_key(boost::asio::buffer(key), ssl::context::pem, error);
     if (error && ERR_GET_REASON(static_cast<unsigned long>(error.value())) == X509_R_KEY_VALUES_MISMATCH)
         throw std::runtime_error(files.key.string() + ": is not the key of " + files.certificate.string());
     if (error)
         throw std::runtime_error(files.key.string() +
                                  ": holds no private key in PEM form, or one with a passphrase");
-    require_private(files.key);
     X509& own = *SSL_CTX_get0_certificate(native);
     require_fit(own, files.certificate, role);
-    context_.load_verify_file(files.ca.string(), error);
+    context_.add_certificate_authority(boost::asio::buffer(authorities), error);
     if (error) throw std::runtime_error(files.ca.string() + ": holds no CA certificate in PEM form");
     context_.set_verify_mode(ssl::verify_peer | ssl::verify_fail_if_no_peer_cert);
     SSL_CTX_set_cert_verify_callback(

@@ -1,5 +1,5 @@
-// Checks of an option's value, for CLI11: in words that name no limit which nobody could reach, deaf to no
-// NaN, as the library's own are, and for a choice without C++ containers.
+// Arguments and checks of an option's value, for CLI11: in words that name no limit which nobody could reach,
+// deaf to no NaN, as the library's own are, and for a choice without C++ containers.
 #pragma once
 
 #include <fmt/format.h>
@@ -10,7 +10,31 @@
 #include <string>
 #include <vector>
 
+#include "common/text/plain_text.h"
+
 namespace osteomill {
+
+/// As CLI11's own, but for arguments that are no plain text (plain_text.h), which are refused: they name
+/// files and people, and such names go into logs, reports and recordings. Throws CLI::ParseError.
+inline void parse_arguments(CLI::App& app, int argc, const char* const* argv) {
+    for (int i = 1; i < argc; ++i)
+        if (const auto why = why_not_plain(argv[i]))
+            throw CLI::ValidationError(
+                fmt::format("argument {}, '{}', {}; names are UTF-8 without control characters", i,
+                            one_line(argv[i]), *why));
+    app.parse(argc, argv);
+}
+
+/// An option that takes one text each time it is given, as it stands: "[a,b]", "{}" and "-x" are names, where
+/// CLI11 would read lists, nothing and an option. `texts` must outlive the parsing.
+inline CLI::Option* add_texts(CLI::App& app, const std::string& option, std::vector<std::string>& texts,
+                              const std::string& help) {
+    return app
+        .add_option(
+            option, [](const CLI::results_t&) { return true; }, help)
+        ->take_all()
+        ->each([&texts](const std::string& text) { texts.push_back(text); });
+}
 
 inline CLI::Validator one_of(const std::vector<std::string>& names) {
     return CLI::Validator(

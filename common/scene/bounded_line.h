@@ -1,4 +1,5 @@
-// A short line of text that lies within the value it belongs to, so that real-time code can copy it.
+// A short line of text that lies within the value it belongs to, so that real-time code can copy it. Always
+// UTF-8 without control characters.
 #pragma once
 
 #include <algorithm>
@@ -8,20 +9,30 @@
 #include <cstdint>
 #include <string_view>
 
+#include "common/text/utf8.h"
+
 namespace osteomill {
 
 class BoundedLine {
   public:
-    /// Room for all that one_line() (wire_error.h) leaves of what a peer sent, and more than any fault needs.
+    /// More than any fault needs.
     static constexpr std::size_t most_bytes = 207;
 
     constexpr BoundedLine() = default;
-    /// Whatever is longer than most_bytes is cut. Real-time safe.
+    /// Whatever is longer than most_bytes is cut between characters; each control character, and each byte
+    /// that is no UTF-8, becomes '?'. Real-time safe.
     template <std::convertible_to<std::string_view> Text>
     constexpr BoundedLine(const Text& text) noexcept {
-        const std::string_view view(text);
-        size_ = static_cast<std::uint8_t>(std::min(view.size(), most_bytes));
-        std::copy_n(view.begin(), size_, bytes_.begin());
+        std::size_t size = 0;
+        for (std::string_view rest(text); !rest.empty();) {
+            const Utf8Character next = first_character(rest);
+            const std::string_view shown = next.is_plain ? rest.substr(0, next.bytes) : "?";
+            if (size + shown.size() > most_bytes) break;
+            std::copy_n(shown.begin(), shown.size(), bytes_.begin() + static_cast<std::ptrdiff_t>(size));
+            size += shown.size();
+            rest.remove_prefix(next.bytes);
+        }
+        size_ = static_cast<std::uint8_t>(size);
     }
 
     constexpr std::string_view text() const noexcept { return {bytes_.data(), size_}; }

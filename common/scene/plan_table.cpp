@@ -9,7 +9,6 @@ namespace osteomill {
 namespace {
 
 constexpr double most_mm = 500.0;
-constexpr double farthest_mm = 10'000.0;  // no patient is larger than ten metres
 
 TissueRegion read_tissue(TomlReader& reader, const std::string& name, std::span<const Tissue> tissues) {
     std::string names;
@@ -22,22 +21,16 @@ TissueRegion read_tissue(TomlReader& reader, const std::string& name, std::span<
                                                     : "take one of " + names));
 }
 
-glm::dvec3 read_point(TomlReader& reader, std::string_view key) {
-    const glm::dvec3 point = required(reader, key, reader.vector(key));
-    if (glm::length(point) > farthest_mm)
-        reader.fail(key, fmt::format("'{}' lies more than {} mm from the origin", key, farthest_mm));
-    return point;
-}
-
 SphereRegion read_sphere(TomlReader reader) {
-    SphereRegion sphere{.centre_mm = read_point(reader, "centre_mm")};
+    SphereRegion sphere{.centre_mm = required(reader, "centre_mm", reader.place("centre_mm"))};
     sphere.radius_mm = required(reader, "radius_mm", reader.number("radius_mm", {0.01, most_mm}));
     reader.refuse_other_keys();
     return sphere;
 }
 
 CylinderRegion read_cylinder(TomlReader reader) {
-    CylinderRegion cylinder{.from_mm = read_point(reader, "from_mm"), .to_mm = read_point(reader, "to_mm")};
+    CylinderRegion cylinder{.from_mm = required(reader, "from_mm", reader.place("from_mm")),
+                            .to_mm = required(reader, "to_mm", reader.place("to_mm"))};
     cylinder.radius_mm = required(reader, "radius_mm", reader.number("radius_mm", {0.01, most_mm}));
     reader.refuse_other_keys();
     if (glm::length(cylinder.to_mm - cylinder.from_mm) < 0.01)

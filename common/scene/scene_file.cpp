@@ -4,20 +4,19 @@
 
 #include <algorithm>
 #include <cmath>
-#include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
 #include "common/scene/plan_table.h"
 #include "common/scene/shallow_toml.h"
 #include "common/scene/tissue_tables.h"
 #include "common/scene/toml_reader.h"
+#include "common/text/plain_text.h"
 
 namespace osteomill {
 
 namespace {
 
 constexpr double seconds_per_minute = 60.0;
-constexpr double far_mm = 10'000.0;  // no patient is larger than ten metres
 
 const std::vector<std::string> motion_names(trajectory_names.begin(), trajectory_names.end());
 const std::vector<std::string> phantom_choices{"tooth", "cube", "head"};
@@ -26,22 +25,6 @@ const std::vector<std::string> sense_names(spindle_sense_names.begin(), spindle_
 std::filesystem::path resolved(const std::string& path, const std::filesystem::path& folder) {
     const std::filesystem::path given(path);
     return given.is_absolute() || folder.empty() ? given : folder / given;
-}
-
-glm::dvec3 unit_vector(TomlReader& reader, std::string_view key, const glm::dvec3& fallback) {
-    const std::optional<glm::dvec3> value = reader.vector(key);
-    if (!value) return fallback;
-    const double length = glm::length(*value);
-    if (length < 1e-6) reader.fail(key, fmt::format("'{}' has no length; give a direction", key));
-    // A direction that is of unit length already stays as it is, bit for bit.
-    return std::abs(length - 1.0) < 1e-12 ? *value : *value / length;
-}
-
-glm::dvec3 position(TomlReader& reader, std::string_view key, const glm::dvec3& fallback) {
-    const glm::dvec3 value = reader.vector(key).value_or(fallback);
-    if (glm::length(value) > far_mm)
-        reader.fail(key, fmt::format("'{}' lies more than {} mm from the origin", key, far_mm));
-    return value;
 }
 
 std::variant<PhantomSource, FileSource> read_bone(TomlReader reader, const std::filesystem::path& folder) {
@@ -170,15 +153,15 @@ DeviceMapping read_device(TomlReader reader) {
                         "'rotation' must be orthonormal with determinant +1 (rows of a rotation matrix)");
     }
     mapping.scale = reader.number("scale", {0.01, 100.0}).value_or(mapping.scale);
-    mapping.offset_mm = position(reader, "offset_mm", mapping.offset_mm);
+    mapping.offset_mm = reader.place("offset_mm").value_or(mapping.offset_mm);
     reader.refuse_other_keys();
     return mapping;
 }
 
 ToolPose read_pose(TomlReader reader) {
     ToolPose pose;
-    pose.position_mm = position(reader, "position_mm", pose.position_mm);
-    pose.spindle_axis = unit_vector(reader, "spindle_axis", pose.spindle_axis);
+    pose.position_mm = reader.place("position_mm").value_or(pose.position_mm);
+    pose.spindle_axis = reader.direction("spindle_axis").value_or(pose.spindle_axis);
     reader.refuse_other_keys();
     return pose;
 }
@@ -187,8 +170,8 @@ TrajectorySpec read_trajectory(TomlReader reader, const std::filesystem::path& f
     TrajectorySpec spec;
     const std::optional<std::size_t> motion = reader.choice("motion", motion_names);
     const std::optional<std::string> file = reader.text("file");
-    spec.start_mm = position(reader, "start_mm", spec.start_mm);
-    spec.travel_direction = unit_vector(reader, "travel_direction", spec.travel_direction);
+    spec.start_mm = reader.place("start_mm").value_or(spec.start_mm);
+    spec.travel_direction = reader.direction("travel_direction").value_or(spec.travel_direction);
     spec.speed_mm_per_s = reader.number("speed_mm_per_s", {0.01, 500.0}).value_or(spec.speed_mm_per_s);
     spec.depth_mm = reader.number("depth_mm", {0.01, 200.0}).value_or(spec.depth_mm);
     spec.width_mm = reader.number("width_mm", {0.01, 500.0}).value_or(spec.width_mm);
@@ -236,17 +219,9 @@ Scene read_all(TomlReader reader, const std::filesystem::path& folder) {
     return scene;
 }
 
-std::string on_one_line(std::string message) {
-    const auto is_control = [](char letter) {
-        return static_cast<unsigned char>(letter) < 0x20 || letter == 0x7f;
-    };
-    std::replace_if(message.begin(), message.end(), is_control, ' ');
-    return message;
-}
-
 }  // namespace
 
-SceneError::SceneError(const std::string& message) : std::runtime_error(on_one_line(message)) {}
+SceneError::SceneError(const std::string& message) : std::runtime_error(printable(message)) {}
 
 Scene parse_scene(std::string_view text, const std::string& name_for_messages,
                   const std::filesystem::path& folder) {
@@ -261,7 +236,7 @@ Scene parse_scene(std::string_view text, const std::string& name_for_messages,
 }
 
 Scene read_scene(const std::filesystem::path& path) {
-    return parse_scene(read_toml_text(path, "scene file"), path.string(), path.parent_path());
+    return parse_scene(read_toml_text(path, "a scene file"), path.string(), path.parent_path());
 }
 
 }  // namespace osteomill

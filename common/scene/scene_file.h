@@ -33,8 +33,7 @@
 
 namespace osteomill {
 
-/// One line: "file:line: what is wrong; what would be right". Control characters, which quoted parts of a bad
-/// file may hold, become spaces.
+/// One line, printable (plain_text.h): "file:line: what is wrong; what would be right".
 class SceneError : public std::runtime_error {
   public:
     explicit SceneError(const std::string& message);

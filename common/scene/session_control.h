@@ -37,6 +37,9 @@ struct SessionControl {
     bool operator==(const SessionControl&) const = default;
 };
 
+/// Ten days: what is timed later in a session is a slip.
+inline constexpr double longest_session_s = 864'000.0;
+
 /// Speeds that a spindle can be told, rev/min, as a scene's burrs have them.
 inline constexpr double least_spindle_rpm = 100.0;
 inline constexpr double most_spindle_rpm = 500'000.0;

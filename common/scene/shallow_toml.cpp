@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <fstream>
 
+#include "common/files/input_file.h"
 #include "common/scene/scene_file.h"
 
 namespace osteomill {
@@ -106,18 +106,11 @@ void require_shallow_toml(std::string_view text, const std::string& name) {
 }
 
 std::string read_toml_text(const std::filesystem::path& path, const char* what) {
-    std::error_code failed;
-    // A pipe or a device might never end.
-    if (!std::filesystem::is_regular_file(path, failed))
-        throw SceneError(
-            fmt::format("{}: cannot read this {}: it is no file that is there", path.string(), what));
-    std::ifstream file(path, std::ios::binary);
-    std::string text(most_toml_bytes + 1, '\0');
-    file.read(text.data(), static_cast<std::streamsize>(text.size()));
-    if (file.bad() || !file.is_open())
-        throw SceneError(fmt::format("{}: cannot read this {}", path.string(), what));
-    text.resize(static_cast<std::size_t>(file.gcount()));
-    return text;
+    try {
+        return read_text(path, {.what = what, .most_bytes = most_toml_bytes});
+    } catch (const std::runtime_error& error) {
+        throw SceneError(error.what());
+    }
 }
 
 }  // namespace osteomill

@@ -18,7 +18,8 @@ inline constexpr std::size_t most_toml_bytes = 1u << 20;
 void require_shallow_toml(std::string_view text, const std::string& name);
 
 /// A file's text. Throws SceneError for what is not there or no file (a pipe, a device), and for what is
-/// larger than most_toml_bytes. `what` it is goes into the message: "scene file".
+/// larger than most_toml_bytes. `what` it is goes into the message: "a scene
+/// file".
 std::string read_toml_text(const std::filesystem::path& path, const char* what);
 
 }  // namespace osteomill

@@ -63,7 +63,8 @@ std::vector<Tissue> read_tissues(std::vector<TomlReader> readers, bool has_segme
         tissue.is_cuttable = reader.truth("cuttable").value_or(true);
         tissue.segment = reader.text("segment").value_or("");
         tissue.opacity = reader.number("opacity", {0.0, 1.0}).value_or(1.0);
-        tissue.warn_mm = reader.number("warn_mm", {0.0, 10.0}).value_or(usual_warn_mm(tissue.is_protected));
+        tissue.warn_mm =
+            reader.number("warn_mm", {0.0, most_warn_mm}).value_or(usual_warn_mm(tissue.is_protected));
         if (!tissue.segment.empty() && !has_segmentation)
             reader.fail("segment", "'segment' needs [bone] segmentation = \"FILE.seg.nrrd\"");
         reader.refuse_other_keys();

@@ -8,6 +8,9 @@
 
 namespace osteomill {
 
+/// From how far a burr is warned of at most.
+inline constexpr double most_warn_mm = 10.0;
+
 /// Where a scene does not say at what distance to warn of a tissue.
 inline double usual_warn_mm(bool is_protected) {
     return is_protected ? 1.0 : 0.0;

@@ -6,8 +6,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/bone/patient_space.h"
 #include "common/scene/nearest_name.h"
 #include "common/scene/scene_file.h"
+#include "common/text/plain_text.h"
 
 namespace osteomill {
 
@@ -52,11 +54,16 @@ std::optional<std::int64_t> TomlReader::whole_number(std::string_view key, std::
     return value;
 }
 
+const std::string& TomlReader::plain(std::string_view key, const std::string& text) const {
+    if (const auto why = why_not_plain(text)) fail(key, fmt::format("'{}' {}", key, *why));
+    return text;
+}
+
 std::optional<std::string> TomlReader::text(std::string_view key) {
     const toml::node* node = take(key);
     if (!node) return std::nullopt;
     if (!node->is_string()) fail(key, fmt::format("'{}' must be a text in quotes", key));
-    return **node->as_string();
+    return plain(key, **node->as_string());
 }
 
 std::optional<std::vector<std::string>> TomlReader::texts(std::string_view key) {
@@ -66,7 +73,7 @@ std::optional<std::vector<std::string>> TomlReader::texts(std::string_view key) 
     const toml::array* list = node->as_array();
     if (list)
         for (const toml::node& entry : *list)
-            if (const auto value = entry.value<std::string>()) result.push_back(*value);
+            if (const auto value = entry.value<std::string>()) result.push_back(plain(key, *value));
     if (!list || result.size() != list->size()) fail(key, fmt::format("'{}' must be a list of texts", key));
     return result;
 }
@@ -100,6 +107,21 @@ std::optional<glm::dvec3> TomlReader::vector(std::string_view key) {
     }
     if (!good) fail(key, fmt::format("'{}' must be three finite numbers, like [0.0, 0.0, 1.0]", key));
     return result;
+}
+
+std::optional<glm::dvec3> TomlReader::place(std::string_view key) {
+    const std::optional<glm::dvec3> value = vector(key);
+    if (value && !is_place(*value))
+        fail(key, fmt::format("'{}' lies more than {} mm from the origin", key, farthest_place_mm));
+    return value;
+}
+
+std::optional<glm::dvec3> TomlReader::direction(std::string_view key) {
+    const std::optional<glm::dvec3> value = vector(key);
+    if (!value) return std::nullopt;
+    const std::optional<glm::dvec3> direction = unit_direction(*value);
+    if (!direction) fail(key, fmt::format("'{}' has no length; give a direction, about 1 long", key));
+    return direction;
 }
 
 std::optional<std::vector<std::vector<double>>> TomlReader::rows(std::string_view key, std::size_t width) {

@@ -26,7 +26,8 @@ class TomlReader {
     /// the reader.
     TomlReader(const toml::table& table, std::string file, std::string table_name);
 
-    /// Each takes a key: absent keys give nullopt; a wrong type or value throws SceneError.
+    /// Each takes a key: absent keys give nullopt; a wrong type or value throws SceneError, a text with
+    /// control characters, too.
     std::optional<double> number(std::string_view key, const AllowedRange& range = {});
     std::optional<std::int64_t> whole_number(std::string_view key, std::int64_t low, std::int64_t high);
     std::optional<std::string> text(std::string_view key);
@@ -36,6 +37,10 @@ class TomlReader {
     std::optional<std::size_t> choice(std::string_view key, const std::vector<std::string>& choices);
     std::optional<bool> truth(std::string_view key);
     std::optional<glm::dvec3> vector(std::string_view key);
+    /// In patient space, mm: within farthest_place_mm of the origin (patient_space.h).
+    std::optional<glm::dvec3> place(std::string_view key);
+    /// Made of unit length.
+    std::optional<glm::dvec3> direction(std::string_view key);
     /// A list of lists of `width` numbers each.
     std::optional<std::vector<std::vector<double>>> rows(std::string_view key, std::size_t width);
     std::optional<TomlReader> table(std::string_view key);
@@ -53,6 +58,7 @@ class TomlReader {
 
   private:
     const toml::node* take(std::string_view key);
+    const std::string& plain(std::string_view key, const std::string& text) const;
     static std::optional<double> finite_number(const toml::node& node);
 
     const toml::table* table_;

@@ -4,6 +4,8 @@
 #include <glm/geometric.hpp>
 
 #include "common/bone/finite.h"
+#include "common/bone/patient_space.h"
+#include "common/text/plain_text.h"
 #include "common/wire/vec3.h"
 
 namespace osteomill {
@@ -61,10 +63,10 @@ std::variant<SessionControl, WireError> session_control_from(const v1::SessionCo
     SessionControl control{action, one_line(message.text())};
     if (action == SessionAction::place) {
         control.pose = {read(message.burr_position_mm()), read(message.spindle_axis())};
-        const double length = glm::length(control.pose.spindle_axis);
-        if (!is_finite(control.pose.position_mm) || !std::isfinite(length) || length < 1e-6)
+        const auto axis = unit_direction(control.pose.spindle_axis);
+        if (!is_finite(control.pose.position_mm) || !axis)
             return WireError{"the place for the tool is not a finite position and a direction"};
-        control.pose.spindle_axis /= length;
+        control.pose.spindle_axis = *axis;
     }
     if (action == SessionAction::speed) {
         control.spindle_rpm = message.spindle_rpm();

@@ -4,6 +4,7 @@
 #include <glm/geometric.hpp>
 
 #include "common/bone/finite.h"
+#include "common/text/plain_text.h"
 
 namespace osteomill {
 
@@ -42,7 +43,7 @@ std::variant<Plan, WireError> plan_from(const v1::Plan& message) {
     double radius_mm = 1.0;
     switch (message.region_case()) {
         case v1::Plan::kTissue:
-            plan.region = TissueRegion{message.tissue()};
+            plan.region = TissueRegion{printable(message.tissue())};
             break;
         case v1::Plan::kSphere: {
             const v1::Plan::Sphere& sphere = message.sphere();

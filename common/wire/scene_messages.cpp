@@ -7,6 +7,8 @@
 #include <stdexcept>
 
 #include "common/bone/finite.h"
+#include "common/bone/patient_space.h"
+#include "common/text/plain_text.h"
 #include "common/wire/plan_message.h"
 #include "common/wire/vec3.h"
 
@@ -195,7 +197,7 @@ std::variant<std::vector<Burr>, WireError> burrs_from(
         if (!head)
             return WireError{"burr \"" + one_line(message.name()) + "\" has a head of an impossible shape"};
         burrs.push_back(
-            {.name = message.name(),
+            {.name = printable(message.name()),
              .diameter_mm = message.diameter_mm(),
              .head = *head,
              .edges = static_cast<int>(message.edges()),
@@ -219,7 +221,7 @@ std::variant<std::vector<Tissue>, WireError> tissues_from(
             return WireError{"tissue \"" + one_line(message.name()) +
                              "\" has an impossible opacity or distance to warn at"};
         tissues.push_back({.label = static_cast<std::uint8_t>(message.label()),
-                           .name = message.name(),
+                           .name = printable(message.name()),
                            .colour_rgb = {static_cast<std::uint8_t>(rgb >> 16U),
                                           static_cast<std::uint8_t>(rgb >> 8U & 0xFFU),
                                           static_cast<std::uint8_t>(rgb & 0xFFU)},
@@ -228,6 +230,12 @@ std::variant<std::vector<Tissue>, WireError> tissues_from(
                            .warn_mm = warn_mm});
     }
     return tissues;
+}
+
+std::map<std::string, std::string> settings_from(const v1::Hello& hello) {
+    std::map<std::string, std::string> settings;
+    for (const auto& [name, value] : hello.settings()) settings.emplace(printable(name), printable(value));
+    return settings;
 }
 
 std::variant<SessionInfo, WireError> session_info_from(const v1::Hello& hello) {
@@ -247,8 +255,8 @@ std::variant<SessionInfo, WireError> session_info_from(const v1::Hello& hello) {
     }
     return SessionInfo{.protocol_major = hello.protocol_major(),
                        .protocol_minor = hello.protocol_minor(),
-                       .scene_name = hello.scene_name(),
-                       .server_version = hello.program_version(),
+                       .scene_name = printable(hello.scene_name()),
+                       .server_version = printable(hello.program_version()),
                        .burrs = std::get<0>(std::move(burrs)),
                        .tissues = std::get<0>(std::move(tissues)),
                        .accepts_operator = hello.accepts_operator(),
@@ -257,9 +265,9 @@ std::variant<SessionInfo, WireError> session_info_from(const v1::Hello& hello) {
                        .has_ct = hello.has_ct(),
                        .accepts_controls = hello.accepts_controls(),
                        .plan = std::move(plan),
-                       .trainee = hello.trainee(),
-                       .case_name = hello.case_(),
-                       .settings = {hello.settings().begin(), hello.settings().end()}};
+                       .trainee = printable(hello.trainee()),
+                       .case_name = printable(hello.case_()),
+                       .settings = settings_from(hello)};
 }
 
 std::variant<ToolState, WireError> tool_from(const v1::ToolState& message, std::size_t burr_count) {
@@ -303,12 +311,12 @@ std::variant<OperatorCommand, WireError> operator_command_from(const v1::Operato
                             .spindle_axis = read(message.spindle_axis()),
                             .pedal = message.pedal(),
                             .burr = message.burr()};
-    const double length = glm::length(command.spindle_axis);
-    if (!is_finite(command.hand_target_mm) || !std::isfinite(length))
+    if (!is_finite(command.hand_target_mm) || !is_finite(command.spindle_axis))
         return WireError{"the operator input holds a number that is not finite"};
-    if (length < 1e-6) return WireError{"the operator input's spindle axis has no length"};
+    const auto axis = unit_direction(command.spindle_axis);
+    if (!axis) return WireError{"the operator input's spindle axis has no length, or is huge"};
     if (command.burr >= burr_count) return unknown_burr(message.burr(), burr_count);
-    command.spindle_axis /= length;
+    command.spindle_axis = *axis;
     return command;
 }
 

@@ -8,7 +8,7 @@ namespace osteomill {
 
 std::optional<std::string> parse_or_text(CLI::App& app, int argc, const char* const* argv) {
     try {
-        app.parse(argc, argv);
+        parse_arguments(app, argc, argv);
     } catch (const CLI::CallForHelp&) {
         return app.help();
     } catch (const CLI::CallForVersion&) {

@@ -10,6 +10,7 @@
 #include "common/log/line_sink.h"
 #include "common/program/program_output.h"
 #include "common/program/stop_signals.h"
+#include "common/text/plain_text.h"
 
 namespace osteomill {
 
@@ -27,7 +28,7 @@ int run_program(const char* name, const Parse& parse, const Run& run) {
     try {
         asked = parse();
     } catch (const std::invalid_argument& error) {
-        std::fprintf(stderr, "%s: %s\n", name, error.what());
+        std::fprintf(stderr, "%s: %s\n", name, printable(error.what()).c_str());
         return exit_wrong_usage;
     }
     if (!asked.options) {
@@ -41,7 +42,7 @@ int run_program(const char* name, const Parse& parse, const Run& run) {
         log_to(output.err, name);
         run(*asked.options, output);
     } catch (const std::exception& error) {
-        output.err->write(fmt::format("{}: {}\n", name, error.what()));
+        output.err->say(fmt::format("{}: {}", name, error.what()));
         exit_code = exit_failure;
     }
     output.finish();

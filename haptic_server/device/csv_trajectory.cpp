@@ -5,12 +5,14 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <fstream>
-#include <glm/geometric.hpp>
+#include <sstream>
 #include <stdexcept>
 #include <string_view>
 
+#include "common/bone/patient_space.h"
+#include "common/files/input_file.h"
 #include "common/files/table_line.h"
+#include "common/scene/session_control.h"
 
 namespace osteomill {
 
@@ -72,10 +74,14 @@ class CsvReader {
         const auto number = [&](std::size_t column) { return to_number(cells[column]); };
         Waypoint result;
         result.time_s = number(0);
+        if (!(std::abs(result.time_s) <= longest_session_s))
+            refuse(fmt::format("t_s must be within {:.0f} s", longest_session_s));
         result.pose.position_mm = {number(1), number(2), number(3)};
-        const glm::dvec3 axis(number(4), number(5), number(6));
-        if (!(glm::length(axis) > 1e-6)) refuse("axis_x,axis_y,axis_z must not all be zero");
-        result.pose.spindle_axis = glm::normalize(axis);
+        if (!is_place(result.pose.position_mm))
+            refuse(fmt::format("x_mm,y_mm,z_mm lie more than {} mm from the origin", farthest_place_mm));
+        const auto axis = unit_direction({number(4), number(5), number(6)});
+        if (!axis) refuse("axis_x,axis_y,axis_z must not all be zero, nor huge: a direction is about 1 long");
+        result.pose.spindle_axis = *axis;
         if (cells[7] != "0" && cells[7] != "1")
             refuse(fmt::format("pedal must be 0 or 1, not '{}'", cells[7]));
         result.pedal = cells[7] == "1";
@@ -138,10 +144,7 @@ std::vector<Waypoint> read_trajectory_csv(std::istream& in, const std::string& n
 }
 
 std::vector<Waypoint> read_trajectory_csv(const std::filesystem::path& file, std::size_t burr_count) {
-    std::ifstream in(file);
-    if (!in || std::filesystem::is_directory(file)) {
-        throw std::runtime_error(file.string() + ": cannot be opened; expected a trajectory in CSV");
-    }
+    std::istringstream in(read_text(file, trajectory_kind));
     return read_trajectory_csv(in, file.string(), burr_count);
 }
 

@@ -12,6 +12,7 @@
 #include <stdexcept>
 #include <vector>
 
+#include "common/text/plain_text.h"
 #include "haptic_server/imaging/bone_file/hu_file.h"
 #include "haptic_server/imaging/formats/image_reader.h"
 #include "haptic_server/imaging/formats/picture_stack.h"
@@ -289,7 +290,7 @@ void import_bone(const ImportOptions& options, const ImportSurroundings& surroun
 void import_bone(const ImportOptions& options, const OpenedImage& opened,
                  const ImportSurroundings& surroundings) {
     try {
-        for (const std::string& note : opened.image.notes) surroundings.messages << note << '\n';
+        for (const std::string& note : opened.image.notes) surroundings.messages << printable(note) << '\n';
         const ImportPlan work = plan(options, opened.image, surroundings.messages);
         require_memory(options, opened, work, surroundings);
         std::map<std::string, std::string> key_values;

@@ -12,16 +12,19 @@
 #include <utility>
 #include <vector>
 
+#include "common/files/inside_folder.h"
 #include "common/files/whole_file.h"
 #include "common/scene/material.h"
 #include "common/scene/nearest_name.h"
 #include "common/scene/scene_file.h"
+#include "common/text/plain_text.h"
 #include "haptic_server/imaging/formats/picture_stack.h"
 #include "haptic_server/imaging/phantoms/phantom.h"
 #include "haptic_server/imaging/segmentation/bone_of_labels.h"
 #include "haptic_server/imaging/segmentation/segment_structure.h"
 #include "haptic_server/imaging/segmentation/segmentation_file.h"
 #include "haptic_server/program/bone_source.h"
+#include "haptic_server/program/case_trust.h"
 #include "haptic_server/program/scene_on_bone.h"
 
 namespace osteomill {
@@ -39,7 +42,10 @@ constexpr const char* preface =
     "# Set protected = true for what must not be touched; warn_mm is then the distance from the burr at "
     "which\n"
     "# to warn, in mm. What its CT numbers say of a tissue's stiffness, stiffness_factor multiplies, and\n"
-    "# relative_stiffness or material replaces; no burr takes what has cuttable = false.\n\n";
+    "# relative_stiffness or material replaces; no burr takes what has cuttable = false.\n"
+    "# The last line tells damage from what was written; without it, or once you have edited this file, "
+    "each\n"
+    "# session says that it is unsigned.\n\n";
 
 /// Of a folder the label maps in it, by name.
 std::vector<std::filesystem::path> label_maps(const std::vector<std::filesystem::path>& paths) {
@@ -181,7 +187,12 @@ std::string scene_of_case(const std::string& name) {
         if (one == name) return name;
     const std::filesystem::path scene = std::filesystem::path(name) / scene_name;
     std::error_code failed;
-    if (std::filesystem::is_regular_file(scene, failed)) return scene.string();
+    if (std::filesystem::is_regular_file(scene, failed)) {
+        if (!lies_inside(scene, name))
+            throw std::invalid_argument(
+                fmt::format("--case: {} is a link that leads out of its folder", scene.string()));
+        return scene.string();
+    }
     const std::optional<std::string> nearest = nearest_name(name, built_in);
     throw std::invalid_argument(fmt::format("--case: '{}' is no folder with a {}; built in are {}{}", name,
                                             scene_name, fmt::join(built_in, ", "),
@@ -190,7 +201,9 @@ std::string scene_of_case(const std::string& name) {
 
 std::string name_of_case(const std::filesystem::path& folder) {
     const std::filesystem::path whole = std::filesystem::absolute(folder).lexically_normal();
-    return (whole.has_filename() ? whole : whole.parent_path()).filename().string();
+    const std::string name = (whole.has_filename() ? whole : whole.parent_path()).filename().string();
+    require_plain("--case: the folder's name", name);
+    return name;
 }
 
 BegunCase read_case_parts(CaseParts parts) {
@@ -210,10 +223,15 @@ BegunCase read_case_parts(CaseParts parts) {
 }
 
 void begin_case(const std::filesystem::path& folder) {
+    name_of_case(folder);
     std::error_code failed;
     if (std::filesystem::exists(folder / scene_name, failed))
         throw std::runtime_error(fmt::format(
             "{}: holds a case already; give another --case, or take it away first", folder.string()));
+    for (const auto& file : {folder / scene_name, bone_of_case(folder), folder / segmentation_name})
+        if (std::filesystem::is_symlink(file, failed))
+            throw std::runtime_error(fmt::format(
+                "{}: is a link, which a new case would write through; take it away", file.string()));
     std::filesystem::create_directories(folder, failed);
     if (!std::filesystem::is_directory(folder))
         throw std::runtime_error(fmt::format("{}: cannot be made a folder", folder.string()));
@@ -258,7 +276,7 @@ void finish_case(const std::filesystem::path& folder, const BegunCase& begun, st
     place_on_bone(scene, load_bone(loaded).bone);
     scene.bone =
         FileSource{.path = bone_of_case("").filename(), .threshold_hu = {}, .segmentation = segmentation};
-    write_whole_file(folder / scene_name, preface + write_scene(scene));
+    write_whole_file(folder / scene_name, with_digest(preface + write_scene(scene)), Link::replace);
 }
 
 }  // namespace osteomill

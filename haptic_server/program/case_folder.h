@@ -20,7 +20,8 @@ namespace osteomill {
 /// std::invalid_argument, with those built in and the nearest name, for what is neither.
 std::string scene_of_case(const std::string& name);
 
-/// The folder's own name, for people.
+/// The folder's own name, for people. Throws std::invalid_argument where that is no plain text
+/// (plain_text.h).
 std::string name_of_case(const std::filesystem::path& folder);
 
 /// What a segment is said to be made of where it is no bone.

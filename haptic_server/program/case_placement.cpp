@@ -2,13 +2,12 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
-#include <glm/geometric.hpp>
-
+#include "common/files/inside_folder.h"
 #include "common/files/whole_file.h"
 #include "common/scene/scene_file.h"
 #include "common/scene/shallow_toml.h"
 #include "common/scene/toml_reader.h"
+#include "haptic_server/program/case_trust.h"
 
 namespace osteomill {
 
@@ -24,7 +23,9 @@ std::optional<ToolPose> placement_of_case(const std::filesystem::path& folder) {
     const std::filesystem::path path = file_of(folder);
     std::error_code failed;
     if (!std::filesystem::exists(path, failed)) return std::nullopt;
-    const std::string text = read_toml_text(path, "placement");
+    if (!lies_inside(path, folder))
+        throw SceneError(path.string() + ": is a link that leads out of the case's folder");
+    const std::string text = read_toml_text(path, "a placement");
     require_shallow_toml(text, path.string());
     toml::table table;
     try {
@@ -34,15 +35,12 @@ std::optional<ToolPose> placement_of_case(const std::filesystem::path& folder) {
                                      error.description()));
     }
     TomlReader reader(table, path.string(), "the placement");
-    const auto position_mm = reader.vector("position_mm");
-    const auto spindle_axis = reader.vector("spindle_axis");
+    const auto position_mm = reader.place("position_mm");
+    const auto spindle_axis = reader.direction("spindle_axis");
     reader.refuse_other_keys();
     if (!position_mm) reader.fail_missing("position_mm");
     if (!spindle_axis) reader.fail_missing("spindle_axis");
-    const double length = glm::length(*spindle_axis);
-    if (!(length > 1e-6) || !std::isfinite(length))
-        reader.fail("spindle_axis", "'spindle_axis' has no length");
-    return ToolPose{*position_mm, *spindle_axis / length};
+    return ToolPose{*position_mm, *spindle_axis};
 }
 
 void remember_placement(const std::filesystem::path& folder, const ToolPose& pose) {
@@ -50,10 +48,11 @@ void remember_placement(const std::filesystem::path& folder, const ToolPose& pos
     const glm::dvec3& a = pose.spindle_axis;
     write_whole_file(
         file_of(folder),
-        fmt::format(
+        with_digest(fmt::format(
             "# Where the tool was put last, patient LPS. Without this file: [start_pose] of case.toml.\n"
             "position_mm = [ {:.3f}, {:.3f}, {:.3f} ]\nspindle_axis = [ {:.6f}, {:.6f}, {:.6f} ]\n",
-            p.x, p.y, p.z, a.x, a.y, a.z));
+            p.x, p.y, p.z, a.x, a.y, a.z)),
+        Link::replace);
 }
 
 }  // namespace osteomill

@@ -3,12 +3,12 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <fstream>
 #include <random>
 #include <stdexcept>
 #include <utility>
 #include <vector>
 
+#include "common/files/input_file.h"
 #include "common/scene/device_mapping.h"
 #include "haptic_server/device/arm_model.h"
 #include "haptic_server/device/bridge/bridge_arm.h"
@@ -42,20 +42,13 @@ DeviceParts make_haptic_arm(const ServerOptions& options, Scene& scene) {
     return parts;
 }
 
-/// 32 bytes at least, as the arm's side wants it.
 omb_key read_key(const std::filesystem::path& path) {
-    constexpr std::size_t most_bytes = 4095;
-    std::ifstream file(path, std::ios::binary);
-    std::vector<char> secret(most_bytes + 1);
-    file.read(secret.data(), static_cast<std::streamsize>(secret.size()));
-    if (!file && !file.eof()) throw std::runtime_error(fmt::format("{}: cannot be read", path.string()));
-    const auto bytes = static_cast<std::size_t>(file.gcount());
-    if (bytes < 32 || bytes > most_bytes)
+    const std::string secret = read_secret(path, bridge_key_kind);
+    if (secret.size() < 32)
         throw std::runtime_error(fmt::format("{}: a key of the bridge has 32 to {} bytes, this has {}",
-                                             path.string(), most_bytes,
-                                             bytes > most_bytes ? "more" : fmt::format("{}", bytes)));
+                                             path.string(), bridge_key_kind.most_bytes, secret.size()));
     omb_key key;
-    omb_set_key(&key, reinterpret_cast<const std::uint8_t*>(secret.data()), bytes);
+    omb_set_key(&key, reinterpret_cast<const std::uint8_t*>(secret.data()), secret.size());
     return key;
 }
 
@@ -70,26 +63,26 @@ bool has_come(Arm& arm, const std::atomic<bool>& stop, LineStream& out) {
     std::string said;
     return arm.await([&] {
         const std::string notice = arm.notice();
-        if (notice != said && !notice.empty()) out.write(notice + "\n");
+        if (notice != said && !notice.empty()) out.say(notice);
         said = notice;
         return stop.load();
     });
 }
 
-DeviceParts make_bridge_arm(const ServerOptions& options, Scene& scene, const std::atomic<bool>& stop,
-                            LineStream& out) {
+DeviceParts make_bridge_arm(const ServerOptions& options, const omb_key& key, Scene& scene,
+                            const std::atomic<bool>& stop, LineStream& out) {
     BridgeArm::Parts bridge{.burr_count = scene.burrs.size(),
                             .start_burr = scene.start_burr,
                             .start_axis = direction_in_device(scene.device, scene.start_pose.spindle_axis),
                             .random = random_number,
                             .on_thread_start = [] { ask_for_real_time(device_priority); }};
-    if (options.bridge_key) bridge.key = read_key(*options.bridge_key);
+    bridge.key = key;
     auto arm = std::make_unique<BridgeArm>(options.bridge, std::move(bridge));
-    out.write(fmt::format("waiting for an arm at {}\n", to_text(arm->address())));
+    out.say(fmt::format("waiting for an arm at {}", to_text(arm->address())));
     if (!has_come(*arm, stop, out)) return {};
     const DeviceLimits limits = arm->limits();
-    out.write(fmt::format(
-        "arm {} has joined: {:.3g} N, {:.3g} g; {:.2f} ms there and back, with which {:.3g} N/mm hold\n",
+    out.say(fmt::format(
+        "arm {} has joined: {:.3g} N, {:.3g} g; {:.2f} ms there and back, with which {:.3g} N/mm hold",
         arm->name(), limits.max_force_n, 1000.0 * limits.apparent_mass_kg, 1000.0 * arm->round_trip_s(),
         limits.max_stiffness_n_per_mm));
     // A scene that does not say how the arm sits on the patient: the middle of its workspace is the start.
@@ -108,11 +101,11 @@ DeviceParts make_haply_arm(const ServerOptions& options, Scene& scene, const std
                        .start_burr = scene.start_burr,
                        .start_axis = direction_in_device(scene.device, scene.start_pose.spindle_axis),
                        .on_thread_start = [] { ask_for_real_time(device_priority); }});
-    out.write(fmt::format("waiting for an Inverse3 of the Haply service at {}\n", to_text(options.haply)));
+    out.say(fmt::format("waiting for an Inverse3 of the Haply service at {}", to_text(options.haply)));
     if (!has_come(*arm, stop, out)) return {};
-    out.write(
+    out.say(
         fmt::format("Haply Inverse3 is there: {:.2f} ms from a reading to its force, with which {:.3g} "
-                    "N/mm hold\n",
+                    "N/mm hold",
                     1000.0 * arm->delay_s(), arm->limits().max_stiffness_n_per_mm));
     // A scene that does not say how the arm sits on the patient: the middle of its workspace is the start.
     if (scene.device == DeviceMapping{})
@@ -124,7 +117,7 @@ DeviceParts make_haply_arm(const ServerOptions& options, Scene& scene, const std
 
 DeviceParts make_tracked_tool(const ServerOptions& options, Scene& scene, LineStream& out) {
     TrackerSetup setup = read_tracker_setup(options.tracker_registration);
-    out.write(residual_line(setup) + "\n");
+    out.say(residual_line(setup));
     scene.device = setup.registration.mapping;
     DeviceParts parts;
     parts.device = std::make_unique<TrackedTool>(
@@ -141,10 +134,14 @@ DeviceParts make_tracked_tool(const ServerOptions& options, Scene& scene, LineSt
 
 }  // namespace
 
-DeviceParts make_device(const ServerOptions& options, Scene& scene, const std::atomic<bool>& stop,
-                        LineStream& out) {
+omb_key read_bridge_key(const ServerOptions& options) {
+    return options.bridge_key ? read_key(*options.bridge_key) : omb_key{};
+}
+
+DeviceParts make_device(const ServerOptions& options, const omb_key& bridge_key, Scene& scene,
+                        const std::atomic<bool>& stop, LineStream& out) {
     if (options.device == DeviceKind::hid) return make_haptic_arm(options, scene);
-    if (options.device == DeviceKind::bridge) return make_bridge_arm(options, scene, stop, out);
+    if (options.device == DeviceKind::bridge) return make_bridge_arm(options, bridge_key, scene, stop, out);
     if (options.device == DeviceKind::haply) return make_haply_arm(options, scene, stop, out);
     if (options.device == DeviceKind::tracker) return make_tracked_tool(options, scene, out);
     const HandModel hand = hand_model(options.grip);

@@ -4,6 +4,7 @@
 #include <atomic>
 #include <memory>
 
+#include "bridge/osteomill_bridge.h"
 #include "common/log/line_stream.h"
 #include "haptic_server/device/haptic_device.h"
 #include "haptic_server/device/hid/hid_transport.h"
@@ -23,9 +24,13 @@ struct DeviceParts {
     bool is_finished() const { return simulated != nullptr && simulated->is_finished(); }
 };
 
+/// Of --bridge-key; none where it is not given. Apart, for a wrong one to be told before a bone is loaded.
+/// Throws std::runtime_error in one line.
+omb_key read_bridge_key(const ServerOptions& options);
+
 /// Places the scene, too, where it leaves that to the device. Says in `out` what it waits for: an arm behind
 /// the bridge that has not joined. No device where `stop` came first. Throws std::runtime_error in one line.
-DeviceParts make_device(const ServerOptions& options, Scene& scene, const std::atomic<bool>& stop,
-                        LineStream& out);
+DeviceParts make_device(const ServerOptions& options, const omb_key& bridge_key, Scene& scene,
+                        const std::atomic<bool>& stop, LineStream& out);
 
 }  // namespace osteomill

@@ -18,7 +18,7 @@ void prepare_report_folder(const std::filesystem::path& folder) {
         throw std::runtime_error(
             fmt::format("--report {}: cannot make the folder: {}", folder.string(), error.message()));
     for (const char* name : {"session.pcap", "report.html", "metrics.csv", "metrics.json"})
-        if (std::filesystem::exists(folder / name))
+        if (std::filesystem::exists(std::filesystem::symlink_status(folder / name)))
             throw std::runtime_error(fmt::format(
                 "--report {}: holds a session already ({}); name another folder", folder.string(), name));
 }

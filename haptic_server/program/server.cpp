@@ -27,6 +27,7 @@
 #include "haptic_server/loop/thread_priority.h"
 #include "haptic_server/program/bone_source.h"
 #include "haptic_server/program/case_placement.h"
+#include "haptic_server/program/case_trust.h"
 #include "haptic_server/program/device_parts.h"
 #include "haptic_server/program/measurements.h"
 #include "haptic_server/program/report_folder.h"
@@ -56,6 +57,7 @@ Scene load_scene(const ServerOptions& options) {
         const std::string name = options.scene.value_or(phantoms.front());
         const bool is_phantom = std::find(phantoms.begin(), phantoms.end(), name) != phantoms.end();
         scene = is_phantom ? phantom_scene(name) : read_scene(name);
+        if (options.case_folder) require_own_files(scene, *options.case_folder);
         if (options.bone) {
             const auto* before = std::get_if<FileSource>(&scene.bone);
             scene.bone = FileSource{.path = *options.bone,
@@ -199,8 +201,8 @@ void say_what_was_removed_before(const BoneSource& source, LineStream& out) {
     const double mm3 =
         std::accumulate(source.removed_before_mm3.begin(), source.removed_before_mm3.end(), 0.0);
     if (mm3 > 0.0)
-        out.write(fmt::format("{}: {:.2f} mm^3 were removed before; the count goes on from there\n",
-                              source.file->path().string(), mm3));
+        out.say(fmt::format("{}: {:.2f} mm^3 were removed before; the count goes on from there",
+                            source.file->path().string(), mm3));
 }
 
 /// A bone of which saving takes long says how far it has come.
@@ -219,7 +221,7 @@ void save_and_tell(const std::filesystem::path& path, const BoneSource& source, 
 
 }  // namespace
 
-void run_server(const ServerOptions& options, const std::string& version, const std::atomic<bool>& stop,
+void run_server(const ServerOptions& options, const std::string& version, StopFlag stop_flag,
                 const ProgramOutput& output) {
     if (options.lists_devices) {
         HidapiTransport transport;
@@ -234,17 +236,23 @@ void run_server(const ServerOptions& options, const std::string& version, const 
     StreamingOptions streaming_as_typed =
         streaming_options(options.listen.value_or(ListenAddress{}), options.access);
     if (options.operators) streaming_as_typed.operators.emplace(*options.operators);
+    const omb_key bridge_key = read_bridge_key(options);
     Scene scene = load_scene(options);
+    if (options.case_folder)
+        if (const std::string line = unsigned_files(scene, *options.case_folder); !line.empty())
+            spdlog::warn("{}", line);
     std::ifstream meminfo("/proc/meminfo");
     LoadedBone loaded = load_bone(scene, available_memory_bytes(meminfo));
     if (!loaded.doubt.empty())
         spdlog::warn("{}: {}", std::get<FileSource>(scene.bone).path.string(), loaded.doubt);
     if (options.bone && !options.scene) place_on_bone(scene, loaded.bone);
+    // From here on there is something to end in order; what came before, a signal ends at once.
+    const std::atomic<bool>& stop = stop_flag();
     const BoneSource source = std::move(loaded.source);
     say_what_was_removed_before(source, *output.err);
     Bone bone = std::move(loaded.bone);
     BoneCost cost{.memory_bytes = memory_bytes(bone), .bone_mm3 = bone_volume_mm3(bone)};
-    const DeviceParts device = make_device(options, scene, stop, *output.out);
+    const DeviceParts device = make_device(options, bridge_key, scene, stop, *output.out);
     if (device.device == nullptr) return;  // stopped before an arm came
     say_what_is_felt(device.device->limits(), scene, *output.out);
     std::optional<ForceLog> log;
@@ -339,7 +347,7 @@ void run_server(const ServerOptions& options, const std::string& version, const 
         if (!options.report) return;
         const std::string error = write_report(recording_in(*options.report), *options.report, [] {});
         if (!error.empty()) throw std::runtime_error(error);
-        output.out->write(fmt::format("report: {}\n", (*options.report / "report.html").string()));
+        output.out->say(fmt::format("report: {}", (*options.report / "report.html").string()));
     });
     if (streaming) streaming.server->stop();
     outputs.write([&] {

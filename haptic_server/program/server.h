@@ -9,11 +9,15 @@
 
 namespace osteomill {
 
-/// Runs until the duration or the trajectory ends, or `stop` is set from anywhere (a signal handler may).
-/// Says "listening on ADDRESS:PORT" on standard output once clients can connect, and progress on standard
-/// error; neither can hold it up. Throws std::exception with one line for whatever stands in the way; a log
-/// or measurement that could not be written is one of these, after the session.
-void run_server(const ServerOptions& options, const std::string& version, const std::atomic<bool>& stop,
+/// Gives the flag that asks to end; from then on, signals set it (stop_signals.h).
+using StopFlag = const std::atomic<bool>& (*)();
+
+/// Runs until the duration or the trajectory ends, or the stop flag is set from anywhere. The flag is asked
+/// for once the bone is loaded: until then there is nothing to save, and a signal may end the program at
+/// once. Says "listening on ADDRESS:PORT" on standard output once clients can connect, and progress on
+/// standard error; neither can hold it up. Throws std::exception with one line for whatever stands in the
+/// way; a log or measurement that could not be written is one of these, after the session.
+void run_server(const ServerOptions& options, const std::string& version, StopFlag stop_flag,
                 const ProgramOutput& output);
 
 }  // namespace osteomill

@@ -26,8 +26,8 @@ void StatusLine::show_fault(const ToolState& tool) {
     if (tool.fault == fault_) return;
     finish();
     fault_ = tool.fault;
-    out_.write(fmt::format("{:7.1f} s   {}\n", tool.time_s,
-                           fault_.empty() ? "the force comes back" : fault_.text()));
+    out_.say(
+        fmt::format("{:7.1f} s   {}", tool.time_s, fault_.empty() ? "the force comes back" : fault_.text()));
 }
 
 void StatusLine::show_wait(const ToolState& tool) {
@@ -35,14 +35,14 @@ void StatusLine::show_wait(const ToolState& tool) {
     wait_ = tool.notice;
     if (wait_.empty()) return;  // what was asked for is there to see
     finish();
-    out_.write(fmt::format("{:7.1f} s   {}\n", tool.time_s, wait_.text()));
+    out_.say(fmt::format("{:7.1f} s   {}", tool.time_s, wait_.text()));
 }
 
 void StatusLine::show_notice(const ToolState& tool, std::string_view notice) {
     if (notice == notice_) return;
     finish();
     notice_ = notice;
-    out_.write(fmt::format("{:7.1f} s   {}\n", tool.time_s, notice.empty() ? "the device is ready" : notice));
+    out_.say(fmt::format("{:7.1f} s   {}", tool.time_s, notice.empty() ? "the device is ready" : notice));
 }
 
 void StatusLine::finish() {

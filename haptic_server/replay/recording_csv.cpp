@@ -6,6 +6,8 @@
 #include <cstring>
 #include <stdexcept>
 
+#include "common/text/csv_cell.h"
+
 namespace osteomill {
 
 namespace {
@@ -14,17 +16,10 @@ std::string xyz(const glm::dvec3& value, int decimals) {
     return fmt::format("{0:.{3}f},{1:.{3}f},{2:.{3}f}", value.x, value.y, value.z, decimals);
 }
 
-/// RFC 4180: quotes within are doubled.
-std::string quoted(const std::string& text) {
-    std::string result = "\"";
-    for (const char c : one_line(text)) result += c == '"' ? "\"\"" : std::string(1, c);
-    return result + "\"";
-}
-
 std::string nearest_of(const Playhead& playhead) {
     const StructureDistance* nearest = nearest_structure(playhead.distances());
     if (nearest == nullptr) return ",";
-    return fmt::format("{},{:.4f}", quoted(playhead.session().tissues[nearest->tissue].name),
+    return fmt::format("{},{:.4f}", csv_cell(playhead.session().tissues[nearest->tissue].name),
                        *nearest->distance_mm);
 }
 
@@ -43,7 +38,7 @@ void RecordingCsv::add(const Playhead& playhead) {
     out_ << fmt::format("{:.4f},{:.4f},{},{},{},{},{},{},{:.5f},{}\n", playhead.time_s(), tool.time_s,
                         xyz(tool.burr_position_mm, 4), xyz(tool.spindle_axis, 6),
                         xyz(tool.hand_position_mm, 4), xyz(tool.force_n, 5),
-                        quoted(playhead.session().burrs[tool.burr].name), tool.spindle_on ? 1 : 0,
+                        csv_cell(playhead.session().burrs[tool.burr].name), tool.spindle_on ? 1 : 0,
                         tool.removed_mm3, nearest_of(playhead));
 }
 

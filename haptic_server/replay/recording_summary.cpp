@@ -130,9 +130,9 @@ std::string to_text(const RecordingSummary& summary) {
         fmt::format_to(std::back_inserter(text), "{:<12}{}\n", name, what);
     };
     const glm::ivec3& size = summary.grid.size_voxels;
-    line("scene", fmt::format("{} ({} x {} x {} voxels of {} mm)", one_line(summary.session.scene_name),
-                              size.x, size.y, size.z, summary.grid.spacing_mm));
-    line("recorded by", fmt::format("haptic_server {}, protocol {}", one_line(summary.session.server_version),
+    line("scene", fmt::format("{} ({} x {} x {} voxels of {} mm)", summary.session.scene_name, size.x, size.y,
+                              size.z, summary.grid.spacing_mm));
+    line("recorded by", fmt::format("haptic_server {}, protocol {}", summary.session.server_version,
                                     protocol(summary.session)));
     line("duration", fmt::format("{:.3f} s{}", summary.duration_s,
                                  summary.sessions > 1 ? fmt::format(", {} sessions", summary.sessions) : ""));
@@ -141,10 +141,9 @@ std::string to_text(const RecordingSummary& summary) {
                                per_s(summary.states, summary.duration_s),
                                1e-3 * per_s(summary.state_bytes, summary.duration_s)));
     for (const auto& [name, milled_s] : summary.milled_s)
-        line("burr", fmt::format("{}, spindle on for {:.1f} s", one_line(name), milled_s));
+        line("burr", fmt::format("{}, spindle on for {:.1f} s", name, milled_s));
     line("removed", fmt::format("{:.3f} mm^3", summary.removed_mm3));
-    for (const auto& [name, mm3] : summary.by_tissue_mm3)
-        line("", fmt::format("{:.3f} mm^3 {}", mm3, one_line(name)));
+    for (const auto& [name, mm3] : summary.by_tissue_mm3) line("", fmt::format("{:.3f} mm^3 {}", mm3, name));
     line("bone",
          fmt::format("{:016x}; {} checksums hold", summary.bone_checksum, summary.checksums_verified));
     if (!summary.has_goodbye)

@@ -5,17 +5,9 @@
 
 #include <nlohmann/json.hpp>
 
-#include "common/wire/wire_error.h"
+#include "common/text/csv_cell.h"
 
 namespace osteomill {
-
-std::string csv_field(const std::string& text) {
-    const std::string line = one_line(text);
-    if (line.find_first_of(",\"") == std::string::npos) return line;
-    std::string quoted = "\"";
-    for (const char letter : line) quoted += letter == '"' ? std::string("\"\"") : std::string(1, letter);
-    return quoted + "\"";
-}
 
 std::string began_text(std::int64_t unix_ns) {
     constexpr std::int64_t last_s = 253'402'300'799;  // of the year 9999
@@ -27,7 +19,7 @@ std::string began_text(std::int64_t unix_ns) {
 std::string metrics_csv(const std::vector<MetricRow>& rows) {
     std::string text = "metric,of,value,unit\n";
     for (const MetricRow& row : rows)
-        text += fmt::format("{},{},{},{}\n", row.key, csv_field(row.of),
+        text += fmt::format("{},{},{},{}\n", row.key, csv_cell(row.of),
                             row.value ? fmt::format("{:.9g}", *row.value) : "", row.unit);
     return text;
 }

@@ -18,9 +18,6 @@ std::string metrics_csv(const std::vector<MetricRow>& rows);
 /// that are no UTF-8 are replaced.
 std::string metrics_json(const SessionTrace& trace, const std::vector<MetricRow>& rows);
 
-/// A text as a field of a CSV: quoted where it must be, on one line.
-std::string csv_field(const std::string& text);
-
 /// "2026-11-23 21:40 UTC"; empty where the recording does not say.
 std::string began_text(std::int64_t unix_ns);
 

@@ -6,12 +6,14 @@
 #include <array>
 #include <charconv>
 #include <cmath>
-#include <fstream>
+#include <sstream>
 #include <stdexcept>
 #include <string_view>
 #include <vector>
 
+#include "common/files/input_file.h"
 #include "common/files/table_line.h"
+#include "common/text/plain_text.h"
 
 namespace osteomill {
 
@@ -50,8 +52,11 @@ TimedControl timed_control(std::string_view line) {
     const std::string_view time = line.substr(0, first);
     TimedControl timed;
     timed.time_s = number_in(time, "t_s", "a number of seconds");
+    if (timed.time_s > longest_session_s)
+        throw std::invalid_argument(fmt::format("t_s is over {:.0f} s", longest_session_s));
     timed.control.action = action_named(line.substr(first + 1, second - first - 1));
     timed.control.text = line.substr(second + 1);
+    if (const auto why = why_not_plain(timed.control.text)) throw std::invalid_argument("the text " + *why);
     if (timed.control.text.size() > SessionControl::longest_text)
         throw std::invalid_argument(fmt::format("the text has {} bytes; {} are the most",
                                                 timed.control.text.size(), SessionControl::longest_text));
@@ -101,9 +106,7 @@ ControlScript read_control_script(std::istream& in, const std::string& name) {
 }
 
 ControlScript read_control_script(const std::filesystem::path& file) {
-    std::ifstream in(file);
-    if (!in || std::filesystem::is_directory(file))
-        throw std::runtime_error(file.string() + ": cannot be opened; expected a script of controls in CSV");
+    std::istringstream in(read_text(file, controls_kind));
     return read_control_script(in, file.string());
 }
 

@@ -3,16 +3,17 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <fstream>
 #include <regex>
+#include <sstream>
 #include <stdexcept>
 #include <string_view>
+
+#include "common/files/input_file.h"
 
 namespace osteomill {
 
 namespace {
 
-constexpr std::size_t longest_file_bytes = 1'000'000;
 constexpr std::size_t longest_line_bytes = 1000;
 constexpr std::string_view blanks = " \t\r";
 
@@ -35,13 +36,7 @@ bool is_subject(const std::string& line) {
 }  // namespace
 
 OperatorList::OperatorList(const std::filesystem::path& file) {
-    std::ifstream in(file);
-    if (!std::filesystem::is_regular_file(file) || !in)
-        throw std::runtime_error(
-            fmt::format("{}: cannot be read; it should list the subjects of certificates", file.string()));
-    if (std::filesystem::file_size(file) > longest_file_bytes)
-        throw std::runtime_error(fmt::format(
-            "{}: is over a megabyte long; it should list the subjects of certificates", file.string()));
+    std::istringstream in(read_text(file, operators_kind));
     std::string text;
     for (int number = 1; std::getline(in, text); ++number) {
         const std::string line(trimmed(text));

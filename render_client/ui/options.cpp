@@ -296,7 +296,7 @@ ParsedOptions parse_options(int argument_count, const char* const* arguments, co
     app.add_option("--json", options.json, "Write what was measured to this file")->type_name("FILE");
 
     try {
-        app.parse(argument_count, arguments);
+        parse_arguments(app, argument_count, arguments);
     } catch (const CLI::CallForHelp&) {
         parsed.no_run = NoRun{0, app.help()};
         return parsed;

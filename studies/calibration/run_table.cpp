@@ -7,11 +7,12 @@
 #include <array>
 #include <charconv>
 #include <cmath>
-#include <fstream>
 #include <set>
+#include <sstream>
 #include <stdexcept>
 #include <string_view>
 
+#include "common/files/input_file.h"
 #include "common/files/table_line.h"
 
 namespace osteomill::study {
@@ -150,9 +151,7 @@ RunSetting setting_of(const Line& line) {
 }  // namespace
 
 std::vector<MeasuredRun> read_runs(const std::filesystem::path& file) {
-    std::ifstream in(file);
-    if (!in || std::filesystem::is_directory(file))
-        throw std::runtime_error(file.string() + ": cannot be read; it must be a table of runs (CSV)");
+    std::istringstream in(read_text(file, table_kind));
     std::vector<std::string> header;
     std::vector<MeasuredRun> runs;
     std::set<std::string> names;

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <fstream>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 #include <memory>
@@ -14,6 +13,7 @@
 #include <stdexcept>
 #include <string_view>
 
+#include "common/files/input_file.h"
 #include "common/scene/burr_frame.h"
 #include "common/scene/burr_profile.h"
 
@@ -115,10 +115,9 @@ SteadyCase case_of(const CaseObject& object) {
 }
 
 json parsed(const std::filesystem::path& file) {
-    std::ifstream in(file);
-    if (!in) throw std::runtime_error(file.string() + ": cannot be read");
+    const std::string text = read_text(file, json_kind);
     try {
-        return json::parse(in);
+        return json::parse(text);
     } catch (const json::exception& error) {
         // "[json.exception.parse_error.101] parse error at line 3, column 7: ...": the part after the
         // bracket.

@@ -1,7 +1,8 @@
 #include "studies/report/output_files.h"
 
-#include <fstream>
 #include <stdexcept>
+
+#include "common/files/whole_file.h"
 
 namespace osteomill::study {
 
@@ -12,10 +13,7 @@ void make_folder(const std::filesystem::path& folder) {
 }
 
 void write_text(const std::string& text, const std::filesystem::path& file) {
-    std::ofstream out(file);
-    out << text;
-    out.close();
-    if (!out) throw std::runtime_error(file.string() + ": cannot be written");
+    write_whole_file(file, text, Link::replace);
 }
 
 void write_json(const nlohmann::ordered_json& json, const std::filesystem::path& file) {

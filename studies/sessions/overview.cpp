@@ -7,6 +7,7 @@
 #include <map>
 #include <utility>
 
+#include "common/text/csv_cell.h"
 #include "haptic_server/report/html_text.h"
 #include "haptic_server/report/metric_files.h"
 #include "haptic_server/report/report_html.h"
@@ -84,9 +85,9 @@ std::string sessions_csv(const std::vector<SessionRecord>& sessions) {
     const std::vector<int> attempts = attempts_of(sessions);
     for (std::size_t i = 0; i < sessions.size(); ++i)
         for (const KeptMetric& metric : sessions[i].metrics)
-            csv += fmt::format("{},{},{},{},{},{},{},{},{}\n", csv_field(sessions[i].file),
-                               csv_field(sessions[i].trainee), csv_field(sessions[i].case_name), attempts[i],
-                               sessions[i].began_unix_ns / 1'000'000'000, metric.key, csv_field(metric.of),
+            csv += fmt::format("{},{},{},{},{},{},{},{},{}\n", csv_cell(sessions[i].file),
+                               csv_cell(sessions[i].trainee), csv_cell(sessions[i].case_name), attempts[i],
+                               sessions[i].began_unix_ns / 1'000'000'000, metric.key, csv_cell(metric.of),
                                metric.value ? fmt::format("{:.9g}", *metric.value) : "", metric.unit);
     return csv;
 }

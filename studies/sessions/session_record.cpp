@@ -2,9 +2,10 @@
 
 #include <algorithm>
 #include <array>
-#include <fstream>
 #include <stdexcept>
 
+#include "common/files/input_file.h"
+#include "common/text/plain_text.h"
 #include "haptic_server/imaging/bone_file/digest.h"
 #include "haptic_server/report/session_metrics.h"
 
@@ -24,13 +25,15 @@ std::optional<double> SessionRecord::sum(const std::string& key) const {
 }
 
 std::string digest_of_file(const std::filesystem::path& file) {
-    std::ifstream in(file, std::ios::binary);
-    if (!in) throw std::runtime_error(file.string() + ": cannot be read");
+    const InputFile in(file, {.what = "a recording"});
     Digest digest;
-    std::array<char, 1 << 16> bytes{};
-    while (in.read(bytes.data(), bytes.size()) || in.gcount() > 0)
-        digest.add(std::as_bytes(std::span(bytes.data(), static_cast<std::size_t>(in.gcount()))));
-    if (in.bad()) throw std::runtime_error(file.string() + ": cannot be read");
+    std::array<std::byte, 1 << 16> bytes{};
+    for (std::uint64_t done = 0; done < in.size();) {
+        const std::size_t read = in.read_at(done, bytes);
+        if (read == 0) break;
+        digest.add(std::span(bytes).first(read));
+        done += read;
+    }
     return digest.text();
 }
 
@@ -40,7 +43,7 @@ SessionRecord record_of(const std::filesystem::path& file, const std::string& di
     if (!trace.ends) throw std::runtime_error(file.string() + ": is torn: the session's end is missing");
     const SessionInfo& session = trace.session;
     SessionRecord record{.digest = digest,
-                         .file = file.string(),
+                         .file = printable(file.string()),
                          .trainee = session.trainee.empty() ? "(no name)" : session.trainee,
                          .case_name = session.case_name.empty() ? session.scene_name : session.case_name,
                          .began_unix_ns = trace.began_unix_ns};

@@ -79,10 +79,12 @@ void SessionStore::Close::operator()(sqlite3* database) const {
 }
 
 SessionStore::SessionStore(const std::filesystem::path& file, const std::string& version) : file_(file) {
+    std::error_code ignored;
+    // Its name is ours, and what a link of that name leads to is not.
+    if (std::filesystem::is_symlink(file_, ignored)) std::filesystem::remove(file_, ignored);
     if (open(version)) return;
     // It only saves time.
     database_.reset();
-    std::error_code ignored;
     std::filesystem::remove(file_, ignored);
     if (!open(version)) fail("cannot be made");
 }

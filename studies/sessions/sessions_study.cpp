@@ -7,6 +7,7 @@
 #include <set>
 #include <stdexcept>
 
+#include "common/text/plain_text.h"
 #include "studies/report/output_files.h"
 #include "studies/sessions/overview.h"
 #include "studies/sessions/session_store.h"
@@ -67,11 +68,11 @@ void run_sessions_study(const SessionsStudyOptions& options, const StudySurround
                 record = record_of(file, digest);
                 fresh.push_back(*record);
             }
-            record->file = file.string();
+            record->file = printable(file.string());
             sessions.push_back(*std::move(record));
         } catch (const std::runtime_error& error) {
             skipped.push_back(error.what());
-            surroundings.progress << "left out: " << error.what() << '\n';
+            surroundings.progress << "left out: " << printable(error.what()) << '\n';
         }
     }
     for (const SessionRecord& record : fresh) store.keep(record);

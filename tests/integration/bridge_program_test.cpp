@@ -128,6 +128,8 @@ TEST_F(BridgePrograms, AnArmThatStandsStillTakesTheForceAwayAndComesBack) {
 TEST_F(BridgePrograms, WithAnotherKeyNobodyJoins) {
     std::ofstream(file("key")) << std::string(40, 'k');
     std::ofstream(file("other")) << std::string(40, 'o');
+    for (const char* key : {"key", "other"})
+        std::filesystem::permissions(file(key), std::filesystem::perms::owner_read);
     ChildProcess running(server("2", {"--bridge-key", file("key")}));
     ASSERT_TRUE(running.line_after("waiting for an arm at", 60s));
     const Finished stranger = run_program(arm("1", file("other")));

@@ -6,6 +6,7 @@
 #include <glm/gtc/quaternion.hpp>
 #include <utility>
 
+#include "common/text/plain_text.h"
 #include "haptic_server/device/arm_spring.h"
 
 namespace osteomill {
@@ -42,7 +43,7 @@ bool BridgeArm::await(const std::function<bool()>& gives_up) {
 
 std::string BridgeArm::name() const {
     const auto* end = std::find(std::begin(arm_.name), std::end(arm_.name), '\0');
-    return {std::begin(arm_.name), end};
+    return printable(std::string(std::begin(arm_.name), end));
 }
 
 glm::dvec3 BridgeArm::workspace_middle_mm() const {

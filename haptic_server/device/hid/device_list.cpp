@@ -6,6 +6,7 @@
 #include <set>
 #include <vector>
 
+#include "common/text/plain_text.h"
 #include "haptic_server/device/hid/hid_arm.h"
 #include "haptic_server/device/hid/profile_file.h"
 #include "haptic_server/device/hid/space_mouse_report.h"
@@ -43,7 +44,7 @@ std::string device_list(HidTransport& transport) {
         const std::string use = use_of(device);
         if (use.empty() || !seen.insert(device.path).second) continue;
         text += fmt::format("{:04x}:{:04x} {}\n    {}\n    {}\n", device.vendor_id, device.product_id,
-                            device.product, use, readiness(transport, device));
+                            printable(device.product), use, readiness(transport, device));
     }
     return text.empty() ? "no haptic arm and no 3D mouse is plugged in\n" : text;
 }

@@ -87,6 +87,9 @@ void read_arm(TomlReader reader, ArmProfile& profile) {
                                                  length_range_m.low, length_range_m.high));
     }
     profile.origin_m = reader.vector("origin_m").value_or(glm::dvec3(0.0));
+    if (!(glm::length(profile.origin_m) <= length_range_m.high))
+        reader.fail("origin_m",
+                    fmt::format("'origin_m' lies more than {} m from the arm", length_range_m.high));
     profile.apparent_mass_kg =
         reader.number("apparent_mass_kg", mass_range_kg).value_or(profile.apparent_mass_kg);
     reader.refuse_other_keys();
@@ -107,20 +110,14 @@ void read_limits(TomlReader reader, ArmProfile& profile) {
     reader.refuse_other_keys();
 }
 
-glm::dvec3 unit_vector(TomlReader& reader, std::string_view key, const glm::dvec3& otherwise) {
-    const glm::dvec3 value = reader.vector(key).value_or(otherwise);
-    if (glm::length(value) < 1e-6) reader.fail(key, fmt::format("'{}' has no length; give a direction", key));
-    return glm::normalize(value);
-}
-
 void read_stylus(TomlReader reader, ArmProfile& profile) {
     const auto use = reader.choice("switch", {"pedal", "pedal-and-clutch"});
     profile.switch_use = use.value_or(0) == 0 ? SwitchUse::pedal : SwitchUse::pedal_and_clutch;
-    profile.fixed_axis = unit_vector(reader, "fixed_axis", profile.fixed_axis);
+    profile.fixed_axis = reader.direction("fixed_axis").value_or(profile.fixed_axis);
     const auto counts = whole_numbers(reader, "counts_per_rev", static_cast<double>(most_counts_per_rev));
     const auto directions = whole_numbers(reader, "directions", 1.0);
     StylusEncoders stylus;
-    stylus.spindle_axis = unit_vector(reader, "spindle_axis", stylus.spindle_axis);
+    stylus.spindle_axis = reader.direction("spindle_axis").value_or(stylus.spindle_axis);
     reader.refuse_other_keys();
     if (!counts) return;
     stylus.counts_per_rev = *counts;
@@ -178,7 +175,7 @@ ArmProfile load_arm_profile(const std::string& name_or_file) {
             "there is no profile '{}'; {}choose one of {}, or name a .toml file", name_or_file,
             meant ? fmt::format("did you mean {}? ", *meant) : "", fmt::join(shipped_profile_names(), ", ")));
     }
-    return parse_arm_profile(read_toml_text(name_or_file, "device profile"), name_or_file);
+    return parse_arm_profile(read_toml_text(name_or_file, "a device profile"), name_or_file);
 }
 
 }  // namespace osteomill

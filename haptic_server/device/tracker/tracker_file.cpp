@@ -18,8 +18,7 @@ namespace {
 
 constexpr AllowedRange residual_range_mm{0.01, 20.0};
 constexpr double usual_residual_mm = 2.0;
-/// A tracker stands within some metres; a tool is held in one hand.
-constexpr double farthest_mm = 10'000.0;
+/// A tool is held in one hand.
 constexpr double longest_tool_mm = 1000.0;
 
 glm::dvec3 vector_within(TomlReader& reader, std::string_view key, double most_mm) {
@@ -32,10 +31,7 @@ glm::dvec3 vector_within(TomlReader& reader, std::string_view key, double most_m
 TrackedHandpiece read_tool(TomlReader reader) {
     TrackedHandpiece tool;
     tool.burr_centre_mm = vector_within(reader, "burr_centre_mm", longest_tool_mm);
-    const glm::dvec3 axis = required(reader, "spindle_axis", reader.vector("spindle_axis"));
-    if (glm::length(axis) < 1e-6)
-        reader.fail("spindle_axis", "'spindle_axis' has no length; give the direction from tip to shank");
-    tool.spindle_axis = glm::normalize(axis);
+    tool.spindle_axis = required(reader, "spindle_axis", reader.direction("spindle_axis"));
     reader.refuse_other_keys();
     return tool;
 }
@@ -79,8 +75,8 @@ TrackerSetup parse_tracker_setup(std::string_view toml, const std::string& name)
     for (TomlReader& point : reader.tables("points")) {
         PointPair pair;
         pair.name = point.text("name").value_or(fmt::format("{}", setup.points.size() + 1));
-        pair.tracker_mm = vector_within(point, "tracker_mm", farthest_mm);
-        pair.patient_mm = vector_within(point, "patient_mm", farthest_mm);
+        pair.tracker_mm = required(point, "tracker_mm", point.place("tracker_mm"));
+        pair.patient_mm = required(point, "patient_mm", point.place("patient_mm"));
         point.refuse_other_keys();
         setup.points.push_back(std::move(pair));
     }
@@ -94,7 +90,7 @@ TrackerSetup parse_tracker_setup(std::string_view toml, const std::string& name)
 }
 
 TrackerSetup read_tracker_setup(const std::filesystem::path& path) {
-    return parse_tracker_setup(read_toml_text(path, "tracker's file"), path.string());
+    return parse_tracker_setup(read_toml_text(path, "a tracker registration"), path.string());
 }
 
 std::string residual_line(const TrackerSetup& setup) {

@@ -15,7 +15,7 @@
 #include <optional>
 #include <utility>
 
-#include "common/bone/finite.h"
+#include "common/bone/patient_space.h"
 
 namespace osteomill {
 
@@ -207,7 +207,7 @@ void TransformStream::take_transform(std::span<const std::uint8_t> content, bool
     TrackerSample sample{.stamp_s = seconds_of(stamp_),
                          .position_mm = {static_cast<double>(values[9]), static_cast<double>(values[10]),
                                          static_cast<double>(values[11])}};
-    if (!is_rotation(turn) || !is_finite(sample.position_mm)) {
+    if (!is_rotation(turn) || !is_place(sample.position_mm)) {
         ++counts_.damaged;
         return;
     }

@@ -10,6 +10,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "haptic_server/imaging/bone_file/file_digest.h"
 #include "haptic_server/imaging/imaging_error.h"
 
 namespace osteomill {
@@ -60,13 +61,23 @@ std::string header_of(const NrrdForm& form) {
     return text + "\n";
 }
 
+WholeFile begun(const std::filesystem::path& path, const NrrdForm& form) try {
+    require_valid(form.grid);
+    if (path.extension() != ".nrrd") throw ImagingError(path, "the name of a bone file ends in .nrrd");
+    return WholeFile(path);
+} catch (const ImagingError&) {
+    throw;
+} catch (const std::runtime_error& error) {
+    throw ImagingError(error.what());
+}
+
 }  // namespace
 
 /// The part being written.
 class NrrdWriter::Descriptor {
   public:
     Descriptor(const std::filesystem::path& part, const std::filesystem::path& shown)
-        : shown_(shown), number_(::open(part.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666)) {
+        : shown_(shown), number_(::open(part.c_str(), O_WRONLY | O_TRUNC | O_CLOEXEC)) {
         if (number_ < 0) fail();
     }
     ~Descriptor() {
@@ -101,14 +112,16 @@ class NrrdWriter::Descriptor {
     int number_;
 };
 
-NrrdWriter::NrrdWriter(const std::filesystem::path& path, const NrrdForm& form) : form_(form), file_(path) {
-    require_valid(form.grid);
-    if (path.extension() != ".nrrd") throw ImagingError(path, "the name of a bone file ends in .nrrd");
+NrrdWriter::NrrdWriter(const std::filesystem::path& path, const NrrdForm& form)
+    : form_(form), file_(begun(path, form)) {
     out_ = std::make_unique<Descriptor>(file_.part(), path);
     const std::string header = header_of(form_);
     header_bytes_ = header.size();
     out_->write(std::as_bytes(std::span(header)));
-    gzip_.emplace([this](std::span<const std::byte> bytes) { out_->write(bytes); });
+    gzip_.emplace([this](std::span<const std::byte> bytes) {
+        data_.add(bytes);
+        out_->write(bytes);
+    });
 }
 
 NrrdWriter::~NrrdWriter() = default;
@@ -123,9 +136,14 @@ void NrrdWriter::commit(const std::map<std::string, std::string>& key_values) {
     if (added_ != form_.bytes_before_voxels + values * bytes_of(form_.voxel))
         throw std::logic_error("the bytes of a NRRD are not those that its header promises");
     form_.key_values = key_values;
-    const std::string header = header_of(form_);
-    if (header.size() != header_bytes_) throw std::logic_error("a NRRD's header must not change its length");
     gzip_->finish();
+    std::string header = header_of(form_);
+    if (const auto digest = form_.key_values.find(file_digest_key); digest != form_.key_values.end()) {
+        data_.add(std::as_bytes(std::span(header)));
+        digest->second = data_.text();
+        header = header_of(form_);
+    }
+    if (header.size() != header_bytes_) throw std::logic_error("a NRRD's header must not change its length");
     out_->to_begin();
     out_->write(std::as_bytes(std::span(header)));
     out_->close();

@@ -9,6 +9,7 @@
 #include <span>
 
 #include "common/files/whole_file.h"
+#include "haptic_server/imaging/bone_file/digest.h"
 #include "haptic_server/imaging/bone_file/gzip_writer.h"
 #include "haptic_server/imaging/bone_file/nrrd_form.h"
 
@@ -28,8 +29,9 @@ class NrrdWriter {
     void add(std::span<const std::byte> bytes);
 
     /// Ends the file and switches to it at once; until then the old one is as it was. `key_values` take the
-    /// place of those given at first (digests are known only now) and must be as long. Throws ImagingError;
-    /// std::logic_error where the bytes added are not those that the header promises.
+    /// place of those given at first (digests are known only now) and must be as long; where file_digest_key
+    /// is among them, it gets the file's digest. Throws ImagingError; std::logic_error where the bytes added
+    /// are not those that the header promises.
     void commit(const std::map<std::string, std::string>& key_values);
 
   private:
@@ -41,6 +43,7 @@ class NrrdWriter {
     std::optional<GzipWriter> gzip_{};
     std::uint64_t header_bytes_ = 0;
     std::uint64_t added_ = 0;
+    Digest data_;  // as they stand in the file
 };
 
 }  // namespace osteomill

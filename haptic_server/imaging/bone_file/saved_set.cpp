@@ -10,6 +10,8 @@
 #include <utility>
 
 #include "common/bone/bone_builder.h"
+#include "common/files/inside_folder.h"
+#include "common/scene/stiffness_relation.h"
 #include "haptic_server/imaging/imaging_error.h"
 
 namespace osteomill {
@@ -80,6 +82,9 @@ class ChannelLayers {
         if (!std::filesystem::exists(beside))
             throw ImagingError(file.path(),
                                fmt::format("the carved bone's file {} is missing beside it", name));
+        if (!lies_inside(beside, file.path().parent_path()))
+            throw ImagingError(file.path(),
+                               fmt::format("names {}, a link that leads out of its folder", name));
         return beside;
     }
 
@@ -115,8 +120,9 @@ double number_of_key(const BoneFile& file, const char* key) {
     const std::string& text = file.value(key);
     char* end = nullptr;
     const double number = std::strtod(text.c_str(), &end);
-    if (text.empty() || *end != '\0' || !(number > 0.0))
-        throw ImagingError(file.path(), fmt::format("{}:={} is not a number above 0", key, text));
+    if (text.empty() || *end != '\0' || !(number > 0.0) || number > largest_relative_stiffness)
+        throw ImagingError(file.path(), fmt::format("{}:={} is not a number above 0, at most {:g}", key, text,
+                                                    largest_relative_stiffness));
     return number;
 }
 

@@ -86,6 +86,8 @@ void require_plausible_geometry(const SourceImage& image) {
     plausible_voxel_count(sizes);
     if (!is_plausible_position(image.origin_mm))
         throw std::invalid_argument(implausible_position("its origin"));
+    if (!is_plausible_position(position_mm(image, glm::dvec3(image.size_voxels - 1))))
+        throw std::invalid_argument(implausible_position("its last voxel"));
     if (!(shear_of(image) < perpendicular_tolerance))
         throw std::invalid_argument(sheared_axes(image) +
                                     ", not perpendicular (a gantry tilt?); reformat it upright first");

@@ -8,6 +8,7 @@
 #include <span>
 #include <string>
 
+#include "common/bone/patient_space.h"
 #include "haptic_server/imaging/formats/source_image.h"
 
 namespace osteomill {
@@ -15,8 +16,7 @@ namespace osteomill {
 /// From the voxels of a micro CT to the coarsest survey.
 inline constexpr double least_spacing_mm = 1e-3;
 inline constexpr double greatest_spacing_mm = 100.0;
-/// A kilometre: scanners place the patient within metres of their centre.
-inline constexpr double farthest_position_mm = 1e6;
+inline constexpr double farthest_position_mm = farthest_place_mm;
 inline constexpr std::uint64_t most_voxels_of_an_axis = 65535;
 inline constexpr std::uint64_t most_voxels = std::uint64_t{1} << 36U;
 

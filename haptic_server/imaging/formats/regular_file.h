@@ -1,5 +1,4 @@
-// A file opened for reading that is a file: opening never waits, as it would for a pipe, and never asks a
-// device for bytes. It stays the one that was opened, although another takes its name.
+// An image's file (input_file.h), whose failures are ImagingErrors.
 #pragma once
 
 #include <cstddef>
@@ -8,6 +7,8 @@
 #include <span>
 #include <vector>
 
+#include "common/files/input_file.h"
+
 namespace osteomill {
 
 class RegularFile {
@@ -15,13 +16,10 @@ class RegularFile {
     /// Follows links. Throws ImagingError for a file that is not there or cannot be opened, and for whatever
     /// is no regular file.
     explicit RegularFile(const std::filesystem::path& path);
-    ~RegularFile();
-    RegularFile(const RegularFile&) = delete;
-    RegularFile& operator=(const RegularFile&) = delete;
 
     /// Bytes, when it was opened.
-    std::uint64_t size() const { return size_; }
-    const std::filesystem::path& path() const { return path_; }
+    std::uint64_t size() const { return file_.size(); }
+    const std::filesystem::path& path() const { return file_.path(); }
 
     /// Reads into `bytes` from an offset; how many there were, fewer only at the file's end. Throws
     /// ImagingError where the disk fails.
@@ -31,9 +29,7 @@ class RegularFile {
     std::vector<std::uint8_t> first_bytes(std::uint64_t most) const;
 
   private:
-    std::filesystem::path path_;
-    int descriptor_ = -1;
-    std::uint64_t size_ = 0;
+    InputFile file_;
 };
 
 }  // namespace osteomill

@@ -7,6 +7,7 @@
 #include <memory>
 #include <stdexcept>
 
+#include "common/files/inside_folder.h"
 #include "haptic_server/imaging/formats/regular_file.h"
 #include "haptic_server/imaging/imaging_error.h"
 
@@ -77,11 +78,7 @@ std::filesystem::path data_file_beside(const std::filesystem::path& header, cons
     if (!std::filesystem::exists(status)) throw refuse("is not there");
     if (!std::filesystem::is_regular_file(status)) throw refuse("is not a file");
     // A link beside the header may still lead elsewhere.
-    const std::filesystem::path folder =
-        std::filesystem::canonical(header.has_parent_path() ? header.parent_path() : ".", failed);
-    const std::filesystem::path real = failed ? file : std::filesystem::canonical(file, failed);
-    const auto [folder_end, unused] = std::mismatch(folder.begin(), folder.end(), real.begin(), real.end());
-    if (failed || folder_end != folder.end())
+    if (!lies_inside(file, header.parent_path()))
         throw refuse("is a link that leads out of the header's folder; put the file beside it");
     return file;
 }

@@ -30,6 +30,10 @@ std::pair<double, double> two_numbers(const char* option, const char* form, cons
 
 Rescale parse_rescale(const std::string& text) {
     const auto [slope, intercept] = two_numbers("--rescale", "SLOPE,INTERCEPT", text);
+    constexpr double most = 1e6;
+    if (!(std::abs(slope) <= most && std::abs(intercept) <= most))
+        throw std::invalid_argument(
+            fmt::format("--rescale '{}': slope and intercept lie within {:.0f}", text, most));
     if (slope == 0.0) throw std::invalid_argument("--rescale '" + text + "': the slope may not be 0");
     return {.slope = slope, .intercept = intercept};
 }

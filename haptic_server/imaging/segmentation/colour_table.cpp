@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "common/files/table_line.h"
+#include "common/text/plain_text.h"
 #include "haptic_server/imaging/formats/header_text.h"
 #include "haptic_server/imaging/formats/regular_file.h"
 #include "haptic_server/imaging/imaging_error.h"
@@ -138,6 +139,8 @@ ColourTable read_colour_table(const std::filesystem::path& path) {
                     "Color_R, Color_G and Color_B",
                     number));
         if (found->colour.name == "(none)" || found->colour.name.empty()) continue;
+        if (const auto why = why_not_plain(found->colour.name))
+            throw ImagingError(path, fmt::format("line {}: the name of its label {}", number, *why));
         if (!table.emplace(static_cast<std::uint16_t>(found->label), found->colour).second)
             throw ImagingError(path, fmt::format("line {}: label {} comes twice", number, found->label));
     }

@@ -11,6 +11,8 @@
 #include <sstream>
 
 #include "common/scene/nearest_name.h"
+#include "common/text/plain_text.h"
+#include "haptic_server/imaging/bone_file/file_digest.h"
 #include "haptic_server/imaging/formats/header_text.h"
 #include "haptic_server/imaging/formats/image_reader.h"
 #include "haptic_server/imaging/formats/picture_stack.h"
@@ -116,6 +118,15 @@ std::vector<Segment> numbered_segments(const LabelRows& labels) {
     return segments;
 }
 
+void require_plain_names(const Segmentation& segmentation) {
+    for (std::size_t i = 0; i < segmentation.segments.size(); ++i) {
+        const std::string& name = segmentation.segments[i].name;
+        if (const auto why = why_not_plain(name))
+            throw ImagingError(segmentation.path, fmt::format("the name of its segment {}, \"{}\", {}", i,
+                                                              one_line(name), *why));
+    }
+}
+
 void require_distinct_names(const Segmentation& segmentation) {
     std::set<std::string> names;
     for (const Segment& segment : segmentation.segments)
@@ -137,6 +148,7 @@ std::string name_of_file(const std::filesystem::path& path) {
 
 Segmentation read_segmentation(const std::filesystem::path& path) {
     const OpenedImage found = open_labels(path);
+    if (std::filesystem::is_regular_file(path)) has_file_digest(path);  // or it is damaged
     Segmentation segmentation{
         .path = path, .image = found.image, .segments = {}, .is_plain_map = false, .labels = {}};
     segmentation.segments = named_segments(path, found);
@@ -149,6 +161,7 @@ Segmentation read_segmentation(const std::filesystem::path& path) {
     // As TotalSegmentator writes them, a file a structure.
     if (segmentation.is_plain_map && segmentation.segments.size() == 1)
         segmentation.segments.front().name = name_of_file(path);
+    require_plain_names(segmentation);
     return segmentation;
 }
 

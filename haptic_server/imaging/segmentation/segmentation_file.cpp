@@ -9,6 +9,7 @@
 #include <span>
 #include <stdexcept>
 
+#include "haptic_server/imaging/bone_file/file_digest.h"
 #include "haptic_server/imaging/bone_file/nrrd_writer.h"
 
 namespace osteomill {
@@ -53,7 +54,7 @@ VoxelBounds box_of(const std::vector<NamedStructure>& structures) {
 
 std::map<std::string, std::string> keys_of(const std::vector<NamedStructure>& structures,
                                            const std::vector<int>& layers, const glm::ivec3& size) {
-    std::map<std::string, std::string> keys;
+    std::map<std::string, std::string> keys{{file_digest_key, no_digest_yet()}};
     for (std::size_t i = 0; i < structures.size(); ++i) {
         const auto set = [&](const char* what, const std::string& value) {
             keys[fmt::format("Segment{}_{}", i, what)] = value;

@@ -6,6 +6,7 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "common/files/inside_folder.h"
 #include "common/files/whole_file.h"
 #include "common/scene/scene_file.h"
 #include "common/scene/shallow_toml.h"
@@ -73,7 +74,7 @@ std::optional<TransferFunction> parse_look(std::string_view text, const std::str
 }
 
 std::optional<TransferFunction> read_look(const std::filesystem::path& file) {
-    return parse_look(read_toml_text(file, "look"), file.string());
+    return parse_look(read_toml_text(file, "a look"), file.string());
 }
 
 std::string look_text(const std::optional<TransferFunction>& look) {
@@ -96,6 +97,9 @@ std::optional<std::optional<TransferFunction>> LookKeeper::open(const std::files
     std::error_code failed;
     if (!std::filesystem::exists(file, failed)) return otherwise_;
     try {
+        // Of a case, which may be from elsewhere.
+        if (!lies_inside(file, file.parent_path()))
+            throw SceneError(file.string() + ": is a link that leads out of its folder");
         return read_look(file);
     } catch (const SceneError&) {
         is_bad_ = true;
@@ -107,7 +111,7 @@ std::string LookKeeper::save(const std::optional<TransferFunction>& look) const 
     if (is_bad_) return fmt::format("not saved: {} is no look; mend or remove it first", file_.string());
     try {
         if (file_.has_parent_path()) std::filesystem::create_directories(file_.parent_path());
-        write_whole_file(file_, look_text(look));
+        write_whole_file(file_, look_text(look), Link::replace);
     } catch (const std::exception& error) {
         return error.what();
     }

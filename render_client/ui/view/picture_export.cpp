@@ -17,7 +17,7 @@ std::filesystem::path free_name(const std::filesystem::path& folder, const char*
     if (error) throw std::runtime_error(fmt::format("cannot make the folder {}", folder.string()));
     for (int number = 1;; ++number)
         if (const auto path = folder / fmt::format("{}_{:04}{}", name, number, ending);
-            !std::filesystem::exists(path))
+            !std::filesystem::exists(std::filesystem::symlink_status(path)))
             return path;
 }
 

@@ -7,12 +7,12 @@
 
 #include <cerrno>
 #include <cstring>
-#include <fstream>
 #include <optional>
 #include <sstream>
 #include <stdexcept>
 #include <string_view>
 
+#include "common/files/input_file.h"
 #include "studies/stability/map/map_text.h"
 
 namespace osteomill::study {
@@ -30,11 +30,7 @@ constexpr const char* kind = "osteomill stability";
 
 /// Up to the last end of a line: what follows was torn off by a kill.
 std::string whole_lines_of(const std::filesystem::path& file) {
-    std::ifstream in(file, std::ios::binary);
-    std::ostringstream content;
-    content << in.rdbuf();
-    if (!in) fail(file, "cannot be read");
-    std::string text = content.str();
+    std::string text = read_text(file, json_kind);
     const std::size_t last_end = text.rfind('\n');
     text.resize(last_end == std::string::npos ? 0 : last_end + 1);
     return text;
@@ -101,7 +97,9 @@ CaseFile read_case_file(const std::filesystem::path& file) {
 
 CaseFileWriter::CaseFileWriter(const std::filesystem::path& file, const MapSelection& selection,
                                const std::vector<MapPoint>& points, const Shard& shard)
-    : file_(file), descriptor_(::open(file.c_str(), O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC, 0666)) {
+    : file_(file),
+      descriptor_(
+          ::open(file.c_str(), O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK, 0666)) {
     if (descriptor_ < 0) fail(file_, std::string("cannot be written: ") + std::strerror(errno));
     try {
         // A file system without locks lets everyone in: then it is the caller who starts a part only once.

@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <fstream>
 #include <sstream>
@@ -85,6 +86,20 @@ TEST(SessionFile, KeepsThePartBesideWhatALinkPointsTo) {
     file.commit();
     EXPECT_TRUE(fs::is_symlink(folder / "link.csv"));
     EXPECT_EQ(text_of(folder / "link.csv"), "");
+}
+
+TEST(SessionFile, MovesWhateverBearsItsPartsNameAside) {
+    const TemporaryFolder folder;
+    put(folder / "precious.txt", "precious");
+    fs::create_symlink("precious.txt", folder / "a.part.pcap");
+    ASSERT_EQ(::mkfifo((folder / "b.part.pcap").c_str(), 0600), 0);
+    for (const char* name : {"a.pcap", "b.pcap"}) {
+        SessionFile file(folder / name);
+        put(file.part(), "new");
+        file.commit();
+        EXPECT_EQ(text_of(folder / name), "new");
+    }
+    EXPECT_EQ(text_of(folder / "precious.txt"), "precious");
 }
 
 TEST(SessionFile, WritesToADeviceDirectly) {

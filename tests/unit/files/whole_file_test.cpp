@@ -3,8 +3,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cerrno>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <sstream>
 #include <stdexcept>
 #include <string>
@@ -25,6 +27,10 @@ std::string content(const fs::path& path) {
     std::ostringstream text;
     text << std::ifstream(path).rdbuf();
     return text.str();
+}
+
+std::ptrdiff_t files_in(const TemporaryFolder& folder) {
+    return std::distance(fs::directory_iterator(folder.path()), {});
 }
 
 void write(const fs::path& path, const std::string& text) {
@@ -52,19 +58,21 @@ TEST(WholeFile, LeavesTheOldFileAndNoPartWhereItIsGivenUp) {
         write(file.part(), "half of the n");
     }
     EXPECT_EQ(content(path), "old");
-    EXPECT_FALSE(fs::exists(part_of(path)));
+    EXPECT_EQ(files_in(folder), 1);
 }
 
 TEST(WholeFile, KeepsAPartThatIsWorthSomething) {
     const TemporaryFolder folder;
     const fs::path path = folder / "session.pcap";
+    fs::path part;
     {
         WholeFile file(path);
-        write(file.part(), "torn");
+        part = file.part();
+        write(part, "torn");
         file.keep_part();
     }
     EXPECT_FALSE(fs::exists(path));
-    EXPECT_EQ(content(folder / "session.part.pcap"), "torn");
+    EXPECT_EQ(content(part), "torn");
 }
 
 TEST(WholeFile, SaysWhichFileCannotBeWritten) {
@@ -87,6 +95,29 @@ TEST(WholeFile, ReplacesWhatALinkPointsTo) {
     EXPECT_EQ(content(real), "new");
 }
 
+TEST(WholeFile, IsWrittenThroughNoLinkInAFolderFromElsewhere) {
+    const TemporaryFolder folder;
+    const fs::path precious = folder / "precious.txt";
+    write(precious, "precious");
+    for (const char* name : {"placement.part.toml", "placement.toml"})
+        fs::create_symlink("precious.txt", folder / name);
+    write_whole_file(folder / "placement.toml", "new", Link::replace);
+    EXPECT_EQ(content(precious), "precious");
+    EXPECT_FALSE(fs::is_symlink(folder / "placement.toml"));
+    EXPECT_EQ(content(folder / "placement.toml"), "new");
+    EXPECT_EQ(open_new(folder / "placement.part.toml"), -1);
+    EXPECT_EQ(errno, EEXIST);
+}
+
+TEST(WholeFile, HasAPartOfANameThatNobodyKnowsBefore) {
+    const TemporaryFolder folder;
+    const WholeFile one(folder / "a.toml");
+    const WholeFile other(folder / "a.toml");
+    EXPECT_NE(one.part(), other.part());
+    EXPECT_EQ(one.part().extension(), ".toml");
+    EXPECT_EQ(one.part().parent_path(), folder.path());
+}
+
 TEST(WholeFile, WritesToADeviceWithoutReplacingIt) {
     write_whole_file("/dev/null", "text");
     EXPECT_TRUE(fs::is_character_file("/dev/null"));
@@ -102,7 +133,7 @@ TEST(WriteWholeFile, LeavesTheOldFileOnAFullDisk) {
                     ThrowsMessage<std::runtime_error>(HasSubstr("File too large")));
     }
     EXPECT_EQ(content(path), "old");
-    EXPECT_FALSE(fs::exists(part_of(path)));
+    EXPECT_EQ(files_in(folder), 1);
 }
 
 }  // namespace

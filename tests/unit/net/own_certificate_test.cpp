@@ -2,7 +2,6 @@
 
 #include <gmock/gmock.h>
 
-#include <fstream>
 #include <stdexcept>
 
 #include "tests/support/lab_certificates.h"
@@ -14,7 +13,6 @@ using ::testing::HasSubstr;
 using testing::LabCertificates;
 using ::testing::StartsWith;
 using Role = TlsContext::Role;
-using std::filesystem::perms;
 
 std::string failure_of(const TlsFiles& files, Role role) {
     try {
@@ -45,30 +43,6 @@ TEST(OwnCertificate, IsRefusedWhereItIsForTheOtherRoleHasExpiredOrSaysNoRole) {
         0);
     EXPECT_THAT(failure_of({folder + "/bare.pem", bench.key, bench.ca}, Role::server),
                 HasSubstr("serverAuth"));
-}
-
-TEST(OwnCertificate, NeedsAKeyThatItsOwnerAloneMayRead) {
-    if (!testing::has_openssl()) GTEST_SKIP() << "there is no openssl to make certificates with";
-    const testing::TemporaryFolder folder;
-    const std::filesystem::path key = folder / "a.key";
-    std::ofstream(key) << "a key";
-    const auto failure_at = [&](perms mode) {
-        std::filesystem::permissions(key, mode);
-        try {
-            require_private(key);
-        } catch (const std::runtime_error& error) {
-            return std::string(error.what());
-        }
-        return std::string();
-    };
-    const perms owner = perms::owner_read | perms::owner_write;
-    EXPECT_EQ(failure_at(owner), "");
-    EXPECT_EQ(failure_at(perms::owner_read), "");
-    EXPECT_THAT(failure_at(owner | perms::others_read), HasSubstr("others may read (its mode is 604)"));
-    EXPECT_THAT(failure_at(owner | perms::group_write), HasSubstr("chmod 600 " + key.string()));
-    // A group's key is fine where root has put it.
-    EXPECT_EQ(failure_at(owner | perms::group_read).empty(), ::geteuid() == 0);
-    EXPECT_THROW(require_private(folder / "none"), std::runtime_error);
 }
 
 }  // namespace

@@ -33,6 +33,7 @@ TEST(TlsContext, SaysInOneLineWhichFileIsNoGood) {
     };
     const std::filesystem::path text = lab.folder() / "text.pem";
     std::ofstream(text) << "no PEM\n";
+    std::filesystem::permissions(text, std::filesystem::perms::owner_read);
     EXPECT_THAT(with(&TlsFiles::certificate, "/nowhere/a.pem"),
                 ::testing::StartsWith("/nowhere/a.pem: cannot be read"));
     EXPECT_THAT(with(&TlsFiles::key, lab.folder()), ::testing::HasSubstr("cannot be read"));

@@ -20,6 +20,12 @@ TEST(BoundedLine, CutsWhatIsTooLong) {
     const std::string longest(BoundedLine::most_bytes, 'x');
     EXPECT_EQ(BoundedLine(longest).text(), longest);
     EXPECT_EQ(BoundedLine(longest + "y").text(), longest);
+    EXPECT_EQ(BoundedLine(longest.substr(1) + "\u00e4").text(), longest.substr(1)) << "between characters";
+}
+
+TEST(BoundedLine, IsPlainTextWhateverADeviceSays) {
+    EXPECT_EQ(BoundedLine("Z\u00e4hne").text(), "Z\u00e4hne");
+    EXPECT_EQ(BoundedLine("a\x1b[2J\nb \xe4").text(), "a?[2J?b ?");
 }
 
 }  // namespace

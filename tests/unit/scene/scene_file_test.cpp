@@ -313,7 +313,7 @@ TEST(SceneFile, AShankThatCannotBeIsRefused) {
 TEST(SceneFile, WhatIsNotTomlOrNotThereIsRefusedInOneLine) {
     EXPECT_THAT(error_of("name = \"a\"\n[bone\n"), HasSubstr("my.toml:2: not TOML"));
     EXPECT_THAT(error_of("name = \"a\"\n[bone]\nphantom = \"x\\ny\"\n"),
-                HasSubstr("'phantom' is \"x y\"; choose"));
+                HasSubstr("'phantom' holds a control character (byte 2 is"));
     EXPECT_THROW((void)read_scene("/no/such/scene.toml"), SceneError);
     EXPECT_THROW((void)read_scene("/"), SceneError);
 }

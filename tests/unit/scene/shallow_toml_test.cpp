@@ -63,17 +63,17 @@ TEST(ShallowToml, ReadsFilesOnly) {
     testing::TemporaryFolder folder;
     const auto refused = [&](const std::filesystem::path& path) -> std::string {
         try {
-            return read_toml_text(path, "scene file");
+            return read_toml_text(path, "a scene file");
         } catch (const SceneError& error) {
             return error.what();
         }
     };
     std::ofstream(folder / "good.toml") << "a = 1\n";
     EXPECT_EQ(refused(folder / "good.toml"), "a = 1\n");
-    EXPECT_THAT(refused(folder / "none.toml"), HasSubstr("cannot read this scene file"));
-    EXPECT_THAT(refused("/dev/zero"), HasSubstr("no file that is there"));
+    EXPECT_THAT(refused(folder / "none.toml"), HasSubstr("cannot be read"));
+    EXPECT_THAT(refused("/dev/zero"), HasSubstr("a pipe or a device"));
     ASSERT_EQ(::mkfifo((folder / "pipe.toml").c_str(), 0600), 0);
-    EXPECT_THAT(refused(folder / "pipe.toml"), HasSubstr("no file that is there"))
+    EXPECT_THAT(refused(folder / "pipe.toml"), HasSubstr("a pipe or a device"))
         << "without waiting for a writer";
 }
 

@@ -43,7 +43,7 @@ TEST(SceneMessages, RefuseImpossibleBurrsAndTissues) {
     hello.mutable_burrs(0)->set_diameter_mm(not_a_number);
     EXPECT_THAT(error_of(burrs_from(hello.burrs())), HasSubstr("\"b\""));
     hello.mutable_burrs(0)->set_name("two\nlines");
-    EXPECT_THAT(error_of(burrs_from(hello.burrs())), HasSubstr("\"two?lines\""));
+    EXPECT_THAT(error_of(burrs_from(hello.burrs())), HasSubstr("\"two\\x0alines\""));
     *hello.add_tissues() = to_message(Tissue{.label = 3, .name = "pulp"});
     EXPECT_EQ(error_of(tissues_from(hello.tissues())), "");
     hello.mutable_tissues(0)->set_label(256);

@@ -179,6 +179,10 @@ TEST(ArmSide, IsMovedByNoGarbage) {
 TEST(ArmSide, SaysInOneLineWhyItCannotOpen) {
     const testing::TemporaryFolder folder;
     std::ofstream(folder / "short") << "too short";
+    std::filesystem::permissions(folder / "short", std::filesystem::perms::owner_read);
+    std::ofstream(folder / "open") << std::string(40, 'k');
+    std::filesystem::permissions(folder / "open",
+                                 std::filesystem::perms::owner_read | std::filesystem::perms::others_read);
     const omb_arm arm = testing::some_arm();
     omb_arm weak = arm;
     weak.max_force_n = 0.0;
@@ -193,6 +197,9 @@ TEST(ArmSide, SaysInOneLineWhyItCannotOpen) {
     EXPECT_EQ(error("unix:" + std::string(200, 'a'), nullptr, arm),
               std::string(100, 'a') + ": is too long a path");
     EXPECT_EQ(error("udp:127.0.0.1:9", "/nowhere", arm), "/nowhere: cannot be read");
+    EXPECT_EQ(error("udp:127.0.0.1:9", "/dev/zero", arm), "/dev/zero: cannot be read");
+    EXPECT_NE(error("udp:127.0.0.1:9", (folder / "open").c_str(), arm).find("others may read it"),
+              std::string::npos);
     EXPECT_NE(error("udp:127.0.0.1:9", (folder / "short").c_str(), arm).find("32 bytes at least"),
               std::string::npos);
     EXPECT_EQ(error("udp:127.0.0.1:9", nullptr, weak), "max_force_n: must be over 0");

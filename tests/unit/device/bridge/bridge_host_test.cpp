@@ -301,6 +301,7 @@ TEST(BridgeHost, MeasuresTheWayThereAndBackByOneClockEach) {
 TEST(BridgeHost, WithAKeyHearsOnlyWhoHasIt) {
     const testing::TemporaryFolder folder;
     std::ofstream(folder / "key") << std::string(40, 'k');
+    std::filesystem::permissions(folder / "key", std::filesystem::perms::owner_read);
     std::ofstream(folder / "other") << std::string(40, 'o');
     omb_key key;
     omb_set_key(&key, reinterpret_cast<const std::uint8_t*>(std::string(40, 'k').data()), 40);
@@ -320,6 +321,7 @@ TEST(BridgeHost, WithAKeyHearsOnlyWhoHasIt) {
 TEST(BridgeHost, WithAKeyNothingThatWasSaidMovesItAgain) {
     const testing::TemporaryFolder folder;
     std::ofstream(folder / "key") << std::string(40, 'k');
+    std::filesystem::permissions(folder / "key", std::filesystem::perms::owner_read);
     omb_key key;
     omb_set_key(&key, reinterpret_cast<const std::uint8_t*>(std::string(40, 'k').data()), 40);
     BridgePair bridge(testing::some_arm(), key, (folder / "key").c_str());

@@ -1,0 +1,27 @@
+// What a place and a direction in patient space may be, whoever says it: a file, a peer or an option.
+#pragma once
+
+#include <glm/geometric.hpp>
+#include <glm/vec3.hpp>
+#include <optional>
+
+namespace osteomill {
+
+/// No patient and no operating theatre is larger than ten metres, and scanners place the patient within
+/// metres of their centre. What lies farther is a slip of the unit, or made to spoil the arithmetic.
+inline constexpr double farthest_place_mm = 10'000.0;
+
+/// Within farthest_place_mm of the origin; false for what is not a number.
+inline bool is_place(const glm::dvec3& position_mm) {
+    return glm::length(position_mm) <= farthest_place_mm;
+}
+
+/// Of unit length; nothing for what has none, is not a number, or is so long that it would lose its digits.
+/// What is of unit length already stays as it is, bit for bit.
+inline std::optional<glm::dvec3> unit_direction(const glm::dvec3& v) {
+    const double length = glm::length(v);
+    if (!(length >= 1e-6 && length <= 1e6)) return std::nullopt;
+    return length > 1.0 - 1e-12 && length < 1.0 + 1e-12 ? v : v / length;
+}
+
+}  // namespace osteomill

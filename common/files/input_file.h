@@ -1,0 +1,68 @@
+// A file that somebody names, opened for reading: a regular file and nothing else.
+//
+// A pipe, a device or a folder is refused before it is opened, so that opening never waits and reading always
+// ends. What is read whole has a bound by its kind, so that a file never takes more memory than it should.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <span>
+#include <string>
+
+namespace osteomill {
+
+/// What a file should be, for messages ("a trajectory in CSV"), and its most bytes.
+struct InputKind {
+    const char* what = "a file";
+    std::uint64_t most_bytes = UINT64_MAX;
+};
+
+// Of what is read whole. An hour at 1 kHz is a trajectory of 250 MB.
+inline constexpr InputKind trajectory_kind{"a trajectory in CSV", 256U << 20U};
+inline constexpr InputKind controls_kind{"a script of controls in CSV", 16U << 20U};
+inline constexpr InputKind table_kind{"a table in CSV", 64U << 20U};
+inline constexpr InputKind json_kind{"a JSON file", 256U << 20U};
+inline constexpr InputKind operators_kind{"a list of the subjects of certificates", 1U << 20U};
+inline constexpr InputKind private_key_kind{"a private key", 1U << 20U};
+inline constexpr InputKind pem_kind{"a PEM file", 1U << 20U};
+/// Of a hundred thousand certificates.
+inline constexpr InputKind revoked_kind{"a list of revoked certificates", 16U << 20U};
+inline constexpr InputKind bridge_key_kind{"a key of the bridge", 4095};
+
+class InputFile {
+  public:
+    /// Follows links. It stays the one that was opened, although another takes its name. Throws
+    /// std::runtime_error, "PATH: cannot be read: ...", for what is not there, cannot be opened, or is no
+    /// regular file.
+    explicit InputFile(const std::filesystem::path& path, const InputKind& kind = {});
+    ~InputFile();
+    InputFile(const InputFile&) = delete;
+    InputFile& operator=(const InputFile&) = delete;
+
+    const std::filesystem::path& path() const { return path_; }
+    int descriptor() const { return descriptor_; }
+    /// Bytes, when it was opened.
+    std::uint64_t size() const { return size_; }
+
+    /// Reads into `bytes` from an offset; how many there were, fewer only at the file's end. Throws
+    /// std::runtime_error where the disk fails.
+    std::size_t read_at(std::uint64_t offset, std::span<std::byte> bytes) const;
+    /// All of it. Throws std::runtime_error where there are more bytes than its kind may have.
+    std::string text() const;
+
+  private:
+    std::filesystem::path path_;
+    InputKind kind_;
+    int descriptor_ = -1;
+    std::uint64_t size_ = 0;
+};
+
+/// Throws as InputFile does.
+std::string read_text(const std::filesystem::path& path, const InputKind& kind);
+
+/// The same of a secret, which is its owner's alone; a key of root's may also be read by its group, as
+/// distributions keep those of services (root:ssl-cert, 0640). Throws also where others may read or write it.
+std::string read_secret(const std::filesystem::path& path, const InputKind& kind);
+
+}  // namespace osteomill

@@ -1,0 +1,40 @@
+// The characters of a text in UTF-8 (RFC 3629), one after the other. Real-time safe.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string_view>
+
+namespace osteomill {
+
+struct Utf8Character {
+    std::size_t bytes = 1;  ///< that it takes; 1 for a byte that begins no character
+    bool is_plain = false;  ///< a character of UTF-8 that is shown, and steers no terminal
+    bool is_utf8 = false;
+};
+
+/// Whether a character ends a line, or steers what shows it: the controls C0 and C1, the separators of lines
+/// and paragraphs, and what turns the direction of the text that follows (Unicode's bidirectional controls).
+constexpr bool is_control(char32_t code) {
+    return code < 0x20 || (code >= 0x7F && code < 0xA0) || code == 0x200E || code == 0x200F ||
+           (code >= 0x2028 && code <= 0x202E) || (code >= 0x2066 && code <= 0x2069);
+}
+
+/// The first of a text that is not empty. Overlong forms, surrogates and codes above U+10FFFF are no UTF-8.
+constexpr Utf8Character first_character(std::string_view text) {
+    const auto byte = [&](std::size_t at) { return static_cast<std::uint8_t>(text[at]); };
+    const std::uint8_t first = byte(0);
+    if (first < 0x80) return {.bytes = 1, .is_plain = !is_control(first), .is_utf8 = true};
+    const std::size_t bytes = first >= 0xF0 ? 4 : first >= 0xE0 ? 3 : 2;
+    if (first < 0xC2 || first > 0xF4 || text.size() < bytes) return {};
+    char32_t code = first & (0xFFU >> (bytes + 1));
+    for (std::size_t at = 1; at < bytes; ++at) {
+        if ((byte(at) & 0xC0U) != 0x80U) return {};
+        code = code << 6U | (byte(at) & 0x3FU);
+    }
+    const bool is_overlong = (bytes == 3 && code < 0x800) || (bytes == 4 && code < 0x10000);
+    if (is_overlong || (code >= 0xD800 && code < 0xE000) || code > 0x10FFFF) return {};
+    return {.bytes = bytes, .is_plain = !is_control(code), .is_utf8 = true};
+}
+
+}  // namespace osteomill
