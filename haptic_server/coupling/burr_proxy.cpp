@@ -133,20 +133,16 @@ void BurrProxy::trail(bool is_held, const Engagement& engagement) noexcept {
     carving_mm_ = position_mm_ + no_longer_than(carving_mm_ - position_mm_, carving_trails_mm);
 }
 
-LinearPull BurrProxy::damped(const LinearPull& pull, double damping_n_s_per_mm,
-                             const glm::dvec3& hand_step_mm, double tick_s) {
-    const double damping_n_per_mm = damping_n_s_per_mm / tick_s;
-    return {pull.offset_n + damping_n_per_mm * hand_step_mm, pull.stiffness_n_per_mm + damping_n_per_mm};
-}
-
 ContactStep BurrProxy::balance_with_bone(const LinearPull& pull, const glm::dvec3& hand_step_mm,
                                          double tick_s, std::span<const Contact> contacts,
                                          const Engagement& engagement) noexcept {
-    double damping_n_s_per_mm = 0.0;
+    glm::dmat3 damping_n_per_mm(0.0);
+    LinearPull damped = pull;
     const auto solve = [&] {
-        const LinearPull all = damped(pull, damping_n_s_per_mm, hand_step_mm, tick_s);
+        damped.offset_n = pull.offset_n + damping_n_per_mm * hand_step_mm;
+        damped.damping_n_per_mm = damping_n_per_mm;
         const ContactStep step =
-            balance(all, contacts, engagement.has_edge_force ? glm::dvec3(0.0) : all.free_step_mm());
+            balance(damped, contacts, engagement.has_edge_force ? glm::dvec3(0.0) : damped.free_step_mm());
         iterations_ += step.iterations;
         return step;
     };
@@ -162,18 +158,22 @@ ContactStep BurrProxy::balance_with_bone(const LinearPull& pull, const glm::dvec
     else
         ++counts_.fallbacks;
     const double for_each_drive = drive_to_damping * (1.0 + to_hand_mj_ / scale_.energy_mj(much_to_hand_mj));
+    double without_balance_n_per_mm = least_damping_n_s_per_mm / tick_s;
     for (int attempt = 0; attempt < most_attempts; ++attempt) {
-        const double drive_n_s_per_mm = std::max(0.0, -solved.least_resistance_n_per_mm) * tick_s;
-        const double wanted_n_s_per_mm = for_each_drive * drive_n_s_per_mm;
-        if (is_balanced() && wanted_n_s_per_mm <= damping_n_s_per_mm) return solved;
-        damping_n_s_per_mm =
-            is_balanced() ? wanted_n_s_per_mm
-                          : std::max({wanted_n_s_per_mm, least_damping_n_s_per_mm, 4.0 * damping_n_s_per_mm});
+        // What the damping does not make up for yet.
+        const glm::dmat3 drive = driving_part(solved.resistance_n_per_mm + damping_n_per_mm / for_each_drive);
+        const double sum_n_per_mm = drive[0][0] + drive[1][1] + drive[2][2];
+        if (is_balanced() && sum_n_per_mm < negligible_drive_n_per_mm) return solved;
+        damping_n_per_mm += for_each_drive * drive;
+        if (!is_balanced()) {
+            damping_n_per_mm += glm::dmat3(without_balance_n_per_mm);
+            without_balance_n_per_mm *= 4.0;
+        }
         solved = solve();
     }
     if (is_balanced()) return solved;
     ++counts_.relaxed;
-    solved = relaxed_step(damped(pull, damping_n_s_per_mm, hand_step_mm, tick_s), contacts);
+    solved = relaxed_step(damped, contacts);
     iterations_ += solved.iterations;
     return solved;
 }

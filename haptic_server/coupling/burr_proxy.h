@@ -40,15 +40,15 @@
 //
 // Edges pull sideways, so bone can drive the burr along: the symmetric part of what it resists may have a
 // negative eigenvalue -N. Then the burr may run away from the hand; and a ring of such contacts may leave no
-// balance at all. There the tick is solved again with a damper c between burr and hand that the hand does not
-// feel. With c > N the law is monotone again: it has one balance, the burr stays with the hand, and the
-// spring comes to hold the model's force with a time constant of (c - N) / K_c. So c is a small multiple of
-// N; a large one would keep the force from the hand. Whether the burr runs away is told by the energy with
-// which bone drives it, F . d, and sets it apart from the hand, F . (d - the hand's step), the smaller of
-// them: up to allowed_apart_mj, in a store that
-// forgets with apart_memory_s, nothing is damped that has a balance. The multiple grows with the energy that
-// the hand has got of late. Should a tick have no balance with the damper either (counted; not seen), it
-// keeps the contacts' normal forces alone: these always have one, and only take energy out.
+// balance at all. There the tick is solved again with a damper between burr and hand that the hand does not
+// feel: a matrix, a small multiple of the part of that resistance that is negative, so it damps only the ways
+// in which bone drives. A multiple over 1 makes the law monotone again: it has one balance, and the burr
+// stays with the hand. In the other ways the spring lets go of bone that has gone as it always does. Whether
+// the burr runs away is told by the energy with which bone drives it, F . d, and sets it apart from the hand,
+// F . (d - the hand's step), the smaller of them: up to allowed_apart_mj, in a store that forgets with
+// apart_memory_s, nothing is damped that has a balance. The multiple grows with the energy that the hand has
+// got of late. Should a tick have no balance with the damper either (counted; not seen), it keeps the
+// contacts' normal forces alone: these always have one, and only take energy out.
 #pragma once
 
 #include <algorithm>
@@ -125,6 +125,8 @@ class BurrProxy {
     /// Where a tick has no balance although nothing seems to drive the burr.
     static constexpr double least_damping_n_s_per_mm = 0.02;
     static constexpr int most_attempts = 4;
+    /// Far below any spring's stiffness.
+    static constexpr double negligible_drive_n_per_mm = 1e-3;
 
   private:
     /// Of bone that is a wall: the moment is that on the shank.
@@ -145,8 +147,6 @@ class BurrProxy {
     void remember_cuts(const Engagement& engagement) noexcept;
     /// Takes the burr that carves along with the proxy, which bone holds or does not.
     void trail(bool is_held, const Engagement& engagement) noexcept;
-    static LinearPull damped(const LinearPull& pull, double damping_n_s_per_mm,
-                             const glm::dvec3& hand_step_mm, double tick_s);
     /// The balance of a tick, damped where bone drives the burr.
     ContactStep balance_with_bone(const LinearPull& pull, const glm::dvec3& hand_step_mm, double tick_s,
                                   std::span<const Contact> contacts, const Engagement& engagement) noexcept;

@@ -1,11 +1,9 @@
 #include "haptic_server/coupling/contact_solve.h"
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <glm/mat3x3.hpp>
-#include <glm/matrix.hpp>
-#include <numbers>
 
 namespace osteomill {
 
@@ -24,7 +22,7 @@ struct State {
 };
 
 State state_at(const LinearPull& pull, std::span<const Contact> contacts, const glm::dvec3& step_mm) {
-    State state{.step_mm = step_mm, .resistance = glm::dmat3(pull.stiffness_n_per_mm)};
+    State state{.step_mm = step_mm, .resistance = pull.resistance_n_per_mm()};
     for (const Contact& contact : contacts) {
         const double beyond_mm = glm::dot(contact.normal, step_mm) - contact.begins_mm;
         if (beyond_mm <= 0.0) continue;
@@ -39,18 +37,6 @@ State state_at(const LinearPull& pull, std::span<const Contact> contacts, const 
     }
     state.residual_n = pull.force_n(step_mm) + state.bone_force_n;
     return state;
-}
-
-/// Of a symmetric matrix: the trigonometric solution of its characteristic equation (Smith 1961).
-double smallest_eigenvalue(const glm::dmat3& m) {
-    const double mean = (m[0][0] + m[1][1] + m[2][2]) / 3.0;
-    const glm::dmat3 deviation = m - glm::dmat3(mean);
-    double squares = 0.0;
-    for (int i = 0; i < 3; ++i) squares += glm::dot(deviation[i], deviation[i]);
-    const double scale = std::sqrt(squares / 6.0);
-    if (scale == 0.0) return mean;
-    const double cosine = std::clamp(0.5 * glm::determinant(deviation) / (scale * scale * scale), -1.0, 1.0);
-    return mean + 2.0 * scale * std::cos((std::acos(cosine) + 2.0 * std::numbers::pi) / 3.0);
 }
 
 /// How much of a contact's force resists along its normal.
@@ -69,9 +55,8 @@ struct RelaxedState {
 
 RelaxedState relaxed_at(const LinearPull& pull, std::span<const Contact> contacts,
                         const glm::dvec3& step_mm) {
-    RelaxedState state{.step_mm = step_mm, .resistance = glm::dmat3(pull.stiffness_n_per_mm)};
-    state.energy_mj =
-        0.5 * pull.stiffness_n_per_mm * glm::dot(step_mm, step_mm) - glm::dot(pull.offset_n, step_mm);
+    RelaxedState state{.step_mm = step_mm, .resistance = pull.resistance_n_per_mm()};
+    state.energy_mj = 0.5 * glm::dot(step_mm, state.resistance * step_mm) - glm::dot(pull.offset_n, step_mm);
     for (const Contact& contact : contacts) {
         const double beyond_mm = glm::dot(contact.normal, step_mm) - contact.begins_mm;
         if (beyond_mm <= 0.0) continue;
@@ -92,6 +77,21 @@ RelaxedState relaxed_at(const LinearPull& pull, std::span<const Contact> contact
 
 }  // namespace
 
+glm::dmat3 driving_part(const glm::dmat3& resistance_n_per_mm) noexcept {
+    Eigen::Matrix3d symmetric;
+    for (int i = 0; i < 3; ++i)
+        for (int j = 0; j < 3; ++j)
+            symmetric(i, j) = 0.5 * (resistance_n_per_mm[i][j] + resistance_n_per_mm[j][i]);
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(symmetric);
+    glm::dmat3 driving(0.0);
+    for (int i = 0; i < 3; ++i) {
+        const auto axis = axes.eigenvectors().col(i);
+        const glm::dvec3 v(axis[0], axis[1], axis[2]);
+        driving += std::max(0.0, -axes.eigenvalues()[i]) * glm::outerProduct(v, v);
+    }
+    return driving;
+}
+
 ContactStep balance(const LinearPull& pull, std::span<const Contact> contacts,
                     const glm::dvec3& first_mm) noexcept {
     State state = state_at(pull, contacts, first_mm);
@@ -109,12 +109,11 @@ ContactStep balance(const LinearPull& pull, std::span<const Contact> contacts,
         }
         if (!has_descended) break;
     }
-    const glm::dmat3 bone = state.resistance - glm::dmat3(pull.stiffness_n_per_mm);
     return {.step_mm = state.step_mm,
             .bone_force_n = state.bone_force_n,
             .residual_n = glm::length(state.residual_n),
             .iterations = iterations,
-            .least_resistance_n_per_mm = smallest_eigenvalue(0.5 * (bone + glm::transpose(bone)))};
+            .resistance_n_per_mm = state.resistance - pull.resistance_n_per_mm()};
 }
 
 ContactStep relaxed_step(const LinearPull& pull, std::span<const Contact> contacts) noexcept {

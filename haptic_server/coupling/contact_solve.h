@@ -7,13 +7,15 @@
 // A contact yields: within yields_i its force rises from nothing to yield_i, which stays. That is dry
 // friction made elastic, as of an edge that rubs. Without yield_i and yields_i it only resists an advance.
 //
-// The pull is a spring and dampers to the hand: all are alike in every direction, so a vector and a number
-// hold them. A contact's force need not point along its normal: a cutting edge pulls sideways. Then the
-// balance is not the minimum of anything, and a burr on a soft spring may have none at all (the symmetric
-// part of the sideways force has negative eigenvalues). balance() looks for one and says what force is left
-// over. relaxed_step() cannot fail.
+// The pull is a spring and dampers to the hand: alike in every direction, but for one where bone drives it. A
+// contact's force need not point along its normal: a cutting edge pulls sideways. Then the balance is not the
+// minimum of anything, and a burr on a soft spring may have none at all (the symmetric part of the sideways
+// force has negative eigenvalues). balance() looks for one and says what force is left over. relaxed_step()
+// cannot fail.
 #pragma once
 
+#include <glm/mat3x3.hpp>
+#include <glm/matrix.hpp>
 #include <glm/vec3.hpp>
 #include <span>
 
@@ -32,9 +34,14 @@ struct Contact {
 struct LinearPull {
     glm::dvec3 offset_n{0.0};
     double stiffness_n_per_mm = 1.0;
+    /// Symmetric, no eigenvalue below 0: it also resists the step, some ways more than others.
+    glm::dmat3 damping_n_per_mm{0.0};
 
-    glm::dvec3 free_step_mm() const { return offset_n / stiffness_n_per_mm; }
-    glm::dvec3 force_n(const glm::dvec3& step_mm) const { return offset_n - stiffness_n_per_mm * step_mm; }
+    glm::dmat3 resistance_n_per_mm() const { return glm::dmat3(stiffness_n_per_mm) + damping_n_per_mm; }
+    glm::dvec3 free_step_mm() const { return glm::inverse(resistance_n_per_mm()) * offset_n; }
+    glm::dvec3 force_n(const glm::dvec3& step_mm) const {
+        return offset_n - stiffness_n_per_mm * step_mm - damping_n_per_mm * step_mm;
+    }
 };
 
 struct ContactStep {
@@ -42,10 +49,13 @@ struct ContactStep {
     glm::dvec3 bone_force_n{0.0};  ///< on the burr, at the step's end
     double residual_n = 0.0;       ///< force that is left over
     int iterations = 0;
-    /// Smallest eigenvalue of the symmetric part of what the touching contacts resist, N/mm: how strongly
-    /// bone drives the burr, where it is negative.
-    double least_resistance_n_per_mm = 0.0;
+    /// Of the contacts that touch: minus the derivative of their force.
+    glm::dmat3 resistance_n_per_mm{0.0};
 };
+
+/// Where bone drives the burr, and how strongly: the symmetric part of its resistance, without the
+/// eigenvectors that resist, and positive. Adding it leaves no direction that is driven. Real-time safe.
+glm::dmat3 driving_part(const glm::dmat3& resistance_n_per_mm) noexcept;
 
 /// A residual below this is a balance: a hundredth of what a hand can tell.
 inline constexpr double balance_tolerance_n = 1e-3;

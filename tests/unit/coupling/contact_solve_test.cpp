@@ -156,13 +156,16 @@ TEST(ContactSolve, SaysHowStronglyAContactDrivesTheBurr) {
     // of -b -+ sqrt(b^2 + f^2).
     const glm::dvec3 along = glm::normalize(glm::dvec3(1.0, 2.0, -1.0));
     const glm::dvec3 across = glm::normalize(glm::cross(along, {0.3, 0.1, 1.0}));
+    const glm::dvec3 axis = glm::cross(along, across);
     const LinearPull pull{1.5 * along, 1.5};
     for (const double sideways : {0.0, 0.5, 1.5}) {
         const std::vector<Contact> one{{along, 0.4 * -along + sideways * across, 0.0}};
-        EXPECT_NEAR(balance(pull, one).least_resistance_n_per_mm, 0.5 * (0.4 - std::hypot(0.4, sideways)),
-                    1e-12);
+        const glm::dmat3 drive = driving_part(balance(pull, one).resistance_n_per_mm);
+        const double expected = 0.5 * (std::hypot(0.4, sideways) - 0.4);
+        EXPECT_NEAR(drive[0][0] + drive[1][1] + drive[2][2], expected, 1e-12);
+        EXPECT_NEAR(glm::dot(axis, drive * axis), 0.0, 1e-12) << "only in the plane of both";
     }
-    EXPECT_EQ(balance(pull, {}).least_resistance_n_per_mm, 0.0) << "air";
+    EXPECT_EQ(driving_part(balance(pull, {}).resistance_n_per_mm), glm::dmat3(0.0)) << "air";
 }
 
 TEST(ContactSolve, HasABalanceOnceTheBurrIsDampedByMoreThanDrivesIt) {
