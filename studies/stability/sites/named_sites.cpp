@@ -266,4 +266,48 @@ std::vector<Site> named_sites(const Burr& burr) {
     return Sites(burr).all();
 }
 
+std::vector<Site> tilts_in_holes() {
+    const Burr burr{.name = "with a shank",
+                    .diameter_mm = 2.0,
+                    .spindle_rev_per_s = 10'000.0 / 60.0,
+                    .shank = {{0.9, 0.4}, {8.0, 0.5}, {10.0, 1.2}, {24.0, 1.2}, {25.0, 6.0}, {80.0, 8.0}}};
+    constexpr double depth_mm = 10.5;
+    const glm::dvec3 bottom_mm = glm::dvec3(0.0, 0.0, -depth_mm) + off_the_lattice_mm;
+    const glm::dvec3 in_air_mm = bottom_mm + glm::dvec3(0.0, 0.0, 2.5);
+    std::vector<Site> sites;
+    for (const double hole_mm : {2.05, 2.1, 2.2, 2.3, 2.4})
+        for (const double tilt_deg : {4.0, 5.5, 7.0, 8.5, 10.0}) {
+            const auto leaning = [=](double azimuth) {
+                const double tilt = tilt_deg * std::numbers::pi / 180.0;
+                return glm::dvec3(std::sin(tilt) * std::cos(azimuth), std::sin(tilt) * std::sin(azimuth),
+                                  std::cos(tilt));
+            };
+            const glm::dvec3 upright(0.0, 0.0, 1.0);
+            std::vector<Waypoint> motion;
+            const auto add = [&](double time_s, const glm::dvec3& at_mm, const glm::dvec3& axis) {
+                motion.push_back({.time_s = time_s, .pose = {at_mm, axis}, .pedal = true});
+            };
+            add(0.0, in_air_mm, upright);
+            add(0.2, in_air_mm, upright);
+            add(0.8, bottom_mm, upright);
+            add(1.2, bottom_mm, leaning(0.0));
+            add(2.0, bottom_mm, leaning(0.87 * std::numbers::pi));
+            add(2.4, bottom_mm, upright);
+            add(2.8, in_air_mm, upright);
+            const auto block = [=](const glm::dvec3& p) {
+                const glm::dvec3 in_hole_mm = p - off_the_lattice_mm;
+                const double aside_mm = 0.5 * hole_mm - std::hypot(in_hole_mm.x, in_hole_mm.y);
+                return meeting(p.z, std::min(aside_mm, p.z + depth_mm + 1.5));
+            };
+            sites.push_back({.kind = "tilted in a hole",
+                             .name = fmt::format("tilted by {} in a hole of {} mm", tilt_deg, hole_mm),
+                             .burr = burr,
+                             .shape = {.distance_mm = block,
+                                       .low_mm = {-4.0, -4.0, -depth_mm - 3.0},
+                                       .high_mm = {4.0, 4.0, 0.5}},
+                             .motion = std::move(motion)});
+        }
+    return sites;
+}
+
 }  // namespace osteomill::study

@@ -13,4 +13,8 @@ namespace osteomill::study {
 /// and 4 along the spindle, about 1.5 N at most.
 std::vector<Site> named_sites(const Burr& burr);
 
+/// A 2 mm burr with a shank at the bottom of a hole that is 0.05 to 0.4 mm wider, tilted there to one side
+/// and to the other by 4 to 10 degrees: the shank meets the rim and presses the burr into the wall.
+std::vector<Site> tilts_in_holes();
+
 }  // namespace osteomill::study

@@ -75,7 +75,7 @@ void mill_along(const Bone& bone, const Burr& burr, std::vector<SiteTick>& ticks
         glm::dvec3 sum_n(0.0);
         for (int step = 1; step <= steps_per_tick; ++step) {
             const double share = static_cast<double>(step) / steps_per_tick;
-            model.step({.pose = {from_mm + share * way_mm, {0.0, 0.0, 1.0}},
+            model.step({.pose = {from_mm + share * way_mm, ticks[i].spindle_axis},
                         .spindle_on = ticks[i].spindle_on,
                         .elapsed_s = step_s,
                         .wants_engagement = false},
@@ -103,6 +103,7 @@ SiteRun run_site(const Site& site, const SiteHand& hand) {
         if (record.empty()) return;
         session.tool().refresh();
         record.back().burr_mm = session.tool().front().burr_position_mm;
+        record.back().spindle_axis = session.tool().front().spindle_axis;
         record.back().spindle_on = session.tool().front().spindle_on;
         if (device.is_finished()) stop.store(true);
     });

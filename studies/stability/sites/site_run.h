@@ -25,6 +25,7 @@ struct SiteHand {
 struct SiteTick {
     glm::dvec3 hand_mm{0.0};  ///< where it really is
     glm::dvec3 burr_mm{0.0};  ///< in the bone
+    glm::dvec3 spindle_axis{0.0, 0.0, 1.0};
     glm::dvec3 force_n{0.0};  ///< of the motors, from here to the next tick
     bool spindle_on = false;
     /// The milling model's, on the burr, over the way here: what the hand should feel.

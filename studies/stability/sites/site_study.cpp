@@ -135,6 +135,7 @@ std::vector<SiteCase> site_cases(const SiteStudyOptions& options) {
     for (const SiteHand& hand : hands(options)) {
         for (const Burr& burr : burrs(options.quick))
             for (Site& site : named_sites(burr)) cases.push_back({std::move(site), hand});
+        for (Site& site : tilts_in_holes()) cases.push_back({std::move(site), hand});
         for (int number = 1; number <= options.walks; ++number)
             cases.push_back({random_walk(options.seed, number), hand});
     }
@@ -147,15 +148,17 @@ std::vector<SiteCase> site_cases(const SiteStudyOptions& options) {
 
 std::string site_csv(const std::vector<SiteResult>& results) {
     std::string csv =
-        "kind,name,energy_over_rigid_mj,stuck_ms,error_percent,error_while_driven_percent,largest_jump_n,"
-        "peak_n,max_residual_n,"
+        "kind,name,energy_over_rigid_mj,energy_mj,stuck_ms,error_percent,error_while_driven_percent,largest_"
+        "jump_n,"
+        "peak_n,noise_n,max_residual_n,"
         "fallbacks,relaxed,damped,faults,is_met\n";
     for (const SiteResult& r : results)
-        csv += fmt::format("{},\"{}\",{:.4g},{},{:.4g},{:.4g},{:.4g},{:.4g},{:.3g},{},{},{},{},{}\n", r.kind,
-                           r.name, r.verdict.energy_over_rigid_mj, r.verdict.stuck_ms,
-                           r.verdict.error_percent, r.verdict.error_while_driven_percent,
-                           r.verdict.largest_jump_n, r.verdict.peak_n, r.solve.max_residual_n,
-                           r.solve.fallbacks, r.solve.relaxed, r.solve.damped, r.faults, r.is_met() ? 1 : 0);
+        csv += fmt::format(
+            "{},\"{}\",{:.4g},{:.4g},{},{:.4g},{:.4g},{:.4g},{:.4g},{:.4g},{:.3g},{},{},{},{},{}\n", r.kind,
+            r.name, r.verdict.energy_over_rigid_mj, r.verdict.energy_mj, r.verdict.stuck_ms,
+            r.verdict.error_percent, r.verdict.error_while_driven_percent, r.verdict.largest_jump_n,
+            r.verdict.peak_n, r.verdict.noise_n, r.solve.max_residual_n, r.solve.fallbacks, r.solve.relaxed,
+            r.solve.damped, r.faults, r.is_met() ? 1 : 0);
     return csv;
 }
 

@@ -57,10 +57,12 @@ struct ForceError {
 
 SiteVerdict verdict_on(const SiteRun& run) {
     const std::vector<SiteTick>& ticks = run.ticks;
-    SiteVerdict verdict{.energy_over_rigid_mj = energy_mj(ticks, &SiteTick::force_n, 0) -
-                                                energy_mj(ticks, &SiteTick::rigid_n, 1)};
+    SiteVerdict verdict{.energy_mj = energy_mj(ticks, &SiteTick::force_n, 0)};
+    verdict.energy_over_rigid_mj = verdict.energy_mj - energy_mj(ticks, &SiteTick::rigid_n, 1);
     std::size_t turning = 0;
     double stuck_ms = 0.0;
+    double noise_n2 = 0.0;
+    std::size_t in_contact = 0;
     ForceError resisted;
     ForceError driven;
     for (std::size_t i = 1; i < ticks.size(); ++i) {
@@ -74,12 +76,18 @@ SiteVerdict verdict_on(const SiteRun& run) {
             continue;
         }
         const glm::dvec3 model_n = mean_n(ticks, i, &SiteTick::model_n);
-        (energy_to_burr_mj(ticks, i) > 0.0 ? driven : resisted)
-            .add(mean_n(ticks, i, &SiteTick::force_n), model_n);
+        const glm::dvec3 mean_force_n = mean_n(ticks, i, &SiteTick::force_n);
+        if (force_n > 0.0) {
+            const glm::dvec3 noise = ticks[i].force_n - mean_force_n;
+            noise_n2 += glm::dot(noise, noise);
+            ++in_contact;
+        }
+        (energy_to_burr_mj(ticks, i) > 0.0 ? driven : resisted).add(mean_force_n, model_n);
         const bool is_stuck = force_n > felt_n && glm::length(model_n) < nearly_nothing_n;
         stuck_ms = is_stuck ? stuck_ms + 1e3 * MillingSession::tick_s : 0.0;
         verdict.stuck_ms = std::max(verdict.stuck_ms, stuck_ms);
     }
+    if (in_contact > 0) verdict.noise_n = std::sqrt(noise_n2 / static_cast<double>(in_contact));
     verdict.error_percent = resisted.percent();
     verdict.error_while_driven_percent = driven.percent();
     return verdict;

@@ -14,6 +14,7 @@ struct SiteVerdict {
     /// The most energy that the hand got from any moment to any later one, less what a rigid burr on the
     /// hand's own way would have given.
     double energy_over_rigid_mj = 0.0;
+    double energy_mj = 0.0;  ///< the same without the rigid burr's
     /// Longest time with more than 0.3 N on the hand while the model says less than 0.1.
     double stuck_ms = 0.0;
     /// Largest difference of the force's mean over mean_s to the model's, while bone takes energy from the
@@ -24,6 +25,8 @@ struct SiteVerdict {
     double error_while_driven_percent = 0.0;
     double largest_jump_n = 0.0;  ///< between two ticks
     double peak_n = 0.0;
+    /// Rms, over the ticks in contact, of the force less its mean over the mean_s before.
+    double noise_n = 0.0;
 };
 
 inline constexpr double mean_s = 0.02;
