@@ -180,14 +180,21 @@ ordered_json site_summary(const std::vector<SiteResult>& results, const SiteStud
         SiteVerdict worst;
         int cases = 0;
         int met = 0;
+        std::uint64_t faults = 0;
         for (const SiteResult& r : results) {
             if (r.kind != kind) continue;
             ++cases;
             met += r.is_met() ? 1 : 0;
+            faults += r.faults;
+            worst.energy_mj = std::max(worst.energy_mj, r.verdict.energy_mj);
             for (const SiteBar& bar : site_bars)
                 worst.*bar.value = std::max(worst.*bar.value, r.verdict.*bar.value);
         }
-        kinds[kind] = {{"cases", cases}, {"met", met}, {"worst", json_of(worst)}};
+        kinds[kind] = {{"cases", cases},
+                       {"met", met},
+                       {"faults", faults},
+                       {"most_energy_mj", worst.energy_mj},
+                       {"worst", json_of(worst)}};
     }
     std::vector<const SiteResult*> by_share;
     for (const SiteResult& r : results) by_share.push_back(&r);

@@ -69,6 +69,21 @@ TEST(NamedSites, BeginInAirAndCutBone) {
         }
 }
 
+TEST(TiltsInHoles, LeaveTheHeadRoomAndLeanAsTheySay) {
+    const auto sites = tilts_in_holes();
+    EXPECT_GE(sites.size(), 24U);
+    for (const Site& site : sites) {
+        const Reach reach = reach_of(site);
+        EXPECT_GT(reach.at_start_mm, 0.02) << site.name;
+        EXPECT_GT(reach.least_mm, 0.0) << site.name << ": upright the head cuts nothing";
+        double least_cosine = 1.0;
+        for (const Waypoint& waypoint : site.motion)
+            least_cosine = std::min(least_cosine, waypoint.pose.spindle_axis.z);
+        EXPECT_LT(least_cosine, 0.998) << site.name;
+        EXPECT_FALSE(site.burr.shank.empty());
+    }
+}
+
 TEST(RandomWalk, IsTheSameForASeedAndANumberAndNoOther) {
     const Site walk = random_walk(7, 3);
     const Site again = random_walk(7, 3);
