@@ -109,7 +109,8 @@ void server_session(Bytes input) {
         const Bytes piece = stream_bytes.first(std::min(piece_bytes, stream_bytes.size()));
         stream_bytes = stream_bytes.subspan(piece.size());
         stream->arrive(piece);
-        if (output.refresh() && output.front()) require_possible(*output.front(), info.burrs.size());
+        if (output.refresh() && output.front().command)
+            require_possible(*output.front().command, info.burrs.size());
         // What the milling loop does meanwhile: the first brick goes, voxel by voxel.
         const std::size_t voxel = ++states % brick_voxel_count;
         carved.fractions(0)[voxel] = 0;

@@ -199,7 +199,7 @@ class Session {
         hand_.write(cable_.is_plugged() ? arm_.force_n(now_s()) : glm::dvec3(0.0));
         const DeviceState state = hand_.read(time_s);
         arm_.move_to(state.position_mm);
-        arm_.press_switch(state.pedal);
+        arm_.press_switch(state.pedal.is_down);
         const glm::dvec3 force_n = cable_.is_plugged() ? arm_.force_n(now_s()) : glm::dvec3(0.0);
         const glm::dvec3 p = position_in_patient_mm(scene_.device, state.position_mm);
         log_ << fmt::format("{:.4f},{:.4f},{:.4f},{:.4f},{:.4f},{:.4f},{:.4f},{}\n", time_s, p.x, p.y, p.z,

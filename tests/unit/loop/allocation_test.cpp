@@ -129,7 +129,8 @@ TEST(RealTimeCode, AllocatesNothingWithAnOperator) {
     ClientDevice device(input, start, DeviceMapping{}, ArmModel{}, hand_model(Grip::firm));
     // What an operator says is good for a fifth of a second only.
     const auto say_again = [&input] {
-        input.back() = OperatorCommand{.hand_target_mm = {2.0, 0.0, 0.2}, .pedal = true};
+        input.back() = {.command = OperatorCommand{.hand_target_mm = {2.0, 0.0, 0.2}, .pedal = true},
+                        .heard = std::chrono::steady_clock::now()};
         input.publish();
     };
     expect_no_allocation(force_model_names().front(), coupling_names().front(), device, say_again);
