@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "common/files/session_file.h"
 #include "common/files/whole_file.h"
 #include "common/recording/packet_reader.h"
 #include "common/wire/scene_messages.h"
