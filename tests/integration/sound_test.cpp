@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "common/files/session_file.h"
 #include "common/files/whole_file.h"
 #include "tests/support/block_file.h"
 #include "tests/support/child_process.h"
