@@ -149,11 +149,10 @@ TEST_F(SessionControlsProgram, SavesTheSurfaceBesideTheBone) {
     EXPECT_EQ(std::filesystem::file_size(file("left.stl")), 84 + 50 * std::uintmax_t{triangles});
 }
 
-TEST_F(SessionControlsProgram, NeedsMoreForceAtALowerSpeed) {
+TEST_F(SessionControlsProgram, TakesLessBoneAtALowerSpeed) {
     const auto own = run("");  // 40 000 rpm
     const auto slower = run("0,speed,100\n");
     const auto back = run("0,speed,100\n0.05,speed,0\n");
-    EXPECT_GT(slower.at("peak_force_n").get<double>(), 1.2 * own.at("peak_force_n").get<double>());
     EXPECT_LT(slower.at("removed_mm3").at("total").get<double>(),
               0.8 * own.at("removed_mm3").at("total").get<double>());
     EXPECT_EQ(back.at("bone_checksum"), own.at("bone_checksum"));

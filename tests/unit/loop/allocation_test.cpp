@@ -127,9 +127,11 @@ TEST(RealTimeCode, AllocatesNothingWithAShankThatTouches) {
 TEST(RealTimeCode, AllocatesNothingWithAnOperator) {
     OperatorChannel input;
     ClientDevice device(input, start, DeviceMapping{}, ArmModel{}, hand_model(Grip::firm));
-    // What an operator says is good for a fifth of a second only.
-    const auto say_again = [&input] {
-        input.back() = {.command = OperatorCommand{.hand_target_mm = {2.0, 0.0, 0.2}, .pedal = true},
+    // What an operator says is good for a fifth of a second only; the pedal is up at first.
+    bool pedal = false;
+    const auto say_again = [&input, &pedal] {
+        input.back() = {.command = OperatorCommand{.hand_target_mm = {2.0, 0.0, 0.2},
+                                                   .pedal = std::exchange(pedal, true)},
                         .heard = std::chrono::steady_clock::now()};
         input.publish();
     };

@@ -69,7 +69,7 @@ TEST_F(RecordingSoundTest, IsRefusedWhereThereIsNoFolder) {
         const RecordingSound sound(file("gone/a.wav"));
         FAIL();
     } catch (const std::runtime_error& error) {
-        EXPECT_THAT(error.what(), HasSubstr("gone/a.wav: cannot write the sound"));
+        EXPECT_THAT(error.what(), HasSubstr("gone/a.wav: cannot be written"));
     }
 }
 

@@ -177,9 +177,9 @@ TEST(SceneFile, AnySpindleSpeedSurvivesWriting) {
 }
 
 TEST(SceneFile, IsWrittenForPeople) {
-    Scene scene = parse_scene("name = \"a \\\"jaw\\\"\\n\"\n[bone]\nfile = \"bone.nrrd\"\n", "my.toml");
+    Scene scene = parse_scene("name = \"a \\\"jaw\\\"\"\n[bone]\nfile = \"bone.nrrd\"\n", "my.toml");
     EXPECT_EQ(write_scene(scene),
-              "name = \"a \\\"jaw\\\"\\u000a\"\n\n# The bone, and where its tissues are.\n[bone]\nfile = "
+              "name = \"a \\\"jaw\\\"\"\n\n# The bone, and where its tissues are.\n[bone]\nfile = "
               "\"bone.nrrd\"\n");
     EXPECT_EQ(parse_scene(write_scene(scene), "again.toml"), scene);
     scene.start_pose.position_mm = {0.3, -1.0 / 3.0, 1e-9};

@@ -52,7 +52,7 @@ TEST_F(OperatorListTest, IsRefusedWithTheLineThatIsNoSubject) {
 
 TEST_F(OperatorListTest, IsRefusedWhereItCannotBeReadOrNamesNobody) {
     EXPECT_THAT(failure_of("# nobody\n"), HasSubstr("names nobody"));
-    EXPECT_THAT(failure_of(std::string(1'100'000, '#')), HasSubstr("over a megabyte"));
+    EXPECT_THAT(failure_of(std::string(1'100'000, '#')), HasSubstr("more than the 1048576"));
     EXPECT_THROW(OperatorList{folder_.path()}, std::runtime_error);
     EXPECT_THROW(OperatorList{"/nowhere/operators"}, std::runtime_error);
 }

@@ -18,7 +18,7 @@ using ::testing::Not;
 TEST(LookFile, ReadsBackWhatItWrote) {
     for (const TransferFunction& preset : transfer_presets()) {
         TransferFunction look = preset;
-        look.name += " \"of\" 'mine'\n";
+        look.name += " \"of\" 'mine'";
         look.points.front().opacity = 1.0 / 3.0;
         EXPECT_EQ(parse_look(look_text(look), "look"), look);
     }

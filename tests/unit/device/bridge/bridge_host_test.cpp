@@ -303,6 +303,7 @@ TEST(BridgeHost, WithAKeyHearsOnlyWhoHasIt) {
     std::ofstream(folder / "key") << std::string(40, 'k');
     std::filesystem::permissions(folder / "key", std::filesystem::perms::owner_read);
     std::ofstream(folder / "other") << std::string(40, 'o');
+    std::filesystem::permissions(folder / "other", std::filesystem::perms::owner_read);
     omb_key key;
     omb_set_key(&key, reinterpret_cast<const std::uint8_t*>(std::string(40, 'k').data()), 40);
     BridgePair same(testing::some_arm(), key, (folder / "key").c_str());

@@ -53,7 +53,7 @@ TEST(PlausibleGeometry, RefusesAxesThatAreNotPerpendicular) {
                 HasSubstr("not perpendicular"));
     EXPECT_THAT(
         refusal([](SourceImage& image) { image.direction[2].x = std::numeric_limits<double>::quiet_NaN(); }),
-        HasSubstr("not perpendicular"));
+        HasSubstr("is not a number"));
 }
 
 TEST(PlausibleGeometry, CountsVoxelsWithoutOverflow) {

