@@ -12,6 +12,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include "render_client/link/bone_link.h"
@@ -112,7 +113,7 @@ class Operator {
             tool_ = *update.tool;
             link_->send_operator({.hand_target_mm = tool_.burr_position_mm - 0.5 * tool_.spindle_axis,
                                   .spindle_axis = tool_.spindle_axis,
-                                  .pedal = true,
+                                  .pedal = std::exchange(was_up_, true),
                                   .burr = tool_.burr});
             return condition(tool_);
         });
@@ -124,6 +125,7 @@ class Operator {
     }
 
   private:
+    bool was_up_ = false;  // nothing turns by a pedal that was never up
     std::unique_ptr<BoneLink> link_;
     ToolState tool_;
 };

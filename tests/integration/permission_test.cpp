@@ -296,9 +296,11 @@ TEST_F(Permissions, IsNotHadByRepeatingMessagesNorByClientsThatNameNoState) {
     }
     HostileClient repeating(port_);
     ASSERT_TRUE(eventually([&] { return repeating.reads_state(); }));
+    repeating.want({.hand_target_mm = repeating.tool().hand_position_mm, .pedal = false}, {.number = 1});
+    std::this_thread::sleep_for(100ms);
     for (int i = 0; i < 100; ++i) {
         repeating.reads_state();
-        repeating.want({.hand_target_mm = repeating.tool().hand_position_mm, .pedal = true}, {.number = 1});
+        repeating.want({.hand_target_mm = repeating.tool().hand_position_mm, .pedal = true}, {.number = 2});
         std::this_thread::sleep_for(10ms);
     }
     double turned_s = 0.0;
