@@ -37,6 +37,10 @@ void OperatorDesk::step(const WindowInput& input, double elapsed_s) {
             hand_.follow(*tool, picture_.burr_count, picture_.reach_mm);
             // What is sent last lifts the pedal; then the tool is free for others.
             if (hand_.wants_tool() || had_tool_) wish = hand_.command();
+            // The server believes no pedal that it has not seen up. Nothing is sent before the hand wants the
+            // tool, so that the first message says it, unless the key was held before, as through a loss of
+            // the connection.
+            if (wish && !had_tool_ && !space_was_down_) wish->pedal = false;
             // It may be asked for, but must not jump to where this hand has gone meanwhile.
             if (tool->driver == ToolDriver::another) let_go();
         } else {
@@ -45,6 +49,7 @@ void OperatorDesk::step(const WindowInput& input, double elapsed_s) {
         had_tool_ = hand_.wants_tool();
     }
     cursor_ = input.cursor;
+    space_was_down_ = input.keys_down[GLFW_KEY_SPACE];
     if (wish) source_.send_operator(*wish);
 }
 

@@ -75,6 +75,7 @@ class OperatorDesk {
     // Thread of the window.
     glm::dvec2 cursor_{0.0};
     bool had_tool_ = false;
+    bool space_was_down_ = false;
 };
 
 }  // namespace osteomill

@@ -59,6 +59,27 @@ TEST(OperatorDesk, SendsAtEveryStepWhileThePedalIsDownAndOnceThatItIsUp) {
     EXPECT_FALSE(desk.source.sent.back().pedal);
 }
 
+TEST(OperatorDesk, SaysThatThePedalIsUpBeforeItIsDownButNotOfAKeyThatWasHeldBefore) {
+    Desk desk;
+    desk.step();
+    desk.input.keys_down[GLFW_KEY_SPACE] = true;
+    desk.step();
+    desk.step();
+    ASSERT_EQ(desk.source.sent.size(), 2u);
+    EXPECT_FALSE(desk.source.sent.front().pedal);
+    EXPECT_TRUE(desk.source.sent.back().pedal);
+
+    desk.picture.drills = false;  // the session is lost
+    desk.desk.show(desk.picture);
+    desk.step();
+    desk.picture.drills = true;
+    desk.desk.show(desk.picture);
+    desk.source.sent.clear();
+    desk.step();
+    ASSERT_EQ(desk.source.sent.size(), 1u);
+    EXPECT_TRUE(desk.source.sent.front().pedal) << "the server keeps the spindle off";
+}
+
 TEST(OperatorDesk, LiftsThePedalWhenTheWindowLosesTheKeyboard) {
     Desk desk;
     desk.input.keys_down[GLFW_KEY_SPACE] = true;
@@ -134,13 +155,15 @@ TEST(OperatorDesk, HasAPedalForWhoeverHasOnlyAMouse) {
     Desk desk;
     desk.desk.switch_pedal();
     desk.step();
-    ASSERT_EQ(desk.source.sent.size(), 1U);
+    desk.step();
+    ASSERT_EQ(desk.source.sent.size(), 2U);
     EXPECT_TRUE(desk.source.sent.back().pedal);
     desk.desk.switch_pedal();
     desk.step();
     EXPECT_FALSE(desk.source.sent.back().pedal);
 
     desk.desk.switch_pedal();
+    desk.step();
     desk.step();
     EXPECT_TRUE(desk.source.sent.back().pedal);
     desk.picture.holds_still = true;
