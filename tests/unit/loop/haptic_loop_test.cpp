@@ -60,7 +60,7 @@ class Bench {
 
     /// A pedal that is down, a hand at rest, a steady 2 N.
     void mill() {
-        device.script = [](double) { return DeviceState{.pedal = true}; };
+        device.script = [](double) { return DeviceState{.pedal = {true}}; };
         coupling.force = [](const HandState&) { return glm::dvec3(2.0, 0.0, 0.0); };
         run(20);
     }
@@ -128,7 +128,7 @@ TEST(HapticLoop, ChangesTheBurrToOneOfTheSetOnly) {
 TEST(HapticLoop, ChangesNoBurrThatTurnsOrTouchesBoneAndSaysWhy) {
     Bench bench;
     bool pedal = true;
-    bench.device.script = [&](double) { return DeviceState{.pedal = pedal, .burr = 2}; };
+    bench.device.script = [&](double) { return DeviceState{.pedal = {pedal}, .burr = 2}; };
     bench.next.room_for_change_mm = 1.0;
     bench.run(20);
     EXPECT_EQ(bench.command().burr, 1u);
@@ -197,7 +197,7 @@ TEST(HapticLoop, KeepsTheSpindleOffAfterAJumpUntilThePedalHasBeenUp) {
     Bench bench;
     bench.mill();
     bool pedal = true;
-    bench.device.script = [&](double) { return DeviceState{.position_mm = {40, 0, 0}, .pedal = pedal}; };
+    bench.device.script = [&](double) { return DeviceState{.position_mm = {40, 0, 0}, .pedal = {pedal}}; };
     bench.run(1);
     EXPECT_EQ(bench.shown().fault, describe(Fault::device_jumped));
     EXPECT_FALSE(bench.command().spindle_on) << "no channel is cut to where the device jumped";
@@ -215,7 +215,7 @@ TEST(HapticLoop, LeavesTheToolWhereItWasWhileTheDeviceIsLost) {
     Bench bench;
     bench.mill();
     bench.device.script = [](double) {
-        return DeviceState{.position_mm = {NAN, 0, 0}, .pedal = true, .connected = false};
+        return DeviceState{.position_mm = {NAN, 0, 0}, .pedal = {true}, .connected = false};
     };
     bench.run(ticks_to_fade());
     EXPECT_EQ(bench.shown().fault, describe(Fault::device_lost));
@@ -283,7 +283,7 @@ TEST(HapticLoop, LetsGoOfAHandThatTheForceDrivesAndLocksTheSpindle) {
     bench.coupling.force = [](const HandState&) { return glm::dvec3(2.0, 0.0, 0.0); };
     bench.device.script = [&](double now_s) {
         pushed_mm = 150.0 * now_s;  // 0.3 W: 15 mJ in 50 ms
-        return DeviceState{.position_mm = {pushed_mm, 0.0, 0.0}, .pedal = true};
+        return DeviceState{.position_mm = {pushed_mm, 0.0, 0.0}, .pedal = {true}};
     };
     bench.run(45);
     EXPECT_EQ(bench.shown().fault, describe(Fault::none));
@@ -297,7 +297,7 @@ TEST(HapticLoop, LetsGoOfAHandThatTheForceDrivesAndLocksTheSpindle) {
     bool pedal = true;
     bench.coupling.force = [](const HandState&) { return glm::dvec3(0.0); };
     bench.device.script = [&](double) {
-        return DeviceState{.position_mm = {pushed_mm, 0.0, 0.0}, .pedal = pedal};
+        return DeviceState{.position_mm = {pushed_mm, 0.0, 0.0}, .pedal = {pedal}};
     };
     bench.run(2000);
     EXPECT_EQ(bench.shown().fault, describe(Fault::none));
@@ -314,7 +314,7 @@ TEST(HapticLoop, DrivesNoHandWithAForceThatNobodyFeels) {
     bench.device.device_limits.gives_force = false;
     bench.coupling.force = [](const HandState&) { return glm::dvec3(2.0, 0.0, 0.0); };
     bench.device.script = [](double now_s) {
-        return DeviceState{.position_mm = {150.0 * now_s, 0.0, 0.0}, .pedal = true};
+        return DeviceState{.position_mm = {150.0 * now_s, 0.0, 0.0}, .pedal = {true}};
     };
     bench.run(500);
     EXPECT_EQ(bench.shown().fault, describe(Fault::none));
@@ -326,7 +326,7 @@ TEST(HapticLoop, DoesNotMistakeAHandThatPushesForOneThatIsPushed) {
     Bench bench;
     bench.coupling.force = [](const HandState&) { return glm::dvec3(-3.0, 0.0, 0.0); };
     bench.device.script = [](double now_s) {
-        return DeviceState{.position_mm = {200.0 * now_s, 0.0, 0.0}, .pedal = true};
+        return DeviceState{.position_mm = {200.0 * now_s, 0.0, 0.0}, .pedal = {true}};
     };
     bench.run(500);
     EXPECT_EQ(bench.shown().fault, describe(Fault::none));
@@ -340,7 +340,7 @@ class ShakenBench {
         bench.options = {};
         bench.vibration = &vibration;
         bench.device.script = [this](double now_s) {
-            return DeviceState{.position_mm = {6.0 * now_s, 0.0, 0.0}, .pedal = pedal};
+            return DeviceState{.position_mm = {6.0 * now_s, 0.0, 0.0}, .pedal = {pedal}};
         };
         bench.coupling.force = [](const HandState&) { return mean_n; };
         bench.next.force_n = mean_n;
@@ -420,7 +420,7 @@ TEST(HapticLoop, HoldsStillAsLongAsTheGateSaysAndTheSpindleUntilThePedalHasBeenU
     EXPECT_FALSE(bench.shown().spindle_on) << "the pedal has been down all the time";
     bench.device.script = [](double) { return DeviceState{}; };
     bench.run(2);
-    bench.device.script = [](double) { return DeviceState{.pedal = true}; };
+    bench.device.script = [](double) { return DeviceState{.pedal = {true}}; };
     bench.run(2);
     EXPECT_TRUE(bench.shown().spindle_on);
 }

@@ -288,7 +288,7 @@ TEST(MillingSession, ShowsTheStartPoseBeforeTheFirstTick) {
 
 TEST(MillingSession, StartsInsideTheBoneWithoutForceOrSpindle) {
     testing::ScriptedDevice device;
-    device.script = [](double) { return DeviceState{.position_mm = {0.0, 0.0, 0.5}, .pedal = true}; };
+    device.script = [](double) { return DeviceState{.position_mm = {0.0, 0.0, 0.5}, .pedal = {true}}; };
     const auto session =
         std::make_unique<MillingSession>(block_scene(), block(), device, virtual_options(0.5));
     session->run(std::atomic<bool>{false});
@@ -301,7 +301,7 @@ TEST(MillingSession, CutsNoChannelToWhereADeviceJumped) {
     testing::ScriptedDevice device;
     device.script = [](double t_s) {
         return DeviceState{.position_mm = {t_s < 0.1 ? -3.0 : 3.0, 0.0, std::max(0.5, 2.0 - 30.0 * t_s)},
-                           .pedal = true};
+                           .pedal = {true}};
     };
     const auto session =
         std::make_unique<MillingSession>(block_scene(), block(), device, virtual_options(1.0));

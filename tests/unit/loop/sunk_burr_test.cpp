@@ -63,7 +63,7 @@ TEST_P(SunkBurr, IsFeltAgainOnlyWhenItHasBeenLiftedOutAndNeverPullsDeeper) {
     device.script = [&](double t_s) {
         // A little sideways, and the pedal down all the time that it is back in the bone.
         return DeviceState{.position_mm = {std::max(0.0, t_s - 0.3), 0.0, height_mm(t_s, sunk.sunk_mm)},
-                           .pedal = t_s > 0.3 && t_s < 0.6,
+                           .pedal = {t_s > 0.3 && t_s < 0.6},
                            .connected = !is_lost(t_s)};
     };
     const Bone block = testing::make_block({-4.0, -4.0, -6.4}, {4.0, 4.0, 0.0}, 0.1);
