@@ -180,7 +180,7 @@ TEST_F(HapticServerProgram, EndsWithTheTrajectory) {
 
 TEST_F(HapticServerProgram, SaysWhereItListensAndStopsCleanlyOnSigint) {
     const Outcome outcome =
-        run("--listen 127.0.0.1:0 --json " + file("a.json"), "timeout --preserve-status -s INT 2");
+        run("--listen 127.0.0.1:0 --json " + file("a.json"), "timeout --preserve-status -s INT 6");
     EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
     EXPECT_THAT(outcome.out, HasSubstr("listening on 127.0.0.1:"));
     EXPECT_GT(measured("a.json").at("ticks").get<int>(), 0);
