@@ -117,7 +117,7 @@ class BurrProxy {
     static constexpr double allowed_apart_mj = 0.1;
     static constexpr double most_apart_mj = 1.0;
     /// With so much in the hand the damping is twice as strong; the safety monitor lets go at 15 mJ.
-    static constexpr double much_to_hand_mj = 0.6;
+    static constexpr double much_to_hand_mj = 0.3;
     static constexpr double to_hand_memory_s = 0.1;
     /// Hidden damping for what drives the burr, both in N s/mm, while the hand has got nothing; 1 would only
     /// just do.
