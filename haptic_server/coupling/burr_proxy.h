@@ -44,7 +44,7 @@
 // feel: a matrix, a small multiple of the part of that resistance that is negative, so it damps only the ways
 // in which bone drives. A multiple over 1 makes the law monotone again: it has one balance, and the burr
 // stays with the hand. In the other ways the spring lets go of bone that has gone as it always does. Whether
-// the burr runs away is told by the energy with which bone drives it, F . d, and sets it apart from the hand,
+// the burr runs away is found by the energy with which bone drives it, F . d, and sets it apart from the hand,
 // F . (d - the hand's step), the smaller of them: up to allowed_apart_mj, in a store that forgets with
 // apart_memory_s, nothing is damped that has a balance. The multiple grows with the energy that the hand has
 // got of late. Should a tick have no balance with the damper either (counted; not seen), it keeps the

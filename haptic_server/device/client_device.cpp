@@ -1,6 +1,5 @@
 #include "haptic_server/device/client_device.h"
 
-#include <algorithm>
 #include <glm/geometric.hpp>
 #include <utility>
 
@@ -31,7 +30,7 @@ void ClientDevice::take_over_command(double now_s) noexcept {
         pedal_ = {};
         return;
     }
-    permission_.renew(now_s - std::max(0.0, std::chrono::duration<double>(clock_() - heard).count()));
+    permission_.renew(said_at(now_s, std::chrono::duration<double>(clock_() - heard).count()));
     pedal_ = {.is_down = command->pedal, .said_s = permission_.renewed_s(), .speaker = client};
     if (!permission_.holds(now_s)) return;
     const glm::dvec3 target_mm = limit_.limited(position_in_device_mm(mapping_, command->hand_target_mm),

@@ -18,7 +18,6 @@
 
 namespace osteomill {
 
-/// One reading, in device space.
 /// What a device says of its pedal, and when that was said. It is worth what the loop's latch makes of it
 /// (safety/pedal_latch.h): a device states what it knows, keeps no pedal down or up by itself, and where it
 /// knows nothing lets the statement grow old.
@@ -31,6 +30,7 @@ struct PedalStatement {
     double acts_after_s = 0.0;  ///< a press counts so much later: of motions that are played back late
 };
 
+/// One reading, in device space.
 struct DeviceState {
     glm::dvec3 position_mm{0.0};
     glm::dvec3 velocity_mm_per_s{0.0};       ///< the driver's own estimate

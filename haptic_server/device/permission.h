@@ -3,7 +3,14 @@
 // be alive for it to end.
 #pragma once
 
+#include <algorithm>
+
 namespace osteomill {
+
+/// Session time, at `now_s`, of what was said `age_s` ago; what a clock calls younger than now was said now.
+constexpr double said_at(double now_s, double age_s) noexcept {
+    return now_s - std::max(0.0, age_s);
+}
 
 class Permission {
   public:

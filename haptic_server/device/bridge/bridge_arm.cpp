@@ -62,16 +62,13 @@ DeviceState BridgeArm::read(double now_s) noexcept {
     const bool is_new = readings_.refresh();
     const Reading& newest = readings_.front();
     if (is_new)
-        permission_.renew(
-            now_s -
-            std::max(0.0, 1e-9 * static_cast<double>(static_cast<std::int64_t>(omb_now_ns() - newest.said_ns))));
+        permission_.renew(said_at(
+            now_s, 1e-9 * static_cast<double>(static_cast<std::int64_t>(omb_now_ns() - newest.said_ns))));
     const bool is_there = permission_.holds(now_s) && newest.is_ready;
     return {.position_mm = newest.tool_mm,
             .velocity_mm_per_s = newest.velocity_mm_per_s,
             .spindle_axis = newest.spindle_axis,
-            .pedal = {.is_down = newest.pedal,
-                      .said_s = permission_.renewed_s(),
-                      .speaker = newest.session},
+            .pedal = {.is_down = newest.pedal, .said_s = permission_.renewed_s(), .speaker = newest.session},
             .burr = newest.burr,
             .connected = is_there};
 }

@@ -51,7 +51,7 @@ class BridgeHost {
     /// nothing for so long is stale.
     static constexpr std::uint64_t gone_ns = 250'000'000;
     /// Poses that follow those of another session sooner are not acted on: the loop must have lost the one
-    /// arm before it has the other, or the tool would leap from one to the other with the spindle on.
+    /// arm before it has the other, or the tool would jump from one to the other with the spindle on.
     static constexpr std::uint64_t between_arms_ns = 50'000'000;
     /// A pose that answers a force from longer ago is too old to act on, and so is what would answer it.
     static constexpr std::uint64_t latest_round_trip_ns = 50'000'000;

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <utility>
 
 #include "haptic_server/device/arm_spring.h"
@@ -90,7 +89,7 @@ DeviceLimits HidArm::limits() const {
 DeviceState HidArm::read(double now_s) noexcept {
     const bool is_new = readings_.refresh();
     DeviceState newest = readings_.front();
-    if (is_new) permission_.renew(now_s - std::max(0.0, clock_s_() - newest.pedal.said_s));
+    if (is_new) permission_.renew(said_at(now_s, clock_s_() - newest.pedal.said_s));
     newest.pedal.said_s = permission_.renewed_s();
     if (!permission_.holds(now_s)) newest.connected = false;
     return newest;

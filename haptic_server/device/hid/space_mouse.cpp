@@ -1,6 +1,5 @@
 #include "haptic_server/device/hid/space_mouse.h"
 
-#include <algorithm>
 #include <glm/geometric.hpp>
 #include <utility>
 
@@ -106,7 +105,7 @@ void SpaceMouse::move_target(const SpaceMouseState& mouse, double elapsed_s) noe
 DeviceState SpaceMouse::read(double now_s) noexcept {
     const bool is_new = readings_.refresh();
     const SpaceMouseReading& mouse = readings_.front();
-    if (is_new) permission_.renew(now_s - std::max(0.0, clock_s_() - mouse.said_s));
+    if (is_new) permission_.renew(said_at(now_s, clock_s_() - mouse.said_s));
     const bool is_heard = mouse.is_plugged && permission_.holds(now_s);
     const double elapsed_s = now_s - read_at_s_;
     read_at_s_ = now_s;

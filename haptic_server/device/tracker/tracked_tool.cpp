@@ -1,6 +1,5 @@
 #include "haptic_server/device/tracker/tracked_tool.h"
 
-#include <algorithm>
 #include <glm/geometric.hpp>
 #include <utility>
 
@@ -18,7 +17,7 @@ TrackedTool::TrackedTool(TrackerReceiver::Parts parts, TrackedHandpiece handpiec
 void TrackedTool::take(const TrackerReceiver::Item& item, double now_s) noexcept {
     if (item.is_pedal) {
         pedal_ = {.is_down = item.is_down,
-                  .said_s = now_s - std::max(0.0, clock_s_() - item.said_s),
+                  .said_s = said_at(now_s, clock_s_() - item.said_s),
                   .speaker = item.connection};
         return;
     }

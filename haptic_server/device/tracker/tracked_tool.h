@@ -12,6 +12,7 @@
 #include <string>
 
 #include "haptic_server/device/haptic_device.h"
+#include "haptic_server/device/permission.h"
 #include "haptic_server/device/tracker/sampled_motion.h"
 #include "haptic_server/device/tracker/tracker_file.h"
 #include "haptic_server/device/tracker/tracker_receiver.h"

@@ -1,5 +1,5 @@
 // The digest of a whole NRRD file, in its own header: of every byte of header and data but the digest itself.
-// So a flipped bit is told wherever it is, also in what other programs made of the header.
+// So a flipped bit is found wherever it is, also in what other programs made of the header.
 #pragma once
 
 #include <filesystem>
