@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <cstdlib>
 #include <iterator>
@@ -11,6 +10,7 @@
 #include <string_view>
 #include <utility>
 
+#include "haptic_server/imaging/formats/header_text.h"
 #include "haptic_server/imaging/formats/picture_file.h"
 #include "haptic_server/imaging/formats/plausible_geometry.h"
 #include "haptic_server/imaging/imaging_error.h"
@@ -25,10 +25,7 @@ struct Page {
 };
 
 std::string lower_extension(const std::filesystem::path& path) {
-    std::string extension = path.extension().string();
-    std::ranges::transform(extension, extension.begin(),
-                           [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    return extension;
+    return lower_case(path.extension().string());
 }
 
 bool is_tiff_name(const std::filesystem::path& path) {
