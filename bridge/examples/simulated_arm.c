@@ -4,6 +4,15 @@
  */
 #include "../osteomill_bridge.h"
 
+#include <signal.h>
+
+static volatile sig_atomic_t is_stopped = 0;
+
+static void stop(int signal_number) {
+    (void)signal_number;
+    is_stopped = 1;
+}
+
 static void wait_until(uint64_t when_ns) {
     while (omb_now_ns() < when_ns) {
 #ifndef _WIN32
@@ -29,8 +38,10 @@ int main(int argc, char** argv) {
     }
     memset(&pose, 0, sizeof pose);
     pose.status = OMB_READY | OMB_HAS_VELOCITY;
+    signal(SIGINT, stop);
+    signal(SIGTERM, stop);
     next_ns = omb_now_ns();
-    for (tick = 0; (double)tick * tick_s < seconds; ++tick) {
+    for (tick = 0; (double)tick * tick_s < seconds && !is_stopped; ++tick) {
         int axis;
         const omb_state state = omb_exchange(&link, &pose, &force);
         if (state == OMB_RUNNING) ++running;

@@ -14,6 +14,7 @@
 #include "tests/support/eventually.h"
 #include "tests/support/haply_service.h"
 #include "tests/support/temporary_folder.h"
+#include "tests/support/told_removal.h"
 
 namespace osteomill::testing {
 namespace {
@@ -107,11 +108,13 @@ int count(const std::string& text, const std::string& words) {
 }
 
 TEST_F(HaplyPrograms, AnArmMillsAndFeels) {
-    ChildProcess running(server("5"));
+    ChildProcess running(server("600"));
     ASSERT_TRUE(running.line_after("waiting for an Inverse3 of the Haply service at 127.0.0.1:", 60s));
     ASSERT_TRUE(running.line_after("Haply Inverse3 is there: ", 60s));
     std::this_thread::sleep_for(500ms);
     service_.set(Hand());
+    EXPECT_TRUE(has_removed(running, 1.0)) << running.err();
+    running.send_signal(SIGINT);
     ASSERT_EQ(running.wait(60s), 0) << running.err();
     EXPECT_EQ(*service_.force_n(), glm::dvec3(0.0)) << "at its end";
     EXPECT_GT(service_.largest_force_n(), 0.2);

@@ -18,6 +18,7 @@
 #include "common/recording/playhead.h"
 #include "render_client/volume/png_file.h"
 #include "tests/support/block_file.h"
+#include "tests/support/told_removal.h"
 #include "tests/support/virtual_display.h"
 
 namespace osteomill::testing {
@@ -117,11 +118,7 @@ class WindowTest : public ::testing::Test {
         (void)server_->line_after("no such line", 1s);
         return server_->err().find(text) != std::string::npos;
     }
-    bool removed_something() const {
-        const std::string& err = server_->err();
-        const std::size_t at = err.rfind("removed ");
-        return at != std::string::npos && std::stod(err.substr(at + 8)) > 0.5;
-    }
+    bool removed_something() const { return told_removal_mm3(server_->err()) > 0.5; }
     void press(const std::string& key) const { ASSERT_TRUE(display_->xdotool({"key", key})) << key; }
 
     TemporaryFolder folder_;
