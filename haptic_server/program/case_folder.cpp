@@ -18,6 +18,7 @@
 #include "common/scene/nearest_name.h"
 #include "common/scene/scene_file.h"
 #include "common/text/plain_text.h"
+#include "haptic_server/imaging/formats/image_reader.h"
 #include "haptic_server/imaging/formats/picture_stack.h"
 #include "haptic_server/imaging/phantoms/phantom.h"
 #include "haptic_server/imaging/segmentation/bone_of_labels.h"
@@ -55,8 +56,7 @@ std::vector<std::filesystem::path> label_maps(const std::vector<std::filesystem:
         std::vector<std::filesystem::path> found;
         if (std::filesystem::is_directory(path, failed))
             for (const auto& entry : std::filesystem::directory_iterator(path))
-                for (const char* ending : {".nrrd", ".nhdr", ".nii", ".nii.gz", ".mha", ".mhd"})
-                    if (entry.path().filename().string().ends_with(ending)) found.push_back(entry.path());
+                if (is_image_name(entry.path())) found.push_back(entry.path());
         std::ranges::sort(found);
         if (found.empty()) found = {path};
         maps.insert(maps.end(), found.begin(), found.end());

@@ -1,10 +1,12 @@
 #include "haptic_server/imaging/formats/image_reader.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
 #include <string_view>
+#include <utility>
 
 #include "haptic_server/imaging/dicom/dicom_image.h"
 #include "haptic_server/imaging/dicom/dicom_scan.h"
@@ -77,25 +79,31 @@ OpenedImage opened(const std::filesystem::path& path, ImageFile file) {
 
 struct ImageFormat {
     const char* name;
+    std::array<std::string_view, 2> endings;  ///< of its files' names; empty: none to go by
     bool (*is)(const FileStart&);
     OpenedImage (*open)(const std::filesystem::path&, DicomPurpose);
 };
 /// To read another format is a file and a row. The first that fits is taken.
 constexpr std::array image_formats{
     ImageFormat{
-        "NRRD (.nrrd, .nhdr)",
+        "NRRD",
+        {".nrrd", ".nhdr"},
         [](const FileStart& start) { return start.starts_with("NRRD") && !start.is_gzip; },
         [](const std::filesystem::path& path, DicomPurpose) { return opened(path, open_nrrd(path)); }},
     ImageFormat{
-        "NIfTI (.nii, .nii.gz)",
+        "NIfTI",
+        {".nii", ".nii.gz"},
         [](const FileStart& start) {
             return begins_as_nifti(start.bytes) || is_nifti_voxel_file(start.path);
         },
         [](const std::filesystem::path& path, DicomPurpose) { return opened(path, open_nifti(path)); }},
-    ImageFormat{"DICOM", [](const FileStart& start) { return may_be_dicom(start.bytes) && !start.is_gzip; },
+    ImageFormat{"DICOM",
+                {},
+                [](const FileStart& start) { return may_be_dicom(start.bytes) && !start.is_gzip; },
                 open_dicom_file},
     ImageFormat{
-        "MetaImage (.mha, .mhd)",
+        "MetaImage",
+        {".mha", ".mhd"},
         [](const FileStart& start) { return is_meta_image(start) && !start.is_gzip; },
         [](const std::filesystem::path& path, DicomPurpose) { return opened(path, open_meta_image(path)); }}};
 
@@ -113,9 +121,13 @@ OpenedImage open_any(const std::filesystem::path& path, const std::optional<std:
     const auto format = std::find_if(image_formats.begin(), image_formats.end(),
                                      [&](const ImageFormat& one) { return one.is(start); });
     if (format != image_formats.end()) return format->open(path, purpose);
-    std::string names;
-    for (const ImageFormat& one : image_formats) names += std::string(", ") + one.name;
-    throw ImagingError(path, fmt::format("is no DICOM folder or file{}{}", names.substr(0, names.rfind(", ")),
+    std::vector<std::string> names{"is no DICOM folder or file"};
+    for (const ImageFormat& one : image_formats)
+        if (!one.endings.front().empty())
+            names.push_back(fmt::format("{} ({})", one.name, fmt::join(one.endings, ", ")));
+    const std::string last = std::move(names.back());
+    names.pop_back();
+    throw ImagingError(path, fmt::format("{} or {}{}", fmt::join(names, ", "), last,
                                          start.is_gzip ? "; it is gzip of something else: unpack it first"
                                                        : ": it begins as none of them"));
 }
@@ -128,6 +140,14 @@ std::vector<float> OpenedImage::read_values(const ReportProgress& report) const 
     read_slices([&](int, std::span<float> slice) { values.insert(values.end(), slice.begin(), slice.end()); },
                 report);
     return values;
+}
+
+bool is_image_name(const std::filesystem::path& path) {
+    const std::string name = path.filename().string();
+    return std::ranges::any_of(image_formats, [&](const ImageFormat& one) {
+        return std::ranges::any_of(
+            one.endings, [&](std::string_view ending) { return !ending.empty() && name.ends_with(ending); });
+    });
 }
 
 OpenedImage open_labels(const std::filesystem::path& path) {

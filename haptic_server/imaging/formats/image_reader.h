@@ -45,6 +45,9 @@ struct OpenedImage {
 /// the files are too short, and what the headers, dicom_series.h and slice_geometry.h refuse.
 OpenedImage open_image(const std::filesystem::path& path, const std::optional<std::string>& series_uid);
 
+/// Whether the name is one of an image's file, by its ending; DICOM's files have none of their own.
+bool is_image_name(const std::filesystem::path& path);
+
 /// As open_image, of a label map, which may have layers: in any of the formats, and a DICOM segmentation.
 OpenedImage open_labels(const std::filesystem::path& path);
 

@@ -151,7 +151,11 @@ TEST_F(ImageReader, RefusesAPathAFolderOrAFileWithoutAnImage) {
     std::filesystem::create_directory(folder_ / "texts");
     write_text(folder_ / "texts/readme", "no image");
     EXPECT_THAT(refusal(folder_ / "texts"), HasSubstr("no DICOM images"));
-    EXPECT_THAT(refusal_of_text("notes.txt", "no image"), HasSubstr("is no DICOM folder or file"));
+    EXPECT_THAT(
+        refusal_of_text("notes.txt", "no image"),
+        HasSubstr(
+            "is no DICOM folder or file, NRRD (.nrrd, .nhdr), NIfTI (.nii, .nii.gz) or MetaImage (.mha, "
+            ".mhd): it begins as none of them"));
     EXPECT_THAT(refusal_of_text("empty.nrrd", ""), HasSubstr("is empty"));
 }
 
