@@ -12,8 +12,8 @@
 
 #include "haptic_server/device/haptic_device.h"
 #include "haptic_server/device/position_sensor.h"
-#include "studies/stability/energy_ledger.h"
 #include "studies/stability/map/map_case.h"
+#include "studies/stability/scene/energy_ledger.h"
 #include "studies/stability/scene/scene_plan.h"
 
 namespace osteomill::study {

@@ -9,8 +9,8 @@
 
 #include "haptic_server/device/arm_model.h"
 #include "haptic_server/loop/milling_session.h"
-#include "studies/stability/energy_ledger.h"
 #include "studies/stability/scene/bench_device.h"
+#include "studies/stability/scene/energy_ledger.h"
 #include "studies/stability/scene/scene_bone.h"
 #include "studies/stability/scene/verdict.h"
 

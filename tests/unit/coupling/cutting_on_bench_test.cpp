@@ -8,7 +8,7 @@
 #include <string>
 
 #include "haptic_server/coupling/couplings.h"
-#include "studies/stability/bench_run.h"
+#include "tests/support/bench/bench_run.h"
 
 namespace osteomill::cutting_on_bench_test {
 namespace {
@@ -47,9 +47,9 @@ void expect_steady_cut(const std::string& coupling) {
     for (const double resistance_n_s_per_m : {10.0, 40.0, 170.0, 860.0, 3000.0})
         for (const std::size_t delay : {0, 1}) {
             const auto cut = std::make_shared<Cut>(coupling, resistance_n_s_per_m);
-            const study::Bench bench{
-                .body = study::bare_arm(0.5), .substeps = 20, .max_force_n = 3.3, .delay_ticks = delay};
-            const auto run = study::run_bench(
+            const testing::Bench bench{
+                .body = testing::bare_arm(0.5), .substeps = 20, .max_force_n = 3.3, .delay_ticks = delay};
+            const auto run = testing::run_bench(
                 bench, [cut](double position_m) { return (*cut)(position_m); }, {}, 3000);
             // m dv/dt = push - (B + b) v
             const double feed_m_per_s = Cut::push_n / (resistance_n_s_per_m + 0.5);

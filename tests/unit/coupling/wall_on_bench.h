@@ -5,7 +5,7 @@
 #include <string>
 
 #include "haptic_server/coupling/couplings.h"
-#include "studies/stability/bench_run.h"
+#include "tests/support/bench/bench_run.h"
 
 namespace osteomill::testing {
 
@@ -65,12 +65,11 @@ inline Wall two_sided_wall(double stiffness_n_per_m, int ticks_per_step = 1) {
 }
 
 /// Whether a push dies away.
-inline bool dies_away(const study::Bench& bench, const std::string& coupling, const Wall& wall,
-                      std::size_t ticks) {
+inline bool dies_away(const Bench& bench, const std::string& coupling, const Wall& wall, std::size_t ticks) {
     const auto law = std::make_shared<WallOnBench>(coupling, wall);
-    const auto run = study::run_bench(
-        bench, [law](double position_m) { return (*law)(position_m); }, study::push, ticks, 0.5);
-    return study::growth_per_s(run, bench.tick_s, ticks) < 0.0;
+    const auto run = run_bench(
+        bench, [law](double position_m) { return (*law)(position_m); }, push, ticks, 0.5);
+    return growth_per_s(run, bench.tick_s, ticks) < 0.0;
 }
 
 }  // namespace osteomill::testing

@@ -5,7 +5,7 @@
 
 #include "haptic_server/coupling/coupling_spring.h"
 #include "haptic_server/device/arm_model.h"
-#include "studies/stability/bench_run.h"
+#include "tests/support/bench/bench_run.h"
 
 namespace osteomill::arm_spring_test {
 namespace {
@@ -19,14 +19,14 @@ double growth_per_s(double mass_kg, const PatientLimits& arm, std::size_t delay_
     constexpr std::size_t ticks = 3000;
     CouplingSpring spring(arm, 0.01);
     spring.place(glm::dvec3(0.0));
-    const study::Bench bench{.body = {.mass_kg = mass_kg, .damping_n_s_per_m = 0.5},
-                             .delay_ticks = delay_ticks};
+    const testing::Bench bench{.body = {.mass_kg = mass_kg, .damping_n_s_per_m = 0.5},
+                               .delay_ticks = delay_ticks};
     const auto law = [&](double position_m) {
         // A wall that holds the burr, pulled at or pushed: the spring alone is what may be unstable.
         spring.follow_hand(glm::dvec3(1000.0 * position_m, 0.0, 0.0), tick_s);
         return spring.follow_burr(glm::dvec3(0.0), tick_s).x;
     };
-    return study::growth_per_s(study::run_bench(bench, law, study::push, ticks, 0.1), tick_s, ticks);
+    return testing::growth_per_s(testing::run_bench(bench, law, testing::push, ticks, 0.1), tick_s, ticks);
 }
 
 TEST(ArmSpring, KnowsTheTableOfWalls) {

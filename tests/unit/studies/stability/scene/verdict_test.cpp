@@ -2,18 +2,21 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <numbers>
 #include <vector>
 
-#include "studies/stability/bench_run.h"
-#include "studies/stability/bone_front.h"
-#include "studies/stability/sampled_force.h"
 #include "studies/stability/scene/fast_part.h"
+#include "tests/support/bench/bench_run.h"
 
 namespace osteomill::study::verdict_test {
 namespace {
+
+using testing::bare_arm;
+using testing::Bench;
+using testing::BenchTick;
 
 using Signal = std::function<double(double time_s)>;
 
@@ -101,26 +104,48 @@ TEST(Verdict, FindsTheEdgeOfAHeldWall) {
     for (const double share : {0.9, 1.1}) {
         const double k = share * 1000.0;
         const Bench bench{.body = bare_arm(0.5), .substeps = 50};
-        const auto run = run_bench(bench, SampledForce(wall(k), zero_order_hold(), 1e-3), push, 12'000, 0.01);
+        const auto run = run_bench(
+            bench, [k](double position_m) { return -k * position_m; }, testing::push, 12'000, 0.01);
         EXPECT_EQ(verdict_on_bench(run, 0.0, 1e-3 * k).is_stable, share < 1.0) << share;
     }
 }
 
+/// Bone that a burr has cut up to a front, its force held for some ticks: it resists in proportion to how
+/// fast the front advances, and gives nothing to a burr that draws back.
+class HeldFront {
+  public:
+    HeldFront(double cutting_n_s_per_m, int held_ticks)
+        : cutting_n_s_per_m_(cutting_n_s_per_m), held_ticks_(held_ticks) {}
+
+    double operator()(double position_m) {
+        if (tick_++ % held_ticks_ != 0) return force_n_;
+        const double advance_m = std::max(0.0, position_m - front_m_);
+        front_m_ += advance_m;
+        return force_n_ = -cutting_n_s_per_m_ * advance_m / (1e-3 * held_ticks_);
+    }
+
+  private:
+    double cutting_n_s_per_m_;
+    int held_ticks_;
+    int tick_ = 0;
+    double front_m_ = 0.0;
+    double force_n_ = 0.0;
+};
+
 TEST(Verdict, FindsTheChatterOfHeldCuttingForces) {
-    // The project's table of chatter: B in N s/m, the hold, whether it cuts steadily at 6 mm/s.
+    // B in N s/m, ticks for which the force is held, whether it cuts steadily at 6 mm/s.
     struct Row {
         double cutting_n_s_per_m;
-        LinearHold hold;
+        int held_ticks;
         bool is_steady;
     };
-    for (const Row& row : {Row{20.0, zero_order_hold(10), false}, Row{60.0, zero_order_hold(10), false},
-                           Row{20.0, zero_order_hold(), true}, Row{60.0, zero_order_hold(), true},
-                           Row{110.0, zero_order_hold(), false}, Row{680.0, zero_order_hold(), false}}) {
+    for (const Row& row : {Row{20.0, 10, false}, Row{60.0, 10, false}, Row{20.0, 1, true}, Row{60.0, 1, true},
+                           Row{110.0, 1, false}, Row{680.0, 1, false}}) {
         const Bench bench{
             .body = {.mass_kg = 0.045, .damping_n_s_per_m = 2.0, .hand_stiffness_n_per_m = 300.0},
             .substeps = 20,
             .max_force_n = 3.3};
-        SampledForce force(BoneFront(row.cutting_n_s_per_m), row.hold, 1e-3);
+        HeldFront force(row.cutting_n_s_per_m, row.held_ticks);
         double meant_m = 0.0;
         const auto law = [&](double from_meant_m) {
             const double force_n = force(meant_m + from_meant_m);
@@ -129,7 +154,7 @@ TEST(Verdict, FindsTheChatterOfHeldCuttingForces) {
         };
         const auto run = run_bench(bench, law, {}, 4000);
         EXPECT_EQ(verdict_on_bench(run, -6e-3 * row.cutting_n_s_per_m, 0.0).is_stable, row.is_steady)
-            << row.cutting_n_s_per_m << " held for " << row.hold.ticks_per_sample();
+            << row.cutting_n_s_per_m << " held for " << row.held_ticks;
     }
 }
 

@@ -1,4 +1,4 @@
-#include "studies/stability/bench_run.h"
+#include "tests/support/bench/bench_run.h"
 
 #include <gtest/gtest.h>
 
@@ -6,9 +6,8 @@
 #include <cmath>
 
 #include "haptic_server/device/arm_model.h"
-#include "studies/stability/sampled_force.h"
 
-namespace osteomill::study::bench_run_test {
+namespace osteomill::testing::bench_run_test {
 namespace {
 
 constexpr double tick_s = 1e-3;
@@ -41,15 +40,13 @@ TEST(BenchRun, GivesNoMoreThanTheMotorsCan) {
     EXPECT_EQ(run.back().force_n, -arm.max_force_n);
 }
 
-TEST(BenchRun, DelaysAForceAsManyTicksAsTheHoldThatIsLateByThem) {
-    const HeldBody body = arm_in_hand(Grip::light);
-    for (const std::size_t ticks : {1, 3, 12}) {
-        const auto in_line = run_bench({.body = body, .delay_ticks = ticks},
-                                       SampledForce(wall(150.0), interpolated(10), tick_s), push, 300);
-        const auto in_weights =
-            run_bench({.body = body},
-                      SampledForce(wall(150.0), late_by_ticks(interpolated(10), ticks), tick_s), push, 300);
-        EXPECT_NEAR(in_line.back().state.position_m, in_weights.back().state.position_m, 1e-15);
+TEST(BenchRun, DelaysAForceByItsTicks) {
+    for (const std::size_t delay : {1, 3, 12}) {
+        int asked = 0;
+        const auto run = run_bench(
+            {.body = bare_arm(0.0), .delay_ticks = delay}, [&](double) { return ++asked; }, {}, 20);
+        for (std::size_t tick = 0; tick < 20; ++tick)
+            EXPECT_EQ(run[tick].force_n, tick < delay ? 0.0 : static_cast<double>(tick - delay + 1)) << tick;
     }
 }
 
@@ -74,7 +71,8 @@ TEST(CoulombFriction, HidesALimitCycleThatIsThereWithoutIt) {
     const auto run = [&](double friction_n) {
         Bench bench{.body = bare_arm(0.1), .max_force_n = arm.max_force_n};
         bench.body.coulomb_friction_n = friction_n;
-        return run_bench(bench, SampledForce(wall(1500.0), zero_order_hold(), tick_s), push, ticks);
+        return run_bench(
+            bench, [](double position_m) { return -1500.0 * position_m; }, push, ticks);
     };
     const auto smooth = run(0.0);
     EXPECT_EQ(largest_force_n(smooth), arm.max_force_n);
@@ -84,16 +82,5 @@ TEST(CoulombFriction, HidesALimitCycleThatIsThereWithoutIt) {
     EXPECT_LT(largest_force_n(sticky), arm.coulomb_friction_n);
 }
 
-TEST(SensorSteps, MakeADamperBuzzHarderThanTheArmRubs) {
-    // One step in a tick is 55 mm/s: 5 N s/m answer with 0.275 N to a motion at 6 mm/s that deserves 0.03 N.
-    const double resolution_m = 1e-3 * arm.resolution_mm;
-    const Bench bench{.body = {.mass_kg = 1000.0, .damping_n_s_per_m = 0.0},
-                      .sensor_resolution_m = resolution_m};
-    const auto run =
-        run_bench(bench, SampledForce(damper(5.0), zero_order_hold(), tick_s), {0.0, 0.006}, 100);
-    EXPECT_NEAR(largest_force_n(run), 5.0 * resolution_m / tick_s, 1e-12);
-    EXPECT_GT(largest_force_n(run), arm.coulomb_friction_n);
-}
-
 }  // namespace
-}  // namespace osteomill::study::bench_run_test
+}  // namespace osteomill::testing::bench_run_test

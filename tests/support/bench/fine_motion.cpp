@@ -1,8 +1,8 @@
-#include "studies/stability/fine_motion.h"
+#include "tests/support/bench/fine_motion.h"
 
 #include <cmath>
 
-namespace osteomill::study {
+namespace osteomill::testing {
 namespace {
 
 /// Mean velocity of a substep under a force: m (2 v_mid - 2 v) / h = F - b v_mid - k (x + h v_mid / 2).
@@ -35,4 +35,4 @@ MotionState fine_step(const HeldBody& body, const MotionState& state, double for
     return {state.position_m + 0.5 * v * until_rest_s, 0.0};
 }
 
-}  // namespace osteomill::study
+}  // namespace osteomill::testing

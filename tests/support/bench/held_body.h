@@ -8,7 +8,7 @@
 #include "haptic_server/device/arm_model.h"
 #include "haptic_server/device/hand_model.h"
 
-namespace osteomill::study {
+namespace osteomill::testing {
 
 struct HeldBody {
     double mass_kg = 0.045;
@@ -32,4 +32,10 @@ inline HeldBody arm_in_hand(Grip grip) {
             .hand_stiffness_n_per_m = mm_per_m * hand.stiffness_n_per_mm};
 }
 
-}  // namespace osteomill::study
+/// Position and velocity of a body in one dimension.
+struct MotionState {
+    double position_m = 0.0;
+    double velocity_m_per_s = 0.0;
+};
+
+}  // namespace osteomill::testing

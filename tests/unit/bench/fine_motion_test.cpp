@@ -1,12 +1,10 @@
-#include "studies/stability/fine_motion.h"
+#include "tests/support/bench/fine_motion.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "studies/stability/exact_motion.h"
-
-namespace osteomill::study::fine_motion_test {
+namespace osteomill::testing::fine_motion_test {
 namespace {
 
 MotionState after(const HeldBody& body, MotionState state, double force_n, double substep_s, int substeps) {
@@ -14,22 +12,18 @@ MotionState after(const HeldBody& body, MotionState state, double force_n, doubl
     return state;
 }
 
-TEST(FineMotion, AgreesWithTheMatrixExponentialOverATick) {
-    for (const HeldBody& body : {bare_arm(0.1), arm_in_hand(Grip::light), arm_in_hand(Grip::firm)}) {
-        const MotionState start{0.002, 0.1};
-        const MotionState exact = exact_motion(body, 1e-3).after(start, -1.5);
-        const MotionState fine = after(body, start, -1.5, 1e-5, 100);
-        EXPECT_NEAR(fine.position_m, exact.position_m, 1e-7 * std::abs(exact.position_m));
-        EXPECT_NEAR(fine.velocity_m_per_s, exact.velocity_m_per_s, 1e-7 * std::abs(exact.velocity_m_per_s));
-    }
-}
-
-TEST(FineMotion, ConvergesWithTheSquareOfTheSubstep) {
-    const HeldBody body = arm_in_hand(Grip::light);
-    const double exact = exact_motion(body, 0.1).after({0.0, 0.1}, 1.0).position_m;
-    const double coarse = after(body, {0.0, 0.1}, 1.0, 1e-3, 100).position_m - exact;
-    const double fine = after(body, {0.0, 0.1}, 1.0, 5e-4, 200).position_m - exact;
-    EXPECT_NEAR(coarse / fine, 4.0, 0.05);
+TEST(FineMotion, SwingsAboutWhereTheForceAndTheSpringBalance) {
+    // From rest at the origin: x = F/k (1 - e^-dt (cos wt + d/w sin wt)).
+    const HeldBody body{.mass_kg = 0.145, .damping_n_s_per_m = 2.1, .hand_stiffness_n_per_m = 100.0};
+    const double decay = 2.1 / (2.0 * 0.145);
+    const double turn = std::sqrt(100.0 / 0.145 - decay * decay);
+    const double exact_m =
+        0.4 / 100.0 *
+        (1.0 - std::exp(-decay * 0.1) * (std::cos(turn * 0.1) + decay / turn * std::sin(turn * 0.1)));
+    const double coarse_m = after(body, {}, 0.4, 1e-3, 100).position_m - exact_m;
+    const double fine_m = after(body, {}, 0.4, 5e-4, 200).position_m - exact_m;
+    EXPECT_NEAR(after(body, {}, 0.4, 1e-5, 10'000).position_m, exact_m, 1e-7 * exact_m);
+    EXPECT_NEAR(coarse_m / fine_m, 4.0, 0.05) << "of second order";
 }
 
 TEST(FineMotion, NeitherGainsNorLosesTheEnergyOfASpring) {
@@ -72,4 +66,4 @@ TEST(CoulombFriction, TakesTheSameLengthFromEveryHalfSwing) {
 }
 
 }  // namespace
-}  // namespace osteomill::study::fine_motion_test
+}  // namespace osteomill::testing::fine_motion_test

@@ -10,12 +10,11 @@
 // friction.
 #pragma once
 
-#include "studies/stability/held_body.h"
-#include "studies/stability/motion_state.h"
+#include "tests/support/bench/held_body.h"
 
-namespace osteomill::study {
+namespace osteomill::testing {
 
 /// One substep under a constant force on the body.
 MotionState fine_step(const HeldBody& body, const MotionState& state, double force_n, double substep_s);
 
-}  // namespace osteomill::study
+}  // namespace osteomill::testing

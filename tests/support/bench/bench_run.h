@@ -10,10 +10,9 @@
 #include <span>
 #include <vector>
 
-#include "studies/stability/held_body.h"
-#include "studies/stability/motion_state.h"
+#include "tests/support/bench/held_body.h"
 
-namespace osteomill::study {
+namespace osteomill::testing {
 
 /// From the position sensed at a tick, metres, to the force on the device until the next, newtons.
 using ForceLaw = std::function<double(double sensed_position_m)>;
@@ -31,7 +30,7 @@ struct BenchTick {
     MotionState state{};      ///< at the tick
     double force_n = 0.0;     ///< that the motors give from here to the next
     double farthest_m = 0.0;  ///< largest |x| from here to the next
-    double taken_j = 0.0;     ///< energy that the force took until the next tick, since the start
+    double taken_j = 0.0;     ///< energy that the forces took until the next tick: - sum u dx
 };
 
 /// Runs from `start` for so many ticks, or until the motion is past `give_up_m`.
@@ -49,4 +48,4 @@ std::span<const BenchTick>::iterator farthest(std::span<const BenchTick> run);
 /// `ticks_asked`, -infinity for one that ended at the origin.
 double growth_per_s(const std::vector<BenchTick>& run, double tick_s, std::size_t ticks_asked);
 
-}  // namespace osteomill::study
+}  // namespace osteomill::testing

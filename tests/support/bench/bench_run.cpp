@@ -1,14 +1,13 @@
-#include "studies/stability/bench_run.h"
+#include "tests/support/bench/bench_run.h"
 
 #include <algorithm>
 #include <cmath>
 #include <deque>
 #include <limits>
 
-#include "studies/stability/energy_ledger.h"
-#include "studies/stability/fine_motion.h"
+#include "tests/support/bench/fine_motion.h"
 
-namespace osteomill::study {
+namespace osteomill::testing {
 namespace {
 
 double sensed(double position_m, double resolution_m) {
@@ -26,7 +25,7 @@ std::vector<BenchTick> run_bench(const Bench& bench, ForceLaw law, const MotionS
     std::vector<BenchTick> run;
     run.reserve(ticks);
     std::deque<double> in_delay_n(bench.delay_ticks, 0.0);
-    EnergyLedger ledger;
+    double taken_j = 0.0;
     MotionState state = start;
     const double substep_s = bench.tick_s / bench.substeps;
     while (run.size() < ticks && std::abs(state.position_m) < give_up_m) {
@@ -39,8 +38,8 @@ std::vector<BenchTick> run_bench(const Bench& bench, ForceLaw law, const MotionS
             state = fine_step(bench.body, state, tick.force_n, substep_s);
             tick.farthest_m = std::max(tick.farthest_m, std::abs(state.position_m));
         }
-        ledger.held(tick.force_n, state.position_m - tick.state.position_m);
-        tick.taken_j = ledger.taken_j();
+        taken_j -= tick.force_n * (state.position_m - tick.state.position_m);
+        tick.taken_j = taken_j;
         run.push_back(tick);
     }
     return run;
@@ -61,4 +60,4 @@ double growth_per_s(const std::vector<BenchTick>& run, double tick_s, std::size_
     return std::log(after->farthest_m / before->farthest_m) / (ticks_between * tick_s);
 }
 
-}  // namespace osteomill::study
+}  // namespace osteomill::testing
