@@ -102,18 +102,21 @@ void HapticLoop::tick(double now_s, std::uint64_t missed_periods) noexcept {
         wanted_n += parts_.vibration->tick(hand, latest, wanted_n, is_felt);
     }
 
-    const glm::dvec3 force_n = safety_.pass(wanted_n, is_sound, elapsed_s);
+    const bool lets_go = lets_go_.load(std::memory_order_relaxed);
+    const glm::dvec3 passed_n = safety_.pass(wanted_n, is_sound, elapsed_s);
+    const glm::dvec3 force_n = at_the_end_.next(lets_go ? std::nullopt : std::optional(passed_n), now_s);
     if (safety_.has_just_let_go()) parts_.coupling.reset();
     if (!safety_.holds_tool()) burr_pose_ = hand_pose_;
 
     const glm::dvec3 written_n = force_in_device_n(options_.mapping, force_n);
     parts_.device.write(written_n);
+    if (lets_go && !at_the_end_.is_felt()) has_let_go_.store(true, std::memory_order_relaxed);
     // A force that nobody feels gives the hand no energy.
     if (gives_force_) force_in_device_n_ = written_n;
     peak_force_n_ = std::max(peak_force_n_, glm::length(force_n));
     if (latest.touches_protected) protected_until_s_ = now_s + protected_shown_s;
 
-    const bool spindle_on = spindle_turned_ = safety_.spindle_turns();
+    const bool spindle_on = spindle_turned_ = safety_.spindle_turns() && !lets_go;
     const bool in_contact = latest.total_removed_mm3 > removed_before_mm3_ || force_n != glm::dvec3(0.0);
     const ToolState tool{
         .time_s = now_s,

@@ -13,12 +13,14 @@
 #pragma once
 
 #include <array>
+#include <atomic>
 #include <cstdint>
 
 #include "common/scene/scene.h"
 #include "common/scene/tool_state.h"
 #include "haptic_server/coupling/coupling.h"
 #include "haptic_server/coupling/handpiece_vibration.h"
+#include "haptic_server/device/fading_force.h"
 #include "haptic_server/device/haptic_device.h"
 #include "haptic_server/exchange/milling_step.h"
 #include "haptic_server/exchange/session_gate.h"
@@ -68,6 +70,12 @@ class HapticLoop {
     /// The tick of session time `now_s`, after `missed_periods` deadlines that nobody served. Real-time safe.
     void tick(double now_s, std::uint64_t missed_periods) noexcept;
 
+    /// The session is over: from the next tick on the force fades, whatever is wanted, and the spindle stops.
+    /// Any thread.
+    void let_go() noexcept { lets_go_.store(true, std::memory_order_relaxed); }
+    /// After let_go(): the hand has been given no force any more. Any thread.
+    bool has_let_go() const noexcept { return has_let_go_.load(std::memory_order_relaxed); }
+
     double peak_force_n() const { return peak_force_n_; }
     /// Net energy that the force gave the hand, the most that it was.
     double most_energy_to_hand_mj() const { return energy_.most_mj(); }
@@ -90,6 +98,9 @@ class HapticLoop {
     bool gives_force_;
     EnergyMeter energy_;
     glm::dvec3 force_in_device_n_{0.0};  // last written and felt
+    FadingForce at_the_end_;
+    std::atomic<bool> lets_go_{false};
+    std::atomic<bool> has_let_go_{false};
 
     ToolPose hand_pose_;  // patient LPS; the last that was read
     ToolPose burr_pose_;

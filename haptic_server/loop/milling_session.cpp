@@ -26,6 +26,8 @@ constexpr std::uint64_t chore_ticks = 33;  // the rate of a streaming server's f
 constexpr double rounding_s = 1e-7;
 /// How long a session waits for whoever consumes its changes before it gives up on them.
 constexpr std::chrono::seconds longest_wait_for_consumer{10};
+/// A loop that has not faded its force by then stands still, and its device ends the force by itself.
+constexpr double longest_letting_go_s = 0.2;
 
 void require_usable(const std::optional<int>& cpu) {
     const std::vector<int> usable = usable_cpus();
@@ -214,6 +216,11 @@ void MillingSession::run_in_threads(const std::atomic<bool>& stop,
         do_chores(on_progress);
         clock->sleep_until(std::min(clock->now_s() + chore_period_s, options_.duration_s));
     }
+    // No force ends in one step, that of a session neither.
+    haptic_loop_.let_go();
+    const double longest_s = clock->now_s() + longest_letting_go_s;
+    while (!haptic_loop_.has_let_go() && clock->now_s() < longest_s)
+        clock->sleep_until(clock->now_s() + tick_s);
     is_over.store(true, std::memory_order_relaxed);
     haptic.join();
     milling.join();

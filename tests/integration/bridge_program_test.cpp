@@ -55,12 +55,6 @@ class BridgePrograms : public ::testing::Test {
         EXPECT_TRUE(std::regex_search(text, match, std::regex(what + " ([0-9.]+) N"))) << text;
         return match.empty() ? 1e9 : std::stod(match[1]);
     }
-    static int count(const std::string& text, const std::string& words) {
-        int found = 0;
-        for (std::size_t at = text.find(words); at != std::string::npos; at = text.find(words, at + 1))
-            ++found;
-        return found;
-    }
 
     TemporaryFolder folder_;
 };

@@ -30,6 +30,9 @@ class ChildProcess {
     /// deadline or the program's end.
     std::optional<std::string> line_after(const std::string& prefix, std::chrono::seconds deadline);
 
+    /// Takes over what it has written since; waits up to 0.1 s for more.
+    void read_output() { pump(std::chrono::milliseconds(100)); }
+
     /// Waits for the end; the exit status, 128 + the signal that ended it, or nullopt at the deadline.
     std::optional<int> wait(std::chrono::seconds deadline);
 

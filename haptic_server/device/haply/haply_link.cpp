@@ -81,7 +81,8 @@ void HaplyLink::run() {
 
 void HaplyLink::converse(HaplyConnection& connection) {
     field_ = HaplyForceField::values;
-    unanswered_ = 1;  // the first message comes by itself
+    sent_force_ = {};  // what the connection before was sent ended with it
+    unanswered_ = 1;   // the first message comes by itself
     understood_ = asked_ = first_asked_ = Clock::now();
     while (!stops_.load(std::memory_order_relaxed)) {
         const std::optional<std::string_view> text =

@@ -56,7 +56,7 @@ class Bench {
     }
     const BurrCommand& command() const { return commands.front(); }
     const ToolState& shown() const { return tool.front(); }
-    const HapticLoop& loop() const { return *loop_; }
+    HapticLoop& loop() const { return *loop_; }
 
     /// A pedal that is down, a hand at rest, a steady 2 N.
     void mill() {
@@ -164,6 +164,24 @@ TEST(HapticLoop, FadesOutAndStopsTheSpindleWhenTheModelStalls) {
     EXPECT_FALSE(bench.command().spindle_on);
     EXPECT_EQ(bench.coupling.resets, 1);
     EXPECT_EQ(bench.loop().fault_counts()[static_cast<std::size_t>(Fault::model_stalled)], 1u);
+}
+
+TEST(HapticLoop, FadesTheForceOfASessionThatEndsAndStopsTheSpindle) {
+    Bench bench;
+    bench.mill();
+    ASSERT_EQ(bench.run(1), glm::dvec3(2.0, 0.0, 0.0));
+    bench.loop().let_go();
+    double before_n = 2.0;
+    int ticks = 0;
+    while (!bench.loop().has_let_go() && ++ticks < 100) {
+        const double now_n = bench.run(1).x;
+        EXPECT_LE(now_n, before_n);
+        EXPECT_GE(now_n, before_n - 1.01 * 2.0 * tick_s / FadingForce::fade_s);
+        EXPECT_FALSE(bench.shown().spindle_on);
+        before_n = now_n;
+    }
+    EXPECT_EQ(before_n, 0.0);
+    EXPECT_LE(ticks, ticks_to_fade());
 }
 
 TEST(HapticLoop, ComesBackByItselfWhenTheModelRunsAgain) {
