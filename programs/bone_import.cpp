@@ -198,7 +198,7 @@ void parse_texts(const CLI::App& app, Texts& texts, osteomill::ImportOptions& op
     if (options.keeps_soft_tissue && !options.threshold_hu)
         throw std::invalid_argument("--keep-soft-tissue: goes with --threshold-hu; without, all HU are kept");
     if (app.count("--region") > 0) options.region = osteomill::parse_region(texts.region);
-    if (app.count("--series") > 0) options.series_uid = texts.series;
+    if (app.count("--series") > 0) options.choice.series_uid = texts.series;
     if (app.count("--rescale") > 0) options.to_hu = osteomill::parse_rescale(texts.rescale);
     if (app.count("--intensity-window") > 0)
         options.to_hu = osteomill::parse_intensity_window(texts.intensity_window);
@@ -215,7 +215,7 @@ void parse_texts(const CLI::App& app, Texts& texts, osteomill::ImportOptions& op
         throw std::invalid_argument("give INPUT, or --labels FILE (see --help)");
     parse_materials(texts);
     if (!texts.stack_spacing.empty())
-        options.stack_spacing_mm = texts.parts.stack_spacing_mm =
+        options.choice.stack_spacing_mm = texts.parts.stack_spacing_mm =
             osteomill::parse_stack_spacing(texts.stack_spacing);
     texts.parts.segmentations.assign(texts.segmentations.begin(), texts.segmentations.end());
     if (!texts.colours.empty()) texts.parts.colours = texts.colours;

@@ -15,7 +15,6 @@
 #include "common/text/plain_text.h"
 #include "haptic_server/imaging/bone_file/hu_file.h"
 #include "haptic_server/imaging/formats/image_reader.h"
-#include "haptic_server/imaging/formats/picture_stack.h"
 #include "haptic_server/imaging/formats/plausible_geometry.h"
 #include "haptic_server/imaging/imaging_error.h"
 #include "haptic_server/imaging/in_parallel.h"
@@ -270,21 +269,10 @@ std::filesystem::path scratch_folder(const ImportOptions& options) {
     return options.output.has_parent_path() ? options.output.parent_path() : std::filesystem::path(".");
 }
 
-OpenedImage open_scan(const ImportOptions& options) {
-    if (!reads_as_pictures(options.input, options.stack_spacing_mm))
-        return open_image(options.input, options.series_uid);
-    PictureStack stack = open_picture_stack(options.input, options.stack_spacing_mm);
-    if (stack.is_coloured)
-        throw ImagingError(options.input,
-                           "holds coloured pictures, which have no CT numbers; where colours are "
-                           "tissues, give --labels in place of INPUT");
-    return stack.opened;
-}
-
 }  // namespace
 
 void import_bone(const ImportOptions& options, const ImportSurroundings& surroundings) {
-    import_bone(options, open_scan(options), surroundings);
+    import_bone(options, open_image(options.input, options.choice), surroundings);
 }
 
 void import_bone(const ImportOptions& options, const OpenedImage& opened,

@@ -25,8 +25,7 @@ struct ImportOptions {
     /// Between slices far apart bone's contour is followed, if there is a threshold (slice_shapes.h).
     bool follows_contours = true;
     std::optional<Region> region{};
-    std::optional<std::string> series_uid{};
-    std::optional<glm::dvec3> stack_spacing_mm{};  ///< of an input that is a stack of pictures
+    ImageChoice choice{};
     /// What makes HU of the file's values (after the rescale that the file itself states).
     std::variant<std::monostate, Rescale, IntensityWindow> to_hu{};
 };
@@ -40,7 +39,7 @@ struct ImportSurroundings {
 };
 
 /// Reads the scan, cuts the region, refines it, writes the bone file. Throws ImagingError in one line: for
-/// what image_reader.h and picture_stack.h refuse, a region outside the image, more memory than there is, a
+/// what image_reader.h refuses, a region outside the image, more memory than there is, a
 /// threshold that no voxel reaches, an output that cannot be written.
 void import_bone(const ImportOptions& options, const ImportSurroundings& surroundings);
 

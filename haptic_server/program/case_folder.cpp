@@ -19,7 +19,6 @@
 #include "common/scene/scene_file.h"
 #include "common/text/plain_text.h"
 #include "haptic_server/imaging/formats/image_reader.h"
-#include "haptic_server/imaging/formats/picture_stack.h"
 #include "haptic_server/imaging/phantoms/phantom.h"
 #include "haptic_server/imaging/segmentation/bone_of_labels.h"
 #include "haptic_server/imaging/segmentation/segment_structure.h"
@@ -65,9 +64,7 @@ std::vector<std::filesystem::path> label_maps(const std::vector<std::filesystem:
 }
 
 std::shared_ptr<const Segmentation> read(const std::filesystem::path& path, const CaseParts& parts) {
-    Segmentation segmentation = reads_as_pictures(path, parts.stack_spacing_mm)
-                                    ? read_picture_labels(path, parts.stack_spacing_mm)
-                                    : read_segmentation(path);
+    Segmentation segmentation = read_segmentation(path, parts.stack_spacing_mm);
     if (parts.colours && segmentation.is_plain_map)
         name_segments(segmentation, read_colour_table(*parts.colours));
     return std::make_shared<const Segmentation>(std::move(segmentation));

@@ -15,6 +15,7 @@
 #include "haptic_server/imaging/formats/meta_image_header.h"
 #include "haptic_server/imaging/formats/nifti_header.h"
 #include "haptic_server/imaging/formats/nrrd_header.h"
+#include "haptic_server/imaging/formats/picture_stack.h"
 #include "haptic_server/imaging/formats/regular_file.h"
 #include "haptic_server/imaging/formats/value_slices.h"
 #include "haptic_server/imaging/imaging_error.h"
@@ -23,10 +24,13 @@ namespace osteomill {
 
 namespace {
 
-/// What a file is recognised by: its first bytes, inflated where they are gzip's.
-struct FileStart {
+/// What an image is recognised by: that it is a folder, or the first bytes of a file, inflated where they are
+/// gzip's.
+struct ImageStart {
     std::filesystem::path path;
-    std::vector<std::uint8_t> bytes;
+    ImageChoice choice;
+    bool is_folder = false;
+    std::vector<std::uint8_t> bytes{};
     bool is_gzip = false;
 
     bool starts_with(std::string_view mark) const {
@@ -36,23 +40,38 @@ struct FileStart {
     }
 };
 
-FileStart start_of(const std::filesystem::path& path) {
+ImageStart start_of(const std::filesystem::path& path, const ImageChoice& choice) {
     constexpr std::size_t start_bytes = 4096;
+    std::error_code failed;
+    const std::filesystem::file_status status = std::filesystem::status(path, failed);
+    if (!std::filesystem::exists(status)) throw ImagingError(path, "does not exist");
+    ImageStart start{.path = path, .choice = choice, .is_folder = std::filesystem::is_directory(status)};
+    if (start.is_folder) return start;
+    if (!std::filesystem::is_regular_file(status)) throw ImagingError(path, "is neither a file nor a folder");
     const RegularFile file(path);
-    const FileStart as_it_is{.path = path, .bytes = file.first_bytes(2)};
-    return {.path = path,
-            .bytes = first_bytes_inflated(file, start_bytes),
-            .is_gzip = as_it_is.starts_with("\x1f\x8b")};
+    start.bytes = file.first_bytes(2);
+    start.is_gzip = start.starts_with("\x1f\x8b");
+    start.bytes = first_bytes_inflated(file, start_bytes);
+    if (start.bytes.empty())
+        throw ImagingError(
+            path, start.is_gzip ? "is cut off: its gzip holds nothing that can be read" : "is empty");
+    return start;
 }
 
 /// The text header begins with fields, of which "NDims" is one of the first. It has no mark: what is called
 /// so and is nothing else is taken for one, so that its reader says what is wrong.
-bool is_meta_image(const FileStart& start) {
+bool is_meta_image(const ImageStart& start) {
     const std::string ending = lower_case(start.path.extension().string());
     if (ending == ".mha" || ending == ".mhd") return true;
     const std::string_view text(reinterpret_cast<const char*>(start.bytes.data()), start.bytes.size());
     return start.starts_with("ObjectType") || start.starts_with("NDims") ||
            text.substr(0, text.find('\0')).find("\nNDims") != std::string_view::npos;
+}
+
+bool is_stack(const ImageStart& start) {
+    using namespace std::string_view_literals;
+    if (start.is_folder) return is_picture_folder(start.path, start.choice.stack_spacing_mm.has_value());
+    return start.starts_with("\x89PNG") || start.starts_with("II*\0"sv) || start.starts_with("MM\0*"sv);
 }
 
 /// Headers and files are held against each other before anything is read.
@@ -80,54 +99,58 @@ OpenedImage opened(const std::filesystem::path& path, ImageFile file) {
 struct ImageFormat {
     const char* name;
     std::array<std::string_view, 2> endings;  ///< of its files' names; empty: none to go by
-    bool (*is)(const FileStart&);
-    OpenedImage (*open)(const std::filesystem::path&, DicomPurpose);
+    bool (*is)(const ImageStart&);
+    OpenedImage (*open)(const ImageStart&, DicomPurpose);
 };
 /// To read another format is a file and a row. The first that fits is taken.
 constexpr std::array image_formats{
     ImageFormat{
         "NRRD",
         {".nrrd", ".nhdr"},
-        [](const FileStart& start) { return start.starts_with("NRRD") && !start.is_gzip; },
-        [](const std::filesystem::path& path, DicomPurpose) { return opened(path, open_nrrd(path)); }},
+        [](const ImageStart& start) { return start.starts_with("NRRD") && !start.is_gzip; },
+        [](const ImageStart& start, DicomPurpose) { return opened(start.path, open_nrrd(start.path)); }},
     ImageFormat{
         "NIfTI",
         {".nii", ".nii.gz"},
-        [](const FileStart& start) {
-            return begins_as_nifti(start.bytes) || is_nifti_voxel_file(start.path);
+        [](const ImageStart& start) {
+            return begins_as_nifti(start.bytes) || (!start.is_folder && is_nifti_voxel_file(start.path));
         },
-        [](const std::filesystem::path& path, DicomPurpose) { return opened(path, open_nifti(path)); }},
-    ImageFormat{"DICOM",
+        [](const ImageStart& start, DicomPurpose) { return opened(start.path, open_nifti(start.path)); }},
+    ImageFormat{"folder of PNG or TIFF pictures",
                 {},
-                [](const FileStart& start) { return may_be_dicom(start.bytes) && !start.is_gzip; },
-                open_dicom_file},
-    ImageFormat{
-        "MetaImage",
-        {".mha", ".mhd"},
-        [](const FileStart& start) { return is_meta_image(start) && !start.is_gzip; },
-        [](const std::filesystem::path& path, DicomPurpose) { return opened(path, open_meta_image(path)); }}};
+                is_stack,
+                [](const ImageStart& start, DicomPurpose) {
+                    return open_picture_stack(start.path, start.choice.stack_spacing_mm);
+                }},
+    ImageFormat{"DICOM folder or file",
+                {},
+                [](const ImageStart& start) {
+                    return start.is_folder || (may_be_dicom(start.bytes) && !start.is_gzip);
+                },
+                [](const ImageStart& start, DicomPurpose purpose) {
+                    return start.is_folder ? open_dicom_folder(start.path, start.choice.series_uid, purpose)
+                                           : open_dicom_file(start.path, purpose);
+                }},
+    ImageFormat{"MetaImage",
+                {".mha", ".mhd"},
+                [](const ImageStart& start) { return is_meta_image(start) && !start.is_gzip; },
+                [](const ImageStart& start, DicomPurpose) {
+                    return opened(start.path, open_meta_image(start.path));
+                }}};
 
-OpenedImage open_any(const std::filesystem::path& path, const std::optional<std::string>& series_uid,
-                     DicomPurpose purpose) {
-    std::error_code failed;
-    const std::filesystem::file_status status = std::filesystem::status(path, failed);
-    if (!std::filesystem::exists(status)) throw ImagingError(path, "does not exist");
-    if (std::filesystem::is_directory(status)) return open_dicom_folder(path, series_uid, purpose);
-    if (!std::filesystem::is_regular_file(status)) throw ImagingError(path, "is neither a file nor a folder");
-    const FileStart start = start_of(path);
-    if (start.bytes.empty())
-        throw ImagingError(
-            path, start.is_gzip ? "is cut off: its gzip holds nothing that can be read" : "is empty");
-    const auto format = std::find_if(image_formats.begin(), image_formats.end(),
-                                     [&](const ImageFormat& one) { return one.is(start); });
-    if (format != image_formats.end()) return format->open(path, purpose);
-    std::vector<std::string> names{"is no DICOM folder or file"};
+OpenedImage open_any(const std::filesystem::path& path, const ImageChoice& choice, DicomPurpose purpose) {
+    const ImageStart start = start_of(path, choice);
+    const auto format =
+        std::ranges::find_if(image_formats, [&](const ImageFormat& one) { return one.is(start); });
+    if (format != image_formats.end()) return format->open(start, purpose);
+    std::vector<std::string> names;
     for (const ImageFormat& one : image_formats)
-        if (!one.endings.front().empty())
-            names.push_back(fmt::format("{} ({})", one.name, fmt::join(one.endings, ", ")));
+        names.push_back(one.endings.front().empty()
+                            ? one.name
+                            : fmt::format("{} ({})", one.name, fmt::join(one.endings, ", ")));
     const std::string last = std::move(names.back());
     names.pop_back();
-    throw ImagingError(path, fmt::format("{} or {}{}", fmt::join(names, ", "), last,
+    throw ImagingError(path, fmt::format("is no {} or {}{}", fmt::join(names, ", "), last,
                                          start.is_gzip ? "; it is gzip of something else: unpack it first"
                                                        : ": it begins as none of them"));
 }
@@ -150,12 +173,28 @@ bool is_image_name(const std::filesystem::path& path) {
     });
 }
 
-OpenedImage open_labels(const std::filesystem::path& path) {
-    return open_any(path, std::nullopt, DicomPurpose::labels);
+std::string name_without_ending(const std::filesystem::path& path) {
+    std::string name = path.filename().string();
+    const auto take_off = [&](std::string_view ending) {
+        if (!ending.empty() && lower_case(name).ends_with(ending)) name.resize(name.size() - ending.size());
+    };
+    for (const std::string_view ending : {".gz", ".dcm", ".hdr", ".img"}) take_off(ending);
+    for (const ImageFormat& one : image_formats) std::ranges::for_each(one.endings, take_off);
+    take_off(".seg");
+    return name;
 }
 
-OpenedImage open_image(const std::filesystem::path& path, const std::optional<std::string>& series_uid) {
-    OpenedImage image = open_any(path, series_uid, DicomPurpose::scan);
+OpenedImage open_labels(const std::filesystem::path& path, const ImageChoice& choice) {
+    return open_any(path, choice, DicomPurpose::labels);
+}
+
+OpenedImage open_image(const std::filesystem::path& path, const ImageChoice& choice) {
+    OpenedImage image = open_any(path, choice, DicomPurpose::scan);
+    if (image.is_coloured)
+        throw ImagingError(
+            path,
+            "holds coloured pictures, which have no CT numbers; where colours are tissues, give "
+            "--labels in place of INPUT");
     if (image.layers > 1)
         throw ImagingError(
             path, fmt::format("has {} values a voxel (colour, vectors or layers); CT has one", image.layers));

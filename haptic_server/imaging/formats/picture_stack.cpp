@@ -60,14 +60,10 @@ bool comes_before(std::string_view a, std::string_view b) {
     return a.size() < b.size();
 }
 
-std::vector<std::filesystem::path> picture_files(const std::filesystem::path& path) {
-    std::error_code failed;
-    if (!std::filesystem::is_directory(path, failed)) {
-        if (is_tiff_name(path)) return {path};
-        return {};
-    }
+std::vector<std::filesystem::path> picture_files(const std::filesystem::path& folder) {
     std::vector<std::filesystem::path> files;
-    for (const auto& entry : std::filesystem::directory_iterator(path, failed))
+    std::error_code failed;
+    for (const auto& entry : std::filesystem::directory_iterator(folder, failed))
         if (is_tiff_name(entry.path()) || lower_extension(entry.path()) == ".png")
             files.push_back(entry.path());
     std::ranges::sort(files, [](const auto& a, const auto& b) {
@@ -76,10 +72,11 @@ std::vector<std::filesystem::path> picture_files(const std::filesystem::path& pa
     return files;
 }
 
-std::vector<Page> pages_of(const std::vector<std::filesystem::path>& files) {
+std::vector<Page> pages_of(const std::filesystem::path& path) {
     std::vector<Page> pages;
-    for (const auto& file : files) {
-        if (!is_tiff_name(file)) {
+    const bool is_folder = std::filesystem::is_directory(path);
+    for (const auto& file : is_folder ? picture_files(path) : std::vector{path}) {
+        if (lower_extension(file) == ".png") {
             pages.push_back({file});
             continue;
         }
@@ -110,26 +107,26 @@ glm::dvec3 parse_stack_spacing(const std::string& text) {
     return spacing_mm;
 }
 
-bool reads_as_pictures(const std::filesystem::path& path, const std::optional<glm::dvec3>& spacing_mm) {
-    const auto pictures = static_cast<std::ptrdiff_t>(picture_files(path).size());
-    if (pictures == 0 || spacing_mm || !std::filesystem::is_directory(path)) return pictures > 0;
-    return std::distance(std::filesystem::directory_iterator(path), {}) == pictures;
+bool is_picture_folder(const std::filesystem::path& folder, bool has_spacing) {
+    const auto pictures = static_cast<std::ptrdiff_t>(picture_files(folder).size());
+    return pictures > 0 &&
+           (has_spacing || std::distance(std::filesystem::directory_iterator(folder), {}) == pictures);
 }
 
-PictureStack open_picture_stack(const std::filesystem::path& path,
-                                const std::optional<glm::dvec3>& spacing_mm) {
-    if (!spacing_mm)
-        throw ImagingError(path,
-                           "is a stack of pictures, which do not say how far their pixels are apart; give "
-                           "--stack-spacing x,y,z in mm");
-    std::vector<Page> pages = pages_of(picture_files(path));
+OpenedImage open_picture_stack(const std::filesystem::path& path,
+                               const std::optional<glm::dvec3>& spacing_mm) {
+    std::vector<Page> pages = pages_of(path);
     if (pages.size() < 2)
         throw ImagingError(path,
                            "is no stack of pictures: a folder with a PNG or TIFF for each slice, or a TIFF "
                            "of several pages");
+    if (!spacing_mm)
+        throw ImagingError(path,
+                           "is a stack of pictures, which do not say how far their pixels are apart; give "
+                           "--stack-spacing x,y,z in mm");
     const SlicePicture first = read(pages.front());
-    PictureStack stack{.opened = {}, .is_coloured = first.is_coloured};
-    SourceImage& image = stack.opened.image;
+    OpenedImage stack{.is_coloured = first.is_coloured};
+    SourceImage& image = stack.image;
     image.size_voxels = {first.width, first.height, static_cast<int>(pages.size())};
     image.spacing_mm = *spacing_mm;
     image.notes.push_back(
@@ -141,10 +138,9 @@ PictureStack open_picture_stack(const std::filesystem::path& path,
     } catch (const std::invalid_argument& error) {
         throw ImagingError(path, error.what());
     }
-    stack.opened.reading_bytes = 2 * sizeof(float) * first.values.size();
-    stack.opened.read_slices = [pages = std::move(pages), size = image.size_voxels,
-                                is_coloured = first.is_coloured](const TakeSlice& take,
-                                                                 const ReportProgress& report) {
+    stack.reading_bytes = 2 * sizeof(float) * first.values.size();
+    stack.read_slices = [pages = std::move(pages), size = image.size_voxels, is_coloured = first.is_coloured](
+                            const TakeSlice& take, const ReportProgress& report) {
         for (int k = 0; k < size.z; ++k) {
             const Page& page = pages[static_cast<std::size_t>(k)];
             SlicePicture picture = read(page);

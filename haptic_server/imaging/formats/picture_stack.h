@@ -15,25 +15,19 @@
 
 namespace osteomill {
 
-struct PictureStack {
-    /// Values are grey levels (8 or 16 bits, of TIFF floats, too), or of coloured pictures 0xRRGGBB, which a
-    /// float holds; 0 where a picture is transparent.
-    OpenedImage opened;
-    bool is_coloured = false;
-};
-
 /// "x,y,z" in mm, as --stack-spacing takes it. Throws std::invalid_argument unless it is three numbers above
 /// 0.
 glm::dvec3 parse_stack_spacing(const std::string& text);
 
-/// Whether open_picture_stack is to take a path: it holds pictures, and a spacing is given, or there is
-/// nothing but pictures. A picture beside a scan makes no stack of it.
-bool reads_as_pictures(const std::filesystem::path& path, const std::optional<glm::dvec3>& spacing_mm);
+/// Whether a folder is a stack: it holds pictures, and a spacing is given, or there is nothing but pictures.
+/// A picture beside a scan makes no stack of it.
+bool is_picture_folder(const std::filesystem::path& folder, bool has_spacing);
 
-/// Reads what the first picture says of size and form. Throws ImagingError in one line where there are fewer
-/// no spacing is given, or fewer than two pictures, one cannot be read, or is of a form that is not read;
-/// reading the slices, where a picture has another size or form than the first.
-PictureStack open_picture_stack(const std::filesystem::path& path,
-                                const std::optional<glm::dvec3>& spacing_mm);
+/// A folder, or a TIFF. Reads what the first picture says of size and form. Values are grey levels (8 or 16
+/// bits, of TIFF floats, too), or colours, 0 where a picture is transparent. Throws ImagingError in one line
+/// where no spacing is given, there are fewer than two pictures, one cannot be read, or is of a form that is
+/// not read; reading the slices, where a picture has another size or form than the first.
+OpenedImage open_picture_stack(const std::filesystem::path& path,
+                               const std::optional<glm::dvec3>& spacing_mm);
 
 }  // namespace osteomill

@@ -15,7 +15,6 @@
 #include "haptic_server/imaging/bone_file/file_digest.h"
 #include "haptic_server/imaging/formats/header_text.h"
 #include "haptic_server/imaging/formats/image_reader.h"
-#include "haptic_server/imaging/formats/picture_stack.h"
 #include "haptic_server/imaging/imaging_error.h"
 
 namespace osteomill {
@@ -135,71 +134,64 @@ void require_distinct_names(const Segmentation& segmentation) {
                                fmt::format("has two segments called \"{}\"", segment.name));
 }
 
-/// Without what tells the format.
-std::string name_of_file(const std::filesystem::path& path) {
-    std::filesystem::path name = path.filename();
-    for (const char* ending :
-         {".gz", ".nii", ".nrrd", ".nhdr", ".seg", ".mha", ".mhd", ".hdr", ".img", ".dcm"})
-        if (lower_case(name.extension().string()) == ending) name.replace_extension();
-    return name.string();
+/// Of coloured pictures: numbers in place of colours, in the order in which they come.
+OpenedImage numbered(const OpenedImage& coloured, const std::filesystem::path& path,
+                     std::map<std::uint32_t, std::uint16_t>& label_of_colour) {
+    OpenedImage labels = coloured;
+    labels.read_slices = [&](const TakeSlice& take, const ReportProgress& report) {
+        coloured.read_slices(
+            [&](int k, std::span<float> slice) {
+                for (float& value : slice) {
+                    if (value == 0.0F) continue;
+                    const auto next = static_cast<std::uint16_t>(label_of_colour.size() + 1);
+                    value = label_of_colour.emplace(static_cast<std::uint32_t>(value), next).first->second;
+                    if (next > most_segments + 1)
+                        throw ImagingError(path, "is no label map: it holds more than 4096 colours");
+                }
+                take(k, slice);
+            },
+            report);
+    };
+    return labels;
+}
+
+std::vector<Segment> coloured_segments(const std::map<std::uint32_t, std::uint16_t>& label_of_colour) {
+    std::vector<Segment> segments;
+    for (const auto& [colour, label] : label_of_colour)
+        segments.push_back({.name = fmt::format("#{:06x}", colour),
+                            .label = label,
+                            .colour_rgb = std::array{static_cast<std::uint8_t>(colour >> 16U),
+                                                     static_cast<std::uint8_t>(colour >> 8U),
+                                                     static_cast<std::uint8_t>(colour)}});
+    return segments;
 }
 
 }  // namespace
 
-Segmentation read_segmentation(const std::filesystem::path& path) {
-    const OpenedImage found = open_labels(path);
+Segmentation read_segmentation(const std::filesystem::path& path,
+                               const std::optional<glm::dvec3>& stack_spacing_mm) {
+    const OpenedImage found = open_labels(path, {.stack_spacing_mm = stack_spacing_mm});
     if (std::filesystem::is_regular_file(path)) has_file_digest(path);  // or it is damaged
-    Segmentation segmentation{
-        .path = path, .image = found.image, .segments = {}, .is_plain_map = false, .labels = {}};
-    segmentation.segments = named_segments(path, found);
+    Segmentation segmentation{.path = path,
+                              .image = found.image,
+                              .segments = named_segments(path, found),
+                              .is_plain_map = false,
+                              .is_by_colour = found.is_coloured,
+                              .labels = {}};
     if (segmentation.segments.empty() && found.layers > 1)
         throw ImagingError(path, "has layers, but names no segments (Segment0_Name)");
     require_distinct_names(segmentation);
-    segmentation.labels = read_labels(path, found);
-    segmentation.is_plain_map = segmentation.segments.empty();
-    if (segmentation.is_plain_map) segmentation.segments = numbered_segments(segmentation.labels);
-    // As TotalSegmentator writes them, a file a structure.
-    if (segmentation.is_plain_map && segmentation.segments.size() == 1)
-        segmentation.segments.front().name = name_of_file(path);
-    require_plain_names(segmentation);
-    return segmentation;
-}
-
-Segmentation read_picture_labels(const std::filesystem::path& path,
-                                 const std::optional<glm::dvec3>& spacing_mm) {
-    PictureStack stack = open_picture_stack(path, spacing_mm);
     std::map<std::uint32_t, std::uint16_t> label_of_colour;
-    OpenedImage labels = stack.opened;
-    if (stack.is_coloured)
-        labels.read_slices = [&](const TakeSlice& take, const ReportProgress& report) {
-            stack.opened.read_slices(
-                [&](int k, std::span<float> slice) {
-                    for (float& value : slice) {
-                        if (value == 0.0F) continue;
-                        const auto next = static_cast<std::uint16_t>(label_of_colour.size() + 1);
-                        value =
-                            label_of_colour.emplace(static_cast<std::uint32_t>(value), next).first->second;
-                        if (next > most_segments + 1)
-                            throw ImagingError(path, "is no label map: it holds more than 4096 colours");
-                    }
-                    take(k, slice);
-                },
-                report);
-        };
-    Segmentation segmentation{.path = path,
-                              .image = stack.opened.image,
-                              .segments = {},
-                              .is_plain_map = true,
-                              .is_by_colour = stack.is_coloured,
-                              .labels = {}};
-    segmentation.labels = read_labels(path, labels);
-    if (!stack.is_coloured) segmentation.segments = numbered_segments(segmentation.labels);
-    for (const auto& [colour, label] : label_of_colour)
-        segmentation.segments.push_back({.name = fmt::format("#{:06x}", colour),
-                                         .label = label,
-                                         .colour_rgb = std::array{static_cast<std::uint8_t>(colour >> 16U),
-                                                                  static_cast<std::uint8_t>(colour >> 8U),
-                                                                  static_cast<std::uint8_t>(colour)}});
+    segmentation.labels =
+        read_labels(path, found.is_coloured ? numbered(found, path, label_of_colour) : found);
+    segmentation.is_plain_map = segmentation.segments.empty();
+    if (segmentation.is_plain_map)
+        segmentation.segments =
+            found.is_coloured ? coloured_segments(label_of_colour) : numbered_segments(segmentation.labels);
+    // As TotalSegmentator writes them, a file a structure.
+    if (segmentation.is_plain_map && !found.is_coloured && segmentation.segments.size() == 1)
+        segmentation.segments.front().name = name_without_ending(path);
+    require_plain_names(segmentation);
     return segmentation;
 }
 

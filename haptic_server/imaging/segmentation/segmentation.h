@@ -1,6 +1,7 @@
 // A segmentation: which voxels of a scan belong to which structures, as 3D Slicer writes it (.seg.nrrd or
 // DICOM SEG, with names and overlapping layers) or as a plain label map of any format, whose segments bear
-// their number as name; where there is but one, the file's.
+// their number as name; where there is but one, the file's. Of coloured pictures every colour but black is a
+// segment, which bears it as its name ("#ff0000").
 #pragma once
 
 #include <array>
@@ -37,12 +38,8 @@ struct Segmentation {
 /// Throws ImagingError, in one line, for what open_labels refuses, names that do not fit their labels, labels
 /// that are no whole numbers from 0 to 65535 (within 0.01), more than 4096 different ones, and more than
 /// memory is given to.
-Segmentation read_segmentation(const std::filesystem::path& path);
-
-/// A stack of pictures (picture_stack.h): grey levels are labels, or every colour but black is one, which
-/// bears it as its name ("#ff0000"). Throws as read_segmentation, and for what open_picture_stack refuses.
-Segmentation read_picture_labels(const std::filesystem::path& path,
-                                 const std::optional<glm::dvec3>& spacing_mm);
+Segmentation read_segmentation(const std::filesystem::path& path,
+                               const std::optional<glm::dvec3>& stack_spacing_mm = std::nullopt);
 
 /// Gives the segments of a plain label map the names and colours of their labels, those of coloured pictures
 /// the names of their colours; those that the table does not know keep theirs, and of two with one name the

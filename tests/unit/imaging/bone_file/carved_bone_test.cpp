@@ -100,7 +100,7 @@ TEST_P(CarvedBone, IsOneFileThatBoneImportReads) {
     const HuVolume volume = ball(GetParam());
     save_carved_bone(path_, slices_of(volume), carved(volume));
     EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder_.path()), {}), 1);
-    const OpenedImage opened = open_image(path_, std::nullopt);
+    const OpenedImage opened = open_image(path_);
     const std::vector<float> values = opened.read_values([](double) {});
     const std::vector<std::int16_t> hu = testing::read_bone_file(path_).volume.hu;
     ASSERT_EQ(values.size(), hu.size());

@@ -38,13 +38,13 @@ class DicomImage : public ::testing::Test {
             write_bytes(series_ / ("IM" + std::to_string(k)), raw_dicom(slice));
         }
     }
-    OpenedImage open() const { return open_image(series_, std::nullopt); }
+    OpenedImage open() const { return open_image(series_); }
     std::vector<float> values() const {
         return open().read_values([](double) {});
     }
     std::string refusal(const std::filesystem::path& path) const {
         try {
-            open_image(path, std::nullopt).read_values([](double) {});
+            open_image(path).read_values([](double) {});
         } catch (const ImagingError& error) {
             return error.what();
         }
@@ -176,15 +176,14 @@ TEST_F(DicomImage, StacksFramesWithoutGroups) {
                  dicom_element(0x0018, 0x0050, "DS", "9") + dicom_element(0x0018, 0x0088, "DS", "-2") +
                      dicom_element(0x0020, 0x000e, "UI", "1.2.3"));
     write_bytes(folder_ / "x.dcm", bytes);
-    const OpenedImage opened = open_image(folder_ / "x.dcm", std::nullopt);
+    const OpenedImage opened = open_image(folder_ / "x.dcm");
     EXPECT_EQ(opened.image.spacing_mm.z, 2.0);
     EXPECT_EQ(opened.read_values([](double) {})[24], 5.0F);
     EXPECT_THAT(opened.image.notes, Contains(HasSubstr("stacked 2 mm apart (Spacing Between Slices)")));
     bytes = with(with(bytes, dicom_element(0x0020, 0x0032, "DS", "0\\0\\0"), ""),
                  dicom_element(0x0020, 0x0037, "DS", "1\\0\\0\\0\\1\\0"), "");
     write_bytes(folder_ / "x.dcm", bytes);
-    EXPECT_THAT(open_image(folder_ / "x.dcm", std::nullopt).image.notes,
-                Contains(HasSubstr("left and right are a guess")));
+    EXPECT_THAT(open_image(folder_ / "x.dcm").image.notes, Contains(HasSubstr("left and right are a guess")));
 }
 
 TEST_F(DicomImage, LeavesOutBitsThatHoldNoPixel) {

@@ -64,7 +64,7 @@ class ImageReader : public ::testing::Test {
     std::string refusal(const std::filesystem::path& path,
                         const std::optional<std::string>& uid = std::nullopt) {
         try {
-            open_image(path, uid).read_values(silent);
+            open_image(path, {.series_uid = uid}).read_values(silent);
         } catch (const ImagingError& error) {
             const std::string line = error.what();
             EXPECT_THAT(line, Not(HasSubstr("\n")));
@@ -91,7 +91,7 @@ TEST_F(ImageReader, PlacesADicomSeriesAndAppliesEachSlicesOwnRescale) {
     slices[1].stored[3 + 12 * 2] = 3000;
     std::swap(slices[0], slices[3]);
     testing::write_series(folder_ / "series", slices);
-    OpenedImage opened = open_image(folder_ / "series", std::nullopt);
+    OpenedImage opened = open_image(folder_ / "series");
     EXPECT_EQ(opened.image.size_voxels, glm::ivec3(12, 10, 4));
     const std::vector<float> values = opened.read_values(silent);
     EXPECT_FLOAT_EQ(values[0], 0.0F);
@@ -108,11 +108,11 @@ TEST_F(ImageReader, TakesTheLargestSeriesNamesTheOthersAndLetsOneBePicked) {
         slices.push_back(slice);
     }
     testing::write_series(folder_ / "series", slices);
-    const OpenedImage largest = open_image(folder_ / "series", std::nullopt);
+    const OpenedImage largest = open_image(folder_ / "series");
     EXPECT_EQ(largest.image.size_voxels.z, 5);
     ASSERT_EQ(largest.image.notes.size(), 1u);
     EXPECT_THAT(largest.image.notes[0], HasSubstr("1.2.3.4 (3 slices)"));
-    EXPECT_EQ(open_image(folder_ / "series", "1.2.3.4").image.size_voxels.z, 3);
+    EXPECT_EQ(open_image(folder_ / "series", {.series_uid = "1.2.3.4"}).image.size_voxels.z, 3);
     EXPECT_THAT(refusal(folder_ / "series", "9.9"), HasSubstr("holds no series 9.9; it holds"));
 }
 
@@ -163,12 +163,11 @@ TEST_F(ImageReader, ReadsNrrdInItsOwnSpaceAndSaysWhenItHasNone) {
     write_text(folder_ / "ras.nrrd",
                raw_nrrd("space: right-anterior-superior\nspace directions: (2,0,0) (0,3,0) (0,0,4)\n"
                         "space origin: (10,20,30)\n"));
-    const OpenedImage ras = open_image(folder_ / "ras.nrrd", std::nullopt);
+    const OpenedImage ras = open_image(folder_ / "ras.nrrd");
     EXPECT_EQ(position_mm(ras.image, {1.0, 1.0, 1.0}), glm::dvec3(-12.0, -23.0, 34.0));
     EXPECT_TRUE(ras.image.notes.empty());
     write_text(folder_ / "plain.nrrd", raw_nrrd("spacings: 1 1 2\n"));
-    EXPECT_THAT(open_image(folder_ / "plain.nrrd", std::nullopt).image.notes.at(0),
-                HasSubstr("taken as left-posterior"));
+    EXPECT_THAT(open_image(folder_ / "plain.nrrd").image.notes.at(0), HasSubstr("taken as left-posterior"));
 }
 
 TEST_F(ImageReader, RefusesNrrdWithSpacingsThatAreNone) {
@@ -190,7 +189,7 @@ TEST_F(ImageReader, RefusesFilesThatAreCutOff) {
 
 TEST_F(ImageReader, ReadsMetaImageAndRefusesItsFaults) {
     write_text(folder_ / "good.mha", raw_mha("1 1 2"));
-    const OpenedImage good = open_image(folder_ / "good.mha", std::nullopt);
+    const OpenedImage good = open_image(folder_ / "good.mha");
     EXPECT_EQ(position_mm(good.image, {0.0, 0.0, 1.0}), glm::dvec3(1.0, 2.0, 5.0));
     EXPECT_THAT(refusal_of_text("zero.mha", raw_mha("1 0 1")), HasSubstr("above 0"));
     EXPECT_THAT(refusal_of_text("nan.mha", raw_mha("1 nan 1")), HasSubstr("above 0"));
@@ -198,7 +197,7 @@ TEST_F(ImageReader, ReadsMetaImageAndRefusesItsFaults) {
 
 TEST_F(ImageReader, ReadsNiftiInLpsAndRefusesItsFaults) {
     write_text(folder_ / "good.nii", raw_nifti(2.0F));
-    const OpenedImage good = open_image(folder_ / "good.nii", std::nullopt);
+    const OpenedImage good = open_image(folder_ / "good.nii");
     EXPECT_LT(glm::distance(position_mm(good.image, {1.0, 1.0, 1.0}), glm::dvec3(-12.0, -22.0, 32.0)), 1e-5);
     EXPECT_THAT(refusal_of_text("half.nii", raw_nifti(2.0F, 50)), HasSubstr("is cut off"));
 }

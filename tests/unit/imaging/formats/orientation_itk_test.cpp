@@ -21,7 +21,7 @@ class OrientationAgainstItk : public ::testing::Test {
         return folder_ / name;
     }
     static glm::dvec3 ours(const std::filesystem::path& path) {
-        return position_mm(open_image(path, std::nullopt).image, {1.0, 2.0, 3.0});
+        return position_mm(open_image(path).image, {1.0, 2.0, 3.0});
     }
     static glm::dvec3 itks(itk::ImageIOBase& io, const std::filesystem::path& path) {
         io.SetFileName(path.string());

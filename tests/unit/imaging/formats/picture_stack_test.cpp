@@ -21,14 +21,14 @@ class PictureStackFolder : public ::testing::Test {
   protected:
     std::string refusal() const {
         try {
-            open_picture_stack(folder_.path(), spacing_mm).opened.read_values([](double) {});
+            open_picture_stack(folder_.path(), spacing_mm).read_values([](double) {});
         } catch (const ImagingError& error) {
             return error.what();
         }
         return "";
     }
     std::vector<float> values() const {
-        return open_picture_stack(folder_.path(), spacing_mm).opened.read_values([](double) {});
+        return open_picture_stack(folder_.path(), spacing_mm).read_values([](double) {});
     }
     testing::TemporaryFolder folder_;
 };
@@ -38,11 +38,11 @@ TEST_F(PictureStackFolder, IsInTheOrderOfTheNumbersInItsNames) {
         testing::write_png_picture(folder_ / ("plane" + std::to_string(number) + ".png"), 2, 2,
                                    PNG_FORMAT_GRAY, {number, 0, 0, 255});
     std::ofstream(folder_ / "about.txt") << "no picture";
-    const PictureStack stack = open_picture_stack(folder_.path(), spacing_mm);
+    const OpenedImage stack = open_picture_stack(folder_.path(), spacing_mm);
     EXPECT_FALSE(stack.is_coloured);
-    EXPECT_EQ(stack.opened.image.size_voxels, glm::ivec3(2, 2, 4));
-    EXPECT_EQ(stack.opened.image.spacing_mm, spacing_mm);
-    EXPECT_THAT(stack.opened.image.notes, ElementsAre(HasSubstr("left and right are a guess")));
+    EXPECT_EQ(stack.image.size_voxels, glm::ivec3(2, 2, 4));
+    EXPECT_EQ(stack.image.spacing_mm, spacing_mm);
+    EXPECT_THAT(stack.image.notes, ElementsAre(HasSubstr("left and right are a guess")));
     const std::vector<float> all = values();
     EXPECT_THAT((std::vector<float>{all[0], all[4], all[8], all[12]}),
                 ElementsAre(1.0F, 9.0F, 10.0F, 100.0F));
@@ -57,8 +57,7 @@ TEST_F(PictureStackFolder, OfTiffHasAllLevelsAndAllPages) {
     const std::vector<float> all = values();
     ASSERT_EQ(all.size(), 36U);
     EXPECT_THAT((std::vector<float>{all[11], all[12], all[35]}), ElementsAre(65535.0F, 300.0F, 7.0F));
-    EXPECT_TRUE(reads_as_pictures(folder_ / "a2.TIFF", std::nullopt));
-    EXPECT_EQ(open_picture_stack(folder_ / "a2.TIFF", spacing_mm).opened.image.size_voxels.z, 2);
+    EXPECT_EQ(open_picture_stack(folder_ / "a2.TIFF", spacing_mm).image.size_voxels.z, 2);
 }
 
 TEST_F(PictureStackFolder, OfColoursIsALabelMap) {
@@ -66,7 +65,7 @@ TEST_F(PictureStackFolder, OfColoursIsALabelMap) {
     const std::vector<std::uint8_t> rgba{255, 249, 219, 255, 244, 214, 49, 255, 0, 0, 0, 255, 255, 0, 0, 0};
     for (const char* name : {"s0.png", "s1.png"})
         testing::write_png_picture(folder_ / name, 2, 2, PNG_FORMAT_RGBA, rgba);
-    Segmentation read = read_picture_labels(folder_.path(), spacing_mm);
+    Segmentation read = read_segmentation(folder_.path(), spacing_mm);
     ASSERT_EQ(read.segments.size(), 2U);
     EXPECT_EQ(read.segments[0].name, "#f4d631");
     name_segments(read, {{40, {"Bone", {255, 249, 219}}}, {41, {"Facial Nerve", {244, 214, 49}}}});
@@ -98,14 +97,13 @@ TEST_F(PictureStackFolder, IsRefusedInOneLineWhereItIsNone) {
 }
 
 TEST_F(PictureStackFolder, IsNoneWhereAPictureLiesBesideAScan) {
-    EXPECT_FALSE(reads_as_pictures(folder_.path(), spacing_mm));
+    EXPECT_FALSE(is_picture_folder(folder_.path(), true));
     testing::write_png_picture(folder_ / "1.png", 1, 1, PNG_FORMAT_GRAY, {0});
-    EXPECT_TRUE(reads_as_pictures(folder_.path(), std::nullopt));
+    EXPECT_TRUE(is_picture_folder(folder_.path(), false));
     std::ofstream(folder_ / "IM0001") << "DICM";
-    EXPECT_FALSE(reads_as_pictures(folder_.path(), std::nullopt));
-    EXPECT_TRUE(reads_as_pictures(folder_.path(), spacing_mm));
-    EXPECT_FALSE(reads_as_pictures(folder_ / "IM0001", spacing_mm));
-    EXPECT_FALSE(reads_as_pictures(folder_ / "nowhere", spacing_mm));
+    EXPECT_FALSE(is_picture_folder(folder_.path(), false));
+    EXPECT_TRUE(is_picture_folder(folder_.path(), true));
+    EXPECT_FALSE(is_picture_folder(folder_ / "nowhere", true));
 }
 
 TEST(StackSpacing, IsThreeLengths) {
