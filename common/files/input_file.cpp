@@ -62,6 +62,12 @@ std::size_t InputFile::read_at(std::uint64_t offset, std::span<std::byte> bytes)
     return done;
 }
 
+std::vector<std::uint8_t> InputFile::first_bytes(std::uint64_t most) const {
+    std::vector<std::uint8_t> bytes(static_cast<std::size_t>(std::min(most, size_)));
+    bytes.resize(read_at(0, std::as_writable_bytes(std::span(bytes))));
+    return bytes;
+}
+
 std::string InputFile::text() const {
     if (size_ > kind_.most_bytes)
         throw refusal(path_, fmt::format("has {} bytes, more than the {} that are read; it should be {}",

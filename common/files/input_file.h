@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <span>
 #include <string>
+#include <vector>
 
 namespace osteomill {
 
@@ -48,6 +49,8 @@ class InputFile {
     /// Reads into `bytes` from an offset; how many there were, fewer only at the file's end. Throws
     /// std::runtime_error where the disk fails.
     std::size_t read_at(std::uint64_t offset, std::span<std::byte> bytes) const;
+    /// Its first bytes, at most so many.
+    std::vector<std::uint8_t> first_bytes(std::uint64_t most) const;
     /// All of it. Throws std::runtime_error where there are more bytes than its kind may have.
     std::string text() const;
 

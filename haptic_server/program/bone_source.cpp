@@ -9,7 +9,6 @@
 #include "haptic_server/imaging/bone_file/bone_of_file.h"
 #include "haptic_server/imaging/bone_file/carved_bone.h"
 #include "haptic_server/imaging/bone_file/ct_overview.h"
-#include "haptic_server/imaging/imaging_error.h"
 #include "haptic_server/imaging/phantoms/phantom.h"
 
 namespace osteomill {
@@ -67,7 +66,7 @@ HuSlices slices_again(const BoneSource& source, HuReader& reader) {
                       std::span<std::int16_t> hu, std::span<std::uint8_t> tissue) mutable {
         try {
             read(hu, tissue);
-        } catch (const ImagingError& error) {
+        } catch (const std::runtime_error& error) {
             throw SourceLost(error.what());
         }
         left -= hu.size();

@@ -7,15 +7,15 @@
 #include <string_view>
 #include <vector>
 
+#include "common/files/input_file.h"
 #include "haptic_server/imaging/formats/nrrd_header.h"
-#include "haptic_server/imaging/formats/regular_file.h"
 #include "haptic_server/imaging/imaging_error.h"
 
 namespace osteomill {
 
 bool has_file_digest(const std::filesystem::path& path) {
     constexpr std::size_t piece_bytes = 1U << 20U;
-    const RegularFile file(path);
+    const InputFile file(path);
     std::vector<std::uint8_t> bytes = file.first_bytes(most_nrrd_header_bytes);
     if (!std::string_view(reinterpret_cast<const char*>(bytes.data()), bytes.size()).starts_with("NRRD"))
         return false;

@@ -18,7 +18,7 @@ constexpr double printing_tolerance = 1e-6;
 constexpr const char* hint = "; run bone_import on it";
 
 /// What a bone may not leave open, although an image may.
-void require_form(const NrrdHeader& header, const NrrdImage& image, NrrdVoxel voxel,
+void require_form(const NrrdHeader& header, const ImageHeader& image, NrrdVoxel voxel,
                   const std::filesystem::path& path) {
     const auto refuse = [&](const std::string& reason) { throw ImagingError(path, reason + hint); };
     if (!image.is_placed) refuse("does not say how it lies in the patient (space)");
@@ -70,9 +70,9 @@ NrrdFile::NrrdFile(const std::filesystem::path& path, NrrdVoxel voxel) {
     if (!std::filesystem::is_regular_file(path))
         throw ImagingError(path,
                            std::string("is not a file") + (std::filesystem::is_directory(path) ? hint : ""));
-    file_ = std::make_shared<const RegularFile>(path);
+    file_ = std::make_shared<const InputFile>(path);
     NrrdHeader header = parse_nrrd_header(file_->first_bytes(most_nrrd_header_bytes), path);
-    const NrrdImage image = nrrd_image(header, path);
+    const ImageHeader image = nrrd_image(header, path);
     require_form(header, image, voxel, path);
     form_.voxel = voxel;
     form_.grid = grid_of(image.image, path);

@@ -38,7 +38,7 @@ class NrrdFile {
     NrrdData data() const;
 
   private:
-    std::shared_ptr<const RegularFile> file_;
+    std::shared_ptr<const InputFile> file_;
     NrrdForm form_{};
     std::uint64_t data_offset_ = 0;
     Encoding encoding_ = Encoding::raw;

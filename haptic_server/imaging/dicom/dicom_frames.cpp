@@ -5,18 +5,14 @@
 #include <gdcmImage.h>
 #include <gdcmImageReader.h>
 #include <gdcmImageRegionReader.h>
-#include <sys/mman.h>
-#include <unistd.h>
 
-#include <algorithm>
 #include <cstring>
-#include <optional>
 #include <stdexcept>
 #include <type_traits>
 #include <vector>
 
+#include "common/files/input_file.h"
 #include "haptic_server/imaging/dicom/quiet_libraries.h"
-#include "haptic_server/imaging/formats/regular_file.h"
 #include "haptic_server/imaging/imaging_error.h"
 
 namespace osteomill {
@@ -37,33 +33,6 @@ ImagingError of_other_size(const DicomFile& file) {
 std::size_t pixels_of_frame(const DicomFile& file) {
     return static_cast<std::size_t>(file.header.columns) * static_cast<std::size_t>(file.header.rows);
 }
-
-/// A copy in memory of a file whose header states the wrong sign of its pixels, with the right one.
-class MendedFile {
-  public:
-    MendedFile(const std::filesystem::path& path, std::uint64_t sign_begin, bool is_signed)
-        : descriptor_(::memfd_create("osteomill", MFD_CLOEXEC)) {
-        const RegularFile file(path);
-        std::vector<std::uint8_t> bytes = file.first_bytes(file.size());
-        if (sign_begin + 2 > bytes.size()) throw ImagingError(path, "was cut off while it was read");
-        // JPEG 2000 is little-endian.
-        bytes[sign_begin] = is_signed ? 1 : 0;
-        bytes[sign_begin + 1] = 0;
-        for (std::size_t done = 0; done < bytes.size();) {
-            const ssize_t count = ::write(descriptor_, bytes.data() + done, bytes.size() - done);
-            if (count < 0) throw std::bad_alloc();
-            done += static_cast<std::size_t>(count);
-        }
-    }
-    ~MendedFile() { ::close(descriptor_); }
-    MendedFile(const MendedFile&) = delete;
-    MendedFile& operator=(const MendedFile&) = delete;
-
-    std::string name() const { return fmt::format("/proc/self/fd/{}", descriptor_); }
-
-  private:
-    int descriptor_;
-};
 
 /// Only uncompressed pixels are found without reading those before them.
 bool is_read_frame_by_frame(const DicomFile& file) {
@@ -96,15 +65,16 @@ class DicomFrames::Source {
 class DicomFrames::WholeFile : public Source {
   public:
     explicit WholeFile(const DicomFile& file) {
-        const DicomHeader& header = file.header;
-        std::optional<MendedFile> mended;
-        if (header.wrong_sign_begin)
-            mended.emplace(file.path, *header.wrong_sign_begin, header.codestream_is_signed);
         gdcm::ImageReader reader;
-        reader.SetFileName(mended ? mended->name().c_str() : file.path.c_str());
+        reader.SetFileName(file.path.c_str());
         require(file, [&] {
             if (!reader.Read()) return false;
-            const gdcm::Image& image = reader.GetImage();
+            gdcm::Image& image = reader.GetImage();
+            if (file.header.sign_of_codestream) {
+                gdcm::PixelFormat format = image.GetPixelFormat();
+                format.SetPixelRepresentation(*file.header.sign_of_codestream ? 1 : 0);
+                image.SetPixelFormat(format);
+            }
             stored_.resize(image.GetBufferLength());
             return image.GetBuffer(stored_.data());
         });
@@ -234,7 +204,7 @@ std::uint64_t DicomFrames::bytes_to_read(const DicomFile& file) {
     constexpr std::uint64_t bytes_of_a_pixel = 10;
     const std::uint64_t frame_bytes = bytes_of_a_pixel * pixels_of_frame(file);
     if (is_read_frame_by_frame(file)) return frame_bytes;
-    return RegularFile(file.path).size() + file.header.frames.size() * frame_bytes;
+    return InputFile(file.path).size() + file.header.frames.size() * frame_bytes;
 }
 
 }  // namespace osteomill

@@ -10,10 +10,10 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "common/files/input_file.h"
 #include "haptic_server/imaging/dicom/data_set.h"
 #include "haptic_server/imaging/dicom/dicom_pixels.h"
 #include "haptic_server/imaging/dicom/quiet_libraries.h"
-#include "haptic_server/imaging/formats/regular_file.h"
 #include "haptic_server/imaging/imaging_error.h"
 
 namespace osteomill {
@@ -240,7 +240,7 @@ std::string why_left_out(const DataSet& data, const DicomScan& scan, const Dicom
     return header.not_of_the_scan;
 }
 
-std::optional<DicomScan> scan_first(const RegularFile& file, std::uint64_t bytes) {
+std::optional<DicomScan> scan_first(const InputFile& file, std::uint64_t bytes) {
     std::optional<DicomScan> scan = scan_dicom(file.first_bytes(bytes), file.size());
     // Labels of one bit beside a scan are sound, and read elsewhere.
     if (scan && why_no_grey_image(*scan).empty()) require_sound_pixels(*scan);
@@ -249,7 +249,7 @@ std::optional<DicomScan> scan_first(const RegularFile& file, std::uint64_t bytes
 
 /// What GDCM may be given the file for.
 std::optional<DicomScan> scan_file(const std::filesystem::path& path) {
-    const RegularFile file(path);
+    const InputFile file(path);
     if (!may_be_dicom(file.first_bytes(dicom_mark_bytes))) return std::nullopt;
     try {
         return scan_first(file, first_scanned_bytes);
@@ -308,10 +308,8 @@ std::optional<DicomHeader> read_dicom_header(const std::filesystem::path& path) 
         header.fault = "has pixels in colour (0028,0004 '" + photometric.substr(0, 16) + "')";
     header.values = values_of(data, *scan, header);
     if (scan->codestream && scan->codestream->is_signed && scan->pixel_representation &&
-        *scan->codestream->is_signed != (*scan->pixel_representation == 1)) {
-        header.wrong_sign_begin = scan->pixel_representation_begin;
-        header.codestream_is_signed = *scan->codestream->is_signed;
-    }
+        *scan->codestream->is_signed != (*scan->pixel_representation == 1))
+        header.sign_of_codestream = scan->codestream->is_signed;
     note_doubtful_kind(*scan, header);
     place_frames(data, static_cast<std::size_t>(count), header);
     header.not_of_the_scan = why_left_out(data, *scan, header);

@@ -26,10 +26,9 @@ struct DicomHeader {
     std::string
         not_of_the_scan;  ///< why it is left out where others are ("is a localizer"), in words; or empty
     DicomValues values{};
-    /// Where the file states the sign of its pixels, if its JPEG 2000 codestream states the other; GDCM would
-    /// take the file's word and clamp.
-    std::optional<std::uint64_t> wrong_sign_begin{};
-    bool codestream_is_signed = false;
+    /// Whether its JPEG 2000 codestream says that its pixels are signed, if the header says otherwise; GDCM
+    /// would take the header's word and clamp.
+    std::optional<bool> sign_of_codestream{};
     /// Where each frame lies; std::nullopt of a frame that the header does not place, see `fault`.
     std::vector<std::optional<SlicePlacement>> frames;
     std::vector<DicomRescale> rescales;  ///< one a frame

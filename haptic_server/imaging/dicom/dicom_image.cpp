@@ -19,14 +19,9 @@ namespace {
 
 /// What a user should know of files that are read nevertheless.
 void note_doubts(const std::filesystem::path& folder, const DicomSeries& series, SourceImage& image) {
-    const auto wrong = std::count_if(series.files.begin(), series.files.end(), [](const DicomFile& file) {
-        return file.header.wrong_sign_begin.has_value();
-    });
-    if (wrong > 0) {
-        const bool is_signed =
-            std::find_if(series.files.begin(), series.files.end(), [](const DicomFile& file) {
-                return file.header.wrong_sign_begin.has_value();
-            })->header.codestream_is_signed;
+    const auto is_wrong = [](const DicomFile& file) { return file.header.sign_of_codestream.has_value(); };
+    if (const auto wrong = std::ranges::count_if(series.files, is_wrong); wrong > 0) {
+        const bool is_signed = *std::ranges::find_if(series.files, is_wrong)->header.sign_of_codestream;
         image.notes.push_back(fmt::format(
             "{}: warning: {} file(s) say {} pixels (0028,0103) where their JPEG 2000 codestream says {}; the "
             "codestream is followed",

@@ -290,7 +290,6 @@ class Walker {
             case tag(0x0028, 0x0102):
                 return set_number(scan.high_bit);
             case tag(0x0028, 0x0103):
-                if (!scan.pixel_representation) scan.pixel_representation_begin = element.value;
                 return set_number(scan.pixel_representation);
             default:
                 return;

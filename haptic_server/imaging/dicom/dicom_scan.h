@@ -26,9 +26,8 @@ struct DicomScan {
     std::optional<int> bits_allocated{};
     std::optional<int> bits_stored{};
     std::optional<int> high_bit{};
-    std::optional<int> pixel_representation{};     ///< 0 unsigned, 1 signed
-    std::uint64_t pixel_representation_begin = 0;  ///< where its two bytes stand in the file
-    std::string frames{};                          ///< Number of Frames, as it is written
+    std::optional<int> pixel_representation{};  ///< 0 unsigned, 1 signed
+    std::string frames{};                       ///< Number of Frames, as it is written
     bool has_pixel_data = false;
     bool is_encapsulated = false;
     std::uint64_t pixel_bytes = 0;           ///< of pixel data; when encapsulated, of all fragments

@@ -8,11 +8,11 @@
 #include <map>
 #include <memory>
 
+#include "common/files/input_file.h"
 #include "haptic_server/imaging/dicom/data_set.h"
 #include "haptic_server/imaging/dicom/dicom_scan.h"
 #include "haptic_server/imaging/dicom/quiet_libraries.h"
 #include "haptic_server/imaging/formats/plausible_geometry.h"
-#include "haptic_server/imaging/formats/regular_file.h"
 #include "haptic_server/imaging/imaging_error.h"
 
 namespace osteomill {
@@ -40,7 +40,7 @@ struct SegmentFrame {
 class SegmentationSource {
   public:
     explicit SegmentationSource(const std::filesystem::path& path) : path_(path) {
-        const RegularFile file(path);
+        const InputFile file(path);
         if (file.size() > most_segmentation_bytes)
             throw ImagingError(path, "is a segmentation of more than 1 GiB");
         try {
@@ -278,7 +278,7 @@ class SegmentationSource {
 }  // namespace
 
 bool is_dicom_segmentation(const std::filesystem::path& path) {
-    const RegularFile file(path);
+    const InputFile file(path);
     if (!may_be_dicom(file.first_bytes(dicom_mark_bytes)) || file.size() > most_segmentation_bytes)
         return false;
     try {

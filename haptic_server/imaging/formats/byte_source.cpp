@@ -42,7 +42,7 @@ bool is_blank(std::byte byte) {
 /// zlib's stream of a file.
 class ByteSource::Inflater {
   public:
-    Inflater(const RegularFile& file, std::uint64_t offset, Encoding encoding)
+    Inflater(const InputFile& file, std::uint64_t offset, Encoding encoding)
         : file_(file), offset_(offset), in_(buffer_bytes) {
         if (inflateInit2(&stream_, window_bits(encoding)) != Z_OK) throw std::bad_alloc();
     }
@@ -97,14 +97,14 @@ class ByteSource::Inflater {
         stream_.avail_in = static_cast<uInt>(got);
     }
 
-    const RegularFile& file_;
+    const InputFile& file_;
     std::uint64_t offset_;
     std::vector<std::byte> in_;
     z_stream stream_{};
     bool has_ended_ = false;
 };
 
-ByteSource::ByteSource(std::shared_ptr<const RegularFile> file, std::uint64_t offset, Encoding encoding)
+ByteSource::ByteSource(std::shared_ptr<const InputFile> file, std::uint64_t offset, Encoding encoding)
     : file_(std::move(file)),
       offset_(offset),
       encoding_(encoding),
@@ -178,7 +178,7 @@ void ByteSource::finish() {
                            fmt::format("holds more than the {} bytes that its header says", given_));
 }
 
-std::vector<std::uint8_t> first_bytes_inflated(const RegularFile& file, std::size_t most) {
+std::vector<std::uint8_t> first_bytes_inflated(const InputFile& file, std::size_t most) {
     std::vector<std::uint8_t> packed = file.first_bytes(std::max(most, buffer_bytes));
     const bool is_gzip = packed.size() > 1 && packed[0] == 0x1f && packed[1] == 0x8b;
     if (!is_gzip) {

@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-#include "haptic_server/imaging/formats/regular_file.h"
+#include "common/files/input_file.h"
 
 namespace osteomill {
 
@@ -27,7 +27,7 @@ inline bool is_compressed(Encoding encoding) {
 class ByteSource {
   public:
     /// From `offset` to the end of the file.
-    ByteSource(std::shared_ptr<const RegularFile> file, std::uint64_t offset, Encoding encoding);
+    ByteSource(std::shared_ptr<const InputFile> file, std::uint64_t offset, Encoding encoding);
     ~ByteSource();
     ByteSource(ByteSource&&) noexcept;
     ByteSource& operator=(ByteSource&&) = delete;
@@ -46,7 +46,7 @@ class ByteSource {
     class Inflater;
     std::size_t read_hex(std::span<std::byte> bytes);
 
-    std::shared_ptr<const RegularFile> file_;
+    std::shared_ptr<const InputFile> file_;
     std::uint64_t offset_;
     Encoding encoding_;
     std::unique_ptr<Inflater> inflater_;  // of compressed data
@@ -55,7 +55,7 @@ class ByteSource {
 
 /// A file's first bytes, at most so many, inflated where they are gzip's. Damage ends them early; what reads
 /// the file finds it.
-std::vector<std::uint8_t> first_bytes_inflated(const RegularFile& file, std::size_t most);
+std::vector<std::uint8_t> first_bytes_inflated(const InputFile& file, std::size_t most);
 
 /// Whether a file of `file_bytes` may hold `bytes` in this encoding: deflate packs 1032 into one at most.
 bool can_hold(std::uint64_t file_bytes, std::uint64_t bytes, Encoding encoding);

@@ -8,6 +8,7 @@
 #include <string_view>
 #include <utility>
 
+#include "common/files/input_file.h"
 #include "haptic_server/imaging/dicom/dicom_image.h"
 #include "haptic_server/imaging/dicom/dicom_scan.h"
 #include "haptic_server/imaging/formats/byte_source.h"
@@ -16,7 +17,6 @@
 #include "haptic_server/imaging/formats/nifti_header.h"
 #include "haptic_server/imaging/formats/nrrd_header.h"
 #include "haptic_server/imaging/formats/picture_stack.h"
-#include "haptic_server/imaging/formats/regular_file.h"
 #include "haptic_server/imaging/formats/value_slices.h"
 #include "haptic_server/imaging/imaging_error.h"
 
@@ -48,7 +48,7 @@ ImageStart start_of(const std::filesystem::path& path, const ImageChoice& choice
     ImageStart start{.path = path, .choice = choice, .is_folder = std::filesystem::is_directory(status)};
     if (start.is_folder) return start;
     if (!std::filesystem::is_regular_file(status)) throw ImagingError(path, "is neither a file nor a folder");
-    const RegularFile file(path);
+    const InputFile file(path);
     start.bytes = file.first_bytes(2);
     start.is_gzip = start.starts_with("\x1f\x8b");
     start.bytes = first_bytes_inflated(file, start_bytes);
@@ -75,25 +75,26 @@ bool is_stack(const ImageStart& start) {
 }
 
 /// Headers and files are held against each other before anything is read.
-OpenedImage opened(const std::filesystem::path& path, ImageFile file) {
-    if (const std::uint64_t more = require_room(file.data); more > 0)
-        file.image.notes.push_back(
+OpenedImage opened(const std::filesystem::path& path, ImageHeader header) {
+    VoxelData data = find_voxels(header, path);
+    if (const std::uint64_t more = require_room(data); more > 0)
+        header.image.notes.push_back(
             fmt::format("{}: {} bytes follow its voxels; they are not read", path.string(), more));
-    const glm::ivec3 size = file.image.size_voxels;
+    const glm::ivec3 size = header.image.size_voxels;
     if (std::min({size.x, size.y, size.z}) < 2)
         throw ImagingError(path, fmt::format("is a single slice ({} x {} x {} voxels), which is no volume",
                                              size.x, size.y, size.z));
-    const glm::ivec3 size_of_values = size * glm::ivec3(file.layers, 1, 1);
-    OpenedImage image{.image = std::move(file.image),
-                      .layers = file.layers,
-                      .key_values = std::move(file.key_values),
-                      .reading_bytes = sizeof(float) * static_cast<std::uint64_t>(size_of_values.x) *
-                                       static_cast<std::uint64_t>(size_of_values.y)};
-    image.read_slices = [data = std::move(file.data), voxels = file.voxels, size_of_values](
-                            const TakeSlice& take, const ReportProgress& report) {
-        read_value_slices(data, voxels, size_of_values, take, report);
-    };
-    return image;
+    const glm::ivec3 size_of_values = size * glm::ivec3(header.layers, 1, 1);
+    return {.image = std::move(header.image),
+            .layers = header.layers,
+            .key_values = std::move(header.key_values),
+            .read_slices =
+                [data = std::move(data), voxels = header.voxels, size_of_values](
+                    const TakeSlice& take, const ReportProgress& report) {
+                    read_value_slices(data, voxels, size_of_values, take, report);
+                },
+            .reading_bytes = sizeof(float) * static_cast<std::uint64_t>(size_of_values.x) *
+                             static_cast<std::uint64_t>(size_of_values.y)};
 }
 
 struct ImageFormat {

@@ -12,10 +12,10 @@
 #include <stdexcept>
 #include <string_view>
 
+#include "common/files/input_file.h"
 #include "haptic_server/imaging/formats/header_text.h"
 #include "haptic_server/imaging/formats/length_unit.h"
 #include "haptic_server/imaging/formats/plausible_geometry.h"
-#include "haptic_server/imaging/formats/regular_file.h"
 #include "haptic_server/imaging/formats/voxel_data.h"
 #include "haptic_server/imaging/imaging_error.h"
 
@@ -157,7 +157,7 @@ void read_geometry(const MetaFields& fields, const std::filesystem::path& path, 
     settle_geometry(image, path);
 }
 
-void read_element(const MetaFields& fields, MetaImageHeader& header) {
+void read_element(const MetaFields& fields, ImageHeader& header) {
     const std::string type = fields.text("ElementType").value_or("");
     const auto known = std::find_if(elements.begin(), elements.end(),
                                     [&](const MetaElement& element) { return type == element.name; });
@@ -172,9 +172,9 @@ void read_element(const MetaFields& fields, MetaImageHeader& header) {
     header.voxels.big_endian = !order.empty() && fields.truth(order, false);
     header.encoding = fields.truth("CompressedData", false) ? Encoding::zlib_or_gzip : Encoding::raw;
     if (!fields.truth("BinaryData", false)) header.encoding = Encoding::text;
-    header.header_size = fields.whole("HeaderSize", 0);
+    header.byte_skip = fields.whole("HeaderSize", 0);
     constexpr std::int64_t most_skipped = std::int64_t{1} << 40;
-    if (header.header_size > most_skipped || header.header_size < (header.encoding == Encoding::raw ? -1 : 0))
+    if (header.byte_skip > most_skipped || header.byte_skip < (header.encoding == Encoding::raw ? -1 : 0))
         fields.refuse("HeaderSize", "must be 0 or more, or -1 for voxels that end a file");
     for (const char* name : {"ElementToIntensityFunctionSlope", "ElementToIntensityFunctionOffset"})
         if (fields.text(name))
@@ -182,37 +182,8 @@ void read_element(const MetaFields& fields, MetaImageHeader& header) {
                 fmt::format("{} is in the header and not applied; --rescale applies one", name));
 }
 
-/// "name%03d.raw FIRST [LAST [STEP]]": as many files as slices, none more, none less.
-std::vector<std::string> numbered_slices(const std::vector<std::string>& words, int slices,
-                                         const MetaFields& fields) {
-    std::array<std::int64_t, 3> number{1, 0, 1};
-    if (words.size() > 4) fields.refuse("ElementDataFile", "must be 'name%03d.raw FIRST LAST STEP'");
-    for (std::size_t i = 1; i < words.size(); ++i) {
-        constexpr std::int64_t most = 1'000'000'000;
-        number[i - 1] = whole_number<std::int64_t>(words[i]).value_or(-1);
-        if (number[i - 1] < 0 || number[i - 1] > most)
-            fields.refuse("ElementDataFile", "must be 'name%03d.raw FIRST LAST STEP', whole numbers");
-    }
-    const auto [first, last, step] = number;
-    if (words.size() < 3) {
-        // Without a last number there are as many as slices.
-    } else if (step < 1 || last < first || (last - first) / step + 1 != slices) {
-        fields.refuse("ElementDataFile",
-                      fmt::format("names {} files, where DimSize has {} slices",
-                                  step < 1 || last < first ? 0 : (last - first) / step + 1, slices));
-    }
-    std::vector<std::string> names;
-    try {
-        for (int slice = 0; slice < slices; ++slice)
-            names.push_back(numbered_name(words[0], first + slice * step));
-    } catch (const std::invalid_argument& error) {
-        fields.refuse("ElementDataFile", std::string("is refused: ") + error.what());
-    }
-    return names;
-}
-
 std::vector<std::string> listed_slices(const std::vector<std::string>& words, std::string_view rest,
-                                       int slices, const MetaFields& fields) {
+                                       const MetaFields& fields) {
     // "LIST 2": files of two dimensions, one a slice.
     if (words.size() > 2 || (words.size() == 2 && words[1] != "2" && words[1] != "2D"))
         fields.refuse("ElementDataFile", "lists files of other than two dimensions");
@@ -224,34 +195,41 @@ std::vector<std::string> listed_slices(const std::vector<std::string>& words, st
         if (!name.empty()) names.push_back(name);
         if (names.size() > most_voxels_of_an_axis) break;
     }
-    if (names.size() != static_cast<std::size_t>(slices))
-        fields.refuse("ElementDataFile",
-                      fmt::format("names {} files, where DimSize has {} slices", names.size(), slices));
     return names;
 }
 
-void read_data_files(const MetaFields& fields, std::string_view rest, MetaImageHeader& header) {
+void read_data_files(const MetaFields& fields, std::string_view rest, ImageHeader& header) {
     const std::string text = fields.text("ElementDataFile").value_or("");
     const std::vector<std::string> words = words_of(text);
     const int slices = header.image.size_voxels.z;
-    if (text == "LOCAL" || text == "Local" || text == "local") return;
+    if (text == "LOCAL" || text == "Local" || text == "local") {
+        header.byte_skip = 0;  // HeaderSize is of files that know nothing of MetaImage
+        return;
+    }
     if (words.empty()) fields.refuse("ElementDataFile", "names no file");
     if (words[0] == "LIST") {
-        header.data_files = listed_slices(words, rest, slices, fields);
+        header.data_files = listed_slices(words, rest, fields);
     } else if (text.find('%') != std::string::npos) {
-        header.data_files = numbered_slices(words, slices, fields);
+        try {
+            header.data_files = numbered_names(words, slices);
+        } catch (const std::invalid_argument& error) {
+            fields.refuse("ElementDataFile", std::string("is refused: ") + error.what());
+        }
     } else {
         header.data_files = {text};
+        return;
     }
+    if (header.data_files.size() != static_cast<std::size_t>(slices))
+        fields.refuse("ElementDataFile", fmt::format("names {} files, where DimSize has {} slices",
+                                                     header.data_files.size(), slices));
 }
 
 }  // namespace
 
-MetaImageHeader parse_meta_image_header(std::span<const std::uint8_t> bytes,
-                                        const std::filesystem::path& path) {
+ImageHeader parse_meta_image_header(std::span<const std::uint8_t> bytes, const std::filesystem::path& path) {
     const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
     MetaFields fields(path);
-    MetaImageHeader header;
+    ImageHeader header;
     while (!fields.text("ElementDataFile")) {
         const std::size_t end = text.find('\n', header.bytes);
         const bool is_last = end == std::string_view::npos;
@@ -271,34 +249,13 @@ MetaImageHeader parse_meta_image_header(std::span<const std::uint8_t> bytes,
                                      : "is cut off: its header has no line ElementDataFile");
     read_geometry(fields, path, header.image);
     read_element(fields, header);
+    header.voxel_bytes = least_bytes(voxel_count(header.image), header.voxels.type, header.encoding);
     read_data_files(fields, text.substr(header.bytes), header);
     return header;
 }
 
-ImageFile open_meta_image(const std::filesystem::path& path) {
-    const MetaImageHeader header =
-        parse_meta_image_header(RegularFile(path).first_bytes(most_meta_image_header_bytes), path);
-    ImageFile image{.image = header.image,
-                    .voxels = header.voxels,
-                    .data = {.encoding = header.encoding, .parts = {}},
-                    .key_values = {}};
-    // A number in decimal takes a digit, and a blank from the next.
-    const std::uint64_t all_bytes = header.encoding == Encoding::text
-                                        ? 2 * voxel_count(header.image) - 1
-                                        : voxel_count(header.image) * bytes_of(header.voxels.type);
-    const auto add = [&](const std::filesystem::path& file, std::uint64_t begin, std::uint64_t bytes) {
-        const std::uint64_t size = RegularFile(file).size();
-        const std::uint64_t voxels_begin = header.header_size >= 0
-                                               ? begin + static_cast<std::uint64_t>(header.header_size)
-                                               : size - std::min(size, bytes);
-        image.data.parts.push_back({.file = file, .begin = voxels_begin, .bytes = bytes});
-    };
-    // In the header's own file the voxels follow it; HeaderSize is of files that know nothing of MetaImage.
-    if (header.data_files.empty())
-        image.data.parts.push_back({.file = path, .begin = header.bytes, .bytes = all_bytes});
-    for (const std::string& name : header.data_files)
-        add(data_file_beside(path, name), 0, all_bytes / header.data_files.size());
-    return image;
+ImageHeader open_meta_image(const std::filesystem::path& path) {
+    return parse_meta_image_header(InputFile(path).first_bytes(most_meta_image_header_bytes), path);
 }
 
 }  // namespace osteomill

@@ -10,9 +10,9 @@
 #include <stdexcept>
 #include <string>
 
+#include "common/files/input_file.h"
 #include "haptic_server/imaging/formats/header_text.h"
 #include "haptic_server/imaging/formats/plausible_geometry.h"
-#include "haptic_server/imaging/formats/regular_file.h"
 #include "haptic_server/imaging/formats/voxel_data.h"
 #include "haptic_server/imaging/imaging_error.h"
 
@@ -290,11 +290,11 @@ void require_beginning(const Stated& stated, const std::filesystem::path& path, 
     if (!(stated.voxels_begin >= least && stated.voxels_begin <= most_voxels_begin))
         throw ImagingError(path, fmt::format("its voxels begin at byte {} (vox_offset); it must be {} to {}",
                                              stated.voxels_begin, least, most_voxels_begin));
-    header.voxels_begin = static_cast<std::uint64_t>(stated.voxels_begin);
+    header.byte_skip = static_cast<std::int64_t>(stated.voxels_begin);
 }
 
 bool is_gzip(const std::filesystem::path& path) {
-    const std::vector<std::uint8_t> bytes = RegularFile(path).first_bytes(2);
+    const std::vector<std::uint8_t> bytes = InputFile(path).first_bytes(2);
     return bytes == std::vector<std::uint8_t>{0x1f, 0x8b};
 }
 
@@ -364,11 +364,11 @@ NiftiHeader parse_nifti_header(std::span<const std::uint8_t> bytes, const std::f
     return header;
 }
 
-ImageFile open_nifti(const std::filesystem::path& path) {
+ImageHeader open_nifti(const std::filesystem::path& path) {
     const bool is_image_half = is_half(path, ".img");
     const std::filesystem::path header_file = is_image_half ? other_of_pair(path, ".hdr") : path;
     NiftiHeader header = parse_nifti_header(
-        first_bytes_inflated(RegularFile(header_file), most_nifti_header_bytes), header_file);
+        first_bytes_inflated(InputFile(header_file), most_nifti_header_bytes), header_file);
     std::filesystem::path voxel_file = path;
     if (is_half(path, ".hdr")) voxel_file = other_of_pair(path, ".img");
     if (voxel_file == header_file && !header.voxels_follow)
@@ -377,15 +377,9 @@ ImageFile open_nifti(const std::filesystem::path& path) {
                            "but is not called .hdr");
     if (voxel_file != header_file && header.voxels_follow)
         throw ImagingError(header_file, "says that its voxels follow it; call it .nii");
-    VoxelData data;
-    VoxelPart part{.file = voxel_file, .begin = header.voxels_begin, .bytes = header.voxel_bytes};
-    if (is_gzip(voxel_file)) {
-        data.encoding = Encoding::gzip;
-        part.begin = 0;
-        part.skipped_bytes = header.voxels_begin;
-    }
-    data.parts.push_back(part);
-    return {.image = header.image, .voxels = header.voxels, .data = std::move(data), .key_values = {}};
+    if (voxel_file != path) header.data_files = {voxel_file.filename().string()};
+    if (is_gzip(voxel_file)) header.encoding = Encoding::gzip;
+    return header;
 }
 
 }  // namespace osteomill

@@ -13,12 +13,8 @@ namespace osteomill {
 /// So much of a file is its header.
 inline constexpr std::size_t most_nifti_header_bytes = 540;
 
-struct NiftiHeader {
+struct NiftiHeader : ImageHeader {
     bool voxels_follow = true;  ///< in one file; otherwise in an .img beside the .hdr
-    SourceImage image{};
-    VoxelLayout voxels{};
-    std::uint64_t voxel_bytes = 0;  ///< of all voxels
-    std::uint64_t voxels_begin = 0;
 };
 
 /// Whether a file that begins with these bytes (inflated) is one.
@@ -31,9 +27,9 @@ bool begins_as_nifti(std::span<const std::uint8_t> bytes);
 /// number or that no scan has, and for voxels that begin within the header or beyond all reason.
 NiftiHeader parse_nifti_header(std::span<const std::uint8_t> bytes, const std::filesystem::path& path);
 
-/// Reads the header and finds the voxels. Throws ImagingError. `path` is a file of any name, gzip or not, or
+/// Reads the header. Throws ImagingError. `path` is a file of any name, gzip or not, or
 /// either of a .hdr with its .img (.img.gz).
-ImageFile open_nifti(const std::filesystem::path& path);
+ImageHeader open_nifti(const std::filesystem::path& path);
 
 /// Whether the name is that of the half of a pair that holds the voxels, whose content says nothing: .img or
 /// .img.gz.

@@ -180,7 +180,7 @@ std::vector<NrrdAxis> axes_by_spacings(const NrrdHeader& header, const NrrdSpace
 }
 
 /// Leaves out what has but one voxel and is none of space, or is more than space has; the layers go before.
-void place(std::vector<NrrdAxis> axes, NrrdImage& into, const std::filesystem::path& path) {
+void place(std::vector<NrrdAxis> axes, ImageHeader& into, const std::filesystem::path& path) {
     std::erase_if(axes, [](const NrrdAxis& axis) { return axis.size == 1 && !axis.step_mm; });
     while (axes.size() > 3 && axes.back().size == 1) axes.pop_back();
     if (axes.size() > 1 && !axes.front().step_mm) {
@@ -201,7 +201,7 @@ void place(std::vector<NrrdAxis> axes, NrrdImage& into, const std::filesystem::p
 
 }  // namespace
 
-void read_nrrd_geometry(const NrrdHeader& header, const std::vector<std::uint64_t>& sizes, NrrdImage& into,
+void read_nrrd_geometry(const NrrdHeader& header, const std::vector<std::uint64_t>& sizes, ImageHeader& into,
                         const std::filesystem::path& path) {
     const NrrdSpace space = space_of(header, path);
     const bool has_directions = header.fields.contains("space directions");

@@ -12,7 +12,7 @@ namespace osteomill {
 /// Fills in image, is_placed and layers. `sizes`: of all axes, plausible. `path` is for messages. Throws
 /// ImagingError for a space, units, directions or an origin that cannot be or are not read, and for other
 /// than three axes in space.
-void read_nrrd_geometry(const NrrdHeader& header, const std::vector<std::uint64_t>& sizes, NrrdImage& into,
+void read_nrrd_geometry(const NrrdHeader& header, const std::vector<std::uint64_t>& sizes, ImageHeader& into,
                         const std::filesystem::path& path);
 
 }  // namespace osteomill

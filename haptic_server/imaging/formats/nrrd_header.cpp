@@ -8,10 +8,10 @@
 #include <stdexcept>
 #include <string_view>
 
+#include "common/files/input_file.h"
 #include "haptic_server/imaging/formats/header_text.h"
 #include "haptic_server/imaging/formats/nrrd_geometry.h"
 #include "haptic_server/imaging/formats/plausible_geometry.h"
-#include "haptic_server/imaging/formats/regular_file.h"
 #include "haptic_server/imaging/imaging_error.h"
 
 namespace osteomill {
@@ -19,7 +19,6 @@ namespace osteomill {
 namespace {
 
 constexpr std::size_t most_axes = 16;
-constexpr std::size_t most_data_files = 65535;
 
 /// "datafile" is "data file"; names differ by nothing but blanks and case.
 std::string field_name(std::string name) {
@@ -87,26 +86,6 @@ Encoding encoding_of(const NrrdHeader& header, const std::filesystem::path& path
                        fmt::format("encoding '{}' is not read; save it as raw or gzip", shortened(name)));
 }
 
-std::vector<std::string> numbered_files(const std::vector<std::string>& words) {
-    constexpr std::int64_t most = 1'000'000'000;
-    std::array<std::int64_t, 3> number{};  // first, last, step
-    bool good = words.size() == 4 || words.size() == 5;
-    for (std::size_t i = 0; good && i < number.size(); ++i) {
-        number[i] = whole_number<std::int64_t>(words[i + 1]).value_or(most + 1);
-        good = std::abs(number[i]) <= most && (i == 2 || number[i] >= 0);
-    }
-    const auto [first, last, step] = number;
-    if (!good || step == 0 || (last - first) / step < 0)
-        throw std::invalid_argument("a pattern of data files is 'name%03d.raw FIRST LAST STEP'");
-    std::vector<std::string> names;
-    for (std::int64_t i = first; step > 0 ? i <= last : i >= last; i += step) {
-        if (names.size() == most_data_files) throw std::invalid_argument("more than 65535 data files");
-        names.push_back(numbered_name(words[0], i));
-    }
-    if (names.empty()) throw std::invalid_argument("a pattern of data files that names none");
-    return names;
-}
-
 std::vector<std::string> data_files_of(const NrrdHeader& header) {
     const std::optional<std::string> text = header.field("data file");
     if (!text) return {};
@@ -117,39 +96,8 @@ std::vector<std::string> data_files_of(const NrrdHeader& header) {
             throw std::invalid_argument("'data file: LIST' names none");
         return header.listed_files;
     }
-    if (text->find('%') != std::string::npos) return numbered_files(words);
+    if (text->find('%') != std::string::npos) return numbered_names(words);
     return {*text};
-}
-
-/// Where the lines to skip are over.
-std::uint64_t after_lines(const RegularFile& file, std::uint64_t begin, std::uint64_t lines) {
-    if (lines == 0) return begin;
-    std::vector<std::uint8_t> bytes(most_nrrd_header_bytes);
-    bytes.resize(file.read_at(begin, std::as_writable_bytes(std::span(bytes))));
-    std::size_t at = 0;
-    for (std::uint64_t line = 0; line < lines; ++line) {
-        const auto found = std::find(bytes.begin() + static_cast<std::ptrdiff_t>(at), bytes.end(), '\n');
-        if (found == bytes.end())
-            throw ImagingError(file.path(), fmt::format("does not begin with the {} lines that its header "
-                                                        "says to skip (line skip)",
-                                                        lines));
-        at = static_cast<std::size_t>(found - bytes.begin()) + 1;
-    }
-    return begin + at;
-}
-
-VoxelPart part_in(const std::filesystem::path& path, std::uint64_t begin, std::uint64_t bytes,
-                  const NrrdImage& layout) {
-    const RegularFile file(path);
-    VoxelPart part{.file = path, .begin = after_lines(file, begin, layout.line_skip), .bytes = bytes};
-    if (layout.byte_skip < 0) {
-        part.begin = std::max(part.begin, file.size() - std::min(file.size(), bytes));
-    } else if (layout.encoding == Encoding::gzip) {
-        part.skipped_bytes = static_cast<std::uint64_t>(layout.byte_skip);
-    } else {
-        part.begin += static_cast<std::uint64_t>(layout.byte_skip);
-    }
-    return part;
 }
 
 /// "\\n" is a line break, two backslashes are one.
@@ -210,14 +158,14 @@ NrrdHeader parse_nrrd_header(std::span<const std::uint8_t> bytes, const std::fil
     return header;
 }
 
-NrrdImage nrrd_image(const NrrdHeader& header, const std::filesystem::path& path) {
+ImageHeader nrrd_image(const NrrdHeader& header, const std::filesystem::path& path) {
     const std::vector<std::uint64_t> sizes = sizes_of(header, path);
     const std::string type = header.field("type").value_or("");
     const std::optional<VoxelType> voxel_type = type_of(type);
     if (!voxel_type)
         throw ImagingError(
             path, fmt::format("type '{}' is none of a grey image, such as int16 or float", shortened(type)));
-    NrrdImage layout;
+    ImageHeader layout{.bytes = header.bytes, .key_values = header.key_values};
     layout.voxels.type = *voxel_type;
     const std::string endian = lower_case(header.field("endian").value_or("little"));
     if (endian != "little" && endian != "big")
@@ -237,10 +185,7 @@ NrrdImage nrrd_image(const NrrdHeader& header, const std::filesystem::path& path
     layout.line_skip = *line_skip;
     layout.byte_skip = *byte_skip;
     try {
-        const std::uint64_t voxels = plausible_voxel_count(sizes);
-        // A number in decimal takes a digit, and a blank from the next.
-        layout.voxel_bytes =
-            layout.encoding == Encoding::text ? 2 * voxels - 1 : voxels * bytes_of(*voxel_type);
+        layout.voxel_bytes = least_bytes(plausible_voxel_count(sizes), *voxel_type, layout.encoding);
         layout.data_files = data_files_of(header);
     } catch (const std::invalid_argument& error) {
         throw ImagingError(path, error.what());
@@ -252,19 +197,8 @@ NrrdImage nrrd_image(const NrrdHeader& header, const std::filesystem::path& path
     return layout;
 }
 
-ImageFile open_nrrd(const std::filesystem::path& path) {
-    NrrdHeader header = parse_nrrd_header(RegularFile(path).first_bytes(most_nrrd_header_bytes), path);
-    const NrrdImage image = nrrd_image(header, path);
-    VoxelData data{.encoding = image.encoding, .parts = {}};
-    if (image.data_files.empty()) data.parts.push_back(part_in(path, header.bytes, image.voxel_bytes, image));
-    for (const std::string& name : image.data_files)
-        data.parts.push_back(
-            part_in(data_file_beside(path, name), 0, image.voxel_bytes / image.data_files.size(), image));
-    return {.image = image.image,
-            .layers = image.layers,
-            .voxels = image.voxels,
-            .data = std::move(data),
-            .key_values = std::move(header.key_values)};
+ImageHeader open_nrrd(const std::filesystem::path& path) {
+    return nrrd_image(parse_nrrd_header(InputFile(path).first_bytes(most_nrrd_header_bytes), path), path);
 }
 
 }  // namespace osteomill

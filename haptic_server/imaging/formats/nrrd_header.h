@@ -31,19 +31,6 @@ struct NrrdHeader {
     }
 };
 
-/// What it means.
-struct NrrdImage {
-    SourceImage image{};
-    bool is_placed = false;  ///< it says how it lies in the patient
-    int layers = 1;          ///< values of a voxel: the size of a first axis that is none of space
-    Encoding encoding = Encoding::raw;
-    VoxelLayout voxels{};
-    std::uint64_t voxel_bytes = 0;        ///< of all voxels, decoded; of text, the least that they take
-    std::int64_t byte_skip = 0;           ///< -1: the voxels are the end of the file
-    std::uint64_t line_skip = 0;          ///< lines between the header (or the file's start) and the voxels
-    std::vector<std::string> data_files;  ///< empty: the voxels follow the header
-};
-
 /// Takes the first bytes of a file apart; pure. `path` is for messages. Throws ImagingError unless they
 /// begin with "NRRD", and for a field that stands there twice, a zero byte, or a header without end.
 NrrdHeader parse_nrrd_header(std::span<const std::uint8_t> bytes, const std::filesystem::path& path);
@@ -51,9 +38,9 @@ NrrdHeader parse_nrrd_header(std::span<const std::uint8_t> bytes, const std::fil
 /// Pure. Axes of one voxel that are none of space (a list of one, one time) are left out; lengths in other
 /// units become mm. Throws ImagingError for sizes, a type, an encoding, a space, units or data files that
 /// cannot be, or that are not read; for other than three axes in space; for a geometry that no scan has.
-NrrdImage nrrd_image(const NrrdHeader& header, const std::filesystem::path& path);
+ImageHeader nrrd_image(const NrrdHeader& header, const std::filesystem::path& path);
 
-/// Reads header and meaning, and finds the voxels. Throws ImagingError, also for files that are missing.
-ImageFile open_nrrd(const std::filesystem::path& path);
+/// Reads the header and what it means. Throws ImagingError.
+ImageHeader open_nrrd(const std::filesystem::path& path);
 
 }  // namespace osteomill

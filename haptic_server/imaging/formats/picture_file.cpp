@@ -12,7 +12,7 @@
 #include <new>
 #include <string>
 
-#include "haptic_server/imaging/formats/regular_file.h"
+#include "common/files/input_file.h"
 #include "haptic_server/imaging/imaging_error.h"
 
 namespace osteomill {
@@ -79,7 +79,7 @@ bool decode_png(png_structp png, png_infop info, std::FILE* file, PngRows& out, 
 using TiffFile = std::unique_ptr<TIFF, decltype(&TIFFClose)>;
 
 TiffFile open_tiff(const std::filesystem::path& path) {
-    { const RegularFile is_one(path); }
+    { const InputFile is_one(path); }
     TIFFSetErrorHandler(nullptr);
     TIFFSetWarningHandler(nullptr);
     TiffFile file(TIFFOpen(path.c_str(), "rm"), &TIFFClose);
@@ -103,7 +103,7 @@ void add_samples(const std::vector<std::uint8_t>& line, std::size_t count, bool 
 }  // namespace
 
 SlicePicture read_png_slice(const std::filesystem::path& path) {
-    { const RegularFile is_one(path); }
+    { const InputFile is_one(path); }
     const std::unique_ptr<std::FILE, decltype(&std::fclose)> file(std::fopen(path.c_str(), "rb"),
                                                                   &std::fclose);
     if (!file) throw ImagingError(path, "cannot be opened");

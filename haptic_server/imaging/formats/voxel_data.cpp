@@ -3,12 +3,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <charconv>
+#include <cstdlib>
 #include <memory>
 #include <stdexcept>
 
+#include "common/files/input_file.h"
 #include "common/files/inside_folder.h"
-#include "haptic_server/imaging/formats/regular_file.h"
+#include "haptic_server/imaging/formats/header_text.h"
 #include "haptic_server/imaging/imaging_error.h"
 
 namespace osteomill {
@@ -20,18 +23,18 @@ constexpr std::size_t piece_bytes = 1u << 18;
 constexpr std::uint64_t most_shrunk = 500;
 constexpr std::uint64_t suspicious_bytes = std::uint64_t{1} << 30U;
 
-std::uint64_t bytes_there(const RegularFile& file, const VoxelPart& part) {
+std::uint64_t bytes_there(const InputFile& file, const VoxelPart& part) {
     return file.size() - std::min(file.size(), part.begin);
 }
 
-void require_bytes(const RegularFile& file, const VoxelPart& part, Encoding encoding) {
+void require_bytes(const InputFile& file, const VoxelPart& part, Encoding encoding) {
     const std::uint64_t bytes = encoding == Encoding::hex ? 2 * part.bytes : part.bytes;
     if (bytes_there(file, part) < bytes)
         throw ImagingError(part.file, fmt::format("is cut off: {} of {} bytes of voxels are there",
                                                   bytes_there(file, part), bytes));
 }
 
-void require_no_bomb(const RegularFile& file, const VoxelPart& part) {
+void require_no_bomb(const InputFile& file, const VoxelPart& part) {
     if (part.bytes > suspicious_bytes && part.bytes / most_shrunk > bytes_there(file, part))
         throw ImagingError(part.file, fmt::format("says that {} bytes hold {} bytes of voxels; no scan "
                                                   "compresses so",
@@ -63,6 +66,27 @@ std::string numbered_name(std::string_view pattern, std::int64_t number) {
            std::string(rest.substr(digits + 1));
 }
 
+std::vector<std::string> numbered_names(const std::vector<std::string>& words, std::int64_t wanted) {
+    constexpr std::int64_t most = 1'000'000'000;
+    std::array<std::int64_t, 3> number{1, 0, 1};  // first, last, step
+    bool good = words.size() <= 5;                // NRRD may say of how many dimensions each file is
+    for (std::size_t i = 0; good && i < std::min(number.size(), words.size() - 1); ++i) {
+        number[i] = whole_number<std::int64_t>(words[i + 1]).value_or(most + 1);
+        good = std::abs(number[i]) <= most && (i == 2 || number[i] >= 0);
+    }
+    const auto [first, last, step] = number;
+    if (!good || step == 0 || (words.size() < 3 && wanted == 0))
+        throw std::invalid_argument("a pattern of data files is 'name%03d.raw FIRST LAST STEP'");
+    const bool is_backwards = step > 0 ? last < first : last > first;
+    const std::int64_t count = words.size() < 3 ? wanted : is_backwards ? 0 : (last - first) / step + 1;
+    if (count < 1) throw std::invalid_argument("a pattern of data files that names none");
+    if (count > static_cast<std::int64_t>(most_data_files))
+        throw std::invalid_argument(fmt::format("more than {} data files", most_data_files));
+    std::vector<std::string> names;
+    for (std::int64_t i = 0; i < count; ++i) names.push_back(numbered_name(words[0], first + i * step));
+    return names;
+}
+
 std::filesystem::path data_file_beside(const std::filesystem::path& header, const std::string& name) {
     const std::filesystem::path given(name);
     const auto refuse = [&](const std::string& reason) {
@@ -86,7 +110,7 @@ std::filesystem::path data_file_beside(const std::filesystem::path& header, cons
 void read_voxel_data(const VoxelData& data, const TakeBytes& take) {
     std::vector<std::byte> piece(piece_bytes);
     for (const VoxelPart& part : data.parts) {
-        ByteSource source(std::make_shared<const RegularFile>(part.file), part.begin, data.encoding);
+        ByteSource source(std::make_shared<const InputFile>(part.file), part.begin, data.encoding);
         source.skip(part.skipped_bytes);
         if (data.encoding == Encoding::text) {
             while (const std::size_t read = source.read_some(piece)) take(std::span(piece).first(read));
@@ -107,7 +131,7 @@ void read_voxel_data(const VoxelData& data, const TakeBytes& take) {
 std::uint64_t require_room(const VoxelData& data) {
     std::uint64_t more = 0;
     for (const VoxelPart& part : data.parts) {
-        const RegularFile file(part.file);
+        const InputFile file(part.file);
         if (is_compressed(data.encoding)) {
             require_no_bomb(file, part);
             continue;

@@ -22,6 +22,8 @@ struct VoxelPart {
     std::uint64_t skipped_bytes = 0;  ///< decoded bytes before them
 };
 
+inline constexpr std::size_t most_data_files = 65535;
+
 struct VoxelData {
     Encoding encoding = Encoding::raw;
     std::vector<VoxelPart> parts;
@@ -30,6 +32,10 @@ struct VoxelData {
 /// "slice%03d.raw" of 7 is "slice007.raw". The pattern is taken apart here and never given to printf: it
 /// must hold one % and that must be %d or %0Nd, N at most 99. Throws std::invalid_argument.
 std::string numbered_name(std::string_view pattern, std::int64_t number);
+
+/// The words "slice%03d.raw FIRST LAST STEP" as names. Without LAST as many as `wanted`, without STEP one by
+/// one. Throws std::invalid_argument where they are not that, name no file or more than 65535.
+std::vector<std::string> numbered_names(const std::vector<std::string>& words, std::int64_t wanted = 0);
 
 /// The file of that name beside the header or in a folder below. Throws ImagingError, naming the header, for
 /// a name that leads out of the header's folder (an absolute one, "..", a link), for one that no file has

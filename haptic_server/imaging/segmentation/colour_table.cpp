@@ -8,17 +8,17 @@
 #include <string_view>
 #include <vector>
 
+#include "common/files/input_file.h"
 #include "common/files/table_line.h"
 #include "common/text/plain_text.h"
 #include "haptic_server/imaging/formats/header_text.h"
-#include "haptic_server/imaging/formats/regular_file.h"
 #include "haptic_server/imaging/imaging_error.h"
 
 namespace osteomill {
 
 namespace {
 
-constexpr std::size_t most_table_bytes = 1'000'000;
+constexpr std::uint64_t most_table_bytes = 1'000'000;
 constexpr int highest_label = 65535;
 
 /// A line of the table; nothing for a line of another form.
@@ -113,10 +113,7 @@ struct CsvColumns {
 }  // namespace
 
 ColourTable read_colour_table(const std::filesystem::path& path) {
-    const std::vector<std::uint8_t> bytes = RegularFile(path).first_bytes(most_table_bytes + 1);
-    if (bytes.size() > most_table_bytes)
-        throw ImagingError(path, "is no colour table: it is over a megabyte long");
-    std::istringstream in(std::string(bytes.begin(), bytes.end()));
+    std::istringstream in(read_text(path, {"a colour table", most_table_bytes}));
     ColourTable table;
     std::optional<CsvColumns> columns;
     int number = 0;

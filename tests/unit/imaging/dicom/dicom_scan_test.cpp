@@ -47,7 +47,6 @@ TEST(DicomScan, FindsWhatTheImageIs) {
     EXPECT_EQ(found.bits_allocated, 16);
     EXPECT_EQ(found.pixel_bytes, 24u);
     EXPECT_FALSE(found.is_encapsulated);
-    EXPECT_EQ(file.substr(found.pixel_representation_begin, 2), little(1, 2));
     EXPECT_EQ(refusal(file), "accepted");
 }
 

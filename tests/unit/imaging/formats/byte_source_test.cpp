@@ -40,7 +40,7 @@ class ByteSourceOfFile : public ::testing::Test {
   protected:
     ByteSource source(const std::string& text, Encoding encoding = Encoding::gzip) {
         std::ofstream(path_, std::ios::binary) << "head" << text;
-        return {std::make_shared<const RegularFile>(path_), 4, encoding};
+        return {std::make_shared<const InputFile>(path_), 4, encoding};
     }
     std::string refusal(ByteSource source, std::size_t bytes) {
         try {

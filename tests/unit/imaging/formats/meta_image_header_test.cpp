@@ -13,7 +13,7 @@ using ::testing::HasSubstr;
 using testing::meta_header;
 using testing::with;
 
-MetaImageHeader parse(const std::string& text) {
+ImageHeader parse(const std::string& text) {
     return parse_meta_image_header({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()},
                                    "x.mhd");
 }
@@ -29,7 +29,7 @@ std::string refusal(const std::string& text) {
 
 TEST(MetaImageHeader, SaysWhereTheImageLiesAndItsVoxels) {
     const std::string text = meta_header("LOCAL", "TransformMatrix = 0 1 0 1 0 0 0 0 -1\n");
-    const MetaImageHeader header = parse(text + "voxels = 1\n");
+    const ImageHeader header = parse(text + "voxels = 1\n");
     EXPECT_EQ(header.image.size_voxels, glm::ivec3(3, 4, 5));
     EXPECT_EQ(header.image.spacing_mm, glm::dvec3(1.0, 1.0, 2.0));
     EXPECT_EQ(header.image.origin_mm, glm::dvec3(1.0, 2.0, 3.0));
@@ -48,15 +48,14 @@ TEST(MetaImageHeader, CountsTheFilesOfItsSlices) {
     EXPECT_THAT(parse(meta_header("LIST\na\nb\nc\nd\ne\n")).data_files, ElementsAre("a", "b", "c", "d", "e"));
     EXPECT_THAT(parse(meta_header("one file.raw")).data_files, ElementsAre("one file.raw"));
     EXPECT_THAT(refusal(meta_header("s%d.raw 1 4 1")), HasSubstr("names 4 files, where DimSize has 5"));
-    EXPECT_THAT(refusal(meta_header("s%d.raw 5 1 1")), HasSubstr("names 0 files"));
-    EXPECT_THAT(refusal(meta_header("s%d.raw 1 5 1 7")), HasSubstr("FIRST LAST STEP"));
+    EXPECT_THAT(refusal(meta_header("s%d.raw 5 1 1")), HasSubstr("names none"));
     EXPECT_THAT(refusal(meta_header("s%d.raw -1 5 1")), HasSubstr("FIRST LAST STEP"));
     EXPECT_THAT(refusal(meta_header("LIST\na\nb")), HasSubstr("names 2 files"));
     EXPECT_THAT(refusal(meta_header("s%s")), HasSubstr("no other %"));
 }
 
 TEST(MetaImageHeader, ConvertsItsUnitsAndSaysWhereLeftAndRightAreAGuess) {
-    const MetaImageHeader header = parse(meta_header("LOCAL", "DistanceUnits = um\n"));
+    const ImageHeader header = parse(meta_header("LOCAL", "DistanceUnits = um\n"));
     EXPECT_EQ(header.image.spacing_mm, glm::dvec3(1e-3, 1e-3, 2e-3));
     EXPECT_EQ(header.image.origin_mm.z, 3e-3);
     EXPECT_THAT(header.image.notes,

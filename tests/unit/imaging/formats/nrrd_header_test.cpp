@@ -17,7 +17,7 @@ std::span<const std::uint8_t> bytes_of(const std::string& text) {
     return {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()};
 }
 
-NrrdImage layout_of(const std::string& text) {
+ImageHeader layout_of(const std::string& text) {
     return nrrd_image(parse_nrrd_header(bytes_of(text), "x.nrrd"), "x.nrrd");
 }
 
@@ -46,7 +46,7 @@ TEST(NrrdHeader, IsTakenApartUpToTheBlankLine) {
 }
 
 TEST(NrrdHeader, SaysWhatVoxelsThereAre) {
-    const NrrdImage layout = layout_of(testing::nrrd_header("byte skip: -1\n"));
+    const ImageHeader layout = layout_of(testing::nrrd_header("byte skip: -1\n"));
     EXPECT_EQ(layout.voxel_bytes, 120u);
     EXPECT_EQ(layout.byte_skip, -1);
     EXPECT_EQ(layout_of(with_line("raw", "GZ")).encoding, Encoding::gzip);
@@ -89,7 +89,7 @@ TEST(NrrdHeader, TurnsEverySpaceToLps) {
 TEST(NrrdHeader, SaysWhereLeftAndRightAreAGuess) {
     EXPECT_TRUE(layout_of(testing::nrrd_header()).image.notes.empty());
     for (const char* space : {"scanner-xyz", "3D-right-handed"}) {
-        const NrrdImage image = layout_of(with_line("left-posterior-superior", space));
+        const ImageHeader image = layout_of(with_line("left-posterior-superior", space));
         EXPECT_FALSE(image.is_placed);
         EXPECT_THAT(image.image.notes.at(0), HasSubstr("left and right are a guess"));
     }
@@ -126,7 +126,7 @@ TEST(NrrdHeader, LeavesOutAxesOfOneVoxelThatAreNoneOfSpace) {
 }
 
 TEST(NrrdHeader, MakesAxesPerpendicularUpToHalfADegree) {
-    const NrrdImage image = layout_of(with_line("(0,1,0)", "(0.0052,1,0)"));  // 0.3 degrees
+    const ImageHeader image = layout_of(with_line("(0,1,0)", "(0.0052,1,0)"));  // 0.3 degrees
     EXPECT_NEAR(glm::dot(image.image.direction[0], image.image.direction[1]), 0.0, 1e-12);
     EXPECT_THAT(image.image.notes.at(0),
                 HasSubstr("its axes i and j are 89.7 degrees apart; made perpendicular"));
