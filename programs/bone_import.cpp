@@ -54,10 +54,12 @@ constexpr double preview_spacing_mm = 0.5;
 
 /// The scan, or the bone of labels where there is none.
 void import(const osteomill::ImportOptions& options, const osteomill::BegunCase& begun,
-            const osteomill::ImportSurroundings& surroundings) {
+            const osteomill::ImportSurroundings& surroundings, bool is_to_look_at) {
     if (begun.labels == 0) return osteomill::import_bone(options, surroundings);
-    osteomill::import_bone(options, osteomill::scan_of_labels(begun, surroundings.messages), surroundings);
+    osteomill::import_bone(options, osteomill::scan_of_labels(begun, surroundings.messages, is_to_look_at),
+                           surroundings);
 }
+
 /// A new folder beside a file, gone with this.
 class ScratchFolder {
   public:
@@ -85,7 +87,7 @@ void preview(osteomill::ImportOptions options, const osteomill::BegunCase& begun
     options.threshold_hu.reset();
     const ScratchFolder scratch(picture);
     options.output = scratch.path() / "coarse.nrrd";
-    import(options, begun, surroundings);
+    import(options, begun, surroundings, true);
     const osteomill::CtVolume ct = osteomill::whole_ct(options.output);
     surroundings.messages << osteomill::summary_of(ct);
     osteomill::write_preview(ct, region, picture);
@@ -268,7 +270,7 @@ int main(int argc, char** argv) {
             const osteomill::BegunCase begun = osteomill::read_case_parts(texts.parts);
             if (makes_case) osteomill::begin_case(texts.case_folder);
             if (texts.preview.empty())
-                import(options, begun, surroundings);
+                import(options, begun, surroundings, false);
             else
                 preview(options, begun, texts.preview, surroundings);
             if (makes_case) osteomill::finish_case(texts.case_folder, begun, messages);

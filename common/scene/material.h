@@ -27,6 +27,9 @@ struct Material {
     double relative_edge = 1.0;
 };
 
+/// What a segment is said to be made of where it is no bone.
+inline constexpr const char* soft_material = "soft";
+
 /// Those of scenes/materials.toml, built in.
 const std::vector<Material>& shipped_materials();
 

@@ -234,17 +234,19 @@ void begin_case(const std::filesystem::path& folder) {
         throw std::runtime_error(fmt::format("{}: cannot be made a folder", folder.string()));
 }
 
-OpenedImage scan_of_labels(const BegunCase& begun, std::ostream& messages) {
+OpenedImage scan_of_labels(const BegunCase& begun, std::ostream& messages, bool is_to_look_at) {
     const std::vector<std::shared_ptr<const Segmentation>> maps(
         begun.segmentations.begin(), begun.segmentations.begin() + static_cast<std::ptrdiff_t>(begun.labels));
+    bool is_any_bone = false;
     for (const auto& map : maps)
         for (const Segment& segment : map->segments) {
             const Material* material = material_of(segment.name, begun.parts, true);
+            is_any_bone = is_any_bone || material != nullptr;
             messages << fmt::format("\"{}\" is {}\n", segment.name,
                                     material != nullptr ? "made of " + material->name : "no bone");
         }
     return bone_of_labels(maps, [&](const Segment& segment) {
-        return material_of(segment.name, begun.parts, true) != nullptr;
+        return (is_to_look_at && !is_any_bone) || material_of(segment.name, begun.parts, true) != nullptr;
     });
 }
 

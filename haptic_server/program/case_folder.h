@@ -24,9 +24,6 @@ std::string scene_of_case(const std::string& name);
 /// (plain_text.h).
 std::string name_of_case(const std::filesystem::path& folder);
 
-/// What a segment is said to be made of where it is no bone.
-inline constexpr const char* soft_material = "soft";
-
 /// What a case is made of beside its scan. A folder stands for the label maps in it.
 struct CaseParts {
     std::vector<std::filesystem::path> labels{};  ///< that bone is made of, without a scan; tissues, too
@@ -36,7 +33,7 @@ struct CaseParts {
     std::vector<std::string> is_protected{};         ///< tissues, by name
     double warn_mm = 1.0;                            ///< of those: from what distance on
     std::optional<std::string> target{};             ///< the tissue that is to be removed
-    /// What tissues are made of, by name (material.h), or soft_material. Of labels that bone is made of,
+    /// What tissues are made of, by name, or soft_material (material.h). Of labels that bone is made of,
     /// others are what their names say; of a scan, what its CT numbers say.
     std::map<std::string, std::string> materials{};
 };
@@ -55,8 +52,9 @@ BegunCase read_case_parts(CaseParts parts);
 /// Makes the folder. Throws std::runtime_error where it holds a case already or cannot be made.
 void begin_case(const std::filesystem::path& folder);
 
-/// Of a case without a scan: the CT numbers of its bone (bone_of_labels.h). Says which segments are bone.
-OpenedImage scan_of_labels(const BegunCase& begun, std::ostream& messages);
+/// Of a case without a scan: the CT numbers of its bone (bone_of_labels.h). Says which segments are bone. To
+/// look at, all are where none is.
+OpenedImage scan_of_labels(const BegunCase& begun, std::ostream& messages, bool is_to_look_at = false);
 
 /// Where a case's bone lies.
 std::filesystem::path bone_of_case(const std::filesystem::path& folder);

@@ -9,6 +9,7 @@
 #include <glm/common.hpp>
 #include <glm/vector_relational.hpp>
 
+#include "common/scene/material.h"
 #include "render_client/ui/panels/input_panel.h"
 
 namespace osteomill {
@@ -82,9 +83,13 @@ void draw_cases(StartPage& page) {
 }
 
 void draw_browser(StartPage& page) {
-    const bool is_for_scan = page.view() != StartPage::View::segmentation_browser;
-    ImGui::TextUnformatted(is_for_scan ? "A scan: a DICOM folder, or a NRRD, NIfTI or MetaImage file"
-                                       : "A segmentation (.seg.nrrd), or a label map (NRRD, NIfTI)");
+    const bool is_for_scan =
+        page.view() == StartPage::View::scan_browser || page.view() == StartPage::View::labels_browser;
+    ImGui::TextUnformatted(
+        is_for_scan ? "A DICOM folder, a NRRD, NIfTI or MetaImage file, or a folder of PNG or TIFF pictures"
+        : page.view() == StartPage::View::colours_browser
+            ? "Names and colours of labels: a table of 3D Slicer (.ctbl, .csv) or ITK-SNAP"
+            : "A segmentation (.seg.nrrd, DICOM), or a label map");
     ImGui::TextDisabled("%s", page.listing().folder.c_str());
     const FolderListing listing = page.listing();  // a click replaces it
     ImGui::BeginChild("files", list_size(2.0f), true);
@@ -97,7 +102,7 @@ void draw_browser(StartPage& page) {
     ImGui::EndChild();
     if (!listing.problem.empty()) ImGui::TextUnformatted(listing.problem.c_str());
     if (is_for_scan) {
-        if (button("This folder (DICOM)", !listing.files.empty())) page.take(listing.folder);
+        if (button("This folder", !listing.files.empty())) page.take(listing.folder);
         ImGui::SameLine();
     }
     if (ImGui::Button("Back")) page.show(is_for_scan ? StartPage::View::cases : StartPage::View::import);
@@ -150,6 +155,20 @@ void draw_slices(StartPage& page, StartPicture& picture, const ImVec2& room) {
     if (!ImGui::IsItemActive()) picture.drag.reset();
 }
 
+/// What a segment is made of; the first choice leaves it open.
+void draw_material(SegmentChoice& segment, const char* left_open) {
+    ImGui::SetNextItemWidth(12.0f * ImGui::GetFontSize());
+    if (!ImGui::BeginCombo("##material", segment.material.empty() ? left_open : segment.material.c_str()))
+        return;
+    const auto offer = [&](const char* shown, const std::string& material) {
+        if (ImGui::Selectable(shown, segment.material == material)) segment.material = material;
+    };
+    offer(left_open, "");
+    offer("soft: no bone", soft_material);
+    for (const Material& material : shipped_materials()) offer(material.name.c_str(), material.name);
+    ImGui::EndCombo();
+}
+
 void draw_segments(ImportForm& form) {
     for (std::size_t i = 0; i < form.segments.size(); ++i) {
         SegmentChoice& segment = form.segments[i];
@@ -159,6 +178,8 @@ void draw_segments(ImportForm& form) {
         if (ImGui::Checkbox("target", &segment.is_target) && segment.is_target)
             for (std::size_t other = 0; other < form.segments.size(); ++other)
                 if (other != i) form.segments[other].is_target = false;
+        ImGui::SameLine();
+        draw_material(segment, form.are_labels ? "as its name says" : "as its HU say");
         ImGui::SameLine();
         ImGui::TextUnformatted(segment.name.c_str());
         ImGui::PopID();
@@ -206,15 +227,24 @@ void draw_import(StartPage& page, StartPicture& picture) {
             ImGui::Checkbox("keep soft tissue", &form.keeps_soft_tissue);
         }
         ImGui::BeginChild("segments", list_size(3.5f), false);
-        if (button("Look there", !page.is_working())) page.look_at_region();
+        if (button("Look there", !page.is_working())) page.look_again();
         ImGui::SameLine();
         if (button("Add a segmentation ...", !page.is_working()))
             page.show(StartPage::View::segmentation_browser);
+        ImGui::SameLine();
+        if (button("Colour table ...", !form.segments.empty() && !page.is_working()))
+            page.show(StartPage::View::colours_browser);
         ImGui::SameLine();
         ImGui::TextDisabled("%.0f million voxels", 1e-6 * voxels_of(form));
         draw_segments(form);
         ImGui::EndChild();
         text_field("name of the case", form.name, 14.0f * ImGui::GetFontSize());
+    }
+    if (!page.look() && !page.is_working()) {
+        text_field("mm between pixels and slices of a stack of pictures: x,y,z", form.stack_spacing,
+                   12.0f * ImGui::GetFontSize());
+        ImGui::SameLine();
+        if (ImGui::Button("Look")) page.look_again();
     }
     if (button("Import", page.look() && !page.is_working())) page.import();
     ImGui::SameLine();
@@ -246,6 +276,7 @@ void draw_start_panel(StartPage& page, StartPicture& picture, const PanelPlace& 
         case StartPage::View::scan_browser:
         case StartPage::View::labels_browser:
         case StartPage::View::segmentation_browser:
+        case StartPage::View::colours_browser:
             draw_browser(page);
             break;
     }

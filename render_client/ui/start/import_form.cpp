@@ -16,9 +16,13 @@ std::string region_option(const ScanBox& region) {
                        high.y, high.z);
 }
 
-std::vector<std::string> command_with_scan(const std::string& bone_import, const ImportForm& form) {
-    if (form.are_labels) return {bone_import, "--labels=" + form.scan.string()};
-    return {bone_import, form.scan.string()};
+/// bone_import with all files that go in.
+std::vector<std::string> command_with_files(const std::string& bone_import, const ImportForm& form) {
+    std::vector<std::string> command{bone_import, (form.are_labels ? "--labels=" : "") + form.scan.string()};
+    for (const auto& file : form.segmentations) command.push_back("--segmentation=" + file.string());
+    if (form.colours) command.push_back("--colours=" + form.colours->string());
+    if (!form.stack_spacing.empty()) command.push_back("--stack-spacing=" + form.stack_spacing);
+    return command;
 }
 
 }  // namespace
@@ -30,24 +34,24 @@ double voxels_of(const ImportForm& form) {
 
 std::vector<std::string> look_command(const std::string& bone_import, const ImportForm& form,
                                       const std::filesystem::path& picture, bool at_region) {
-    std::vector<std::string> command = command_with_scan(bone_import, form);
+    std::vector<std::string> command = command_with_files(bone_import, form);
     command.insert(command.end(), {"--preview", picture.string()});
     if (at_region) command.push_back(region_option(form.region));
-    for (const auto& file : form.segmentations) command.push_back("--segmentation=" + file.string());
     return command;
 }
 
 std::vector<std::string> import_command(const std::string& bone_import, const ImportForm& form,
                                         const std::filesystem::path& folder) {
-    std::vector<std::string> command = command_with_scan(bone_import, form);
+    std::vector<std::string> command = command_with_files(bone_import, form);
     command.insert(command.end(), {"--case", folder.string(), region_option(form.region),
                                    fmt::format("--spacing-mm={}", form.spacing_mm)});
     if (!form.are_labels) command.push_back(fmt::format("--threshold-hu={}", form.threshold_hu));
     if (!form.are_labels && form.keeps_soft_tissue) command.emplace_back("--keep-soft-tissue");
-    for (const auto& file : form.segmentations) command.push_back("--segmentation=" + file.string());
     for (const SegmentChoice& segment : form.segments) {
         if (segment.is_protected) command.push_back("--protect=" + segment.name);
         if (segment.is_target) command.push_back("--target=" + segment.name);
+        if (!segment.material.empty())
+            command.push_back("--material=" + segment.name + "=" + segment.material);
     }
     return command;
 }

@@ -14,12 +14,15 @@ struct SegmentChoice {
     std::string name;
     bool is_protected = false;
     bool is_target = false;  ///< of one at most
+    std::string material{};  ///< empty: as its CT numbers say, or of labels its name
 };
 
 struct ImportForm {
     std::filesystem::path scan{};
     bool are_labels = false;  ///< the scan is a label map, and bone is made of what is bone in it
     std::vector<std::filesystem::path> segmentations{};
+    std::optional<std::filesystem::path> colours{};  ///< a table of label maps' names and colours
+    std::string stack_spacing{};  ///< "x,y,z", mm, of a stack of pictures; empty where there is none
     std::vector<SegmentChoice> segments{};
     ScanBox region{};
     double threshold_hu = 300.0;

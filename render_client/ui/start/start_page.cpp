@@ -150,8 +150,12 @@ void StartPage::take(const std::filesystem::path& path) {
         picture_.reset();
         show(View::import);
         look_at_scan(true);
-    } else if (view_ == View::segmentation_browser) {
-        form.segmentations.push_back(path);
+    } else if (view_ == View::segmentation_browser || view_ == View::colours_browser) {
+        form_before_ = form;
+        if (view_ == View::colours_browser)
+            form.colours = path;
+        else
+            form.segmentations.push_back(path);
         show(View::import);
         look_at_scan(false);
     }
@@ -221,8 +225,10 @@ void StartPage::end_of_work() {
             message_ = error.what();
         }
         if (look_) take_look(form, *look_, is_another_scan_);
-    } else if (work_ == Work::look && !form.segmentations.empty() && !is_another_scan_) {
-        form.segmentations.pop_back();  // the one that was just added cannot be read
+        form_before_ = form;
+    } else if (work_ == Work::look && !is_another_scan_) {
+        form.segmentations = form_before_.segmentations;
+        form.colours = form_before_.colours;
     }
     remove_quietly(scratch_);
     scratch_.clear();

@@ -29,7 +29,7 @@ std::filesystem::path folder_of_this_program();
 
 class StartPage {
   public:
-    enum class View { cases, import, scan_browser, labels_browser, segmentation_browser };
+    enum class View { cases, import, scan_browser, labels_browser, segmentation_browser, colours_browser };
 
     explicit StartPage(StartPlaces places);
     /// Ends what it started: a session's server writes its report first.
@@ -70,8 +70,8 @@ class StartPage {
     const std::optional<Picture>& picture() const { return picture_; }
     std::uint64_t picture_number() const { return picture_number_; }  ///< another for each picture
     bool is_working() const { return worker_ != nullptr; }            ///< looks or imports
-    /// The slices through the middle of the region.
-    void look_at_region() { look_at_scan(false); }
+    /// The slices through the middle of the region; of a scan that could not be looked at, of all of it.
+    void look_again() { look_at_scan(!look_); }
     void import();
     void give_up_work();
 
@@ -95,6 +95,7 @@ class StartPage {
     enum class Work { look, import, compare };
     Work work_ = Work::look;
     bool is_another_scan_ = false;
+    ImportForm form_before_{};  // whose files could be read
     std::unique_ptr<ChildProgram> worker_;
     std::filesystem::path scratch_;  // of the look that is under way
     std::optional<ScanLook> look_;

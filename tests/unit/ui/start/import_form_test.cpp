@@ -1,0 +1,46 @@
+#include "render_client/ui/start/import_form.h"
+
+#include <gmock/gmock.h>
+
+namespace osteomill {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::IsSupersetOf;
+
+TEST(ImportForm, OfLabelsInPicturesNamesTheirColoursSpacingAndMaterials) {
+    const ImportForm form{
+        .scan = "[fivrs]",
+        .are_labels = true,
+        .colours = "fivrs.ctbl",
+        .stack_spacing = "0.2,0.2,0.2",
+        .segments = {{.name = "Bone=hard", .material = "enamel"}, {.name = "Dura", .is_protected = true}},
+        .region = {.low_mm = {-1.0, 0.0, 0.0}, .high_mm = {1.0, 2.0, 3.0}},
+        .spacing_mm = 0.25};
+    EXPECT_THAT(look_command("bone_import", form, "look.png", false),
+                ElementsAre("bone_import", "--labels=[fivrs]", "--colours=fivrs.ctbl",
+                            "--stack-spacing=0.2,0.2,0.2", "--preview", "look.png"));
+    EXPECT_THAT(
+        import_command("bone_import", form, "case"),
+        ElementsAre("bone_import", "--labels=[fivrs]", "--colours=fivrs.ctbl", "--stack-spacing=0.2,0.2,0.2",
+                    "--case", "case", "--region=-1.00,0.00,0.00,1.00,2.00,3.00", "--spacing-mm=0.25",
+                    "--material=Bone=hard=enamel", "--protect=Dura"));
+}
+
+TEST(ImportForm, OfAScanLeavesMaterialsToItsNumbers) {
+    const ImportForm form{.scan = "ct", .segmentations = {"s.seg.nrrd"}, .segments = {{.name = "Nerve"}}};
+    EXPECT_THAT(
+        import_command("bone_import", form, "case"),
+        IsSupersetOf({"ct", "--segmentation=s.seg.nrrd", "--threshold-hu=300", "--keep-soft-tissue"}));
+}
+
+TEST(ImportForm, KeepsWhatWasChosenOfSegmentsThatAreThereAgain) {
+    ImportForm form{.segments = {{.name = "Tooth", .material = "dentine"}, {.name = "Gone"}}};
+    take_look(form, {.covers = {.high_mm = {1.0, 1.0, 1.0}}, .segments = {"New", "Tooth"}}, false);
+    ASSERT_EQ(form.segments.size(), 2U);
+    EXPECT_EQ(form.segments[0].name, "New");
+    EXPECT_EQ(form.segments[1].material, "dentine");
+}
+
+}  // namespace
+}  // namespace osteomill
