@@ -153,9 +153,9 @@ TEST_F(ImageReader, RefusesAPathAFolderOrAFileWithoutAnImage) {
     EXPECT_THAT(refusal(folder_ / "texts"), HasSubstr("no DICOM images"));
     EXPECT_THAT(
         refusal_of_text("notes.txt", "no image"),
-        HasSubstr(
-            "is no DICOM folder or file, NRRD (.nrrd, .nhdr), NIfTI (.nii, .nii.gz) or MetaImage (.mha, "
-            ".mhd): it begins as none of them"));
+        HasSubstr("is no NRRD (.nrrd, .nhdr), NIfTI (.nii, .nii.gz), folder of PNG or TIFF pictures, DICOM "
+                  "folder or file or MetaImage (.mha, "
+                  ".mhd): it begins as none of them"));
     EXPECT_THAT(refusal_of_text("empty.nrrd", ""), HasSubstr("is empty"));
 }
 
