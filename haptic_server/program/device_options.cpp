@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "common/program/option_checks.h"
-#include "haptic_server/device/hid/profile_file.h"
-#include "haptic_server/device/tracker/transform_stream.h"
+#include "devices/hid/profile_file.h"
+#include "devices/tracker/transform_stream.h"
 
 namespace osteomill {
 

@@ -7,7 +7,7 @@
 #include <string>
 
 #include "common/net/listen_address.h"
-#include "haptic_server/device/bridge/bridge_address.h"
+#include "devices/bridge/bridge_address.h"
 
 namespace osteomill {
 

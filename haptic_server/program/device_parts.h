@@ -6,11 +6,11 @@
 
 #include "bridge/osteomill_bridge.h"
 #include "common/log/line_stream.h"
-#include "haptic_server/device/haptic_device.h"
-#include "haptic_server/device/hid/hid_transport.h"
-#include "haptic_server/device/simulated_device.h"
-#include "haptic_server/exchange/operator_channel.h"
+#include "devices/hid/hid_transport.h"
+#include "devices/simulated/simulated_device.h"
 #include "haptic_server/program/server_options.h"
+#include "simulation/device/haptic_device.h"
+#include "simulation/exchange/operator_channel.h"
 
 namespace osteomill {
 

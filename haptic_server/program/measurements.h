@@ -7,8 +7,8 @@
 #include "common/recording/recording_writer.h"
 #include "common/scene/scene.h"
 #include "common/scene/structure_watch.h"
-#include "haptic_server/loop/milling_session.h"
 #include "haptic_server/program/server_options.h"
+#include "simulation/loop/milling_session.h"
 
 namespace osteomill {
 

@@ -10,9 +10,9 @@
 #include <vector>
 
 #include "common/files/distinct_files.h"
-#include "haptic_server/imaging/phantoms/phantom.h"
-#include "haptic_server/program/case_folder.h"
 #include "haptic_server/program/report_folder.h"
+#include "imaging/case/case_folder.h"
+#include "imaging/phantoms/phantom.h"
 
 namespace osteomill {
 

@@ -6,11 +6,11 @@
 #include <optional>
 #include <string>
 
-#include "haptic_server/command_line/command_line.h"
-#include "haptic_server/device/hand_model.h"
-#include "haptic_server/loop/milling_session.h"
+#include "common/program/command_line.h"
+#include "devices/simulated/hand_model.h"
 #include "haptic_server/program/device_options.h"
 #include "haptic_server/streaming/access_options.h"
+#include "simulation/loop/milling_session.h"
 
 namespace osteomill {
 

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
-#include "haptic_server/surface/mesh_file.h"
+#include "analysis/surface/mesh_file.h"
 
 namespace osteomill {
 

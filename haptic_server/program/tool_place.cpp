@@ -8,7 +8,7 @@
 #include <glm/geometric.hpp>
 #include <limits>
 
-#include "haptic_server/contact_models/bone_in_ball.h"
+#include "simulation/contact_models/bone_in_ball.h"
 
 namespace osteomill {
 

@@ -7,7 +7,7 @@
 
 #include "common/bone/bone.h"
 #include "common/scene/scene.h"
-#include "haptic_server/loop/burr_hull.h"
+#include "simulation/loop/burr_hull.h"
 
 namespace osteomill {
 

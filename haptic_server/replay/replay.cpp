@@ -7,18 +7,18 @@
 #include <stdexcept>
 #include <thread>
 
+#include "analysis/replay/recorded_bones.h"
+#include "haptic_server/replay/recorded_session.h"
+#include "analysis/replay/recording_csv.h"
+#include "analysis/replay/recording_sound.h"
+#include "analysis/replay/recording_summary.h"
+#include "analysis/report/write_report.h"
+#include "analysis/surface/mesh_file.h"
+#include "analysis/surface/surface_mesh.h"
 #include "common/files/whole_file.h"
 #include "common/program/stop_signals.h"
-#include "haptic_server/imaging/bone_file/removed_bone.h"
-#include "haptic_server/replay/recorded_bones.h"
-#include "haptic_server/replay/recorded_session.h"
-#include "haptic_server/replay/recording_csv.h"
-#include "haptic_server/replay/recording_sound.h"
-#include "haptic_server/replay/recording_summary.h"
-#include "haptic_server/report/write_report.h"
 #include "haptic_server/streaming/streaming_server.h"
-#include "haptic_server/surface/mesh_file.h"
-#include "haptic_server/surface/surface_mesh.h"
+#include "imaging/bone_file/removed_bone.h"
 
 namespace osteomill {
 

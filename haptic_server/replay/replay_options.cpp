@@ -6,8 +6,8 @@
 #include <stdexcept>
 #include <vector>
 
+#include "analysis/surface/mesh_file.h"
 #include "common/files/distinct_files.h"
-#include "haptic_server/surface/mesh_file.h"
 
 namespace osteomill {
 

@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "haptic_server/command_line/command_line.h"
+#include "common/program/command_line.h"
 #include "haptic_server/streaming/access_options.h"
 
 namespace osteomill {

@@ -1,7 +1,7 @@
 // The lease on the tool: which client moves it, and what it wants. The first that sends input has it, until
 // it leaves or the lease runs out. Its input renews the lease; but from one that brings nothing new for half
 // a minute, see OperatorActivity, the next who asks takes it. That a silent operator's pedal comes up is not
-// for the lease to see to: the device does, see haptic_server/device/permission.h.
+// for the lease to see to: the device does, see simulation/device/permission.h.
 #pragma once
 
 #include <chrono>
@@ -10,8 +10,8 @@
 
 #include "common/scene/operator_command.h"
 #include "common/scene/tool_state.h"
-#include "haptic_server/exchange/operator_channel.h"
 #include "haptic_server/streaming/operator_activity.h"
+#include "simulation/exchange/operator_channel.h"
 
 namespace osteomill {
 

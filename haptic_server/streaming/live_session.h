@@ -9,12 +9,12 @@
 #include "common/scene/structure_watch.h"
 #include "common/scene/tool_state.h"
 #include "common/wire/session_info.h"
-#include "haptic_server/exchange/change_queue.h"
-#include "haptic_server/exchange/triple_buffer.h"
 #include "haptic_server/streaming/control_script.h"
 #include "haptic_server/streaming/session_controls.h"
 #include "haptic_server/streaming/stream_source.h"
 #include "haptic_server/streaming/structure_log.h"
+#include "simulation/exchange/change_queue.h"
+#include "simulation/exchange/triple_buffer.h"
 
 namespace osteomill {
 

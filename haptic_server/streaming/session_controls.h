@@ -20,10 +20,10 @@
 #include "common/scene/session_control.h"
 #include "common/scene/tool_state.h"
 #include "common/wire/bone_replica.h"
-#include "haptic_server/exchange/change_queue.h"
-#include "haptic_server/exchange/session_gate.h"
-#include "haptic_server/exchange/triple_buffer.h"
 #include "haptic_server/streaming/stroke_journal.h"
+#include "simulation/exchange/change_queue.h"
+#include "simulation/exchange/session_gate.h"
+#include "simulation/exchange/triple_buffer.h"
 
 namespace osteomill {
 

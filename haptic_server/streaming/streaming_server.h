@@ -18,10 +18,10 @@
 #include "common/recording/recording_writer.h"
 #include "common/scene/structure.h"
 #include "common/wire/session_info.h"
-#include "haptic_server/exchange/operator_channel.h"
-#include "haptic_server/exchange/triple_buffer.h"
 #include "haptic_server/streaming/stream_source.h"
 #include "haptic_server/streaming/streaming_options.h"
+#include "simulation/exchange/operator_channel.h"
+#include "simulation/exchange/triple_buffer.h"
 
 namespace osteomill {
 

@@ -8,10 +8,10 @@
 #include <ostream>
 #include <string>
 
+#include "analysis/output/output_files.h"
 #include "studies/bridge/delay_rows.h"
 #include "studies/bridge/private_network.h"
 #include "studies/bridge/round_trips.h"
-#include "studies/report/output_files.h"
 
 namespace osteomill::study {
 

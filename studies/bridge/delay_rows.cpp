@@ -1,7 +1,7 @@
 #include "studies/bridge/delay_rows.h"
 
-#include "haptic_server/device/arm_model.h"
-#include "haptic_server/device/arm_spring.h"
+#include "devices/simulated/arm_model.h"
+#include "simulation/device/arm_spring.h"
 #include "studies/stability/map/map_points.h"
 #include "studies/stability/scene/map_run.h"
 

@@ -13,7 +13,7 @@
 #include <stdexcept>
 #include <thread>
 
-#include "haptic_server/device/bridge/bridge_arm.h"
+#include "devices/bridge/bridge_arm.h"
 #include "studies/bridge/private_network.h"
 
 namespace osteomill::study {

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "haptic_server/device/bridge/bridge_address.h"
+#include "devices/bridge/bridge_address.h"
 
 namespace osteomill::study {
 

@@ -4,8 +4,8 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
+#include "analysis/output/progress.h"
 #include "studies/force/steady_run.h"
-#include "studies/report/progress.h"
 
 namespace osteomill::study {
 

@@ -5,10 +5,10 @@
 #include <glm/geometric.hpp>
 
 #include "common/statistics/percentile.h"
-#include "haptic_server/contact_models/force_models.h"
+#include "simulation/contact_models/force_models.h"
+#include "simulation/cutting_force/reference_force.h"
 #include "studies/force/bone_block.h"
 #include "studies/force/path_run.h"
-#include "studies/force/reference_force.h"
 
 namespace osteomill::study {
 

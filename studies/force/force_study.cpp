@@ -8,8 +8,10 @@
 #include <optional>
 #include <ostream>
 
-#include "haptic_server/imaging/memory_estimate.h"
-#include "haptic_server/imaging/progress.h"
+#include "analysis/output/chart.h"
+#include "analysis/output/output_files.h"
+#include "imaging/memory_estimate.h"
+#include "imaging/progress.h"
 #include "studies/force/contact_curves.h"
 #include "studies/force/convergence.h"
 #include "studies/force/force_curves.h"
@@ -17,8 +19,6 @@
 #include "studies/force/pareto.h"
 #include "studies/force/random_motions.h"
 #include "studies/force/scaling.h"
-#include "studies/report/chart.h"
-#include "studies/report/output_files.h"
 
 namespace osteomill::study {
 

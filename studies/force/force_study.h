@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <optional>
 
-#include "studies/report/surroundings.h"
+#include "analysis/output/surroundings.h"
 
 namespace osteomill::study {
 

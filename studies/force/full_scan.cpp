@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "common/scene/burr_frame.h"
-#include "haptic_server/carving/crescent_rows.h"
-#include "haptic_server/cutting_force/mean_force.h"
+#include "simulation/carving/crescent_rows.h"
+#include "simulation/cutting_force/mean_force.h"
 
 namespace osteomill::study {
 

@@ -11,10 +11,10 @@
 
 #include "common/bone/bone_builder.h"
 #include "common/scene/structure_watch.h"
-#include "haptic_server/imaging/import_bone.h"
-#include "haptic_server/imaging/memory_estimate.h"
-#include "haptic_server/imaging/phantoms/phantom.h"
-#include "haptic_server/program/bone_source.h"
+#include "imaging/case/bone_source.h"
+#include "imaging/import_bone.h"
+#include "imaging/memory_estimate.h"
+#include "imaging/phantoms/phantom.h"
 
 namespace osteomill::study {
 

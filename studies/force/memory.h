@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "analysis/output/progress.h"
 #include "common/bone/bone.h"
-#include "studies/report/progress.h"
 
 namespace osteomill::study {
 

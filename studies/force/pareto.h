@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "analysis/output/progress.h"
 #include "studies/force/studied_motion.h"
-#include "studies/report/progress.h"
 
 namespace osteomill::study {
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "studies/report/progress.h"
+#include "analysis/output/progress.h"
 
 namespace osteomill::study {
 

@@ -7,8 +7,8 @@
 #include <numbers>
 #include <span>
 
+#include "simulation/cutting_force/reference_force.h"
 #include "studies/force/path_run.h"
-#include "studies/force/reference_force.h"
 
 namespace osteomill::study {
 

@@ -2,9 +2,9 @@
 
 #include <fmt/format.h>
 
+#include "analysis/output/output_files.h"
 #include "common/scene/material.h"
 #include "studies/loads/pressed_burr.h"
-#include "studies/report/output_files.h"
 
 namespace osteomill::study {
 

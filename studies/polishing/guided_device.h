@@ -7,8 +7,8 @@
 #include <string>
 #include <utility>
 
-#include "haptic_server/device/haptic_device.h"
-#include "haptic_server/device/trajectory.h"
+#include "devices/simulated/trajectory.h"
+#include "simulation/device/haptic_device.h"
 
 namespace osteomill::study {
 

@@ -7,8 +7,8 @@
 #include <stdexcept>
 #include <utility>
 
-#include "haptic_server/device/simulated_device.h"
-#include "haptic_server/loop/milling_session.h"
+#include "devices/simulated/simulated_device.h"
+#include "simulation/loop/milling_session.h"
 #include "studies/polishing/guided_device.h"
 
 namespace osteomill::study {

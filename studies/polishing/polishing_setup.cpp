@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "haptic_server/imaging/phantoms/phantom.h"
+#include "imaging/phantoms/phantom.h"
 
 namespace osteomill::study {
 

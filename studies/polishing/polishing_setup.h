@@ -16,9 +16,9 @@
 
 #include "common/bone/bone.h"
 #include "common/scene/scene.h"
-#include "haptic_server/device/arm_model.h"
-#include "haptic_server/device/hand_model.h"
-#include "haptic_server/device/trajectory.h"
+#include "devices/simulated/arm_model.h"
+#include "devices/simulated/hand_model.h"
+#include "devices/simulated/trajectory.h"
 
 namespace osteomill::study {
 

@@ -8,16 +8,16 @@
 #include <utility>
 #include <variant>
 
-#include "haptic_server/imaging/phantoms/phantom.h"
-#include "haptic_server/imaging/progress.h"
+#include "analysis/output/chart.h"
+#include "analysis/output/output_files.h"
+#include "imaging/phantoms/phantom.h"
+#include "imaging/progress.h"
 #include "studies/polishing/claims.h"
 #include "studies/polishing/polishing_run.h"
 #include "studies/polishing/published_figures.h"
 #include "studies/polishing/setup_survey.h"
 #include "studies/polishing/speed_and_grip.h"
 #include "studies/polishing/tooth_period.h"
-#include "studies/report/chart.h"
-#include "studies/report/output_files.h"
 
 namespace osteomill::study {
 

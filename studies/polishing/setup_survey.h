@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
+#include "analysis/output/progress.h"
 #include "common/bone/bone.h"
 #include "studies/polishing/polishing_setup.h"
-#include "studies/report/progress.h"
 
 namespace osteomill::study {
 

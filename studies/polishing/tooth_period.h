@@ -7,10 +7,10 @@
 #include <string>
 #include <vector>
 
+#include "analysis/output/progress.h"
 #include "common/bone/bone.h"
 #include "studies/polishing/force_record.h"
 #include "studies/polishing/polishing_setup.h"
-#include "studies/report/progress.h"
 
 namespace osteomill::study {
 

@@ -12,11 +12,11 @@
 #include <stdexcept>
 #include <string>
 
-#include "haptic_server/imaging/progress.h"
+#include "analysis/output/chart.h"
+#include "analysis/output/output_files.h"
+#include "imaging/progress.h"
 #include "studies/realtime/installed_program.h"
 #include "studies/realtime/slices.h"
-#include "studies/report/chart.h"
-#include "studies/report/output_files.h"
 #include "tests/support/child_process.h"
 
 namespace osteomill::study {

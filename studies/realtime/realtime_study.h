@@ -8,7 +8,7 @@
 
 #include <filesystem>
 
-#include "studies/report/surroundings.h"
+#include "analysis/output/surroundings.h"
 
 namespace osteomill::study {
 

@@ -10,8 +10,8 @@
 #include <string>
 #include <vector>
 
-#include "haptic_server/loop/thread_priority.h"
 #include "render_client/link/bone_link.h"
+#include "simulation/loop/thread_priority.h"
 #include "tests/support/child_process.h"
 
 namespace osteomill::study {

@@ -5,12 +5,12 @@
 #include <string>
 #include <vector>
 
+#include "analysis/output/progress.h"
 #include "render_client/volume/passes/raycast_renderer.h"
 #include "render_client/volume/passes/renderer_choice.h"
 #include "studies/render/reference_image.h"
 #include "studies/render/timed_drawing.h"
 #include "studies/render/trial_bone.h"
-#include "studies/report/progress.h"
 
 namespace osteomill::study {
 

@@ -4,9 +4,9 @@
 #include <map>
 #include <utility>
 
-#include "haptic_server/carving/carve.h"
-#include "haptic_server/imaging/phantoms/phantom.h"
-#include "haptic_server/program/bone_source.h"
+#include "imaging/case/bone_source.h"
+#include "imaging/phantoms/phantom.h"
+#include "simulation/carving/carve.h"
 
 namespace osteomill {
 

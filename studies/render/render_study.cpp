@@ -6,7 +6,9 @@
 #include <nlohmann/json.hpp>
 #include <ostream>
 
-#include "haptic_server/imaging/progress.h"
+#include "analysis/output/chart.h"
+#include "analysis/output/output_files.h"
+#include "imaging/progress.h"
 #include "render_client/volume/gl/offscreen_context.h"
 #include "studies/render/accuracy.h"
 #include "studies/render/carved_sphere.h"
@@ -17,8 +19,6 @@
 #include "studies/render/normals.h"
 #include "studies/render/upload_cost.h"
 #include "studies/render/zooms.h"
-#include "studies/report/chart.h"
-#include "studies/report/output_files.h"
 
 namespace osteomill::study {
 

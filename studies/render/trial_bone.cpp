@@ -7,10 +7,10 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "haptic_server/imaging/import_bone.h"
-#include "haptic_server/imaging/memory_estimate.h"
-#include "haptic_server/imaging/phantoms/phantom.h"
-#include "haptic_server/program/bone_source.h"
+#include "imaging/case/bone_source.h"
+#include "imaging/import_bone.h"
+#include "imaging/memory_estimate.h"
+#include "imaging/phantoms/phantom.h"
 #include "render_client/volume/textures/voxel_box.h"
 #include "tests/unit/volume/made_bone.h"
 

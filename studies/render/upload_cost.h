@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
+#include "analysis/output/progress.h"
 #include "studies/render/timed_drawing.h"
 #include "studies/render/trial_bone.h"
-#include "studies/report/progress.h"
 
 namespace osteomill::study {
 

@@ -6,8 +6,8 @@
 #include <functional>
 #include <optional>
 
+#include "analysis/output/progress.h"
 #include "studies/render/trial_bone.h"
-#include "studies/report/progress.h"
 
 namespace osteomill::study {
 

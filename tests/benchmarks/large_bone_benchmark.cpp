@@ -18,7 +18,7 @@
 #include <thread>
 #include <vector>
 
-#include "haptic_server/imaging/memory_estimate.h"
+#include "imaging/memory_estimate.h"
 #include "render_client/ui/view/redraw.h"
 #include "render_client/ui/view/session_picture.h"
 #include "tests/support/child_process.h"

@@ -22,14 +22,14 @@
 #include <vector>
 
 #include "common/wire/scene_messages.h"
-#include "haptic_server/device/simulated_device.h"
-#include "haptic_server/imaging/phantoms/phantom.h"
-#include "haptic_server/loop/milling_session.h"
-#include "haptic_server/program/bone_source.h"
+#include "devices/simulated/simulated_device.h"
 #include "haptic_server/streaming/client_feed.h"
 #include "haptic_server/streaming/live_session.h"
 #include "haptic_server/streaming/streaming_server.h"
+#include "imaging/case/bone_source.h"
+#include "imaging/phantoms/phantom.h"
 #include "render_client/link/bone_link.h"
+#include "simulation/loop/milling_session.h"
 
 namespace osteomill {
 namespace {

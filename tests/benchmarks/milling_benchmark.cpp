@@ -23,8 +23,8 @@
 #include <vector>
 
 #include "common/statistics/percentile.h"
-#include "haptic_server/engagement/shank_probe.h"
-#include "haptic_server/loop/milling_loop.h"
+#include "simulation/engagement/shank_probe.h"
+#include "simulation/loop/milling_loop.h"
 #include "studies/force/bone_block.h"
 #include "studies/force/full_scan.h"
 #include "studies/force/studied_model.h"

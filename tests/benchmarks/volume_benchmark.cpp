@@ -15,7 +15,7 @@
 #include <glm/geometric.hpp>
 
 #include "common/bone/brick_change.h"
-#include "haptic_server/imaging/phantoms/phantom.h"
+#include "imaging/phantoms/phantom.h"
 #include "render_client/volume/gl/framebuffer.h"
 #include "render_client/volume/gl/offscreen_context.h"
 #include "render_client/volume/passes/raycast_renderer.h"

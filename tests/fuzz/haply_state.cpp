@@ -2,7 +2,7 @@
 #include <glm/geometric.hpp>
 #include <nlohmann/json.hpp>
 
-#include "haptic_server/device/haply/haply_messages.h"
+#include "devices/haply/haply_messages.h"
 #include "tests/fuzz/targets.h"
 
 namespace osteomill::fuzz {

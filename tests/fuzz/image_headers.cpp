@@ -1,10 +1,10 @@
 // The four headers of images, whose readers are pure.
-#include "haptic_server/imaging/dicom/dicom_pixels.h"
-#include "haptic_server/imaging/formats/meta_image_header.h"
-#include "haptic_server/imaging/formats/nifti_header.h"
-#include "haptic_server/imaging/formats/nrrd_header.h"
-#include "haptic_server/imaging/formats/plausible_geometry.h"
-#include "haptic_server/imaging/imaging_error.h"
+#include "imaging/dicom/dicom_pixels.h"
+#include "imaging/formats/meta_image_header.h"
+#include "imaging/formats/nifti_header.h"
+#include "imaging/formats/nrrd_header.h"
+#include "imaging/formats/plausible_geometry.h"
+#include "imaging/imaging_error.h"
 #include "tests/fuzz/targets.h"
 
 namespace osteomill::fuzz {

@@ -8,7 +8,7 @@
 #include <functional>
 #include <ostream>
 
-#include "haptic_server/imaging/bone_file/hu_file.h"
+#include "imaging/bone_file/hu_file.h"
 #include "tests/support/child_process.h"
 #include "tests/support/raw_dicom.h"
 #include "tests/support/raw_images.h"

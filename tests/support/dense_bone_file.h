@@ -1,8 +1,8 @@
 // A small bone file as a whole, for tests.
 #pragma once
 
-#include "haptic_server/imaging/bone_file/hu_file.h"
-#include "haptic_server/imaging/hu_volume.h"
+#include "imaging/bone_file/hu_file.h"
+#include "imaging/hu_volume.h"
 
 namespace osteomill::testing {
 

@@ -13,7 +13,7 @@
 #include <utility>
 #include <vector>
 
-#include "haptic_server/device/hid/hid_transport.h"
+#include "devices/hid/hid_transport.h"
 
 namespace osteomill::testing {
 

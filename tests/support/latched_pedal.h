@@ -2,7 +2,7 @@
 // itself.
 #pragma once
 
-#include "haptic_server/safety/pedal_latch.h"
+#include "simulation/safety/pedal_latch.h"
 
 namespace osteomill::testing {
 

@@ -4,8 +4,8 @@
 
 #include <memory>
 
-#include "haptic_server/contact_models/milling_model.h"
-#include "haptic_server/coupling/coupling.h"
+#include "simulation/contact_models/milling_model.h"
+#include "simulation/coupling/coupling.h"
 #include "tests/support/block.h"
 
 namespace osteomill::testing {

@@ -3,8 +3,8 @@
 
 #include <array>
 
-#include "haptic_server/carving/removed_voxels.h"
-#include "haptic_server/cutting_force/chip_force.h"
+#include "simulation/carving/removed_voxels.h"
+#include "simulation/cutting_force/chip_force.h"
 
 namespace osteomill::testing {
 

@@ -7,7 +7,7 @@
 #include <numbers>
 #include <vector>
 
-#include "haptic_server/imaging/in_parallel.h"
+#include "imaging/in_parallel.h"
 
 namespace osteomill {
 

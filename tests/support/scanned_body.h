@@ -5,8 +5,8 @@
 #include <functional>
 #include <glm/vec3.hpp>
 
-#include "haptic_server/imaging/formats/source_image.h"
-#include "haptic_server/imaging/hu_volume.h"
+#include "imaging/formats/source_image.h"
+#include "imaging/hu_volume.h"
 
 namespace osteomill {
 

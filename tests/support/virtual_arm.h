@@ -9,8 +9,8 @@
 #include <optional>
 #include <span>
 
-#include "haptic_server/device/hid/arm_kinematics.h"
-#include "haptic_server/device/hid/arm_profile.h"
+#include "devices/hid/arm_kinematics.h"
+#include "devices/hid/arm_profile.h"
 
 namespace osteomill::testing {
 

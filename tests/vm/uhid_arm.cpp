@@ -26,9 +26,9 @@
 
 #include "common/scene/device_mapping.h"
 #include "common/scene/scene_file.h"
-#include "haptic_server/device/hid/hid_arm.h"
-#include "haptic_server/device/hid/profile_file.h"
-#include "haptic_server/device/simulated_device.h"
+#include "devices/hid/hid_arm.h"
+#include "devices/hid/profile_file.h"
+#include "devices/simulated/simulated_device.h"
 #include "tests/support/virtual_arm.h"
 
 namespace {

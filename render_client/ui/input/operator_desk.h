@@ -2,7 +2,7 @@
 // hand and sends them, at a rate of its own.
 //
 // Why a thread of its own: the server gives an operator who is silent 0.2 s
-// (haptic_server/device/permission.h) before the spindle stops. A picture that takes half a second must not
+// (simulation/device/permission.h) before the spindle stops. A picture that takes half a second must not
 // count as silence, nor may a pedal that comes up wait for it; but a program that no longer reads its mouse
 // must fall silent, so nothing else may speak for it. So the window's thread, which alone may read events (a
 // rule of GLFW's), does nothing but that and sends what it read; another one draws.

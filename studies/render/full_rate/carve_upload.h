@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
+#include "analysis/output/progress.h"
 #include "render_client/volume/textures/texture_plan.h"
 #include "studies/render/full_rate/finished_frames.h"
-#include "studies/report/progress.h"
 
 namespace osteomill::study {
 

@@ -7,15 +7,15 @@
 #include <ostream>
 #include <vector>
 
+#include "analysis/output/chart.h"
+#include "analysis/output/output_files.h"
 #include "common/statistics/percentile.h"
-#include "haptic_server/imaging/progress.h"
+#include "imaging/progress.h"
 #include "render_client/volume/gl/graphics_devices.h"
 #include "render_client/volume/gl/offscreen_context.h"
 #include "studies/render/full_rate/carve_upload.h"
 #include "studies/render/full_rate/vtk_frames.h"
 #include "studies/render/full_rate/window_frames.h"
-#include "studies/report/chart.h"
-#include "studies/report/output_files.h"
 
 namespace osteomill::study {
 

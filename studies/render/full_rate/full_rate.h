@@ -7,7 +7,7 @@
 #include <glm/vec2.hpp>
 #include <optional>
 
-#include "studies/report/surroundings.h"
+#include "analysis/output/surroundings.h"
 
 namespace osteomill::study {
 

@@ -8,8 +8,8 @@
 #include <stdexcept>
 #include <thread>
 
+#include "analysis/output/output_files.h"
 #include "render_client/ui/start/child_program.h"
-#include "studies/report/output_files.h"
 
 namespace osteomill::study {
 

@@ -4,9 +4,9 @@
 
 #include <filesystem>
 
+#include "analysis/output/progress.h"
 #include "studies/render/full_rate/drawing_task.h"
 #include "studies/render/full_rate/finished_frames.h"
-#include "studies/report/progress.h"
 
 namespace osteomill::study {
 

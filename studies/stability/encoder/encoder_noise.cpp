@@ -11,13 +11,13 @@
 #include <ostream>
 #include <variant>
 
-#include "haptic_server/device/simulated_device.h"
-#include "haptic_server/imaging/hu_volume.h"
-#include "haptic_server/imaging/phantoms/phantom.h"
-#include "haptic_server/imaging/progress.h"
-#include "haptic_server/loop/milling_session.h"
-#include "studies/report/chart.h"
-#include "studies/report/output_files.h"
+#include "analysis/output/chart.h"
+#include "analysis/output/output_files.h"
+#include "devices/simulated/simulated_device.h"
+#include "imaging/hu_volume.h"
+#include "imaging/phantoms/phantom.h"
+#include "imaging/progress.h"
+#include "simulation/loop/milling_session.h"
 
 namespace osteomill::study {
 namespace {

@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "haptic_server/device/arm_model.h"
-#include "studies/report/surroundings.h"
+#include "analysis/output/surroundings.h"
+#include "devices/simulated/arm_model.h"
 
 namespace osteomill::study {
 

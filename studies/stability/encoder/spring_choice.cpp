@@ -7,12 +7,12 @@
 #include <ostream>
 #include <utility>
 
-#include "haptic_server/device/haply/inverse3_profile.h"
-#include "haptic_server/device/hid/arm_kinematics.h"
-#include "haptic_server/device/hid/profile_file.h"
-#include "haptic_server/imaging/progress.h"
-#include "studies/report/chart.h"
-#include "studies/report/output_files.h"
+#include "analysis/output/chart.h"
+#include "analysis/output/output_files.h"
+#include "devices/haply/inverse3_profile.h"
+#include "devices/hid/arm_kinematics.h"
+#include "devices/hid/profile_file.h"
+#include "imaging/progress.h"
 #include "studies/stability/encoder/encoder_noise.h"
 #include "studies/stability/rails/force_response.h"
 

@@ -4,7 +4,7 @@
 #include <functional>
 #include <limits>
 
-#include "haptic_server/device/haptic_device.h"
+#include "simulation/device/haptic_device.h"
 #include "studies/stability/map/map_points.h"
 #include "studies/stability/map/map_text.h"
 #include "studies/stability/map/map_view.h"

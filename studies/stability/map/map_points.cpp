@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <glm/geometric.hpp>
 
-#include "studies/force/reference_force.h"
+#include "simulation/cutting_force/reference_force.h"
 
 namespace osteomill::study {
 

@@ -7,7 +7,7 @@
 #include <limits>
 #include <set>
 
-#include "studies/report/label_places.h"
+#include "analysis/output/label_places.h"
 #include "studies/stability/map/map_text.h"
 #include "studies/stability/map/map_view.h"
 

@@ -6,10 +6,10 @@
 #include <ostream>
 #include <stdexcept>
 
-#include "haptic_server/imaging/progress.h"
-#include "studies/report/chart.h"
-#include "studies/report/output_files.h"
-#include "studies/report/time_left.h"
+#include "analysis/output/chart.h"
+#include "analysis/output/output_files.h"
+#include "analysis/output/time_left.h"
+#include "imaging/progress.h"
 #include "studies/stability/map/case_file.h"
 #include "studies/stability/map/map_summary.h"
 #include "studies/stability/map/map_table.h"

@@ -5,7 +5,7 @@
 #include <functional>
 #include <vector>
 
-#include "studies/report/surroundings.h"
+#include "analysis/output/surroundings.h"
 #include "studies/stability/map/map_points.h"
 #include "studies/stability/map/shard.h"
 #include "studies/stability/map/sweep.h"

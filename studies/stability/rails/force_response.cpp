@@ -10,12 +10,12 @@
 #include <ostream>
 #include <stdexcept>
 
-#include "haptic_server/contact_models/milling_model.h"
-#include "haptic_server/coupling/couplings.h"
-#include "haptic_server/imaging/progress.h"
+#include "analysis/output/chart.h"
+#include "analysis/output/output_files.h"
+#include "imaging/progress.h"
+#include "simulation/contact_models/milling_model.h"
+#include "simulation/coupling/couplings.h"
 #include "studies/force/bone_block.h"
-#include "studies/report/chart.h"
-#include "studies/report/output_files.h"
 
 namespace osteomill::study {
 namespace {

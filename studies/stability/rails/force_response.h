@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "studies/report/surroundings.h"
+#include "analysis/output/surroundings.h"
 
 namespace osteomill::study {
 

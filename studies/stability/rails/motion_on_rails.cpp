@@ -5,8 +5,8 @@
 #include <glm/geometric.hpp>
 
 #include "common/statistics/percentile.h"
-#include "haptic_server/contact_models/milling_model.h"
-#include "haptic_server/coupling/couplings.h"
+#include "simulation/contact_models/milling_model.h"
+#include "simulation/coupling/couplings.h"
 #include "studies/force/bone_block.h"
 #include "studies/force/force_series.h"
 #include "studies/force/random_motions.h"

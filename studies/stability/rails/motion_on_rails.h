@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "studies/force/steady_case.h"
+#include "analysis/calibration/steady_case.h"
 
 namespace osteomill::study {
 

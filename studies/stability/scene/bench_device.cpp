@@ -4,7 +4,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "haptic_server/device/arm_model.h"
+#include "devices/simulated/arm_model.h"
 
 namespace osteomill::study {
 

@@ -10,8 +10,8 @@
 #include <random>
 #include <vector>
 
-#include "haptic_server/device/haptic_device.h"
-#include "haptic_server/device/position_sensor.h"
+#include "devices/position_sensor.h"
+#include "simulation/device/haptic_device.h"
 #include "studies/stability/map/map_case.h"
 #include "studies/stability/scene/energy_ledger.h"
 #include "studies/stability/scene/scene_plan.h"

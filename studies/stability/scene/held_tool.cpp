@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <glm/geometric.hpp>
 
-#include "haptic_server/device/arm_model.h"
-#include "haptic_server/device/hand_model.h"
+#include "devices/simulated/arm_model.h"
+#include "devices/simulated/hand_model.h"
 
 namespace osteomill::study {
 namespace {

@@ -7,8 +7,8 @@
 #include <span>
 #include <vector>
 
-#include "haptic_server/device/arm_model.h"
-#include "haptic_server/loop/milling_session.h"
+#include "devices/simulated/arm_model.h"
+#include "simulation/loop/milling_session.h"
 #include "studies/stability/scene/bench_device.h"
 #include "studies/stability/scene/energy_ledger.h"
 #include "studies/stability/scene/scene_bone.h"

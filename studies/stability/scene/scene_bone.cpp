@@ -7,8 +7,8 @@
 
 #include "common/bone/bone_builder.h"
 #include "common/bone/brick_change.h"
-#include "haptic_server/contact_models/milling_model.h"
-#include "haptic_server/device/arm_model.h"
+#include "devices/simulated/arm_model.h"
+#include "simulation/contact_models/milling_model.h"
 
 namespace osteomill::study {
 namespace {

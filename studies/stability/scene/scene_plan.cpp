@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <glm/geometric.hpp>
 
-#include "haptic_server/coupling/coupling_spring.h"
-#include "haptic_server/device/arm_model.h"
-#include "studies/force/reference_force.h"
+#include "devices/simulated/arm_model.h"
+#include "simulation/coupling/coupling_spring.h"
+#include "simulation/cutting_force/reference_force.h"
 
 namespace osteomill::study {
 namespace {

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "common/scene/burr.h"
-#include "haptic_server/device/trajectory.h"
+#include "devices/simulated/trajectory.h"
 
 namespace osteomill::study {
 

@@ -7,9 +7,9 @@
 #include <numeric>
 
 #include "common/bone/brick_change.h"
-#include "haptic_server/contact_models/milling_model.h"
-#include "haptic_server/device/simulated_device.h"
-#include "haptic_server/loop/milling_session.h"
+#include "devices/simulated/simulated_device.h"
+#include "simulation/contact_models/milling_model.h"
+#include "simulation/loop/milling_session.h"
 #include "studies/stability/sites/site_bone.h"
 
 namespace osteomill::study {

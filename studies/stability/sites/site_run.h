@@ -9,7 +9,7 @@
 
 #include "common/bone/bone.h"
 #include "common/scene/solve_counts.h"
-#include "haptic_server/device/hand_model.h"
+#include "devices/simulated/hand_model.h"
 #include "studies/stability/sites/site.h"
 
 namespace osteomill::study {

@@ -11,9 +11,9 @@
 #include <stdexcept>
 #include <thread>
 
-#include "haptic_server/imaging/progress.h"
-#include "studies/report/chart.h"
-#include "studies/report/output_files.h"
+#include "analysis/output/chart.h"
+#include "analysis/output/output_files.h"
+#include "imaging/progress.h"
 #include "studies/stability/sites/named_sites.h"
 #include "studies/stability/sites/random_walk.h"
 

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "studies/report/surroundings.h"
+#include "analysis/output/surroundings.h"
 #include "studies/stability/sites/site_run.h"
 #include "studies/stability/sites/site_verdict.h"
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "haptic_server/loop/milling_session.h"
+#include "simulation/loop/milling_session.h"
 
 namespace osteomill::study {
 namespace {

@@ -8,12 +8,12 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
+#include "analysis/output/output_files.h"
 #include "render_client/volume/gl/offscreen_context.h"
 #include "render_client/volume/png_file.h"
 #include "render_client/volume/textures/voxel_box.h"
 #include "studies/render/full_rate/finished_frames.h"
 #include "studies/render/phantom_session.h"
-#include "studies/report/output_files.h"
 #include "tests/benchmarks/vtk_comparison/measured_picture.h"
 
 namespace osteomill {

@@ -5,8 +5,8 @@
 // SI units throughout the bench (m, kg, s, N), since the known results are stated in N/m and N s/m.
 #pragma once
 
-#include "haptic_server/device/arm_model.h"
-#include "haptic_server/device/hand_model.h"
+#include "devices/simulated/arm_model.h"
+#include "devices/simulated/hand_model.h"
 
 namespace osteomill::testing {
 

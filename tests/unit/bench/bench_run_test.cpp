@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "haptic_server/device/arm_model.h"
+#include "devices/simulated/arm_model.h"
 
 namespace osteomill::testing::bench_run_test {
 namespace {

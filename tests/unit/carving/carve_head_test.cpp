@@ -1,4 +1,4 @@
-#include "haptic_server/carving/carve_head.h"
+#include "simulation/carving/carve_head.h"
 
 #include <gtest/gtest.h>
 

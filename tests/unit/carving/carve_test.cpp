@@ -1,4 +1,4 @@
-#include "haptic_server/carving/carve.h"
+#include "simulation/carving/carve.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "haptic_server/carving/sweep.h"
+#include "simulation/carving/sweep.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "haptic_server/contact_models/ball_rows.h"
+#include "simulation/contact_models/ball_rows.h"
 
 #include <gtest/gtest.h>
 

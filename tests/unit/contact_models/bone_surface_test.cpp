@@ -1,4 +1,4 @@
-#include "haptic_server/contact_models/bone_surface.h"
+#include "simulation/contact_models/bone_surface.h"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 // A burr pressed into a block whose top face is z = 0, and what a contact law makes of it.
 #pragma once
 
-#include "haptic_server/contact_models/contact_law.h"
+#include "simulation/contact_models/contact_law.h"
 #include "tests/support/block.h"
 
 namespace osteomill::testing {

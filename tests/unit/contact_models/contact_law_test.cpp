@@ -1,5 +1,5 @@
 // What every contact law must do on a flat block, whatever its formula.
-#include "haptic_server/contact_models/contact_law.h"
+#include "simulation/contact_models/contact_law.h"
 
 #include <gtest/gtest.h>
 
@@ -9,10 +9,10 @@
 #include <memory>
 #include <ostream>
 
-#include "haptic_server/contact_models/hertz_contact.h"
-#include "haptic_server/contact_models/petersik_probe.h"
-#include "haptic_server/contact_models/point_spring.h"
-#include "haptic_server/contact_models/voxel_tool.h"
+#include "simulation/contact_models/hertz_contact.h"
+#include "simulation/contact_models/petersik_probe.h"
+#include "simulation/contact_models/point_spring.h"
+#include "simulation/contact_models/voxel_tool.h"
 #include "tests/unit/contact_models/contact_bench.h"
 
 namespace osteomill::contact_law_test {

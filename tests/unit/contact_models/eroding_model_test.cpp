@@ -1,4 +1,4 @@
-#include "haptic_server/contact_models/eroding_model.h"
+#include "simulation/contact_models/eroding_model.h"
 
 #include <gtest/gtest.h>
 
@@ -7,8 +7,8 @@
 #include <limits>
 #include <memory>
 
-#include "haptic_server/contact_models/force_models.h"
-#include "haptic_server/contact_models/voxel_tool.h"
+#include "simulation/contact_models/force_models.h"
+#include "simulation/contact_models/voxel_tool.h"
 #include "tests/support/block.h"
 #include "tests/support/bone_variants.h"
 

@@ -1,4 +1,4 @@
-#include "haptic_server/contact_models/erosion.h"
+#include "simulation/contact_models/erosion.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "haptic_server/contact_models/force_models.h"
+#include "simulation/contact_models/force_models.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include "haptic_server/contact_models/hertz_contact.h"
+#include "simulation/contact_models/hertz_contact.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "haptic_server/contact_models/milling_model.h"
+#include "simulation/contact_models/milling_model.h"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 #include <limits>
 #include <memory>
 
-#include "haptic_server/carving/sweep.h"
+#include "simulation/carving/sweep.h"
 #include "tests/support/block.h"
 #include "tests/support/bone_variants.h"
 

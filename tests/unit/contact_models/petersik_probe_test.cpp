@@ -1,4 +1,4 @@
-#include "haptic_server/contact_models/petersik_probe.h"
+#include "simulation/contact_models/petersik_probe.h"
 
 #include <gtest/gtest.h>
 

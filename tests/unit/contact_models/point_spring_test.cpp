@@ -1,4 +1,4 @@
-#include "haptic_server/contact_models/point_spring.h"
+#include "simulation/contact_models/point_spring.h"
 
 #include <gtest/gtest.h>
 

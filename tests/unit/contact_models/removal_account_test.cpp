@@ -1,4 +1,4 @@
-#include "haptic_server/contact_models/removal_account.h"
+#include "simulation/contact_models/removal_account.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "haptic_server/contact_models/usable_burr.h"
+#include "simulation/contact_models/usable_burr.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "haptic_server/contact_models/voxel_tool.h"
+#include "simulation/contact_models/voxel_tool.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "haptic_server/coupling/burr_proxy.h"
+#include "simulation/coupling/burr_proxy.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "haptic_server/coupling/contact_solve.h"
+#include "simulation/coupling/contact_solve.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "haptic_server/coupling/coupling_spring.h"
+#include "simulation/coupling/coupling_spring.h"
 
 #include <gtest/gtest.h>
 

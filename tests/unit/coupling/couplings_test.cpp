@@ -1,4 +1,4 @@
-#include "haptic_server/coupling/couplings.h"
+#include "simulation/coupling/couplings.h"
 
 #include <gtest/gtest.h>
 

@@ -7,7 +7,7 @@
 #include <memory>
 #include <string>
 
-#include "haptic_server/coupling/couplings.h"
+#include "simulation/coupling/couplings.h"
 #include "tests/support/bench/bench_run.h"
 
 namespace osteomill::cutting_on_bench_test {

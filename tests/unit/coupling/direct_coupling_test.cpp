@@ -1,4 +1,4 @@
-#include "haptic_server/coupling/direct_coupling.h"
+#include "simulation/coupling/direct_coupling.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "haptic_server/coupling/force_correction.h"
+#include "simulation/coupling/force_correction.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "haptic_server/coupling/force_reconstruction.h"
+#include "simulation/coupling/force_reconstruction.h"
 
 #include <gtest/gtest.h>
 

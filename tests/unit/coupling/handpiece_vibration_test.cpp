@@ -1,4 +1,4 @@
-#include "haptic_server/coupling/handpiece_vibration.h"
+#include "simulation/coupling/handpiece_vibration.h"
 
 #include <gtest/gtest.h>
 
@@ -10,7 +10,7 @@
 #include <random>
 #include <vector>
 
-#include "haptic_server/safety/force_guard.h"
+#include "simulation/safety/force_guard.h"
 #include "tests/support/spectrum.h"
 
 namespace osteomill::handpiece_vibration_test {

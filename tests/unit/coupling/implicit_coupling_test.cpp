@@ -1,4 +1,4 @@
-#include "haptic_server/coupling/implicit_coupling.h"
+#include "simulation/coupling/implicit_coupling.h"
 
 #include <gtest/gtest.h>
 

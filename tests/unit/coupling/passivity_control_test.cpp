@@ -1,4 +1,4 @@
-#include "haptic_server/coupling/passivity_control.h"
+#include "simulation/coupling/passivity_control.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "haptic_server/coupling/position_observer.h"
+#include "simulation/coupling/position_observer.h"
 
 #include <gtest/gtest.h>
 

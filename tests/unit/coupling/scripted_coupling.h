@@ -1,7 +1,7 @@
 // A coupling that says what a test wants, for what is built around one.
 #pragma once
 
-#include "haptic_server/coupling/coupling.h"
+#include "simulation/coupling/coupling.h"
 
 namespace osteomill::testing {
 

@@ -6,7 +6,7 @@
 #include <glm/vec2.hpp>
 #include <memory>
 
-#include "haptic_server/coupling/implicit_coupling.h"
+#include "simulation/coupling/implicit_coupling.h"
 #include "tests/support/lockstep.h"
 
 namespace osteomill::shank_contact_test {

@@ -1,4 +1,4 @@
-#include "haptic_server/coupling/virtual_coupling.h"
+#include "simulation/coupling/virtual_coupling.h"
 
 #include <gtest/gtest.h>
 

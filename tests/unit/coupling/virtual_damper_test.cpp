@@ -1,4 +1,4 @@
-#include "haptic_server/coupling/virtual_damper.h"
+#include "simulation/coupling/virtual_damper.h"
 
 #include <gtest/gtest.h>
 

@@ -4,7 +4,7 @@
 #include <memory>
 #include <string>
 
-#include "haptic_server/coupling/couplings.h"
+#include "simulation/coupling/couplings.h"
 #include "tests/support/bench/bench_run.h"
 
 namespace osteomill::testing {

@@ -1,4 +1,4 @@
-#include "haptic_server/cutting_force/axis_singularity_kernel.h"
+#include "simulation/cutting_force/axis_singularity_kernel.h"
 
 #include <gtest/gtest.h>
 

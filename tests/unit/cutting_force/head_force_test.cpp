@@ -1,5 +1,5 @@
 // Heads that are no ball: the voxel model beside the analytical reference, and that beside closed forms.
-#include "haptic_server/cutting_force/head_force.h"
+#include "simulation/cutting_force/head_force.h"
 
 #include <gtest/gtest.h>
 
@@ -8,8 +8,8 @@
 #include <memory>
 #include <numbers>
 
-#include "haptic_server/contact_models/milling_model.h"
-#include "studies/force/reference_force.h"
+#include "simulation/contact_models/milling_model.h"
+#include "simulation/cutting_force/reference_force.h"
 #include "tests/support/block.h"
 
 namespace osteomill::head_force_test {

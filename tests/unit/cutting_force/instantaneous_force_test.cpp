@@ -1,4 +1,4 @@
-#include "haptic_server/cutting_force/instantaneous_force.h"
+#include "simulation/cutting_force/instantaneous_force.h"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 #include <numbers>
 #include <stdexcept>
 
-#include "studies/force/reference_force.h"
+#include "simulation/cutting_force/reference_force.h"
 #include "tests/support/removed_voxel.h"
 #include "tests/support/steady_motion.h"
 

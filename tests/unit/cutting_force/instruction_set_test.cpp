@@ -1,12 +1,12 @@
 // Every instruction set gives the same bits.
-#include "haptic_server/carving/instruction_set.h"
+#include "simulation/carving/instruction_set.h"
 
 #include <gtest/gtest.h>
 
 #include <random>
 
-#include "haptic_server/carving/voxel_coverage.h"
-#include "haptic_server/cutting_force/chip_force.h"
+#include "simulation/carving/voxel_coverage.h"
+#include "simulation/cutting_force/chip_force.h"
 #include "tests/support/steady_motion.h"
 
 namespace osteomill::instruction_set_test {

@@ -1,4 +1,4 @@
-#include "haptic_server/cutting_force/mean_force.h"
+#include "simulation/cutting_force/mean_force.h"
 
 #include <gtest/gtest.h>
 

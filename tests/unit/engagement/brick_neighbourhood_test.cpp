@@ -1,4 +1,4 @@
-#include "haptic_server/engagement/brick_neighbourhood.h"
+#include "simulation/engagement/brick_neighbourhood.h"
 
 #include <gtest/gtest.h>
 

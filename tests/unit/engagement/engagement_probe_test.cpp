@@ -1,4 +1,4 @@
-#include "haptic_server/engagement/engagement_probe.h"
+#include "simulation/engagement/engagement_probe.h"
 
 #include <gtest/gtest.h>
 
@@ -9,8 +9,8 @@
 #include <memory>
 #include <numbers>
 
-#include "haptic_server/contact_models/milling_model.h"
-#include "studies/force/reference_force.h"
+#include "simulation/contact_models/milling_model.h"
+#include "simulation/cutting_force/reference_force.h"
 #include "tests/support/block.h"
 
 namespace osteomill::engagement_probe_test {

@@ -1,4 +1,4 @@
-#include "haptic_server/engagement/shank_probe.h"
+#include "simulation/engagement/shank_probe.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "haptic_server/exchange/change_queue.h"
+#include "simulation/exchange/change_queue.h"
 
 #include <gtest/gtest.h>
 

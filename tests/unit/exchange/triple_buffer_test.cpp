@@ -1,4 +1,4 @@
-#include "haptic_server/exchange/triple_buffer.h"
+#include "simulation/exchange/triple_buffer.h"
 
 #include <gtest/gtest.h>
 

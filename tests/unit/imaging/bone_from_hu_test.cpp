@@ -5,7 +5,7 @@
 #include <glm/geometric.hpp>
 #include <stdexcept>
 
-#include "haptic_server/imaging/hu_volume.h"
+#include "imaging/hu_volume.h"
 
 namespace osteomill {
 namespace {

@@ -1,4 +1,4 @@
-#include "haptic_server/imaging/memory_estimate.h"
+#include "imaging/memory_estimate.h"
 
 #include <gtest/gtest.h>
 

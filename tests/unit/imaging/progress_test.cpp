@@ -1,4 +1,4 @@
-#include "haptic_server/imaging/progress.h"
+#include "imaging/progress.h"
 
 #include <gmock/gmock.h>
 

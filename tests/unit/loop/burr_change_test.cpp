@@ -1,4 +1,4 @@
-#include "haptic_server/loop/burr_change.h"
+#include "simulation/loop/burr_change.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "haptic_server/loop/burr_hull.h"
+#include "simulation/loop/burr_hull.h"
 
 #include <gtest/gtest.h>
 

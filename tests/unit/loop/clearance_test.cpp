@@ -1,11 +1,11 @@
-#include "haptic_server/loop/clearance.h"
+#include "simulation/loop/clearance.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <memory>
 
-#include "haptic_server/engagement/engagement_probe.h"
+#include "simulation/engagement/engagement_probe.h"
 #include "tests/support/block.h"
 
 namespace osteomill {

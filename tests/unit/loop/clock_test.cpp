@@ -1,4 +1,4 @@
-#include "haptic_server/loop/clock.h"
+#include "simulation/loop/clock.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "haptic_server/loop/cut_report.h"
+#include "simulation/loop/cut_report.h"
 
 #include <gtest/gtest.h>
 
@@ -6,8 +6,8 @@
 #include <memory>
 #include <numbers>
 
-#include "haptic_server/contact_models/milling_model.h"
-#include "haptic_server/exchange/change_queue.h"
+#include "simulation/contact_models/milling_model.h"
+#include "simulation/exchange/change_queue.h"
 #include "tests/support/block.h"
 
 namespace osteomill {

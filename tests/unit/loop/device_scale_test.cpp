@@ -10,9 +10,9 @@
 #include <vector>
 
 #include "common/scene/device_mapping.h"
-#include "haptic_server/coupling/couplings.h"
-#include "haptic_server/device/simulated_device.h"
-#include "haptic_server/loop/milling_session.h"
+#include "devices/simulated/simulated_device.h"
+#include "simulation/coupling/couplings.h"
+#include "simulation/loop/milling_session.h"
 #include "tests/support/block.h"
 
 namespace osteomill::device_scale_test {

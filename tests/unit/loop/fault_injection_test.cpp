@@ -10,8 +10,8 @@
 #include <string>
 #include <tuple>
 
-#include "haptic_server/coupling/couplings.h"
-#include "haptic_server/loop/haptic_loop.h"
+#include "simulation/coupling/couplings.h"
+#include "simulation/loop/haptic_loop.h"
 #include "tests/unit/loop/scripted_parts.h"
 
 namespace osteomill {

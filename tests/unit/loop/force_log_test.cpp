@@ -1,4 +1,4 @@
-#include "haptic_server/loop/force_log.h"
+#include "simulation/loop/force_log.h"
 
 #include <fcntl.h>
 #include <gmock/gmock.h>

@@ -1,4 +1,4 @@
-#include "haptic_server/loop/haptic_loop.h"
+#include "simulation/loop/haptic_loop.h"
 
 #include <gtest/gtest.h>
 

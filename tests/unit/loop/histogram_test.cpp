@@ -1,4 +1,4 @@
-#include "haptic_server/loop/histogram.h"
+#include "simulation/loop/histogram.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "haptic_server/loop/milling_loop.h"
+#include "simulation/loop/milling_loop.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "haptic_server/contact_models/milling_model.h"
+#include "simulation/contact_models/milling_model.h"
 #include "tests/support/block.h"
 
 namespace osteomill {

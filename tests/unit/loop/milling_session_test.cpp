@@ -1,4 +1,4 @@
-#include "haptic_server/loop/milling_session.h"
+#include "simulation/loop/milling_session.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -8,9 +8,9 @@
 #include <stdexcept>
 #include <thread>
 
-#include "haptic_server/contact_models/force_models.h"
-#include "haptic_server/device/simulated_device.h"
-#include "haptic_server/loop/real_time.h"
+#include "devices/simulated/simulated_device.h"
+#include "simulation/contact_models/force_models.h"
+#include "simulation/loop/real_time.h"
 #include "tests/support/block.h"
 #include "tests/unit/loop/scripted_parts.h"
 

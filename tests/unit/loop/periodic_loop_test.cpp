@@ -1,4 +1,4 @@
-#include "haptic_server/loop/periodic_loop.h"
+#include "simulation/loop/periodic_loop.h"
 
 #include <gtest/gtest.h>
 

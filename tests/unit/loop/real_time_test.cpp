@@ -1,4 +1,4 @@
-#include "haptic_server/loop/real_time.h"
+#include "simulation/loop/real_time.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

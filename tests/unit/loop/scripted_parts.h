@@ -5,8 +5,8 @@
 #include <glm/vec3.hpp>
 #include <vector>
 
-#include "haptic_server/coupling/coupling.h"
-#include "haptic_server/device/haptic_device.h"
+#include "simulation/coupling/coupling.h"
+#include "simulation/device/haptic_device.h"
 
 namespace osteomill::testing {
 

@@ -1,4 +1,4 @@
-#include "haptic_server/loop/spindle_speed.h"
+#include "simulation/loop/spindle_speed.h"
 
 #include <gtest/gtest.h>
 

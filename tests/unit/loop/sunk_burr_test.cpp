@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "haptic_server/contact_models/force_models.h"
-#include "haptic_server/loop/milling_session.h"
+#include "simulation/contact_models/force_models.h"
+#include "simulation/loop/milling_session.h"
 #include "tests/support/block.h"
 #include "tests/unit/loop/scripted_parts.h"
 

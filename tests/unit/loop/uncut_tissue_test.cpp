@@ -6,9 +6,9 @@
 #include <string>
 
 #include "common/bone/bone_builder.h"
-#include "haptic_server/contact_models/force_models.h"
-#include "haptic_server/device/simulated_device.h"
-#include "haptic_server/loop/milling_session.h"
+#include "devices/simulated/simulated_device.h"
+#include "simulation/contact_models/force_models.h"
+#include "simulation/loop/milling_session.h"
 
 namespace osteomill {
 namespace {

@@ -1,10 +1,10 @@
-#include "haptic_server/program/bone_source.h"
+#include "imaging/case/bone_source.h"
 
 #include <gmock/gmock.h>
 
 #include <fstream>
 
-#include "haptic_server/imaging/imaging_error.h"
+#include "imaging/imaging_error.h"
 #include "tests/support/dense_bone_file.h"
 #include "tests/support/temporary_folder.h"
 

@@ -1,4 +1,4 @@
-#include "haptic_server/program/case_folder.h"
+#include "imaging/case/case_folder.h"
 
 #include <gmock/gmock.h>
 
@@ -11,11 +11,11 @@
 #include <stdexcept>
 
 #include "common/scene/scene_file.h"
-#include "haptic_server/imaging/import_bone.h"
-#include "haptic_server/imaging/segmentation/bone_of_labels.h"
-#include "haptic_server/imaging/segmentation/segmentation_file.h"
-#include "haptic_server/program/bone_source.h"
-#include "haptic_server/program/case_placement.h"
+#include "imaging/case/bone_source.h"
+#include "imaging/case/case_placement.h"
+#include "imaging/import_bone.h"
+#include "imaging/segmentation/bone_of_labels.h"
+#include "imaging/segmentation/segmentation_file.h"
 #include "tests/support/block_file.h"
 #include "tests/support/temporary_folder.h"
 

@@ -1,4 +1,4 @@
-#include "haptic_server/program/scene_on_bone.h"
+#include "imaging/case/scene_on_bone.h"
 
 #include <gtest/gtest.h>
 

@@ -7,7 +7,7 @@
 #include <stdexcept>
 #include <vector>
 
-#include "haptic_server/contact_models/force_models.h"
+#include "simulation/contact_models/force_models.h"
 
 namespace osteomill {
 namespace {

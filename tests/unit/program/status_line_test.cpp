@@ -7,7 +7,7 @@
 #include <string>
 #include <thread>
 
-#include "haptic_server/safety/fault.h"
+#include "simulation/safety/fault.h"
 #include "tests/support/unread_pipe.h"
 
 namespace osteomill {

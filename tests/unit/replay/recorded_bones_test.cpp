@@ -1,4 +1,4 @@
-#include "haptic_server/replay/recorded_bones.h"
+#include "analysis/replay/recorded_bones.h"
 
 #include <gmock/gmock.h>
 

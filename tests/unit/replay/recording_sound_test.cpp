@@ -1,4 +1,4 @@
-#include "haptic_server/replay/recording_sound.h"
+#include "analysis/replay/recording_sound.h"
 
 #include <gmock/gmock.h>
 

@@ -1,4 +1,4 @@
-#include "haptic_server/replay/recording_summary.h"
+#include "analysis/replay/recording_summary.h"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <sstream>
 
-#include "haptic_server/replay/recording_csv.h"
+#include "analysis/replay/recording_csv.h"
 #include "tests/support/made_recording.h"
 #include "tests/support/temporary_folder.h"
 

@@ -1,4 +1,4 @@
-#include "haptic_server/report/html_text.h"
+#include "analysis/report/html_text.h"
 
 #include <gmock/gmock.h>
 

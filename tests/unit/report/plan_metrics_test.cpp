@@ -1,4 +1,4 @@
-#include "haptic_server/report/plan_metrics.h"
+#include "analysis/report/plan_metrics.h"
 
 #include <gtest/gtest.h>
 

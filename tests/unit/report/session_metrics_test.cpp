@@ -1,11 +1,11 @@
-#include "haptic_server/report/session_metrics.h"
+#include "analysis/report/session_metrics.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <glm/geometric.hpp>
 
-#include "haptic_server/report/session_plots.h"
+#include "analysis/report/session_plots.h"
 #include "tests/support/ball_structure.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/written_session.h"

@@ -1,4 +1,4 @@
-#include "haptic_server/report/smoothness.h"
+#include "analysis/report/smoothness.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "haptic_server/report/svg_plot.h"
+#include "analysis/report/svg_plot.h"
 
 #include <gmock/gmock.h>
 

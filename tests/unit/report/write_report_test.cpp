@@ -1,12 +1,12 @@
-#include "haptic_server/report/write_report.h"
+#include "analysis/report/write_report.h"
 
 #include <gmock/gmock.h>
 
 #include <nlohmann/json.hpp>
 
+#include "analysis/report/bone_view.h"
+#include "analysis/report/metric_files.h"
 #include "common/recording/packet_reader.h"
-#include "haptic_server/report/bone_view.h"
-#include "haptic_server/report/metric_files.h"
 #include "tests/support/made_recording.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/written_session.h"

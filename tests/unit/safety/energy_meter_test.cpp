@@ -1,4 +1,4 @@
-#include "haptic_server/safety/energy_meter.h"
+#include "simulation/safety/energy_meter.h"
 
 #include <gtest/gtest.h>
 

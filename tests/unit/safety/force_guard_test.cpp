@@ -1,4 +1,4 @@
-#include "haptic_server/safety/force_guard.h"
+#include "simulation/safety/force_guard.h"
 
 #include <gtest/gtest.h>
 

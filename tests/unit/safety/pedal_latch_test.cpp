@@ -1,4 +1,4 @@
-#include "haptic_server/safety/pedal_latch.h"
+#include "simulation/safety/pedal_latch.h"
 
 #include <gtest/gtest.h>
 

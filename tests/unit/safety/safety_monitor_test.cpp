@@ -1,6 +1,6 @@
 // The safety monitor, exhaustively: every state that can be reached, and from each everything that can
 // happen.
-#include "haptic_server/safety/safety_monitor.h"
+#include "simulation/safety/safety_monitor.h"
 
 #include <gtest/gtest.h>
 

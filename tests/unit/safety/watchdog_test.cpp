@@ -1,4 +1,4 @@
-#include "haptic_server/safety/watchdog.h"
+#include "simulation/safety/watchdog.h"
 
 #include <gtest/gtest.h>
 

@@ -1,13 +1,13 @@
-#include "haptic_server/surface/export_bone.h"
+#include "analysis/surface/export_bone.h"
 
 #include <gmock/gmock.h>
 
 #include <random>
 #include <stdexcept>
 
-#include "haptic_server/imaging/bone_file/carved_bone.h"
-#include "haptic_server/imaging/bone_file/hu_file.h"
-#include "haptic_server/imaging/bone_file/nrrd_file.h"
+#include "imaging/bone_file/carved_bone.h"
+#include "imaging/bone_file/hu_file.h"
+#include "imaging/bone_file/nrrd_file.h"
 #include "tests/support/temporary_folder.h"
 
 namespace osteomill {

@@ -1,4 +1,4 @@
-#include "haptic_server/surface/mesh_file.h"
+#include "analysis/surface/mesh_file.h"
 
 #include <gmock/gmock.h>
 

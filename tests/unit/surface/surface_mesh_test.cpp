@@ -1,4 +1,4 @@
-#include "haptic_server/surface/surface_mesh.h"
+#include "analysis/surface/surface_mesh.h"
 
 #include <gmock/gmock.h>
 

@@ -1,9 +1,9 @@
-#include "haptic_server/imaging/bone_file/bone_of_file.h"
+#include "imaging/bone_file/bone_of_file.h"
 
 #include <gmock/gmock.h>
 
-#include "haptic_server/imaging/bone_file/nrrd_writer.h"
-#include "haptic_server/imaging/imaging_error.h"
+#include "imaging/bone_file/nrrd_writer.h"
+#include "imaging/imaging_error.h"
 #include "tests/support/dense_bone_file.h"
 #include "tests/support/temporary_folder.h"
 

@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "haptic_server/imaging/bone_file/carved_bone.h"
+#include "imaging/bone_file/carved_bone.h"
 #include "tests/support/dense_bone_file.h"
 #include "tests/support/temporary_folder.h"
 

@@ -1,4 +1,4 @@
-#include "haptic_server/imaging/bone_file/carved_bone.h"
+#include "imaging/bone_file/carved_bone.h"
 
 #include <gmock/gmock.h>
 
@@ -7,9 +7,9 @@
 #include <random>
 
 #include "common/bone/bone_builder.h"
-#include "haptic_server/imaging/bone_file/bone_picture.h"
-#include "haptic_server/imaging/formats/image_reader.h"
-#include "haptic_server/imaging/imaging_error.h"
+#include "imaging/bone_file/bone_picture.h"
+#include "imaging/formats/image_reader.h"
+#include "imaging/imaging_error.h"
 #include "tests/support/dense_bone_file.h"
 #include "tests/support/file_size_limit.h"
 #include "tests/support/temporary_folder.h"

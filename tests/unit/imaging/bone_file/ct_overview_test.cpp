@@ -1,4 +1,4 @@
-#include "haptic_server/imaging/bone_file/ct_overview.h"
+#include "imaging/bone_file/ct_overview.h"
 
 #include <gtest/gtest.h>
 

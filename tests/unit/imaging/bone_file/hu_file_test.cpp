@@ -1,4 +1,4 @@
-#include "haptic_server/imaging/bone_file/hu_file.h"
+#include "imaging/bone_file/hu_file.h"
 
 #include <gmock/gmock.h>
 
@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "haptic_server/imaging/imaging_error.h"
+#include "imaging/imaging_error.h"
 #include "tests/support/dense_bone_file.h"
 #include "tests/support/temporary_folder.h"
 

@@ -1,5 +1,5 @@
 // What was removed, read back by ITK, which reads NRRD with teem's code, as 3D Slicer does.
-#include "haptic_server/imaging/bone_file/removed_bone.h"
+#include "imaging/bone_file/removed_bone.h"
 
 #include <gtest/gtest.h>
 #include <itkImageFileReader.h>
@@ -8,7 +8,7 @@
 #include <random>
 #include <stdexcept>
 
-#include "haptic_server/imaging/imaging_error.h"
+#include "imaging/imaging_error.h"
 #include "tests/support/speckled_bone.h"
 #include "tests/support/temporary_folder.h"
 

@@ -1,8 +1,8 @@
-#include "haptic_server/imaging/bone_file/removed_volumes.h"
+#include "imaging/bone_file/removed_volumes.h"
 
 #include <gmock/gmock.h>
 
-#include "haptic_server/imaging/imaging_error.h"
+#include "imaging/imaging_error.h"
 #include "tests/support/dense_bone_file.h"
 #include "tests/support/temporary_folder.h"
 

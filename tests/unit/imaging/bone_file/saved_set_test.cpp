@@ -1,9 +1,9 @@
-#include "haptic_server/imaging/bone_file/saved_set.h"
+#include "imaging/bone_file/saved_set.h"
 
 #include <gmock/gmock.h>
 
-#include "haptic_server/imaging/bone_file/carved_bone.h"
-#include "haptic_server/imaging/imaging_error.h"
+#include "imaging/bone_file/carved_bone.h"
+#include "imaging/imaging_error.h"
 #include "tests/support/temporary_folder.h"
 
 namespace osteomill {

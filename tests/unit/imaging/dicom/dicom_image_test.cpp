@@ -1,13 +1,13 @@
 // Series as hospitals export them, in one folder with what belongs to them, and what their pixels mean.
-#include "haptic_server/imaging/dicom/dicom_image.h"
+#include "imaging/dicom/dicom_image.h"
 
 #include <gmock/gmock.h>
 
 #include <cmath>
 #include <functional>
 
-#include "haptic_server/imaging/imaging_error.h"
-#include "haptic_server/imaging/segmentation/segmentation.h"
+#include "imaging/imaging_error.h"
+#include "imaging/segmentation/segmentation.h"
 #include "tests/support/raw_dicom.h"
 #include "tests/support/raw_images.h"
 #include "tests/support/temporary_folder.h"

@@ -3,7 +3,7 @@
 #include <functional>
 #include <stdexcept>
 
-#include "haptic_server/imaging/dicom/dicom_pixels.h"
+#include "imaging/dicom/dicom_pixels.h"
 #include "tests/support/raw_dicom.h"
 #include "tests/support/raw_images.h"
 

@@ -1,4 +1,4 @@
-#include "haptic_server/imaging/dicom/slice_geometry.h"
+#include "imaging/dicom/slice_geometry.h"
 
 #include <gmock/gmock.h>
 

@@ -1,4 +1,4 @@
-#include "haptic_server/imaging/formats/byte_source.h"
+#include "imaging/formats/byte_source.h"
 
 #include <gmock/gmock.h>
 
@@ -8,8 +8,8 @@
 #include <fstream>
 #include <random>
 
-#include "haptic_server/imaging/bone_file/gzip_writer.h"
-#include "haptic_server/imaging/imaging_error.h"
+#include "imaging/bone_file/gzip_writer.h"
+#include "imaging/imaging_error.h"
 #include "tests/support/temporary_folder.h"
 
 namespace osteomill {

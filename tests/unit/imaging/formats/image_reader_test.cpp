@@ -1,4 +1,4 @@
-#include "haptic_server/imaging/formats/image_reader.h"
+#include "imaging/formats/image_reader.h"
 
 #include <gmock/gmock.h>
 
@@ -9,7 +9,7 @@
 #include <fstream>
 #include <glm/geometric.hpp>
 
-#include "haptic_server/imaging/imaging_error.h"
+#include "imaging/imaging_error.h"
 #include "tests/support/synthetic_dicom.h"
 #include "tests/support/temporary_folder.h"
 

@@ -1,4 +1,4 @@
-#include "haptic_server/imaging/formats/length_unit.h"
+#include "imaging/formats/length_unit.h"
 
 #include <gtest/gtest.h>
 

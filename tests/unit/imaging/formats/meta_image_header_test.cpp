@@ -1,8 +1,8 @@
-#include "haptic_server/imaging/formats/meta_image_header.h"
+#include "imaging/formats/meta_image_header.h"
 
 #include <gmock/gmock.h>
 
-#include "haptic_server/imaging/imaging_error.h"
+#include "imaging/imaging_error.h"
 #include "tests/support/raw_images.h"
 
 namespace osteomill::meta_image_header_test {

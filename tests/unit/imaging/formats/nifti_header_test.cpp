@@ -1,4 +1,4 @@
-#include "haptic_server/imaging/formats/nifti_header.h"
+#include "imaging/formats/nifti_header.h"
 
 #include <gmock/gmock.h>
 
@@ -6,7 +6,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "haptic_server/imaging/imaging_error.h"
+#include "imaging/imaging_error.h"
 #include "tests/support/raw_images.h"
 #include "tests/support/temporary_folder.h"
 

@@ -1,10 +1,10 @@
-#include "haptic_server/imaging/formats/nrrd_header.h"
+#include "imaging/formats/nrrd_header.h"
 
 #include <gmock/gmock.h>
 
 #include <glm/geometric.hpp>
 
-#include "haptic_server/imaging/imaging_error.h"
+#include "imaging/imaging_error.h"
 #include "tests/support/raw_images.h"
 
 namespace osteomill::nrrd_header_test {

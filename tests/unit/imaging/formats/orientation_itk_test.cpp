@@ -7,7 +7,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "haptic_server/imaging/formats/image_reader.h"
+#include "imaging/formats/image_reader.h"
 #include "tests/support/raw_images.h"
 #include "tests/support/temporary_folder.h"
 

@@ -1,11 +1,11 @@
-#include "haptic_server/imaging/formats/picture_stack.h"
+#include "imaging/formats/picture_stack.h"
 
 #include <gmock/gmock.h>
 
 #include <fstream>
 
-#include "haptic_server/imaging/imaging_error.h"
-#include "haptic_server/imaging/segmentation/segmentation.h"
+#include "imaging/imaging_error.h"
+#include "imaging/segmentation/segmentation.h"
 #include "tests/support/picture_files.h"
 #include "tests/support/temporary_folder.h"
 

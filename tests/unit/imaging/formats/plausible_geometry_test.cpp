@@ -1,4 +1,4 @@
-#include "haptic_server/imaging/formats/plausible_geometry.h"
+#include "imaging/formats/plausible_geometry.h"
 
 #include <gmock/gmock.h>
 

@@ -1,11 +1,11 @@
-#include "haptic_server/imaging/formats/voxel_data.h"
+#include "imaging/formats/voxel_data.h"
 
 #include <gmock/gmock.h>
 
 #include <functional>
 #include <stdexcept>
 
-#include "haptic_server/imaging/imaging_error.h"
+#include "imaging/imaging_error.h"
 #include "tests/support/raw_images.h"
 #include "tests/support/temporary_folder.h"
 

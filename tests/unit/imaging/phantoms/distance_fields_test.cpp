@@ -1,4 +1,4 @@
-#include "haptic_server/imaging/phantoms/distance_fields.h"
+#include "imaging/phantoms/distance_fields.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "haptic_server/imaging/phantoms/head_phantom.h"
+#include "imaging/phantoms/head_phantom.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "haptic_server/imaging/phantoms/phantom.h"
+#include "imaging/phantoms/phantom.h"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "common/scene/scene_file.h"
-#include "haptic_server/imaging/phantoms/distance_fields.h"
+#include "imaging/phantoms/distance_fields.h"
 
 namespace osteomill {
 namespace {

@@ -1,4 +1,4 @@
-#include "haptic_server/imaging/resampling/contour_depth.h"
+#include "imaging/resampling/contour_depth.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "haptic_server/imaging/resampling/cubic_spline.h"
+#include "imaging/resampling/cubic_spline.h"
 
 #include <gtest/gtest.h>
 #include <itkBSplineDecompositionImageFilter.h>

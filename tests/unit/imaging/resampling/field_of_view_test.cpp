@@ -1,4 +1,4 @@
-#include "haptic_server/imaging/resampling/field_of_view.h"
+#include "imaging/resampling/field_of_view.h"
 
 #include <gtest/gtest.h>
 
@@ -6,8 +6,8 @@
 #include <limits>
 #include <vector>
 
-#include "haptic_server/imaging/hu_volume.h"
-#include "haptic_server/imaging/resampling/refine.h"
+#include "imaging/hu_volume.h"
+#include "imaging/resampling/refine.h"
 
 namespace osteomill {
 namespace {

@@ -1,4 +1,4 @@
-#include "haptic_server/imaging/resampling/hu_histogram.h"
+#include "imaging/resampling/hu_histogram.h"
 
 #include <gmock/gmock.h>
 

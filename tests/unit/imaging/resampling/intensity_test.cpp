@@ -1,4 +1,4 @@
-#include "haptic_server/imaging/resampling/intensity.h"
+#include "imaging/resampling/intensity.h"
 
 #include <gtest/gtest.h>
 

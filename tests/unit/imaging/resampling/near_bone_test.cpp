@@ -1,10 +1,10 @@
-#include "haptic_server/imaging/resampling/near_bone.h"
+#include "imaging/resampling/near_bone.h"
 
 #include <gtest/gtest.h>
 
 #include <cstdlib>
 
-#include "haptic_server/imaging/hu_volume.h"
+#include "imaging/hu_volume.h"
 
 namespace osteomill {
 namespace {

@@ -1,4 +1,4 @@
-#include "haptic_server/imaging/resampling/refine.h"
+#include "imaging/resampling/refine.h"
 
 #include <gtest/gtest.h>
 
@@ -6,8 +6,8 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "haptic_server/imaging/hu_volume.h"
-#include "haptic_server/imaging/resampling/image_part.h"
+#include "imaging/hu_volume.h"
+#include "imaging/resampling/image_part.h"
 
 namespace osteomill {
 namespace {

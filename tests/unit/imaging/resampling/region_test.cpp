@@ -1,4 +1,4 @@
-#include "haptic_server/imaging/resampling/region.h"
+#include "imaging/resampling/region.h"
 
 #include <gmock/gmock.h>
 

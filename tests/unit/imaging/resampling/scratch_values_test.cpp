@@ -1,10 +1,10 @@
-#include "haptic_server/imaging/resampling/scratch_values.h"
+#include "imaging/resampling/scratch_values.h"
 
 #include <gmock/gmock.h>
 
 #include <filesystem>
 
-#include "haptic_server/imaging/imaging_error.h"
+#include "imaging/imaging_error.h"
 #include "tests/support/file_size_limit.h"
 #include "tests/support/temporary_folder.h"
 

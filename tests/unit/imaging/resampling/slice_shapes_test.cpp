@@ -1,4 +1,4 @@
-#include "haptic_server/imaging/resampling/slice_shapes.h"
+#include "imaging/resampling/slice_shapes.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -8,11 +8,11 @@
 #include <span>
 #include <vector>
 
-#include "haptic_server/imaging/bone_file/nrrd_form.h"
-#include "haptic_server/imaging/in_parallel.h"
-#include "haptic_server/imaging/resampling/image_part.h"
-#include "haptic_server/imaging/resampling/refine.h"
-#include "haptic_server/imaging/resampling/region.h"
+#include "imaging/bone_file/nrrd_form.h"
+#include "imaging/in_parallel.h"
+#include "imaging/resampling/image_part.h"
+#include "imaging/resampling/refine.h"
+#include "imaging/resampling/region.h"
 #include "tests/support/scanned_body.h"
 
 namespace osteomill::slice_shapes_test {

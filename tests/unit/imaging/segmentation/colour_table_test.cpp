@@ -1,11 +1,11 @@
-#include "haptic_server/imaging/segmentation/colour_table.h"
+#include "imaging/segmentation/colour_table.h"
 
 #include <gmock/gmock.h>
 
 #include <algorithm>
 #include <fstream>
 
-#include "haptic_server/imaging/imaging_error.h"
+#include "imaging/imaging_error.h"
 #include "tests/support/temporary_folder.h"
 
 namespace osteomill {

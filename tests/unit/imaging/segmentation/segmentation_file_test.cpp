@@ -1,4 +1,4 @@
-#include "haptic_server/imaging/segmentation/segmentation_file.h"
+#include "imaging/segmentation/segmentation_file.h"
 
 #include <gmock/gmock.h>
 
@@ -7,8 +7,8 @@
 #include <random>
 #include <stdexcept>
 
-#include "haptic_server/imaging/imaging_error.h"
-#include "haptic_server/imaging/segmentation/segment_structure.h"
+#include "imaging/imaging_error.h"
+#include "imaging/segmentation/segment_structure.h"
 #include "tests/support/temporary_folder.h"
 
 namespace osteomill {

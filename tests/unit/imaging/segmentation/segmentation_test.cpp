@@ -1,4 +1,4 @@
-#include "haptic_server/imaging/segmentation/segmentation.h"
+#include "imaging/segmentation/segmentation.h"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -11,8 +11,8 @@
 #include <glm/geometric.hpp>
 #include <numbers>
 
-#include "haptic_server/imaging/imaging_error.h"
-#include "haptic_server/imaging/segmentation/segment_structure.h"
+#include "imaging/imaging_error.h"
+#include "imaging/segmentation/segment_structure.h"
 #include "tests/support/temporary_folder.h"
 
 namespace osteomill {

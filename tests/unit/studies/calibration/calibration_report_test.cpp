@@ -1,4 +1,4 @@
-#include "studies/calibration/calibration_report.h"
+#include "analysis/calibration/calibration_report.h"
 
 #include <gmock/gmock.h>
 

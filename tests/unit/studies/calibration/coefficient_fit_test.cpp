@@ -1,4 +1,4 @@
-#include "studies/calibration/coefficient_fit.h"
+#include "analysis/calibration/coefficient_fit.h"
 
 #include <gmock/gmock.h>
 

@@ -1,10 +1,10 @@
-#include "studies/calibration/force_regressors.h"
+#include "analysis/calibration/force_regressors.h"
 
 #include <gmock/gmock.h>
 
 #include <numbers>
 
-#include "studies/force/steady_case.h"
+#include "analysis/calibration/steady_case.h"
 
 namespace osteomill::study {
 namespace {

@@ -1,4 +1,4 @@
-#include "studies/calibration/run_design.h"
+#include "analysis/calibration/run_design.h"
 
 #include <gmock/gmock.h>
 

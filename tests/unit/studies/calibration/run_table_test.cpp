@@ -1,4 +1,4 @@
-#include "studies/calibration/run_table.h"
+#include "analysis/calibration/run_table.h"
 
 #include <gmock/gmock.h>
 

@@ -3,8 +3,8 @@
 
 #include <random>
 
-#include "studies/calibration/coefficient_fit.h"
-#include "studies/calibration/run_design.h"
+#include "analysis/calibration/coefficient_fit.h"
+#include "analysis/calibration/run_design.h"
 
 namespace osteomill::study {
 

@@ -1,4 +1,4 @@
-#include "studies/force/reference_force.h"
+#include "simulation/cutting_force/reference_force.h"
 
 #include <gtest/gtest.h>
 

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "studies/force/reference_force.h"
+#include "simulation/cutting_force/reference_force.h"
 
 namespace osteomill::study {
 namespace {

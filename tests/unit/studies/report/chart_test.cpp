@@ -1,4 +1,4 @@
-#include "studies/report/chart.h"
+#include "analysis/output/chart.h"
 
 #include <gmock/gmock.h>
 

@@ -1,4 +1,4 @@
-#include "studies/report/label_places.h"
+#include "analysis/output/label_places.h"
 
 #include <gmock/gmock.h>
 

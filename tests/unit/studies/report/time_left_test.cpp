@@ -1,4 +1,4 @@
-#include "studies/report/time_left.h"
+#include "analysis/output/time_left.h"
 
 #include <gtest/gtest.h>
 

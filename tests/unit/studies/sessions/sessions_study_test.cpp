@@ -1,12 +1,12 @@
-#include "studies/sessions/sessions_study.h"
+#include "analysis/sessions/sessions_study.h"
 
 #include <gmock/gmock.h>
 
 #include <algorithm>
 #include <sstream>
 
-#include "studies/sessions/overview.h"
-#include "studies/sessions/session_store.h"
+#include "analysis/sessions/overview.h"
+#include "analysis/sessions/session_store.h"
 #include "tests/support/made_recording.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/written_session.h"

@@ -6,7 +6,7 @@
 #include <glm/geometric.hpp>
 #include <set>
 
-#include "studies/force/reference_force.h"
+#include "simulation/cutting_force/reference_force.h"
 #include "studies/stability/map/map_text.h"
 
 namespace osteomill::study::map_points_test {

@@ -4,7 +4,7 @@
 
 #include <glm/geometric.hpp>
 
-#include "studies/force/reference_force.h"
+#include "simulation/cutting_force/reference_force.h"
 
 namespace osteomill::study::swept_bone_test {
 namespace {

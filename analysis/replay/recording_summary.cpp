@@ -1,0 +1,156 @@
+#include "analysis/replay/recording_summary.h"
+
+#include <fmt/format.h>
+
+#include <iterator>
+#include <limits>
+#include <numeric>
+
+#include "analysis/replay/removal_count.h"
+
+namespace osteomill {
+
+namespace {
+
+void add_removed(RecordingSummary& summary, const RemovalCount& removal) {
+    const auto removed_mm3 = removal.removed_mm3(summary.grid);
+    summary.removed_mm3 += std::accumulate(removed_mm3.begin(), removed_mm3.end(), 0.0);
+    const std::vector<Tissue>& tissues = summary.session.tissues;
+    for (const Tissue& tissue : tissues) summary.by_tissue_mm3[tissue.name] += removed_mm3[tissue.label];
+    if (!tissues.empty() && removed_mm3[0] > 0.0) summary.by_tissue_mm3["unlabelled"] += removed_mm3[0];
+}
+
+void begin_session(RecordingSummary& summary, const Playhead& playhead) {
+    ++summary.sessions;
+    summary.session = playhead.session();
+    summary.grid = playhead.bone().grid();
+    summary.has_goodbye = false;
+}
+
+void read_through(RecordingSummary& summary, Playhead& playhead, RemovalCount& removal,
+                  const std::function<void(const Playhead&)>& on_state) {
+    for (;;) {
+        const double before_s = playhead.time_s();
+        if (const v1::StateFrame* next = playhead.next_frame()) removal.before(playhead.bone(), *next);
+        switch (playhead.step(std::numeric_limits<double>::infinity())) {
+            case Playhead::Step::state: {
+                removal.after(playhead.bone());
+                const ToolState& tool = *playhead.tool();
+                if (tool.spindle_on)
+                    summary.milled_s[summary.session.burrs[tool.burr].name] += playhead.time_s() - before_s;
+                on_state(playhead);
+                break;
+            }
+            case Playhead::Step::new_bone:
+                add_removed(summary, removal);
+                removal = {};
+                begin_session(summary, playhead);
+                break;
+            case Playhead::Step::goodbye:
+                summary.has_goodbye = true;
+                break;
+            case Playhead::Step::nothing_due:
+            case Playhead::Step::end:
+                return;
+        }
+    }
+}
+
+double per_s(std::uint64_t count, double duration_s) {
+    return duration_s > 0.0 ? static_cast<double>(count) / duration_s : 0.0;
+}
+
+std::string protocol(const SessionInfo& session) {
+    return fmt::format("{}.{}", session.protocol_major, session.protocol_minor);
+}
+
+}  // namespace
+
+RecordingSummary summarise(const std::filesystem::path& file,
+                           const std::function<void(const Playhead&)>& on_state) {
+    RecordingSummary summary;
+    Playhead playhead(file);
+    RemovalCount removal;
+    begin_session(summary, playhead);
+    try {
+        read_through(summary, playhead, removal, on_state);
+    } catch (const RecordingError& error) {
+        summary.error = error.what();
+        removal.after(playhead.bone());  // the frame may have been applied in part
+    }
+    add_removed(summary, removal);
+    summary.duration_s = playhead.time_s();
+    summary.frames = playhead.frames();
+    summary.states = playhead.states();
+    summary.bytes = playhead.bytes();
+    summary.state_bytes = playhead.state_bytes();
+    summary.checksums_verified = playhead.checksums_verified();
+    summary.bone_checksum = playhead.bone_checksum();
+    summary.is_truncated = playhead.is_truncated();
+    return summary;
+}
+
+nlohmann::ordered_json to_json(const RecordingSummary& summary) {
+    nlohmann::ordered_json removed{{"total", summary.removed_mm3}};
+    for (const auto& [name, mm3] : summary.by_tissue_mm3) removed[name] = mm3;
+    nlohmann::ordered_json burrs = nlohmann::ordered_json::array();
+    for (const Burr& burr : summary.session.burrs) {
+        const auto milled = summary.milled_s.find(burr.name);
+        burrs.push_back({{"name", burr.name},
+                         {"shape", head_shape_names[static_cast<std::size_t>(burr.head.shape)]},
+                         {"diameter_mm", burr.diameter_mm},
+                         {"edges", burr.edges},
+                         {"spindle_rpm", 60.0 * burr.spindle_rev_per_s},
+                         {"spindle_on_s", milled == summary.milled_s.end() ? 0.0 : milled->second}});
+    }
+    const glm::ivec3& size = summary.grid.size_voxels;
+    return {{"duration_s", summary.duration_s},
+            {"frames", summary.frames},
+            {"protocol", protocol(summary.session)},
+            {"bone_checksum", fmt::format("{:016x}", summary.bone_checksum)},
+            {"removed_mm3", removed},
+            {"scene", summary.session.scene_name},
+            {"program_version", summary.session.server_version},
+            {"sessions", summary.sessions},
+            {"state_frames", summary.states},
+            {"frames_per_s", per_s(summary.states, summary.duration_s)},
+            {"bytes", summary.bytes},
+            {"state_bytes", summary.state_bytes},
+            {"bytes_per_s", per_s(summary.state_bytes, summary.duration_s)},
+            {"checksums_verified", summary.checksums_verified},
+            {"grid", {{"size_voxels", {size.x, size.y, size.z}}, {"spacing_mm", summary.grid.spacing_mm}}},
+            {"burrs", burrs},
+            {"ends_with_goodbye", summary.has_goodbye},
+            {"is_truncated", summary.is_truncated}};
+}
+
+std::string to_text(const RecordingSummary& summary) {
+    std::string text;
+    const auto line = [&](const std::string& name, const std::string& what) {
+        fmt::format_to(std::back_inserter(text), "{:<12}{}\n", name, what);
+    };
+    const glm::ivec3& size = summary.grid.size_voxels;
+    line("scene", fmt::format("{} ({} x {} x {} voxels of {} mm)", summary.session.scene_name, size.x, size.y,
+                              size.z, summary.grid.spacing_mm));
+    line("recorded by", fmt::format("haptic_server {}, protocol {}", summary.session.server_version,
+                                    protocol(summary.session)));
+    line("duration", fmt::format("{:.3f} s{}", summary.duration_s,
+                                 summary.sessions > 1 ? fmt::format(", {} sessions", summary.sessions) : ""));
+    line("frames", fmt::format("{} in {:.0f} kB, {} of them states: {:.1f} a second, {:.1f} kB/s",
+                               summary.frames, 1e-3 * static_cast<double>(summary.bytes), summary.states,
+                               per_s(summary.states, summary.duration_s),
+                               1e-3 * per_s(summary.state_bytes, summary.duration_s)));
+    for (const auto& [name, milled_s] : summary.milled_s)
+        line("burr", fmt::format("{}, spindle on for {:.1f} s", name, milled_s));
+    line("removed", fmt::format("{:.3f} mm^3", summary.removed_mm3));
+    for (const auto& [name, mm3] : summary.by_tissue_mm3) line("", fmt::format("{:.3f} mm^3 {}", mm3, name));
+    line("bone",
+         fmt::format("{:016x}; {} checksums hold", summary.bone_checksum, summary.checksums_verified));
+    if (!summary.has_goodbye)
+        line("end", summary.is_truncated
+                        ? "within a frame, as after a crash or on a full disk"
+                        : "without a goodbye: it goes on elsewhere, or the server was killed");
+    return text;
+}
+
+}  // namespace osteomill

@@ -1,0 +1,57 @@
+#include "analysis/report/force_metrics.h"
+
+#include <algorithm>
+#include <map>
+
+#include "analysis/report/removal_metrics.h"
+#include "common/statistics/percentile.h"
+
+namespace osteomill {
+
+namespace {
+
+class ForceSum {
+  public:
+    void add(double force_n, double dt_s) {
+        forces_n_.push_back(force_n);
+        time_s_ += dt_s;
+        impulse_n_s_ += force_n * dt_s;
+    }
+    ForceOfTissue of(std::string name) const {
+        if (forces_n_.empty()) return {.tissue = std::move(name)};
+        return {.tissue = std::move(name),
+                .time_s = time_s_,
+                .mean_n = time_s_ > 0.0 ? impulse_n_s_ / time_s_ : forces_n_.front(),
+                .p95_n = percentile(forces_n_, 0.95),
+                .peak_n = *std::ranges::max_element(forces_n_),
+                .impulse_n_s = impulse_n_s_};
+    }
+
+  private:
+    std::vector<double> forces_n_;
+    double time_s_ = 0.0;
+    double impulse_n_s_ = 0.0;
+};
+
+}  // namespace
+
+ForceMetrics force_metrics(const SessionTrace& trace) {
+    ForceMetrics metrics;
+    ForceSum cutting;
+    std::map<std::uint8_t, ForceSum> by_tissue;
+    for (std::size_t i = 0; i < trace.samples.size(); ++i) {
+        const TraceSample& now = trace.samples[i];
+        metrics.peak_n = std::max(metrics.peak_n, now.force_n);
+        if (!now.cuts()) continue;
+        const auto most = std::ranges::max_element(now.levels, {}, &TissueLevels::milled);
+        cutting.add(now.force_n, trace.dt_s(i));
+        by_tissue[most->tissue].add(now.force_n, trace.dt_s(i));
+    }
+    metrics.peak_n = std::max(metrics.peak_n, trace.peak_force_n.value_or(0.0));
+    metrics.cutting = cutting.of("all");
+    for (const auto& [label, sum] : by_tissue)
+        metrics.by_tissue.push_back(sum.of(tissue_name(trace.session, label)));
+    return metrics;
+}
+
+}  // namespace osteomill

@@ -1,0 +1,24 @@
+// The metrics of a session as CSV and JSON.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "analysis/report/session_metrics.h"
+#include "analysis/report/session_trace.h"
+
+namespace osteomill {
+
+/// A line a metric: metric,of,value,unit. No value where there is nothing to measure.
+std::string metrics_csv(const std::vector<MetricRow>& rows);
+
+/// Keys: session {trainee, case, scene, began, version, protocol, bone_checksum, settings}, metrics {key:
+/// value, or, where there is one for each tissue, burr or structure, KEY_of: {name: value}}, events,
+/// is_complete (the recording has the session's end), error (null: it could be read as far as it goes). Bytes
+/// that are no UTF-8 are replaced.
+std::string metrics_json(const SessionTrace& trace, const std::vector<MetricRow>& rows);
+
+/// "2026-11-23 21:40 UTC"; empty where the recording does not say.
+std::string began_text(std::int64_t unix_ns);
+
+}  // namespace osteomill

@@ -1,0 +1,60 @@
+#include "analysis/report/motion_metrics.h"
+
+#include <algorithm>
+#include <glm/geometric.hpp>
+
+#include "analysis/report/smoothness.h"
+#include "common/statistics/percentile.h"
+
+namespace osteomill {
+
+MotionMetrics motion_metrics(const SessionTrace& trace) {
+    MotionMetrics metrics;
+    const auto& samples = trace.samples;
+    std::vector<TimedPosition> hand;
+    std::vector<double> cutting_speeds;
+    double cutting_path_mm = 0.0;
+    double depth_integral = 0.0;
+    // Of all placements: the hand did not make them. In between it is taken to go on as it went before, since
+    // to stop and start again would be a jerk.
+    glm::dvec3 leaps_mm(0.0);
+    glm::dvec3 hand_mm_per_s(0.0);
+    hand.reserve(samples.size());
+    for (std::size_t i = 0; i < samples.size(); ++i) {
+        const TraceSample& now = samples[i];
+        const double dt_s = trace.dt_s(i);
+        if (trace.leaps(i))
+            leaps_mm += now.hand_mm - samples[i - 1].hand_mm - dt_s * hand_mm_per_s;
+        else if (dt_s > 0.0)
+            hand_mm_per_s = (now.hand_mm - samples[i - 1].hand_mm) / dt_s;
+        if (!now.is_paused) hand.push_back({now.time_s, now.hand_mm - leaps_mm});
+        if (now.spindle_on) metrics.depth_mm = std::max(metrics.depth_mm, now.depth_mm);
+        if (i == 0 || dt_s <= 0.0) continue;
+        metrics.time_s += dt_s;
+        if (now.is_paused) {
+            metrics.paused_s += dt_s;
+            continue;
+        }
+        const double hand_mm = trace.leaps(i) ? 0.0 : glm::length(now.hand_mm - samples[i - 1].hand_mm);
+        metrics.path_mm += hand_mm;
+        if (now.spindle_on)
+            metrics.spindle_s += dt_s;
+        else if (hand_mm < idle_below_mm_per_s * dt_s)
+            metrics.idle_s += dt_s;
+        if (!now.cuts()) continue;
+        const double burr_mm = glm::length(now.burr_mm - samples[i - 1].burr_mm);
+        metrics.cutting_s += dt_s;
+        cutting_path_mm += burr_mm;
+        depth_integral += now.depth_mm * dt_s;
+        cutting_speeds.push_back(burr_mm / dt_s);
+    }
+    metrics.smoothness = log_dimensionless_jerk(hand);
+    if (metrics.cutting_s > 0.0) {
+        metrics.cutting_speed_mm_per_s = cutting_path_mm / metrics.cutting_s;
+        metrics.cutting_depth_mm = depth_integral / metrics.cutting_s;
+    }
+    metrics.cutting_speed_p95_mm_per_s = percentile(std::move(cutting_speeds), 0.95);
+    return metrics;
+}
+
+}  // namespace osteomill

@@ -1,0 +1,40 @@
+// What was removed against what was planned.
+//
+// The planned region is the bone at the start of the plan's tissue, or with its voxel's centre in the plan's
+// sphere or cylinder; the cavity is the bone of which more than half a voxel went. Their
+// boundaries are the voxels that share a face with bone outside of them, so that what lies at air bounds
+// neither. Surface distances are from each boundary's voxels to the nearest of the other's, both ways pooled
+// (Heimann et al., IEEE Transactions on Medical Imaging 28 (2009); Taha and Hanbury, BMC Medical Imaging
+// 15:29 (2015)).
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "analysis/report/session_trace.h"
+
+namespace osteomill {
+
+struct SurfaceDistance {
+    double mean_mm = 0.0;
+    double p95_mm = 0.0;
+    double hausdorff_mm = 0.0;  ///< the largest
+};
+
+struct PlanMetrics {
+    double planned_mm3 = 0.0;
+    double removed_mm3 = 0.0;    ///< of the region
+    double removed_share = 0.0;  ///< 0 to 1
+    double outside_mm3 = 0.0;    ///< removed outside the region
+    double excess_mm3 = 0.0;     ///< of these, further from it than the margin
+    double margin_mm = 0.0;
+    std::optional<SurfaceDistance> surface{};  ///< nothing where there is no cavity or no region
+};
+
+/// Nothing where the session has no plan.
+std::optional<PlanMetrics> plan_metrics(const SessionTrace& trace);
+
+/// "carious lesion", "sphere of 4 mm radius", ...
+std::string describe(const Plan& plan);
+
+}  // namespace osteomill

@@ -1,0 +1,32 @@
+// The region of a plan: which voxels of a bone are in it, and how far others are from it.
+#pragma once
+
+#include "analysis/report/nearest_place.h"
+#include "analysis/report/voxel_set.h"
+#include "common/bone/bone.h"
+#include "common/scene/plan.h"
+#include "common/wire/session_info.h"
+
+namespace osteomill {
+
+class PlannedRegion {
+  public:
+    /// Of the bone as it was. `bone` and `session` outlive it; the session has a plan.
+    PlannedRegion(const Bone& bone, const SessionInfo& session);
+
+    const VoxelSet& voxels() const { return voxels_; }
+    /// Of the region itself, whether or not it is bone there.
+    bool holds(std::int32_t slot, std::size_t offset, const glm::ivec3& voxel) const;
+    /// From a place outside of it: to the sphere or cylinder, or to the centre of the tissue's nearest voxel.
+    /// Infinite where the bone has none of the tissue.
+    double distance_mm(const glm::dvec3& place_mm) const;
+
+  private:
+    const Bone& bone_;
+    const Plan& plan_;
+    int label_ = -1;  // of the tissue; -1: none
+    VoxelSet voxels_;
+    NearestPlace surface_;
+};
+
+}  // namespace osteomill

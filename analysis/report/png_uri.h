@@ -1,0 +1,13 @@
+// A picture as a PNG within a page: data:image/png;base64,... (libpng, OpenSSL).
+#pragma once
+
+#include <string>
+
+#include "analysis/report/bone_view.h"
+
+namespace osteomill {
+
+/// Throws std::runtime_error where libpng cannot.
+std::string png_data_uri(const RgbPicture& picture);
+
+}  // namespace osteomill

@@ -1,0 +1,30 @@
+// What was removed, of which tissue and by which burr; what was undone is not counted as removed.
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "analysis/report/session_trace.h"
+#include "analysis/report/strokes.h"
+
+namespace osteomill {
+
+struct NamedVolume {
+    std::string name;
+    double mm3 = 0.0;
+};
+
+struct RemovalMetrics {
+    double removed_mm3 = 0.0;              ///< of the bone as it was, at the end
+    double undone_mm3 = 0.0;               ///< milled and given back
+    std::vector<NamedVolume> by_tissue{};  ///< every tissue of the scene; "unlabelled", if there is any
+    std::vector<NamedVolume> by_burr{};    ///< the burrs that took any
+};
+
+RemovalMetrics removal_metrics(const SessionTrace& trace, std::span<const Stroke> strokes);
+
+/// "unlabelled" for 0, "tissue 7" for what the scene has no name for.
+std::string tissue_name(const SessionInfo& session, std::uint8_t label);
+
+}  // namespace osteomill

@@ -1,0 +1,124 @@
+#include "analysis/report/session_metrics.h"
+
+#include <utility>
+
+namespace osteomill {
+
+namespace {
+
+/// Rows under one heading.
+class Rows {
+  public:
+    explicit Rows(std::vector<MetricRow>& rows) : rows_(rows) {}
+    void begin(std::string group) { group_ = std::move(group); }
+    void add(std::string key, std::string text, std::optional<double> value, std::string unit = {},
+             std::string of = {}) {
+        rows_.push_back({group_, std::move(key), std::move(of), std::move(text), value, std::move(unit)});
+    }
+
+  private:
+    std::vector<MetricRow>& rows_;
+    std::string group_;
+};
+
+void add_motion(Rows& rows, const MotionMetrics& motion, const StrokeMetrics& strokes) {
+    rows.begin("Time and motion");
+    rows.add("time_s", "time", motion.time_s, "s");
+    rows.add("idle_s", "idle", motion.idle_s, "s");
+    rows.add("paused_s", "paused", motion.paused_s, "s");
+    rows.add("spindle_s", "spindle on", motion.spindle_s, "s");
+    rows.add("cutting_s", "cutting bone", motion.cutting_s, "s");
+    rows.add("path_mm", "path of the hand", motion.path_mm, "mm");
+    rows.add("smoothness_ldlj", "smoothness (log dimensionless jerk)", motion.smoothness);
+    rows.begin("Strokes");
+    rows.add("strokes", "strokes", static_cast<double>(strokes.strokes));
+    rows.add("strokes_undone", "of these undone", static_cast<double>(strokes.undone));
+    rows.add("stroke_duration_mean_s", "mean duration", strokes.mean_duration_s, "s");
+    rows.add("stroke_duration_max_s", "longest", strokes.longest_s, "s");
+    rows.add("stroke_length_mean_mm", "mean length", strokes.mean_length_mm, "mm");
+    rows.add("stroke_smoothness_ldlj", "median smoothness of a stroke", strokes.median_smoothness);
+    rows.begin("Cutting");
+    rows.add("cutting_speed_mean_mm_per_s", "mean speed while cutting", motion.cutting_speed_mm_per_s,
+             "mm/s");
+    rows.add("cutting_speed_p95_mm_per_s", "95th percentile of speed", motion.cutting_speed_p95_mm_per_s,
+             "mm/s");
+    rows.add("depth_max_mm", "greatest depth", motion.depth_mm, "mm");
+    rows.add("cutting_depth_mean_mm", "mean depth while cutting", motion.cutting_depth_mm, "mm");
+}
+
+void add_removal(Rows& rows, const RemovalMetrics& removal) {
+    rows.begin("Removed bone");
+    rows.add("removed_mm3", "removed", removal.removed_mm3, "mm^3");
+    for (const NamedVolume& tissue : removal.by_tissue)
+        rows.add("removed_of_tissue_mm3", "removed", tissue.mm3, "mm^3", tissue.name);
+    for (const NamedVolume& burr : removal.by_burr)
+        rows.add("removed_by_burr_mm3", "removed", burr.mm3, "mm^3", burr.name);
+    rows.add("undone_mm3", "milled and undone", removal.undone_mm3, "mm^3");
+}
+
+void add_force_of(Rows& rows, const ForceOfTissue& force, const std::string& of) {
+    rows.add("force_mean_n", "mean", force.mean_n, "N", of);
+    rows.add("force_p95_n", "95th percentile", force.p95_n, "N", of);
+    rows.add("force_peak_n", "peak", force.peak_n, "N", of);
+    rows.add("force_impulse_n_s", "impulse", force.impulse_n_s, "N s", of);
+    rows.add("force_time_s", "time", force.time_s, "s", of);
+}
+
+void add_structures(Rows& rows, const std::vector<StructureMetrics>& structures) {
+    rows.begin("Protected structures");
+    for (const StructureMetrics& structure : structures) {
+        rows.add("structure_nearest_mm", "nearest approach", structure.nearest_mm, "mm", structure.name);
+        rows.add("structure_touches", "touches", static_cast<double>(structure.touches), "", structure.name);
+        rows.add("structure_first_touch_s", "first touch", structure.first_touch_s, "s", structure.name);
+        rows.add("structure_touched_s", "touched", structure.touched_s, "s", structure.name);
+        rows.add("structure_dose_mm3", "removed", structure.dose_mm3, "mm^3", structure.name);
+        rows.add("structure_undone_mm3", "milled and undone", structure.undone_dose_mm3, "mm^3",
+                 structure.name);
+        rows.add("structure_entered_mm3", "entered by the burr", structure.entered_mm3, "mm^3",
+                 structure.name);
+    }
+}
+
+void add_plan(Rows& rows, const PlanMetrics& plan) {
+    rows.begin("Against the plan");
+    rows.add("plan_mm3", "planned", plan.planned_mm3, "mm^3");
+    rows.add("plan_removed_mm3", "of these removed", plan.removed_mm3, "mm^3");
+    rows.add("plan_removed_share", "removed share", plan.removed_share);
+    rows.add("plan_outside_mm3", "removed outside", plan.outside_mm3, "mm^3");
+    rows.add("plan_margin_mm", "margin", plan.margin_mm, "mm");
+    rows.add("plan_excess_mm3", "removed beyond the margin", plan.excess_mm3, "mm^3");
+    const auto surface = [&](double SurfaceDistance::*value) {
+        return plan.surface ? std::optional((*plan.surface).*value) : std::nullopt;
+    };
+    rows.add("plan_surface_mean_mm", "mean surface distance", surface(&SurfaceDistance::mean_mm), "mm");
+    rows.add("plan_surface_p95_mm", "95th percentile of it", surface(&SurfaceDistance::p95_mm), "mm");
+    rows.add("plan_hausdorff_mm", "largest (Hausdorff)", surface(&SurfaceDistance::hausdorff_mm), "mm");
+}
+
+}  // namespace
+
+SessionMetrics session_metrics(const SessionTrace& trace) {
+    const std::vector<Stroke> strokes = strokes_of(trace);
+    return {.motion = motion_metrics(trace),
+            .strokes = stroke_metrics(strokes),
+            .removal = removal_metrics(trace, strokes),
+            .force = force_metrics(trace),
+            .structures = structure_metrics(trace),
+            .plan = plan_metrics(trace)};
+}
+
+std::vector<MetricRow> metric_rows(const SessionMetrics& metrics) {
+    std::vector<MetricRow> all;
+    Rows rows(all);
+    add_motion(rows, metrics.motion, metrics.strokes);
+    add_removal(rows, metrics.removal);
+    rows.begin("Force on the hand");
+    rows.add("peak_force_n", "largest of the session", metrics.force.peak_n, "N");
+    add_force_of(rows, metrics.force.cutting, "");
+    for (const ForceOfTissue& force : metrics.force.by_tissue) add_force_of(rows, force, force.tissue);
+    add_structures(rows, metrics.structures);
+    if (metrics.plan) add_plan(rows, *metrics.plan);
+    return all;
+}
+
+}  // namespace osteomill

@@ -1,0 +1,39 @@
+// All metrics of a session, and the same as a table of names, values and units. Definitions: docs/metrics.md.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "analysis/report/force_metrics.h"
+#include "analysis/report/motion_metrics.h"
+#include "analysis/report/plan_metrics.h"
+#include "analysis/report/removal_metrics.h"
+#include "analysis/report/structure_metrics.h"
+
+namespace osteomill {
+
+struct SessionMetrics {
+    MotionMetrics motion;
+    StrokeMetrics strokes;
+    RemovalMetrics removal;
+    ForceMetrics force;
+    std::vector<StructureMetrics> structures;
+    std::optional<PlanMetrics> plan;
+};
+
+SessionMetrics session_metrics(const SessionTrace& trace);
+
+/// One number of a session.
+struct MetricRow {
+    std::string group;  ///< heading: "Time and motion"
+    std::string key;    ///< "force_mean_n", as in docs/metrics.md
+    std::string of;     ///< which tissue, burr or structure; empty: the session
+    std::string text;   ///< for people: "mean force"
+    std::optional<double> value;
+    std::string unit;  ///< "mm^3"; empty: a count or a ratio
+};
+
+std::vector<MetricRow> metric_rows(const SessionMetrics& metrics);
+
+}  // namespace osteomill

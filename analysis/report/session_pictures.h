@@ -1,0 +1,29 @@
+// The pictures of a report: the place of work before and after, and at each mark, always from the same views.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "analysis/report/session_trace.h"
+
+namespace osteomill {
+
+struct SessionPicture {
+    std::string title{};
+    std::string png_uri{};
+};
+
+struct SessionPictures {
+    std::vector<SessionPicture> before{};  ///< from each view
+    std::vector<SessionPicture> after{};   ///< from the same
+    std::vector<SessionPicture> marks{};   ///< from the first view
+    std::size_t marks_left_out = 0;
+};
+
+/// Reads the recording again for the bone at each mark, if there is one. `on_frame`: see read_trace.
+SessionPictures session_pictures(const std::filesystem::path& file, const SessionTrace& trace,
+                                 const std::function<void()>& on_frame);
+
+}  // namespace osteomill

@@ -1,0 +1,103 @@
+#include "analysis/report/session_plots.h"
+
+#include <algorithm>
+#include <glm/geometric.hpp>
+#include <map>
+#include <string>
+#include <utility>
+
+#include "analysis/report/removal_metrics.h"
+
+namespace osteomill {
+
+namespace {
+
+/// Those worth a line of its own over every plot; the list of events has them all.
+std::vector<PlotMoment> moments_of(const SessionTrace& trace) {
+    std::vector<PlotMoment> moments;
+    for (const ControlEvent& event : trace.events) {
+        if (event.is_refused || event.action == SessionAction::finish) continue;
+        moments.push_back({event.time_s, event.action == SessionAction::mark && !event.text.empty()
+                                             ? event.text.substr(0, 40)
+                                             : name_of(event.action)});
+    }
+    return moments;
+}
+
+std::vector<PlotLine> removed_lines(const SessionTrace& trace) {
+    std::map<std::uint8_t, std::int64_t> sums;
+    for (const TraceSample& sample : trace.samples)
+        for (const TissueLevels& levels : sample.levels) sums[levels.tissue] = 0;
+    std::map<std::uint8_t, PlotLine> lines;
+    for (const TraceSample& sample : trace.samples) {
+        for (const TissueLevels& levels : sample.levels)
+            sums[levels.tissue] += levels.milled - levels.restored;
+        for (const auto& [label, sum] : sums) {
+            PlotLine& line = lines[label];
+            line.x.push_back(sample.time_s);
+            line.y.push_back(trace.mm3(sum));
+        }
+    }
+    std::vector<PlotLine> all;
+    for (auto& [label, line] : lines) {
+        line.name = tissue_name(trace.session, label);
+        all.push_back(std::move(line));
+    }
+    return all;
+}
+
+/// Of those that were ever near. Where a structure is further than is looked at, the line stays there.
+std::vector<PlotLine> distance_lines(const SessionTrace& trace) {
+    std::vector<PlotLine> lines;
+    for (const StructureAccount& account : trace.structures) {
+        if (!account.nearest_mm) continue;
+        const Tissue& tissue = trace.session.tissues[account.last.tissue];
+        PlotLine& line = lines.emplace_back();
+        line.name = tissue.name;
+        for (const TraceSample& sample : trace.samples) {
+            const auto now =
+                std::ranges::find(sample.distances, account.last.tissue, &StructureDistance::tissue);
+            line.x.push_back(sample.time_s);
+            line.y.push_back(now != sample.distances.end() ? now->distance_mm.value_or(watched_mm(tissue))
+                                                           : watched_mm(tissue));
+        }
+    }
+    return lines;
+}
+
+}  // namespace
+
+std::vector<SvgPlot> session_plots(const SessionTrace& trace) {
+    PlotLine force;
+    PlotLine depth;
+    PlotLine speed;
+    const auto& samples = trace.samples;
+    for (std::size_t i = 0; i < samples.size(); ++i) {
+        force.x.push_back(samples[i].time_s);
+        force.y.push_back(samples[i].force_n);
+        depth.x.push_back(samples[i].time_s);
+        depth.y.push_back(samples[i].depth_mm);
+        if (trace.dt_s(i) <= 0.0 || trace.leaps(i)) continue;
+        speed.x.push_back(samples[i].time_s);
+        speed.y.push_back(glm::length(samples[i].burr_mm - samples[i - 1].burr_mm) / trace.dt_s(i));
+    }
+    std::vector<SvgPlot> plots{
+        {.title = "Force on the hand", .y_text = "N", .lines = {std::move(force)}},
+        {.title = "Depth of the burr's tip below first contact", .y_text = "mm", .lines = {std::move(depth)}},
+        {.title = "Removed bone", .y_text = "mm³", .lines = removed_lines(trace)},
+        {.title = "Speed of the burr", .y_text = "mm/s", .lines = {std::move(speed)}}};
+    if (std::vector<PlotLine> distances = distance_lines(trace); !distances.empty()) {
+        std::string title = "Distance to protected structures";
+        if (distances.size() == 1) title = "Distance to " + distances[0].name;
+        plots.push_back({.title = title + " (level at the top: further off)",
+                         .y_text = "mm",
+                         .lines = std::move(distances)});
+    }
+    for (SvgPlot& plot : plots) {
+        plot.x_text = "time (s)";
+        plot.moments = moments_of(trace);
+    }
+    return plots;
+}
+
+}  // namespace osteomill

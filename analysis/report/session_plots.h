@@ -1,0 +1,13 @@
+// Force, depth, removed volume and speed of a session against time, with what was done to it.
+#pragma once
+
+#include <vector>
+
+#include "analysis/report/session_trace.h"
+#include "analysis/report/svg_plot.h"
+
+namespace osteomill {
+
+std::vector<SvgPlot> session_plots(const SessionTrace& trace);
+
+}  // namespace osteomill

@@ -1,0 +1,138 @@
+#include "analysis/report/session_trace.h"
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <glm/geometric.hpp>
+#include <limits>
+#include <numeric>
+
+#include "common/bone/structure_in_bone.h"
+#include "common/recording/packet_reader.h"
+#include "common/recording/playhead.h"
+
+namespace osteomill {
+
+namespace {
+
+/// Sums what changed since `kept`, and makes that as it is `now`.
+std::vector<TissueLevels> take_over(const std::vector<BrickChange>& changes, const Bone& now, Bone& kept,
+                                    StructureWatch& structures) {
+    std::array<TissueLevels, 256> sums{};
+    for (const BrickChange& change : changes) {
+        const std::int32_t slot = now.slot(change.brick);
+        if (slot == BoneContent::no_slot) continue;
+        const auto left = now.fractions(slot);
+        const auto before = kept.fractions(slot);
+        structures.note(change, before, left, now.content().tissues_of(slot));
+        change.voxels.for_each([&](std::size_t voxel) {
+            const int lost = int{before[voxel]} - int{left[voxel]};
+            TissueLevels& levels = sums[now.content().tissue_in(slot, voxel)];
+            if (change.kind == ChangeKind::milled)
+                levels.milled += lost;
+            else
+                levels.restored -= lost;
+            before[voxel] = left[voxel];
+        });
+    }
+    std::vector<TissueLevels> changed;
+    for (std::size_t label = 0; label < sums.size(); ++label)
+        if (sums[label].milled != 0 || sums[label].restored != 0) {
+            sums[label].tissue = static_cast<std::uint8_t>(label);
+            changed.push_back(sums[label]);
+        }
+    return changed;
+}
+
+/// The trace's bone at the end is that of the frame before until then.
+void add_sample(SessionTrace& trace, Playhead& playhead, StructureWatch& structures) {
+    const ToolState& tool = *playhead.tool();
+    if (trace.samples.empty()) trace.began_unix_ns = tool.taken_unix_ns;
+    const bool is_placed = std::ranges::any_of(playhead.events(), [](const ControlEvent& event) {
+        return event.action == SessionAction::place && !event.is_refused;
+    });
+    trace.samples.push_back(
+        {.time_s = tool.time_s,
+         .hand_mm = tool.hand_position_mm,
+         .burr_mm = tool.burr_position_mm,
+         .spindle_axis = tool.spindle_axis,
+         .force_n = glm::length(tool.force_n),
+         .depth_mm = tool.depth_mm.value_or(0.0),
+         .burr = tool.burr,
+         .spindle_on = tool.spindle_on,
+         .is_paused = playhead.status().is_paused,
+         .is_placed = is_placed,
+         .levels = take_over(playhead.take_changes(), playhead.bone(), trace.at_end, structures)});
+    structures.update(tool);
+    trace.samples.back().distances = structures.distances();
+    if (tool.peak_force_n) trace.peak_force_n = tool.peak_force_n;
+    trace.events.insert(trace.events.end(), playhead.events().begin(), playhead.events().end());
+}
+
+/// Of a session on the virtual clock, whose frames do not say when they were.
+std::int64_t recorded_unix_ns(const std::filesystem::path& file) {
+    const auto first = PacketReader(file).next();
+    return first ? std::chrono::nanoseconds(first->stamp.time_since_epoch()).count() : 0;
+}
+
+/// Of all protected tissues: where the recording says nothing, they are where the bone bears their label.
+StructureWatch watch(const SessionTrace& trace, std::vector<Structure> structures) {
+    const SessionInfo& session = trace.session;
+    for (std::size_t tissue = 0; tissue < session.tissues.size(); ++tissue) {
+        const bool is_told = std::ranges::find(structures, tissue, &Structure::tissue) != structures.end();
+        if (!session.tissues[tissue].is_protected || is_told) continue;
+        StructureMask mask = structure_in_bone(trace.at_start, session.tissues[tissue].label);
+        if (!mask.empty()) structures.push_back({tissue, std::move(mask)});
+    }
+    std::ranges::sort(structures, {}, &Structure::tissue);
+    return {std::move(structures), session.tissues, session.burrs};
+}
+
+SessionTrace begin(Playhead& playhead) {
+    (void)playhead.take_changes();
+    return {.session = playhead.session(), .at_start = playhead.bone(), .at_end = playhead.bone()};
+}
+
+}  // namespace
+
+std::int64_t TraceSample::milled() const {
+    return std::accumulate(levels.begin(), levels.end(), std::int64_t{0},
+                           [](std::int64_t sum, const TissueLevels& l) { return sum + l.milled; });
+}
+
+std::int64_t TraceSample::restored() const {
+    return std::accumulate(levels.begin(), levels.end(), std::int64_t{0},
+                           [](std::int64_t sum, const TissueLevels& l) { return sum + l.restored; });
+}
+
+SessionTrace read_trace(const std::filesystem::path& file, const std::function<void()>& on_frame) {
+    Playhead playhead(file);
+    SessionTrace trace = begin(playhead);
+    std::optional<StructureWatch> structures;  // from the first state on: what is where has been said by then
+    try {
+        for (;;) {
+            on_frame();
+            const Playhead::Step step = playhead.step(std::numeric_limits<double>::infinity());
+            if (step == Playhead::Step::end) break;
+            if (step == Playhead::Step::state) {
+                if (!structures) structures = watch(trace, playhead.structures());
+                add_sample(trace, playhead, *structures);
+            }
+            if (step == Playhead::Step::goodbye) trace.ends = true;
+            if (step == Playhead::Step::new_bone) {
+                trace = begin(playhead);
+                structures.reset();
+            }
+        }
+    } catch (const RecordingError& error) {
+        trace.error = error.what();
+    }
+    if (trace.began_unix_ns == 0) trace.began_unix_ns = recorded_unix_ns(file);
+    if (!structures) structures = watch(trace, playhead.structures());
+    (void)take_over(playhead.take_changes(), playhead.bone(), trace.at_end, *structures);
+    trace.structures = structures->accounts();
+    trace.bone_checksum = playhead.bone_checksum();
+    return trace;
+}
+
+}  // namespace osteomill

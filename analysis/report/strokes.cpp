@@ -1,0 +1,104 @@
+#include "analysis/report/strokes.h"
+
+#include <algorithm>
+#include <glm/geometric.hpp>
+#include <utility>
+
+#include "analysis/report/smoothness.h"
+#include "common/statistics/percentile.h"
+
+namespace osteomill {
+
+namespace {
+
+constexpr double shortest_smooth_s = 0.5;
+
+/// Who was undone, as the server's journal of strokes keeps it.
+class UndoneStrokes {
+  public:
+    explicit UndoneStrokes(std::vector<Stroke>& strokes) : strokes_(strokes) {}
+
+    void take(std::size_t stroke) {
+        done_.push_back(stroke);
+        undone_.clear();
+    }
+    void act(SessionAction action) {
+        if (action == SessionAction::undo) move(done_, undone_, true);
+        if (action == SessionAction::redo) move(undone_, done_, false);
+        if (action == SessionAction::reset)
+            while (!done_.empty()) move(done_, undone_, true);
+    }
+
+  private:
+    void move(std::vector<std::size_t>& from, std::vector<std::size_t>& to, bool is_undone) {
+        if (from.empty()) return;  // of a stroke before the recording began
+        to.push_back(from.back());
+        from.pop_back();
+        strokes_[to.back()].is_undone = is_undone;
+    }
+
+    std::vector<Stroke>& strokes_;
+    std::vector<std::size_t> done_;
+    std::vector<std::size_t> undone_;
+};
+
+}  // namespace
+
+std::vector<Stroke> strokes_of(const SessionTrace& trace) {
+    std::vector<Stroke> strokes;
+    UndoneStrokes undone(strokes);
+    std::vector<TimedPosition> hand;
+    bool is_open = false;
+    auto event = trace.events.begin();
+    const auto close = [&] {
+        if (!std::exchange(is_open, false)) return;
+        Stroke& stroke = strokes.back();
+        if (stroke.duration_s >= shortest_smooth_s) stroke.smoothness = log_dimensionless_jerk(hand);
+        if (stroke.took_bone()) undone.take(strokes.size() - 1);
+    };
+    const auto& samples = trace.samples;
+    for (std::size_t i = 0; i < samples.size(); ++i) {
+        const TraceSample& now = samples[i];
+        const bool cuts = now.cuts();
+        const bool goes_on = now.spindle_on || cuts;
+        if (!goes_on) close();
+        if (goes_on && !is_open) {
+            is_open = true;
+            const std::size_t before = i > 0 ? i - 1 : i;
+            strokes.push_back({.begins_s = samples[before].time_s});
+            hand = {{samples[before].time_s, samples[before].hand_mm}};
+        }
+        if (now.spindle_on && i > 0) {
+            strokes.back().duration_s += trace.dt_s(i);
+            strokes.back().length_mm += glm::length(now.burr_mm - samples[i - 1].burr_mm);
+            hand.push_back({now.time_s, now.hand_mm});
+        }
+        if (cuts) strokes.back().levels_by_burr[now.burr] += now.milled();
+        for (; event != trace.events.end() && event->time_s <= now.time_s; ++event)
+            if (!event->is_refused) {
+                if (event->action == SessionAction::undo || event->action == SessionAction::reset) close();
+                undone.act(event->action);
+            }
+    }
+    close();
+    return strokes;
+}
+
+StrokeMetrics stroke_metrics(const std::vector<Stroke>& strokes) {
+    StrokeMetrics metrics{.strokes = strokes.size()};
+    if (strokes.empty()) return metrics;
+    std::vector<double> smoothness;
+    for (const Stroke& stroke : strokes) {
+        metrics.undone += stroke.is_undone ? 1 : 0;
+        metrics.mean_duration_s += stroke.duration_s;
+        metrics.mean_length_mm += stroke.length_mm;
+        metrics.longest_s = std::max(metrics.longest_s, stroke.duration_s);
+        if (stroke.smoothness) smoothness.push_back(*stroke.smoothness);
+    }
+    metrics.mean_duration_s /= static_cast<double>(strokes.size());
+    metrics.mean_length_mm /= static_cast<double>(strokes.size());
+    if (!smoothness.empty()) metrics.median_smoothness = percentile(std::move(smoothness), 0.5);
+    return metrics;
+}
+
+}  // namespace osteomill

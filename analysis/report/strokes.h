@@ -1,0 +1,39 @@
+// The strokes of a session, and which of them were undone.
+//
+// A stroke is a run of frames in which the spindle turns, up to the first in which it stands and no more bone
+// goes: what undo takes back.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <vector>
+
+#include "analysis/report/session_trace.h"
+
+namespace osteomill {
+
+struct Stroke {
+    double begins_s = 0.0;
+    double duration_s = 0.0;  ///< in which the spindle turns
+    double length_mm = 0.0;   ///< of the burr's path in that time
+    std::optional<double> smoothness{};
+    std::map<std::size_t, std::int64_t> levels_by_burr{};  ///< that it took
+    bool is_undone = false;
+
+    bool took_bone() const { return !levels_by_burr.empty(); }
+};
+
+std::vector<Stroke> strokes_of(const SessionTrace& trace);
+
+struct StrokeMetrics {
+    std::size_t strokes = 0;
+    std::size_t undone = 0;  ///< of these, at the end
+    double mean_duration_s = 0.0;
+    double mean_length_mm = 0.0;
+    double longest_s = 0.0;
+    std::optional<double> median_smoothness{};  ///< of the hand in strokes of half a second and more
+};
+
+StrokeMetrics stroke_metrics(const std::vector<Stroke>& strokes);
+
+}  // namespace osteomill

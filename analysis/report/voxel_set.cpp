@@ -1,0 +1,46 @@
+#include "analysis/report/voxel_set.h"
+
+#include <array>
+
+namespace osteomill {
+
+bool VoxelSet::contains(const glm::ivec3& voxel) const {
+    if (!osteomill::contains(bone_->grid(), voxel)) return false;
+    const std::int32_t slot = bone_->slot(voxel / brick_edge_voxels);
+    return slot != BoneContent::no_slot && contains(slot, offset_in_brick(voxel));
+}
+
+std::size_t VoxelSet::count() const {
+    std::size_t sum = 0;
+    for (const VoxelMask& mask : by_slot_) sum += mask.count();
+    return sum;
+}
+
+template <typename IsOutside>
+std::vector<glm::dvec3> VoxelSet::beside_mm(const IsOutside& is_outside) const {
+    static constexpr std::array<glm::ivec3, 6> steps{glm::ivec3(1, 0, 0), glm::ivec3(-1, 0, 0),
+                                                     glm::ivec3(0, 1, 0), glm::ivec3(0, -1, 0),
+                                                     glm::ivec3(0, 0, 1), glm::ivec3(0, 0, -1)};
+    std::vector<glm::dvec3> places;
+    for_each([&](std::int32_t, std::size_t, const glm::ivec3& voxel) {
+        for (const glm::ivec3& step : steps)
+            if (is_outside(voxel + step)) {
+                places.push_back(centre_of_voxel_mm(bone_->grid(), voxel));
+                return;
+            }
+    });
+    return places;
+}
+
+std::vector<glm::dvec3> VoxelSet::boundary_mm() const {
+    return beside_mm([&](const glm::ivec3& voxel) {
+        return osteomill::contains(bone_->grid(), voxel) && bone_->fraction_at(voxel) >= half_a_voxel &&
+               !contains(voxel);
+    });
+}
+
+std::vector<glm::dvec3> VoxelSet::surface_mm() const {
+    return beside_mm([&](const glm::ivec3& voxel) { return !contains(voxel); });
+}
+
+}  // namespace osteomill

@@ -1,0 +1,29 @@
+#include "analysis/report/write_report.h"
+
+#include <fmt/format.h>
+
+#include <stdexcept>
+#include <system_error>
+
+#include "analysis/report/metric_files.h"
+#include "analysis/report/report_html.h"
+#include "common/files/whole_file.h"
+
+namespace osteomill {
+
+std::string write_report(const std::filesystem::path& recording, const std::filesystem::path& folder,
+                         const std::function<void()>& on_frame) {
+    const SessionTrace trace = read_trace(recording, on_frame);
+    const SessionMetrics metrics = session_metrics(trace);
+    const std::vector<MetricRow> rows = metric_rows(metrics);
+    const SessionPictures pictures = session_pictures(recording, trace, on_frame);
+    std::error_code error;
+    std::filesystem::create_directories(folder, error);
+    if (error) throw std::runtime_error(fmt::format("{}: {}", folder.string(), error.message()));
+    write_whole_file(folder / "report.html", report_html(trace, metrics, rows, pictures), Link::replace);
+    write_whole_file(folder / "metrics.csv", metrics_csv(rows), Link::replace);
+    write_whole_file(folder / "metrics.json", metrics_json(trace, rows), Link::replace);
+    return trace.error;
+}
+
+}  // namespace osteomill

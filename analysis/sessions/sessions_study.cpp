@@ -1,0 +1,90 @@
+#include "analysis/sessions/sessions_study.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <ostream>
+#include <set>
+#include <stdexcept>
+
+#include "analysis/output/output_files.h"
+#include "analysis/sessions/overview.h"
+#include "analysis/sessions/session_store.h"
+#include "common/text/plain_text.h"
+
+namespace osteomill::study {
+
+namespace {
+
+std::vector<std::filesystem::path> recordings_of_folder(const std::filesystem::path& folder) {
+    std::vector<std::filesystem::path> found;
+    for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+        if (entry.is_directory() && std::filesystem::is_regular_file(entry.path() / "session.pcap"))
+            found.push_back(entry.path() / "session.pcap");
+        if (entry.is_regular_file() && entry.path().extension() == ".pcap") found.push_back(entry.path());
+    }
+    if (found.empty())
+        throw std::runtime_error(folder.string() +
+                                 ": holds no recording (*.pcap), and no folder that holds a session.pcap");
+    return found;
+}
+
+}  // namespace
+
+std::vector<std::filesystem::path> recordings_in(const std::vector<std::filesystem::path>& from) {
+    std::vector<std::filesystem::path> all;
+    std::set<std::filesystem::path> known;
+    const auto add = [&](const std::filesystem::path& file) {
+        if (known.insert(std::filesystem::weakly_canonical(file)).second) all.push_back(file);
+    };
+    for (const std::filesystem::path& path : from) {
+        if (std::filesystem::is_directory(path)) {
+            auto found = recordings_of_folder(path);
+            std::ranges::sort(found);
+            for (const auto& file : found) add(file);
+        } else if (std::filesystem::exists(path)) {
+            add(path);
+        } else {
+            throw std::runtime_error(path.string() + ": there is no such recording or folder");
+        }
+    }
+    return all;
+}
+
+void run_sessions_study(const SessionsStudyOptions& options, const StudySurroundings& surroundings) {
+    const auto files = recordings_in(options.from);
+    make_folder(options.out);
+    SessionStore store(options.out / "sessions.sqlite", options.version);
+    std::vector<SessionRecord> sessions;
+    std::vector<std::string> skipped;
+    std::set<std::string> digests;
+    std::vector<SessionRecord> fresh;
+    for (const std::filesystem::path& file : files) {
+        try {
+            const std::string digest = digest_of_file(file);
+            if (!digests.insert(digest).second) continue;  // a copy
+            std::optional<SessionRecord> record = store.find(digest);
+            if (!record) {
+                record = record_of(file, digest);
+                fresh.push_back(*record);
+            }
+            record->file = printable(file.string());
+            sessions.push_back(*std::move(record));
+        } catch (const std::runtime_error& error) {
+            skipped.push_back(error.what());
+            surroundings.progress << "left out: " << printable(error.what()) << '\n';
+        }
+    }
+    for (const SessionRecord& record : fresh) store.keep(record);
+    if (sessions.empty()) throw std::runtime_error("no recording can be read to its end");
+    std::ranges::stable_sort(sessions, {}, &SessionRecord::began_unix_ns);
+    write_text(sessions_csv(sessions), options.out / "sessions.csv");
+    for (const LearningCurve& curve : learning_curves(sessions))
+        write_text(curve.svg + "\n", options.out / (curve.key + ".svg"));
+    write_text(overview_html(sessions, skipped), options.out / "sessions.html");
+    surroundings.said << fmt::format("{} sessions{} in {}\n", sessions.size(),
+                                     skipped.empty() ? "" : fmt::format(", {} left out,", skipped.size()),
+                                     (options.out / "sessions.html").string());
+}
+
+}  // namespace osteomill::study

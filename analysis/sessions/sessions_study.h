@@ -1,0 +1,29 @@
+// Sessions of several trainees side by side: a table a line a session and metric, learning curves, an
+// overview.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "analysis/output/surroundings.h"
+
+namespace osteomill::study {
+
+struct SessionsStudyOptions {
+    std::vector<std::filesystem::path> from;  ///< recordings; folders that hold some, or folders of reports
+    std::filesystem::path out = "study/sessions";
+    std::string version;
+};
+
+/// Writes OUT/sessions.sqlite, sessions.csv, sessions.html and a learning curve OUT/KEY.svg for each metric
+/// that is drawn. A recording that cannot be read to its end is named and left out. Throws std::runtime_error
+/// where none is left, or a file cannot be written.
+void run_sessions_study(const SessionsStudyOptions& options, const StudySurroundings& surroundings);
+
+/// Recordings that are meant: a file itself; of a folder DIR all DIR/*.pcap and DIR/*/session.pcap, whole
+/// ones only. In the order of their paths, each once. Throws std::runtime_error for what is neither file nor
+/// folder, and for a folder without any.
+std::vector<std::filesystem::path> recordings_in(const std::vector<std::filesystem::path>& from);
+
+}  // namespace osteomill::study

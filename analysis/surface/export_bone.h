@@ -1,0 +1,29 @@
+// bone_export without its main: a bone file in, its surface or what was removed of it out.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+
+#include "common/program/command_line.h"
+
+namespace osteomill {
+
+struct ExportOptions {
+    std::filesystem::path bone;
+    std::filesystem::path output;
+    std::optional<double> threshold_hu{};
+    std::optional<double> cell_mm{};  ///< of the surface: the bone's own spacing, or about so long
+    std::optional<std::filesystem::path> original{};  ///< write what is gone of it, and no surface
+};
+
+/// Throws std::invalid_argument with one line for wrong usage.
+Asked<ExportOptions> parse_export_command_line(int argc, const char* const* argv, const std::string& version);
+
+/// Writes the file and tells `say` in a line what is in it. Throws std::exception with one line for a file
+/// that holds no bone, bones of two grids, a bone that was not carved from the original, an output that
+/// cannot be written.
+void export_bone(const ExportOptions& options, const std::function<void(const std::string&)>& say);
+
+}  // namespace osteomill

@@ -1,0 +1,22 @@
+#include "common/program/command_line.h"
+
+#include <fmt/format.h>
+
+#include <stdexcept>
+
+namespace osteomill {
+
+std::optional<std::string> parse_or_text(CLI::App& app, int argc, const char* const* argv) {
+    try {
+        parse_arguments(app, argc, argv);
+    } catch (const CLI::CallForHelp&) {
+        return app.help();
+    } catch (const CLI::CallForVersion&) {
+        return app.version() + "\n";
+    } catch (const CLI::ParseError& error) {
+        throw std::invalid_argument(fmt::format("{}; see --help", error.what()));
+    }
+    return std::nullopt;
+}
+
+}  // namespace osteomill

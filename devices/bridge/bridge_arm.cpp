@@ -1,0 +1,183 @@
+#include "devices/bridge/bridge_arm.h"
+
+#include <algorithm>
+#include <chrono>
+#include <glm/geometric.hpp>
+#include <glm/gtc/quaternion.hpp>
+#include <utility>
+
+#include "common/text/plain_text.h"
+#include "simulation/device/arm_spring.h"
+
+namespace osteomill {
+
+namespace {
+
+constexpr int longest_wait_ms = 5;
+constexpr auto nap = std::chrono::milliseconds(5);
+constexpr std::uint64_t ns_per_ms = 1'000'000;
+/// A pose that no force of the loop has answered by then is answered with the one before.
+constexpr std::uint64_t longest_answer_ns = 3 * ns_per_ms;
+
+glm::dvec3 vector_of(const double (&values)[3]) {
+    return {values[0], values[1], values[2]};
+}
+
+}  // namespace
+
+BridgeArm::BridgeArm(const BridgeAddress& where, Parts parts)
+    : socket_(where), parts_(std::move(parts)), host_(parts_.key, parts_.random), burr_(parts_.start_burr) {
+    thread_ = std::thread([this] {
+        parts_.on_thread_start();
+        run();
+    });
+}
+
+bool BridgeArm::await(const std::function<bool()>& gives_up) {
+    while (!has_joined_.load(std::memory_order_acquire)) {
+        if (gives_up()) return false;
+        std::this_thread::sleep_for(nap);
+    }
+    return true;
+}
+
+std::string BridgeArm::name() const {
+    const auto* end = std::find(std::begin(arm_.name), std::end(arm_.name), '\0');
+    return printable(std::string(std::begin(arm_.name), end));
+}
+
+glm::dvec3 BridgeArm::workspace_middle_mm() const {
+    return 0.5 * (vector_of(arm_.workspace_min_mm) + vector_of(arm_.workspace_max_mm));
+}
+
+DeviceLimits BridgeArm::limits() const {
+    return with_stiffest_spring({.max_force_n = arm_.max_force_n,
+                                 .max_stiffness_n_per_mm = arm_.max_stiffness_n_per_mm,
+                                 .apparent_mass_kg = arm_.apparent_mass_kg,
+                                 .position_resolution_mm = arm_.position_step_mm},
+                                round_trip_s());
+}
+
+DeviceState BridgeArm::read(double now_s) noexcept {
+    const bool is_new = readings_.refresh();
+    const Reading& newest = readings_.front();
+    if (is_new)
+        permission_.renew(said_at(
+            now_s, 1e-9 * static_cast<double>(static_cast<std::int64_t>(omb_now_ns() - newest.said_ns))));
+    const bool is_there = permission_.holds(now_s) && newest.is_ready;
+    return {.position_mm = newest.tool_mm,
+            .velocity_mm_per_s = newest.velocity_mm_per_s,
+            .spindle_axis = newest.spindle_axis,
+            .pedal = {.is_down = newest.pedal, .said_s = permission_.renewed_s(), .speaker = newest.session},
+            .burr = newest.burr,
+            .connected = is_there};
+}
+
+void BridgeArm::write(const glm::dvec3& force_n) noexcept {
+    forces_.back() = force_n;
+    forces_.publish();
+    socket_.wake();
+}
+
+void BridgeArm::stop() noexcept {
+    stops_.store(true);
+    if (thread_.joinable()) thread_.join();
+}
+
+BridgeForce BridgeArm::wanted(std::uint64_t now_ns) const {
+    if (!is_driven(now_ns)) return {};
+    const glm::dvec3& force_n = forces_.front();
+    // Bone pushes at the burr, the hand holds the handle.
+    return {.force_n = force_n, .torque_n_mm = glm::cross(tool_from_handle_mm_, force_n), .is_off = false};
+}
+
+bool BridgeArm::is_driven(std::uint64_t now_ns) const {
+    return force_ns_ != 0 && now_ns - force_ns_ < ns_per_ms * longest_force_age_ms;
+}
+
+void BridgeArm::take_pose(std::uint64_t now_ns) {
+    const omb_pose& pose = host_.pose();
+    Reading& reading = readings_.back();
+    glm::dquat turn(1.0, 0.0, 0.0, 0.0);
+    const bool has_orientation = (pose.status & OMB_HAS_ORIENTATION) != 0;
+    if (has_orientation)
+        turn = glm::normalize(
+            glm::dquat(pose.quaternion[0], pose.quaternion[1], pose.quaternion[2], pose.quaternion[3]));
+    reading.spindle_axis = has_orientation ? turn * glm::dvec3(0.0, 0.0, 1.0) : parts_.start_axis;
+    tool_from_handle_mm_ = turn * vector_of(host_.arm()->tool_from_handle_mm);
+    reading.tool_mm = vector_of(pose.position_mm) + tool_from_handle_mm_;
+
+    if (!sensor_) sensor_.emplace(0.0);
+    sensor_->read(reading.tool_mm, 1e-9 * static_cast<double>(now_ns - sensed_ns_));
+    sensed_ns_ = now_ns;
+    // The arm's own estimate is of the handle; where that is not the tool, turning it moves the tool, too.
+    const bool is_at_tool = tool_from_handle_mm_ == glm::dvec3(0.0);
+    reading.velocity_mm_per_s = is_at_tool && (pose.status & OMB_HAS_VELOCITY) != 0
+                                    ? vector_of(pose.velocity_mm_per_s)
+                                    : sensor_->velocity_mm_per_s();
+    reading.pedal = (pose.buttons & OMB_PEDAL) != 0;
+    const bool next_pressed = (pose.buttons & OMB_NEXT_BURR) != 0;
+    if (next_pressed && !was_next_pressed_) burr_ = (burr_ + 1) % parts_.burr_count;
+    was_next_pressed_ = next_pressed;
+    reading.burr = burr_;
+    reading.said_ns = host_.said_ns();
+    reading.session = host_.session();
+    reading.is_ready = (pose.status & OMB_READY) != 0;
+    notice_.store(reading.is_ready ? "" : "the arm says that it is not ready: is it calibrated, and held?",
+                  std::memory_order_relaxed);
+    readings_.publish();
+}
+
+void BridgeArm::tell_who_waits() {
+    if (has_joined_.load(std::memory_order_relaxed)) return;
+    const std::optional<double> round_trip_s = host_.round_trip_median_s();
+    if (!round_trip_s) return;
+    if (*round_trip_s > longest_delay_s) {
+        notice_.store("the arm is too far away: 3 ms there and back is the most that force bears",
+                      std::memory_order_relaxed);
+        return;
+    }
+    arm_ = *host_.arm();
+    host_.keep_arm();
+    round_trip_s_.store(*round_trip_s);
+    has_joined_.store(true, std::memory_order_release);
+}
+
+void BridgeArm::run() {
+    std::array<std::uint8_t, OMB_MESSAGE_BYTES + 1> buffer{};  // one more, so that what is too long is seen
+    PeerAddress from;
+    BridgeCounts before;
+    std::uint64_t asked_ns = 0;
+    while (!stops_.load(std::memory_order_relaxed)) {
+        const std::optional<std::size_t> bytes = socket_.receive(buffer, from, longest_wait_ms);
+        const std::uint64_t now_ns = omb_now_ns();
+        const bool has_force = forces_.refresh();
+        if (has_force) force_ns_ = now_ns;
+        if (bytes) {
+            if (host_.awaits_answer() == false) asked_ns = now_ns;
+            if (const auto welcome = host_.take(std::span(buffer).first(*bytes), from, now_ns))
+                socket_.send(*welcome, from);
+            if (host_.has_fresh_pose()) {
+                take_pose(now_ns);
+                tell_who_waits();
+            }
+        }
+        // The loop's next force knows of this pose, so that is what answers it; but it need not run.
+        const bool is_overdue = !is_driven(now_ns) || now_ns - asked_ns > longest_answer_ns;
+        if (host_.awaits_answer() && (has_force || is_overdue))
+            socket_.send(host_.answer(now_ns, wanted(now_ns)), host_.peer());
+        if (bytes && host_.has_fresh_pose()) continue;
+        const BridgeCounts& now = host_.counts();
+        if (host_.is_gone(now_ns))
+            notice_.store(*host_.refusal() != 0 ? host_.refusal()
+                          : now.refused != before.refused
+                              ? "no arm is heard; what comes has another key, version or session"
+                              : "no arm is heard: is its bridge running?",
+                          std::memory_order_relaxed);
+        else if (now.late != before.late)
+            notice_.store("the arm answers too late: over 50 ms there and back", std::memory_order_relaxed);
+        before = now;
+    }
+}
+
+}  // namespace osteomill

@@ -1,0 +1,52 @@
+// A socket for datagrams, on a path of this machine or on a UDP port. Closed, and its path removed, by its
+// destructor.
+#pragma once
+
+#include <sys/types.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+
+#include "devices/bridge/bridge_address.h"
+#include "devices/bridge/bridge_host.h"
+
+namespace osteomill {
+
+class DatagramSocket {
+  public:
+    /// Throws std::runtime_error in one line where it cannot be had: what is there already, what is missing.
+    /// A socket that a server left behind which was killed is taken over: one of this user, that only this
+    /// user may write to, as ours are, and that nobody listens at. Nothing else is ever removed, there or at
+    /// the end.
+    explicit DatagramSocket(const BridgeAddress& where);
+    ~DatagramSocket();
+    DatagramSocket(const DatagramSocket&) = delete;
+    DatagramSocket& operator=(const DatagramSocket&) = delete;
+
+    /// The port, where the system chose it.
+    const BridgeAddress& address() const { return where_; }
+
+    /// Waits for a datagram or for wake(), `longest_wait_ms` at most. The datagram's length, or the buffer's
+    /// if it is longer; nullopt: none came.
+    std::optional<std::size_t> receive(std::span<std::uint8_t> buffer, PeerAddress& from,
+                                       int longest_wait_ms) noexcept;
+
+    /// Ends a receive() of another thread, or the next. Real-time safe: one call of the system that never
+    /// waits.
+    void wake() noexcept;
+
+    /// What cannot be sent now is lost.
+    void send(std::span<const std::uint8_t> datagram, const PeerAddress& to) noexcept;
+
+  private:
+    BridgeAddress where_;
+    int socket_ = -1;
+    int wake_ = -1;  // an eventfd
+    // Of the path: at the end it may be another's.
+    dev_t path_device_ = 0;
+    ino_t path_inode_ = 0;
+};
+
+}  // namespace osteomill

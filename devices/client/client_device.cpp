@@ -1,0 +1,81 @@
+#include "devices/client/client_device.h"
+
+#include <glm/geometric.hpp>
+#include <utility>
+
+#include "common/bone/finite.h"
+#include "common/scene/device_mapping.h"
+
+namespace osteomill {
+
+ClientDevice::ClientDevice(OperatorChannel& commands, const ToolPose& start_pose,
+                           const DeviceMapping& mapping, const ArmModel& arm, const HandModel& hand,
+                           std::function<Time()> clock)
+    : commands_(commands),
+      mapping_(mapping),
+      arm_(arm),
+      held_arm_(arm, hand, position_in_device_mm(mapping, start_pose.position_mm)),
+      wanted_(start_pose),
+      target_(start_pose),
+      limit_(position_in_device_mm(mapping, start_pose.position_mm)),
+      clock_(std::move(clock)) {}
+
+void ClientDevice::take_over_command(double now_s) noexcept {
+    if (!commands_.refresh()) return;
+    const auto& [command, heard, client] = commands_.front();
+    const double axis_length = command ? glm::length(command->spindle_axis) : 0.0;
+    if (!command || !is_finite(command->hand_target_mm) || !std::isfinite(axis_length) ||
+        axis_length < 1e-6) {
+        permission_.withdraw();
+        pedal_ = {};
+        return;
+    }
+    permission_.renew(said_at(now_s, std::chrono::duration<double>(clock_() - heard).count()));
+    pedal_ = {.is_down = command->pedal, .said_s = permission_.renewed_s(), .speaker = client};
+    if (!permission_.holds(now_s)) return;
+    const glm::dvec3 target_mm = limit_.limited(position_in_device_mm(mapping_, command->hand_target_mm),
+                                                held_arm_.truth().position_mm(), now_s);
+    wanted_ = {position_in_patient_mm(mapping_, target_mm), command->spindle_axis / axis_length};
+    burr_ = command->burr;
+}
+
+void ClientDevice::end_permission() noexcept {
+    wanted_ = target_;
+    limit_.resume_at(position_in_device_mm(mapping_, target_.position_mm));
+}
+
+void ClientDevice::set_mapping(const DeviceMapping& mapping) noexcept {
+    const glm::dvec3 axis_in_device = direction_in_device(mapping_, target_.spindle_axis);
+    mapping_ = mapping;
+    target_ = {position_in_patient_mm(mapping_, held_arm_.truth().position_mm()),
+               direction_in_patient(mapping_, axis_in_device)};
+    permission_.withdraw();
+    pedal_ = {};
+    end_permission();
+}
+
+DeviceState ClientDevice::read(double now_s) noexcept {
+    // Also before a message is taken that comes with a tick that is late itself.
+    if (!permission_.holds(now_s)) end_permission();
+    take_over_command(now_s);
+    if (!permission_.holds(now_s)) end_permission();
+    const double elapsed_s = now_s - read_at_s_;
+    read_at_s_ = now_s;
+
+    const double share = elapsed_s / (target_filter_s + elapsed_s);
+    target_.position_mm += share * (wanted_.position_mm - target_.position_mm);
+
+    const glm::dvec3 axis = target_.spindle_axis + share * (wanted_.spindle_axis - target_.spindle_axis);
+    // Two opposite axes have no direction between them; the old one stays until the operator turns on.
+    if (glm::length(axis) > 1e-3) target_.spindle_axis = glm::normalize(axis);
+
+    const glm::dvec3 axis_in_device = direction_in_device(mapping_, target_.spindle_axis);
+    held_arm_.advance(now_s, position_in_device_mm(mapping_, target_.position_mm), axis_in_device);
+    return {.position_mm = held_arm_.sensor().position_mm(),
+            .velocity_mm_per_s = held_arm_.sensor().velocity_mm_per_s(),
+            .spindle_axis = axis_in_device,
+            .pedal = pedal_,
+            .burr = burr_};
+}
+
+}  // namespace osteomill

@@ -1,0 +1,66 @@
+// An arm that is not there, moved by an operator over the network: the mouse moves the hand's target, the
+// hand and arm model do the rest, so that the operator's tool yields to bone as an arm in a hand would.
+//
+// What an operator says is good for Permission::by_message_s after it was heard: without a fresh message the
+// hand stands still, whatever the network's threads do, and so does the spindle (safety/pedal_latch.h). And
+// it is held to what a hand does (TargetLimit): one message moves the tool by longest_reach_mm at the most.
+#pragma once
+
+#include <chrono>
+#include <functional>
+
+#include "common/scene/scene.h"
+#include "devices/client/target_limit.h"
+#include "devices/simulated/held_arm.h"
+#include "simulation/device/haptic_device.h"
+#include "simulation/device/permission.h"
+#include "simulation/exchange/operator_channel.h"
+
+namespace osteomill {
+
+class ClientDevice final : public HapticDevice {
+  public:
+    /// Mouse positions come some 60 times a second: the target follows them with this time constant.
+    static constexpr double target_filter_s = 0.04;
+
+    using Time = std::chrono::steady_clock::time_point;
+
+    /// Reads `commands` as its only reader. The arm starts at rest at `start_pose` (patient LPS). While no
+    /// operator is heard the hand holds its target. A command that is not finite counts as none. The burr
+    /// that targets are kept near is the arm's tip, but for what the coupling yields. `clock` is what
+    /// commands are dated by.
+    ClientDevice(
+        OperatorChannel& commands, const ToolPose& start_pose, const DeviceMapping& mapping,
+        const ArmModel& arm, const HandModel& hand,
+        std::function<Time()> clock = [] { return std::chrono::steady_clock::now(); });
+
+    std::string name() const override { return "operator over the network"; }
+    DeviceLimits limits() const override { return limits_of(arm_); }
+    void start() override {}
+    DeviceState read(double now_s) noexcept override;
+    void write(const glm::dvec3& force_n) noexcept override { held_arm_.set_motor_force(force_n); }
+    void stop() noexcept override { held_arm_.set_motor_force(glm::dvec3(0.0)); }
+    /// The hand stays where it is and holds still until the next command.
+    void set_mapping(const DeviceMapping& mapping) noexcept override;
+    /// What was clamped, once for each kind.
+    const char* notice() const noexcept override { return limit_.notice(); }
+
+  private:
+    void take_over_command(double now_s) noexcept;
+    void end_permission() noexcept;
+
+    OperatorChannel& commands_;
+    DeviceMapping mapping_;
+    ArmModel arm_;
+    HeldArm held_arm_;
+    ToolPose wanted_;  // patient LPS
+    ToolPose target_;  // on the way to wanted_
+    TargetLimit limit_;
+    Permission permission_;
+    PedalStatement pedal_;
+    std::function<Time()> clock_;
+    std::optional<std::size_t> burr_;
+    double read_at_s_ = 0.0;
+};
+
+}  // namespace osteomill

@@ -1,0 +1,43 @@
+// Haply's Inverse3 with a VerseGrip, as the loops see it; haply_link.h talks to it.
+#pragma once
+
+#include <functional>
+#include <string>
+
+#include "devices/haply/haply_link.h"
+#include "simulation/device/haptic_device.h"
+#include "simulation/device/permission.h"
+
+namespace osteomill {
+
+class HaplyArm final : public HapticDevice {
+  public:
+    /// Session time without a new reading after which the arm counts as lost.
+    static constexpr double longest_reading_age_s = 0.03;
+
+    /// Begins to look for the service.
+    explicit HaplyArm(HaplyLinkParts parts) : link_(std::move(parts)) {}
+
+    /// Waits until the arm is there and the delay to it has been measured, or `gives_up` says so: then false.
+    bool await(const std::function<bool()>& gives_up);
+
+    /// From a reading to the force that answers it: the way to the service and back, and the loop's tick.
+    double delay_s() const { return 0.001 + link_.round_trip_s().value_or(0.0); }
+    /// Device space.
+    glm::dvec3 workspace_middle_mm() const;
+
+    std::string name() const override { return "Haply Inverse3"; }
+    /// Of its stiffness what holds with the delay that was measured.
+    DeviceLimits limits() const override;
+    void start() override {}
+    DeviceState read(double now_s) noexcept override;
+    void write(const glm::dvec3& force_n) noexcept override { link_.write(force_n); }
+    void stop() noexcept override { link_.stop(); }
+    const char* notice() const noexcept override { return link_.notice(); }
+
+  private:
+    Permission permission_{longest_reading_age_s};
+    HaplyLink link_;
+};
+
+}  // namespace osteomill

@@ -1,0 +1,52 @@
+#include "devices/hid/device_list.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <set>
+#include <vector>
+
+#include "common/text/plain_text.h"
+#include "devices/hid/hid_arm.h"
+#include "devices/hid/profile_file.h"
+#include "devices/hid/space_mouse_report.h"
+
+namespace osteomill {
+
+namespace {
+
+/// What a device can be used as; empty for a keyboard and the like.
+std::string use_of(const HidDeviceInfo& device) {
+    std::vector<std::string> profiles;
+    for (const std::string& name : shipped_profile_names())
+        if (is_arm_of(load_arm_profile(name).usb, device)) profiles.push_back(name);
+    if (!profiles.empty())
+        return fmt::format("haptic arm: --device hid --device-profile {} or your own .toml",
+                           fmt::join(profiles, "|"));
+    return is_space_mouse(device) ? "3D mouse, moves the tool without a force: --device spacemouse" : "";
+}
+
+std::string readiness(HidTransport& transport, const HidDeviceInfo& device) {
+    try {
+        transport.open(device.path);
+        return fmt::format("{}: ready", device.path);
+    } catch (const HidOpenError& error) {
+        return error.what();
+    }
+}
+
+}  // namespace
+
+std::string device_list(HidTransport& transport) {
+    std::string text;
+    std::set<std::string> seen;  // a device with several uses is listed for each
+    for (const HidDeviceInfo& device : transport.list()) {
+        const std::string use = use_of(device);
+        if (use.empty() || !seen.insert(device.path).second) continue;
+        text += fmt::format("{:04x}:{:04x} {}\n    {}\n    {}\n", device.vendor_id, device.product_id,
+                            printable(device.product), use, readiness(transport, device));
+    }
+    return text.empty() ? "no haptic arm and no 3D mouse is plugged in\n" : text;
+}
+
+}  // namespace osteomill

@@ -1,0 +1,14 @@
+// What `haptic_server --list-devices` prints.
+#pragma once
+
+#include <string>
+
+#include "devices/hid/hid_transport.h"
+
+namespace osteomill {
+
+/// A line for each haptic arm and 3D mouse: where it is, what it is, and whether it can be opened or what
+/// would help. Tries to open each. One line where there is none.
+std::string device_list(HidTransport& transport);
+
+}  // namespace osteomill

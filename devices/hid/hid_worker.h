@@ -1,0 +1,72 @@
+// A thread that talks to a HID device: a USB device may take a millisecond to take a report, and opening one
+// takes many, so that the haptic loop leaves both to this thread. Finds the device again when it has been
+// unplugged.
+#pragma once
+
+#include <atomic>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "devices/hid/hid_transport.h"
+
+namespace osteomill {
+
+/// What is said on one connection, from plugging in to pulling out. Ends by its destructor.
+class HidConversation {
+  public:
+    virtual ~HidConversation() = default;
+
+    /// One exchange, which waits for the device for some milliseconds at most. False: the device is gone, and
+    /// whoever reads it has been told.
+    virtual bool exchange() noexcept = 0;
+
+    /// What people should know or do, a text that lives for ever; empty while all is well.
+    virtual const char* notice() const noexcept = 0;
+};
+
+struct HidWorkerParts {
+    HidTransport& transport;  ///< outlives the worker
+    /// Which of the devices is the one.
+    std::function<bool(const HidDeviceInfo&)> is_wanted;
+    /// For messages: "haptic arm (USB 1234:0006)".
+    std::string what;
+    std::function<std::unique_ptr<HidConversation>(std::unique_ptr<HidConnection>)> begin;
+    /// Called on the thread before anything else, such as to ask for real-time priority.
+    std::function<void()> on_thread_start = [] {};
+};
+
+class HidWorker {
+  public:
+    /// How often an unplugged device is looked for.
+    static constexpr int look_again_ms = 300;
+
+    explicit HidWorker(HidWorkerParts parts) : parts_(std::move(parts)) {}
+    ~HidWorker() { stop(); }
+
+    /// Opens the device and starts the thread. Throws std::runtime_error where there is none, HidOpenError
+    /// where it cannot be opened.
+    void start();
+
+    /// Ends the conversation and the thread. Safe in any state.
+    void stop() noexcept;
+
+    /// Any thread.
+    const char* notice() const noexcept { return notice_.load(std::memory_order_relaxed); }
+
+  private:
+    std::unique_ptr<HidConversation> open();
+    void look_again();
+    void run();
+
+    HidWorkerParts parts_;
+    std::unique_ptr<HidConversation> conversation_;  // of the thread, while it runs
+    std::atomic<const char*> notice_{""};
+    std::atomic<bool> stops_{false};
+    std::thread thread_;
+};
+
+}  // namespace osteomill

@@ -1,0 +1,62 @@
+// A haptic arm in a hand that follows a trajectory; no hardware. Deterministic: what it reads depends on the
+// trajectory, the forces written and the times of reading, and on nothing else.
+//
+// The hand waits for its tool. Somebody who drills does not let the intent run centimetres ahead of a burr
+// that hard bone holds back, but feeds more slowly: trajectory time passes at a pace that falls with the
+// distance e between target and tool,
+//
+//     d(trajectory time)/dt = clamp((e_slowest - e) / (e_slowest - e_full), slowest_pace, 1)
+#pragma once
+
+#include <atomic>
+
+#include "common/scene/scene.h"
+#include "devices/simulated/held_arm.h"
+#include "devices/simulated/trajectory.h"
+#include "simulation/device/haptic_device.h"
+
+namespace osteomill {
+
+class SimulatedDevice final : public HapticDevice {
+  public:
+    /// A hand holds its line to about a millimetre without slowing down, and does not push on three away.
+    static constexpr double full_pace_within_mm = 1.0;
+    static constexpr double slowest_pace_from_mm = 3.0;
+    /// Never zero, so that every trajectory ends: against a wall after twenty times its duration.
+    static constexpr double slowest_pace = 0.05;
+
+    /// The trajectory is in patient space; `mapping` takes it to device space. The arm starts at rest where
+    /// the trajectory begins.
+    SimulatedDevice(Trajectory trajectory, const DeviceMapping& mapping, const ArmModel& arm,
+                    const HandModel& hand);
+
+    std::string name() const override { return "simulated arm"; }
+    DeviceLimits limits() const override { return limits_of(arm_); }
+    void start() override {}
+    /// The script's pedal is up before the session: at time 0.
+    DeviceState read(double now_s) noexcept override;
+    void write(const glm::dvec3& force_n) noexcept override { held_arm_.set_motor_force(force_n); }
+    void stop() noexcept override { held_arm_.set_motor_force(glm::dvec3(0.0)); }
+
+    /// Whether the trajectory has been followed to its end. Any thread.
+    bool is_finished() const noexcept { return is_finished_.load(std::memory_order_relaxed); }
+
+    /// How much of the trajectory has been followed, 0 to 1; 0 of one that never ends. Only from the thread
+    /// that reads.
+    double done() const noexcept { return trajectory_time_s_ / trajectory_.duration_s(); }
+
+    const HeldArm& held_arm() const { return held_arm_; }
+
+  private:
+    double pace(const glm::dvec3& target_in_device_mm) const noexcept;
+
+    Trajectory trajectory_;
+    DeviceMapping mapping_;
+    ArmModel arm_;
+    HeldArm held_arm_;
+    double read_at_s_ = 0.0;
+    double trajectory_time_s_ = 0.0;
+    std::atomic<bool> is_finished_{false};
+};
+
+}  // namespace osteomill

@@ -1,0 +1,52 @@
+// A handpiece that a tracker sees: the burr is where the hand holds it, and no force goes back. Device space
+// is the tracker's. What comes is played back as sampled_motion.h says.
+//
+// The pedal of a STRING message holds for Permission::by_message_s after each; so whoever sends it repeats
+// it. Pressed, it counts as late as the motion is played, or it would cut what the hand passed before;
+// released, at once. Where there is no pedal (one that is always down), to be seen is the permission: it
+// comes up for a moment where the tool has come back, since a spindle does not start by itself after that
+// (safety/pedal_latch.h).
+#pragma once
+
+#include <functional>
+#include <string>
+
+#include "devices/tracker/sampled_motion.h"
+#include "devices/tracker/tracker_file.h"
+#include "devices/tracker/tracker_receiver.h"
+#include "simulation/device/haptic_device.h"
+#include "simulation/device/permission.h"
+
+namespace osteomill {
+
+class TrackedTool final : public HapticDevice {
+  public:
+    /// How long a pedal that is always down is up when the tool has come back.
+    static constexpr double released_s = 0.1;
+
+    /// `start_pose` in device space: where it is said to be before it was ever seen.
+    TrackedTool(TrackerReceiver::Parts parts, TrackedHandpiece handpiece, const ToolPose& start_pose);
+
+    std::string name() const override { return "tracked handpiece"; }
+    /// The force is computed and shown, as large as an arm would give it.
+    DeviceLimits limits() const override { return {.gives_force = false}; }
+    void start() override { receiver_.start(); }
+    DeviceState read(double now_s) noexcept override;
+    void write(const glm::dvec3&) noexcept override {}
+    void stop() noexcept override { receiver_.stop(); }
+    const char* notice() const noexcept override { return receiver_.notice(); }
+
+  private:
+    void take(const TrackerReceiver::Item& item, double now_s) noexcept;
+
+    TrackedHandpiece handpiece_;
+    std::function<double()> clock_s_;
+    TrackerReceiver receiver_;
+    SampledMotion motion_;
+    PedalStatement pedal_;
+    bool was_there_ = false;
+    double came_back_s_ = 0.0;
+    DeviceState state_;
+};
+
+}  // namespace osteomill

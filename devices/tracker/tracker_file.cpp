@@ -1,0 +1,103 @@
+#include "devices/tracker/tracker_file.h"
+
+#include <fmt/format.h>
+
+#include <glm/geometric.hpp>
+#include <optional>
+#include <stdexcept>
+#include <utility>
+
+#include "common/scene/scene_file.h"
+#include "common/scene/shallow_toml.h"
+#include "common/scene/toml_reader.h"
+#include "devices/tracker/transform_stream.h"
+
+namespace osteomill {
+
+namespace {
+
+constexpr AllowedRange residual_range_mm{0.01, 20.0};
+constexpr double usual_residual_mm = 2.0;
+/// A tool is held in one hand.
+constexpr double longest_tool_mm = 1000.0;
+
+glm::dvec3 vector_within(TomlReader& reader, std::string_view key, double most_mm) {
+    const glm::dvec3 value = required(reader, key, reader.vector(key));
+    if (!(glm::length(value) <= most_mm))
+        reader.fail(key, fmt::format("'{}' must lie within {:g} mm", key, most_mm));
+    return value;
+}
+
+TrackedHandpiece read_tool(TomlReader reader) {
+    TrackedHandpiece tool;
+    tool.burr_centre_mm = vector_within(reader, "burr_centre_mm", longest_tool_mm);
+    tool.spindle_axis = required(reader, "spindle_axis", reader.direction("spindle_axis"));
+    reader.refuse_other_keys();
+    return tool;
+}
+
+std::string read_pedal(TomlReader reader) {
+    const std::optional<std::string> string = reader.text("string");
+    const std::optional<bool> always = reader.truth("always");
+    reader.refuse_other_keys();
+    if (string.has_value() == always.value_or(false))
+        reader.fail("string",
+                    "[pedal] takes one of 'string', the name of a STRING message, and 'always = true'");
+    if (string && (string->empty() || string->size() > TransformStream::longest_name))
+        reader.fail("string", fmt::format("'string' is a device name of 1 to {} characters",
+                                          TransformStream::longest_name));
+    return string.value_or("");
+}
+
+double read_limit(TomlReader reader) {
+    const double limit_mm =
+        reader.number("largest_residual_mm", residual_range_mm).value_or(usual_residual_mm);
+    reader.refuse_other_keys();
+    return limit_mm;
+}
+
+}  // namespace
+
+TrackerSetup parse_tracker_setup(std::string_view toml, const std::string& name) {
+    toml::table root;
+    try {
+        require_shallow_toml(toml, name);
+        root = toml::parse(toml);
+    } catch (const toml::parse_error& error) {
+        throw SceneError(fmt::format("{}:{}: {}", name, error.source().begin.line, error.description()));
+    }
+    TomlReader reader(root, name, "the tracker's file");
+    TrackerSetup setup;
+    setup.handpiece = read_tool(required(reader, "tool", reader.table("tool")));
+    setup.handpiece.pedal = read_pedal(required(reader, "pedal", reader.table("pedal")));
+    double limit_mm = usual_residual_mm;
+    if (auto table = reader.table("registration")) limit_mm = read_limit(*std::move(table));
+    for (TomlReader& point : reader.tables("points")) {
+        PointPair pair;
+        pair.name = point.text("name").value_or(fmt::format("{}", setup.points.size() + 1));
+        pair.tracker_mm = required(point, "tracker_mm", point.place("tracker_mm"));
+        pair.patient_mm = required(point, "patient_mm", point.place("patient_mm"));
+        point.refuse_other_keys();
+        setup.points.push_back(std::move(pair));
+    }
+    reader.refuse_other_keys();
+    try {
+        setup.registration = registered(setup.points, limit_mm);
+    } catch (const std::invalid_argument& error) {
+        throw SceneError(fmt::format("{}: {}", name, error.what()));
+    }
+    return setup;
+}
+
+TrackerSetup read_tracker_setup(const std::filesystem::path& path) {
+    return parse_tracker_setup(read_toml_text(path, "a tracker registration"), path.string());
+}
+
+std::string residual_line(const TrackerSetup& setup) {
+    const PointRegistration& fit = setup.registration;
+    return fmt::format("registered by {} points: residual {:.2f} mm (rms), {:.2f} mm at the most, at '{}'",
+                       setup.points.size(), fit.rms_mm, fit.residual_mm[fit.worst],
+                       setup.points[fit.worst].name);
+}
+
+}  // namespace osteomill

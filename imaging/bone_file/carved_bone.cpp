@@ -1,0 +1,285 @@
+#include "imaging/bone_file/carved_bone.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <sstream>
+#include <stdexcept>
+#include <utility>
+#include <vector>
+
+#include "common/bone/bone_builder.h"
+#include "imaging/bone_file/bone_picture.h"
+#include "imaging/bone_file/saved_set.h"
+#include "imaging/imaging_error.h"
+
+namespace osteomill {
+
+namespace {
+
+constexpr const char* bricks_key = "osteomill_carved_bricks";
+constexpr const char* bone_grid_key = "osteomill_bone_grid";
+constexpr const char* fraction_digest_key = "osteomill_fraction_digest";
+constexpr const char* stiffness_digest_key = "osteomill_stiffness_digest";
+constexpr const char* tissue_digest_key = "osteomill_tissue_digest";
+
+using KeyValues = std::map<std::string, std::string>;
+
+bool has_fraction(BrickFractions fractions) {
+    return std::any_of(fractions.begin(), fractions.end(), [](std::uint8_t f) { return f != 0; });
+}
+
+/// What stands before the voxels for one brick.
+struct BrickRecord {
+    BrickIndex brick = 0;
+    ByteBrick fraction{};
+    ByteBrick stiffness{};
+    ByteBrick tissue{};
+};
+
+/// Which of the channels are there; calls visit with the bytes of each, in their order in the file.
+struct RecordLayout {
+    bool has_stiffness = false;
+    bool has_tissue = false;
+
+    std::uint64_t bytes() const {
+        return sizeof(BrickIndex) +
+               brick_voxel_count * (1u + (has_stiffness ? 1u : 0u) + (has_tissue ? 1u : 0u));
+    }
+    template <typename Record, typename Visit>
+    void for_each_part(Record& record, const Visit& visit) const {
+        visit(std::span(&record.brick, 1));
+        visit(std::span(record.fraction));
+        if (has_stiffness) visit(std::span(record.stiffness));
+        if (has_tissue) visit(std::span(record.tissue));
+    }
+};
+
+struct ChannelDigests {
+    Digest fraction;  ///< and which bricks they belong to
+    Digest stiffness;
+    Digest tissue;
+
+    void add(const BrickRecord& record, const RecordLayout& layout) {
+        fraction.add(std::as_bytes(std::span(&record.brick, 1)));
+        fraction.add(std::as_bytes(std::span(record.fraction)));
+        if (layout.has_stiffness) stiffness.add(std::as_bytes(std::span(record.stiffness)));
+        if (layout.has_tissue) tissue.add(std::as_bytes(std::span(record.tissue)));
+    }
+};
+
+/// Calls visit(record) for every brick of which anything is left, ascending.
+template <typename Visit>
+void for_each_record(const Bone& bone, const RecordLayout& layout, const Visit& visit) {
+    const BoneContent& content = bone.content();
+    BrickRecord record;
+    for (std::size_t slot = 0; slot < bone.stored_bricks(); ++slot) {
+        const auto left = bone.fractions(static_cast<std::int32_t>(slot));
+        if (!has_fraction(left)) continue;
+        record.brick = content.brick_of_slot[slot];
+        std::copy(left.begin(), left.end(), record.fraction.begin());
+        if (layout.has_stiffness) record.stiffness = content.stiffness[slot];
+        if (layout.has_tissue) record.tissue = content.tissue[slot];
+        visit(std::as_const(record));
+    }
+}
+
+/// Keys of all but the HU.
+KeyValues describe(const Bone& bone, const RecordLayout& layout, std::uint64_t& bricks) {
+    ChannelDigests digests;
+    bricks = 0;
+    for_each_record(bone, layout, [&](const BrickRecord& record) {
+        digests.add(record, layout);
+        ++bricks;
+    });
+    KeyValues keys{{bricks_key, fmt::format("{}", bricks)},
+                   {bone_checksum_key, bone_checksum_text(bone)},
+                   {fraction_digest_key, digests.fraction.text()}};
+    if (layout.has_stiffness) {
+        keys[stiffness_per_code_key] = fmt::format("{}", bone.content().stiffness_per_code);
+        keys[stiffness_digest_key] = digests.stiffness.text();
+    } else {
+        keys[homogeneous_stiffness_key] = fmt::format("{}", bone.content().homogeneous_stiffness);
+    }
+    if (layout.has_tissue) keys[tissue_digest_key] = digests.tissue.text();
+    return keys;
+}
+
+/// Sets what was milled away to air in the layer of slices from `first_z` on, which bricks begin with.
+///
+/// Only bone can have been milled away: air and soft tissue have no fraction to lose, and what is stored with
+/// fraction 0 outside bone is told from it by the stiffness code that only bone has.
+void clear_milled(const Bone& bone, int first_z, std::span<std::int16_t> hu) {
+    const Grid& grid = bone.grid();
+    const BoneContent& content = bone.content();
+    const auto per_layer =
+        static_cast<BrickIndex>(content.size_bricks.x) * static_cast<BrickIndex>(content.size_bricks.y);
+    const BrickIndex first = per_layer * static_cast<BrickIndex>(first_z / brick_edge_voxels);
+    auto slot = static_cast<std::size_t>(
+        std::lower_bound(content.brick_of_slot.begin(), content.brick_of_slot.end(), first) -
+        content.brick_of_slot.begin());
+    for (; slot < bone.stored_bricks() && content.brick_of_slot[slot] - first < per_layer; ++slot) {
+        const auto left = bone.fractions(static_cast<std::int32_t>(slot));
+        const glm::ivec3 corner =
+            brick_position(content.size_bricks, content.brick_of_slot[slot]) * brick_edge_voxels;
+        for (std::size_t offset = 0; offset < brick_voxel_count; ++offset) {
+            const bool was_bone = content.stiffness.empty() || content.stiffness[slot][offset] != 0;
+            if (left[offset] != 0 || !was_bone) continue;
+            const glm::ivec3 voxel = corner + voxel_in_brick(offset);
+            if (!contains(grid, voxel)) continue;
+            hu[static_cast<std::size_t>(voxel.x) +
+               static_cast<std::size_t>(grid.size_voxels.x) *
+                   (static_cast<std::size_t>(voxel.y) + static_cast<std::size_t>(grid.size_voxels.y) *
+                                                            static_cast<std::size_t>(voxel.z - first_z))] =
+                milled_away_hu;
+        }
+    }
+}
+
+/// What is done to slices that were read, from `first_z` on.
+using ChangeSlices = std::function<void(int first_z, std::span<std::int16_t> hu)>;
+
+/// The bone, and behind it the slices as `change` leaves them.
+void save(const std::filesystem::path& path, const Bone& bone, const HuSlices& slices,
+          const ChangeSlices& change, const KeyValues& more_keys, const ReportProgress& report) {
+    const RecordLayout layout{.has_stiffness = !bone.content().stiffness.empty(),
+                              .has_tissue = !bone.content().tissue.empty()};
+    std::uint64_t bricks = 0;
+    KeyValues key_values = describe(bone, layout, bricks);
+    key_values.insert(more_keys.begin(), more_keys.end());
+
+    const std::vector<std::filesystem::path> outdated = files_of_saved_set(path);
+    BoneFileWriter writer(path, slices.grid, std::move(key_values), bricks * layout.bytes());
+    for_each_record(bone, layout, [&](const BrickRecord& record) {
+        layout.for_each_part(record,
+                             [&](const auto& part) { writer.add_before_voxels(std::as_bytes(part)); });
+    });
+    const auto slice = static_cast<std::size_t>(voxels_of_slice(slices.grid));
+    const int end = slices.grid.size_voxels.z;
+    const auto layer_slices = static_cast<std::size_t>(std::min(end, brick_edge_voxels));
+    std::vector<std::int16_t> layer(slice * layer_slices);
+    std::vector<std::uint8_t> labels(slices.labelled ? layer.size() : 0);  // which are made with the HU
+    for (int z = 0; z < end; z += brick_edge_voxels) {
+        const std::size_t voxels = slice * static_cast<std::size_t>(std::min(end - z, brick_edge_voxels));
+        const auto hu = std::span(layer).first(voxels);
+        slices.read(hu, std::span(labels).first(slices.labelled ? voxels : 0));
+        change(z, hu);
+        writer.add(hu);
+        report(static_cast<double>(z) / end);
+    }
+    writer.commit();
+    report(1.0);
+    for (const std::filesystem::path& file : outdated) {
+        std::error_code ignored;
+        std::filesystem::remove(file, ignored);
+    }
+}
+
+std::string text_of(const Grid& grid) {
+    return fmt::format("{} {} {} {} {} {} {}", grid.size_voxels.x, grid.size_voxels.y, grid.size_voxels.z,
+                       grid.spacing_mm, grid.origin_mm.x, grid.origin_mm.y, grid.origin_mm.z);
+}
+
+/// Of the bone, which is finer than that of the file's voxels where those are a picture of it.
+Grid bone_grid_of(const BoneFile& file) {
+    if (!file.key_values().contains(bone_grid_key)) return file.grid();
+    Grid grid;
+    std::istringstream text(file.value(bone_grid_key));
+    text >> grid.size_voxels.x >> grid.size_voxels.y >> grid.size_voxels.z >> grid.spacing_mm >>
+        grid.origin_mm.x >> grid.origin_mm.y >> grid.origin_mm.z;
+    try {
+        require_valid(grid);
+    } catch (const std::invalid_argument& error) {
+        throw ImagingError(file.path(), fmt::format("damaged: {}: {}", bone_grid_key, error.what()));
+    }
+    if (text.fail() || picture_grid(grid).size_voxels != file.grid().size_voxels)
+        throw ImagingError(file.path(), fmt::format("damaged: {}:={} is not the grid of a bone that its "
+                                                    "voxels show",
+                                                    bone_grid_key, file.value(bone_grid_key)));
+    return grid;
+}
+
+}  // namespace
+
+void save_carved_bone(const std::filesystem::path& path, const HuSlices& source, const Bone& bone,
+                      const KeyValues& key_values, const ReportProgress& report) {
+    if (source.grid != bone.grid())
+        throw std::invalid_argument(
+            "the carved bone does not lie on the grid of the volume it was built from");
+    save(
+        path, bone, source, [&](int z, std::span<std::int16_t> hu) { clear_milled(bone, z, hu); }, key_values,
+        report);
+}
+
+void save_carved_bone(const std::filesystem::path& path, const Bone& bone, KeyValues key_values,
+                      const ReportProgress& report) {
+    const HuSlices picture = picture_of(bone);
+    if (picture.grid != bone.grid()) key_values[bone_grid_key] = text_of(bone.grid());
+    save(
+        path, bone, picture, [](int, std::span<std::int16_t>) {}, key_values, report);
+}
+
+bool is_carved(const BoneFile& file) {
+    return file.key_values().contains(bricks_key) || is_saved_set(file);
+}
+
+namespace {
+
+BoneBuilder builder_for(const BoneFile& file, const Grid& grid, const RecordLayout& layout) {
+    return layout.has_stiffness
+               ? BoneBuilder::heterogeneous(grid, number_of_key(file, stiffness_per_code_key),
+                                            layout.has_tissue)
+               : BoneBuilder::homogeneous(grid, number_of_key(file, homogeneous_stiffness_key),
+                                          layout.has_tissue);
+}
+
+}  // namespace
+
+RestoredBone restore_carved_bone(const BoneFile& file) {
+    if (is_saved_set(file)) return restore_saved_set(file);
+    const RecordLayout layout{.has_stiffness = file.key_values().contains(stiffness_digest_key),
+                              .has_tissue = file.key_values().contains(tissue_digest_key)};
+    const auto bricks =
+        static_cast<std::uint64_t>(std::strtoull(file.value(bricks_key).c_str(), nullptr, 10));
+    if (bricks * layout.bytes() != file.form().bytes_before_voxels)
+        throw ImagingError(file.path(), fmt::format("damaged: {}:={} does not fit its byte skip of {}",
+                                                    bricks_key, bricks, file.form().bytes_before_voxels));
+    NrrdData data = file.data();
+    ChannelDigests digests;
+    const Grid grid = bone_grid_of(file);
+    BoneBuilder builder = builder_for(file, grid, layout);
+    const glm::ivec3 size_bricks = size_in_bricks(grid);
+    std::string misplaced;
+    for (std::uint64_t i = 0; i < bricks; ++i) {
+        BrickRecord record;
+        layout.for_each_part(
+            record, [&](const auto& part) { data.read_before_voxels(std::as_writable_bytes(part)); });
+        digests.add(record, layout);
+        try {
+            builder.add_brick(brick_position(size_bricks, record.brick), record.fraction, &record.stiffness,
+                              &record.tissue);
+        } catch (const std::invalid_argument& error) {
+            misplaced = error.what();  // the digest says it better
+        }
+    }
+    require_digest(file, fraction_digest_key, digests.fraction, "fractions (what is left of each voxel) are");
+    if (layout.has_stiffness)
+        require_digest(file, stiffness_digest_key, digests.stiffness, "stiffness codes are");
+    if (layout.has_tissue) require_digest(file, tissue_digest_key, digests.tissue, "tissue labels are");
+    if (!misplaced.empty()) throw ImagingError(file.path(), "damaged: " + misplaced);
+    HuReader hu(file, std::move(data));
+    hu.read_to_end();
+    try {
+        Bone bone = std::move(builder).build();
+        require_bone_checksum(file, bone);
+        return {std::move(bone), hu.digest()};
+    } catch (const std::invalid_argument& error) {
+        throw ImagingError(file.path(), std::string("damaged: ") + error.what());
+    }
+}
+
+}  // namespace osteomill

@@ -1,0 +1,61 @@
+// A carved bone as one file: what is left of it can be looked at in 3D Slicer, and loaded again bit for bit.
+//
+// HU alone cannot give the bone back: fractions have 255 levels that no HU tells, and the stiffness of a
+// voxel on the surface was taken from neighbours that may be gone. So the codes are kept as they were, in the
+// same file, since two files can be parted, and cannot be renamed at once. NRRD has room for them: "byte
+// skip" says how many decoded bytes of the gzip stream stand before the voxels, and readers (teem, which is
+// what ITK and 3D Slicer read with, pynrrd) pass over them.
+//
+//   before the voxels   for each brick of which anything is left, ascending: its index (32 bits, little
+//                       endian), 4096 fractions, 4096 stiffness codes if the bone is heterogeneous, 4096
+//                       labels if it is labelled
+//   voxels              HU of the source; -1000 where a voxel was milled away entirely. Without a source, a
+//                       picture of the bone, whose voxels may be longer than the bone's
+//   keys                how many bricks, the scale of the codes, the bone's checksum, its grid where that is
+//                       not the voxels', and a digest of each channel besides those of every bone file
+//                       (hu_file.h)
+//
+// What 0.1 saved is read, too: FILE.nrrd with the HU, and beside it what its keys name, as dense volumes:
+// FILE.fraction.nrrd, FILE.stiffness.nrrd of a heterogeneous bone, FILE.tissue.nrrd of a labelled one.
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <string>
+
+#include "common/bone/bone.h"
+#include "imaging/bone_file/hu_file.h"
+#include "imaging/bone_file/saved_set.h"
+#include "imaging/hu_slices.h"
+#include "imaging/hu_volume.h"
+#include "imaging/progress.h"
+
+namespace osteomill {
+
+/// HU of a voxel of which nothing is left.
+inline constexpr std::int16_t milled_away_hu = air_hu;
+
+/// Writes the file beside `path` and switches to it at once; what a 0.1 set held besides is removed then.
+/// `source` gives what `bone` was built from; `key_values` go with it (the threshold among them). Throws
+/// std::invalid_argument where the grids differ, ImagingError where the file cannot be written; what stood
+/// under the name is then as it was, as it is when `source` throws.
+void save_carved_bone(
+    const std::filesystem::path& path, const HuSlices& source, const Bone& bone,
+    const std::map<std::string, std::string>& key_values = {}, const ReportProgress& report = [](double) {});
+
+/// The same for a bone that no CT numbers were made for, or whose source is gone: the voxels are a picture of
+/// it, on a grid of longer voxels where its own is large (bone_picture.h).
+void save_carved_bone(
+    const std::filesystem::path& path, const Bone& bone, std::map<std::string, std::string> key_values = {},
+    const ReportProgress& report = [](double) {});
+
+/// Whether a bone file was written by save_carved_bone.
+bool is_carved(const BoneFile& file);
+
+/// The bone that was saved: equal checksum, and equal stiffness and labels wherever anything is left. The
+/// scene's threshold and stiffness relation play no part: what was carved keeps the codes that it had. Reads
+/// all of the file, the HU, too. Throws ImagingError in one line that names the channel where a digest is not
+/// the one saved, and where a 0.1 set lacks a file or has one of another grid or carving.
+RestoredBone restore_carved_bone(const BoneFile& file);
+
+}  // namespace osteomill

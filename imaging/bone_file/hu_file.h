@@ -1,0 +1,98 @@
+// A bone file: CT numbers on the bone's own grid, as bone_import writes and haptic_server loads.
+//
+// Its header holds a digest of the CT numbers, and one of itself: of sizes, spacing, origin and all keys that
+// begin with osteomill_. So one flipped bit is refused, even where gzip's CRC was made after it flipped.
+// Files from elsewhere have none and are taken as they are.
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <span>
+#include <string>
+
+#include "imaging/bone_file/digest.h"
+#include "imaging/bone_file/nrrd_file.h"
+#include "imaging/bone_file/nrrd_writer.h"
+#include "imaging/hu_slices.h"
+
+namespace osteomill {
+
+/// Key under which a bone file says from which HU on there is bone.
+inline constexpr const char* threshold_key = "osteomill_threshold_hu";
+inline constexpr const char* hu_digest_key = "osteomill_hu_digest";
+inline constexpr const char* header_digest_key = "osteomill_header_digest";
+
+/// Opened: the header is read and held against its digest, the voxels are not.
+class BoneFile {
+  public:
+    /// Throws ImagingError in one line for anything but an int16 NRRD on an isotropic, axis-aligned LPS grid;
+    /// where the image is merely of another form the line says to run bone_import.
+    explicit BoneFile(const std::filesystem::path& path);
+
+    const std::filesystem::path& path() const { return file_.path(); }
+    const Grid& grid() const { return file_.form().grid; }
+    const NrrdForm& form() const { return file_.form(); }
+    const std::map<std::string, std::string>& key_values() const { return file_.form().key_values; }
+    /// Of threshold_key; absent where the file has none.
+    const std::optional<double>& threshold_hu() const { return threshold_hu_; }
+    /// Throws ImagingError, naming the key, where it is missing.
+    const std::string& value(const char* key) const;
+
+    NrrdData data() const { return file_.data(); }
+
+  private:
+    NrrdFile file_;
+    std::optional<double> threshold_hu_;
+};
+
+/// Throws ImagingError, "its WHAT damaged: digest ..., not the ... that was saved" (WHAT: "CT
+/// numbers are"), where the file holds
+/// another digest under `key`; a file without that key has nothing to hold it against.
+void require_digest(const BoneFile& file, const char* key, const Digest& digest, const std::string& what);
+
+/// The CT numbers of a bone file, from the first slice on.
+class HuReader {
+  public:
+    /// Passes over what stands before the voxels.
+    explicit HuReader(const BoneFile& file);
+    /// From `data`, which stands at the first voxel.
+    HuReader(const BoneFile& file, NrrdData data);
+
+    /// The next slices, as many as there is room for. With the last one, what was read is held against gzip's
+    /// CRC and the digest. Throws ImagingError.
+    void read(std::span<std::int16_t> hu);
+    void read_to_end();
+    /// Of what has been read.
+    std::string digest() const { return digest_.text(); }
+
+  private:
+    const BoneFile& file_;
+    NrrdData data_;
+    Digest digest_;
+    std::uint64_t left_;  // voxels
+};
+
+/// The same, to build from. Both must outlive what is given back.
+HuSlices slices_of(HuReader& reader, const BoneFile& file);
+
+/// Writes a bone file as a stream, with its digests; see NrrdWriter for how and what is thrown.
+class BoneFileWriter {
+  public:
+    BoneFileWriter(const std::filesystem::path& path, const Grid& grid,
+                   std::map<std::string, std::string> key_values, std::uint64_t bytes_before_voxels = 0);
+
+    void add_before_voxels(std::span<const std::byte> bytes) { writer_->add(bytes); }
+    void add(std::span<const std::int16_t> hu);
+    void commit();
+
+  private:
+    NrrdForm form_;
+    Digest hu_digest_;
+    std::optional<NrrdWriter> writer_;
+};
+
+/// "300" for 300.0: how a threshold is written under threshold_key.
+std::string threshold_text(double threshold_hu);
+
+}  // namespace osteomill

@@ -1,0 +1,23 @@
+// How much bone was removed by tissue, as a saved bone says of all sessions before: what is gone can no
+// longer be counted.
+#pragma once
+
+#include <array>
+#include <string>
+
+#include "imaging/bone_file/hu_file.h"
+
+namespace osteomill {
+
+/// mm^3, index: tissue label; 0 holds what has none.
+using VolumesByTissue = std::array<double, 256>;
+
+inline constexpr const char* removed_key = "osteomill_removed_mm3";
+
+/// "0:1.25 7:0.5": label and mm^3 of whatever is above 0, ascending.
+std::string text_of_removed(const VolumesByTissue& removed_mm3);
+
+/// Nothing where the file does not tell. Throws ImagingError where what it tells makes no sense.
+VolumesByTissue removed_before_mm3(const BoneFile& file);
+
+}  // namespace osteomill

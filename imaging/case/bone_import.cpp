@@ -1,0 +1,284 @@
+// bone_import: a scan in, a bone file out.
+#include <CLI/CLI.hpp>
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
+#include <exception>
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "common/program/option_checks.h"
+#include "common/program/program_output.h"
+#include "common/program/stop_signals.h"
+#include "common/scene/tissue_tables.h"
+#include "common/text/plain_text.h"
+#include "imaging/case/case_folder.h"
+#include "imaging/case/scan_preview.h"
+#include "imaging/formats/picture_stack.h"
+#include "imaging/import_bone.h"
+#include "imaging/memory_estimate.h"
+#include "imaging/segmentation/bone_of_labels.h"
+#include "imaging/segmentation/segmentation.h"
+#include "imaging/segmentation/segmentation_file.h"
+
+namespace {
+
+constexpr int exit_failure = 1;
+constexpr int exit_usage = 2;
+
+/// Option texts that have a form of their own; std::invalid_argument says what is wrong with one.
+struct Texts {
+    std::string region;
+    std::string case_folder;
+    osteomill::CaseParts parts;
+    std::vector<std::string> labels;
+    std::vector<std::string> segmentations;
+    std::vector<std::string> materials;
+    std::string stack_spacing;
+    std::string colours;
+    std::string target;
+    std::string preview;
+    std::string rescale;
+    std::string intensity_window;
+    std::string series;
+    double threshold_hu = 0.0;
+};
+
+constexpr double preview_spacing_mm = 0.5;
+
+/// The scan, or the bone of labels where there is none.
+void import(const osteomill::ImportOptions& options, const osteomill::BegunCase& begun,
+            const osteomill::ImportSurroundings& surroundings, bool is_to_look_at) {
+    if (begun.labels == 0) return osteomill::import_bone(options, surroundings);
+    osteomill::import_bone(options, osteomill::scan_of_labels(begun, surroundings.messages, is_to_look_at),
+                           surroundings);
+}
+
+/// A new folder beside a file, gone with this.
+class ScratchFolder {
+  public:
+    explicit ScratchFolder(const std::filesystem::path& file) : path_(file.string() + ".XXXXXX") {
+        if (::mkdtemp(path_.data()) == nullptr)
+            throw std::runtime_error(file.string() + ": cannot be written: " + std::strerror(errno));
+    }
+    ~ScratchFolder() {
+        std::error_code ignored;
+        std::filesystem::remove_all(path_, ignored);
+    }
+    ScratchFolder(const ScratchFolder&) = delete;
+    ScratchFolder& operator=(const ScratchFolder&) = delete;
+
+    std::filesystem::path path() const { return path_; }
+
+  private:
+    std::string path_;
+};
+
+/// The whole scan, coarse, by way of a file that is gone afterwards.
+void preview(osteomill::ImportOptions options, const osteomill::BegunCase& begun,
+             const std::filesystem::path& picture, const osteomill::ImportSurroundings& surroundings) {
+    const std::optional<osteomill::Region> region = std::exchange(options.region, std::nullopt);
+    options.threshold_hu.reset();
+    const ScratchFolder scratch(picture);
+    options.output = scratch.path() / "coarse.nrrd";
+    import(options, begun, surroundings, true);
+    const osteomill::CtVolume ct = osteomill::whole_ct(options.output);
+    surroundings.messages << osteomill::summary_of(ct);
+    osteomill::write_preview(ct, region, picture);
+    for (const auto& segmentation : begun.segmentations)
+        for (const osteomill::Segment& segment : segmentation->segments)
+            surroundings.messages << "segment " << segment.name << '\n';
+    surroundings.messages << "preview: " << picture.string() << '\n';
+}
+
+void add_options(CLI::App& app, osteomill::ImportOptions& options, Texts& texts) {
+    app.add_option("INPUT", options.input,
+                   "DICOM folder, a NRRD, NIfTI or MetaImage file, or a folder of PNG or TIFF pictures");
+    auto* output =
+        app.add_option("OUTPUT.nrrd", options.output, "bone file to write (int16 HU, patient LPS, gzip)");
+    app.add_option("--case", texts.case_folder,
+                   "folder to make a case in, instead: case.toml, bone.nrrd and the segmentation")
+        ->type_name("DIR")
+        ->excludes(output);
+    app.add_option("--preview", texts.preview,
+                   "instead of a bone: say what the scan covers and its HU, and draw three slices of it, at "
+                   "0.5 mm unless --spacing-mm says otherwise, with the --region")
+        ->type_name("PICTURE.png")
+        ->excludes(output)
+        ->excludes("--case");
+    osteomill::add_texts(
+        app, "--labels", texts.labels,
+        "in place of INPUT, with --case: bone is made of the segments of a label map that are bone "
+        "by their names, or by --material; a folder: all label maps in it, or a stack of pictures; "
+        "again for each further file")
+        ->type_name("FILE");
+    osteomill::add_texts(
+        app, "--material", texts.materials,
+        "what a segment is made of (scenes/materials.toml), such as \"Tooth 36=enamel\"; NAME=soft: "
+        "no bone; again for each further one")
+        ->type_name("NAME=MATERIAL");
+    app.add_option(
+           "--stack-spacing", texts.stack_spacing,
+           "x,y,z in mm: of pixels and slices, where INPUT or labels are a stack of PNG or TIFF pictures")
+        ->type_name("X,Y,Z");
+    osteomill::add_texts(app, "--segmentation", texts.segmentations,
+                         "with --case: tissues, as 3D Slicer writes them (.seg.nrrd), or a label map (NRRD, "
+                         "NIfTI); again for each further file; with --preview their names are said")
+        ->type_name("FILE");
+    app.add_option(
+           "--colours", texts.colours,
+           "names and colours of a label map's labels: a colour table of 3D Slicer (.ctbl) or ITK-SNAP")
+        ->type_name("FILE");
+    osteomill::add_texts(
+        app, "--protect", texts.parts.is_protected,
+        "with --segmentation: a segment that must not be touched; again for each further one")
+        ->type_name("NAME");
+    app.add_option("--warn-mm", texts.parts.warn_mm, "of the protected: warn of a burr that is nearer")
+        ->check(osteomill::within(0.0, osteomill::most_warn_mm))
+        ->capture_default_str();
+    app.add_option("--target", texts.target, "with --segmentation: the segment that is to be removed")
+        ->type_name("NAME");
+    app.add_option("--spacing-mm", options.spacing_mm, "edge of a voxel of the result")
+        ->capture_default_str()
+        ->check(osteomill::within(0.01, 10.0));
+    app.add_option("--threshold-hu", texts.threshold_hu,
+                   "bone is at and above this: kept in the file for haptic_server; HU further than 2 voxels "
+                   "from bone "
+                   "become -1000")
+        ->check(osteomill::within(-1024.0, 10000.0));
+    app.add_flag("--keep-soft-tissue", options.keeps_soft_tissue,
+                 "with --threshold-hu: HU far from bone stay, so that a carved bone can be laid beside the "
+                 "scan; the file is some 3 to 10 times as large");
+    app.add_option("--region", texts.region, "x0,y0,z0,x1,y1,z1 in mm of patient LPS: import only this box");
+    app.add_option("--series", texts.series, "UID of the DICOM series to take (default: the largest)");
+    auto* rescale =
+        app.add_option("--rescale", texts.rescale,
+                       "SLOPE,INTERCEPT: HU = SLOPE * value + INTERCEPT, for files that carry none (after "
+                       "the file's own, if it has one)");
+    app.add_option(
+           "--intensity-window", texts.intensity_window,
+           "LOW,HIGH, for images without HU (MRI, 8-bit): LOW becomes 0 HU, HIGH 2000 HU, linear between, "
+           "clamped outside")
+        ->excludes(rescale);
+}
+
+/// Of labels, which have no CT numbers.
+void parse_labels(const CLI::App& app, Texts& texts, osteomill::ImportOptions& options) {
+    if (!options.input.empty() && !options.output.empty())
+        throw std::invalid_argument("--labels: stands in place of INPUT");
+    if (!options.input.empty())
+        throw std::invalid_argument("--labels: makes a case: give --case DIR in place of '" +
+                                    options.input.string() + "' (labels stand in place of INPUT)");
+    for (const char* option :
+         {"--threshold-hu", "--keep-soft-tissue", "--series", "--rescale", "--intensity-window"})
+        if (app.count(option) > 0)
+            throw std::invalid_argument(std::string(option) + ": goes with a scan, not with --labels");
+    texts.parts.labels.assign(texts.labels.begin(), texts.labels.end());
+    options.input = texts.labels.front();
+    options.threshold_hu = osteomill::threshold_of_labels_hu;
+    options.follows_contours = false;
+}
+
+/// "NAME=MATERIAL"; a name may hold "=", a material none.
+void parse_materials(Texts& texts) {
+    for (const std::string& text : texts.materials) {
+        const std::size_t at = text.rfind('=');
+        if (at == std::string::npos || at == 0)
+            throw std::invalid_argument("--material '" + text + "': give NAME=MATERIAL");
+        texts.parts.materials[text.substr(0, at)] = text.substr(at + 1);
+    }
+}
+
+void parse_texts(const CLI::App& app, Texts& texts, osteomill::ImportOptions& options) {
+    if (app.count("--threshold-hu") > 0) options.threshold_hu = texts.threshold_hu;
+    if (options.keeps_soft_tissue && !options.threshold_hu)
+        throw std::invalid_argument("--keep-soft-tissue: goes with --threshold-hu; without, all HU are kept");
+    if (app.count("--region") > 0) options.region = osteomill::parse_region(texts.region);
+    if (app.count("--series") > 0) options.choice.series_uid = texts.series;
+    if (app.count("--rescale") > 0) options.to_hu = osteomill::parse_rescale(texts.rescale);
+    if (app.count("--intensity-window") > 0)
+        options.to_hu = osteomill::parse_intensity_window(texts.intensity_window);
+    const bool has_segments = !texts.segmentations.empty() || !texts.labels.empty();
+    if (texts.case_folder.empty() && texts.preview.empty() && has_segments)
+        throw std::invalid_argument(std::string(texts.labels.empty() ? "--segmentation" : "--labels") +
+                                    ": goes with --case or --preview");
+    for (const char* option : {"--colours", "--protect", "--warn-mm", "--target", "--material"})
+        if (!has_segments && app.count(option) > 0)
+            throw std::invalid_argument(std::string(option) + ": goes with --segmentation or --labels");
+    if (!texts.labels.empty())
+        parse_labels(app, texts, options);
+    else if (options.input.empty())
+        throw std::invalid_argument("give INPUT, or --labels FILE (see --help)");
+    parse_materials(texts);
+    if (!texts.stack_spacing.empty())
+        options.choice.stack_spacing_mm = texts.parts.stack_spacing_mm =
+            osteomill::parse_stack_spacing(texts.stack_spacing);
+    texts.parts.segmentations.assign(texts.segmentations.begin(), texts.segmentations.end());
+    if (!texts.colours.empty()) texts.parts.colours = texts.colours;
+    if (!texts.target.empty()) texts.parts.target = texts.target;
+    if (!texts.preview.empty()) {
+        if (app.count("--spacing-mm") == 0) options.spacing_mm = preview_spacing_mm;
+        return;
+    }
+    if (texts.case_folder.empty() && options.output.empty())
+        throw std::invalid_argument("give OUTPUT.nrrd, --case DIR or --preview PICTURE.png (see --help)");
+    if (!texts.case_folder.empty()) options.output = osteomill::bone_of_case(texts.case_folder);
+    if (options.output.extension() != ".nrrd")
+        throw std::invalid_argument("OUTPUT '" + options.output.string() + "': its name must end in .nrrd");
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    osteomill::ignore_signals_of_streams();
+    CLI::App app("Makes a bone file of a CT scan: isotropic, in patient LPS, in HU.", "bone_import");
+    app.set_version_flag("--version", OSTEOMILL_VERSION);
+    osteomill::ImportOptions options;
+    Texts texts;
+    add_options(app, options, texts);
+    try {
+        osteomill::parse_arguments(app, argc, argv);
+        parse_texts(app, texts, options);
+    } catch (const CLI::ParseError& error) {
+        if (error.get_exit_code() == 0) return app.exit(error);
+        std::cerr << "bone_import: " << osteomill::printable(error.what()) << " (see --help)\n";
+        return exit_usage;
+    } catch (const std::invalid_argument& error) {
+        std::cerr << "bone_import: " << osteomill::printable(error.what()) << '\n';
+        return exit_usage;
+    }
+    const osteomill::ProgramOutput output;
+    int exit_code = 0;
+    {
+        osteomill::LineStreamBuffer buffer(*output.err);
+        std::ostream messages(&buffer);
+        messages << std::unitbuf;
+        try {
+            std::ifstream meminfo("/proc/meminfo");
+            const osteomill::ImportSurroundings surroundings{
+                .messages = messages,
+                .is_terminal = output.err->is_terminal(),
+                .available_memory_bytes = osteomill::available_memory_bytes(meminfo)};
+            const bool makes_case = !texts.case_folder.empty();
+            // All that can be refused is refused before an hour of work.
+            const osteomill::BegunCase begun = osteomill::read_case_parts(texts.parts);
+            if (makes_case) osteomill::begin_case(texts.case_folder);
+            if (texts.preview.empty())
+                import(options, begun, surroundings, false);
+            else
+                preview(options, begun, texts.preview, surroundings);
+            if (makes_case) osteomill::finish_case(texts.case_folder, begun, messages);
+        } catch (const std::exception& error) {
+            messages << "bone_import: " << osteomill::printable(error.what()) << '\n';
+            exit_code = exit_failure;
+        }
+    }
+    output.finish();
+    return exit_code;
+}

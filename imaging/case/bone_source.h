@@ -1,0 +1,56 @@
+// The bone that a scene names, and saving what a session has left of it.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "common/bone/ct_volume.h"
+#include "common/scene/scene.h"
+#include "imaging/bone_file/hu_file.h"
+#include "imaging/bone_file/removed_volumes.h"
+#include "imaging/case/structures.h"
+#include "imaging/hu_volume.h"
+#include "imaging/progress.h"
+
+namespace osteomill {
+
+/// What a bone was built from: not kept, but read or made once more where it is needed.
+struct BoneSource {
+    std::string phantom;                   ///< its name; empty: a file, or a bone without CT numbers
+    std::shared_ptr<const BoneFile> file;  ///< stays open, so that another under its name is not taken for it
+    std::string hu_digest;                 ///< of the file's CT numbers when the bone was loaded
+    double threshold_hu = 0.0;
+    VolumesByTissue removed_before_mm3{};  ///< by the sessions before, as a saved bone tells
+    std::vector<double> loaded_mm3{};      ///< by tissue, when the bone was loaded
+};
+
+struct LoadedBone {
+    Bone bone;
+    BoneSource source;
+    std::vector<Structure> structures{};  ///< of the scene's protected tissues, in their order
+    std::string doubt{};  ///< what may be wrong with a file's CT numbers: a line, or empty (bone_of_file.h)
+};
+
+/// Makes the phantom or reads the file, slice by slice. For a file the threshold is the scene's, or the
+/// file's own, or the default of 300 HU. Throws std::runtime_error with one line naming the file, also where
+/// it holds no bone at all, or more than fits in `available_memory_bytes`, where known; naming the tissue,
+/// where the scene has one that no voxel bears.
+LoadedBone load_bone(const Scene& scene, std::optional<std::uint64_t> available_memory_bytes = std::nullopt);
+
+/// Saves what is left of a bone together with the CT numbers of its source (carved_bone.h), which may be the
+/// file that is saved over, and with how much was removed by tissue in all sessions so far. Where the source
+/// can no longer be read, or is not what was loaded, the bone is saved with a picture of it in their place,
+/// and then std::runtime_error says so. Throws ImagingError where it cannot be written.
+void save_bone(
+    const std::filesystem::path& path, const BoneSource& source, const Bone& bone,
+    const ReportProgress& report = [](double) {});
+
+/// Whether there are CT numbers to look at.
+bool has_ct(const BoneSource& source, const Grid& grid);
+/// The CT for people to look at, of at most so many voxels: reads or makes all CT numbers once more. Call
+/// only where there are some. Throws std::runtime_error where the source can no longer be read.
+CtVolume ct_of(const BoneSource& source, std::size_t most_voxels);
+
+}  // namespace osteomill

@@ -1,0 +1,26 @@
+// A scan at a glance, before an hour of import: where it lies, what HU it has, and three slices with the
+// region drawn that is to become bone.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "common/bone/ct_volume.h"
+#include "imaging/resampling/region.h"
+
+namespace osteomill {
+
+/// Reads a file that bone_import wrote without a threshold, as a whole: make it coarse. Throws ImagingError.
+CtVolume whole_ct(const std::filesystem::path& bone_file);
+
+/// Two lines: the box of the voxels' centres, patient LPS, and the smallest and largest HU.
+std::string summary_of(const CtVolume& ct);
+
+/// A PNG of the axial, coronal and sagittal slices through the region's middle (without one the scan's), a
+/// pixel a voxel, from -200 HU black to 1800 white; the region's edges in orange. Left in the picture is the
+/// patient's right, up is anterior in the first and superior in the others. Throws std::runtime_error where
+/// it cannot be written.
+void write_preview(const CtVolume& ct, const std::optional<Region>& region, const std::filesystem::path& png);
+
+}  // namespace osteomill

@@ -1,0 +1,32 @@
+// The structures of a scene: where its tissues are, on the bone's grid, whether bone is there or not.
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+#include "common/bone/bone.h"
+#include "common/scene/scene.h"
+#include "common/scene/structure.h"
+#include "imaging/bone_file/bone_of_file.h"
+
+namespace osteomill {
+
+/// Of each tissue that names a segment; they may overlap. Throws ImagingError as read_segmentation does, and
+/// for a segment that is not there or has no voxel in the bone's grid.
+std::vector<Structure> segmented_structures(const Scene& scene, const std::filesystem::path& segmentation,
+                                            const Grid& grid);
+
+/// One label a voxel: that of a protected tissue before all, then of the plan's, then of the later in the
+/// scene. Both arguments
+/// must outlive what is given back.
+FillLabels label_painter(const Scene& scene, const std::vector<Structure>& structures);
+
+/// Adds those of protected tissues without a segment: the voxels of the bone that bear their label. Leaves
+/// all in the order of the tissues.
+void add_structures_in_bone(const Scene& scene, const Bone& bone, std::vector<Structure>& structures);
+
+/// Of these structures, those that are elsewhere than where the bone bears their label.
+std::vector<Structure> not_told_by_bone(const std::vector<Structure>& structures, const Scene& scene,
+                                        const Bone& bone);
+
+}  // namespace osteomill

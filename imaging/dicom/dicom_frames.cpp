@@ -1,0 +1,210 @@
+#include "imaging/dicom/dicom_frames.h"
+
+#include <fmt/format.h>
+#include <gdcmBoxRegion.h>
+#include <gdcmImage.h>
+#include <gdcmImageReader.h>
+#include <gdcmImageRegionReader.h>
+
+#include <cstring>
+#include <stdexcept>
+#include <type_traits>
+#include <vector>
+
+#include "common/files/input_file.h"
+#include "imaging/dicom/quiet_libraries.h"
+#include "imaging/imaging_error.h"
+
+namespace osteomill {
+
+namespace {
+
+ImagingError undecodable(const DicomFile& file) {
+    const std::string& syntax = file.header.transfer_syntax;
+    return {file.path, fmt::format("its pixel data cannot be decoded ({}): cut off, damaged, or a codec "
+                                   "that GDCM does not read",
+                                   syntax.empty() ? "unknown transfer syntax" : syntax)};
+}
+
+ImagingError of_other_size(const DicomFile& file) {
+    return {file.path, "its pixel data has not the size that its header says"};
+}
+
+std::size_t pixels_of_frame(const DicomFile& file) {
+    return static_cast<std::size_t>(file.header.columns) * static_cast<std::size_t>(file.header.rows);
+}
+
+/// Only uncompressed pixels are found without reading those before them.
+bool is_read_frame_by_frame(const DicomFile& file) {
+    return file.header.is_uncompressed;
+}
+
+/// GDCM says that it failed, or throws.
+template <typename Step>
+void require(const DicomFile& file, const Step& step) {
+    const QuietLibraries quiet;
+    bool is_done = false;
+    try {
+        is_done = step();
+    } catch (const std::exception&) {
+        is_done = false;
+    }
+    if (!is_done) throw undecodable(file);
+}
+
+}  // namespace
+
+/// Gives a frame's pixels as they are stored, in the machine's byte order.
+class DicomFrames::Source {
+  public:
+    virtual ~Source() = default;
+    virtual std::span<const char> stored(unsigned index) = 0;
+    virtual gdcm::PixelFormat format() const = 0;
+};
+
+class DicomFrames::WholeFile : public Source {
+  public:
+    explicit WholeFile(const DicomFile& file) {
+        gdcm::ImageReader reader;
+        reader.SetFileName(file.path.c_str());
+        require(file, [&] {
+            if (!reader.Read()) return false;
+            gdcm::Image& image = reader.GetImage();
+            if (file.header.sign_of_codestream) {
+                gdcm::PixelFormat format = image.GetPixelFormat();
+                format.SetPixelRepresentation(*file.header.sign_of_codestream ? 1 : 0);
+                image.SetPixelFormat(format);
+            }
+            stored_.resize(image.GetBufferLength());
+            return image.GetBuffer(stored_.data());
+        });
+        format_ = reader.GetImage().GetPixelFormat();
+        const unsigned* size = reader.GetImage().GetDimensions();
+        frames_ = reader.GetImage().GetNumberOfDimensions() > 2 ? size[2] : 1;
+        if (std::size_t{size[0]} * size[1] != pixels_of_frame(file)) throw of_other_size(file);
+    }
+
+    std::span<const char> stored(unsigned index) override {
+        const std::size_t bytes = stored_.size() / frames_;
+        if (index >= frames_) return {};
+        return std::span(stored_).subspan(index * bytes, bytes);
+    }
+    gdcm::PixelFormat format() const override { return format_; }
+
+  private:
+    std::vector<char> stored_;
+    gdcm::PixelFormat format_;
+    unsigned frames_ = 1;
+};
+
+class DicomFrames::FrameByFrame : public Source {
+  public:
+    explicit FrameByFrame(const DicomFile& file) : file_(file) {
+        reader_.SetFileName(file_.path.c_str());
+        require(file_, [&] { return reader_.ReadInformation(); });
+        const unsigned* size = reader_.GetImage().GetDimensions();
+        if (size[0] != static_cast<unsigned>(file_.header.columns) ||
+            size[1] != static_cast<unsigned>(file_.header.rows))
+            throw of_other_size(file_);
+    }
+
+    std::span<const char> stored(unsigned index) override {
+        gdcm::BoxRegion region;
+        region.SetDomain(0, static_cast<unsigned>(file_.header.columns) - 1, 0,
+                         static_cast<unsigned>(file_.header.rows) - 1, index, index);
+        reader_.SetRegion(region);
+        stored_.resize(reader_.ComputeBufferLength());
+        require(file_, [&] { return reader_.ReadIntoBuffer(stored_.data(), stored_.size()); });
+        return stored_;
+    }
+    gdcm::PixelFormat format() const override { return reader_.GetImage().GetPixelFormat(); }
+
+  private:
+    DicomFile file_;
+    gdcm::ImageRegionReader reader_;
+    std::vector<char> stored_;
+};
+
+namespace {
+
+/// The bits that hold the pixel, of those that are there: old scanners keep overlays in the others.
+template <typename Stored>
+Stored pixel_of(Stored raw, unsigned shift, unsigned bits) {
+    if (bits >= 8 * sizeof(Stored)) return raw;
+    using Unsigned = std::make_unsigned_t<Stored>;
+    const auto to_top = static_cast<unsigned>(8 * sizeof(Stored) - bits);
+    const auto moved = static_cast<Unsigned>(static_cast<Unsigned>(raw) << (to_top - shift));
+    return static_cast<Stored>(static_cast<Stored>(moved) >> to_top);  // with its sign
+}
+
+template <typename Stored>
+void to_hu(std::span<const char> bytes, const gdcm::PixelFormat& format, const DicomValues& values,
+           const DicomRescale& rescale, std::span<float> hu) {
+    const unsigned bits = format.GetBitsStored();
+    const unsigned shift = format.GetHighBit() + 1U >= bits ? format.GetHighBit() + 1U - bits : 0U;
+    for (std::size_t i = 0; i < hu.size(); ++i) {
+        Stored raw{};
+        std::memcpy(&raw, bytes.data() + i * sizeof(Stored), sizeof(Stored));
+        const auto stored = static_cast<std::int64_t>(pixel_of(raw, shift, bits));
+        hu[i] = values.hu(stored, rescale);
+    }
+}
+
+}  // namespace
+
+DicomFrames::DicomFrames(const DicomFile& file) : file_(file), values_(pixels_of_frame(file)) {
+    if (is_read_frame_by_frame(file))
+        source_ = std::make_unique<FrameByFrame>(file);
+    else
+        source_ = std::make_unique<WholeFile>(file);
+}
+
+DicomFrames::~DicomFrames() = default;
+DicomFrames::DicomFrames(DicomFrames&&) noexcept = default;
+DicomFrames& DicomFrames::operator=(DicomFrames&&) noexcept = default;
+
+std::span<float> DicomFrames::frame(unsigned index) {
+    const std::span<const char> stored = source_->stored(index);
+    const gdcm::PixelFormat format = source_->format();
+    const DicomHeader& header = file_.header;
+    if (stored.size() != values_.size() * format.GetPixelSize() || index >= header.rescales.size())
+        throw of_other_size(file_);
+    const auto convert = [&]<typename Stored>(Stored) {
+        to_hu<Stored>(stored, format, header.values, header.rescales[index], values_);
+    };
+    switch (format.GetScalarType()) {
+        case gdcm::PixelFormat::UINT8:
+            convert(std::uint8_t{});
+            break;
+        case gdcm::PixelFormat::INT8:
+            convert(std::int8_t{});
+            break;
+        case gdcm::PixelFormat::UINT12:
+        case gdcm::PixelFormat::UINT16:
+            convert(std::uint16_t{});
+            break;
+        case gdcm::PixelFormat::INT12:
+        case gdcm::PixelFormat::INT16:
+            convert(std::int16_t{});
+            break;
+        case gdcm::PixelFormat::UINT32:
+            convert(std::uint32_t{});
+            break;
+        case gdcm::PixelFormat::INT32:
+            convert(std::int32_t{});
+            break;
+        default:
+            throw undecodable(file_);
+    }
+    return values_;
+}
+
+std::uint64_t DicomFrames::bytes_to_read(const DicomFile& file) {
+    // As stored, rescaled, and as float.
+    constexpr std::uint64_t bytes_of_a_pixel = 10;
+    const std::uint64_t frame_bytes = bytes_of_a_pixel * pixels_of_frame(file);
+    if (is_read_frame_by_frame(file)) return frame_bytes;
+    return InputFile(file.path).size() + file.header.frames.size() * frame_bytes;
+}
+
+}  // namespace osteomill

@@ -1,0 +1,319 @@
+#include "imaging/dicom/dicom_header.h"
+
+#include <gdcmReader.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdlib>
+#include <glm/geometric.hpp>
+#include <sstream>
+#include <stdexcept>
+
+#include "common/files/input_file.h"
+#include "imaging/dicom/data_set.h"
+#include "imaging/dicom/dicom_pixels.h"
+#include "imaging/dicom/quiet_libraries.h"
+#include "imaging/imaging_error.h"
+
+namespace osteomill {
+
+namespace {
+
+using gdcm::DataSet;
+using gdcm::Tag;
+
+const Tag rows_tag(0x0028, 0x0010);
+const Tag columns_tag(0x0028, 0x0011);
+const Tag samples_tag(0x0028, 0x0002);
+const Tag photometric_tag(0x0028, 0x0004);
+const Tag frames_tag(0x0028, 0x0008);
+const Tag spacing_tag(0x0028, 0x0030);
+const Tag position_tag(0x0020, 0x0032);
+const Tag orientation_tag(0x0020, 0x0037);
+const Tag series_uid_tag(0x0020, 0x000e);
+const Tag series_description_tag(0x0008, 0x103e);
+const Tag pixel_data_tag(0x7fe0, 0x0010);
+const Tag shared_groups_tag(0x5200, 0x9229);
+const Tag per_frame_groups_tag(0x5200, 0x9230);
+const Tag plane_position_tag(0x0020, 0x9113);
+const Tag plane_orientation_tag(0x0020, 0x9116);
+const Tag rescale_group_tag(0x0028, 0x9145);
+const Tag intercept_tag(0x0028, 0x1052);
+const Tag slope_tag(0x0028, 0x1053);
+const Tag pixel_measures_tag(0x0028, 0x9110);
+const Tag instance_uid_tag(0x0008, 0x0018);
+const Tag image_type_tag(0x0008, 0x0008);
+const Tag slice_thickness_tag(0x0018, 0x0050);
+const Tag slice_spacing_tag(0x0018, 0x0088);
+const Tag detector_spacing_tag(0x0018, 0x1164);
+const Tag rescale_type_tag(0x0028, 0x1054);
+const Tag padding_tag(0x0028, 0x0120);
+const Tag padding_limit_tag(0x0028, 0x0121);
+const Tag modality_lut_tag(0x0028, 0x3000);
+const Tag lut_descriptor_tag(0x0028, 0x3002);
+const Tag lut_data_tag(0x0028, 0x3006);
+const Tag lut_type_tag(0x0028, 0x3004);
+
+/// Everything before the pixels is in here, but in odd files.
+constexpr std::uint64_t first_scanned_bytes = std::uint64_t{64} << 20U;
+/// What is held of a file whose pixels are compressed, or stand before other things.
+constexpr std::uint64_t most_scanned_bytes = std::uint64_t{1} << 30U;
+
+void note(DicomHeader& header, const std::string& words) {
+    if (std::find(header.notes.begin(), header.notes.end(), words) == header.notes.end())
+        header.notes.push_back(words);
+}
+
+/// `is_alone`: its frames are placed against one another, so that it may lack a position.
+std::optional<SlicePlacement> placement_of(const Places& places, bool is_alone, DicomHeader& header,
+                                           std::string& missing) {
+    auto spacing = places.find<2>(pixel_measures_tag, spacing_tag);
+    if (!spacing && (spacing = places.find<2>(pixel_measures_tag, detector_spacing_tag)))
+        note(header, "has no Pixel Spacing (0028,0030); that of the detector (0018,1164) is taken");
+    if (!spacing) missing = "Pixel Spacing (0028,0030)";
+    auto orientation = places.find<6>(plane_orientation_tag, orientation_tag);
+    auto position = places.find<3>(plane_position_tag, position_tag);
+    if (!position && is_alone) position = {0.0, 0.0, 0.0};
+    if (!position && missing.empty())
+        missing = orientation ? "Image Position (0020,0032)"
+                              : "Image Position and Orientation (0020,0032 and 0037)";
+    if (!missing.empty()) return std::nullopt;
+    if (!orientation) {
+        note(header,
+             "warning: has no Image Orientation (0020,0037); left and right are a guess (taken as of a "
+             "patient who lies on the back, head first)");
+        orientation = {1.0, 0.0, 0.0, 0.0, 1.0, 0.0};
+    }
+    return SlicePlacement{.name = {},
+                          .position_mm = {(*position)[0], (*position)[1], (*position)[2]},
+                          .along_row = {(*orientation)[0], (*orientation)[1], (*orientation)[2]},
+                          .along_column = {(*orientation)[3], (*orientation)[4], (*orientation)[5]},
+                          .column_pitch_mm = (*spacing)[1],
+                          .row_pitch_mm = (*spacing)[0],
+                          .columns = header.columns,
+                          .rows = header.rows};
+}
+
+/// What turns stored values of a frame into HU; notes where the file does not say that they are HU.
+DicomRescale rescale_of(const Places& places, DicomHeader& header) {
+    const auto slope = places.find<1>(rescale_group_tag, slope_tag);
+    const auto intercept = places.find<1>(rescale_group_tag, intercept_tag);
+    DicomRescale rescale{.slope = slope ? (*slope)[0] : 1.0, .intercept = intercept ? (*intercept)[0] : 0.0};
+    if (!header.values.table && !slope && !intercept)
+        note(header,
+             "warning: says nothing of how its values become HU (no Rescale Slope and Intercept, 0028,1053 "
+             "and 1052), as cone-beam scans without calibration do; they are taken for HU unless --rescale "
+             "or --intensity-window says otherwise");
+    if (rescale.slope == 0.0) {
+        note(header,
+             "warning: its Rescale Slope (0028,1053) is 0, which would make all values the same; taken as 1");
+        rescale.slope = 1.0;
+    }
+    for (const DataSet* data : places.in) {
+        const auto groups = sequence_of(*data, rescale_group_tag);
+        const bool has_group = groups && groups->GetNumberOfItems() > 0;
+        std::string type =
+            text_of(has_group ? groups->GetItem(1).GetNestedDataSet() : *data, rescale_type_tag);
+        if (type.empty() || type == "HU") continue;
+        note(header, "warning: its Rescale Type (0028,1054) is '" + type.substr(0, 16) +
+                         "', not HU; --rescale or --intensity-window makes HU of its values");
+    }
+    return rescale;
+}
+
+/// A signed or unsigned number of 16 or 32 bits, as the pixels are.
+std::optional<std::int64_t> stored_number(const DataSet& data, const Tag& tag, bool is_signed) {
+    if (!data.FindDataElement(tag)) return std::nullopt;
+    const gdcm::ByteValue* bytes = data.GetDataElement(tag).GetByteValue();
+    if (bytes == nullptr || bytes->GetLength() < 2) return std::nullopt;
+    std::uint16_t number = 0;
+    std::copy_n(bytes->GetPointer(), sizeof number, reinterpret_cast<char*>(&number));
+    return is_signed ? std::int64_t{static_cast<std::int16_t>(number)} : std::int64_t{number};
+}
+
+DicomValues values_of(const DataSet& data, const DicomScan& scan, DicomHeader& header) {
+    DicomValues values;
+    const bool is_signed = scan.pixel_representation.value_or(0) == 1;
+    if (const auto low = stored_number(data, padding_tag, is_signed)) {
+        const std::int64_t high = stored_number(data, padding_limit_tag, is_signed).value_or(*low);
+        values.padding = {.low = std::min(*low, high), .high = std::max(*low, high)};
+    }
+    const auto tables = sequence_of(data, modality_lut_tag);
+    if (!tables || tables->GetNumberOfItems() == 0) return values;
+    const DataSet& lut = tables->GetItem(1).GetNestedDataSet();
+    if (!lut.FindDataElement(lut_descriptor_tag) || !lut.FindDataElement(lut_data_tag)) return values;
+    const gdcm::ByteValue* descriptor = lut.GetDataElement(lut_descriptor_tag).GetByteValue();
+    const gdcm::ByteValue* entries = lut.GetDataElement(lut_data_tag).GetByteValue();
+    if (descriptor == nullptr || entries == nullptr || descriptor->GetLength() < 6) return values;
+    std::array<std::uint16_t, 3> numbers{};  // entries, the first stored value, bits of an entry
+    std::copy_n(descriptor->GetPointer(), sizeof numbers, reinterpret_cast<char*>(numbers.data()));
+    ModalityTable table{.first =
+                            is_signed ? std::int64_t{static_cast<std::int16_t>(numbers[1])} : numbers[1]};
+    const std::size_t count = numbers[0] == 0 ? 65536 : numbers[0];
+    const std::size_t bytes = entries->GetLength() >= 2 * count ? 2 : 1;
+    if (entries->GetLength() < bytes * count) {
+        header.fault = "has a Modality LUT (0028,3000) that is shorter than it says";
+        return values;
+    }
+    for (std::size_t i = 0; i < count; ++i) {
+        std::uint16_t entry = static_cast<std::uint8_t>(entries->GetPointer()[i]);
+        if (bytes == 2) std::copy_n(entries->GetPointer() + 2 * i, 2, reinterpret_cast<char*>(&entry));
+        table.meaning.push_back(static_cast<float>(entry));
+    }
+    if (const std::string type = text_of(lut, lut_type_tag); type != "HU")
+        note(header, "warning: its Modality LUT (0028,3000) is of type '" + type.substr(0, 16) +
+                         "', not HU; --rescale or --intensity-window makes HU of its values");
+    values.table = std::move(table);
+    return values;
+}
+
+/// Frames of a file without a group for each: one behind the other, as far apart as the file says.
+void stack_frames(const DataSet& data, std::size_t count, DicomHeader& header) {
+    header.frames.assign(count, std::nullopt);
+    const Places places{.in = {&data}};
+    auto gap = numbers_of<1>(data, slice_spacing_tag);
+    const bool is_thickness = !gap || (*gap)[0] == 0.0;
+    if (is_thickness) gap = numbers_of<1>(data, slice_thickness_tag);
+    std::string missing;
+    const double gap_mm = gap ? std::abs((*gap)[0]) : 0.0;
+    if (!(gap_mm > 0.0)) missing = "Spacing Between Slices (0018,0088) and no Slice Thickness (0018,0050)";
+    std::optional<SlicePlacement> first;
+    if (missing.empty()) first = placement_of(places, true, header, missing);
+    if (!first) {
+        header.fault =
+            "is multi-frame, does not say where each frame lies (5200,9230), and has no " + missing;
+        return;
+    }
+    const glm::dvec3 normal = glm::cross(first->along_row, first->along_column);
+    for (std::size_t frame = 0; frame < count; ++frame) {
+        header.frames[frame] = first;
+        header.frames[frame]->position_mm += static_cast<double>(frame) * gap_mm * normal;
+    }
+    std::ostringstream words;
+    words << "is multi-frame and does not say where each frame lies; stacked " << gap_mm << " mm apart ("
+          << (is_thickness ? "Slice Thickness" : "Spacing Between Slices") << ")";
+    note(header, words.str());
+}
+
+void place_frames(const DataSet& data, std::size_t count, DicomHeader& header) {
+    const auto shared = sequence_of(data, shared_groups_tag);
+    const auto per_frame = sequence_of(data, per_frame_groups_tag);
+    const bool has_groups = per_frame && per_frame->GetNumberOfItems() == count;
+    if (count > 1 && !has_groups) stack_frames(data, count, header);
+    for (std::size_t frame = 0; frame < count; ++frame) {
+        Places places;
+        if (has_groups) places.in.push_back(&per_frame->GetItem(frame + 1).GetNestedDataSet());
+        if (shared && shared->GetNumberOfItems() > 0)
+            places.in.push_back(&shared->GetItem(1).GetNestedDataSet());
+        places.in.push_back(&data);
+        header.rescales.push_back(rescale_of(places, header));
+        if (header.frames.size() == count) continue;
+        std::string missing;
+        header.frames.push_back(placement_of(places, false, header, missing));
+        if (missing.empty()) continue;
+        header.fault = "does not say how it lies in the patient: no " + missing;
+        if (missing.starts_with("Image Position and")) header.not_of_the_scan = "does not lie in the patient";
+    }
+}
+
+/// Objects whose values are no HU whatever their rescale says, but of the standard's CT (5.1.4.1.1.2).
+void note_doubtful_kind(const DicomScan& scan, DicomHeader& header) {
+    if (!scan.sop_class.empty() && !scan.sop_class.starts_with("1.2.840.10008."))
+        note(header,
+             "warning: is of a private kind (SOP Class " + scan.sop_class +
+                 "); its values are taken for HU unless --rescale or --intensity-window says otherwise");
+    if (scan.sop_class.starts_with("1.2.840.10008.5.1.4.1.1.13.1."))
+        note(header,
+             "warning: is a three-dimensional X-ray image (cone beam), whose grey values are not calibrated; "
+             "they are "
+             "taken for HU unless --rescale or --intensity-window says otherwise");
+}
+
+/// Why it is no slice of a scan, where there is one beside it.
+std::string why_left_out(const DataSet& data, const DicomScan& scan, const DicomHeader& header) {
+    const std::string type = text_of(data, image_type_tag);
+    if (type.find("LOCALIZER") != std::string::npos) return "is a localizer (Image Type)";
+    if (scan.sop_class.starts_with("1.2.840.10008.5.1.4.1.1.7")) return "is a secondary capture";
+    if (header.samples_per_pixel != 1 && type.find("SECONDARY") != std::string::npos)
+        return "is a picture in colour";
+    return header.not_of_the_scan;
+}
+
+std::optional<DicomScan> scan_first(const InputFile& file, std::uint64_t bytes) {
+    std::optional<DicomScan> scan = scan_dicom(file.first_bytes(bytes), file.size());
+    // Labels of one bit beside a scan are sound, and read elsewhere.
+    if (scan && why_no_grey_image(*scan).empty()) require_sound_pixels(*scan);
+    return scan;
+}
+
+/// What GDCM may be given the file for.
+std::optional<DicomScan> scan_file(const std::filesystem::path& path) {
+    const InputFile file(path);
+    if (!may_be_dicom(file.first_bytes(dicom_mark_bytes))) return std::nullopt;
+    try {
+        return scan_first(file, first_scanned_bytes);
+    } catch (const std::invalid_argument& error) {
+        if (file.size() <= first_scanned_bytes) throw ImagingError(path, error.what());
+    }
+    if (file.size() > most_scanned_bytes)
+        throw ImagingError(
+            path,
+            "is DICOM of more than 1 GiB, and compressed or damaged; save the scan as one file "
+            "a slice, or as NRRD");
+    try {
+        return scan_first(file, most_scanned_bytes);
+    } catch (const std::invalid_argument& error) {
+        throw ImagingError(path, error.what());
+    }
+}
+
+}  // namespace
+
+std::optional<DicomHeader> read_dicom_header(const std::filesystem::path& path) {
+    const std::optional<DicomScan> scan = scan_file(path);
+    if (!scan) return std::nullopt;
+    const QuietLibraries quiet;
+    gdcm::Reader reader;
+    reader.SetFileName(path.c_str());
+    bool parsed = false;
+    try {
+        parsed = reader.CanRead() && reader.ReadUpToTag(pixel_data_tag, {pixel_data_tag});
+    } catch (const std::exception&) {
+        parsed = false;
+    }
+    if (!parsed) throw ImagingError(path, "is DICOM but cannot be parsed: cut off or damaged");
+    const DataSet& data = reader.GetFile().GetDataSet();
+    DicomHeader header;
+    header.series_uid = text_of(data, series_uid_tag);
+    header.series_description = text_of(data, series_description_tag);
+    const gdcm::TransferSyntax syntax = reader.GetFile().GetHeader().GetDataSetTransferSyntax();
+    if (const char* words = syntax.GetString()) header.transfer_syntax = words;
+    header.rows = number_of(data, rows_tag, 0);
+    header.columns = number_of(data, columns_tag, 0);
+    header.samples_per_pixel = number_of(data, samples_tag, 1);
+    header.has_pixel_data = scan->has_pixel_data;
+    header.is_uncompressed = !scan->is_encapsulated && !syntax.IsEncapsulated() &&
+                             syntax != gdcm::TransferSyntax::DeflatedExplicitVRLittleEndian;
+    const std::string frames = text_of(data, frames_tag);
+    const long count = frames.empty() ? 1 : std::strtol(frames.c_str(), nullptr, 10);
+    if (count < 1 || count > 65536)
+        throw ImagingError(path, "Number of Frames (0028,0008) is '" + frames + "'");
+    header.modality = scan->modality;
+    header.no_grey_image = why_no_grey_image(*scan);
+    header.instance_uid = text_of(data, instance_uid_tag);
+    if (!header.no_grey_image.empty()) return header;
+    if (const std::string photometric = text_of(data, photometric_tag);
+        header.samples_per_pixel == 1 && !photometric.empty() && !photometric.starts_with("MONOCHROME"))
+        header.fault = "has pixels in colour (0028,0004 '" + photometric.substr(0, 16) + "')";
+    header.values = values_of(data, *scan, header);
+    if (scan->codestream && scan->codestream->is_signed && scan->pixel_representation &&
+        *scan->codestream->is_signed != (*scan->pixel_representation == 1))
+        header.sign_of_codestream = scan->codestream->is_signed;
+    note_doubtful_kind(*scan, header);
+    place_frames(data, static_cast<std::size_t>(count), header);
+    header.not_of_the_scan = why_left_out(data, *scan, header);
+    return header;
+}
+
+}  // namespace osteomill

@@ -1,0 +1,20 @@
+// Whether the image that a DICOM file describes is one that can be decoded, and is of CT numbers.
+#pragma once
+
+#include <string>
+
+#include "imaging/dicom/dicom_scan.h"
+
+namespace osteomill {
+
+/// Throws std::invalid_argument, in words, where the file has an image that cannot be decoded or that does
+/// not hold its pixels: bits, frames or sizes that cannot be; fewer bytes of pixel data than the header's
+/// size takes; a codestream of another size; compressed pixels that no codec shrinks so. Nothing for a file
+/// without an image.
+void require_sound_pixels(const DicomScan& scan);
+
+/// Why an object holds no CT numbers though it may have pixels ("is a segmentation (SEG)"); empty where it
+/// may hold some.
+std::string why_no_grey_image(const DicomScan& scan);
+
+}  // namespace osteomill

@@ -1,0 +1,50 @@
+// Walks through a DICOM file element by element, before GDCM reads it. GDCM calls itself for every sequence
+// within a sequence, some of it twice, makes room for whatever length an element claims, and decodes pixels
+// of any format; so what it is given has been seen to nest little, to hold the bytes that it claims, and to
+// be an image that it decodes (dicom_pixels.h). Pure functions over bytes.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+
+#include "imaging/dicom/codestream.h"
+
+namespace osteomill {
+
+/// Sequences within sequences; reports nest a dozen deep. GDCM takes twice as long for each.
+inline constexpr int most_dicom_nesting = 16;
+
+struct DicomScan {
+    std::string transfer_syntax{};  ///< UID; empty where the file states none
+    std::string sop_class{};        ///< UID
+    std::string modality{};         ///< CT, MR, SEG, ...
+    std::optional<int> rows{};
+    std::optional<int> columns{};
+    std::optional<int> samples_per_pixel{};
+    std::optional<int> bits_allocated{};
+    std::optional<int> bits_stored{};
+    std::optional<int> high_bit{};
+    std::optional<int> pixel_representation{};  ///< 0 unsigned, 1 signed
+    std::string frames{};                       ///< Number of Frames, as it is written
+    bool has_pixel_data = false;
+    bool is_encapsulated = false;
+    std::uint64_t pixel_bytes = 0;           ///< of pixel data; when encapsulated, of all fragments
+    std::optional<Codestream> codestream{};  ///< of the first fragment
+};
+
+/// Bytes that tell whether a file may be DICOM.
+inline constexpr std::size_t dicom_mark_bytes = 132;
+
+/// Whether the first bytes are those of DICOM: of today ("DICM" behind 128 bytes) or of long ago (an element
+/// of group 2 or 8).
+bool may_be_dicom(std::span<const std::uint8_t> bytes);
+
+/// std::nullopt for what is not DICOM. Throws std::invalid_argument, in words, for what begins as DICOM but
+/// is cut off or damaged, for sequences nested deeper than most_dicom_nesting, and for values that hide
+/// nested sequences. Implicit and explicit, little and big endian, deflated (up to 256 MiB). `bytes` may be
+/// the first of a file of `file_bytes` as long as they reach into pixels that are not compressed.
+std::optional<DicomScan> scan_dicom(std::span<const std::uint8_t> bytes, std::uint64_t file_bytes);
+
+}  // namespace osteomill

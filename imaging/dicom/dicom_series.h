@@ -1,0 +1,53 @@
+// Which DICOM series a folder holds, and which one to take.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "imaging/dicom/dicom_header.h"
+
+namespace osteomill {
+
+/// One slice's place, and where its pixels are.
+struct DicomSlice {
+    SlicePlacement placement;
+    std::filesystem::path file;
+    unsigned frame = 0;  ///< within the file
+};
+
+struct DicomFile {
+    std::filesystem::path path;
+    DicomHeader header;
+};
+
+struct DicomSeries {
+    std::string uid;
+    std::string description;
+    std::vector<DicomFile> files;  ///< sorted by name
+    std::size_t slices = 0;        ///< frames of all files
+};
+
+/// The series of a folder (not of the folders in it), CT before others, largest first, then by UID. Files
+/// that are not DICOM are passed over. What holds no CT numbers (segmentations, reports) or is no slice of a
+/// scan (a localizer, a secondary capture) beside what may be, and a second copy of a slice, are left out,
+/// and `left_out` gets a line about each kind. Throws ImagingError for a folder that is empty, holds no such
+/// image or more than 65535 files, for a file that cannot be opened, and for a DICOM file that
+/// read_dicom_header refuses.
+std::vector<DicomSeries> find_series(const std::filesystem::path& folder, std::vector<std::string>& left_out);
+
+/// The series asked for, or else the largest. `others` gets one line about each series passed over. Throws
+/// ImagingError, listing the UIDs there are, where there is none of that UID.
+const DicomSeries& choose_series(const std::filesystem::path& folder, const std::vector<DicomSeries>& series,
+                                 const std::optional<std::string>& uid, std::vector<std::string>& others);
+
+/// A single DICOM file as a series of its own. Throws ImagingError where it is not DICOM or has no image.
+DicomSeries series_of_file(const std::filesystem::path& path);
+
+/// Where every slice of the series lies: of multi-frame files from their functional groups. Throws
+/// ImagingError for a file without pixel data, pixel spacing or position, with several samples a pixel
+/// (RGB), that holds no CT numbers, or whose frames cannot be placed.
+std::vector<DicomSlice> slices_of(const DicomSeries& series);
+
+}  // namespace osteomill

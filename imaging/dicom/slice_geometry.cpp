@@ -1,0 +1,152 @@
+#include "imaging/dicom/slice_geometry.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
+#include <numeric>
+#include <stdexcept>
+
+#include "imaging/formats/plausible_geometry.h"
+
+namespace osteomill {
+
+namespace {
+
+/// Direction cosines are printed with six digits or more; 1e-3 is 0.06 degrees.
+constexpr double direction_tolerance = 1e-3;
+/// What settle_geometry makes perpendicular.
+const double most_lean = std::sin(glm::radians(most_shear_degrees));
+constexpr double duplicate_mm = 1e-3;
+constexpr double gap_tolerance_relative = 0.02;
+constexpr double gap_tolerance_mm = 0.02;
+
+[[noreturn]] void refuse(const std::string& reason) {
+    throw std::invalid_argument(reason);
+}
+
+void require_sound(const SlicePlacement& slice) {
+    for (const double pitch_mm : {slice.column_pitch_mm, slice.row_pitch_mm})
+        if (!is_plausible_spacing(pitch_mm))
+            refuse(implausible_spacing("pixel spacing of " + slice.name, pitch_mm));
+    if (!is_plausible_position(slice.position_mm))
+        refuse(implausible_position("the position of " + slice.name));
+    const bool unit = std::abs(glm::length(slice.along_row) - 1.0) < direction_tolerance &&
+                      std::abs(glm::length(slice.along_column) - 1.0) < direction_tolerance;
+    if (!unit || !(std::abs(glm::dot(slice.along_row, slice.along_column)) < most_lean))
+        refuse(fmt::format("the row and column directions of {} are not perpendicular unit vectors",
+                           slice.name));
+}
+
+bool about_equal(double a, double b) {
+    return std::abs(a - b) <= direction_tolerance * std::max(a, b);
+}
+
+void require_alike(const SlicePlacement& first, const SlicePlacement& other) {
+    if (first.columns != other.columns || first.rows != other.rows)
+        refuse(fmt::format("mixed image sizes: {} is {} x {}, {} is {} x {}", first.name, first.columns,
+                           first.rows, other.name, other.columns, other.rows));
+    if (glm::distance(first.along_row, other.along_row) > direction_tolerance ||
+        glm::distance(first.along_column, other.along_column) > direction_tolerance)
+        refuse(fmt::format("mixed orientations: {} does not lie parallel to {}", other.name, first.name));
+    if (!about_equal(first.column_pitch_mm, other.column_pitch_mm) ||
+        !about_equal(first.row_pitch_mm, other.row_pitch_mm))
+        refuse(fmt::format("mixed pixel spacings: {} has {} x {} mm, {} has {} x {} mm", first.name,
+                           first.row_pitch_mm, first.column_pitch_mm, other.name, other.row_pitch_mm,
+                           other.column_pitch_mm));
+}
+
+/// A slice's shift within its plane, against the first of the stack.
+glm::dvec3 sideways(const SlicePlacement& first, const SlicePlacement& slice, const glm::dvec3& normal) {
+    const glm::dvec3 step = slice.position_mm - first.position_mm;
+    return step - glm::dot(step, normal) * normal;
+}
+
+/// The slices' step, of length 1: the normal but for a lean that rounding does not explain.
+glm::dvec3 require_upright(const std::vector<SlicePlacement>& slices, const std::vector<std::size_t>& order,
+                           const glm::dvec3& normal) {
+    const SlicePlacement& first = slices[order.front()];
+    const SlicePlacement& last = slices[order.back()];
+    const double allowed_mm = 0.5 * std::min(first.column_pitch_mm, first.row_pitch_mm);
+    const double height_mm = glm::dot(last.position_mm - first.position_mm, normal);
+    const glm::dvec3 lean = sideways(first, last, normal) / height_mm;
+    const bool leans = glm::length(lean) * height_mm > allowed_mm;
+    if (leans && glm::length(lean) > most_lean)
+        refuse(fmt::format(
+            "gantry tilt of {:.1f} degrees (its slices are sheared by {:.1f} mm); reformat it upright "
+            "first",
+            glm::degrees(std::atan(glm::length(lean))), glm::length(lean) * height_mm));
+    const glm::dvec3 step = leans ? normal + lean : normal;
+    for (const std::size_t index : order) {
+        const double along_mm = glm::dot(slices[index].position_mm - first.position_mm, normal);
+        const double off_mm = glm::distance(slices[index].position_mm, first.position_mm + along_mm * step);
+        if (off_mm > allowed_mm)
+            refuse(fmt::format("{} is shifted sideways by {:.1f} mm against {}", slices[index].name, off_mm,
+                               first.name));
+    }
+    return glm::normalize(step);
+}
+
+/// The common gap.
+double require_even(const std::vector<SlicePlacement>& slices, const std::vector<std::size_t>& order,
+                    const std::vector<double>& height_mm) {
+    std::vector<double> gaps;
+    for (std::size_t i = 1; i < order.size(); ++i)
+        gaps.push_back(height_mm[order[i]] - height_mm[order[i - 1]]);
+    std::vector<double> sorted = gaps;
+    std::nth_element(sorted.begin(), sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2),
+                     sorted.end());
+    const double usual_mm = sorted[sorted.size() / 2];
+    const double allowed_mm = std::max(gap_tolerance_relative * usual_mm, gap_tolerance_mm);
+    for (std::size_t i = 0; i < gaps.size(); ++i) {
+        if (std::abs(gaps[i] - usual_mm) <= allowed_mm) continue;
+        const double ratio = gaps[i] / usual_mm;
+        const double whole = std::round(ratio);
+        const std::string where =
+            fmt::format("between {} and {} lie {:.3f} mm, elsewhere {:.3f} mm", slices[order[i]].name,
+                        slices[order[i + 1]].name, gaps[i], usual_mm);
+        if (whole >= 2.0 && std::abs(ratio - whole) < 0.05)
+            refuse(fmt::format("{:.0f} missing slice(s): {}", whole - 1.0, where));
+        refuse("unevenly spaced slices: " + where);
+    }
+    return std::accumulate(gaps.begin(), gaps.end(), 0.0) / static_cast<double>(gaps.size());
+}
+
+}  // namespace
+
+SliceStack stack_slices(const std::vector<SlicePlacement>& slices) {
+    if (slices.empty()) refuse("no slices");
+    if (slices.size() == 1)
+        refuse(fmt::format("a single slice ({}), which is no volume", slices.front().name));
+    for (const SlicePlacement& slice : slices) require_sound(slice);
+    for (const SlicePlacement& slice : slices) require_alike(slices.front(), slice);
+
+    const SlicePlacement& any = slices.front();
+    const glm::dvec3 normal = glm::normalize(glm::cross(any.along_row, any.along_column));
+    std::vector<double> height_mm;
+    for (const SlicePlacement& slice : slices) height_mm.push_back(glm::dot(slice.position_mm, normal));
+    SliceStack stack;
+    stack.order.resize(slices.size());
+    std::iota(stack.order.begin(), stack.order.end(), std::size_t{0});
+    std::stable_sort(stack.order.begin(), stack.order.end(),
+                     [&](std::size_t a, std::size_t b) { return height_mm[a] < height_mm[b]; });
+
+    for (std::size_t i = 1; i < stack.order.size(); ++i) {
+        const std::size_t below = stack.order[i - 1];
+        const std::size_t above = stack.order[i];
+        if (height_mm[above] - height_mm[below] < duplicate_mm)
+            refuse(fmt::format("two slices at the same position: {} and {}", slices[below].name,
+                               slices[above].name));
+    }
+    const glm::dvec3 step = require_upright(slices, stack.order, normal);
+    const double gap_mm = require_even(slices, stack.order, height_mm);
+
+    stack.origin_mm = slices[stack.order.front()].position_mm;
+    stack.spacing_mm = {any.column_pitch_mm, any.row_pitch_mm, gap_mm};
+    stack.direction = glm::dmat3(glm::normalize(any.along_row), glm::normalize(any.along_column), step);
+    return stack;
+}
+
+}  // namespace osteomill

@@ -1,0 +1,205 @@
+#include "imaging/formats/image_reader.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <array>
+#include <string_view>
+#include <utility>
+
+#include "common/files/input_file.h"
+#include "imaging/dicom/dicom_image.h"
+#include "imaging/dicom/dicom_scan.h"
+#include "imaging/formats/byte_source.h"
+#include "imaging/formats/header_text.h"
+#include "imaging/formats/meta_image_header.h"
+#include "imaging/formats/nifti_header.h"
+#include "imaging/formats/nrrd_header.h"
+#include "imaging/formats/picture_stack.h"
+#include "imaging/formats/value_slices.h"
+#include "imaging/imaging_error.h"
+
+namespace osteomill {
+
+namespace {
+
+/// What an image is recognised by: that it is a folder, or the first bytes of a file, inflated where they are
+/// gzip's.
+struct ImageStart {
+    std::filesystem::path path;
+    ImageChoice choice;
+    bool is_folder = false;
+    std::vector<std::uint8_t> bytes{};
+    bool is_gzip = false;
+
+    bool starts_with(std::string_view mark) const {
+        return bytes.size() >= mark.size() &&
+               std::equal(mark.begin(), mark.end(), bytes.begin(),
+                          [](char a, std::uint8_t b) { return static_cast<std::uint8_t>(a) == b; });
+    }
+};
+
+ImageStart start_of(const std::filesystem::path& path, const ImageChoice& choice) {
+    constexpr std::size_t start_bytes = 4096;
+    std::error_code failed;
+    const std::filesystem::file_status status = std::filesystem::status(path, failed);
+    if (!std::filesystem::exists(status)) throw ImagingError(path, "does not exist");
+    ImageStart start{.path = path, .choice = choice, .is_folder = std::filesystem::is_directory(status)};
+    if (start.is_folder) return start;
+    if (!std::filesystem::is_regular_file(status)) throw ImagingError(path, "is neither a file nor a folder");
+    const InputFile file(path);
+    start.bytes = file.first_bytes(2);
+    start.is_gzip = start.starts_with("\x1f\x8b");
+    start.bytes = first_bytes_inflated(file, start_bytes);
+    if (start.bytes.empty())
+        throw ImagingError(
+            path, start.is_gzip ? "is cut off: its gzip holds nothing that can be read" : "is empty");
+    return start;
+}
+
+/// The text header begins with fields, of which "NDims" is one of the first. It has no mark: what is called
+/// so and is nothing else is taken for one, so that its reader says what is wrong.
+bool is_meta_image(const ImageStart& start) {
+    const std::string ending = lower_case(start.path.extension().string());
+    if (ending == ".mha" || ending == ".mhd") return true;
+    const std::string_view text(reinterpret_cast<const char*>(start.bytes.data()), start.bytes.size());
+    return start.starts_with("ObjectType") || start.starts_with("NDims") ||
+           text.substr(0, text.find('\0')).find("\nNDims") != std::string_view::npos;
+}
+
+bool is_stack(const ImageStart& start) {
+    using namespace std::string_view_literals;
+    if (start.is_folder) return is_picture_folder(start.path, start.choice.stack_spacing_mm.has_value());
+    return start.starts_with("\x89PNG") || start.starts_with("II*\0"sv) || start.starts_with("MM\0*"sv);
+}
+
+/// Headers and files are held against each other before anything is read.
+OpenedImage opened(const std::filesystem::path& path, ImageHeader header) {
+    VoxelData data = find_voxels(header, path);
+    if (const std::uint64_t more = require_room(data); more > 0)
+        header.image.notes.push_back(
+            fmt::format("{}: {} bytes follow its voxels; they are not read", path.string(), more));
+    const glm::ivec3 size = header.image.size_voxels;
+    if (std::min({size.x, size.y, size.z}) < 2)
+        throw ImagingError(path, fmt::format("is a single slice ({} x {} x {} voxels), which is no volume",
+                                             size.x, size.y, size.z));
+    const glm::ivec3 size_of_values = size * glm::ivec3(header.layers, 1, 1);
+    return {.image = std::move(header.image),
+            .layers = header.layers,
+            .key_values = std::move(header.key_values),
+            .read_slices =
+                [data = std::move(data), voxels = header.voxels, size_of_values](
+                    const TakeSlice& take, const ReportProgress& report) {
+                    read_value_slices(data, voxels, size_of_values, take, report);
+                },
+            .reading_bytes = sizeof(float) * static_cast<std::uint64_t>(size_of_values.x) *
+                             static_cast<std::uint64_t>(size_of_values.y)};
+}
+
+struct ImageFormat {
+    const char* name;
+    std::array<std::string_view, 2> endings;  ///< of its files' names; empty: none to go by
+    bool (*is)(const ImageStart&);
+    OpenedImage (*open)(const ImageStart&, DicomPurpose);
+};
+/// To read another format is a file and a row. The first that fits is taken.
+constexpr std::array image_formats{
+    ImageFormat{
+        "NRRD",
+        {".nrrd", ".nhdr"},
+        [](const ImageStart& start) { return start.starts_with("NRRD") && !start.is_gzip; },
+        [](const ImageStart& start, DicomPurpose) { return opened(start.path, open_nrrd(start.path)); }},
+    ImageFormat{
+        "NIfTI",
+        {".nii", ".nii.gz"},
+        [](const ImageStart& start) {
+            return begins_as_nifti(start.bytes) || (!start.is_folder && is_nifti_voxel_file(start.path));
+        },
+        [](const ImageStart& start, DicomPurpose) { return opened(start.path, open_nifti(start.path)); }},
+    ImageFormat{"folder of PNG or TIFF pictures",
+                {},
+                is_stack,
+                [](const ImageStart& start, DicomPurpose) {
+                    return open_picture_stack(start.path, start.choice.stack_spacing_mm);
+                }},
+    ImageFormat{"DICOM folder or file",
+                {},
+                [](const ImageStart& start) {
+                    return start.is_folder || (may_be_dicom(start.bytes) && !start.is_gzip);
+                },
+                [](const ImageStart& start, DicomPurpose purpose) {
+                    return start.is_folder ? open_dicom_folder(start.path, start.choice.series_uid, purpose)
+                                           : open_dicom_file(start.path, purpose);
+                }},
+    ImageFormat{"MetaImage",
+                {".mha", ".mhd"},
+                [](const ImageStart& start) { return is_meta_image(start) && !start.is_gzip; },
+                [](const ImageStart& start, DicomPurpose) {
+                    return opened(start.path, open_meta_image(start.path));
+                }}};
+
+OpenedImage open_any(const std::filesystem::path& path, const ImageChoice& choice, DicomPurpose purpose) {
+    const ImageStart start = start_of(path, choice);
+    const auto format =
+        std::ranges::find_if(image_formats, [&](const ImageFormat& one) { return one.is(start); });
+    if (format != image_formats.end()) return format->open(start, purpose);
+    std::vector<std::string> names;
+    for (const ImageFormat& one : image_formats)
+        names.push_back(one.endings.front().empty()
+                            ? one.name
+                            : fmt::format("{} ({})", one.name, fmt::join(one.endings, ", ")));
+    const std::string last = std::move(names.back());
+    names.pop_back();
+    throw ImagingError(path, fmt::format("is no {} or {}{}", fmt::join(names, ", "), last,
+                                         start.is_gzip ? "; it is gzip of something else: unpack it first"
+                                                       : ": it begins as none of them"));
+}
+
+}  // namespace
+
+std::vector<float> OpenedImage::read_values(const ReportProgress& report) const {
+    std::vector<float> values;
+    values.reserve(voxel_count(image) * static_cast<std::size_t>(layers));
+    read_slices([&](int, std::span<float> slice) { values.insert(values.end(), slice.begin(), slice.end()); },
+                report);
+    return values;
+}
+
+bool is_image_name(const std::filesystem::path& path) {
+    const std::string name = path.filename().string();
+    return std::ranges::any_of(image_formats, [&](const ImageFormat& one) {
+        return std::ranges::any_of(
+            one.endings, [&](std::string_view ending) { return !ending.empty() && name.ends_with(ending); });
+    });
+}
+
+std::string name_without_ending(const std::filesystem::path& path) {
+    std::string name = path.filename().string();
+    const auto take_off = [&](std::string_view ending) {
+        if (!ending.empty() && lower_case(name).ends_with(ending)) name.resize(name.size() - ending.size());
+    };
+    for (const std::string_view ending : {".gz", ".dcm", ".hdr", ".img"}) take_off(ending);
+    for (const ImageFormat& one : image_formats) std::ranges::for_each(one.endings, take_off);
+    take_off(".seg");
+    return name;
+}
+
+OpenedImage open_labels(const std::filesystem::path& path, const ImageChoice& choice) {
+    return open_any(path, choice, DicomPurpose::labels);
+}
+
+OpenedImage open_image(const std::filesystem::path& path, const ImageChoice& choice) {
+    OpenedImage image = open_any(path, choice, DicomPurpose::scan);
+    if (image.is_coloured)
+        throw ImagingError(
+            path,
+            "holds coloured pictures, which have no CT numbers; where colours are tissues, give "
+            "--labels in place of INPUT");
+    if (image.layers > 1)
+        throw ImagingError(
+            path, fmt::format("has {} values a voxel (colour, vectors or layers); CT has one", image.layers));
+    return image;
+}
+
+}  // namespace osteomill

@@ -1,0 +1,33 @@
+// A volume as a stack of pictures, PNG or TIFF, a slice each: a folder of them in the order of the numbers in
+// their names, or one TIFF of several pages. Micro-CT comes so, and labels as colours.
+//
+// A picture says nothing of the patient: its columns are taken to run left, its rows to the back, the slices
+// up.
+#pragma once
+
+#include <filesystem>
+#include <glm/vec3.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "imaging/formats/image_reader.h"
+
+namespace osteomill {
+
+/// "x,y,z" in mm, as --stack-spacing takes it. Throws std::invalid_argument unless it is three numbers above
+/// 0.
+glm::dvec3 parse_stack_spacing(const std::string& text);
+
+/// Whether a folder is a stack: it holds pictures, and a spacing is given, or there is nothing but pictures.
+/// A picture beside a scan makes no stack of it.
+bool is_picture_folder(const std::filesystem::path& folder, bool has_spacing);
+
+/// A folder, or a TIFF. Reads what the first picture says of size and form. Values are grey levels (8 or 16
+/// bits, of TIFF floats, too), or colours, 0 where a picture is transparent. Throws ImagingError in one line
+/// where no spacing is given, there are fewer than two pictures, one cannot be read, or is of a form that is
+/// not read; reading the slices, where a picture has another size or form than the first.
+OpenedImage open_picture_stack(const std::filesystem::path& path,
+                               const std::optional<glm::dvec3>& spacing_mm);
+
+}  // namespace osteomill

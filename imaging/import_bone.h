@@ -1,0 +1,50 @@
+// The whole way from a scan to a bone file.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <iosfwd>
+#include <optional>
+#include <string>
+#include <variant>
+
+#include "imaging/formats/image_reader.h"
+#include "imaging/resampling/intensity.h"
+#include "imaging/resampling/region.h"
+
+namespace osteomill {
+
+struct ImportOptions {
+    std::filesystem::path input;
+    std::filesystem::path output;
+    double spacing_mm = 0.1;
+    std::optional<double> threshold_hu{};
+    /// Far from bone, too, HU stay as they are. Else a file with a threshold has air there (near_bone.h),
+    /// which makes it some times smaller.
+    bool keeps_soft_tissue = false;
+    /// Between slices far apart bone's contour is followed, if there is a threshold (slice_shapes.h).
+    bool follows_contours = true;
+    std::optional<Region> region{};
+    ImageChoice choice{};
+    /// What makes HU of the file's values (after the rescale that the file itself states).
+    std::variant<std::monostate, Rescale, IntensityWindow> to_hu{};
+};
+
+/// What an import tells while it works, and what it may use.
+struct ImportSurroundings {
+    std::ostream& messages;  ///< notes, memory estimate, progress
+    bool is_terminal = false;
+    std::optional<std::uint64_t>
+        available_memory_bytes{};  ///< std::nullopt: not known, nothing is refused for it
+};
+
+/// Reads the scan, cuts the region, refines it, writes the bone file. Throws ImagingError in one line: for
+/// what image_reader.h refuses, a region outside the image, more memory than there is, a
+/// threshold that no voxel reaches, an output that cannot be written.
+void import_bone(const ImportOptions& options, const ImportSurroundings& surroundings);
+
+/// The same of an image that is open already; `options.input` is for messages.
+void import_bone(const ImportOptions& options, const OpenedImage& opened,
+                 const ImportSurroundings& surroundings);
+
+}  // namespace osteomill

@@ -1,0 +1,37 @@
+// Boxes in the patient: what an image covers, and which part of it becomes bone.
+#pragma once
+
+#include <glm/vec3.hpp>
+#include <string>
+
+#include "common/bone/grid.h"
+#include "imaging/formats/source_image.h"
+
+namespace osteomill {
+
+/// An axis-aligned box, patient LPS, mm.
+struct Region {
+    glm::dvec3 low_mm{0.0};
+    glm::dvec3 high_mm{0.0};
+
+    bool operator==(const Region&) const = default;
+};
+
+/// Smallest box around the centres of an image's voxels, however the image is turned.
+Region extent_of(const SourceImage& image);
+
+/// "x0,y0,z0,x1,y1,z1" as --region takes it. Throws std::invalid_argument unless it is six numbers, each of
+/// the second three greater than its partner.
+Region parse_region(const std::string& text);
+
+/// The common part. Throws std::invalid_argument, naming both boxes, where there is none.
+Region clip(const Region& region, const Region& extent);
+
+/// "x0,y0,z0,x1,y1,z1" with a tenth of a mm, which parse_region reads.
+std::string to_text(const Region& region);
+
+/// The grid of cubes whose first centre is the region's low corner and whose last lie within it. Throws
+/// std::invalid_argument where an axis would have more than 65536 voxels.
+Grid grid_over(const Region& region, double spacing_mm);
+
+}  // namespace osteomill

@@ -1,0 +1,231 @@
+#include "imaging/segmentation/segmentation.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <locale>
+#include <map>
+#include <optional>
+#include <set>
+#include <sstream>
+
+#include "common/scene/nearest_name.h"
+#include "common/text/plain_text.h"
+#include "imaging/bone_file/file_digest.h"
+#include "imaging/formats/header_text.h"
+#include "imaging/formats/image_reader.h"
+#include "imaging/imaging_error.h"
+
+namespace osteomill {
+
+namespace {
+
+constexpr std::size_t most_runs = std::size_t{1} << 28U;  // 2 GiB
+constexpr int most_segments = 4096;
+constexpr float most_off_whole = 0.01F;
+
+using KeyValues = std::map<std::string, std::string>;
+
+/// "0.5 1 0", as Slicer writes colours; nothing for anything else.
+std::optional<std::array<std::uint8_t, 3>> colour_of(const std::string& text) {
+    std::istringstream words(text);
+    words.imbue(std::locale::classic());
+    std::array<std::uint8_t, 3> colour{};
+    for (std::uint8_t& channel : colour) {
+        double part = 0.0;
+        if (!(words >> part) || !(part >= 0.0 && part <= 1.0)) return std::nullopt;
+        channel = static_cast<std::uint8_t>(std::lround(255.0 * part));
+    }
+    return colour;
+}
+
+/// Segments that the header names; empty for a plain label map. Versions of 3D Slicer before 4.11 write
+/// neither layer nor label: each segment has a layer of its own.
+std::vector<Segment> named_segments(const std::filesystem::path& path, const OpenedImage& labels) {
+    const KeyValues& keys = labels.key_values;
+    const auto value = [&](int segment, const char* what) -> std::optional<std::string> {
+        const auto found = keys.find(fmt::format("Segment{}_{}", segment, what));
+        return found == keys.end() ? std::nullopt : std::optional(found->second);
+    };
+    const auto number = [&](int segment, const char* what, int fallback, int low, int high) {
+        const std::optional<std::string> text = value(segment, what);
+        const std::optional<int> whole = text ? whole_number<int>(trimmed(*text)) : fallback;
+        if (!whole || *whole < low || *whole > high)
+            throw ImagingError(
+                path, fmt::format("Segment{}_{} '{:.40}' is no whole number from {} to {}", segment, what,
+                                  text ? *text : std::to_string(fallback), low, high));
+        return *whole;
+    };
+    std::vector<Segment> segments;
+    std::map<int, int> segments_of_layer;
+    for (int i = 0; i < most_segments; ++i) {
+        std::optional<std::string> name = value(i, "Name");
+        if (!name) name = value(i, "ID");
+        if (!name) break;
+        const int layer = number(i, "Layer", labels.layers > 1 ? i : 0, 0, labels.layers - 1);
+        const int label = number(i, "LabelValue", ++segments_of_layer[layer], 1, 65535);
+        const std::optional<std::string> colour = value(i, "Color");
+        segments.push_back({.name = *name,
+                            .layer = layer,
+                            .label = static_cast<std::uint16_t>(label),
+                            .colour_rgb = colour ? colour_of(*colour) : std::nullopt});
+    }
+    return segments;
+}
+
+LabelRows read_labels(const std::filesystem::path& path, const OpenedImage& opened) {
+    constexpr float rounding_of_floats = 1e-7F;
+    LabelRows rows(opened.image.size_voxels, opened.layers);
+    std::vector<std::uint16_t> row(static_cast<std::size_t>(opened.image.size_voxels.x) *
+                                   static_cast<std::size_t>(opened.layers));
+    std::vector<bool> seen(65536);
+    int different = 0;
+    const auto label_of = [&](float value) {
+        // Slope and intercept leave a label short of whole.
+        const float whole = std::nearbyint(value);
+        if (!(whole >= 0.0F && whole <= 65535.0F &&
+              std::abs(value - whole) <= most_off_whole + rounding_of_floats * whole))
+            throw ImagingError(
+                path, fmt::format("is no label map: it holds {}, no whole number from 0 to 65535", value));
+        const auto label = static_cast<std::uint16_t>(whole);
+        if (!seen[label]) {
+            seen[label] = true;
+            if (++different > most_segments + 1)
+                throw ImagingError(path, "is no label map: it holds more than 4096 different values");
+        }
+        return label;
+    };
+    opened.read_slices(
+        [&](int, std::span<float> slice) {
+            for (; !slice.empty(); slice = slice.subspan(row.size())) {
+                std::ranges::transform(slice.first(row.size()), row.begin(), label_of);
+                rows.add_row(row);
+            }
+            if (rows.runs() > most_runs)
+                throw ImagingError(path, "changes its label too often to be kept; crop it in 3D Slicer");
+        },
+        [](double) {});
+    return rows;
+}
+
+/// Of a label map without names.
+std::vector<Segment> numbered_segments(const LabelRows& labels) {
+    std::vector<Segment> segments;
+    for (const std::uint16_t label : labels.labels_in(0))
+        segments.push_back({.name = std::to_string(label), .layer = 0, .label = label, .colour_rgb = {}});
+    return segments;
+}
+
+void require_plain_names(const Segmentation& segmentation) {
+    for (std::size_t i = 0; i < segmentation.segments.size(); ++i) {
+        const std::string& name = segmentation.segments[i].name;
+        if (const auto why = why_not_plain(name))
+            throw ImagingError(segmentation.path, fmt::format("the name of its segment {}, \"{}\", {}", i,
+                                                              one_line(name), *why));
+    }
+}
+
+void require_distinct_names(const Segmentation& segmentation) {
+    std::set<std::string> names;
+    for (const Segment& segment : segmentation.segments)
+        if (!names.insert(segment.name).second)
+            throw ImagingError(segmentation.path,
+                               fmt::format("has two segments called \"{}\"", segment.name));
+}
+
+/// Of coloured pictures: numbers in place of colours, in the order in which they come.
+OpenedImage numbered(const OpenedImage& coloured, const std::filesystem::path& path,
+                     std::map<std::uint32_t, std::uint16_t>& label_of_colour) {
+    OpenedImage labels = coloured;
+    labels.read_slices = [&](const TakeSlice& take, const ReportProgress& report) {
+        coloured.read_slices(
+            [&](int k, std::span<float> slice) {
+                for (float& value : slice) {
+                    if (value == 0.0F) continue;
+                    const auto next = static_cast<std::uint16_t>(label_of_colour.size() + 1);
+                    value = label_of_colour.emplace(static_cast<std::uint32_t>(value), next).first->second;
+                    if (next > most_segments + 1)
+                        throw ImagingError(path, "is no label map: it holds more than 4096 colours");
+                }
+                take(k, slice);
+            },
+            report);
+    };
+    return labels;
+}
+
+std::vector<Segment> coloured_segments(const std::map<std::uint32_t, std::uint16_t>& label_of_colour) {
+    std::vector<Segment> segments;
+    for (const auto& [colour, label] : label_of_colour)
+        segments.push_back({.name = fmt::format("#{:06x}", colour),
+                            .label = label,
+                            .colour_rgb = std::array{static_cast<std::uint8_t>(colour >> 16U),
+                                                     static_cast<std::uint8_t>(colour >> 8U),
+                                                     static_cast<std::uint8_t>(colour)}});
+    return segments;
+}
+
+}  // namespace
+
+Segmentation read_segmentation(const std::filesystem::path& path,
+                               const std::optional<glm::dvec3>& stack_spacing_mm) {
+    const OpenedImage found = open_labels(path, {.stack_spacing_mm = stack_spacing_mm});
+    if (std::filesystem::is_regular_file(path)) has_file_digest(path);  // or it is damaged
+    Segmentation segmentation{.path = path,
+                              .image = found.image,
+                              .segments = named_segments(path, found),
+                              .is_plain_map = false,
+                              .is_by_colour = found.is_coloured,
+                              .labels = {}};
+    if (segmentation.segments.empty() && found.layers > 1)
+        throw ImagingError(path, "has layers, but names no segments (Segment0_Name)");
+    require_distinct_names(segmentation);
+    std::map<std::uint32_t, std::uint16_t> label_of_colour;
+    segmentation.labels =
+        read_labels(path, found.is_coloured ? numbered(found, path, label_of_colour) : found);
+    segmentation.is_plain_map = segmentation.segments.empty();
+    if (segmentation.is_plain_map)
+        segmentation.segments =
+            found.is_coloured ? coloured_segments(label_of_colour) : numbered_segments(segmentation.labels);
+    // As TotalSegmentator writes them, a file a structure.
+    if (segmentation.is_plain_map && !found.is_coloured && segmentation.segments.size() == 1)
+        segmentation.segments.front().name = name_without_ending(path);
+    require_plain_names(segmentation);
+    return segmentation;
+}
+
+void name_segments(Segmentation& segmentation, const ColourTable& table) {
+    if (!segmentation.is_plain_map)
+        throw ImagingError(segmentation.path,
+                           "names its segments itself; a colour table is for plain label maps");
+    std::set<std::string> names;
+    for (Segment& segment : segmentation.segments) {
+        const auto found =
+            segmentation.is_by_colour
+                ? std::ranges::find_if(
+                      table, [&](const auto& row) { return row.second.colour_rgb == segment.colour_rgb; })
+                : table.find(segment.label);
+        if (found != table.end()) {
+            segment.name = found->second.name;
+            segment.colour_rgb = found->second.colour_rgb;
+        }
+        if (!names.insert(segment.name).second) segment.name += fmt::format(" ({})", segment.label);
+    }
+}
+
+const Segment& segment_named(const Segmentation& segmentation, const std::string& name) {
+    std::vector<std::string> names;
+    for (const Segment& segment : segmentation.segments) names.push_back(segment.name);
+    const std::optional<std::string> same = same_name(name, names);
+    for (const Segment& segment : segmentation.segments)
+        if (segment.name == same || (segmentation.is_plain_map && std::to_string(segment.label) == name))
+            return segment;
+    const std::optional<std::string> nearest = nearest_name(name, names);
+    throw ImagingError(
+        segmentation.path,
+        fmt::format("has no segment \"{}\"{}", name,
+                    nearest ? fmt::format("; did you mean \"{}\"?", *nearest) : std::string()));
+}
+
+}  // namespace osteomill

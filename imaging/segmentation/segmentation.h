@@ -1,0 +1,53 @@
+// A segmentation: which voxels of a scan belong to which structures, as 3D Slicer writes it (.seg.nrrd or
+// DICOM SEG, with names and overlapping layers) or as a plain label map of any format, whose segments bear
+// their number as name; where there is but one, the file's. Of coloured pictures every colour but black is a
+// segment, which bears it as its name ("#ff0000").
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "imaging/formats/source_image.h"
+#include "imaging/segmentation/colour_table.h"
+#include "imaging/segmentation/label_rows.h"
+
+namespace osteomill {
+
+struct Segment {
+    std::string name;
+    int layer = 0;
+    std::uint16_t label = 0;  ///< within its layer
+    std::optional<std::array<std::uint8_t, 3>> colour_rgb{};
+
+    bool operator==(const Segment&) const = default;
+};
+
+struct Segmentation {
+    std::filesystem::path path;
+    SourceImage image;  ///< without values
+    std::vector<Segment> segments;
+    bool is_plain_map = false;  ///< its segments have no names of their own
+    bool is_by_colour = false;  ///< a plain map of coloured pictures
+    LabelRows labels;
+};
+
+/// Throws ImagingError, in one line, for what open_labels refuses, names that do not fit their labels, labels
+/// that are no whole numbers from 0 to 65535 (within 0.01), more than 4096 different ones, and more than
+/// memory is given to.
+Segmentation read_segmentation(const std::filesystem::path& path,
+                               const std::optional<glm::dvec3>& stack_spacing_mm = std::nullopt);
+
+/// Gives the segments of a plain label map the names and colours of their labels, those of coloured pictures
+/// the names of their colours; those that the table does not know keep theirs, and of two with one name the
+/// later has its number behind it. Throws ImagingError for a segmentation that names its segments itself.
+void name_segments(Segmentation& segmentation, const ColourTable& table);
+
+/// By name, blanks and underscores being alike; of a plain label map also by number. Throws ImagingError,
+/// with the nearest name, where there is none.
+const Segment& segment_named(const Segmentation& segmentation, const std::string& name);
+
+}  // namespace osteomill

@@ -1,0 +1,38 @@
+// Removal of the bone that a burr's head passes through that is no ball: a body of revolution, swept along a
+// straight line with its spindle held still. As idempotent as carve.h: what is left of a voxel depends on
+// the nearest approach of the head's surface alone.
+#pragma once
+
+#include <glm/mat3x3.hpp>
+#include <glm/vec3.hpp>
+
+#include "common/bone/bone.h"
+#include "common/bone/brick_change.h"
+#include "common/scene/burr_profile.h"
+#include "simulation/carving/carve.h"
+#include "simulation/carving/removed_voxels.h"
+
+namespace osteomill {
+
+/// A head that moves from `from` to `to`, both of the burr's origin, in voxel coordinates.
+struct HeadSweep {
+    const BurrProfile& profile;  ///< in voxels
+    glm::dmat3 frame{1.0};       ///< burr axes in patient axes
+    glm::dvec3 from{0.0};
+    glm::dvec3 to{0.0};
+};
+
+/// Distance of a point from the space that the head sweeps, voxels; negative inside. Within a hundredth of a
+/// voxel for sweeps of up to four voxels. Real-time safe.
+double distance_from(const HeadSweep& sweep, const glm::dvec3& point) noexcept;
+
+/// As carve() with settings.coverage and settings.uncut, but all of the head is looked at in each step: a
+/// brick and a block of four voxels at a time, by their distance from the surface. Real-time safe.
+void carve_head(Bone& bone, const HeadSweep& sweep, const CarveSettings& settings, ChangeSink& changes,
+                RemovalSink& removed) noexcept;
+
+/// As look_ahead() of carve.h.
+void look_ahead(Bone& bone, const HeadSweep& sweep, const CarveSettings& settings,
+                RemovalSink& would_go) noexcept;
+
+}  // namespace osteomill

@@ -1,0 +1,80 @@
+// Rows of voxels that can lie in the crescent that a burr cuts in one short step. A superset, quickly
+// found: for a step of length L from a to b, what changes lies
+//
+//     ahead of the plane through a across the step   (behind it, the nearest point of the step is a),
+//     within sqrt((R + rim)^2 + L^2) of b            (beyond, no voxel ahead of the plane is covered),
+//     not within R - rim of a                        (there the ball at a has left nothing)
+//
+// with rim_voxels() of voxel_coverage.h.
+#pragma once
+
+#include <glm/vec3.hpp>
+
+#include "simulation/carving/sweep.h"
+
+namespace osteomill {
+
+/// Voxels first <= x < end.
+struct VoxelRange {
+    int first = 0;
+    int end = 0;
+
+    bool empty() const { return first >= end; }
+};
+
+/// Ranges of the rows of a sweep no longer than `longest_step_voxels`. All positions are counted
+/// from a base voxel below and left of the sweep, so that they are positive.
+class CrescentRows {
+  public:
+    static constexpr double longest_step_voxels = 2.0;
+    /// The burr that fits, and the rows that it may have in a slice, with room for a base that is up to 15
+    /// voxels farther away than it need be. A multiple of 16.
+    static constexpr double largest_radius_voxels = 250.0;
+    static constexpr int most_rows = 528;
+
+    /// `ball` and `rim` in voxels; the ball is counted from the base, and so are the voxels `first` <= v <
+    /// `end` that there are. A ball at rest has carved nothing yet: all of it is looked at.
+    CrescentRows(const Sweep& ball, double rim, const glm::ivec3& first, const glm::ivec3& end) noexcept;
+
+    /// What the sweep can reach of the voxels that there are.
+    VoxelRange columns() const { return columns_; }
+    VoxelRange rows() const { return rows_; }
+    VoxelRange slices() const { return slices_; }
+
+    /// Whether no voxel of the cube of `edge` voxels from `first` on can change.
+    bool misses_cube(const glm::ivec3& first, int edge) const noexcept;
+
+    /// What eight_rows() (crescent_rows_simd.h) needs, in single precision.
+    struct Shape {
+        glm::vec3 from{0.0f};
+        glm::vec3 to{0.0f};
+        float outer_squared = 0.0f;  // about `to`
+        float inner_squared = 0.0f;  // about `from`; negative where there is no inner ball
+        glm::vec3 direction{0.0f};   // unit, or zero for a ball at rest
+        // The plane through the step's start cuts the row whose points are `ahead` of it in y and z at x =
+        // plane_at + ahead * plane_per_ahead. What lies ahead is right of it, left of it or, where the step
+        // is nearly across x, all of the row or nothing; the weights (0 or 1) say which.
+        float plane_at = 0.0f;
+        float plane_per_ahead = 0.0f;
+        float right_weight = 0.0f;
+        float left_weight = 0.0f;
+        float row_weight = 0.0f;
+        // Voxels that there are.
+        float first_x = 0.0f;
+        float last_x = 0.0f;
+        float first_y = 0.0f;
+        float last_y = 0.0f;
+    };
+    const Shape& shape() const { return shape_; }
+
+    /// Slack for single precision, voxels: positions of up to a few hundred, rounded a few times.
+    static constexpr double slack_voxels = 1e-3;
+
+  private:
+    Shape shape_;
+    VoxelRange columns_;
+    VoxelRange rows_;
+    VoxelRange slices_;
+};
+
+}  // namespace osteomill

@@ -1,0 +1,13 @@
+// Whether bone lies in a ball: in a burr, or in one that would like to be in its place.
+#pragma once
+
+#include "common/bone/bone.h"
+#include "simulation/contact_models/ball_rows.h"
+
+namespace osteomill {
+
+/// Whether a voxel that is at least half there lies in the ball, all of it. Real-time safe; free air and
+/// empty rows of voxels cost little.
+bool has_bone_in(const Bone& bone, const Ball& ball) noexcept;
+
+}  // namespace osteomill

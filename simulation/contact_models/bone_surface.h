@@ -1,0 +1,23 @@
+// Surface of the bone, to a fraction of a voxel: where the trilinear fraction is one half. Positions are
+// counted from the base of the bricks, as BrickNeighbourhood takes them.
+#pragma once
+
+#include <glm/vec3.hpp>
+
+#include "simulation/engagement/brick_neighbourhood.h"
+
+namespace osteomill {
+
+inline constexpr float surface_fraction = 127.5f;  ///< of 255
+
+/// How far a ray that starts in bone (fraction of one half or more) goes before it leaves it, voxels;
+/// `longest` where it does not before. `direction` is of unit length. Steps of half a voxel: a gap narrower
+/// than that may be passed over. Real-time safe.
+float length_in_bone(const BrickNeighbourhood& bricks, const glm::vec3& start, const glm::vec3& direction,
+                     float longest) noexcept;
+
+/// Unit vector out of the bone, against the gradient of the fraction over two voxels; zero where there is
+/// none, as deep within bone. Real-time safe.
+glm::dvec3 outward_normal(const BrickNeighbourhood& bricks, const glm::vec3& position) noexcept;
+
+}  // namespace osteomill

@@ -1,0 +1,56 @@
+// Force model made of a contact law and erosion, as before there was a milling law: at each step a ContactLaw
+// says with what force the bone that the burr overlaps pushes back, and erosion.h takes bone away while the
+// spindle is on. The force is that of the bone as it was before the step's erosion; with the spindle off the
+// same force is the wall. The burr erodes halfway along its step, so that a slow step removes what many quick
+// ones do; it sweeps nothing, as these models do not.
+//
+// There is no cutting law here for a coupling to solve: the result's engagement is always empty. One thread
+// at a time.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "common/scene/scene.h"
+#include "common/scene/turning_burrs.h"
+#include "common/scene/uncut_tissues.h"
+#include "simulation/contact_models/contact_law.h"
+#include "simulation/contact_models/erosion.h"
+#include "simulation/contact_models/force_model.h"
+#include "simulation/contact_models/removal_account.h"
+#include "simulation/engagement/brick_neighbourhood.h"
+
+namespace osteomill {
+
+class ErodingModel final : public ForceModel {
+  public:
+    /// `burrs` and `tissues` as in the scene. Throws std::invalid_argument for an empty burr set or a burr
+    /// that require_valid() (usable_burr.h) refuses.
+    ErodingModel(Bone bone, std::vector<Burr> burrs, const std::vector<Tissue>& tissues,
+                 std::unique_ptr<ContactLaw> law);
+
+    void step(const BurrCommand& command, double time_s, ChangeSink& changes,
+              MillingResult& result) noexcept override;
+
+    void restore(const BrickChange& change, BrickFractions fractions, ChangeSink& changes) noexcept override;
+
+    const Bone& bone() const override { return bone_; }
+    RemovedByTissue removed_mm3() const override { return account_.removed_mm3(); }
+
+  private:
+    void erode(const glm::dvec3& position_mm, double dose, ChangeSink& changes) noexcept;
+
+    Bone bone_;
+    TurningBurrs burrs_;
+    std::unique_ptr<ContactLaw> law_;
+    BrickNeighbourhood bricks_;
+    Erosion erosion_;
+    RemovalAccount account_;
+    UncutTissues uncut_;
+
+    bool has_position_ = false;  // position_mm_ and burr_ hold the last step's
+    glm::dvec3 position_mm_{0.0};
+    std::size_t burr_ = 0;
+};
+
+}  // namespace osteomill

@@ -1,0 +1,33 @@
+// Interface of the force models, which the milling loop runs. A force model owns the bone, follows the burr,
+// takes bone away and says with what force the bone pushes back. The milling model is one; the older contact
+// models are others. force_models.h makes one by its name.
+#pragma once
+
+#include "common/bone/bone.h"
+#include "common/bone/brick_change.h"
+#include "simulation/exchange/milling_step.h"
+
+namespace osteomill {
+
+/// One thread at a time.
+class ForceModel {
+  public:
+    virtual ~ForceModel() = default;
+
+    /// Moves the burr to the command's pose at session time `time_s`, takes away the bone that goes (none
+    /// while the spindle is off), pushes the changes and overwrites `result`. A command that is not finite,
+    /// of no duration or of an unknown burr leaves bone and burr alone and makes the result invalid.
+    /// Real-time safe.
+    virtual void step(const BurrCommand& command, double time_s, ChangeSink& changes,
+                      MillingResult& result) noexcept = 0;
+
+    /// Between steps: undoes what milling did to these voxels, or redoes it (restore_bone.h). Real-time safe.
+    virtual void restore(const BrickChange& change, BrickFractions fractions,
+                         ChangeSink& changes) noexcept = 0;
+
+    virtual const Bone& bone() const = 0;
+    /// Since the start, less what was restored.
+    virtual RemovedByTissue removed_mm3() const = 0;
+};
+
+}  // namespace osteomill

@@ -1,0 +1,269 @@
+#include "simulation/coupling/burr_proxy.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+
+namespace osteomill {
+
+namespace {
+
+/// Share of a patch that touches the bone.
+double touching_share(double gap_voxels) {
+    constexpr double width = BurrProxy::surely_apart_voxels - BurrProxy::surely_touching_voxels;
+    return std::clamp((BurrProxy::surely_apart_voxels - gap_voxels) / width, 0.0, 1.0);
+}
+
+/// With which bone sets a burr that it drives apart from the hand; below 0 where it does not.
+double drive_mj(const glm::dvec3& cutting_force_n, const glm::dvec3& step_mm,
+                const glm::dvec3& hand_step_mm) {
+    return std::min(glm::dot(cutting_force_n, step_mm), glm::dot(cutting_force_n, step_mm - hand_step_mm));
+}
+
+/// The step of a burr that a wall holds back by friction, too: `solved` without it. What the pull would move
+/// it along the wall is shortened by what friction takes, or does not happen. Exact for a flat wall, since
+/// the pull is alike in every direction.
+glm::dvec3 with_friction(const ContactStep& solved, double pull_n_per_mm, double friction) {
+    const double normal_n = glm::length(solved.bone_force_n);
+    const glm::dvec3 normal = solved.bone_force_n / normal_n;
+    const glm::dvec3 along_mm = solved.step_mm - glm::dot(solved.step_mm, normal) * normal;
+    const double sliding_n = pull_n_per_mm * glm::length(along_mm);
+    const double held = friction * normal_n;
+    return solved.step_mm - along_mm * (sliding_n > held ? held / sliding_n : 1.0);
+}
+
+glm::dvec3 no_longer_than(const glm::dvec3& step_mm, double longest_mm) {
+    const double length_mm = glm::length(step_mm);
+    return length_mm > longest_mm ? step_mm * (longest_mm / length_mm) : step_mm;
+}
+
+}  // namespace
+
+void BurrProxy::place(const glm::dvec3& position_mm) noexcept {
+    position_mm_ = carving_mm_ = target_mm_ = position_mm;
+    apart_mj_ = to_hand_mj_ = 0.0;
+    map_step_ = 0;
+    walls_ = {};
+    correction_.reset();
+    cut_mm_.fill(0.0);
+}
+
+void BurrProxy::take_over(const MillingResult& latest) noexcept {
+    if (latest.step == map_step_) return;
+    map_step_ = latest.step;
+    if (latest.spindle_on) correction_.compare(latest.force_n, latest.time_s, latest.pose.spindle_axis);
+    const Engagement& engagement = latest.engagement;
+    std::fill_n(cut_mm_.begin(), engagement.count, 0.0);
+    remember_cuts(engagement);
+}
+
+std::span<const Contact> BurrProxy::gather_contacts(double longest_mm, double step_s, Meets meets,
+                                                    const Engagement& engagement) noexcept {
+    std::size_t count = 0;
+    const glm::dvec3 moved = position_mm_ - engagement.burr_position_mm;
+    const double yields_mm = engagement.has_edge_force && meets == Meets::chips ? edge_yields_mm : 0.0;
+    const auto add = [&](const glm::dvec3& normal, const glm::dvec3& force_n_per_mm, double begins_mm,
+                         const glm::dvec3& yield_n) {
+        if (begins_mm <= longest_mm)
+            contacts_[count++] = {normal, force_n_per_mm, begins_mm, yield_n, yields_mm};
+    };
+    const auto add_wall = [&](const glm::dvec3& normal, double area_mm2, double begins_mm) {
+        if (begins_mm <= longest_mm)
+            contacts_[count++] = {.normal = normal,
+                                  .force_n_per_mm = -wall_n_per_mm3_ * area_mm2 * normal,
+                                  .begins_mm = begins_mm};
+    };
+    for (std::size_t i = 0; i < engagement.count; ++i) {
+        const EngagedPatch& patch = engagement.patches[i];
+        const double along = glm::dot(patch.normal, moved);
+        if (meets == Meets::all_as_walls || patch.is_wall) {
+            add_wall(patch.normal, patch.area_mm2, patch.gap_mm - along);
+            continue;
+        }
+        if (meets == Meets::walls_only) continue;
+        const double share = touching_share(patch.gap_mm / engagement.spacing_mm);
+        const double begins = cut_mm_[i] - along;
+        const double begins_beyond_gap = std::max(patch.gap_mm, cut_mm_[i]) - along;
+        if ((share > 0.0 ? begins : begins_beyond_gap) > longest_mm) continue;
+        const glm::dvec3 force = correction_.gain() * patch.cutting_n_s_per_mm / step_s;
+        const glm::dvec3 yield = correction_.gain() * patch.edge_n;
+        if (share > 0.0) add(patch.normal, share * force, begins, share * yield);
+        if (share < 1.0) add(patch.normal, (1.0 - share) * force, begins_beyond_gap, (1.0 - share) * yield);
+    }
+    for (std::size_t i = 0; i < engagement.shank_count; ++i) {
+        const ShankPatch& patch = engagement.shank_patches[i];
+        add_wall(patch.normal, patch.area_mm2, patch.gap_mm - glm::dot(patch.normal, moved));
+    }
+    return {contacts_.data(), count};
+}
+
+BurrProxy::WallReaction BurrProxy::wall_reaction(const glm::dvec3& step_mm,
+                                                 const Engagement& engagement) const noexcept {
+    WallReaction reaction;
+    const glm::dvec3 moved = position_mm_ + step_mm - engagement.burr_position_mm;
+    for (std::size_t i = 0; i < engagement.shank_count; ++i) {
+        const ShankPatch& patch = engagement.shank_patches[i];
+        const double beyond_mm = glm::dot(patch.normal, moved) - patch.gap_mm;
+        if (beyond_mm <= 0.0) continue;
+        const glm::dvec3 force_n = -wall_n_per_mm3_ * patch.area_mm2 * beyond_mm * patch.normal;
+        reaction.force_n += force_n;
+        reaction.torque_n_mm += glm::cross(patch.arm_mm, force_n);
+    }
+    for (std::size_t i = 0; engagement.has_walls && i < engagement.count; ++i) {
+        const EngagedPatch& patch = engagement.patches[i];
+        const double beyond_mm = glm::dot(patch.normal, moved) - patch.gap_mm;
+        if (patch.is_wall && beyond_mm > 0.0)
+            reaction.force_n -= wall_n_per_mm3_ * patch.area_mm2 * beyond_mm * patch.normal;
+    }
+    return reaction;
+}
+
+void BurrProxy::remember_cuts(const Engagement& engagement) noexcept {
+    const glm::dvec3 moved = position_mm_ - engagement.burr_position_mm;
+    const double yields_mm = engagement.has_edge_force ? edge_yields_mm : 0.0;
+    for (std::size_t i = 0; i < engagement.count; ++i)
+        cut_mm_[i] = std::max(cut_mm_[i], glm::dot(engagement.patches[i].normal, moved) - yields_mm);
+}
+
+void BurrProxy::trail(bool is_held, const Engagement& engagement) noexcept {
+    if (!is_held || !engagement.has_edge_force) {
+        carving_mm_ = position_mm_;
+        return;
+    }
+    carving_mm_ = position_mm_ + no_longer_than(carving_mm_ - position_mm_, carving_trails_mm);
+}
+
+ContactStep BurrProxy::balance_with_bone(const LinearPull& pull, const glm::dvec3& hand_step_mm,
+                                         double tick_s, std::span<const Contact> contacts,
+                                         const Engagement& engagement) noexcept {
+    glm::dmat3 damping_n_per_mm(0.0);
+    LinearPull damped = pull;
+    const auto solve = [&] {
+        damped.offset_n = pull.offset_n + damping_n_per_mm * hand_step_mm;
+        damped.damping_n_per_mm = damping_n_per_mm;
+        const ContactStep step =
+            balance(damped, contacts, engagement.has_edge_force ? glm::dvec3(0.0) : damped.free_step_mm());
+        iterations_ += step.iterations;
+        return step;
+    };
+    ContactStep solved = solve();
+    const auto is_balanced = [&] { return solved.residual_n <= balance_tolerance_n; };
+    const glm::dvec3 cutting_n = solved.bone_force_n - wall_reaction(solved.step_mm, engagement).force_n;
+    const double energy_mj = drive_mj(cutting_n, solved.step_mm, hand_step_mm);
+    const bool runs_away = energy_mj > 0.0 && apart_mj_ + energy_mj > scale_.energy_mj(allowed_apart_mj);
+    if (is_balanced() && !runs_away) return solved;
+
+    if (is_balanced())
+        ++counts_.damped;
+    else
+        ++counts_.fallbacks;
+    const double for_each_drive = drive_to_damping * (1.0 + to_hand_mj_ / scale_.energy_mj(much_to_hand_mj));
+    double without_balance_n_per_mm = least_damping_n_s_per_mm / tick_s;
+    for (int attempt = 0; attempt < most_attempts; ++attempt) {
+        // What the damping does not make up for yet.
+        const glm::dmat3 drive = driving_part(solved.resistance_n_per_mm + damping_n_per_mm / for_each_drive);
+        const double sum_n_per_mm = drive[0][0] + drive[1][1] + drive[2][2];
+        if (is_balanced() && sum_n_per_mm < negligible_drive_n_per_mm) return solved;
+        damping_n_per_mm += for_each_drive * drive;
+        if (!is_balanced()) {
+            damping_n_per_mm += glm::dmat3(without_balance_n_per_mm);
+            without_balance_n_per_mm *= 4.0;
+        }
+        solved = solve();
+    }
+    if (is_balanced()) return solved;
+    ++counts_.relaxed;
+    solved = relaxed_step(damped, contacts);
+    iterations_ += solved.iterations;
+    return solved;
+}
+
+void BurrProxy::move(const glm::dvec3& step_mm, const glm::dvec3& target_mm, double tick_s) noexcept {
+    const glm::dvec3 hand_step_mm = target_mm - target_mm_;
+    const glm::dvec3 slowed_mm =
+        hand_step_mm + no_longer_than(step_mm - hand_step_mm, most_slip_mm_per_s_ * tick_s);
+    if (glm::length(slowed_mm) < glm::length(step_mm))
+        position_mm_ += slowed_mm;
+    else
+        position_mm_ = step_mm == target_mm - position_mm_ ? target_mm : position_mm_ + step_mm;
+}
+
+void BurrProxy::cut_toward(const glm::dvec3& target_mm, const LinearPull& pull, double tick_s,
+                           const Engagement& engagement) noexcept {
+    const glm::dvec3 pull_mm = target_mm - position_mm_;
+    const glm::dvec3 hand_step_mm = target_mm - target_mm_;
+    apart_mj_ *= std::max(0.0, 1.0 - tick_s / apart_memory_s);
+    to_hand_mj_ *= std::max(0.0, 1.0 - tick_s / to_hand_memory_s);
+    // The force may turn the step sideways, but hardly makes it longer than the pull (K_r, K_a >= 0).
+    const double longest_mm = glm::length(pull_mm) + 2.0 * engagement.spacing_mm;
+    const auto contacts = gather_contacts(longest_mm, tick_s, Meets::chips, engagement);
+    ContactStep solved{.step_mm = pull_mm};
+    if (!contacts.empty()) {
+        solved = balance_with_bone(pull, hand_step_mm, tick_s, contacts, engagement);
+        // Without bone exactly there, so that nothing is felt.
+        if (solved.bone_force_n == glm::dvec3(0.0)) solved.step_mm = pull_mm;
+    }
+    counts_.max_residual_n = std::max(counts_.max_residual_n, solved.residual_n);
+    walls_ = wall_reaction(solved.step_mm, engagement);
+    const glm::dvec3 cutting_n = solved.bone_force_n - walls_.force_n;
+    apart_mj_ = std::clamp(apart_mj_ + drive_mj(cutting_n, solved.step_mm, hand_step_mm), 0.0,
+                           scale_.energy_mj(most_apart_mj));
+    if (!contacts.empty())
+        to_hand_mj_ = std::max(0.0, to_hand_mj_ - glm::dot(pull.force_n(solved.step_mm), hand_step_mm));
+
+    move(solved.step_mm, target_mm, tick_s);
+    correction_.add_prediction(cutting_n, tick_s);
+    remember_cuts(engagement);
+    trail(solved.bone_force_n != glm::dvec3(0.0), engagement);
+}
+
+void BurrProxy::press_toward(const glm::dvec3& target_mm, const LinearPull& pull, double tick_s, Meets meets,
+                             const Engagement& engagement) noexcept {
+    const glm::dvec3 pull_mm = target_mm - position_mm_;
+    const double longest_mm = glm::length(pull_mm) + 2.0 * engagement.spacing_mm;
+    const auto contacts = gather_contacts(longest_mm, 0.0, meets, engagement);
+    correction_.reset();
+    apart_mj_ = to_hand_mj_ = 0.0;
+    if (contacts.empty()) {
+        walls_ = {};
+        move(pull_mm, target_mm, tick_s);
+        return;
+    }
+    const ContactStep solved = relaxed_step(pull, contacts);
+    iterations_ += solved.iterations;
+    walls_ = wall_reaction(solved.step_mm, engagement);
+    counts_.max_residual_n = std::max(counts_.max_residual_n, solved.residual_n);
+    const bool is_held = solved.bone_force_n != glm::dvec3(0.0);
+    const bool rubs = is_held && wall_friction_ > 0.0;
+    const glm::dvec3 held_mm =
+        rubs ? with_friction(solved, pull.stiffness_n_per_mm, wall_friction_) : solved.step_mm;
+    const glm::dvec3 step_mm = is_held ? held_mm : pull_mm;
+    // A wall may stretch the spring as fast as it likes.
+    if (glm::length(pull_mm - step_mm) > glm::length(target_mm_ - position_mm_))
+        position_mm_ += step_mm;
+    else
+        move(step_mm, target_mm, tick_s);
+}
+
+void BurrProxy::advance(const glm::dvec3& target_mm, const LinearPull& pull, double tick_s, bool spindle_on,
+                        const MillingResult& latest) noexcept {
+    take_over(latest);
+    iterations_ = 0;
+    if (spindle_on)
+        cut_toward(target_mm, pull, tick_s, latest.engagement);
+    else
+        press_toward(target_mm, pull, tick_s, Meets::all_as_walls, latest.engagement);
+    if (!spindle_on) carving_mm_ = position_mm_;
+    target_mm_ = target_mm;
+}
+
+void BurrProxy::advance_on_walls(const glm::dvec3& target_mm, const LinearPull& pull, double tick_s,
+                                 const MillingResult& latest) noexcept {
+    take_over(latest);
+    iterations_ = 0;
+    press_toward(target_mm, pull, tick_s, Meets::walls_only, latest.engagement);
+    carving_mm_ = position_mm_;
+    target_mm_ = target_mm;
+}
+
+}  // namespace osteomill

@@ -1,0 +1,182 @@
+// Burr as a massless proxy, pulled by a coupling's spring and damper and held by the bone: backward Euler,
+// solved each tick against the engagement map that the milling loop last sampled.
+//
+//     pull(d) + F(d) = 0      for the step d of the proxy p toward the hand x
+//
+//     spindle on, the milling force at the step's end:
+//         F(d) = sum over patches of C_i (w_i max(0, n_i . d - cut_i)
+//                                         + (1 - w_i) max(0, n_i . d - max(gap_i, cut_i))) / dt
+//     spindle off, bone is a wall:
+//         F(d) = - sum of k A_i n_i max(0, n_i . (p + d - p_map) - gap_i)
+//
+// C_i, n_i, gap_i and A_i as in engagement.h, with gaps counted from p in the first; cut_i is how far the
+// patch may advance in what the proxy has cut since the map was sampled, so no bone is felt twice. Gaps of
+// freshly carved bone scatter by about a tenth of a voxel, more than a burr advances in a tick: a patch whose
+// gap is near a fifth of a voxel may touch or not, and counts as touching by the weight w_i, which falls from
+// 1 to 0 between a tenth and three tenths. A threshold would let it come and go with the lattice. Piecewise
+// linear: Newton on the set of patches in contact (contact_solve.h). With a spring alone and in one
+// dimension, in bone of resistance B, it is p' = (B/dt p + K_c x) / (B/dt + K_c): stable for any B.
+//
+// Edges that rub give a patch a force that does not go with its advance: it is there as soon as the patch
+// touches, and holds the burr until the pull overcomes it, as dry friction does. It is made elastic: each
+// patch gives way by edge_yields_mm before it cuts, and the burr that carves trails the proxy by up to
+// carving_trails_mm, so that what is pressed in is still there when the next map comes.
+//
+// The shank is a wall, with the spindle on and off, and so is bone that no burr cuts to the head:
+//
+//     F(d) = - sum of k A_j n_j max(0, n_j . (p + d - p_map) - gap_j)
+//
+// in the same balance. Its force is no cutting force: the gain that compares those with the model's does not
+// see it, and since a wall gives back no more than it took, nor does the energy with which bone drives the
+// burr. How the tool points is the hand's, and is not solved.
+//
+// The pull is that of coupling_spring.h, with its damper. So what the hand feels is what the bone does to the
+// burr, to the last digit, but for two things.
+//
+// A massless burr that breaks through would be at the hand within a tick, and the hand would feel the spring
+// let go all at once. So it would where a spindle stops, and what pulled the burr along is a wall from then
+// on. A handpiece has mass, a spindle comes to rest: the burr slips past the hand no faster than
+// most_release_n_per_s stretch the spring, which lets go over some ticks.
+//
+// Edges pull sideways, so bone can drive the burr along: the symmetric part of what it resists may have a
+// negative eigenvalue -N. Then the burr may run away from the hand; and a ring of such contacts may leave no
+// balance at all. There the tick is solved again with a damper between burr and hand that the hand does not
+// feel: a matrix, a small multiple of the part of that resistance that is negative, so it damps only the ways
+// in which bone drives. A multiple over 1 makes the law monotone again: it has one balance, and the burr
+// stays with the hand. In the other ways the spring lets go of bone that has gone as it always does. Whether
+// the burr runs away is found by the energy with which bone drives it, F . d, and sets it apart from the
+// hand, F . (d - the hand's step), the smaller of them: up to allowed_apart_mj, in a store that forgets with
+// apart_memory_s, nothing is damped that has a balance. The multiple grows with the energy that the hand has
+// got of late. Should a tick have no balance with the damper either (counted; not seen), it keeps the
+// contacts' normal forces alone: these always have one, and only take energy out.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <span>
+
+#include "common/scene/solve_counts.h"
+#include "simulation/coupling/contact_solve.h"
+#include "simulation/coupling/force_correction.h"
+#include "simulation/device/device_limits.h"
+#include "simulation/exchange/milling_step.h"
+
+namespace osteomill {
+
+class BurrProxy {
+  public:
+    /// `wall_friction`: Coulomb's coefficient with the spindle off. `arm`: on whose spring the burr is.
+    explicit BurrProxy(double wall_friction = 0.0, const PatientLimits& arm = {})
+        : wall_friction_(wall_friction),
+          scale_(arm.scale),
+          wall_n_per_mm3_(std::max(wall_n_per_mm3, arm.scale.stiffness_n_per_mm(wall_n_per_mm3))),
+          most_slip_mm_per_s_(most_release_n_per_s / arm.max_stiffness_n_per_mm) {}
+
+    /// Puts the proxy somewhere, in contact with nothing that it knows of.
+    void place(const glm::dvec3& position_mm) noexcept;
+
+    /// One tick of `tick_s` toward `target_mm` (patient LPS), where the hand is; `pull` is the coupling's on
+    /// the burr. In free air the proxy follows to the target. Real-time safe.
+    void advance(const glm::dvec3& target_mm, const LinearPull& pull, double tick_s, bool spindle_on,
+                 const MillingResult& latest) noexcept;
+
+    /// Likewise on what no burr cuts alone, whether the spindle turns or not: for couplings whose burr is
+    /// elsewhere free.
+    void advance_on_walls(const glm::dvec3& target_mm, const LinearPull& pull, double tick_s,
+                          const MillingResult& latest) noexcept;
+
+    const glm::dvec3& position_mm() const { return position_mm_; }
+    /// Where the burr carves: the same, but for what gives way before edges cut.
+    const glm::dvec3& carving_mm() const { return carving_mm_; }
+    /// Iterations that the last advance took, for benchmarks.
+    int iterations() const { return iterations_; }
+    const SolveCounts& counts() const { return counts_; }
+    /// Whether, in the last advance, bone pushed on the shank, or on the head without being cut. With the
+    /// spindle off only the first is told.
+    bool touches_wall() const { return walls_.force_n != glm::dvec3(0.0); }
+    /// Moment of the push on the shank about the burr's centre, N mm, patient axes.
+    const glm::dvec3& shank_torque_n_mm() const { return walls_.torque_n_mm; }
+
+    /// Between these gaps a patch counts as touching by a share.
+    static constexpr double surely_touching_voxels = 0.1;
+    static constexpr double surely_apart_voxels = 0.3;
+    /// Depth by which a patch gives way before its edges cut, and how far the carving burr may trail: that of
+    /// a patch nearly along the motion yields, too.
+    static constexpr double edge_yields_mm = 0.001;
+    static constexpr double carving_trails_mm = 0.005;
+    /// Wall pressure per depth with the spindle off, N/mm^3: a 1 mm burr pressed with 3 N sinks in by 0.04
+    /// mm, and no farther at the arm either.
+    static constexpr double wall_n_per_mm3 = 1000.0;
+    /// How fast the spring may let go: 0.15 N a tick, half of what is felt as a knock.
+    static constexpr double most_release_n_per_s = 150.0;
+
+    // Energies are the hand's, at the arm.
+    static constexpr double apart_memory_s = 0.05;
+    static constexpr double allowed_apart_mj = 0.1;
+    static constexpr double most_apart_mj = 1.0;
+    /// With so much in the hand the damping is twice as strong; the safety monitor lets go at 15 mJ.
+    static constexpr double much_to_hand_mj = 0.3;
+    static constexpr double to_hand_memory_s = 0.1;
+    /// Hidden damping for what drives the burr, both in N s/mm, while the hand has got nothing; 1 would only
+    /// just do.
+    static constexpr double drive_to_damping = 2.0;
+    /// Where a tick has no balance although nothing seems to drive the burr.
+    static constexpr double least_damping_n_s_per_mm = 0.02;
+    static constexpr int most_attempts = 4;
+    /// Far below any spring's stiffness.
+    static constexpr double negligible_drive_n_per_mm = 1e-3;
+
+  private:
+    /// Of bone that is a wall: the moment is that on the shank.
+    struct WallReaction {
+        glm::dvec3 force_n{0.0};
+        glm::dvec3 torque_n_mm{0.0};
+    };
+
+    void take_over(const MillingResult& latest) noexcept;
+    /// What of the head's surroundings a step may meet.
+    enum class Meets : std::uint8_t { chips, walls_only, all_as_walls };
+
+    /// Contacts that a step of `step_s` may meet that is no longer than `longest_mm`.
+    std::span<const Contact> gather_contacts(double longest_mm, double step_s, Meets meets,
+                                             const Engagement& engagement) noexcept;
+    /// At the end of a step from where the proxy is.
+    WallReaction wall_reaction(const glm::dvec3& step_mm, const Engagement& engagement) const noexcept;
+    void remember_cuts(const Engagement& engagement) noexcept;
+    /// Takes the burr that carves along with the proxy, which bone holds or does not.
+    void trail(bool is_held, const Engagement& engagement) noexcept;
+    /// The balance of a tick, damped where bone drives the burr.
+    ContactStep balance_with_bone(const LinearPull& pull, const glm::dvec3& hand_step_mm, double tick_s,
+                                  std::span<const Contact> contacts, const Engagement& engagement) noexcept;
+    /// With the spindle on.
+    void cut_toward(const glm::dvec3& target_mm, const LinearPull& pull, double tick_s,
+                    const Engagement& engagement) noexcept;
+    /// Without cutting.
+    void press_toward(const glm::dvec3& target_mm, const LinearPull& pull, double tick_s, Meets meets,
+                      const Engagement& engagement) noexcept;
+    /// By a step toward the target, or as much of it as the spring may let go of in a tick.
+    void move(const glm::dvec3& step_mm, const glm::dvec3& target_mm, double tick_s) noexcept;
+
+    double wall_friction_;
+    ArmScale scale_;
+    double wall_n_per_mm3_;
+    double most_slip_mm_per_s_;
+    glm::dvec3 position_mm_{0.0};
+    glm::dvec3 carving_mm_{0.0};
+    glm::dvec3 target_mm_{0.0};  // of the last tick
+    double apart_mj_ = 0.0;      // that bone lately spent on setting burr and hand apart
+    double to_hand_mj_ = 0.0;    // that the hand lately got
+    std::uint64_t map_step_ = 0;
+    ForceCorrection correction_;
+    SolveCounts counts_;
+    int iterations_ = 0;
+    std::array<double, Engagement::max_patches>
+        cut_mm_{};  // by patch: advance from p_map to which the proxy has cut
+    WallReaction walls_;
+    std::array<Contact, 2 * Engagement::max_patches + Engagement::max_shank_patches>
+        contacts_{};  // a patch of the burr may have two
+};
+
+}  // namespace osteomill

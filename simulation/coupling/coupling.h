@@ -1,0 +1,57 @@
+// Interface of the couplings, which stand between the force model and the hand: from model output and device
+// state to the force of this haptic tick, and to where the burr goes.
+#pragma once
+
+#include <glm/vec3.hpp>
+
+#include "common/scene/scene.h"
+#include "common/scene/solve_counts.h"
+#include "simulation/device/haptic_device.h"
+#include "simulation/exchange/milling_step.h"
+
+namespace osteomill {
+
+/// The device at this tick, in patient space.
+struct HandState {
+    double now_s = 0.0;
+    double tick_s = 0.001;
+    ToolPose pose;
+    glm::dvec3 velocity_mm_per_s{0.0};
+    bool spindle_on = false;
+    std::size_t burr = 0;
+    double speed_share = 1.0;  ///< of the spindle's speed to the burr's own
+};
+
+struct CouplingOutput {
+    glm::dvec3 force_n{0.0};  ///< on the hand, patient axes; not yet clamped
+    ToolPose burr_pose;       ///< where the milling loop shall take the burr next
+    /// Moment of what bone does to the shank, about the burr's centre, where force_n acts; patient axes.
+    glm::dvec3 shank_torque_n_mm{0.0};
+};
+
+class Coupling {
+  public:
+    virtual ~Coupling() = default;
+
+    /// One haptic tick. `latest` is the milling loop's newest result (step 0: none yet). Real-time safe.
+    virtual CouplingOutput tick(const HandState& hand, const MillingResult& latest) noexcept = 0;
+
+    /// How the solves so far ended; of a coupling that solves none: nothing.
+    virtual SolveCounts solve_counts() const noexcept { return {}; }
+
+    /// Forgets everything, as after a fault or a jump of the device: the next tick starts from the hand's
+    /// pose.
+    virtual void reset() noexcept = 0;
+};
+
+struct CouplingOptions {
+    PatientLimits device;
+    double milling_period_s = 0.001;
+    /// The model's force is the wall, too, and it has no cutting law: with the spindle off a coupling renders
+    /// that force, makes no wall of its own and leaves the burr where the hand is.
+    bool model_holds_wall = false;
+    /// Coulomb's, of a burr at rest on bone; of couplings that solve one.
+    double wall_friction = 0.0;
+};
+
+}  // namespace osteomill

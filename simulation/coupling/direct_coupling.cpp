@@ -1,0 +1,49 @@
+#include "simulation/coupling/direct_coupling.h"
+
+namespace osteomill {
+
+DirectCoupling::DirectCoupling(ForceEstimate estimate, ForceShape shape, const CouplingOptions& options)
+    : wall_n_per_mm_(options.device.max_stiffness_n_per_mm),
+      model_holds_wall_(options.model_holds_wall),
+      force_(estimate, shape, options.milling_period_s),
+      wall_(0.0, options.device) {}
+
+void DirectCoupling::reset() noexcept {
+    force_.reset();
+    step_ = 0;
+    is_wall_placed_ = false;
+}
+
+const glm::dvec3& DirectCoupling::follow_wall(const HandState& hand, const MillingResult& latest) noexcept {
+    if (!is_wall_placed_) wall_.place(hand.pose.position_mm);
+    is_wall_placed_ = true;
+    const glm::dvec3& hand_mm = hand.pose.position_mm;
+    const LinearPull pull{wall_n_per_mm_ * (hand_mm - wall_.position_mm()), wall_n_per_mm_};
+    if (hand.spindle_on)
+        wall_.advance_on_walls(hand_mm, pull, hand.tick_s, latest);
+    else
+        wall_.advance(hand_mm, pull, hand.tick_s, false, latest);
+    return wall_.position_mm();
+}
+
+CouplingOutput DirectCoupling::tick(const HandState& hand, const MillingResult& latest) noexcept {
+    // With the spindle on what no burr cuts is still a wall, beside the model's force.
+    const bool is_wall = !model_holds_wall_ && (!hand.spindle_on || latest.engagement.has_walls);
+    ToolPose burr = hand.pose;
+    if (is_wall) {
+        burr.position_mm = follow_wall(hand, latest);
+    } else {
+        is_wall_placed_ = false;
+    }
+    if (latest.step != step_) {
+        step_ = latest.step;
+        const glm::dvec3 wall_n =
+            is_wall ? wall_n_per_mm_ * (burr.position_mm - hand.pose.position_mm) : glm::dvec3(0.0);
+        force_.add(hand.spindle_on || model_holds_wall_ ? wall_n + latest.force_n : wall_n, hand.now_s);
+    }
+    return {.force_n = force_.over_tick(hand.now_s, hand.tick_s),
+            .burr_pose = burr,
+            .shank_torque_n_mm = is_wall ? wall_.shank_torque_n_mm() : glm::dvec3(0.0)};
+}
+
+}  // namespace osteomill

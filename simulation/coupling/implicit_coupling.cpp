@@ -1,0 +1,26 @@
+#include "simulation/coupling/implicit_coupling.h"
+
+namespace osteomill {
+
+ImplicitCoupling::ImplicitCoupling(const CouplingOptions& options)
+    : hand_(options.device.position_resolution_mm),
+      proxy_(options.wall_friction, options.device),
+      spring_(options.device, burr_filter_s) {}
+
+CouplingOutput ImplicitCoupling::tick(const HandState& hand, const MillingResult& latest) noexcept {
+    if (!placed_) {
+        proxy_.place(hand.pose.position_mm);
+        spring_.place(hand.pose.position_mm);
+        hand_.reset();
+        placed_ = true;
+    }
+    const bool on_wall = !hand.spindle_on || proxy_.touches_wall();
+    const glm::dvec3 position_mm = hand_.update(hand.pose.position_mm, hand.tick_s, on_wall);
+    const LinearPull pull = spring_.follow_hand(position_mm, hand.tick_s);
+    proxy_.advance(position_mm, pull, hand.tick_s, hand.spindle_on, latest);
+    return {.force_n = spring_.follow_burr(proxy_.position_mm(), hand.tick_s),
+            .burr_pose = {proxy_.carving_mm(), hand.pose.spindle_axis},
+            .shank_torque_n_mm = proxy_.shank_torque_n_mm()};
+}
+
+}  // namespace osteomill

@@ -1,0 +1,92 @@
+// Force of each voxel that a step removed, without bins:
+//
+//     f = s V (-sigma K_t e_psi - K_r n - K_a e_kappa) / (2 pi r n_rev dt)
+//
+// Summed over the removed voxels this is equation (2) of the published method, F = (1/N_theta) sum_j sum_i
+// sum_k T(i,j,k) [K_t K_r K_a]^T t(i,j,k) dz, in the limit of fine bins: the bone removed at (psi, z) is the
+// chip t that the M = N_phi n_rev dt teeth passing that angle cut, t = s V / (M r dpsi dz). So the mean does
+// not depend on the number of edges at a given feed and spindle speed. Geometry as in Lee and Altintas 1996:
+// burr frame, kappa = 0 at the tip,
+//     n = (cos psi sin kappa, sin psi sin kappa, -cos kappa)
+//     e_psi = (-sin psi, cos psi, 0)
+//     e_kappa = (cos psi cos kappa, sin psi cos kappa, sin kappa).
+//
+// A voxel of the crescent is up to a voxel off the burr's surface. Its force is taken where it is, at a
+// distance d from the burr's centre: r = d sin kappa. What a shell loses goes with d^2 and the force with 1 /
+// d, so that the mean over the ramp of voxel_coverage.h, in which d is R on the mean, is that of the surface;
+// voxels moved there first, to r = R sin kappa, would add up to too much by the ramp's variance over R^2, 0.5
+// % for a burr of ten voxels. With K_r n + K_a e_kappa written out, sin kappa / r = 1 / d leaves only e_psi /
+// r, e_r / r, e_r and 1 / r that vary quickly near the spindle's axis: of these the means of
+// axis_singularity_kernel.h are taken.
+//
+// An edge that cuts rubs, too (Altintas's linear edge model; Lee and Altintas 1996): dF = (K_te, K_re, K_ae)
+// ds for each mm of it, however thin the chip. So that force is of the face that is cut, not of what a step
+// took, which at a slow feed is a level here and there of a voxel's 255. It is summed over the voxels that
+// the burr would cut if it went on by d, a voxel or more, each of which has V / (n . d) of the
+// face (edge_advance.h):
+//
+//     f = s V / (n . d) N_phi (-sigma K_te e_psi - K_re n - K_ae e_kappa) / (2 pi r)
+//
+// the law of chips with other coefficients and weights.
+#pragma once
+
+#include <array>
+#include <glm/mat3x3.hpp>
+#include <glm/vec3.hpp>
+#include <span>
+
+#include "common/scene/burr.h"
+#include "common/scene/burr_profile.h"
+#include "simulation/carving/instruction_set.h"
+#include "simulation/carving/removed_voxels.h"
+
+namespace osteomill {
+
+/// A step, as the force sees it: of its chips, or of its edges.
+struct CuttingStep {
+    /// Of chips. `middle_voxels` is the burr's centre half-way through the step, in voxel coordinates:
+    /// directions taken from the step's end would leave a bias that no refinement removes. `elapsed_s` > 0;
+    /// `spindle_axis` is a unit vector. `head_profile`: in voxels, null for a ball; outlives the step.
+    CuttingStep(const Burr& burr, const glm::dvec3& spindle_axis, const glm::dvec3& middle_voxels,
+                double spacing_mm, double elapsed_s, const BurrProfile* head_profile = nullptr);
+
+    /// Of the edges in such a step: what it takes is bone that the burr would cut on `path_voxels` (not zero)
+    /// from `from_voxels`.
+    CuttingStep of_edges(const Burr& burr, const glm::dvec3& from_voxels,
+                         const glm::dvec3& path_voxels) const;
+
+    glm::dmat3 frame;  ///< burr axes in patient axes
+    glm::dvec3 middle_voxels;
+    double spacing_mm;
+    glm::vec3 coefficients;  ///< sigma K_t, K_r, K_a; of edges sigma K_te, K_re, K_ae
+    double elapsed_s;
+    /// Force in N = this * the sums over `ChipForces`.
+    double newton_per_unit;
+    bool is_of_edges = false;
+    glm::vec3 path_direction{0.0f};  ///< of edges: unit, burr axes
+    float half_path_voxels = 0.0f;   ///< likewise
+    float line_lost = 0.0f;          ///< likewise: share_lost_at_line() of axis_singularity_kernel.h
+    const BurrProfile* head;         ///< null: a ball
+};
+
+/// Force of each voxel of a batch, and where the voxel lies; burr axes, voxels. Scratch: set by chip_forces
+/// up to the batch's padded count.
+struct ChipForces {
+    alignas(64) std::array<float, RemovedVoxels::capacity> force_x;
+    alignas(64) std::array<float, RemovedVoxels::capacity> force_y;
+    alignas(64) std::array<float, RemovedVoxels::capacity> force_z;
+    alignas(64) std::array<float, RemovedVoxels::capacity> x;
+    alignas(64) std::array<float, RemovedVoxels::capacity> y;
+    alignas(64) std::array<float, RemovedVoxels::capacity> z;
+};
+
+/// `weights`: what each voxel counts for, relative stiffness times the fraction removed; zero for padding.
+/// Real-time safe.
+void chip_forces(const CuttingStep& step, const RemovedVoxels& removed, std::span<const float> weights,
+                 InstructionSet instructions, ChipForces& out) noexcept;
+
+/// Sum of the same forces; burr axes, in units of CuttingStep::newton_per_unit. Real-time safe.
+glm::dvec3 sum_of_chip_forces(const CuttingStep& step, const RemovedVoxels& removed,
+                              std::span<const float> weights, InstructionSet instructions) noexcept;
+
+}  // namespace osteomill

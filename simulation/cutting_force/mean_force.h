@@ -1,0 +1,37 @@
+// Mean milling force over a step: equation (2) summed directly over the removed voxels, the default.
+#pragma once
+
+#include <glm/vec3.hpp>
+
+#include "simulation/cutting_force/chip_force.h"
+
+namespace osteomill {
+
+/// Real-time safe.
+class MeanForce {
+  public:
+    MeanForce(const CuttingStep& step, InstructionSet instructions) noexcept
+        : step_(step), instructions_(instructions) {}
+
+    /// Weights are padded with zeros like the batch.
+    void add(const RemovedVoxels& removed, std::span<const float> weights) noexcept {
+        sum_ += sum_of_chip_forces(step_, removed, weights, instructions_);
+    }
+
+    /// What `edges` of the same step rub on.
+    void add_edges(const CuttingStep& edges, const RemovedVoxels& rubbed,
+                   std::span<const float> weights) noexcept {
+        edges_n_ += edges.newton_per_unit * sum_of_chip_forces(edges, rubbed, weights, instructions_);
+    }
+
+    /// Mean force of the bone on the burr during the step, N, patient axes.
+    glm::dvec3 force_n() const noexcept { return step_.frame * (step_.newton_per_unit * sum_ + edges_n_); }
+
+  private:
+    CuttingStep step_;
+    InstructionSet instructions_;
+    glm::dvec3 sum_{0.0};
+    glm::dvec3 edges_n_{0.0};  // burr axes
+};
+
+}  // namespace osteomill

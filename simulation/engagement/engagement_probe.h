@@ -1,0 +1,58 @@
+// Sampling of the bone around one burr and its shank into an engagement map (engagement.h).
+#pragma once
+
+#include <glm/vec3.hpp>
+#include <vector>
+
+#include "common/bone/bone.h"
+#include "common/scene/burr.h"
+#include "common/scene/edge_shares.h"
+#include "common/scene/uncut_tissues.h"
+#include "simulation/engagement/brick_neighbourhood.h"
+#include "simulation/engagement/burr_patches.h"
+#include "simulation/engagement/engagement.h"
+#include "simulation/engagement/patch_crossings.h"
+#include "simulation/engagement/shank_probe.h"
+
+namespace osteomill {
+
+/// Samples the bone around one burr and its shank, at the burr's patches (burr_patches.h). Allocates when
+/// constructed.
+class EngagementProbe {
+  public:
+    explicit EngagementProbe(const Burr& burr, double spacing_mm, const EdgeShares& edge_shares = {},
+                             const UncutTissues& uncut = {});
+
+    /// Fills `out` for a burr at `position_mm` with its spindle along `spindle_axis` (unit), which turns at
+    /// `speed_share` (positive) of the burr's own speed. The surface of the bone is where the trilinear
+    /// fraction crosses one half. Real-time safe.
+    void sample(const Bone& bone, const glm::dvec3& position_mm, const glm::dvec3& spindle_axis,
+                double speed_share, InsideBurr inside, Engagement& out) noexcept;
+    /// Likewise at the burr's own speed, with any bone inside.
+    void sample(const Bone& bone, const glm::dvec3& position_mm, const glm::dvec3& spindle_axis,
+                Engagement& out) noexcept {
+        sample(bone, position_mm, spindle_axis, 1.0, InsideBurr::any, out);
+    }
+
+  private:
+    void sample_burr(const Bone& bone, const glm::dvec3& position_mm, const glm::dvec3& spindle_axis,
+                     double speed_share, InsideBurr inside, Engagement& out) noexcept;
+
+    /// Whether what begins at a crossing is bone that no burr cuts.
+    bool is_uncut(const glm::vec3& surface, const glm::vec3& outward,
+                  const PatchCrossing& crossing) const noexcept;
+
+    double radius_mm_;
+    bool has_edge_force_;
+    EdgeShares edge_shares_;
+    UncutTissues uncut_;
+    std::vector<BurrPatch> patches_;
+    double bounding_radius_mm_;  // of a ball about the head's middle
+    double middle_height_mm_ = 0.0;
+    bool has_beside_ = false;  // of a head that is no ball
+    PatchCrossings crossings_;
+    BrickNeighbourhood bricks_;
+    ShankProbe shank_;
+};
+
+}  // namespace osteomill

@@ -1,0 +1,178 @@
+#include "simulation/engagement/patch_crossings.h"
+
+#include <algorithm>
+#include <bit>
+
+#include "simulation/carving/simd.h"
+#include "simulation/engagement/engagement.h"
+
+namespace osteomill {
+
+using simd::Floats;
+using simd::Floats3;
+using simd::Ints;
+
+namespace {
+
+/// Where along a patch's normal the bone is looked at, from the burr's surface.
+constexpr std::array<float, 4> offsets_voxels{-static_cast<float>(Engagement::reach_voxels), -0.5f, 0.5f,
+                                              static_cast<float>(Engagement::reach_voxels)};
+/// Half of a voxel's 255 levels: the bone's surface.
+constexpr float half = 127.5f;
+
+/// Fractions, 0 to 255, trilinear between the centres of voxels, at eight positions from the bricks' base.
+[[gnu::always_inline]] inline Floats fractions_at(const BrickNeighbourhood& bricks, Floats3 position) {
+    const Ints x = __builtin_convertvector(position.x, Ints);
+    const Ints y = __builtin_convertvector(position.y, Ints);
+    const Ints z = __builtin_convertvector(position.z, Ints);
+    const Ints brick = (x >> 4) + bricks.edge() * ((y >> 4) + bricks.edge() * (z >> 4));
+    const Ints in_brick = (x & 15) | (y & 15) << 4 | (z & 15) << 8;
+    const unsigned across = simd::bits_of(((x & 15) == 15) | ((y & 15) == 15) | ((z & 15) == 15));
+    // The low and the high four corners of each.
+    std::array<std::int32_t, simd::width> low;
+    std::array<std::int32_t, simd::width> high;
+    std::uint64_t any = 0;
+    for (std::size_t lane = 0; lane < simd::width; ++lane) {
+        const std::uint64_t corners = (across >> lane & 1u) != 0
+                                          ? bricks.corners_across(brick[lane], in_brick[lane])
+                                          : bricks.corners_within(brick[lane], in_brick[lane]);
+        low[lane] = static_cast<std::int32_t>(corners & 0xffffffffu);
+        high[lane] = static_cast<std::int32_t>(corners >> 32);
+        any |= corners;
+    }
+    if (any == 0) return Floats{};
+    const Ints lows = simd::load<Ints>(low.data());
+    const Ints highs = simd::load<Ints>(high.data());
+    std::array<Floats, 8> c;
+    for (int corner = 0; corner < 4; ++corner) {
+        c[static_cast<std::size_t>(corner)] = simd::to_floats(lows >> (8 * corner) & 255);
+        c[static_cast<std::size_t>(corner) + 4] = simd::to_floats(highs >> (8 * corner) & 255);
+    }
+    return detail::trilinear<Floats>(c, position.x - simd::to_floats(x), position.y - simd::to_floats(y),
+                                     position.z - simd::to_floats(z));
+}
+
+[[gnu::always_inline]] inline Floats3 along_axes(const glm::mat3& frame, const Floats3& v) {
+    return {frame[0].x * v.x + frame[1].x * v.y + frame[2].x * v.z,
+            frame[0].y * v.x + frame[1].y * v.y + frame[2].y * v.z,
+            frame[0].z * v.x + frame[1].z * v.y + frame[2].z * v.z};
+}
+
+[[gnu::always_inline]] inline Floats3 load3(const std::array<std::vector<float>, 3>& from, std::size_t i) {
+    return {simd::load<Floats>(&from[0][i]), simd::load<Floats>(&from[1][i]),
+            simd::load<Floats>(&from[2][i])};
+}
+
+}  // namespace
+
+struct PatchCrossings::Look {
+    const BrickNeighbourhood& bricks;
+    glm::mat3 frame;
+    glm::vec3 centre;
+    float radius;
+    InsideBurr inside;
+};
+
+struct PatchCrossings::Loops {
+    PatchCrossings& to;
+
+    /// Sets the fractions at one of the offsets. Returns which of the patches have bone there.
+    [[gnu::always_inline]] static unsigned sample(const Look& look, const Floats3& surface,
+                                                  const Floats3& outward, std::size_t i,
+                                                  std::array<Floats, 4>& fractions) {
+        const float offset = offsets_voxels[i];
+        fractions[i] = fractions_at(
+            look.bricks,
+            {surface.x + offset * outward.x, surface.y + offset * outward.y, surface.z + offset * outward.z});
+        return simd::bits_of(fractions[i] >= half);
+    }
+
+    /// Of patches `first` to `first` + 7; writes them to `found` and returns how many.
+    [[gnu::always_inline]] std::size_t find_eight(const Look& look, std::size_t first,
+                                                  PatchCrossing* found) const {
+        const Floats3 outward = along_axes(look.frame, load3(to.normals_, first));
+        Floats3 surface{look.centre.x + look.radius * outward.x, look.centre.y + look.radius * outward.y,
+                        look.centre.z + look.radius * outward.z};
+        if (to.has_beside_) {
+            const Floats3 beside = along_axes(look.frame, load3(to.beside_voxels_, first));
+            surface = {surface.x + beside.x, surface.y + beside.y, surface.z + beside.z};
+        }
+        std::array<Floats, 4> fractions{};
+        constexpr unsigned all = 0xff;
+        unsigned in_bone = 0;
+        if (look.inside == InsideBurr::carved) {
+            // From half a voxel outside it is known to which side bone begins.
+            in_bone = sample(look, surface, outward, 2, fractions);
+            if (in_bone != 0) sample(look, surface, outward, 1, fractions);
+            if (in_bone != all) in_bone |= sample(look, surface, outward, 3, fractions);
+        } else {
+            for (std::size_t i = 0; i < offsets_voxels.size() && in_bone != all; ++i)
+                in_bone |= sample(look, surface, outward, i, fractions);
+        }
+        if (in_bone == 0) return 0;
+        // From without inward: the innermost is left.
+        Floats offset = simd::floats(0.0f);
+        Floats bone_offset = offset;
+        Ints is_found{};
+        for (std::size_t i = offsets_voxels.size(); i-- > 0;) {
+            const Ints is_in_bone = fractions[i] >= half;
+            const Floats at = i == 0 ? simd::floats(offsets_voxels[0])
+                                     : offsets_voxels[i - 1] + (offsets_voxels[i] - offsets_voxels[i - 1]) *
+                                                                   (half - fractions[i - 1]) /
+                                                                   (fractions[i] - fractions[i - 1]);
+            offset = is_in_bone ? at : offset;
+            bone_offset = is_in_bone ? simd::floats(offsets_voxels[i]) : bone_offset;
+            is_found |= is_in_bone;
+        }
+        std::size_t count = 0;
+        for (unsigned left = simd::bits_of(is_found); left != 0; left &= left - 1) {
+            const auto lane = static_cast<std::size_t>(std::countr_zero(left));
+            if (first + lane >= to.count_) break;
+            found[count++] = {static_cast<std::int32_t>(first + lane), offset[lane], bone_offset[lane]};
+        }
+        return count;
+    }
+
+    [[gnu::always_inline]] std::size_t find(const Look& look) const {
+        std::size_t count = 0;
+        for (std::size_t first = 0; first < to.count_; first += simd::width)
+            count += find_eight(look, first, to.found_.data() + count);
+        return count;
+    }
+};
+
+PatchCrossings::PatchCrossings(std::span<const BurrPatch> patches, double spacing_mm,
+                               InstructionSet instructions)
+    : count_(patches.size()), instructions_(instructions), found_(patches.size()) {
+    const std::size_t padded = (count_ + simd::width - 1) / simd::width * simd::width;
+    for (std::size_t axis = 0; axis < 3; ++axis)
+        for (std::size_t i = 0; i < padded; ++i) {
+            const BurrPatch& patch = patches[std::min(i, count_ - 1)];
+            const auto at = static_cast<int>(axis);
+            normals_[axis].push_back(static_cast<float>(patch.normal[at]));
+            beside_voxels_[axis].push_back(static_cast<float>(patch.beside_mm[at] / spacing_mm));
+            has_beside_ |= patch.beside_mm[at] != 0.0;
+        }
+}
+
+std::span<const PatchCrossing> PatchCrossings::find(const BrickNeighbourhood& bricks, const glm::mat3& frame,
+                                                    const glm::vec3& centre_voxels, float radius_voxels,
+                                                    InsideBurr inside) noexcept {
+    const Look look{bricks, frame, centre_voxels, radius_voxels, inside};
+#if defined(__x86_64__)
+    if (instructions_ == InstructionSet::avx2) return {found_.data(), find_avx2(look)};
+#endif
+    return {found_.data(), find_plain(look)};
+}
+
+std::size_t PatchCrossings::find_plain(const Look& look) noexcept {
+    return Loops{*this}.find(look);
+}
+
+#if defined(__x86_64__)
+[[gnu::target("avx2")]] std::size_t PatchCrossings::find_avx2(const Look& look) noexcept {
+    return Loops{*this}.find(look);
+}
+#endif
+
+}  // namespace osteomill

@@ -1,0 +1,52 @@
+// Command and result of one step of the milling loop. Plain values, handed from thread to thread.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <optional>
+
+#include "common/scene/scene.h"
+#include "simulation/engagement/engagement.h"
+
+namespace osteomill {
+
+/// Where the burr is to go during a step. It moves there on a straight line from where the last step left it.
+struct BurrCommand {
+    ToolPose pose;  ///< at the end of the step, patient LPS; the axis is a unit vector
+    bool spindle_on = false;
+    std::size_t burr = 0;          ///< index into the scene's set
+    double speed_share = 1.0;      ///< of the spindle's speed to the burr's own, positive
+    double elapsed_s = 0.0;        ///< duration of the step, positive
+    bool wants_engagement = true;  ///< false: nobody will look at the result's engagement, save its time
+    /// The burr that shall be put in this one's place; nothing: none.
+    std::optional<std::size_t> wanted_burr{};
+};
+
+/// Removed bone per tissue label, mm^3; index = label.
+using RemovedByTissue = std::array<double, 256>;
+
+/// Result of a step. Overwritten in place, step after step: nothing in it allocates.
+struct MillingResult {
+    std::uint64_t step = 0;  ///< counts from 1; 0 means that no step has run yet
+    double time_s = 0.0;     ///< session time at the end of the step
+    ToolPose pose;           ///< where the burr now is
+    std::size_t burr = 0;
+    bool spindle_on = false;
+    glm::dvec3 force_n{0.0};   ///< milling force of the bone on the burr, mean over the step, patient axes
+    double removed_mm3 = 0.0;  ///< by this step
+    double total_removed_mm3 = 0.0;  ///< since the start
+    bool touches_protected = false;  ///< the step removed protected tissue
+    bool has_restored = false;       ///< bone was given back, by undo, since the last result
+    bool valid = true;               ///< false: the command was refused (not finite), force is zero
+    /// Only of models without an engagement, with the spindle off: bone lies inside the burr.
+    bool has_bone_inside = false;
+    /// How far the tool may move from `pose` with neither its burr nor the wanted one meeting bone; 0: that
+    /// is not known, or none is wanted.
+    double room_for_change_mm = 0.0;
+    std::optional<std::size_t> wanted_burr{};  ///< the command's
+    Engagement engagement;                     ///< the bone around the burr after the step
+};
+
+}  // namespace osteomill

@@ -1,0 +1,23 @@
+// The newest command of the operator, from the streaming loop to the device, with --device client.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <optional>
+
+#include "common/scene/operator_command.h"
+#include "simulation/exchange/triple_buffer.h"
+
+namespace osteomill {
+
+/// What an operator asks for; nothing while none is connected. The reader gives a command no longer than
+/// Permission::by_message_s.
+struct HeardCommand {
+    std::optional<OperatorCommand> command{};
+    std::chrono::steady_clock::time_point heard{};
+    std::uint64_t client = 0;  ///< another number where another client says it
+};
+
+using OperatorChannel = TripleBuffer<HeardCommand>;
+
+}  // namespace osteomill

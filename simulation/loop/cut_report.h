@@ -1,0 +1,71 @@
+// What the edges cut, told fifty times a second for people to hear: force, ripple within the tooth period,
+// stiffness of the bone, and what the load leaves of the motor's speed. Made by the milling loop from the
+// results that it publishes anyway; nothing that is felt comes of it.
+//
+// A patch p of the burr's surface that touches bone and moves toward it cuts f_p, as an edge rubs there and
+// takes its chip (Engagement). An edge passes its azimuth psi_p once a tooth period, so that the force within
+// the period is, in its first harmonic,
+//
+//     c = 2 sum_p f_p cos(N psi_p),    s = 2 sum_p f_p sin(N psi_p),    amplitude^2 = |c|^2 + |s|^2
+//
+// and the torque on the spindle is sum_p r_p f_p . e_psi, r_p the patch's distance from the axis. Of a head
+// that is no ball r_p is taken as on a ball of its diameter: it is for the ear.
+#pragma once
+
+#include <glm/mat3x3.hpp>
+#include <optional>
+#include <vector>
+
+#include "common/scene/cut_state.h"
+#include "common/scene/motor.h"
+#include "common/scene/turning_burrs.h"
+#include "simulation/exchange/milling_step.h"
+
+namespace osteomill {
+
+class CutReport {
+  public:
+    static constexpr double period_s = 0.02;
+    /// A hard bone gives way voxel level by voxel level: the force is a mean over so long, or it would
+    /// stutter while the hand presses evenly.
+    static constexpr double remembers_s = 0.04;
+    /// Less is none.
+    static constexpr double least_force_n = 0.01;
+
+    CutReport(std::vector<Burr> burrs, std::optional<Motor> motor);
+
+    /// A result that stands for `elapsed_s`. Real-time safe, as all that follows.
+    void add(const MillingResult& result, double elapsed_s) noexcept;
+    /// Whether a report's period is over.
+    bool is_due() const noexcept;
+    /// The cut of the period that ends with `latest`, in which the spindle turned at `speed_share` of the
+    /// burr's speed; nothing where nothing was cut. The next period begins.
+    std::optional<CutState> take(const MillingResult& latest, double speed_share) noexcept;
+
+  private:
+    /// Sums over the patches that cut.
+    struct Sums {
+        glm::dvec3 cosine_n{0.0};
+        glm::dvec3 sine_n{0.0};
+        double torque_n_mm = 0.0;
+        double chips_n = 0.0;            // of magnitudes
+        double stiffness_chips_n = 0.0;  // of those times the patch's stiffness
+
+        double ripple_n() const noexcept;
+        double relative_stiffness() const noexcept;
+    };
+
+    void look_at(const MillingResult& latest, double speed_share, const glm::dvec3& feed_mm_per_s) noexcept;
+    Sums sum(const MillingResult& latest, const Burr& burr, const glm::dvec3& feed_mm_per_s) const noexcept;
+
+    TurningBurrs burrs_;
+    std::optional<Motor> motor_;
+    CutState last_;
+    double elapsed_s_ = 0.0;
+    double impulse_n_s_ = 0.0;   // in the period
+    double force_n_ = 0.0;       // as remembered
+    bool has_position_ = false;  // of the burr, at the end of the period before
+    glm::dvec3 position_mm_{0.0};
+};
+
+}  // namespace osteomill

@@ -1,0 +1,187 @@
+#include "simulation/loop/haptic_loop.h"
+
+#include <algorithm>
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+#include <optional>
+
+#include "common/bone/finite.h"
+#include "common/scene/device_mapping.h"
+#include "simulation/loop/clearance.h"
+
+namespace osteomill {
+
+HapticLoop::HapticLoop(const HapticLoopParts& parts, const HapticLoopOptions& options)
+    : parts_(parts),
+      options_(options),
+      safety_(options.tick_s, parts.device.limits().max_force_n),
+      gives_force_(parts.device.limits().gives_force),
+      hand_pose_(options.start_pose),
+      burr_pose_(options.start_pose),
+      burr_(options.start_burr, options.burr_count),
+      speed_(options.spindle_rev_per_s) {}
+
+HandState HapticLoop::hand_state(double now_s, double elapsed_s, const DeviceState& device) noexcept {
+    const DeviceMapping& mapping = options_.mapping;
+    hand_pose_ = {position_in_patient_mm(mapping, device.position_mm),
+                  direction_in_patient(mapping, device.spindle_axis)};
+    return {.now_s = now_s,
+            .tick_s = elapsed_s,
+            .pose = hand_pose_,
+            .velocity_mm_per_s = velocity_in_patient_mm_per_s(mapping, device.velocity_mm_per_s),
+            .spindle_on = safety_.wants_spindle(),
+            .burr = burr_.burr()};
+}
+
+bool HapticLoop::holds_still(const MillingResult& latest) const noexcept {
+    // Bone may come back round the burr: in that very tick nothing may be felt of it.
+    if (latest.has_restored) return true;
+    return parts_.gate != nullptr && parts_.gate->holds_still.load(std::memory_order_acquire);
+}
+
+void HapticLoop::place(const DeviceState& device) noexcept {
+    if (parts_.placements == nullptr) return;
+    parts_.placements->refresh();
+    const Placement& wanted = parts_.placements->front();
+    const bool is_done = wanted.number == parts_.gate->placed.load(std::memory_order_relaxed);
+    // Only where nobody feels anything: the force has faded out, and comes back when the burr is clear.
+    if (is_done || safety_.state() != ForceGuard::State::off || !device.connected ||
+        !is_finite(device.position_mm) || !is_finite(device.spindle_axis))
+        return;
+    options_.mapping = placed(options_.mapping, device.position_mm, device.spindle_axis, wanted.pose);
+    parts_.device.set_mapping(options_.mapping);
+    has_met_bone_ = false;
+    removed_before_mm3_ = parts_.results.front().total_removed_mm3;
+    parts_.gate->placed.store(wanted.number, std::memory_order_release);
+}
+
+double HapticLoop::speed_share(double elapsed_s) noexcept {
+    if (parts_.gate == nullptr) return 1.0;
+    const double chosen = parts_.gate->spindle_rev_per_s.load(std::memory_order_relaxed);
+    return speed_.tick(burr_.burr(), chosen, spindle_turned_, elapsed_s);
+}
+
+void HapticLoop::tick(double now_s, std::uint64_t missed_periods) noexcept {
+    const double elapsed_s = options_.tick_s * static_cast<double>(1 + missed_periods);
+    const DeviceState device = parts_.device.read(now_s);
+    place(device);
+    parts_.results.refresh();
+    const MillingResult& latest = parts_.results.front();
+
+    energy_.add(device.position_mm, force_in_device_n_, elapsed_s,
+                Watchdog::jump_allowance_mm + Watchdog::fastest_hand_mm_per_s * elapsed_s);
+    const glm::dvec3 reading_mm = position_in_patient_mm(options_.mapping, device.position_mm);
+    safety_.observe({.now_s = now_s,
+                     .device = device,
+                     .model_step = latest.step,
+                     .model_valid = latest.valid,
+                     .missed_periods = missed_periods,
+                     .energy_to_hand_mj = energy_.lately_mj(),
+                     .holds_still = holds_still(latest),
+                     .clearance = clearance_of(latest, reading_mm)});
+
+    // From where the burr was: the room that the milling loop found reaches beyond this tick's motion.
+    burr_.tick(device.burr, spindle_turned_ || safety_.wants_spindle(), burr_pose_.position_mm, latest);
+
+    HandState hand{.now_s = now_s, .tick_s = elapsed_s, .pose = hand_pose_, .burr = burr_.burr()};
+    if (safety_.has_hand()) hand = hand_state(now_s, elapsed_s, device);
+    hand.speed_share = speed_share(elapsed_s);
+
+    glm::dvec3 wanted_n(0.0);
+    glm::dvec3 shank_torque_n_mm(0.0);
+    bool is_sound = true;
+    if (safety_.may_touch()) {
+        const CouplingOutput output = parts_.coupling.tick(hand, latest);
+        wanted_n = output.force_n;
+        shank_torque_n_mm = output.shank_torque_n_mm;
+        burr_pose_ = output.burr_pose;
+        is_sound = is_finite(burr_pose_.position_mm) && is_finite(burr_pose_.spindle_axis);
+    }
+    if (parts_.vibration != nullptr) {
+        const bool is_felt = safety_.may_touch() && safety_.state() == ForceGuard::State::active;
+        wanted_n += parts_.vibration->tick(hand, latest, wanted_n, is_felt);
+    }
+
+    const bool lets_go = lets_go_.load(std::memory_order_relaxed);
+    const glm::dvec3 passed_n = safety_.pass(wanted_n, is_sound, elapsed_s);
+    const glm::dvec3 force_n = at_the_end_.next(lets_go ? std::nullopt : std::optional(passed_n), now_s);
+    if (safety_.has_just_let_go()) parts_.coupling.reset();
+    if (!safety_.holds_tool()) burr_pose_ = hand_pose_;
+
+    const glm::dvec3 written_n = force_in_device_n(options_.mapping, force_n);
+    parts_.device.write(written_n);
+    if (lets_go && !at_the_end_.is_felt()) has_let_go_.store(true, std::memory_order_relaxed);
+    // A force that nobody feels gives the hand no energy.
+    if (gives_force_) force_in_device_n_ = written_n;
+    peak_force_n_ = std::max(peak_force_n_, glm::length(force_n));
+    if (latest.touches_protected) protected_until_s_ = now_s + protected_shown_s;
+
+    const bool spindle_on = spindle_turned_ = safety_.spindle_turns() && !lets_go;
+    const bool in_contact = latest.total_removed_mm3 > removed_before_mm3_ || force_n != glm::dvec3(0.0);
+    const ToolState tool{
+        .time_s = now_s,
+        .burr_position_mm = burr_pose_.position_mm,
+        .spindle_axis = burr_pose_.spindle_axis,
+        .hand_position_mm = hand_pose_.position_mm,
+        .force_n = force_n,
+        .burr = burr_.burr(),
+        .spindle_on = spindle_on,
+        .removed_mm3 = options_.removed_before_mm3 + latest.total_removed_mm3,
+        .touches_protected = now_s < protected_until_s_,
+        .fault = describe(safety_.fault()),
+        .notice = notice(),
+        .depth_mm = depth_mm(in_contact),
+        .solve = parts_.coupling.solve_counts(),
+        .shank_torque_n_mm = options_.has_shank ? std::optional(shank_torque_n_mm) : std::nullopt,
+        .peak_force_n = peak_force_n_,
+        .spindle_rpm = hand.speed_share != 1.0
+                           ? std::optional(60.0 * hand.speed_share * speed_.own_rev_per_s(burr_.burr()))
+                           : std::nullopt};
+    publish({.pose = burr_pose_,
+             .spindle_on = spindle_on,
+             .burr = burr_.burr(),
+             .speed_share = hand.speed_share,
+             .elapsed_s = elapsed_s,
+             .wanted_burr = burr_.wanted()},
+            tool);
+    log(tool);
+}
+
+void HapticLoop::publish(const BurrCommand& command, const ToolState& tool) noexcept {
+    parts_.commands.back() = command;
+    parts_.commands.publish();
+    parts_.tool.back() = tool;
+    parts_.tool.publish();
+    parts_.status.back() = tool;
+    parts_.status.publish();
+}
+
+const char* HapticLoop::notice() const noexcept {
+    if (burr_.waits_for() == BurrChange::none && safety_.awaits_release())
+        return "the spindle stays off: let go of the pedal, and press it anew";
+    return describe(burr_.waits_for());
+}
+
+double HapticLoop::depth_mm(bool in_contact) noexcept {
+    if (in_contact && !has_met_bone_) {
+        has_met_bone_ = true;
+        first_contact_ = burr_pose_;
+    }
+    if (!has_met_bone_) return 0.0;
+    return glm::dot(first_contact_.position_mm - burr_pose_.position_mm, first_contact_.spindle_axis);
+}
+
+void HapticLoop::log(const ToolState& tool) noexcept {
+    if (parts_.log == nullptr) return;
+    parts_.log->push({.time_s = tool.time_s,
+                      .hand_mm = tool.hand_position_mm,
+                      .burr_mm = tool.burr_position_mm,
+                      .force_n = tool.force_n,
+                      .depth_mm = tool.depth_mm.value_or(0.0),
+                      .removed_mm3 = tool.removed_mm3,
+                      .spindle_on = tool.spindle_on,
+                      .fault = safety_.fault(),
+                      .shank_torque_n_mm = tool.shank_torque_n_mm});
+}
+
+}  // namespace osteomill

@@ -1,0 +1,119 @@
+// One tick of the haptic loop: read the device, couple, guard, write the force, and tell everybody else. Its
+// pace is somebody else's business (periodic_loop.h), physics is the coupling's.
+//
+//   device --pose--+---> safety monitor --may touch?--+
+//                  |            ^    |                v
+//                  |          force  +--force--> device
+//                  |            |
+//                  +--pose--> coupling --burr pose--> milling loop
+//
+// While a fault lasts the tool is out of the bone: no spindle, no force. The milling loop only looks at the
+// bone where the hand is, and the coupling starts afresh from the hand when the force comes back, which is
+// not before the burr is clear of bone there. What makes a fault, and what follows, is safety_monitor.h's.
+#pragma once
+
+#include <array>
+#include <atomic>
+#include <cstdint>
+
+#include "common/scene/scene.h"
+#include "common/scene/tool_state.h"
+#include "simulation/coupling/coupling.h"
+#include "simulation/coupling/handpiece_vibration.h"
+#include "simulation/device/fading_force.h"
+#include "simulation/device/haptic_device.h"
+#include "simulation/exchange/milling_step.h"
+#include "simulation/exchange/session_gate.h"
+#include "simulation/exchange/triple_buffer.h"
+#include "simulation/loop/burr_change.h"
+#include "simulation/loop/force_log.h"
+#include "simulation/loop/spindle_speed.h"
+#include "simulation/safety/energy_meter.h"
+#include "simulation/safety/safety_monitor.h"
+
+namespace osteomill {
+
+/// What the haptic loop works with; all of it outlives the loop.
+struct HapticLoopParts {
+    HapticDevice& device;
+    Coupling& coupling;
+    TripleBuffer<MillingResult>& results;           ///< read
+    TripleBuffer<BurrCommand>& commands;            ///< written
+    TripleBuffer<ToolState>& tool;                  ///< written, for the streaming loop
+    TripleBuffer<ToolState>& status;                ///< written, for whoever shows progress
+    ForceLog* log = nullptr;                        ///< written; null: no log
+    HandpieceVibration* vibration = nullptr;        ///< added to the coupling's force; null: none
+    SessionGate* gate = nullptr;                    ///< read and written; null: the session never holds still
+    TripleBuffer<Placement>* placements = nullptr;  ///< read, with `gate`
+};
+
+struct HapticLoopOptions {
+    double tick_s = 0.001;
+    DeviceMapping mapping{};
+    std::size_t burr_count = 1;  ///< of the scene's set
+    std::size_t start_burr = 0;
+    std::vector<double> spindle_rev_per_s{};  ///< of each burr; empty: no other can be chosen
+    bool has_shank = false;                   ///< any burr of the set: its torque is told
+    double removed_before_mm3 = 0.0;          ///< by the sessions before: what is told goes on from there
+    /// What the hand did before the first tick.
+    ToolPose start_pose{};
+};
+
+class HapticLoop {
+  public:
+    static constexpr std::size_t fault_kinds = SafetyMonitor::fault_kinds;
+    /// Touching protected tissue is reported for this long, so that no streamed frame misses it.
+    static constexpr double protected_shown_s = 0.2;
+
+    HapticLoop(const HapticLoopParts& parts, const HapticLoopOptions& options);
+
+    /// The tick of session time `now_s`, after `missed_periods` deadlines that nobody served. Real-time safe.
+    void tick(double now_s, std::uint64_t missed_periods) noexcept;
+
+    /// The session is over: from the next tick on the force fades, whatever is wanted, and the spindle stops.
+    /// Any thread.
+    void let_go() noexcept { lets_go_.store(true, std::memory_order_relaxed); }
+    /// After let_go(): the hand has been given no force any more. Any thread.
+    bool has_let_go() const noexcept { return has_let_go_.load(std::memory_order_relaxed); }
+
+    double peak_force_n() const { return peak_force_n_; }
+    /// Net energy that the force gave the hand, the most that it was.
+    double most_energy_to_hand_mj() const { return energy_.most_mj(); }
+    /// How often each Fault turned the force off.
+    const std::array<std::uint64_t, fault_kinds>& fault_counts() const { return safety_.fault_counts(); }
+
+  private:
+    HandState hand_state(double now_s, double elapsed_s, const DeviceState& device) noexcept;
+    void place(const DeviceState& device) noexcept;
+    bool holds_still(const MillingResult& latest) const noexcept;
+    void publish(const BurrCommand& command, const ToolState& tool) noexcept;
+    double speed_share(double elapsed_s) noexcept;
+    const char* notice() const noexcept;
+    double depth_mm(bool in_contact) noexcept;
+    void log(const ToolState& tool) noexcept;
+
+    HapticLoopParts parts_;
+    HapticLoopOptions options_;
+    SafetyMonitor safety_;
+    bool gives_force_;
+    EnergyMeter energy_;
+    glm::dvec3 force_in_device_n_{0.0};  // last written and felt
+    FadingForce at_the_end_;
+    std::atomic<bool> lets_go_{false};
+    std::atomic<bool> has_let_go_{false};
+
+    ToolPose hand_pose_;  // patient LPS; the last that was read
+    ToolPose burr_pose_;
+    BurrChanger burr_;
+    SpindleSpeed speed_;
+    bool spindle_turned_ = false;  // in the last tick
+    double protected_until_s_ = 0.0;
+
+    bool has_met_bone_ = false;
+    ToolPose first_contact_;
+    double removed_before_mm3_ = 0.0;  // when the tool was placed last
+
+    double peak_force_n_ = 0.0;
+};
+
+}  // namespace osteomill

@@ -1,0 +1,81 @@
+// One step of the milling loop: the newest command in, the model's step, result and changes out.
+//
+// The haptic loop sends a command every tick. Up to its rate, each step goes all the way to the newest one.
+// Beyond it (the time-resolved force wants 10 kHz) the steps of a tick share the way there, and the haptic
+// loop gets their mean once a tick: it could not feel more.
+#pragma once
+
+#include <algorithm>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "common/scene/burr.h"
+#include "simulation/contact_models/force_model.h"
+#include "simulation/exchange/change_queue.h"
+#include "simulation/exchange/milling_step.h"
+#include "simulation/exchange/session_gate.h"
+#include "simulation/exchange/triple_buffer.h"
+#include "simulation/loop/burr_hull.h"
+#include "simulation/loop/cut_report.h"
+#include "simulation/loop/milling_log.h"
+
+namespace osteomill {
+
+struct MillingLoopParts {
+    ForceModel& model;
+    TripleBuffer<BurrCommand>& commands;   ///< read
+    TripleBuffer<MillingResult>& results;  ///< written
+    ChangeQueue& changes;                  ///< written
+    MillingLog* log = nullptr;             ///< written; null: no log
+    std::span<const Burr> burrs{};         ///< of the scene: what may be put in the burr's place
+    ChangeQueue* restored = nullptr;       ///< read: bone to be given back by undo; null: none ever is
+    SessionGate* gate = nullptr;           ///< written, with `restored`
+    TripleBuffer<std::optional<CutState>>* cuts = nullptr;  ///< written; null: nobody wants to hear
+    std::optional<Motor> motor{};                           ///< of the scene, for `cuts`
+};
+
+class MillingLoop {
+  public:
+    /// All parts outlive the loop. Commands come every `command_period_s`. Allocates.
+    MillingLoop(const MillingLoopParts& parts, double command_period_s);
+
+    /// The step that ends at session time `time_s` and lasted `elapsed_s` since the last. Before the first
+    /// command there is nothing to do. Real-time safe.
+    void step(double time_s, double elapsed_s) noexcept;
+
+    /// A tool that moves so fast that more room is needed is not looked at: it would take too long.
+    static constexpr double most_room_mm = 2.0;
+    /// Bricks that are restored in a millisecond: a stroke of a hundred bricks is back within a frame of the
+    /// picture, and they take a tenth of a step's time.
+    static constexpr double restored_bricks_per_ms = 4.0;
+
+  private:
+    /// Where the burr shall be at the end of this step.
+    ToolPose pose_on_the_way(double elapsed_s) noexcept;
+    /// With the spindle off, what the queue of restored bone holds, as much as a step has time for.
+    void restore(double elapsed_s) noexcept;
+    /// MillingResult::room_for_change_mm. Looks beyond both burrs and their shanks by a voxel, and by twice
+    /// what the tool went since the last result: when this one is read it will have moved on.
+    double room_for_change_mm(const BurrCommand& command) const noexcept;
+    void report_cut(const MillingResult& result, double speed_share) noexcept;
+
+    MillingLoopParts parts_;
+    double command_period_s_;
+    std::vector<std::vector<HullBall>> hulls_{};  // by burr
+    CutReport cut_;
+    bool has_command_ = false;
+    ToolPose start_;                // where the burr was when the newest command came
+    ToolPose pose_;                 // where it is
+    double underway_s_ = 0.0;       // since then
+    glm::dvec3 published_mm_{0.0};  // where the burr was when the last result was published
+
+    // Since the last result was published.
+    double elapsed_s_ = 0.0;
+    glm::dvec3 impulse_n_s_{0.0};
+    double removed_mm3_ = 0.0;
+    bool touches_protected_ = false;
+    bool has_restored_ = false;
+};
+
+}  // namespace osteomill

@@ -1,0 +1,294 @@
+#include "simulation/loop/milling_session.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <latch>
+#include <numeric>
+#include <optional>
+#include <stdexcept>
+#include <thread>
+#include <utility>
+
+#include "simulation/loop/real_time.h"
+#include "simulation/loop/thread_priority.h"
+
+namespace osteomill {
+
+namespace {
+
+constexpr double chore_period_s = 0.02;
+constexpr std::uint64_t chore_ticks = 33;  // the rate of a streaming server's frames: 30 Hz
+/// For the rounding of a number of periods against one of ticks.
+constexpr double rounding_s = 1e-7;
+/// How long a session waits for whoever consumes its changes before it gives up on them.
+constexpr std::chrono::seconds longest_wait_for_consumer{10};
+/// A loop that has not faded its force by then stands still, and its device ends the force by itself.
+constexpr double longest_letting_go_s = 0.2;
+
+void require_usable(const std::optional<int>& cpu) {
+    const std::vector<int> usable = usable_cpus();
+    if (!cpu || std::find(usable.begin(), usable.end(), *cpu) != usable.end()) return;
+    throw std::invalid_argument(
+        fmt::format("processor {} is not one that this program may use; choose one of {}", *cpu,
+                    fmt::join(usable, ", ")));
+}
+
+const MillingSessionOptions& validated(const MillingSessionOptions& options) {
+    if (!(options.milling_rate_hz >= least_milling_rate_hz &&
+          options.milling_rate_hz <= most_milling_rate_hz)) {
+        throw std::invalid_argument("milling rate " + std::to_string(options.milling_rate_hz) +
+                                    " Hz is out of range; choose 25 to 10000 Hz");
+    }
+    require_usable(options.haptic_cpu);
+    require_usable(options.milling_cpu);
+    return options;
+}
+
+/// What is shown before the first tick.
+ToolState tool_at_start(const Scene& scene) {
+    return {.burr_position_mm = scene.start_pose.position_mm,
+            .spindle_axis = scene.start_pose.spindle_axis,
+            .hand_position_mm = scene.start_pose.position_mm,
+            .burr = scene.start_burr};
+}
+
+std::vector<double> spindle_speeds(const std::vector<Burr>& burrs) {
+    std::vector<double> rev_per_s;
+    for (const Burr& burr : burrs) rev_per_s.push_back(burr.spindle_rev_per_s);
+    return rev_per_s;
+}
+
+std::optional<HandpieceVibration> make_vibration(const Scene& scene, const HapticDevice& device,
+                                                 const MillingSessionOptions& options) {
+    if (!options.vibration) return std::nullopt;
+    return HandpieceVibration(felt_burrs(scene), {.max_force_n = device.limits().max_force_n,
+                                                  .max_slew_n_per_s = ForceGuard::slew_n_per_s,
+                                                  .scale = ArmScale(scene.device.scale)});
+}
+
+/// What a thread does before its loop, so that the loop finds all it needs.
+void prepare_thread(const std::optional<int>& cpu) noexcept {
+    if (cpu) bind_to_cpu(*cpu);
+    touch_stack();
+}
+
+/// Counts the page faults of the thread that calls it once a tick.
+class PageFaultCount {
+  public:
+    void tick() noexcept {
+        if (++ticks_ == MillingSession::settling_ticks) at_start_ = page_faults_of_this_thread();
+    }
+    std::uint64_t since_settled() const noexcept {
+        return ticks_ < MillingSession::settling_ticks ? 0 : page_faults_of_this_thread() - at_start_;
+    }
+
+  private:
+    std::uint64_t ticks_ = 0;
+    std::uint64_t at_start_ = 0;
+};
+
+/// Polls until `is_done`, a stop or the longest wait.
+template <typename IsDone>
+void wait_for_consumer(const std::atomic<bool>* stop, IsDone&& is_done) {
+    const auto give_up = std::chrono::steady_clock::now() + longest_wait_for_consumer;
+    while (!is_done() && std::chrono::steady_clock::now() < give_up) {
+        if (stop != nullptr && stop->load(std::memory_order_relaxed)) return;
+        std::this_thread::sleep_for(std::chrono::microseconds(200));
+    }
+}
+
+}  // namespace
+
+MillingSession::MillingSession(const Scene& scene, Bone bone, HapticDevice& device,
+                               const MillingSessionOptions& options, ForceLog* log, MillingLog* milling_log)
+    : options_(validated(options)),
+      device_(device),
+      log_(log),
+      milling_log_(milling_log),
+      model_(make_force_model(options.force_model, std::move(bone), felt_burrs(scene), scene.tissues)),
+      coupling_(make_coupling(
+          options.coupling,
+          {.device = in_patient_space(device.limits(), ArmScale(scene.device.scale)),
+           .milling_period_s = std::max(tick_s, 1.0 / options.milling_rate_hz),
+           .model_holds_wall = !find_force_model(options.force_model).has_cutting_law,
+           .wall_friction = find_force_model(options.force_model).has_friction ? scene.wall_friction : 0.0})),
+      changes_(change_queue_bytes, model_->bone().shared_content()),
+      restored_(options.can_be_controlled
+                    ? std::make_unique<ChangeQueue>(restored_queue_bytes, model_->bone().shared_content())
+                    : nullptr),
+      tool_(tool_at_start(scene)),
+      status_(tool_at_start(scene)),
+      vibration_(make_vibration(scene, device, options)),
+      haptic_loop_({.device = device,
+                    .coupling = *coupling_,
+                    .results = results_,
+                    .commands = commands_,
+                    .tool = tool_,
+                    .status = status_,
+                    .log = log,
+                    .vibration = vibration_ ? &*vibration_ : nullptr,
+                    .gate = gate(),
+                    .placements = restored_ ? &placements_ : nullptr},
+                   {.tick_s = tick_s,
+                    .mapping = scene.device,
+                    .burr_count = scene.burrs.size(),
+                    .start_burr = scene.start_burr,
+                    .spindle_rev_per_s = spindle_speeds(scene.burrs),
+                    .has_shank = has_shank(scene.burrs),
+                    .removed_before_mm3 = std::accumulate(options.removed_before_mm3.begin(),
+                                                          options.removed_before_mm3.end(), 0.0),
+                    .start_pose = scene.start_pose}),
+      burrs_(felt_burrs(scene)),
+      milling_loop_({.model = *model_,
+                     .commands = commands_,
+                     .results = results_,
+                     .changes = changes_,
+                     .log = milling_log,
+                     .burrs = burrs_,
+                     .restored = restored(),
+                     .gate = gate(),
+                     .cuts = options.changes_are_consumed ? &cuts_ : nullptr,
+                     .motor = scene.motor},
+                    tick_s),
+      haptic_ticks_(tick_s, 0.0,
+                    [this](double time_s, std::uint64_t missed) {
+                        haptic_loop_.tick(time_s, missed);
+                        now_s_ = time_s;
+                    }),
+      milling_steps_(1.0 / options.milling_rate_hz,
+                     // On the real clock it finds a fresh command, and is done before the next tick.
+                     options.clock == ClockKind::real ? 0.5 * tick_s : 0.0,
+                     [this, period_s = 1.0 / options.milling_rate_hz](double time_s, std::uint64_t missed) {
+                         milling_loop_.step(time_s, period_s * static_cast<double>(1 + missed));
+                     }) {}
+
+void MillingSession::run(const std::atomic<bool>& stop,
+                         const std::function<void(const ToolState&)>& on_progress) {
+    // Before the device: it takes a while, in which a device would have nobody who watches it.
+    if (options_.clock == ClockKind::real) is_memory_locked_ = lock_memory();
+    device_.start();
+    if (options_.clock == ClockKind::real) {
+        run_in_threads(stop, on_progress);
+    } else {
+        take_turns(stop, on_progress);
+    }
+    device_.stop();
+    if (options_.clock == ClockKind::virtual_time) do_chores(on_progress);
+    send_what_overflowed();
+    do_chores(on_progress);
+}
+
+void MillingSession::run_in_threads(const std::atomic<bool>& stop,
+                                    const std::function<void(const ToolState&)>& on_progress) {
+    std::atomic<bool> is_over{false};
+    // With memory locked a thread's whole stack is brought in before it starts, which takes milliseconds: the
+    // session begins when both threads are there, or its first ticks would be late.
+    std::latch prepared(2);
+    std::latch begun(1);
+    std::optional<RealClock> clock;
+    const auto run_loop = [&](PeriodicLoop& loop, int priority, const std::optional<int>& cpu,
+                              LoopThread& thread) {
+        prepare_thread(cpu);
+        PageFaultCount faults;
+        thread.has_real_time_priority = ask_for_real_time(priority);
+        prepared.count_down();
+        begun.wait();
+        while (!is_over.load(std::memory_order_relaxed)) {
+            loop.wait_and_tick(*clock);
+            faults.tick();
+        }
+        thread.page_faults = faults.since_settled();
+    };
+    std::thread haptic(
+        [&] { run_loop(haptic_ticks_, haptic_priority, options_.haptic_cpu, haptic_thread_); });
+    std::thread milling(
+        [&] { run_loop(milling_steps_, milling_priority, options_.milling_cpu, milling_thread_); });
+
+    prepared.wait();
+    clock.emplace();
+    begun.count_down();
+
+    while (!stop.load(std::memory_order_relaxed) && clock->now_s() < options_.duration_s) {
+        do_chores(on_progress);
+        clock->sleep_until(std::min(clock->now_s() + chore_period_s, options_.duration_s));
+    }
+    // No force ends in one step, that of a session neither.
+    haptic_loop_.let_go();
+    const double longest_s = clock->now_s() + longest_letting_go_s;
+    while (!haptic_loop_.has_let_go() && clock->now_s() < longest_s)
+        clock->sleep_until(clock->now_s() + tick_s);
+    is_over.store(true, std::memory_order_relaxed);
+    haptic.join();
+    milling.join();
+}
+
+void MillingSession::take_turns(const std::atomic<bool>& stop,
+                                const std::function<void(const ToolState&)>& on_progress) {
+    const RealClock stopwatch;  // measures how long the work takes; nothing depends on it
+    for (std::uint64_t tick = 0; !stop.load(std::memory_order_relaxed); ++tick) {
+        if (haptic_ticks_.due_s() > options_.duration_s) break;
+        haptic_ticks_.tick_now(stopwatch);
+        while (milling_steps_.due_s() <= now_s_ + rounding_s) {
+            milling_steps_.tick_now(stopwatch);
+            if (changes_.has_overflowed()) wait_for_room_in_queue(stop, on_progress);
+        }
+        if (tick % chore_ticks == 0) do_chores(on_progress);
+    }
+}
+
+void MillingSession::do_chores(const std::function<void(const ToolState&)>& on_progress) {
+    const auto drain = [this](auto* log) {
+        if (log == nullptr) return;
+        options_.clock == ClockKind::real ? log->drain() : log->drain_all();
+    };
+    drain(log_);
+    drain(milling_log_);
+    drop_changes_nobody_wants();
+    status_.refresh();
+    if (on_progress) on_progress(status_.front());
+}
+
+void MillingSession::drop_changes_nobody_wants() {
+    if (!options_.changes_are_consumed) changes_.consume_all([](const BrickChange&, BrickFractions) {});
+}
+
+void MillingSession::wait_for_room_in_queue(const std::atomic<bool>& stop,
+                                            const std::function<void(const ToolState&)>& on_progress) {
+    do_chores(on_progress);
+    wait_for_consumer(&stop, [this] {
+        changes_.resend_overflowed(model_->bone());
+        return !changes_.has_overflowed();
+    });
+}
+
+void MillingSession::send_what_overflowed() {
+    wait_for_consumer(nullptr, [this] {
+        drop_changes_nobody_wants();
+        changes_.resend_overflowed(model_->bone());
+        return !changes_.has_overflowed();
+    });
+}
+
+MillingSessionReport MillingSession::report() const {
+    return {.duration_s = now_s_,
+            .haptic = haptic_ticks_.statistics(),
+            .milling = milling_steps_.statistics(),
+            .removed_mm3 = model_->removed_mm3(),
+            .removed_before_mm3 = options_.removed_before_mm3,
+            .peak_force_n = haptic_loop_.peak_force_n(),
+            .most_energy_to_hand_mj = haptic_loop_.most_energy_to_hand_mj(),
+            .solve = coupling_->solve_counts(),
+            .fault_counts = haptic_loop_.fault_counts(),
+            .change_overflows = changes_.overflow_count(),
+            .bone_checksum = checksum(model_->bone()),
+            .real_time_priority = haptic_thread_.has_real_time_priority,
+            .memory_locked = is_memory_locked_,
+            .haptic_page_faults = haptic_thread_.page_faults,
+            .milling_page_faults = milling_thread_.page_faults};
+}
+
+}  // namespace osteomill

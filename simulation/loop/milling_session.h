@@ -1,0 +1,162 @@
+// A milling session: device, coupling, haptic loop, milling loop and clock, from start to stop.
+//
+// There are two loops, haptic at 1 kHz and milling, the same on either clock; the clock only says who waits.
+// On the real one each has a thread that waits for its next tick, and the caller's does what need not be in
+// time. On the virtual one they take turns on the caller's thread, as fast as they can: after each haptic
+// tick run the milling steps that are due by then; the next tick sees their result. So the session is a pure
+// function of scene, bone and device: same in, bit-equal out.
+#pragma once
+
+#include <atomic>
+#include <functional>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "common/bone/bone.h"
+#include "common/scene/scene.h"
+#include "simulation/contact_models/force_model.h"
+#include "simulation/contact_models/force_models.h"
+#include "simulation/coupling/couplings.h"
+#include "simulation/device/haptic_device.h"
+#include "simulation/exchange/change_queue.h"
+#include "simulation/loop/force_log.h"
+#include "simulation/loop/haptic_loop.h"
+#include "simulation/loop/milling_loop.h"
+#include "simulation/loop/periodic_loop.h"
+
+namespace osteomill {
+
+enum class ClockKind { real, virtual_time };
+
+/// Milling rates that a session takes. Below the least, the watchdog's 50 ms without a fresh result could
+/// pass between two steps; the most shows ten instants of a tooth period at 10 000 rpm and six edges.
+inline constexpr double least_milling_rate_hz = 25.0;
+inline constexpr double most_milling_rate_hz = 10'000.0;
+
+struct MillingSessionOptions {
+    ClockKind clock = ClockKind::real;
+    double milling_rate_hz = 1000.0;
+    std::string coupling = coupling_names().front();
+    std::string force_model =
+        force_model_names().front();  ///< one without a cutting law: not with "implicit"
+    bool vibration = false;           ///< of the handpiece; only with a cutting law
+    double duration_s = std::numeric_limits<double>::infinity();
+    /// What is told of removed volume goes on from here: of a bone that was carved before.
+    RemovedByTissue removed_before_mm3{};
+    /// Somebody may pause it, and undo what was milled: see gate() and restored().
+    bool can_be_controlled = false;
+    /// Somebody consumes changes() while the session runs. If not, the session empties the queue itself.
+    bool changes_are_consumed = false;
+    /// Processors that the loops are bound to, of those that this process may use; absent: the system's
+    /// choice.
+    std::optional<int> haptic_cpu{};
+    std::optional<int> milling_cpu{};
+};
+
+struct MillingSessionReport {
+    double duration_s = 0.0;  ///< session time at the last haptic tick
+    PeriodicStatistics haptic;
+    PeriodicStatistics milling;
+    RemovedByTissue removed_mm3{};         ///< by this session
+    RemovedByTissue removed_before_mm3{};  ///< as the options say
+    double peak_force_n = 0.0;
+    double most_energy_to_hand_mj = 0.0;  ///< net energy that the force gave the hand, the most that it was
+    SolveCounts solve;                    ///< of a coupling that solves
+    std::array<std::uint64_t, HapticLoop::fault_kinds> fault_counts{};  ///< index = Fault
+    std::uint64_t change_overflows = 0;
+    std::uint64_t bone_checksum = 0;
+    bool real_time_priority = false;  ///< the haptic loop ran under SCHED_FIFO
+    bool memory_locked = false;       ///< no page can have been away
+    /// Pages that the loops waited for, real clock only, from their hundredth tick on.
+    std::uint64_t haptic_page_faults = 0;
+    std::uint64_t milling_page_faults = 0;
+};
+
+class MillingSession {
+  public:
+    static constexpr double tick_s = 0.001;
+    /// Ticks after which a loop has touched what it works with.
+    static constexpr std::uint64_t settling_ticks = 100;
+    /// Over half a second of the heaviest carving (5 mm burr, half immersed, at 1 kHz: 6 kB a step).
+    static constexpr std::size_t change_queue_bytes = std::size_t{1} << 22;
+    /// What a tenth of a second restores.
+    static constexpr std::size_t restored_queue_bytes = std::size_t{1} << 21;
+
+    /// `device` and the logs (may be null) outlive the session. Throws std::invalid_argument for a milling
+    /// rate out of range, a processor that this process may not use, an unknown coupling or force model, a
+    /// coupling that the force model has no law for, or a scene that the parts refuse.
+    MillingSession(const Scene& scene, Bone bone, HapticDevice& device, const MillingSessionOptions& options,
+                   ForceLog* log = nullptr, MillingLog* milling_log = nullptr);
+
+    /// For the streaming server: the tool's newest state (the start pose before the first tick), and the
+    /// changes in order (each one reader).
+    TripleBuffer<ToolState>& tool() { return tool_; }
+    ChangeQueue& changes() { return changes_; }
+    /// For who looks after the session (one writer each): whether it holds still, and the bone that is to be
+    /// given back, which it is while the spindle is off. Null where the session cannot be controlled.
+    SessionGate* gate() { return restored_ ? &gate_ : nullptr; }
+    ChangeQueue* restored() { return restored_.get(); }
+    TripleBuffer<Placement>& placements() { return placements_; }
+    /// For the streaming server, too: what the edges cut, for people to hear. Stays empty where nobody
+    /// consumes changes.
+    TripleBuffer<std::optional<CutState>>& cuts() { return cuts_; }
+
+    /// Starts the device, runs until the duration has passed or `stop` is set, stops the device. Calls
+    /// `on_progress`, if given, on the caller's thread: about every 20 ms, on the virtual clock every 33 ms
+    /// of the session, where it may consume the changes. Throws what device.start() throws. Runs once.
+    void run(const std::atomic<bool>& stop, const std::function<void(const ToolState&)>& on_progress = {});
+
+    /// After run().
+    MillingSessionReport report() const;
+    SolveCounts solve_counts() const { return coupling_->solve_counts(); }
+    const std::array<std::uint64_t, HapticLoop::fault_kinds>& fault_counts() const {
+        return haptic_loop_.fault_counts();
+    }
+    const Bone& bone() const { return model_->bone(); }
+
+  private:
+    /// What the system gave the thread of a loop, on the real clock.
+    struct LoopThread {
+        bool has_real_time_priority = false;
+        std::uint64_t page_faults = 0;
+    };
+    void run_in_threads(const std::atomic<bool>& stop,
+                        const std::function<void(const ToolState&)>& on_progress);
+    void take_turns(const std::atomic<bool>& stop, const std::function<void(const ToolState&)>& on_progress);
+    void do_chores(const std::function<void(const ToolState&)>& on_progress);
+    void drop_changes_nobody_wants();
+    void wait_for_room_in_queue(const std::atomic<bool>& stop,
+                                const std::function<void(const ToolState&)>& on_progress);
+    void send_what_overflowed();
+
+    MillingSessionOptions options_;
+    HapticDevice& device_;
+    ForceLog* log_;
+    MillingLog* milling_log_;
+    std::unique_ptr<ForceModel> model_;
+    std::unique_ptr<Coupling> coupling_;
+    ChangeQueue changes_;
+    SessionGate gate_;
+    std::unique_ptr<ChangeQueue> restored_;
+    TripleBuffer<Placement> placements_;
+    TripleBuffer<MillingResult> results_;
+    TripleBuffer<BurrCommand> commands_;
+    TripleBuffer<ToolState> tool_;
+    TripleBuffer<std::optional<CutState>> cuts_;
+    TripleBuffer<ToolState> status_;
+    std::optional<HandpieceVibration> vibration_;
+    HapticLoop haptic_loop_;
+    std::vector<Burr> burrs_;
+    MillingLoop milling_loop_;
+    PeriodicLoop haptic_ticks_;
+    PeriodicLoop milling_steps_;
+    double now_s_ = 0.0;  // of the last haptic tick
+    bool is_memory_locked_ = false;
+    LoopThread haptic_thread_;
+    LoopThread milling_thread_;
+};
+
+}  // namespace osteomill

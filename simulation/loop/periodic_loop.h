@@ -1,0 +1,51 @@
+// A loop that ticks at a fixed rate: its schedule, its work, and how well that went. It runs on a clock that
+// it waits for, or tick by tick for a caller who keeps the order, as on the virtual clock.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+
+#include "simulation/loop/clock.h"
+#include "simulation/loop/histogram.h"
+
+namespace osteomill {
+
+struct PeriodicStatistics {
+    std::uint64_t ticks = 0;   ///< that were run
+    std::uint64_t missed = 0;  ///< deadlines that had passed when the next tick's wake-up came
+    std::uint64_t late = 0;    ///< ticks whose work was done a period or more after their deadline
+    Histogram wakeup_latency;  ///< from the deadline to the start of the work
+    Histogram duration;        ///< of the work
+};
+
+/// One thread. Ticks are real-time safe if the clock and the work are.
+class PeriodicLoop {
+  public:
+    /// What a tick does. `time_s` is the time that the schedule gives, not the one at which the thread woke.
+    using Work = std::function<void(double time_s, std::uint64_t missed_periods)>;
+
+    /// Ticks are due at first_s, first_s + period_s, ...
+    PeriodicLoop(double period_s, double first_s, Work work);
+
+    /// When the next tick is due.
+    double due_s() const noexcept { return first_s_ + static_cast<double>(next_) * period_s_; }
+
+    /// Waits until the next tick is due, and runs it. One that comes a whole period late or more does not run
+    /// after those it missed: they are skipped, counted and handed to it.
+    void wait_and_tick(Clock& clock) noexcept;
+    /// Runs the next tick at once, as one that is in time. `stopwatch` only measures how long its work takes.
+    void tick_now(const Clock& stopwatch) noexcept { tick(0, stopwatch); }
+
+    const PeriodicStatistics& statistics() const { return statistics_; }
+
+  private:
+    void tick(std::uint64_t missed, const Clock& stopwatch) noexcept;
+
+    double period_s_;
+    double first_s_;
+    Work work_;
+    std::uint64_t next_ = 0;  // number of the next tick, those skipped included
+    PeriodicStatistics statistics_;
+};
+
+}  // namespace osteomill

@@ -1,0 +1,30 @@
+#include "simulation/safety/safety_monitor.h"
+
+#include "common/bone/finite.h"
+
+namespace osteomill {
+
+void SafetyMonitor::begin(Fault found, PedalSeen pedal, Clearance clearance) noexcept {
+    found_ = found;
+    keeps_off_ = found;
+    if (found == Fault::none && guard_.state() == ForceGuard::State::off && clearance != Clearance::clear)
+        keeps_off_ = clearance == Clearance::in_bone ? Fault::in_bone : guard_.fault();
+    if (is_untried_ && found == Fault::none && clearance == Clearance::in_bone) keeps_off_ = Fault::in_bone;
+    if (found != Fault::none || clearance != Clearance::unknown) is_untried_ = false;
+    const bool withdraws =
+        found == Fault::device_jumped || found == Fault::energy_to_hand || found == Fault::paused;
+    pedal_.tick(has_hand() ? pedal : PedalSeen::lapsed, withdraws);
+}
+
+glm::dvec3 SafetyMonitor::pass(const glm::dvec3& wanted_n, bool is_sound, double elapsed_s) noexcept {
+    if (keeps_off_ == Fault::none && !is_sound) keeps_off_ = found_ = Fault::not_a_number;
+    was_engaged_ = guard_.is_engaged();
+    // A force that is no number is a fault, felt or not.
+    const glm::dvec3 felt_n = is_untried_ && is_finite(wanted_n) ? glm::dvec3(0.0) : wanted_n;
+    const glm::dvec3 force_n = guard_.tick(felt_n, keeps_off_, elapsed_s);
+    if (!guard_.is_engaged()) is_untried_ = false;
+    if (has_just_let_go()) ++fault_counts_[static_cast<std::size_t>(guard_.fault())];
+    return force_n;
+}
+
+}  // namespace osteomill

@@ -1,0 +1,111 @@
+// The one place that decides whether the hand may feel a force and the burr may turn. It looks (watchdog.h),
+// limits and fades the force (force_guard.h), keeps the force off while the tool has come back inside the
+// bone or starts there, and the spindle off where nobody can have meant the bone that it is in. Nothing
+// reaches the device but through it.
+//
+// Two machines, stepped together once a tick. The force:
+//
+//             fault                faded out              no fault for settle_s
+//   active ----------> fading out -----------> off --------------------------> fading in
+//     ^                    ^                    | ^ (stays off while a fault       |  |
+//     |                    |                    +-+  lasts, or bone in the burr)   |  |
+//     |                    +----------------------- fault -------------------------+  |
+//     +------------------------------- faded in --------------------------------------+
+//
+// It begins in `active`, but untried: until it is known whether there is bone in the burr (clearance.h),
+// which takes a milling result, no force is felt and no bone touched. A burr that is clear is tried then and
+// there; one in bone goes off, as if it had come back there. So a session that starts in air feels the first
+// force there is, and one that starts in bone none.
+//
+//   state        the hand feels                              the tool
+//   untried      nothing                                     is out of the bone
+//   active       the wanted force, within limit and rate     touches bone
+//   fading out   the last force, shrinking to nothing        is out of the bone: no spindle, no wall
+//   off          nothing                                     is out of the bone
+//   fading in    the wanted force, a gain from 0 to 1        touches bone
+//
+// Back inside the bone. Without a force, nothing keeps the hand from sinking into the bone. Were the tool to
+// take hold again there, no wall would be right: a proxy that starts inside is held by bone on all sides, and
+// pulls the hand back in when it leaves; the nearest way out may be the wrong side of a thin wall, and a hand
+// thrown out over millimetres is as bad as one pulled in. So `off` lasts until the burr, at the hand's place,
+// has been known to be clear of bone (clearance.h) for settle_s; Fault::in_bone says so until then. The hand
+// lifts it out and feels nothing, nothing is cut, and the force fades in where every wall is in front of the
+// burr. Where the hand moves too fast to know, `off` lasts, too, for the fault that there was.
+//
+// The spindle turns while the pedal is down, its latch (pedal_latch.h) is free and the tool touches bone. It
+// is locked, besides by what pedal_latch.h says, where the device was lost or jumped, the force gave the hand
+// energy, or the session was paused: whoever pressed the pedal then did not mean the bone it is in now.
+//
+// From no state does a fault lead to a force: in the tick of a fault and in all that follow until settle_s
+// have passed without one and clear of bone, the force only shrinks, and within fade_out_s it is zero.
+// safety_monitor_test.cpp visits every state that can be reached, with every fault in each, in bone and out.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <glm/vec3.hpp>
+
+#include "simulation/safety/fault.h"
+#include "simulation/safety/force_guard.h"
+#include "simulation/safety/pedal_latch.h"
+#include "simulation/safety/watchdog.h"
+
+namespace osteomill {
+
+class SafetyMonitor {
+  public:
+    static constexpr std::size_t fault_kinds = all_faults.size() + 1;
+
+    SafetyMonitor(double tick_s, double max_force_n) : watchdog_(tick_s), guard_(max_force_n) {}
+
+    /// Begins a tick: looks for faults. Real-time safe, like all here.
+    void observe(const Observation& seen) noexcept {
+        begin(watchdog_.check(seen), pedal_date_.look(seen.device.pedal, seen.now_s), seen.clearance);
+    }
+
+    /// Begins a tick with what was found, for whoever looks otherwise. `pedal` counts only of a device that
+    /// is there, `clearance` while the force is off or untried.
+    void begin(Fault found, PedalSeen pedal, Clearance clearance) noexcept;
+
+    /// Whether what the device reads can be used in this tick.
+    bool has_hand() const { return found_ != Fault::device_lost; }
+    /// Whether the force is to be computed in this tick: no fault, and the hand may feel it.
+    bool may_touch() const { return found_ == Fault::none && guard_.is_engaged(); }
+
+    /// Ends the tick: the force that may be written, of one that is wanted (not read unless may_touch()).
+    /// `is_sound`: what was computed with it is finite; if not, that is a fault as a force is that is none.
+    glm::dvec3 pass(const glm::dvec3& wanted_n, bool is_sound, double elapsed_s) noexcept;
+
+    /// After pass(): the tool touched bone before this tick and goes on doing so.
+    bool holds_tool() const { return was_engaged_ && guard_.is_engaged() && !is_untried_; }
+    /// After pass(): the force was turned off in this tick.
+    bool has_just_let_go() const { return was_engaged_ && !guard_.is_engaged(); }
+    /// After pass(): the spindle turns in this tick.
+    bool spindle_turns() const { return holds_tool() && wants_spindle(); }
+    /// What the coupling is told before pass() of the spindle.
+    bool wants_spindle() const { return pedal_.is_pressed() && has_hand() && !is_untried_; }
+
+    ForceGuard::State state() const { return guard_.state(); }
+    bool is_spindle_locked() const { return pedal_.is_locked(); }
+    /// The pedal is held, and turns nothing before it was up.
+    bool awaits_release() const { return pedal_.awaits_release(); }
+    /// Nothing is known of the bone in the burr yet, nor was there a fault.
+    bool is_untried() const { return is_untried_; }
+    /// Why the force is off; none while it is not.
+    Fault fault() const { return guard_.fault(); }
+    /// How often each Fault turned the force off.
+    const std::array<std::uint64_t, fault_kinds>& fault_counts() const { return fault_counts_; }
+
+  private:
+    Watchdog watchdog_;
+    ForceGuard guard_;
+    Fault found_ = Fault::none;      // in this tick
+    Fault keeps_off_ = Fault::none;  // the same, and what else keeps an `off` force off
+    PedalDate pedal_date_;
+    PedalLatch pedal_;
+    bool is_untried_ = true;
+    bool was_engaged_ = true;
+    std::array<std::uint64_t, fault_kinds> fault_counts_{};
+};
+
+}  // namespace osteomill

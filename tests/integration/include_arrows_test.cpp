@@ -1,0 +1,89 @@
+// The rooms of the house, and which may use which: every include of the product points downward.
+#include <gmock/gmock.h>
+
+#include <filesystem>
+#include <fstream>
+#include <regex>
+#include <string>
+#include <vector>
+
+namespace osteomill::testing {
+namespace {
+
+using ::testing::IsEmpty;
+using Folders = std::vector<std::string>;
+
+struct Room {
+    std::string folder;
+    Folders uses;  // beside itself and the generated messages of proto/
+};
+
+/// The first whose folder holds a file is its room.
+const std::vector<Room>& rooms() {
+    static const std::vector<Room> all{
+        {"common/", {}},
+        {"bridge/", {}},
+        // The loops' logs are files, written by threads of their own.
+        {"simulation/loop/",
+         {"common/bone/", "common/scene/", "common/log/", "common/files/", "simulation/"}},
+        {"simulation/", {"common/bone/", "common/scene/"}},
+        {"devices/", {"common/", "bridge/", "simulation/device/", "simulation/exchange/"}},
+        {"imaging/case/", {"common/", "imaging/", "simulation/contact_models/"}},
+        {"imaging/", {"common/"}},
+        {"analysis/", {"common/", "simulation/", "imaging/"}},
+        {"haptic_server/", {"common/", "bridge/", "simulation/", "devices/", "imaging/", "analysis/"}},
+        {"render_client/", {"common/"}},
+        {"studies/",
+         {"common/", "bridge/", "simulation/", "devices/", "imaging/", "analysis/", "haptic_server/",
+          "render_client/", "tests/"}},
+    };
+    return all;
+}
+
+bool is_in(const std::string& file, const std::string& folder) {
+    return file.starts_with(folder);
+}
+
+bool may_use(const Room& room, const std::string& file) {
+    if (is_in(file, room.folder) || is_in(file, "osteomill/")) return true;
+    return std::any_of(room.uses.begin(), room.uses.end(),
+                       [&](const std::string& folder) { return is_in(file, folder); });
+}
+
+/// The includes of our own files, as they are written.
+std::vector<std::string> includes_of(const std::filesystem::path& file) {
+    static const std::regex include(R"re(^#include "([^"]+)")re");
+    std::vector<std::string> found;
+    std::ifstream in(file);
+    std::smatch match;
+    for (std::string line; std::getline(in, line);)
+        if (std::regex_search(line, match, include)) found.push_back(match[1]);
+    return found;
+}
+
+TEST(IncludeArrows, PointDownward) {
+    const std::filesystem::path root(REPOSITORY);
+    Folders wrong;
+    int includes = 0;
+    for (const Room& room : rooms()) {
+        for (const auto& entry : std::filesystem::recursive_directory_iterator(root / room.folder)) {
+            const std::string extension = entry.path().extension().string();
+            if (extension != ".cpp" && extension != ".h") continue;
+            const std::string file = std::filesystem::relative(entry.path(), root).string();
+            // One that lies in a narrower room is judged there.
+            const auto own = std::find_if(rooms().begin(), rooms().end(),
+                                          [&](const Room& one) { return is_in(file, one.folder); });
+            if (&*own != &room) continue;
+            for (const std::string& included : includes_of(entry.path())) {
+                if (included.find('/') == std::string::npos || included.starts_with("..")) continue;
+                ++includes;
+                if (!may_use(room, included)) wrong.push_back(file + " includes " + included);
+            }
+        }
+    }
+    EXPECT_THAT(wrong, IsEmpty());
+    EXPECT_GT(includes, 1000) << "the rooms were not found";
+}
+
+}  // namespace
+}  // namespace osteomill::testing
