@@ -88,6 +88,7 @@ class BridgeArm final : public HapticDevice {
     std::optional<PositionSensor> sensor_;
     std::uint64_t sensed_ns_ = 0;
     bool was_next_pressed_ = false;
+    std::uint64_t session_ = 0;  // of the newest pose
     std::size_t burr_ = 0;
     glm::dvec3 tool_from_handle_mm_{0.0};  // device space, as the arm stands now
     std::uint64_t force_ns_ = 0;           // when the loop left the newest

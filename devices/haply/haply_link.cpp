@@ -162,12 +162,15 @@ void HaplyLink::take_arm(const HaplyInverse3& arm, const std::optional<HaplyGrip
 }
 
 void HaplyLink::take_grip(const std::optional<HaplyGrip>& grip) {
-    if (!grip || !newest_.has_grip || grip->device_id != grip_id_) ++newest_.grip;
+    const bool next_pressed = grip && grip->button_b;
+    if (!grip || !newest_.has_grip || grip->device_id != grip_id_) {
+        ++newest_.grip;
+        was_next_pressed_ = next_pressed;  // held since before it was known: asks for nothing
+    }
     newest_.has_grip = grip.has_value();
     if (grip) grip_id_ = grip->device_id;
     if (grip) newest_.spindle_axis = grip->turn * inverse3_profile.spindle_axis_in_grip;
     is_clutch_ = grip && grip->button_c;
-    const bool next_pressed = grip && grip->button_b;
     if (next_pressed && !was_next_pressed_) newest_.burr = (newest_.burr + 1) % parts_.burr_count;
     was_next_pressed_ = next_pressed;
     newest_.pedal = grip && grip->button_a && !is_clutch_;
