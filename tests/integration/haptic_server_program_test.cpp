@@ -4,12 +4,15 @@
 #include <sys/wait.h>
 
 #include <algorithm>
+#include <csignal>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <sstream>
 #include <string>
+
+#include "tests/support/told_removal.h"
 
 namespace {
 
@@ -42,9 +45,9 @@ class HapticServerProgram : public ::testing::Test {
         return text.str();
     }
 
-    Outcome run(const std::string& arguments, const std::string& before = "") const {
-        const std::string command = before + " " HAPTIC_SERVER " " + arguments + " >" + file("out") + " 2>" +
-                                    file("err") + " </dev/null";
+    Outcome run(const std::string& arguments) const {
+        const std::string command =
+            HAPTIC_SERVER " " + arguments + " >" + file("out") + " 2>" + file("err") + " </dev/null";
         const int status = std::system(command.c_str());
         return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, text_of(file("out")), text_of(file("err"))};
     }
@@ -179,10 +182,12 @@ TEST_F(HapticServerProgram, EndsWithTheTrajectory) {
 }
 
 TEST_F(HapticServerProgram, SaysWhereItListensAndStopsCleanlyOnSigint) {
-    const Outcome outcome =
-        run("--listen 127.0.0.1:0 --json " + file("a.json"), "timeout --preserve-status -s INT 6");
-    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
-    EXPECT_THAT(outcome.out, HasSubstr("listening on 127.0.0.1:"));
+    osteomill::testing::ChildProcess server(
+        {HAPTIC_SERVER, "--listen", "127.0.0.1:0", "--json", file("a.json")});
+    EXPECT_TRUE(server.line_after("listening on 127.0.0.1:")) << server.err();
+    EXPECT_TRUE(osteomill::testing::has_told(server, " s   force ")) << server.err();
+    server.send_signal(SIGINT);
+    EXPECT_EQ(server.wait(), 0) << server.err();
     EXPECT_GT(measured("a.json").at("ticks").get<int>(), 0);
 }
 

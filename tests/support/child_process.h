@@ -9,6 +9,8 @@
 #include <string>
 #include <vector>
 
+#include "tests/support/eventually.h"
+
 namespace osteomill::testing {
 
 class ChildProcess {
@@ -28,13 +30,14 @@ class ChildProcess {
 
     /// Reads output until a line begins with `prefix`; gives the rest of that line, or nullopt at the
     /// deadline or the program's end.
-    std::optional<std::string> line_after(const std::string& prefix, std::chrono::seconds deadline);
+    std::optional<std::string> line_after(const std::string& prefix,
+                                          std::chrono::seconds deadline = far_too_long);
 
     /// Takes over what it has written since; waits up to 0.1 s for more.
     void read_output() { pump(std::chrono::milliseconds(100)); }
 
     /// Waits for the end; the exit status, 128 + the signal that ended it, or nullopt at the deadline.
-    std::optional<int> wait(std::chrono::seconds deadline);
+    std::optional<int> wait(std::chrono::seconds deadline = far_too_long);
 
     void send_signal(int signal) const;
     pid_t pid() const { return pid_; }
@@ -61,7 +64,6 @@ struct Finished {
     std::string out;
     std::string err;
 };
-Finished run_program(const std::vector<std::string>& command,
-                     std::chrono::seconds deadline = std::chrono::seconds(120));
+Finished run_program(const std::vector<std::string>& command, std::chrono::seconds deadline = far_too_long);
 
 }  // namespace osteomill::testing

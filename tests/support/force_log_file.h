@@ -11,8 +11,7 @@
 namespace osteomill::testing {
 
 /// The lines of a CSV file behind its header.
-inline std::vector<std::vector<double>> read_csv_numbers(const std::filesystem::path& csv) {
-    std::ifstream in(csv);
+inline std::vector<std::vector<double>> read_csv_numbers(std::istream& in) {
     std::vector<std::vector<double>> rows;
     std::string text;
     std::getline(in, text);
@@ -26,6 +25,10 @@ inline std::vector<std::vector<double>> read_csv_numbers(const std::filesystem::
     }
     return rows;
 }
+inline std::vector<std::vector<double>> read_csv_numbers(const std::filesystem::path& csv) {
+    std::ifstream in(csv);
+    return read_csv_numbers(in);
+}
 
 struct ForceLogLine {
     double time_s = 0.0;
@@ -36,8 +39,8 @@ struct ForceLogLine {
     int fault = 0;
 };
 
-/// Columns as force_log.h says; a line that is torn at the end of a log is none.
-inline std::vector<ForceLogLine> read_force_log(const std::filesystem::path& csv) {
+/// Columns as force_log.h says; the first line is left out, and one that is torn at the end of a log is none.
+inline std::vector<ForceLogLine> read_force_log(std::istream& csv) {
     std::vector<ForceLogLine> lines;
     for (const std::vector<double>& column : read_csv_numbers(csv)) {
         if (column.size() < 14) continue;
@@ -49,6 +52,10 @@ inline std::vector<ForceLogLine> read_force_log(const std::filesystem::path& csv
                          .fault = static_cast<int>(column[13])});
     }
     return lines;
+}
+inline std::vector<ForceLogLine> read_force_log(const std::filesystem::path& csv) {
+    std::ifstream in(csv);
+    return read_force_log(in);
 }
 
 }  // namespace osteomill::testing

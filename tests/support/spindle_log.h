@@ -45,4 +45,13 @@ inline std::optional<double> spindle_off_after_s(const std::vector<ForceLogLine>
     return off->time_s - event_s;
 }
 
+/// For how long it stood between two moments.
+inline double spindle_stood_s(const std::vector<ForceLogLine>& log, double from_s, double to_s) {
+    double stood_s = 0.0;
+    for (std::size_t i = 1; i < log.size(); ++i)
+        if (log[i].time_s > from_s && log[i].time_s < to_s && !log[i].spindle_on)
+            stood_s += log[i].time_s - log[i - 1].time_s;
+    return stood_s;
+}
+
 }  // namespace osteomill::testing

@@ -1,10 +1,13 @@
-// The log of a server that runs, waited for: how often it has said something, and the bone that it removed.
+// What a server that runs has told: how often it has said something in its log, and the bone that it removed.
 #pragma once
 
+#include <filesystem>
+#include <fstream>
 #include <string>
 
 #include "tests/support/child_process.h"
 #include "tests/support/eventually.h"
+#include "tests/support/force_log_file.h"
 
 namespace osteomill::testing {
 
@@ -15,17 +18,26 @@ inline int count(const std::string& text, const std::string& words) {
 }
 
 /// True as soon as it has said so as often as that; false after a time that only a defect can take.
-inline bool has_told(ChildProcess& server, const std::string& words, int times) {
+inline bool has_told(ChildProcess& server, const std::string& words, int times = 1) {
     return eventually([&] {
         server.read_output();
         return count(server.err(), words) >= times;
     });
 }
 
-/// The newest figure in its log; 0 before the first.
+/// The newest figure in its log, of every five seconds; 0 before the first.
 inline double told_removal_mm3(const std::string& log) {
     const std::size_t at = log.rfind("removed ");
     return at == std::string::npos ? 0.0 : std::stod(log.substr(at + 8));
+}
+
+/// The newest figure in the part that becomes its force log, of many times a second; 0 before the first.
+inline double told_removal_mm3(const std::filesystem::path& force_log_part) {
+    constexpr std::streamoff some_lines = 4096;
+    std::ifstream in(force_log_part, std::ios::ate);
+    in.seekg(std::max<std::streamoff>(0, static_cast<std::streamoff>(in.tellg()) - some_lines));
+    const auto lines = read_force_log(in);
+    return lines.empty() ? 0.0 : lines.back().removed_mm3;
 }
 
 /// True as soon as more than so much bone is gone, however slow the machine is; false after a time that only
@@ -35,6 +47,9 @@ inline bool has_removed(ChildProcess& server, double least_mm3) {
         server.read_output();
         return told_removal_mm3(server.err()) > least_mm3;
     });
+}
+inline bool has_removed(const std::filesystem::path& force_log_part, double least_mm3) {
+    return eventually([&] { return told_removal_mm3(force_log_part) > least_mm3; });
 }
 
 }  // namespace osteomill::testing

@@ -23,7 +23,7 @@ class TrackerServer {
 
     int port() { return listener_->GetServerPort(); }
     /// Waits for a client.
-    bool accept(unsigned long longest_ms = 20'000) {
+    bool accept(unsigned long longest_ms = 120'000) {
         client_ = listener_->WaitForConnection(longest_ms);
         return client_.IsNotNull();
     }

@@ -33,7 +33,7 @@ VirtualDisplay::VirtualDisplay(const glm::ivec2& size_px) {
     const std::string screen = std::to_string(size_px.x) + "x" + std::to_string(size_px.y) + "x24";
     server_.emplace(std::vector<std::string>{xvfb, "-displayfd", "1", "-screen", "0", screen, "-fbdir",
                                              folder_.path().string(), "-nolisten", "tcp", "-noreset"});
-    const auto number = server_->line_after("", std::chrono::seconds(30));
+    const auto number = server_->line_after("");
     if (!number) throw std::runtime_error("Xvfb does not come up: " + server_->err());
     name_ = ":" + *number;
 }
@@ -46,7 +46,7 @@ std::vector<std::string> VirtualDisplay::shown_here(std::vector<std::string> com
 bool VirtualDisplay::xdotool(const std::vector<std::string>& arguments) const {
     std::vector<std::string> command{xdotool_program};
     command.insert(command.end(), arguments.begin(), arguments.end());
-    return run_program(shown_here(command), std::chrono::seconds(30)).status == 0;
+    return run_program(shown_here(command)).status == 0;
 }
 
 Picture VirtualDisplay::screen() const {
