@@ -1,5 +1,5 @@
-/* An arm that is not there: a mass of 50 g that a simulated hand moves to and fro over the start, with the pedal
- * down. For trying the bridge, and to copy from.
+/* An arm that is not there: a mass of 50 g that a simulated hand moves to and fro over the start, slowly down with
+ * the pedal down and up again. For trying the bridge, and to copy from.
  *     gcc -std=c99 simulated_arm.c -o simulated_arm && ./simulated_arm udp:127.0.0.1:7020 [KEY_FILE] [SECONDS]
  */
 #include "../osteomill_bridge.h"
@@ -49,17 +49,20 @@ int main(int argc, char** argv) {
         for (axis = 0; axis < 3; ++axis) before_n[axis] = force.force_n[axis] - before_n[axis];
         if (omb_length(before_n) > jump_n) jump_n = omb_length(before_n);
         memcpy(before_n, force.force_n, sizeof before_n);
-        /* The hand wants to go to and fro by 2 mm, and slowly 4 mm down. */
+        /* The hand wants to go to and fro by 2 mm, and every 10 s slowly 4 mm down and up to where it began: after
+         * a fault the server gives no force before the burr was out of the bone, nor a spindle before the pedal was
+         * up. */
         const double time_s = (double)running * tick_s, phase = time_s - (double)(int64_t)time_s;
+        const double stroke_s = time_s - 10.0 * (double)(int64_t)(0.1 * time_s);
         hand_mm[0] = phase < 0.5 ? 8.0 * phase - 2.0 : 6.0 - 8.0 * phase;
-        hand_mm[2] = time_s < 8.0 ? -0.5 * time_s : -4.0;
+        hand_mm[2] = stroke_s < 8.0 ? -0.5 * stroke_s : stroke_s < 9.0 ? -4.0 * (9.0 - stroke_s) : 0.0;
         for (axis = 0; axis < 3; ++axis) {
             const double hand_n = pull_n_per_mm * (hand_mm[axis] - pose.position_mm[axis]);
             const double all_n = hand_n + force.force_n[axis] - damping_n_s_per_mm * pose.velocity_mm_per_s[axis];
             pose.velocity_mm_per_s[axis] += 1000.0 * all_n / mass_kg * tick_s;
             pose.position_mm[axis] += pose.velocity_mm_per_s[axis] * tick_s;
         }
-        pose.buttons = running > 500 ? OMB_PEDAL : 0;
+        pose.buttons = stroke_s > 0.5 && stroke_s < 9.0 ? OMB_PEDAL : 0;
         next_ns += 1000000u;
         wait_until(next_ns);
     }

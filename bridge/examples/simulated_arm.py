@@ -85,12 +85,14 @@ def main():
     position, velocity, peak, ticks, running = [0.0] * 3, [0.0] * 3, 0.0, 0, 0
     began = due = time.perf_counter()
     while due - began < seconds:
-        force = arm.exchange(position, velocity, running > 500)
+        t = running * TICK_S
+        stroke = t % 10  # down, and up again
+        force = arm.exchange(position, velocity, 0.5 < stroke < 9.0)
         running += bool(arm.session)
         ticks += 1
         peak = max(peak, math.hypot(*force))
-        t = running * TICK_S
-        hand = (8 * (t % 1) - 2 if t % 1 < 0.5 else 6 - 8 * (t % 1), 0.0, max(-0.5 * t, -4.0))
+        down = -0.5 * stroke if stroke < 8 else min(-4 * (9 - stroke), 0.0)
+        hand = (8 * (t % 1) - 2 if t % 1 < 0.5 else 6 - 8 * (t % 1), 0.0, down)
         for i in range(3):
             pull = 0.5 * (hand[i] - position[i]) + force[i] - 0.005 * velocity[i]
             velocity[i] += 1000 * pull / MASS_KG * TICK_S

@@ -67,7 +67,7 @@ class BridgedArm : public ::testing::Test {
     /// Ticks until `is_so` of a state.
     template <typename Condition>
     ::testing::AssertionResult becomes(Condition is_so, const glm::dvec3& force_n = {}) {
-        for (int i = 0; i < 5000; ++i)
+        for (int i = 0; i < 60'000; ++i)
             if (is_so(tick(force_n))) return ::testing::AssertionSuccess();
         return ::testing::AssertionFailure();
     }
@@ -191,7 +191,7 @@ TEST_F(BridgedArm, IsNotThereWhileItIsNotReady) {
 TEST_F(BridgedArm, IsToldThatThereIsNoForceWhenTheLoopStops) {
     begin(testing::some_arm(), testing::ready_pose());
     ASSERT_TRUE(becomes([&](const DeviceState&) { return given().force_n[2] == 1.0; }, {0.0, 0.0, 1.0}));
-    EXPECT_TRUE(testing::eventually([&] { return given().is_off == 1 && given().force_n[2] == 0.0; }, 10s));
+    EXPECT_TRUE(testing::eventually([&] { return given().is_off == 1 && given().force_n[2] == 0.0; }));
 }
 
 TEST_F(BridgedArm, WaitingForItCanBeGivenUp) {

@@ -48,7 +48,7 @@ class HaplyArmOnService : public ::testing::Test {
     /// Ticks until `is_so` of a state.
     template <typename Condition>
     ::testing::AssertionResult becomes(Condition is_so, const glm::dvec3& force_n = {}) {
-        for (int i = 0; i < 20'000; ++i)
+        for (int i = 0; i < 60'000; ++i)
             if (is_so(tick(force_n))) return ::testing::AssertionSuccess();
         return ::testing::AssertionFailure() << arm->notice();
     }
