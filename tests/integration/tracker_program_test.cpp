@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <csignal>
 #include <fstream>
 #include <functional>
 #include <glm/geometric.hpp>
@@ -22,7 +23,6 @@
 namespace osteomill::testing {
 namespace {
 
-using namespace std::chrono_literals;
 using ::testing::HasSubstr;
 
 using Command = std::vector<std::string>;
@@ -60,7 +60,7 @@ class TrackerPrograms : public ::testing::Test {
         return tracker_turn * patient_mm + tracker_mm;
     }
 
-    Command server(double seconds, const std::string& scene = "cube") {
+    Command server(const std::string& scene = "cube") {
         return {HAPTIC_SERVER,
                 "--device",
                 "tracker",
@@ -75,13 +75,34 @@ class TrackerPrograms : public ::testing::Test {
                 "--listen",
                 "none",
                 "--json",
-                file("run.json"),
-                "--duration-s",
-                std::to_string(seconds)};
+                file("run.json")};
     }
-    double removed_mm3() const {
+    nlohmann::json measured() const {
         std::ifstream in(file("run.json"));
-        return nlohmann::json::parse(in).at("removed_mm3").at("total").get<double>();
+        return nlohmann::json::parse(in);
+    }
+    double removed_mm3() const { return measured().at("removed_mm3").at("total").get<double>(); }
+    void end(ChildProcess& running) const {
+        running.send_signal(SIGINT);
+        ASSERT_EQ(running.wait(), 0) << running.err();
+    }
+    /// Whether everybody had the processor when it was due. Where the loop misses its deadlines or samples
+    /// come late in a row, the force goes off until the burr is out of the bone, and less is milled.
+    bool was_in_time() const {
+        return worst_lateness_s_ < 0.01 && measured().at("faults").at("overrun") == 0 &&
+               measured().at("faults").at("model_stalled") == 0;
+    }
+    /// Tries it until a session was in time. On a machine that has too much to do for any, the test is
+    /// skipped.
+    void in_a_session_in_time(const std::function<void()>& session, const std::function<void()>& expect) {
+        constexpr int attempts = 8;
+        for (int i = 0; i < attempts; ++i) {
+            worst_lateness_s_ = 0.0;
+            session();
+            if (HasFatalFailure()) return;
+            if (was_in_time()) return expect();
+        }
+        GTEST_SKIP() << "the machine is too busy for a tracker: no session of " << attempts << " was in time";
     }
     /// The handpiece leans and turns while it goes; the marker is where that puts it.
     void send(const Moment& moment, double time_s) {
@@ -100,8 +121,12 @@ class TrackerPrograms : public ::testing::Test {
         const auto began = std::chrono::steady_clock::now();
         for (int i = 0; i / how.rate_hz < duration_s; ++i) {
             const double time_s = i / how.rate_hz;
-            std::this_thread::sleep_until(
-                began + std::chrono::duration<double>(time_s + how.jitter_s * share(random)));
+            const auto due =
+                began + std::chrono::duration_cast<std::chrono::steady_clock::duration>(
+                            std::chrono::duration<double>(time_s + how.jitter_s * share(random)));
+            std::this_thread::sleep_until(due);
+            const std::chrono::duration<double> late = std::chrono::steady_clock::now() - due;
+            worst_lateness_s_ = std::max(worst_lateness_s_, late.count());
             if (share(random) >= how.lost) send(motion(time_s), time_s);
         }
     }
@@ -111,6 +136,7 @@ class TrackerPrograms : public ::testing::Test {
     const glm::dvec3 centre_mm{3.0, -7.0, -140.0};
     TrackerServer tracker_;
     TemporaryFolder folder_;
+    double worst_lateness_s_ = 0.0;
 };
 
 /// A second in the air, down by 1 mm into the cube (its top is z = 0, the burr's radius 2.5 mm), 20 mm along,
@@ -132,15 +158,19 @@ double groove_mm3() {
 
 TEST_F(TrackerPrograms, MillsTheSweptVolumeAtAnyRateAndJitter) {
     for (const Sending& how : {Sending{20.0}, Sending{60.0, 0.02, 0.05}, Sending{500.0, 0.03}}) {
-        ChildProcess running(server(7.0));
-        ASSERT_TRUE(running.line_after("registered by 4 points: residual 0.00 mm", 60s)) << running.err();
-        ASSERT_TRUE(tracker_.accept());
-        play(groove, groove_s, how);
-        ASSERT_EQ(running.wait(60s), 0) << running.err();
-        RecordProperty(std::to_string(static_cast<int>(how.rate_hz)) + "_hz_error_percent",
-                       std::to_string(100.0 * (removed_mm3() / groove_mm3() - 1.0)));
-        EXPECT_NEAR(removed_mm3(), groove_mm3(), 0.01 * groove_mm3()) << how.rate_hz << " Hz";
-        tracker_.hang_up();
+        const auto session = [&] {
+            ChildProcess running(server());
+            ASSERT_TRUE(running.line_after("registered by 4 points: residual 0.00 mm")) << running.err();
+            ASSERT_TRUE(tracker_.accept());
+            play(groove, groove_s, how);
+            end(running);
+            tracker_.hang_up();
+        };
+        in_a_session_in_time(session, [&] {
+            RecordProperty(std::to_string(static_cast<int>(how.rate_hz)) + "_hz_error_percent",
+                           std::to_string(100.0 * (removed_mm3() / groove_mm3() - 1.0)));
+            EXPECT_NEAR(removed_mm3(), groove_mm3(), 0.01 * groove_mm3()) << how.rate_hz << " Hz";
+        });
     }
 }
 
@@ -166,26 +196,35 @@ TEST_F(TrackerPrograms, MillsARecordedMotionAsItWasMilled) {
         const double at_s = std::max(0.0, time_s - 1.0);  // what turns the force on takes a while in the air
         return moments[std::min(moments.size() - 1, static_cast<std::size_t>(1000.0 * at_s))];
     };
-    ChildProcess running(server(8.5, "tooth"));
-    ASSERT_TRUE(tracker_.accept());
-    play(motion, 7.2, {.rate_hz = 100.0, .jitter_s = 0.01});
-    ASSERT_EQ(running.wait(60s), 0) << running.err();
-    RecordProperty("error_percent", std::to_string(100.0 * (removed_mm3() / expected_mm3 - 1.0)));
-    EXPECT_NEAR(removed_mm3(), expected_mm3, 0.03 * expected_mm3);
+    const auto session = [&] {
+        ChildProcess running(server("tooth"));
+        ASSERT_TRUE(tracker_.accept());
+        play(motion, 7.2, {.rate_hz = 100.0, .jitter_s = 0.01});
+        end(running);
+        tracker_.hang_up();
+    };
+    in_a_session_in_time(session, [&] {
+        RecordProperty("error_percent", std::to_string(100.0 * (removed_mm3() / expected_mm3 - 1.0)));
+        EXPECT_NEAR(removed_mm3(), expected_mm3, 0.03 * expected_mm3);
+    });
 }
 
 TEST_F(TrackerPrograms, StopsTheSpindleWhenTheTrackerIsSilentAndGoesOn) {
-    ChildProcess running(server(9.0));
-    ASSERT_TRUE(tracker_.accept());
-    play(groove, 2.7, {});  // half of it
-    std::this_thread::sleep_for(700ms);
-    tracker_.hang_up();
-    ASSERT_TRUE(tracker_.accept()) << "it comes again by itself";
-    play([](double) { return Moment{{0.0, 0.0, 5.0}, false}; }, 1.0, {});
-    ASSERT_EQ(running.wait(60s), 0) << running.err();
-    EXPECT_THAT(running.err(), HasSubstr("the haptic device does not answer: force off"));
-    EXPECT_LT(removed_mm3(), 0.55 * groove_mm3());
-    EXPECT_GT(removed_mm3(), 0.4 * groove_mm3());
+    const auto session = [&] {
+        ChildProcess running(server());
+        ASSERT_TRUE(tracker_.accept());
+        play(groove, 2.7, {});  // half of it
+        EXPECT_TRUE(running.says("the haptic device does not answer: force off")) << running.err();
+        tracker_.hang_up();
+        ASSERT_TRUE(tracker_.accept()) << "it comes again by itself";
+        play([](double) { return Moment{{0.0, 0.0, 5.0}, false}; }, 1.0, {});
+        end(running);
+        tracker_.hang_up();
+    };
+    in_a_session_in_time(session, [&] {
+        EXPECT_LT(removed_mm3(), 0.55 * groove_mm3());
+        EXPECT_GT(removed_mm3(), 0.4 * groove_mm3());
+    });
 }
 
 TEST_F(TrackerPrograms, SaysInOneLineWhatIsWrong) {
