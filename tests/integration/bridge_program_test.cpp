@@ -92,13 +92,13 @@ TEST_F(BridgePrograms, AnArmThatIsKilledTurnsAllOffAndItsSuccessorGoesOn) {
         killed.send_signal(SIGKILL);
         killed.wait();
     }
-    ASSERT_TRUE(running.says(lost)) << running.err();
+    ASSERT_TRUE(has_told(running, lost)) << running.err();
     const double before_mm3 = removed_mm3();
     ChildProcess hand(arm("600"));
     EXPECT_TRUE(has_removed(before_mm3 + 0.5)) << running.err();
     hand.send_signal(SIGINT);
     EXPECT_EQ(hand.wait(), 0) << hand.err();
-    EXPECT_TRUE(running.says(lost, 2)) << running.err();
+    EXPECT_TRUE(has_told(running, lost, 2)) << running.err();
     running.send_signal(SIGINT);
     ASSERT_EQ(running.wait(), 0) << running.err();
     EXPECT_LT(told(hand.out(), "largest jump"), 0.3);
@@ -132,7 +132,7 @@ TEST_F(BridgePrograms, AnArmThatStandsStillTakesTheForceAwayAndComesBack) {
     ASSERT_TRUE(has_removed(0.1)) << running.err();
     const double before_mm3 = removed_mm3();
     hand.send_signal(SIGSTOP);
-    EXPECT_TRUE(running.says(lost)) << running.err();
+    EXPECT_TRUE(has_told(running, lost)) << running.err();
     hand.send_signal(SIGCONT);
     EXPECT_TRUE(has_removed(before_mm3 + 0.1)) << "it comes back: " << running.err();
     hand.send_signal(SIGINT);
