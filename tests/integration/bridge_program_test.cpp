@@ -63,6 +63,12 @@ class BridgePrograms : public ::testing::Test {
         return match.empty() ? 1e9 : std::stod(match[1]);
     }
 
+    /// Between two exchanges; what osteomill_bridge.h lets through, whatever the machine is busy with.
+    static void expect_no_jump(const std::string& said) {
+        EXPECT_LE(told(said, "largest jump"), 2.0) << "1000 N/s, of a loop that is two ticks late at most";
+        EXPECT_LE(told(said, "while it comes or goes"), 0.28) << "3.3 N in 12 ms";
+    }
+
     TemporaryFolder folder_;
 };
 
@@ -77,7 +83,7 @@ TEST_F(BridgePrograms, AnArmMillsAndFeels) {
     hand.send_signal(SIGINT);
     EXPECT_EQ(hand.wait(), 0) << hand.err();
     EXPECT_GT(told(hand.out(), "largest force"), 0.2);
-    EXPECT_LT(told(hand.out(), "largest jump"), 0.3);
+    expect_no_jump(hand.out());
     EXPECT_GT(measured().at("removed_mm3").at("total").get<double>(), 1.0);
     EXPECT_EQ(measured().at("settings").at("device"), "bridge");
 }
@@ -101,7 +107,7 @@ TEST_F(BridgePrograms, AnArmThatIsKilledTurnsAllOffAndItsSuccessorGoesOn) {
     EXPECT_TRUE(has_told(running, lost, 2)) << running.err();
     running.send_signal(SIGINT);
     ASSERT_EQ(running.wait(), 0) << running.err();
-    EXPECT_LT(told(hand.out(), "largest jump"), 0.3);
+    expect_no_jump(hand.out());
     EXPECT_GT(told(hand.out(), "largest force"), 0.05) << "it feels again";
     EXPECT_EQ(count(running.err(), lost), measured().at("faults").at("device_lost")) << "each is told once";
 }
@@ -121,7 +127,7 @@ TEST_F(BridgePrograms, AServerThatStandsStillTakesTheForceAwayWithoutAJump) {
     ASSERT_EQ(hand.wait(), 0) << hand.err();
     running.send_signal(SIGINT);
     ASSERT_EQ(running.wait(), 0) << running.err();
-    EXPECT_LT(told(hand.out(), "largest jump"), 0.3);
+    expect_no_jump(hand.out());
 }
 
 TEST_F(BridgePrograms, AnArmThatStandsStillTakesTheForceAwayAndComesBack) {
@@ -139,7 +145,7 @@ TEST_F(BridgePrograms, AnArmThatStandsStillTakesTheForceAwayAndComesBack) {
     ASSERT_EQ(hand.wait(), 0) << hand.err();
     running.send_signal(SIGINT);
     ASSERT_EQ(running.wait(), 0) << running.err();
-    EXPECT_LT(told(hand.out(), "largest jump"), 0.3);
+    expect_no_jump(hand.out());
 }
 
 TEST_F(BridgePrograms, WithAnotherKeyNobodyJoins) {
