@@ -167,10 +167,9 @@ ordered_json json_of(const MaterialCalibration& calibration) {
             {"warnings", warnings_of(calibration)}};
 }
 
-std::string residuals_csv(const std::vector<MaterialCalibration>& calibrations) {
-    std::string csv =
-        "run,material,material_number,axis,axis_number,measured_n,spread_n,fitted_n,residual_in_spreads,"
-        "predicted_by_others_n\n";
+Table residuals_of(const std::vector<MaterialCalibration>& calibrations) {
+    Table table({"run", "material", "material_number", "axis", "axis_number", "measured_n", "spread_n",
+                 "fitted_n", "residual_in_spreads", "predicted_by_others_n"});
     for (std::size_t material = 0; material < calibrations.size(); ++material) {
         const MaterialCalibration& c = calibrations[material];
         const Eigen::VectorXd fitted_n = c.input.regressors * c.fit.value;
@@ -179,14 +178,13 @@ std::string residuals_csv(const std::vector<MaterialCalibration>& calibrations) 
                 const double measured = c.runs[run].force_n[axis];
                 const double fitted = fitted_n(3 * static_cast<Eigen::Index>(run) + axis);
                 const double spread = c.runs[run].spread_n[axis];
-                csv += fmt::format(
-                    "{},{},{},{},{},{:.6g},{:.6g},{:.6g},{:.4g},{}\n", c.runs[run].name, c.material,
-                    material + 1, axes[static_cast<std::size_t>(axis)], axis + 1, measured, spread, fitted,
-                    (measured - fitted) / spread,
-                    c.predicted_n[run] ? fmt::format("{:.6g}", (*c.predicted_n[run])(axis)) : std::string());
+                table.add({c.runs[run].name, c.material, material + 1, axes[static_cast<std::size_t>(axis)],
+                           axis + 1, measured, spread, fitted, (measured - fitted) / spread,
+                           c.predicted_n[run] ? nlohmann::ordered_json((*c.predicted_n[run])(axis))
+                                              : nlohmann::ordered_json()});
             }
     }
-    return csv;
+    return table;
 }
 
 std::string scene_fragment(const std::vector<MaterialCalibration>& calibrations, const std::string& source) {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "analysis/calibration/coefficient_fit.h"
+#include "analysis/output/table.h"
 
 namespace osteomill::study {
 
@@ -36,7 +37,7 @@ nlohmann::ordered_json json_of(const MaterialCalibration& calibration);
 
 /// A line for each force: run, material, material_number (from 1), axis (feed, across, up), axis_number,
 /// measured_n, spread_n, fitted_n, residual_in_spreads, predicted_by_others_n.
-std::string residuals_csv(const std::vector<MaterialCalibration>& calibrations);
+Table residuals_of(const std::vector<MaterialCalibration>& calibrations);
 
 /// A [[burrs]] table for each material and each burr that cut it, with intervals and source in comments. A
 /// coefficient below 0, which a scene refuses, is 0 there, and a comment says so.

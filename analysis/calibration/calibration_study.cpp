@@ -78,7 +78,7 @@ void calibrate(const CalibrationOptions& options, const StudySurroundings& surro
     }
     make_folder(options.out);
     write_json(json, options.out / "calibration.json");
-    write_text(residuals_csv(calibrations), options.out / "residuals.csv");
+    residuals_of(calibrations).write(options.out / "residuals.csv");
     write_text(scene_fragment(calibrations, options.data.filename().string()), options.out / "scene.toml");
     for (const char* chart : {"calibration_fit", "calibration_residuals"})
         draw_chart(chart_scripts(), chart, options.out);

@@ -94,18 +94,18 @@ ContactCurves measure_contact(bool quick, const Progress& progress) {
     return curves;
 }
 
-std::string csv_of(const ContactCurves& curves) {
-    std::string csv = "depth_mm";
-    for (const std::string& name : curves.models) csv += "," + name;
-    for (const double feed : curves.feeds_mm_per_s) csv += fmt::format(",milling {} mm/s", feed);
-    csv += '\n';
+Table table_of(const ContactCurves& curves) {
+    std::vector<std::string> columns{"depth_mm"};
+    columns.insert(columns.end(), curves.models.begin(), curves.models.end());
+    for (const double feed : curves.feeds_mm_per_s) columns.push_back(fmt::format("milling {} mm/s", feed));
+    Table table(columns);
     for (const ContactRow& row : curves.rows) {
-        csv += fmt::format("{:.2f}", row.depth_mm);
-        for (const double force_n : row.force_n) csv += fmt::format(",{:.5f}", force_n);
-        for (const double force_n : row.milling_force_n) csv += fmt::format(",{:.5f}", force_n);
-        csv += '\n';
+        std::vector<nlohmann::ordered_json> cells{row.depth_mm};
+        cells.insert(cells.end(), row.force_n.begin(), row.force_n.end());
+        cells.insert(cells.end(), row.milling_force_n.begin(), row.milling_force_n.end());
+        table.add(std::move(cells));
     }
-    return csv;
+    return table;
 }
 
 }  // namespace osteomill::study

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "analysis/output/progress.h"
+#include "analysis/output/table.h"
 
 namespace osteomill::study {
 
@@ -26,7 +27,7 @@ struct ContactCurves {
 /// A 5 mm burr, upright, spindle off, over 0.1 mm voxels; the milling force at 10 000 rpm.
 ContactCurves measure_contact(bool quick, const Progress& progress);
 
-/// Table with a header: depth_mm, a column a model, a column a feed ("milling 6 mm/s").
-std::string csv_of(const ContactCurves& curves);
+/// depth_mm, a column a model, a column a feed ("milling 6 mm/s").
+Table table_of(const ContactCurves& curves);
 
 }  // namespace osteomill::study

@@ -1,7 +1,5 @@
 #include "studies/force/force_curves.h"
 
-#include <fmt/format.h>
-
 namespace osteomill::study {
 
 namespace {
@@ -51,15 +49,13 @@ ForceCurves measure_curves(bool quick, const Progress& progress) {
     return curves;
 }
 
-std::string csv_of(const std::vector<CurvePoint>& curve, const std::string& variable) {
-    std::string csv = variable +
-                      ",reference_x_n,reference_y_n,reference_z_n,voxels_x_n,voxels_y_n,voxels_z_n,bins_x_n,"
-                      "bins_y_n,bins_z_n\n";
+Table table_of(const std::vector<CurvePoint>& curve, const std::string& variable) {
+    Table table({variable, "reference_x_n", "reference_y_n", "reference_z_n", "voxels_x_n", "voxels_y_n",
+                 "voxels_z_n", "bins_x_n", "bins_y_n", "bins_z_n"});
     for (const CurvePoint& p : curve)
-        csv += fmt::format("{},{:.6f},{:.6f},{:.6f},{:.6f},{:.6f},{:.6f},{:.6f},{:.6f},{:.6f}\n", p.at,
-                           p.reference_n.x, p.reference_n.y, p.reference_n.z, p.voxels_n.x, p.voxels_n.y,
-                           p.voxels_n.z, p.bins_n.x, p.bins_n.y, p.bins_n.z);
-    return csv;
+        table.add({p.at, p.reference_n.x, p.reference_n.y, p.reference_n.z, p.voxels_n.x, p.voxels_n.y,
+                   p.voxels_n.z, p.bins_n.x, p.bins_n.y, p.bins_n.z});
+    return table;
 }
 
 }  // namespace osteomill::study

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "analysis/output/progress.h"
+#include "analysis/output/table.h"
 #include "studies/force/steady_run.h"
 
 namespace osteomill::study {
@@ -25,7 +26,7 @@ struct ForceCurves {
 
 ForceCurves measure_curves(bool quick, const Progress& progress);
 
-/// Table with a header; the first column bears the name `variable`.
-std::string csv_of(const std::vector<CurvePoint>& curve, const std::string& variable);
+/// The first column is called `variable`.
+Table table_of(const std::vector<CurvePoint>& curve, const std::string& variable);
 
 }  // namespace osteomill::study

@@ -5,7 +5,7 @@
 #include <glm/geometric.hpp>
 #include <limits>
 #include <numeric>
-#include <stdexcept>
+#include <span>
 
 namespace osteomill::study {
 
@@ -59,29 +59,6 @@ double largest_step(const ForceSeries& series) {
     double largest_n = 0.0;
     for (const glm::dvec3& force_n : series.force_n) largest_n = std::max(largest_n, glm::length(force_n));
     return mean_n > 0.0 ? largest_n / mean_n : 0.0;
-}
-
-double log_log_slope(std::span<const double> x, std::span<const double> y) {
-    if (x.size() != y.size() || x.size() < 2)
-        throw std::invalid_argument("a slope needs two points or more, each with x and y");
-    const auto n = static_cast<double>(x.size());
-    double sum_x = 0.0;
-    double sum_y = 0.0;
-    double sum_xx = 0.0;
-    double sum_xy = 0.0;
-    for (std::size_t i = 0; i < x.size(); ++i) {
-        if (!(x[i] > 0.0) || !(y[i] > 0.0))
-            throw std::invalid_argument("a logarithm needs values above zero");
-        const double lx = std::log(x[i]);
-        const double ly = std::log(y[i]);
-        sum_x += lx;
-        sum_y += ly;
-        sum_xx += lx * lx;
-        sum_xy += lx * ly;
-    }
-    const double spread = n * sum_xx - sum_x * sum_x;
-    if (!(spread > 1e-12)) throw std::invalid_argument("a slope needs x to vary");
-    return (n * sum_xy - sum_x * sum_y) / spread;
 }
 
 }  // namespace osteomill::study

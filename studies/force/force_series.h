@@ -2,7 +2,6 @@
 #pragma once
 
 #include <glm/vec3.hpp>
-#include <span>
 #include <vector>
 
 namespace osteomill::study {
@@ -31,9 +30,5 @@ double ripple(const ForceSeries& series, double window_s = 0.01);
 
 /// The largest |F| of a step over |mean|; 0 for a mean of zero.
 double largest_step(const ForceSeries& series);
-
-/// Least-squares slope of log y against log x: the order of convergence. Values must be positive; throws
-/// std::invalid_argument for fewer than two, or where x does not vary.
-double log_log_slope(std::span<const double> x, std::span<const double> y);
 
 }  // namespace osteomill::study

@@ -1,4 +1,5 @@
-// The study of the milling force: random motions, speed against accuracy, memory; its tables and charts.
+// The study of the milling force: random motions, curves, the older contact models, memory; its tables and
+// charts.
 #pragma once
 
 #include <cstdint>

@@ -160,25 +160,57 @@ RandomResult measure(const RandomMotion& motion, const MakeModel& make_model) {
     return result;
 }
 
-std::string csv_of(const std::vector<RandomResult>& results) {
-    std::string csv =
-        "name,diameter_mm,depth_mm,spindle_tilt_deg,spindle_azimuth_deg,dives,feed_mm_per_s,rpm,edges,"
-        "clockwise,groove_mm_higher,milling_rate_hz,voxel_mm,reference_x_n,reference_y_n,reference_z_n,"
-        "force_x_n,force_y_n,force_z_n,error_percent,ripple_percent,largest_step,step_us\n";
+Table table_of(const std::vector<RandomResult>& results) {
+    Table table({"name",
+                 "diameter_mm",
+                 "depth_mm",
+                 "spindle_tilt_deg",
+                 "spindle_azimuth_deg",
+                 "dives",
+                 "feed_mm_per_s",
+                 "rpm",
+                 "edges",
+                 "clockwise",
+                 "groove_mm_higher",
+                 "milling_rate_hz",
+                 "voxel_mm",
+                 "reference_x_n",
+                 "reference_y_n",
+                 "reference_z_n",
+                 "force_x_n",
+                 "force_y_n",
+                 "force_z_n",
+                 "error_percent",
+                 "ripple_percent",
+                 "largest_step",
+                 "step_us"});
     for (const RandomResult& r : results) {
         const SteadyCase& c = r.motion.motion;
-        csv += fmt::format(
-            "\"{}\",{:.4f},{:.4f},{:.2f},{:.2f},{:d},{:.5f},{:.0f},{},{:d},{},{:.0f},{},{:.6f},{:.6f},{:.6f},"
-            "{:.6f},{:.6f},{:.6f},{:.4f},{:.4f},{:.3f},{:.2f}\n",
-            c.name, c.burr.diameter_mm, c.depth_mm, r.motion.tilt_deg, r.motion.azimuth_deg, r.motion.dives,
-            glm::length(c.velocity_mm_per_s), 60.0 * c.burr.spindle_rev_per_s, c.burr.edges,
-            c.burr.sense == SpindleSense::clockwise,
-            c.previous_groove_mm_higher ? fmt::format("{:.4f}", *c.previous_groove_mm_higher) : "",
-            r.motion.run.milling_rate_hz, r.motion.run.voxel_mm, r.reference_n.x, r.reference_n.y,
-            r.reference_n.z, r.force_n.x, r.force_n.y, r.force_n.z, 100.0 * r.error, 100.0 * r.ripple,
-            r.largest_step, r.step_us);
+        table.add({c.name,
+                   c.burr.diameter_mm,
+                   c.depth_mm,
+                   r.motion.tilt_deg,
+                   r.motion.azimuth_deg,
+                   r.motion.dives,
+                   glm::length(c.velocity_mm_per_s),
+                   60.0 * c.burr.spindle_rev_per_s,
+                   c.burr.edges,
+                   c.burr.sense == SpindleSense::clockwise,
+                   or_empty(c.previous_groove_mm_higher),
+                   r.motion.run.milling_rate_hz,
+                   r.motion.run.voxel_mm,
+                   r.reference_n.x,
+                   r.reference_n.y,
+                   r.reference_n.z,
+                   r.force_n.x,
+                   r.force_n.y,
+                   r.force_n.z,
+                   100.0 * r.error,
+                   100.0 * r.ripple,
+                   r.largest_step,
+                   r.step_us});
     }
-    return csv;
+    return table;
 }
 
 nlohmann::ordered_json summary_of(const std::vector<RandomResult>& results) {

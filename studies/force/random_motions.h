@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "analysis/output/table.h"
 #include "studies/force/steady_run.h"
 
 namespace osteomill::study {
@@ -51,7 +52,7 @@ struct RandomResult {
 RandomResult measure(const RandomMotion& motion, const MakeModel& make_model);
 
 /// Table with a header, a line a motion.
-std::string csv_of(const std::vector<RandomResult>& results);
+Table table_of(const std::vector<RandomResult>& results);
 
 /// cases, median_error_percent, p90_error_percent and so on to max_error_percent; of motions along the
 /// surface along_median_error_percent, along_p90_error_percent, ripple_p90_percent, ripple_max_percent,

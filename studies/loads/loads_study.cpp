@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "analysis/output/output_files.h"
+#include "analysis/output/table.h"
 #include "common/scene/material.h"
 #include "studies/loads/pressed_burr.h"
 
@@ -20,7 +21,7 @@ std::string rate_text(const PressedResult& result) {
 }  // namespace
 
 void run_loads_study(const std::filesystem::path& out, const StudySurroundings& surroundings) {
-    std::string csv = "material,load_n,law,removal_mm3_per_s,depth_mm,sinks\n";
+    Table table({"material", "load_n", "law", "removal_mm3_per_s", "depth_mm", "sinks"});
     surroundings.said << "mm^3/s: full law, published law\n";
     for (const Material& material : shipped_materials()) {
         std::string line = fmt::format("{:34}", material.name);
@@ -30,15 +31,14 @@ void run_loads_study(const std::filesystem::path& out, const StudySurroundings& 
                 PressedStroke stroke{.burr = burr, .material = material, .load_n = load_n};
                 if (!is_full) stroke.burr.edge_coefficients_n_per_mm = glm::dvec3(0.0);
                 const PressedResult result = press(stroke);
-                csv += fmt::format("{},{},{},{:.5f},{:.4f},{:d}\n", material.name, load_n,
-                                   is_full ? "full" : "published", result.removal_mm3_per_s, result.depth_mm,
-                                   result.sinks);
+                table.add({material.name, load_n, is_full ? "full" : "published", result.removal_mm3_per_s,
+                           result.depth_mm, result.sinks});
                 line += fmt::format("{:>7}{}", rate_text(result), is_full ? "," : "   ");
             }
         }
         surroundings.said << line << '\n';
     }
-    write_text(csv, out / "loads.csv");
+    table.write(out / "loads.csv");
 }
 
 }  // namespace osteomill::study

@@ -21,13 +21,6 @@ Claim lowered(const std::string& claim, const std::string& where, const std::str
             .bar = lowered_bar};
 }
 
-/// As CSV wants a text that may hold commas and quotation marks.
-std::string quoted(const std::string& text) {
-    std::string out = "\"";
-    for (const char c : text) out += c == '"' ? std::string("\"\"") : std::string(1, c);
-    return out + '"';
-}
-
 }  // namespace
 
 std::vector<Claim> rising_claims(const std::string& where, const ForceRecord& record) {
@@ -88,34 +81,20 @@ Claim speed_claim(const std::string& where, double rpm, double force_n, double f
                    faster_force_n / force_n);
 }
 
-std::string csv_of(const std::vector<Claim>& claims) {
-    std::string csv = "claim,where,measure,measured,bar,holds\n";
+Table table_of(const std::vector<Claim>& claims) {
+    Table table({"claim", "where", "measure", "measured", "must_be", "bar", "holds"});
     for (const Claim& c : claims)
-        csv +=
-            fmt::format("{},{},{},{:.4f},{} {:g},{}\n", quoted(c.claim), quoted(c.where), quoted(c.measure),
-                        c.measured, c.must_reach ? ">=" : "<=", c.bar, c.holds() ? "yes" : "no");
-    return csv;
-}
-
-nlohmann::ordered_json json_of(const std::vector<Claim>& claims) {
-    nlohmann::ordered_json json = nlohmann::ordered_json::array();
-    for (const Claim& c : claims)
-        json.push_back({{"claim", c.claim},
-                        {"where", c.where},
-                        {"measure", c.measure},
-                        {"measured", c.measured},
-                        {"must_be", c.must_reach ? "at least" : "at most"},
-                        {"bar", c.bar},
-                        {"holds", c.holds()}});
-    return json;
-}
-
-std::string table_of(const std::vector<Claim>& claims) {
-    std::string table = fmt::format("{:<64} {:<46} {:>9} {:>8}\n", "claim", "where", "measured", "bar");
-    for (const Claim& c : claims)
-        table += fmt::format("{:<64} {:<46} {:>9.3f} {:>2} {:<5g} {}  ({})\n", c.claim, c.where, c.measured,
-                             c.must_reach ? ">=" : "<=", c.bar, c.holds() ? "holds" : "FAILS", c.measure);
+        table.add({c.claim, c.where, c.measure, c.measured, c.must_reach ? "at least" : "at most", c.bar,
+                   c.holds()});
     return table;
+}
+
+std::string text_of(const std::vector<Claim>& claims) {
+    std::string text = fmt::format("{:<64} {:<46} {:>9} {:>8}\n", "claim", "where", "measured", "bar");
+    for (const Claim& c : claims)
+        text += fmt::format("{:<64} {:<46} {:>9.3f} {:>2} {:<5g} {}  ({})\n", c.claim, c.where, c.measured,
+                            c.must_reach ? ">=" : "<=", c.bar, c.holds() ? "holds" : "FAILS", c.measure);
+    return text;
 }
 
 }  // namespace osteomill::study

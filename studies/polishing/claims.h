@@ -2,10 +2,10 @@
 // number.
 #pragma once
 
-#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
+#include "analysis/output/table.h"
 #include "studies/polishing/published_figures.h"
 #include "studies/polishing/tooth_period.h"
 
@@ -47,9 +47,8 @@ Claim speed_claim(const std::string& where, double rpm, double force_n, double f
                   double faster_force_n);
 inline constexpr double lowered_bar = 0.95;
 
-std::string csv_of(const std::vector<Claim>& claims);
-nlohmann::ordered_json json_of(const std::vector<Claim>& claims);
+Table table_of(const std::vector<Claim>& claims);
 /// For people, a line a claim.
-std::string table_of(const std::vector<Claim>& claims);
+std::string text_of(const std::vector<Claim>& claims);
 
 }  // namespace osteomill::study

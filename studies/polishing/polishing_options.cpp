@@ -4,9 +4,8 @@ namespace osteomill::study {
 
 CLI::App* add_polishing(CLI::App& app, PolishingStudyOptions& options) {
     options.out = "study/polishing";
-    CLI::App* polishing = app.add_subcommand(
-        "polishing",
-        "the published polishing experiment: its figures, its claims, where its method is stable");
+    CLI::App* polishing =
+        app.add_subcommand("polishing", "the published polishing experiment: its figures and its claims");
     polishing->add_option("--out", options.out, "folder for what the study writes; made if it is not there")
         ->capture_default_str();
     polishing->add_flag("--edge-forces", options.has_edge_forces,

@@ -6,7 +6,7 @@
 // twice what the arm renders; the simulated hand, which waits for a tool that is held back, then takes half a
 // minute, and even at 80 000 rpm 8.6 s. Strokes of a few millimetres to and fro, each a pass some tenths of a
 // millimetre deeper than the one before, cost less, and the shorter the less; but under the shortest ones
-// force follows the strokes rather than the depth (setups.csv).
+// force follows the strokes rather than the depth.
 //
 // The default is five strokes of 8 mm at 80 000 rpm: seven seconds and a half, 3.5 mm, up to 0.6 N. Shapes
 // can be compared with the published figures, values cannot.

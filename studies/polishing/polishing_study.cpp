@@ -3,20 +3,16 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <ostream>
 #include <stdexcept>
 #include <utility>
 #include <variant>
 
-#include "analysis/output/chart.h"
 #include "analysis/output/output_files.h"
+#include "analysis/output/study_run.h"
 #include "imaging/phantoms/phantom.h"
-#include "imaging/progress.h"
 #include "studies/polishing/claims.h"
 #include "studies/polishing/polishing_run.h"
 #include "studies/polishing/published_figures.h"
-#include "studies/polishing/setup_survey.h"
-#include "studies/polishing/speed_and_grip.h"
 #include "studies/polishing/tooth_period.h"
 
 namespace osteomill::study {
@@ -41,43 +37,36 @@ const FigureRun& figure_of(const std::vector<FigureRun>& figures, const std::str
 class PolishingStudy {
   public:
     PolishingStudy(const PolishingStudyOptions& options, const StudySurroundings& surroundings)
-        : options_(options),
-          surroundings_(surroundings),
+        : quick_(options.quick),
+          run_(options.out, surroundings),
           logs_(options.out / "runs"),
           cube_{bone_of_cube(), options.has_edge_forces ? glm::dvec3(0.3, 0.3, 0.0) : glm::dvec3(0.0)} {
         make_folder(logs_);
     }
 
     void run() {
-        const auto setups = chapter("set-ups", &survey_setups);
-        write(csv_of(setups), "setups.csv");
         const auto figures = chapter("figures 6, 7 and 8", &run_figures);
-        write(csv_of(figures), "figures.csv");
+        run_.write(table_of(figures), "figures");
         for (const FigureRun& figure : figures)
-            write(series_csv(figure.run.record),
-                  fmt::format("{}_{}.csv", figure.setup.force_model, figure.setup.coupling));
+            run_.write(series_of(figure.run.record), figure.setup.force_model + "_" + figure.setup.coupling);
         const auto by_edges = chapter("edges", &vary_edges);
-        write(csv_of(by_edges), "edges.csv");
+        run_.write(table_of(by_edges), "edges");
         for (const ToothPeriodForce& force : by_edges)
-            write(clip_csv(force), fmt::format("tooth_period_{}.csv", force.setup.edges));
+            run_.write(clip_of(force), fmt::format("tooth_period_{}", force.setup.edges));
         const auto by_speed = chapter("spindle speeds", &vary_speed);
-        write(csv_of(by_speed), "speeds.csv");
+        run_.write(table_of(by_speed), "speeds");
 
-        const std::vector<Claim> claims = claims_of(figures, by_edges, by_speed, setups);
-        write(csv_of(claims), "claims.csv");
-        write_json(json_of(claims), options_.out / "claims.json");
-        surroundings_.said << table_of(claims) << std::endl;
+        std::vector<Claim> claims = claims_of_shape(figures);
+        add(claims, claims_of_contact(figures));
+        add(claims, edges_claims(by_edges));
+        add(claims, speed_claims(by_speed));
+        const Table table = table_of(claims);
+        run_.write(table, "claims");
+        run_.write(table.json(), "claims");
+        run_.say("{}", text_of(claims));
 
-        const auto swept = chapter("speeds and grips", &sweep_speed_and_grip);
-        write(csv_of(swept), "speed_and_grip.csv");
-        surroundings_.said << "limit cycle, N rms, by grip and spindle speed; * chatters\n"
-                           << table_of(swept);
-
-        for (const char* chart : {"polishing_depth", "polishing_milling", "polishing_point_spring",
-                                  "polishing_stability", "polishing_edges"})
-            draw_chart(chart_scripts(), chart, options_.out);
-        surroundings_.said << fmt::format("\nclaims.json, tables (CSV) and charts (SVG) are in {}\n",
-                                          options_.out.string());
+        run_.draw({"polishing_depth", "polishing_milling", "polishing_point_spring", "polishing_edges"});
+        run_.say("claims.json, tables (CSV) and charts (SVG) are in {}", run_.out().string());
     }
 
   private:
@@ -85,27 +74,12 @@ class PolishingStudy {
     template <typename Found>
     Found chapter(const std::string& title,
                   Found (*work)(const Specimen&, bool, const std::filesystem::path&, const Progress&)) const {
-        ProgressLine line(surroundings_.progress, surroundings_.is_terminal, title);
-        return work(cube_, options_.quick, logs_, line.reporter());
-    }
-
-    void write(const std::string& table, const std::string& name) const {
-        write_text(table, options_.out / name);
+        return run_.chapter(title,
+                            [&](const Progress& progress) { return work(cube_, quick_, logs_, progress); });
     }
 
     static void add(std::vector<Claim>& claims, std::vector<Claim> more) {
         for (Claim& claim : more) claims.push_back(std::move(claim));
-    }
-
-    std::vector<Claim> claims_of(const std::vector<FigureRun>& figures,
-                                 const std::vector<ToothPeriodForce>& by_edges,
-                                 const std::vector<ToothPeriodForce>& by_speed,
-                                 const std::vector<SurveyedSetup>& setups) const {
-        std::vector<Claim> claims = claims_of_shape(figures);
-        add(claims, claims_of_contact(figures));
-        add(claims, edges_claims(by_edges));
-        add(claims, speed_claims(by_speed, setups));
-        return claims;
     }
 
     /// Which of the paper's claims hold depends on how the slide lies on the bone: asked of strokes to and
@@ -114,7 +88,7 @@ class PolishingStudy {
         const PolishingSetup one_stroke{.stroke_mm = single_stroke_mm};
         const FigureRun& implicit = figure_of(figures, "milling", "implicit");
         const ForceRecord on_rails = run_on_rails(cube_, {}, logs_ / "rails.csv").record;
-        write(series_csv(on_rails), "as_meant.csv");
+        run_.write(series_of(on_rails), "as_meant");
         const std::vector<std::pair<std::string, ForceRecord>> records{
             {"milling, on rails", on_rails},
             {"milling, on rails, one stroke",
@@ -143,22 +117,22 @@ class PolishingStudy {
         return claims;
     }
 
-    static std::vector<Claim> speed_claims(const std::vector<ToothPeriodForce>& by_speed,
-                                           const std::vector<SurveyedSetup>& setups) {
-        std::vector<Claim> claims{speed_claim("milling, on rails", by_speed.front().setup.spindle_rpm,
-                                              by_speed.front().mean_n, by_speed.back().setup.spindle_rpm,
-                                              by_speed.back().mean_n)};
-        std::vector<SurveyedSetup> same_stroke;
-        for (const SurveyedSetup& s : setups)
-            if (s.setup.stroke_mm == PolishingSetup{}.stroke_mm) same_stroke.push_back(s);
-        claims.push_back(speed_claim("milling, implicit", same_stroke.front().setup.spindle_rpm,
-                                     same_stroke.front().mean_force_n, same_stroke.back().setup.spindle_rpm,
-                                     same_stroke.back().mean_force_n));
-        return claims;
+    std::vector<Claim> speed_claims(const std::vector<ToothPeriodForce>& by_speed) const {
+        const auto claim = [](const std::string& where, const PolishingSetup& slow, double slow_n,
+                              const PolishingSetup& fast, double fast_n) {
+            return speed_claim(where, slow.spindle_rpm, slow_n, fast.spindle_rpm, fast_n);
+        };
+        const PolishingSetup slow = by_speed.front().setup;
+        const PolishingSetup fast = by_speed.back().setup;
+        const auto by_hand_n = [&](const PolishingSetup& setup) {
+            return mean_force_n(run_by_hand(cube_, setup, logs_ / "by_hand.csv").record);
+        };
+        return {claim("milling, on rails", slow, by_speed.front().mean_n, fast, by_speed.back().mean_n),
+                claim("milling, implicit", slow, by_hand_n(slow), fast, by_hand_n(fast))};
     }
 
-    const PolishingStudyOptions& options_;
-    const StudySurroundings& surroundings_;
+    bool quick_;
+    StudyRun run_;
     std::filesystem::path logs_;
     Specimen cube_;
 };

@@ -1,4 +1,4 @@
-// The published polishing experiment: figures 6, 7 and 8, the paper's claims, and where its method is stable.
+// The published polishing experiment: figures 6, 7 and 8, and the paper's claims.
 #pragma once
 
 #include <filesystem>

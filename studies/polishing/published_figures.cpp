@@ -51,27 +51,24 @@ std::vector<FigureRun> run_figures(const Specimen& cube, bool quick, const std::
     return figures;
 }
 
-std::string series_csv(const ForceRecord& record) {
-    std::string csv = "t_s,depth_mm,force_x_n,force_y_n,force_z_n\n";
+Table series_of(const ForceRecord& record) {
+    Table table({"t_s", "depth_mm", "force_x_n", "force_y_n", "force_z_n"});
     for (std::size_t i = 0; i < record.size(); i += ticks_a_line) {
         const RecordedForce& sample = record[i];
-        csv += fmt::format("{:.3f},{:.4f},{:.4f},{:.4f},{:.4f}\n", sample.time_s - record.front().time_s,
-                           sample.depth_mm, sample.force_n.x, sample.force_n.y, sample.force_n.z);
+        table.add({sample.time_s - record.front().time_s, sample.depth_mm, sample.force_n.x, sample.force_n.y,
+                   sample.force_n.z});
     }
-    return csv;
+    return table;
 }
 
-std::string csv_of(const std::vector<FigureRun>& figures) {
-    std::string csv =
-        "force_model,coupling,milling_rate_hz,reached_end,slide_s,largest_depth_mm,stray_mm,mean_force_n,"
-        "limit_cycle_n,onset_depth_mm,faults\n";
+Table table_of(const std::vector<FigureRun>& figures) {
+    Table table({"force_model", "coupling", "milling_rate_hz", "reached_end", "slide_s", "largest_depth_mm",
+                 "stray_mm", "mean_force_n", "limit_cycle_n", "onset_depth_mm", "faults"});
     for (const FigureRun& f : figures)
-        csv +=
-            fmt::format("{},{},{:.0f},{:d},{:.2f},{:.3f},{:.3f},{:.4f},{:.4f},{},{}\n", f.setup.force_model,
-                        f.setup.coupling, f.setup.milling_rate_hz, f.run.reached_end ? 1 : 0, f.run.slide_s,
-                        f.run.depth_mm, f.run.stray_mm, f.mean_force_n, f.limit_cycle_n,
-                        f.onset_mm ? fmt::format("{:.3f}", *f.onset_mm) : "", f.run.faults);
-    return csv;
+        table.add({f.setup.force_model, f.setup.coupling, f.setup.milling_rate_hz, f.run.reached_end,
+                   f.run.slide_s, f.run.depth_mm, f.run.stray_mm, f.mean_force_n, f.limit_cycle_n,
+                   or_empty(f.onset_mm), f.run.faults});
+    return table;
 }
 
 }  // namespace osteomill::study

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "analysis/output/progress.h"
+#include "analysis/output/table.h"
 #include "common/bone/bone.h"
 #include "studies/polishing/force_measures.h"
 #include "studies/polishing/polishing_run.h"
@@ -35,8 +36,8 @@ std::vector<FigureRun> run_figures(const Specimen& cube, bool quick, const std::
                                    const Progress& progress);
 
 /// Time from first contact, depth and force, a line every few milliseconds of a record of one a millisecond.
-std::string series_csv(const ForceRecord& record);
+Table series_of(const ForceRecord& record);
 /// A line a run: slide, depth, stray, force, limit cycle, faults.
-std::string csv_of(const std::vector<FigureRun>& figures);
+Table table_of(const std::vector<FigureRun>& figures);
 
 }  // namespace osteomill::study

@@ -87,21 +87,19 @@ std::vector<ToothPeriodForce> vary_speed(const Specimen& cube, bool quick,
     return forces;
 }
 
-std::string csv_of(const std::vector<ToothPeriodForce>& forces) {
-    std::string csv = "rpm,edges,milling_rate_hz,mean_n,one_tooth_n,peak_over_mean,chip_um\n";
+Table table_of(const std::vector<ToothPeriodForce>& forces) {
+    Table table({"rpm", "edges", "milling_rate_hz", "mean_n", "one_tooth_n", "peak_over_mean", "chip_um"});
     for (const ToothPeriodForce& f : forces)
-        csv +=
-            fmt::format("{:.0f},{},{:.0f},{:.4f},{:.4f},{:.3f},{:.3f}\n", f.setup.spindle_rpm, f.setup.edges,
-                        f.setup.milling_rate_hz, f.mean_n, f.one_tooth_n, f.peak_over_mean, f.chip_um);
-    return csv;
+        table.add({f.setup.spindle_rpm, f.setup.edges, f.setup.milling_rate_hz, f.mean_n, f.one_tooth_n,
+                   f.peak_over_mean, f.chip_um});
+    return table;
 }
 
-std::string clip_csv(const ToothPeriodForce& force) {
-    std::string csv = "t_s,force_n\n";
+Table clip_of(const ToothPeriodForce& force) {
+    Table table({"t_s", "force_n"});
     for (const RecordedForce& sample : force.clip)
-        csv += fmt::format("{:.5f},{:.4f}\n", sample.time_s - force.clip.front().time_s,
-                           glm::length(sample.force_n));
-    return csv;
+        table.add({sample.time_s - force.clip.front().time_s, glm::length(sample.force_n)});
+    return table;
 }
 
 }  // namespace osteomill::study

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "analysis/output/progress.h"
+#include "analysis/output/table.h"
 #include "common/bone/bone.h"
 #include "studies/polishing/force_record.h"
 #include "studies/polishing/polishing_setup.h"
@@ -31,8 +32,8 @@ std::vector<ToothPeriodForce> vary_edges(const Specimen& cube, bool quick,
 std::vector<ToothPeriodForce> vary_speed(const Specimen& cube, bool quick,
                                          const std::filesystem::path& folder, const Progress& progress);
 
-std::string csv_of(const std::vector<ToothPeriodForce>& forces);
+Table table_of(const std::vector<ToothPeriodForce>& forces);
 /// The clip: time from its beginning and length of the force.
-std::string clip_csv(const ToothPeriodForce& force);
+Table clip_of(const ToothPeriodForce& force);
 
 }  // namespace osteomill::study

@@ -33,21 +33,10 @@ std::unique_ptr<BoneRenderer> renderer_of(const DrawingSetting& setting) {
         .step_voxels = setting.step_voxels});
 }
 
-/// Both references of one view in one look.
-struct References {
-    Picture model;
-    Picture trilinear;
-};
-
-References references_of(const TrialBone& trial, const Camera& camera, const ShadingSettings& look,
-                         const glm::ivec2& size_px) {
-    const ReferenceVolume volume(trial.bone, trial.tissues, look);
-    ReferenceSettings settings{.threads = std::max(1u, std::thread::hardware_concurrency())};
-    Picture model = reference_image(volume, camera, size_px, settings);
-    // Where normals do not come from the fraction's slope alone there is one reference.
-    if (look.shading == Shading::surface_voxels || look.transfer) return {model, model};
-    settings.gradient = ReferenceGradient::trilinear;
-    return {std::move(model), reference_image(volume, camera, size_px, settings)};
+Picture reference_of(const TrialBone& trial, const Camera& camera, const ShadingSettings& look,
+                     const glm::ivec2& size_px) {
+    return reference_image(ReferenceVolume(trial.bone, trial.tissues, look), camera, size_px,
+                           {.threads = std::max(1u, std::thread::hardware_concurrency())});
 }
 
 /// Points of the same bone and view together, in the order in which these first come; so a chart has a panel
@@ -122,7 +111,7 @@ std::vector<DrawingPoint> measure(const TrialBone& trial, const std::vector<Draw
     for (const ShadingSettings& look : looks) {
         const BoneTextures textures(trial.bone, trial.tissues, look);
         for (const auto& [view, camera] : views) {
-            const References references = references_of(trial, camera, look, size_px);
+            const Picture reference = reference_of(trial, camera, look, size_px);
             progress(++done / all);
             for (const DrawingSetting& setting : settings) {
                 if (!(setting.look == look)) continue;
@@ -137,9 +126,8 @@ std::vector<DrawingPoint> measure(const TrialBone& trial, const std::vector<Draw
                                   .view = view,
                                   .setting = setting,
                                   .frame = drawn.cost,
-                                  .psnr_db = psnr_db(shown, references.model),
-                                  .ssim = ssim(shown, references.model),
-                                  .psnr_trilinear_db = psnr_db(shown, references.trilinear)});
+                                  .psnr_db = psnr_db(shown, reference),
+                                  .ssim = ssim(shown, reference)});
                 progress(++done / all);
             }
         }
@@ -147,22 +135,19 @@ std::vector<DrawingPoint> measure(const TrialBone& trial, const std::vector<Draw
     return points;
 }
 
-std::string csv_of(const std::vector<DrawingPoint>& points) {
-    std::string csv =
-        "panel_number,panel,bone,view,family,label,step_voxels,skips,divisor,frame_ms,frame_cpu_ms,psnr_db,"
-        "ssim,"
-        "psnr_trilinear_db,is_default\n";
+Table table_of(const std::vector<DrawingPoint>& points) {
+    Table table({"panel_number", "panel", "bone", "view", "family", "label", "step_voxels", "skips",
+                 "divisor", "frame_ms", "frame_cpu_ms", "psnr_db", "ssim", "is_default"});
     std::string panel;
     int panel_number = 0;
     for (const DrawingPoint& p : by_panel(points)) {
         if (panel != p.bone + " " + p.view) ++panel_number;
         panel = p.bone + " " + p.view;
-        csv += fmt::format("{},{},{},{},{},{},{},{},{},{:.3f},{:.3f},{:.3f},{:.5f},{:.3f},{}\n", panel_number,
-                           panel, p.bone, p.view, p.setting.family, p.setting.label, p.setting.step_voxels,
-                           p.setting.skips ? 1 : 0, p.setting.divisor, p.frame.wall_ms, p.frame.cpu_ms,
-                           p.psnr_db, p.ssim, p.psnr_trilinear_db, p.setting.is_default ? 1 : 0);
+        table.add({panel_number, panel, p.bone, p.view, p.setting.family, p.setting.label,
+                   p.setting.step_voxels, p.setting.skips, p.setting.divisor, p.frame.wall_ms, p.frame.cpu_ms,
+                   p.psnr_db, p.ssim, p.setting.is_default});
     }
-    return csv;
+    return table;
 }
 
 }  // namespace osteomill::study

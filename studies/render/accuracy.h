@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "analysis/output/progress.h"
+#include "analysis/output/table.h"
 #include "render_client/volume/passes/raycast_renderer.h"
 #include "render_client/volume/passes/renderer_choice.h"
 #include "studies/render/reference_image.h"
@@ -36,15 +37,12 @@ struct DrawingPoint {
     Cost frame{};
     double psnr_db = 0.0;
     double ssim = 0.0;
-    /// Against a reference whose normals are the derivative of the trilinear fraction, where normals matter.
-    double psnr_trilinear_db = 0.0;
 };
 
 /// Draws a bone's views in all settings.
 std::vector<DrawingPoint> measure(const TrialBone& trial, const std::vector<DrawingSetting>& settings,
                                   const glm::ivec2& size_px, bool quick, const Progress& progress);
 
-/// Table with a header.
-std::string csv_of(const std::vector<DrawingPoint>& points);
+Table table_of(const std::vector<DrawingPoint>& points);
 
 }  // namespace osteomill::study

@@ -1,14 +1,16 @@
 #include "studies/render/carved_sphere.h"
 
+#include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
 #include <stdexcept>
 #include <vector>
 
+#include "common/statistics/percentile.h"
 #include "render_client/volume/gl/framebuffer.h"
 #include "render_client/volume/passes/raycast_renderer.h"
 #include "render_client/volume/shaders/lighting.h"
-#include "studies/render/normals.h"
 #include "studies/render/picture_difference.h"
 #include "studies/render/reference_volume.h"
 #include "tests/unit/volume/made_bone.h"
@@ -36,6 +38,10 @@ Camera into_hole(double px_per_voxel) {
     camera.distance_mm = 0.5 * picture_px.y / px_per_voxel * 0.1 / std::tan(0.5 * camera.field_of_view_rad);
     camera.near_mm = 0.1 * camera.distance_mm;
     return camera;
+}
+
+double angle_deg(const glm::dvec3& a, const glm::dvec3& b) {
+    return glm::degrees(std::acos(std::min(1.0, glm::dot(a, b) / (glm::length(a) * glm::length(b)))));
 }
 
 /// Where a ray from the eye leaves the sphere, which is the wall of the hole.
@@ -88,7 +94,7 @@ double carved_sphere_normals_p95_deg() {
                                      0.5 - glm::dvec3(volume.box().first);
             angles_deg.push_back(angle_deg(volume.eight_corner_gradient_at(place), outward));
         }
-    return quantile_of(angles_deg, 0.95);
+    return percentile(angles_deg, 0.95);
 }
 
 }  // namespace osteomill::study

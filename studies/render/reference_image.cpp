@@ -85,9 +85,7 @@ class ReferenceRays {
             const glm::dvec4 colour = volume_.surface_colour_at(point);
             return glm::dvec3(colour) / std::max(colour.a, 1e-3);
         }
-        const glm::dvec3 gradient = settings_.gradient == ReferenceGradient::trilinear
-                                        ? volume_.trilinear_gradient_at(point)
-                                        : volume_.eight_corner_gradient_at(point);
+        const glm::dvec3 gradient = volume_.eight_corner_gradient_at(point);
         const double steepness = glm::length(gradient);
         const glm::dvec3 normal = steepness > 1e-5 ? -gradient / steepness : -direction;
         const glm::dvec3 colour(volume_.look_under(point, normal));

@@ -10,15 +10,8 @@
 
 namespace osteomill::study {
 
-/// Where a surface's normal comes from.
-enum class ReferenceGradient {
-    trilinear,     ///< the derivative of the interpolated fraction itself
-    eight_corners  ///< the shaders' differences of smoothed fractions, in double precision
-};
-
 struct ReferenceSettings {
     double step_voxels = 0.1;
-    ReferenceGradient gradient = ReferenceGradient::eight_corners;
     unsigned threads = 2;  ///< at least 1
 };
 

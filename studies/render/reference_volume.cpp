@@ -92,19 +92,6 @@ double ReferenceVolume::fraction_at(const glm::dvec3& point) const {
     return fraction_at(point, cell);
 }
 
-glm::dvec3 ReferenceVolume::trilinear_gradient_at(const glm::dvec3& point) const {
-    Cell cell;
-    fraction_at(point, cell);
-    const Place at(point);
-    glm::dvec3 gradient(0.0);
-    for (int corner = 0; corner < 8; ++corner) {
-        const glm::dvec3 share = glm::mix(1.0 - at.part, at.part, glm::dvec3(corner_of(corner)));
-        const glm::dvec3 slope(share.y * share.z, share.x * share.z, share.x * share.y);
-        gradient += cell.values[static_cast<std::size_t>(corner)] * side_of(corner) * slope;
-    }
-    return gradient;
-}
-
 double ReferenceVolume::smoothed_at(const glm::dvec3& point) const {
     const Place at(point);
     double sum = 0.0;

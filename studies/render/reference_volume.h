@@ -35,8 +35,6 @@ class ReferenceVolume {
     /// Fraction, 0 to 1. `cell` may be of any point; it becomes that of this one.
     double fraction_at(const glm::dvec3& point, Cell& cell) const;
     double fraction_at(const glm::dvec3& point) const;
-    /// Derivative of the trilinear interpolation, 1 / voxel.
-    glm::dvec3 trilinear_gradient_at(const glm::dvec3& point) const;
     /// The shaders' estimate: differences of the smoothed fractions over eight corners of a cube round the
     /// point.
     glm::dvec3 eight_corner_gradient_at(const glm::dvec3& point) const;

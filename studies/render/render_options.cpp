@@ -9,8 +9,8 @@ namespace osteomill::study {
 CLI::App* add_render(CLI::App& app, RenderStudyOptions& options) {
     options.out = "study/render";
     if (const char* const scans = std::getenv("OSTEOMILL_SCANS")) options.scans = scans;
-    CLI::App* render = app.add_subcommand(
-        "render", "the pictures: frame time against accuracy, sizes and settings; upload against carve");
+    CLI::App* render =
+        app.add_subcommand("render", "the pictures: frame time against accuracy, how smooth a cut looks");
     render->add_option("--out", options.out, "folder for what the study writes; made if it is not there")
         ->capture_default_str();
     render

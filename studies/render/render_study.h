@@ -1,4 +1,4 @@
-// The study of the pictures: speed against accuracy, frame time against sizes, upload against carve.
+// The study of the pictures: speed against accuracy, and how smooth a cut looks.
 #pragma once
 
 #include <filesystem>
@@ -20,9 +20,8 @@ struct RenderStudyOptions {
     std::optional<std::filesystem::path> scans{};  ///< a folder of trial scans; none: the phantom alone
 };
 
-/// Writes render.json, the tables (CSV), the charts (SVG) and pictures (PNG) into `options.out`, a folder
-/// that is there. Throws std::runtime_error in one line naming what cannot be written or read, and
-/// gl::NoOpenGl.
+/// Writes render.json, accuracy.csv and its chart into `options.out`, a folder that is there. Throws
+/// std::runtime_error in one line naming what cannot be written or read, and gl::NoOpenGl.
 void run_render_study(const RenderStudyOptions& options, const StudySurroundings& surroundings);
 
 }  // namespace osteomill::study

@@ -1,9 +1,7 @@
 #include "studies/render/trial_bone.h"
 
-#include <cmath>
 #include <fstream>
 #include <glm/geometric.hpp>
-#include <numbers>
 #include <sstream>
 #include <stdexcept>
 
@@ -86,26 +84,6 @@ TrialBone vault_trial(const std::filesystem::path& scans, const std::filesystem:
                        .region = parse_region("108,110,-40,148,150,0"),
                        .to_hu = parse_rescale("1,-1000")},
                       folder);
-}
-
-TrialBone gyroid_trial(int edge_voxels) {
-    constexpr double spacing_mm = 0.1;
-    const double half_mm = 0.5 * spacing_mm * edge_voxels;
-    const Grid grid{.size_voxels = glm::ivec3(edge_voxels),
-                    .spacing_mm = spacing_mm,
-                    .origin_mm = glm::dvec3(0.5 * spacing_mm - half_mm)};
-    const double wave_mm = half_mm / std::numbers::pi;  // of a period over 2 pi: one period to the half edge
-    const auto depth = [&](const glm::dvec3& p) {
-        const glm::dvec3 q = p / wave_mm;
-        const double level =
-            std::sin(q.x) * std::cos(q.y) + std::sin(q.y) * std::cos(q.z) + std::sin(q.z) * std::cos(q.x);
-        // About 1.2 is the mean slope of the level there.
-        const double sheet_mm = (0.35 - std::abs(level)) * wave_mm / 1.2;
-        return std::min(sheet_mm, 0.95 * half_mm - glm::length(p));
-    };
-    Bone bone = made_bone(grid, depth);
-    const Camera overview = camera_on(glm::dvec3(0.0), 1.1 * half_mm);
-    return {"gyroid", std::move(bone), {}, overview, overview};
 }
 
 glm::dvec3 seen_point_mm(const Bone& bone, const Camera& camera) {

@@ -33,10 +33,6 @@ TrialBone skull_trial(const std::filesystem::path& scans, const std::filesystem:
 /// 40 mm of the top of the head of which the slices are 2 mm apart, as above.
 TrialBone vault_trial(const std::filesystem::path& scans, const std::filesystem::path& folder);
 
-/// A shape with hollows and thin walls (two interwoven sheets of a gyroid in a ball) of `edge_voxels` along
-/// each axis: the same picture at any size.
-TrialBone gyroid_trial(int edge_voxels);
-
 /// Where the camera's axis first meets bone; throws std::runtime_error where it meets none.
 glm::dvec3 seen_point_mm(const Bone& bone, const Camera& camera);
 

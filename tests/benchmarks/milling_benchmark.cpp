@@ -26,9 +26,9 @@
 #include "simulation/engagement/shank_probe.h"
 #include "simulation/loop/milling_loop.h"
 #include "studies/force/bone_block.h"
-#include "studies/force/full_scan.h"
 #include "studies/force/studied_model.h"
 #include "tests/support/block.h"
+#include "tests/support/full_scan.h"
 
 namespace osteomill {
 namespace {

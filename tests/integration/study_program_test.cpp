@@ -107,11 +107,8 @@ TEST_F(StudyProgram, DrawsItsChartsQuickly) {
     EXPECT_THAT(outcome.err, HasSubstr("random 100 %\n"));
     const auto found = nlohmann::json::parse(text_of(out_ + "/force.json"));
     EXPECT_LT(found.at("random").at("median_error_percent"), 1.0);
-    EXPECT_GE(found.at("convergence").at("soft_slope"), 1.0) << "at least linear";
-    for (const auto& row : found.at("cost").at("by_diameter"))
-        EXPECT_GT(row.at("times_faster").at("100_hz"), 0.0);
     EXPECT_EQ(found.at("memory").at(0).at("name"), "tooth phantom");
-    for (const char* chart : {"pareto", "curves", "contact", "convergence", "scaling", "memory"})
+    for (const char* chart : {"curves", "contact"})
         EXPECT_THAT(text_of(out_ + "/" + chart + ".svg"), HasSubstr("</svg>")) << chart;
 }
 
@@ -122,7 +119,7 @@ TEST_F(StudyProgram, PolishesQuickly) {
     const Outcome outcome = run("polishing --quick --out " + out_);
     ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
     EXPECT_THAT(outcome.out, HasSubstr(out_)) << "says where the files are";
-    EXPECT_THAT(outcome.err, HasSubstr("speeds and grips 100 %\n"));
+    EXPECT_THAT(outcome.err, HasSubstr("spindle speeds 100 %\n"));
     const auto claims = nlohmann::json::parse(text_of(out_ + "/claims.json"));
     const auto measured = [&](const std::string& claim, const std::string& where) {
         for (const auto& c : claims)
@@ -138,7 +135,7 @@ TEST_F(StudyProgram, PolishesQuickly) {
     EXPECT_NEAR(measured("a faster spindle lowers the force", "milling, on rails"), 0.25, 0.005)
         << "four times as fast";
     EXPECT_LT(measured("implicit is steady (not in the paper)", "milling, implicit"), 0.2);
-    for (const char* chart : {"depth", "milling", "point_spring", "stability", "edges"})
+    for (const char* chart : {"depth", "milling", "point_spring", "edges"})
         EXPECT_THAT(text_of(out_ + "/polishing_" + chart + ".svg"), HasSubstr("</svg>")) << chart;
 }
 
@@ -154,15 +151,13 @@ TEST_F(StudyProgram, DrawsAndMeasuresPicturesQuickly) {
     EXPECT_THAT(outcome.out, HasSubstr(found.at("gl_renderer").get<std::string>()));
     int defaults = 0;
     for (const auto& point : found.at("accuracy")) {
-        EXPECT_GT(point.at("frame").at("wall_ms"), 0.0);
+        EXPECT_GT(point.at("frame_ms"), 0.0);
         if (!point.at("is_default")) continue;
         ++defaults;
         EXPECT_GE(point.at("psnr_db"), 40.0);
     }
     EXPECT_EQ(defaults, 1);
-    for (const char* chart : {"accuracy", "scaling", "upload"})
-        EXPECT_THAT(text_of(out_ + "/render_" + chart + ".svg"), HasSubstr("</svg>")) << chart;
-    EXPECT_TRUE(std::filesystem::exists(out_ + "/pictures/tooth_phantom_slices_surface_voxels_after.png"));
+    EXPECT_THAT(text_of(out_ + "/render_accuracy.svg"), HasSubstr("</svg>"));
 }
 
 TEST_F(StudyProgram, MeasuresTheFullRateOfWhatDraws) {

@@ -42,8 +42,6 @@ do for [p=1:panels] {
     }
     plot for [i=1:7] table using 'frame_ms':(of(p, i, 'psnr_db')) with linespoints \
              lc rgb Colour[i] pt Point[i] ps 1.1 lw 1.2 title Title[i], \
-         table using 'frame_ms':(of(p, 1, 'psnr_trilinear_db')) with points pt 1 ps 1.1 lw 1.5 lc rgb blue \
-             title 'rays, lit by the gradient, against a reference lit by slopes of linear interpolation', \
          table using 'frame_ms':(column('panel_number') == p && column('is_default') == 1 ? column('psnr_db') : NaN) \
              with points pt 6 ps 2.2 lw 2.5 lc rgb black title 'the default', \
          40 with lines dt 2 lw 1.5 lc rgb black title 'goal of full quality, 40 dB'

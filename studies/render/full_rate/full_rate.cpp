@@ -4,13 +4,12 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
-#include <ostream>
 #include <vector>
 
 #include "analysis/output/chart.h"
 #include "analysis/output/output_files.h"
+#include "analysis/output/study_run.h"
 #include "common/statistics/percentile.h"
-#include "imaging/progress.h"
 #include "render_client/volume/gl/graphics_devices.h"
 #include "render_client/volume/gl/offscreen_context.h"
 #include "studies/render/full_rate/carve_upload.h"
@@ -44,7 +43,7 @@ class FullRate {
   public:
     FullRate(const FullRateOptions& options, const StudySurroundings& surroundings)
         : options_(options),
-          surroundings_(surroundings),
+          run_(options.out, surroundings),
           context_(options.gpu),
           gl_renderer_(gl::renderer_name()),
           is_software_(gl::is_software_renderer(gl_renderer_)),
@@ -64,19 +63,24 @@ class FullRate {
         say("");
         say("{:<7}{:<21}{:<9}{:>10}{:>9}{:>9}{:>9}{:>9}  {}", "bone", "motion", "by", "frames/s", "p50 ms",
             "p99 ms", "GPU ms", "CPU ms", "GL renderer");
+        Table table({"bone", "motion", "by", "width_px", "height_px", "frames", "frames_per_s", "p50_ms",
+                     "p99_ms", "gpu_p50_ms", "gpu_p99_ms", "cpu_p50_ms", "gl_renderer"});
         for (const Row& row : rows_) {
+            const auto& [wall, gpu, cpu] = row.frames;
             say("{:<7}{:<21}{:<9}{:>10.1f}{:>9.2f}{:>9.2f}{:>9.2f}{:>9.2f}  {}", row.phantom, row.motion,
-                row.drawer, frames_per_s(row.frames), percentile(row.frames.wall, 0.5),
-                percentile(row.frames.wall, 0.99), percentile(row.frames.gpu, 0.5),
-                percentile(row.frames.cpu, 0.5), row.gl_renderer);
-            found["rows"].push_back(json_of_row(row));
+                row.drawer, frames_per_s(row.frames), percentile(wall, 0.5), percentile(wall, 0.99),
+                percentile(gpu, 0.5), percentile(cpu, 0.5), row.gl_renderer);
+            table.add({row.phantom, row.motion, row.drawer, size_px_.x, size_px_.y, wall.size(),
+                       frames_per_s(row.frames), percentile(wall, 0.5), percentile(wall, 0.99),
+                       percentile(gpu, 0.5), percentile(gpu, 0.99), percentile(cpu, 0.5), row.gl_renderer});
         }
+        found["rows"] = table.json();
         compare_eyes(found);
         compare_with_vtk(found);
-        write_text(csv(), options_.out / "full_rate.csv");
         write_text(gl_renderer_ + "\n", options_.out / "gl_renderer.txt");
-        write_json(found, options_.out / "full_rate.json");
-        draw_chart(chart_scripts(), "render_full_rate", options_.out);
+        run_.write(table, "full_rate");
+        run_.write(found, "full_rate");
+        run_.draw({"render_full_rate"});
         say("full_rate.json, full_rate.csv, render_full_rate.svg and pictures (PNG) are in {}",
             options_.out.string());
     }
@@ -84,7 +88,7 @@ class FullRate {
   private:
     template <typename... Arguments>
     void say(fmt::format_string<Arguments...> format, Arguments&&... arguments) const {
-        surroundings_.said << fmt::format(format, std::forward<Arguments>(arguments)...) << std::endl;
+        run_.say(format, std::forward<Arguments>(arguments)...);
     }
 
     void say_what_is_measured() const {
@@ -102,8 +106,9 @@ class FullRate {
     }
 
     ordered_json upload(const std::string& phantom) const {
-        ProgressLine line(surroundings_.progress, surroundings_.is_terminal, phantom + ", uploads");
-        const CarveUpload found = upload_carves(phantom, is_software_ ? frames_ : uploads, line.reporter());
+        const CarveUpload found = run_.chapter(phantom + ", uploads", [&](const Progress& progress) {
+            return upload_carves(phantom, is_software_ ? frames_ : uploads, progress);
+        });
         ordered_json textures;
         std::string parts;
         for (const TextureSize& each : found.textures) {
@@ -130,17 +135,15 @@ class FullRate {
 
     void draw(const std::string& phantom) {
         DrawingTask task{.phantom = phantom, .size_px = size_px_, .frames = frames_};
-        {
-            ProgressLine line(surroundings_.progress, surroundings_.is_terminal, phantom + ", window");
-            const WindowFrames drawn =
-                draw_window(task, options_.out / ("window_" + phantom + ".png"), line.reporter());
-            for (const auto& [motion, frames] :
-                 {std::pair{"orbit", &drawn.orbit}, std::pair{"carve", &drawn.carve},
-                  std::pair{"orbit side by side", &drawn.orbit_side_by_side},
-                  std::pair{"orbit quad buffer", &drawn.orbit_both_whole}})
-                rows_.push_back({phantom, motion, "window", gl_renderer_, *frames});
-            task.first_view = drawn.first_view;
-        }
+        const WindowFrames drawn = run_.chapter(phantom + ", window", [&](const Progress& progress) {
+            return draw_window(task, options_.out / ("window_" + phantom + ".png"), progress);
+        });
+        for (const auto& [motion, frames] :
+             {std::pair{"orbit", &drawn.orbit}, std::pair{"carve", &drawn.carve},
+              std::pair{"orbit side by side", &drawn.orbit_side_by_side},
+              std::pair{"orbit quad buffer", &drawn.orbit_both_whole}})
+            rows_.push_back({phantom, motion, "window", gl_renderer_, *frames});
+        task.first_view = drawn.first_view;
         draw_vtk(task);
     }
 
@@ -156,7 +159,6 @@ class FullRate {
             return;
         }
         task.frames = std::min(task.frames, most_vtk_frames);
-        ProgressLine line(surroundings_.progress, surroundings_.is_terminal, task.phantom + ", VTK");
         try {
             const VtkFrames drawn = draw_by_vtk(*program, task, options_.gpu, options_.out);
             rows_.push_back({task.phantom, "orbit", "vtk-gpu", drawn.gl_renderer, drawn.orbit});
@@ -207,38 +209,8 @@ class FullRate {
             }
     }
 
-    ordered_json json_of_row(const Row& row) const {
-        ordered_json json{{"bone", row.phantom},
-                          {"motion", row.motion},
-                          {"by", row.drawer},
-                          {"gl_renderer", row.gl_renderer},
-                          {"frames_per_s", frames_per_s(row.frames)},
-                          {"p50_ms", percentile(row.frames.wall, 0.5)},
-                          {"p99_ms", percentile(row.frames.wall, 0.99)},
-                          {"gpu_p50_ms", percentile(row.frames.gpu, 0.5)},
-                          {"gpu_p99_ms", percentile(row.frames.gpu, 0.99)},
-                          {"cpu_p50_ms", percentile(row.frames.cpu, 0.5)}};
-        json["frames"] = json_of(row.frames);
-        return json;
-    }
-
-    std::string csv() const {
-        std::string csv =
-            "bone,motion,by,width_px,height_px,frames,frames_per_s,p50_ms,p99_ms,gpu_p50_ms,gpu_p99_ms,cpu_"
-            "p50_ms,gl_"
-            "renderer\n";
-        for (const Row& row : rows_)
-            csv += fmt::format("{},\"{}\",{},{},{},{},{:.3f},{:.4f},{:.4f},{:.4f},{:.4f},{:.4f},\"{}\"\n",
-                               row.phantom, row.motion, row.drawer, size_px_.x, size_px_.y,
-                               row.frames.wall.size(), frames_per_s(row.frames),
-                               percentile(row.frames.wall, 0.5), percentile(row.frames.wall, 0.99),
-                               percentile(row.frames.gpu, 0.5), percentile(row.frames.gpu, 0.99),
-                               percentile(row.frames.cpu, 0.5), row.gl_renderer);
-        return csv;
-    }
-
     const FullRateOptions& options_;
-    const StudySurroundings& surroundings_;
+    StudyRun run_;
     gl::OffscreenContext context_;
     std::string gl_renderer_;
     bool is_software_;

@@ -1,22 +1,18 @@
 #include "studies/stability/encoder/encoder_noise.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 #include <atomic>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <numbers>
-#include <ostream>
 #include <variant>
 
-#include "analysis/output/chart.h"
-#include "analysis/output/output_files.h"
+#include "analysis/output/progress.h"
+#include "analysis/output/study_run.h"
 #include "devices/simulated/simulated_device.h"
 #include "imaging/hu_volume.h"
 #include "imaging/phantoms/phantom.h"
-#include "imaging/progress.h"
 #include "simulation/loop/milling_session.h"
 
 namespace osteomill::study {
@@ -119,31 +115,25 @@ EncoderNoise drill_tooth(const ArmModel& arm, const std::string& coupling,
     session.run(is_over, [&](const ToolState&) {
         if (device.is_finished()) is_over.store(true);
     });
-    EncoderNoise noise = noise_of(device.forces_n());
-    noise.step_mm = arm.resolution_mm;
-    return noise;
-}
-
-std::string encoder_csv(const std::vector<EncoderNoise>& arms) {
-    std::string csv = "step_mm,mean_force_n,noise_n,noise_percent,largest_jump_n,jumps_per_s\n";
-    for (const EncoderNoise& a : arms)
-        csv += fmt::format("{},{:.4g},{:.4g},{:.4g},{:.4g},{:.4g}\n", a.step_mm, a.mean_force_n, a.noise_n,
-                           a.mean_force_n > 0.0 ? 100.0 * a.noise_n / a.mean_force_n : 0.0, a.largest_jump_n,
-                           a.jumps_per_s);
-    return csv;
+    return noise_of(device.forces_n());
 }
 
 void run_encoder_study(const std::string& coupling, const std::filesystem::path& out,
                        const StudySurroundings& surroundings) {
-    ProgressLine line(surroundings.progress, surroundings.is_terminal, "encoders");
-    std::vector<EncoderNoise> arms;
-    for (const double step_mm : steps_mm) {
-        arms.push_back(drill_tooth({.resolution_mm = step_mm}, coupling));
-        line.report(static_cast<double>(arms.size()) / steps_mm.size(), "");
-    }
-    write_text(encoder_csv(arms), out / "encoder.csv");
-    draw_chart(chart_scripts(), "encoder", out);
-    surroundings.said << encoder_csv(arms);
+    const StudyRun run(out, surroundings);
+    Table table({"step_mm", "mean_force_n", "noise_n", "noise_percent", "largest_jump_n", "jumps_per_s"});
+    run.chapter("encoders", [&](const Progress& progress) {
+        for (std::size_t i = 0; i < steps_mm.size(); ++i) {
+            const EncoderNoise a = drill_tooth({.resolution_mm = steps_mm[i]}, coupling);
+            table.add({steps_mm[i], a.mean_force_n, a.noise_n,
+                       a.mean_force_n > 0.0 ? 100.0 * a.noise_n / a.mean_force_n : 0.0, a.largest_jump_n,
+                       a.jumps_per_s});
+            progress(static_cast<double>(i + 1) / steps_mm.size());
+        }
+    });
+    run.write(table, "encoder");
+    run.draw({"encoder"});
+    run.say("{}", table.csv());
 }
 
 }  // namespace osteomill::study

@@ -14,7 +14,6 @@
 namespace osteomill::study {
 
 struct EncoderNoise {
-    double step_mm = 0.0;         ///< of the encoder, along each axis
     double mean_force_n = 0.0;    ///< over the ticks in which there is a force
     double noise_n = 0.0;         ///< rms over those of what the force does above 5 Hz
     double largest_jump_n = 0.0;  ///< between two ticks
@@ -29,9 +28,6 @@ EncoderNoise drill_tooth(const ArmModel& arm, const std::string& coupling,
 
 /// Noise and jumps of a record of forces, a tick a millisecond, patient axes; without a force all 0.
 EncoderNoise noise_of(const std::vector<glm::dvec3>& forces_n);
-
-/// A line for each.
-std::string encoder_csv(const std::vector<EncoderNoise>& arms);
 
 /// drill_tooth with steps from none to 0.1 mm: encoder.csv and encoder.svg in `out`, a folder that is there.
 /// Throws std::runtime_error in one line where a file cannot be written.

@@ -1,18 +1,15 @@
 #include "studies/stability/encoder/spring_choice.h"
 
-#include <fmt/format.h>
-
 #include <array>
 #include <cmath>
-#include <ostream>
+#include <map>
 #include <utility>
 
-#include "analysis/output/chart.h"
-#include "analysis/output/output_files.h"
+#include "analysis/output/progress.h"
+#include "analysis/output/study_run.h"
 #include "devices/haply/inverse3_profile.h"
 #include "devices/hid/arm_kinematics.h"
 #include "devices/hid/profile_file.h"
-#include "imaging/progress.h"
 #include "studies/stability/encoder/encoder_noise.h"
 #include "studies/stability/rails/force_response.h"
 
@@ -30,26 +27,6 @@ double bandwidth_hz(double stiffness_n_per_mm) {
         (std::abs(respond("implicit", stiffness_n_per_mm, hz).response) > half_power ? low_hz : high_hz) = hz;
     }
     return std::sqrt(low_hz * high_hz);
-}
-
-SpringRow row_of(const std::string& name, const ArmModel& arm, const std::string& coupling,
-                 double stiffness_n_per_mm) {
-    const EncoderNoise noise = drill_tooth(arm, coupling, stiffness_n_per_mm);
-    return {.arm = name,
-            .coupling = coupling,
-            .stiffness_n_per_mm = stiffness_n_per_mm,
-            .noise_n = noise.noise_n,
-            .largest_jump_n = noise.largest_jump_n};
-}
-
-std::string springs_csv(const std::vector<SpringRow>& rows) {
-    std::string csv =
-        "arm,coupling,stiffness_n_per_mm,is_chosen,bandwidth_hz,noise_n,largest_jump_n,limited_by\n";
-    for (const SpringRow& r : rows)
-        csv +=
-            fmt::format("{},{},{:.3g},{},{:.3g},{:.3g},{:.3g},{}\n", r.arm, r.coupling, r.stiffness_n_per_mm,
-                        r.is_chosen ? 1 : 0, r.bandwidth_hz, r.noise_n, r.largest_jump_n, r.limited_by);
-    return csv;
 }
 
 }  // namespace
@@ -73,30 +50,40 @@ std::vector<std::pair<std::string, ArmModel>> shipped_arms() {
 }
 
 void run_spring_study(const std::filesystem::path& out, const StudySurroundings& surroundings) {
-    ProgressLine line(surroundings.progress, surroundings.is_terminal, "springs");
+    const StudyRun run(out, surroundings);
+    Table table({"arm", "coupling", "stiffness_n_per_mm", "is_chosen", "bandwidth_hz", "noise_n",
+                 "largest_jump_n", "limited_by"});
+    std::map<double, double> bandwidths_hz;
+    const auto bandwidth_of = [&](double spring_n_per_mm) {
+        const auto found = bandwidths_hz.find(spring_n_per_mm);
+        return found != bandwidths_hz.end()
+                   ? found->second
+                   : bandwidths_hz.emplace(spring_n_per_mm, bandwidth_hz(spring_n_per_mm)).first->second;
+    };
     const auto arms = shipped_arms();
-    std::vector<double> widths_hz;
-    for (const double spring : springs_n_per_mm) widths_hz.push_back(bandwidth_hz(spring));
-    std::vector<SpringRow> rows;
-    for (std::size_t a = 0; a < arms.size(); ++a) {
-        const auto& [name, arm] = arms[a];
-        for (std::size_t i = 0; i < springs_n_per_mm.size(); ++i) {
-            rows.push_back(row_of(name, arm, "implicit", springs_n_per_mm[i]));
-            rows.back().bandwidth_hz = widths_hz[i];
+    run.chapter("springs", [&](const Progress& progress) {
+        for (std::size_t a = 0; a < arms.size(); ++a) {
+            const auto& [name, arm] = arms[a];
+            const auto add = [&](const char* coupling, double spring_n_per_mm, bool is_chosen, double hz,
+                                 const std::string& limited_by) {
+                const EncoderNoise noise = drill_tooth(arm, coupling, spring_n_per_mm);
+                table.add({name, coupling, spring_n_per_mm, is_chosen, hz, noise.noise_n,
+                           noise.largest_jump_n, limited_by});
+            };
+            for (const double spring : springs_n_per_mm)
+                add("implicit", spring, false, bandwidth_of(spring), "");
+            const DeviceLimits limits = limits_of(arm);
+            const double chosen = limits.max_stiffness_n_per_mm;
+            add("implicit", chosen, true, bandwidth_of(chosen), limits.stiffness_is_limited_by);
+            // The published ones have no spring, and pass all of it where they hold.
+            for (const char* published : {"interpolate", "sample-estimate-interpolate"})
+                add(published, chosen, false, 0.0, "");
+            progress(static_cast<double>(a + 1) / static_cast<double>(arms.size()));
         }
-        const DeviceLimits limits = limits_of(arm);
-        rows.push_back(row_of(name, arm, "implicit", limits.max_stiffness_n_per_mm));
-        rows.back().is_chosen = true;
-        rows.back().limited_by = limits.stiffness_is_limited_by;
-        rows.back().bandwidth_hz = bandwidth_hz(limits.max_stiffness_n_per_mm);
-        // The published ones have no spring, and pass all of it where they hold.
-        for (const char* published : {"interpolate", "sample-estimate-interpolate"})
-            rows.push_back(row_of(name, arm, published, limits.max_stiffness_n_per_mm));
-        line.report(static_cast<double>(a + 1) / static_cast<double>(arms.size()), "");
-    }
-    write_text(springs_csv(rows), out / "springs.csv");
-    draw_chart(chart_scripts(), "springs", out);
-    surroundings.said << springs_csv(rows);
+    });
+    run.write(table, "springs");
+    run.draw({"springs"});
+    run.say("{}", table.csv());
 }
 
 }  // namespace osteomill::study

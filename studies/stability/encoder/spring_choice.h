@@ -11,24 +11,13 @@
 
 namespace osteomill::study {
 
-struct SpringRow {
-    std::string arm;
-    std::string coupling;
-    double stiffness_n_per_mm = 0.0;
-    bool is_chosen = false;    ///< the spring that the arm gets
-    std::string limited_by{};  ///< of the chosen
-    double bandwidth_hz =
-        0.0;               ///< up to which a slot's force is passed, 0.71 of it at least (force_response.h)
-    double noise_n = 0.0;  ///< above 5 Hz, rms
-    double largest_jump_n = 0.0;
-};
-
 /// Simulated arms with the mass, encoder and claim of each that is shipped; friction as the simulated arm's
 /// where it is not known.
 std::vector<std::pair<std::string, ArmModel>> shipped_arms();
 
-/// springs.csv and springs.svg in `out`, a folder that is there. Throws std::runtime_error in one line where
-/// a file cannot be written.
+/// springs.csv and springs.svg in `out`, a folder that is there: for each arm and spring the bandwidth up to
+/// which a slot's force is passed, 0.71 of it at least (force_response.h), and noise_of() its forces in the
+/// tooth scene. Throws std::runtime_error in one line where a file cannot be written.
 void run_spring_study(const std::filesystem::path& out, const StudySurroundings& surroundings);
 
 }  // namespace osteomill::study

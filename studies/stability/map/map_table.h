@@ -1,17 +1,16 @@
 // The map as tables: all of it, and the curves of error.
 #pragma once
 
-#include <string>
-
+#include "analysis/output/table.h"
 #include "studies/stability/map/merge.h"
 
 namespace osteomill::study {
 
 /// A line a case, in the list's order: every value of it and of its outcome.
-std::string map_csv_of(const WholeMap& map);
+Table map_table_of(const WholeMap& map);
 
 /// number,method,grip,resistance_n_s_per_m,rms_error_percent,stable: cutting at 1000 Hz without delay on an
 /// ideal device, resistance ascending within a method and grip.
-std::string error_csv_of(const WholeMap& map);
+Table error_table_of(const WholeMap& map);
 
 }  // namespace osteomill::study

@@ -1,13 +1,12 @@
 #include "studies/stability/map/method_score.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <set>
 
 #include "analysis/output/label_places.h"
+#include "common/statistics/percentile.h"
 #include "studies/stability/map/map_text.h"
 #include "studies/stability/map/map_view.h"
 
@@ -21,10 +20,7 @@ constexpr double smallest_drawn_percent = 0.01;
 /// Of the finite values; NaN of none.
 double median(std::vector<double> values) {
     std::erase_if(values, [](double value) { return !std::isfinite(value); });
-    if (values.empty()) return no_share;
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::nth_element(values.begin(), middle, values.end());
-    return *middle;
+    return values.empty() ? no_share : percentile(std::move(values), 0.5);
 }
 
 /// A case as all methods have it.
@@ -111,22 +107,25 @@ std::vector<MethodScore> method_scores(const WholeMap& map, MapPart part, MapSce
     return scores;
 }
 
-std::string pareto_csv_of(const std::vector<MethodScore>& scores) {
+Table pareto_table_of(const std::vector<MethodScore>& scores) {
     std::vector<double> decades;
     for (const MethodScore& score : scores)
         if (std::isfinite(score.median_rms_error)) decades.push_back(std::log10(drawn_percent(score)));
     const LabelColumn labels = label_column(decades);
-    std::string csv =
-        "number,method,axis_low_decades,axis_high_decades,stable_percent,rms_error_percent,label_decades\n";
+    Table table({"number", "method", "axis_low_decades", "axis_high_decades", "stable_percent",
+                 "rms_error_percent", "label_decades"});
     auto label = labels.places.begin();
     for (const MethodScore& score : scores) {
-        csv += fmt::format("{},{},{:.4f},{:.4f},{:.2f},", number_of(score.method), score.method,
-                           labels.axis_low, labels.axis_high, 100.0 * score.share());
-        csv += std::isfinite(score.median_rms_error)
-                   ? fmt::format("{:.4f},{:.4f}\n", drawn_percent(score), *label++)
-                   : ",\n";
+        std::vector<nlohmann::ordered_json> row{
+            number_of(score.method), score.method, labels.axis_low, labels.axis_high,
+            100.0 * score.share(),   nullptr,      nullptr};
+        if (std::isfinite(score.median_rms_error)) {
+            row[5] = drawn_percent(score);
+            row[6] = *label++;
+        }
+        table.add(std::move(row));
     }
-    return csv;
+    return table;
 }
 
 std::size_t number_of(const std::string& method) {

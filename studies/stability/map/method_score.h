@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "analysis/output/table.h"
 #include "studies/stability/map/merge.h"
 
 namespace osteomill::study {
@@ -30,7 +31,7 @@ std::vector<MethodScore> method_scores(const WholeMap& map, MapPart part, MapSce
 /// The table of the Pareto chart: the ends of its axis in decades of the error, in each line the same; share
 /// and median error in percent; the height of the method's label in decades. Error and label are empty where
 /// a method is stable nowhere.
-std::string pareto_csv_of(const std::vector<MethodScore>& scores);
+Table pareto_table_of(const std::vector<MethodScore>& scores);
 
 /// 1 for the first of map_methods(): what a chart's script picks colour and point by.
 std::size_t number_of(const std::string& method);

@@ -104,13 +104,13 @@ std::vector<Run> runs_of(const std::vector<MapResult>& results, const std::vecto
 
 }  // namespace
 
-std::string region_csv_of(const WholeMap& map, MapScene scene) {
-    std::string csv = "number,method,grip,x_low,x_high,y,stable\n";
+Table region_table_of(const WholeMap& map, MapScene scene) {
+    Table table({"number", "method", "grip", "x_low", "x_high", "y", "stable"});
     const auto in_scene = [&](const MapPoint& point) {
         return point.part == MapPart::map && point.run.scene == scene;
     };
     const std::vector<double> columns = columns_of(results_where(map, in_scene));
-    if (columns.empty()) return csv;
+    if (columns.empty()) return table;
     const std::vector<double> edges = edges_between(columns);
     const Rows rows(map);
     const auto add_strip = [&](const std::string& method, std::size_t grip, std::size_t rate,
@@ -122,26 +122,25 @@ std::string region_csv_of(const WholeMap& map, MapScene scene) {
         });
         const double y = rows.y(rate, delay) + strip_distance * (1.0 - static_cast<double>(grip));
         for (const Run& run : runs_of(strip, edges))
-            csv += fmt::format("{},{},{},{:.5g},{:.5g},{:.2f},{}\n", number_of(method), method, grip + 1,
-                               run.low, run.high, y, run.is_stable ? 1 : 0);
+            table.add({number_of(method), method, grip + 1, run.low, run.high, y, run.is_stable});
     };
     for (const std::string& method : map_methods())
         for (std::size_t grip = 0; grip < map_grips().size(); ++grip)
             for (std::size_t rate = 0; rate < rows.rates_hz().size(); ++rate)
                 for (std::size_t delay = 0; delay < rows.delays_ticks().size(); ++delay)
                     add_strip(method, grip, rate, delay);
-    return csv;
+    return table;
 }
 
-std::string region_rows_csv(const WholeMap& map) {
+Table region_rows_of(const WholeMap& map) {
     const Rows rows(map);
-    std::string csv = "y,label\n";
+    Table table({"y", "label"});
     for (std::size_t rate = 0; rate < rows.rates_hz().size(); ++rate)
         for (std::size_t delay = 0; delay < rows.delays_ticks().size(); ++delay) {
             const std::string rate_name = delay == 0 ? fmt::format("{:.0f} Hz  ", rows.rates_hz()[rate]) : "";
-            csv += fmt::format("{},{}{}\n", rows.y(rate, delay), rate_name, rows.delays_ticks()[delay]);
+            table.add({rows.y(rate, delay), fmt::format("{}{}", rate_name, rows.delays_ticks()[delay])});
         }
-    return csv;
+    return table;
 }
 
 }  // namespace osteomill::study

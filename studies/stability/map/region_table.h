@@ -2,8 +2,7 @@
 // along x, milling rate and delay along y, and in each row a strip for each grip.
 #pragma once
 
-#include <string>
-
+#include "analysis/output/table.h"
 #include "studies/stability/map/merge.h"
 
 namespace osteomill::study {
@@ -11,9 +10,9 @@ namespace osteomill::study {
 /// number,method,grip,x_low,x_high,y,stable: a box for each run of neighbouring points of the map's part in
 /// that scene that are alike. x in N s/m or N/mm, boxes meeting halfway (on a logarithmic scale) between
 /// points; y is the strip's middle, strips of a row 0.3 apart; grip 1 to 3 in the order of map_grips().
-std::string region_csv_of(const WholeMap& map, MapScene scene);
+Table region_table_of(const WholeMap& map, MapScene scene);
 
 /// y,label: of the rows above.
-std::string region_rows_csv(const WholeMap& map);
+Table region_rows_of(const WholeMap& map);
 
 }  // namespace osteomill::study

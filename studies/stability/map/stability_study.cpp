@@ -6,13 +6,14 @@
 #include <ostream>
 #include <stdexcept>
 
-#include "analysis/output/chart.h"
-#include "analysis/output/output_files.h"
+#include "analysis/output/study_run.h"
+#include "analysis/output/sweep.h"
 #include "analysis/output/time_left.h"
 #include "imaging/progress.h"
 #include "studies/stability/map/case_file.h"
 #include "studies/stability/map/map_summary.h"
 #include "studies/stability/map/map_table.h"
+#include "studies/stability/map/map_text.h"
 #include "studies/stability/map/merge.h"
 #include "studies/stability/map/method_score.h"
 #include "studies/stability/map/region_table.h"
@@ -21,24 +22,29 @@ namespace osteomill::study {
 
 namespace {
 
+MapOutcome run_named(const MapCase& c, const RunCase& run) {
+    try {
+        return run(c);
+    } catch (const std::exception& error) {
+        throw std::runtime_error("case '" + text_of(c) + "': " + error.what());
+    }
+}
+
 void write_results(const WholeMap& map, const std::filesystem::path& out,
                    const StudySurroundings& surroundings) {
-    write_text(map_csv_of(map), out / "map.csv");
-    write_json(summary_of(map), out / "map.json");
-    write_text(region_csv_of(map, MapScene::cutting), out / "regions_cutting.csv");
-    write_text(region_csv_of(map, MapScene::wall), out / "regions_wall.csv");
-    write_text(region_rows_csv(map), out / "region_rows.csv");
-    write_text(pareto_csv_of(method_scores(map, MapPart::map, MapScene::cutting)),
-               out / "pareto_cutting.csv");
-    write_text(pareto_csv_of(method_scores(map, MapPart::map, MapScene::wall)), out / "pareto_wall.csv");
-    write_text(error_csv_of(map), out / "errors.csv");
-    const std::filesystem::path scripts = chart_scripts();
-    draw_chart(scripts, "map_cutting", out);
+    const StudyRun run(out, surroundings);
+    run.write(map_table_of(map), "map");
+    run.write(summary_of(map), "map");
+    run.write(region_table_of(map, MapScene::cutting), "regions_cutting");
+    run.write(region_table_of(map, MapScene::wall), "regions_wall");
+    run.write(region_rows_of(map), "region_rows");
+    run.write(pareto_table_of(method_scores(map, MapPart::map, MapScene::cutting)), "pareto_cutting");
+    run.write(pareto_table_of(method_scores(map, MapPart::map, MapScene::wall)), "pareto_wall");
+    run.write(error_table_of(map), "errors");
+    run.draw({"map_cutting"});
     // With edges that rub there is no wall, which the others compare with.
-    if (!map.selection.has_edge_forces)
-        for (const char* chart : {"map_wall", "map_pareto", "map_errors"}) draw_chart(scripts, chart, out);
-    surroundings.said << summary_text_of(map)
-                      << fmt::format("map.json, tables (CSV) and charts (SVG) are in {}\n", out.string());
+    if (!map.selection.has_edge_forces) run.draw({"map_wall", "map_pareto", "map_errors"});
+    run.say("{}map.json, tables (CSV) and charts (SVG) are in {}", summary_text_of(map), out.string());
 }
 
 }  // namespace
@@ -60,12 +66,14 @@ void run_stability_study(const StabilityStudyOptions& options, const RunCase& ru
         ProgressLine line(surroundings.progress, surroundings.is_terminal, "cases");
         const double start_s = now_s();
         std::size_t done = 0;
-        sweep(points, to_do, options.jobs, run, [&](std::size_t index, const MapOutcome& outcome) {
-            writer.append(index, outcome);
-            ++done;
-            line.report(static_cast<double>(done_before + done) / static_cast<double>(all),
-                        time_left(done, to_do.size(), now_s() - start_s));
-        });
+        sweep(
+            to_do.size(), options.jobs, [&](std::size_t i) { return run_named(points[to_do[i]].run, run); },
+            [&](std::size_t i, const MapOutcome& outcome) {
+                writer.append(to_do[i], outcome);
+                ++done;
+                line.report(static_cast<double>(done_before + done) / static_cast<double>(all),
+                            time_left(done, to_do.size(), now_s() - start_s));
+            });
     }
     if (options.shard.of == 1)
         write_results(merge({file}), options.out, surroundings);

@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "analysis/output/surroundings.h"
+#include "studies/stability/map/map_outcome.h"
 #include "studies/stability/map/map_points.h"
 #include "studies/stability/map/shard.h"
-#include "studies/stability/map/sweep.h"
 
 namespace osteomill::study {
 
@@ -19,12 +19,15 @@ struct StabilityStudyOptions {
     int jobs = 1;  ///< cases at a time
 };
 
+/// Runs one case. Thread-safe, and the same case always gives the same outcome.
+using RunCase = std::function<MapOutcome(const MapCase&)>;
+
 /// Seconds since any fixed time; for how long the rest will take.
 using StudyClock = std::function<double()>;
 
 /// Runs the cases of a part that `options.out`, a folder that is there, does not hold yet; where the part is
 /// the whole, writes its results as well. Throws std::runtime_error in one line naming what cannot be written
-/// or read.
+/// or read, or the case that failed.
 void run_stability_study(const StabilityStudyOptions& options, const RunCase& run, const StudyClock& now_s,
                          const StudySurroundings& surroundings);
 

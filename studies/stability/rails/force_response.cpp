@@ -7,12 +7,10 @@
 #include <cmath>
 #include <memory>
 #include <numbers>
-#include <ostream>
 #include <stdexcept>
 
-#include "analysis/output/chart.h"
-#include "analysis/output/output_files.h"
-#include "imaging/progress.h"
+#include "analysis/output/progress.h"
+#include "analysis/output/study_run.h"
 #include "simulation/contact_models/milling_model.h"
 #include "simulation/coupling/couplings.h"
 #include "studies/force/bone_block.h"
@@ -124,33 +122,26 @@ ForceResponse respond(const std::string& coupling_name, double stiffness_n_per_m
         truth.add(now_s, rigid_latest->force_n);
     }
     const double rigid_n = std::sqrt(product(truth, truth).real());
-    return {.coupling = coupling_name,
-            .stiffness_n_per_mm = stiffness_n_per_mm,
-            .hz = hz,
-            .response = product(felt, truth) / product(truth, truth),
+    return {.response = product(felt, truth) / product(truth, truth),
             .rigid_n_s_per_m = 1000.0 * rigid_n / swing_mm_per_s};
 }
 
-std::string response_csv(const std::vector<ForceResponse>& responses) {
-    std::string csv = "coupling,stiffness_n_per_mm,hz,gain,phase_deg,rigid_n_s_per_m\n";
-    for (const ForceResponse& r : responses)
-        csv += fmt::format("{},{},{:.4g},{:.4g},{:.2f},{:.4g}\n", r.coupling, r.stiffness_n_per_mm, r.hz,
-                           std::abs(r.response), 180.0 / std::numbers::pi * std::arg(r.response),
-                           r.rigid_n_s_per_m);
-    return csv;
-}
-
 void run_response_study(const std::filesystem::path& out, const StudySurroundings& surroundings) {
-    ProgressLine line(surroundings.progress, surroundings.is_terminal, "frequencies");
-    std::vector<ForceResponse> responses;
-    for (const Choice& choice : choices)
-        for (const double hz : frequencies_hz) {
-            responses.push_back(respond(choice.coupling, choice.stiffness_n_per_mm, hz));
-            line.report(static_cast<double>(responses.size()) / (choices.size() * frequencies_hz.size()), "");
-        }
-    write_text(response_csv(responses), out / "response.csv");
-    draw_chart(chart_scripts(), "response", out);
-    surroundings.said << response_csv(responses);
+    const StudyRun run(out, surroundings);
+    Table table({"coupling", "stiffness_n_per_mm", "hz", "gain", "phase_deg", "rigid_n_s_per_m"});
+    run.chapter("frequencies", [&](const Progress& progress) {
+        double done = 0.0;
+        for (const Choice& choice : choices)
+            for (const double hz : frequencies_hz) {
+                const ForceResponse r = respond(choice.coupling, choice.stiffness_n_per_mm, hz);
+                table.add({choice.coupling, choice.stiffness_n_per_mm, hz, std::abs(r.response),
+                           180.0 / std::numbers::pi * std::arg(r.response), r.rigid_n_s_per_m});
+                progress(++done / (choices.size() * frequencies_hz.size()));
+            }
+    });
+    run.write(table, "response");
+    run.draw({"response"});
+    run.say("{}", table.csv());
 }
 
 }  // namespace osteomill::study

@@ -4,16 +4,12 @@
 #include <complex>
 #include <filesystem>
 #include <string>
-#include <vector>
 
 #include "analysis/output/surroundings.h"
 
 namespace osteomill::study {
 
 struct ForceResponse {
-    std::string coupling;
-    double stiffness_n_per_mm = 0.0;  ///< of the device, so of the coupling's spring if it has one
-    double hz = 0.0;
     /// Of the force on the hand beside that on a burr that is rigidly the hand: 1 where they are the same.
     std::complex<double> response{0.0};
     double rigid_n_s_per_m = 0.0;  ///< amplitude of the latter by that of the feed
@@ -21,11 +17,9 @@ struct ForceResponse {
 
 /// A 5 mm burr at 10 000 rpm in a slot 1 mm deep, fed along it at 4 mm/s and, about that, 1 mm/s up and down
 /// at `hz` by a hand on rails; over whole periods, once the force has settled. An ideal device; both loops at
-/// 1 kHz, in turns. Throws std::invalid_argument for an unknown coupling or a frequency out of 0.1 to 100 Hz.
+/// 1 kHz, in turns. `stiffness_n_per_mm` is the device's, so the spring's of a coupling that has one. Throws
+/// std::invalid_argument for an unknown coupling or a frequency out of 0.1 to 100 Hz.
 ForceResponse respond(const std::string& coupling, double stiffness_n_per_mm, double hz);
-
-/// A line for each.
-std::string response_csv(const std::vector<ForceResponse>& responses);
 
 /// 0.3 to 30 Hz for several couplings and springs: response.csv and response.svg in `out`, a folder that is
 /// there. Throws std::runtime_error in one line where a file cannot be written.

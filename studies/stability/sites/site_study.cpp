@@ -3,17 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <atomic>
-#include <exception>
 #include <glm/geometric.hpp>
-#include <mutex>
-#include <ostream>
 #include <stdexcept>
-#include <thread>
 
-#include "analysis/output/chart.h"
-#include "analysis/output/output_files.h"
-#include "imaging/progress.h"
+#include "analysis/output/study_run.h"
+#include "analysis/output/sweep.h"
 #include "studies/stability/sites/named_sites.h"
 #include "studies/stability/sites/random_walk.h"
 
@@ -53,49 +47,34 @@ SiteResult result_of(const SiteCase& c, const SiteRun& run) {
             .faults = run.faults};
 }
 
-std::string trace_csv(const SiteRun& run) {
-    std::string csv =
-        "t_s,hand_x_mm,hand_y_mm,hand_z_mm,burr_x_mm,burr_y_mm,burr_z_mm,force_x_n,force_y_n,"
-        "force_z_n,model_x_n,model_y_n,model_z_n,rigid_x_n,rigid_y_n,rigid_z_n,spindle\n";
+Table trace_of(const SiteRun& run) {
+    Table table({"t_s", "hand_x_mm", "hand_y_mm", "hand_z_mm", "burr_x_mm", "burr_y_mm", "burr_z_mm",
+                 "force_x_n", "force_y_n", "force_z_n", "model_x_n", "model_y_n", "model_z_n", "rigid_x_n",
+                 "rigid_y_n", "rigid_z_n", "spindle"});
     double time_s = 0.0;
     for (const SiteTick& tick : run.ticks) {
-        csv += fmt::format("{:.3f}", time_s);
+        std::vector<nlohmann::ordered_json> row{time_s};
         for (const glm::dvec3& v : {tick.hand_mm, tick.burr_mm, tick.force_n, tick.model_n, tick.rigid_n})
-            csv += fmt::format(",{:.5f},{:.5f},{:.5f}", v.x, v.y, v.z);
-        csv += fmt::format(",{}\n", tick.spindle_on ? 1 : 0);
+            row.insert(row.end(), {v.x, v.y, v.z});
+        row.push_back(tick.spindle_on);
+        table.add(std::move(row));
         time_s += 0.001;
     }
-    return csv;
+    return table;
 }
 
 /// The results in the order of the cases, from several threads.
-std::vector<SiteResult> run_all(const std::vector<SiteCase>& cases, int jobs, ProgressLine& line,
+std::vector<SiteResult> run_all(const std::vector<SiteCase>& cases, int jobs, const Progress& progress,
                                 std::vector<SiteRun>* runs) {
     std::vector<SiteResult> results(cases.size());
-    std::atomic<std::size_t> next{0};
     std::size_t done = 0;
-    std::mutex one_at_a_time;
-    std::exception_ptr failure;
-    const auto work = [&] {
-        try {
-            for (std::size_t i = next++; i < cases.size(); i = next++) {
-                SiteRun run = run_site(cases[i].site, cases[i].hand);
-                results[i] = result_of(cases[i], run);
-                const std::lock_guard guard(one_at_a_time);
-                if (runs != nullptr) runs->push_back(std::move(run));
-                line.report(static_cast<double>(++done) / static_cast<double>(cases.size()), "");
-            }
-        } catch (...) {
-            const std::lock_guard guard(one_at_a_time);
-            if (!failure) failure = std::current_exception();
-            next = cases.size();
-        }
-    };
-    {
-        std::vector<std::jthread> workers;
-        for (int i = 0; i < std::max(1, jobs); ++i) workers.emplace_back(work);
-    }
-    if (failure) std::rethrow_exception(failure);
+    sweep(
+        cases.size(), jobs, [&](std::size_t i) { return run_site(cases[i].site, cases[i].hand); },
+        [&](std::size_t i, SiteRun run) {
+            results[i] = result_of(cases[i], run);
+            if (runs != nullptr) runs->push_back(std::move(run));
+            progress(static_cast<double>(++done) / static_cast<double>(cases.size()));
+        });
     return results;
 }
 
@@ -146,32 +125,27 @@ std::vector<SiteCase> site_cases(const SiteStudyOptions& options) {
     return cases;
 }
 
-std::string site_csv(const std::vector<SiteResult>& results) {
-    std::string csv =
-        "kind,name,energy_over_rigid_mj,energy_mj,stuck_ms,error_percent,error_while_driven_percent,largest_"
-        "jump_n,"
-        "peak_n,noise_n,max_residual_n,"
-        "fallbacks,relaxed,damped,faults,is_met\n";
+Table site_table_of(const std::vector<SiteResult>& results) {
+    Table table({"kind", "name", "energy_over_rigid_mj", "energy_mj", "stuck_ms", "error_percent",
+                 "error_while_driven_percent", "largest_jump_n", "peak_n", "noise_n", "max_residual_n",
+                 "fallbacks", "relaxed", "damped", "faults", "is_met"});
     for (const SiteResult& r : results)
-        csv += fmt::format(
-            "{},\"{}\",{:.4g},{:.4g},{},{:.4g},{:.4g},{:.4g},{:.4g},{:.4g},{:.3g},{},{},{},{},{}\n", r.kind,
-            r.name, r.verdict.energy_over_rigid_mj, r.verdict.energy_mj, r.verdict.stuck_ms,
-            r.verdict.error_percent, r.verdict.error_while_driven_percent, r.verdict.largest_jump_n,
-            r.verdict.peak_n, r.verdict.noise_n, r.solve.max_residual_n, r.solve.fallbacks, r.solve.relaxed,
-            r.solve.damped, r.faults, r.is_met() ? 1 : 0);
-    return csv;
+        table.add({r.kind, r.name, r.verdict.energy_over_rigid_mj, r.verdict.energy_mj, r.verdict.stuck_ms,
+                   r.verdict.error_percent, r.verdict.error_while_driven_percent, r.verdict.largest_jump_n,
+                   r.verdict.peak_n, r.verdict.noise_n, r.solve.max_residual_n, r.solve.fallbacks,
+                   r.solve.relaxed, r.solve.damped, r.faults, r.is_met()});
+    return table;
 }
 
-std::string site_points_csv(const std::vector<SiteResult>& results) {
+Table site_points_of(const std::vector<SiteResult>& results) {
     const std::vector<std::string> kinds = kinds_of(results);
-    std::string csv = "kind,name,bar,share\n";
+    Table table({"kind", "name", "bar", "share"});
     for (const SiteResult& r : results) {
         const auto kind = std::find(kinds.begin(), kinds.end(), r.kind) - kinds.begin();
         for (std::size_t bar = 0; bar < site_bars.size(); ++bar)
-            csv += fmt::format("{},{},{},{:.4g}\n", kind, r.kind, bar,
-                               share_of_bar(r.verdict, site_bars[bar], r.kind));
+            table.add({kind, r.kind, bar, share_of_bar(r.verdict, site_bars[bar], r.kind)});
     }
-    return csv;
+    return table;
 }
 
 ordered_json site_summary(const std::vector<SiteResult>& results, const SiteStudyOptions& options) {
@@ -215,24 +189,22 @@ ordered_json site_summary(const std::vector<SiteResult>& results, const SiteStud
 void run_site_study(const SiteStudyOptions& options, const StudySurroundings& surroundings) {
     const std::vector<SiteCase> cases = site_cases(options);
     if (cases.empty()) throw std::runtime_error("no site is called '" + options.only + "'");
+    const StudyRun run(options.out, surroundings);
     std::vector<SiteRun> runs;
-    ProgressLine line(surroundings.progress, surroundings.is_terminal, "sites");
-    const std::vector<SiteResult> results =
-        run_all(cases, options.jobs, line, cases.size() == 1 ? &runs : nullptr);
-
-    write_text(site_csv(results), options.out / "sites.csv");
-    write_text(site_points_csv(results), options.out / "site_points.csv");
+    const std::vector<SiteResult> results = run.chapter("sites", [&](const Progress& progress) {
+        return run_all(cases, options.jobs, progress, cases.size() == 1 ? &runs : nullptr);
+    });
+    run.write(site_table_of(results), "sites");
+    run.write(site_points_of(results), "site_points");
     const ordered_json summary = site_summary(results, options);
-    write_json(summary, options.out / "sites.json");
-    if (!runs.empty()) write_text(trace_csv(runs.front()), options.out / "trace.csv");
-    draw_chart(chart_scripts(), "sites", options.out);
-
+    run.write(summary, "sites");
+    if (!runs.empty()) run.write(trace_of(runs.front()), "trace");
+    run.draw({"sites"});
     for (const auto& [kind, of_kind] : summary.at("kinds").items())
-        surroundings.said << fmt::format("{:22} {:4} of {:4} meet the bars\n", kind,
-                                         of_kind.at("met").get<int>(), of_kind.at("cases").get<int>());
-    surroundings.said << fmt::format("worst: {}\n", summary.at("worst").front().at("name").get<std::string>())
-                      << fmt::format("sites.json, tables (CSV) and a chart (SVG) are in {}\n",
-                                     options.out.string());
+        run.say("{:22} {:4} of {:4} meet the bars", kind, of_kind.at("met").get<int>(),
+                of_kind.at("cases").get<int>());
+    run.say("worst: {}", summary.at("worst").front().at("name").get<std::string>());
+    run.say("sites.json, tables (CSV) and a chart (SVG) are in {}", options.out.string());
 }
 
 }  // namespace osteomill::study

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "analysis/output/surroundings.h"
+#include "analysis/output/table.h"
 #include "studies/stability/sites/site_run.h"
 #include "studies/stability/sites/site_verdict.h"
 
@@ -47,9 +48,9 @@ struct SiteResult {
 };
 
 /// A line a case.
-std::string site_csv(const std::vector<SiteResult>& results);
+Table site_table_of(const std::vector<SiteResult>& results);
 /// What the chart draws: a line for each number of each case, as a share of its bar.
-std::string site_points_csv(const std::vector<SiteResult>& results);
+Table site_points_of(const std::vector<SiteResult>& results);
 /// By kind how many meet the bars and the worst of each number; the ten worst cases with the command of each.
 nlohmann::ordered_json site_summary(const std::vector<SiteResult>& results, const SiteStudyOptions& options);
 

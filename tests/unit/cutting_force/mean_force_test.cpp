@@ -2,9 +2,10 @@
 
 #include <gtest/gtest.h>
 
-#include "studies/force/studied_motion.h"
+#include "studies/force/steady_run.h"
 #include "tests/support/removed_voxel.h"
 #include "tests/support/steady_motion.h"
+#include "tests/support/studied_motion.h"
 
 namespace osteomill::mean_force_test {
 namespace {

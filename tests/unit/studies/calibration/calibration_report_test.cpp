@@ -57,7 +57,7 @@ TEST(CalibrationReport, WarnsOfSignsThatAreWrongAndOfScatter) {
 }
 
 TEST(CalibrationReport, WritesALineForEachForce) {
-    const std::string csv = residuals_csv({calibration_of(known_coefficients(), 1.0)});
+    const std::string csv = residuals_of({calibration_of(known_coefficients(), 1.0)}).csv();
     EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 1 + 36);
     EXPECT_THAT(csv, HasSubstr("\n12,"));
 }

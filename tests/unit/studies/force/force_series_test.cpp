@@ -2,9 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <limits>
-#include <stdexcept>
 
 namespace osteomill::study {
 namespace {
@@ -35,23 +33,6 @@ TEST(Ripple, DoesNotSeeWhatAveragesOutWithinTenMilliseconds) {
     for (int i = 0; i < 40; ++i) series.force_n.emplace_back(i % 2 == 0 ? 1.0 : 3.0, 0.0, 0.0);
     EXPECT_NEAR(ripple(series), 0.0, 1e-15);
     EXPECT_DOUBLE_EQ(ripple(series, 0.001), 0.5);
-}
-
-TEST(LogLogSlope, IsTheOrderOfAPowerLaw) {
-    const std::vector<double> h{0.4, 0.2, 0.1, 0.05};
-    std::vector<double> error;
-    for (const double x : h) error.push_back(7.0 * std::pow(x, 1.5));
-    EXPECT_NEAR(log_log_slope(h, error), 1.5, 1e-12);
-}
-
-TEST(LogLogSlope, RefusesWhatHasNone) {
-    const std::vector<double> one{1.0};
-    const std::vector<double> same{0.1, 0.1};
-    const std::vector<double> fine{1.0, 2.0};
-    const std::vector<double> zero{0.0, 1.0};
-    EXPECT_THROW(log_log_slope(one, one), std::invalid_argument);
-    EXPECT_THROW(log_log_slope(same, fine), std::invalid_argument);
-    EXPECT_THROW(log_log_slope(fine, zero), std::invalid_argument);
 }
 
 }  // namespace

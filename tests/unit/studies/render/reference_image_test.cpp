@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <stdexcept>
 
 #include "render_client/volume/gl/framebuffer.h"
@@ -49,46 +48,14 @@ TEST(ReferenceVolume, InterpolatesWhatIsLinearExactly) {
     const ReferenceVolume volume(bone, {}, {});
     const glm::dvec3 point(24.3, 20.1, 22.9);
     const double slope = 10.0 / 255.0;
-    EXPECT_NEAR(volume.trilinear_gradient_at(point).x, slope, 1e-12);
     EXPECT_NEAR(volume.eight_corner_gradient_at(point).x, slope, 1e-12);
     EXPECT_NEAR(volume.fraction_at(point + glm::dvec3(0.5, 0.0, 0.0)) - volume.fraction_at(point),
                 0.5 * slope, 1e-12);
-    EXPECT_NEAR(glm::length(volume.trilinear_gradient_at(point) - glm::dvec3(slope, 0.0, 0.0)), 0.0, 1e-12);
 }
 
 TEST(ReferenceVolume, RefusesABoneWithoutBricks) {
     const Bone nothing = made_bone(grid, [](const glm::dvec3&) { return -1.0; });
     EXPECT_THROW(ReferenceVolume(nothing, {}, {}), std::runtime_error);
-}
-
-// Why the shaders take wider differences than the derivative of the interpolation: near the surface of a
-// ball, whose normals are known, the derivative is further off. So are differences over more than about a
-// voxel, which the fraction saturates: 3 degrees at a reach of 0.5, 5 by the derivative, 11 at a reach
-// of 1.4.
-TEST(ReferenceVolume, HasTruerNormalsByEightCornersThanByTheDerivative) {
-    const double radius_mm = 1.8;
-    const ReferenceVolume volume(
-        made_bone(grid, [&](const glm::dvec3& p) { return radius_mm - glm::length(p); }), {}, {});
-    const auto angle_off = [](const glm::dvec3& gradient, const glm::dvec3& outward) {
-        return std::acos(std::min(1.0, glm::dot(-glm::normalize(gradient), outward)));
-    };
-    double derivative_rad = 0.0, corners_rad = 0.0;
-    constexpr int directions = 500;
-    for (int i = 0; i < directions; ++i) {
-        // Even over the sphere: Fibonacci's lattice.
-        const double height = 1.0 - (2.0 * i + 1.0) / directions;
-        const double turn = 2.39996322972865332 * i;
-        const double level = std::sqrt(1.0 - height * height);
-        const glm::dvec3 outward(level * std::cos(turn), level * std::sin(turn), height);
-        const glm::dvec3 point =
-            to_voxel_coordinates(grid, radius_mm * outward) + 0.5 - glm::dvec3(volume.box().first);
-        derivative_rad += angle_off(volume.trilinear_gradient_at(point), outward) / directions;
-        corners_rad += angle_off(volume.eight_corner_gradient_at(point), outward) / directions;
-    }
-    RecordProperty("derivative_degrees", std::to_string(derivative_rad * 57.29578));
-    RecordProperty("eight_corners_degrees", std::to_string(corners_rad * 57.29578));
-    EXPECT_LT(corners_rad, 0.6 * derivative_rad);
-    EXPECT_LT(corners_rad, 0.05);
 }
 
 TEST(ReferenceImage, IsTheSameInOneThreadAndInSeveral) {

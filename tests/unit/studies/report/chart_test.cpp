@@ -42,7 +42,7 @@ TEST(Chart, SaysInOneLineWhyThereIsNone) {
 }
 
 TEST(Chart, HasScriptsOfItsOwn) {
-    EXPECT_TRUE(std::filesystem::exists(chart_scripts() / "pareto.gp"));
+    EXPECT_TRUE(std::filesystem::exists(chart_scripts() / "curves.gp"));
 }
 
 TEST(Chart, FindsItsScriptsWhereTheProgramIsInstalled) {

@@ -1,6 +1,5 @@
 #include "studies/stability/encoder/encoder_noise.h"
 
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -46,11 +45,6 @@ TEST(EncoderNoise, OfTheSimulatedArmIsNotFeltAsTaps) {
     const EncoderNoise fine = drill_tooth({.resolution_mm = 0.003}, "implicit");
     EXPECT_LT(fine.jumps_per_s, 0.5) << "what the cut itself does";
     EXPECT_LT(fine.noise_n, 1.3 * drill_tooth({.resolution_mm = 0.0}, "implicit").noise_n);
-}
-
-TEST(EncoderNoise, IsATableWithALineForEachArm) {
-    EXPECT_THAT(encoder_csv({{.step_mm = 0.055, .mean_force_n = 0.05, .noise_n = 0.01}}),
-                testing::HasSubstr("\n0.055,0.05,0.01,20,0,0\n"));
 }
 
 }  // namespace

@@ -49,8 +49,8 @@ TEST(MapResults, AMethodThatIsStableNowhereHasNoErrorToDraw) {
         unstable.is_stable = false;
         return unstable;
     });
-    EXPECT_THAT(pareto_csv_of(method_scores(map, MapPart::map, MapScene::wall)),
-                HasSubstr(",hold,-1.0000,2.0000,0.00,,\n"));
+    EXPECT_THAT(pareto_table_of(method_scores(map, MapPart::map, MapScene::wall)).csv(),
+                HasSubstr(",hold,-1,2,0,,\n"));
 }
 
 TEST(MapResults, BarsAreHeldAgainstTheWorst) {
@@ -95,19 +95,19 @@ TEST(MapResults, RegionsJoinNeighboursThatAreAlike) {
         {.methods = {"hold"}, .grips = {MapGrip::light}, .milling_rates_hz = {1000.0}, .delays_ticks = {0}},
         outcome);
     // Boxes meet at sqrt(0.32 * 0.47), the lowest begins at 0.1 / sqrt(1.5).
-    EXPECT_EQ(region_csv_of(map, MapScene::wall),
+    EXPECT_EQ(region_table_of(map, MapScene::wall).csv(),
               "number,method,grip,x_low,x_high,y,stable\n"
-              "3,hold,2,0.08165,0.38781,1.00,1\n"
-              "3,hold,2,0.38781,1.8371,1.00,0\n");
+              "3,hold,2,0.0816497,0.387814,1,1\n"
+              "3,hold,2,0.387814,1.83712,1,0\n");
 }
 
 TEST(MapResults, TablesHaveALineACase) {
     const WholeMap map = whole_map({.quick = true, .methods = {"hold"}, .grips = {MapGrip::light}}, outcome);
-    const std::string csv = map_csv_of(map);
+    const std::string csv = map_table_of(map).csv();
     EXPECT_EQ(static_cast<std::size_t>(std::count(csv.begin(), csv.end(), '\n')), map.points.size() + 1);
     EXPECT_THAT(csv, HasSubstr("\nmap,hold,cutting,light,1000,0,1,80000,0.1,1,1.5,1,5,2,"));
-    EXPECT_THAT(error_csv_of(map), HasSubstr("\n3,hold,light,5,10,1\n"));
-    EXPECT_THAT(error_csv_of(map), Not(HasSubstr("firm")));
+    EXPECT_THAT(error_table_of(map).csv(), HasSubstr("\n3,hold,light,5,10,1\n"));
+    EXPECT_THAT(error_table_of(map).csv(), Not(HasSubstr("firm")));
 }
 
 }  // namespace

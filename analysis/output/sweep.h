@@ -1,40 +1,32 @@
-#include "studies/stability/map/sweep.h"
+// A sweep of many independent cases over several threads.
+#pragma once
 
 #include <algorithm>
 #include <atomic>
+#include <cstddef>
 #include <exception>
 #include <mutex>
-#include <stdexcept>
 #include <thread>
-
-#include "studies/stability/map/map_text.h"
+#include <utility>
+#include <vector>
 
 namespace osteomill::study {
 
-namespace {
-
-MapOutcome run_named(const MapCase& c, const RunCase& run) {
-    try {
-        return run(c);
-    } catch (const std::exception& error) {
-        throw std::runtime_error("case '" + text_of(c) + "': " + error.what());
-    }
-}
-
-}  // namespace
-
-void sweep(const std::vector<MapPoint>& points, const std::vector<std::size_t>& indices, int jobs,
-           const RunCase& run, const CaseDone& done) {
+/// Runs the cases 0 to `count` - 1, begun in that order, on `jobs` threads (at least one): `run(i)` by any of
+/// them, and `done(i, outcome)` by one at a time, as cases end. What either throws stops the sweep after the
+/// cases that are under way, and is thrown here.
+template <typename Run, typename Done>
+void sweep(std::size_t count, int jobs, Run&& run, Done&& done) {
     std::atomic<std::size_t> next{0};
     std::atomic<bool> is_over{false};
     std::mutex one_at_a_time;
     std::exception_ptr failure;
     const auto work = [&] {
-        for (std::size_t i = next++; i < indices.size() && !is_over; i = next++) {
+        for (std::size_t i = next++; i < count && !is_over; i = next++) {
             try {
-                const MapOutcome outcome = run_named(points[indices[i]].run, run);
+                auto outcome = run(i);
                 const std::lock_guard guard(one_at_a_time);
-                if (!is_over) done(indices[i], outcome);
+                if (!is_over) done(i, std::move(outcome));
             } catch (...) {
                 const std::lock_guard guard(one_at_a_time);
                 if (!failure) failure = std::current_exception();

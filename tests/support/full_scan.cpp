@@ -1,4 +1,4 @@
-#include "studies/force/full_scan.h"
+#include "tests/support/full_scan.h"
 
 #include <algorithm>
 #include <cmath>

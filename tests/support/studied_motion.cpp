@@ -1,4 +1,4 @@
-#include "studies/force/studied_motion.h"
+#include "tests/support/studied_motion.h"
 
 #include <algorithm>
 #include <cmath>

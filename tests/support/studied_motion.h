@@ -1,5 +1,5 @@
-// The motions over which speed and accuracy are weighed: polishing, tilted, plunging, a curved path, a block
-// of two layers. All with the 5 mm burr.
+// Motions that are not steady cases: polishing, tilted, plunging, a curved path, a block of two layers. All
+// with the 5 mm burr.
 #pragma once
 
 #include <functional>
