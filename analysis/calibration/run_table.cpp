@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <set>
 #include <sstream>
@@ -14,6 +13,7 @@
 
 #include "common/files/input_file.h"
 #include "common/files/table_line.h"
+#include "common/text/words.h"
 
 namespace osteomill::study {
 
@@ -31,25 +31,9 @@ constexpr std::array<std::string_view, 17> columns{"run",           "material",
                                                    "spread_feed_n", "spread_across_n",
                                                    "spread_up_n"};
 
-std::string trimmed(std::string_view text) {
-    const auto first = text.find_first_not_of(" \t\r");
-    if (first == std::string_view::npos) return {};
-    return std::string(text.substr(first, text.find_last_not_of(" \t\r") - first + 1));
-}
-
-std::vector<std::string> values_of(std::string_view line) {
-    std::vector<std::string> values;
-    for (std::size_t from = 0;;) {
-        const auto to = line.find(',', from);
-        values.push_back(trimmed(line.substr(from, to - from)));
-        if (to == std::string_view::npos) return values;
-        from = to + 1;
-    }
-}
-
 /// The names of the columns, checked.
 std::vector<std::string> header_of(std::string_view line, const std::string& where) {
-    const std::vector<std::string> names = values_of(line);
+    const std::vector<std::string> names = cells_of(line);
     for (auto name = names.begin(); name != names.end(); ++name) {
         if (std::find(columns.begin(), columns.end(), *name) == columns.end())
             throw std::runtime_error(
@@ -69,7 +53,7 @@ std::vector<std::string> header_of(std::string_view line, const std::string& whe
 class Line {
   public:
     Line(const std::vector<std::string>& header, std::string_view line, std::string where)
-        : header_(header), values_(values_of(line)), where_(std::move(where)) {
+        : header_(header), values_(cells_of(line)), where_(std::move(where)) {
         if (values_.size() != header.size())
             throw std::runtime_error(fmt::format("{}: {} values; there must be {}, one for each column",
                                                  where_, values_.size(), header.size()));
@@ -81,13 +65,9 @@ class Line {
     }
 
     double number(std::string_view column, std::string_view wanted, bool (*is_good)(double)) const {
-        const std::string& text = value(column);
-        double number = 0.0;
-        const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-        if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(number) ||
-            !is_good(number))
-            wrong(column, wanted);
-        return number;
+        const std::optional<double> number = finite_number(value(column));
+        if (!number || !is_good(*number)) wrong(column, wanted);
+        return *number;
     }
 
     bool is_empty(std::string_view column) const {

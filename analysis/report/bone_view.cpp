@@ -4,89 +4,16 @@
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
-#include <limits>
-#include <optional>
+
+#include "common/bone/bone_ray.h"
 
 namespace osteomill {
 
 namespace {
 
 constexpr int rays_per_pixel_edge = 2;
-constexpr double solid = 127.5;  // of 255: half a voxel
 const glm::dvec3 paper(255.0);
 const glm::dvec3 bone_colour(226.0, 216.0, 198.0);
-
-/// Fractions along a ray: the brick of the last look-up is remembered.
-class FractionProbe {
-  public:
-    explicit FractionProbe(const Bone& bone) : bone_(bone) {}
-
-    /// Of a voxel anywhere.
-    double at(const glm::ivec3& voxel) {
-        if (!contains(bone_.grid(), voxel)) return 0.0;
-        find(voxel / brick_edge_voxels);
-        return slot_ == BoneContent::no_slot ? 0.0 : bone_.fractions(slot_)[offset_in_brick(voxel)];
-    }
-    /// Of a place in voxel coordinates, linear between the centres of voxels.
-    double between(const glm::dvec3& place) {
-        const glm::dvec3 low = glm::floor(place);
-        const glm::dvec3 part = place - low;
-        const glm::ivec3 voxel(low);
-        double sum = 0.0;
-        for (int corner = 0; corner < 8; ++corner) {
-            const glm::ivec3 step(corner & 1, corner >> 1 & 1, corner >> 2);
-            const glm::dvec3 share(step.x == 1 ? part.x : 1.0 - part.x, step.y == 1 ? part.y : 1.0 - part.y,
-                                   step.z == 1 ? part.z : 1.0 - part.z);
-            sum += share.x * share.y * share.z * at(voxel + step);
-        }
-        return sum;
-    }
-    bool has_bone(const glm::ivec3& brick) {
-        find(brick);
-        return slot_ != BoneContent::no_slot;
-    }
-
-  private:
-    void find(const glm::ivec3& brick) {
-        if (brick == brick_) return;
-        brick_ = brick;
-        slot_ = bone_.slot(brick);
-    }
-
-    const Bone& bone_;
-    glm::ivec3 brick_{-1};
-    std::int32_t slot_ = BoneContent::no_slot;
-};
-
-/// In voxel coordinates; one unit of `t` is a voxel.
-struct Ray {
-    glm::dvec3 origin;
-    glm::dvec3 direction;
-
-    glm::dvec3 at(double t) const { return origin + t * direction; }
-};
-
-struct Span {
-    double from;
-    double to;
-};
-
-/// Where a ray is within a box; empty (from > to) where it passes.
-Span within(const Ray& ray, const glm::dvec3& low, const glm::dvec3& high) {
-    Span span{-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
-    for (int axis = 0; axis < 3; ++axis) {
-        const double slope = ray.direction[axis];
-        if (std::abs(slope) < 1e-12) {
-            if (ray.origin[axis] < low[axis] || ray.origin[axis] > high[axis]) return {1.0, 0.0};
-            continue;
-        }
-        const double a = (low[axis] - ray.origin[axis]) / slope;
-        const double b = (high[axis] - ray.origin[axis]) / slope;
-        span.from = std::max(span.from, std::min(a, b));
-        span.to = std::min(span.to, std::max(a, b));
-    }
-    return span;
-}
 
 class View {
   public:
@@ -102,47 +29,19 @@ class View {
     glm::dvec3 right() const { return glm::cross(view_.direction, view_.up); }
 
     glm::dvec3 colour(const glm::dvec3& place_mm) {
-        const Ray ray{to_voxel_coordinates(bone_.grid(), place_mm), view_.direction};
-        Span span = within(ray, glm::dvec3(-0.5), glm::dvec3(bone_.grid().size_voxels) - 0.5);
+        const BoneRay ray{to_voxel_coordinates(bone_.grid(), place_mm), view_.direction};
+        RaySpan span = span_within(ray, bone_.grid());
         if (view_.is_section) span.from = std::max(span.from, 0.0);
-        if (!(span.from < span.to)) return paper;
+        if (span.is_empty()) return paper;
         const glm::dvec3 first = ray.at(span.from + 1e-6);
-        if (view_.is_section && span.from == 0.0 && probe_.between(first) > solid)
+        if (view_.is_section && span.from == 0.0 && probe_.between(first) > BoneSampler::surface_fraction)
             return 0.92 * tissue_colour(first);
-        const auto hit = first_hit(ray, span);
+        const auto hit = probe_.first_surface(ray, span, [](double) { return true; });
         return hit ? lit(ray, *hit) : paper;
     }
 
   private:
-    std::optional<double> first_hit(const Ray& ray, const Span& span) {
-        constexpr double step = 0.5;
-        for (double t = span.from + 1e-6; t <= span.to;) {
-            const glm::ivec3 voxel = glm::ivec3(glm::floor(ray.at(t) + 0.5));
-            if (!contains(bone_.grid(), voxel)) {
-                t += step;
-                continue;
-            }
-            const glm::ivec3 brick = voxel / brick_edge_voxels;
-            if (!probe_.has_bone(brick)) {
-                const glm::dvec3 low = glm::dvec3(brick * brick_edge_voxels) - 0.5;
-                t = std::max(t, within(ray, low, low + double{brick_edge_voxels}).to) + 1e-6;
-                continue;
-            }
-            if (probe_.at(voxel) > 0.0 && probe_.between(ray.at(t)) > solid) return refined(ray, t - step, t);
-            t += step;
-        }
-        return std::nullopt;
-    }
-
-    double refined(const Ray& ray, double before, double in) {
-        for (int i = 0; i < 5; ++i) {
-            const double middle = 0.5 * (before + in);
-            (probe_.between(ray.at(middle)) > solid ? in : before) = middle;
-        }
-        return in;
-    }
-
-    glm::dvec3 lit(const Ray& ray, double t) {
+    glm::dvec3 lit(const BoneRay& ray, double t) {
         const glm::dvec3 place = ray.at(t);
         glm::dvec3 gradient(0.0);
         for (int axis = 0; axis < 3; ++axis) {
@@ -166,7 +65,7 @@ class View {
 
     const Bone& bone_;
     const BoneView& view_;
-    FractionProbe probe_;
+    BoneSampler probe_;
     std::array<glm::dvec3, 256> colours_;
     glm::dvec3 light_{0.0};
 };

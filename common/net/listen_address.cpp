@@ -3,37 +3,41 @@
 #include <fmt/format.h>
 
 #include <boost/asio/ip/address.hpp>
-#include <charconv>
 #include <stdexcept>
+
+#include "common/text/words.h"
 
 namespace osteomill {
 
-ListenAddress parse_listen_address(const std::string& text) {
+AddressParts parts_of_address(const std::string& text) {
     const std::size_t colon = text.rfind(':');
-    if (colon == std::string::npos) {
+    AddressParts parts{.host = text.substr(0, colon), .port = {}};
+    if (colon != std::string::npos) parts.port = text.substr(colon + 1);
+    std::string& host = parts.host;
+    if (host.size() > 2 && host.front() == '[' && host.back() == ']')
+        host = host.substr(1, host.size() - 2);
+    else
+        parts.is_plain_v6 = host.find(':') != std::string::npos;
+    return parts;
+}
+
+ListenAddress parse_listen_address(const std::string& text) {
+    if (text.find(':') == std::string::npos)
         throw std::invalid_argument(fmt::format("'{}' has no port; expected ADDRESS:PORT", text));
-    }
-    ListenAddress result;
-    result.address = text.substr(0, colon);
-    if (result.address == "localhost") result.address = "127.0.0.1";
-    if (result.address.size() > 2 && result.address.front() == '[' && result.address.back() == ']') {
-        result.address = result.address.substr(1, result.address.size() - 2);
-    } else if (result.address.find(':') != std::string::npos) {
+    const AddressParts parts = parts_of_address(text);
+    if (parts.is_plain_v6)
         throw std::invalid_argument(
             fmt::format("'{}': an IPv6 address needs brackets, [ADDRESS]:PORT", text));
-    }
+    ListenAddress result{.address = parts.host == "localhost" ? "127.0.0.1" : parts.host};
     boost::system::error_code error;
     boost::asio::ip::make_address(result.address, error);
-    if (error) {
+    if (error)
         throw std::invalid_argument(fmt::format(
             "'{}' is not a numeric address; expected for example 127.0.0.1:7010", result.address));
-    }
-    const char* const end = text.data() + text.size();
-    const auto [parsed, failure] = std::from_chars(text.data() + colon + 1, end, result.port);
-    if (failure != std::errc{} || parsed != end) {
-        throw std::invalid_argument(
-            fmt::format("'{}' is not a port; expected 0 to 65535", text.substr(colon + 1)));
-    }
+    const auto port = number_of<std::uint16_t>(parts.port);
+    if (!port)
+        throw std::invalid_argument(fmt::format("'{}' is not a port; expected 0 to 65535", parts.port));
+    result.port = *port;
     return result;
 }
 

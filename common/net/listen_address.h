@@ -11,6 +11,14 @@ struct ListenAddress {
     std::uint16_t port = 7010;  ///< 0: the system picks a free one
 };
 
+/// HOST:PORT apart, where the last colon is; an IPv6 address without its brackets.
+struct AddressParts {
+    std::string host;
+    std::string port;          ///< empty where there is no colon
+    bool is_plain_v6 = false;  ///< colons in the host, and no brackets
+};
+AddressParts parts_of_address(const std::string& text);
+
 /// Reads ADDRESS:PORT: a numeric address, with an IPv6 one in brackets, or "localhost". Throws
 /// std::invalid_argument with one line that says what would be right.
 ListenAddress parse_listen_address(const std::string& text);

@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
+#include <optional>
 #include <sstream>
 #include <stdexcept>
 #include <string_view>
@@ -13,6 +13,7 @@
 #include "common/files/input_file.h"
 #include "common/files/table_line.h"
 #include "common/scene/session_control.h"
+#include "common/text/words.h"
 
 namespace osteomill {
 
@@ -70,7 +71,7 @@ class CsvReader {
     }
 
     Waypoint waypoint() {
-        const std::vector<std::string_view> cells = split();
+        const std::vector<std::string> cells = split();
         const auto number = [&](std::size_t column) { return to_number(cells[column]); };
         Waypoint result;
         result.time_s = number(0);
@@ -89,44 +90,26 @@ class CsvReader {
         return result;
     }
 
-    std::vector<std::string_view> split() const {
-        std::vector<std::string_view> cells;
-        std::string_view rest = line_;
-        for (std::size_t comma = 0; comma != std::string_view::npos;) {
-            comma = rest.find(',');
-            cells.push_back(trimmed(rest.substr(0, comma)));
-            if (comma != std::string_view::npos) rest.remove_prefix(comma + 1);
-        }
+    std::vector<std::string> split() const {
+        std::vector<std::string> cells = cells_of(line_);
         const std::size_t expected = columns_without_burr + (has_burr_ ? 1 : 0);
-        if (cells.size() != expected) {
+        if (cells.size() != expected)
             refuse(fmt::format("has {} columns, the header has {}", cells.size(), expected));
-        }
         return cells;
     }
 
-    static std::string_view trimmed(std::string_view text) {
-        const std::size_t first = text.find_first_not_of(" \t");
-        if (first == std::string_view::npos) return {};
-        return text.substr(first, text.find_last_not_of(" \t") - first + 1);
-    }
-
     double to_number(std::string_view cell) const {
-        double value = 0.0;
-        const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
-        if (error != std::errc{} || end != cell.data() + cell.size() || !std::isfinite(value)) {
-            refuse(fmt::format("'{}' is not a finite number", cell));
-        }
-        return value;
+        const std::optional<double> value = finite_number(cell);
+        if (!value) refuse(fmt::format("'{}' is not a finite number", cell));
+        return *value;
     }
 
     std::size_t to_burr(std::string_view cell) const {
-        std::size_t value = 0;
-        const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
-        if (error != std::errc{} || end != cell.data() + cell.size() || value >= burr_count_) {
+        const auto value = number_of<std::size_t>(cell);
+        if (!value || *value >= burr_count_)
             refuse(fmt::format("burr '{}' is not an index into the scene's set, 0 to {}", cell,
                                burr_count_ - 1));
-        }
-        return value;
+        return *value;
     }
 
     std::istream& in_;

@@ -4,8 +4,6 @@
 #include <fmt/ranges.h>
 
 #include <array>
-#include <charconv>
-#include <cmath>
 #include <sstream>
 #include <stdexcept>
 #include <string_view>
@@ -14,6 +12,7 @@
 #include "common/files/input_file.h"
 #include "common/files/table_line.h"
 #include "common/text/plain_text.h"
+#include "common/text/words.h"
 
 namespace osteomill {
 
@@ -36,12 +35,10 @@ SessionAction action_named(std::string_view name) {
 }
 
 double number_in(std::string_view text, const char* name, const char* what) {
-    double number = 0.0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-    if (error != std::errc{} || end != text.data() + text.size() || !(number >= 0.0) ||
-        !std::isfinite(number))
+    const std::optional<double> number = finite_number(text);
+    if (!number || *number < 0.0)
         throw std::invalid_argument(fmt::format("{} '{}' is not {}, 0 or more", name, text, what));
-    return number;
+    return *number;
 }
 
 TimedControl timed_control(std::string_view line) {

@@ -9,20 +9,13 @@
 #include <string_view>
 
 #include "common/files/input_file.h"
+#include "common/text/words.h"
 
 namespace osteomill {
 
 namespace {
 
 constexpr std::size_t longest_line_bytes = 1000;
-constexpr std::string_view blanks = " \t\r";
-
-std::string_view trimmed(std::string_view text) {
-    const std::size_t first = text.find_first_not_of(blanks);
-    if (first == std::string_view::npos) return {};
-    return text.substr(first, text.find_last_not_of(blanks) - first + 1);
-}
-
 /// TYPE=VALUE, several joined by a comma or, within one set, by a plus. With spaces around these it would be
 /// a subject as OpenSSL prints it otherwise, and match nobody.
 bool is_subject(const std::string& line) {
@@ -39,7 +32,7 @@ OperatorList::OperatorList(const std::filesystem::path& file) {
     std::istringstream in(read_text(file, operators_kind));
     std::string text;
     for (int number = 1; std::getline(in, text); ++number) {
-        const std::string line(trimmed(text));
+        const std::string line = trimmed(text);
         if (line.empty() || line.front() == '#') continue;
         const bool is_plain =
             std::ranges::all_of(line, [](unsigned char c) { return c >= 0x20 && c < 0x7f; });

@@ -9,10 +9,10 @@
 #include <utility>
 
 #include "common/files/input_file.h"
+#include "common/text/words.h"
 #include "imaging/dicom/dicom_image.h"
 #include "imaging/dicom/dicom_scan.h"
 #include "imaging/formats/byte_source.h"
-#include "imaging/formats/header_text.h"
 #include "imaging/formats/meta_image_header.h"
 #include "imaging/formats/nifti_header.h"
 #include "imaging/formats/nrrd_header.h"

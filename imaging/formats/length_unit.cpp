@@ -3,7 +3,7 @@
 #include <array>
 #include <string_view>
 
-#include "imaging/formats/header_text.h"
+#include "common/text/words.h"
 
 namespace osteomill {
 

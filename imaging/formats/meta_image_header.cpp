@@ -13,7 +13,7 @@
 #include <string_view>
 
 #include "common/files/input_file.h"
-#include "imaging/formats/header_text.h"
+#include "common/text/words.h"
 #include "imaging/formats/length_unit.h"
 #include "imaging/formats/plausible_geometry.h"
 #include "imaging/formats/voxel_data.h"
@@ -59,7 +59,7 @@ class MetaFields {
     std::int64_t whole(const std::string& name, std::int64_t otherwise) const {
         const std::optional<std::string> value = text(name);
         if (!value) return otherwise;
-        const auto number = whole_number<std::int64_t>(*value);
+        const auto number = number_of<std::int64_t>(*value);
         if (!number) refuse(name, "must be a whole number");
         return *number;
     }

@@ -11,7 +11,7 @@
 #include <string>
 
 #include "common/files/input_file.h"
-#include "imaging/formats/header_text.h"
+#include "common/text/words.h"
 #include "imaging/formats/plausible_geometry.h"
 #include "imaging/formats/voxel_data.h"
 #include "imaging/imaging_error.h"

@@ -10,7 +10,7 @@
 #include <string_view>
 #include <utility>
 
-#include "imaging/formats/header_text.h"
+#include "common/text/words.h"
 #include "imaging/formats/picture_file.h"
 #include "imaging/formats/plausible_geometry.h"
 #include "imaging/imaging_error.h"

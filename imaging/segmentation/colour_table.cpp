@@ -11,7 +11,7 @@
 #include "common/files/input_file.h"
 #include "common/files/table_line.h"
 #include "common/text/plain_text.h"
-#include "imaging/formats/header_text.h"
+#include "common/text/words.h"
 #include "imaging/imaging_error.h"
 
 namespace osteomill {
@@ -28,7 +28,7 @@ struct LabelLine {
 };
 
 std::optional<int> number_up_to(const std::string& text, int most) {
-    const auto number = whole_number<int>(trimmed(text));
+    const auto number = number_of<int>(trimmed(text));
     return number && *number >= 0 && *number <= most ? number : std::nullopt;
 }
 

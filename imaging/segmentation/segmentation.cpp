@@ -12,8 +12,8 @@
 
 #include "common/scene/nearest_name.h"
 #include "common/text/plain_text.h"
+#include "common/text/words.h"
 #include "imaging/bone_file/file_digest.h"
-#include "imaging/formats/header_text.h"
 #include "imaging/formats/image_reader.h"
 #include "imaging/imaging_error.h"
 
@@ -50,7 +50,7 @@ std::vector<Segment> named_segments(const std::filesystem::path& path, const Ope
     };
     const auto number = [&](int segment, const char* what, int fallback, int low, int high) {
         const std::optional<std::string> text = value(segment, what);
-        const std::optional<int> whole = text ? whole_number<int>(trimmed(*text)) : fallback;
+        const std::optional<int> whole = text ? number_of<int>(trimmed(*text)) : fallback;
         if (!whole || *whole < low || *whole > high)
             throw ImagingError(
                 path, fmt::format("Segment{}_{} '{:.40}' is no whole number from {} to {}", segment, what,

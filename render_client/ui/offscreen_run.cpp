@@ -9,6 +9,7 @@
 #include <thread>
 
 #include "render_client/sound/session_sound.h"
+#include "render_client/ui/view/picture_options.h"
 #include "render_client/ui/view/redraw.h"
 #include "render_client/ui/view/screenshots.h"
 #include "render_client/ui/view/session_picture.h"
@@ -64,16 +65,8 @@ RenderReport run_offscreen(const RenderOptions& options, SessionSource& source,
     Panels panels;
     SessionPicture session(source, panels, options.window_size_px.value_or(default_size_px),
                            FrameQuality::full, options.renderer, options.look, options.stereo);
-    session.limit_textures({.budget_bytes = options.texture_budget_bytes});
-    session.view().theme = options.theme;
-    session.view().ambient_occlusion = options.ambient_occlusion;
-    session.view().specular = static_cast<float>(options.specular);
-    session.view().light_field = options.light_field;
-    session.view().inset = options.inset;
-    session.set_first_magnification(options.magnification);
-    session.view().cuts = options.cuts;
+    take_over(session, options);
     session.view().scale = static_cast<float>(options.ui_scale.value_or(1.0));
-    session.view().panels_shown = options.panels;
     SessionSound sound;
     if (options.sound) sound.switch_to(true);
     FrameTimes frame_times;

@@ -6,15 +6,16 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <map>
 #include <stdexcept>
 #include <vector>
 
 #include "common/files/distinct_files.h"
+#include "common/net/listen_address.h"
 #include "common/net/tls_options.h"
 #include "common/program/option_checks.h"
+#include "common/text/words.h"
 #include "render_client/link/recording_player.h"
 #include "render_client/volume/magnification.h"
 
@@ -27,27 +28,19 @@ constexpr int wanted_screenshots = 30;
 const std::map<std::string, ThemeName> theme_names{{"dark", ThemeName::dark}, {"light", ThemeName::light}};
 
 std::optional<int> whole_number(std::string_view text, int low, int high) {
-    int value = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (error != std::errc() || end != text.data() + text.size() || value < low || value > high)
-        return std::nullopt;
-    return value;
+    const auto value = number_of<int>(text);
+    return value && *value >= low && *value <= high ? value : std::nullopt;
 }
 
-/// Splits "HOST:PORT"; an IPv6 address stands in brackets. Returns what is wrong, or nothing.
+/// Returns what is wrong, or nothing.
 std::string take_address(const std::string& text, RenderOptions& options) {
-    const std::size_t colon = text.rfind(':');
-    if (colon != std::string::npos && colon > 0) {
-        std::string host = text.substr(0, colon);
-        if (host.size() > 2 && host.front() == '[' && host.back() == ']')
-            host = host.substr(1, host.size() - 2);
-        if (const auto port = whole_number(std::string_view(text).substr(colon + 1), 1, 65535)) {
-            options.host = host;
-            options.port = static_cast<std::uint16_t>(*port);
-            return {};
-        }
-    }
-    return "is '" + text + "', not HOST:PORT with a port from 1 to 65535, such as 127.0.0.1:7010";
+    const AddressParts parts = parts_of_address(text);
+    const auto port = whole_number(parts.port, 1, 65535);
+    if (parts.host.empty() || !port)
+        return "is '" + text + "', not HOST:PORT with a port from 1 to 65535, such as 127.0.0.1:7010";
+    options.host = parts.host;
+    options.port = static_cast<std::uint16_t>(*port);
+    return {};
 }
 
 /// A side of the patient that a cut can take away.
@@ -65,14 +58,9 @@ std::string take_cut(const std::string& text, CutSettings& cuts) {
     const auto side =
         std::find_if(sides.begin(), sides.end(),
                      [name = text.substr(0, colon)](const Side& known) { return name == known.name; });
-    double position_mm = 0.0;
-    bool is_number = true;
-    if (colon != std::string::npos) {
-        const char* const end = text.data() + text.size();
-        const auto [stop, error] = std::from_chars(text.data() + colon + 1, end, position_mm);
-        is_number = error == std::errc() && stop == end && std::isfinite(position_mm);
-    }
-    if (side == sides.end() || !is_number)
+    const std::optional<double> position_mm =
+        colon == std::string::npos ? 0.0 : finite_number(std::string_view(text).substr(colon + 1));
+    if (side == sides.end() || !position_mm)
         return fmt::format(
             "is '{}', not left, right, front, back, above or below, or one of these with how many mm off the "
             "bone's middle, such as left:2.5",
@@ -80,7 +68,7 @@ std::string take_cut(const std::string& text, CutSettings& cuts) {
     if (cuts[side->axis].is_on) return fmt::format("'{}': there is a cut along that axis already", text);
     glm::dvec3 normal(0.0);
     normal[static_cast<int>(side->axis)] = side->sign;
-    cuts.set(side->axis, normal, position_mm);
+    cuts.set(side->axis, normal, *position_mm);
     return {};
 }
 

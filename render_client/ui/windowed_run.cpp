@@ -20,6 +20,7 @@
 #include "render_client/ui/input/operator_desk.h"
 #include "render_client/ui/panels/start_panel.h"
 #include "render_client/ui/view/look_file.h"
+#include "render_client/ui/view/picture_options.h"
 #include "render_client/ui/view/redraw.h"
 #include "render_client/ui/view/screenshots.h"
 #include "render_client/ui/view/session_picture.h"
@@ -103,15 +104,7 @@ class Drawing {
             storage_.emplace(std::move(second));
             session_.make_storage_by(*storage_);
         }
-        session_.limit_textures({.budget_bytes = options.texture_budget_bytes});
-        session_.view().theme = options.theme;
-        session_.view().ambient_occlusion = options.ambient_occlusion;
-        session_.view().specular = static_cast<float>(options.specular);
-        session_.view().light_field = options.light_field;
-        session_.view().inset = options.inset;
-        session_.set_first_magnification(options.magnification);
-        session_.view().cuts = options.cuts;
-        session_.view().panels_shown = options.panels;
+        take_over(session_, options);
         session_.view().sound = options.sound;
         session_.view().look_has_file = look_.has_file();
         session_.offer_controls();

@@ -9,6 +9,7 @@
 #include <string>
 
 #include "analysis/output/output_files.h"
+#include "common/statistics/percentile.h"
 #include "studies/bridge/delay_rows.h"
 #include "studies/bridge/private_network.h"
 #include "studies/bridge/round_trips.h"
@@ -19,9 +20,9 @@ namespace {
 
 nlohmann::ordered_json in_numbers(const std::vector<double>& trips_us) {
     return {{"count", trips_us.size()},
-            {"p50_us", quantile(trips_us, 0.5)},
-            {"p99_us", quantile(trips_us, 0.99)},
-            {"p999_us", quantile(trips_us, 0.999)}};
+            {"p50_us", percentile(trips_us, 0.5)},
+            {"p99_us", percentile(trips_us, 0.99)},
+            {"p999_us", percentile(trips_us, 0.999)}};
 }
 
 }  // namespace
@@ -35,10 +36,10 @@ void run_bridge_study(const BridgeStudyOptions& options, const StudySurroundings
     const auto measure = [&](const std::string& name, const Ends& ends) {
         const RoundTrips trips = measure_round_trips(ends, seconds);
         const auto row = [](const std::vector<double>& us) {
-            return fmt::format("{:.0f} / {:.0f} / {:.0f}", quantile(us, 0.5), quantile(us, 0.99),
-                               quantile(us, 0.999));
+            return fmt::format("{:.0f} / {:.0f} / {:.0f}", percentile(us, 0.5), percentile(us, 0.99),
+                               percentile(us, 0.999));
         };
-        const double times = quantile(trips.bridge_us, 0.99) / quantile(trips.echo_us, 0.99);
+        const double times = percentile(trips.bridge_us, 0.99) / percentile(trips.echo_us, 0.99);
         surroundings.said << fmt::format("{:<34}{:>28}{:>28}{:>12.2f}\n", name, row(trips.bridge_us),
                                          row(trips.echo_us), times);
         found[name] = {{"bridge", in_numbers(trips.bridge_us)},

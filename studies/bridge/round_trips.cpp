@@ -175,10 +175,4 @@ RoundTrips measure_round_trips(const Ends& ends, double seconds) {
     return trips;
 }
 
-double quantile(std::vector<double> values, double share) {
-    const auto rank = static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
-    std::nth_element(values.begin(), values.begin() + rank, values.end());
-    return values[static_cast<std::size_t>(rank)];
-}
-
 }  // namespace osteomill::study

@@ -25,7 +25,4 @@ struct Ends {
 /// can be had or nothing is answered.
 RoundTrips measure_round_trips(const Ends& ends, double seconds);
 
-/// Of at least one: what a share (0 to 1) of them do not exceed.
-double quantile(std::vector<double> values, double share);
-
 }  // namespace osteomill::study

@@ -1,7 +1,5 @@
 #include "studies/realtime/latencies.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <vector>
@@ -52,8 +50,8 @@ Latencies latencies_of_cyclictest(const nlohmann::json& report) {
     return latencies;
 }
 
-std::string csv_of(const Latencies& latencies, const std::string& names) {
-    if (latencies.count() == 0) return "";
+void add_bins(Table& table, const Latencies& latencies, const std::string& load, const std::string& what) {
+    if (latencies.count() == 0) return;
     constexpr double bins_per_octave = 6.0;
     const auto bin_of = [&](double us) {
         return static_cast<int>(std::ceil(bins_per_octave * std::log2(std::max(us, 1e-3)) - 1e-9));
@@ -65,16 +63,12 @@ std::string csv_of(const Latencies& latencies, const std::string& names) {
 
     const auto all = static_cast<double>(latencies.count());
     std::uint64_t seen = 0;
-    std::string csv;
     for (std::size_t i = 0; i < bins.size(); ++i) {
         seen += bins[i];
         const double octaves = (first + static_cast<double>(i)) / bins_per_octave;
-        csv +=
-            fmt::format("{},{:.4g},{:.4g},{:.6g},{:.6g}\n", names, std::exp2(octaves - 1.0 / bins_per_octave),
-                        std::exp2(octaves), static_cast<double>(bins[i]) / all,
-                        static_cast<double>(latencies.count() - seen) / all);
+        table.add({load, what, std::exp2(octaves - 1.0 / bins_per_octave), std::exp2(octaves),
+                   static_cast<double>(bins[i]) / all, static_cast<double>(latencies.count() - seen) / all});
     }
-    return csv;
 }
 
 }  // namespace osteomill::study

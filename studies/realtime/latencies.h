@@ -6,6 +6,8 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "analysis/output/table.h"
+
 namespace osteomill::study {
 
 class Latencies {
@@ -37,8 +39,8 @@ Latencies latencies_of_server(const nlohmann::json& histogram);
 /// its histogram go to its maximum. Throws as above.
 Latencies latencies_of_cyclictest(const nlohmann::json& report);
 
-/// Lines of a table, without a header: `names`, then from_us, up_to_us, share and share_above, in bins of a
-/// sixth of an octave, all that are between the first and the last that is not empty.
-std::string csv_of(const Latencies& latencies, const std::string& names);
+/// Rows of a table of load, what, from_us, up_to_us, share and share_above, in bins of a sixth of an octave,
+/// all that are between the first and the last that is not empty.
+void add_bins(Table& table, const Latencies& latencies, const std::string& load, const std::string& what);
 
 }  // namespace osteomill::study

@@ -4,27 +4,23 @@
 
 #include <algorithm>
 #include <cmath>
-#include <csignal>
-#include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
-#include <ostream>
 #include <stdexcept>
 #include <string>
 
-#include "analysis/output/chart.h"
 #include "analysis/output/output_files.h"
-#include "imaging/progress.h"
+#include "analysis/output/progress.h"
+#include "analysis/output/study_run.h"
+#include "common/program/child_program.h"
 #include "studies/realtime/installed_program.h"
 #include "studies/realtime/slices.h"
-#include "tests/support/child_process.h"
 
 namespace osteomill::study {
 
 namespace {
 
 using nlohmann::ordered_json;
-using osteomill::testing::ChildProcess;
 
 constexpr double most_times_cyclictest = 1.5;
 constexpr double more_late_ticks_share = 1e-5;
@@ -35,19 +31,17 @@ constexpr double period_us = 1000.0;
 class Stress {
   public:
     Stress(const std::filesystem::path& stress_ng, double longest_s)
-        : child_({stress_ng.string(), "--quiet", "--cpu", "0", "--vm", "1", "--vm-bytes", "128M", "--sock",
-                  "1", "--timeout", fmt::format("{:.0f}", longest_s)}) {}
-    ~Stress() {
-        child_.send_signal(SIGTERM);
-        child_.wait(std::chrono::seconds(10));
-    }
-    Stress(const Stress&) = delete;
-    Stress& operator=(const Stress&) = delete;
+        : program_({stress_ng.string(), "--quiet", "--cpu", "0", "--vm", "1", "--vm-bytes", "128M", "--sock",
+                    "1", "--timeout", fmt::format("{:.0f}", longest_s)},
+                   std::chrono::seconds(10)) {}
 
-    bool is_running() { return !child_.wait(std::chrono::seconds(0)); }
+    bool is_running() {
+        program_.poll();
+        return program_.is_running();
+    }
 
   private:
-    ChildProcess child_;
+    ChildProgram program_;
 };
 
 /// What was measured without load, or under it.
@@ -104,7 +98,7 @@ class RealtimeStudy {
   public:
     RealtimeStudy(const RealtimeStudyOptions& options, const StudySurroundings& surroundings)
         : options_(options),
-          surroundings_(surroundings),
+          run_(options.out, surroundings),
           haptic_server_(std::filesystem::read_symlink("/proc/self/exe").parent_path() / "haptic_server"),
           cyclictest_(installed_program("cyclictest")),
           stress_ng_(installed_program("stress-ng")),
@@ -116,15 +110,15 @@ class RealtimeStudy {
 
     void run() {
         if (!cyclictest_) say("cyclictest is not installed (package rt-tests): nothing to compare with");
-        std::string csv = "load,what,from_us,up_to_us,share,share_above\n";
+        Table table({"load", "what", "from_us", "up_to_us", "share", "share_above"});
         ordered_json found = ordered_json::array();
         const auto take = [&](const Measured& measured) {
             report(measured);
             found.push_back(json_of(measured));
-            csv += csv_of(measured.served.wakeup, measured.load + ",wakeup");
-            csv += csv_of(measured.served.haptic_tick, measured.load + ",haptic tick");
-            csv += csv_of(measured.served.milling_step, measured.load + ",milling step");
-            csv += csv_of(measured.cyclictest, measured.load + ",cyclictest");
+            add_bins(table, measured.served.wakeup, measured.load, "wakeup");
+            add_bins(table, measured.served.haptic_tick, measured.load, "haptic tick");
+            add_bins(table, measured.served.milling_step, measured.load, "milling step");
+            add_bins(table, measured.cyclictest, measured.load, "cyclictest");
         };
         take(measure("no load", nullptr));
         if (stress_ng_) {
@@ -133,32 +127,33 @@ class RealtimeStudy {
         } else {
             say("stress-ng is not installed (package stress-ng): not measured under load");
         }
-        write_text(csv, options_.out / "latencies.csv");
-        write_json(found, options_.out / "realtime.json");
-        draw_chart(chart_scripts(), "realtime", options_.out);
+        run_.write(table, "latencies");
+        run_.write(found, "realtime");
+        run_.draw({"realtime"});
         say("realtime.json, latencies.csv and realtime.svg are in {}", options_.out.string());
     }
 
   private:
     template <typename... Arguments>
     void say(fmt::format_string<Arguments...> format, Arguments&&... arguments) const {
-        surroundings_.said << fmt::format(format, std::forward<Arguments>(arguments)...) << '\n';
+        run_.say(format, std::forward<Arguments>(arguments)...);
     }
 
     Measured measure(const std::string& load, Stress* stress) const {
-        ProgressLine line(surroundings_.progress, surroundings_.is_terminal, load);
-        const auto progress = line.reporter();
         const std::filesystem::path work = options_.out / "slices";
         make_folder(work);
         Measured measured{.load = load, .served = {}, .cyclictest = {}};
-        for (int slice = 0; slice < slices_; ++slice) {
-            measured.served.add(serve(haptic_server_, slice_s_, work));
-            if (cyclictest_)
-                measured.cyclictest.add(cycle(*cyclictest_, slice_s_, measured.served.has_priority, work));
-            if (stress != nullptr && !stress->is_running())
-                throw std::runtime_error("stress-ng ended by itself: the load was not there");
-            progress(static_cast<double>(slice + 1) / slices_);
-        }
+        run_.chapter(load, [&](const Progress& progress) {
+            for (int slice = 0; slice < slices_; ++slice) {
+                measured.served.add(serve(haptic_server_, slice_s_, work));
+                if (cyclictest_)
+                    measured.cyclictest.add(
+                        cycle(*cyclictest_, slice_s_, measured.served.has_priority, work));
+                if (stress != nullptr && !stress->is_running())
+                    throw std::runtime_error("stress-ng ended by itself: the load was not there");
+                progress(static_cast<double>(slice + 1) / slices_);
+            }
+        });
         std::filesystem::remove_all(work);
         return measured;
     }
@@ -182,7 +177,7 @@ class RealtimeStudy {
     }
 
     const RealtimeStudyOptions& options_;
-    const StudySurroundings& surroundings_;
+    StudyRun run_;
     std::filesystem::path haptic_server_;
     std::optional<std::filesystem::path> cyclictest_;
     std::optional<std::filesystem::path> stress_ng_;

@@ -2,17 +2,20 @@
 
 #include <fmt/format.h>
 
-#include <charconv>
 #include <chrono>
 #include <cmath>
 #include <fstream>
+#include <optional>
 #include <stdexcept>
 #include <string>
+#include <thread>
 #include <vector>
 
+#include "common/net/listen_address.h"
+#include "common/program/child_program.h"
+#include "common/text/words.h"
 #include "render_client/link/bone_link.h"
 #include "simulation/loop/thread_priority.h"
-#include "tests/support/child_process.h"
 
 namespace osteomill::study {
 
@@ -20,6 +23,7 @@ namespace {
 
 /// Beyond the duration: to load, to join threads, to write.
 constexpr std::chrono::seconds room{60};
+constexpr std::chrono::milliseconds between_looks{20};
 
 nlohmann::json read_json(const std::filesystem::path& file) {
     std::ifstream in(file);
@@ -31,16 +35,28 @@ nlohmann::json read_json(const std::filesystem::path& file) {
     }
 }
 
-[[noreturn]] void fail(const std::string& program, const osteomill::testing::ChildProcess& child) {
-    const std::string said = child.err().empty() ? child.out() : child.err();
-    throw std::runtime_error(program + " failed: " + said.substr(0, said.find('\n')));
+[[noreturn]] void fail(const std::string& name, const ChildProgram& program) {
+    throw std::runtime_error(name + " failed: " + program.last_line());
 }
 
-std::uint16_t port_of(const std::string& address) {
-    std::uint16_t port = 0;
-    const std::size_t colon = address.rfind(':') + 1;
-    std::from_chars(address.data() + colon, address.data() + address.size(), port);
-    return port;
+/// Reads what a program says until `is_done` or its end; false where that takes longer.
+template <typename IsDone>
+bool watch(ChildProgram& program, std::chrono::duration<double> longest, IsDone&& is_done) {
+    const auto give_up = std::chrono::steady_clock::now() + longest;
+    while (std::chrono::steady_clock::now() < give_up) {
+        program.poll();
+        if (is_done() || !program.is_running()) return true;
+        std::this_thread::sleep_for(between_looks);
+    }
+    return false;
+}
+
+/// Of "listening on 127.0.0.1:PORT", once all of that line is there.
+std::optional<std::uint16_t> port_said_in(const std::string& output) {
+    const std::size_t said = output.find("listening on ");
+    const std::size_t end = said == std::string::npos ? said : output.find('\n', said);
+    if (end == std::string::npos) return std::nullopt;
+    return number_of<std::uint16_t>(parts_of_address(output.substr(said, end - said)).port);
 }
 
 }  // namespace
@@ -65,26 +81,23 @@ Served serve(const std::filesystem::path& haptic_server, double duration_s,
              const std::filesystem::path& work) {
     const std::filesystem::path file = work / "server.json";
     const std::filesystem::path histograms_file = work / "server.histograms.json";
-    osteomill::testing::ChildProcess server({haptic_server.string(), "--listen", "127.0.0.1:0",
-                                             "--milling-rate-hz", "1000", "--duration-s",
-                                             fmt::format("{}", duration_s), "--record",
-                                             (work / "session.pcap").string(), "--json", file.string()});
-    const auto address = server.line_after("listening on ", room);
-    if (!address) fail("haptic_server", server);
+    ChildProgram server({haptic_server.string(), "--listen", "127.0.0.1:0", "--milling-rate-hz", "1000",
+                         "--duration-s", fmt::format("{}", duration_s), "--record",
+                         (work / "session.pcap").string(), "--json", file.string()});
+    std::optional<std::uint16_t> port;
+    watch(server, room, [&] { return (port = port_said_in(server.output())).has_value(); });
+    if (!port) fail("haptic_server", server);
 
     std::uint64_t client_frames = 0;
-    std::optional<int> status;
     {
-        BoneLink first("127.0.0.1", port_of(*address));
-        BoneLink second("127.0.0.1", port_of(*address));
-        const auto give_up = std::chrono::steady_clock::now() + room +
-                             std::chrono::seconds(static_cast<long>(std::ceil(duration_s)));
-        while (!status && std::chrono::steady_clock::now() < give_up) {
-            status = server.wait(std::chrono::seconds(0));  // looks for 50 ms
+        BoneLink first("127.0.0.1", *port);
+        BoneLink second("127.0.0.1", *port);
+        watch(server, room + std::chrono::duration<double>(duration_s), [&] {
             client_frames = first.poll().frames + second.poll().frames;
-        }
+            return false;
+        });
     }
-    if (status != 0) fail("haptic_server", server);
+    if (server.status() != 0) fail("haptic_server", server);
     if (client_frames == 0) throw std::runtime_error("haptic_server: no client has seen the session");
 
     const nlohmann::json json = read_json(file);
@@ -122,9 +135,9 @@ Latencies cycle(const std::filesystem::path& cyclictest, double duration_s, bool
                                      "--json=" + file.string()};
     command.emplace_back(has_priority ? "--policy=fifo" : "--policy=other");
     if (has_priority) command.push_back(fmt::format("--priority={}", haptic_priority));
-    osteomill::testing::ChildProcess child(command);
-    const auto status = child.wait(room + std::chrono::seconds(static_cast<long>(std::ceil(duration_s))));
-    if (status != 0) fail("cyclictest", child);
+    ChildProgram child(command);
+    watch(child, room + std::chrono::duration<double>(duration_s), [] { return false; });
+    if (child.status() != 0) fail("cyclictest", child);
     return latencies_of_cyclictest(read_json(file));
 }
 

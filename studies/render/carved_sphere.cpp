@@ -11,9 +11,9 @@
 #include "render_client/volume/gl/framebuffer.h"
 #include "render_client/volume/passes/raycast_renderer.h"
 #include "render_client/volume/shaders/lighting.h"
+#include "studies/render/made_bone.h"
 #include "studies/render/picture_difference.h"
 #include "studies/render/reference_volume.h"
-#include "tests/unit/volume/made_bone.h"
 
 namespace osteomill::study {
 

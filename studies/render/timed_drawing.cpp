@@ -9,15 +9,11 @@
 #include <glm/common.hpp>
 #include <vector>
 
+#include "common/statistics/percentile.h"
+
 namespace osteomill::study {
 
 namespace {
-
-double median(std::vector<double> values) {
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::nth_element(values.begin(), middle, values.end());
-    return *middle;
-}
 
 double cpu_now_ms() {
     std::timespec time{};
@@ -48,7 +44,7 @@ Cost median_cost(const std::function<void()>& prepare, const std::function<void(
         wall_ms.push_back(wall_now_ms() - wall_before);
         cpu_ms.push_back(cpu_now_ms() - cpu_before);
     }
-    return {median(wall_ms), median(cpu_ms)};
+    return {percentile(wall_ms, 0.5), percentile(cpu_ms, 0.5)};
 }
 
 TimedPicture timed_drawing(BoneRenderer& renderer, const BoneTextures& bone, const Camera& camera,

@@ -10,7 +10,7 @@
 #include "imaging/memory_estimate.h"
 #include "imaging/phantoms/phantom.h"
 #include "render_client/volume/textures/voxel_box.h"
-#include "tests/unit/volume/made_bone.h"
+#include "studies/render/made_bone.h"
 
 namespace osteomill::study {
 

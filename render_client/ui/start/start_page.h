@@ -10,8 +10,8 @@
 #include <string>
 #include <vector>
 
+#include "common/program/child_program.h"
 #include "render_client/ui/start/case_shelf.h"
-#include "render_client/ui/start/child_program.h"
 #include "render_client/ui/start/folder_listing.h"
 #include "render_client/ui/start/import_form.h"
 #include "render_client/volume/picture.h"

@@ -5,8 +5,8 @@
 #include <stdexcept>
 
 #include "render_client/volume/textures/bone_textures.h"
+#include "studies/render/made_bone.h"
 #include "studies/render/phantom_session.h"
-#include "tests/unit/volume/made_bone.h"
 
 namespace osteomill::study {
 

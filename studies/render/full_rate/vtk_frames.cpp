@@ -9,7 +9,7 @@
 #include <thread>
 
 #include "analysis/output/output_files.h"
-#include "render_client/ui/start/child_program.h"
+#include "common/program/child_program.h"
 
 namespace osteomill::study {
 

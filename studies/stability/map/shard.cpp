@@ -4,22 +4,16 @@
 #include <xxhash.h>
 
 #include <algorithm>
-#include <charconv>
 #include <numeric>
 #include <stdexcept>
 #include <string_view>
 
+#include "common/text/words.h"
 #include "studies/stability/map/map_text.h"
 
 namespace osteomill::study {
 
 namespace {
-
-std::size_t whole_number(std::string_view text) {
-    std::size_t value = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    return error == std::errc() && end == text.data() + text.size() ? value : 0;
-}
 
 XXH64_hash_t hash_of(const std::string& text) {
     return XXH3_64bits(text.data(), text.size());
@@ -29,8 +23,11 @@ XXH64_hash_t hash_of(const std::string& text) {
 
 Shard shard_named(const std::string& text) {
     const std::size_t slash = std::min(text.find('/'), text.size());
-    const std::string_view of = std::string_view(text).substr(std::min(slash + 1, text.size()));
-    const Shard shard{whole_number(std::string_view(text).substr(0, slash)), whole_number(of)};
+    const auto number = [&](std::size_t from, std::size_t count) {
+        return number_of<std::size_t>(std::string_view(text).substr(std::min(from, text.size()), count))
+            .value_or(0);
+    };
+    const Shard shard{number(0, slash), number(slash + 1, std::string::npos)};
     if (shard.number < 1 || shard.number > shard.of)
         throw std::invalid_argument("'" + text + "' is no part I/N with 1 <= I <= N, such as 2/8");
     return shard;

@@ -1,6 +1,6 @@
 #include "render_client/ui/view/bone_on_screen.h"
 
-#include "tests/unit/volume/made_bone.h"
+#include "studies/render/made_bone.h"
 #include "tests/unit/volume/offscreen_test.h"
 
 namespace osteomill::bone_on_screen_test {

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "render_client/ui/session_source.h"
-#include "tests/unit/volume/made_bone.h"
+#include "studies/render/made_bone.h"
 
 namespace osteomill {
 

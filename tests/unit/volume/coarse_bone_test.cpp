@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/unit/volume/made_bone.h"
+#include "studies/render/made_bone.h"
 
 namespace osteomill::coarse_bone_test {
 namespace {

@@ -1,7 +1,7 @@
 #include "render_client/volume/passes/contact_shadow.h"
 
 #include "render_client/volume/passes/raycast_renderer.h"
-#include "tests/unit/volume/made_bone.h"
+#include "studies/render/made_bone.h"
 #include "tests/unit/volume/offscreen_test.h"
 
 namespace osteomill::contact_shadow_test {

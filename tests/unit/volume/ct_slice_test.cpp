@@ -4,7 +4,7 @@
 
 #include <glm/geometric.hpp>
 
-#include "tests/unit/volume/made_bone.h"
+#include "studies/render/made_bone.h"
 
 namespace osteomill {
 namespace {

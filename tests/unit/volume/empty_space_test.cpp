@@ -5,7 +5,7 @@
 #include <cstdlib>
 #include <random>
 
-#include "tests/unit/volume/made_bone.h"
+#include "studies/render/made_bone.h"
 
 namespace osteomill::empty_space_test {
 namespace {

@@ -4,7 +4,7 @@
 
 #include "render_client/volume/passes/raycast_renderer.h"
 #include "render_client/volume/passes/scene_picture.h"
-#include "tests/unit/volume/made_bone.h"
+#include "studies/render/made_bone.h"
 #include "tests/unit/volume/offscreen_test.h"
 
 namespace osteomill::light_field_test {

@@ -4,7 +4,7 @@
 #include <cstdlib>
 
 #include "render_client/volume/gl/framebuffer.h"
-#include "tests/unit/volume/made_bone.h"
+#include "studies/render/made_bone.h"
 #include "tests/unit/volume/offscreen_test.h"
 
 namespace osteomill::raycast_renderer_test {

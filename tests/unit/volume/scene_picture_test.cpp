@@ -6,7 +6,7 @@
 #include "render_client/volume/passes/pixel_box.h"
 #include "render_client/volume/passes/raycast_renderer.h"
 #include "render_client/volume/passes/renderer_choice.h"
-#include "tests/unit/volume/made_bone.h"
+#include "studies/render/made_bone.h"
 #include "tests/unit/volume/offscreen_test.h"
 
 namespace osteomill::scene_picture_test {

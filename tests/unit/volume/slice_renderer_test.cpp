@@ -7,7 +7,7 @@
 
 #include "render_client/volume/gl/framebuffer.h"
 #include "render_client/volume/passes/renderer_choice.h"
-#include "tests/unit/volume/made_bone.h"
+#include "studies/render/made_bone.h"
 #include "tests/unit/volume/offscreen_test.h"
 
 namespace osteomill::slice_renderer_test {

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <random>
 
-#include "tests/unit/volume/made_bone.h"
+#include "studies/render/made_bone.h"
 
 namespace osteomill::smoothed_fraction_test {
 namespace {

@@ -1,7 +1,7 @@
 // Quality on demand, with times made up: what a pixel costs is what the test says.
 #include "render_client/volume/passes/raycast_renderer.h"
 #include "render_client/volume/passes/scene_picture.h"
-#include "tests/unit/volume/made_bone.h"
+#include "studies/render/made_bone.h"
 #include "tests/unit/volume/offscreen_test.h"
 
 namespace osteomill::speed_on_demand_test {

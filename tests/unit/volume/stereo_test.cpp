@@ -9,7 +9,7 @@
 #include "render_client/volume/magnification.h"
 #include "render_client/volume/passes/raycast_renderer.h"
 #include "render_client/volume/passes/stereo_picture.h"
-#include "tests/unit/volume/made_bone.h"
+#include "studies/render/made_bone.h"
 #include "tests/unit/volume/offscreen_test.h"
 
 namespace osteomill::stereo_test {

@@ -4,8 +4,8 @@
 
 #include "render_client/volume/passes/raycast_renderer.h"
 #include "render_client/volume/passes/scene_picture.h"
+#include "studies/render/made_bone.h"
 #include "tests/support/ball_structure.h"
-#include "tests/unit/volume/made_bone.h"
 #include "tests/unit/volume/offscreen_test.h"
 
 namespace osteomill::structure_renderer_test {

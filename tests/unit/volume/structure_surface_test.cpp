@@ -4,9 +4,9 @@
 
 #include <cmath>
 
+#include "studies/render/made_bone.h"
 #include "tests/support/ball_structure.h"
 #include "tests/support/closed_surface.h"
-#include "tests/unit/volume/made_bone.h"
 
 namespace osteomill::structure_surface_test {
 namespace {

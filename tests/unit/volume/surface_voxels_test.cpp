@@ -6,7 +6,7 @@
 #include "render_client/volume/shaders/lighting.h"
 #include "render_client/volume/textures/changed_boxes.h"
 #include "render_client/volume/textures/surface_texture.h"
-#include "tests/unit/volume/made_bone.h"
+#include "studies/render/made_bone.h"
 #include "tests/unit/volume/offscreen_test.h"
 
 namespace osteomill::surface_voxels_test {

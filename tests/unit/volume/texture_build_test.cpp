@@ -1,6 +1,6 @@
 #include "render_client/volume/textures/texture_build.h"
 
-#include "tests/unit/volume/made_bone.h"
+#include "studies/render/made_bone.h"
 #include "tests/unit/volume/offscreen_test.h"
 
 namespace osteomill::texture_build_test {

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "render_client/volume/textures/coarse_bone.h"
-#include "tests/unit/volume/made_bone.h"
+#include "studies/render/made_bone.h"
 
 namespace osteomill::texture_plan_test {
 namespace {

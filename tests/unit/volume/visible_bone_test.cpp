@@ -4,7 +4,7 @@
 
 #include <array>
 
-#include "tests/unit/volume/made_bone.h"
+#include "studies/render/made_bone.h"
 
 namespace osteomill::visible_bone_test {
 namespace {

@@ -3,10 +3,11 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <sstream>
 
 namespace osteomill::study {
 namespace {
+
+const std::vector<std::string> columns{"load", "what", "from_us", "up_to_us", "share", "share_above"};
 
 TEST(Latencies, ReadThoseOfTheServerAndGatherThem) {
     const auto histogram = nlohmann::json::parse("[[1.5, 990], [40.0, 9], [1200.0, 1]]");
@@ -36,7 +37,9 @@ TEST(Latencies, AreNothingWhereThereAreNone) {
     const Latencies none;
     EXPECT_EQ(none.quantile_us(0.999), 0.0);
     EXPECT_EQ(none.max_us(), 0.0);
-    EXPECT_EQ(csv_of(none, "x"), "");
+    Table table(columns);
+    add_bins(table, none, "quiet", "wakeup");
+    EXPECT_TRUE(table.json().empty());
 }
 
 TEST(Latencies, ComeAsATableWhoseSharesAddUp) {
@@ -44,18 +47,16 @@ TEST(Latencies, ComeAsATableWhoseSharesAddUp) {
     latencies.add(0.1, 10);
     latencies.add(13.0, 980);
     latencies.add(250.0, 10);
-    std::istringstream lines(csv_of(latencies, "quiet,wakeup"));
+    Table table(columns);
+    add_bins(table, latencies, "quiet", "wakeup");
     double sum = 0.0;
     double share_above = 1.0;
     double last_up_to_us = 0.0;
-    for (std::string line; std::getline(lines, line);) {
-        double from_us = 0.0;
-        double up_to_us = 0.0;
-        double share = 0.0;
-        ASSERT_EQ(std::sscanf(line.c_str(), "quiet,wakeup,%lf,%lf,%lf,%lf", &from_us, &up_to_us, &share,
-                              &share_above),
-                  4)
-            << line;
+    for (const auto& row : table.json()) {
+        const double from_us = row.at("from_us");
+        const double up_to_us = row.at("up_to_us");
+        const double share = row.at("share");
+        share_above = row.at("share_above");
         sum += share;
         ASSERT_NEAR(share_above, 1.0 - sum, 1e-5);
         if (up_to_us >= 13.0 && from_us < 13.0) {

@@ -7,8 +7,8 @@
 #include "render_client/volume/gl/framebuffer.h"
 #include "render_client/volume/passes/raycast_renderer.h"
 #include "render_client/volume/passes/slice_renderer.h"
+#include "studies/render/made_bone.h"
 #include "studies/render/picture_difference.h"
-#include "tests/unit/volume/made_bone.h"
 #include "tests/unit/volume/offscreen_test.h"
 
 namespace osteomill::study {

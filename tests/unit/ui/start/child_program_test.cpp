@@ -1,4 +1,4 @@
-#include "render_client/ui/start/child_program.h"
+#include "common/program/child_program.h"
 
 #include <gmock/gmock.h>
 

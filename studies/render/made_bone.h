@@ -1,5 +1,5 @@
-// Bones for the tests of the renderer: a shape given as a signed distance, voxels filled as far as the
-// surface covers them.
+// Bones to draw in studies and tests: a shape given as a signed distance, voxels filled as far as the surface
+// covers them.
 #pragma once
 
 #include <algorithm>

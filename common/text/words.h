@@ -1,9 +1,10 @@
-// Words and numbers of the text that headers of images are made of.
+// Words, cells and numbers of lines that people or programs wrote.
 #pragma once
 
 #include <algorithm>
 #include <cctype>
 #include <charconv>
+#include <cmath>
 #include <cstdlib>
 #include <iterator>
 #include <optional>
@@ -38,13 +39,30 @@ inline std::vector<std::string> words_of(const std::string& text) {
     return {std::istream_iterator<std::string>(line), {}};
 }
 
+/// What stands between commas, without blanks around it; one empty cell of an empty line.
+inline std::vector<std::string> cells_of(std::string_view line) {
+    std::vector<std::string> cells;
+    for (std::size_t from = 0;;) {
+        const std::size_t to = line.find(',', from);
+        cells.push_back(trimmed(line.substr(from, to - from)));
+        if (to == std::string_view::npos) return cells;
+        from = to + 1;
+    }
+}
+
 /// Nothing where the text is anything but a number of that type.
 template <typename Number>
-std::optional<Number> whole_number(std::string_view text) {
+std::optional<Number> number_of(std::string_view text) {
     Number number{};
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
     if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
     return number;
+}
+
+/// A finite number with a point, in any locale; nothing where anything else stands there.
+inline std::optional<double> finite_number(std::string_view text) {
+    const std::optional<double> number = number_of<double>(text);
+    return number && std::isfinite(*number) ? number : std::nullopt;
 }
 
 /// Also "nan" and "inf"; nothing where anything else stands there.
