@@ -35,7 +35,7 @@ const std::vector<Room>& rooms() {
         {"render_client/", {"common/"}},
         {"studies/",
          {"common/", "bridge/", "simulation/", "devices/", "imaging/", "analysis/", "haptic_server/",
-          "render_client/", "tests/"}},
+          "render_client/"}},
     };
     return all;
 }
