@@ -19,11 +19,10 @@ CLI::App* add_render(CLI::App& app, RenderStudyOptions& options) {
             [&options](int width_px) { options.size_px = glm::ivec2(width_px, 3 * width_px / 4); },
             "width of the pictures, 4:3 (640; 240 with --quick)")
         ->check(CLI::Range(64, 4096));
-    auto* const full_rate =
-        render->add_flag("--full-rate", options.full_rate_only,
-                         "only what a graphics card draws in a second at 2560 x 1440, orbiting and carving, "
-                         "with uploads, texture memory and "
-                         "VTK's GPU mapper; smaller and shorter where a software rasteriser draws");
+    auto* const full_rate = render->add_flag(
+        "--full-rate", options.full_rate_only,
+        "only what a graphics card draws in a second at 2560 x 1440, orbiting and carving, "
+        "with uploads and texture memory; smaller and shorter where a software rasteriser draws");
     render
         ->add_option_function<std::string>(
             "--size-px",

@@ -25,13 +25,9 @@ using ::testing::UnorderedElementsAre;
 
 const std::filesystem::path repository_folder = REPOSITORY;
 
-/// Needs a library that is not always there.
-const std::string built_on_demand = "vtk_comparison";
-
 /// What our programs say, each asked once. A benchmark that takes no options is not asked.
 std::string help_of_program(const std::string& program, const std::string& subcommand) {
     static std::map<std::string, std::string> known;
-    if (program == built_on_demand) return "--rounds --frames";
     const std::filesystem::path file = std::filesystem::path(PROGRAMS) / program;
     if (!std::filesystem::exists(file)) throw std::runtime_error("there is no program " + program);
     if (program == "large_bone_benchmark" || program == "link_benchmark" ||

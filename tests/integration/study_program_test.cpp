@@ -175,8 +175,6 @@ TEST_F(StudyProgram, MeasuresTheFullRateOfWhatDraws) {
     int of_window = 0;
     for (const auto& row : found.at("rows")) {
         EXPECT_GT(row.at("p99_ms"), 0.0) << row;
-        EXPECT_FALSE(row.at("gl_renderer").get<std::string>().empty());
-        if (row.at("by") != "window") continue;
         EXPECT_EQ(row.at("gl_renderer"), renderer);
         ++of_window;
     }

@@ -15,10 +15,7 @@ set boxwidth 0.7
 set key above right
 set yrange [0.1:*]
 set xrange [-0.6:*]
-label(bone, motion, by) = bone.': '.motion.(by eq 'window' ? '' : ', VTK')
-rate(by, wanted) = by eq wanted ? column('frames_per_s') : NaN
-plot table using 0:(rate(strcol('by'), 'window')):xtic(label(strcol('bone'), strcol('motion'), strcol('by'))) \
+plot table using 0:'frames_per_s':xtic(strcol('bone').': '.strcol('motion')) \
          with boxes lc rgb blue title 'window: bone, tool and panels', \
-     table using 0:(rate(strcol('by'), 'vtk-gpu')) with boxes lc rgb sky title "VTK's GPU mapper: the bone alone", \
      table using 0:(column('frames_per_s')):(sprintf('%.3g', column('frames_per_s'))) with labels offset 0,0.6 font ',11' notitle, \
      240 with lines dt 2 lw 1.5 lc rgb black title 'goal on a data-centre GPU'

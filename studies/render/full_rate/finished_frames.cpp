@@ -28,10 +28,6 @@ nlohmann::ordered_json json_of(const FrameMilliseconds& frames) {
     return {{"wall_ms", frames.wall}, {"gpu_ms", frames.gpu}, {"cpu_ms", frames.cpu}};
 }
 
-FrameMilliseconds frames_of(const nlohmann::ordered_json& json) {
-    return {.wall = json.at("wall_ms"), .gpu = json.at("gpu_ms"), .cpu = json.at("cpu_ms")};
-}
-
 void FrameStopwatch::time(const std::function<void()>& work) {
     const double cpu_before_ms = cpu_now_ms();
     const Clock::time_point start = Clock::now();

@@ -22,8 +22,6 @@ struct FrameMilliseconds {
 double frames_per_s(const FrameMilliseconds& frames);
 
 nlohmann::ordered_json json_of(const FrameMilliseconds& frames);
-/// Throws nlohmann::json::exception where it is none.
-FrameMilliseconds frames_of(const nlohmann::ordered_json& json);
 
 class FrameStopwatch {
   public:

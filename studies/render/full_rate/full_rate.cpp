@@ -6,14 +6,12 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
-#include "analysis/output/chart.h"
 #include "analysis/output/output_files.h"
 #include "analysis/output/study_run.h"
 #include "common/statistics/percentile.h"
 #include "render_client/volume/gl/graphics_devices.h"
 #include "render_client/volume/gl/offscreen_context.h"
 #include "studies/render/full_rate/carve_upload.h"
-#include "studies/render/full_rate/vtk_frames.h"
 #include "studies/render/full_rate/window_frames.h"
 
 namespace osteomill::study {
@@ -26,16 +24,12 @@ constexpr glm::ivec2 full_size_px(2560, 1440);
 constexpr glm::ivec2 software_size_px(640, 360);
 constexpr int full_frames = 600;
 constexpr int software_frames = 8;
-/// VTK uploads the whole volume for each cut: of the head 4 GiB a frame.
-constexpr int most_vtk_frames = 60;
 constexpr int uploads = 50;
 constexpr double bytes_per_mib = 1024.0 * 1024.0;
 
 struct Row {
     std::string phantom{};
     std::string motion{};
-    std::string drawer{};  ///< "window", "vtk-gpu"
-    std::string gl_renderer{};
     FrameMilliseconds frames{};
 };
 
@@ -61,22 +55,21 @@ class FullRate {
             draw(phantom);
         }
         say("");
-        say("{:<7}{:<21}{:<9}{:>10}{:>9}{:>9}{:>9}{:>9}  {}", "bone", "motion", "by", "frames/s", "p50 ms",
-            "p99 ms", "GPU ms", "CPU ms", "GL renderer");
-        Table table({"bone", "motion", "by", "width_px", "height_px", "frames", "frames_per_s", "p50_ms",
-                     "p99_ms", "gpu_p50_ms", "gpu_p99_ms", "cpu_p50_ms", "gl_renderer"});
+        say("{:<7}{:<21}{:>10}{:>9}{:>9}{:>9}{:>9}  {}", "bone", "motion", "frames/s", "p50 ms", "p99 ms",
+            "GPU ms", "CPU ms", "GL renderer");
+        Table table({"bone", "motion", "width_px", "height_px", "frames", "frames_per_s", "p50_ms", "p99_ms",
+                     "gpu_p50_ms", "gpu_p99_ms", "cpu_p50_ms", "gl_renderer"});
         for (const Row& row : rows_) {
             const auto& [wall, gpu, cpu] = row.frames;
-            say("{:<7}{:<21}{:<9}{:>10.1f}{:>9.2f}{:>9.2f}{:>9.2f}{:>9.2f}  {}", row.phantom, row.motion,
-                row.drawer, frames_per_s(row.frames), percentile(wall, 0.5), percentile(wall, 0.99),
-                percentile(gpu, 0.5), percentile(cpu, 0.5), row.gl_renderer);
-            table.add({row.phantom, row.motion, row.drawer, size_px_.x, size_px_.y, wall.size(),
-                       frames_per_s(row.frames), percentile(wall, 0.5), percentile(wall, 0.99),
-                       percentile(gpu, 0.5), percentile(gpu, 0.99), percentile(cpu, 0.5), row.gl_renderer});
+            say("{:<7}{:<21}{:>10.1f}{:>9.2f}{:>9.2f}{:>9.2f}{:>9.2f}  {}", row.phantom, row.motion,
+                frames_per_s(row.frames), percentile(wall, 0.5), percentile(wall, 0.99), percentile(gpu, 0.5),
+                percentile(cpu, 0.5), gl_renderer_);
+            table.add({row.phantom, row.motion, size_px_.x, size_px_.y, wall.size(), frames_per_s(row.frames),
+                       percentile(wall, 0.5), percentile(wall, 0.99), percentile(gpu, 0.5),
+                       percentile(gpu, 0.99), percentile(cpu, 0.5), gl_renderer_});
         }
         found["rows"] = table.json();
         compare_eyes(found);
-        compare_with_vtk(found);
         write_text(gl_renderer_ + "\n", options_.out / "gl_renderer.txt");
         run_.write(table, "full_rate");
         run_.write(found, "full_rate");
@@ -99,8 +92,7 @@ class FullRate {
         if (!is_software_) return;
         say("no GPU: a software rasteriser draws, and the goals are not for it");
         if (!options_.size_px || !options_.frames)
-            say("reduced for it from {} x {} and {} frames a row, and VTK draws the tooth alone; for all "
-                "pixels and "
+            say("reduced for it from {} x {} and {} frames a row; for all pixels and "
                 "frames: --size-px {}x{} --frames {}",
                 full_size_px.x, full_size_px.y, full_frames, full_size_px.x, full_size_px.y, full_frames);
     }
@@ -134,79 +126,34 @@ class FullRate {
     }
 
     void draw(const std::string& phantom) {
-        DrawingTask task{.phantom = phantom, .size_px = size_px_, .frames = frames_};
         const WindowFrames drawn = run_.chapter(phantom + ", window", [&](const Progress& progress) {
-            return draw_window(task, options_.out / ("window_" + phantom + ".png"), progress);
+            return draw_window(phantom, size_px_, frames_, options_.out / ("window_" + phantom + ".png"),
+                               progress);
         });
         for (const auto& [motion, frames] :
              {std::pair{"orbit", &drawn.orbit}, std::pair{"carve", &drawn.carve},
               std::pair{"orbit side by side", &drawn.orbit_side_by_side},
               std::pair{"orbit quad buffer", &drawn.orbit_both_whole}})
-            rows_.push_back({phantom, motion, "window", gl_renderer_, *frames});
-        task.first_view = drawn.first_view;
-        draw_vtk(task);
+            rows_.push_back({phantom, motion, *frames});
     }
 
-    void draw_vtk(DrawingTask task) {
-        const auto program = vtk_program();
-        if (!program) {
-            say("{}: VTK left out: vtk_comparison is not there; it is built where libvtk9-dev is installed",
-                task.phantom);
-            return;
-        }
-        if (is_software_ && task.phantom == "head") {
-            say("head: VTK left out: its dense texture of 4 GiB is for a GPU");
-            return;
-        }
-        task.frames = std::min(task.frames, most_vtk_frames);
-        try {
-            const VtkFrames drawn = draw_by_vtk(*program, task, options_.gpu, options_.out);
-            rows_.push_back({task.phantom, "orbit", "vtk-gpu", drawn.gl_renderer, drawn.orbit});
-            rows_.push_back({task.phantom, "carve", "vtk-gpu", drawn.gl_renderer, drawn.carve});
-        } catch (const std::runtime_error& error) {
-            say("{}: VTK left out: {}", task.phantom, error.what());
-        }
-    }
-
-    const Row* row_of(const std::string& phantom, const std::string& motion,
-                      const std::string& drawer) const {
-        const auto found = std::ranges::find_if(rows_, [&](const Row& row) {
-            return row.phantom == phantom && row.motion == motion && row.drawer == drawer;
-        });
-        return found == rows_.end() ? nullptr : &*found;
+    double median_ms(const std::string& phantom, const std::string& motion) const {
+        const auto row = std::ranges::find_if(
+            rows_, [&](const Row& one) { return one.phantom == phantom && one.motion == motion; });
+        return percentile(row->frames.wall, 0.5);
     }
 
     void compare_eyes(ordered_json& found) const {
         for (const char* const phantom : {"tooth", "head"}) {
-            const double one_ms = percentile(row_of(phantom, "orbit", "window")->frames.wall, 0.5);
-            const double halves =
-                percentile(row_of(phantom, "orbit side by side", "window")->frames.wall, 0.5) / one_ms;
-            const double wholes =
-                percentile(row_of(phantom, "orbit quad buffer", "window")->frames.wall, 0.5) / one_ms;
+            const double one_ms = median_ms(phantom, "orbit");
+            const double halves = median_ms(phantom, "orbit side by side") / one_ms;
+            const double wholes = median_ms(phantom, "orbit quad buffer") / one_ms;
             say("{}: two eyes take {:.2f} times one eye's time side by side, {:.2f} times in a quad buffer, "
                 "where "
                 "each has all pixels (goal: below 1.7)",
                 phantom, halves, wholes);
             found["two_eyes_to_one"][phantom] = {{"side_by_side", halves}, {"quad_buffer", wholes}};
         }
-    }
-
-    void compare_with_vtk(ordered_json& found) const {
-        for (const char* const phantom : {"tooth", "head"})
-            for (const char* const motion : motion_names) {
-                const Row* const vtk = row_of(phantom, motion, "vtk-gpu");
-                if (vtk == nullptr) continue;
-                const Row& window = *row_of(phantom, motion, "window");
-                if (vtk->gl_renderer != window.gl_renderer) {
-                    say("{}, {}: no ratio to VTK's, which was drawn by {}", phantom, motion,
-                        vtk->gl_renderer);
-                    continue;
-                }
-                const double ratio = percentile(vtk->frames.wall, 0.5) / percentile(window.frames.wall, 0.5);
-                say("{}, {}: VTK's GPU mapper takes {:.1f} times as long, without tool and panels (goal: 10)",
-                    phantom, motion, ratio);
-                found["vtk_to_window"][phantom][motion] = ratio;
-            }
     }
 
     const FullRateOptions& options_;

@@ -1,5 +1,5 @@
 // Full rate: how many frames a second a graphics card draws in full quality, in a large window, with what a
-// carve costs to upload, what the textures take and VTK's GPU mapper beside it. One command for a machine
+// carve costs to upload and what the textures take. One command for a machine
 // with a GPU; on a software rasteriser less of everything, and it says so.
 #pragma once
 
@@ -19,8 +19,7 @@ struct FullRateOptions {
 };
 
 /// Writes full_rate.json, full_rate.csv, render_full_rate.svg and pictures into `options.out`, a folder that
-/// is there. Throws std::runtime_error in one line, and gl::NoOpenGl. What VTK cannot draw is said and left
-/// out.
+/// is there. Throws std::runtime_error in one line, and gl::NoOpenGl.
 void measure_full_rate(const FullRateOptions& options, const StudySurroundings& surroundings);
 
 }  // namespace osteomill::study

@@ -11,6 +11,7 @@ namespace osteomill::study {
 namespace {
 
 constexpr double frame_s = 1.0 / 30.0;
+constexpr double orbit_rad_a_frame = 0.03;
 
 /// A window without a display, and its frames.
 class Window {
@@ -47,7 +48,6 @@ class Window {
         session_.mill(false);
         return stopwatch.frames();
     }
-    Camera first_view() const { return first_view_; }
     Picture picture() { return picture_.draw(frame_s).read_back(); }
 
   private:
@@ -65,26 +65,25 @@ class Window {
 
 }  // namespace
 
-WindowFrames draw_window(const DrawingTask& task, const std::filesystem::path& picture,
-                         const Progress& progress) {
-    WindowFrames frames;
-    PhantomSession session(task.phantom);
+WindowFrames draw_window(const std::string& phantom, const glm::ivec2& size_px, int frames,
+                         const std::filesystem::path& picture, const Progress& progress) {
+    WindowFrames drawn;
+    PhantomSession session(phantom);
     progress(0.2);
-    for (const auto& [layout, orbit] : {std::pair{StereoLayout::side_by_side, &frames.orbit_side_by_side},
-                                        std::pair{StereoLayout::quad_buffer, &frames.orbit_both_whole}}) {
+    for (const auto& [layout, orbit] : {std::pair{StereoLayout::side_by_side, &drawn.orbit_side_by_side},
+                                        std::pair{StereoLayout::quad_buffer, &drawn.orbit_both_whole}}) {
         session.begin_anew();
-        *orbit = Window(session, task.size_px, layout).orbited(task.frames);
+        *orbit = Window(session, size_px, layout).orbited(frames);
     }
     progress(0.6);
     session.begin_anew();
-    Window window(session, task.size_px, StereoLayout::off);
-    frames.first_view = window.first_view();
-    frames.orbit = window.orbited(task.frames);
+    Window window(session, size_px, StereoLayout::off);
+    drawn.orbit = window.orbited(frames);
     write_png(window.picture(), picture);
     progress(0.8);
-    frames.carve = window.carved(task.frames);
+    drawn.carve = window.carved(frames);
     progress(1.0);
-    return frames;
+    return drawn;
 }
 
 }  // namespace osteomill::study

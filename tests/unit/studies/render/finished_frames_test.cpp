@@ -1,7 +1,5 @@
 #include "studies/render/full_rate/finished_frames.h"
 
-#include <nlohmann/json.hpp>
-
 #include "render_client/volume/gl/framebuffer.h"
 #include "tests/unit/volume/offscreen_test.h"
 
@@ -26,13 +24,11 @@ TEST_F(FrameStopwatchTest, TimesEachFrameByThreeClocks) {
             framebuffer.depth_at({0, 0});
         });
     EXPECT_EQ(drawn, 3);
-    const FrameMilliseconds read = frames_of(json_of(stopwatch.frames()));
+    const FrameMilliseconds& read = stopwatch.frames();
     for (const std::vector<double>* times : {&read.wall, &read.gpu, &read.cpu}) {
         ASSERT_EQ(times->size(), 3U);
         for (const double time_ms : *times) EXPECT_GE(time_ms, 0.0);
     }
-    EXPECT_EQ(read.wall, stopwatch.frames().wall);
-    EXPECT_EQ(read.gpu, stopwatch.frames().gpu);
 }
 
 }  // namespace
