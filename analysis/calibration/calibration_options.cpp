@@ -1,12 +1,23 @@
 #include "analysis/calibration/calibration_options.h"
 
 #include <map>
+#include <memory>
 
+#include "analysis/calibration/calibration_study.h"
+#include "analysis/output/chart.h"
 #include "common/program/option_checks.h"
 
 namespace osteomill::study {
 
 namespace {
+
+/// What was asked for: a fit of a table, or which runs to make.
+struct CalibrationCommand {
+    std::filesystem::path data;
+    std::filesystem::path out = "study/calibration";
+    bool designs = false;
+    DesignOptions design{};
+};
 
 void add_list(CLI::App& app, CLI::Option* design, const std::string& name, std::vector<double>& values,
               double low, double high, const std::string& what) {
@@ -60,14 +71,15 @@ void add_design(CLI::App& app, CLI::Option* design, DesignOptions& options) {
 
 }  // namespace
 
-CLI::App* add_calibration(CLI::App& app, CalibrationCommand& command) {
+StudyCommand add_calibration(CLI::App& app) {
+    const auto shared = std::make_shared<CalibrationCommand>();
+    CalibrationCommand& command = *shared;
     CLI::App* calibrate = app.add_subcommand(
         "calibrate",
         "the six coefficients of the milling law from forces on a dynamometer; or which runs to make");
     CLI::Option* data =
         calibrate->add_option("data", command.data, "table of runs (CSV): docs/calibration.md");
-    calibrate->add_option("--out", command.out, "folder for what the study writes; made if it is not there")
-        ->capture_default_str();
+    add_out(*calibrate, command.out);
     CLI::Option* design =
         calibrate
             ->add_flag(
@@ -76,11 +88,18 @@ CLI::App* add_calibration(CLI::App& app, CalibrationCommand& command) {
                 "is read")
             ->excludes(data);
     add_design(*calibrate, design, command.design);
-    calibrate->parse_complete_callback([&command] {
-        if (command.data.empty() && !command.designs)
+    calibrate->parse_complete_callback([shared] {
+        if (shared->data.empty() && !shared->designs)
             throw CLI::RequiredError("a table of runs, or --design");
     });
-    return calibrate;
+    return {calibrate, [shared](const StudySurroundings& surroundings) {
+                if (shared->designs) {
+                    shared->design.out = shared->out;
+                    return design_runs(shared->design, surroundings);
+                }
+                require_charts();
+                study::calibrate({.data = shared->data, .out = shared->out}, surroundings);
+            }};
 }
 
 }  // namespace osteomill::study

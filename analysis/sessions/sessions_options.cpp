@@ -1,8 +1,15 @@
 #include "analysis/sessions/sessions_options.h"
 
+#include <memory>
+
+#include "analysis/sessions/sessions_study.h"
+
 namespace osteomill::study {
 
-CLI::App* add_sessions(CLI::App& app, SessionsStudyOptions& options) {
+StudyCommand add_sessions(CLI::App& app, const std::string& version) {
+    const auto shared = std::make_shared<SessionsStudyOptions>();
+    SessionsStudyOptions& options = *shared;
+    options.version = version;
     CLI::App* sessions = app.add_subcommand(
         "sessions",
         "recorded sessions of several trainees: tables, learning curves, an overview, a tidy CSV");
@@ -10,9 +17,9 @@ CLI::App* add_sessions(CLI::App& app, SessionsStudyOptions& options) {
         ->add_option("DIR", options.from,
                      "recordings, folders of recordings, or folders of folders of haptic_server --report")
         ->required();
-    sessions->add_option("--out", options.out, "folder for what the study writes; made if it is not there")
-        ->capture_default_str();
-    return sessions;
+    add_out(*sessions, options.out);
+    return {sessions,
+            [shared](const StudySurroundings& surroundings) { run_sessions_study(*shared, surroundings); }};
 }
 
 }  // namespace osteomill::study

@@ -1,12 +1,11 @@
-// The command line of `osteomill_study sessions`.
+// `osteomill_study sessions` on the command line.
 #pragma once
 
-#include <CLI/CLI.hpp>
-
-#include "analysis/sessions/sessions_study.h"
+#include "analysis/output/study_command.h"
 
 namespace osteomill::study {
 
-CLI::App* add_sessions(CLI::App& app, SessionsStudyOptions& options);
+/// `version`: of the program, which kept metrics are of.
+StudyCommand add_sessions(CLI::App& app, const std::string& version);
 
 }  // namespace osteomill::study

@@ -1,13 +1,10 @@
 // `osteomill_study bridge` on the command line.
 #pragma once
 
-#include <CLI/CLI.hpp>
-
-#include "studies/bridge/bridge_study.h"
+#include "analysis/output/study_command.h"
 
 namespace osteomill::study {
 
-/// The subcommand, which fills in `options`; both outlive parsing.
-CLI::App* add_bridge(CLI::App& app, BridgeStudyOptions& options);
+StudyCommand add_bridge(CLI::App& app);
 
 }  // namespace osteomill::study

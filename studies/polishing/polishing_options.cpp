@@ -1,17 +1,28 @@
 #include "studies/polishing/polishing_options.h"
 
+#include <memory>
+
+#include "analysis/output/chart.h"
+#include "analysis/output/output_files.h"
+#include "studies/polishing/polishing_study.h"
+
 namespace osteomill::study {
 
-CLI::App* add_polishing(CLI::App& app, PolishingStudyOptions& options) {
+StudyCommand add_polishing(CLI::App& app) {
+    const auto shared = std::make_shared<PolishingStudyOptions>();
+    PolishingStudyOptions& options = *shared;
     options.out = "study/polishing";
     CLI::App* polishing =
         app.add_subcommand("polishing", "the published polishing experiment: its figures and its claims");
-    polishing->add_option("--out", options.out, "folder for what the study writes; made if it is not there")
-        ->capture_default_str();
+    add_out(*polishing, options.out);
     polishing->add_flag("--edge-forces", options.has_edge_forces,
                         "burrs whose edges rub, as in cortical bone; without, the published law");
     polishing->add_flag("--quick", options.quick, "fewer runs: under half a minute");
-    return polishing;
+    return {polishing, [shared](const StudySurroundings& surroundings) {
+                require_charts();
+                make_folder(shared->out);
+                run_polishing_study(*shared, surroundings);
+            }};
 }
 
 }  // namespace osteomill::study

@@ -1,13 +1,10 @@
 // `osteomill_study polishing` on the command line.
 #pragma once
 
-#include <CLI/CLI.hpp>
-
-#include "studies/polishing/polishing_study.h"
+#include "analysis/output/study_command.h"
 
 namespace osteomill::study {
 
-/// The subcommand, which fills in `options`; both outlive parsing.
-CLI::App* add_polishing(CLI::App& app, PolishingStudyOptions& options);
+StudyCommand add_polishing(CLI::App& app);
 
 }  // namespace osteomill::study

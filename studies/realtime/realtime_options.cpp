@@ -1,16 +1,22 @@
 #include "studies/realtime/realtime_options.h"
 
+#include <memory>
+
+#include "analysis/output/chart.h"
+#include "analysis/output/output_files.h"
 #include "common/program/option_checks.h"
+#include "studies/realtime/realtime_study.h"
 
 namespace osteomill::study {
 
-CLI::App* add_realtime(CLI::App& app, RealtimeStudyOptions& options) {
+StudyCommand add_realtime(CLI::App& app) {
+    const auto shared = std::make_shared<RealtimeStudyOptions>();
+    RealtimeStudyOptions& options = *shared;
     options.out = "study/realtime";
     CLI::App* realtime = app.add_subcommand("realtime",
                                             "how late the haptic loop wakes and how long it takes, in turns "
                                             "with cyclictest; then under stress-ng");
-    realtime->add_option("--out", options.out, "folder for what the study writes; made if it is not there")
-        ->capture_default_str();
+    add_out(*realtime, options.out);
     CLI::Option* const duration =
         realtime
             ->add_option("--duration-s", options.duration_s,
@@ -19,7 +25,11 @@ CLI::App* add_realtime(CLI::App& app, RealtimeStudyOptions& options) {
             ->check(within(10.0, 86'400.0));
     realtime->add_flag("--quick", options.quick, "9 s each: shows that it works, not how long the tail is")
         ->excludes(duration);
-    return realtime;
+    return {realtime, [shared](const StudySurroundings& surroundings) {
+                require_charts();
+                make_folder(shared->out);
+                run_realtime_study(*shared, surroundings);
+            }};
 }
 
 }  // namespace osteomill::study

@@ -1,13 +1,10 @@
 // `osteomill_study realtime` on the command line.
 #pragma once
 
-#include <CLI/CLI.hpp>
-
-#include "studies/realtime/realtime_study.h"
+#include "analysis/output/study_command.h"
 
 namespace osteomill::study {
 
-/// The subcommand, which fills in `options`; both outlive parsing.
-CLI::App* add_realtime(CLI::App& app, RealtimeStudyOptions& options);
+StudyCommand add_realtime(CLI::App& app);
 
 }  // namespace osteomill::study

@@ -1,18 +1,23 @@
 #include "studies/render/render_options.h"
 
 #include <cstdlib>
+#include <memory>
 
+#include "analysis/output/chart.h"
+#include "analysis/output/output_files.h"
 #include "render_client/ui/options.h"
+#include "studies/render/render_study.h"
 
 namespace osteomill::study {
 
-CLI::App* add_render(CLI::App& app, RenderStudyOptions& options) {
+StudyCommand add_render(CLI::App& app) {
+    const auto shared = std::make_shared<RenderStudyOptions>();
+    RenderStudyOptions& options = *shared;
     options.out = "study/render";
     if (const char* const scans = std::getenv("OSTEOMILL_SCANS")) options.scans = scans;
     CLI::App* render =
         app.add_subcommand("render", "the pictures: frame time against accuracy, how smooth a cut looks");
-    render->add_option("--out", options.out, "folder for what the study writes; made if it is not there")
-        ->capture_default_str();
+    add_out(*render, options.out);
     render
         ->add_option_function<int>(
             "--width-px",
@@ -48,7 +53,11 @@ CLI::App* add_render(CLI::App& app, RenderStudyOptions& options) {
     render->add_flag("--quick", options.quick, "fewer settings, smaller pictures: under a minute");
     render->add_flag("--zooms", options.zooms_only,
                      "only the pictures of every bone at three zooms, into OUT/zooms");
-    return render;
+    return {render, [shared](const StudySurroundings& surroundings) {
+                require_charts();
+                make_folder(shared->out);
+                run_render_study(*shared, surroundings);
+            }};
 }
 
 }  // namespace osteomill::study

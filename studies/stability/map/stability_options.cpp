@@ -1,15 +1,40 @@
 #include "studies/stability/map/stability_options.h"
 
 #include <algorithm>
+#include <chrono>
+#include <memory>
+#include <ostream>
 #include <stdexcept>
 #include <string>
 #include <thread>
 
+#include "analysis/output/chart.h"
+#include "analysis/output/output_files.h"
+#include "imaging/progress.h"
+#include "studies/stability/encoder/encoder_noise.h"
+#include "studies/stability/encoder/spring_choice.h"
 #include "studies/stability/map/map_text.h"
+#include "studies/stability/map/stability_study.h"
+#include "studies/stability/rails/force_response.h"
+#include "studies/stability/rails/motion_on_rails.h"
+#include "studies/stability/scene/map_run.h"
+#include "studies/stability/sites/site_study.h"
 
 namespace osteomill::study {
 
 namespace {
+
+struct StabilityCommand {
+    StabilityStudyOptions run{};
+    std::vector<std::filesystem::path> merge{};  ///< empty: run; else join these
+    // In place of the map.
+    bool runs_sites = false;
+    int motions_on_rails = 0;
+    bool varies_encoders = false;
+    bool varies_springs = false;
+    bool varies_frequency = false;
+    SiteStudyOptions sites{};  ///< without what the map's options say
+};
 
 std::vector<std::string> grip_names() {
     std::vector<std::string> names;
@@ -75,9 +100,64 @@ void add_sites(CLI::App& stability, StabilityCommand& command, CLI::Option* merg
         ->needs(sites);
 }
 
+void run_on_rails(const StabilityCommand& command, const StudySurroundings& surroundings) {
+    std::vector<std::string> methods = command.run.selection.methods;
+    if (methods.empty()) methods = {"implicit"};
+    nlohmann::ordered_json summary;
+    for (const std::string& method : methods) {
+        ProgressLine line(surroundings.progress, surroundings.is_terminal, method);
+        std::vector<RailsResult> results;
+        auto motions = motions_on_rails(command.motions_on_rails, command.sites.seed);
+        if (command.run.selection.has_edge_forces)
+            for (SteadyCase& motion : motions) motion.burr.edge_coefficients_n_per_mm = {0.3, 0.3, 0.0};
+        for (const SteadyCase& motion : motions) {
+            results.push_back({motion.name, run_on_rails(motion, method)});
+            line.report(static_cast<double>(results.size()) / static_cast<double>(motions.size()), "");
+        }
+        summary[method] = summary_of(results);
+    }
+    write_json(summary, command.run.out / "rails.json");
+    surroundings.said << summary.dump(2) << '\n';
+}
+
+void perform(const StabilityCommand& command, const StudySurroundings& surroundings) {
+    if (command.motions_on_rails == 0) require_charts();
+    make_folder(command.run.out);
+    if (command.motions_on_rails > 0) return run_on_rails(command, surroundings);
+    if (command.varies_encoders) {
+        const auto& methods = command.run.selection.methods;
+        return run_encoder_study(methods.empty() ? "implicit" : methods.front(), command.run.out,
+                                 surroundings);
+    }
+    if (command.varies_springs) return run_spring_study(command.run.out, surroundings);
+    if (command.varies_frequency) return run_response_study(command.run.out, surroundings);
+    if (command.runs_sites) {
+        SiteStudyOptions sites = command.sites;
+        sites.has_edge_forces = command.run.selection.has_edge_forces;
+        sites.out = command.run.out;
+        sites.quick = command.run.selection.quick;
+        sites.jobs = command.run.jobs;
+        if (!command.run.selection.methods.empty()) sites.methods = command.run.selection.methods;
+        run_site_study(sites, surroundings);
+        return;
+    }
+    if (!command.merge.empty()) {
+        merge_stability_study(command.merge, command.run.out, surroundings);
+        return;
+    }
+    const auto now_s = [] {
+        return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+    };
+    SceneCache cache;
+    run_stability_study(
+        command.run, [&](const MapCase& c) { return run_map_case(c, cache); }, now_s, surroundings);
+}
+
 }  // namespace
 
-CLI::App* add_stability(CLI::App& app, StabilityCommand& command) {
+StudyCommand add_stability(CLI::App& app) {
+    const auto shared = std::make_shared<StabilityCommand>();
+    StabilityCommand& command = *shared;
     StabilityStudyOptions& run = command.run;
     MapSelection& selection = run.selection;
     run.jobs = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
@@ -123,7 +203,7 @@ CLI::App* add_stability(CLI::App& app, StabilityCommand& command) {
                             "of the map: cutting alone, by burrs whose edges rub; of sites: the same burrs, "
                             "and what holds a hand that presses and does not cut counts as stuck"));
     add_sites(*stability, command, merge);
-    return stability;
+    return {stability, [shared](const StudySurroundings& surroundings) { perform(*shared, surroundings); }};
 }
 
 }  // namespace osteomill::study
