@@ -79,10 +79,10 @@ RenderReport run_offscreen(const RenderOptions& options, SessionSource& source,
     Clock::time_point due = Clock::now();
     for (int frame = 1; going_on; ++frame) {
         const Clock::time_point start = Clock::now();
-        const SessionPicture::News news = session.take_in();
+        const SessionNews news = session.take_in();
         sound.hear(session.tool(), session.session());
-        if (news == SessionPicture::News::change) redraw.note_change(start);
-        if (news == SessionPicture::News::figures) redraw.note_figures();
+        if (news == SessionNews::change) redraw.note_change(start);
+        if (news == SessionNews::figures) redraw.note_figures();
         const LinkStatus status = session.link().status;
         going_on = frame < options.frames && status != LinkStatus::finished &&
                    status != LinkStatus::refused && !stop_asked();
@@ -90,7 +90,7 @@ RenderReport run_offscreen(const RenderOptions& options, SessionSource& source,
         // What is written shows the newest figures, too.
         const bool is_written = !going_on || screenshots.is_next_due();
         if (framebuffer == nullptr || redraw.is_due(start) ||
-            (is_written && news != SessionPicture::News::none)) {
+            (is_written && news != SessionNews::none)) {
             framebuffer = &session.draw(seconds(start - drawn));
             drawn = start;
             // Reading a pixel waits until the frame is finished, as showing it would.

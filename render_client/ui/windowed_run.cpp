@@ -149,7 +149,7 @@ class Drawing {
         work_look(std::chrono::duration<double>(now - began_).count());
         work_sound(std::chrono::duration<double>(now - began_).count());
 
-        const SessionPicture::News news = session_.take_in();
+        const SessionNews news = session_.take_in();
         const LinkUpdate& link = session_.link();
         session_over_ = options_.until_server_ends && link.status == LinkStatus::finished;
         commands_.tell(link.events, std::chrono::duration<double>(now - began_).count());
@@ -170,11 +170,11 @@ class Drawing {
         session_.show_operator(shared_.desk.command());
 
         const RecordingPlayer* player = source_.player();
-        if (news == SessionPicture::News::change || commands_.is_exporting() ||
+        if (news == SessionNews::change || commands_.is_exporting() ||
             (player != nullptr && player->is_playing()))
             redraw_.note_change(now);
         // A notice goes after some seconds.
-        if (news == SessionPicture::News::figures || !session_.view().notice.empty()) redraw_.note_figures();
+        if (news == SessionNews::figures || !session_.view().notice.empty()) redraw_.note_figures();
     }
 
     /// Another case brings another look; one that was edited is saved where that is asked for.

@@ -99,11 +99,11 @@ class Loop {
     void turn(Clock::time_point start) {
         const Clock::time_point now = Clock::now();
         Turn turn{.at_s = 1e-3 * ms_since(start)};
-        const SessionPicture::News news = picture_.take_in();
+        const SessionNews news = picture_.take_in();
         turn.take_in_ms = ms_since(now);
         turn.percent = picture_.preparation_percent();
-        if (news == SessionPicture::News::change) redraw_.note_change(now);
-        if (news == SessionPicture::News::figures) redraw_.note_figures();
+        if (news == SessionNews::change) redraw_.note_change(now);
+        if (news == SessionNews::figures) redraw_.note_figures();
         if (redraw_.is_due(now)) {
             const Clock::time_point begins = Clock::now();
             picture_.draw(std::chrono::duration<double>(begins - drawn_).count()).depth_at({0, 0});

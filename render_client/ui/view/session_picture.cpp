@@ -5,13 +5,10 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
-#include <numbers>
 #include <stdexcept>
 
-#include "common/wire/tool_look.h"
 #include "render_client/ui/panels/inset_panel.h"
 #include "render_client/ui/panels/layout.h"
 #include "render_client/volume/magnification.h"
@@ -20,21 +17,10 @@ namespace osteomill {
 
 namespace {
 
-/// A real burr's 10,000 rpm would flicker at 30 frames a second; a turn a second shows that it turns and
-/// which way.
-constexpr double shown_rev_per_s = 0.8;
-
 /// Radius round the tool that the first view shows of a bone larger than that, and the part of the bone's
 /// radius that it shows at least, so that one still sees where in the bone one is.
 constexpr double closest_first_view_mm = 10.0;
 constexpr double tool_part_of_first_view = 0.45;
-
-/// A burr of which nothing has been heard for so long is not shown to turn: its session has ended, or is
-/// played no further. One that turns is sent thirty times a second.
-constexpr double longest_turning_s = 0.25;
-
-/// A hand's target this close to the burr is where the burr is.
-constexpr double nearest_shown_target_mm = 0.05;
 
 glm::dvec3 middle_of(const Grid& grid, const VoxelBox& box) {
     return 0.5 * (centre_of_voxel_mm(grid, box.first) + centre_of_voxel_mm(grid, box.first + box.size - 1));
@@ -64,13 +50,12 @@ SessionPicture::SessionPicture(SessionSource& source, Panels& panels, const glm:
     view_.transfer = TransferEditor(look.transfer);
 }
 
-SessionPicture::News SessionPicture::take_in() {
+SessionNews SessionPicture::take_in() {
     link_ = source_.poll();
-    const bool first_of_tool = link_.tool && !tool_;
+    const bool first_of_tool = link_.tool && !tool();
     if (link_.tool) {
-        tool_ = link_.tool;
-        tool_age_s_ = 0.0;
-        history_.add(*tool_);
+        tool_.take(*link_.tool);
+        history_.add(*link_.tool);
     }
     if (source_.bone()) take_in_bone(first_of_tool);
     if (link_.bone_replaced || !link_.changes.empty()) ++bone_version_;
@@ -83,7 +68,7 @@ void SessionPicture::ask_for_ct() {
     if (!view_.slices_shown || link_.status != LinkStatus::live || ct_asked_in_ == link_.connections) return;
     ct_asked_in_ = link_.connections;
     slices_.set_ct(nullptr);
-    if (tool_ && !slices_.cross_mm()) slices_.cross_at(tool_->burr_position_mm);
+    if (tool() && !slices_.cross_mm()) slices_.cross_at(tool()->burr_position_mm);
     source_.ask_for_ct();
 }
 
@@ -116,26 +101,9 @@ void SessionPicture::take_in_structure(const Structure& structure) {
     has_undrawn_bone_ = true;
 }
 
-SessionPicture::News SessionPicture::news() const {
-    const LinkUpdate& was = drawn_link_;
-    const bool has_moved = tool_ && !(drawn_state_ && looks_the_same(*drawn_state_, *tool_));
-    const auto is_as_drawn = [](const OperatorCommand& drawn, const OperatorCommand& now) {
-        return drawn.pedal == now.pedal &&
-               glm::distance(drawn.hand_target_mm, now.hand_target_mm) <= quiet_motion_mm;
-    };
-    const bool hand_has_moved = operator_command_.has_value() != drawn_command_.has_value() ||
-                                (operator_command_ && !is_as_drawn(*drawn_command_, *operator_command_));
-    if (has_undrawn_bone_ || has_moved || link_.ct || hand_has_moved || has_turning_burr() ||
-        !quality().refined || link_.status != was.status || link_.status_line != was.status_line ||
-        link_.recording_error != was.recording_error || link_.controls != was.controls ||
-        link_.distances != was.distances || link_.checksum_mismatches != was.checksum_mismatches ||
-        link_.rejected_frames != was.rejected_frames || link_.bricks_repaired != was.bricks_repaired)
-        return News::change;
-    const bool time_goes_on = tool_ && tool_->time_s != drawn_state_->time_s;
-    const bool is_figure_new = time_goes_on || link_.snapshot_bricks != was.snapshot_bricks ||
-                               preparation_percent() != drawn_percent_ ||
-                               link_.frames_per_s != was.frames_per_s || link_.bytes_per_s != was.bytes_per_s;
-    return is_figure_new ? News::figures : News::none;
+SessionNews SessionPicture::news() const {
+    if (has_undrawn_bone_ || has_turning_burr() || !quality().refined) return SessionNews::change;
+    return news_since(drawn_, link_, tool(), operator_command_, preparation_percent());
 }
 
 void SessionPicture::work_on_bone() {
@@ -185,9 +153,10 @@ void SessionPicture::reset_camera() {
     const glm::dvec3 half_mm = 0.5 * textures->grid().spacing_mm * glm::dvec3(textures->box().size);
     const glm::dvec3 middle_mm = middle_of(textures->grid(), textures->box());
     first_view_ = camera_on(middle_mm, glm::length(half_mm));
-    if (tool_ && glm::length(half_mm) > closest_first_view_mm) {
+    if (tool() && glm::length(half_mm) > closest_first_view_mm) {
         // All of a jaw would leave the drilled spot a few pixels wide.
-        first_view_.target_mm = glm::clamp(tool_->burr_position_mm, middle_mm - half_mm, middle_mm + half_mm);
+        first_view_.target_mm =
+            glm::clamp(tool()->burr_position_mm, middle_mm - half_mm, middle_mm + half_mm);
         zoom(first_view_, std::max(closest_first_view_mm / glm::length(half_mm), tool_part_of_first_view));
     }
     set_magnification(first_view_, first_magnification_);
@@ -195,7 +164,7 @@ void SessionPicture::reset_camera() {
 }
 
 const gl::Framebuffer& SessionPicture::draw(double elapsed_s) {
-    turn_burr(elapsed_s);
+    tool_.turn(elapsed_s, session());
     // The mean of times, not of rates: a few frames that come at once would count for hundreds a second.
     frame_s_ = frame_s_ > 0.0 ? 0.9 * frame_s_ + 0.1 * elapsed_s : elapsed_s;
     if (view_.transfer.take_change())
@@ -211,8 +180,8 @@ const gl::Framebuffer& SessionPicture::draw(double elapsed_s) {
                          .light_field = view_.light_field};
     picture_.set_look(look);
     std::optional<DrawnTool> tool;
-    const std::optional<ToolState> shown = shown_tool();
-    if (shown) tool = drawn_tool(*shown);
+    const std::optional<ToolState> shown = tool_.shown();
+    if (shown) tool = tool_.drawn(*shown, session(), operator_command_);
     picture_.draw(bone_.textures(), tool ? &*tool : nullptr, camera_);
     const gl::Framebuffer* inset = draw_inset(tool, look);
     view_.scale = scale_that_fits(view_.scale, size_px_);
@@ -238,10 +207,7 @@ const gl::Framebuffer& SessionPicture::draw(double elapsed_s) {
                   .has_bone = has_bone()},
                  size_px_);
     picture_.cover(panels_.end(picture_.pictures()));
-    drawn_link_ = link_;
-    drawn_state_ = tool_;
-    drawn_command_ = operator_command_;
-    drawn_percent_ = preparation_percent();
+    drawn_ = {link_, tool_.state(), operator_command_, preparation_percent()};
     has_undrawn_bone_ = false;
     return picture_.compose();
 }
@@ -255,42 +221,6 @@ const gl::Framebuffer* SessionPicture::draw_inset(const std::optional<DrawnTool>
     if (!has_bone() || !tool) return nullptr;
     if (!inset_) inset_.emplace(renderer_choice_);
     return &inset_->draw(view_.inset, *bone_.textures(), *tool, look, inset_edge_px(glm::vec2(size_px_)));
-}
-
-bool SessionPicture::has_turning_burr() const {
-    return tool_ && tool_->spindle_on && tool_age_s_ < longest_turning_s;
-}
-
-void SessionPicture::turn_burr(double elapsed_s) {
-    tool_age_s_ += elapsed_s;
-    if (!has_turning_burr()) return;
-    const SessionInfo* session = source_.session();
-    const bool clockwise = !session || tool_->burr >= session->burrs.size() ||
-                           session->burrs[tool_->burr].sense == SpindleSense::clockwise;
-    // Clockwise seen from the shank is negative about the axis from tip to shank.
-    const double change = (clockwise ? -1.0 : 1.0) * 2.0 * std::numbers::pi * shown_rev_per_s * elapsed_s;
-    spin_rad_ = std::remainder(spin_rad_ + change, 2.0 * std::numbers::pi);
-}
-
-std::optional<ToolState> SessionPicture::shown_tool() const {
-    std::optional<ToolState> shown = tool_;
-    if (!shown || !shown_pose_) return shown;
-    shown->burr_position_mm = shown->hand_position_mm = shown_pose_->position_mm;
-    shown->spindle_axis = shown_pose_->spindle_axis;
-    return shown;
-}
-
-DrawnTool SessionPicture::drawn_tool(const ToolState& state) const {
-    DrawnTool drawn{.state = state, .spin_rad = spin_rad_};
-    const SessionInfo* session = source_.session();
-    if (session && state.burr < session->burrs.size()) {
-        const Burr& burr = session->burrs[state.burr];
-        drawn.burr = {burr.diameter_mm, burr.head, burr.edges, burr.sense == SpindleSense::clockwise};
-    }
-    if (operator_command_ && !shown_pose_ &&
-        glm::distance(operator_command_->hand_target_mm, state.burr_position_mm) > nearest_shown_target_mm)
-        drawn.hand_target_mm = operator_command_->hand_target_mm;
-    return drawn;
 }
 
 void SessionPicture::resize(const glm::ivec2& size_px) {

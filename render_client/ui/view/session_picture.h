@@ -11,6 +11,8 @@
 #include "render_client/ui/report.h"
 #include "render_client/ui/session_source.h"
 #include "render_client/ui/view/bone_on_screen.h"
+#include "render_client/ui/view/session_news.h"
+#include "render_client/ui/view/shown_tool.h"
 #include "render_client/volume/gl/offscreen_context.h"
 #include "render_client/volume/passes/renderer_choice.h"
 #include "render_client/volume/passes/stereo_picture.h"
@@ -38,16 +40,10 @@ class SessionPicture {
     /// frame's drawing it stays well below what is felt as waiting.
     void prepare_for(std::chrono::milliseconds slice) { preparing_slice_ = slice; }
 
-    /// What a poll of the source brought, or what has to be drawn for another reason.
-    enum class News {
-        none,
-        figures,  ///< only the time, the rates, the delay
-        change    ///< something that moves, appears or goes; also a picture that is to be refined
-    };
-
     /// Polls the source and brings the textures up to date: at full quality to the end, on demand for some
-    /// milliseconds, so that those of a large bone take many calls. What is new is so since the last draw.
-    News take_in();
+    /// milliseconds, so that those of a large bone take many calls. What is new is so since the last draw; a
+    /// picture that is to be refined is a change.
+    SessionNews take_in();
     /// Draws bone, tool and panels; leaves the framebuffer bound. `elapsed_s`: since the last frame.
     const gl::Framebuffer& draw(double elapsed_s);
     /// What was drawn last, for the window whose context is current.
@@ -79,19 +75,19 @@ class SessionPicture {
     void show_operator(const std::optional<OperatorCommand>& command) { operator_command_ = command; }
 
     /// Shows the tool there instead of where the session has it; nothing: no longer.
-    void show_tool_at(const std::optional<ToolPose>& pose) { shown_pose_ = pose; }
+    void show_tool_at(const std::optional<ToolPose>& pose) { tool_.show_at(pose); }
 
     bool has_bone() const { return bone_.textures() != nullptr; }
     /// How much of what is to be drawn is ready, in percent, while the bone or a look is prepared.
     std::optional<int> preparation_percent() const;
     /// Whether a burr turns in the picture: it does for as long as the source tells of it.
-    bool has_turning_burr() const;
+    bool has_turning_burr() const { return tool_.has_turning_burr(); }
     /// Why the bone that is there cannot be drawn; empty while it can.
     const std::string& bone_problem() const { return bone_.problem(); }
     const LinkUpdate& link() const { return link_; }
     /// Null until a server has said hello.
     const SessionInfo* session() const { return source_.session(); }
-    const std::optional<ToolState>& tool() const { return tool_; }
+    const std::optional<ToolState>& tool() const { return tool_.state(); }
 
     /// What was measured so far, with the bone's checksum of now. Frame times are the caller's to add.
     RenderReport report() const;
@@ -101,12 +97,8 @@ class SessionPicture {
     void take_in_structure(const Structure& structure);
     void work_on_bone();
     void show_other_textures(DrawingCost cost);
-    News news() const;
+    SessionNews news() const;
     void ask_for_ct();
-    /// The tool as it is shown.
-    std::optional<ToolState> shown_tool() const;
-    DrawnTool drawn_tool(const ToolState& state) const;
-    void turn_burr(double elapsed_s);
     /// Null where none is wanted, or there is nothing to see in it.
     const gl::Framebuffer* draw_inset(const std::optional<DrawnTool>& tool, const SceneLook& look);
 
@@ -126,15 +118,9 @@ class SessionPicture {
     bool has_taken_bone_ = false;
     bool has_first_view_ = false;
     LinkUpdate link_;
-    std::optional<ToolState> tool_;
-    double tool_age_s_ = 0.0;  ///< since it came, as far as frames were drawn since
-
-    // What the last frame showed.
-    LinkUpdate drawn_link_;
-    std::optional<ToolState> drawn_state_;
-    std::optional<OperatorCommand> drawn_command_;
+    ShownTool tool_;
+    ShownSession drawn_;  ///< as the last frame showed it
     bool has_undrawn_bone_ = true;
-    std::optional<int> drawn_percent_;
     ToolHistory history_;
     std::optional<OperatorCommand> operator_command_;
     ViewSettings view_;
@@ -144,8 +130,6 @@ class SessionPicture {
     SessionWishes wishes_;
     bool takes_wishes_ = false;
     StartScreen* start_ = nullptr;
-    std::optional<ToolPose> shown_pose_;
-    double spin_rad_ = 0.0;
     double frame_s_ = 0.0;  ///< between frames, in the mean over the last ten or so
     std::uint64_t dirty_bricks_uploaded_ = 0;
 };

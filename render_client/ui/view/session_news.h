@@ -1,0 +1,32 @@
+// News of a session since the frame that was drawn last.
+#pragma once
+
+#include <optional>
+
+#include "common/scene/operator_command.h"
+#include "common/scene/tool_state.h"
+#include "render_client/ui/session_source.h"
+
+namespace osteomill {
+
+/// A session as a frame shows it, beside its bone.
+struct ShownSession {
+    LinkUpdate link{};
+    std::optional<ToolState> tool{};
+    std::optional<OperatorCommand> operator_command{};
+    std::optional<int> preparation_percent{};  ///< of the bone or a look; none: all is ready
+};
+
+enum class SessionNews {
+    none,
+    figures,  ///< only the time, the rates, the delay
+    change    ///< something that moves, appears or goes
+};
+
+/// What a poll brought, beside the session as it was drawn.
+SessionNews news_since(const ShownSession& drawn, const LinkUpdate& link,
+                       const std::optional<ToolState>& tool,
+                       const std::optional<OperatorCommand>& operator_command,
+                       const std::optional<int>& preparation_percent);
+
+}  // namespace osteomill
