@@ -10,6 +10,7 @@
 #include <ostream>
 #include <string>
 
+#include "analysis/output/progress.h"
 #include "analysis/output/surroundings.h"
 #include "analysis/output/table.h"
 #include "imaging/progress.h"

@@ -34,7 +34,7 @@ ListenAddress parse_listen_address(const std::string& text) {
     if (error)
         throw std::invalid_argument(fmt::format(
             "'{}' is not a numeric address; expected for example 127.0.0.1:7010", result.address));
-    const auto port = number_of<std::uint16_t>(parts.port);
+    const auto port = parse_number<std::uint16_t>(parts.port);
     if (!port)
         throw std::invalid_argument(fmt::format("'{}' is not a port; expected 0 to 65535", parts.port));
     result.port = *port;

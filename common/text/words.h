@@ -52,7 +52,7 @@ inline std::vector<std::string> cells_of(std::string_view line) {
 
 /// Nothing where the text is anything but a number of that type.
 template <typename Number>
-std::optional<Number> number_of(std::string_view text) {
+std::optional<Number> parse_number(std::string_view text) {
     Number number{};
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
     if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
@@ -61,7 +61,7 @@ std::optional<Number> number_of(std::string_view text) {
 
 /// A finite number with a point, in any locale; nothing where anything else stands there.
 inline std::optional<double> finite_number(std::string_view text) {
-    const std::optional<double> number = number_of<double>(text);
+    const std::optional<double> number = parse_number<double>(text);
     return number && std::isfinite(*number) ? number : std::nullopt;
 }
 

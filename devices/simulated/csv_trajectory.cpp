@@ -105,7 +105,7 @@ class CsvReader {
     }
 
     std::size_t to_burr(std::string_view cell) const {
-        const auto value = number_of<std::size_t>(cell);
+        const auto value = parse_number<std::size_t>(cell);
         if (!value || *value >= burr_count_)
             refuse(fmt::format("burr '{}' is not an index into the scene's set, 0 to {}", cell,
                                burr_count_ - 1));

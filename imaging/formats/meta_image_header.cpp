@@ -59,7 +59,7 @@ class MetaFields {
     std::int64_t whole(const std::string& name, std::int64_t otherwise) const {
         const std::optional<std::string> value = text(name);
         if (!value) return otherwise;
-        const auto number = number_of<std::int64_t>(*value);
+        const auto number = parse_number<std::int64_t>(*value);
         if (!number) refuse(name, "must be a whole number");
         return *number;
     }

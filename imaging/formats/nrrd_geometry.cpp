@@ -57,7 +57,7 @@ NrrdSpace space_of(const NrrdHeader& header, const std::filesystem::path& path) 
                                              name, shortened(*header.field(name))));
     };
     if (const auto dimension = header.field("space dimension")) {
-        space.dimension = number_of<std::size_t>(*dimension).value_or(0);
+        space.dimension = parse_number<std::size_t>(*dimension).value_or(0);
         if (space.dimension < 3 || space.dimension > 4) refuse("space dimension");
     }
     if (!header.fields.contains("space")) return space;

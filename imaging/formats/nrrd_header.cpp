@@ -61,13 +61,13 @@ std::optional<VoxelType> type_of(std::string name) {
 
 std::vector<std::uint64_t> sizes_of(const NrrdHeader& header, const std::filesystem::path& path) {
     const std::string text = header.field("sizes").value_or("");
-    const auto dimension = number_of<std::size_t>(header.field("dimension").value_or(""));
+    const auto dimension = parse_number<std::size_t>(header.field("dimension").value_or(""));
     for (const char* name : {"dimension", "sizes"})
         if (!header.fields.contains(name))
             throw ImagingError(path, fmt::format("its header has no field '{}' (cut off?)", name));
     std::vector<std::uint64_t> sizes;
     for (const std::string& word : words_of(text))
-        sizes.push_back(number_of<std::uint64_t>(word).value_or(0));
+        sizes.push_back(parse_number<std::uint64_t>(word).value_or(0));
     if (!dimension || *dimension < 1 || *dimension > most_axes || sizes.size() != *dimension)
         throw ImagingError(
             path, fmt::format("dimension '{}' and sizes '{}' do not fit: as many sizes as "
@@ -174,8 +174,8 @@ ImageHeader nrrd_image(const NrrdHeader& header, const std::filesystem::path& pa
     layout.encoding = encoding_of(header, path);
     const std::string lines = header.field("line skip").value_or("0");
     const std::string skip = header.field("byte skip").value_or("0");
-    const auto line_skip = number_of<std::uint64_t>(lines);
-    const auto byte_skip = number_of<std::int64_t>(skip);
+    const auto line_skip = parse_number<std::uint64_t>(lines);
+    const auto byte_skip = parse_number<std::int64_t>(skip);
     const bool at_end_allowed = layout.encoding == Encoding::raw;
     constexpr std::int64_t most_skipped = std::int64_t{1} << 40;
     if (!line_skip || *line_skip > most_nrrd_header_bytes || !byte_skip || *byte_skip > most_skipped ||

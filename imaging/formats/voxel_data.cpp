@@ -71,7 +71,7 @@ std::vector<std::string> numbered_names(const std::vector<std::string>& words, s
     std::array<std::int64_t, 3> number{1, 0, 1};  // first, last, step
     bool good = words.size() <= 5;                // NRRD may say of how many dimensions each file is
     for (std::size_t i = 0; good && i < std::min(number.size(), words.size() - 1); ++i) {
-        number[i] = number_of<std::int64_t>(words[i + 1]).value_or(most + 1);
+        number[i] = parse_number<std::int64_t>(words[i + 1]).value_or(most + 1);
         good = std::abs(number[i]) <= most && (i == 2 || number[i] >= 0);
     }
     const auto [first, last, step] = number;

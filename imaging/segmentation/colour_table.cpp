@@ -28,7 +28,7 @@ struct LabelLine {
 };
 
 std::optional<int> number_up_to(const std::string& text, int most) {
-    const auto number = number_of<int>(trimmed(text));
+    const auto number = parse_number<int>(trimmed(text));
     return number && *number >= 0 && *number <= most ? number : std::nullopt;
 }
 

@@ -50,7 +50,7 @@ std::vector<Segment> named_segments(const std::filesystem::path& path, const Ope
     };
     const auto number = [&](int segment, const char* what, int fallback, int low, int high) {
         const std::optional<std::string> text = value(segment, what);
-        const std::optional<int> whole = text ? number_of<int>(trimmed(*text)) : fallback;
+        const std::optional<int> whole = text ? parse_number<int>(trimmed(*text)) : fallback;
         if (!whole || *whole < low || *whole > high)
             throw ImagingError(
                 path, fmt::format("Segment{}_{} '{:.40}' is no whole number from {} to {}", segment, what,

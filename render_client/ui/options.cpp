@@ -28,7 +28,7 @@ constexpr int wanted_screenshots = 30;
 const std::map<std::string, ThemeName> theme_names{{"dark", ThemeName::dark}, {"light", ThemeName::light}};
 
 std::optional<int> whole_number(std::string_view text, int low, int high) {
-    const auto value = number_of<int>(text);
+    const auto value = parse_number<int>(text);
     return value && *value >= low && *value <= high ? value : std::nullopt;
 }
 

@@ -56,7 +56,7 @@ std::optional<std::uint16_t> port_said_in(const std::string& output) {
     const std::size_t said = output.find("listening on ");
     const std::size_t end = said == std::string::npos ? said : output.find('\n', said);
     if (end == std::string::npos) return std::nullopt;
-    return number_of<std::uint16_t>(parts_of_address(output.substr(said, end - said)).port);
+    return parse_number<std::uint16_t>(parts_of_address(output.substr(said, end - said)).port);
 }
 
 }  // namespace

@@ -24,7 +24,7 @@ XXH64_hash_t hash_of(const std::string& text) {
 Shard shard_named(const std::string& text) {
     const std::size_t slash = std::min(text.find('/'), text.size());
     const auto number = [&](std::size_t from, std::size_t count) {
-        return number_of<std::size_t>(std::string_view(text).substr(std::min(from, text.size()), count))
+        return parse_number<std::size_t>(std::string_view(text).substr(std::min(from, text.size()), count))
             .value_or(0);
     };
     const Shard shard{number(0, slash), number(slash + 1, std::string::npos)};
