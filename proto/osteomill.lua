@@ -4,7 +4,7 @@ local frame = Proto("osteomill", "Osteomill frame")
 local protobuf = Dissector.get("protobuf")
 
 function frame.dissector(buffer, packet, tree)
-    packet.private["pb_msg_type"] = "message,osteomill.v1.ServerFrame"
+    packet.private["pb_msg_type"] = "message,osteomill.v2.ServerFrame"
     protobuf:call(buffer, packet, tree)
 end
 

@@ -17,7 +17,7 @@ std::string xyz(const glm::dvec3& value, int decimals) {
 }
 
 std::string nearest_of(const Playhead& playhead) {
-    const StructureDistance* nearest = nearest_structure(playhead.distances());
+    const StructureDistance* nearest = nearest_structure(playhead.state().distances);
     if (nearest == nullptr) return ",";
     return fmt::format("{},{:.4f}", csv_cell(playhead.session().tissues[nearest->tissue].name),
                        *nearest->distance_mm);

@@ -31,7 +31,7 @@ void read_through(RecordingSummary& summary, Playhead& playhead, RemovalCount& r
                   const std::function<void(const Playhead&)>& on_state) {
     for (;;) {
         const double before_s = playhead.time_s();
-        if (const v1::StateFrame* next = playhead.next_frame()) removal.before(playhead.bone(), *next);
+        if (const StateArrived* next = playhead.next_state()) removal.before(playhead.bone(), next->changes);
         switch (playhead.step(std::numeric_limits<double>::infinity())) {
             case Playhead::Step::state: {
                 removal.after(playhead.bone());

@@ -14,12 +14,11 @@ void add_brick(const Bone& bone, std::int32_t slot, int sign, std::array<std::in
 
 }  // namespace
 
-void RemovalCount::before(const Bone& bone, const v1::StateFrame& next) {
+void RemovalCount::before(const Bone& bone, const std::vector<ChangedBrick>& next) {
     slots_.clear();
-    for (const auto* edits : {&next.edits(), &next.restored()})
-        for (const v1::BrickEdit& edit : *edits)
-            if (const std::int32_t slot = bone.slot(edit.brick()); slot != BoneContent::no_slot)
-                slots_.insert(slot);
+    for (const ChangedBrick& changed : next)
+        if (const std::int32_t slot = bone.slot(changed.change.brick); slot != BoneContent::no_slot)
+            slots_.insert(slot);
     for (const std::int32_t slot : slots_) add_brick(bone, slot, 1, codes_);
 }
 

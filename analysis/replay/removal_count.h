@@ -1,12 +1,13 @@
-// How much bone the edits of a recording take away, by tissue, less what is given back.
+// Bone that the changes of a recording take away, by tissue, less what is given back.
 #pragma once
 
 #include <array>
 #include <cstdint>
 #include <set>
+#include <vector>
 
 #include "common/bone/bone.h"
-#include "osteomill/v1/session.pb.h"
+#include "common/bone/brick_change.h"
 
 namespace osteomill {
 
@@ -14,8 +15,8 @@ namespace osteomill {
 /// the frame is applied, after().
 class RemovalCount {
   public:
-    /// Frames that make no sense are counted as far as they name stored bricks.
-    void before(const Bone& bone, const v1::StateFrame& next);
+    /// Changes of bricks that are not stored, which no bone takes, count for nothing.
+    void before(const Bone& bone, const std::vector<ChangedBrick>& next);
     /// A second time it does nothing.
     void after(const Bone& bone);
 

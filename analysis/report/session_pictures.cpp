@@ -114,7 +114,7 @@ void add_marks(const std::filesystem::path& file, const SessionTrace& trace, con
             if (step == Playhead::Step::end) return;
             if (step == Playhead::Step::new_bone) pictures.marks.clear(), pictures.marks_left_out = 0;
             if (step != Playhead::Step::state) continue;
-            for (const ControlEvent& event : playhead.events()) {
+            for (const ControlEvent& event : playhead.state().events) {
                 if (event.action != SessionAction::mark || event.is_refused) continue;
                 if (pictures.marks.size() < most_marks)
                     pictures.marks.push_back({fmt::format("{:.1f} s {}", event.time_s, event.text),

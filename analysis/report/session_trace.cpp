@@ -48,7 +48,7 @@ std::vector<TissueLevels> take_over(const std::vector<BrickChange>& changes, con
 void add_sample(SessionTrace& trace, Playhead& playhead, StructureWatch& structures) {
     const ToolState& tool = *playhead.tool();
     if (trace.samples.empty()) trace.began_unix_ns = tool.taken_unix_ns;
-    const bool is_placed = std::ranges::any_of(playhead.events(), [](const ControlEvent& event) {
+    const bool is_placed = std::ranges::any_of(playhead.state().events, [](const ControlEvent& event) {
         return event.action == SessionAction::place && !event.is_refused;
     });
     trace.samples.push_back(
@@ -60,13 +60,13 @@ void add_sample(SessionTrace& trace, Playhead& playhead, StructureWatch& structu
          .depth_mm = tool.depth_mm.value_or(0.0),
          .burr = tool.burr,
          .spindle_on = tool.spindle_on,
-         .is_paused = playhead.status().is_paused,
+         .is_paused = playhead.state().status.is_paused,
          .is_placed = is_placed,
          .levels = take_over(playhead.take_changes(), playhead.bone(), trace.at_end, structures)});
     structures.update(tool);
     trace.samples.back().distances = structures.distances();
     if (tool.peak_force_n) trace.peak_force_n = tool.peak_force_n;
-    trace.events.insert(trace.events.end(), playhead.events().begin(), playhead.events().end());
+    trace.events.insert(trace.events.end(), playhead.state().events.begin(), playhead.state().events.end());
 }
 
 /// Of a session on the virtual clock, whose frames do not say when they were.

@@ -28,6 +28,12 @@ struct BrickChange {
     bool operator==(const BrickChange&) const = default;
 };
 
+/// A change together with what is left of its voxels, on its way to another copy of the bone.
+struct ChangedBrick {
+    BrickChange change;
+    ByteBrick fractions{};
+};
+
 /// Where a milling step reports what it changed. Real-time safe: never blocks, allocates or throws.
 class ChangeSink {
   public:
@@ -46,5 +52,17 @@ class ForgottenChanges final : public ChangeSink {
 /// brick is not stored, or a voxel would rise by milling or in a part of the brick that the grid no longer
 /// has.
 [[nodiscard]] bool apply(const BrickChange& change, BrickFractions fractions, Bone& bone);
+
+/// What came of a change in a copy of the bone that may be wrong.
+enum class Correction {
+    lowers,        ///< no voxel rose
+    raises,        ///< some voxel rose
+    not_stored,    ///< refused: no bone is stored in that brick
+    outside_grid,  ///< refused: it puts bone into a part of the brick that the grid no longer has
+};
+
+/// Gives the voxels of the change what `fractions` has for them, though they may rise. Refused changes leave
+/// the bone as it was.
+[[nodiscard]] Correction correct(const BrickChange& change, BrickFractions fractions, Bone& bone);
 
 }  // namespace osteomill

@@ -1,9 +1,9 @@
 // A packet of a recording: one frame of a session, and when it was sent.
 //
 // A recording is a pcap file: nanosecond time stamps, link type USER0 (147), in each packet the bytes of one
-// protobuf message osteomill.v1.ServerFrame with its seal (see sealed_frame.h) and without the length that
-// goes before it on the wire. The message repeats the packet's time stamp, so that its seal covers that, too
-// (since protocol 1.5). tcpdump, editcap, mergecap and Wireshark open, cut and join it.
+// protobuf message osteomill.v2.ServerFrame with its seal (see sealed_frame.h) and without the length that
+// goes before it on the wire. The message repeats the packet's time stamp, so that its seal covers that, too.
+// tcpdump, editcap, mergecap and Wireshark open, cut and join it.
 #pragma once
 
 #include <chrono>

@@ -47,10 +47,8 @@ std::optional<double> Playhead::next_time_s() const {
     return time_.last_s();
 }
 
-const v1::StateFrame* Playhead::next_frame() const {
-    if (!next_) return nullptr;
-    const auto* state = std::get_if<StateArrived>(&next_->event);
-    return state != nullptr ? &state->frame : nullptr;
+const StateArrived* Playhead::next_state() const {
+    return next_ ? std::get_if<StateArrived>(&next_->event) : nullptr;
 }
 
 bool Playhead::next_begins_session() const {
@@ -61,8 +59,8 @@ void Playhead::go_back_to(const Mark& mark) {
     reader_.go_back_to(mark.place);
     time_ = mark.time;
     time_s_ = mark.time_s;
-    tool_ = mark.tool;
-    distances_ = mark.distances;
+    state_ = mark.state;
+    has_state_ = mark.has_state;
     read_ahead();
 }
 
@@ -85,25 +83,23 @@ Playhead::Step Playhead::take(RecordedEvent event) {
     } else if (auto* arrived = std::get_if<BoneArrived>(&event.event)) {
         session_ = announced_;
         replica_.emplace(std::move(arrived->bone), std::move(arrived->checksum));
-        tool_.reset();
-        distances_.clear();
+        state_ = {};
+        has_state_ = false;
         structures_.clear();
         return Step::new_bone;
     } else if (auto* state = std::get_if<StateArrived>(&event.event)) {
-        auto outcome = follow(state->frame, session_, *replica_);
+        const auto outcome = follow(*state, *replica_);
         if (const auto* error = std::get_if<WireError>(&outcome))
             throw reader_.error_at(event.place, error->line);
-        auto& followed = std::get<FollowedState>(outcome);
+        const auto& followed = std::get<FollowedState>(outcome);
         if (followed.check == ReplicaCheck::differs || followed.has_regained_bone)
             throw reader_.error_at(event.place, "the bone differs from the one recorded");
         ++states_;
         state_bytes_ += event.bytes;
         if (followed.check == ReplicaCheck::equal) ++checksums_verified_;
-        tool_ = followed.tool;
-        events_ = std::move(followed.events);
-        status_ = followed.status;
-        distances_ = std::move(followed.distances);
-        frame_ = std::move(state->frame);
+        state_ = std::move(state->state);
+        has_state_ = true;
+        changes_ = std::move(state->changes);
         return Step::state;
     } else if (auto* of_structure = std::get_if<StructureArrived>(&event.event)) {
         if (of_structure->structure) structures_.push_back(*std::move(of_structure->structure));
@@ -118,14 +114,11 @@ double recording_duration_s(const std::filesystem::path& file) {
     RecordedTime time;
     try {
         while (const auto packet = packets.next()) {
-            const auto opened = open_frame(packet->message, Seal::required);
-            const auto* frame = std::get_if<v1::ServerFrame>(&opened);
+            const auto opened = open_frame(packet->message);
+            const auto* frame = std::get_if<v2::ServerFrame>(&opened);
             if (frame == nullptr) break;
             // The time in the frame is sealed, its packet's is not.
-            const Stamp stamp = frame->has_recorded_unix_ns()
-                                    ? Stamp(std::chrono::nanoseconds(frame->recorded_unix_ns()))
-                                    : packet->stamp;
-            time.next_s(stamp, frame->has_hello());
+            time.next_s(Stamp(std::chrono::nanoseconds(frame->recorded_unix_ns())), frame->has_hello());
         }
     } catch (const RecordingError&) {
         // Who reads it comes upon this, too, and says it then.

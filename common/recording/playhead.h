@@ -18,7 +18,7 @@ class Playhead {
 
     enum class Step {
         nothing_due,  ///< the next frame is later
-        state,        ///< a state frame was applied: see frame()
+        state,        ///< a state frame was applied: see state()
         new_bone,     ///< another session began
         goodbye,      ///< the session ended; another may begin, in a recording that was joined
         end,
@@ -37,18 +37,15 @@ class Playhead {
     /// What has changed in the bone since the last call, or since it came.
     std::vector<BrickChange> take_changes() { return replica_->take_changes(); }
     /// Nothing before the session's first state frame.
-    const std::optional<ToolState>& tool() const { return tool_; }
-    /// What was done to the session since the state frame before, and what could be done then.
-    const std::vector<ControlEvent>& events() const { return events_; }
-    const SessionStatus& status() const { return status_; }
-    /// How far the burr was then from the protected structures that were near or touched.
-    const std::vector<StructureDistance>& distances() const { return distances_; }
+    const ToolState* tool() const { return has_state_ ? &state_.tool : nullptr; }
+    /// What the last state frame said; before the first it says nothing.
+    const SessionState& state() const { return state_; }
     /// The protected structures of the session of which the recording says where they are; the others are
     /// where the bone bears their label. All that follow the bone at once are there with it.
     const std::vector<Structure>& structures() const { return structures_; }
-    /// The state frame that was applied last; the one that would come next, if one would.
-    const v1::StateFrame& frame() const { return frame_; }
-    const v1::StateFrame* next_frame() const;
+    /// What the state frame that was applied last changed; the one that would come next, if one would.
+    const std::vector<ChangedBrick>& changes() const { return changes_; }
+    const StateArrived* next_state() const;
     /// Whether step() would leave this session for another.
     bool next_begins_session() const;
 
@@ -66,10 +63,10 @@ class Playhead {
         RecordingReader::Mark place;
         RecordedTime time;
         double time_s = 0.0;
-        std::optional<ToolState> tool;
-        std::vector<StructureDistance> distances;
+        SessionState state;
+        bool has_state = false;
     };
-    Mark mark() const { return {before_next_, before_next_time_, time_s_, tool_, distances_}; }
+    Mark mark() const { return {before_next_, before_next_time_, time_s_, state_, has_state_}; }
     /// The bone is the caller's to put back, with set_fractions().
     void go_back_to(const Mark& mark);
     void set_fractions(BrickIndex brick, BrickFractions fractions) {
@@ -92,12 +89,10 @@ class Playhead {
     SessionInfo announced_;  // becomes session_ when its bone has come
     SessionInfo session_;
     std::optional<BoneReplica> replica_;
-    std::optional<ToolState> tool_;
-    std::vector<ControlEvent> events_;
-    SessionStatus status_;
-    std::vector<StructureDistance> distances_;
+    SessionState state_;
+    bool has_state_ = false;
+    std::vector<ChangedBrick> changes_;
     std::vector<Structure> structures_;
-    v1::StateFrame frame_;
 
     std::uint64_t frames_ = 0;
     std::uint64_t bytes_ = 0;

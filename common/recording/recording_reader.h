@@ -44,11 +44,8 @@ class RecordingReader {
     }
 
   private:
-    std::optional<WireError> check_time(const v1::ServerFrame& frame, Stamp stamp);
-
     PacketReader packets_;
     SessionReceiver receiver_;
-    bool frames_have_time_ = false;  // of this session, whose hello decides: since protocol 1.5
 };
 
 }  // namespace osteomill

@@ -15,10 +15,10 @@ WireError comparison_refused(const std::string& what) {
     return {"comparison refused: " + what};
 }
 
-std::optional<WireError> fault_of(const v1::CompareBone& request, std::uint64_t bricks_of_grid) {
+std::optional<WireError> fault_of(const v2::CompareBone& request, std::uint64_t bricks_of_grid) {
     std::uint64_t end_of_last = 0;
     std::size_t parts = 0;
-    for (const v1::BrickRange& range : request.ranges()) {
+    for (const v2::BrickRange& range : request.ranges()) {
         const std::uint64_t first = range.first_brick();
         if (range.brick_count() == 0 || range.bricks_per_part() == 0)
             return comparison_refused("a range or its parts are empty");
@@ -46,15 +46,15 @@ DifferenceSearch::DifferenceSearch(const Bone& bone) {
     if (!bricks.empty()) suspects_.emplace(bricks.front(), std::uint64_t{bricks.back()} - bricks.front() + 1);
 }
 
-std::optional<v1::CompareBone> DifferenceSearch::next(const Bone& bone, const RunningChecksum& checksum) {
-    v1::CompareBone request;
+std::optional<v2::CompareBone> DifferenceSearch::next(const Bone& bone, const RunningChecksum& checksum) {
+    v2::CompareBone request;
     while (!suspects_.empty()) {
         const auto [first, count] = *suspects_.begin();
         const std::size_t room = most_parts_of_a_comparison - asked_.size();
         if (count > room && !asked_.empty()) break;  // finer parts in a request of its own
         suspects_.erase(suspects_.begin());
         const std::uint64_t per_part = rounded_up_ratio(count, most_parts_of_a_comparison);
-        v1::BrickRange& range = *request.add_ranges();
+        v2::BrickRange& range = *request.add_ranges();
         range.set_first_brick(first);
         range.set_brick_count(count);
         range.set_bricks_per_part(per_part);
@@ -68,7 +68,7 @@ std::optional<v1::CompareBone> DifferenceSearch::next(const Bone& bone, const Ru
     return request;
 }
 
-std::optional<WireError> DifferenceSearch::take(const v1::Comparison& answer) {
+std::optional<WireError> DifferenceSearch::take(const v2::Comparison& answer) {
     if (asked_.empty()) return WireError{"an answer came to a comparison that was not asked for"};
     std::int64_t last = -1;
     for (const std::uint32_t part : answer.differing_part()) {
@@ -86,13 +86,13 @@ std::optional<WireError> DifferenceSearch::take(const v1::Comparison& answer) {
     return std::nullopt;
 }
 
-std::variant<ComparedBone, WireError> compare_bone(const v1::CompareBone& request, const Bone& bone,
+std::variant<ComparedBone, WireError> compare_bone(const v2::CompareBone& request, const Bone& bone,
                                                    const RunningChecksum& checksum) {
     const glm::uvec3 size(bone.content().size_bricks);
     if (auto fault = fault_of(request, std::uint64_t{size.x} * size.y * size.z)) return *fault;
     ComparedBone compared;
     std::uint32_t part = 0;
-    for (const v1::BrickRange& range : request.ranges()) {
+    for (const v2::BrickRange& range : request.ranges()) {
         std::uint64_t done = 0;
         for (const std::uint64_t theirs : range.part_checksum()) {
             const BrickIndex first = range.first_brick() + static_cast<BrickIndex>(done);

@@ -18,7 +18,7 @@
 #include "common/bone/bone.h"
 #include "common/wire/running_checksum.h"
 #include "common/wire/wire_error.h"
-#include "osteomill/v1/bone.pb.h"
+#include "osteomill/v2/bone.pb.h"
 
 namespace osteomill {
 
@@ -36,10 +36,10 @@ class DifferenceSearch {
 
     /// What to ask next, of the copy as it now is; nothing when all that differs has been found. To be called
     /// when the request before has been answered.
-    std::optional<v1::CompareBone> next(const Bone& bone, const RunningChecksum& checksum);
+    std::optional<v2::CompareBone> next(const Bone& bone, const RunningChecksum& checksum);
 
     /// The answer. Refuses one that nobody waits for, and parts that were not asked about.
-    std::optional<WireError> take(const v1::Comparison& answer);
+    std::optional<WireError> take(const v2::Comparison& answer);
 
     bool awaits_answer() const { return !asked_.empty(); }
     int requests() const { return requests_; }
@@ -58,13 +58,13 @@ class DifferenceSearch {
 };
 
 struct ComparedBone {
-    v1::Comparison answer;
+    v2::Comparison answer;
     std::vector<BrickIndex> differing_bricks;  ///< stored here: those to be sent whole
 };
 
 /// The side of the bone that counts. Refuses ranges that overlap or reach past the grid, parts that do not
 /// make up their range, and more of them than most_parts_of_a_comparison.
-std::variant<ComparedBone, WireError> compare_bone(const v1::CompareBone& request, const Bone& bone,
+std::variant<ComparedBone, WireError> compare_bone(const v2::CompareBone& request, const Bone& bone,
                                                    const RunningChecksum& checksum);
 
 }  // namespace osteomill

@@ -1,6 +1,7 @@
 #include "common/wire/bone_replica.h"
 
 #include <algorithm>
+#include <string>
 #include <utility>
 
 namespace osteomill {
@@ -15,23 +16,16 @@ bool BoneReplica::apply(const BrickChange& change, BrickFractions fractions) {
     return true;
 }
 
-std::optional<WireError> BoneReplica::apply(const v1::BrickEdit& edit) {
-    if (auto error = apply_brick_edit(edit, bone_)) return error;
-    mark(edit, ChangeKind::milled);
-    return std::nullopt;
-}
-
-std::optional<WireError> BoneReplica::restore(const v1::BrickEdit& edit) {
-    auto effect = correct_with_brick_edit(edit, bone_);
-    if (auto* error = std::get_if<WireError>(&effect)) return std::move(*error);
-    mark(edit, ChangeKind::restored);
-    return std::nullopt;
-}
-
-std::variant<EditEffect, WireError> BoneReplica::correct(const v1::BrickEdit& edit) {
-    auto effect = correct_with_brick_edit(edit, bone_);
-    if (std::holds_alternative<EditEffect>(effect)) mark(edit, ChangeKind::milled);
-    return effect;
+std::variant<Correction, WireError> BoneReplica::correct(const ChangedBrick& changed) {
+    const auto& [change, fractions] = changed;
+    const Correction correction = osteomill::correct(change, fractions, bone_);
+    if (correction == Correction::not_stored || correction == Correction::outside_grid)
+        return WireError{"change of brick " + std::to_string(change.brick) + " refused: " +
+                         (correction == Correction::not_stored ? "no bone is stored there"
+                                                               : "it puts bone outside the grid")};
+    changed_[change.brick].voxels(change.kind) |= change.voxels;
+    checksum_.update(bone_, bone_.slot(change.brick));
+    return correction;
 }
 
 void BoneReplica::set_fractions(BrickIndex brick, BrickFractions fractions) {
@@ -57,13 +51,6 @@ std::vector<BrickChange> BoneReplica::take_changes() {
     }
     changed_.clear();
     return changes;
-}
-
-void BoneReplica::mark(const v1::BrickEdit& edit, ChangeKind kind) {
-    VoxelMask& voxels = changed_[edit.brick()].voxels(kind);
-    for (int i = 0; i + 1 < edit.changed_size(); i += 2)
-        for (std::size_t k = 0; k < edit.changed(i + 1); ++k) voxels.set(edit.changed(i) + k);
-    checksum_.update(bone_, bone_.slot(edit.brick()));
 }
 
 }  // namespace osteomill

@@ -12,7 +12,6 @@
 
 #include "common/bone/bone.h"
 #include "common/bone/brick_change.h"
-#include "common/wire/brick_edit.h"
 #include "common/wire/running_checksum.h"
 #include "common/wire/wire_error.h"
 
@@ -28,12 +27,9 @@ class BoneReplica {
     /// Takes over a change of the milling loop's, milled or restored. False if it does not fit the bone,
     /// which then stays as it was.
     [[nodiscard]] bool apply(const BrickChange& change, BrickFractions fractions);
-    /// Likewise an edit as it came over the wire or out of a recording; says why not.
-    std::optional<WireError> apply(const v1::BrickEdit& edit);
-    /// Takes over an edit that gives bone back; says why not.
-    std::optional<WireError> restore(const v1::BrickEdit& edit);
-    /// Takes over an edit where this replica may be wrong: see correct_with_brick_edit.
-    std::variant<EditEffect, WireError> correct(const v1::BrickEdit& edit);
+    /// Takes over a change that came over the wire or out of a recording, where this replica may be wrong:
+    /// voxels may rise. Says why not, with the replica as it was.
+    std::variant<Correction, WireError> correct(const ChangedBrick& changed);
     /// Gives a stored brick other fractions, as when a recording is wound back.
     void set_fractions(BrickIndex brick, BrickFractions fractions);
 
@@ -48,8 +44,6 @@ class BoneReplica {
     const RunningChecksum& running_checksum() const { return checksum_; }
 
   private:
-    void mark(const v1::BrickEdit& edit, ChangeKind kind);
-
     struct Changed {
         VoxelMask milled;
         VoxelMask restored;

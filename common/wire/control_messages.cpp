@@ -12,20 +12,20 @@ namespace osteomill {
 
 namespace {
 
-static_assert(static_cast<int>(SessionAction::mark) == v1::SESSION_ACTION_MARK &&
-                  static_cast<int>(SessionAction::speed) == v1::SESSION_ACTION_SPEED,
+static_assert(static_cast<int>(SessionAction::mark) == v2::SESSION_ACTION_MARK &&
+                  static_cast<int>(SessionAction::speed) == v2::SESSION_ACTION_SPEED,
               "the actions have the numbers of the message");
 
-SessionAction action_from(v1::SessionAction action) {
-    const bool is_known = action >= v1::SESSION_ACTION_MARK && action <= v1::SESSION_ACTION_SPEED;
+SessionAction action_from(v2::SessionAction action) {
+    const bool is_known = action >= v2::SESSION_ACTION_MARK && action <= v2::SESSION_ACTION_SPEED;
     return is_known ? static_cast<SessionAction>(action) : SessionAction::none;
 }
 
 }  // namespace
 
-v1::SessionControl to_message(const SessionControl& control) {
-    v1::SessionControl message;
-    message.set_action(static_cast<v1::SessionAction>(control.action));
+v2::SessionControl to_message(const SessionControl& control) {
+    v2::SessionControl message;
+    message.set_action(static_cast<v2::SessionAction>(control.action));
     message.set_text(control.text);
     if (control.action == SessionAction::place) {
         write(control.pose.position_mm, *message.mutable_burr_position_mm());
@@ -35,17 +35,17 @@ v1::SessionControl to_message(const SessionControl& control) {
     return message;
 }
 
-v1::SessionEvent to_message(const ControlEvent& event) {
-    v1::SessionEvent message;
+v2::SessionEvent to_message(const ControlEvent& event) {
+    v2::SessionEvent message;
     message.set_time_s(event.time_s);
-    message.set_action(static_cast<v1::SessionAction>(event.action));
+    message.set_action(static_cast<v2::SessionAction>(event.action));
     message.set_text(event.text);
     message.set_is_refused(event.is_refused);
     return message;
 }
 
-v1::SessionStatus to_message(const SessionStatus& status) {
-    v1::SessionStatus message;
+v2::SessionStatus to_message(const SessionStatus& status) {
+    v2::SessionStatus message;
     message.set_undo_steps(status.undo_steps);
     message.set_redo_steps(status.redo_steps);
     message.set_is_paused(status.is_paused);
@@ -53,7 +53,7 @@ v1::SessionStatus to_message(const SessionStatus& status) {
     return message;
 }
 
-std::variant<SessionControl, WireError> session_control_from(const v1::SessionControl& message) {
+std::variant<SessionControl, WireError> session_control_from(const v2::SessionControl& message) {
     const SessionAction action = action_from(message.action());
     if (action == SessionAction::none)
         return WireError{"session control " + std::to_string(message.action()) + " is not one that is known"};
@@ -78,9 +78,9 @@ std::variant<SessionControl, WireError> session_control_from(const v1::SessionCo
 }
 
 std::variant<std::vector<ControlEvent>, WireError> control_events_from(
-    const google::protobuf::RepeatedPtrField<v1::SessionEvent>& messages) {
+    const google::protobuf::RepeatedPtrField<v2::SessionEvent>& messages) {
     std::vector<ControlEvent> events;
-    for (const v1::SessionEvent& message : messages) {
+    for (const v2::SessionEvent& message : messages) {
         if (!std::isfinite(message.time_s()))
             return WireError{"a session event has a time that is not finite"};
         events.push_back({.time_s = message.time_s(),
@@ -91,7 +91,7 @@ std::variant<std::vector<ControlEvent>, WireError> control_events_from(
     return events;
 }
 
-SessionStatus session_status_from(const v1::SessionStatus& message) {
+SessionStatus session_status_from(const v2::SessionStatus& message) {
     return {.undo_steps = message.undo_steps(),
             .redo_steps = message.redo_steps(),
             .is_paused = message.is_paused(),

@@ -6,22 +6,22 @@
 
 #include "common/scene/session_control.h"
 #include "common/wire/wire_error.h"
-#include "osteomill/v1/session.pb.h"
+#include "osteomill/v2/session.pb.h"
 
 namespace osteomill {
 
-v1::SessionControl to_message(const SessionControl& control);
-v1::SessionEvent to_message(const ControlEvent& event);
-v1::SessionStatus to_message(const SessionStatus& status);
+v2::SessionControl to_message(const SessionControl& control);
+v2::SessionEvent to_message(const ControlEvent& event);
+v2::SessionStatus to_message(const SessionStatus& status);
 
 /// Refuses an action that this program does not know and a text that is too long. The text becomes one
 /// printable line.
-std::variant<SessionControl, WireError> session_control_from(const v1::SessionControl& message);
+std::variant<SessionControl, WireError> session_control_from(const v2::SessionControl& message);
 
 /// Refuses a time that is not finite. An action that only a newer server knows is `none`.
 std::variant<std::vector<ControlEvent>, WireError> control_events_from(
-    const google::protobuf::RepeatedPtrField<v1::SessionEvent>& messages);
+    const google::protobuf::RepeatedPtrField<v2::SessionEvent>& messages);
 
-SessionStatus session_status_from(const v1::SessionStatus& message);
+SessionStatus session_status_from(const v2::SessionStatus& message);
 
 }  // namespace osteomill

@@ -26,8 +26,8 @@ std::size_t count_of(const Grid& grid) {
 
 }  // namespace
 
-v1::CtPiece CtPacker::pack(const CtVolume& ct, std::size_t& first_voxel) {
-    v1::CtPiece piece;
+v2::CtPiece CtPacker::pack(const CtVolume& ct, std::size_t& first_voxel) {
+    v2::CtPiece piece;
     if (first_voxel == 0) *piece.mutable_grid() = to_message(ct.grid);
     piece.set_first_voxel(first_voxel);
     const std::size_t count = std::min(voxels_per_piece, ct.hu.size() - first_voxel);
@@ -46,7 +46,7 @@ v1::CtPiece CtPacker::pack(const CtVolume& ct, std::size_t& first_voxel) {
     return piece;
 }
 
-std::variant<std::shared_ptr<const CtVolume>, WireError> CtAssembler::take(const v1::CtPiece& piece) {
+std::variant<std::shared_ptr<const CtVolume>, WireError> CtAssembler::take(const v2::CtPiece& piece) {
     const auto refuse = [this](const std::string& what) {
         ct_.reset();
         return ct_refused(what);

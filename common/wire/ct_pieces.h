@@ -9,7 +9,7 @@
 #include "common/bone/ct_volume.h"
 #include "common/wire/wire_error.h"
 #include "common/wire/zstd_compressor.h"
-#include "osteomill/v1/bone.pb.h"
+#include "osteomill/v2/bone.pb.h"
 
 namespace osteomill {
 
@@ -21,7 +21,7 @@ class CtPacker {
     CtPacker() : compressor_(3) {}
     /// The piece from that voxel on; `first_voxel` goes to the one after it, at the end to the number of
     /// voxels. The first piece carries the grid.
-    v1::CtPiece pack(const CtVolume& ct, std::size_t& first_voxel);
+    v2::CtPiece pack(const CtVolume& ct, std::size_t& first_voxel);
 
   private:
     ZstdCompressor compressor_;
@@ -31,7 +31,7 @@ class CtAssembler {
   public:
     /// A piece with a grid begins anew. Nothing until the last has come. Refuses pieces out of order, a grid
     /// that is too large or impossible, and what cannot be unpacked; it is then empty again.
-    std::variant<std::shared_ptr<const CtVolume>, WireError> take(const v1::CtPiece& piece);
+    std::variant<std::shared_ptr<const CtVolume>, WireError> take(const v2::CtPiece& piece);
 
   private:
     std::shared_ptr<CtVolume> ct_;

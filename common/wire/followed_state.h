@@ -2,15 +2,10 @@
 #pragma once
 
 #include <variant>
-#include <vector>
 
-#include "common/scene/session_control.h"
-#include "common/scene/structure_distance.h"
-#include "common/scene/tool_state.h"
 #include "common/wire/bone_replica.h"
-#include "common/wire/session_info.h"
+#include "common/wire/session_receiver.h"
 #include "common/wire/wire_error.h"
-#include "osteomill/v1/session.pb.h"
 
 namespace osteomill {
 
@@ -22,19 +17,13 @@ enum class ReplicaCheck {
 };
 
 struct FollowedState {
-    ToolState tool;
     ReplicaCheck check = ReplicaCheck::none;
-    std::vector<ControlEvent> events{};
-    SessionStatus status{};
-    std::vector<StructureDistance> distances{};  ///< to protected structures that are near or were touched
-    /// An edit raised what was left, as milling cannot: the replica had lost bone, and has it again. Those
-    /// that restore bone are no such edits.
+    /// A change raised what was left, as milling cannot: the replica had lost bone, and has it again. Those
+    /// that restore bone are no such changes.
     bool has_regained_bone = false;
 };
 
-/// `session`: to check the frame against. After an error part of the frame may have been
-/// applied: a fresh bone is needed.
-std::variant<FollowedState, WireError> follow(const v1::StateFrame& frame, const SessionInfo& session,
-                                              BoneReplica& replica);
+/// After an error part of the changes may have been applied: a fresh bone is needed.
+std::variant<FollowedState, WireError> follow(const StateArrived& arrived, BoneReplica& replica);
 
 }  // namespace osteomill

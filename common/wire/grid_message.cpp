@@ -8,8 +8,8 @@
 
 namespace osteomill {
 
-v1::Grid to_message(const Grid& grid) {
-    v1::Grid message;
+v2::Grid to_message(const Grid& grid) {
+    v2::Grid message;
     message.set_size_x(static_cast<std::uint32_t>(grid.size_voxels.x));
     message.set_size_y(static_cast<std::uint32_t>(grid.size_voxels.y));
     message.set_size_z(static_cast<std::uint32_t>(grid.size_voxels.z));
@@ -18,7 +18,7 @@ v1::Grid to_message(const Grid& grid) {
     return message;
 }
 
-std::variant<Grid, WireError> grid_from(const v1::Grid& message) {
+std::variant<Grid, WireError> grid_from(const v2::Grid& message) {
     constexpr auto largest = static_cast<std::uint32_t>(std::numeric_limits<int>::max());
     if (std::max({message.size_x(), message.size_y(), message.size_z()}) > largest)
         return WireError{"the grid has more than 65536 voxels along an axis"};

@@ -5,13 +5,13 @@
 
 #include "common/bone/grid.h"
 #include "common/wire/wire_error.h"
-#include "osteomill/v1/bone.pb.h"
+#include "osteomill/v2/bone.pb.h"
 
 namespace osteomill {
 
-v1::Grid to_message(const Grid& grid);
+v2::Grid to_message(const Grid& grid);
 
 /// Refuses what require_valid() does.
-std::variant<Grid, WireError> grid_from(const v1::Grid& message);
+std::variant<Grid, WireError> grid_from(const v2::Grid& message);
 
 }  // namespace osteomill

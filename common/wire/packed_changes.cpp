@@ -4,9 +4,6 @@
 
 #include <span>
 #include <string>
-#include <utility>
-
-#include "common/wire/brick_edit.h"
 
 namespace osteomill {
 
@@ -25,8 +22,8 @@ ChangePacker::ChangePacker() : compressor_(frame_compression_level) {
     content_.reserve(largest_packed_changes_bytes);
 }
 
-v1::PackedChanges ChangePacker::pack(const Bone& bone, const std::vector<BrickChange>& changes) {
-    v1::PackedChanges message;
+v2::PackedChanges ChangePacker::pack(const Bone& bone, const std::vector<BrickChange>& changes) {
+    v2::PackedChanges message;
     content_.clear();
     for (const auto& [brick, voxels, kind] : changes) {
         message.add_brick(brick);
@@ -41,8 +38,8 @@ v1::PackedChanges ChangePacker::pack(const Bone& bone, const std::vector<BrickCh
     return message;
 }
 
-std::variant<std::vector<v1::BrickEdit>, WireError> unpack(const v1::PackedChanges& message,
-                                                           const glm::ivec3& size_bricks) {
+std::optional<WireError> unpack(const v2::PackedChanges& message, ChangeKind kind,
+                                const glm::ivec3& size_bricks, std::vector<ChangedBrick>& changes) {
     const auto count = static_cast<std::size_t>(message.brick_size());
     if (count == 0 || count * mask_bytes > largest_packed_changes_bytes)
         return changes_refused("they are of " + std::to_string(count) + " bricks, not 1 to " +
@@ -55,21 +52,20 @@ std::variant<std::vector<v1::BrickEdit>, WireError> unpack(const v1::PackedChang
     content.resize(size);
 
     const glm::uvec3 table(size_bricks);
-    std::vector<v1::BrickEdit> edits;
-    edits.reserve(count);
+    changes.reserve(changes.size() + count);
     std::size_t next = count * mask_bytes;
     for (std::size_t i = 0; i < count; ++i) {
         const BrickIndex brick = message.brick(static_cast<int>(i));
         if (brick >= std::uint64_t{table.x} * table.y * table.z)
             return changes_refused("brick " + std::to_string(brick) + " lies outside the grid");
-        const BrickChange change{brick, mask_at(std::span(content).subspan(i * mask_bytes))};
-        if (change.voxels.count() > size - next) return changes_refused("they lack fractions");
-        ByteBrick fractions{};
-        change.voxels.for_each([&](std::size_t voxel) { fractions[voxel] = content[next++]; });
-        edits.push_back(brick_edit(change, fractions));
+        ChangedBrick& changed = changes.emplace_back();
+        changed.change = {brick, mask_at(std::span(content).subspan(i * mask_bytes)), kind};
+        if (changed.change.voxels.count() > size - next) return changes_refused("they lack fractions");
+        changed.change.voxels.for_each(
+            [&](std::size_t voxel) { changed.fractions[voxel] = content[next++]; });
     }
     if (next != size) return changes_refused("they have more fractions than changed voxels");
-    return edits;
+    return std::nullopt;
 }
 
 }  // namespace osteomill

@@ -10,20 +10,20 @@ namespace osteomill {
 
 namespace {
 
-void write_place(const glm::dvec3& from, v1::Vec3& to) {
+void write_place(const glm::dvec3& from, v2::Vec3& to) {
     to.set_x(from.x);
     to.set_y(from.y);
     to.set_z(from.z);
 }
 
-glm::dvec3 place_from(const v1::Vec3& from) {
+glm::dvec3 place_from(const v2::Vec3& from) {
     return {from.x(), from.y(), from.z()};
 }
 
 }  // namespace
 
-v1::Plan to_message(const Plan& plan) {
-    v1::Plan message;
+v2::Plan to_message(const Plan& plan) {
+    v2::Plan message;
     message.set_margin_mm(plan.margin_mm);
     if (const auto* tissue = std::get_if<TissueRegion>(&plan.region)) message.set_tissue(tissue->tissue);
     if (const auto* sphere = std::get_if<SphereRegion>(&plan.region)) {
@@ -38,22 +38,22 @@ v1::Plan to_message(const Plan& plan) {
     return message;
 }
 
-std::variant<Plan, WireError> plan_from(const v1::Plan& message) {
+std::variant<Plan, WireError> plan_from(const v2::Plan& message) {
     Plan plan{.margin_mm = message.margin_mm()};
     double radius_mm = 1.0;
     switch (message.region_case()) {
-        case v1::Plan::kTissue:
+        case v2::Plan::kTissue:
             plan.region = TissueRegion{printable(message.tissue())};
             break;
-        case v1::Plan::kSphere: {
-            const v1::Plan::Sphere& sphere = message.sphere();
+        case v2::Plan::kSphere: {
+            const v2::Plan::Sphere& sphere = message.sphere();
             radius_mm = sphere.radius_mm();
             if (!is_finite(place_from(sphere.centre_mm()))) return WireError{"the plan's sphere is nowhere"};
             plan.region = SphereRegion{place_from(sphere.centre_mm()), radius_mm};
             break;
         }
-        case v1::Plan::kCylinder: {
-            const v1::Plan::Cylinder& cylinder = message.cylinder();
+        case v2::Plan::kCylinder: {
+            const v2::Plan::Cylinder& cylinder = message.cylinder();
             radius_mm = cylinder.radius_mm();
             const glm::dvec3 from_mm = place_from(cylinder.from_mm());
             const glm::dvec3 to_mm = place_from(cylinder.to_mm());
@@ -63,7 +63,7 @@ std::variant<Plan, WireError> plan_from(const v1::Plan& message) {
             plan.region = CylinderRegion{from_mm, to_mm, radius_mm};
             break;
         }
-        case v1::Plan::REGION_NOT_SET:
+        case v2::Plan::REGION_NOT_SET:
             return WireError{"the plan has no region"};
     }
     if (!std::isfinite(radius_mm) || !(radius_mm > 0.0) || !std::isfinite(plan.margin_mm) ||

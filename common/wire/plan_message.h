@@ -5,13 +5,13 @@
 
 #include "common/scene/plan.h"
 #include "common/wire/wire_error.h"
-#include "osteomill/v1/session.pb.h"
+#include "osteomill/v2/session.pb.h"
 
 namespace osteomill {
 
-v1::Plan to_message(const Plan& plan);
+v2::Plan to_message(const Plan& plan);
 
 /// Refuses a plan without a region, and lengths that are not finite or, of a radius, not above zero.
-std::variant<Plan, WireError> plan_from(const v1::Plan& message);
+std::variant<Plan, WireError> plan_from(const v2::Plan& message);
 
 }  // namespace osteomill

@@ -24,31 +24,31 @@ WireError unknown_burr(std::uint32_t burr, std::size_t burr_count) {
     return {"burr " + std::to_string(burr) + " is not one of the scene's " + std::to_string(burr_count)};
 }
 
-v1::ToolDriver to_message(ToolDriver driver) {
+v2::ToolDriver to_message(ToolDriver driver) {
     switch (driver) {
         case ToolDriver::nobody:
-            return v1::TOOL_DRIVER_NOBODY;
+            return v2::TOOL_DRIVER_NOBODY;
         case ToolDriver::you:
-            return v1::TOOL_DRIVER_YOU;
+            return v2::TOOL_DRIVER_YOU;
         case ToolDriver::another:
-            return v1::TOOL_DRIVER_ANOTHER;
+            return v2::TOOL_DRIVER_ANOTHER;
         case ToolDriver::others_only:
-            return v1::TOOL_DRIVER_OTHERS_ONLY;
+            return v2::TOOL_DRIVER_OTHERS_ONLY;
         case ToolDriver::unknown:
             break;
     }
-    return v1::TOOL_DRIVER_UNKNOWN;
+    return v2::TOOL_DRIVER_UNKNOWN;
 }
 
-ToolDriver driver_from(v1::ToolDriver driver) {
+ToolDriver driver_from(v2::ToolDriver driver) {
     switch (driver) {
-        case v1::TOOL_DRIVER_NOBODY:
+        case v2::TOOL_DRIVER_NOBODY:
             return ToolDriver::nobody;
-        case v1::TOOL_DRIVER_YOU:
+        case v2::TOOL_DRIVER_YOU:
             return ToolDriver::you;
-        case v1::TOOL_DRIVER_ANOTHER:
+        case v2::TOOL_DRIVER_ANOTHER:
             return ToolDriver::another;
-        case v1::TOOL_DRIVER_OTHERS_ONLY:
+        case v2::TOOL_DRIVER_OTHERS_ONLY:
             return ToolDriver::others_only;
         default:  // a newer server may say what this program does not know
             return ToolDriver::unknown;
@@ -57,9 +57,9 @@ ToolDriver driver_from(v1::ToolDriver driver) {
 
 /// Of a burr whose diameter is checked; nothing where the message makes no head. A shape that only a newer
 /// server knows is drawn as a ball.
-std::optional<BurrHead> head_from(const v1::BurrDescription& message) {
+std::optional<BurrHead> head_from(const v2::BurrDescription& message) {
     if (!message.has_head()) return BurrHead{};
-    const v1::BurrHead& head = message.head();
+    const v2::BurrHead& head = message.head();
     const auto* const name = std::find(head_shape_names.begin(), head_shape_names.end(), head.shape());
     if (name == head_shape_names.end()) return BurrHead{};
     const BurrHead read{static_cast<HeadShape>(name - head_shape_names.begin()), head.length_mm(),
@@ -72,8 +72,8 @@ std::optional<BurrHead> head_from(const v1::BurrDescription& message) {
     return read;
 }
 
-v1::CutState to_message(const CutState& cut) {
-    v1::CutState message;
+v2::CutState to_message(const CutState& cut) {
+    v2::CutState message;
     message.set_force_n(static_cast<float>(cut.force_n));
     message.set_tooth_ripple_n(static_cast<float>(cut.tooth_ripple_n));
     message.set_relative_stiffness(static_cast<float>(cut.relative_stiffness));
@@ -81,7 +81,7 @@ v1::CutState to_message(const CutState& cut) {
     return message;
 }
 
-CutState cut_from(const v1::CutState& message) {
+CutState cut_from(const v2::CutState& message) {
     CutState cut{.force_n = static_cast<double>(message.force_n()),
                  .tooth_ripple_n = static_cast<double>(message.tooth_ripple_n()),
                  .relative_stiffness = static_cast<double>(message.relative_stiffness())};
@@ -96,15 +96,15 @@ bool is_finite(const CutState& cut) {
 
 }  // namespace
 
-v1::BurrDescription to_message(const Burr& burr) {
-    v1::BurrDescription message;
+v2::BurrDescription to_message(const Burr& burr) {
+    v2::BurrDescription message;
     message.set_name(burr.name);
     message.set_diameter_mm(burr.diameter_mm);
     message.set_edges(static_cast<std::uint32_t>(burr.edges));
     message.set_spindle_rpm(burr.spindle_rev_per_s * 60.0);
     message.set_clockwise(burr.sense == SpindleSense::clockwise);
     if (!burr.is_ball()) {
-        v1::BurrHead& head = *message.mutable_head();
+        v2::BurrHead& head = *message.mutable_head();
         head.set_shape(std::string(head_shape_names[static_cast<std::size_t>(burr.head.shape)]));
         head.set_length_mm(burr.head.length_mm);
         head.set_tip_diameter_mm(burr.head.tip_diameter_mm);
@@ -113,8 +113,8 @@ v1::BurrDescription to_message(const Burr& burr) {
     return message;
 }
 
-v1::TissueDescription to_message(const Tissue& tissue) {
-    v1::TissueDescription message;
+v2::TissueDescription to_message(const Tissue& tissue) {
+    v2::TissueDescription message;
     message.set_label(tissue.label);
     message.set_name(tissue.name);
     message.set_colour_rgb(static_cast<std::uint32_t>(tissue.colour_rgb[0]) << 16U |
@@ -125,8 +125,8 @@ v1::TissueDescription to_message(const Tissue& tissue) {
     return message;
 }
 
-v1::ToolState to_message(const ToolState& tool) {
-    v1::ToolState message;
+v2::ToolState to_message(const ToolState& tool) {
+    v2::ToolState message;
     message.set_time_s(tool.time_s);
     write(tool.burr_position_mm, *message.mutable_burr_position_mm());
     write(tool.spindle_axis, *message.mutable_spindle_axis());
@@ -142,7 +142,7 @@ v1::ToolState to_message(const ToolState& tool) {
     message.set_driver(to_message(tool.driver));
     if (tool.depth_mm) message.set_depth_mm(*tool.depth_mm);
     if (tool.solve) {
-        v1::SolveCounts& solve = *message.mutable_solve();
+        v2::SolveCounts& solve = *message.mutable_solve();
         solve.set_max_residual_n(tool.solve->max_residual_n);
         solve.set_fallbacks(tool.solve->fallbacks);
         solve.set_relaxed(tool.solve->relaxed);
@@ -155,8 +155,8 @@ v1::ToolState to_message(const ToolState& tool) {
     return message;
 }
 
-v1::Hello to_message(const SessionInfo& session) {
-    v1::Hello hello;
+v2::Hello to_message(const SessionInfo& session) {
+    v2::Hello hello;
     hello.set_protocol_major(session.protocol_major);
     hello.set_protocol_minor(session.protocol_minor);
     hello.set_program_version(session.server_version);
@@ -175,8 +175,8 @@ v1::Hello to_message(const SessionInfo& session) {
     return hello;
 }
 
-v1::OperatorInput to_message(const OperatorCommand& command) {
-    v1::OperatorInput message;
+v2::OperatorInput to_message(const OperatorCommand& command) {
+    v2::OperatorInput message;
     write(command.hand_target_mm, *message.mutable_hand_target_mm());
     write(command.spindle_axis, *message.mutable_spindle_axis());
     message.set_pedal(command.pedal);
@@ -185,10 +185,10 @@ v1::OperatorInput to_message(const OperatorCommand& command) {
 }
 
 std::variant<std::vector<Burr>, WireError> burrs_from(
-    const google::protobuf::RepeatedPtrField<v1::BurrDescription>& messages) {
+    const google::protobuf::RepeatedPtrField<v2::BurrDescription>& messages) {
     if (messages.empty()) return WireError{"the scene has no burr"};
     std::vector<Burr> burrs;
-    for (const v1::BurrDescription& message : messages) {
+    for (const v2::BurrDescription& message : messages) {
         if (!is_positive(message.diameter_mm()) || !is_positive(message.spindle_rpm()) ||
             message.edges() > 1000)
             return WireError{"burr \"" + one_line(message.name()) +
@@ -209,9 +209,9 @@ std::variant<std::vector<Burr>, WireError> burrs_from(
 }
 
 std::variant<std::vector<Tissue>, WireError> tissues_from(
-    const google::protobuf::RepeatedPtrField<v1::TissueDescription>& messages) {
+    const google::protobuf::RepeatedPtrField<v2::TissueDescription>& messages) {
     std::vector<Tissue> tissues;
-    for (const v1::TissueDescription& message : messages) {
+    for (const v2::TissueDescription& message : messages) {
         const std::uint32_t rgb = message.colour_rgb();
         if (message.label() < 1 || message.label() > 255 || rgb > 0xFFFFFF)
             return WireError{"tissue \"" + one_line(message.name()) + "\" has an impossible label or colour"};
@@ -232,13 +232,13 @@ std::variant<std::vector<Tissue>, WireError> tissues_from(
     return tissues;
 }
 
-std::map<std::string, std::string> settings_from(const v1::Hello& hello) {
+std::map<std::string, std::string> settings_from(const v2::Hello& hello) {
     std::map<std::string, std::string> settings;
     for (const auto& [name, value] : hello.settings()) settings.emplace(printable(name), printable(value));
     return settings;
 }
 
-std::variant<SessionInfo, WireError> session_info_from(const v1::Hello& hello) {
+std::variant<SessionInfo, WireError> session_info_from(const v2::Hello& hello) {
     auto burrs = burrs_from(hello.burrs());
     if (auto* error = std::get_if<WireError>(&burrs)) return *error;
     auto tissues = tissues_from(hello.tissues());
@@ -270,7 +270,7 @@ std::variant<SessionInfo, WireError> session_info_from(const v1::Hello& hello) {
                        .settings = settings_from(hello)};
 }
 
-std::variant<ToolState, WireError> tool_from(const v1::ToolState& message, std::size_t burr_count) {
+std::variant<ToolState, WireError> tool_from(const v2::ToolState& message, std::size_t burr_count) {
     ToolState tool{.time_s = message.time_s(),
                    .burr_position_mm = read(message.burr_position_mm()),
                    .spindle_axis = read(message.spindle_axis()),
@@ -305,7 +305,7 @@ std::variant<ToolState, WireError> tool_from(const v1::ToolState& message, std::
     return tool;
 }
 
-std::variant<OperatorCommand, WireError> operator_command_from(const v1::OperatorInput& message,
+std::variant<OperatorCommand, WireError> operator_command_from(const v2::OperatorInput& message,
                                                                std::size_t burr_count) {
     OperatorCommand command{.hand_target_mm = read(message.hand_target_mm()),
                             .spindle_axis = read(message.spindle_axis()),

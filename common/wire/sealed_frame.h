@@ -11,7 +11,7 @@
 #include <variant>
 
 #include "common/wire/wire_error.h"
-#include "osteomill/v1/session.pb.h"
+#include "osteomill/v2/session.pb.h"
 
 namespace osteomill {
 
@@ -23,16 +23,11 @@ inline constexpr std::size_t recorded_time_bytes = 9;
 
 /// Appends the frame, which is not sealed yet, with its seal, behind its length. Throws std::length_error for
 /// one that does not fit: see append_frame.
-void append_sealed_frame(const v1::ServerFrame& frame, std::string& stream);
+void append_sealed_frame(const v2::ServerFrame& frame, std::string& stream);
 
-enum class Seal {
-    required,  ///< in a recording
-    optional,  ///< on the wire, where a server of protocol 1.0 may speak
-};
-
-/// The frame of a message's bytes. Refused: bytes that are no message, a seal that does not hold or is not
-/// the last field, and a required one that is missing.
-std::variant<v1::ServerFrame, WireError> open_frame(std::span<const std::uint8_t> message, Seal seal);
+/// The frame of a message's bytes. Refused: bytes that are no message, and a seal that is missing, does not
+/// hold or is not the last field.
+std::variant<v2::ServerFrame, WireError> open_frame(std::span<const std::uint8_t> message);
 
 /// Whether these bytes end in a seal that holds, whatever they say.
 bool has_sound_seal(std::span<const std::uint8_t> message);

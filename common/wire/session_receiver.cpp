@@ -4,10 +4,11 @@
 
 #include "common/wire/packed_changes.h"
 #include "common/wire/scene_messages.h"
+#include "common/wire/state_message.h"
 
 namespace osteomill {
 
-std::variant<SessionEvent, WireError> SessionReceiver::take(v1::ServerFrame frame) {
+std::variant<SessionEvent, WireError> SessionReceiver::take(v2::ServerFrame frame) {
     const bool follows_gap = stage_ != Stage::hello && frame.sequence() != last_sequence_ + 1;
     if (follows_gap && !(may_miss_frames() && frame.sequence() > last_sequence_))
         return WireError{"frame " + std::to_string(frame.sequence()) + " came after " +
@@ -38,7 +39,7 @@ std::variant<SessionEvent, WireError> SessionReceiver::take(v1::ServerFrame fram
 }
 
 bool SessionReceiver::may_miss_frames() const {
-    return gaps_ == Gaps::reported && compares_ && stage_ == Stage::live;
+    return gaps_ == Gaps::reported && stage_ == Stage::live;
 }
 
 void SessionReceiver::go_on_behind(std::uint64_t sequence) {
@@ -47,20 +48,20 @@ void SessionReceiver::go_on_behind(std::uint64_t sequence) {
     structures_.miss();
 }
 
-SessionReceiver::Outcome SessionReceiver::take_hello(const v1::Hello& hello) {
+SessionReceiver::Outcome SessionReceiver::take_hello(const v2::Hello& hello) {
     if (hello.protocol_major() != protocol_major) {
         stage_ = Stage::over;
         return SessionEvent(SpeaksOtherProtocol{hello.protocol_major()});
     }
     auto info = session_info_from(hello);
     if (auto* error = std::get_if<WireError>(&info)) return *error;
-    compares_ = hello.protocol_minor() >= first_minor_that_compares;
+    burr_count_ = std::get<SessionInfo>(info).burrs.size();
     tissues_ = std::get<SessionInfo>(info).tissues;
     stage_ = Stage::snapshot_begin;
     return SessionEvent(std::get<SessionInfo>(std::move(info)));
 }
 
-SessionReceiver::Outcome SessionReceiver::take_snapshot_begin(const v1::SnapshotBegin& message) {
+SessionReceiver::Outcome SessionReceiver::take_snapshot_begin(const v2::SnapshotBegin& message) {
     auto begun = SnapshotAssembler::begin(message);
     if (auto* error = std::get_if<WireError>(&begun)) return *error;
     assembler_.emplace(std::get<SnapshotAssembler>(std::move(begun)));
@@ -70,13 +71,13 @@ SessionReceiver::Outcome SessionReceiver::take_snapshot_begin(const v1::Snapshot
     return SessionEvent(SnapshotGoesOn{});
 }
 
-SessionReceiver::Outcome SessionReceiver::take_snapshot_bricks(const v1::SnapshotBricks& message) {
+SessionReceiver::Outcome SessionReceiver::take_snapshot_bricks(const v2::SnapshotBricks& message) {
     if (auto error = assembler_->add(message)) return *error;
     bricks_received_ = assembler_->bricks_received();
     return SessionEvent(SnapshotGoesOn{});
 }
 
-SessionReceiver::Outcome SessionReceiver::take_snapshot_end(const v1::SnapshotEnd& message) {
+SessionReceiver::Outcome SessionReceiver::take_snapshot_end(const v2::SnapshotEnd& message) {
     auto finished = std::move(*assembler_).finish(message);
     assembler_.reset();
     if (auto* error = std::get_if<WireError>(&finished)) return *error;
@@ -88,24 +89,19 @@ SessionReceiver::Outcome SessionReceiver::take_snapshot_end(const v1::SnapshotEn
     return SessionEvent(BoneArrived{std::move(bone), std::move(terms)});
 }
 
-SessionReceiver::Outcome SessionReceiver::take_state(v1::StateFrame state, bool follows_gap) const {
-    const auto spread = [&](const v1::PackedChanges& packed, auto& edits) -> std::optional<WireError> {
-        auto unpacked = unpack(packed, size_bricks_);
-        if (auto* error = std::get_if<WireError>(&unpacked)) return std::move(*error);
-        for (v1::BrickEdit& edit : std::get<std::vector<v1::BrickEdit>>(unpacked))
-            *edits.Add() = std::move(edit);
-        return std::nullopt;
-    };
-    if (state.has_changes()) {
-        if (auto error = spread(state.changes(), *state.mutable_edits())) return *std::move(error);
-        state.clear_changes();
-    }
-    if (state.has_restored_changes()) {
-        if (auto error = spread(state.restored_changes(), *state.mutable_restored()))
+SessionReceiver::Outcome SessionReceiver::take_state(v2::StateFrame message, bool follows_gap) const {
+    auto state = session_state_from(message, burr_count_, tissues_.size());
+    if (auto* error = std::get_if<WireError>(&state)) return std::move(*error);
+    StateArrived arrived{.state = std::get<SessionState>(std::move(state)), .follows_gap = follows_gap};
+    if (message.has_changes())
+        if (auto error = unpack(message.changes(), ChangeKind::milled, size_bricks_, arrived.changes))
             return *std::move(error);
-        state.clear_restored_changes();
-    }
-    return SessionEvent(StateArrived{std::move(state), follows_gap});
+    if (message.has_restored())
+        if (auto error = unpack(message.restored(), ChangeKind::restored, size_bricks_, arrived.changes))
+            return *std::move(error);
+    if (message.bone_checksum() != 0) arrived.bone_checksum = message.bone_checksum();
+    if (message.has_comparison()) arrived.comparison = std::move(*message.mutable_comparison());
+    return SessionEvent(std::move(arrived));
 }
 
 }  // namespace osteomill

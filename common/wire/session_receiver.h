@@ -9,12 +9,14 @@
 #include <vector>
 
 #include "common/bone/bone.h"
+#include "common/bone/brick_change.h"
+#include "common/scene/session_state.h"
 #include "common/wire/running_checksum.h"
 #include "common/wire/session_info.h"
 #include "common/wire/snapshot.h"
 #include "common/wire/structure_messages.h"
 #include "common/wire/wire_error.h"
-#include "osteomill/v1/session.pb.h"
+#include "osteomill/v2/session.pb.h"
 
 namespace osteomill {
 
@@ -27,18 +29,20 @@ struct BoneArrived {
     RunningChecksum checksum;
 };
 
-/// A state frame, as it came, but for packed changes, which have become edits; checked when it is applied:
-/// see followed_state.h.
+/// A state frame. Its changes are checked against the bone when they are applied: see followed_state.h.
 struct StateArrived {
-    v1::StateFrame frame;
+    SessionState state{};
+    std::vector<ChangedBrick> changes{};           ///< in the order in which they are to be applied
+    std::optional<std::uint64_t> bone_checksum{};  ///< after them
+    std::optional<v2::Comparison> comparison{};    ///< the answer to what was asked
     bool follows_gap = false;  ///< frames before it are missing, and with them what they said of the bone
 };
 
 /// What a receiver makes of a gap in the sequence of frames.
 enum class Gaps {
     refused,  ///< an error
-    /// Between state frames of a server that compares bones it is said with the next one: what it said of
-    /// the bone can be asked for. Elsewhere an error.
+    /// Between state frames it is said with the next one: what it said of the bone can be asked for.
+    /// Elsewhere an error.
     reported,
 };
 
@@ -54,7 +58,7 @@ struct SpeaksOtherProtocol {
 
 /// Another piece of the CT; what it makes is the receiver's business.
 struct CtPieceArrived {
-    v1::CtPiece piece;
+    v2::CtPiece piece;
 };
 
 /// Of a protected structure, what has come is complete; nothing: there will be more of it.
@@ -72,7 +76,7 @@ class SessionReceiver {
 
     /// The next frame of the session. An error says what is wrong with it; the receiver is then of no further
     /// use.
-    std::variant<SessionEvent, WireError> take(v1::ServerFrame frame);
+    std::variant<SessionEvent, WireError> take(v2::ServerFrame frame);
 
     /// Whether a bone has come: state frames may follow.
     bool is_live() const { return stage_ == Stage::live; }
@@ -90,17 +94,17 @@ class SessionReceiver {
     enum class Stage { hello, snapshot_begin, snapshot, live, over };
 
     bool may_miss_frames() const;
-    Outcome take_hello(const v1::Hello& hello);
-    Outcome take_snapshot_begin(const v1::SnapshotBegin& message);
-    Outcome take_snapshot_bricks(const v1::SnapshotBricks& message);
-    Outcome take_snapshot_end(const v1::SnapshotEnd& message);
-    Outcome take_state(v1::StateFrame state, bool follows_gap) const;
+    Outcome take_hello(const v2::Hello& hello);
+    Outcome take_snapshot_begin(const v2::SnapshotBegin& message);
+    Outcome take_snapshot_bricks(const v2::SnapshotBricks& message);
+    Outcome take_snapshot_end(const v2::SnapshotEnd& message);
+    Outcome take_state(v2::StateFrame message, bool follows_gap) const;
 
     Gaps gaps_ = Gaps::refused;
-    bool compares_ = false;  // the server does
     Stage stage_ = Stage::hello;
     std::uint64_t last_sequence_ = 0;
     std::optional<SnapshotAssembler> assembler_;
+    std::size_t burr_count_ = 0;
     std::vector<Tissue> tissues_;
     StructureAssembler structures_;
     glm::ivec3 size_bricks_{0};  // of the bone

@@ -58,9 +58,9 @@ void require_sendable(const Bone& bone) {
                           channel_count(!content.stiffness.empty(), !content.tissue.empty()));
 }
 
-v1::SnapshotBegin snapshot_begin(const Bone& bone) {
+v2::SnapshotBegin snapshot_begin(const Bone& bone) {
     const BoneContent& content = bone.content();
-    v1::SnapshotBegin message;
+    v2::SnapshotBegin message;
     *message.mutable_grid() = to_message(content.grid);
     message.set_heterogeneous(!content.stiffness.empty());
     message.set_labelled(!content.tissue.empty());
@@ -74,13 +74,13 @@ SnapshotPacker::SnapshotPacker() : compressor_(snapshot_compression_level) {
     channels_.reserve(largest_snapshot_piece_bytes);
 }
 
-v1::SnapshotBricks SnapshotPacker::pack(const Bone& bone, std::size_t first_slot) {
+v2::SnapshotBricks SnapshotPacker::pack(const Bone& bone, std::size_t first_slot) {
     const BoneContent& content = bone.content();
     const std::size_t most =
         most_bricks_of_piece(channel_count(!content.stiffness.empty(), !content.tissue.empty()));
     const std::size_t end = std::min(bone.stored_bricks(), first_slot + most);
 
-    v1::SnapshotBricks message;
+    v2::SnapshotBricks message;
     channels_.clear();
     for (std::size_t slot = first_slot; slot < end; ++slot) {
         message.add_brick(content.brick_of_slot[slot]);
@@ -95,7 +95,7 @@ v1::SnapshotBricks SnapshotPacker::pack(const Bone& bone, std::size_t first_slot
     return message;
 }
 
-SnapshotAssembler::SnapshotAssembler(BoneBuilder builder, const v1::SnapshotBegin& message,
+SnapshotAssembler::SnapshotAssembler(BoneBuilder builder, const v2::SnapshotBegin& message,
                                      const glm::ivec3& size_bricks)
     : builder_(std::move(builder)),
       size_bricks_(size_bricks),
@@ -103,7 +103,7 @@ SnapshotAssembler::SnapshotAssembler(BoneBuilder builder, const v1::SnapshotBegi
       labelled_(message.labelled()),
       announced_(message.brick_count()) {}
 
-std::variant<SnapshotAssembler, WireError> SnapshotAssembler::begin(const v1::SnapshotBegin& message) {
+std::variant<SnapshotAssembler, WireError> SnapshotAssembler::begin(const v2::SnapshotBegin& message) {
     const std::variant<Grid, WireError> parsed = grid_from(message.grid());
     if (const auto* error = std::get_if<WireError>(&parsed)) return snapshot_refused(error->line);
     const Grid& grid = std::get<Grid>(parsed);
@@ -128,7 +128,7 @@ std::variant<SnapshotAssembler, WireError> SnapshotAssembler::begin(const v1::Sn
     }
 }
 
-std::optional<WireError> SnapshotAssembler::add(const v1::SnapshotBricks& message) {
+std::optional<WireError> SnapshotAssembler::add(const v2::SnapshotBricks& message) {
     const std::size_t channels = channel_count(heterogeneous_, labelled_);
     const auto bricks = static_cast<std::size_t>(message.brick_size());
     if (bricks == 0 || bricks > most_bricks_of_piece(channels))
@@ -171,7 +171,7 @@ std::optional<WireError> SnapshotAssembler::add(const v1::SnapshotBricks& messag
     return std::nullopt;
 }
 
-std::variant<Bone, WireError> SnapshotAssembler::finish(const v1::SnapshotEnd& message) && {
+std::variant<Bone, WireError> SnapshotAssembler::finish(const v2::SnapshotEnd& message) && {
     if (received_ != announced_)
         return snapshot_refused(std::to_string(received_) + " bricks came of the " +
                                 std::to_string(announced_) + " announced");

@@ -13,7 +13,7 @@
 #include "common/bone/bone_builder.h"
 #include "common/wire/wire_error.h"
 #include "common/wire/zstd_compressor.h"
-#include "osteomill/v1/bone.pb.h"
+#include "osteomill/v2/bone.pb.h"
 
 namespace osteomill {
 
@@ -28,7 +28,7 @@ inline constexpr std::size_t largest_snapshot_piece_bytes = 120 * 1024;
 /// Throws std::invalid_argument where the bone is larger than that.
 void require_sendable(const Bone& bone);
 
-v1::SnapshotBegin snapshot_begin(const Bone& bone);
+v2::SnapshotBegin snapshot_begin(const Bone& bone);
 
 /// Packs bricks for a snapshot, piece by piece, so that a snapshot can be taken from a bone that changes
 /// meanwhile: see the streaming session.
@@ -37,7 +37,7 @@ class SnapshotPacker {
     SnapshotPacker();
 
     /// The bricks from `first_slot` on, as many as fit; at least one. `first_slot` must be a stored brick's.
-    v1::SnapshotBricks pack(const Bone& bone, std::size_t first_slot);
+    v2::SnapshotBricks pack(const Bone& bone, std::size_t first_slot);
 
   private:
     ZstdCompressor compressor_;
@@ -48,19 +48,19 @@ class SnapshotPacker {
 class SnapshotAssembler {
   public:
     /// Begins a snapshot, or says why that grid cannot be had.
-    static std::variant<SnapshotAssembler, WireError> begin(const v1::SnapshotBegin& message);
+    static std::variant<SnapshotAssembler, WireError> begin(const v2::SnapshotBegin& message);
 
     /// Adds bricks. After an error the assembler is of no further use.
-    std::optional<WireError> add(const v1::SnapshotBricks& message);
+    std::optional<WireError> add(const v2::SnapshotBricks& message);
 
     /// The bone, if every announced brick has come and the checksum holds. The assembler is spent.
-    std::variant<Bone, WireError> finish(const v1::SnapshotEnd& message) &&;
+    std::variant<Bone, WireError> finish(const v2::SnapshotEnd& message) &&;
 
     std::uint32_t bricks_received() const { return received_; }
     std::uint32_t bricks_announced() const { return announced_; }
 
   private:
-    SnapshotAssembler(BoneBuilder builder, const v1::SnapshotBegin& message, const glm::ivec3& size_bricks);
+    SnapshotAssembler(BoneBuilder builder, const v2::SnapshotBegin& message, const glm::ivec3& size_bricks);
 
     BoneBuilder builder_;
     glm::ivec3 size_bricks_;

@@ -28,8 +28,8 @@ bool is_amount(double value) {
 
 }  // namespace
 
-std::vector<v1::StructureBricks> structure_pieces(std::span<const Structure> structures) {
-    std::vector<v1::StructureBricks> pieces;
+std::vector<v2::StructureBricks> structure_pieces(std::span<const Structure> structures) {
+    std::vector<v2::StructureBricks> pieces;
     std::size_t all_bricks = 0;
     for (const Structure& structure : structures) all_bricks += structure.mask.bricks().size();
     if (all_bricks > most_structure_bricks)
@@ -43,7 +43,7 @@ std::vector<v1::StructureBricks> structure_pieces(std::span<const Structure> str
         const auto& bricks = structure.mask.bricks();
         for (std::size_t first = 0; first < bricks.size(); first += most_bricks_of_structure_piece) {
             const std::size_t end = std::min(bricks.size(), first + most_bricks_of_structure_piece);
-            v1::StructureBricks& piece = pieces.emplace_back();
+            v2::StructureBricks& piece = pieces.emplace_back();
             piece.set_tissue(static_cast<std::uint32_t>(structure.tissue));
             piece.set_is_last(end == bricks.size());
             masks.clear();
@@ -65,7 +65,7 @@ StructureAssembler::StructureAssembler(const std::vector<Tissue>& tissues, const
     grid_bricks_ = std::uint64_t{size.x} * size.y * size.z;
 }
 
-std::variant<std::optional<Structure>, WireError> StructureAssembler::take(const v1::StructureBricks& piece) {
+std::variant<std::optional<Structure>, WireError> StructureAssembler::take(const v2::StructureBricks& piece) {
     const std::size_t tissue = piece.tissue();
     if (tissue >= complete_.size())
         return structure_refused("tissue " + std::to_string(tissue) + " is not one of the scene's " +
@@ -99,7 +99,7 @@ void StructureAssembler::miss() {
     bricks_.clear();
 }
 
-std::optional<WireError> StructureAssembler::add(const v1::StructureBricks& piece) {
+std::optional<WireError> StructureAssembler::add(const v2::StructureBricks& piece) {
     const auto count = static_cast<std::size_t>(piece.brick_size());
     if (count == 0 || count > most_bricks_of_structure_piece)
         return structure_refused("a piece holds " + std::to_string(count) + " bricks, not 1 to " +
@@ -124,8 +124,8 @@ std::optional<WireError> StructureAssembler::add(const v1::StructureBricks& piec
     return std::nullopt;
 }
 
-v1::StructureDistance to_message(const StructureDistance& distance) {
-    v1::StructureDistance message;
+v2::StructureDistance to_message(const StructureDistance& distance) {
+    v2::StructureDistance message;
     message.set_tissue(static_cast<std::uint32_t>(distance.tissue));
     if (distance.distance_mm) message.set_distance_mm(*distance.distance_mm);
     message.set_touches(distance.touches);
@@ -138,10 +138,10 @@ v1::StructureDistance to_message(const StructureDistance& distance) {
 }
 
 std::variant<std::vector<StructureDistance>, WireError> structure_distances_from(
-    const google::protobuf::RepeatedPtrField<v1::StructureDistance>& messages, std::size_t tissue_count) {
+    const google::protobuf::RepeatedPtrField<v2::StructureDistance>& messages, std::size_t tissue_count) {
     std::vector<StructureDistance> distances;
     std::vector<bool> told(tissue_count, false);
-    for (const v1::StructureDistance& message : messages) {
+    for (const v2::StructureDistance& message : messages) {
         if (message.tissue() >= tissue_count)
             return WireError{"a distance is of tissue " + std::to_string(message.tissue()) +
                              ", not one of the scene's " + std::to_string(tissue_count)};

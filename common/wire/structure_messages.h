@@ -10,7 +10,7 @@
 #include "common/scene/structure.h"
 #include "common/scene/structure_distance.h"
 #include "common/wire/wire_error.h"
-#include "osteomill/v1/session.pb.h"
+#include "osteomill/v2/session.pb.h"
 
 namespace osteomill {
 
@@ -21,7 +21,7 @@ inline constexpr std::size_t most_bricks_of_structure_piece = 128;
 inline constexpr std::size_t most_structure_bricks = std::size_t{1} << 18U;
 
 /// All messages of these structures. Throws std::invalid_argument for more bricks than are sent.
-std::vector<v1::StructureBricks> structure_pieces(std::span<const Structure> structures);
+std::vector<v2::StructureBricks> structure_pieces(std::span<const Structure> structures);
 
 /// Puts the structures of one session together from their messages.
 class StructureAssembler {
@@ -33,12 +33,12 @@ class StructureAssembler {
     /// The structure when its last piece has come, else nothing. A piece of one that is complete changes
     /// nothing: a recording may be wound back. Refuses what makes no sense; what came of that structure is
     /// then forgotten.
-    std::variant<std::optional<Structure>, WireError> take(const v1::StructureBricks& piece);
+    std::variant<std::optional<Structure>, WireError> take(const v2::StructureBricks& piece);
     /// Some pieces will not come: forgets the structure that is not complete.
     void miss();
 
   private:
-    std::optional<WireError> add(const v1::StructureBricks& piece);
+    std::optional<WireError> add(const v2::StructureBricks& piece);
 
     std::vector<bool> awaited_;  // by tissue: protected, and not complete
     std::vector<bool> complete_;
@@ -49,11 +49,11 @@ class StructureAssembler {
     std::size_t taken_bricks_ = 0;        // of complete ones
 };
 
-v1::StructureDistance to_message(const StructureDistance& distance);
+v2::StructureDistance to_message(const StructureDistance& distance);
 
 /// Refuses a tissue that is not one of so many or comes twice, and numbers that are not finite or, of times
 /// and volumes, below zero.
 std::variant<std::vector<StructureDistance>, WireError> structure_distances_from(
-    const google::protobuf::RepeatedPtrField<v1::StructureDistance>& messages, std::size_t tissue_count);
+    const google::protobuf::RepeatedPtrField<v2::StructureDistance>& messages, std::size_t tissue_count);
 
 }  // namespace osteomill

@@ -1,8 +1,6 @@
 #include "haptic_server/replay/recorded_session.h"
 
-#include <variant>
-
-#include "common/wire/scene_messages.h"
+#include <stdexcept>
 
 namespace osteomill {
 
@@ -23,11 +21,8 @@ ToolState RecordedSession::update(BoneReplica& mirror, std::size_t viewers) {
 ToolState RecordedSession::tool() const {
     if (playhead_.tool()) return *playhead_.tool();
     // Before the first state: where that will have it.
-    const v1::StateFrame* first = playhead_.next_frame();
-    if (first == nullptr) return {};
-    const auto read = tool_from(first->tool(), playhead_.session().burrs.size());
-    const auto* tool = std::get_if<ToolState>(&read);
-    return tool != nullptr ? *tool : ToolState{};
+    const StateArrived* first = playhead_.next_state();
+    return first != nullptr ? first->state.tool : ToolState{};
 }
 
 void RecordedSession::show(BoneReplica& mirror, double until_s) {
@@ -39,12 +34,12 @@ void RecordedSession::show(BoneReplica& mirror, double until_s) {
         }
         switch (playhead_.step(until_s)) {
             case Playhead::Step::state:
-                for (const v1::BrickEdit& edit : playhead_.frame().edits())
-                    if (const auto error = mirror.apply(edit)) throw RecordingError(error->line);
-                for (const v1::BrickEdit& edit : playhead_.frame().restored())
-                    if (const auto error = mirror.restore(edit)) throw RecordingError(error->line);
-                events_.insert(events_.end(), playhead_.events().begin(), playhead_.events().end());
-                status_ = playhead_.status();
+                // The playhead's own bone, which the mirror equals, has taken them.
+                for (const auto& [change, fractions] : playhead_.changes())
+                    if (!mirror.apply(change, fractions)) throw std::logic_error("the mirror differs");
+                events_.insert(events_.end(), playhead_.state().events.begin(),
+                               playhead_.state().events.end());
+                status_ = playhead_.state().status;
                 break;
             case Playhead::Step::nothing_due:
                 return;

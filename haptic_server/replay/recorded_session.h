@@ -28,7 +28,7 @@ class RecordedSession final : public StreamSource {
     ToolState update(BoneReplica& mirror, std::size_t viewers) override;
     std::vector<ControlEvent> take_events() override { return std::exchange(events_, {}); }
     SessionStatus status() const override { return status_; }
-    std::span<const StructureDistance> distances() const override { return playhead_.distances(); }
+    std::span<const StructureDistance> distances() const override { return playhead_.state().distances; }
 
     /// Any thread. Whether all was shown.
     bool is_over() const { return is_over_.load(); }

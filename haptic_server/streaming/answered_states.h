@@ -27,7 +27,7 @@ class AnsweredStates {
         fresh,
         stale,     ///< too old
         repeated,  ///< not numbered higher than one before: said twice, or overtaken
-        unnamed,   ///< it names no state: a client before protocol 1.5, or one that has seen none yet
+        unnamed,   ///< it names no state, as one that has seen none yet
         unsent,    ///< it names a state that has not been sent: no client that means well does that
     };
 

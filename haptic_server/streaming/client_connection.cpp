@@ -132,7 +132,7 @@ void ClientConnection::take(std::span<const std::uint8_t> arrived) {
             return close("dropped: it sent more than " +
                              std::to_string(static_cast<int>(most_messages_per_s)) + " messages a second",
                          true);
-        v1::ClientFrame frame;
+        v2::ClientFrame frame;
         if (!parse_message(*message, frame))
             return close("dropped: it sent a frame that is no message", true);
         if (frame.sequence() != last_sequence_ + 1)

@@ -19,8 +19,9 @@ constexpr std::size_t least_shrinking = 2;
 
 }  // namespace
 
-ClientFeed::ClientFeed(v1::Hello hello, const BoneReplica& mirror, SnapshotPacker& packer)
-    : hello_(std::move(hello)), mirror_(mirror), packer_(packer) {}
+ClientFeed::ClientFeed(v2::Hello hello, const BoneReplica& mirror, FeedPackers& packers,
+                       std::span<const v2::StructureBricks> structures)
+    : hello_(std::move(hello)), mirror_(mirror), packers_(packers), structure_pieces_(structures) {}
 
 void ClientFeed::note(std::span<const BrickChange> changes) {
     for (const BrickChange& change : changes)
@@ -46,7 +47,7 @@ void ClientFeed::request_state(const ToolState& tool, bool with_checksum) {
     comparisons_left_ = std::min(comparisons_left_ + 1, most_comparisons_at_once);
 }
 
-std::optional<WireError> ClientFeed::compare(const v1::CompareBone& request) {
+std::optional<WireError> ClientFeed::compare(const v2::CompareBone& request) {
     if (stage_ == Stage::finished) return std::nullopt;
     if (stage_ != Stage::live) return WireError{"it compares a bone that it has not been sent yet"};
     if (answer_) return WireError{"it compares again before it has been answered"};
@@ -70,7 +71,7 @@ void ClientFeed::finish(std::string reason) {
 }
 
 std::optional<std::string> ClientFeed::next(std::size_t most_state_bytes) {
-    v1::ServerFrame frame;
+    v2::ServerFrame frame;
     frame.set_sequence(sequence_ + 1);
     switch (stage_) {
         case Stage::hello:
@@ -94,7 +95,7 @@ std::optional<std::string> ClientFeed::next(std::size_t most_state_bytes) {
                 *frame.mutable_structure_bricks() = structure_pieces_.front();
                 structure_pieces_ = structure_pieces_.subspan(1);
             } else if (wants_state_) {
-                fill_state(frame, most_state_bytes);
+                fill_state(*frame.mutable_state(), most_state_bytes);
                 newest_state_ = frame.sequence();
             } else if (ct_ && next_ct_voxel_ < ct_->hu.size() && !goodbye_) {
                 if (!ct_packer_) ct_packer_.emplace();
@@ -115,16 +116,15 @@ std::optional<std::string> ClientFeed::next(std::size_t most_state_bytes) {
     return bytes;
 }
 
-void ClientFeed::fill_snapshot_bricks(v1::SnapshotBricks& message) {
+void ClientFeed::fill_snapshot_bricks(v2::SnapshotBricks& message) {
     const Bone& bone = mirror_.bone();
-    message = packer_.pack(bone, next_slot_);
+    message = packers_.snapshot.pack(bone, next_slot_);
     for (const BrickIndex brick : message.brick())
         snapshot_checksum_ +=
             checksum_of_brick(brick, bone.fractions(static_cast<std::int32_t>(next_slot_++)));
 }
 
-void ClientFeed::fill_state(v1::ServerFrame& frame, std::size_t most_bytes) {
-    v1::StateFrame& state = *frame.mutable_state();
+void ClientFeed::fill_state(v2::StateFrame& state, std::size_t most_bytes) {
     *state.mutable_tool() = to_message(tool_);
     if (answer_) *state.mutable_comparison() = *std::exchange(answer_, std::nullopt);
     if (status_ != SessionStatus{}) *state.mutable_status() = to_message(status_);
@@ -132,38 +132,19 @@ void ClientFeed::fill_state(v1::ServerFrame& frame, std::size_t most_bytes) {
     for (const StructureDistance& distance : distances_) *state.add_distances() = to_message(distance);
     sent_distances_ = distances_;
     add_events(state, most_bytes);
-    if (change_packer_ != nullptr && !pending_.empty())
-        add_packed_changes(state, most_bytes);
-    else
-        add_edits(frame, most_bytes);
+    add_changes(state, most_bytes);
     sent_tool_ = tool_;
     if (!pending_.empty() || !events_.empty()) return;  // the rest goes into the next frame
     wants_state_ = false;
     if (std::exchange(wants_checksum_, false)) state.set_bone_checksum(mirror_.checksum());
 }
 
-void ClientFeed::add_edits(v1::ServerFrame& frame, std::size_t most_bytes) {
-    constexpr std::size_t room_for_tags_and_checksums = 64;
-    v1::StateFrame& state = *frame.mutable_state();
-    std::size_t bytes = frame.ByteSizeLong() + room_for_tags_and_checksums;
-    while (!pending_.empty()) {
-        const BrickChange change = pending_.next();
-        const std::int32_t slot = mirror_.bone().slot(change.brick);
-        v1::BrickEdit edit = brick_edit(change, mirror_.bone().fractions(slot));
-        constexpr std::size_t tag_and_length = 4;
-        bytes += edit.ByteSizeLong() + tag_and_length;
-        if (bytes > most_bytes && state.edits_size() + state.restored_size() > 0) return;
-        *(change.kind == ChangeKind::milled ? state.add_edits() : state.add_restored()) = std::move(edit);
-        pending_.sent();
-    }
-}
-
-void ClientFeed::add_events(v1::StateFrame& state, std::size_t most_bytes) {
+void ClientFeed::add_events(v2::StateFrame& state, std::size_t most_bytes) {
     for (; !events_.empty() && state.ByteSizeLong() < most_bytes; events_.pop_front())
         *state.add_events() = to_message(events_.front());
 }
 
-void ClientFeed::add_packed_changes(v1::StateFrame& state, std::size_t most_bytes) {
+void ClientFeed::add_changes(v2::StateFrame& state, std::size_t most_bytes) {
     const std::size_t most_packed = std::min(least_shrinking * most_bytes, largest_packed_changes_bytes);
     std::vector<BrickChange> milled;
     std::vector<BrickChange> restored;
@@ -173,8 +154,8 @@ void ClientFeed::add_packed_changes(v1::StateFrame& state, std::size_t most_byte
         if (bytes > most_packed && milled.size() + restored.size() > 0) break;
         (change.kind == ChangeKind::milled ? milled : restored).push_back(change);
     }
-    if (!milled.empty()) *state.mutable_changes() = change_packer_->pack(mirror_.bone(), milled);
-    if (!restored.empty()) *state.mutable_restored_changes() = change_packer_->pack(mirror_.bone(), restored);
+    if (!milled.empty()) *state.mutable_changes() = packers_.changes.pack(mirror_.bone(), milled);
+    if (!restored.empty()) *state.mutable_restored() = packers_.changes.pack(mirror_.bone(), restored);
 }
 
 }  // namespace osteomill

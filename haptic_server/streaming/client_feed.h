@@ -25,17 +25,22 @@
 #include "common/wire/snapshot.h"
 #include "haptic_server/streaming/frame_pace.h"
 #include "haptic_server/streaming/pending_changes.h"
-#include "osteomill/v1/session.pb.h"
+#include "osteomill/v2/session.pb.h"
 
 namespace osteomill {
 
+/// Room to compress in, which all feeds of a thread share.
+struct FeedPackers {
+    SnapshotPacker snapshot;
+    ChangePacker changes;
+};
+
 class ClientFeed {
   public:
-    /// `mirror` and `packer` outlive the feed; `hello` is what the client is greeted with.
-    ClientFeed(v1::Hello hello, const BoneReplica& mirror, SnapshotPacker& packer);
-
-    /// The client takes packed changes, from now on. `packer` outlives the feed.
-    void pack_changes(ChangePacker& packer) { change_packer_ = &packer; }
+    /// `hello` is what the client is greeted with, `structures` what it is sent of protected ones, behind the
+    /// snapshot. All but `hello` outlive the feed.
+    ClientFeed(v2::Hello hello, const BoneReplica& mirror, FeedPackers& packers,
+               std::span<const v2::StructureBricks> structures = {});
 
     /// To be called for every change of the mirror, before the next frame is asked for.
     void note(std::span<const BrickChange> changes);
@@ -55,10 +60,6 @@ class ClientFeed {
     /// after which the client knows all.
     void request_state(const ToolState& tool, bool with_checksum);
 
-    /// The client is told where the protected structures are, from now on before any state. `pieces` outlive
-    /// the feed.
-    void give_structures(const std::vector<v1::StructureBricks>& pieces) { structure_pieces_ = pieces; }
-
     /// The client wants to see the CT; asked for again nothing happens.
     void ask_for_ct() { wants_ct_ = true; }
     /// Whether it waits for give_ct().
@@ -69,13 +70,13 @@ class ClientFeed {
     /// The client doubts its bone. The next state frame answers, and what differs is sent like a change. An
     /// error says why the client is not served: it has no bone yet, or asks before it has been answered, more
     /// often than a repair needs, or what makes no sense.
-    std::optional<WireError> compare(const v1::CompareBone& request);
+    std::optional<WireError> compare(const v2::CompareBone& request);
 
     /// Asks for the end: what is left to say, a last state with a checksum, then goodbye.
     void finish(std::string reason);
 
-    /// The next frame, as bytes for the stream; nothing while there is nothing to say. Edits that do not fit
-    /// a state frame of so many bytes follow in the next; but it tells of one brick at least.
+    /// The next frame, as bytes for the stream; nothing while there is nothing to say. Changes that do not
+    /// fit a state frame of so many bytes follow in the next; but it tells of one brick at least.
     std::optional<std::string> next(std::size_t most_state_bytes = FramePace::most);
 
     bool has_been_asked_to_finish() const { return goodbye_.has_value(); }
@@ -97,15 +98,14 @@ class ClientFeed {
 
     enum class Stage { hello, snapshot_begin, snapshot_bricks, snapshot_end, live, finished };
 
-    void fill_snapshot_bricks(v1::SnapshotBricks& message);
-    void fill_state(v1::ServerFrame& frame, std::size_t most_bytes);
-    void add_edits(v1::ServerFrame& frame, std::size_t most_bytes);
-    void add_packed_changes(v1::StateFrame& state, std::size_t most_bytes);
-    void add_events(v1::StateFrame& state, std::size_t most_bytes);
+    void fill_snapshot_bricks(v2::SnapshotBricks& message);
+    void fill_state(v2::StateFrame& state, std::size_t most_bytes);
+    void add_changes(v2::StateFrame& state, std::size_t most_bytes);
+    void add_events(v2::StateFrame& state, std::size_t most_bytes);
 
-    v1::Hello hello_;
+    v2::Hello hello_;
     const BoneReplica& mirror_;
-    SnapshotPacker& packer_;
+    FeedPackers& packers_;
     Stage stage_ = Stage::hello;
     std::uint64_t sequence_ = 0;
     std::uint64_t newest_state_ = 0;
@@ -114,10 +114,8 @@ class ClientFeed {
     std::uint64_t snapshot_checksum_ = 0;
 
     PendingChanges pending_;
-    std::optional<v1::Comparison> answer_;
+    std::optional<v2::Comparison> answer_;
     int comparisons_left_ = most_comparisons_at_once;
-
-    ChangePacker* change_packer_ = nullptr;  // none: edits are sent as runs
 
     bool wants_ct_ = false;
     std::shared_ptr<const CtVolume> ct_;  // stays, so that it is not asked for again
@@ -128,7 +126,7 @@ class ClientFeed {
     SessionStatus status_;
     SessionStatus sent_status_;
 
-    std::span<const v1::StructureBricks> structure_pieces_;  // that have yet to be sent
+    std::span<const v2::StructureBricks> structure_pieces_;  // that have yet to be sent
     std::vector<StructureDistance> distances_;
     std::vector<StructureDistance> sent_distances_;
 

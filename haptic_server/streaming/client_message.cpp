@@ -8,15 +8,16 @@
 
 namespace osteomill {
 
-std::variant<std::optional<Answer>, WireError> take_client_message(const v1::ClientFrame& frame,
+std::optional<WireError> check_greeting(const v2::ClientFrame& frame) {
+    if (!frame.has_hello()) return WireError{"it did not begin with a hello"};
+    if (frame.hello().protocol_major() == protocol_major) return std::nullopt;
+    return WireError{fmt::format("it speaks protocol {}, this server {}: update the older of the two",
+                                 frame.hello().protocol_major(), protocol_major)};
+}
+
+std::variant<std::optional<Answer>, WireError> take_client_message(const v2::ClientFrame& frame,
                                                                    const MessagingClient& client,
                                                                    ControlLease::Time now) {
-    if (frame.has_hello()) {
-        if (frame.hello().takes_packed_changes()) client.feed.pack_changes(client.packer);
-        if (client.structures != nullptr && frame.hello().protocol_minor() >= first_minor_with_structures)
-            client.feed.give_structures(*client.structures);
-        return std::nullopt;
-    }
     if (frame.has_compare_bone()) {
         if (auto error = client.feed.compare(frame.compare_bone())) return *std::move(error);
         return std::nullopt;
@@ -39,11 +40,11 @@ std::variant<std::optional<Answer>, WireError> take_client_message(const v1::Cli
         }
         return std::nullopt;
     }
-    if (!frame.has_operator_input()) return WireError{"it sent a frame without a body that is known"};
+    if (!frame.has_operator_input()) return WireError{"it sent a frame that has no place there"};
     const auto command = operator_command_from(frame.operator_input(), client.burr_count);
     if (const auto* error = std::get_if<WireError>(&command)) return *error;
     if (client.lease == nullptr) return std::nullopt;
-    const v1::OperatorInput& input = frame.operator_input();
+    const v2::OperatorInput& input = frame.operator_input();
     const Answer answer = client.answers.judge(input.number(), input.answers_state(), now);
     if (answer == Answer::unsent)
         return WireError{
@@ -60,10 +61,7 @@ std::string reason_to_ignore(Answer answer) {
                 "is slow or late",
                 AnsweredStates::longest_age.count());
         case Answer::unnamed:
-            return fmt::format(
-                "looks on and moves nothing: its input does not say which state it has seen, as from "
-                "protocol {}.{} on it has to; update it",
-                protocol_major, first_minor_that_names_states);
+            return "looks on and moves nothing: its input does not say which state it has seen";
         case Answer::fresh:
         case Answer::repeated:
         case Answer::unsent:

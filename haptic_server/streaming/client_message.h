@@ -5,13 +5,12 @@
 #include <optional>
 #include <string>
 #include <variant>
-#include <vector>
 
 #include "common/wire/wire_error.h"
 #include "haptic_server/streaming/answered_states.h"
 #include "haptic_server/streaming/client_feed.h"
 #include "haptic_server/streaming/control_lease.h"
-#include "osteomill/v1/session.pb.h"
+#include "osteomill/v2/session.pb.h"
 
 namespace osteomill {
 
@@ -20,11 +19,8 @@ struct MessagingClient {
     ControlLease::ClientId id = 0;
     ClientFeed& feed;               ///< may have something to say afterwards
     AnsweredStates& answers;        ///< of what the client has been sent
-    ChangePacker& packer;           ///< of all clients that take packed changes; outlives the feed
     ControlLease* lease = nullptr;  ///< null: nobody may move the tool now, and input changes nothing
     std::size_t burr_count = 0;     ///< of the session
-    /// Where the protected structures are, for a client that knows what to do with it; outlives the feed.
-    const std::vector<v1::StructureBricks>* structures = nullptr;
     /// Takes what the client asks of the session; null: it may not ask now.
     const std::function<void(const SessionControl&)>* control = nullptr;
 };
@@ -32,13 +28,16 @@ struct MessagingClient {
 /// What became of an operator's input that was let through, or not; see AnsweredStates.
 using Answer = AnsweredStates::Answer;
 
-/// An operator's input is given to the lease if it is fresh.
+/// The first message of a client must be a hello of this major version; an error says what it is instead.
+std::optional<WireError> check_greeting(const v2::ClientFrame& frame);
+
+/// Any later message. An operator's input is given to the lease if it is fresh.
 /// A control of the session goes where the client says; one that may not ask is told so.
 /// An error if the message makes no sense, which drops the client: no body, numbers that are not finite, a
 /// burr that is not there, an answer to a state that was not sent, a comparison that ClientFeed refuses. It
 /// has then changed nothing. Otherwise what became of an operator's input where that is news: it is otherwise
 /// than the one before, or the first that is not fresh.
-std::variant<std::optional<Answer>, WireError> take_client_message(const v1::ClientFrame& frame,
+std::variant<std::optional<Answer>, WireError> take_client_message(const v2::ClientFrame& frame,
                                                                    const MessagingClient& client,
                                                                    ControlLease::Time now);
 

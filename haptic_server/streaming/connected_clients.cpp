@@ -24,16 +24,16 @@ std::int64_t unix_time_ns() {
 
 }  // namespace
 
-ConnectedClients::ConnectedClients(const StreamingOptions& options, const v1::Hello& hello,
-                                   const std::vector<v1::StructureBricks>& structures,
-                                   const BoneReplica& mirror, SnapshotPacker& snapshot_packer,
+ConnectedClients::ConnectedClients(const StreamingOptions& options, const v2::Hello& hello,
+                                   const std::vector<v2::StructureBricks>& structures,
+                                   const BoneReplica& mirror, FeedPackers& packers,
                                    OperatorChannel* operator_channel,
                                    std::function<void(const SessionControl&)> control)
     : options_(options),
       hello_(hello),
       structures_(structures),
       mirror_(mirror),
-      snapshot_packer_(snapshot_packer),
+      packers_(packers),
       control_(std::move(control)),
       unidentified_(options.places_for_unidentified) {
     if (operator_channel != nullptr) lease_.emplace(*operator_channel);
@@ -51,27 +51,23 @@ void ConnectedClients::admit(std::shared_ptr<Stream> stream) {
     boost::system::error_code ignored;  // one who has gone already leaves as soon as it is read
     const Origin origin = origin_of(stream->socket().remote_endpoint(ignored).address());
     const auto connection = std::make_shared<ClientConnection>(
-        std::move(stream), ClientFeed(hello_for(may_operate), mirror_, snapshot_packer_));
+        std::move(stream), ClientFeed(hello_for(may_operate), mirror_, packers_, structures_));
     connections_.emplace(id, connection);
-    if (options_.tls) {
-        welcome(*connection);
-    } else {
-        if (const auto oldest = unidentified_.in_the_way())
-            connections_.at(*oldest)->close("gave way to others: it had not said a word", false);
-        unidentified_.add(id, origin, std::chrono::steady_clock::now());
-    }
+    if (const auto oldest = unidentified_.in_the_way())
+        connections_.at(*oldest)->close("gave way to others: it had not said hello", false);
+    unidentified_.add(id, origin, std::chrono::steady_clock::now());
     connection->start(
-        {.on_message = [this, id](const v1::ClientFrame& frame) { return take(id, frame); },
+        {.on_message = [this, id](const v2::ClientFrame& frame) { return take(id, frame); },
          .on_closed = [this, id, peer = connection->peer()](
                           const std::string& line, bool is_fault) { dismiss(id, peer, line, is_fault); }});
-    if (options_.tls) connection->serve();
 }
 
 void ConnectedClients::look_after(Time now) {
     if (lease_) lease_->check_silence(now);
     log_holder();
     drop_revoked(now);
-    for (const Id id : unidentified_.take_patient(now)) connections_.at(id)->serve();
+    for (const Id id : unidentified_.overdue(now))
+        connections_.at(id)->close("was dropped: it did not say hello", false);
     client_log_.tell_left_out(now);
     unidentified_log_.tell_left_out(now);
 }
@@ -120,9 +116,13 @@ void ConnectedClients::say_goodbye(const ToolState& tool, const std::string& rea
                                    std::function<void()> when_gone) {
     when_gone_ = std::move(when_gone);
     for (const auto& [id, connection] : std::map(connections_)) {
+        if (unidentified_.contains(id)) {
+            connection->close("had not said hello when the session ended", false);
+            continue;
+        }
         connection->feed().request_state(state_for(id, tool), true);
         connection->feed().finish(reason);
-        connection->serve();
+        connection->pump();
     }
 }
 
@@ -146,8 +146,8 @@ bool ConnectedClients::may_control(Id id, Time now) const {
     return !lease_->holder() || *lease_->holder() == id;
 }
 
-v1::Hello ConnectedClients::hello_for(bool may_operate) const {
-    v1::Hello hello = hello_;
+v2::Hello ConnectedClients::hello_for(bool may_operate) const {
+    v2::Hello hello = hello_;
     hello.set_accepts_controls(hello.accepts_controls() && may_operate);
     hello.set_accepts_operator(hello.accepts_operator() && may_operate);
     return hello;
@@ -159,13 +159,16 @@ ToolState ConnectedClients::state_for(Id id, const ToolState& tool) const {
     return state;
 }
 
-std::optional<WireError> ConnectedClients::take(Id id, const v1::ClientFrame& frame) {
+std::optional<WireError> ConnectedClients::take(Id id, const v2::ClientFrame& frame) {
     const std::shared_ptr<ClientConnection> connection = connections_.at(id);
-    if (unidentified_.remove(id)) {
+    if (unidentified_.contains(id)) {
+        if (auto error = check_greeting(frame)) return error;
+        unidentified_.remove(id);
         if (clients() > most_clients)
             return WireError{fmt::format("{} clients are connected already", most_clients)};
-        welcome(*connection);
+        log_client(fmt::format("client {} joined", connection->peer()));
         connection->serve();
+        return std::nullopt;
     }
     const Time now = std::chrono::steady_clock::now();
     const bool controls = frame.has_session_control() && may_control(id, now);
@@ -175,10 +178,8 @@ std::optional<WireError> ConnectedClients::take(Id id, const v1::ClientFrame& fr
                                      {.id = id,
                                       .feed = connection->feed(),
                                       .answers = connection->answers(),
-                                      .packer = change_packer_,
                                       .lease = may_operate ? &*lease_ : nullptr,
                                       .burr_count = static_cast<std::size_t>(hello_.burrs_size()),
-                                      .structures = &structures_,
                                       .control = controls ? &control_ : nullptr},
                                      now);
     log_holder();
@@ -207,10 +208,6 @@ void ConnectedClients::dismiss(Id id, const std::string& peer, const std::string
     refused_input_.erase(id);
     log_holder();
     if (when_gone_ && connections_.empty()) when_gone_();
-}
-
-void ConnectedClients::welcome(const ClientConnection& connection) {
-    log_client(fmt::format("client {} joined", connection.peer()));
 }
 
 void ConnectedClients::drop_revoked(Time now) {

@@ -1,7 +1,7 @@
 // Everybody who is connected to a streaming server: who they are, what they may do, and what they are sent.
 //
-// With TLS a certificate says who they are; without it they are unidentified until their first word. One of
-// them may move the tool, see ControlLease. All calls are on the thread of the connections' io_context.
+// They are unidentified until they have said hello, and are served from then on. One of them may move the
+// tool, see ControlLease. All calls are on the thread of the connections' io_context.
 #pragma once
 
 #include <chrono>
@@ -18,8 +18,6 @@
 #include "common/bone/brick_change.h"
 #include "common/scene/tool_state.h"
 #include "common/wire/bone_replica.h"
-#include "common/wire/packed_changes.h"
-#include "common/wire/snapshot.h"
 #include "common/wire/wire_error.h"
 #include "haptic_server/streaming/changes_of_hands.h"
 #include "haptic_server/streaming/client_connection.h"
@@ -35,19 +33,19 @@ class ConnectedClients {
   public:
     using Time = std::chrono::steady_clock::time_point;
 
-    /// `hello`: what they are greeted with; `structures`: what they are told of protected ones.
+    /// `hello`: what they are greeted with; `structures`: what they are sent of protected ones.
     /// `operator_channel`: null where no client can move the tool. `control`: takes what those who may ask of
     /// the session, if the hello accepts that. All references outlive this.
-    ConnectedClients(const StreamingOptions& options, const v1::Hello& hello,
-                     const std::vector<v1::StructureBricks>& structures, const BoneReplica& mirror,
-                     SnapshotPacker& snapshot_packer, OperatorChannel* operator_channel,
+    ConnectedClients(const StreamingOptions& options, const v2::Hello& hello,
+                     const std::vector<v2::StructureBricks>& structures, const BoneReplica& mirror,
+                     FeedPackers& packers, OperatorChannel* operator_channel,
                      std::function<void(const SessionControl&)> control);
 
     /// One whose handshake is over.
     void admit(std::shared_ptr<Stream> stream);
 
-    /// Once a frame, before it is made: leases that run out, certificates that are revoked, those who have
-    /// been silent for long enough.
+    /// Once a frame, before it is made: leases that run out, certificates that are revoked, those who do not
+    /// say hello.
     void look_after(Time now);
     /// To be called for every change of the mirror.
     void note(std::span<const BrickChange> changes);
@@ -76,24 +74,22 @@ class ConnectedClients {
   private:
     using Id = ControlLease::ClientId;
 
-    /// Those who have said who they are, by certificate or greeting.
+    /// Those who have said hello.
     std::size_t clients() const { return connections_.size() - unidentified_.size(); }
     bool may_control(Id id, Time now) const;
-    v1::Hello hello_for(bool may_operate) const;
+    v2::Hello hello_for(bool may_operate) const;
     ToolState state_for(Id id, const ToolState& tool) const;
-    std::optional<WireError> take(Id id, const v1::ClientFrame& frame);
+    std::optional<WireError> take(Id id, const v2::ClientFrame& frame);
     void dismiss(Id id, const std::string& peer, const std::string& line, bool is_fault);
-    void welcome(const ClientConnection& connection);
     void drop_revoked(Time now);
     void log_client(const std::string& line);
     void log_holder();
 
     const StreamingOptions& options_;
-    const v1::Hello& hello_;
-    const std::vector<v1::StructureBricks>& structures_;
+    const v2::Hello& hello_;
+    const std::vector<v2::StructureBricks>& structures_;
     const BoneReplica& mirror_;
-    SnapshotPacker& snapshot_packer_;
-    ChangePacker change_packer_;
+    FeedPackers& packers_;
     std::optional<ControlLease> lease_;
     ControlSeat seat_;  // where there is no lease
     std::function<void(const SessionControl&)> control_;

@@ -21,11 +21,11 @@ std::string packet_of(const std::string& frame, Stamp stamp) {
 
 }  // namespace
 
-SessionRecorder::SessionRecorder(const std::filesystem::path& file, Stamp began, v1::Hello hello,
-                                 const BoneReplica& mirror, SnapshotPacker& packer,
-                                 const std::vector<v1::StructureBricks>& structures)
+SessionRecorder::SessionRecorder(const std::filesystem::path& file, Stamp began, v2::Hello hello,
+                                 const BoneReplica& mirror, FeedPackers& packers,
+                                 std::span<const v2::StructureBricks> structures)
     : began_(began),
-      feed_(std::move(hello), mirror, packer),
+      feed_(std::move(hello), mirror, packers, structures),
       writer_(
           file,
           [this](RecordingNews news, const std::string& line) {
@@ -36,7 +36,6 @@ SessionRecorder::SessionRecorder(const std::filesystem::path& file, Stamp began,
                   spdlog::error("{}; the session goes on, and the recording, too, once there is room", line);
           },
           WhenDiskIsFull::try_again) {
-    feed_.give_structures(structures);
     hand_over(Wait::for_the_disk);
     writer_.wait_until_written();
     if (writer_.has_failed()) {

@@ -19,11 +19,11 @@ namespace osteomill {
 class SessionRecorder {
   public:
     /// Writes hello, snapshot and `structures` before it returns, and throws RecordingError where that much
-    /// cannot be written. `began`: when the session's time is zero. `mirror` and `packer` outlive the
-    /// recorder.
-    SessionRecorder(const std::filesystem::path& file, Stamp began, v1::Hello hello,
-                    const BoneReplica& mirror, SnapshotPacker& packer,
-                    const std::vector<v1::StructureBricks>& structures = {});
+    /// cannot be written. `began`: when the session's time is zero. `mirror`, `packers` and `structures`
+    /// outlive the recorder.
+    SessionRecorder(const std::filesystem::path& file, Stamp began, v2::Hello hello,
+                    const BoneReplica& mirror, FeedPackers& packers,
+                    std::span<const v2::StructureBricks> structures = {});
 
     /// As for a client: see ClientFeed.
     void note(std::span<const BrickChange> changes) { feed_.note(changes); }

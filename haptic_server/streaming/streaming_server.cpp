@@ -40,8 +40,8 @@ constexpr std::chrono::seconds longest_goodbye{5};
 constexpr const char* end_of_session = "the session has ended";
 
 /// A hello too long for a frame would fail only when a client joins.
-void require_fits_frame(const v1::Hello& hello) {
-    v1::ServerFrame frame;
+void require_fits_frame(const v2::Hello& hello) {
+    v2::ServerFrame frame;
     frame.set_sequence(~std::uint64_t{0});
     *frame.mutable_hello() = hello;
     frame.set_recorded_unix_ns(0);
@@ -63,7 +63,7 @@ class StreamingServer::Impl {
           structures_(structure_pieces(structures)),
           mirror_(std::move(mirror)),
           source_(source),
-          clients_(options_, hello_, structures_, mirror_, packer_, operator_channel,
+          clients_(options_, hello_, structures_, mirror_, packers_, operator_channel,
                    [this](const SessionControl& control) { source_.control(control); }) {
         if (!(std::isfinite(options_.frame_rate_hz) && options_.frame_rate_hz > 0.0))
             throw std::invalid_argument("the frame rate is " + std::to_string(options_.frame_rate_hz) +
@@ -81,7 +81,7 @@ class StreamingServer::Impl {
         if (options_.listens) acceptor_.emplace(listen(io_, options_));
         // Only now: a server that cannot listen must not have overwritten an earlier recording.
         if (options_.record)
-            recorder_.emplace(options_.record->file, options_.record->began, hello_, mirror_, packer_,
+            recorder_.emplace(options_.record->file, options_.record->began, hello_, mirror_, packers_,
                               structures_);
         if (acceptor_) {
             port_ = acceptor_->local_endpoint().port();
@@ -224,10 +224,10 @@ class StreamingServer::Impl {
     }
 
     const StreamingOptions options_;
-    const v1::Hello hello_;
-    const std::vector<v1::StructureBricks> structures_;
+    const v2::Hello hello_;
+    const std::vector<v2::StructureBricks> structures_;
     BoneReplica mirror_;
-    SnapshotPacker packer_;
+    FeedPackers packers_;
     StreamSource& source_;
     ToolState tool_;
     std::optional<SessionRecorder> recorder_;

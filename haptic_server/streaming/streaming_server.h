@@ -4,9 +4,9 @@
 // loop's, and takes over what has changed at every frame whether or not anybody watches. Memory is bounded:
 // for each client there is one frame under way and a set of voxels that are yet to be sent. A slow
 // client gets fewer frames and misses nothing; one that sends nonsense is dropped with one log line.
-// With TLS only those are clients whom the lab's CA vouches for; without it, only this machine is served
-// unless an option says otherwise, and who says nothing cannot take a client's place: see
-// UnidentifiedConnections.
+// Nobody is served before a hello, and who says none cannot take a client's place: see
+// UnidentifiedConnections. With TLS only those are clients whom the lab's CA vouches for; without it, only
+// this machine is served unless an option says otherwise.
 #pragma once
 
 #include <cstdint>

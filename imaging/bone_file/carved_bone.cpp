@@ -13,8 +13,8 @@
 #include <vector>
 
 #include "common/bone/bone_builder.h"
+#include "common/scene/stiffness_relation.h"
 #include "imaging/bone_file/bone_picture.h"
-#include "imaging/bone_file/saved_set.h"
 #include "imaging/imaging_error.h"
 
 namespace osteomill {
@@ -22,12 +22,40 @@ namespace osteomill {
 namespace {
 
 constexpr const char* bricks_key = "osteomill_carved_bricks";
+/// Of 0.1, which kept the bone in files of their own.
+constexpr const char* key_of_before = "osteomill_fraction_file";
+constexpr const char* stiffness_per_code_key = "osteomill_stiffness_per_code";
+constexpr const char* homogeneous_stiffness_key = "osteomill_homogeneous_stiffness";
 constexpr const char* bone_grid_key = "osteomill_bone_grid";
 constexpr const char* fraction_digest_key = "osteomill_fraction_digest";
 constexpr const char* stiffness_digest_key = "osteomill_stiffness_digest";
 constexpr const char* tissue_digest_key = "osteomill_tissue_digest";
 
 using KeyValues = std::map<std::string, std::string>;
+
+std::string bone_checksum_text(const Bone& bone) {
+    return fmt::format("{:016x}", checksum(bone));
+}
+
+void require_bone_checksum(const BoneFile& file, const Bone& bone) {
+    const std::string& expected = file.value(bone_checksum_key);
+    if (bone_checksum_text(bone) != expected)
+        throw ImagingError(file.path(),
+                           fmt::format("its fractions have checksum {}, not the {} that was saved: they are "
+                                       "of another carving",
+                                       bone_checksum_text(bone), expected));
+}
+
+/// A number above 0. Throws ImagingError, naming the key.
+double number_of_key(const BoneFile& file, const char* key) {
+    const std::string& text = file.value(key);
+    char* end = nullptr;
+    const double number = std::strtod(text.c_str(), &end);
+    if (text.empty() || *end != '\0' || !(number > 0.0) || number > largest_relative_stiffness)
+        throw ImagingError(file.path(), fmt::format("{}:={} is not a number above 0, at most {:g}", key, text,
+                                                    largest_relative_stiffness));
+    return number;
+}
 
 bool has_fraction(BrickFractions fractions) {
     return std::any_of(fractions.begin(), fractions.end(), [](std::uint8_t f) { return f != 0; });
@@ -152,7 +180,6 @@ void save(const std::filesystem::path& path, const Bone& bone, const HuSlices& s
     KeyValues key_values = describe(bone, layout, bricks);
     key_values.insert(more_keys.begin(), more_keys.end());
 
-    const std::vector<std::filesystem::path> outdated = files_of_saved_set(path);
     BoneFileWriter writer(path, slices.grid, std::move(key_values), bricks * layout.bytes());
     for_each_record(bone, layout, [&](const BrickRecord& record) {
         layout.for_each_part(record,
@@ -173,10 +200,6 @@ void save(const std::filesystem::path& path, const Bone& bone, const HuSlices& s
     }
     writer.commit();
     report(1.0);
-    for (const std::filesystem::path& file : outdated) {
-        std::error_code ignored;
-        std::filesystem::remove(file, ignored);
-    }
 }
 
 std::string text_of(const Grid& grid) {
@@ -224,7 +247,7 @@ void save_carved_bone(const std::filesystem::path& path, const Bone& bone, KeyVa
 }
 
 bool is_carved(const BoneFile& file) {
-    return file.key_values().contains(bricks_key) || is_saved_set(file);
+    return file.key_values().contains(bricks_key) || file.key_values().contains(key_of_before);
 }
 
 namespace {
@@ -240,7 +263,10 @@ BoneBuilder builder_for(const BoneFile& file, const Grid& grid, const RecordLayo
 }  // namespace
 
 RestoredBone restore_carved_bone(const BoneFile& file) {
-    if (is_saved_set(file)) return restore_saved_set(file);
+    if (file.key_values().contains(key_of_before))
+        throw ImagingError(file.path(),
+                           "a carved bone that Osteomill 0.1 saved, which this version does not read: carve "
+                           "and save it anew from its scan");
     const RecordLayout layout{.has_stiffness = file.key_values().contains(stiffness_digest_key),
                               .has_tissue = file.key_values().contains(tissue_digest_key)};
     const auto bricks =

@@ -14,9 +14,6 @@
 //   keys                how many bricks, the scale of the codes, the bone's checksum, its grid where that is
 //                       not the voxels', and a digest of each channel besides those of every bone file
 //                       (hu_file.h)
-//
-// What 0.1 saved is read, too: FILE.nrrd with the HU, and beside it what its keys name, as dense volumes:
-// FILE.fraction.nrrd, FILE.stiffness.nrrd of a heterogeneous bone, FILE.tissue.nrrd of a labelled one.
 #pragma once
 
 #include <filesystem>
@@ -25,17 +22,23 @@
 
 #include "common/bone/bone.h"
 #include "imaging/bone_file/hu_file.h"
-#include "imaging/bone_file/saved_set.h"
 #include "imaging/hu_slices.h"
 #include "imaging/hu_volume.h"
 #include "imaging/progress.h"
 
 namespace osteomill {
 
+inline constexpr const char* bone_checksum_key = "osteomill_bone_checksum";
+
+struct RestoredBone {
+    Bone bone;
+    std::string hu_digest;  ///< of the CT numbers beside it
+};
+
 /// HU of a voxel of which nothing is left.
 inline constexpr std::int16_t milled_away_hu = air_hu;
 
-/// Writes the file beside `path` and switches to it at once; what a 0.1 set held besides is removed then.
+/// Writes the file beside `path` and switches to it at once.
 /// `source` gives what `bone` was built from; `key_values` go with it (the threshold among them). Throws
 /// std::invalid_argument where the grids differ, ImagingError where the file cannot be written; what stood
 /// under the name is then as it was, as it is when `source` throws.
@@ -49,13 +52,13 @@ void save_carved_bone(
     const std::filesystem::path& path, const Bone& bone, std::map<std::string, std::string> key_values = {},
     const ReportProgress& report = [](double) {});
 
-/// Whether a bone file was written by save_carved_bone.
+/// Whether a bone file was written by save_carved_bone, of this version or an earlier one.
 bool is_carved(const BoneFile& file);
 
 /// The bone that was saved: equal checksum, and equal stiffness and labels wherever anything is left. The
 /// scene's threshold and stiffness relation play no part: what was carved keeps the codes that it had. Reads
 /// all of the file, the HU, too. Throws ImagingError in one line that names the channel where a digest is not
-/// the one saved, and where a 0.1 set lacks a file or has one of another grid or carving.
+/// the one saved, and for a file of before 0.2, whose bone lay in other files beside it.
 RestoredBone restore_carved_bone(const BoneFile& file);
 
 }  // namespace osteomill

@@ -81,8 +81,8 @@ class BoneLink::Impl {
         line_ = std::move(changed.line);
     }
 
-    void take(const StateArrived& arrived, LinkUpdate& update) {
-        auto outcome = replica_.take(arrived);
+    void take(StateArrived arrived, LinkUpdate& update) {
+        const auto outcome = replica_.take(arrived);
         if (const auto* error = std::get_if<WireError>(&outcome)) {
             status_ = LinkStatus::lost;
             line_ = error->line + "; asking for the bone afresh";
@@ -90,12 +90,12 @@ class BoneLink::Impl {
             connection_.reconnect();
             return;
         }
-        auto& applied = std::get<VerifiedReplica::Applied>(outcome);
-        update.tool = std::move(applied.tool);
-        update.events.insert(update.events.end(), applied.events.begin(), applied.events.end());
-        controls_ = applied.status;
-        distances_ = std::move(applied.distances);
-        if (applied.ask) connection_.send(*applied.ask, session_number_);
+        SessionState& state = arrived.state;
+        update.tool = std::move(state.tool);
+        update.events.insert(update.events.end(), state.events.begin(), state.events.end());
+        controls_ = state.status;
+        distances_ = std::move(state.distances);
+        if (const auto& question = std::get<0>(outcome)) connection_.send(*question, session_number_);
     }
 
     void complete(LinkUpdate& update) {

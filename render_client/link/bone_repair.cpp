@@ -28,8 +28,8 @@ BoneRepair::Progress BoneRepair::take(const StateArrived& state, ReplicaCheck ch
     // The answer may be among what is missing.
     if (state.follows_gap) return WireError{"frames were lost while the bone was being repaired"};
     GoesOn next;
-    if (state.frame.has_comparison()) {
-        if (auto error = search_->take(state.frame.comparison())) return std::move(*error);
+    if (state.comparison) {
+        if (auto error = search_->take(*state.comparison)) return std::move(*error);
         Progress progress = ask_next(replica);
         if (std::holds_alternative<WireError>(progress)) return progress;
         next = std::get<GoesOn>(std::move(progress));

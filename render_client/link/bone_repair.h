@@ -19,7 +19,7 @@ namespace osteomill {
 class BoneRepair {
   public:
     struct GoesOn {
-        std::optional<v1::CompareBone> ask{};  ///< to be sent to the server
+        std::optional<v2::CompareBone> ask{};  ///< to be sent to the server
     };
     struct Done {
         std::size_t bricks = 0;  ///< that differed

@@ -17,15 +17,16 @@ constexpr int compression_level = 1;
 KeyFrames::KeyFrames(Playhead::Mark start) : marks_{std::move(start)}, compressor_(compression_level) {}
 
 void KeyFrames::before_step(const Playhead& playhead) {
-    const v1::StateFrame* next = playhead.next_frame();
+    const StateArrived* next = playhead.next_state();
     if (next == nullptr) return;
     const bool is_news = *playhead.next_time_s() >= marks_.back().time_s;
-    for (const v1::BrickEdit& edit : next->edits()) {
-        const std::int32_t slot = playhead.bone().slot(edit.brick());
+    for (const ChangedBrick& changed : next->changes) {
+        const BrickIndex brick = changed.change.brick;
+        const std::int32_t slot = playhead.bone().slot(brick);
         if (slot == BoneContent::no_slot) continue;  // the playhead will refuse it
-        if (is_news) changed_.insert(edit.brick());
+        if (is_news) changed_.insert(brick);
         // Until now it was as it first came.
-        if (!versions_.contains(edit.brick())) keep(edit.brick(), playhead.bone().fractions(slot), 0);
+        if (!versions_.contains(brick)) keep(brick, playhead.bone().fractions(slot), 0);
     }
 }
 

@@ -46,12 +46,12 @@ LinkUpdate RecordingPlayer::poll(Time now) {
     }
     update.changes = playhead_->take_changes();
     if (update.bone_replaced) update.changes.clear();
-    update.controls = playhead_->status();
-    update.distances = playhead_->distances();
+    update.controls = playhead_->state().status;
+    update.distances = playhead_->state().distances;
     const std::vector<Structure>& structures = playhead_->structures();
     while (shown_structures_ < structures.size())
         update.structures.push_back(structures[shown_structures_++]);
-    if (std::exchange(tool_is_news_, false)) update.tool = playhead_->tool();
+    if (std::exchange(tool_is_news_, false) && playhead_->tool() != nullptr) update.tool = *playhead_->tool();
 
     const bool has_ended = is_at_end_ && target_s_ >= duration_s_;
     if (has_ended || !error_.empty()) is_playing_ = false;
@@ -92,8 +92,8 @@ void RecordingPlayer::go_towards_target(LinkUpdate& update) {
             case Playhead::Step::state:
                 keys_->after_step(*playhead_);
                 tool_is_news_ = true;
-                update.events.insert(update.events.end(), playhead_->events().begin(),
-                                     playhead_->events().end());
+                update.events.insert(update.events.end(), playhead_->state().events.begin(),
+                                     playhead_->state().events.end());
                 break;
             case Playhead::Step::new_bone:
                 keys_.emplace(playhead_->mark());
@@ -122,7 +122,7 @@ void RecordingPlayer::wind_back() {
     error_.clear();
     if (target_s_ < session_begins_s_) return open();
     keys_->wind_back(*playhead_, target_s_);
-    tool_is_news_ = playhead_->tool().has_value();
+    tool_is_news_ = playhead_->tool() != nullptr;
 }
 
 std::string RecordingPlayer::status_line() const {

@@ -54,7 +54,7 @@ ServerConnection::~ServerConnection() {
 }
 
 void ServerConnection::send(const OperatorCommand& command) {
-    v1::OperatorInput input = to_message(command);
+    v2::OperatorInput input = to_message(command);
     std::uint64_t connection = 0;
     {
         // What it answers is what was before the operator now, however late it is written.
@@ -92,7 +92,7 @@ std::optional<ToolState> ServerConnection::newest_tool() const {
     return seen_tool_;
 }
 
-void ServerConnection::send(const v1::CompareBone& request, std::uint64_t session_number) {
+void ServerConnection::send(const v2::CompareBone& request, std::uint64_t session_number) {
     asio::post(io_, [this, request, session_number] {
         if (!receiver_.is_live() || counters_.connections != session_number) return;
         newest_request_ = request;
@@ -243,10 +243,9 @@ void ServerConnection::take_frames() {
 }
 
 std::optional<WireError> ServerConnection::take(std::span<const std::uint8_t> message) {
-    // A recording holds only frames that can be checked in years.
-    auto frame = open_frame(message, recorder_ ? Seal::required : Seal::optional);
+    auto frame = open_frame(message);
     if (auto* error = std::get_if<WireError>(&frame)) return std::move(*error);
-    auto event = receiver_.take(std::get<v1::ServerFrame>(std::move(frame)));
+    auto event = receiver_.take(std::get<v2::ServerFrame>(std::move(frame)));
     if (auto* error = std::get_if<WireError>(&event)) return std::move(*error);
     if (recorder_) {
         const Stamp now = std::chrono::system_clock::now();
@@ -267,7 +266,7 @@ void ServerConnection::take_event(SessionInfo session) {
     accepts_controls_ = session.accepts_controls;
     has_ct_ = session.has_ct;
     burr_count_ = session.burrs.size();
-    owes_hello_ = session.protocol_minor >= first_minor_that_is_greeted;
+    owes_hello_ = true;
     write_newest();
     ++counters_.connections;
     counters_.snapshot_bricks = 0;
@@ -288,12 +287,10 @@ void ServerConnection::take_event(StateArrived arrived) {
 }
 
 void ServerConnection::see(const StateArrived& arrived) {
-    auto tool = tool_from(arrived.frame.tool(), burr_count_);
-    if (!std::holds_alternative<ToolState>(tool)) return;  // whoever applies the frame says what is wrong
     const std::scoped_lock lock(seen_mutex_);
     seen_generation_ = generation_;
     seen_state_ = receiver_.last_sequence();
-    seen_tool_ = std::get<ToolState>(std::move(tool));
+    seen_tool_ = arrived.state.tool;
 }
 
 void ServerConnection::forget_seen() {
@@ -316,12 +313,11 @@ void ServerConnection::take_event(const SpeaksOtherProtocol& other) {
 void ServerConnection::write_newest() {
     if (is_writing_ || !(owes_hello_ || newest_input_ || newest_request_ || !controls_.empty() || wants_ct_))
         return;
-    v1::ClientFrame frame;
+    v2::ClientFrame frame;
     frame.set_sequence(++sent_sequence_);
     if (std::exchange(owes_hello_, false)) {
+        frame.mutable_hello()->set_protocol_major(protocol_major);
         frame.mutable_hello()->set_protocol_minor(protocol_minor);
-        // A recording is to be read by older programs, too.
-        frame.mutable_hello()->set_takes_packed_changes(!recorder_);
     } else if (newest_request_) {
         *frame.mutable_compare_bone() = *std::exchange(newest_request_, std::nullopt);
     } else if (std::exchange(wants_ct_, false)) {

@@ -63,7 +63,7 @@ class ServerConnection {
     /// Of the newest state frame that came on this connection; nothing before the first.
     std::optional<ToolState> newest_tool() const;
     /// Dropped if that session is over.
-    void send(const v1::CompareBone& request, std::uint64_t session_number);
+    void send(const v2::CompareBone& request, std::uint64_t session_number);
     /// Frees it on the receiving thread: a large bone takes a tenth of a second.
     void discard(std::shared_ptr<void> unused);
     /// There is room in the queue again.
@@ -148,10 +148,10 @@ class ServerConnection {
     bool owes_hello_ = false;
     bool has_ct_ = false;  // the server does
     bool wants_ct_ = false;
-    std::optional<v1::OperatorInput> newest_input_;
+    std::optional<v2::OperatorInput> newest_input_;
     std::uint64_t input_number_ = 0;  // of this connection
-    std::optional<v1::CompareBone> newest_request_;
-    std::deque<v1::SessionControl> controls_;  // that have yet to be written
+    std::optional<v2::CompareBone> newest_request_;
+    std::deque<v2::SessionControl> controls_;  // that have yet to be written
     std::uint64_t sent_sequence_ = 0;
     bool is_writing_ = false;
 

@@ -15,25 +15,20 @@ std::optional<BoneReplica> VerifiedReplica::take(BoneArrived arrived) {
     return before;
 }
 
-std::variant<VerifiedReplica::Applied, WireError> VerifiedReplica::take(const StateArrived& arrived) {
-    auto outcome = osteomill::follow(arrived.frame, *session_, *replica_);
-    if (auto* error = std::get_if<WireError>(&outcome)) {
+VerifiedReplica::Outcome VerifiedReplica::take(const StateArrived& arrived) {
+    auto followed = osteomill::follow(arrived, *replica_);
+    if (auto* error = std::get_if<WireError>(&followed)) {
         ++counters_.rejected_frames;
         repair_.reset();
         return std::move(*error);
     }
     ++counters_.frames;
-    auto& state = std::get<FollowedState>(outcome);
-    auto asked = check(arrived, state);
-    if (auto* error = std::get_if<WireError>(&asked)) {
-        repair_.reset();
-        return std::move(*error);
-    }
-    return Applied{std::move(state.tool), std::move(state.events), state.status, std::move(state.distances),
-                   std::get<0>(std::move(asked))};
+    Outcome outcome = check(arrived, std::get<FollowedState>(followed));
+    if (std::holds_alternative<WireError>(outcome)) repair_.reset();
+    return outcome;
 }
 
-VerifiedReplica::Asked VerifiedReplica::check(const StateArrived& arrived, const FollowedState& state) {
+VerifiedReplica::Outcome VerifiedReplica::check(const StateArrived& arrived, const FollowedState& state) {
     if (state.check == ReplicaCheck::equal) ++counters_.verified;
     if (arrived.follows_gap) ++counters_.rejected_frames;
     if (repair_) return follow(repair_->take(arrived, state.check, *replica_));
@@ -41,13 +36,11 @@ VerifiedReplica::Asked VerifiedReplica::check(const StateArrived& arrived, const
     const bool differs = state.check == ReplicaCheck::differs || state.has_regained_bone;
     if (differs) ++counters_.mismatches;
     if (!differs && !arrived.follows_gap) return std::nullopt;
-    if (session_->protocol_minor < first_minor_that_compares)
-        return WireError{"the bone differs from the server's"};
     repair_.emplace();
     return follow(repair_->begin(*replica_));
 }
 
-VerifiedReplica::Asked VerifiedReplica::follow(BoneRepair::Progress progress) {
+VerifiedReplica::Outcome VerifiedReplica::follow(BoneRepair::Progress progress) {
     if (auto* error = std::get_if<WireError>(&progress)) return std::move(*error);
     if (auto* goes_on = std::get_if<BoneRepair::GoesOn>(&progress)) return std::move(goes_on->ask);
     ++counters_.repairs;

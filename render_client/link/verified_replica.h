@@ -26,21 +26,16 @@ class VerifiedReplica {
         std::uint64_t repairs = 0;          ///< after which the copy was equal again
         std::uint64_t bricks_repaired = 0;  ///< that differed
     };
-    struct Applied {
-        ToolState tool;
-        std::vector<ControlEvent> events{};
-        SessionStatus status{};
-        std::vector<StructureDistance> distances{};
-        std::optional<v1::CompareBone> ask{};  ///< to be sent to the server
-    };
+    /// What is to be asked of the server now; an error says why a fresh bone is needed.
+    using Outcome = std::variant<std::optional<v2::CompareBone>, WireError>;
 
     /// A server has said hello. The bone stays the one before, if any, until its own has come.
     void begin(SessionInfo session);
     /// Of the session that began last. Returns what it takes the place of, which takes its time to be freed.
     std::optional<BoneReplica> take(BoneArrived arrived);
-    /// An error says why a fresh bone is needed: part of the frame may have been applied, or the repair has
-    /// failed. There must be a bone of this session.
-    std::variant<Applied, WireError> take(const StateArrived& arrived);
+    /// An error: part of the frame may have been applied, or the repair has failed. There must be a bone of
+    /// this session.
+    Outcome take(const StateArrived& arrived);
 
     /// What has changed in the bone since the last call, or since it came.
     std::vector<BrickChange> take_changes() {
@@ -55,9 +50,8 @@ class VerifiedReplica {
     const Counters& counters() const { return counters_; }
 
   private:
-    using Asked = std::variant<std::optional<v1::CompareBone>, WireError>;
-    Asked check(const StateArrived& arrived, const FollowedState& state);
-    Asked follow(BoneRepair::Progress progress);
+    Outcome check(const StateArrived& arrived, const FollowedState& state);
+    Outcome follow(BoneRepair::Progress progress);
 
     std::optional<SessionInfo> session_;
     std::optional<BoneReplica> replica_;

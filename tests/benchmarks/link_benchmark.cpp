@@ -65,9 +65,9 @@ double ms_between(Clock::time_point from, Clock::time_point to) {
 
 void measure_snapshot(Targets& targets, const Scene& scene, const Bone& bone) {
     const BoneReplica mirror(bone);
-    SnapshotPacker packer;
+    FeedPackers packers;
     const auto began = Clock::now();
-    ClientFeed feed(to_message(session_info(scene, false, 3.3, "")), mirror, packer);
+    ClientFeed feed(to_message(session_info(scene, false, 3.3, "")), mirror, packers);
     std::size_t bytes = 0;
     while (const auto frame = feed.next()) bytes += frame->size();
     const double pack_ms = ms_between(began, Clock::now());
@@ -82,8 +82,6 @@ void measure_snapshot(Targets& targets, const Scene& scene, const Bone& bone) {
     // Packing and sending take turns, piece by piece, at worst.
     targets.print("snapshot, time at 100 Mbit/s", sent / bytes_per_s_of_100_mbit + 1e-3 * pack_ms, "s", 1);
 }
-
-enum class Edits { packed, as_they_are };
 
 struct Rate {
     double mean_bytes_per_s = 0.0;
@@ -117,20 +115,17 @@ class DeviceOnRails final : public HapticDevice {
 };
 
 /// Bytes of state frames from `from_s` to the session's end.
-Rate rate_of(const Scene& scene, const Bone& bone, HapticDevice& device, Edits edits, double from_s,
-             double to_s) {
+Rate rate_of(const Scene& scene, const Bone& bone, HapticDevice& device, double from_s, double to_s) {
     const auto session = std::make_unique<MillingSession>(
         scene, bone, device,
         MillingSessionOptions{
             .clock = ClockKind::virtual_time, .duration_s = to_s, .changes_are_consumed = true});
     LiveSession shown(session->tool(), session->changes());
     BoneReplica mirror(bone);
-    SnapshotPacker packer;
-    ClientFeed feed(to_message(session_info(scene, false, 3.3, "")), mirror, packer);
+    FeedPackers packers;
+    ClientFeed feed(to_message(session_info(scene, false, 3.3, "")), mirror, packers);
     while (feed.next()) {
     }
-    ChangePacker change_packer;
-    if (edits == Edits::packed) feed.pack_changes(change_packer);
     std::vector<double> bytes_in_second(static_cast<std::size_t>(to_s - from_s) + 1, 0.0);
     std::vector<double> removed_in_second_mm3(bytes_in_second.size(), 0.0);
     double removed_before_mm3 = 0.0;
@@ -171,23 +166,18 @@ void measure_carving(Targets& targets) {
     constexpr double from_s = 2.0;
     constexpr double to_s = 32.0;
     scene.device = {};
-    for (const Edits edits : {Edits::packed, Edits::as_they_are}) {
-        DeviceOnRails device(trajectory_of(scene));
-        const Rate rate = rate_of(scene, bone, device, edits, from_s, to_s);
-        const std::string recorded = edits == Edits::packed ? "" : ", recorded";
-        targets.print("carving at 6 mm/s with the 5 mm burr" + recorded, 1e-3 * rate.mean_bytes_per_s, "kB/s",
-                      60);
-        targets.print("  the worst second of it" + recorded, 1e-3 * rate.most_bytes_in_a_second, "kB/s", 300);
-        if (edits == Edits::packed)
-            fmt::print("  {:.1f} mm^3 removed in {:.0f} s, {:.1f} mm^3 in the second that cuts most\n",
-                       rate.removed_mm3, to_s - from_s, rate.most_removed_mm3_in_a_second);
-    }
+    DeviceOnRails device(trajectory_of(scene));
+    const Rate rate = rate_of(scene, bone, device, from_s, to_s);
+    targets.print("carving at 6 mm/s with the 5 mm burr", 1e-3 * rate.mean_bytes_per_s, "kB/s", 60);
+    targets.print("  the worst second of it", 1e-3 * rate.most_bytes_in_a_second, "kB/s", 300);
+    fmt::print("  {:.1f} mm^3 removed in {:.0f} s, {:.1f} mm^3 in the second that cuts most\n",
+               rate.removed_mm3, to_s - from_s, rate.most_removed_mm3_in_a_second);
 }
 
 void measure_idle(Targets& targets, Scene scene, const Bone& bone) {
     scene.trajectory.source = BuiltInTrajectory::hold;
     SimulatedDevice device(trajectory_of(scene), scene.device, ArmModel{}, hand_model(Grip::firm));
-    const Rate rate = rate_of(scene, bone, device, Edits::packed, 2.0, 12.0);
+    const Rate rate = rate_of(scene, bone, device, 2.0, 12.0);
     targets.print("idle", 1e-3 * rate.mean_bytes_per_s, "kB/s", 3);
 }
 

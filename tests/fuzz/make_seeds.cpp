@@ -1,4 +1,5 @@
 // Writes the seed corpus with the programs' own encoders.
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <iostream>
@@ -7,10 +8,12 @@
 
 #include "common/recording/packet_writer.h"
 #include "common/wire/frame.h"
+#include "common/wire/sealed_frame.h"
 #include "common/wire/structure_messages.h"
 #include "haptic_server/streaming/client_feed.h"
 #include "tests/fuzz/image_seeds.h"
 #include "tests/fuzz/small_session.h"
+#include "tests/support/packed.h"
 
 namespace osteomill::fuzz {
 
@@ -29,12 +32,10 @@ std::string message_of(const std::string& stream) {
 }
 
 /// The frames of a session in which a run of voxels is milled, each behind its length.
-std::vector<std::string> session_frames(const Bone& bone, bool packed = false) {
+std::vector<std::string> session_frames(const Bone& bone) {
     BoneReplica mirror(bone);
-    SnapshotPacker packer;
-    ClientFeed feed(to_message(small_session_info()), mirror, packer);
-    ChangePacker change_packer;
-    if (packed) feed.pack_changes(change_packer);
+    FeedPackers packers;
+    ClientFeed feed(to_message(small_session_info()), mirror, packers);
     std::vector<std::string> frames;
     const auto drain = [&] {
         while (auto frame = feed.next()) frames.push_back(*std::move(frame));
@@ -89,15 +90,18 @@ void write_recording(const std::filesystem::path& file,
     Stamp stamp{std::chrono::seconds(1'700'000'000)};
     for (const auto& frames : sessions)
         for (const std::string& frame : frames) {
-            packets.write(stamp, message_of(frame));
+            const std::string message = message_of(frame);
+            packets.write(stamp, with_recorded_time(
+                                     {reinterpret_cast<const std::uint8_t*>(message.data()), message.size()},
+                                     stamp.time_since_epoch().count()));
             stamp += std::chrono::milliseconds(33);
         }
 }
 
-v1::ClientFrame operator_input(double x_mm, std::uint32_t burr) {
+v2::ClientFrame operator_input(double x_mm, std::uint32_t burr) {
     static std::uint64_t number = 0;
-    v1::ClientFrame frame;
-    v1::OperatorInput& input = *frame.mutable_operator_input();
+    v2::ClientFrame frame;
+    v2::OperatorInput& input = *frame.mutable_operator_input();
     input.mutable_hand_target_mm()->set_x(x_mm);
     input.mutable_spindle_axis()->set_z(2.0);
     input.set_pedal(true);
@@ -107,26 +111,25 @@ v1::ClientFrame operator_input(double x_mm, std::uint32_t burr) {
     return frame;
 }
 
-v1::ClientFrame comparison(const Bone& copy) {
-    v1::ClientFrame frame;
+v2::ClientFrame comparison(const Bone& copy) {
+    v2::ClientFrame frame;
     *frame.mutable_compare_bone() = *DifferenceSearch(copy).next(copy, RunningChecksum(copy));
     return frame;
 }
 
-v1::ClientFrame hello() {
-    v1::ClientFrame frame;
-    frame.mutable_hello()->set_protocol_minor(protocol_minor);
-    frame.mutable_hello()->set_takes_packed_changes(true);
+v2::ClientFrame hello() {
+    v2::ClientFrame frame;
+    frame.mutable_hello()->set_protocol_major(protocol_major);
     return frame;
 }
 
-v1::ClientFrame goodbye() {
-    v1::ClientFrame frame;
+v2::ClientFrame goodbye() {
+    v2::ClientFrame frame;
     frame.mutable_goodbye()->set_reason("enough");
     return frame;
 }
 
-std::string numbered(std::vector<v1::ClientFrame> frames) {
+std::string numbered(std::vector<v2::ClientFrame> frames) {
     std::string stream;
     for (std::size_t i = 0; i < frames.size(); ++i) {
         frames[i].set_sequence(i + 1);
@@ -136,8 +139,8 @@ std::string numbered(std::vector<v1::ClientFrame> frames) {
 }
 
 /// A frame behind the four of the client target's own session, not sealed: the fuzzer cannot seal either.
-std::string state_of(std::uint64_t sequence, v1::StateFrame state) {
-    v1::ServerFrame frame;
+std::string state_of(std::uint64_t sequence, v2::StateFrame state) {
+    v2::ServerFrame frame;
     frame.set_sequence(sequence);
     *frame.mutable_state() = std::move(state);
     std::string stream;
@@ -145,14 +148,12 @@ std::string state_of(std::uint64_t sequence, v1::StateFrame state) {
     return stream;
 }
 
-v1::StateFrame edited(BrickIndex brick, std::uint32_t first, const std::string& fractions) {
-    v1::StateFrame state;
+v2::StateFrame changed(BrickIndex brick, std::size_t first, const std::string& fractions) {
+    v2::StateFrame state;
     *state.mutable_tool() = to_message(ToolState{});
-    v1::BrickEdit& edit = *state.add_edits();
-    edit.set_brick(brick);
-    edit.add_changed(first);
-    edit.add_changed(static_cast<std::uint32_t>(fractions.size()));
-    edit.set_fraction(fractions);
+    ChangedBrick changed{.change = {brick, VoxelMask().set_run(first, fractions.size())}};
+    std::ranges::copy(fractions, changed.fractions.begin() + static_cast<std::ptrdiff_t>(first));
+    *state.mutable_changes() = testing::packed({changed});
     return state;
 }
 
@@ -160,7 +161,7 @@ std::string structure_of(std::uint64_t sequence) {
     const Grid grid = small_bone().grid();
     const Structure nerve{0,
                           StructureMask(grid, {{0, VoxelMask().set_run(32, 16)}, {4, VoxelMask().set(3)}})};
-    v1::ServerFrame frame;
+    v2::ServerFrame frame;
     frame.set_sequence(sequence);
     *frame.mutable_structure_bricks() = structure_pieces(std::span(&nerve, 1)).front();
     std::string stream;
@@ -168,8 +169,8 @@ std::string structure_of(std::uint64_t sequence) {
     return stream;
 }
 
-v1::StateFrame near_structure() {
-    v1::StateFrame state;
+v2::StateFrame near_structure() {
+    v2::StateFrame state;
     *state.mutable_tool() = to_message(ToolState{});
     *state.add_distances() = to_message(StructureDistance{
         .tissue = 0, .distance_mm = 0.25, .touches_so_far = 1, .first_touch_s = 0.5, .touched_s = 0.1});
@@ -191,22 +192,22 @@ void write_seeds(const std::filesystem::path& folder) {
     write_file(folder / "server_session/operator",
                '\x8f' + numbered({hello(), operator_input(1.0, 0), operator_input(-3.5, 1), goodbye()}));
     write_file(folder / "server_session/comparison",
-               '\xff' + numbered({comparison(carved), operator_input(0.0, 1), comparison(bone)}));
+               '\xff' + numbered({hello(), comparison(carved), operator_input(0.0, 1), comparison(bone)}));
     write_file(folder / "server_session/hello",
-               '\x87' + numbered({hello(), operator_input(1.0, 0), comparison(bone), goodbye()}));
-    write_file(folder / "server_session/slow_reader", '\x10' + numbered({operator_input(0.0, 1), goodbye()}));
+               '\x87' + numbered({hello(), hello(), operator_input(1.0, 0), comparison(bone), goodbye()}));
+    write_file(folder / "server_session/slow_reader",
+               '\x10' + numbered({hello(), operator_input(0.0, 1), goodbye()}));
     write_file(folder / "server_session/tls", std::string("\xff\x16\x03\x01\x02", 5));
 
     write_file(folder / "client_session/session", '\0' + joined(frames));
-    write_file(folder / "client_session/packed", '\0' + joined(session_frames(bone, true)));
     write_file(folder / "client_session/varied", '\0' + joined(varied));
-    write_file(folder / "client_session/edits", '\x01' + state_of(5, edited(0, 3, "\x05\x04\x03")) +
-                                                    state_of(6, edited(5, 16, "\x05\x04\x03")));
-    write_file(folder / "client_session/bone_regained", '\x01' + state_of(5, edited(0, 0, "\xff")));
-    write_file(folder / "client_session/outside_grid", '\x01' + state_of(5, edited(5, 15, "\x01")));
-    v1::StateFrame answer = edited(0, 0, "\x01");
+    write_file(folder / "client_session/changes", '\x01' + state_of(5, changed(0, 3, "\x05\x04\x03")) +
+                                                      state_of(6, changed(5, 16, "\x05\x04\x03")));
+    write_file(folder / "client_session/bone_regained", '\x01' + state_of(5, changed(0, 0, "\xff")));
+    write_file(folder / "client_session/outside_grid", '\x01' + state_of(5, changed(5, 15, "\x01")));
+    v2::StateFrame answer = changed(0, 0, "\x01");
     answer.mutable_comparison()->add_differing_part(0);
-    v1::StateFrame doubtful = edited(0, 7, "\x02");
+    v2::StateFrame doubtful = changed(0, 7, "\x02");
     doubtful.set_bone_checksum(1);
     write_file(folder / "client_session/structure", '\x01' + structure_of(5) + state_of(6, near_structure()));
     write_file(folder / "client_session/repair", '\x01' + state_of(5, doubtful) + state_of(6, answer));

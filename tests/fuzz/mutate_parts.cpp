@@ -57,7 +57,7 @@ std::string stream_of(const std::vector<std::string>& messages) {
 }
 
 std::string resealed(const std::string& message) {
-    v1::ServerFrame frame;
+    v2::ServerFrame frame;
     if (!frame.ParseFromString(message)) return message;
     frame.clear_frame_checksum();
     if (frame.ByteSizeLong() + seal_bytes > largest_frame_bytes) return message;

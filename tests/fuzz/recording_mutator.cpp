@@ -2,7 +2,7 @@
 // at.
 #include <cstring>
 
-#include "osteomill/v1/session.pb.h"
+#include "osteomill/v2/session.pb.h"
 #include "tests/fuzz/mutate_parts.h"
 
 namespace {
@@ -50,7 +50,7 @@ extern "C" std::size_t LLVMFuzzerCustomMutator(std::uint8_t* data, std::size_t s
         fuzz::mutate_parts(stamps, random);
     else
         fuzz::mutate_parts(messages, random);
-    if (random() % 2 == 0) fuzz::renumber<v1::ServerFrame>(messages, 1);
+    if (random() % 2 == 0) fuzz::renumber<v2::ServerFrame>(messages, 1);
     std::string mutated(file.substr(0, file_header_bytes));
     for (std::size_t i = 0; i < messages.size(); ++i) {
         std::string stamp = i < stamps.size() ? stamps[i] : std::string();

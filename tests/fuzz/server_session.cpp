@@ -26,7 +26,7 @@ class ScriptedStream final : public Stream {
         decoder_.append({reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()});
         const auto message = decoder_.next();
         require(message.has_value(), "the server wrote what is no frame");
-        require(std::holds_alternative<v1::ServerFrame>(open_frame(*message, Seal::required)),
+        require(std::holds_alternative<v2::ServerFrame>(open_frame(*message)),
                 "the server wrote a frame that cannot be opened");
         ++frames_written_;
         writer_ = std::move(handler);
@@ -76,26 +76,28 @@ void server_session(Bytes input) {
     Bone carved = bone;
     const SessionInfo info = small_session_info();
     BoneReplica mirror(bone);
-    static SnapshotPacker packer;
+    static FeedPackers packers;
     OperatorChannel output;
     ControlLease lease(output);
-    ChangePacker change_packer;
     constexpr ControlLease::ClientId id = 1;
     boost::asio::io_context io;
     const auto stream = std::make_shared<ScriptedStream>(io);
     const auto session =
-        std::make_shared<ClientConnection>(stream, ClientFeed(to_message(info), mirror, packer));
+        std::make_shared<ClientConnection>(stream, ClientFeed(to_message(info), mirror, packers));
 
     std::optional<std::string> ended;
     std::size_t messages = 0;
     session->start({.on_message =
-                        [&](const v1::ClientFrame& frame) {
-                            if (messages++ == 0) session->serve();
+                        [&](const v2::ClientFrame& frame) {
+                            if (messages++ == 0) {
+                                auto error = check_greeting(frame);
+                                if (!error) session->serve();
+                                return error;
+                            }
                             const auto taken = take_client_message(frame,
                                                                    {.id = id,
                                                                     .feed = session->feed(),
                                                                     .answers = session->answers(),
-                                                                    .packer = change_packer,
                                                                     .lease = &lease,
                                                                     .burr_count = info.burrs.size()},
                                                                    {});

@@ -91,7 +91,7 @@ TEST(Documents, DescribeEveryMessageAndFieldOfTheProtocol) {
     };
     const std::regex field("(\\w+) ([a-z]\\w*) = \\d+;");
     for (const char* file : {"bone.proto", "tool.proto", "session.proto"}) {
-        const std::string messages = text_in_repository(std::filesystem::path("proto/osteomill/v1") / file);
+        const std::string messages = text_in_repository(std::filesystem::path("proto/osteomill/v2") / file);
         for (std::sregex_iterator match(messages.begin(), messages.end(), field), end; match != end; ++match)
             EXPECT_TRUE(describes((*match)[2]) || describes((*match)[1])) << file << ": " << match->str();
     }

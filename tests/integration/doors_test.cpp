@@ -22,7 +22,7 @@
 #include "common/net/tls_context.h"
 #include "common/wire/frame.h"
 #include "common/wire/protocol_version.h"
-#include "osteomill/v1/session.pb.h"
+#include "osteomill/v2/session.pb.h"
 #include "render_client/link/bone_link.h"
 #include "tests/support/child_process.h"
 #include "tests/support/eventually.h"
@@ -66,12 +66,12 @@ class Insistent {
     Insistent(std::uint16_t port, const TlsFiles& files) : tls_(files, TlsContext::Role::client) {
         stream_.lowest_layer().connect({boost::asio::ip::address_v4::loopback(), port});
         stream_.handshake(boost::asio::ssl::stream_base::client);
-        v1::ClientFrame hello;
-        hello.mutable_hello()->set_protocol_minor(protocol_minor);
+        v2::ClientFrame hello;
+        hello.mutable_hello()->set_protocol_major(protocol_major);
         say(hello);
     }
     void press_pedal() {
-        v1::ClientFrame frame;
+        v2::ClientFrame frame;
         auto& input = *frame.mutable_operator_input();
         input.mutable_hand_target_mm()->set_x(1.0);
         input.mutable_spindle_axis()->set_z(1.0);
@@ -80,7 +80,7 @@ class Insistent {
     }
 
   private:
-    void say(v1::ClientFrame& frame) {
+    void say(v2::ClientFrame& frame) {
         frame.set_sequence(++sequence_);
         std::string bytes;
         append_frame(frame, bytes);

@@ -50,8 +50,8 @@ class HostileClient {
     explicit HostileClient(std::uint16_t port) {
         socket_.connect({boost::asio::ip::address_v4::loopback(), port});
         socket_.non_blocking(true);
-        v1::ClientFrame greeting;
-        greeting.mutable_hello()->set_protocol_minor(protocol_minor);
+        v2::ClientFrame greeting;
+        greeting.mutable_hello()->set_protocol_major(protocol_major);
         send(std::move(greeting));
     }
 
@@ -62,7 +62,7 @@ class HostileClient {
         while (const std::size_t count = socket_.read_some(boost::asio::buffer(bytes), error)) {
             decoder_.append(std::span(bytes).first(count));
             while (const auto message = decoder_.next()) {
-                v1::ServerFrame frame;
+                v2::ServerFrame frame;
                 EXPECT_TRUE(frame.ParseFromArray(message->data(), static_cast<int>(message->size())));
                 if (!frame.has_state()) continue;
                 newest_state_ = frame.sequence();
@@ -79,7 +79,7 @@ class HostileClient {
     };
     void want(const OperatorCommand& command) { want(command, Lie{}); }
     void want(const OperatorCommand& command, const Lie& lie) {
-        v1::ClientFrame frame;
+        v2::ClientFrame frame;
         *frame.mutable_operator_input() = to_message(command);
         frame.mutable_operator_input()->set_number(lie.number != 0 ? lie.number : ++number_);
         if (lie.names_state) frame.mutable_operator_input()->set_answers_state(newest_state_);
@@ -87,7 +87,7 @@ class HostileClient {
     }
 
   private:
-    void send(v1::ClientFrame frame) {
+    void send(v2::ClientFrame frame) {
         frame.set_sequence(++sequence_);
         std::string bytes;
         append_frame(frame, bytes);

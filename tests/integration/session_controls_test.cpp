@@ -83,8 +83,8 @@ TEST_F(SessionControlsProgram, LeavesARecordingThatHoldsEveryUndoAndMark) {
     std::vector<ControlEvent> events;
     SessionStatus status;
     while (playhead.step(std::numeric_limits<double>::infinity()) == Playhead::Step::state) {
-        events.insert(events.end(), playhead.events().begin(), playhead.events().end());
-        status = playhead.status();
+        events.insert(events.end(), playhead.state().events.begin(), playhead.state().events.end());
+        status = playhead.state().status;
     }
     ASSERT_EQ(events.size(), 5U);
     EXPECT_EQ(events[0].text, "first hole");
@@ -126,8 +126,8 @@ TEST_F(SessionControlsProgram, AnswersAtOnceWhatIsAskedForBehindAResetOfManyStro
     std::vector<ControlEvent> events;
     std::uint32_t redo_steps = 0;
     while (playhead.step(std::numeric_limits<double>::infinity()) == Playhead::Step::state) {
-        events.insert(events.end(), playhead.events().begin(), playhead.events().end());
-        redo_steps = playhead.status().redo_steps;
+        events.insert(events.end(), playhead.state().events.begin(), playhead.state().events.end());
+        redo_steps = playhead.state().status.redo_steps;
     }
     ASSERT_EQ(events.size(), 3U);
     for (const ControlEvent& event : events) {

@@ -141,7 +141,7 @@ TEST_F(StructuresProgram, TellHowFarTheBurrIsFromASoftStructure) {
         const glm::dvec3& at = playhead.tool()->burr_position_mm;
         const double expected_mm = from_axis_mm(at.y, at.z) - tube_radius_mm - burr_radius_mm;
         nearest_mm = std::min(nearest_mm, expected_mm);
-        const StructureDistance* now = nearest_structure(playhead.distances());
+        const StructureDistance* now = nearest_structure(playhead.state().distances);
         if (now == nullptr) {
             ++silent;
             EXPECT_GT(expected_mm, 3.0 - 0.5 * spacing_mm);
@@ -267,7 +267,7 @@ TEST_F(StructuresProgram, CostNothingWhereNothingIsProtected) {
     Playhead playhead(file("a.pcap"));
     EXPECT_TRUE(playhead.structures().empty());
     while (playhead.step(std::numeric_limits<double>::infinity()) != Playhead::Step::end) {
-        EXPECT_TRUE(playhead.distances().empty());
+        EXPECT_TRUE(playhead.state().distances.empty());
     }
 }
 

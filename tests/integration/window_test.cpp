@@ -250,7 +250,7 @@ TEST_F(WindowTest, UndoesMarksAndFinishesASessionByKeys) {
     std::vector<ControlEvent> events;
     std::uint64_t last = 0;
     while (playhead.step(std::numeric_limits<double>::infinity()) == Playhead::Step::state) {
-        events.insert(events.end(), playhead.events().begin(), playhead.events().end());
+        events.insert(events.end(), playhead.state().events.begin(), playhead.state().events.end());
         last = playhead.bone_checksum();
     }
     ASSERT_EQ(events.size(), 3U);

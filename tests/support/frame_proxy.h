@@ -15,7 +15,6 @@
 #include <vector>
 
 #include "common/wire/frame.h"
-#include "common/wire/packed_changes.h"
 #include "common/wire/sealed_frame.h"
 
 namespace osteomill::testing {
@@ -23,7 +22,7 @@ namespace osteomill::testing {
 class FrameProxy {
   public:
     /// On the proxy's thread: what to make of a frame; false leaves it out.
-    using Meddle = std::function<bool(v1::ServerFrame&)>;
+    using Meddle = std::function<bool(v2::ServerFrame&)>;
 
     FrameProxy(std::uint16_t server_port, Meddle meddle)
         : server_port_(server_port), meddle_(std::move(meddle)) {
@@ -67,8 +66,7 @@ class FrameProxy {
             if (error) return hang_up();
             decoder_.append(std::span(said_).first(bytes));
             while (const auto message = decoder_.next()) {
-                auto frame = std::get<v1::ServerFrame>(open_frame(*message, Seal::required));
-                tell_plainly(frame);
+                auto frame = std::get<v2::ServerFrame>(open_frame(*message));
                 if (!meddle_(frame)) continue;
                 frame.clear_frame_checksum();
                 std::string passed_on;
@@ -77,19 +75,6 @@ class FrameProxy {
             }
             from_server();
         });
-    }
-    /// Packed changes become edits, to be meddled with.
-    void tell_plainly(v1::ServerFrame& frame) {
-        if (frame.has_snapshot_begin()) {
-            const v1::Grid& grid = frame.snapshot_begin().grid();
-            size_bricks_ = size_in_bricks(
-                {.size_voxels = glm::ivec3(glm::uvec3(grid.size_x(), grid.size_y(), grid.size_z()))});
-        }
-        if (!frame.has_state() || !frame.state().has_changes()) return;
-        auto edits = unpack(frame.state().changes(), size_bricks_);
-        for (v1::BrickEdit& edit : std::get<std::vector<v1::BrickEdit>>(edits))
-            *frame.mutable_state()->add_edits() = std::move(edit);
-        frame.mutable_state()->clear_changes();
     }
     void hang_up() {
         error_code ignored;
@@ -105,7 +90,6 @@ class FrameProxy {
     tcp::socket client_{io_};
     tcp::socket server_{io_};
     FrameDecoder decoder_;
-    glm::ivec3 size_bricks_{0};
     std::array<std::uint8_t, 65536> said_{};
     std::array<std::uint8_t, 65536> asked_{};
     std::thread thread_;

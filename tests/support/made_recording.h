@@ -58,12 +58,13 @@ inline MadeRecording make_recording(const std::filesystem::path& file,
     MadeRecording made{bone, bone, {}};
     BoneReplica mirror(bone);
     ReplicaSink to_mirror(mirror);
-    SnapshotPacker packer;
+    FeedPackers packers;
     SessionInfo session = recorded_session_info();
     session.protocol_major = options.protocol_major;
     const Stamp began{std::chrono::seconds(1'700'000'000) + std::chrono::nanoseconds(7)};
-    std::optional<SessionRecorder> recorder(std::in_place, file, began, to_message(session), mirror, packer,
-                                            structure_pieces(options.structures));
+    const std::vector<v2::StructureBricks> structures = structure_pieces(options.structures);
+    std::optional<SessionRecorder> recorder(std::in_place, file, began, to_message(session), mirror, packers,
+                                            structures);
     ToolState tool;
     for (int i = 0; i < options.states; ++i) {
         if (i > 0)

@@ -10,7 +10,7 @@
 
 #include "common/wire/frame.h"
 #include "common/wire/protocol_version.h"
-#include "osteomill/v1/session.pb.h"
+#include "osteomill/v2/session.pb.h"
 
 namespace osteomill::testing {
 
@@ -27,9 +27,9 @@ class Stranger {
     }
     /// As a client does; what comes of it is never read.
     void greet() {
-        v1::ClientFrame frame;
+        v2::ClientFrame frame;
         frame.set_sequence(1);
-        frame.mutable_hello()->set_protocol_minor(protocol_minor);
+        frame.mutable_hello()->set_protocol_major(protocol_major);
         std::string bytes;
         append_frame(frame, bytes);
         say(bytes);

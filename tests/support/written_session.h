@@ -46,8 +46,9 @@ class WrittenSession {
     WrittenSession(const std::filesystem::path& file, const SessionInfo& session, const Bone& bone,
                    const std::vector<Structure>& structures = {})
         : mirror_(bone),
+          structures_(structure_pieces(structures)),
           recorder_(std::in_place, file, Stamp{std::chrono::seconds(1'700'000'000)}, to_message(session),
-                    mirror_, packer_, structure_pieces(structures)) {}
+                    mirror_, packers_, structures_) {}
 
     /// Takes all of every voxel whose centre `is_in`, before the next frame. Returns how many there were.
     std::size_t cut(const std::function<bool(const glm::dvec3&)>& is_in) {
@@ -101,7 +102,8 @@ class WrittenSession {
     }
 
     BoneReplica mirror_;
-    SnapshotPacker packer_;
+    FeedPackers packers_;
+    std::vector<v2::StructureBricks> structures_;
     std::optional<SessionRecorder> recorder_;
     std::vector<ControlEvent> events_;
     ToolState last_;

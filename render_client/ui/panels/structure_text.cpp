@@ -38,7 +38,7 @@ PanelText structure_text(const OverlayContent& content) {
                          *nearest->distance_mm <= 0.0
                              ? fmt::format("{}: touching", tissue.name)
                              : fmt::format("{}: {:.2f} mm away", tissue.name, *nearest->distance_mm)}});
-    } else if (content.session->protocol_minor >= first_minor_with_structures) {
+    } else {
         text.push_back({{Tone::dim, "no protected structure near"}});
     }
     for (const StructureDistance& now : content.link.distances)

@@ -47,5 +47,25 @@ TEST(BrickChange, IsRefusedWholeWhereItDoesNotFit) {
     EXPECT_EQ(checksum(bone), before);
 }
 
+TEST(BrickChange, CorrectsACopyThatIsWrongButPutsNoBoneOutsideTheGrid) {
+    Bone bone = half_stored_bone();
+    ByteBrick whole;
+    whole.fill(255);
+    EXPECT_EQ(correct({0, VoxelMask().set(30)}, ByteBrick{}, bone), Correction::lowers);
+    EXPECT_EQ(correct({0, VoxelMask().set_all()}, whole, bone), Correction::raises);
+    EXPECT_EQ(bone.fractions(0)[30], 255);
+    EXPECT_EQ(correct({1, VoxelMask().set(0)}, whole, bone), Correction::not_stored);
+
+    auto builder = BoneBuilder::homogeneous(Grid{.size_voxels = {4, 16, 16}}, 1.0, false);
+    ByteBrick one{};
+    one[0] = 255;
+    builder.add_brick({0, 0, 0}, one, nullptr, nullptr);
+    Bone cut = std::move(builder).build();
+    EXPECT_EQ(correct({0, VoxelMask().set_run(1, 4)}, whole, cut), Correction::outside_grid);
+    EXPECT_EQ(cut.fractions(0)[1], 0) << "refused whole";
+    EXPECT_FALSE(apply({0, VoxelMask().set(4), ChangeKind::restored}, whole, cut));
+    EXPECT_EQ(correct({0, VoxelMask().set_run(1, 3)}, whole, cut), Correction::raises);
+}
+
 }  // namespace
 }  // namespace osteomill::brick_change_test

@@ -9,6 +9,7 @@
 
 #include "render_client/link/bone_link.h"
 #include "tests/support/frame_proxy.h"
+#include "tests/support/packed.h"
 #include "tests/support/served_bone.h"
 
 namespace osteomill {
@@ -21,24 +22,35 @@ using testing::ServedBone;
 /// What a proxy does to a session, and what it sees of it.
 class Meddler {
   public:
-    enum class Mode { watch, drop_states, drop_edits_of_one_brick };
+    enum class Mode { watch, drop_states, drop_one_brick };
 
-    bool operator()(v1::ServerFrame& frame) {
+    bool operator()(v2::ServerFrame& frame) {
         const std::scoped_lock lock(mutex_);
-        if (frame.has_snapshot_begin()) ++snapshots_;
+        if (frame.has_snapshot_begin()) {
+            ++snapshots_;
+            const v2::Grid& grid = frame.snapshot_begin().grid();
+            size_bricks_ = size_in_bricks(
+                {.size_voxels = glm::ivec3(glm::uvec3(grid.size_x(), grid.size_y(), grid.size_z()))});
+        }
         if (!frame.has_state()) return true;
         ++states_;
-        v1::StateFrame& state = *frame.mutable_state();
-        for (const v1::BrickEdit& edit : state.edits())
+        v2::StateFrame& state = *frame.mutable_state();
+        std::vector<ChangedBrick> changes;
+        if (state.has_changes()) {
+            EXPECT_FALSE(unpack(state.changes(), ChangeKind::milled, size_bricks_, changes));
+        }
+        for (const auto& [change, fractions] : changes)
             if (mode_ != Mode::watch)
-                lost_.insert(edit.brick());
-            else if (edit.fraction().size() == brick_voxel_count)
-                told_whole_.insert(edit.brick());
+                lost_.insert(change.brick);
+            else if (change.voxels.all())
+                told_whole_.insert(change.brick);
         if (mode_ == Mode::watch) return true;
         if (mode_ == Mode::drop_states) return false;
         lost_ = lost_.empty() ? lost_ : std::set{*lost_.begin()};
-        for (int i = state.edits_size(); i-- > 0;)
-            if (lost_.contains(state.edits(i).brick())) state.mutable_edits()->DeleteSubrange(i, 1);
+        std::erase_if(changes,
+                      [&](const ChangedBrick& changed) { return lost_.contains(changed.change.brick); });
+        state.clear_changes();
+        if (!changes.empty()) *state.mutable_changes() = testing::packed(changes);
         state.set_bone_checksum(0);  // not to be found out yet
         return true;
     }
@@ -64,6 +76,7 @@ class Meddler {
     }
 
   private:
+    glm::ivec3 size_bricks_{0};
     mutable std::mutex mutex_;
     Mode mode_ = Mode::watch;
     std::uint64_t states_ = 0;
@@ -110,7 +123,7 @@ class BoneRepairTest : public ::testing::Test {
 
     ServedBone served_;
     Meddler meddler_;
-    FrameProxy proxy_{served_.port(), [this](v1::ServerFrame& frame) { return meddler_(frame); }};
+    FrameProxy proxy_{served_.port(), [this](v2::ServerFrame& frame) { return meddler_(frame); }};
     BoneLink link_{"127.0.0.1", proxy_.port()};
 };
 
@@ -123,7 +136,7 @@ TEST_F(BoneRepairTest, AsksForTheBricksThatFramesWhichWereLostToldOf) {
 
 TEST_F(BoneRepairTest, AsksForTheOneBrickThatMakesTheChecksumDiffer) {
     go_live();
-    carve_behind_its_back(Meddler::Mode::drop_edits_of_one_brick);
+    carve_behind_its_back(Meddler::Mode::drop_one_brick);
     expect_equal_after_one_repair();
     EXPECT_EQ(link_.poll().checksum_mismatches, 1U);
     EXPECT_EQ(link_.poll().bricks_repaired, 1U);

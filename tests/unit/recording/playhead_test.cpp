@@ -8,6 +8,7 @@
 #include "common/wire/frame.h"
 #include "common/wire/sealed_frame.h"
 #include "tests/support/made_recording.h"
+#include "tests/support/packed.h"
 #include "tests/support/temporary_folder.h"
 
 namespace osteomill {
@@ -140,7 +141,7 @@ TEST_F(PlayheadTest, FindsEveryBitThatWasChangedInTheHeaderOfAPacket) {
 
 TEST_F(PlayheadTest, RefusesInOneLineWhatItCannotUnderstand) {
     testing::make_recording(file_, {.states = 2, .protocol_major = protocol_major + 1});
-    EXPECT_THAT(complaint(file_), AllOf(HasSubstr("packet 1"), HasSubstr("recorded with protocol 2"),
+    EXPECT_THAT(complaint(file_), AllOf(HasSubstr("packet 1"), HasSubstr("recorded with protocol 3"),
                                         HasSubstr("a newer version")));
 
     // Cut out of a longer one: without the first packet, and without one in the middle.
@@ -160,17 +161,16 @@ TEST_F(PlayheadTest, RefusesInOneLineWhatItCannotUnderstand) {
     EXPECT_THAT(complaint(file_), HasSubstr(" came after "));
 }
 
-TEST_F(PlayheadTest, RefusesEditsThatDoNotFitTheBoneHoweverWellSealed) {
+TEST_F(PlayheadTest, RefusesChangesThatDoNotFitTheBoneHoweverWellSealed) {
     testing::make_recording(file_, {.states = 2, .ends = false});
     std::uint64_t sequence = 0;
     PacketReader packets(file_);
     while (packets.next()) ++sequence;
-    v1::ServerFrame frame;
+    v2::ServerFrame frame;
     frame.set_sequence(sequence + 1);
     *frame.mutable_state()->mutable_tool() = to_message(ToolState{});
-    const auto complaint_about = [&](const v1::BrickEdit& edit) {
-        frame.mutable_state()->clear_edits();
-        *frame.mutable_state()->add_edits() = edit;
+    const auto complaint_about = [&](const ChangedBrick& changed) {
+        *frame.mutable_state()->mutable_changes() = testing::packed({changed});
         std::string stream;
         append_sealed_frame(frame, stream);
         FrameDecoder decoder;
@@ -181,14 +181,15 @@ TEST_F(PlayheadTest, RefusesEditsThatDoNotFitTheBoneHoweverWellSealed) {
         testing::join(file_, folder_ / "tail.pcap", folder_ / "hostile.pcap");
         return complaint(folder_ / "hostile.pcap");
     };
-    v1::BrickEdit edit;
-    edit.set_brick(4'000'000'000U);
-    EXPECT_THAT(complaint_about(edit), HasSubstr("no bone is stored there"));
-    Playhead playhead(file_);
-    edit.set_brick(playhead.bone().content().brick_of_slot.front());
-    edit.add_changed(4090);
-    edit.add_changed(4'000'000'000U);
-    EXPECT_THAT(complaint_about(edit), AllOf(HasSubstr("packet "), HasSubstr("a run ends at voxel")));
+    EXPECT_THAT(complaint_about({.change = {.brick = 4'000'000'000U}}),
+                AllOf(HasSubstr("packet "), HasSubstr("outside the grid")));
+    const Bone bone = Playhead(file_).bone();
+    BrickIndex empty = 0;
+    while (bone.slot(empty) != BoneContent::no_slot) ++empty;
+    EXPECT_THAT(complaint_about({.change = {.brick = empty}}), HasSubstr("no bone is stored there"));
+    ChangedBrick regained{.change = {bone.content().brick_of_slot.front(), VoxelMask().set_all()}};
+    regained.fractions.fill(255);
+    EXPECT_THAT(complaint_about(regained), HasSubstr("the bone differs from the one recorded"));
 }
 
 }  // namespace

@@ -24,18 +24,28 @@ using boost::asio::ip::tcp;
 using testing::eventually;
 using testing::ServedBone;
 
-/// A client that does only what it is told.
+v2::ClientFrame greeting(std::uint32_t major = protocol_major) {
+    v2::ClientFrame frame;
+    frame.set_sequence(1);
+    frame.mutable_hello()->set_protocol_major(major);
+    return frame;
+}
+
+enum class Says { hello, nothing };
+
+/// A client that says hello, if anything, and then does only what it is told: its next frame is number 2.
 class RawClient {
   public:
-    explicit RawClient(std::uint16_t port) {
+    explicit RawClient(std::uint16_t port, Says first = Says::hello) {
         socket_.connect({boost::asio::ip::address_v4::loopback(), port});
         socket_.non_blocking(true);
+        if (first == Says::hello) send(greeting());
     }
     void send(const std::string& bytes) {
         boost::system::error_code ignored;  // the server may have hung up already
         boost::asio::write(socket_, boost::asio::buffer(bytes), ignored);
     }
-    void send(const v1::ClientFrame& frame) {
+    void send(const v2::ClientFrame& frame) {
         std::string bytes;
         append_frame(frame, bytes);
         send(bytes);
@@ -47,7 +57,7 @@ class RawClient {
         while (const std::size_t count = socket_.read_some(boost::asio::buffer(bytes), error)) {
             decoder_.append(std::span(bytes).first(count));
             while (const auto message = decoder_.next()) {
-                v1::ServerFrame frame;
+                v2::ServerFrame frame;
                 ASSERT_TRUE(frame.ParseFromArray(message->data(), static_cast<int>(message->size())));
                 std::string one_frame;
                 append_frame(frame, one_frame);
@@ -72,9 +82,9 @@ class RawClient {
     FrameDecoder decoder_;
 };
 
-v1::ClientFrame input_frame(std::uint64_t sequence, const OperatorCommand& command,
+v2::ClientFrame input_frame(std::uint64_t sequence, const OperatorCommand& command,
                             std::uint64_t answers_state = 0) {
-    v1::ClientFrame frame;
+    v2::ClientFrame frame;
     frame.set_sequence(sequence);
     *frame.mutable_operator_input() = to_message(command);
     frame.mutable_operator_input()->set_number(sequence);
@@ -131,8 +141,8 @@ TEST(StreamingServer, DropsClientsThatTalkNonsenseWhileOthersNoticeNothing) {
     BoneLink link("127.0.0.1", served.port());
     ASSERT_TRUE(reaches(link, LinkStatus::live));
 
-    v1::ClientFrame no_body;
-    no_body.set_sequence(1);
+    v2::ClientFrame no_body;
+    no_body.set_sequence(2);
     const double not_a_number = std::numeric_limits<double>::quiet_NaN();
     {
         RawClient http(served.port()), oversize(served.port()), bodiless(served.port()), late(served.port()),
@@ -142,13 +152,16 @@ TEST(StreamingServer, DropsClientsThatTalkNonsenseWhileOthersNoticeNothing) {
         oversize.send("\xff\xff\xff\xff\xff\xff");
         bodiless.send(no_body);
         late.send(input_frame(7, {}));
-        nowhere.send(input_frame(1, {.hand_target_mm = {0, not_a_number, 0}}));
-        burr.send(input_frame(1, {.burr = 2}));
-        v1::ClientFrame doubt;
-        doubt.set_sequence(1);
+        nowhere.send(input_frame(2, {.hand_target_mm = {0, not_a_number, 0}}));
+        burr.send(input_frame(2, {.burr = 2}));
+        v2::ClientFrame doubt;
+        doubt.set_sequence(2);
         doubt.mutable_compare_bone();
         doubter.send(doubt);
-        for (RawClient* client : {&http, &oversize, &bodiless, &late, &nowhere, &burr, &doubter})
+        RawClient rude(served.port(), Says::nothing), old(served.port(), Says::nothing);
+        rude.send(input_frame(1, {}));
+        old.send(greeting(protocol_major - 1));
+        for (RawClient* client : {&http, &oversize, &bodiless, &late, &nowhere, &burr, &doubter, &rude, &old})
             EXPECT_TRUE(client->is_dropped());
     }
     EXPECT_FALSE(served.operator_command().has_value());
@@ -164,10 +177,10 @@ TEST(StreamingServer, DropsClientsThatTalkNonsenseWhileOthersNoticeNothing) {
 TEST(StreamingServer, DropsAClientThatSaysMoreThanAnyoneHasToSay) {
     ServedBone served(0, true);
     std::string flood;
-    for (std::uint64_t i = 1; i <= 5000; ++i) append_frame(input_frame(i, {.pedal = true}), flood);
+    for (std::uint64_t i = 2; i <= 5000; ++i) append_frame(input_frame(i, {.pedal = true}), flood);
     RawClient steady(served.port()), loud(served.port()), long_winded(served.port());
     std::string wordy;
-    for (std::uint64_t i = 1; i <= 1000; ++i) append_frame(input_frame(i, {.pedal = true}), wordy);
+    for (std::uint64_t i = 2; i <= 1000; ++i) append_frame(input_frame(i, {.pedal = true}), wordy);
     steady.send(wordy);
     testing::Replica seen;
     EXPECT_TRUE(eventually([&] {
@@ -189,7 +202,7 @@ TEST(StreamingServer, DropsAClientThatSaysMoreThanAnyoneHasToSay) {
 TEST(StreamingServer, MovesTheToolOnlyForWhoAnswersWhatIsNow) {
     ServedBone served(0, true);
     RawClient client(served.port());
-    client.send(input_frame(1, {.pedal = true}));  // of protocol 1.4, say
+    client.send(input_frame(2, {.pedal = true}));
     testing::Replica seen;
     ASSERT_TRUE(eventually([&] {
         client.read_into(seen);
@@ -197,7 +210,7 @@ TEST(StreamingServer, MovesTheToolOnlyForWhoAnswersWhatIsNow) {
     }));
     EXPECT_FALSE(served.operator_command().has_value()) << "it named no state";
     const std::uint64_t first_state = seen.sequence();
-    client.send(input_frame(2, {.pedal = true, .burr = 1}, first_state));
+    client.send(input_frame(3, {.pedal = true, .burr = 1}, first_state));
     EXPECT_TRUE(
         eventually([&] { return served.operator_command() && served.operator_command()->burr == 1; }));
 
@@ -206,10 +219,13 @@ TEST(StreamingServer, MovesTheToolOnlyForWhoAnswersWhatIsNow) {
         client.read_into(seen);
         return seen.states() > 20;
     }));
-    client.send(input_frame(3, {.burr = 0}, first_state));           // old news
-    client.send(input_frame(4, {.burr = 0}, seen.sequence() - 12));  // 0.4 s old
-    v1::ClientFrame again = input_frame(5, {.burr = 0}, seen.sequence());
-    again.mutable_operator_input()->set_number(2);
+    const std::uint64_t old_state = seen.sequence();
+    std::this_thread::sleep_for(2 * AnsweredStates::longest_age);
+    client.read_into(seen);
+    client.send(input_frame(4, {.burr = 0}, first_state));  // old news
+    client.send(input_frame(5, {.burr = 0}, old_state));
+    v2::ClientFrame again = input_frame(6, {.burr = 0}, seen.sequence());
+    again.mutable_operator_input()->set_number(3);
     client.send(again);
     const std::size_t by_then = seen.states();
     ASSERT_TRUE(eventually([&] {
@@ -217,14 +233,14 @@ TEST(StreamingServer, MovesTheToolOnlyForWhoAnswersWhatIsNow) {
         return seen.states() > by_then + 5;
     }));
     EXPECT_EQ(served.operator_command()->burr, 1U);
-    EXPECT_TRUE(eventually([&, number = std::uint64_t{6}]() mutable {
+    EXPECT_TRUE(eventually([&, number = std::uint64_t{7}]() mutable {
         client.read_into(seen);
         client.send(input_frame(number++, {.burr = 0}, seen.sequence()));
         return served.operator_command() && served.operator_command()->burr == 0;
     })) << "what is now";
 
     RawClient clairvoyant(served.port());
-    clairvoyant.send(input_frame(1, {.pedal = true}, 1'000'000));
+    clairvoyant.send(input_frame(2, {.pedal = true}, 1'000'000));
     EXPECT_TRUE(clairvoyant.is_dropped());
 }
 
@@ -255,19 +271,11 @@ TEST(StreamingServer, KeepsNoBacklogForAClientThatReadsLate) {
     EXPECT_LT(replica.states(), 45U) << "what it missed comes as it now is, not frame by frame";
 }
 
-v1::ClientFrame greeting(std::uint32_t minor = protocol_minor) {
-    v1::ClientFrame frame;
-    frame.set_sequence(1);
-    frame.mutable_hello()->set_protocol_minor(minor);
-    return frame;
-}
-
 TEST(StreamingServer, TurnsAwayClientsBeyondItsLimit) {
     ServedBone served;
     std::vector<std::unique_ptr<RawClient>> clients;
     for (int i = 0; i < 32; ++i) {
         clients.push_back(std::make_unique<RawClient>(served.port()));
-        clients.back()->send(greeting());
         testing::Replica replica;
         ASSERT_TRUE(eventually([&] {
             clients.back()->read_into(replica);
@@ -285,44 +293,38 @@ TEST(StreamingServer, TurnsAwayClientsBeyondItsLimit) {
 TEST(StreamingServer, LetsClientsInHoweverManyStrangersHangOnInSilence) {
     ServedBone served;
     std::vector<std::unique_ptr<RawClient>> strangers;
-    for (int i = 0; i < 200; ++i) strangers.push_back(std::make_unique<RawClient>(served.port()));
+    for (int i = 0; i < 200; ++i)
+        strangers.push_back(std::make_unique<RawClient>(served.port(), Says::nothing));
     BoneLink link("127.0.0.1", served.port());
     EXPECT_TRUE(reaches(link, LinkStatus::live));
-    for (int i = 0; i < 200; ++i) strangers.push_back(std::make_unique<RawClient>(served.port()));
+    for (int i = 0; i < 200; ++i)
+        strangers.push_back(std::make_unique<RawClient>(served.port(), Says::nothing));
     EXPECT_TRUE(strangers.front()->is_dropped());
     served.start_carving();
     EXPECT_TRUE(eventually([&] { return link.poll().checksums_verified >= 2; }));
     EXPECT_EQ(link.poll().connections, 1U) << "it was not the one to give way";
 }
 
-TEST(StreamingServer, ServesAClientOfBeforeProtocol13WhichDoesNotGreetInItsOwnTerms) {
+TEST(StreamingServer, SendsNothingButItsHelloToWhoSaysNone) {
     ServedBone served;
-    served.start_carving();
-    RawClient old(served.port());
-    testing::Replica replica;
-    EXPECT_TRUE(eventually([&] {
-        old.read_into(replica);
-        return replica.checksums() > 1;
+    RawClient silent(served.port(), Says::nothing);
+    testing::Replica told;
+    ASSERT_TRUE(eventually([&] {
+        silent.read_into(told);
+        return told.sequence() == 1;
     }));
-    EXPECT_GT(replica.edits_of_last_state(), 0U);
-    EXPECT_FALSE(replica.has_packed_changes());
-}
-
-TEST(StreamingServer, PacksChangesOnlyForAClientThatTakesThem) {
-    ServedBone served;
     served.start_carving();
-    for (const bool takes_packed_changes : {false, true}) {
-        RawClient client(served.port());
-        v1::ClientFrame frame = greeting();
-        frame.mutable_hello()->set_takes_packed_changes(takes_packed_changes);
-        client.send(frame);
-        testing::Replica replica;
-        EXPECT_TRUE(eventually([&] {
-            client.read_into(replica);
-            return replica.checksums() > 1;
-        }));
-        EXPECT_EQ(replica.has_packed_changes(), takes_packed_changes);
-    }
+    RawClient client(served.port());
+    testing::Replica seen;
+    EXPECT_TRUE(eventually([&] {
+        client.read_into(seen);
+        return seen.checksums() > 1;
+    }));
+    silent.read_into(told);
+    EXPECT_EQ(told.sequence(), 1U);
+    EXPECT_GT(seen.bricks_of_last_state(), 0U);
+    served.stop();
+    EXPECT_TRUE(silent.is_dropped());
 }
 
 TEST(StreamingServer, RecordsAsIfForOneMoreClient) {
@@ -378,7 +380,7 @@ TEST(StreamingServer, ShowsFramesWhenItIsToldToWhereTheSessionKeepsTheTime) {
 TEST(StreamingServer, IgnoresOperatorsWhenItHasNoUseForThem) {
     ServedBone served;
     RawClient eager(served.port());
-    eager.send(input_frame(1, {.pedal = true}));
+    eager.send(input_frame(2, {.pedal = true}));
     BoneLink link("127.0.0.1", served.port());
     ASSERT_TRUE(reaches(link, LinkStatus::live));
     EXPECT_FALSE(link.session()->accepts_operator);

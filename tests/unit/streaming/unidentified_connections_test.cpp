@@ -22,25 +22,16 @@ TEST(UnidentifiedConnections, GiveWayOldestFirstWhenTheirPlacesAreShort) {
     EXPECT_FALSE(unidentified.in_the_way());
 }
 
-TEST(UnidentifiedConnections, AreServedOnceAfterTheyHaveBeenSilentForAWhile) {
+TEST(UnidentifiedConnections, AreOverdueOnceTheyHaveBeenSilentForAWhile) {
     UnidentifiedConnections unidentified;
     unidentified.add(1, Origin{}, opening);
     unidentified.add(2, Origin{}, opening + UnidentifiedConnections::patience);
-    EXPECT_THAT(unidentified.take_patient(opening), IsEmpty());
-    EXPECT_THAT(unidentified.take_patient(opening + UnidentifiedConnections::patience), ElementsAre(1));
-    EXPECT_THAT(unidentified.take_patient(opening + 2 * UnidentifiedConnections::patience), ElementsAre(2));
-    EXPECT_EQ(unidentified.size(), 2U) << "they still give way to others";
-}
-
-TEST(UnidentifiedConnections, AreServedAFewAtATime) {
-    UnidentifiedConnections unidentified;
-    const auto much_later = opening + 9 * UnidentifiedConnections::patience;
-    for (UnidentifiedConnections::Id id = 1; id <= UnidentifiedConnections::most_served + 2; ++id)
-        unidentified.add(id, Origin{}, opening);
-    EXPECT_EQ(unidentified.take_patient(much_later).size(), UnidentifiedConnections::most_served);
-    EXPECT_THAT(unidentified.take_patient(much_later), IsEmpty());
+    EXPECT_THAT(unidentified.overdue(opening), IsEmpty());
+    EXPECT_THAT(unidentified.overdue(opening + UnidentifiedConnections::patience), ElementsAre(1));
     unidentified.remove(1);
-    EXPECT_EQ(unidentified.take_patient(much_later).size(), 1U);
+    EXPECT_FALSE(unidentified.contains(1));
+    EXPECT_TRUE(unidentified.contains(2));
+    EXPECT_THAT(unidentified.overdue(opening + UnidentifiedConnections::patience), IsEmpty());
 }
 
 }  // namespace

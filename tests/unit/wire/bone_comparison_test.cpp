@@ -33,20 +33,20 @@ class BoneComparisonTest : public ::testing::Test {
         voxel = static_cast<std::uint8_t>(voxel + 1);
         return bone_->content().brick_of_slot[slot];
     }
-    std::string refusal_of(const v1::CompareBone& request) {
+    std::string refusal_of(const v2::CompareBone& request) {
         const auto compared = compare_bone(request, *bone_, RunningChecksum(*bone_));
         const auto* error = std::get_if<WireError>(&compared);
         return error != nullptr ? error->line : "";
     }
-    static v1::CompareBone request(BrickIndex first, std::uint64_t count, std::uint64_t per_part,
+    static v2::CompareBone request(BrickIndex first, std::uint64_t count, std::uint64_t per_part,
                                    int checksums) {
-        v1::CompareBone request;
+        v2::CompareBone request;
         add_range(request, first, count, per_part, checksums);
         return request;
     }
-    static void add_range(v1::CompareBone& request, BrickIndex first, std::uint64_t count,
+    static void add_range(v2::CompareBone& request, BrickIndex first, std::uint64_t count,
                           std::uint64_t per_part, int checksums) {
-        v1::BrickRange& range = *request.add_ranges();
+        v2::BrickRange& range = *request.add_ranges();
         range.set_first_brick(first);
         range.set_brick_count(count);
         range.set_bricks_per_part(per_part);
@@ -99,7 +99,7 @@ TEST_F(BoneComparisonTest, RefusesRequestsThatMakeNoSense) {
     EXPECT_THAT(refusal_of(request(9000, 1, 1, 1)), HasSubstr("past the grid"));
     constexpr std::uint64_t most = std::numeric_limits<std::uint64_t>::max();
     EXPECT_THAT(refusal_of(request(5, most, most, 1)), HasSubstr("past the grid"));
-    v1::CompareBone overlapping = request(0, 10, 5, 2);
+    v2::CompareBone overlapping = request(0, 10, 5, 2);
     add_range(overlapping, 9, 10, 5, 2);
     EXPECT_THAT(refusal_of(overlapping), HasSubstr("overlap"));
     EXPECT_EQ(refusal_of(request(0, all, all, 1)), "");
@@ -108,7 +108,7 @@ TEST_F(BoneComparisonTest, RefusesRequestsThatMakeNoSense) {
 
 TEST_F(BoneComparisonTest, RefusesAnswersThatWereNotAskedFor) {
     DifferenceSearch search(*bone_);
-    v1::Comparison answer;
+    v2::Comparison answer;
     EXPECT_TRUE(search.take(answer));
     for (const std::vector<std::uint32_t>& parts :
          std::vector<std::vector<std::uint32_t>>{{128}, {0xFFFFFFFF}, {3, 3}, {4, 2}}) {

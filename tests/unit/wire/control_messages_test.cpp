@@ -28,7 +28,7 @@ TEST(ControlMessages, CarryASpeedThatASpindleCanHave) {
 TEST(ControlMessages, CarryEventsAndStatus) {
     const ControlEvent event{
         .time_s = 1.5, .action = SessionAction::redo, .text = "nothing was undone", .is_refused = true};
-    google::protobuf::RepeatedPtrField<v1::SessionEvent> messages;
+    google::protobuf::RepeatedPtrField<v2::SessionEvent> messages;
     *messages.Add() = to_message(event);
     EXPECT_EQ(std::get<0>(control_events_from(messages)), std::vector{event});
     const SessionStatus status{.undo_steps = 3, .redo_steps = 2, .is_paused = true, .may_control = true};
@@ -36,24 +36,24 @@ TEST(ControlMessages, CarryEventsAndStatus) {
 }
 
 TEST(ControlMessages, RefuseWhatMakesNoSense) {
-    v1::SessionControl control;
+    v2::SessionControl control;
     EXPECT_EQ(std::get<WireError>(session_control_from(control)).line,
               "session control 0 is not one that is known");
-    control.set_action(v1::SESSION_ACTION_MARK);
+    control.set_action(v2::SESSION_ACTION_MARK);
     control.set_text(std::string(201, 'x'));
     EXPECT_EQ(std::get<WireError>(session_control_from(control)).line,
               "the text of a session control has 201 bytes; 200 are the most");
     control.set_text("two\nlines");
     EXPECT_EQ(std::get<SessionControl>(session_control_from(control)).text.find('\n'), std::string::npos);
 
-    google::protobuf::RepeatedPtrField<v1::SessionEvent> events;
+    google::protobuf::RepeatedPtrField<v2::SessionEvent> events;
     events.Add()->set_time_s(std::numeric_limits<double>::quiet_NaN());
     EXPECT_TRUE(std::holds_alternative<WireError>(control_events_from(events)));
 }
 
 TEST(ControlMessages, TakeWhatOnlyANewerServerKnowsForNothing) {
-    google::protobuf::RepeatedPtrField<v1::SessionEvent> events;
-    events.Add()->set_action(static_cast<v1::SessionAction>(99));
+    google::protobuf::RepeatedPtrField<v2::SessionEvent> events;
+    events.Add()->set_action(static_cast<v2::SessionAction>(99));
     EXPECT_EQ(std::get<0>(control_events_from(events))[0].action, SessionAction::none);
 }
 

@@ -18,14 +18,14 @@ CtVolume made_ct(const glm::ivec3& size, std::uint32_t seed) {
     return ct;
 }
 
-std::vector<v1::CtPiece> pieces_of(const CtVolume& ct) {
+std::vector<v2::CtPiece> pieces_of(const CtVolume& ct) {
     CtPacker packer;
-    std::vector<v1::CtPiece> pieces;
+    std::vector<v2::CtPiece> pieces;
     for (std::size_t voxel = 0; voxel < ct.hu.size();) pieces.push_back(packer.pack(ct, voxel));
     return pieces;
 }
 
-std::string refusal(CtAssembler& assembler, const v1::CtPiece& piece) {
+std::string refusal(CtAssembler& assembler, const v2::CtPiece& piece) {
     const auto taken = assembler.take(piece);
     const auto* error = std::get_if<WireError>(&taken);
     return error != nullptr ? error->line : std::string();
@@ -36,7 +36,7 @@ TEST(CtPieces, BringEveryNumberInPiecesThatFitAFrame) {
         const CtVolume ct = made_ct(size, 5);
         CtAssembler assembler;
         std::shared_ptr<const CtVolume> arrived;
-        for (const v1::CtPiece& piece : pieces_of(ct)) {
+        for (const v2::CtPiece& piece : pieces_of(ct)) {
             EXPECT_FALSE(arrived);
             EXPECT_LT(piece.ByteSizeLong(), 100U * 1024U) << "random numbers do not compress";
             arrived = std::get<0>(assembler.take(piece));
@@ -48,7 +48,7 @@ TEST(CtPieces, BringEveryNumberInPiecesThatFitAFrame) {
 }
 
 TEST(CtPieces, RefuseWhatMakesNoSense) {
-    const std::vector<v1::CtPiece> pieces = pieces_of(made_ct({61, 47, 40}, 6));
+    const std::vector<v2::CtPiece> pieces = pieces_of(made_ct({61, 47, 40}, 6));
     ASSERT_GT(pieces.size(), 3U);
     CtAssembler assembler;
     EXPECT_EQ(refusal(assembler, pieces[1]), "CT refused: a piece came without the first");
@@ -56,14 +56,14 @@ TEST(CtPieces, RefuseWhatMakesNoSense) {
     EXPECT_EQ(refusal(assembler, pieces[2]), "CT refused: a piece came out of order");
     EXPECT_EQ(refusal(assembler, pieces[1]), "CT refused: a piece came without the first");
 
-    v1::CtPiece torn = pieces[0];
+    v2::CtPiece torn = pieces[0];
     torn.mutable_zstd_hu()->resize(100);
     EXPECT_EQ(refusal(assembler, torn), "CT refused: a piece cannot be unpacked");
-    v1::CtPiece huge = pieces[0];
+    v2::CtPiece huge = pieces[0];
     huge.mutable_grid()->set_size_x(5000);
     huge.mutable_grid()->set_size_y(5000);
     EXPECT_EQ(refusal(assembler, huge), "CT refused: it has more than 8388608 voxels");
-    v1::CtPiece impossible = pieces[0];
+    v2::CtPiece impossible = pieces[0];
     impossible.mutable_grid()->set_spacing_mm(0.0);
     EXPECT_NE(refusal(assembler, impossible), "");
 }

@@ -2,8 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include "common/wire/brick_edit.h"
-#include "common/wire/scene_messages.h"
+#include <algorithm>
+
 #include "tests/support/block.h"
 
 namespace osteomill {
@@ -11,79 +11,79 @@ namespace {
 
 class FollowedStateTest : public ::testing::Test {
   protected:
-    /// Halves the first voxel of a brick of the server's bone, and tells of it.
-    v1::StateFrame halve_a_voxel() {
-        const BrickIndex brick = servers_.content().brick_of_slot[3];
+    /// What is left of a brick of the server's.
+    ChangedBrick told(const VoxelMask& voxels) const {
+        ChangedBrick changed{.change = {brick_, voxels}};
+        std::ranges::copy(servers_.fractions(3), changed.fractions.begin());
+        return changed;
+    }
+    /// Halves the first voxel of that brick, and tells of it.
+    StateArrived halve_a_voxel() {
         servers_.fractions(3)[0] /= 2;
-        v1::StateFrame frame;
-        *frame.mutable_tool() = to_message(ToolState{.time_s = 1.5});
-        *frame.add_edits() = brick_edit({brick, VoxelMask().set(0)}, servers_.fractions(3));
-        frame.set_bone_checksum(checksum(servers_));
-        return frame;
+        return {.changes = {told(VoxelMask().set(0))}, .bone_checksum = checksum(servers_)};
+    }
+    FollowedState followed(const StateArrived& arrived) {
+        const auto outcome = follow(arrived, replica_);
+        EXPECT_TRUE(std::holds_alternative<FollowedState>(outcome));
+        return std::get<FollowedState>(outcome);
     }
 
     Bone servers_ = testing::make_block({0, 0, 0}, {4, 4, 4}, 0.1);
-    SessionInfo session_{.burrs = {Burr{}}, .tissues = {Tissue{.label = 1, .is_protected = true}}};
+    const BrickIndex brick_ = servers_.content().brick_of_slot[3];
     BoneReplica replica_{servers_};
 };
 
 TEST_F(FollowedStateTest, FollowsAndVerifies) {
-    const auto outcome = follow(halve_a_voxel(), session_, replica_);
-    ASSERT_TRUE(std::holds_alternative<FollowedState>(outcome));
-    EXPECT_EQ(std::get<FollowedState>(outcome).check, ReplicaCheck::equal);
-    EXPECT_FALSE(std::get<FollowedState>(outcome).has_regained_bone);
-    EXPECT_EQ(std::get<FollowedState>(outcome).tool.time_s, 1.5);
+    const FollowedState state = followed(halve_a_voxel());
+    EXPECT_EQ(state.check, ReplicaCheck::equal);
+    EXPECT_FALSE(state.has_regained_bone);
     EXPECT_EQ(checksum(replica_.bone()), checksum(servers_));
     EXPECT_EQ(replica_.checksum(), checksum(servers_));
-    BrickChange expected{.brick = servers_.content().brick_of_slot[3]};
-    expected.voxels.set(0);
-    EXPECT_EQ(replica_.take_changes(), std::vector{expected});
+    EXPECT_EQ(replica_.take_changes(), std::vector{told(VoxelMask().set(0)).change});
 }
 
-TEST_F(FollowedStateTest, SaysThatItDiffersAfterAnEditWasLost) {
+TEST_F(FollowedStateTest, SaysThatItDiffersAfterAChangeWasLost) {
     halve_a_voxel();
-    auto frame = halve_a_voxel();
-    frame.clear_edits();
-    const auto outcome = follow(frame, session_, replica_);
-    ASSERT_TRUE(std::holds_alternative<FollowedState>(outcome));
-    EXPECT_EQ(std::get<FollowedState>(outcome).check, ReplicaCheck::differs);
+    StateArrived arrived = halve_a_voxel();
+    arrived.changes.clear();
+    EXPECT_EQ(followed(arrived).check, ReplicaCheck::differs);
 }
 
 TEST_F(FollowedStateTest, TakesBackBoneThatItHadLostAndSaysSo) {
-    const BrickIndex brick = servers_.content().brick_of_slot[3];
-    replica_.set_fractions(brick, ByteBrick{});
-    v1::StateFrame frame = halve_a_voxel();
-    *frame.mutable_edits(0) = brick_edit({brick, VoxelMask().set_all()}, servers_.fractions(3));
-    const auto outcome = follow(frame, session_, replica_);
-    ASSERT_TRUE(std::holds_alternative<FollowedState>(outcome));
-    EXPECT_TRUE(std::get<FollowedState>(outcome).has_regained_bone);
-    EXPECT_EQ(std::get<FollowedState>(outcome).check, ReplicaCheck::equal);
+    replica_.set_fractions(brick_, ByteBrick{});
+    StateArrived arrived = halve_a_voxel();
+    arrived.changes = {told(VoxelMask().set_all())};
+    const FollowedState state = followed(arrived);
+    EXPECT_TRUE(state.has_regained_bone);
+    EXPECT_EQ(state.check, ReplicaCheck::equal);
 }
 
-TEST_F(FollowedStateTest, RefusesWhatMakesNoSense) {
-    auto frame = halve_a_voxel();
-    frame.mutable_tool()->set_burr(1);
-    EXPECT_TRUE(std::holds_alternative<WireError>(follow(frame, session_, replica_)));
-    frame.mutable_tool()->set_burr(0);
-    frame.mutable_edits(0)->set_brick(1'000'000);
-    EXPECT_TRUE(std::holds_alternative<WireError>(follow(frame, session_, replica_)));
+TEST_F(FollowedStateTest, FindsNothingWrongWithBoneThatIsRestored) {
+    const ChangedBrick before = told(VoxelMask().set(0));
+    followed(halve_a_voxel());
+    StateArrived undone{.changes = {before}};
+    undone.changes[0].change.kind = ChangeKind::restored;
+    EXPECT_FALSE(followed(undone).has_regained_bone);
+    EXPECT_EQ(replica_.bone().fractions(3)[0], before.fractions[0]);
+}
+
+TEST_F(FollowedStateTest, RefusesWhatDoesNotFit) {
+    StateArrived arrived = halve_a_voxel();
+    arrived.changes[0].change.brick = 1'000'000;
+    const auto outcome = follow(arrived, replica_);
+    ASSERT_TRUE(std::holds_alternative<WireError>(outcome));
+    EXPECT_EQ(std::get<WireError>(outcome).line, "change of brick 1000000 refused: no bone is stored there");
 }
 
 TEST_F(FollowedStateTest, IsPutBackToWhatItWas) {
     const std::uint64_t before = replica_.checksum();
-    const ByteBrick whole = [&] {
-        ByteBrick brick;
-        std::ranges::copy(servers_.fractions(3), brick.begin());
-        return brick;
-    }();
-    ASSERT_TRUE(std::holds_alternative<FollowedState>(follow(halve_a_voxel(), session_, replica_)));
+    const ByteBrick whole = told({}).fractions;
+    followed(halve_a_voxel());
     EXPECT_NE(replica_.checksum(), before);
-    const BrickIndex brick = servers_.content().brick_of_slot[3];
     replica_.take_changes();
-    replica_.set_fractions(brick, whole);
-    BrickChange expected{.brick = brick};
-    expected.voxels.set(0);
-    EXPECT_EQ(replica_.take_changes(), std::vector{expected}) << "what was as it is now did not change";
+    replica_.set_fractions(brick_, whole);
+    EXPECT_EQ(replica_.take_changes(), std::vector{told(VoxelMask().set(0)).change})
+        << "what was as it is now did not change";
     EXPECT_EQ(replica_.checksum(), before);
     EXPECT_EQ(checksum(replica_.bone()), before);
 }

@@ -5,15 +5,15 @@
 #include <random>
 #include <stdexcept>
 
-#include "osteomill/v1/session.pb.h"
+#include "osteomill/v2/session.pb.h"
 
 namespace osteomill {
 namespace {
 
 using ::testing::HasSubstr;
 
-v1::ServerFrame goodbye(std::uint64_t sequence, std::size_t reason_bytes) {
-    v1::ServerFrame frame;
+v2::ServerFrame goodbye(std::uint64_t sequence, std::size_t reason_bytes) {
+    v2::ServerFrame frame;
     frame.set_sequence(sequence);
     frame.mutable_goodbye()->set_reason(std::string(reason_bytes, 'x'));
     return frame;
@@ -27,7 +27,7 @@ std::span<const std::uint8_t> bytes_of(const std::string& text) {
 std::vector<std::uint64_t> take_all(FrameDecoder& decoder) {
     std::vector<std::uint64_t> sequences;
     while (const auto message = decoder.next()) {
-        v1::ServerFrame frame;
+        v2::ServerFrame frame;
         EXPECT_TRUE(frame.ParseFromArray(message->data(), static_cast<int>(message->size())));
         sequences.push_back(frame.sequence());
     }

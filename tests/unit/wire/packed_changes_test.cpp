@@ -3,7 +3,6 @@
 #include <gmock/gmock.h>
 #include <zstd.h>
 
-#include "common/wire/brick_edit.h"
 #include "tests/support/speckled_bone.h"
 
 namespace osteomill {
@@ -34,13 +33,13 @@ class PackedChangesTest : public ::testing::Test {
         }
         return changed;
     }
-    std::string error_of(const v1::PackedChanges& message) const {
-        const auto edits = unpack(message, bone_.content().size_bricks);
-        const auto* error = std::get_if<WireError>(&edits);
-        return error != nullptr ? error->line : "";
+    std::string error_of(const v2::PackedChanges& message) const {
+        std::vector<ChangedBrick> changes;
+        const auto error = unpack(message, ChangeKind::milled, bone_.content().size_bricks, changes);
+        return error ? error->line : "";
     }
-    v1::PackedChanges of_one_brick(const std::string& content) const {
-        v1::PackedChanges message;
+    v2::PackedChanges of_one_brick(const std::string& content) const {
+        v2::PackedChanges message;
         message.add_brick(0);
         message.set_zstd_masks_and_fractions(bytes_packed(content));
         return message;
@@ -52,19 +51,17 @@ class PackedChangesTest : public ::testing::Test {
     ChangePacker packer_;
 };
 
-TEST_F(PackedChangesTest, AreTheEditsThatWerePacked) {
+TEST_F(PackedChangesTest, AreTheChangesThatWerePacked) {
     for (const std::size_t voxels : {1U, 50U, 2000U}) {
         const std::vector<BrickChange> changes = carve(voxels);
-        v1::PackedChanges arrived;
+        v2::PackedChanges arrived;
         ASSERT_TRUE(arrived.ParseFromString(packer_.pack(bone_, changes).SerializeAsString()));
-        const auto edits = unpack(arrived, bone_.content().size_bricks);
-        ASSERT_TRUE(std::holds_alternative<std::vector<v1::BrickEdit>>(edits)) << error_of(arrived);
-        ASSERT_EQ(std::get<0>(edits).size(), changes.size());
+        std::vector<ChangedBrick> unpacked;
+        ASSERT_FALSE(unpack(arrived, ChangeKind::milled, bone_.content().size_bricks, unpacked));
+        ASSERT_EQ(unpacked.size(), changes.size());
         for (std::size_t i = 0; i < changes.size(); ++i) {
-            const v1::BrickEdit& edit = std::get<0>(edits)[i];
-            const auto as_it_is = brick_edit(changes[i], bone_.fractions(bone_.slot(changes[i].brick)));
-            EXPECT_EQ(edit.SerializeAsString(), as_it_is.SerializeAsString());
-            ASSERT_FALSE(apply_brick_edit(edit, copy_));
+            EXPECT_EQ(unpacked[i].change, changes[i]);
+            ASSERT_TRUE(apply(unpacked[i].change, unpacked[i].fractions, copy_));
         }
         EXPECT_EQ(checksum(copy_), checksum(bone_));
     }
@@ -77,7 +74,7 @@ TEST_F(PackedChangesTest, AreRefusedWhereTheyDoNotAddUp) {
     EXPECT_THAT(error_of(of_one_brick(std::string(mask_bytes + 1, '\0'))), HasSubstr("more fractions"));
     EXPECT_THAT(error_of(of_one_brick(std::string(largest_packed_changes_bytes + 1, '\0'))),
                 HasSubstr("refused"));
-    v1::PackedChanges message = of_one_brick(std::string(mask_bytes, '\0'));
+    v2::PackedChanges message = of_one_brick(std::string(mask_bytes, '\0'));
     message.set_brick(0, 4'000'000'000U);
     EXPECT_THAT(error_of(message), HasSubstr("outside the grid"));
     message.clear_brick();

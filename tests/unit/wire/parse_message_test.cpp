@@ -4,13 +4,13 @@
 
 #include <string>
 
-#include "osteomill/v1/session.pb.h"
+#include "osteomill/v2/session.pb.h"
 
 namespace osteomill {
 namespace {
 
 bool parses(const std::string& bytes) {
-    v1::Goodbye message;
+    v2::Goodbye message;
     return parse_message({reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()}, message);
 }
 

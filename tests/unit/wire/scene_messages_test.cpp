@@ -23,7 +23,7 @@ TEST(SceneMessages, BringBackBurrsWithoutTheirCoefficients) {
                     .edges = 8,
                     .spindle_rev_per_s = 500.0,
                     .sense = SpindleSense::counter_clockwise};
-    v1::Hello hello;
+    v2::Hello hello;
     *hello.add_burrs() = to_message(burr);
     const auto burrs = burrs_from(hello.burrs());
     ASSERT_EQ(error_of(burrs), "");
@@ -37,7 +37,7 @@ TEST(SceneMessages, BringBackBurrsWithoutTheirCoefficients) {
 }
 
 TEST(SceneMessages, RefuseImpossibleBurrsAndTissues) {
-    v1::Hello hello;
+    v2::Hello hello;
     EXPECT_THAT(error_of(burrs_from(hello.burrs())), HasSubstr("no burr"));
     *hello.add_burrs() = to_message(Burr{.name = "b"});
     hello.mutable_burrs(0)->set_diameter_mm(not_a_number);
@@ -51,7 +51,7 @@ TEST(SceneMessages, RefuseImpossibleBurrsAndTissues) {
 }
 
 TEST(SceneMessages, BringBackTissues) {
-    v1::Hello hello;
+    v2::Hello hello;
     *hello.add_tissues() = to_message(
         Tissue{.label = 255, .name = "nerve canal", .colour_rgb = {250, 200, 7}, .is_protected = true});
     const auto tissues = std::get<0>(tissues_from(hello.tissues()));
@@ -125,7 +125,7 @@ TEST(SceneMessages, MakeTheOperatorsAxisAUnitVector) {
 
 TEST(SceneMessages, CarryHeadsThatAreNoBall) {
     const Burr pear{.name = "pear", .diameter_mm = 2.0, .head = usual_head(HeadShape::pear, 2.0, 4.0)};
-    google::protobuf::RepeatedPtrField<v1::BurrDescription> messages;
+    google::protobuf::RepeatedPtrField<v2::BurrDescription> messages;
     *messages.Add() = to_message(Burr{.name = "ball"});
     *messages.Add() = to_message(pear);
     EXPECT_FALSE(messages[0].has_head()) << "a ball costs nothing";
@@ -146,7 +146,7 @@ TEST(SceneMessages, RefuseAnOperatorWhoAsksTheImpossible) {
                 HasSubstr("not finite"));
     EXPECT_THAT(error_of(operator_command_from(to_message(OperatorCommand{.spindle_axis = {0, 0, 0}}), 1)),
                 HasSubstr("no length"));
-    EXPECT_THAT(error_of(operator_command_from(v1::OperatorInput(), 1)), HasSubstr("no length"));
+    EXPECT_THAT(error_of(operator_command_from(v2::OperatorInput(), 1)), HasSubstr("no length"));
     EXPECT_THAT(error_of(operator_command_from(to_message(OperatorCommand{.burr = 4}), 4)),
                 HasSubstr("burr 4"));
 }
@@ -166,7 +166,7 @@ TEST(SceneMessages, BringBackPlanTraineeAndSettings) {
         EXPECT_EQ(read.case_name, "molar");
         EXPECT_EQ(read.settings, session.settings);
     }
-    v1::Hello hello = to_message(session);
+    v2::Hello hello = to_message(session);
     hello.mutable_plan()->clear_region();
     EXPECT_TRUE(std::holds_alternative<WireError>(session_info_from(hello)));
     hello.mutable_plan()->mutable_sphere()->set_radius_mm(-1.0);

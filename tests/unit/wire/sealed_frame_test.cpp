@@ -17,20 +17,20 @@ std::vector<std::uint8_t> message_of(const std::string& stream) {
     return {message->begin(), message->end()};
 }
 
-std::vector<std::uint8_t> sealed(const v1::ServerFrame& frame) {
+std::vector<std::uint8_t> sealed(const v2::ServerFrame& frame) {
     std::string stream;
     append_sealed_frame(frame, stream);
     return message_of(stream);
 }
 
-std::string complaint(const std::vector<std::uint8_t>& message, Seal seal = Seal::required) {
-    const auto opened = open_frame(message, seal);
+std::string complaint(const std::vector<std::uint8_t>& message) {
+    const auto opened = open_frame(message);
     const auto* error = std::get_if<WireError>(&opened);
     return error != nullptr ? error->line : "";
 }
 
-v1::ServerFrame goodbye() {
-    v1::ServerFrame frame;
+v2::ServerFrame goodbye() {
+    v2::ServerFrame frame;
     frame.set_sequence(7);
     frame.mutable_goodbye()->set_reason("the end");
     return frame;
@@ -44,7 +44,7 @@ TEST(SealedFrame, IsTheMessageAndBehindItTheLowerHalfOfItsXxh3) {
     EXPECT_EQ(std::string(message.begin(), message.end() - seal_bytes), plain);
     for (std::size_t i = 0; i < 4; ++i)
         EXPECT_EQ(message[plain.size() + 1 + i], static_cast<std::uint8_t>(checksum >> (8 * i)));
-    v1::ServerFrame read;
+    v2::ServerFrame read;
     ASSERT_TRUE(read.ParseFromArray(message.data(), static_cast<int>(message.size())));
     EXPECT_EQ(read.frame_checksum(), checksum) << "any protobuf tool reads it";
     EXPECT_EQ(complaint(message), "");
@@ -56,10 +56,10 @@ TEST(SealedFrame, CarriesTheTimeAtWhichItIsRecordedUnderItsSeal) {
     EXPECT_EQ(stamped.size(), message.size() + recorded_time_bytes);
     const std::vector<std::uint8_t> bytes(stamped.begin(), stamped.end());
     EXPECT_TRUE(has_sound_seal(bytes));
-    const auto opened = open_frame(bytes, Seal::required);
-    ASSERT_TRUE(std::holds_alternative<v1::ServerFrame>(opened));
-    EXPECT_EQ(std::get<v1::ServerFrame>(opened).recorded_unix_ns(), 1'700'000'000'000'000'007);
-    EXPECT_EQ(std::get<v1::ServerFrame>(opened).goodbye().reason(), "the end");
+    const auto opened = open_frame(bytes);
+    ASSERT_TRUE(std::holds_alternative<v2::ServerFrame>(opened));
+    EXPECT_EQ(std::get<v2::ServerFrame>(opened).recorded_unix_ns(), 1'700'000'000'000'000'007);
+    EXPECT_EQ(std::get<v2::ServerFrame>(opened).goodbye().reason(), "the end");
 }
 
 TEST(SealedFrame, IsRefusedAfterAnyBitOfTheStreamHasChangedItsLengthToo) {
@@ -89,11 +89,10 @@ TEST(SealedFrame, IsRefusedAfterAnyBitHasChanged) {
     }
 }
 
-TEST(SealedFrame, MayLackItsSealOnlyWhereThatIsOptional) {
+TEST(SealedFrame, MustHaveItsSeal) {
     std::string stream;
     append_frame(goodbye(), stream);
-    EXPECT_EQ(complaint(message_of(stream), Seal::optional), "");
-    EXPECT_THAT(complaint(message_of(stream), Seal::required), HasSubstr("lacks its checksum"));
+    EXPECT_THAT(complaint(message_of(stream)), HasSubstr("lacks its checksum"));
 }
 
 TEST(SealedFrame, MustHaveItsSealAtTheEnd) {

@@ -4,6 +4,7 @@
 
 #include "common/wire/scene_messages.h"
 #include "tests/support/block.h"
+#include "tests/support/packed.h"
 
 namespace osteomill {
 namespace {
@@ -14,28 +15,27 @@ using ::testing::HasSubstr;
 class SessionReceiverTest : public ::testing::Test {
   protected:
     template <typename Event>
-    void expect(const v1::ServerFrame& frame) {
+    void expect(const v2::ServerFrame& frame) {
         auto outcome = receiver_.take(frame);
         ASSERT_TRUE(std::holds_alternative<SessionEvent>(outcome)) << std::get<WireError>(outcome).line;
         EXPECT_TRUE(std::holds_alternative<Event>(std::get<SessionEvent>(outcome)));
     }
-    void expect_refused(const v1::ServerFrame& frame, const std::string& why) {
+    void expect_refused(const v2::ServerFrame& frame, const std::string& why) {
         const auto outcome = receiver_.take(frame);
         ASSERT_TRUE(std::holds_alternative<WireError>(outcome));
         EXPECT_THAT(std::get<WireError>(outcome).line, HasSubstr(why));
     }
-    v1::ServerFrame next() {
-        v1::ServerFrame frame;
+    v2::ServerFrame next() {
+        v2::ServerFrame frame;
         frame.set_sequence(++sequence_);
         return frame;
     }
-    v1::ServerFrame hello(std::uint32_t major = protocol_major) {
+    v2::ServerFrame hello(std::uint32_t major = protocol_major) {
         auto frame = next();
-        *frame.mutable_hello() = to_message(
-            SessionInfo{.protocol_major = major, .protocol_minor = server_minor_, .burrs = {Burr{}}});
+        *frame.mutable_hello() = to_message(SessionInfo{.protocol_major = major, .burrs = {Burr{}}});
         return frame;
     }
-    v1::ServerFrame state() {
+    v2::ServerFrame state() {
         auto frame = next();
         frame.mutable_state();
         return frame;
@@ -61,7 +61,6 @@ class SessionReceiverTest : public ::testing::Test {
     Bone bone_ = testing::make_block({0, 0, 0}, {2, 2, 2}, 0.1);
     SessionReceiver receiver_;
     std::uint64_t sequence_ = 0;
-    std::uint32_t server_minor_ = protocol_minor;
 };
 
 TEST_F(SessionReceiverTest, TakesASessionInItsOrder) {
@@ -86,17 +85,24 @@ TEST_F(SessionReceiverTest, SaysThatStatesAreMissingWhereTheyCanBeAskedFor) {
     expect_refused(state(), "frame 6 came after 7");
 }
 
-TEST_F(SessionReceiverTest, RefusesAGapBeforeTheBoneIsCompleteAndFromAServerThatComparesNothing) {
+TEST_F(SessionReceiverTest, RefusesAGapBeforeTheBoneIsComplete) {
     receiver_ = SessionReceiver(Gaps::reported);
     expect<SessionInfo>(hello());
     ++sequence_;
     expect_refused(state(), "frame 3 came after 1");
-    receiver_ = SessionReceiver(Gaps::reported);
-    sequence_ = 0;
-    server_minor_ = first_minor_that_compares - 1;
+}
+
+TEST_F(SessionReceiverTest, RefusesAStateThatMakesNoSense) {
     go_live();
-    ++sequence_;
-    expect_refused(state(), "frame 6 came after 4");
+    auto frame = state();
+    frame.mutable_state()->mutable_tool()->set_burr(1);
+    expect_refused(frame, "burr 1 is not one of the scene's 1");
+    receiver_ = {};
+    sequence_ = 0;
+    go_live();
+    frame = state();
+    *frame.mutable_state()->mutable_changes() = testing::packed({{.change = {.brick = 1'000'000}}});
+    expect_refused(frame, "brick 1000000 lies outside the grid");
 }
 
 TEST_F(SessionReceiverTest, RefusesWhatComesOutOfOrder) {

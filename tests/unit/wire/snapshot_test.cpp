@@ -4,7 +4,7 @@
 #include <zstd.h>
 
 #include "common/wire/frame.h"
-#include "osteomill/v1/session.pb.h"
+#include "osteomill/v2/session.pb.h"
 #include "tests/support/block.h"
 #include "tests/support/speckled_bone.h"
 
@@ -14,9 +14,9 @@ namespace {
 using ::testing::HasSubstr;
 
 struct Messages {
-    v1::SnapshotBegin begin;
-    std::vector<v1::SnapshotBricks> pieces;
-    v1::SnapshotEnd end;
+    v2::SnapshotBegin begin;
+    std::vector<v2::SnapshotBricks> pieces;
+    v2::SnapshotEnd end;
 };
 
 Messages messages_of(const Bone& bone) {
@@ -34,7 +34,7 @@ std::variant<Bone, WireError> assemble(const Messages& messages) {
     auto begun = SnapshotAssembler::begin(messages.begin);
     if (const auto* error = std::get_if<WireError>(&begun)) return *error;
     auto& assembler = std::get<SnapshotAssembler>(begun);
-    for (const v1::SnapshotBricks& piece : messages.pieces)
+    for (const v2::SnapshotBricks& piece : messages.pieces)
         if (const auto error = assembler.add(piece)) return *error;
     return std::move(assembler).finish(messages.end);
 }
@@ -55,7 +55,7 @@ void expect_equal(const Bone& a, const Bone& b) {
     EXPECT_EQ(checksum(a), checksum(b));
 }
 
-void put_channels(const std::vector<std::uint8_t>& channels, v1::SnapshotBricks& piece) {
+void put_channels(const std::vector<std::uint8_t>& channels, v2::SnapshotBricks& piece) {
     std::string compressed(ZSTD_compressBound(channels.size()), '\0');
     compressed.resize(
         ZSTD_compress(compressed.data(), compressed.size(), channels.data(), channels.size(), 1));
@@ -85,8 +85,8 @@ TEST(Snapshot, FitsFramesEvenWhereNothingCompresses) {
                                                                .heterogeneous = heterogeneous,
                                                                .labelled = heterogeneous,
                                                                .filled_bricks = 1.0});
-        for (const v1::SnapshotBricks& piece : messages_of(bone).pieces) {
-            v1::ServerFrame frame;
+        for (const v2::SnapshotBricks& piece : messages_of(bone).pieces) {
+            v2::ServerFrame frame;
             frame.set_sequence(~std::uint64_t{0});
             *frame.mutable_snapshot_bricks() = piece;
             EXPECT_LE(frame.ByteSizeLong(), largest_frame_bytes);
@@ -121,8 +121,8 @@ TEST(Snapshot, RefusesAGridThatCannotBeHad) {
 }
 
 TEST(Snapshot, RefusesABoneThatWouldFillTheMemoryHoweverItCompresses) {
-    v1::SnapshotBegin begin = of_a_small_block().begin;
-    for (const auto set_size : {&v1::Grid::set_size_x, &v1::Grid::set_size_y, &v1::Grid::set_size_z})
+    v2::SnapshotBegin begin = of_a_small_block().begin;
+    for (const auto set_size : {&v2::Grid::set_size_x, &v2::Grid::set_size_y, &v2::Grid::set_size_z})
         (begin.mutable_grid()->*set_size)(4000);
     begin.set_brick_count((1U << 20U) + 1);  // of 4 KiB
     EXPECT_THAT(error_of({.begin = begin, .pieces = {}, .end = {}}), HasSubstr("4096 MiB"));

@@ -33,7 +33,7 @@ Structure noise(std::size_t tissue, BrickIndex step, std::uint32_t seed) {
     return {tissue, StructureMask(grid, std::move(bricks))};
 }
 
-std::string refusal(StructureAssembler& assembler, const v1::StructureBricks& piece) {
+std::string refusal(StructureAssembler& assembler, const v2::StructureBricks& piece) {
     const auto taken = assembler.take(piece);
     const auto* error = std::get_if<WireError>(&taken);
     return error != nullptr ? error->line : std::string();
@@ -43,7 +43,7 @@ TEST(StructureBricks, BringEveryVoxelInPiecesThatFitAFrame) {
     const std::vector<Structure> sent{noise(1, 1, 4), noise(2, 300, 5)};
     StructureAssembler assembler(tissues, grid);
     std::vector<Structure> arrived;
-    for (const v1::StructureBricks& piece : structure_pieces(sent)) {
+    for (const v2::StructureBricks& piece : structure_pieces(sent)) {
         EXPECT_LT(piece.ByteSizeLong() + 100, largest_frame_bytes);
         auto taken = std::get<0>(assembler.take(piece));
         if (taken) arrived.push_back(*std::move(taken));
@@ -54,7 +54,7 @@ TEST(StructureBricks, BringEveryVoxelInPiecesThatFitAFrame) {
         EXPECT_TRUE(arrived[i].mask == sent[i].mask);
     }
     // A recording that is wound back brings them once more.
-    for (const v1::StructureBricks& piece : structure_pieces(sent))
+    for (const v2::StructureBricks& piece : structure_pieces(sent))
         EXPECT_FALSE(std::get<0>(assembler.take(piece)));
 }
 
@@ -68,11 +68,11 @@ TEST(StructureBricks, RefuseWhatMakesNoSense) {
     ASSERT_GT(pieces.size(), 3u);
     StructureAssembler assembler(tissues, grid);
     const auto with = [&](auto&& change, std::size_t i = 0) {
-        v1::StructureBricks piece = pieces[i];
+        v2::StructureBricks piece = pieces[i];
         change(piece);
         return refusal(assembler, piece);
     };
-    const auto nothing = [](v1::StructureBricks&) {};
+    const auto nothing = [](v2::StructureBricks&) {};
     EXPECT_EQ(with([](auto& p) { p.set_tissue(3); }),
               "structure refused: tissue 3 is not one of the scene's 3");
     EXPECT_EQ(with([](auto& p) { p.set_tissue(0); }), "structure refused: tissue 0 is not protected");
@@ -97,14 +97,14 @@ TEST(StructureBricks, RefuseWhatMakesNoSense) {
 TEST(StructureBricks, RefuseBricksWithoutAVoxelAndVoxelsPastTheGrid) {
     const Grid wide{.size_voxels = {256, 256, 64}, .spacing_mm = 0.1, .origin_mm = {1.0, 2.0, 3.0}};
     const auto packed = [&](VoxelMask voxels) {
-        v1::StructureBricks piece =
+        v2::StructureBricks piece =
             structure_pieces(std::vector<Structure>{{1, StructureMask(wide, {{15, voxels}})}}).at(0);
         return piece;
     };
     StructureAssembler assembler(tissues, grid);
     EXPECT_EQ(refusal(assembler, packed(VoxelMask().set(15))),
               "structure refused: structure: a voxel of brick 15 lies past the grid's edge");
-    v1::StructureBricks empty = packed(VoxelMask().set(3));
+    v2::StructureBricks empty = packed(VoxelMask().set(3));
     ZstdCompressor compressor(1);
     const std::vector<std::uint8_t> zeros(512);
     const auto bytes = compressor.compress(zeros);
@@ -117,7 +117,7 @@ TEST(StructureBricks, AreBoundedInAll) {
     // A grid of 2^24 bricks: twice as many whole bricks as anybody may send are kilobytes on the wire.
     const Grid huge{.size_voxels = glm::ivec3(4096), .spacing_mm = 0.1, .origin_mm = {}};
     StructureAssembler assembler(tissues, huge);
-    v1::StructureBricks piece;
+    v2::StructureBricks piece;
     piece.set_tissue(1);
     ZstdCompressor compressor(1);
     const std::vector<std::uint8_t> ones(128 * 512, 0xFF);
@@ -143,7 +143,7 @@ TEST(StructureDistances, ComeAsTheyWereSent) {
                                  .removed_mm3 = 0.125,
                                  .entered_mm3 = 2.0};
     const StructureDistance far{.tissue = 2, .touches_so_far = 1};
-    v1::StateFrame frame;
+    v2::StateFrame frame;
     *frame.add_distances() = to_message(near);
     *frame.add_distances() = to_message(far);
     const auto read = structure_distances_from(frame.distances(), 3);
@@ -154,7 +154,7 @@ TEST(StructureDistances, ComeAsTheyWereSent) {
 
 TEST(StructureDistances, RefuseWhatCannotBe) {
     const auto refused = [](auto&& change) {
-        v1::StateFrame frame;
+        v2::StateFrame frame;
         change(*frame.add_distances(), frame);
         const auto read = structure_distances_from(frame.distances(), 2);
         const auto* error = std::get_if<WireError>(&read);

@@ -1,0 +1,20 @@
+// State of a session at one frame, but for its bone: what a frame says to whoever follows the session, and
+// what a recording keeps of it.
+#pragma once
+
+#include <vector>
+
+#include "common/scene/session_control.h"
+#include "common/scene/structure_distance.h"
+#include "common/scene/tool_state.h"
+
+namespace osteomill {
+
+struct SessionState {
+    ToolState tool{};
+    std::vector<ControlEvent> events{};          ///< since the frame before: what was done to the session
+    SessionStatus status{};                      ///< what can be done to it now
+    std::vector<StructureDistance> distances{};  ///< to protected structures that are near or were touched
+};
+
+}  // namespace osteomill

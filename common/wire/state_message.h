@@ -1,0 +1,18 @@
+// A session's state out of a state frame; what the frame says of the bone is in packed_changes.h.
+#pragma once
+
+#include <cstddef>
+#include <variant>
+
+#include "common/scene/session_state.h"
+#include "common/wire/wire_error.h"
+#include "osteomill/v2/session.pb.h"
+
+namespace osteomill {
+
+/// Refuses what tool_from, control_events_from and structure_distances_from do, for so many burrs and
+/// tissues.
+std::variant<SessionState, WireError> session_state_from(const v2::StateFrame& message,
+                                                         std::size_t burr_count, std::size_t tissue_count);
+
+}  // namespace osteomill
