@@ -4,7 +4,7 @@
 
 namespace osteomill {
 
-ToolState RecordedSession::update(BoneReplica& mirror, std::size_t viewers) {
+SessionState RecordedSession::update(BoneReplica& mirror, std::size_t viewers) {
     if (!began_ && viewers > 0) began_ = now_();
     if (began_ && !is_over_) {
         const std::chrono::duration<double> elapsed = now_() - *began_;
@@ -15,14 +15,12 @@ ToolState RecordedSession::update(BoneReplica& mirror, std::size_t viewers) {
             is_over_ = true;
         }
     }
-    return tool();
-}
-
-ToolState RecordedSession::tool() const {
-    if (playhead_.tool()) return *playhead_.tool();
+    SessionState state = playhead_.state();
     // Before the first state: where that will have it.
-    const StateArrived* first = playhead_.next_state();
-    return first != nullptr ? first->state.tool : ToolState{};
+    if (const StateArrived* first = playhead_.next_state(); playhead_.tool() == nullptr && first != nullptr)
+        state.tool = first->state.tool;
+    state.events = std::exchange(events_, {});
+    return state;
 }
 
 void RecordedSession::show(BoneReplica& mirror, double until_s) {
@@ -39,7 +37,6 @@ void RecordedSession::show(BoneReplica& mirror, double until_s) {
                     if (!mirror.apply(change, fractions)) throw std::logic_error("the mirror differs");
                 events_.insert(events_.end(), playhead_.state().events.begin(),
                                playhead_.state().events.end());
-                status_ = playhead_.state().status;
                 break;
             case Playhead::Step::nothing_due:
                 return;

@@ -25,10 +25,7 @@ class RecordedSession final : public StreamSource {
     RecordedSession(Playhead& playhead, double speed, std::function<Clock::time_point()> now)
         : playhead_(playhead), speed_(speed), now_(std::move(now)), begins_s_(playhead.time_s()) {}
 
-    ToolState update(BoneReplica& mirror, std::size_t viewers) override;
-    std::vector<ControlEvent> take_events() override { return std::exchange(events_, {}); }
-    SessionStatus status() const override { return status_; }
-    std::span<const StructureDistance> distances() const override { return playhead_.state().distances; }
+    SessionState update(BoneReplica& mirror, std::size_t viewers) override;
 
     /// Any thread. Whether all was shown.
     bool is_over() const { return is_over_.load(); }
@@ -37,15 +34,13 @@ class RecordedSession final : public StreamSource {
 
   private:
     void show(BoneReplica& mirror, double until_s);
-    ToolState tool() const;
 
     Playhead& playhead_;
     const double speed_;
     const std::function<Clock::time_point()> now_;
     const double begins_s_;
     std::optional<Clock::time_point> began_;
-    std::vector<ControlEvent> events_;
-    SessionStatus status_;
+    std::vector<ControlEvent> events_;  // of the frames that one update takes together
     std::string error_;
     std::atomic<bool> is_over_{false};
 };

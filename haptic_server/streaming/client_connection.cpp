@@ -62,8 +62,8 @@ void ClientConnection::serve() {
     pump();
 }
 
-void ClientConnection::show(const ToolState& tool, bool with_checksum) {
-    feed_.request_state(tool, with_checksum);
+void ClientConnection::show(SessionState state, bool with_checksum) {
+    feed_.request_state(std::move(state), with_checksum);
     if (feed_.has_sent_all()) answers_.still_true(std::chrono::steady_clock::now());
     pump();
 }

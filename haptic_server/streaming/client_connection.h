@@ -40,7 +40,7 @@ class ClientConnection : public std::enable_shared_from_this<ClientConnection> {
     ClientFeed& feed() { return feed_; }
     AnsweredStates& answers() { return answers_; }
     /// Asks the feed for a state frame (ClientFeed::request_state) and writes it, as pump() does.
-    void show(const ToolState& tool, bool with_checksum);
+    void show(SessionState state, bool with_checksum);
     /// Writes the next frame, unless one is under way; call after the feed has been given something to say.
     void pump();
     /// How long the client's machine has had all of the end, by its acknowledgements; zero before. Called

@@ -28,20 +28,13 @@ void ClientFeed::note(std::span<const BrickChange> changes) {
         if (static_cast<std::size_t>(mirror_.bone().slot(change.brick)) < next_slot_) pending_.add(change);
 }
 
-void ClientFeed::note(std::span<const ControlEvent> events) {
-    events_.insert(events_.end(), events.begin(), events.end());
+void ClientFeed::request_state(SessionState state, bool with_checksum) {
+    events_.insert(events_.end(), state.events.begin(), state.events.end());
     while (events_.size() > most_waiting_events) events_.pop_front();
-}
-
-void ClientFeed::note(const SessionStatus& status) {
-    status_ = status;
-}
-
-void ClientFeed::request_state(const ToolState& tool, bool with_checksum) {
-    tool_ = tool;
-    const bool is_news = with_checksum || !pending_.empty() || !events_.empty() || status_ != sent_status_ ||
-                         distances_ != sent_distances_ || !sent_tool_ ||
-                         !is_within_deadband(*sent_tool_, tool);
+    state_ = std::move(state);
+    const bool is_news = with_checksum || !pending_.empty() || !events_.empty() || !sent_ ||
+                         state_.status != sent_->status || state_.distances != sent_->distances ||
+                         !is_within_deadband(sent_->tool, state_.tool);
     wants_state_ = wants_state_ || is_news;
     wants_checksum_ = wants_checksum_ || with_checksum;
     comparisons_left_ = std::min(comparisons_left_ + 1, most_comparisons_at_once);
@@ -125,15 +118,14 @@ void ClientFeed::fill_snapshot_bricks(v2::SnapshotBricks& message) {
 }
 
 void ClientFeed::fill_state(v2::StateFrame& state, std::size_t most_bytes) {
-    *state.mutable_tool() = to_message(tool_);
+    *state.mutable_tool() = to_message(state_.tool);
     if (answer_) *state.mutable_comparison() = *std::exchange(answer_, std::nullopt);
-    if (status_ != SessionStatus{}) *state.mutable_status() = to_message(status_);
-    sent_status_ = status_;
-    for (const StructureDistance& distance : distances_) *state.add_distances() = to_message(distance);
-    sent_distances_ = distances_;
+    if (state_.status != SessionStatus{}) *state.mutable_status() = to_message(state_.status);
+    for (const StructureDistance& distance : state_.distances)
+        *state.add_distances() = to_message(distance);
     add_events(state, most_bytes);
     add_changes(state, most_bytes);
-    sent_tool_ = tool_;
+    sent_ = state_;
     if (!pending_.empty() || !events_.empty()) return;  // the rest goes into the next frame
     wants_state_ = false;
     if (std::exchange(wants_checksum_, false)) state.set_bone_checksum(mirror_.checksum());

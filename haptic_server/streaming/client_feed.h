@@ -15,9 +15,7 @@
 #include <vector>
 
 #include "common/bone/brick_change.h"
-#include "common/scene/session_control.h"
-#include "common/scene/structure_distance.h"
-#include "common/scene/tool_state.h"
+#include "common/scene/session_state.h"
 #include "common/wire/bone_comparison.h"
 #include "common/wire/bone_replica.h"
 #include "common/wire/ct_pieces.h"
@@ -44,21 +42,16 @@ class ClientFeed {
 
     /// To be called for every change of the mirror, before the next frame is asked for.
     void note(std::span<const BrickChange> changes);
-    /// Likewise for what was done to the session. Of what waits for a client that does not read, the oldest
-    /// is forgotten beyond most_waiting_events.
-    void note(std::span<const ControlEvent> events);
-    /// What the next frame says of what can be done.
-    void note(const SessionStatus& status);
-    /// And of how far the burr is from protected structures.
-    void note(std::span<const StructureDistance> distances) {
-        distances_.assign(distances.begin(), distances.end());
-    }
 
     /// Asks for a state frame as soon as one can be sent; but where nothing is new and the tool rests, only
     /// every deadband_period_s. One that has not been sent yet is replaced: what it
     /// would have sent of the bone, the next one sends. A checksum once asked for is stated by the next frame
-    /// after which the client knows all.
-    void request_state(const ToolState& tool, bool with_checksum);
+    /// after which the client knows all. Events wait until they are sent; of a client that does not
+    /// read, the oldest are forgotten beyond most_waiting_events.
+    void request_state(SessionState state, bool with_checksum);
+
+    /// Something that this client alone is told, with its next state.
+    void tell(const ControlEvent& event) { events_.push_back(event); }
 
     /// The client wants to see the CT; asked for again nothing happens.
     void ask_for_ct() { wants_ct_ = true; }
@@ -123,15 +116,11 @@ class ClientFeed {
     std::optional<CtPacker> ct_packer_;
 
     std::deque<ControlEvent> events_;  // that have yet to be sent
-    SessionStatus status_;
-    SessionStatus sent_status_;
 
     std::span<const v2::StructureBricks> structure_pieces_;  // that have yet to be sent
-    std::vector<StructureDistance> distances_;
-    std::vector<StructureDistance> sent_distances_;
 
-    ToolState tool_;
-    std::optional<ToolState> sent_tool_;
+    SessionState state_;  // the newest; its events are among those above
+    std::optional<SessionState> sent_;
     bool wants_state_ = false;
     bool wants_checksum_ = false;
     std::optional<std::string> goodbye_;

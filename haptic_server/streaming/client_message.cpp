@@ -36,7 +36,7 @@ std::variant<std::optional<Answer>, WireError> take_client_message(const v2::Cli
             const ControlEvent refused{.action = asked.action,
                                        .text = "this client may not control the session, or another does",
                                        .is_refused = true};
-            client.feed.note(std::span(&refused, 1));
+            client.feed.tell(refused);
         }
         return std::nullopt;
     }

@@ -76,20 +76,6 @@ void ConnectedClients::note(std::span<const BrickChange> changes) {
     for (const auto& [id, connection] : connections_) connection->feed().note(changes);
 }
 
-void ConnectedClients::note(std::span<const ControlEvent> events, const SessionStatus& status) {
-    const Time now = std::chrono::steady_clock::now();
-    for (const auto& [id, connection] : connections_) {
-        SessionStatus theirs = status;
-        theirs.may_control = may_control(id, now);
-        connection->feed().note(events);
-        connection->feed().note(theirs);
-    }
-}
-
-void ConnectedClients::note(std::span<const StructureDistance> distances) {
-    for (const auto& [id, connection] : connections_) connection->feed().note(distances);
-}
-
 void ConnectedClients::show_ct(const std::function<std::shared_ptr<const CtVolume>()>& ct) {
     for (const auto& [id, connection] : connections_) {
         if (!hello_.has_ct() || !connection->feed().wants_ct()) continue;
@@ -97,13 +83,14 @@ void ConnectedClients::show_ct(const std::function<std::shared_ptr<const CtVolum
     }
 }
 
-void ConnectedClients::show(const ToolState& tool, bool with_checksum) {
+void ConnectedClients::show(const SessionState& state, bool with_checksum) {
+    const Time now = std::chrono::steady_clock::now();
     // A recording's packets have stamps of their own.
     const std::int64_t now_unix_ns = unix_time_ns();
     for (const auto& [id, connection] : std::map(connections_)) {  // one may close and leave the map
-        ToolState stamped = state_for(id, tool);
-        stamped.taken_unix_ns = now_unix_ns;
-        connection->show(stamped, with_checksum);
+        SessionState stamped = state_for(id, state, now);
+        stamped.tool.taken_unix_ns = now_unix_ns;
+        connection->show(std::move(stamped), with_checksum);
     }
 }
 
@@ -112,15 +99,16 @@ void ConnectedClients::end_lease() {
     log_holder();
 }
 
-void ConnectedClients::say_goodbye(const ToolState& tool, const std::string& reason,
+void ConnectedClients::say_goodbye(const SessionState& state, const std::string& reason,
                                    std::function<void()> when_gone) {
     when_gone_ = std::move(when_gone);
+    const Time now = std::chrono::steady_clock::now();
     for (const auto& [id, connection] : std::map(connections_)) {
         if (unidentified_.contains(id)) {
             connection->close("had not said hello when the session ended", false);
             continue;
         }
-        connection->feed().request_state(state_for(id, tool), true);
+        connection->feed().request_state(state_for(id, state, now), true);
         connection->feed().finish(reason);
         connection->pump();
     }
@@ -153,10 +141,12 @@ v2::Hello ConnectedClients::hello_for(bool may_operate) const {
     return hello;
 }
 
-ToolState ConnectedClients::state_for(Id id, const ToolState& tool) const {
-    ToolState state = tool;
-    if (lease_) state.driver = watchers_.contains(id) ? ToolDriver::others_only : lease_->driver_for(id);
-    return state;
+SessionState ConnectedClients::state_for(Id id, const SessionState& state, Time now) const {
+    SessionState theirs = state;
+    theirs.status.may_control = may_control(id, now);
+    if (lease_)
+        theirs.tool.driver = watchers_.contains(id) ? ToolDriver::others_only : lease_->driver_for(id);
+    return theirs;
 }
 
 std::optional<WireError> ConnectedClients::take(Id id, const v2::ClientFrame& frame) {

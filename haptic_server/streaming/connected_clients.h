@@ -16,7 +16,7 @@
 #include <vector>
 
 #include "common/bone/brick_change.h"
-#include "common/scene/tool_state.h"
+#include "common/scene/session_state.h"
 #include "common/wire/bone_replica.h"
 #include "common/wire/wire_error.h"
 #include "haptic_server/streaming/changes_of_hands.h"
@@ -49,19 +49,15 @@ class ConnectedClients {
     void look_after(Time now);
     /// To be called for every change of the mirror.
     void note(std::span<const BrickChange> changes);
-    /// Likewise for what was done to the session, and what can be done with it.
-    void note(std::span<const ControlEvent> events, const SessionStatus& status);
-    /// And for how far the burr is from protected structures.
-    void note(std::span<const StructureDistance> distances);
     /// Gives the CT to those who want it. `ct` is asked only if there are any, and may have none yet.
     void show_ct(const std::function<std::shared_ptr<const CtVolume>()>& ct);
-    /// Sends everybody where the tool is.
-    void show(const ToolState& tool, bool with_checksum);
+    /// Sends everybody a state frame.
+    void show(const SessionState& state, bool with_checksum);
 
     /// Nobody moves the tool any more.
     void end_lease();
     /// Sends everybody the last state and a goodbye. Calls `when_gone` as soon as nobody is left.
-    void say_goodbye(const ToolState& tool, const std::string& reason, std::function<void()> when_gone);
+    void say_goodbye(const SessionState& state, const std::string& reason, std::function<void()> when_gone);
     /// After that: parts with those whose machine has had all of it for a second, though they do not hang up.
     void part_with_who_stays(Time now);
     void cut_off(const std::string& line);
@@ -78,7 +74,7 @@ class ConnectedClients {
     std::size_t clients() const { return connections_.size() - unidentified_.size(); }
     bool may_control(Id id, Time now) const;
     v2::Hello hello_for(bool may_operate) const;
-    ToolState state_for(Id id, const ToolState& tool) const;
+    SessionState state_for(Id id, const SessionState& state, Time now) const;
     std::optional<WireError> take(Id id, const v2::ClientFrame& frame);
     void dismiss(Id id, const std::string& peer, const std::string& line, bool is_fault);
     void drop_revoked(Time now);

@@ -26,7 +26,7 @@ void LiveSession::watch(StructureWatch structures, std::vector<Tissue> tissues) 
     structure_log_.emplace(std::move(tissues));
 }
 
-ToolState LiveSession::update(BoneReplica& mirror, std::size_t) {
+SessionState LiveSession::update(BoneReplica& mirror, std::size_t) {
     std::size_t refused = 0;
     if (controls_ != nullptr) controls_->begin_frame();
     changes_.consume_all([&](const BrickChange& change, BrickFractions fractions) {
@@ -36,13 +36,15 @@ ToolState LiveSession::update(BoneReplica& mirror, std::size_t) {
     });
     if (refused > 0) spdlog::error("{} changes do not fit the bone that clients are shown", refused);
     tool_.refresh();
-    ToolState tool = tool_.front();
+    SessionState state{.tool = tool_.front()};
+    ToolState& tool = state.tool;
     if (cuts_ != nullptr) {
         cuts_->refresh();
         if (tool.spindle_on) tool.cut = cuts_->front();
     }
     if (!structures_.empty()) {
         structures_.update(tool);
+        state.distances = structures_.distances();
         for (const std::string& line : structure_log_->lines(structures_.distances(), tool.time_s))
             spdlog::warn("{}", line);
     }
@@ -50,22 +52,16 @@ ToolState LiveSession::update(BoneReplica& mirror, std::size_t) {
         for (; !script_.empty() && script_.front().time_s <= tool.time_s; script_.pop_front())
             controls_->control(script_.front().control);
         controls_->end_frame(mirror.bone(), tool);
+        state.events = controls_->take_events();
+        state.status = controls_->status();
     }
-    return tool;
+    return state;
 }
 
 void LiveSession::note_for_structures(const BrickChange& change, BrickFractions after, const Bone& bone) {
     const std::int32_t slot = bone.slot(change.brick);
     if (slot != BoneContent::no_slot)
         structures_.note(change, bone.fractions(slot), after, bone.content().tissues_of(slot));
-}
-
-std::vector<ControlEvent> LiveSession::take_events() {
-    return controls_ != nullptr ? controls_->take_events() : std::vector<ControlEvent>();
-}
-
-SessionStatus LiveSession::status() const {
-    return controls_ != nullptr ? controls_->status() : SessionStatus{};
 }
 
 void LiveSession::control(const SessionControl& control) {

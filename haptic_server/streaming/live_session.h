@@ -38,10 +38,7 @@ class LiveSession final : public StreamSource {
     void listen_to(TripleBuffer<std::optional<CutState>>& cuts) { cuts_ = &cuts; }
     /// What came of them; once the streaming server has ended.
     const StructureWatch& structures() const { return structures_; }
-    ToolState update(BoneReplica& mirror, std::size_t viewers) override;
-    std::vector<ControlEvent> take_events() override;
-    SessionStatus status() const override;
-    std::span<const StructureDistance> distances() const override { return structures_.distances(); }
+    SessionState update(BoneReplica& mirror, std::size_t viewers) override;
     void control(const SessionControl& control) override;
     std::shared_ptr<const CtVolume> ct() override;
 

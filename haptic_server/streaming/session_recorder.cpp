@@ -46,15 +46,15 @@ SessionRecorder::SessionRecorder(const std::filesystem::path& file, Stamp began,
     if (writer_.torn()) spdlog::warn("{}", torn_line(file, *writer_.torn()));
 }
 
-void SessionRecorder::record(const ToolState& tool, bool with_checksum, bool may_wait) {
-    time_s_ = tool.time_s;
-    feed_.request_state(tool, with_checksum);
+void SessionRecorder::record(SessionState state, bool with_checksum, bool may_wait) {
+    time_s_ = state.tool.time_s;
+    feed_.request_state(std::move(state), with_checksum);
     hand_over(may_wait ? Wait::for_the_disk : Wait::never);
 }
 
-void SessionRecorder::finish(const ToolState& tool, const std::string& reason) {
-    time_s_ = tool.time_s;
-    feed_.request_state(tool, true);
+void SessionRecorder::finish(SessionState state, const std::string& reason) {
+    time_s_ = state.tool.time_s;
+    feed_.request_state(std::move(state), true);
     feed_.finish(reason);
     hand_over(Wait::a_moment);
     if (feed_.is_finished()) writer_.commit();

@@ -27,16 +27,11 @@ class SessionRecorder {
 
     /// As for a client: see ClientFeed.
     void note(std::span<const BrickChange> changes) { feed_.note(changes); }
-    void note(std::span<const ControlEvent> events, const SessionStatus& status) {
-        feed_.note(events);
-        feed_.note(status);
-    }
-    void note(std::span<const StructureDistance> distances) { feed_.note(distances); }
     /// Hands over a state frame; without waiting, unless `may_wait`.
-    void record(const ToolState& tool, bool with_checksum, bool may_wait);
+    void record(SessionState state, bool with_checksum, bool may_wait);
     /// Hands over the end, waits until all is written and makes it the file that was asked for. Gives up on a
     /// disk that does not answer (see RecordingWriter).
-    void finish(const ToolState& tool, const std::string& reason);
+    void finish(SessionState state, const std::string& reason);
 
     /// Its error also says where the end is missing. Then what there is stays in the part.
     RecordingReport report() const;

@@ -107,7 +107,7 @@ class StreamingServer::Impl {
     void finish_recording() {
         end();
         if (recorder_ && !std::exchange(has_finished_recording_, true))
-            recorder_->finish(tool_, end_of_session);
+            recorder_->finish(state_, end_of_session);
     }
 
     void stop() {
@@ -165,23 +165,17 @@ class StreamingServer::Impl {
         clients_.look_after(Clock::now());
         update();
         const bool with_checksum = frames_++ % frames_per_checksum_ == 0;
-        if (recorder_) recorder_->record(tool_, with_checksum, options_.paced_by_session);
+        if (recorder_) recorder_->record(state_, with_checksum, options_.paced_by_session);
         clients_.show_ct([this] { return source_.ct(); });
-        clients_.show(tool_, with_checksum);
+        clients_.show(state_, with_checksum);
         if (options_.listens && !is_accepting_) accept();
     }
 
     void update() {
-        tool_ = source_.update(mirror_, clients_.count());
+        state_ = source_.update(mirror_, clients_.count());
         const std::vector<BrickChange> changes = mirror_.take_changes();
         if (recorder_) recorder_->note(changes);
         clients_.note(changes);
-        const std::vector<ControlEvent> events = source_.take_events();
-        if (recorder_) recorder_->note(events, source_.status());
-        clients_.note(events, source_.status());
-        const std::span<const StructureDistance> distances = source_.distances();
-        if (recorder_) recorder_->note(distances);
-        clients_.note(distances);
     }
 
     void accept() {
@@ -206,7 +200,7 @@ class StreamingServer::Impl {
         work_.reset();
         clients_.end_lease();
         update();
-        clients_.say_goodbye(tool_, end_of_session, [this] { deadline_.cancel(); });
+        clients_.say_goodbye(state_, end_of_session, [this] { deadline_.cancel(); });
         if (clients_.count() == 0) return;
         wait_for_goodbyes(Clock::now() + longest_goodbye);
     }
@@ -229,7 +223,7 @@ class StreamingServer::Impl {
     BoneReplica mirror_;
     FeedPackers packers_;
     StreamSource& source_;
-    ToolState tool_;
+    SessionState state_;
     std::optional<SessionRecorder> recorder_;
     Clock::duration period_{};
 

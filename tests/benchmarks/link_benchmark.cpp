@@ -132,10 +132,11 @@ Rate rate_of(const Scene& scene, const Bone& bone, HapticDevice& device, double 
     double removed_mm3 = 0.0;
     std::uint64_t frames = 0;
     session->run(std::atomic<bool>{false}, [&](const ToolState&) {
-        ToolState tool = shown.update(mirror, 1);
-        tool.taken_unix_ns = 1'700'000'000'000'000'000;  // as a server would
+        SessionState state = shown.update(mirror, 1);
+        const ToolState& tool = state.tool;
+        state.tool.taken_unix_ns = 1'700'000'000'000'000'000;  // as a server would
         feed.note(mirror.take_changes());
-        feed.request_state(tool, frames++ % 30 == 0);
+        feed.request_state(state, frames++ % 30 == 0);
         std::size_t bytes = 0;
         while (const auto frame = feed.next()) bytes += frame->size();
         const double removed_now_mm3 = tool.removed_mm3 - std::exchange(removed_mm3, tool.removed_mm3);

@@ -46,13 +46,13 @@ std::vector<std::string> session_frames(const Bone& bone) {
         ByteBrick left{};
         for (std::size_t k = 0; k < 9; ++k) left[first + k] = static_cast<std::uint8_t>(90 - 10 * k);
         if (mirror.apply({0, VoxelMask().set_run(first, 9)}, left)) feed.note(mirror.take_changes());
-        feed.request_state({.time_s = 0.04 * i,
-                            .burr_position_mm = {0.1 * i, 0.0, 0.0},
-                            .force_n = {0.1 * i, 0.0, -0.2},
-                            .burr = static_cast<std::size_t>(i % 2),
-                            .spindle_on = true,
-                            .removed_mm3 = 0.01 * i,
-                            .fault = i == 2 ? "the device is lost" : ""},
+        feed.request_state({.tool = {.time_s = 0.04 * i,
+                                     .burr_position_mm = {0.1 * i, 0.0, 0.0},
+                                     .force_n = {0.1 * i, 0.0, -0.2},
+                                     .burr = static_cast<std::size_t>(i % 2),
+                                     .spindle_on = true,
+                                     .removed_mm3 = 0.01 * i,
+                                     .fault = i == 2 ? "the device is lost" : ""}},
                            i % 2 == 1);
         drain();
     }

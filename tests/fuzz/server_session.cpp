@@ -118,7 +118,7 @@ void server_session(Bytes input) {
         carved.fractions(0)[voxel] = 0;
         require(mirror.apply({0, VoxelMask().set(voxel)}, carved.fractions(0)), "a mirror refused a change");
         session->feed().note(mirror.take_changes());
-        session->show({.time_s = 0.03 * static_cast<double>(states)}, states % 30 == 0);
+        session->show({.tool = {.time_s = 0.03 * static_cast<double>(states)}}, states % 30 == 0);
         if (reads_all) stream->let_write();
     }
     require(checksum(mirror.bone()) == checksum(carved), "a client changed the bone");

@@ -65,19 +65,20 @@ inline MadeRecording make_recording(const std::filesystem::path& file,
     const std::vector<v2::StructureBricks> structures = structure_pieces(options.structures);
     std::optional<SessionRecorder> recorder(std::in_place, file, began, to_message(session), mirror, packers,
                                             structures);
-    ToolState tool;
+    SessionState state;
+    ToolState& tool = state.tool;
     for (int i = 0; i < options.states; ++i) {
         if (i > 0)
             for (int run = 0; run < 10; ++run) carve_somewhere(made.after, random, to_mirror);
         recorder->note(mirror.take_changes());
         tool.time_s = MadeRecording::period_s * i;
-        if (options.distances) recorder->note(options.distances(i));
         tool.spindle_on = i % 2 == 1;
         tool.burr = 1;
-        recorder->record(tool, i % 20 == 0, true);
+        if (options.distances) state.distances = options.distances(i);
+        recorder->record(state, i % 20 == 0, true);
         made.checksum_after_state.push_back(mirror.checksum());
     }
-    if (options.ends) recorder->finish(tool, "the end");
+    if (options.ends) recorder->finish(state, "the end");
     recorder.reset();
     if (!options.ends) std::filesystem::rename(part_of(file), file);
     return made;

@@ -65,10 +65,10 @@ class WrittenSession {
     void event(const ControlEvent& event) { events_.push_back(event); }
     void frame(const ToolState& tool, const SessionStatus& status = {}) {
         recorder_->note(mirror_.take_changes());
-        recorder_->note(events_, status);
-        events_.clear();
-        recorder_->record(tool, true, true);
-        last_ = tool;
+        last_ = {.tool = tool, .status = status};
+        SessionState state = last_;
+        state.events = std::exchange(events_, {});
+        recorder_->record(std::move(state), true, true);
     }
     /// With the last frame once more.
     void finish() {
@@ -106,7 +106,7 @@ class WrittenSession {
     std::vector<v2::StructureBricks> structures_;
     std::optional<SessionRecorder> recorder_;
     std::vector<ControlEvent> events_;
-    ToolState last_;
+    SessionState last_;
 };
 
 }  // namespace osteomill::testing

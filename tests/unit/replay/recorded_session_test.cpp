@@ -40,7 +40,7 @@ TEST_F(RecordedSessionTest, PlaysAtItsSpeedFromWhenTheFirstViewerComes) {
     EXPECT_EQ(mirror.checksum(), checksum(made_.before)) << "nobody looks on";
     session.update(mirror, 1);
     pass(1.0);
-    EXPECT_NEAR(session.update(mirror, 1).time_s, 2.0, 1e-6);
+    EXPECT_NEAR(session.update(mirror, 1).tool.time_s, 2.0, 1e-6);
     EXPECT_FALSE(mirror.take_changes().empty());
     EXPECT_EQ(mirror.checksum(), checksum_at(2.0));
     pass(1.0);
@@ -61,7 +61,7 @@ TEST_F(RecordedSessionTest, ShowsTheFirstToolBeforeItsFirstState) {
     ASSERT_FALSE(playhead.tool());
     BoneReplica mirror(playhead.bone());
     RecordedSession session(playhead, 1.0, clock());
-    EXPECT_EQ(session.update(mirror, 0).burr, 1U) << "as recorded";
+    EXPECT_EQ(session.update(mirror, 0).tool.burr, 1U) << "as recorded";
 }
 
 TEST_F(RecordedSessionTest, BeginsWhereThePlayheadIs) {
@@ -73,7 +73,7 @@ TEST_F(RecordedSessionTest, BeginsWhereThePlayheadIs) {
     RecordedSession session(playhead, 1.0, clock());
     session.update(mirror, 1);
     pass(1.0);
-    EXPECT_NEAR(session.update(mirror, 1).time_s, 6.0, 1e-6);
+    EXPECT_NEAR(session.update(mirror, 1).tool.time_s, 6.0, 1e-6);
     mirror.take_changes();
     EXPECT_EQ(mirror.checksum(), checksum_at(6.0));
 }
@@ -110,9 +110,9 @@ TEST_F(RecordedSessionTest, TellsTheDistancesThatWereRecorded) {
     RecordedSession session(playhead, 1.0, clock());
     session.update(mirror, 1);
     pass(4.0);
-    session.update(mirror, 1);
-    ASSERT_EQ(session.distances().size(), 1u);
-    EXPECT_NEAR(*session.distances()[0].distance_mm, 0.8, 1e-9);
+    const SessionState state = session.update(mirror, 1);
+    ASSERT_EQ(state.distances.size(), 1u);
+    EXPECT_NEAR(*state.distances[0].distance_mm, 0.8, 1e-9);
 }
 
 }  // namespace

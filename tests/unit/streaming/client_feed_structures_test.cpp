@@ -32,8 +32,7 @@ TEST_F(ClientFeedOfStructures, TellsWhereProtectedStructuresAreBeforeTheFirstSta
     const SessionInfo session{.burrs = {Burr{}}, .tissues = {{.label = 1, .is_protected = true}}};
     feed_.emplace(to_message(session), *mirror_, packers_, pieces);
     const StructureDistance near{.tissue = 0, .distance_mm = 0.7};
-    feed_->note(std::span(&near, 1));
-    feed_->request_state({}, false);
+    feed_->request_state({.distances = {near}}, false);
     SessionReceiver receiver;
     FrameDecoder decoder;
     std::optional<Structure> arrived;
@@ -54,11 +53,10 @@ TEST_F(ClientFeedOfStructures, TellsWhereProtectedStructuresAreBeforeTheFirstSta
     ASSERT_TRUE(state);
     EXPECT_EQ(state->state.distances, std::vector{near});
     // What is as it was is no news; a distance that changes is.
-    feed_->request_state({.time_s = 0.03}, false);
+    feed_->request_state({.tool = {.time_s = 0.03}, .distances = {near}}, false);
     EXPECT_FALSE(feed_->next());
     const StructureDistance nearer{.tissue = 0, .distance_mm = 0.6};
-    feed_->note(std::span(&nearer, 1));
-    feed_->request_state({.time_s = 0.06}, false);
+    feed_->request_state({.tool = {.time_s = 0.06}, .distances = {nearer}}, false);
     EXPECT_TRUE(feed_->next());
 }
 

@@ -105,7 +105,7 @@ TEST_F(ClientFeedTest, TellsASlowClientLaterWhatItMissed) {
     drain();
     for (int i = 0; i < 100; ++i) {
         carver_->carve(10);
-        feed_->request_state({.time_s = 0.1 * i}, i == 50);
+        feed_->request_state({.tool = {.time_s = 0.1 * i}}, i == 50);
     }
     EXPECT_LE(drain(), 2) << "frames that could not be sent are skipped";
     EXPECT_EQ(replica_.checksums(), 1U) << "a checksum once asked for is stated";
@@ -140,7 +140,7 @@ TEST_F(ClientFeedTest, TellsChangesInOneFrameOrMany) {
     drain();
     for (int i = 0; i < 30; ++i) {
         carver_->carve(i < 10 ? 20 : 5'000);  // some in more than a frame
-        feed_->request_state({.time_s = 0.1 * i, .burr_position_mm = glm::dvec3(0.2 * i)}, i % 10 == 9);
+        feed_->request_state({.tool = {.time_s = 0.1 * i, .burr_position_mm = glm::dvec3(0.2 * i)}}, i % 10 == 9);
         drain();
     }
     EXPECT_EQ(replica_.checksums(), 3U);
@@ -168,7 +168,7 @@ TEST_F(ClientFeedTest, CostsNoMoreForAClientThatNeverReadsThanForItsDirtyBricks)
     drain();
     for (int i = 0; i < 300; ++i) {
         carver_->carve(300);
-        feed_->request_state({.time_s = 0.1 * i}, i % 30 == 0);
+        feed_->request_state({.tool = {.time_s = 0.1 * i}}, i % 30 == 0);
     }
     EXPECT_LE(feed_->pending().bricks(), mirror_->bone().stored_bricks());
     EXPECT_LE(feed_->pending().masks(), PendingChanges::most_masks);
@@ -232,7 +232,7 @@ TEST_F(ClientFeedTest, SaysNothingBetweenStates) {
     feed_->request_state({}, false);
     EXPECT_EQ(drain(), 1);
     EXPECT_EQ(replica_.checksums(), 0U);
-    feed_->request_state({.spindle_on = true}, false);
+    feed_->request_state({.tool = {.spindle_on = true}}, false);
     drain();
     EXPECT_EQ(replica_.bricks_of_last_state(), 0U) << "told once";
 }
@@ -241,17 +241,17 @@ TEST_F(ClientFeedTest, TellsOfAToolThatRestsTenTimesASecond) {
     drain();
     int frames = 0;
     for (int i = 0; i < 90; ++i) {
-        feed_->request_state({.time_s = i / 30.0}, i % 30 == 0);
+        feed_->request_state({.tool = {.time_s = i / 30.0}}, i % 30 == 0);
         frames += drain();
     }
     EXPECT_EQ(frames, 30);
     EXPECT_EQ(replica_.checksums(), 3U);
-    feed_->request_state({.time_s = 3.0}, false);
+    feed_->request_state({.tool = {.time_s = 3.0}}, false);
     EXPECT_EQ(drain(), 1);
-    feed_->request_state({.time_s = 3.001, .force_n = {1, 0, 0}}, false);
+    feed_->request_state({.tool = {.time_s = 3.001, .force_n = {1, 0, 0}}}, false);
     EXPECT_EQ(drain(), 1) << "news goes out at once";
     carver_->carve(1);
-    feed_->request_state({.time_s = 3.002, .force_n = {1, 0, 0}}, false);
+    feed_->request_state({.tool = {.time_s = 3.002, .force_n = {1, 0, 0}}}, false);
     EXPECT_EQ(drain(), 1);
 }
 
@@ -287,11 +287,11 @@ TEST_F(ClientFeedTest, GivesBoneBackToAClientHoweverFewOfTheFramesItGets) {
     for (int i = 0; i < 80; ++i) {
         const Bone before = carver_->bone();
         carver_->carve(200);
-        if (random() % 2 == 0) feed_->request_state({.time_s = 0.1 * i}, false);
+        if (random() % 2 == 0) feed_->request_state({.tool = {.time_s = 0.1 * i}}, false);
         if (random() % 2 == 0) drain();
         carver_->restore(before);
         if (random() % 2 == 0) carver_->carve(50);
-        feed_->request_state({.time_s = 0.1 * i}, true);
+        feed_->request_state({.tool = {.time_s = 0.1 * i}}, true);
         if (random() % 2 == 0) drain();
     }
     drain();
@@ -304,15 +304,12 @@ TEST_F(ClientFeedTest, TellsEachEventOnceAndTheNewestStatus) {
     drain();
     const std::vector<ControlEvent> events(700,
                                            {.time_s = 1.0, .action = SessionAction::mark, .text = "here"});
-    feed_->note(events);
-    feed_->note(SessionStatus{.undo_steps = 2});
-    feed_->request_state({}, false);
+    feed_->request_state({.events = events, .status = {.undo_steps = 2}}, false);
     EXPECT_GE(drain(), 1);
     EXPECT_EQ(replica_.events(), 700U);
-    feed_->request_state({}, false);
+    feed_->request_state({.status = {.undo_steps = 2}}, false);
     EXPECT_EQ(drain(), 0) << "nothing is new";
-    feed_->note(SessionStatus{.undo_steps = 3});
-    feed_->request_state({}, false);
+    feed_->request_state({.status = {.undo_steps = 3}}, false);
     EXPECT_EQ(drain(), 1) << "that is";
     EXPECT_EQ(replica_.events(), 700U);
 }
@@ -331,7 +328,7 @@ TEST_F(ClientFeedTest, SendsTheCtBetweenStatesToWhoAsksAndOnce) {
     int states = 0;
     FrameDecoder decoder;
     for (int i = 0; i < 20; ++i) {
-        if (i % 2 == 0) feed_->request_state({.time_s = 1.0 * i}, true);
+        if (i % 2 == 0) feed_->request_state({.tool = {.time_s = 1.0 * i}}, true);
         const auto bytes = feed_->next();
         if (!bytes) break;
         decoder.append({reinterpret_cast<const std::uint8_t*>(bytes->data()), bytes->size()});

@@ -17,7 +17,7 @@ TEST(LiveCut, IsToldWhileTheSpindleTurns) {
     const auto told = [&](bool spindle_on) {
         tool.back() = {.spindle_on = spindle_on};
         tool.publish();
-        return session.update(mirror, 0).cut;
+        return session.update(mirror, 0).tool.cut;
     };
     EXPECT_FALSE(told(true)) << "it does not listen yet";
     session.listen_to(cuts);

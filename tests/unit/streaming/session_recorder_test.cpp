@@ -24,7 +24,7 @@ class SessionRecorderTest : public ::testing::Test {
             for (int run = 0; run < 10; ++run) testing::carve_somewhere(bone_, random_, to_mirror);
             recorder_->note(mirror_.take_changes());
             tool_.time_s += 0.05;
-            recorder_->record(tool_, i % 20 == 0, false);
+            recorder_->record({.tool = tool_}, i % 20 == 0, false);
         }
     }
     std::uintmax_t size() const { return std::filesystem::file_size(part_); }
@@ -53,7 +53,7 @@ TEST_F(SessionRecorderTest, GoesOnWithTheWholeBoneAfterTheDiskWasFull) {
     }
     ASSERT_TRUE(eventually([&] { return recorder_->report().pauses == 1; }));
     carve_and_record(20);
-    recorder_->finish(tool_, "the end");
+    recorder_->finish({.tool = tool_}, "the end");
     EXPECT_EQ(recorder_->report().error, "");
 
     Playhead playhead(file_);
@@ -69,7 +69,7 @@ TEST_F(SessionRecorderTest, GoesOnWithTheWholeBoneAfterTheDiskWasFull) {
 TEST_F(SessionRecorderTest, SaysThatTheEndIsMissingWhereTheDiskStaysFull) {
     const testing::FileSizeLimit disk(size() + 3'000);
     carve_and_record(200);
-    recorder_->finish(tool_, "the end");
+    recorder_->finish({.tool = tool_}, "the end");
     EXPECT_THAT(recorder_->report().error, ::testing::HasSubstr("File too large"));
     EXPECT_EQ(recorder_->report().pauses, 0U);
     EXPECT_EQ(recorder_->report().file, part_);
