@@ -58,21 +58,6 @@ DeviceLimits BridgeArm::limits() const {
                                 round_trip_s());
 }
 
-DeviceState BridgeArm::read(double now_s) noexcept {
-    const bool is_new = readings_.refresh();
-    const Reading& newest = readings_.front();
-    if (is_new)
-        permission_.renew(said_at(
-            now_s, 1e-9 * static_cast<double>(static_cast<std::int64_t>(omb_now_ns() - newest.said_ns))));
-    const bool is_there = permission_.holds(now_s) && newest.is_ready;
-    return {.position_mm = newest.tool_mm,
-            .velocity_mm_per_s = newest.velocity_mm_per_s,
-            .spindle_axis = newest.spindle_axis,
-            .pedal = {.is_down = newest.pedal, .said_s = permission_.renewed_s(), .speaker = newest.session},
-            .burr = newest.burr,
-            .connected = is_there};
-}
-
 void BridgeArm::write(const glm::dvec3& force_n) noexcept {
     forces_.back() = force_n;
     forces_.publish();
@@ -97,7 +82,7 @@ bool BridgeArm::is_driven(std::uint64_t now_ns) const {
 
 void BridgeArm::take_pose(std::uint64_t now_ns) {
     const omb_pose& pose = host_.pose();
-    Reading& reading = readings_.back();
+    ArmReading reading;
     glm::dquat turn(1.0, 0.0, 0.0, 0.0);
     const bool has_orientation = (pose.status & OMB_HAS_ORIENTATION) != 0;
     if (has_orientation)
@@ -116,18 +101,20 @@ void BridgeArm::take_pose(std::uint64_t now_ns) {
                                     ? vector_of(pose.velocity_mm_per_s)
                                     : sensor_->velocity_mm_per_s();
     reading.pedal = (pose.buttons & OMB_PEDAL) != 0;
+    reading.knows_pedal = true;
     const bool next_pressed = (pose.buttons & OMB_NEXT_BURR) != 0;
     // Of another arm nothing is known before its first pose: a key that it holds already asks for nothing.
     if (std::exchange(session_, host_.session()) != host_.session()) was_next_pressed_ = next_pressed;
     if (next_pressed && !was_next_pressed_) burr_ = (burr_ + 1) % parts_.burr_count;
     was_next_pressed_ = next_pressed;
     reading.burr = burr_;
-    reading.said_ns = host_.said_ns();
-    reading.session = host_.session();
+    // omb_now_ns() is the monotonic clock, as steady_clock is.
+    reading.said = std::chrono::steady_clock::time_point(std::chrono::nanoseconds(host_.said_ns()));
+    reading.speaker = host_.session();
     reading.is_ready = (pose.status & OMB_READY) != 0;
     notice_.store(reading.is_ready ? "" : "the arm says that it is not ready: is it calibrated, and held?",
                   std::memory_order_relaxed);
-    readings_.publish();
+    readings_.publish(reading);
 }
 
 void BridgeArm::tell_who_waits() {

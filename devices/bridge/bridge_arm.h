@@ -10,19 +10,17 @@
 #include <string>
 #include <thread>
 
+#include "devices/arm_readings.h"
 #include "devices/bridge/bridge_host.h"
 #include "devices/bridge/datagram_socket.h"
 #include "devices/position_sensor.h"
 #include "simulation/device/haptic_device.h"
-#include "simulation/device/permission.h"
 #include "simulation/exchange/triple_buffer.h"
 
 namespace osteomill {
 
 class BridgeArm final : public HapticDevice {
   public:
-    /// Session time without a new pose after which the arm counts as lost.
-    static constexpr double longest_pose_age_s = 0.03;
     /// So many periods of the loop without a new force, and the arm is told that there is none.
     static constexpr int longest_force_age_ms = 20;
 
@@ -55,7 +53,7 @@ class BridgeArm final : public HapticDevice {
     DeviceLimits limits() const override;
     /// An arm has joined already: await() has been called.
     void start() override {}
-    DeviceState read(double now_s) noexcept override;
+    DeviceState read(double now_s) noexcept override { return readings_.read(now_s); }
     void write(const glm::dvec3& force_n) noexcept override;
     void stop() noexcept override;
     const char* notice() const noexcept override { return notice_.load(std::memory_order_relaxed); }
@@ -63,18 +61,6 @@ class BridgeArm final : public HapticDevice {
     const BridgeCounts& counts() const { return host_.counts(); }
 
   private:
-    /// The arm's, where it is and what its buttons say.
-    struct Reading {
-        glm::dvec3 tool_mm{0.0};
-        glm::dvec3 velocity_mm_per_s{0.0};
-        glm::dvec3 spindle_axis{0.0, 0.0, 1.0};
-        bool pedal = false;
-        std::size_t burr = 0;
-        bool is_ready = false;
-        std::uint64_t said_ns = 0;
-        std::uint64_t session = 0;
-    };
-
     void run();
     void take_pose(std::uint64_t now_ns);
     bool is_driven(std::uint64_t now_ns) const;
@@ -94,7 +80,7 @@ class BridgeArm final : public HapticDevice {
     std::uint64_t force_ns_ = 0;           // when the loop left the newest
 
     // Between threads.
-    TripleBuffer<Reading> readings_;
+    ArmReadings readings_;
     TripleBuffer<glm::dvec3> forces_;
     std::atomic<bool> has_joined_{false};
     std::atomic<double> round_trip_s_{0.0};
@@ -103,7 +89,6 @@ class BridgeArm final : public HapticDevice {
 
     // Of the loop, and of whoever waits before it runs.
     omb_arm arm_{};
-    Permission permission_{longest_pose_age_s};
     std::thread thread_;
 };
 

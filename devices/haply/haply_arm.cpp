@@ -28,22 +28,4 @@ DeviceLimits HaplyArm::limits() const {
                                 delay_s());
 }
 
-DeviceState HaplyArm::read(double now_s) noexcept {
-    const bool is_new = link_.refresh();
-    const HaplyReading& newest = link_.reading();
-    if (is_new)
-        permission_.renew(
-            said_at(now_s, std::chrono::duration<double>(HaplyLink::Clock::now() - newest.said).count()));
-    const bool is_there = permission_.holds(now_s) && newest.is_ready;
-    return {.position_mm = newest.tool_mm,
-            .velocity_mm_per_s = newest.velocity_mm_per_s,
-            .spindle_axis = newest.spindle_axis,
-            .pedal = newest.has_grip ? PedalStatement{.is_down = newest.pedal,
-                                                      .said_s = permission_.renewed_s(),
-                                                      .speaker = newest.grip}
-                                     : PedalStatement{},
-            .burr = newest.burr,
-            .connected = is_there};
-}
-
 }  // namespace osteomill

@@ -6,15 +6,11 @@
 
 #include "devices/haply/haply_link.h"
 #include "simulation/device/haptic_device.h"
-#include "simulation/device/permission.h"
 
 namespace osteomill {
 
 class HaplyArm final : public HapticDevice {
   public:
-    /// Session time without a new reading after which the arm counts as lost.
-    static constexpr double longest_reading_age_s = 0.03;
-
     /// Begins to look for the service.
     explicit HaplyArm(HaplyLinkParts parts) : link_(std::move(parts)) {}
 
@@ -30,13 +26,12 @@ class HaplyArm final : public HapticDevice {
     /// Of its stiffness what holds with the delay that was measured.
     DeviceLimits limits() const override;
     void start() override {}
-    DeviceState read(double now_s) noexcept override;
+    DeviceState read(double now_s) noexcept override { return link_.read(now_s); }
     void write(const glm::dvec3& force_n) noexcept override { link_.write(force_n); }
     void stop() noexcept override { link_.stop(); }
     const char* notice() const noexcept override { return link_.notice(); }
 
   private:
-    Permission permission_{longest_reading_age_s};
     HaplyLink link_;
 };
 

@@ -157,17 +157,18 @@ void HaplyLink::take_arm(const HaplyInverse3& arm, const std::optional<HaplyGrip
         : !is_calibrated_
             ? "the Inverse3 is not calibrated: put its grip into the inkwell until its light is steady"
         : is_slow_ ? "Haply's service answers too slowly for a force: 2 ms there and back is the most"
-        : !newest_.has_grip ? "no VerseGrip is there: the tool keeps its direction, and the spindle stays off"
-                            : "");
+        : !newest_.knows_pedal
+            ? "no VerseGrip is there: the tool keeps its direction, and the spindle stays off"
+            : "");
 }
 
 void HaplyLink::take_grip(const std::optional<HaplyGrip>& grip) {
     const bool next_pressed = grip && grip->button_b;
-    if (!grip || !newest_.has_grip || grip->device_id != grip_id_) {
-        ++newest_.grip;
+    if (!grip || !newest_.knows_pedal || grip->device_id != grip_id_) {
+        ++newest_.speaker;
         was_next_pressed_ = next_pressed;  // held since before it was known: asks for nothing
     }
-    newest_.has_grip = grip.has_value();
+    newest_.knows_pedal = grip.has_value();
     if (grip) grip_id_ = grip->device_id;
     if (grip) newest_.spindle_axis = grip->turn * inverse3_profile.spindle_axis_in_grip;
     is_clutch_ = grip && grip->button_c;
@@ -179,13 +180,12 @@ void HaplyLink::take_grip(const std::optional<HaplyGrip>& grip) {
 void HaplyLink::lose_arm() noexcept {
     if (has_arm_) was_lost_ = true;
     has_arm_ = is_arm_able_ = drives_ = has_force_ = false;
-    newest_.is_ready = newest_.pedal = newest_.has_grip = false;
+    newest_.is_ready = newest_.pedal = newest_.knows_pedal = false;
     publish();
 }
 
 void HaplyLink::publish() noexcept {
-    readings_.back() = newest_;
-    readings_.publish();
+    readings_.publish(newest_);
 }
 
 void HaplyLink::measure(Clock::duration round_trip) {

@@ -21,6 +21,7 @@
 #include <thread>
 
 #include "common/net/listen_address.h"
+#include "devices/arm_readings.h"
 #include "devices/clutch.h"
 #include "devices/haply/haply_connection.h"
 #include "devices/haply/haply_messages.h"
@@ -30,20 +31,6 @@
 #include "simulation/exchange/triple_buffer.h"
 
 namespace osteomill {
-
-/// The arm's, where the tool is and what the grip's buttons say. Device space.
-struct HaplyReading {
-    glm::dvec3 tool_mm{0.0};
-    glm::dvec3 velocity_mm_per_s{0.0};
-    glm::dvec3 spindle_axis{0.0, 0.0, 1.0};
-    bool pedal = false;     ///< button a
-    bool has_grip = false;  ///< or nothing is known of the pedal
-    /// Another number where another grip, or the same on another connection, says it.
-    std::uint64_t grip = 0;
-    std::size_t burr = 0;                          ///< button b takes the next
-    bool is_ready = false;                         ///< the arm is there, and the rest is so now
-    std::chrono::steady_clock::time_point said{};  ///< when the service was asked for it
-};
 
 struct HaplyLinkParts {
     ListenAddress service{.port = 10001};
@@ -77,9 +64,8 @@ class HaplyLink {
     /// Takes the force off the arm and ends the thread. Safe in any state.
     void stop() noexcept;
 
-    /// The loop's: the newest reading; says whether it is newer than the last. Real-time safe.
-    bool refresh() noexcept { return readings_.refresh(); }
-    const HaplyReading& reading() const noexcept { return readings_.front(); }
+    /// The loop's, as HapticDevice::read: button a is the pedal, b takes the next burr, c is the clutch.
+    DeviceState read(double now_s) noexcept { return readings_.read(now_s); }
     /// The loop's: a force on the hand from now on, device space. Real-time safe.
     void write(const glm::dvec3& force_n) noexcept;
 
@@ -116,7 +102,7 @@ class HaplyLink {
     bool drives_ = false;
     bool is_clutch_ = false;
     bool was_next_pressed_ = false;
-    HaplyReading newest_;
+    ArmReading newest_;
     Clutch clutch_;
     PositionSensor sensor_{0.0};
     Clock::time_point sensed_;
@@ -133,7 +119,7 @@ class HaplyLink {
     bool is_slow_ = false;  // too slow for any force
 
     // Between threads.
-    TripleBuffer<HaplyReading> readings_;
+    ArmReadings readings_;
     TripleBuffer<glm::dvec3> forces_{glm::dvec3(0.0)};
     WakeUp has_new_force_;
     std::atomic<double> round_trip_s_{-1.0};
