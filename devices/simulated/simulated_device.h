@@ -43,7 +43,9 @@ class SimulatedDevice final : public HapticDevice {
 
     /// How much of the trajectory has been followed, 0 to 1; 0 of one that never ends. Only from the thread
     /// that reads.
-    double done() const noexcept { return trajectory_time_s_ / trajectory_.duration_s(); }
+    double done() const noexcept { return trajectory_time_s_ / duration_s(); }
+    /// Of the trajectory, at full pace; infinite for one that never ends.
+    double duration_s() const noexcept { return trajectory_.duration_s(); }
 
     const HeldArm& held_arm() const { return held_arm_; }
 

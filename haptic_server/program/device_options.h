@@ -2,30 +2,20 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
-#include <filesystem>
-#include <optional>
+#include <map>
 #include <string>
+#include <vector>
 
-#include "common/net/listen_address.h"
-#include "devices/bridge/bridge_address.h"
+#include "common/files/distinct_files.h"
+#include "haptic_server/session/device_table.h"
 
 namespace osteomill {
 
-enum class DeviceKind { simulated, client, hid, space_mouse, bridge, tracker, haply };
-
-/// As --device has it.
-std::string name_of(DeviceKind device);
-
 struct DeviceChoice {
-    DeviceKind device = DeviceKind::simulated;
-    std::string device_profile = "woodenhaptics_v2015";  ///< a shipped profile's name or a TOML file
-    bool lists_devices = false;                          ///< and does nothing else
-    BridgeAddress bridge = ListenAddress{.port = 7020};  ///< of DeviceKind::bridge
-    std::optional<std::filesystem::path> bridge_key;     ///< a secret that its arm has, too
-    ListenAddress tracker{.port = 18944};        ///< of DeviceKind::tracker: its server; on this machine
-    std::string tracker_name;                    ///< of its TRANSFORMs; empty: the first that comes
-    std::filesystem::path tracker_registration;  ///< of DeviceKind::tracker
-    ListenAddress haply{.port = 10001};          ///< of DeviceKind::haply: its service; on this machine
+    const DeviceEntry* entry = &devices().front();
+    PrepareDevice prepare = entry->checked(TypedOptions());
+    std::vector<NamedFile> files_read{};  ///< by what was typed
+    bool lists_devices = false;           ///< and does nothing else
 };
 
 class DeviceOptions {
@@ -36,18 +26,8 @@ class DeviceOptions {
     DeviceChoice checked() const;
 
   private:
-    void check_bridge(DeviceChoice& choice) const;
-    void check_tracker(DeviceChoice& choice) const;
-    void check_haply(DeviceChoice& choice) const;
-
-    std::string device_ = "simulated";
-    std::string device_profile_;
-    std::string bridge_;
-    std::string bridge_key_;
-    std::string tracker_;
-    std::string tracker_name_;
-    std::string tracker_registration_;
-    std::string haply_;
+    std::string device_ = devices().front().name;
+    std::map<std::string, std::string> texts_;  // by flag; empty: not typed
     bool lists_devices_ = false;
 };
 

@@ -59,12 +59,12 @@ nlohmann::ordered_json cost(const BoneCost& bone, std::uint64_t peak_resident_by
 
 nlohmann::ordered_json measurements(const MillingSessionReport& report, const BoneCost& bone,
                                     std::uint64_t peak_resident_bytes, const Scene& scene,
-                                    const ServerOptions& options) {
+                                    const MillingSessionOptions& options) {
     nlohmann::ordered_json json;
     json["scene"] = scene.name;
-    json["clock"] = options.session.clock == ClockKind::real ? "real" : "virtual";
-    json["coupling"] = options.session.coupling;
-    json["milling_rate_hz"] = options.session.milling_rate_hz;
+    json["clock"] = options.clock == ClockKind::real ? "real" : "virtual";
+    json["coupling"] = options.coupling;
+    json["milling_rate_hz"] = options.milling_rate_hz;
     json["duration_s"] = report.duration_s;
     json["ticks"] = report.haptic.ticks;
     json["real_time_priority"] = report.real_time_priority;

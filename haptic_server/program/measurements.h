@@ -7,7 +7,6 @@
 #include "common/recording/recording_writer.h"
 #include "common/scene/scene.h"
 #include "common/scene/structure_watch.h"
-#include "haptic_server/program/server_options.h"
 #include "simulation/loop/milling_session.h"
 
 namespace osteomill {
@@ -22,7 +21,7 @@ struct BoneCost {
 /// `peak_resident_bytes`: of the whole program, the streaming loop's copy of the bone with it.
 nlohmann::ordered_json measurements(const MillingSessionReport& report, const BoneCost& bone,
                                     std::uint64_t peak_resident_bytes, const Scene& scene,
-                                    const ServerOptions& options);
+                                    const MillingSessionOptions& options);
 
 /// What the percentiles were taken from, by loop: lists of pairs of a duration in microseconds and how many
 /// lasted as long, or less and longer than those of the pair before.

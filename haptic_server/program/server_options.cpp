@@ -59,10 +59,9 @@ CLI::Validator a_coupling() {
         "");
 }
 
-/// The default coupling solves the cutting law; what has none is interpolated. A hand that feels no force is
-/// not held: the burr is where it is.
-std::string default_coupling(bool has_cutting_law, DeviceKind device = DeviceKind::simulated) {
-    if (device == DeviceKind::tracker) return "hold";
+/// The default coupling solves the cutting law; what has none is interpolated.
+std::string default_coupling(bool has_cutting_law, const DeviceEntry& device) {
+    if (device.coupling != nullptr) return device.coupling;
     return has_cutting_law ? coupling_names().front() : "interpolate";
 }
 
@@ -76,10 +75,12 @@ std::string force_model_help() {
 
 std::string coupling_help() {
     std::string text = fmt::format(
-        "What stands between the model and the hand ({}; {} with a force model that has no cutting law; {} "
-        "with "
-        "--device tracker):",
-        default_coupling(true), default_coupling(false), default_coupling(true, DeviceKind::tracker));
+        "What stands between the model and the hand ({}; {} with a force model that has no cutting law",
+        default_coupling(true, devices().front()), default_coupling(false, devices().front()));
+    for (const DeviceEntry& device : devices())
+        if (device.coupling != nullptr)
+            text += fmt::format("; {} with --device {}", device.coupling, device.name);
+    text += "):";
     for (const CouplingEntry& coupling : couplings())
         text += fmt::format("\n  {}: {}", coupling.name, coupling.text);
     return text +
@@ -180,7 +181,7 @@ std::optional<ListenAddress> listen_address(const Typed& typed) {
     return parse_listen_address(typed.listen);
 }
 
-std::string checked_coupling(const Typed& typed, DeviceKind device) {
+std::string checked_coupling(const Typed& typed, const DeviceEntry& device) {
     const bool has_cutting_law = find_force_model(typed.force_model).has_cutting_law;
     if (typed.coupling.empty()) return default_coupling(has_cutting_law, device);
     if (find_coupling(typed.coupling).needs_cutting_law && !has_cutting_law) {
@@ -238,30 +239,29 @@ double default_milling_rate_hz(const MillingSessionOptions& session) {
 
 /// A bone may be saved over the one that was loaded: it is replaced when all of the new one is there.
 void require_distinct_files(const ServerOptions& options, const AccessOptions& access) {
+    const OutputFiles& outputs = options.outputs;
     std::vector<NamedFile> files = access.files_read();
+    files.insert(files.end(), options.device.files_read.begin(), options.device.files_read.end());
     const auto add = [&files](const char* option, const std::optional<std::filesystem::path>& path,
                               bool is_written) {
         if (path) files.push_back({option, *path, is_written});
     };
-    add("--trajectory", options.trajectory, false);
-    if (options.scene) add("--scene", *options.scene, false);
-    add("--device-profile", options.device_profile, false);
-    if (!options.tracker_registration.empty())
-        add("--tracker-registration", options.tracker_registration, false);
+    add("--trajectory", options.scene.trajectory, false);
+    if (options.scene.name) add("--scene", *options.scene.name, false);
     add("--operators", options.operators, false);
     add("--controls", options.controls, false);
-    add("--json", options.json, true);
-    add("--json (its histograms)", options.json_histograms, true);
-    if (options.report)
+    add("--json", outputs.json, true);
+    add("--json (its histograms)", outputs.json_histograms, true);
+    if (outputs.report)
         for (const char* name : {"report.html", "metrics.csv", "metrics.json"})
-            add("--report", *options.report / name, true);
-    add("--log-csv", options.log_csv, true);
-    add("--log-milling-csv", options.log_milling_csv, true);
-    add(options.report ? "--report" : "--record", options.record, true);
+            add("--report", *outputs.report / name, true);
+    add("--log-csv", options.logs.force, true);
+    add("--log-milling-csv", options.logs.milling, true);
+    add(outputs.report ? "--report" : "--record", options.record, true);
     const std::size_t without_bones = files.size();
     for (const bool saved : {false, true}) {
         files.resize(without_bones);
-        saved ? add("--save-bone", options.save_bone, true) : add("--bone", options.bone, false);
+        saved ? add("--save-bone", outputs.save_bone, true) : add("--bone", options.scene.bone, false);
         require_distinct(files);
     }
 }
@@ -269,27 +269,27 @@ void require_distinct_files(const ServerOptions& options, const AccessOptions& a
 ServerOptions checked(const Typed& typed, const AccessOptions& access) {
     const bool is_virtual = typed.clock == "virtual";
     ServerOptions options;
-    static_cast<DeviceChoice&>(options) = typed.device.checked();
-    const bool is_client = options.device == DeviceKind::client;
-    const bool is_simulated = options.device == DeviceKind::simulated;
-    if (!is_simulated && is_virtual) {
-        throw std::invalid_argument(
-            fmt::format("--device {}: a person needs --clock real", name_of(options.device)));
+    options.device = typed.device.checked();
+    const DeviceEntry& device = *options.device.entry;
+    const bool is_client = device.is_moved_by_client;
+    if (!device.is_simulated && is_virtual) {
+        throw std::invalid_argument(fmt::format("--device {}: a person needs --clock real", device.name));
     }
-    if (!is_simulated && !typed.trajectory.empty()) {
+    if (!device.is_simulated && !typed.trajectory.empty()) {
         throw std::invalid_argument("--trajectory: only --device simulated follows one");
     }
-    if (!typed.scene.empty()) options.scene = typed.scene;
+    if (!typed.scene.empty()) options.scene.name = typed.scene;
     if (!typed.case_name.empty()) {
-        options.scene = scene_of_case(typed.case_name);
+        options.scene.name = scene_of_case(typed.case_name);
         options.case_name = name_of_case(typed.case_name);
-        if (options.scene != typed.case_name) options.case_folder = typed.case_name;
+        if (options.scene.name != typed.case_name)
+            options.scene.case_folder = options.outputs.case_folder = typed.case_name;
     }
-    options.bone = path_if_given(typed.bone);
+    options.scene.bone = path_if_given(typed.bone);
     options.grip = typed.grip == "light" ? Grip::light : Grip::firm;
-    options.trajectory = path_if_given(typed.trajectory);
+    options.scene.trajectory = path_if_given(typed.trajectory);
     options.session.clock = is_virtual ? ClockKind::virtual_time : ClockKind::real;
-    options.session.coupling = checked_coupling(typed, options.device);
+    options.session.coupling = checked_coupling(typed, device);
     options.session.force_model = typed.force_model;
     options.session.vibration = checked_vibration(typed);
     options.session.duration_s = typed.duration_s;
@@ -315,19 +315,19 @@ ServerOptions checked(const Typed& typed, const AccessOptions& access) {
             "--operators: needs TLS (--tls-cert, --tls-key, --tls-ca), which says who a client is");
     options.controls = path_if_given(typed.controls);
     options.record = path_if_given(typed.record);
-    options.report = path_if_given(typed.report);
-    if (options.report && options.record)
+    options.outputs.report = path_if_given(typed.report);
+    if (options.outputs.report && options.record)
         throw std::invalid_argument("--record: --report records already, as DIR/session.pcap");
-    if (options.report) options.record = recording_in(*options.report);
+    if (options.outputs.report) options.record = recording_in(*options.outputs.report);
     options.trainee = checked_trainee(typed.trainee);
-    options.save_bone = path_if_given(typed.save_bone);
-    if (options.save_bone && options.save_bone->extension() != ".nrrd") {
+    options.outputs.save_bone = path_if_given(typed.save_bone);
+    if (options.outputs.save_bone && options.outputs.save_bone->extension() != ".nrrd") {
         throw std::invalid_argument(fmt::format("--save-bone: '{}' must end in .nrrd", typed.save_bone));
     }
-    options.json = path_if_given(typed.json);
-    if (options.json) options.json_histograms = histograms_beside(*options.json);
-    options.log_csv = path_if_given(typed.log_csv);
-    options.log_milling_csv = path_if_given(typed.log_milling_csv);
+    options.outputs.json = path_if_given(typed.json);
+    if (options.outputs.json) options.outputs.json_histograms = histograms_beside(*options.outputs.json);
+    options.logs.force = path_if_given(typed.log_csv);
+    options.logs.milling = path_if_given(typed.log_milling_csv);
     require_distinct_files(options, access);
     return options;
 }

@@ -11,7 +11,7 @@ nlohmann::ordered_json session_settings(const ServerOptions& options, const Scen
                                 {"scene", scene.name},
                                 {"force_model", options.session.force_model},
                                 {"coupling", options.session.coupling},
-                                {"device", name_of(options.device)},
+                                {"device", options.device.entry->name},
                                 {"grip", options.grip == Grip::light ? "light" : "firm"},
                                 {"burr", burr.name},
                                 {"rpm", 60.0 * burr.spindle_rev_per_s},
@@ -23,8 +23,8 @@ nlohmann::ordered_json session_settings(const ServerOptions& options, const Scen
     const auto add_file = [&](const char* key, const std::optional<std::filesystem::path>& file) {
         if (file) json[key] = file->filename().string();
     };
-    add_file("bone", options.bone);
-    add_file("trajectory", options.trajectory);
+    add_file("bone", options.scene.bone);
+    add_file("trajectory", options.scene.trajectory);
     add_file("controls", options.controls);
     return json;
 }

@@ -121,8 +121,7 @@ void ClientFeed::fill_state(v2::StateFrame& state, std::size_t most_bytes) {
     *state.mutable_tool() = to_message(state_.tool);
     if (answer_) *state.mutable_comparison() = *std::exchange(answer_, std::nullopt);
     if (state_.status != SessionStatus{}) *state.mutable_status() = to_message(state_.status);
-    for (const StructureDistance& distance : state_.distances)
-        *state.add_distances() = to_message(distance);
+    for (const StructureDistance& distance : state_.distances) *state.add_distances() = to_message(distance);
     add_events(state, most_bytes);
     add_changes(state, most_bytes);
     sent_ = state_;

@@ -166,24 +166,29 @@ MillingSession::MillingSession(const Scene& scene, Bone bone, HapticDevice& devi
                          milling_loop_.step(time_s, period_s * static_cast<double>(1 + missed));
                      }) {}
 
-void MillingSession::run(const std::atomic<bool>& stop,
-                         const std::function<void(const ToolState&)>& on_progress) {
+void MillingSession::run(const std::atomic<bool>& stop, const OnProgress& on_progress) {
+    start();
+    if (options_.clock == ClockKind::real)
+        run_in_threads(stop, on_progress);
+    else
+        advance(std::numeric_limits<std::uint64_t>::max(), on_progress, &stop);
+    end(on_progress);
+}
+
+void MillingSession::start() {
     // Before the device: it takes a while, in which a device would have nobody who watches it.
     if (options_.clock == ClockKind::real) is_memory_locked_ = lock_memory();
     device_.start();
-    if (options_.clock == ClockKind::real) {
-        run_in_threads(stop, on_progress);
-    } else {
-        take_turns(stop, on_progress);
-    }
+}
+
+void MillingSession::end(const OnProgress& on_progress) {
     device_.stop();
     if (options_.clock == ClockKind::virtual_time) do_chores(on_progress);
     send_what_overflowed();
     do_chores(on_progress);
 }
 
-void MillingSession::run_in_threads(const std::atomic<bool>& stop,
-                                    const std::function<void(const ToolState&)>& on_progress) {
+void MillingSession::run_in_threads(const std::atomic<bool>& stop, const OnProgress& on_progress) {
     std::atomic<bool> is_over{false};
     // With memory locked a thread's whole stack is brought in before it starts, which takes milliseconds: the
     // session begins when both threads are there, or its first ticks would be late.
@@ -226,21 +231,23 @@ void MillingSession::run_in_threads(const std::atomic<bool>& stop,
     milling.join();
 }
 
-void MillingSession::take_turns(const std::atomic<bool>& stop,
-                                const std::function<void(const ToolState&)>& on_progress) {
+std::uint64_t MillingSession::advance(std::uint64_t ticks, const OnProgress& on_progress,
+                                      const std::atomic<bool>* stop) {
     const RealClock stopwatch;  // measures how long the work takes; nothing depends on it
-    for (std::uint64_t tick = 0; !stop.load(std::memory_order_relaxed); ++tick) {
-        if (haptic_ticks_.due_s() > options_.duration_s) break;
+    const std::uint64_t before = ticks_;
+    while (ticks_ - before < ticks && haptic_ticks_.due_s() <= options_.duration_s) {
+        if (stop != nullptr && stop->load(std::memory_order_relaxed)) break;
         haptic_ticks_.tick_now(stopwatch);
         while (milling_steps_.due_s() <= now_s_ + rounding_s) {
             milling_steps_.tick_now(stopwatch);
             if (changes_.has_overflowed()) wait_for_room_in_queue(stop, on_progress);
         }
-        if (tick % chore_ticks == 0) do_chores(on_progress);
+        if (ticks_++ % chore_ticks == 0) do_chores(on_progress);
     }
+    return ticks_ - before;
 }
 
-void MillingSession::do_chores(const std::function<void(const ToolState&)>& on_progress) {
+void MillingSession::do_chores(const OnProgress& on_progress) {
     const auto drain = [this](auto* log) {
         if (log == nullptr) return;
         options_.clock == ClockKind::real ? log->drain() : log->drain_all();
@@ -256,10 +263,9 @@ void MillingSession::drop_changes_nobody_wants() {
     if (!options_.changes_are_consumed) changes_.consume_all([](const BrickChange&, BrickFractions) {});
 }
 
-void MillingSession::wait_for_room_in_queue(const std::atomic<bool>& stop,
-                                            const std::function<void(const ToolState&)>& on_progress) {
+void MillingSession::wait_for_room_in_queue(const std::atomic<bool>* stop, const OnProgress& on_progress) {
     do_chores(on_progress);
-    wait_for_consumer(&stop, [this] {
+    wait_for_consumer(stop, [this] {
         changes_.resend_overflowed(model_->bone());
         return !changes_.has_overflowed();
     });

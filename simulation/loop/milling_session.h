@@ -104,12 +104,26 @@ class MillingSession {
     /// consumes changes.
     TripleBuffer<std::optional<CutState>>& cuts() { return cuts_; }
 
-    /// Starts the device, runs until the duration has passed or `stop` is set, stops the device. Calls
-    /// `on_progress`, if given, on the caller's thread: about every 20 ms, on the virtual clock every 33 ms
-    /// of the session, where it may consume the changes. Throws what device.start() throws. Runs once.
-    void run(const std::atomic<bool>& stop, const std::function<void(const ToolState&)>& on_progress = {});
+    /// Called on the caller's thread: about every 20 ms, on the virtual clock every 33 ms of the session,
+    /// where it may consume the changes.
+    using OnProgress = std::function<void(const ToolState&)>;
 
-    /// After run().
+    /// Starts the device, runs until the duration has passed or `stop` is set, stops the device. Throws what
+    /// device.start() throws. Runs once.
+    void run(const std::atomic<bool>& stop, const OnProgress& on_progress = {});
+
+    // Or, on the virtual clock, in steps: start(), advance() any number of times, end(). The session is the
+    // same to the bit however its ticks are divided.
+
+    /// Throws what device.start() throws.
+    void start();
+    /// Makes so many ticks, fewer where the duration is over or `stop` is set; returns how many.
+    std::uint64_t advance(std::uint64_t ticks, const OnProgress& on_progress = {},
+                          const std::atomic<bool>* stop = nullptr);
+    /// Stops the device, and gives away what is left to consume.
+    void end(const OnProgress& on_progress = {});
+
+    /// After run() or end().
     MillingSessionReport report() const;
     SolveCounts solve_counts() const { return coupling_->solve_counts(); }
     const std::array<std::uint64_t, HapticLoop::fault_kinds>& fault_counts() const {
@@ -123,13 +137,10 @@ class MillingSession {
         bool has_real_time_priority = false;
         std::uint64_t page_faults = 0;
     };
-    void run_in_threads(const std::atomic<bool>& stop,
-                        const std::function<void(const ToolState&)>& on_progress);
-    void take_turns(const std::atomic<bool>& stop, const std::function<void(const ToolState&)>& on_progress);
-    void do_chores(const std::function<void(const ToolState&)>& on_progress);
+    void run_in_threads(const std::atomic<bool>& stop, const OnProgress& on_progress);
+    void do_chores(const OnProgress& on_progress);
     void drop_changes_nobody_wants();
-    void wait_for_room_in_queue(const std::atomic<bool>& stop,
-                                const std::function<void(const ToolState&)>& on_progress);
+    void wait_for_room_in_queue(const std::atomic<bool>* stop, const OnProgress& on_progress);
     void send_what_overflowed();
 
     MillingSessionOptions options_;
@@ -153,7 +164,8 @@ class MillingSession {
     MillingLoop milling_loop_;
     PeriodicLoop haptic_ticks_;
     PeriodicLoop milling_steps_;
-    double now_s_ = 0.0;  // of the last haptic tick
+    double now_s_ = 0.0;       // of the last haptic tick
+    std::uint64_t ticks_ = 0;  // on the virtual clock
     bool is_memory_locked_ = false;
     LoopThread haptic_thread_;
     LoopThread milling_thread_;

@@ -140,7 +140,8 @@ TEST_F(ClientFeedTest, TellsChangesInOneFrameOrMany) {
     drain();
     for (int i = 0; i < 30; ++i) {
         carver_->carve(i < 10 ? 20 : 5'000);  // some in more than a frame
-        feed_->request_state({.tool = {.time_s = 0.1 * i, .burr_position_mm = glm::dvec3(0.2 * i)}}, i % 10 == 9);
+        feed_->request_state({.tool = {.time_s = 0.1 * i, .burr_position_mm = glm::dvec3(0.2 * i)}},
+                             i % 10 == 9);
         drain();
     }
     EXPECT_EQ(replica_.checksums(), 3U);

@@ -1,4 +1,4 @@
-#include "haptic_server/program/session_keeper.h"
+#include "haptic_server/session/session_keeper.h"
 
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>

@@ -1,4 +1,4 @@
-#include "haptic_server/program/tool_place.h"
+#include "haptic_server/session/tool_place.h"
 
 #include <fmt/format.h>
 

@@ -1,0 +1,45 @@
+// A device whose hand is where it is told to be, whatever pushes back: for sessions that are stepped from
+// outside. No hardware, no thread; deterministic.
+#pragma once
+
+#include <glm/vec3.hpp>
+#include <optional>
+
+#include "common/scene/device_mapping.h"
+#include "common/scene/scene.h"
+#include "simulation/device/haptic_device.h"
+
+namespace osteomill {
+
+class PrescribedDevice final : public HapticDevice {
+  public:
+    /// Patient space. Until it is moved the hand rests at `start`, with the pedal up.
+    PrescribedDevice(const ToolPose& start, const DeviceMapping& mapping);
+
+    /// Where the hand is from the next reading on. Patient space; `axis` is a unit vector. Between two
+    /// readings, from the thread that advances the session.
+    void move_to(const ToolPose& hand) noexcept { hand_ = hand; }
+    void press(bool pedal) noexcept { pedal_ = pedal; }
+    /// Number in the scene's set, from 0.
+    void take_burr(std::size_t burr) noexcept { burr_ = burr; }
+
+    std::string name() const override { return "prescribed hand"; }
+    /// Those of an ideal arm: see DeviceLimits.
+    DeviceLimits limits() const override { return {}; }
+    void start() override {}
+    /// The velocity is the mean since the reading before.
+    DeviceState read(double now_s) noexcept override;
+    void write(const glm::dvec3&) noexcept override {}
+    void stop() noexcept override {}
+    void set_mapping(const DeviceMapping& mapping) noexcept override { mapping_ = mapping; }
+
+  private:
+    DeviceMapping mapping_;
+    ToolPose hand_;
+    bool pedal_ = false;
+    std::optional<std::size_t> burr_{};
+    std::optional<glm::dvec3> before_mm_{};  // device space, at the reading before
+    double before_s_ = 0.0;
+};
+
+}  // namespace osteomill

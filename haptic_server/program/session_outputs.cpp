@@ -1,0 +1,101 @@
+#include "haptic_server/program/session_outputs.h"
+
+#include <fmt/format.h>
+
+#include <ostream>
+#include <stdexcept>
+#include <string>
+
+#include "analysis/report/write_report.h"
+#include "common/log/line_stream.h"
+#include "haptic_server/program/report_folder.h"
+#include "imaging/case/case_placement.h"
+#include "imaging/progress.h"
+
+namespace osteomill {
+
+namespace {
+
+/// Writes one thing after the other although one of them fails, and keeps the first failure.
+class FirstFailure {
+  public:
+    template <typename Write>
+    void of(Write&& write_one) {
+        try {
+            write_one();
+        } catch (const std::exception& error) {
+            if (line_.empty()) line_ = error.what();
+        }
+    }
+    void require_none() const {
+        if (!line_.empty()) throw std::runtime_error(line_);
+    }
+
+  private:
+    std::string line_;
+};
+
+/// A bone of which saving takes long says how far it has come.
+void save_and_tell(const std::filesystem::path& path, const BoneSource& source, const Bone& bone,
+                   LineStream& out) {
+    constexpr std::uint64_t many_voxels = std::uint64_t{1} << 28;
+    const bool takes_long = source.file && voxel_count(bone.grid()) > many_voxels;
+    LineStreamBuffer buffer(out);
+    std::ostream messages(&buffer);
+    messages << std::unitbuf;
+    ProgressLine progress(messages, out.is_terminal(), "saving");
+    save_bone(path, source, bone, [&](double done) {
+        if (takes_long) progress.report(done);
+    });
+}
+
+}  // namespace
+
+void write_outputs(SessionAssembly& assembly, const OutputFiles& files, const BoneCost& cost,
+                   std::uint64_t peak_bytes, const nlohmann::ordered_json& settings,
+                   const ProgramOutput& output) {
+    ShownSession* shown = assembly.shown();
+    const MillingSessionReport report = assembly.session().report();
+    // What matters most first, and nothing waits for a client that is slow to read the end.
+    FirstFailure failure;
+    failure.of([&] {
+        if (files.save_bone)
+            save_and_tell(*files.save_bone, assembly.source(), assembly.session().bone(), *output.err);
+    });
+    failure.of([&] {
+        if (files.case_folder && shown && shown->placed())
+            remember_placement(*files.case_folder, *shown->placed());
+    });
+    failure.of([&] { assembly.logs().close_force(); });
+    failure.of([&] { assembly.logs().close_milling(); });
+    if (shown) shown->server().finish_recording();
+    const auto recording = shown ? shown->server().recording() : std::nullopt;
+    failure.of([&] {
+        if (!files.json) return;
+        auto json = measurements(report, cost, peak_bytes, assembly.scene(), assembly.options());
+        json["settings"] = settings;
+        if (shown) add_structures(json, shown->structures(), assembly.scene());
+        if (recording) json["recording"] = recorded(*recording);
+        write_json(json, *files.json);
+    });
+    failure.of([&] {
+        if (files.json_histograms) write_json(histograms_us(report), *files.json_histograms);
+    });
+    failure.of([&] {
+        if (recording && !recording->error.empty()) throw std::runtime_error(recording->error);
+        if (!files.report) return;
+        const std::string error = write_report(recording_in(*files.report), *files.report, [] {});
+        if (!error.empty()) throw std::runtime_error(error);
+        output.out->say(fmt::format("report: {}", (*files.report / "report.html").string()));
+    });
+    if (shown) shown->server().stop();
+    failure.of([&] {
+        if (shown && shown->server().mirror_checksum() != report.bone_checksum)
+            throw std::runtime_error(
+                fmt::format("the bone that clients were shown ({:016x}) is not the one milled ({:016x})",
+                            shown->server().mirror_checksum(), report.bone_checksum));
+    });
+    failure.require_none();
+}
+
+}  // namespace osteomill

@@ -1,0 +1,104 @@
+// A kind of device as the command line knows it: a row of device_table.h.
+#pragma once
+
+#include <atomic>
+#include <filesystem>
+#include <functional>
+#include <glm/vec3.hpp>
+#include <map>
+#include <memory>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "common/scene/scene.h"
+#include "devices/hid/hid_transport.h"
+#include "devices/simulated/hand_model.h"
+#include "devices/simulated/simulated_device.h"
+#include "simulation/device/haptic_device.h"
+#include "simulation/exchange/operator_channel.h"
+
+namespace osteomill {
+
+/// The device, and what it is driven by.
+struct DeviceParts {
+    std::unique_ptr<HidTransport> transport{};            ///< null: the device is not plugged in
+    std::unique_ptr<OperatorChannel> operator_channel{};  ///< null: no client may drive
+    std::unique_ptr<HapticDevice> device{};               ///< null: a stop came before the device
+    const SimulatedDevice* simulated = nullptr;           ///< `device`, if it is one
+    /// What of device space is to be at the scene's start pose, where the scene does not say how the device
+    /// sits on the patient.
+    std::optional<glm::dvec3> home_mm{};
+    /// How the device sits on the patient, whatever the scene says: of one that knows.
+    std::optional<DeviceMapping> mapping{};
+
+    bool is_finished() const { return simulated != nullptr && simulated->is_finished(); }
+};
+
+/// What a device is made for.
+struct DeviceContext {
+    const Scene& scene;
+    Grip grip;                      ///< of a simulated hand
+    const std::atomic<bool>& stop;  ///< ends a wait for an arm
+    /// Hears what is waited for, and what has come.
+    std::function<void(const std::string&)> say = [](const std::string&) {};
+};
+
+/// Throws std::runtime_error in one line.
+using MakeDevice = std::function<DeviceParts(const DeviceContext&)>;
+/// Reads the small files that the device needs, for a wrong one to be said before a bone is loaded. Throws
+/// std::runtime_error in one line.
+using PrepareDevice = std::function<MakeDevice()>;
+
+/// For a device with no such file.
+inline PrepareDevice at_once(MakeDevice make) {
+    return [make = std::move(make)] { return make; };
+}
+
+/// An option that goes with one device.
+struct DeviceOption {
+    const char* flag;
+    const char* type_name;
+    std::string help;
+    bool names_file = false;  ///< which is read, so nothing may be written over it
+};
+
+/// What was typed of a device's options, by flag; what was not typed is not there.
+class TypedOptions {
+  public:
+    explicit TypedOptions(std::map<std::string, std::string> texts = {}) : texts_(std::move(texts)) {}
+    std::optional<std::string> given(const char* flag) const {
+        const auto found = texts_.find(flag);
+        return found != texts_.end() ? std::optional(found->second) : std::nullopt;
+    }
+    /// What `parse` makes of it, or `usual`. What it throws names the option.
+    template <typename Value, typename Parse>
+    Value parsed(const char* flag, Value usual, const Parse& parse) const {
+        const std::optional<std::string> text = given(flag);
+        if (!text) return usual;
+        try {
+            return parse(*text);
+        } catch (const std::invalid_argument& error) {
+            throw std::invalid_argument(std::string(flag) + ": " + error.what());
+        }
+    }
+
+  private:
+    std::map<std::string, std::string> texts_;
+};
+
+struct DeviceEntry {
+    const char* name;
+    const char* text;  ///< for --help: who moves the tool then
+    std::vector<DeviceOption> options{};
+    /// The coupling that it asks for, unless the command line names one; null: the force model's.
+    const char* coupling = nullptr;
+    bool is_simulated = false;  ///< may run on the virtual clock, and follows a trajectory
+    bool is_moved_by_client = false;
+    /// Throws std::invalid_argument in one line for options that make no sense.
+    std::function<PrepareDevice(const TypedOptions&)> checked{};
+};
+
+}  // namespace osteomill

@@ -1,0 +1,28 @@
+#include "devices/simulated/arm_model.h"
+#include "devices/simulated/hand_model.h"
+#include "devices/simulated/trajectory.h"
+#include "haptic_server/session/device_table.h"
+
+namespace osteomill {
+
+DeviceParts simulated_hand(const Scene& scene, Grip grip) {
+    auto simulated = std::make_unique<SimulatedDevice>(
+        make_trajectory(scene.trajectory, scene.start_pose, scene.burrs, scene.start_burr), scene.device,
+        ArmModel{}, hand_model(grip));
+    DeviceParts parts;
+    parts.simulated = simulated.get();
+    parts.device = std::move(simulated);
+    return parts;
+}
+
+DeviceEntry simulated_entry() {
+    return {.name = "simulated",
+            .text = "a hand that follows a trajectory",
+            .is_simulated = true,
+            .checked = [](const TypedOptions&) {
+                return at_once(
+                    [](const DeviceContext& context) { return simulated_hand(context.scene, context.grip); });
+            }};
+}
+
+}  // namespace osteomill

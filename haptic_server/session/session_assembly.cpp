@@ -1,0 +1,80 @@
+#include "haptic_server/session/session_assembly.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <utility>
+
+#include "common/scene/device_mapping.h"
+
+namespace osteomill {
+
+namespace {
+
+SessionScene seated(SessionScene scene, const DeviceParts& device) {
+    Scene& on_patient = scene.scene;
+    if (device.mapping)
+        on_patient.device = *device.mapping;
+    else if (device.home_mm && on_patient.device == DeviceMapping{})
+        on_patient.device.offset_mm = on_patient.start_pose.position_mm - *device.home_mm;
+    return scene;
+}
+
+MillingSessionOptions milling_options(const SessionOptions& options, const SessionScene& scene,
+                                      const DeviceParts& device) {
+    const bool never_ends = std::isinf(options.milling.duration_s) && device.simulated != nullptr &&
+                            std::isinf(device.simulated->duration_s());
+    if (options.milling.clock == ClockKind::virtual_time && never_ends)
+        throw std::runtime_error("--clock virtual: the trajectory never ends; give --duration-s");
+    MillingSessionOptions milling = options.milling;
+    milling.removed_before_mm3 = scene.source.removed_before_mm3;
+    milling.changes_are_consumed = milling.can_be_controlled = options.shown.has_value();
+    return milling;
+}
+
+}  // namespace
+
+SessionAssembly::SessionAssembly(SessionScene scene, DeviceParts device, SessionOptions options)
+    : scene_(seated(std::move(scene), device)),
+      device_(std::move(device)),
+      options_(milling_options(options, scene_, device_)),
+      logs_(options.logs, has_shank(scene_.scene.burrs)) {
+    std::optional<Bone> mirror;
+    if (options.shown) mirror = scene_.bone;
+    session_ = std::make_unique<MillingSession>(scene_.scene, std::move(scene_.bone), *device_.device,
+                                                options_, logs_.force(), logs_.milling());
+    if (!options.shown) return;
+    options.shown->streaming.paced_by_session = is_virtual();
+    shown_.emplace(*std::move(options.shown), scene_, *std::move(mirror), *session_, device_);
+}
+
+void SessionAssembly::run(const std::atomic<bool>& stop, const OnProgress& on_progress) {
+    std::atomic<bool> is_over{false};
+    session_->run(is_over, [&](const ToolState& tool) {
+        if (on_progress) on_progress(tool);
+        show_frame();
+        if (stop.load() || device_.is_finished() || (shown_ && shown_->has_been_asked_to_finish()))
+            is_over.store(true);
+    });
+    if (shown_) shown_->end();
+}
+
+std::uint64_t SessionAssembly::advance(std::uint64_t ticks) {
+    return session_->advance(ticks, [this](const ToolState&) { show_frame(); });
+}
+
+void SessionAssembly::end() {
+    session_->end([this](const ToolState&) { show_frame(); });
+    if (shown_) shown_->end();
+}
+
+double SessionAssembly::done(double time_s) const {
+    const double of_trajectory = device_.simulated != nullptr ? device_.simulated->done() : 0.0;
+    return std::min(1.0, std::max(time_s / options_.duration_s, of_trajectory));
+}
+
+void SessionAssembly::show_frame() {
+    if (shown_ && is_virtual()) shown_->server().show_frame();
+}
+
+}  // namespace osteomill

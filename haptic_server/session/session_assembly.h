@@ -1,0 +1,79 @@
+// A session with all that belongs to it, made in order: the scene with its bone, the device, logs, the
+// milling session, and what shows it. Whoever runs a session, haptic_server, Python or a test, makes one of
+// these; there may be many in a process.
+//
+// On the real clock it runs to its end; on the virtual one it can also be advanced tick by tick, and is the
+// same to the bit however its ticks are divided.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+
+#include "haptic_server/session/device_entry.h"
+#include "haptic_server/session/session_logs.h"
+#include "haptic_server/session/session_scene.h"
+#include "haptic_server/session/shown_session.h"
+#include "simulation/loop/milling_session.h"
+
+namespace osteomill {
+
+struct SessionOptions {
+    /// Where it can be controlled, whether changes are consumed and what was removed before follow from the
+    /// other parts.
+    MillingSessionOptions milling{};
+    LogFiles logs{};
+    std::optional<ShownOptions> shown{};  ///< absent: nobody looks on, and nothing is recorded
+};
+
+class SessionAssembly {
+  public:
+    using OnProgress = MillingSession::OnProgress;
+
+    /// Seats the device on the patient, where the scene leaves that to it. `device` holds a device. Throws
+    /// std::runtime_error or std::invalid_argument in one line for what a part refuses, and for a session on
+    /// the virtual clock that would never end.
+    SessionAssembly(SessionScene scene, DeviceParts device, SessionOptions options);
+    SessionAssembly(const SessionAssembly&) = delete;
+    SessionAssembly& operator=(const SessionAssembly&) = delete;
+
+    /// As it is run: with its device seated.
+    const Scene& scene() const { return scene_.scene; }
+    const BoneSource& source() const { return scene_.source; }
+    const MillingSessionOptions& options() const { return options_; }
+    HapticDevice& device() { return *device_.device; }
+    MillingSession& session() { return *session_; }
+    const MillingSession& session() const { return *session_; }
+    SessionLogs& logs() { return logs_; }
+    /// Null: nobody looks on.
+    ShownSession* shown() { return shown_ ? &*shown_ : nullptr; }
+
+    /// Starts the device, runs until the duration has passed, `stop` is set, the simulated hand is at its
+    /// trajectory's end or somebody ends the session, and stops the device. Once. Throws what
+    /// HapticDevice::start() throws.
+    void run(const std::atomic<bool>& stop, const OnProgress& on_progress = {});
+
+    // Or, on the virtual clock, in this order and in steps.
+    void start() { session_->start(); }
+    /// Returns how many ticks were made: fewer than `ticks` where the session's duration is over.
+    std::uint64_t advance(std::uint64_t ticks);
+    void end();
+
+    /// Of a session on the virtual clock, 0 to 1.
+    double done(double time_s) const;
+
+  private:
+    bool is_virtual() const { return options_.clock == ClockKind::virtual_time; }
+    void show_frame();
+
+    SessionScene scene_;
+    DeviceParts device_;
+    MillingSessionOptions options_;
+    SessionLogs logs_;
+    std::unique_ptr<MillingSession> session_;
+    std::optional<ShownSession> shown_;
+};
+
+}  // namespace osteomill

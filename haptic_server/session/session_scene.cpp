@@ -1,0 +1,60 @@
+#include "haptic_server/session/session_scene.h"
+
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <fstream>
+#include <utility>
+#include <variant>
+
+#include "common/scene/scene_file.h"
+#include "imaging/case/case_placement.h"
+#include "imaging/case/case_trust.h"
+#include "imaging/case/scene_on_bone.h"
+#include "imaging/memory_estimate.h"
+#include "imaging/phantoms/phantom.h"
+
+namespace osteomill {
+
+namespace {
+
+/// Of a choice that names only a bone, one without a place for the tool yet.
+Scene load_scene(const SceneChoice& choice) {
+    Scene scene;
+    if (choice.bone && !choice.name) {
+        scene = scene_of_bone_file(*choice.bone);
+    } else {
+        const std::vector<std::string> phantoms = phantom_names();
+        const std::string name = choice.name.value_or(phantoms.front());
+        const bool is_phantom = std::ranges::find(phantoms, name) != phantoms.end();
+        scene = is_phantom ? phantom_scene(name) : read_scene(name);
+        if (choice.case_folder) require_own_files(scene, *choice.case_folder);
+        if (choice.bone) {
+            const auto* before = std::get_if<FileSource>(&scene.bone);
+            scene.bone = FileSource{.path = *choice.bone,
+                                    .threshold_hu = {},
+                                    .segmentation = before != nullptr ? before->segmentation : ""};
+        }
+    }
+    if (choice.trajectory) scene.trajectory.source = *choice.trajectory;
+    if (choice.case_folder)
+        scene.start_pose = placement_of_case(*choice.case_folder).value_or(scene.start_pose);
+    return scene;
+}
+
+}  // namespace
+
+SessionScene load_session_scene(const SceneChoice& choice) {
+    Scene scene = load_scene(choice);
+    if (choice.case_folder)
+        if (const std::string line = unsigned_files(scene, *choice.case_folder); !line.empty())
+            spdlog::warn("{}", line);
+    std::ifstream meminfo("/proc/meminfo");
+    LoadedBone loaded = load_bone(scene, available_memory_bytes(meminfo));
+    if (!loaded.doubt.empty())
+        spdlog::warn("{}: {}", std::get<FileSource>(scene.bone).path.string(), loaded.doubt);
+    if (choice.bone && !choice.name) place_on_bone(scene, loaded.bone);
+    return {std::move(scene), std::move(loaded.bone), std::move(loaded.source), std::move(loaded.structures)};
+}
+
+}  // namespace osteomill

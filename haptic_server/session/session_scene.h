@@ -1,0 +1,32 @@
+// The scene of a session with its bone in it: what a session is made of, before there is a device.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "imaging/case/bone_source.h"
+
+namespace osteomill {
+
+/// What of a scene is chosen; nothing: the tooth.
+struct SceneChoice {
+    std::optional<std::string> name{};            ///< a phantom's or a TOML file's; absent: the bone's own
+    std::optional<std::filesystem::path> bone{};  ///< in place of the scene's
+    std::optional<std::filesystem::path> trajectory{};   ///< likewise
+    std::optional<std::filesystem::path> case_folder{};  ///< of a case that is not built in
+};
+
+struct SessionScene {
+    Scene scene;
+    Bone bone;
+    BoneSource source{};
+    std::vector<Structure> structures{};  ///< of the scene's protected tissues, in their order
+};
+
+/// Loads what is chosen; a bone that comes without a scene gets one, with the tool above it. What is doubtful
+/// is logged. Throws in one line as the readers of scenes, cases and images do.
+SessionScene load_session_scene(const SceneChoice& choice);
+
+}  // namespace osteomill

@@ -1,0 +1,85 @@
+#include "haptic_server/session/shown_session.h"
+
+#include <utility>
+
+#include "analysis/surface/mesh_file.h"
+#include "analysis/surface/surface_mesh.h"
+#include "common/wire/ct_pieces.h"
+#include "haptic_server/session/tool_place.h"
+#include "imaging/case/structures.h"
+#include "simulation/loop/burr_hull.h"
+
+namespace osteomill {
+
+namespace {
+
+void save_surface(const std::filesystem::path& path, const Bone& bone) {
+    const SurfaceMesh mesh = surface_of(bone);
+    if (mesh.triangles.empty()) throw std::runtime_error("nothing is left of the bone");
+    write_mesh(path, mesh);
+}
+
+SessionKeeper::Save save_into(const std::optional<std::filesystem::path>& file, const BoneSource& source) {
+    if (!file) return {};
+    return [file = *file, &source](const Bone& now, const std::string& mesh_ending) -> std::string {
+        try {
+            if (mesh_ending.empty())
+                save_bone(file, source, now);
+            else
+                save_surface(std::filesystem::path(file).replace_extension(mesh_ending), now);
+        } catch (const std::exception& error) {
+            return error.what();
+        }
+        return {};
+    };
+}
+
+SessionInfo info_of(const ShownOptions& options, const SessionScene& scene, const Grid& grid,
+                    const DeviceParts& device) {
+    SessionInfo info = session_info(scene.scene, device.operator_channel != nullptr,
+                                    device.device->limits().max_force_n, options.version);
+    info.has_ct = has_ct(scene.source, grid);
+    info.accepts_controls = options.accepts_controls;
+    info.trainee = options.trainee;
+    info.case_name = options.case_name;
+    info.settings = options.settings;
+    return info;
+}
+
+}  // namespace
+
+ShownSession::ShownSession(ShownOptions options, SessionScene& scene, Bone mirror, MillingSession& session,
+                           const DeviceParts& device)
+    : keeper_(save_into(options.save_bone, scene.source)),
+      controls_(*session.gate(), *session.restored(), session.placements(),
+                requests(options, scene.scene, device)),
+      live_(session.tool(), session.changes(), &controls_, std::move(options.script)),
+      server_(options.streaming, info_of(options, scene, session.bone().grid(), device), std::move(mirror),
+              live_, device.operator_channel.get(),
+              not_told_by_bone(scene.structures, scene.scene, session.bone())) {
+    live_.listen_to(session.cuts());
+    if (has_ct(scene.source, session.bone().grid()))
+        live_.offer_ct([&source = scene.source] { return ct_of(source, most_ct_voxels); });
+    live_.watch(StructureWatch(std::move(scene.structures), scene.scene.tissues, scene.scene.burrs),
+                scene.scene.tissues);
+    server_.start();
+}
+
+void ShownSession::end() {
+    server_.end();
+    keeper_.wait();
+}
+
+SessionControls::Requests ShownSession::requests(const ShownOptions& options, const Scene& scene,
+                                                 const DeviceParts& device) {
+    SessionControls::Requests requests = keeper_.requests();
+    requests.finish_words = options.words_at_finish;
+    if (device.simulated == nullptr)
+        requests.place = [&burrs = scene.burrs](const Bone& bone, const ToolPose& place, std::size_t burr) {
+            return clear_place(bone, burr_hull(burrs[burr]), place);
+        };
+    requests.placed = [this](const ToolPose& pose) { placed_ = pose; };
+    return requests;
+}
+
+}  // namespace osteomill

@@ -1,0 +1,61 @@
+// What shows a session to clients and records it, and lets them control it.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+
+#include "haptic_server/session/device_entry.h"
+#include "haptic_server/session/session_keeper.h"
+#include "haptic_server/session/session_scene.h"
+#include "haptic_server/streaming/live_session.h"
+#include "haptic_server/streaming/streaming_server.h"
+#include "simulation/loop/milling_session.h"
+
+namespace osteomill {
+
+struct ShownOptions {
+    StreamingOptions streaming{};                      ///< whom, where, and what is recorded
+    ControlScript script{};                            ///< what is asked for at its time without anybody
+    std::optional<std::filesystem::path> save_bone{};  ///< where a client may have the bone saved
+    std::string words_at_finish{};                     ///< what is answered to who ends the session
+    bool accepts_controls = true;                      ///< of clients
+    // What clients and recordings are told of the session.
+    std::string version{};
+    std::string trainee{};
+    std::string case_name{};
+    std::map<std::string, std::string> settings{};
+};
+
+class ShownSession {
+  public:
+    /// Listens and begins to record. `scene`, whose structures it takes, `session` and `device` outlive it;
+    /// `mirror` equals the session's bone. Throws as StreamingServer does.
+    ShownSession(ShownOptions options, SessionScene& scene, Bone mirror, MillingSession& session,
+                 const DeviceParts& device);
+
+    StreamingServer& server() { return server_; }
+    bool has_been_asked_to_finish() const { return keeper_.has_been_asked_to_finish(); }
+
+    /// Begins to say goodbye, and waits for a bone that is being saved. Call once the session has ended.
+    void end();
+    // After end().
+    /// What came of protected structures.
+    const StructureWatch& structures() const { return live_.structures(); }
+    /// Where somebody has put the tool, if anybody has.
+    const std::optional<ToolPose>& placed() const { return placed_; }
+
+  private:
+    SessionControls::Requests requests(const ShownOptions& options, const Scene& scene,
+                                       const DeviceParts& device);
+
+    SessionKeeper keeper_;
+    std::optional<ToolPose> placed_;  // the streaming thread's until end()
+    SessionControls controls_;
+    LiveSession live_;
+    StreamingServer server_;
+};
+
+}  // namespace osteomill
