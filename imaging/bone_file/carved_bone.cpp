@@ -22,8 +22,8 @@ namespace osteomill {
 namespace {
 
 constexpr const char* bricks_key = "osteomill_carved_bricks";
-/// Of 0.1, which kept the bone in files of their own.
-constexpr const char* key_of_before = "osteomill_fraction_file";
+constexpr const char* key_of_0_1 = "osteomill_fraction_file";
+constexpr const char* bone_checksum_key = "osteomill_bone_checksum";
 constexpr const char* stiffness_per_code_key = "osteomill_stiffness_per_code";
 constexpr const char* homogeneous_stiffness_key = "osteomill_homogeneous_stiffness";
 constexpr const char* bone_grid_key = "osteomill_bone_grid";
@@ -37,16 +37,7 @@ std::string bone_checksum_text(const Bone& bone) {
     return fmt::format("{:016x}", checksum(bone));
 }
 
-void require_bone_checksum(const BoneFile& file, const Bone& bone) {
-    const std::string& expected = file.value(bone_checksum_key);
-    if (bone_checksum_text(bone) != expected)
-        throw ImagingError(file.path(),
-                           fmt::format("its fractions have checksum {}, not the {} that was saved: they are "
-                                       "of another carving",
-                                       bone_checksum_text(bone), expected));
-}
-
-/// A number above 0. Throws ImagingError, naming the key.
+/// A number above 0.
 double number_of_key(const BoneFile& file, const char* key) {
     const std::string& text = file.value(key);
     char* end = nullptr;
@@ -226,6 +217,14 @@ Grid bone_grid_of(const BoneFile& file) {
     return grid;
 }
 
+BoneBuilder builder_for(const BoneFile& file, const Grid& grid, const RecordLayout& layout) {
+    return layout.has_stiffness
+               ? BoneBuilder::heterogeneous(grid, number_of_key(file, stiffness_per_code_key),
+                                            layout.has_tissue)
+               : BoneBuilder::homogeneous(grid, number_of_key(file, homogeneous_stiffness_key),
+                                          layout.has_tissue);
+}
+
 }  // namespace
 
 void save_carved_bone(const std::filesystem::path& path, const HuSlices& source, const Bone& bone,
@@ -247,26 +246,14 @@ void save_carved_bone(const std::filesystem::path& path, const Bone& bone, KeyVa
 }
 
 bool is_carved(const BoneFile& file) {
-    return file.key_values().contains(bricks_key) || file.key_values().contains(key_of_before);
+    return file.key_values().contains(bricks_key) || file.key_values().contains(key_of_0_1);
 }
-
-namespace {
-
-BoneBuilder builder_for(const BoneFile& file, const Grid& grid, const RecordLayout& layout) {
-    return layout.has_stiffness
-               ? BoneBuilder::heterogeneous(grid, number_of_key(file, stiffness_per_code_key),
-                                            layout.has_tissue)
-               : BoneBuilder::homogeneous(grid, number_of_key(file, homogeneous_stiffness_key),
-                                          layout.has_tissue);
-}
-
-}  // namespace
 
 RestoredBone restore_carved_bone(const BoneFile& file) {
-    if (file.key_values().contains(key_of_before))
-        throw ImagingError(file.path(),
-                           "a carved bone that Osteomill 0.1 saved, which this version does not read: carve "
-                           "and save it anew from its scan");
+    if (file.key_values().contains(key_of_0_1))
+        throw ImagingError(
+            file.path(),
+            "was saved by version 0.1, in several files; load it with version 0.2 and save it again");
     const RecordLayout layout{.has_stiffness = file.key_values().contains(stiffness_digest_key),
                               .has_tissue = file.key_values().contains(tissue_digest_key)};
     const auto bricks =
@@ -301,7 +288,10 @@ RestoredBone restore_carved_bone(const BoneFile& file) {
     hu.read_to_end();
     try {
         Bone bone = std::move(builder).build();
-        require_bone_checksum(file, bone);
+        if (bone_checksum_text(bone) != file.value(bone_checksum_key))
+            throw ImagingError(file.path(),
+                               fmt::format("its bone has checksum {}, not the {} that was saved",
+                                           bone_checksum_text(bone), file.value(bone_checksum_key)));
         return {std::move(bone), hu.digest()};
     } catch (const std::invalid_argument& error) {
         throw ImagingError(file.path(), std::string("damaged: ") + error.what());

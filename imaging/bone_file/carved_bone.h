@@ -28,20 +28,13 @@
 
 namespace osteomill {
 
-inline constexpr const char* bone_checksum_key = "osteomill_bone_checksum";
-
-struct RestoredBone {
-    Bone bone;
-    std::string hu_digest;  ///< of the CT numbers beside it
-};
-
 /// HU of a voxel of which nothing is left.
 inline constexpr std::int16_t milled_away_hu = air_hu;
 
-/// Writes the file beside `path` and switches to it at once.
-/// `source` gives what `bone` was built from; `key_values` go with it (the threshold among them). Throws
-/// std::invalid_argument where the grids differ, ImagingError where the file cannot be written; what stood
-/// under the name is then as it was, as it is when `source` throws.
+/// Writes the file beside `path` and switches to it at once. `source` gives what `bone` was built from;
+/// `key_values` go with it (the threshold among them). Throws std::invalid_argument where the grids differ,
+/// ImagingError where the file cannot be written; what stood under the name is then as it was, as it is when
+/// `source` throws.
 void save_carved_bone(
     const std::filesystem::path& path, const HuSlices& source, const Bone& bone,
     const std::map<std::string, std::string>& key_values = {}, const ReportProgress& report = [](double) {});
@@ -52,13 +45,18 @@ void save_carved_bone(
     const std::filesystem::path& path, const Bone& bone, std::map<std::string, std::string> key_values = {},
     const ReportProgress& report = [](double) {});
 
-/// Whether a bone file was written by save_carved_bone, of this version or an earlier one.
+struct RestoredBone {
+    Bone bone;
+    std::string hu_digest;  ///< of the CT numbers beside it
+};
+
+/// Whether a bone file holds a carved bone.
 bool is_carved(const BoneFile& file);
 
 /// The bone that was saved: equal checksum, and equal stiffness and labels wherever anything is left. The
 /// scene's threshold and stiffness relation play no part: what was carved keeps the codes that it had. Reads
 /// all of the file, the HU, too. Throws ImagingError in one line that names the channel where a digest is not
-/// the one saved, and for a file of before 0.2, whose bone lay in other files beside it.
+/// the one saved, and for what 0.1 saved.
 RestoredBone restore_carved_bone(const BoneFile& file);
 
 }  // namespace osteomill
