@@ -23,7 +23,7 @@ for preset in "${presets[@]}"; do
     build "$preset"
     say "testing: $preset"
     if [ "$preset" = fuzz ]; then
-        tests/fuzz/run.sh 12  # seconds for each of the nine targets: a minute on two cores
+        tests/fuzz/run.sh 12  # seconds for each of the eleven targets: a minute on two cores
     else
         # Many tests wait more than they compute: twice as many as there are cores.
         ctest --preset "$preset" -j "$(($(nproc) * 2))"

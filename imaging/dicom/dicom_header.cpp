@@ -1,5 +1,6 @@
 #include "imaging/dicom/dicom_header.h"
 
+#include <fmt/format.h>
 #include <gdcmReader.h>
 
 #include <algorithm>
@@ -7,7 +8,6 @@
 #include <cmath>
 #include <cstdlib>
 #include <glm/geometric.hpp>
-#include <sstream>
 #include <stdexcept>
 
 #include "common/files/input_file.h"
@@ -169,14 +169,11 @@ DicomValues values_of(const DataSet& data, const DicomScan& scan, DicomHeader& h
 }
 
 /// Frames of a file without a group for each: one behind the other, as far apart as the file says.
-void stack_frames(const DataSet& data, std::size_t count, DicomHeader& header) {
+void stack_frames(const Places& places, std::size_t count, DicomHeader& header) {
     header.frames.assign(count, std::nullopt);
-    const Places places{.in = {&data}};
-    auto gap = numbers_of<1>(data, slice_spacing_tag);
-    const bool is_thickness = !gap || (*gap)[0] == 0.0;
-    if (is_thickness) gap = numbers_of<1>(data, slice_thickness_tag);
+    const bool is_thickness = header.slice_gap_mm == 0.0;
+    const double gap_mm = is_thickness ? header.slice_thickness_mm : header.slice_gap_mm;
     std::string missing;
-    const double gap_mm = gap ? std::abs((*gap)[0]) : 0.0;
     if (!(gap_mm > 0.0)) missing = "Spacing Between Slices (0018,0088) and no Slice Thickness (0018,0050)";
     std::optional<SlicePlacement> first;
     if (missing.empty()) first = placement_of(places, true, header, missing);
@@ -190,23 +187,31 @@ void stack_frames(const DataSet& data, std::size_t count, DicomHeader& header) {
         header.frames[frame] = first;
         header.frames[frame]->position_mm += static_cast<double>(frame) * gap_mm * normal;
     }
-    std::ostringstream words;
-    words << "is multi-frame and does not say where each frame lies; stacked " << gap_mm << " mm apart ("
-          << (is_thickness ? "Slice Thickness" : "Spacing Between Slices") << ")";
-    note(header, words.str());
+    note(header,
+         fmt::format("is multi-frame and does not say where each frame lies; stacked {:g} mm apart ({})",
+                     gap_mm, is_thickness ? "Slice Thickness" : "Spacing Between Slices"));
 }
 
 void place_frames(const DataSet& data, std::size_t count, DicomHeader& header) {
     const auto shared = sequence_of(data, shared_groups_tag);
     const auto per_frame = sequence_of(data, per_frame_groups_tag);
     const bool has_groups = per_frame && per_frame->GetNumberOfItems() == count;
-    if (count > 1 && !has_groups) stack_frames(data, count, header);
-    for (std::size_t frame = 0; frame < count; ++frame) {
+    const auto places_of = [&](std::size_t frame) {
         Places places;
         if (has_groups) places.in.push_back(&per_frame->GetItem(frame + 1).GetNestedDataSet());
         if (shared && shared->GetNumberOfItems() > 0)
             places.in.push_back(&shared->GetItem(1).GetNestedDataSet());
         places.in.push_back(&data);
+        return places;
+    };
+    const Places of_first = places_of(0);
+    if (const auto gap = of_first.find<1>(pixel_measures_tag, slice_spacing_tag))
+        header.slice_gap_mm = std::abs((*gap)[0]);
+    if (const auto thickness = of_first.find<1>(pixel_measures_tag, slice_thickness_tag))
+        header.slice_thickness_mm = std::abs((*thickness)[0]);
+    if (count > 1 && !has_groups) stack_frames(of_first, count, header);
+    for (std::size_t frame = 0; frame < count; ++frame) {
+        const Places places = places_of(frame);
         header.rescales.push_back(rescale_of(places, header));
         if (header.frames.size() == count) continue;
         std::string missing;
@@ -285,6 +290,7 @@ std::optional<DicomHeader> read_dicom_header(const std::filesystem::path& path) 
     if (!parsed) throw ImagingError(path, "is DICOM but cannot be parsed: cut off or damaged");
     const DataSet& data = reader.GetFile().GetDataSet();
     DicomHeader header;
+    header.scan = *scan;
     header.series_uid = text_of(data, series_uid_tag);
     header.series_description = text_of(data, series_description_tag);
     const gdcm::TransferSyntax syntax = reader.GetFile().GetHeader().GetDataSetTransferSyntax();
@@ -292,16 +298,15 @@ std::optional<DicomHeader> read_dicom_header(const std::filesystem::path& path) 
     header.rows = number_of(data, rows_tag, 0);
     header.columns = number_of(data, columns_tag, 0);
     header.samples_per_pixel = number_of(data, samples_tag, 1);
-    header.has_pixel_data = scan->has_pixel_data;
     header.is_uncompressed = !scan->is_encapsulated && !syntax.IsEncapsulated() &&
                              syntax != gdcm::TransferSyntax::DeflatedExplicitVRLittleEndian;
     const std::string frames = text_of(data, frames_tag);
     const long count = frames.empty() ? 1 : std::strtol(frames.c_str(), nullptr, 10);
     if (count < 1 || count > 65536)
         throw ImagingError(path, "Number of Frames (0028,0008) is '" + frames + "'");
-    header.modality = scan->modality;
     header.no_grey_image = why_no_grey_image(*scan);
     header.instance_uid = text_of(data, instance_uid_tag);
+    if (is_segmentation(*scan)) place_frames(data, static_cast<std::size_t>(count), header);
     if (!header.no_grey_image.empty()) return header;
     if (const std::string photometric = text_of(data, photometric_tag);
         header.samples_per_pixel == 1 && !photometric.empty() && !photometric.starts_with("MONOCHROME"))

@@ -6,12 +6,14 @@
 #include <string>
 #include <vector>
 
+#include "imaging/dicom/dicom_scan.h"
 #include "imaging/dicom/dicom_values.h"
 #include "imaging/dicom/slice_geometry.h"
 
 namespace osteomill {
 
 struct DicomHeader {
+    DicomScan scan{};
     std::string series_uid;
     std::string instance_uid;  ///< SOP Instance UID
     std::string series_description;
@@ -19,9 +21,7 @@ struct DicomHeader {
     int rows = 0;                 ///< 0: no image (a report, a DICOMDIR)
     int columns = 0;
     int samples_per_pixel = 1;
-    bool has_pixel_data = false;
     bool is_uncompressed = false;  ///< the pixels stand in the file as they are
-    std::string modality;          ///< CT, MR, ...; empty where the file does not say
     std::string no_grey_image;     ///< why it holds no CT numbers whatever its pixels, in words; or empty
     std::string
         not_of_the_scan;  ///< why it is left out where others are ("is a localizer"), in words; or empty
@@ -31,6 +31,8 @@ struct DicomHeader {
     std::optional<bool> sign_of_codestream{};
     /// Where each frame lies; std::nullopt of a frame that the header does not place, see `fault`.
     std::vector<std::optional<SlicePlacement>> frames;
+    double slice_gap_mm = 0.0;           ///< Spacing Between Slices; 0 where it does not say
+    double slice_thickness_mm = 0.0;     ///< likewise
     std::vector<DicomRescale> rescales;  ///< one a frame
     /// What had to be assumed of it, or makes its values doubtful, in words that follow its name.
     std::vector<std::string> notes;

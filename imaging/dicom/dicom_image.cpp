@@ -31,7 +31,7 @@ void note_doubts(const std::filesystem::path& folder, const DicomSeries& series,
     for (const DicomFile& file : series.files)
         notes.insert(file.header.notes.begin(), file.header.notes.end());
     for (const std::string& note : notes) image.notes.push_back(fmt::format("{}: {}", folder.string(), note));
-    const std::string& modality = series.files.front().header.modality;
+    const std::string& modality = series.files.front().header.scan.modality;
     if (!modality.empty() && modality != "CT")
         image.notes.push_back(
             fmt::format("{}: warning: its modality is {}, not CT; its values are taken for "

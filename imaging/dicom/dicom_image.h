@@ -1,7 +1,11 @@
 // A DICOM folder or file as an image.
 #pragma once
 
-#include "imaging/formats/image_reader.h"
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "imaging/formats/opened_image.h"
 
 namespace osteomill {
 

@@ -12,6 +12,8 @@ namespace osteomill {
 
 namespace {
 constexpr std::uint64_t most_frames = 65536;
+constexpr std::string_view segmentation_class = "1.2.840.10008.5.1.4.1.1.66.4";
+constexpr std::string_view label_map_class = "1.2.840.10008.5.1.4.1.1.66.7";
 }  // namespace
 
 void require_sound_pixels(const DicomScan& scan) {
@@ -62,15 +64,19 @@ void require_sound_pixels(const DicomScan& scan) {
                            scan.pixel_bytes, expected));
 }
 
+bool is_segmentation(const DicomScan& scan) {
+    return scan.sop_class == segmentation_class || scan.sop_class == label_map_class;
+}
+
 std::string why_no_grey_image(const DicomScan& scan) {
     struct Kind {
         std::string_view sop_class;  ///< or the beginning of several, then with a dot at its end
         const char* name;
     };
     constexpr std::array kinds{
-        Kind{"1.2.840.10008.5.1.4.1.1.66.4", "a segmentation (SEG)"},
+        Kind{segmentation_class, "a segmentation (SEG)"},
         Kind{"1.2.840.10008.5.1.4.1.1.66.5", "a segmentation of surfaces (SEG)"},
-        Kind{"1.2.840.10008.5.1.4.1.1.66.7", "a segmentation (label map)"},
+        Kind{label_map_class, "a segmentation (label map)"},
         Kind{"1.2.840.10008.5.1.4.1.1.66", "raw data or a registration"},
         Kind{"1.2.840.10008.5.1.4.1.1.66.", "raw data or a registration"},
         Kind{"1.2.840.10008.5.1.4.1.1.30", "a parametric map"},

@@ -13,6 +13,9 @@ namespace osteomill {
 /// without an image.
 void require_sound_pixels(const DicomScan& scan);
 
+/// Whether an object is labels that are read: a segmentation (SEG), or one as a label map.
+bool is_segmentation(const DicomScan& scan);
+
 /// Why an object holds no CT numbers though it may have pixels ("is a segmentation (SEG)"); empty where it
 /// may hold some.
 std::string why_no_grey_image(const DicomScan& scan);

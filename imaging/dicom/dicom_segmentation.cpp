@@ -3,14 +3,19 @@
 #include <fmt/format.h>
 #include <gdcmReader.h>
 
+#include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <map>
 #include <memory>
+#include <optional>
+#include <span>
 
 #include "common/files/input_file.h"
 #include "imaging/dicom/data_set.h"
-#include "imaging/dicom/dicom_scan.h"
+#include "imaging/dicom/dicom_frames.h"
+#include "imaging/dicom/dicom_header.h"
+#include "imaging/dicom/dicom_pixels.h"
 #include "imaging/dicom/quiet_libraries.h"
 #include "imaging/formats/plausible_geometry.h"
 #include "imaging/imaging_error.h"
@@ -31,23 +36,13 @@ constexpr double slice_tolerance = 0.02;
 /// One layer of labels, x fastest; a segment of frames that overlap others lies in another.
 using Layer = std::vector<std::uint16_t>;
 
-struct SegmentFrame {
-    int segment = 0;  ///< 0: of a label map, whose pixels are segments
-    glm::dvec3 position_mm{0.0};
-};
-
 /// The segments' frames, and what they hold.
 class SegmentationSource {
   public:
     explicit SegmentationSource(const std::filesystem::path& path) : path_(path) {
-        const InputFile file(path);
-        if (file.size() > most_segmentation_bytes)
+        if (InputFile(path).size() > most_segmentation_bytes)
             throw ImagingError(path, "is a segmentation of more than 1 GiB");
-        try {
-            scan_ = scan_dicom(file.first_bytes(file.size()), file.size());
-        } catch (const std::invalid_argument& error) {
-            throw ImagingError(path, error.what());
-        }
+        std::optional<DicomHeader> header = read_dicom_header(path);
         const QuietLibraries quiet;
         reader_.SetFileName(path.c_str());
         bool is_read = false;
@@ -56,9 +51,11 @@ class SegmentationSource {
         } catch (const std::exception&) {
             is_read = false;
         }
-        if (!is_read || !scan_) throw ImagingError(path, "is DICOM but cannot be parsed: cut off or damaged");
-        read_sizes();
-        read_frames();
+        if (!is_read || !header)
+            throw ImagingError(path, "is DICOM but cannot be parsed: cut off or damaged");
+        header_ = std::move(*header);
+        find_pixels();
+        find_segments();
     }
 
     OpenedImage open() {
@@ -89,75 +86,63 @@ class SegmentationSource {
     [[noreturn]] void refuse(const std::string& reason) const { throw ImagingError(path_, reason); }
     const DataSet& data() const { return reader_.GetFile().GetDataSet(); }
 
-    void read_sizes() {
-        rows_ = scan_->rows.value_or(0);
-        columns_ = scan_->columns.value_or(0);
-        bits_ = scan_->bits_allocated.value_or(0);
-        const long frames = std::strtol(scan_->frames.c_str(), nullptr, 10);
-        if (scan_->is_encapsulated)
+    void find_pixels() {
+        const int bits = header_.scan.bits_allocated.value_or(0);
+        if (bits != 1 && bits != 8 && bits != 16)
+            refuse(fmt::format("is a segmentation of {} bits (0028,0100); 1, 8 and 16 are read", bits));
+        if (header_.rows < 2 || header_.columns < 2)
+            refuse(fmt::format("is a segmentation of {} x {} pixels", header_.columns, header_.rows));
+        is_fractional_ = text_of(data(), Tag(0x0062, 0x0001)) == "FRACTIONAL";
+        half_of_most_ = static_cast<float>(number_of(data(), Tag(0x0062, 0x000e), 255)) / 2.0F;
+        if (bits != 1) {
+            try {
+                require_sound_pixels(header_.scan);
+            } catch (const std::invalid_argument& error) {
+                refuse(error.what());
+            }
+            wider_.emplace(DicomFile{path_, header_});
+            return;
+        }
+        if (header_.scan.is_encapsulated)
             refuse(
-                "is a segmentation with compressed pixels; save it uncompressed, or as .seg.nrrd from 3D "
-                "Slicer");
-        if (bits_ != 1 && bits_ != 8 && bits_ != 16)
-            refuse(fmt::format("is a segmentation of {} bits (0028,0100); 1, 8 and 16 are read", bits_));
-        if (rows_ < 2 || columns_ < 2 || frames < 1 || frames > 65536)
-            refuse(fmt::format("is a segmentation of {} frames of {} x {} pixels", frames, columns_, rows_));
-        frames_.resize(static_cast<std::size_t>(frames));
-        const std::uint64_t pixels = std::uint64_t{frames_.size()} * pixels_of_frame();
-        const std::uint64_t expected =
-            bits_ == 1 ? (pixels + 7) / 8 : pixels * static_cast<std::uint64_t>(bits_ / 8);
+                "is a segmentation with compressed pixels of one bit; save it uncompressed, or as .seg.nrrd "
+                "from "
+                "3D Slicer");
+        const std::uint64_t expected = (std::uint64_t{header_.frames.size()} * pixels_of_frame() + 7) / 8;
         const gdcm::ByteValue* bytes = data().FindDataElement(Tag(0x7fe0, 0x0010))
                                            ? data().GetDataElement(Tag(0x7fe0, 0x0010)).GetByteValue()
                                            : nullptr;
-        if (bytes == nullptr || bytes->GetLength() < expected)
-            refuse(fmt::format("is cut off: {} of {} bytes of pixel data are there",
-                               bytes == nullptr ? 0 : static_cast<std::uint64_t>(bytes->GetLength()),
-                               expected));
-        pixels_ = reinterpret_cast<const std::uint8_t*>(bytes->GetPointer());
-        is_fractional_ = text_of(data(), Tag(0x0062, 0x0001)) == "FRACTIONAL";
-        half_of_most_ = number_of(data(), Tag(0x0062, 0x000e), 255) / 2.0;
+        const std::uint64_t there = bytes == nullptr ? 0 : static_cast<std::uint64_t>(bytes->GetLength());
+        if (there < expected)
+            refuse(fmt::format("is cut off: {} of {} bytes of pixel data are there", there, expected));
+        bits_ = reinterpret_cast<const std::uint8_t*>(bytes->GetPointer());
     }
 
-    void read_frames() {
-        const auto shared = sequence_of(data(), Tag(0x5200, 0x9229));
+    void find_segments() {
         const auto per_frame = sequence_of(data(), Tag(0x5200, 0x9230));
-        if (!per_frame || per_frame->GetNumberOfItems() != frames_.size())
+        if (!per_frame || per_frame->GetNumberOfItems() != header_.frames.size())
             refuse("is a segmentation that does not say where each frame lies (5200,9230)");
-        for (std::size_t i = 0; i < frames_.size(); ++i) {
-            Places places{.in = {&per_frame->GetItem(i + 1).GetNestedDataSet()}};
-            const auto segments = sequence_of(*places.in[0], Tag(0x0062, 0x000a));
-            if (shared && shared->GetNumberOfItems() > 0)
-                places.in.push_back(&shared->GetItem(1).GetNestedDataSet());
-            const auto position = places.find<3>(Tag(0x0020, 0x9113), Tag(0x0020, 0x0032));
-            const auto orientation = places.find<6>(Tag(0x0020, 0x9116), Tag(0x0020, 0x0037));
-            const auto spacing = places.find<2>(Tag(0x0028, 0x9110), Tag(0x0028, 0x0030));
-            if (!position || !orientation || !spacing)
-                refuse(fmt::format("is a segmentation whose frame {} does not say how it lies in the patient",
-                                   i + 1));
-            frames_[i].position_mm = {(*position)[0], (*position)[1], (*position)[2]};
-            along_row_ = {(*orientation)[0], (*orientation)[1], (*orientation)[2]};
-            along_column_ = {(*orientation)[3], (*orientation)[4], (*orientation)[5]};
-            pitch_mm_ = {(*spacing)[1], (*spacing)[0]};
-            if (const auto gap = places.find<1>(Tag(0x0028, 0x9110), Tag(0x0018, 0x0088)))
-                stated_gap_mm_ = std::abs((*gap)[0]);
-            if (const auto thick = places.find<1>(Tag(0x0028, 0x9110), Tag(0x0018, 0x0050)))
-                thickness_mm_ = std::abs((*thick)[0]);
-            if (segments && segments->GetNumberOfItems() > 0)
-                frames_[i].segment =
-                    number_of(segments->GetItem(1).GetNestedDataSet(), Tag(0x0062, 0x000b), 0);
+        if (!header_.fault.empty()) refuse(header_.fault);
+        for (std::size_t i = 1; i <= header_.frames.size(); ++i) {
+            const auto segments = sequence_of(per_frame->GetItem(i).GetNestedDataSet(), Tag(0x0062, 0x000a));
+            segment_of_frame_.push_back(
+                segments && segments->GetNumberOfItems() > 0
+                    ? number_of(segments->GetItem(1).GetNestedDataSet(), Tag(0x0062, 0x000b), 0)
+                    : 0);
         }
     }
 
     /// The lattice of all frames; slices between them are empty.
     SourceImage placed_image() {
-        const glm::dvec3 normal = glm::normalize(glm::cross(along_row_, along_column_));
+        const SlicePlacement& any = *header_.frames.front();
+        const glm::dvec3 normal = glm::normalize(glm::cross(any.along_row, any.along_column));
         if (!std::isfinite(normal.x)) refuse("is a segmentation whose rows and columns have no directions");
-        for (const SegmentFrame& frame : frames_)
-            if (!is_plausible_position(frame.position_mm))
-                refuse(implausible_position("the position of a frame"));
         std::map<long, std::size_t> heights;  // of distinct slices, in micrometres
-        for (std::size_t i = 0; i < frames_.size(); ++i)
-            heights.emplace(std::lround(1000.0 * glm::dot(frames_[i].position_mm, normal)), i);
+        for (std::size_t i = 0; i < header_.frames.size(); ++i) {
+            const glm::dvec3& position_mm = header_.frames[i]->position_mm;
+            if (!is_plausible_position(position_mm)) refuse(implausible_position("the position of a frame"));
+            heights.emplace(std::lround(1000.0 * glm::dot(position_mm, normal)), i);
+        }
         double gap_mm = 0.0;
         for (auto next = heights.begin(); next != heights.end(); ++next)
             if (next != heights.begin()) {
@@ -165,8 +150,10 @@ class SegmentationSource {
                 if (gap_mm == 0.0 || step_mm < gap_mm) gap_mm = step_mm;
             }
         // Where few slices are there, what the file says is nearer the truth.
-        if (stated_gap_mm_ > 0.0 && (gap_mm == 0.0 || stated_gap_mm_ < gap_mm)) gap_mm = stated_gap_mm_;
-        if (gap_mm == 0.0) gap_mm = thickness_mm_;
+        if (const double stated_mm = header_.slice_gap_mm;
+            stated_mm > 0.0 && (gap_mm == 0.0 || stated_mm < gap_mm))
+            gap_mm = stated_mm;
+        if (gap_mm == 0.0) gap_mm = header_.slice_thickness_mm;
         if (!is_plausible_spacing(gap_mm))
             refuse(implausible_spacing("Spacing Between Slices (0018,0088)", gap_mm));
         const double low_mm = 1e-3 * static_cast<double>(heights.begin()->first);
@@ -176,15 +163,15 @@ class SegmentationSource {
         const double slices = std::round((high_mm - low_mm) / gap_mm) + 1 + more;
         if (slices > static_cast<double>(most_voxels_of_an_axis))
             refuse("is a segmentation of more than 65535 slices");
-        SourceImage image{.size_voxels = {columns_, rows_, static_cast<int>(slices)},
-                          .spacing_mm = {pitch_mm_.x, pitch_mm_.y, gap_mm},
-                          .origin_mm = frames_[heights.begin()->second].position_mm};
-        image.direction = glm::dmat3(glm::normalize(along_row_), glm::normalize(along_column_), normal);
+        SourceImage image{.size_voxels = {header_.columns, header_.rows, static_cast<int>(slices)},
+                          .spacing_mm = {any.column_pitch_mm, any.row_pitch_mm, gap_mm},
+                          .origin_mm = header_.frames[heights.begin()->second]->position_mm};
+        image.direction = glm::dmat3(glm::normalize(any.along_row), glm::normalize(any.along_column), normal);
         settle_geometry(image, path_);
         if (voxel_count(image) > most_segmentation_voxels)
             refuse("has more than 2^31 labels; crop it in 3D Slicer");
-        for (const SegmentFrame& frame : frames_) {
-            const double slice = (glm::dot(frame.position_mm, normal) - low_mm) / gap_mm;
+        for (const auto& frame : header_.frames) {
+            const double slice = (glm::dot(frame->position_mm, normal) - low_mm) / gap_mm;
             if (std::abs(slice - std::round(slice)) > std::max(slice_tolerance, 1e-3 / gap_mm))
                 refuse("is a segmentation whose frames lie at no common spacing");
             slice_of_frame_.push_back(static_cast<std::size_t>(std::lround(slice)));
@@ -192,21 +179,30 @@ class SegmentationSource {
         return image;
     }
 
-    std::uint16_t pixel(std::size_t frame, std::size_t i) const {
-        const std::size_t at = frame * pixels_of_frame() + i;
-        if (bits_ == 1) return (pixels_[at / 8] >> (at % 8)) & 1U;
-        const std::uint16_t value =
-            bits_ == 8 ? pixels_[at]
-                       : static_cast<std::uint16_t>(pixels_[2 * at] | pixels_[2 * at + 1] << 8U);
-        if (frames_[frame].segment == 0) return value;
-        return is_fractional_ ? value >= half_of_most_ : value != 0;
+    /// Of a frame, one behind the other; 0 where its segment is not.
+    Layer labels_of(std::size_t frame) {
+        const int segment = segment_of_frame_[frame];
+        const auto label = static_cast<std::uint16_t>(std::max(segment, 1));
+        Layer labels(pixels_of_frame());
+        if (bits_ != nullptr) {
+            for (std::size_t i = 0, at = frame * labels.size(); i < labels.size(); ++i, ++at)
+                labels[i] = (bits_[at / 8] >> (at % 8) & 1U) != 0 ? label : std::uint16_t{0};
+            return labels;
+        }
+        std::ranges::transform(wider_->frame(static_cast<unsigned>(frame)), labels.begin(), [&](float value) {
+            if (!(value > 0.0F)) return std::uint16_t{0};  // or not a number: padding
+            if (segment == 0) return static_cast<std::uint16_t>(std::min(value, 65535.0F));
+            return is_fractional_ && value < half_of_most_ ? std::uint16_t{0} : label;
+        });
+        return labels;
     }
 
     /// Each segment in the first layer where nothing else is.
     std::vector<Layer> filled(const SourceImage& image) {
         std::vector<Layer> layers;
         std::map<int, std::vector<std::size_t>> frames_of_segment;
-        for (std::size_t i = 0; i < frames_.size(); ++i) frames_of_segment[frames_[i].segment].push_back(i);
+        for (std::size_t i = 0; i < segment_of_frame_.size(); ++i)
+            frames_of_segment[segment_of_frame_[i]].push_back(i);
         for (const auto& [segment, frames] : frames_of_segment) {
             std::size_t layer = 0;
             while (layer < layers.size() && overlaps(layers[layer], frames)) ++layer;
@@ -217,20 +213,26 @@ class SegmentationSource {
                 layers.emplace_back(voxel_count(image));
             }
             layer_of_segment_[segment] = layer;
-            for (const std::size_t frame : frames)
-                for (std::size_t i = 0; i < pixels_of_frame(); ++i)
-                    if (const std::uint16_t value = pixel(frame, i); value != 0)
-                        layers[layer][slice_of_frame_[frame] * pixels_of_frame() + i] =
-                            segment == 0 ? value : static_cast<std::uint16_t>(segment);
+            for (const std::size_t frame : frames) {
+                const auto slice = slice_in(layers[layer], frame);
+                std::ranges::transform(
+                    labels_of(frame), slice, slice.begin(),
+                    [](std::uint16_t label, std::uint16_t before) { return label != 0 ? label : before; });
+            }
         }
         return layers;
     }
-    bool overlaps(const Layer& layer, const std::vector<std::size_t>& frames) const {
-        for (const std::size_t frame : frames)
-            for (std::size_t i = 0; i < pixels_of_frame(); ++i)
-                if (layer[slice_of_frame_[frame] * pixels_of_frame() + i] != 0 && pixel(frame, i) != 0)
-                    return true;
-        return false;
+    std::span<std::uint16_t> slice_in(Layer& layer, std::size_t frame) const {
+        return std::span(layer).subspan(slice_of_frame_[frame] * pixels_of_frame(), pixels_of_frame());
+    }
+    bool overlaps(Layer& layer, const std::vector<std::size_t>& frames) {
+        return std::ranges::any_of(frames, [&](std::size_t frame) {
+            const Layer labels = labels_of(frame);
+            const auto slice = slice_in(layer, frame);
+            for (std::size_t i = 0; i < labels.size(); ++i)
+                if (labels[i] != 0 && slice[i] != 0) return true;
+            return false;
+        });
     }
 
     void name_segments(OpenedImage& opened) const {
@@ -253,24 +255,17 @@ class SegmentationSource {
     }
 
     std::size_t pixels_of_frame() const {
-        return static_cast<std::size_t>(rows_) * static_cast<std::size_t>(columns_);
+        return static_cast<std::size_t>(header_.rows) * static_cast<std::size_t>(header_.columns);
     }
 
     std::filesystem::path path_;
-    std::optional<DicomScan> scan_;
+    DicomHeader header_;
     gdcm::Reader reader_;
-    int rows_ = 0;
-    int columns_ = 0;
-    int bits_ = 0;
+    const std::uint8_t* bits_ = nullptr;  // of all frames, where a pixel is one
+    std::optional<DicomFrames> wider_{};  // where it is more
     bool is_fractional_ = false;
-    double half_of_most_ = 0.0;
-    const std::uint8_t* pixels_ = nullptr;
-    glm::dvec3 along_row_{0.0};
-    glm::dvec3 along_column_{0.0};
-    glm::dvec2 pitch_mm_{0.0};
-    double stated_gap_mm_ = 0.0;
-    double thickness_mm_ = 0.0;
-    std::vector<SegmentFrame> frames_;
+    float half_of_most_ = 0.0F;
+    std::vector<int> segment_of_frame_;  // 0: of a label map, whose pixels are segments
     std::vector<std::size_t> slice_of_frame_;
     std::map<int, std::size_t> layer_of_segment_;
 };
@@ -278,14 +273,10 @@ class SegmentationSource {
 }  // namespace
 
 bool is_dicom_segmentation(const std::filesystem::path& path) {
-    const InputFile file(path);
-    if (!may_be_dicom(file.first_bytes(dicom_mark_bytes)) || file.size() > most_segmentation_bytes)
-        return false;
     try {
-        const std::optional<DicomScan> scan = scan_dicom(file.first_bytes(file.size()), file.size());
-        return scan && (scan->sop_class == "1.2.840.10008.5.1.4.1.1.66.4" ||
-                        scan->sop_class == "1.2.840.10008.5.1.4.1.1.66.7");
-    } catch (const std::invalid_argument&) {
+        const std::optional<DicomHeader> header = read_dicom_header(path);
+        return header && is_segmentation(header->scan);
+    } catch (const std::runtime_error&) {
         return false;
     }
 }

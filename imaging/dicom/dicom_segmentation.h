@@ -3,16 +3,16 @@
 
 #include <filesystem>
 
-#include "imaging/formats/image_reader.h"
+#include "imaging/formats/opened_image.h"
 
 namespace osteomill {
 
-/// Whether the file is one: Segmentation Storage or Label Map Segmentation Storage.
+/// Whether the file is one, and can be parsed.
 bool is_dicom_segmentation(const std::filesystem::path& path);
 
-/// Binary, fractional (from half of the most on) and label map; frames in any order, those of empty slices
-/// left out as writers do. Throws ImagingError for a file that is cut off, compressed pixels, frames without
-/// position or segment, and slices that do not lie on one lattice.
+/// Binary, fractional (from half of the most on) and label map, of 1, 8 or 16 bits, the latter compressed or
+/// not; frames in any order, those of empty slices left out as writers do. Throws ImagingError for a file
+/// that is cut off, frames without position or segment, and slices that do not lie on one lattice.
 OpenedImage open_dicom_segmentation(const std::filesystem::path& path);
 
 }  // namespace osteomill

@@ -31,7 +31,7 @@ void add(DicomSeries& series, DicomFile file) {
 
 void require_usable(const DicomFile& file) {
     const DicomHeader& header = file.header;
-    if (!header.has_pixel_data) throw ImagingError(file.path, "has no pixel data");
+    if (!header.scan.has_pixel_data) throw ImagingError(file.path, "has no pixel data");
     if (header.samples_per_pixel != 1)
         throw ImagingError(
             file.path, fmt::format("has {} samples a pixel (colour); CT has one", header.samples_per_pixel));
@@ -126,7 +126,9 @@ std::vector<DicomSeries> find_series(const std::filesystem::path& folder,
     }
     std::vector<DicomSeries> found;
     for (auto& [uid, series] : by_uid) found.push_back(std::move(series));
-    const auto is_ct = [](const DicomSeries& series) { return series.files.front().header.modality == "CT"; };
+    const auto is_ct = [](const DicomSeries& series) {
+        return series.files.front().header.scan.modality == "CT";
+    };
     std::stable_sort(found.begin(), found.end(), [&](const DicomSeries& a, const DicomSeries& b) {
         return std::pair(is_ct(a), a.slices) > std::pair(is_ct(b), b.slices);
     });

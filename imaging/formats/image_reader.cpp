@@ -158,14 +158,6 @@ OpenedImage open_any(const std::filesystem::path& path, const ImageChoice& choic
 
 }  // namespace
 
-std::vector<float> OpenedImage::read_values(const ReportProgress& report) const {
-    std::vector<float> values;
-    values.reserve(voxel_count(image) * static_cast<std::size_t>(layers));
-    read_slices([&](int, std::span<float> slice) { values.insert(values.end(), slice.begin(), slice.end()); },
-                report);
-    return values;
-}
-
 bool is_image_name(const std::filesystem::path& path) {
     const std::string name = path.filename().string();
     return std::ranges::any_of(image_formats, [&](const ImageFormat& one) {

@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "imaging/formats/image_reader.h"
+#include "imaging/formats/opened_image.h"
 
 namespace osteomill {
 

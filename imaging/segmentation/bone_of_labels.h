@@ -7,7 +7,7 @@
 #include <memory>
 #include <vector>
 
-#include "imaging/formats/image_reader.h"
+#include "imaging/formats/opened_image.h"
 #include "imaging/segmentation/segmentation.h"
 
 namespace osteomill {

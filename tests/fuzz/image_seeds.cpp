@@ -1,5 +1,6 @@
 #include "tests/fuzz/image_seeds.h"
 
+#include <cmath>
 #include <limits>
 
 #include "tests/support/raw_dicom.h"
@@ -111,9 +112,25 @@ void write_dicom(const std::filesystem::path& folder) {
     write_bytes(folder / "bare", dicom_element(0x0008, 0x0060, "CS", "CT") + dicom_number(0x0028, 0x0010, 3));
 }
 
+/// See dicom_segmentation.cpp for what each byte says.
+void write_segmentations(const std::filesystem::path& folder) {
+    // Two frames of 4 x 3 pixels, of segments 1 and 2, at z = 0 and 1 mm, half a millimetre a pixel.
+    const auto seed = [](char bits, const std::string& pixels) {
+        const auto mm = [](double value) { return static_cast<char>(std::lround(value / 0.25) + 128); };
+        const std::string frames{mm(1), mm(2), mm(0), 1, 0, mm(1), mm(2), mm(1), 2, 0};
+        return std::string{1, bits, 3, 4, 2, 1, 7} + frames + std::string{2, 1, 1, 2, 1, 0, 0, char(255)} +
+               std::string{mm(1), mm(1), mm(0.5), mm(0.5)} + pixels;
+    };
+    write_bytes(folder / "of_bits", seed(0, "\x31\x02\x07"));
+    write_bytes(folder / "of_bytes", seed(1, std::string(24, '\1')));
+    write_bytes(folder / "of_words", seed(2, std::string(48, '\1')));
+    write_bytes(folder / "without_pixels", seed(1, ""));
+}
+
 }  // namespace
 
 void write_image_seeds(const std::filesystem::path& folder) {
+    write_segmentations(folder / "dicom_segmentation");
     write_nrrd(folder / "nrrd_header");
     write_meta_image(folder / "meta_image_header");
     write_nifti(folder / "nifti_header");

@@ -2,6 +2,7 @@
 # Fuzzes with what the preset `fuzz` built, as many targets at once as there are cores.
 #   tests/fuzz/run.sh SECONDS [TARGET...]     all of them, or some: frame_decoder server_session client_session recording scene
 #                                             haply_state nrrd_header meta_image_header nifti_header dicom_header
+#                                             dicom_segmentation
 # SECONDS are for each target. What is found lies in build/fuzz/findings; give it to build/fuzz/bin/fuzz_TARGET to see it
 # again, and put it into tests/fuzz/seeds/TARGET once it is fixed.
 set -euo pipefail
@@ -11,7 +12,7 @@ seconds=${1:?"usage: tests/fuzz/run.sh SECONDS [TARGET...]"}
 shift
 targets=("$@")
 [ ${#targets[@]} -gt 0 ] || targets=(client_session recording server_session scene frame_decoder haply_state
-    dicom_header nrrd_header meta_image_header nifti_header)
+    dicom_header nrrd_header meta_image_header nifti_header dicom_segmentation)
 mkdir -p build/fuzz/findings
 
 # Memory: a gigabyte, where the largest input makes tens of megabytes. One allocation may be as large as the largest bone

@@ -64,7 +64,8 @@ INSTANTIATE_TEST_SUITE_P(
                       Target{"client_session", client_session}, Target{"recording", recording},
                       Target{"scene", scene, {OSTEOMILL_SCENES}}, Target{"haply_state", haply_state},
                       Target{"nrrd_header", nrrd_header}, Target{"meta_image_header", meta_image_header},
-                      Target{"nifti_header", nifti_header}, Target{"dicom_header", dicom_header}),
+                      Target{"nifti_header", nifti_header}, Target{"dicom_header", dicom_header},
+                      Target{"dicom_segmentation", dicom_segmentation}),
     [](const auto& instance) { return instance.param.name; });
 
 }  // namespace

@@ -54,4 +54,9 @@ void meta_image_header(Bytes input);
 void nifti_header(Bytes input);
 void dicom_header(Bytes input);
 
+/// What a segmentation says that is well-formed DICOM, against the reader of DICOM SEG and GDCM with it.
+/// Finding: any exception but a complaint of one line; a geometry, layers, slices or labels beyond the
+/// limits.
+void dicom_segmentation(Bytes input);
+
 }  // namespace osteomill::fuzz

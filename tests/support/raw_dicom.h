@@ -123,6 +123,53 @@ inline RawSlice multi_frame(const std::vector<int>& z_mm) {
     return file;
 }
 
+/// Of a frame of a segmentation, 4 x 3 pixels: the segment, where it lies, and the twelve pixels as bits.
+struct SegFrame {
+    int segment;
+    int z_mm;
+    unsigned bits;
+};
+
+/// A segmentation; `bits_of_pixel` is 1 or 8.
+inline std::string raw_seg(const std::vector<SegFrame>& frames, const std::vector<std::string>& names,
+                           std::uint32_t bits_of_pixel = 1) {
+    const auto group = [](std::uint32_t element, const std::string& content) {
+        return dicom_element(element >> 16U, element & 0xffffU, "SQ", dicom_item(content));
+    };
+    std::string per_frame, segments, pixels;
+    for (const SegFrame& frame : frames) {
+        per_frame += dicom_item(
+            group(0x00209113, dicom_element(0x0020, 0x0032, "DS", "10\\20\\" + std::to_string(frame.z_mm))) +
+            group(0x0062000a, dicom_number(0x0062, 0x000b, static_cast<std::uint32_t>(frame.segment))));
+        for (unsigned i = 0; i < 12; ++i) pixels += static_cast<char>(frame.bits >> i & 1U);
+    }
+    std::uint32_t number = 0;
+    for (const std::string& name : names)
+        segments +=
+            dicom_item(dicom_number(0x0062, 0x0004, ++number) + dicom_element(0x0062, 0x0005, "LO", name));
+    RawSlice file;
+    file.sop_class = "1.2.840.10008.5.1.4.1.1.66.4";
+    file.modality = "SEG";
+    file.bits = bits_of_pixel;
+    file.pixel_representation = 0;
+    file.frames = std::to_string(frames.size());
+    file.after_image =
+        dicom_element(0x0062, 0x0001, "CS", "BINARY") + dicom_element(0x0062, 0x0002, "SQ", segments) +
+        dicom_element(
+            0x5200, 0x9229, "SQ",
+            dicom_item(group(0x00289110, dicom_element(0x0028, 0x0030, "DS", "0.5\\0.5")) +
+                       group(0x00209116, dicom_element(0x0020, 0x0037, "DS", "1\\0\\0\\0\\1\\0")))) +
+        dicom_element(0x5200, 0x9230, "SQ", per_frame);
+    file.pixels = pixels;
+    if (bits_of_pixel == 1) {
+        file.pixels = std::string((pixels.size() + 7) / 8, '\0');
+        for (std::size_t i = 0; i < pixels.size(); ++i)
+            file.pixels[i / 8] = static_cast<char>(file.pixels[i / 8] | pixels[i] << (i % 8));
+    }
+    if (file.pixels.size() % 2 != 0) file.pixels += '\0';
+    return raw_dicom(file);
+}
+
 /// The start of a JPEG 2000 codestream that says this of its image: SOC and SIZ.
 inline std::string jpeg2000_start(std::uint32_t columns, std::uint32_t rows, bool is_signed) {
     const auto big = [](std::uint32_t value, int bytes) {

@@ -97,12 +97,15 @@ void write_series(const std::filesystem::path& folder, const std::vector<Synthet
         write_slice(folder / fmt::format("{:02}.dcm", i), slices[i]);
 }
 
-void compress_as_jpeg2000(const std::filesystem::path& from, const std::filesystem::path& to) {
+namespace {
+
+void compress(const std::filesystem::path& from, const std::filesystem::path& to,
+              const gdcm::TransferSyntax& syntax) {
     gdcm::ImageReader reader;
     reader.SetFileName(from.c_str());
     if (!reader.Read()) throw std::runtime_error("cannot read " + from.string());
     gdcm::ImageChangeTransferSyntax change;
-    change.SetTransferSyntax(gdcm::TransferSyntax::JPEG2000Lossless);
+    change.SetTransferSyntax(syntax);
     change.SetInput(reader.GetImage());
     if (!change.Change()) throw std::runtime_error("cannot compress " + from.string());
     // Not ImageWriter, which would state other positions of frames.
@@ -110,9 +113,19 @@ void compress_as_jpeg2000(const std::filesystem::path& from, const std::filesyst
     writer.SetFile(reader.GetFile());
     writer.GetFile().GetDataSet().Replace(
         static_cast<const gdcm::Bitmap&>(change.GetOutput()).GetDataElement());
-    writer.GetFile().GetHeader().SetDataSetTransferSyntax(gdcm::TransferSyntax::JPEG2000Lossless);
+    writer.GetFile().GetHeader().SetDataSetTransferSyntax(syntax);
     writer.SetFileName(to.c_str());
     if (!writer.Write()) throw std::runtime_error("cannot write " + to.string());
+}
+
+}  // namespace
+
+void compress_as_jpeg2000(const std::filesystem::path& from, const std::filesystem::path& to) {
+    compress(from, to, gdcm::TransferSyntax::JPEG2000Lossless);
+}
+
+void compress_as_rle(const std::filesystem::path& from, const std::filesystem::path& to) {
+    compress(from, to, gdcm::TransferSyntax::RLELossless);
 }
 
 }  // namespace osteomill::testing

@@ -6,10 +6,12 @@
 #include <cmath>
 #include <functional>
 
+#include "imaging/formats/image_reader.h"
 #include "imaging/imaging_error.h"
 #include "imaging/segmentation/segmentation.h"
 #include "tests/support/raw_dicom.h"
 #include "tests/support/raw_images.h"
+#include "tests/support/synthetic_dicom.h"
 #include "tests/support/temporary_folder.h"
 
 namespace osteomill::dicom_image_test {
@@ -202,50 +204,6 @@ TEST_F(DicomImage, LeavesOutBitsThatHoldNoPixel) {
     EXPECT_EQ(values()[13], 101.0F);
 }
 
-/// Frames of 4 x 3 pixels of one bit: of each the segment, the slice, and the twelve bits.
-struct SegFrame {
-    int segment;
-    int z_mm;
-    unsigned bits;
-};
-
-std::string raw_seg(const std::vector<SegFrame>& frames, const std::vector<std::string>& names) {
-    const auto group = [](std::uint32_t element, const std::string& content) {
-        return dicom_element(element >> 16U, element & 0xffffU, "SQ", dicom_item(content));
-    };
-    std::string per_frame;
-    std::string segments;
-    std::string bits;
-    for (const SegFrame& frame : frames) {
-        per_frame += dicom_item(
-            group(0x00209113, dicom_element(0x0020, 0x0032, "DS", "10\\20\\" + std::to_string(frame.z_mm))) +
-            group(0x0062000a, dicom_number(0x0062, 0x000b, static_cast<std::uint32_t>(frame.segment))));
-        for (unsigned i = 0; i < 12; ++i) bits += (frame.bits >> i & 1U) != 0 ? '1' : '0';
-    }
-    std::uint32_t number = 0;
-    for (const std::string& name : names)
-        segments +=
-            dicom_item(dicom_number(0x0062, 0x0004, ++number) + dicom_element(0x0062, 0x0005, "LO", name));
-    RawSlice file;
-    file.sop_class = "1.2.840.10008.5.1.4.1.1.66.4";
-    file.modality = "SEG";
-    file.bits = 1;
-    file.pixel_representation = 0;
-    file.frames = std::to_string(frames.size());
-    file.after_image =
-        dicom_element(0x0062, 0x0001, "CS", "BINARY") + dicom_element(0x0062, 0x0002, "SQ", segments) +
-        dicom_element(
-            0x5200, 0x9229, "SQ",
-            dicom_item(group(0x00289110, dicom_element(0x0028, 0x0030, "DS", "0.5\\0.5")) +
-                       group(0x00209116, dicom_element(0x0020, 0x0037, "DS", "1\\0\\0\\0\\1\\0")))) +
-        dicom_element(0x5200, 0x9230, "SQ", per_frame);
-    file.pixels = std::string((bits.size() + 7) / 8, '\0');
-    for (std::size_t i = 0; i < bits.size(); ++i)
-        if (bits[i] == '1') file.pixels[i / 8] = static_cast<char>(file.pixels[i / 8] | 1 << (i % 8));
-    if (file.pixels.size() % 2 != 0) file.pixels += '\0';
-    return raw_dicom(file);
-}
-
 TEST_F(DicomImage, OfLabelsMayBeASegmentation) {
     write_bytes(folder_ / "seg.dcm",
                 raw_seg({{1, 4, 0b11}, {1, 2, 0b1}, {2, 8, 0b100}, {3, 2, 0b11}}, {"bone", "nerve", "dura"}));
@@ -264,6 +222,21 @@ TEST_F(DicomImage, OfLabelsMayBeASegmentation) {
     EXPECT_EQ(read.labels.layers(), 2);
     EXPECT_THAT(refusal(folder_ / "seg.dcm"),
                 HasSubstr("is a segmentation (SEG), which holds no CT numbers"));
+}
+
+TEST_F(DicomImage, OfLabelsMayBeCompressed) {
+    write_bytes(folder_ / "plain.dcm",
+                raw_seg({{1, 0, 0b11}, {1, 2, 0b1}, {2, 2, 0b10}}, {"bone", "nerve"}, 8));
+    compress_as_rle(folder_ / "plain.dcm", folder_ / "rle.dcm");
+    for (const char* name : {"plain.dcm", "rle.dcm"}) {
+        const Segmentation read = read_segmentation(folder_ / name);
+        ASSERT_EQ(read.segments.size(), 2U) << name;
+        EXPECT_EQ(read.labels.layers(), 1) << name;
+        EXPECT_EQ(read.labels.at(0, {0, 0, 0}), 1) << name;
+        EXPECT_EQ(read.labels.at(0, {2, 0, 0}), 0) << name;
+        EXPECT_EQ(read.labels.at(0, {0, 0, 1}), 1) << name;
+        EXPECT_EQ(read.labels.at(0, {1, 0, 1}), 2) << name;
+    }
 }
 
 TEST_F(DicomImage, OfLabelsIsRefusedInOneLineWhereItCannotBe) {
