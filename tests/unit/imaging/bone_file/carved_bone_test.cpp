@@ -206,6 +206,29 @@ TEST_P(CarvedBone, IsRefusedOrTheSameWithAnyBitFlipped) {
     EXPECT_LT(harmless, 150) << "comments, names of digests, gzip's time stamp";
 }
 
+TEST(CarvedBoneOf01, IsRefusedByThatName) {
+    const testing::TemporaryFolder folder;
+    const HuVolume volume = ball(false);
+    NrrdForm form{.voxel = NrrdVoxel::int16,
+                  .grid = volume.grid,
+                  .key_values = {{"osteomill_fraction_file", "carved.fraction.nrrd"}}};
+    NrrdWriter writer(folder / "carved.nrrd", form);
+    writer.add(std::as_bytes(std::span(volume.hu)));
+    writer.commit(form.key_values);
+    const BoneFile file(folder / "carved.nrrd");
+    EXPECT_TRUE(is_carved(file));
+    EXPECT_THROW(
+        {
+            try {
+                restore_carved_bone(file);
+            } catch (const ImagingError& error) {
+                EXPECT_THAT(error.what(), ::testing::HasSubstr("was saved by version 0.1"));
+                throw;
+            }
+        },
+        ImagingError);
+}
+
 INSTANTIATE_TEST_SUITE_P(UnlabelledAndLabelled, CarvedBone, ::testing::Bool());
 
 TEST(CarvedBoneOf0_1, IsRefusedInOneLineThatSaysSo) {
