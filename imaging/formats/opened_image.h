@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "haptic_server/imaging/formats/source_image.h"
-#include "haptic_server/imaging/progress.h"
+#include "imaging/formats/source_image.h"
+#include "imaging/progress.h"
 
 namespace osteomill {
 

@@ -1,7 +1,7 @@
 // Segmentations that are well-formed DICOM and say what no segmentation should: sizes, frames, places,
 // segments and pixels are the input's. What is damaged as DICOM the target dicom_header looks after, and GDCM
 // is never given it.
-#include "haptic_server/imaging/dicom/dicom_segmentation.h"
+#include "imaging/dicom/dicom_segmentation.h"
 
 #include <sys/mman.h>
 #include <unistd.h>
@@ -10,7 +10,7 @@
 #include <array>
 #include <cmath>
 
-#include "haptic_server/imaging/formats/plausible_geometry.h"
+#include "imaging/formats/plausible_geometry.h"
 #include "tests/fuzz/targets.h"
 #include "tests/support/raw_dicom.h"
 
