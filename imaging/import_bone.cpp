@@ -159,7 +159,8 @@ ImagingError no_bone(const ImportOptions& options, int highest_hu) {
 /// The region's part in HU; of the rest of the scan no more than a slice is looked at. Whether all of the
 /// scan was measured; what was not is not a number.
 bool read_part(const ImportOptions& options, const OpenedImage& opened, const ImageBox& needed,
-               std::span<float> values, const ScratchValues& part, const ImportSurroundings& surroundings) {
+               std::span<float> values, const std::function<void()>& pause,
+               const ImportSurroundings& surroundings) {
     std::size_t not_measured = 0;
     HuHistogram histogram;
     {
@@ -169,7 +170,7 @@ bool read_part(const ImportOptions& options, const OpenedImage& opened, const Im
                 not_measured += make_hu(options, slice);
                 histogram.add(slice);
                 put_slice(opened.image, needed, k, slice, values);
-                part.let_go();
+                pause();
             },
             progress.reporter());
     }
@@ -181,7 +182,7 @@ bool read_part(const ImportOptions& options, const OpenedImage& opened, const Im
         for (std::size_t k = 0; k < slices; ++k) {
             std::ranges::replace(values.subspan(k * (values.size() / slices), values.size() / slices), *fill,
                                  std::numeric_limits<float>::quiet_NaN());
-            part.let_go();
+            pause();
         }
     }
     // What a window makes is not to look like HU of a scan.
@@ -217,7 +218,7 @@ class SliceRing {
 /// slices at a time, on all cores.
 /// Returns how many voxels are bone; 0 without a threshold.
 std::uint64_t write_refined(const ImportOptions& options, const Refiner& refiner, const FieldOfView* field,
-                            const ScratchValues& scratch, const Grid& grid, BoneFileWriter& writer,
+                            const std::function<void()>& pause, const Grid& grid, BoneFileWriter& writer,
                             const ReportProgress& report) {
     const int slices = grid.size_voxels.z;
     const int at_once = slices_at_once(grid);
@@ -243,7 +244,7 @@ std::uint64_t write_refined(const ImportOptions& options, const Refiner& refiner
             note_highest(hu);
             if (near) near->look_at(refined + i, hu);
         });
-        scratch.let_go();
+        pause();
         refined += now;
         // The last ones wait for what comes above them.
         const int ready = (refined == slices ? slices : refined - reach) - written;
@@ -284,25 +285,28 @@ void import_bone(const ImportOptions& options, const OpenedImage& opened,
         std::map<std::string, std::string> key_values;
         if (options.threshold_hu) key_values[threshold_key] = threshold_text(*options.threshold_hu);
         const ScratchValues scratch(scratch_floats(work), most_scan_bytes, scratch_folder(options));
-        const auto let_go = [&] { scratch.let_go(); };
+        const auto pause = [&] {
+            surroundings.go_on();
+            scratch.let_go();
+        };
         const std::span<float> values = scratch.values().first(voxel_count(work.needed));
-        const bool is_whole = read_part(options, opened, work.needed, values, scratch, surroundings);
+        const bool is_whole = read_part(options, opened, work.needed, values, pause, surroundings);
         const SourceImage part = part_of(opened.image, work.needed);
         const std::span<float> room = scratch.values().subspan(values.size());
         std::optional<FieldOfView> field;
         if (!is_whole)
-            field.emplace(part, values, std::as_writable_bytes(room.first(floats_of_field(work))), let_go);
+            field.emplace(part, values, std::as_writable_bytes(room.first(floats_of_field(work))), pause);
         if (field && field->voxels_outside() > 0)
             surroundings.messages << fmt::format("{}: {} voxels were not measured (padding); taken as air\n",
                                                  options.input.string(), field->voxels_outside());
         std::optional<SliceShapes> shapes;
         if (work.axis_of_shapes)
             shapes.emplace(part, values, *work.axis_of_shapes, *options.threshold_hu, options.spacing_mm,
-                           room.subspan(floats_of_field(work)), let_go);
+                           room.subspan(floats_of_field(work)), pause);
         ProgressLine progress(surroundings.messages, surroundings.is_terminal, "refining");
-        const Refiner refiner(part, values, work.grid, shapes ? &*shapes : nullptr, let_go);
+        const Refiner refiner(part, values, work.grid, shapes ? &*shapes : nullptr, pause);
         BoneFileWriter writer(options.output, work.grid, std::move(key_values));
-        const std::uint64_t bone_voxels = write_refined(options, refiner, field ? &*field : nullptr, scratch,
+        const std::uint64_t bone_voxels = write_refined(options, refiner, field ? &*field : nullptr, pause,
                                                         work.grid, writer, progress.reporter());
         say_if_all_is_bone(options, work.grid, bone_voxels, surroundings.messages);
         writer.commit();

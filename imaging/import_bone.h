@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <iosfwd>
 #include <optional>
 #include <string>
@@ -36,11 +37,14 @@ struct ImportSurroundings {
     bool is_terminal = false;
     std::optional<std::uint64_t>
         available_memory_bytes{};  ///< std::nullopt: not known, nothing is refused for it
+    /// Called again and again, from any thread, while the import works; what it throws ends it.
+    std::function<void()> go_on = [] {};
 };
 
 /// Reads the scan, cuts the region, refines it, writes the bone file. Throws ImagingError in one line: for
 /// what image_reader.h refuses, a region outside the image, more memory than there is, a
-/// threshold that no voxel reaches, an output that cannot be written.
+/// threshold that no voxel reaches, an output that cannot be written. Then, and where it is made to end,
+/// nothing is written.
 void import_bone(const ImportOptions& options, const ImportSurroundings& surroundings);
 
 /// The same of an image that is open already; `options.input` is for messages.

@@ -11,8 +11,6 @@
 #include <stdexcept>
 #include <string>
 
-#include "common/files/whole_file.h"
-
 namespace osteomill {
 
 namespace {
@@ -24,7 +22,8 @@ constexpr std::size_t bytes_at_once = 1u << 20;
 /// Gathers bytes and writes them a good deal at a time.
 class Output {
   public:
-    explicit Output(const std::filesystem::path& path) : file_(path), out_(file_.part(), std::ios::binary) {
+    Output(const std::filesystem::path& path, Link link)
+        : file_(path, link), out_(file_.part(), std::ios::binary) {
         if (!out_) fail();
     }
     template <typename Value>
@@ -132,12 +131,12 @@ bool is_mesh_ending(const std::string& ending) {
     return name.extension() == ending && is_mesh_name(name);
 }
 
-void write_mesh(const std::filesystem::path& path, const SurfaceMesh& mesh) {
+void write_mesh(const std::filesystem::path& path, const SurfaceMesh& mesh, Link link) {
     const Write write = writer_for(path);
     if (write == nullptr)
         throw std::invalid_argument(
             fmt::format("{}: a surface's name ends in {}", path.string(), mesh_endings));
-    Output out(path);
+    Output out(path, link);
     write(out, mesh);
     out.commit();
 }

@@ -13,6 +13,7 @@
 #include <string_view>
 
 #include "analysis/surface/surface_mesh.h"
+#include "common/files/whole_file.h"
 
 namespace osteomill {
 
@@ -27,6 +28,6 @@ inline constexpr std::string_view mesh_endings = ".stl, .ply or .obj";
 
 /// Replaces the file as a whole. Throws std::runtime_error with one line that names it where it cannot be
 /// written, std::invalid_argument for another ending.
-void write_mesh(const std::filesystem::path& path, const SurfaceMesh& mesh);
+void write_mesh(const std::filesystem::path& path, const SurfaceMesh& mesh, Link link = Link::follow);
 
 }  // namespace osteomill

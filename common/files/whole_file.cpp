@@ -2,6 +2,8 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/file.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -17,6 +19,9 @@ namespace osteomill {
 namespace {
 
 namespace fs = std::filesystem;
+
+constexpr std::string_view before_random = ".part-";
+constexpr std::size_t random_digits = 8;
 
 [[noreturn]] void fail(const fs::path& path, int reason) {
     throw std::runtime_error(path.string() + ": cannot be written: " + std::strerror(reason));
@@ -80,19 +85,24 @@ WholeFile::WholeFile(const fs::path& path, Link link)
     : path_(path), target_(write_target(path, link)), part_(target_.path), owns_part_(!target_.is_direct) {
     if (target_.is_direct) return;
     std::random_device random;
-    int made = -1;
-    do {
-        part_.replace_filename(fmt::format("{}.part-{:08x}{}", target_.path.stem().string(), random(),
-                                           target_.path.extension().string()));
-        made = open_new(part_);
-    } while (made < 0 && errno == EEXIST);
-    if (made < 0) fail(path_, errno);
-    ::close(made);
+    for (bool is_made = false; !is_made;) {
+        part_.replace_filename(fmt::format("{}{}{:08x}{}", target_.path.stem().string(), before_random,
+                                           random(), target_.path.extension().string()));
+        lock_ = open_new(part_);
+        if (lock_ < 0 && errno == EEXIST) continue;
+        if (lock_ < 0) fail(path_, errno);
+        // One that looks for abandoned parts may have come by before it was locked.
+        struct stat facts {};
+        is_made = (::flock(lock_, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK) &&
+                  ::fstat(lock_, &facts) == 0 && facts.st_nlink > 0;
+        if (!is_made) ::close(lock_);
+    }
 }
 
 WholeFile::~WholeFile() {
     std::error_code ignored;
     if (owns_part_) fs::remove(part_, ignored);
+    if (lock_ >= 0) ::close(lock_);
 }
 
 void WholeFile::commit() {
@@ -108,6 +118,23 @@ void WholeFile::commit_unsynced() {
     fs::rename(part_, target_.path, failed);
     if (failed) fail(path_, failed.value());
     owns_part_ = false;
+}
+
+void remove_abandoned_parts(const fs::path& path, Link link) {
+    const fs::path target = write_target(path, link).path;
+    const std::string begin = target.stem().string().append(before_random);
+    const std::string end = target.extension().string();
+    std::error_code ignored;
+    for (const auto& entry : fs::directory_iterator(folder_of(target), ignored)) {
+        const std::string name = entry.path().filename().string();
+        if (name.size() != begin.size() + random_digits + end.size() || !name.starts_with(begin) ||
+            !name.ends_with(end) ||
+            name.find_first_not_of("0123456789abcdef", begin.size()) < begin.size() + random_digits)
+            continue;
+        const Descriptor part(entry.path(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK);
+        if (part.is_open() && ::flock(part.number(), LOCK_EX | LOCK_NB) == 0)
+            fs::remove(entry.path(), ignored);
+    }
 }
 
 void write_whole_file(const fs::path& path, std::string_view text, Link link) {

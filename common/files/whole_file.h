@@ -3,7 +3,8 @@
 // The content is written to a part beside it of a name that nobody knows before (NAME.part-1f2e3d4c.EXT, the
 // extension kept since some libraries choose the format by it), synced to the disk, and renamed over the old
 // file once. A full disk, an error or a kill leaves the old file untouched. The part is made anew and never
-// through a link, so that nothing that lies in the folder already is written to.
+// through a link, so that nothing that lies in the folder already is written to. While it is written it is
+// locked (flock), which tells it from one that a killed program has left.
 #pragma once
 
 #include <filesystem>
@@ -56,7 +57,12 @@ class WholeFile {
     WriteTarget target_;
     std::filesystem::path part_;
     bool owns_part_;
+    int lock_ = -1;  // a descriptor of the part, where this has made it
 };
+
+/// Removes parts of this file that programs have left which were killed: of the name above, and locked by
+/// nobody. What cannot be removed stays.
+void remove_abandoned_parts(const std::filesystem::path& path, Link link = Link::follow);
 
 /// Replaces the file by `text` as a whole. Throws std::runtime_error as WholeFile does.
 void write_whole_file(const std::filesystem::path& path, std::string_view text, Link link = Link::follow);

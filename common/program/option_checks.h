@@ -14,15 +14,38 @@
 
 namespace osteomill {
 
+/// Behind an argument "[a,b]", which is a name, while CLI11 takes it apart: it would make two of it where an
+/// option may be given several. No argument holds this letter.
+inline constexpr char whole_mark = '\1';
+
+/// Lets every option, of subcommands, too, take the mark off what it is given.
+inline void take_marks_off(CLI::App& app) {
+    for (CLI::Option* option : app.get_options())
+        option->transform([](std::string text) {
+            if (text.ends_with(whole_mark)) text.pop_back();
+            return text;
+        });
+    for (CLI::App* subcommand : app.get_subcommands([](CLI::App*) { return true; }))
+        take_marks_off(*subcommand);
+}
+
 /// As CLI11's own, but for arguments that are no plain text (plain_text.h), which are refused: they name
-/// files and people, and such names go into logs, reports and recordings. Throws CLI::ParseError.
+/// files and people, and such names go into logs, reports and recordings; and but for "[a,b]", which is a
+/// name. Throws CLI::ParseError.
 inline void parse_arguments(CLI::App& app, int argc, const char* const* argv) {
-    for (int i = 1; i < argc; ++i)
+    std::vector<std::string> arguments;
+    for (int i = argc - 1; i > 0; --i) {  // as CLI11 wants them, the last first
         if (const auto why = why_not_plain(argv[i]))
             throw CLI::ValidationError(
                 fmt::format("argument {}, '{}', {}; names are UTF-8 without control characters", i,
                             one_line(argv[i]), *why));
-    app.parse(argc, argv);
+        arguments.emplace_back(argv[i]);
+        const std::string& text = arguments.back();
+        if (text.ends_with(']') && (text.starts_with('[') || text.find("=[") != std::string::npos))
+            arguments.back() += whole_mark;
+    }
+    take_marks_off(app);
+    app.parse(std::move(arguments));
 }
 
 /// An option that takes one text each time it is given, as it stands: "[a,b]", "{}" and "-x" are names, where

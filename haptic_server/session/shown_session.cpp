@@ -4,6 +4,7 @@
 
 #include "analysis/surface/mesh_file.h"
 #include "analysis/surface/surface_mesh.h"
+#include "common/files/whole_file.h"
 #include "common/wire/ct_pieces.h"
 #include "haptic_server/session/tool_place.h"
 #include "imaging/case/structures.h"
@@ -13,10 +14,11 @@ namespace osteomill {
 
 namespace {
 
+/// Under a name that nobody gave: a link of that name is replaced.
 void save_surface(const std::filesystem::path& path, const Bone& bone) {
     const SurfaceMesh mesh = surface_of(bone);
     if (mesh.triangles.empty()) throw std::runtime_error("nothing is left of the bone");
-    write_mesh(path, mesh);
+    write_mesh(path, mesh, Link::replace);
 }
 
 SessionKeeper::Save save_into(const std::optional<std::filesystem::path>& file, const BoneSource& source) {

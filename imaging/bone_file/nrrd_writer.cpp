@@ -64,6 +64,7 @@ std::string header_of(const NrrdForm& form) {
 WholeFile begun(const std::filesystem::path& path, const NrrdForm& form) try {
     require_valid(form.grid);
     if (path.extension() != ".nrrd") throw ImagingError(path, "the name of a bone file ends in .nrrd");
+    remove_abandoned_parts(path);
     return WholeFile(path);
 } catch (const ImagingError&) {
     throw;

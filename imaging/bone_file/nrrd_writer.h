@@ -17,8 +17,9 @@ namespace osteomill {
 
 class NrrdWriter {
   public:
-    /// Writes the header beside the target. Throws std::invalid_argument for a bad grid, ImagingError for a
-    /// name that does not end in .nrrd and where nothing can be written.
+    /// Writes the header beside the target, and removes what one that was killed has left there. Throws
+    /// std::invalid_argument for a bad grid, ImagingError for a name that does not end in .nrrd and where
+    /// nothing can be written.
     NrrdWriter(const std::filesystem::path& path, const NrrdForm& form);
     ~NrrdWriter();  ///< what was not committed is gone
     NrrdWriter(const NrrdWriter&) = delete;

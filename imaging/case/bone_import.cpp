@@ -1,5 +1,6 @@
 // bone_import: a scan in, a bone file out.
 #include <CLI/CLI.hpp>
+#include <atomic>
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
@@ -31,6 +32,11 @@ namespace {
 
 constexpr int exit_failure = 1;
 constexpr int exit_usage = 2;
+
+/// Thrown once a signal asks for the end.
+struct Stopped : std::runtime_error {
+    Stopped() : std::runtime_error("stopped; nothing was written") {}
+};
 
 /// Option texts that have a form of their own; std::invalid_argument says what is wrong with one.
 struct Texts {
@@ -236,7 +242,7 @@ void parse_texts(const CLI::App& app, Texts& texts, osteomill::ImportOptions& op
 }  // namespace
 
 int main(int argc, char** argv) {
-    osteomill::ignore_signals_of_streams();
+    const std::atomic<bool>& is_stopped = osteomill::stop_on_signals();
     CLI::App app("Makes a bone file of a CT scan: isotropic, in patient LPS, in HU.", "bone_import");
     app.set_version_flag("--version", OSTEOMILL_VERSION);
     osteomill::ImportOptions options;
@@ -264,16 +270,26 @@ int main(int argc, char** argv) {
             const osteomill::ImportSurroundings surroundings{
                 .messages = messages,
                 .is_terminal = output.err->is_terminal(),
-                .available_memory_bytes = osteomill::available_memory_bytes(meminfo)};
+                .available_memory_bytes = osteomill::available_memory_bytes(meminfo),
+                .go_on = [&] {
+                    if (is_stopped) throw Stopped();
+                }};
             const bool makes_case = !texts.case_folder.empty();
             // All that can be refused is refused before an hour of work.
             const osteomill::BegunCase begun = osteomill::read_case_parts(texts.parts);
-            if (makes_case) osteomill::begin_case(texts.case_folder);
+            std::optional<osteomill::UnfinishedCase> unfinished;
+            if (makes_case) {
+                unfinished.emplace(texts.case_folder);
+                osteomill::begin_case(texts.case_folder);
+            }
             if (texts.preview.empty())
                 import(options, begun, surroundings, false);
             else
                 preview(options, begun, texts.preview, surroundings);
-            if (makes_case) osteomill::finish_case(texts.case_folder, begun, messages);
+            if (makes_case) {
+                osteomill::finish_case(texts.case_folder, begun, messages, surroundings.go_on);
+                unfinished->finish();
+            }
         } catch (const std::exception& error) {
             messages << "bone_import: " << osteomill::printable(error.what()) << '\n';
             exit_code = exit_failure;

@@ -47,6 +47,10 @@ constexpr const char* preface =
     "each\n"
     "# session says that it is unsigned.\n\n";
 
+std::vector<std::filesystem::path> files_of_case(const std::filesystem::path& folder) {
+    return {folder / scene_name, bone_of_case(folder), folder / segmentation_name};
+}
+
 /// Of a folder the label maps in it, by name.
 std::vector<std::filesystem::path> label_maps(const std::vector<std::filesystem::path>& paths) {
     std::vector<std::filesystem::path> maps;
@@ -121,13 +125,15 @@ struct CaseStructure {
 };
 
 /// Those in the bone's box.
-std::vector<CaseStructure> structures_of(const BegunCase& begun, const Grid& grid, std::ostream& messages) {
+std::vector<CaseStructure> structures_of(const BegunCase& begun, const Grid& grid, std::ostream& messages,
+                                         const std::function<void()>& go_on) {
     std::vector<CaseStructure> structures;
     for (std::size_t i = 0; i < begun.segmentations.size(); ++i) {
         const Segmentation& segmentation = *begun.segmentations[i];
         if (segmentation.segments.empty())
             messages << fmt::format("{}: no voxel has a label; left out\n", segmentation.path.string());
         for (const Segment& segment : segmentation.segments) {
+            go_on();
             StructureMask mask = structure_of(segmentation, segment, grid);
             if (mask.empty()) {
                 messages << fmt::format("{}: segment \"{}\" lies outside the bone; left out\n",
@@ -225,13 +231,27 @@ void begin_case(const std::filesystem::path& folder) {
     if (std::filesystem::exists(folder / scene_name, failed))
         throw std::runtime_error(fmt::format(
             "{}: holds a case already; give another --case, or take it away first", folder.string()));
-    for (const auto& file : {folder / scene_name, bone_of_case(folder), folder / segmentation_name})
+    for (const auto& file : files_of_case(folder))
         if (std::filesystem::is_symlink(file, failed))
             throw std::runtime_error(fmt::format(
                 "{}: is a link, which a new case would write through; take it away", file.string()));
     std::filesystem::create_directories(folder, failed);
     if (!std::filesystem::is_directory(folder))
         throw std::runtime_error(fmt::format("{}: cannot be made a folder", folder.string()));
+}
+
+UnfinishedCase::UnfinishedCase(const std::filesystem::path& folder) {
+    made_ = files_of_case(folder);
+    made_.push_back(folder);
+    std::error_code failed;
+    std::erase_if(made_, [&](const auto& path) {
+        return std::filesystem::exists(std::filesystem::symlink_status(path, failed));
+    });
+}
+
+UnfinishedCase::~UnfinishedCase() {
+    std::error_code ignored;  // a folder that holds something else stays
+    for (const auto& path : made_) std::filesystem::remove(path, ignored);
 }
 
 OpenedImage scan_of_labels(const BegunCase& begun, std::ostream& messages, bool is_to_look_at) {
@@ -254,12 +274,13 @@ std::filesystem::path bone_of_case(const std::filesystem::path& folder) {
     return folder / "bone.nrrd";
 }
 
-void finish_case(const std::filesystem::path& folder, const BegunCase& begun, std::ostream& messages) {
+void finish_case(const std::filesystem::path& folder, const BegunCase& begun, std::ostream& messages,
+                 const std::function<void()>& go_on) {
     Scene scene = scene_of_bone_file(bone_of_case(folder));
     scene.name = name_of_case(folder);
     std::filesystem::path segmentation;
     if (!begun.segmentations.empty()) {
-        auto structures = structures_of(begun, BoneFile(bone_of_case(folder)).grid(), messages);
+        auto structures = structures_of(begun, BoneFile(bone_of_case(folder)).grid(), messages, go_on);
         scene.tissues = tissues_of(structures, begun.parts);
         std::vector<NamedStructure> named;
         for (CaseStructure& one : structures) named.push_back(std::move(one.structure));

@@ -52,6 +52,21 @@ BegunCase read_case_parts(CaseParts parts);
 /// Makes the folder. Throws std::runtime_error where it holds a case already or cannot be made.
 void begin_case(const std::filesystem::path& folder);
 
+/// Of a case that is being made: removes again what was not there before, unless it is finished.
+class UnfinishedCase {
+  public:
+    /// To be made before begin_case.
+    explicit UnfinishedCase(const std::filesystem::path& folder);
+    ~UnfinishedCase();
+    UnfinishedCase(const UnfinishedCase&) = delete;
+    UnfinishedCase& operator=(const UnfinishedCase&) = delete;
+
+    void finish() { made_.clear(); }
+
+  private:
+    std::vector<std::filesystem::path> made_{};  // the folder last
+};
+
 /// Of a case without a scan: the CT numbers of its bone (bone_of_labels.h). Says which segments are bone. To
 /// look at, all are where none is.
 OpenedImage scan_of_labels(const BegunCase& begun, std::ostream& messages, bool is_to_look_at = false);
@@ -62,7 +77,9 @@ std::filesystem::path bone_of_case(const std::filesystem::path& folder);
 /// Completes a case whose bone is there: makes a tissue of each segment that lies in the bone's box, writes
 /// them on the bone's grid as the case's segmentation, chooses where the tool starts, and writes case.toml,
 /// last. Segments outside are told of in `messages`. Throws std::runtime_error in one line, also where a
-/// tissue that is protected or the target lies outside.
-void finish_case(const std::filesystem::path& folder, const BegunCase& begun, std::ostream& messages);
+/// tissue that is protected or the target lies outside. `go_on`: see ImportSurroundings.
+void finish_case(
+    const std::filesystem::path& folder, const BegunCase& begun, std::ostream& messages,
+    const std::function<void()>& go_on = [] {});
 
 }  // namespace osteomill

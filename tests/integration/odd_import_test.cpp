@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include <cmath>
+#include <csignal>
 #include <fstream>
 #include <iterator>
 
@@ -167,6 +168,27 @@ TEST_F(OddImport, WarnsOfAModalityThatIsNotCt) {
     }
     import(folder_ / "series");
     EXPECT_THAT(said_.err, HasSubstr("its modality is MR, not CT"));
+}
+
+/// An import of minutes that is stopped as soon as it works: what it says, and what is left.
+TEST(StoppedImport, LeavesNothingAndSaysSo) {
+    const TemporaryFolder folder;
+    write_series(folder / "series", synthetic_series(5));
+    write_bytes(folder / "bone.part-0123abcd.nrrd", "of one that was killed");
+    for (const std::vector<std::string>& options :
+         {std::vector<std::string>{(folder / "bone.nrrd").string()},
+          std::vector<std::string>{"--case", (folder / "case").string()}}) {
+        std::vector<std::string> command{BONE_IMPORT, (folder / "series").string(), "--spacing-mm", "0.012"};
+        command.insert(command.end(), options.begin(), options.end());
+        ChildProcess import(command);
+        for (int i = 0; i < 3000 && import.err().find("refining") == std::string::npos; ++i)
+            import.read_output();
+        import.send_signal(SIGINT);
+        EXPECT_EQ(import.wait(std::chrono::seconds(100)), 1) << import.err();
+        EXPECT_THAT(import.err(), ::testing::EndsWith("bone_import: stopped; nothing was written\n"));
+        EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path()), {}), 1)
+            << "the series, and not the part of another time";
+    }
 }
 
 TEST_F(OddImport, FollowsTheSignOfAJpeg2000Codestream) {

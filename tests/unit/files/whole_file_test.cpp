@@ -118,6 +118,19 @@ TEST(WholeFile, HasAPartOfANameThatNobodyKnowsBefore) {
     EXPECT_EQ(one.part().parent_path(), folder.path());
 }
 
+TEST(WholeFile, LosesThePartsOfProgramsThatWereKilledAndNoOthers) {
+    const TemporaryFolder folder;
+    const WholeFile being_written(folder / "bone.nrrd");
+    for (const char* name : {"bone.part-0123abcd.nrrd", "bone.part-kept.nrrd", "other.part-0123abcd.nrrd",
+                             "bone.part-0123abcd.json", "bone.nrrd"})
+        write(folder / name, "x");
+    fs::create_symlink("bone.nrrd", folder / "bone.part-00000000.nrrd");
+    remove_abandoned_parts(folder / "bone.nrrd");
+    EXPECT_FALSE(fs::exists(folder / "bone.part-0123abcd.nrrd"));
+    EXPECT_TRUE(fs::exists(being_written.part())) << "another is at it";
+    EXPECT_EQ(files_in(folder), 6) << "nothing else goes";
+}
+
 TEST(WholeFile, WritesToADeviceWithoutReplacingIt) {
     write_whole_file("/dev/null", "text");
     EXPECT_TRUE(fs::is_character_file("/dev/null"));

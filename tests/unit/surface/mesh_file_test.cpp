@@ -97,6 +97,15 @@ TEST(MeshFile, ObjReadsBackAsTheSamePointsAndTriangles) {
     EXPECT_EQ(triangles, mesh.triangles);
 }
 
+TEST(MeshFile, ReplacesALinkOfANameThatNobodyGave) {
+    const testing::TemporaryFolder folder;
+    write_whole_file(folder / "elsewhere", "old");
+    std::filesystem::create_symlink("elsewhere", folder / "a.stl");
+    write_mesh(folder / "a.stl", tetrahedron(), Link::replace);
+    EXPECT_FALSE(std::filesystem::is_symlink(folder / "a.stl"));
+    EXPECT_EQ(std::filesystem::file_size(folder / "elsewhere"), 3U);
+}
+
 TEST(MeshFile, LeavesTheOldFileWhereItCannotBeWritten) {
     const testing::TemporaryFolder folder;
     EXPECT_THROW(write_mesh(folder / "a.xyz", tetrahedron()), std::invalid_argument);

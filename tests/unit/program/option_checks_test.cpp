@@ -1,0 +1,39 @@
+#include "common/program/option_checks.h"
+
+#include <gmock/gmock.h>
+
+#include <filesystem>
+
+namespace osteomill {
+namespace {
+
+using ::testing::ElementsAre;
+
+TEST(ParseArguments, TakesNamesAsTheyStandWhereverTheyMayBe) {
+    CLI::App app;
+    std::vector<std::filesystem::path> folders, parts;
+    std::string out;
+    CLI::App* sub = app.add_subcommand("join");
+    sub->add_option("DIR", folders)->required();
+    sub->add_option("--merge", parts)->expected(1, -1);
+    sub->add_option("--out", out);
+    const char* arguments[] = {"program", "join",  "[a,b]",       "c,d",  "--out=[x]",
+                               "--merge", "[e,f]", "--merge=[g]", "plain"};
+    parse_arguments(app, static_cast<int>(std::size(arguments)), arguments);
+    EXPECT_THAT(folders, ElementsAre("[a,b]", "c,d"));
+    EXPECT_THAT(parts, ElementsAre("[e,f]", "[g]", "plain"));
+    EXPECT_EQ(out, "[x]");
+}
+
+TEST(ParseArguments, RefusesWhatIsNoPlainText) {
+    CLI::App app;
+    std::string name;
+    app.add_option("NAME", name);
+    for (const char* odd : {"a\nb", "\x1b[2J", "\xff"}) {
+        const char* arguments[] = {"program", odd};
+        EXPECT_THROW(parse_arguments(app, 2, arguments), CLI::ParseError) << odd;
+    }
+}
+
+}  // namespace
+}  // namespace osteomill
