@@ -1,7 +1,10 @@
 // Scans that are larger than what the importer may hold, and the real bone_import: it reads them slab by
 // slab.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include <fstream>
 #include <string>
@@ -126,6 +129,65 @@ TEST_F(LargeImport, RefusesAGridWhoseSlicesAreMoreThanAnImportMayTake) {
         refusal(folder_ / "wide.nii", {"--spacing-mm", "0.05", "--region", "-1e9,-1e9,30,1e9,1e9,31"}),
         AllOf(HasSubstr("GiB of memory, where an import may take 1.5"),
               HasSubstr("smaller --region or a larger --spacing-mm")));
+}
+
+/// A cube of bone of so many voxels an edge in sixteen layers, each a tissue, as a case.
+void make_layered_case(const TemporaryFolder& folder, const std::string& name, int edge) {
+    const std::string sizes = fmt::format("{0} {0} {0}", edge);
+    const auto write = [&](const std::string& file, const char* type, const std::string& keys, auto value) {
+        std::ofstream out(folder / file, std::ios::binary);
+        out << "NRRD0004\ntype: " << type
+            << "\ndimension: 3\nspace: left-posterior-superior\nsizes: " << sizes
+            << "\nspace directions: (0.2,0,0) (0,0.2,0) (0,0,0.2)\nspace origin: (0,0,0)\nencoding: raw\n"
+            << "endian: little\n"
+            << keys << '\n';
+        for (int z = 0; z < edge; ++z) {
+            const std::vector<decltype(value(0))> slice(static_cast<std::size_t>(edge * edge), value(z));
+            out.write(reinterpret_cast<const char*>(slice.data()),
+                      static_cast<std::streamsize>(slice.size() * sizeof slice[0]));
+        }
+    };
+    std::string segments;
+    for (int i = 0; i < 16; ++i)
+        segments += fmt::format("Segment{0}_Name:=tissue {1}\nSegment{0}_LabelValue:={1}\n", i, i + 1);
+    write(name + ".nrrd", "int16", "", [](int z) { return static_cast<std::int16_t>(700 + z); });
+    write(name + ".seg.nrrd", "uint8", segments,
+          [&](int z) { return static_cast<std::uint8_t>(1 + 16 * z / edge); });
+    const Finished said =
+        run_program({BONE_IMPORT, (folder / (name + ".nrrd")).string(), "--case", (folder / name).string(),
+                     "--segmentation", (folder / (name + ".seg.nrrd")).string(), "--spacing-mm", "0.2",
+                     "--threshold-hu", "300"},
+                    std::chrono::seconds(300));
+    ASSERT_EQ(said.status, 0) << said.err;
+}
+
+/// Of a session that ends as soon as it has begun.
+std::uint64_t peak_of_session(const std::filesystem::path& case_folder) {
+    const pid_t child = ::fork();
+    if (child == 0) {
+        ::execl(HAPTIC_SERVER, HAPTIC_SERVER, "--case", case_folder.c_str(), "--clock", "virtual",
+                "--duration-s", "0.01", "--listen", "127.0.0.1:0", nullptr);
+        ::_exit(127);
+    }
+    int status = -1;
+    rusage used{};
+    ::wait4(child, &status, 0, &used);
+    EXPECT_EQ(status, 0);
+    return static_cast<std::uint64_t>(used.ru_maxrss) * 1024;
+}
+
+TEST(LargeCase, OfSixteenTissuesIsLoadedInFewBytesAVoxel) {
+    const TemporaryFolder folder;
+    constexpr int small = 32;
+    constexpr int large = 224;
+    make_layered_case(folder, "small", small);
+    make_layered_case(folder, "large", large);
+    if (!BOUNDS_MEMORY) return;
+    const std::uint64_t of_program = peak_of_session(folder / "small");
+    const std::uint64_t of_all = peak_of_session(folder / "large");
+    constexpr double more_voxels = 1.0 * large * large * large - 1.0 * small * small * small;
+    // Fraction and label, and again of the copy that is shown; each tissue's own mask would be 2 more.
+    EXPECT_LT(static_cast<double>(of_all - of_program) / more_voxels, 5.0);
 }
 
 }  // namespace
