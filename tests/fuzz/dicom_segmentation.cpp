@@ -39,7 +39,7 @@ class Taker {
     }
     std::string numbers(int count) {
         std::string all = number();
-        for (int i = 1; i < count; ++i) all += "\\" + number();
+        for (int i = 1; i < count; ++i) all.append("\\").append(number());
         return all;
     }
     std::string rest() const { return {left_.begin(), left_.end()}; }
