@@ -3,11 +3,9 @@
 #include <fmt/format.h>
 
 #include <bit>
-#include <cerrno>
-#include <cstring>
-#include <fstream>
 #include <glm/geometric.hpp>
 #include <iterator>
+#include <span>
 #include <stdexcept>
 #include <string>
 
@@ -22,10 +20,7 @@ constexpr std::size_t bytes_at_once = 1u << 20;
 /// Gathers bytes and writes them a good deal at a time.
 class Output {
   public:
-    Output(const std::filesystem::path& path, Link link)
-        : file_(path, link), out_(file_.part(), std::ios::binary) {
-        if (!out_) fail();
-    }
+    Output(const std::filesystem::path& path, Link link) : file_(path, link) {}
     template <typename Value>
     void add(const Value& value) {
         static_assert(std::is_trivially_copyable_v<Value>);
@@ -39,8 +34,6 @@ class Output {
     }
     void commit() {
         flush();
-        out_.close();
-        if (!out_) fail();
         file_.commit();
     }
 
@@ -49,17 +42,11 @@ class Output {
         if (bytes_.size() >= bytes_at_once) flush();
     }
     void flush() {
-        out_.write(bytes_.data(), static_cast<std::streamsize>(bytes_.size()));
-        if (!out_) fail();
+        file_.write(std::as_bytes(std::span(bytes_)));
         bytes_.clear();
-    }
-    [[noreturn]] void fail() const {
-        throw std::runtime_error(
-            fmt::format("{}: cannot be written: {}", file_.path().string(), std::strerror(errno)));
     }
 
     WholeFile file_;
-    std::ofstream out_;
     std::string bytes_;
 };
 

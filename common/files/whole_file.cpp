@@ -88,21 +88,35 @@ WholeFile::WholeFile(const fs::path& path, Link link)
     for (bool is_made = false; !is_made;) {
         part_.replace_filename(fmt::format("{}{}{:08x}{}", target_.path.stem().string(), before_random,
                                            random(), target_.path.extension().string()));
-        lock_ = open_new(part_);
-        if (lock_ < 0 && errno == EEXIST) continue;
-        if (lock_ < 0) fail(path_, errno);
+        descriptor_ = open_new(part_);
+        if (descriptor_ < 0 && errno == EEXIST) continue;
+        if (descriptor_ < 0) fail(path_, errno);
         // One that looks for abandoned parts may have come by before it was locked.
         struct stat facts {};
-        is_made = (::flock(lock_, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK) &&
-                  ::fstat(lock_, &facts) == 0 && facts.st_nlink > 0;
-        if (!is_made) ::close(lock_);
+        is_made = (::flock(descriptor_, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK) &&
+                  ::fstat(descriptor_, &facts) == 0 && facts.st_nlink > 0;
+        if (!is_made) ::close(descriptor_);
     }
 }
 
 WholeFile::~WholeFile() {
     std::error_code ignored;
     if (owns_part_) fs::remove(part_, ignored);
-    if (lock_ >= 0) ::close(lock_);
+    if (descriptor_ >= 0) ::close(descriptor_);
+}
+
+void WholeFile::write(std::span<const std::byte> bytes) {
+    if (descriptor_ < 0) descriptor_ = ::open(part_.c_str(), O_WRONLY | O_CLOEXEC);
+    while (!bytes.empty()) {
+        const ssize_t written = ::write(descriptor_, bytes.data(), bytes.size());
+        if (written < 0 && errno == EINTR) continue;
+        if (written < 0) fail(path_, errno);
+        bytes = bytes.subspan(static_cast<std::size_t>(written));
+    }
+}
+
+void WholeFile::rewind() {
+    if (::lseek(descriptor_, 0, SEEK_SET) != 0) fail(path_, errno);
 }
 
 void WholeFile::commit() {
@@ -139,16 +153,7 @@ void remove_abandoned_parts(const fs::path& path, Link link) {
 
 void write_whole_file(const fs::path& path, std::string_view text, Link link) {
     WholeFile file(path, link);
-    {
-        const Descriptor part(file.part(), O_WRONLY | O_TRUNC);
-        if (!part.is_open()) fail(path, errno);
-        while (!text.empty()) {
-            const ssize_t written = ::write(part.number(), text.data(), text.size());
-            if (written < 0 && errno == EINTR) continue;
-            if (written < 0) fail(path, errno);
-            text.remove_prefix(static_cast<std::size_t>(written));
-        }
-    }
+    file.write(std::as_bytes(std::span(text)));
     file.commit();
 }
 

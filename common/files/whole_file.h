@@ -7,7 +7,9 @@
 // locked (flock), which tells it from one that a killed program has left.
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
+#include <span>
 #include <string_view>
 
 namespace osteomill {
@@ -41,6 +43,10 @@ class WholeFile {
     const std::filesystem::path& part() const { return part_; }
     /// As it was asked for.
     const std::filesystem::path& path() const { return path_; }
+    /// Writes behind what was written so, or over it from the beginning on. Throw std::runtime_error with one
+    /// line that names the file and the reason.
+    void write(std::span<const std::byte> bytes);
+    void rewind();
 
     /// Syncs the part and makes it the file. Throws std::runtime_error with one line that names the file and
     /// the reason; the old file is then as it was.
@@ -57,7 +63,7 @@ class WholeFile {
     WriteTarget target_;
     std::filesystem::path part_;
     bool owns_part_;
-    int lock_ = -1;  // a descriptor of the part, where this has made it
+    int descriptor_ = -1;  // of the part, locked, where this has made it
 };
 
 /// Removes parts of this file that programs have left which were killed: of the name above, and locked by

@@ -7,13 +7,15 @@
 
 #include <filesystem>
 #include <map>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 
 #include "imaging/bone_file/digest.h"
-#include "imaging/bone_file/nrrd_file.h"
 #include "imaging/bone_file/nrrd_writer.h"
+#include "imaging/formats/byte_source.h"
 #include "imaging/hu_slices.h"
 
 namespace osteomill {
@@ -23,26 +25,48 @@ inline constexpr const char* threshold_key = "osteomill_threshold_hu";
 inline constexpr const char* hu_digest_key = "osteomill_hu_digest";
 inline constexpr const char* header_digest_key = "osteomill_header_digest";
 
+/// The bytes of a NRRD, decoded, from the first one behind its header; numbers as the machine has them.
+class NrrdData {
+  public:
+    NrrdData(ByteSource source, bool swaps) : source_(std::move(source)), swaps_(swaps) {}
+
+    void read_before_voxels(std::span<std::byte> bytes) { source_.read(bytes); }
+    void skip(std::uint64_t bytes) { source_.skip(bytes); }
+    void read_voxels(std::span<std::int16_t> voxels);
+    /// After the last voxel: throws ImagingError where compressed data do not end there with a CRC that fits.
+    void finish() { source_.finish(); }
+
+  private:
+    ByteSource source_;
+    bool swaps_;
+};
+
 /// Opened: the header is read and held against its digest, the voxels are not.
 class BoneFile {
   public:
-    /// Throws ImagingError in one line for anything but an int16 NRRD on an isotropic, axis-aligned LPS grid;
-    /// where the image is merely of another form the line says to run bone_import.
+    /// Throws ImagingError in one line for a file that is missing or too short for what its header says, and
+    /// for anything but an int16 NRRD on an isotropic, axis-aligned LPS grid; where the image is merely of
+    /// another form the line says to run bone_import.
     explicit BoneFile(const std::filesystem::path& path);
 
-    const std::filesystem::path& path() const { return file_.path(); }
-    const Grid& grid() const { return file_.form().grid; }
-    const NrrdForm& form() const { return file_.form(); }
-    const std::map<std::string, std::string>& key_values() const { return file_.form().key_values; }
+    const std::filesystem::path& path() const { return file_->path(); }
+    const Grid& grid() const { return form_.grid; }
+    const NrrdForm& form() const { return form_; }
+    const std::map<std::string, std::string>& key_values() const { return form_.key_values; }
     /// Of threshold_key; absent where the file has none.
     const std::optional<double>& threshold_hu() const { return threshold_hu_; }
     /// Throws ImagingError, naming the key, where it is missing.
     const std::string& value(const char* key) const;
 
-    NrrdData data() const { return file_.data(); }
+    /// From the beginning, each time, of the file that was opened, although another may have its name by now.
+    NrrdData data() const;
 
   private:
-    NrrdFile file_;
+    std::shared_ptr<const InputFile> file_;
+    NrrdForm form_{};
+    std::uint64_t data_offset_ = 0;
+    Encoding encoding_ = Encoding::raw;
+    bool swaps_ = false;
     std::optional<double> threshold_hu_;
 };
 

@@ -1,12 +1,8 @@
 #include "imaging/bone_file/nrrd_writer.h"
 
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <bit>
-#include <cerrno>
-#include <cstring>
 #include <stdexcept>
 #include <string>
 
@@ -61,71 +57,25 @@ std::string header_of(const NrrdForm& form) {
     return text + "\n";
 }
 
-WholeFile begun(const std::filesystem::path& path, const NrrdForm& form) try {
+WholeFile begun(const std::filesystem::path& path, const NrrdForm& form) {
     require_valid(form.grid);
     if (path.extension() != ".nrrd") throw ImagingError(path, "the name of a bone file ends in .nrrd");
     remove_abandoned_parts(path);
     return WholeFile(path);
-} catch (const ImagingError&) {
-    throw;
-} catch (const std::runtime_error& error) {
-    throw ImagingError(error.what());
 }
 
 }  // namespace
 
-/// The part being written.
-class NrrdWriter::Descriptor {
-  public:
-    Descriptor(const std::filesystem::path& part, const std::filesystem::path& shown)
-        : shown_(shown), number_(::open(part.c_str(), O_WRONLY | O_TRUNC | O_CLOEXEC)) {
-        if (number_ < 0) fail();
-    }
-    ~Descriptor() {
-        if (number_ >= 0) ::close(number_);
-    }
-    Descriptor(const Descriptor&) = delete;
-    Descriptor& operator=(const Descriptor&) = delete;
-
-    void write(std::span<const std::byte> bytes) {
-        while (!bytes.empty()) {
-            const ssize_t done = ::write(number_, bytes.data(), bytes.size());
-            if (done < 0 && errno == EINTR) continue;
-            if (done < 0) fail();
-            bytes = bytes.subspan(static_cast<std::size_t>(done));
-        }
-    }
-    void to_begin() {
-        if (::lseek(number_, 0, SEEK_SET) != 0) fail();
-    }
-    void close() {
-        const int number = number_;
-        number_ = -1;
-        if (::close(number) != 0) fail();
-    }
-
-  private:
-    [[noreturn]] void fail() const {
-        throw ImagingError(shown_, std::string("cannot be written: ") + std::strerror(errno));
-    }
-
-    std::filesystem::path shown_;
-    int number_;
-};
-
 NrrdWriter::NrrdWriter(const std::filesystem::path& path, const NrrdForm& form)
     : form_(form), file_(begun(path, form)) {
-    out_ = std::make_unique<Descriptor>(file_.part(), path);
     const std::string header = header_of(form_);
     header_bytes_ = header.size();
-    out_->write(std::as_bytes(std::span(header)));
+    file_.write(std::as_bytes(std::span(header)));
     gzip_.emplace([this](std::span<const std::byte> bytes) {
         data_.add(bytes);
-        out_->write(bytes);
+        file_.write(bytes);
     });
 }
-
-NrrdWriter::~NrrdWriter() = default;
 
 void NrrdWriter::add(std::span<const std::byte> bytes) {
     added_ += bytes.size();
@@ -145,14 +95,9 @@ void NrrdWriter::commit(const std::map<std::string, std::string>& key_values) {
         header = header_of(form_);
     }
     if (header.size() != header_bytes_) throw std::logic_error("a NRRD's header must not change its length");
-    out_->to_begin();
-    out_->write(std::as_bytes(std::span(header)));
-    out_->close();
-    try {
-        file_.commit();
-    } catch (const std::runtime_error& error) {
-        throw ImagingError(error.what());
-    }
+    file_.rewind();
+    file_.write(std::as_bytes(std::span(header)));
+    file_.commit();
 }
 
 }  // namespace osteomill

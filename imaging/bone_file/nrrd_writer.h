@@ -4,7 +4,6 @@
 
 #include <cstddef>
 #include <filesystem>
-#include <memory>
 #include <optional>
 #include <span>
 
@@ -15,32 +14,26 @@
 
 namespace osteomill {
 
+/// What is not committed is gone.
 class NrrdWriter {
   public:
     /// Writes the header beside the target, and removes what one that was killed has left there. Throws
     /// std::invalid_argument for a bad grid, ImagingError for a name that does not end in .nrrd and where
     /// nothing can be written.
     NrrdWriter(const std::filesystem::path& path, const NrrdForm& form);
-    ~NrrdWriter();  ///< what was not committed is gone
-    NrrdWriter(const NrrdWriter&) = delete;
-    NrrdWriter& operator=(const NrrdWriter&) = delete;
-
     /// The next bytes: first those before the voxels, then the voxels, of each all layers, x fastest, then y,
-    /// then z, little endian. Throws ImagingError, with the reason, where they cannot be written.
+    /// then z, little endian. Throws std::runtime_error, with the reason, where they cannot be written.
     void add(std::span<const std::byte> bytes);
 
     /// Ends the file and switches to it at once; until then the old one is as it was. `key_values` take the
     /// place of those given at first (digests are known only now) and must be as long; where file_digest_key
-    /// is among them, it gets the file's digest. Throws ImagingError; std::logic_error where the bytes added
-    /// are not those that the header promises.
+    /// is among them, it gets the file's digest. Throws std::runtime_error; std::logic_error where the bytes
+    /// added are not those that the header promises.
     void commit(const std::map<std::string, std::string>& key_values);
 
   private:
-    class Descriptor;
-
     NrrdForm form_;
     WholeFile file_;
-    std::unique_ptr<Descriptor> out_;
     std::optional<GzipWriter> gzip_{};
     std::uint64_t header_bytes_ = 0;
     std::uint64_t added_ = 0;

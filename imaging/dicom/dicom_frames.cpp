@@ -42,14 +42,7 @@ bool is_read_frame_by_frame(const DicomFile& file) {
 /// GDCM says that it failed, or throws.
 template <typename Step>
 void require(const DicomFile& file, const Step& step) {
-    const QuietLibraries quiet;
-    bool is_done = false;
-    try {
-        is_done = step();
-    } catch (const std::exception&) {
-        is_done = false;
-    }
-    if (!is_done) throw undecodable(file);
+    if (!quietly(step)) throw undecodable(file);
 }
 
 }  // namespace

@@ -278,16 +278,10 @@ std::optional<DicomScan> scan_file(const std::filesystem::path& path) {
 std::optional<DicomHeader> read_dicom_header(const std::filesystem::path& path) {
     const std::optional<DicomScan> scan = scan_file(path);
     if (!scan) return std::nullopt;
-    const QuietLibraries quiet;
     gdcm::Reader reader;
     reader.SetFileName(path.c_str());
-    bool parsed = false;
-    try {
-        parsed = reader.CanRead() && reader.ReadUpToTag(pixel_data_tag, {pixel_data_tag});
-    } catch (const std::exception&) {
-        parsed = false;
-    }
-    if (!parsed) throw ImagingError(path, "is DICOM but cannot be parsed: cut off or damaged");
+    if (!quietly([&] { return reader.CanRead() && reader.ReadUpToTag(pixel_data_tag, {pixel_data_tag}); }))
+        throw ImagingError(path, "is DICOM but cannot be parsed: cut off or damaged");
     const DataSet& data = reader.GetFile().GetDataSet();
     DicomHeader header;
     header.scan = *scan;

@@ -43,15 +43,8 @@ class SegmentationSource {
         if (InputFile(path).size() > most_segmentation_bytes)
             throw ImagingError(path, "is a segmentation of more than 1 GiB");
         std::optional<DicomHeader> header = read_dicom_header(path);
-        const QuietLibraries quiet;
         reader_.SetFileName(path.c_str());
-        bool is_read = false;
-        try {
-            is_read = reader_.Read();
-        } catch (const std::exception&) {
-            is_read = false;
-        }
-        if (!is_read || !header)
+        if (!header || !quietly([&] { return reader_.Read(); }))
             throw ImagingError(path, "is DICOM but cannot be parsed: cut off or damaged");
         header_ = std::move(*header);
         find_pixels();

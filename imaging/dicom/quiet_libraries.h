@@ -2,6 +2,8 @@
 // one line of ours.
 #pragma once
 
+#include <exception>
+
 namespace osteomill {
 
 /// While it lives, GDCM warns nobody and file descriptor 2 leads nowhere (libjpeg prints on its own).
@@ -16,5 +18,16 @@ class QuietLibraries {
   private:
     int standard_error_ = -1;
 };
+
+/// Whether a step of GDCM's succeeds, which says false or throws where it does not.
+template <typename Step>
+bool quietly(const Step& step) {
+    const QuietLibraries quiet;
+    try {
+        return step();
+    } catch (const std::exception&) {
+        return false;
+    }
+}
 
 }  // namespace osteomill

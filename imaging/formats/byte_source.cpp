@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <array>
 #include <new>
-#include <optional>
 #include <utility>
 #include <vector>
 
@@ -22,19 +21,6 @@ constexpr std::uint64_t deflate_ratio = 1032;
 /// zlib's window bits: 15, and 16 more for gzip only, 32 more for whichever begins.
 int window_bits(Encoding encoding) {
     return 15 + (encoding == Encoding::gzip ? 16 : 32);
-}
-
-std::optional<unsigned> hex_digit(std::byte byte) {
-    const auto letter = static_cast<unsigned char>(byte);
-    if (letter >= '0' && letter <= '9') return letter - '0';
-    const int lower = letter | 0x20;
-    if (lower >= 'a' && lower <= 'f') return static_cast<unsigned>(lower - 'a' + 10);
-    return std::nullopt;
-}
-
-bool is_blank(std::byte byte) {
-    const auto letter = static_cast<unsigned char>(byte);
-    return letter == ' ' || (letter >= '\t' && letter <= '\r');
 }
 
 }  // namespace
@@ -117,36 +103,11 @@ std::size_t ByteSource::read_some(std::span<std::byte> bytes) {
     std::size_t done = 0;
     if (inflater_) {
         done = inflater_->read(bytes);
-    } else if (encoding_ == Encoding::hex) {
-        done = read_hex(bytes);
     } else {
         done = file_->read_at(offset_, bytes);
         offset_ += done;
     }
     given_ += done;
-    return done;
-}
-
-std::size_t ByteSource::read_hex(std::span<std::byte> bytes) {
-    std::vector<std::byte> digits(std::min<std::size_t>(2 * bytes.size(), buffer_bytes));
-    std::size_t done = 0;
-    std::optional<unsigned> first;
-    while (done < bytes.size()) {
-        // No more than are wanted, so that the next read goes on behind them.
-        const std::size_t wanted = 2 * (bytes.size() - done) - (first ? 1 : 0);
-        const std::size_t got =
-            file_->read_at(offset_, std::span(digits).first(std::min(wanted, digits.size())));
-        offset_ += got;
-        if (got == 0) break;
-        for (const std::byte byte : std::span(digits).first(got)) {
-            if (is_blank(byte)) continue;
-            const std::optional<unsigned> digit = hex_digit(byte);
-            if (!digit)
-                throw ImagingError(file_->path(), "its voxels are damaged: hexadecimal digits are expected");
-            if (first) bytes[done++] = static_cast<std::byte>(*first << 4U | *digit);
-            first = first ? std::nullopt : digit;
-        }
-    }
     return done;
 }
 
@@ -199,8 +160,7 @@ std::vector<std::uint8_t> first_bytes_inflated(const InputFile& file, std::size_
 }
 
 bool can_hold(std::uint64_t file_bytes, std::uint64_t bytes, Encoding encoding) {
-    if (is_compressed(encoding)) return bytes / deflate_ratio <= file_bytes;
-    return (encoding == Encoding::hex ? 2 * bytes : bytes) <= file_bytes;
+    return (is_compressed(encoding) ? bytes / deflate_ratio : bytes) <= file_bytes;
 }
 
 }  // namespace osteomill

@@ -16,7 +16,6 @@ enum class Encoding {
     raw,
     gzip,          ///< one member or several, each with its CRC
     zlib_or_gzip,  ///< whichever begins
-    hex,           ///< two digits for each byte, blanks anywhere between
     text,          ///< numbers in decimal, blanks between; the bytes are those of the text
 };
 
@@ -44,7 +43,6 @@ class ByteSource {
 
   private:
     class Inflater;
-    std::size_t read_hex(std::span<std::byte> bytes);
 
     std::shared_ptr<const InputFile> file_;
     std::uint64_t offset_;

@@ -81,9 +81,8 @@ Encoding encoding_of(const NrrdHeader& header, const std::filesystem::path& path
     if (name == "raw") return Encoding::raw;
     if (name == "gzip" || name == "gz") return Encoding::gzip;
     if (name == "txt" || name == "text" || name == "ascii") return Encoding::text;
-    if (name == "hex") return Encoding::hex;
-    throw ImagingError(path,
-                       fmt::format("encoding '{}' is not read; save it as raw or gzip", shortened(name)));
+    throw ImagingError(
+        path, fmt::format("encoding '{}' is not read; save it as raw, gzip or text", shortened(name)));
 }
 
 std::vector<std::string> data_files_of(const NrrdHeader& header) {

@@ -27,11 +27,10 @@ std::uint64_t bytes_there(const InputFile& file, const VoxelPart& part) {
     return file.size() - std::min(file.size(), part.begin);
 }
 
-void require_bytes(const InputFile& file, const VoxelPart& part, Encoding encoding) {
-    const std::uint64_t bytes = encoding == Encoding::hex ? 2 * part.bytes : part.bytes;
-    if (bytes_there(file, part) < bytes)
+void require_bytes(const InputFile& file, const VoxelPart& part) {
+    if (bytes_there(file, part) < part.bytes)
         throw ImagingError(part.file, fmt::format("is cut off: {} of {} bytes of voxels are there",
-                                                  bytes_there(file, part), bytes));
+                                                  bytes_there(file, part), part.bytes));
 }
 
 void require_no_bomb(const InputFile& file, const VoxelPart& part) {
@@ -136,7 +135,7 @@ std::uint64_t require_room(const VoxelData& data) {
             require_no_bomb(file, part);
             continue;
         }
-        require_bytes(file, part, data.encoding);
+        require_bytes(file, part);
         if (data.encoding != Encoding::raw) continue;
         more = bytes_there(file, part) - part.bytes;
         if (more > 0 && data.parts.size() > 1)

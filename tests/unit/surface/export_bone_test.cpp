@@ -7,7 +7,7 @@
 
 #include "imaging/bone_file/carved_bone.h"
 #include "imaging/bone_file/hu_file.h"
-#include "imaging/bone_file/nrrd_file.h"
+#include "imaging/formats/image_reader.h"
 #include "tests/support/temporary_folder.h"
 
 namespace osteomill {
@@ -94,12 +94,10 @@ TEST_F(Export, OfACarvedBoneGivesWhatIsGoneOfEachVoxel) {
                       .output = folder_ / "gone.nrrd",
                       .original = folder_ / "original.nrrd"}),
                 HasSubstr("mm^3 removed"));
-    const NrrdFile file(folder_ / "gone.nrrd", NrrdVoxel::uint8);
-    EXPECT_EQ(file.form().grid, grid_);
-    std::vector<std::uint8_t> gone(voxel_count(grid_));
-    NrrdData data = file.data();
-    data.read_voxels(gone);
-    data.finish();
+    const OpenedImage file = open_image(folder_ / "gone.nrrd");
+    EXPECT_EQ(file.image.origin_mm, grid_.origin_mm);
+    const std::vector<float> gone = file.read_values([](double) {});
+    ASSERT_EQ(gone.size(), voxel_count(grid_));
     std::size_t i = 0;
     for (int z = 0; z < grid_.size_voxels.z; ++z)
         for (int y = 0; y < grid_.size_voxels.y; ++y)

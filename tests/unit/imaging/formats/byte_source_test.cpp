@@ -95,24 +95,11 @@ TEST_F(ByteSourceOfFile, RefusesWhatIsCutOffOrDamagedOrTooLong) {
     EXPECT_THAT(refusal(source(flipped), 1000), HasSubstr("damaged (gzip: incorrect data check)"));
 }
 
-TEST_F(ByteSourceOfFile, ReadsHexadecimalDigitsAcrossBlanksAndPieces) {
-    ByteSource digits = source("00 fF\n1\t2ab", Encoding::hex);
-    std::array<std::byte, 3> first{};
-    std::array<std::byte, 1> second{};
-    digits.read(first);
-    digits.read(second);
-    EXPECT_THAT(first, ::testing::ElementsAre(std::byte{0}, std::byte{0xff}, std::byte{0x12}));
-    EXPECT_EQ(second[0], std::byte{0xab});
-    EXPECT_THAT(refusal(source("00f", Encoding::hex), 2), HasSubstr("cut off"));
-    EXPECT_THAT(refusal(source("00g0", Encoding::hex), 2), HasSubstr("hexadecimal digits"));
-}
-
 TEST(CanHold, KnowsThatDeflateHasALimit) {
     EXPECT_TRUE(can_hold(1000, 1000, Encoding::raw));
     EXPECT_FALSE(can_hold(1000, 1001, Encoding::raw));
     EXPECT_TRUE(can_hold(1000, 1'000'000, Encoding::gzip));
     EXPECT_FALSE(can_hold(1000, 2'000'000, Encoding::gzip));
-    EXPECT_FALSE(can_hold(1000, 501, Encoding::hex));
 }
 
 }  // namespace
