@@ -11,8 +11,8 @@ namespace {
 
 constexpr std::uint32_t pedal_button = 1;
 constexpr std::uint32_t next_burr_button = 2;
-constexpr int longest_wait_ms = 10;
-constexpr int most_reports_at_once = 64;
+constexpr int longest_mouse_wait_ms = 10;
+constexpr int most_mouse_reports_at_once = 64;
 
 class MouseConversation final : public HidConversation {
   public:
@@ -42,8 +42,8 @@ class MouseConversation final : public HidConversation {
     bool take_reports() noexcept {
         std::array<std::uint8_t, 64> buffer;
         const double began_s = clock_s_();
-        for (int i = 0; i < most_reports_at_once; ++i) {
-            const int bytes = connection_->read(buffer, i == 0 ? longest_wait_ms : 0);
+        for (int i = 0; i < most_mouse_reports_at_once; ++i) {
+            const int bytes = connection_->read(buffer, i == 0 ? longest_mouse_wait_ms : 0);
             if (bytes < 0) return false;
             if (bytes == 0) {
                 empty_s_ = began_s;

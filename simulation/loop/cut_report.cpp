@@ -14,7 +14,7 @@ namespace osteomill {
 namespace {
 
 /// For the rounding of sums of periods, s.
-constexpr double time_tolerance_s = 1e-7;
+constexpr double report_tolerance_s = 1e-7;
 /// Gaps of freshly carved bone scatter by a tenth of a voxel.
 constexpr double touching_voxels = 0.2;
 /// At the tip a patch is as far from the axis as it is wide.
@@ -31,7 +31,7 @@ void CutReport::add(const MillingResult& result, double elapsed_s) noexcept {
 }
 
 bool CutReport::is_due() const noexcept {
-    return elapsed_s_ >= period_s - time_tolerance_s;
+    return elapsed_s_ >= period_s - report_tolerance_s;
 }
 
 std::optional<CutState> CutReport::take(const MillingResult& latest, double speed_share) noexcept {

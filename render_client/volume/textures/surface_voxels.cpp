@@ -36,7 +36,7 @@ constexpr std::array<Neighbour, 13> half_of_neighbours = [] {
 constexpr std::uint64_t top_bit_of_each = 0x8080808080808080U;
 
 /// The top bits of eight bytes side by side, that of the first byte lowest.
-std::uint64_t top_bits(std::uint64_t bytes) {
+std::uint64_t top_bits_of_eight(std::uint64_t bytes) {
     // Bit 8 i times bit 56 - 7 i of the factor is bit 56 + i, and no two others meet there.
     return ((bytes & top_bit_of_each) >> 7U) * 0x0102040810204080U >> 56U;
 }
@@ -48,7 +48,7 @@ std::uint64_t outside_of_row(const std::uint8_t* fractions, std::size_t count) {
     for (std::size_t x = 0; x < count; x += row_word_bytes) {
         std::uint64_t bytes = 0;
         std::memcpy(&bytes, fractions + x, row_word_bytes);
-        outside |= top_bits(~bytes) << x;
+        outside |= top_bits_of_eight(~bytes) << x;
     }
     return count == 64 ? outside : outside & ((std::uint64_t{1} << count) - 1);
 }
