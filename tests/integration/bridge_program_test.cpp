@@ -158,8 +158,9 @@ TEST_F(BridgePrograms, WithAnotherKeyNobodyJoins) {
     const Finished stranger = run_program(arm("1", file("other")));
     EXPECT_EQ(stranger.status, 1);
     ASSERT_TRUE(running.line_after("no arm is heard; what comes has another key, version or session"));
-    ChildProcess member(arm("4", file("key")));
+    ChildProcess member(arm("600", file("key")));
     ASSERT_EQ(running.wait(), 0) << running.err();
+    member.send_signal(SIGINT);
     EXPECT_EQ(member.wait(), 0);
 }
 
@@ -194,7 +195,7 @@ TEST_F(BridgePrograms, ARecordedHelloKeepsNoArmOutHoweverOftenItIsSent) {
             std::this_thread::sleep_for(1ms);
         }
     });
-    ChildProcess member({SIMULATED_ARM, *where, file("key"), "100"});
+    ChildProcess member({SIMULATED_ARM, *where, file("key"), "600"});
     EXPECT_TRUE(running.line_after("arm simulated arm has joined")) << running.err();
     EXPECT_EQ(running.wait(), 0) << running.err();
     is_over = true;
