@@ -2,8 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
@@ -17,8 +17,9 @@ using Points = Eigen::Matrix3Xd;
 /// Root mean square of the distances from the straight line that fits best.
 double spread_off_a_line_mm(const Points& points) {
     const Points centred = points.colwise() - points.rowwise().mean();
-    const Eigen::Vector3d singular = Eigen::JacobiSVD<Points>(centred).singularValues();
-    return std::hypot(singular[1], singular[2]) / std::sqrt(static_cast<double>(points.cols()));
+    const Eigen::Matrix3d scatter = centred * centred.transpose();
+    const Eigen::Vector3d along = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(scatter).eigenvalues();
+    return std::sqrt(std::max(0.0, along[0] + along[1]) / static_cast<double>(points.cols()));
 }
 
 void require_spread(const Points& points, const char* space) {
