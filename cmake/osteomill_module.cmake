@@ -1,6 +1,6 @@
 # osteomill_module(NAME SOURCES a.cpp ... LIBRARIES lib ... [LOOPS]): one static library per folder of the house.
-# Includes are written from the repository root ("common/bone/grid.h"). LOOPS: it has the inner loops that tests wait for, see
-# osteomill_loops_options.
+# Includes are written from the repository root ("common/bone/grid.h"). LOOPS: it has inner loops that
+# somebody waits for, see osteomill_optimisation.cmake.
 function(osteomill_module name)
     cmake_parse_arguments(arg "LOOPS" "" "SOURCES;LIBRARIES" ${ARGN})
     if(arg_SOURCES)

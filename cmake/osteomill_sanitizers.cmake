@@ -4,13 +4,6 @@ set(OSTEOMILL_SANITIZER none CACHE STRING
     "Instrument everything: none, address (and undefined behaviour), thread, fuzzer (as address, with clang)")
 set_property(CACHE OSTEOMILL_SANITIZER PROPERTY STRINGS none address thread fuzzer)
 
-# With sanitizers most of a run goes into compiling, and most of that into optimising checks. So the presets leave that, but where
-# tests wait for inner loops.
-set(osteomill_loops_options)
-if(OSTEOMILL_SANITIZER MATCHES "^(address|thread)$")
-    set(osteomill_loops_options -O1)
-endif()
-
 if(OSTEOMILL_SANITIZER STREQUAL "fuzzer")
     add_compile_options(-fsanitize=fuzzer-no-link)
 endif()
