@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "analysis/report/smoothness.h"
+#include "common/scene/stroke_span.h"
 #include "common/statistics/percentile.h"
 
 namespace osteomill {
@@ -47,12 +48,16 @@ class UndoneStrokes {
 std::vector<Stroke> strokes_of(const SessionTrace& trace) {
     std::vector<Stroke> strokes;
     UndoneStrokes undone(strokes);
+    StrokeSpan span;
+    Stroke so_far;  // with what may turn out to be air behind the last touch
     std::vector<TimedPosition> hand;
+    std::size_t touched_hand = 0;  // so many of these are the stroke's
     bool is_open = false;
     auto event = trace.events.begin();
     const auto close = [&] {
         if (!std::exchange(is_open, false)) return;
         Stroke& stroke = strokes.back();
+        hand.resize(touched_hand);
         if (stroke.duration_s >= shortest_smooth_s) stroke.smoothness = log_dimensionless_jerk(hand);
         if (stroke.took_bone()) undone.take(strokes.size() - 1);
     };
@@ -60,20 +65,25 @@ std::vector<Stroke> strokes_of(const SessionTrace& trace) {
     for (std::size_t i = 0; i < samples.size(); ++i) {
         const TraceSample& now = samples[i];
         const bool cuts = now.cuts();
-        const bool goes_on = now.spindle_on || cuts;
+        const bool goes_on = span.goes_on(now.time_s, now.spindle_on, cuts, now.force_n > 0.0);
         if (!goes_on) close();
         if (goes_on && !is_open) {
             is_open = true;
             const std::size_t before = i > 0 ? i - 1 : i;
-            strokes.push_back({.begins_s = samples[before].time_s});
+            so_far = {.begins_s = samples[before].time_s};
+            strokes.push_back(so_far);
             hand = {{samples[before].time_s, samples[before].hand_mm}};
         }
-        if (now.spindle_on && i > 0) {
-            strokes.back().duration_s += trace.dt_s(i);
-            strokes.back().length_mm += glm::length(now.burr_mm - samples[i - 1].burr_mm);
+        if (goes_on && now.spindle_on && i > 0) {
+            so_far.duration_s += trace.dt_s(i);
+            so_far.length_mm += glm::length(now.burr_mm - samples[i - 1].burr_mm);
             hand.push_back({now.time_s, now.hand_mm});
         }
-        if (cuts) strokes.back().levels_by_burr[now.burr] += now.milled();
+        if (cuts) so_far.levels_by_burr[now.burr] += now.milled();
+        if (span.touches()) {
+            strokes.back() = so_far;
+            touched_hand = hand.size();
+        }
         for (; event != trace.events.end() && event->time_s <= now.time_s; ++event)
             if (!event->is_refused) {
                 if (event->action == SessionAction::undo || event->action == SessionAction::reset) close();

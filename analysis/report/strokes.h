@@ -1,7 +1,7 @@
 // The strokes of a session, and which of them were undone.
 //
-// A stroke is a run of frames in which the spindle turns, up to the first in which it stands and no more bone
-// goes: what undo takes back.
+// A stroke is what undo takes back (common/scene/stroke_span.h). It is measured from the first touch of the
+// turning burr to the last: what follows in air is none of it.
 #pragma once
 
 #include <map>

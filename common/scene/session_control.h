@@ -14,7 +14,7 @@ enum class SessionAction : std::uint8_t {
     mark,    ///< this moment, with a note
     pause,   ///< force and spindle off
     resume,  ///< the force comes back once the burr is clear of bone
-    undo,    ///< the last stroke that took bone; a stroke lasts from spindle on to off
+    undo,    ///< the last stroke that took bone (stroke_span.h); one under way ends with it
     redo,    ///< the stroke undone last
     reset,   ///< undoes all strokes; each can be redone
     save,    ///< the bone as it is, or its surface

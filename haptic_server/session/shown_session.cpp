@@ -76,10 +76,14 @@ SessionControls::Requests ShownSession::requests(const ShownOptions& options, co
                                                  const DeviceParts& device) {
     SessionControls::Requests requests = keeper_.requests();
     requests.finish_words = options.words_at_finish;
-    if (device.simulated == nullptr)
+    if (device.simulated == nullptr) {
         requests.place = [&burrs = scene.burrs](const Bone& bone, const ToolPose& place, std::size_t burr) {
             return clear_place(bone, burr_hull(burrs[burr]), place);
         };
+        requests.lift_out = [&burrs = scene.burrs](const Bone& bone, const ToolPose& at, std::size_t burr) {
+            return lifted_out(bone, burr_hull(burrs[burr]), at);
+        };
+    }
     requests.placed = [this](const ToolPose& pose) { placed_ = pose; };
     return requests;
 }

@@ -16,13 +16,24 @@ namespace {
 
 constexpr double step_mm = 0.1;
 
-bool is_clear(const Bone& bone, const std::vector<HullBall>& hull, const ToolPose& pose) {
+bool is_clear(const Bone& bone, const std::vector<HullBall>& hull, const ToolPose& pose, double gap_mm) {
     const Grid& grid = bone.grid();
     return std::ranges::none_of(hull, [&](const HullBall& ball) {
         const glm::dvec3 centre_mm = pose.position_mm + ball.height_mm * pose.spindle_axis;
         return has_bone_in(
-            bone, {to_voxel_coordinates(grid, centre_mm), (ball.radius_mm + least_gap_mm) / grid.spacing_mm});
+            bone, {to_voxel_coordinates(grid, centre_mm), (ball.radius_mm + gap_mm) / grid.spacing_mm});
     });
+}
+
+/// The first place that is clear, with the least gap, on the way back along the handpiece.
+std::optional<ToolPose> drawn_back(const Bone& bone, const std::vector<HullBall>& hull, ToolPose pose,
+                                   double longest_mm) {
+    const glm::dvec3 from_mm = pose.position_mm;
+    for (double back_mm = 0.0; back_mm <= longest_mm; back_mm += step_mm) {
+        pose.position_mm = from_mm + back_mm * pose.spindle_axis;
+        if (is_clear(bone, hull, pose, least_gap_mm)) return pose;
+    }
+    return std::nullopt;
 }
 
 /// From a point to the box of the bricks that hold bone.
@@ -49,13 +60,14 @@ std::variant<ToolPose, std::string> clear_place(const Bone& bone, const std::vec
     if (away_mm > farthest_from_bone_mm)
         return fmt::format("that is {:.0f} mm away from the bone; choose a place within {:.0f} mm of it",
                            away_mm, farthest_from_bone_mm);
-    ToolPose pose = wanted;
-    for (double back_mm = 0.0; back_mm <= longest_draw_back_mm; back_mm += step_mm) {
-        pose.position_mm = wanted.position_mm + back_mm * wanted.spindle_axis;
-        if (is_clear(bone, hull, pose)) return pose;
-    }
+    if (const auto clear = drawn_back(bone, hull, wanted, longest_draw_back_mm)) return *clear;
     return fmt::format("that is inside the bone, and so is all within {:.0f} mm along the handpiece",
                        longest_draw_back_mm);
+}
+
+std::optional<ToolPose> lifted_out(const Bone& bone, const std::vector<HullBall>& hull, const ToolPose& at) {
+    if (is_clear(bone, hull, at, 0.0)) return std::nullopt;
+    return drawn_back(bone, hull, at, longest_lift_mm);
 }
 
 }  // namespace osteomill

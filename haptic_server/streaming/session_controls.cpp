@@ -37,9 +37,10 @@ void SessionControls::note(const BrickChange& change, const Bone& bone) {
 
 void SessionControls::end_frame(const Bone& bone, const ToolState& tool) {
     time_s_ = tool.time_s;
-    // The milling loop may be a step behind the pedal: the stroke has ended when no more comes of it.
-    if (!tool.spindle_on && !has_changes_) journal_.end_stroke();
+    if (!stroke_.goes_on(tool.time_s, tool.spindle_on, has_changes_, tool.force_n != glm::dvec3(0.0)))
+        journal_.end_stroke();
     queue_restored();
+    if (is_bone_whole() && std::exchange(may_be_in_bone_, false)) lift_out(bone, tool);
     for (Waiting& waiting : waiting_) ++waiting.frames;
     while (!waiting_.empty()) {
         const Waiting& next = waiting_.front();
@@ -109,8 +110,16 @@ std::string SessionControls::restore(SessionAction action, const Bone& bone, con
         else
             journal_.undo(bone, restoration_);
     } while (action == SessionAction::reset && steps() > 0);
+    may_be_in_bone_ = true;
     say({action});
     return {};
+}
+
+void SessionControls::lift_out(const Bone& bone, const ToolState& tool) {
+    if (!requests_.lift_out) return;
+    const ToolPose pose{tool.burr_position_mm, tool.spindle_axis};
+    if (const auto clear = requests_.lift_out(bone, pose, tool.burr))
+        waiting_.push_front({.control = {.action = SessionAction::place, .pose = *clear}, .lifts_out = true});
 }
 
 std::string SessionControls::place(const Waiting& waiting, const Bone& bone, const ToolState& tool) {
@@ -133,7 +142,7 @@ std::string SessionControls::place(const Waiting& waiting, const Bone& bone, con
         ask_for(placement_);
         is_being_placed_ = true;
     } else if (gate_.placed.load(std::memory_order_acquire) == placement_.number) {
-        say_placed(waiting.control);
+        say_placed(waiting);
         return {};
     } else if (frames_left == 1) {
         ask_for({.number = gate_.placed.load(std::memory_order_acquire), .pose = {}});
@@ -147,14 +156,15 @@ void SessionControls::ask_for(const Placement& placement) {
     placements_.publish();
 }
 
-void SessionControls::say_placed(const SessionControl& control) {
+void SessionControls::say_placed(const Waiting& waiting) {
     is_being_placed_ = false;
+    const SessionControl& control = waiting.control;
     const glm::dvec3& at = placement_.pose.position_mm;
     const double moved_mm = glm::distance(at, control.pose.position_mm);
     say({control.action,
          fmt::format("at {:.1f}, {:.1f}, {:.1f} mm LPS{}", at.x, at.y, at.z,
                      moved_mm > 0.05 ? fmt::format(", {:.1f} mm out of the bone", moved_mm) : "")});
-    if (requests_.placed) requests_.placed(placement_.pose);
+    if (requests_.placed && !waiting.lifts_out) requests_.placed(placement_.pose);
 }
 
 void SessionControls::choose_speed(const SessionControl& control) {
@@ -181,7 +191,9 @@ void SessionControls::say(const SessionControl& control, std::string refusal) {
 }
 
 SessionStatus SessionControls::status() const {
-    return {.undo_steps = static_cast<std::uint32_t>(journal_.undo_steps()),
+    // A stroke under way counts: undo ends it.
+    const std::size_t undo_steps = journal_.undo_steps() + (journal_.has_open_stroke() ? 1 : 0);
+    return {.undo_steps = static_cast<std::uint32_t>(undo_steps),
             .redo_steps = static_cast<std::uint32_t>(journal_.redo_steps()),
             .is_paused = is_paused_};
 }

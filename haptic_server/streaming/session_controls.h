@@ -5,19 +5,22 @@
 // Undo goes the way of milling, backwards: what the journal remembers is queued for the milling loop, which
 // writes it into its bone while the spindle is off, and comes back as changes that restore, for the copy of
 // the bone, every client and the recording. Meanwhile the session holds still. What is undone and redone in
-// one frame is one change of the bone, be it a thousand strokes. A command that has to wait for that, for a
+// one frame is one change of the bone, be it a thousand strokes. The tool is then lifted out of what came
+// back round it, before the session goes on. A command that has to wait for that, for a
 // stroke to end or for the arm waits in its turn, a second at most: then it is refused, with what it waited
 // for.
 #pragma once
 
 #include <deque>
 #include <functional>
+#include <optional>
 #include <string>
 #include <utility>
 #include <variant>
 #include <vector>
 
 #include "common/scene/session_control.h"
+#include "common/scene/stroke_span.h"
 #include "common/scene/tool_state.h"
 #include "common/wire/bone_replica.h"
 #include "haptic_server/streaming/stroke_journal.h"
@@ -39,6 +42,9 @@ class SessionControls {
         /// Where the burr goes that is wanted there, or why nowhere. Empty where a tool cannot be placed.
         std::function<std::variant<ToolPose, std::string>(const Bone&, const ToolPose&, std::size_t burr)>
             place{};
+        /// Where the burr is clear of bone, if it is not there; bone may have come back round it. Empty
+        /// where a tool cannot be placed.
+        std::function<std::optional<ToolPose>(const Bone&, const ToolPose&, std::size_t burr)> lift_out{};
         /// It is there now.
         std::function<void(const ToolPose&)> placed{};
     };
@@ -68,14 +74,16 @@ class SessionControls {
   private:
     struct Waiting {
         SessionControl control;
-        int frames = 0;  ///< it has seen since it was asked for
+        int frames = 0;          ///< it has seen since it was asked for
+        bool lifts_out = false;  ///< of place: nobody asked for it
     };
     /// What it has to wait for; empty: it is done, or refused.
     std::string act(const Waiting& waiting, const Bone& bone, const ToolState& tool);
     std::string restore(SessionAction action, const Bone& bone, const ToolState& tool);
     std::string place(const Waiting& waiting, const Bone& bone, const ToolState& tool);
+    void lift_out(const Bone& bone, const ToolState& tool);
     void ask_for(const Placement& placement);
-    void say_placed(const SessionControl& control);
+    void say_placed(const Waiting& waiting);
     void choose_speed(const SessionControl& control);
     void queue_restored();
     bool is_restoring() const { return !waits_for_room_.empty() || confirmed_ < queued_; }
@@ -87,6 +95,7 @@ class SessionControls {
     TripleBuffer<Placement>& placements_;
     Requests requests_;
     StrokeJournal journal_;
+    StrokeSpan stroke_;
 
     std::deque<Waiting> waiting_;
     std::vector<ControlEvent> events_;
@@ -96,6 +105,7 @@ class SessionControls {
 
     Placement placement_;  // the last that was asked for
     bool is_being_placed_ = false;
+    bool may_be_in_bone_ = false;             // since bone came back
     StrokeJournal::Restoration restoration_;  // of this frame
     std::deque<StrokeJournal::Restored> waits_for_room_;
     std::uint64_t queued_ = 0;     // since the start

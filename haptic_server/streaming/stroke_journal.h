@@ -1,6 +1,6 @@
 // Remembers what each stroke took of the bone, so that strokes can be undone and redone, any number of them.
 //
-// A stroke is what was milled between two moments at which the spindle stood. For each brick that it changed
+// Where a stroke ends is its owner's business (common/scene/stroke_span.h). For each brick that it changed
 // the journal keeps the mask of its voxels and, compressed, what was left of them before: no second copy of
 // the bone. Undone, a stroke keeps what was left after it instead, to be redone.
 #pragma once

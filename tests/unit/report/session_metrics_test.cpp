@@ -77,8 +77,8 @@ TEST_F(ReportedSession, OfAStraightLineAtConstantSpeed) {
     EXPECT_NEAR(metrics.motion.idle_s, 0.0, 1e-9);
     EXPECT_FALSE(metrics.motion.smoothness);
     ASSERT_EQ(metrics.strokes.strokes, 1u);
-    EXPECT_NEAR(metrics.strokes.mean_duration_s, 2.0, 1e-9);
-    EXPECT_NEAR(metrics.strokes.mean_length_mm, 10.0, 1e-9);
+    EXPECT_NEAR(metrics.strokes.mean_duration_s, 0.5, 1e-9) << "the air before and behind it is none of it";
+    EXPECT_NEAR(metrics.strokes.mean_length_mm, 2.5, 1e-9);
 }
 
 TEST_F(ReportedSession, TellsIdleTimeFromPausesAndFromTheTurningSpindle) {
@@ -209,6 +209,28 @@ TEST_F(ReportedSession, DoesNotCountWhatWasUndone) {
     ASSERT_EQ(metrics.removal.by_burr.size(), 2u);
     EXPECT_NEAR(metrics.removal.by_burr[0].mm3, layer_mm3, 1e-9);
     EXPECT_NEAR(metrics.removal.by_burr[1].mm3, layer_mm3, 1e-9);
+}
+
+TEST_F(ReportedSession, EndsAStrokeInAirAsTheServerDoes) {
+    tool_.spindle_on = true;
+    const auto touch = [&](double z_mm) {
+        written_->cut(layer(z_mm, true));
+        frame();
+    };
+    frame();
+    touch(-3.1);
+    for (int i = 0; i < 5; ++i) frame();  // 0.25 s
+    touch(-2.9);
+    for (int i = 0; i < 15; ++i) frame();
+    touch(-2.7);
+    tool_.spindle_on = false;
+    frame();
+    written_->event({.time_s = tool_.time_s, .action = SessionAction::undo});
+    frame();
+    const SessionMetrics metrics = session_metrics(trace());
+    EXPECT_EQ(metrics.strokes.strokes, 2u);
+    EXPECT_EQ(metrics.strokes.undone, 1u);
+    EXPECT_NEAR(metrics.strokes.longest_s, 7 * period_s, 1e-9);
 }
 
 TEST_F(ReportedSession, TellsHowNearAProtectedStructureWasAndWhatItLost) {

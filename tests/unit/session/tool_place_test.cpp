@@ -46,5 +46,13 @@ TEST(ToolPlace, SaysWhyTheToolCannotBeThere) {
               "that is inside the bone, and so is all within 20 mm along the handpiece");
 }
 
+TEST(ToolPlace, IsLiftedOutOfBoneThatCameBackHoweverDeepButNotOutOfAir) {
+    EXPECT_FALSE(lifted_out(block(), two_mm, {{0.0, 0.0, 6.1}, up})) << "near, but clear";
+    const Bone large = testing::make_block(glm::dvec3(-15.0), glm::dvec3(15.0), 0.5);
+    const auto lifted = lifted_out(large, two_mm, {{0.0, 0.0, -10.0}, up});
+    ASSERT_TRUE(lifted);
+    EXPECT_NEAR(lifted->position_mm.z, 15.0 + 1.0 + least_gap_mm, 0.3);
+}
+
 }  // namespace
 }  // namespace osteomill

@@ -34,6 +34,7 @@ class SessionControlsTest : public ::testing::Test, public ChangeSink {
                          if (wanted.position_mm.x > 100.0) return std::string("too far");
                          return ToolPose{wanted.position_mm + wanted.spindle_axis, wanted.spindle_axis};
                      },
+                     .lift_out = [this](const Bone&, const ToolPose&, std::size_t) { return lifted_; },
                      .placed = [this](const ToolPose& pose) { placed_ = pose; }}) {}
 
     void push(const BrickChange& change, BrickFractions fractions) noexcept override {
@@ -80,6 +81,7 @@ class SessionControlsTest : public ::testing::Test, public ChangeSink {
     ChangeQueue changes_;
     TripleBuffer<Placement> placements_;
     std::optional<ToolPose> placed_;
+    std::optional<ToolPose> lifted_;
     SessionControls controls_;
     double time_s_ = 0.0;
     bool can_save_ = true;
@@ -133,6 +135,52 @@ TEST_F(SessionControlsTest, UndoesOnlyOnceTheStrokeHasEnded) {
     EXPECT_EQ(events[0].action, SessionAction::undo);
     EXPECT_FALSE(events[0].is_refused);
     EXPECT_EQ(controls_.status().undo_steps, 0U);
+}
+
+TEST_F(SessionControlsTest, CountsTheStrokeUnderWayAmongThoseThatCanBeUndone) {
+    mill();
+    frame(true);
+    EXPECT_EQ(controls_.status().undo_steps, 1U);
+}
+
+TEST_F(SessionControlsTest, EndsAStrokeInAirThoughThePedalStaysDown) {
+    const std::uint64_t whole = checksum(milled_);
+    mill();
+    frame(true);
+    const std::uint64_t after_first = checksum(milled_);
+    for (int i = 0; i < 20; ++i) frame(true);
+    mill();
+    frame(true);
+    EXPECT_EQ(controls_.status().undo_steps, 2U);
+    controls_.control({SessionAction::undo});
+    frames(60);
+    EXPECT_EQ(checksum(mirror_), after_first);
+    controls_.control({SessionAction::undo});
+    frames(60);
+    EXPECT_EQ(checksum(mirror_), whole);
+}
+
+TEST_F(SessionControlsTest, LiftsTheToolOutOfTheBoneThatCameBackBeforeTheSessionGoesOn) {
+    stroke();
+    lifted_ = ToolPose{{0.0, 0.0, 8.0}, {0.0, 0.0, 1.0}};
+    controls_.control({SessionAction::undo});
+    for (int i = 0; i < 20 && !placements_.refresh(); ++i) {
+        EXPECT_EQ(gate_.placed, 0U);
+        milling_steps(1000);
+        frame();
+    }
+    EXPECT_EQ(placements_.front().number, 1U);
+    EXPECT_EQ(checksum(milled_), checksum(mirror_));
+    EXPECT_TRUE(holds_still());
+    gate_.placed = 1;
+    frame();
+    EXPECT_FALSE(holds_still());
+    const auto events = controls_.take_events();
+    ASSERT_EQ(events.size(), 2U);
+    EXPECT_EQ(events[0].action, SessionAction::undo);
+    EXPECT_EQ(events[1].action, SessionAction::place);
+    EXPECT_FALSE(events[1].is_refused);
+    EXPECT_FALSE(placed_) << "nobody asked for it";
 }
 
 TEST_F(SessionControlsTest, ResetsAllStrokesAndRedoesThemOneByOne) {

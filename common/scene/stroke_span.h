@@ -1,0 +1,33 @@
+// The span of a stroke: what one undo gives back, and what the report counts.
+//
+// A stroke begins when the turning burr touches bone. It ends when the pedal comes up and no more bone goes,
+// or when the burr has been clear of bone for longest_gap_s: a tool is lifted and set down again within one
+// stroke, as a pen is.
+#pragma once
+
+#include <optional>
+
+namespace osteomill {
+
+class StrokeSpan {
+  public:
+    static constexpr double longest_gap_s = 0.5;
+
+    /// Once a frame: whether a stroke is under way. `now_s`: session time; `takes_bone`: in this frame, which
+    /// the milling loop may do a step after the pedal came up; `feels_bone`: there is a force on the hand.
+    bool goes_on(double now_s, bool spindle_on, bool takes_bone, bool feels_bone) {
+        touches_ = takes_bone || (spindle_on && feels_bone);
+        if (touches_) touched_s_ = now_s;
+        if (!touches_ && !spindle_on) touched_s_.reset();
+        if (touched_s_ && now_s - *touched_s_ >= longest_gap_s) touched_s_.reset();
+        return touched_s_.has_value();
+    }
+    /// In the last frame.
+    bool touches() const { return touches_; }
+
+  private:
+    bool touches_ = false;
+    std::optional<double> touched_s_;  // the last time, of a stroke under way
+};
+
+}  // namespace osteomill
