@@ -88,8 +88,12 @@ void Window::watch_input() {
     glfwSetKeyCallback(window_, [](GLFWwindow* window, int key, int, int action, int) {
         WindowInput& input = input_of(window);
         if (key < 0 || static_cast<std::size_t>(key) >= WindowInput::most_keys) return;
-        input.keys_down[static_cast<std::size_t>(key)] = action != GLFW_RELEASE;
-        if (action == GLFW_PRESS) input.presses.push_back(key);
+        HeldKeys& keys = static_cast<Window*>(glfwGetWindowUserPointer(window))->keys_;
+        const auto index = static_cast<std::size_t>(key);
+        if (action == GLFW_RELEASE)
+            keys.release(index, glfwGetTime());
+        else if (keys.press(index, glfwGetTime()))
+            input.presses.push_back(key);
     });
     glfwSetCharCallback(window_, [](GLFWwindow* window, unsigned int character) {
         input_of(window).typed.push_back(character);
@@ -127,6 +131,7 @@ Window::~Window() {
 }
 
 void Window::read_events(double at_most_s) {
+    if (keys_.is_settling()) at_most_s = std::min(at_most_s, HeldKeys::longest_gap_s);
     if (at_most_s > 0.0)
         glfwWaitEventsTimeout(at_most_s);
     else
@@ -147,6 +152,8 @@ WindowInput Window::take_input() {
     input_.has_cursor = is_over || input_.is_focused;
     input_.size = glm::max(glm::dvec2(units), 1.0);
     input_.framebuffer_size_px = size_px;
+    if (keys_.settle(glfwGetTime())) input_.has_news = true;
+    input_.keys_down = keys_.down();
     input_.content_scale = std::clamp(static_cast<double>(std::max(scale_x, scale_y)), 0.5, 4.0);
     const auto is_either_down = [this](int left, int right) {
         return input_.keys_down[static_cast<std::size_t>(left)] ||

@@ -7,6 +7,7 @@
 #include <memory>
 #include <string>
 
+#include "render_client/ui/input/held_keys.h"
 #include "render_client/ui/input/window_input.h"
 #include "render_client/volume/gl/second_context.h"
 
@@ -51,6 +52,7 @@ class Window {
     GLFWwindow* window_ = nullptr;
     GLFWwindow* unseen_ = nullptr;  ///< has the second context
     WindowInput input_;
+    HeldKeys keys_;
     std::atomic<bool> is_display_gone_{false};
 };
 
