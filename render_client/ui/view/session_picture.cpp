@@ -11,16 +11,12 @@
 
 #include "render_client/ui/panels/inset_panel.h"
 #include "render_client/ui/panels/layout.h"
+#include "render_client/ui/view/first_view.h"
 #include "render_client/volume/magnification.h"
 
 namespace osteomill {
 
 namespace {
-
-/// Radius round the tool that the first view shows of a bone larger than that, and the part of the bone's
-/// radius that it shows at least, so that one still sees where in the bone one is.
-constexpr double closest_first_view_mm = 10.0;
-constexpr double tool_part_of_first_view = 0.45;
 
 glm::dvec3 middle_of(const Grid& grid, const VoxelBox& box) {
     return 0.5 * (centre_of_voxel_mm(grid, box.first) + centre_of_voxel_mm(grid, box.first + box.size - 1));
@@ -52,6 +48,7 @@ SessionPicture::SessionPicture(SessionSource& source, Panels& panels, const glm:
 
 SessionNews SessionPicture::take_in() {
     link_ = source_.poll();
+    if (is_of_another_session()) forget_session();
     const bool first_of_tool = link_.tool && !tool();
     if (link_.tool) {
         tool_.take(*link_.tool);
@@ -62,6 +59,23 @@ SessionNews SessionPicture::take_in() {
     if (link_.ct) slices_.set_ct(link_.ct);
     ask_for_ct();
     return news();
+}
+
+/// Another scene, or the same begun anew; a recording's time runs back by itself.
+bool SessionPicture::is_of_another_session() const {
+    if (source_.player() == nullptr && link_.tool && tool() && link_.tool->time_s < tool()->time_s)
+        return true;
+    const SessionInfo* session = source_.session();
+    return has_taken_bone_ && link_.bone_replaced && session != nullptr && source_.bone() &&
+           (session->scene_name != scene_name_ || source_.bone()->grid() != grid_);
+}
+
+/// How a person looked at it tells nothing of the next.
+void SessionPicture::forget_session() {
+    tool_ = {};
+    for (std::size_t cut = 0; cut < CutSettings::count; ++cut) view_.cuts.switch_off(cut);
+    has_first_view_ = false;
+    camera_ = first_view_;
 }
 
 void SessionPicture::ask_for_ct() {
@@ -76,6 +90,8 @@ void SessionPicture::take_in_bone(bool first_of_tool) {
     const bool is_first = !std::exchange(has_taken_bone_, true);
     if (link_.bone_replaced || is_first) {
         bone_.replace(*source_.bone(), tissue_colours(source_.session()));
+        grid_ = source_.bone()->grid();
+        scene_name_ = source_.session() ? source_.session()->scene_name : "";
         has_undrawn_bone_ = true;
     } else {
         bone_.note(link_.changes);
@@ -87,7 +103,7 @@ void SessionPicture::take_in_bone(bool first_of_tool) {
         if (const SessionInfo* session = source_.session()) slices_.set_tissues(session->tissues);
     }
     for (const Structure& structure : link_.structures) take_in_structure(structure);
-    if (first_of_tool && camera_ == first_view_) reset_camera();
+    if (first_of_tool && has_bone()) find_first_view();
 }
 
 void SessionPicture::take_in_structure(const Structure& structure) {
@@ -131,7 +147,7 @@ void SessionPicture::show_other_textures(DrawingCost cost) {
     const glm::dvec3 middle_mm = middle_of(textures->grid(), textures->box());
     view_.cuts.set_bounds(middle_mm - half_mm, middle_mm + half_mm);
     // After a reconnection the view stays where the user left it.
-    if (!std::exchange(has_first_view_, true)) reset_camera();
+    if (!std::exchange(has_first_view_, true)) find_first_view();
 }
 
 std::optional<int> SessionPicture::preparation_percent() const {
@@ -147,20 +163,20 @@ void SessionPicture::set_shading(const ShadingSettings& look) {
     if (source_.bone() && has_taken_bone_) work_on_bone();
 }
 
-void SessionPicture::reset_camera() {
-    const BoneTextures* textures = bone_.textures();
-    if (textures == nullptr) return;
-    const glm::dvec3 half_mm = 0.5 * textures->grid().spacing_mm * glm::dvec3(textures->box().size);
-    const glm::dvec3 middle_mm = middle_of(textures->grid(), textures->box());
-    first_view_ = camera_on(middle_mm, glm::length(half_mm));
-    if (tool() && glm::length(half_mm) > closest_first_view_mm) {
-        // All of a jaw would leave the drilled spot a few pixels wide.
-        first_view_.target_mm =
-            glm::clamp(tool()->burr_position_mm, middle_mm - half_mm, middle_mm + half_mm);
-        zoom(first_view_, std::max(closest_first_view_mm / glm::length(half_mm), tool_part_of_first_view));
-    }
+void SessionPicture::find_first_view() {
+    const BoneTextures& textures = *bone_.textures();
+    const glm::dvec3 half_mm = 0.5 * textures.grid().spacing_mm * glm::dvec3(textures.box().size);
+    const BallInView all{middle_of(textures.grid(), textures.box()), glm::length(half_mm)};
+    const SessionInfo* session = source_.session();
+    std::optional<ToolPose> pose;
+    if (tool()) pose = ToolPose{tool()->burr_position_mm, tool()->spindle_axis};
+    const bool has_burr = tool() && session && tool()->burr < session->burrs.size();
+    const bool is_untouched = camera_ == first_view_;
+    first_view_ =
+        first_view(*source_.bone(), all, pose, has_burr ? session->burrs[tool()->burr].radius_mm() : 0.0,
+                   session ? target_in_view(*source_.bone(), *session) : std::nullopt);
     set_magnification(first_view_, first_magnification_);
-    camera_ = first_view_;
+    if (is_untouched) camera_ = first_view_;
 }
 
 const gl::Framebuffer& SessionPicture::draw(double elapsed_s) {

@@ -4,6 +4,7 @@
 
 #include <chrono>
 #include <optional>
+#include <string>
 #include <utility>
 
 #include "render_client/ui/panels/overlay.h"
@@ -57,8 +58,8 @@ class SessionPicture {
     const glm::ivec2& size_px() const { return size_px_; }
 
     Camera& camera() { return camera_; }
-    /// The first view again: of the tool's surroundings, or of all the bone while there is no tool.
-    void reset_camera();
+    /// The first view again (first_view.h).
+    void reset_camera() { camera_ = first_view_; }
     /// Of the first view.
     void set_first_magnification(double factor) { first_magnification_ = factor; }
     /// Another look takes new textures, as a new bone does; the view stays, and the picture until they are
@@ -94,6 +95,9 @@ class SessionPicture {
 
   private:
     void take_in_bone(bool first_of_tool);
+    bool is_of_another_session() const;
+    void forget_session();
+    void find_first_view();
     void take_in_structure(const Structure& structure);
     void work_on_bone();
     void show_other_textures(DrawingCost cost);
@@ -117,6 +121,8 @@ class SessionPicture {
     double first_magnification_ = 1.0;
     bool has_taken_bone_ = false;
     bool has_first_view_ = false;
+    std::string scene_name_;  ///< of the bone that is shown, with its grid
+    Grid grid_;
     LinkUpdate link_;
     ShownTool tool_;
     ShownSession drawn_;  ///< as the last frame showed it

@@ -15,21 +15,27 @@ class ToldSession final : public SessionSource {
     LinkUpdate poll() override {
         // A preparation takes thousands of polls; that it is carved in the first of them will do.
         LinkUpdate update;
-        if (carvings_left_-- > 0) update = session_.poll();
+        if (carvings_left_-- > 0) update = session_->poll();
         update.status = status;
         if (replaces) update.bone_replaced = std::exchange(replaces, false);
         return update;
     }
-    const Bone* bone() const override { return session_.bone(); }
-    const SessionInfo* session() const override { return session_.session(); }
+    const Bone* bone() const override { return session_->bone(); }
+    const SessionInfo* session() const override { return session_->session(); }
     void send_operator(const OperatorCommand&) override {}
+    /// Another session comes, from its beginning.
+    void begin_anew() {
+        session_.emplace(100'000);
+        replaces = true;
+        carvings_left_ = 20;
+    }
 
     LinkStatus status = LinkStatus::live;
     bool replaces = false;
 
   private:
     int carvings_left_ = 20;
-    ScriptedSession session_{100'000};
+    std::optional<ScriptedSession> session_{std::in_place, 100'000};
 };
 
 class SessionPictureTest : public OffscreenTest {
@@ -98,6 +104,31 @@ TEST_F(SessionPictureTest, KeepsViewAndPictureWhileABoneComesAgain) {
     prepare();
     EXPECT_TRUE(picture_->has_bone());
     EXPECT_EQ(picture_->camera(), turned);
+}
+
+TEST_F(SessionPictureTest, ForgetsTheViewOfTheSessionBefore) {
+    picture_->take_in();
+    prepare();
+    const Camera first = picture_->camera();
+    picture_->take_in();
+    orbit(picture_->camera(), 0.5, 0.2);
+    zoom(picture_->camera(), 0.1);
+    picture_->view().cuts.set(0, {1.0, 0.0, 0.0}, 0.0);
+    session_.begin_anew();
+    picture_->take_in();
+    prepare();
+    EXPECT_EQ(picture_->camera(), first);
+    EXPECT_FALSE(picture_->view().cuts.any());
+}
+
+TEST_F(SessionPictureTest, GoesBackToTheFirstViewWhereverTheToolIsNow) {
+    picture_->take_in();
+    prepare();
+    const Camera first = picture_->camera();
+    for (int poll = 0; poll < 10; ++poll) picture_->take_in();
+    orbit(picture_->camera(), 0.5, 0.2);
+    picture_->reset_camera();
+    EXPECT_EQ(picture_->camera(), first);
 }
 
 TEST_F(SessionPictureTest, SaysThatABoneIsTooLargeOnce) {
