@@ -37,6 +37,7 @@ class BoneLink::Impl {
 
     void send(const OperatorCommand& command) { connection_.send(command); }
     void ask_for_ct() { connection_.ask_for_ct(); }
+    void connect_to(std::string host, std::uint16_t port) { connection_.connect_to(std::move(host), port); }
     void send(const SessionControl& control) { connection_.send(control); }
     std::optional<ToolState> newest_tool() const { return connection_.newest_tool(); }
 
@@ -161,6 +162,9 @@ void BoneLink::send_operator(const OperatorCommand& command) {
 }
 void BoneLink::ask_for_ct() {
     impl_->ask_for_ct();
+}
+void BoneLink::connect_to(std::string host, std::uint16_t port) {
+    impl_->connect_to(std::move(host), port);
 }
 void BoneLink::send_control(const SessionControl& control) {
     impl_->send(control);

@@ -109,6 +109,10 @@ class BoneLink {
     /// does not take it. What comes of it is an event.
     void send_control(const SessionControl& control);
 
+    /// UI thread. To another server from now on: the one before is left, and its bone stays until the next
+    /// has come.
+    void connect_to(std::string host, std::uint16_t port);
+
     /// UI thread. Asks for the CT of the session, if the server has one.
     void ask_for_ct();
 

@@ -127,6 +127,16 @@ void ServerConnection::reconnect() {
     });
 }
 
+void ServerConnection::connect_to(std::string host, std::uint16_t port) {
+    asio::post(io_, [this, host = std::move(host), port]() mutable {
+        host_ = std::move(host);
+        port_ = port;
+        where_ = host_ + ":" + std::to_string(port_);
+        backoff_ = milliseconds(0);
+        connect();
+    });
+}
+
 void ServerConnection::run() {
     while (!io_.stopped()) {
         try {

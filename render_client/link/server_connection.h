@@ -74,6 +74,8 @@ class ServerConnection {
     void finish_recording();
     /// Drops what has come of this connection and begins another.
     void reconnect();
+    /// To another server from now on.
+    void connect_to(std::string host, std::uint16_t port);
 
   private:
     using tcp = boost::asio::ip::tcp;
@@ -109,9 +111,9 @@ class ServerConnection {
     void retry_later();
     void announce(LinkStatus status, std::string line);
 
-    const std::string host_;
-    const std::uint16_t port_;
-    const std::string where_;
+    std::string host_;
+    std::uint16_t port_;
+    std::string where_;
     LinkQueue events_;
     LinkCounters counters_;
     std::unique_ptr<TlsContext> tls_;  // null: in the clear

@@ -6,6 +6,7 @@
 #include <string>
 #include <utility>
 
+#include "common/net/listen_address.h"
 #include "render_client/link/bone_link.h"
 #include "render_client/link/recording_player.h"
 
@@ -21,6 +22,8 @@ class SessionSource {
     virtual void send_operator(const OperatorCommand& command) = 0;  ///< any thread
     /// Asks for the CT, which a poll then brings; nothing where there is none.
     virtual void ask_for_ct() {}
+    /// To a server elsewhere from now on; nothing where there is none.
+    virtual void connect_to(const ListenAddress&) {}
     /// Any thread: asks something of the session; nothing where nobody takes it.
     virtual void send_control(const SessionControl&) {}
     /// Any thread: of the session that an operator may be at; nothing where there is none.
@@ -42,6 +45,7 @@ class LinkedSession final : public SessionSource {
     const SessionInfo* session() const override { return link_.session(); }
     void send_operator(const OperatorCommand& command) override { link_.send_operator(command); }
     void ask_for_ct() override { link_.ask_for_ct(); }
+    void connect_to(const ListenAddress& server) override { link_.connect_to(server.address, server.port); }
     void send_control(const SessionControl& control) override { link_.send_control(control); }
     std::optional<ToolState> newest_tool() const override { return link_.newest_tool(); }
     std::string finish() override { return link_.finish_recording(); }

@@ -75,10 +75,6 @@ bool can_start_here(const RenderOptions& options) {
     return is_here && !options.replay && !options.tls && !options.until_server_ends;
 }
 
-std::string listen_address(const RenderOptions& options) {
-    return fmt::format("{}:{}", options.host == "::1" ? "[::1]" : "127.0.0.1", options.port);
-}
-
 /// What the two threads of a window share.
 struct Shared {
     InputMailbox mailbox{};
@@ -111,7 +107,7 @@ class Drawing {
         if (can_start_here(options)) {
             start_.emplace(StartPlaces{.programs = folder_of_this_program(),
                                        .home = options.home.value_or(home_of_cases()),
-                                       .listen = listen_address(options)});
+                                       .connects_to = {options.host, options.port}});
             session_.offer_start(*start_);
         }
         redraw_.note_change(began_);
@@ -145,6 +141,8 @@ class Drawing {
         const bool view_moves = view_motion() != glm::ivec2(0);
         if (happened.has_news || view_moves || (start_ && start_->page.poll())) redraw_.note_change(now);
         input_.append(happened);
+        if (start_)
+            if (const auto server = start_->page.take_server()) source_.connect_to(*server);
 
         work_look(std::chrono::duration<double>(now - began_).count());
         work_sound(std::chrono::duration<double>(now - began_).count());

@@ -2,21 +2,18 @@
 
 #include <fmt/chrono.h>
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <algorithm>
-#include <cctype>
+#include <cerrno>
 #include <cstdlib>
+#include <system_error>
+
+#include "common/text/file_name.h"
 
 namespace osteomill {
 
 namespace {
-
-constexpr std::size_t longest_name = 60;
-
-bool is_plain(char letter) {
-    return std::isalnum(static_cast<unsigned char>(letter)) != 0 || letter == '-' || letter == '_' ||
-           letter == '.';
-}
 
 /// The folders in `folder` that have this file, by name.
 std::vector<std::filesystem::path> folders_with(const std::filesystem::path& folder, const char* file) {
@@ -29,13 +26,6 @@ std::vector<std::filesystem::path> folders_with(const std::filesystem::path& fol
     }
     std::sort(found.begin(), found.end());
     return found;
-}
-
-std::string for_a_file(std::string text) {
-    std::replace_if(
-        text.begin(), text.end(), [](char letter) { return !is_plain(letter); }, '_');
-    if (text.size() > longest_name) text.resize(longest_name);
-    return text;
 }
 
 }  // namespace
@@ -59,11 +49,12 @@ std::vector<std::filesystem::path> sessions_in(const std::filesystem::path& repo
 }
 
 std::string wrong_with_name(const std::string& name, const std::filesystem::path& folder) {
-    const bool is_good =
-        !name.empty() && name.size() <= longest_name && name.front() != '.' && name.front() != ' ' &&
-        name.back() != ' ' &&
-        std::all_of(name.begin(), name.end(), [](char letter) { return is_plain(letter) || letter == ' '; });
-    if (!is_good) return "a case's name has 1 to 60 letters, digits, - _ . or blanks within";
+    const bool is_good = !name.empty() && name == as_file_name(name) && name.front() != '.' &&
+                         name.front() != ' ' && name.back() != ' ';
+    if (!is_good)
+        return fmt::format(
+            "a case's name has 1 to {} characters, no / or \\, no dot first, no blank at its ends",
+            longest_file_name_characters);
     if (std::find(built_in_cases.begin(), built_in_cases.end(), name) != built_in_cases.end())
         return fmt::format("'{}' is built in; choose another name", name);
     std::error_code error;
@@ -76,8 +67,19 @@ std::filesystem::path report_folder(const std::filesystem::path& reports, const 
                                     const std::string& trainee, std::time_t began) {
     std::tm local{};
     ::localtime_r(&began, &local);
-    return reports / fmt::format("{}-{}-{:%Y%m%d-%H%M%S}", for_a_file(case_name),
-                                 for_a_file(trainee.empty() ? "nobody" : trainee), local);
+    return reports / fmt::format("{}-{}-{:%Y%m%d-%H%M%S}", as_file_name(case_name),
+                                 as_file_name(trainee.empty() ? "nobody" : trainee), local);
+}
+
+std::string make_folder_at_home(const std::filesystem::path& folder) {
+    std::error_code error;
+    std::filesystem::create_directories(folder, error);
+    // A folder may be there on a disk that takes nothing.
+    if (!error && ::access(folder.c_str(), W_OK) != 0) error.assign(errno, std::generic_category());
+    if (!error) return {};
+    return fmt::format(
+        "nothing can be kept in {} ({}): start render_client with --home DIR, a folder of yours",
+        folder.string(), error.message());
 }
 
 }  // namespace osteomill

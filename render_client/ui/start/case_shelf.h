@@ -26,16 +26,20 @@ std::filesystem::path home_of_cases();
 /// none.
 std::vector<ShelvedCase> cases_in(const std::filesystem::path& folder);
 
-/// Why a case cannot have this name, in one line; empty where it can: letters, digits, - _ . and blanks, 1 to
-/// 60, no dot first, none like it in `folder`.
+/// Why a case cannot have this name, in one line; empty where it can: a name of a file in any language, no
+/// dot first, no blank at its ends, none like it in `folder`.
 std::string wrong_with_name(const std::string& name, const std::filesystem::path& folder);
 
 /// The folders of `reports` that hold a recorded session, by name.
 std::vector<std::filesystem::path> sessions_in(const std::filesystem::path& reports);
 
 /// Where a session that begins at `began` has its report: case, trainee and the local time, in `reports`.
-/// What no name of a file should have becomes _.
+/// Names as as_file_name makes them.
 std::filesystem::path report_folder(const std::filesystem::path& reports, const std::string& case_name,
                                     const std::string& trainee, std::time_t began);
+
+/// A folder of home_of_cases(), or of what stands for it; made if it is not there. Why nothing can be kept in
+/// it, in one line that says what to do; empty: all is well.
+std::string make_folder_at_home(const std::filesystem::path& folder);
 
 }  // namespace osteomill

@@ -3,12 +3,13 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include <cctype>
 #include <chrono>
 #include <cstdlib>
 #include <ctime>
 #include <stdexcept>
+#include <string_view>
 
+#include "common/text/file_name.h"
 #include "render_client/volume/png_file.h"
 
 namespace osteomill {
@@ -38,11 +39,9 @@ void remove_quietly(const std::filesystem::path& folder) {
 
 /// Of a scan's path: what a person calls it.
 std::string name_of_scan(const std::filesystem::path& scan) {
-    std::string name = scan.filename().string();
-    name = name.substr(0, name.find('.'));
-    for (char& letter : name)
-        if (std::isalnum(static_cast<unsigned char>(letter)) == 0 && letter != '-') letter = '_';
-    return name.empty() ? "case" : name.substr(0, 40);
+    const std::string name = scan.filename().string();
+    const std::string stem = as_file_name(name.substr(0, name.find('.')));
+    return stem.empty() ? "case" : stem;
 }
 
 /// "haptic_server: " and the like are for terminals.
@@ -86,13 +85,15 @@ void StartPage::show(View view) {
 void StartPage::start() {
     if (is_session_running() || chosen >= cases_.size()) return;
     const ShelvedCase& wanted = cases_[chosen];
+    message_ = make_folder_at_home(places_.home / "reports");
+    if (!message_.empty()) return;
     report_.reset();
     is_hidden = false;
     report_folder_ = report_folder(places_.home / "reports", wanted.name, trainee, std::time(nullptr));
     std::vector<std::string> command{program("haptic_server"),
                                      "--case=" + wanted.argument,
                                      "--device=client",
-                                     "--listen=" + places_.listen,
+                                     "--listen=127.0.0.1:0",
                                      "--report=" + report_folder_.string(),
                                      "--save-bone=" + (report_folder_ / "bone.nrrd").string()};
     if (!trainee.empty()) command.push_back("--trainee=" + trainee);
@@ -102,8 +103,8 @@ void StartPage::start() {
                      ? std::filesystem::path(wanted.argument) / "look.toml"
                      : places_.home / "looks" / (wanted.name + ".toml");
     try {
-        std::filesystem::create_directories(places_.home / "reports");
         server_ = std::make_unique<ChildProgram>(command, longest_report);
+        has_address_ = false;
         message_ = fmt::format("{} is being made ready ...", wanted.name);
     } catch (const std::exception& error) {
         message_ = error.what();
@@ -178,6 +179,7 @@ void StartPage::look_at_scan(bool is_another_scan) {
 void StartPage::import() {
     if (is_working() || !look_) return;
     message_ = wrong_with_name(form.name, cases_of(places_));
+    if (message_.empty()) message_ = make_folder_at_home(cases_of(places_));
     if (!message_.empty()) return;
     if (voxels_of(form) > most_imported_voxels) {
         message_ = fmt::format(
@@ -186,7 +188,6 @@ void StartPage::import() {
         return;
     }
     try {
-        std::filesystem::create_directories(cases_of(places_));
         work_ = Work::import;
         worker_ = std::make_unique<ChildProgram>(
             import_command(program("bone_import"), form, cases_of(places_) / form.name));
@@ -234,6 +235,20 @@ void StartPage::end_of_work() {
     scratch_.clear();
 }
 
+void StartPage::look_for_address() {
+    constexpr std::string_view words = "listening on ";
+    const std::string& said = server_->output();
+    const std::size_t at = said.find(words);
+    const std::size_t end = at == std::string::npos ? at : said.find('\n', at);
+    if (end == std::string::npos) return;
+    try {
+        server_is_at_ = parse_listen_address(said.substr(at + words.size(), end - at - words.size()));
+        has_address_ = true;
+    } catch (const std::invalid_argument& error) {
+        message_ = error.what();
+    }
+}
+
 bool StartPage::poll() {
     bool has_news = false;
     if (worker_ && worker_->poll()) {
@@ -251,6 +266,10 @@ bool StartPage::poll() {
             if (std::filesystem::exists(page, ignored)) report_ = page;
             message_ = end_in_words(*server_, report_folder_);
             server_.reset();
+            // Its port may soon be somebody else's.
+            server_is_at_ = places_.connects_to;
+        } else if (!has_address_) {
+            look_for_address();
         }
     }
     if (opener_ && opener_->poll() && !opener_->is_running()) {

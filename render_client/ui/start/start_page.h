@@ -8,8 +8,10 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "common/net/listen_address.h"
 #include "common/program/child_program.h"
 #include "render_client/ui/start/case_shelf.h"
 #include "render_client/ui/start/folder_listing.h"
@@ -21,7 +23,7 @@ namespace osteomill {
 struct StartPlaces {
     std::filesystem::path programs;  ///< where haptic_server and bone_import are
     std::filesystem::path home;      ///< has the folders cases and reports
-    std::string listen;              ///< HOST:PORT that the window connects to
+    ListenAddress connects_to;       ///< the window's own server, while none was started here
 };
 
 /// Beside the program that runs.
@@ -51,6 +53,9 @@ class StartPage {
     void note_end_of_session();
     /// Where the look is kept of the case that was started last; empty before.
     const std::filesystem::path& look_file() const { return look_file_; }
+    /// Where the window is to look for its server from now on, if that is another place than before: a
+    /// session that is started here listens on a port of its own.
+    std::optional<ListenAddress> take_server() { return std::exchange(server_is_at_, std::nullopt); }
     bool is_session_running() const { return server_ != nullptr && server_->is_running(); }
     /// Started a session that has ended.
     bool has_served() const { return !report_folder_.empty() && server_ == nullptr; }
@@ -102,7 +107,11 @@ class StartPage {
     std::optional<Picture> picture_;
     std::uint64_t picture_number_ = 0;
 
+    void look_for_address();
+
     std::unique_ptr<ChildProgram> server_;
+    bool has_address_ = false;  // it has said where it listens
+    std::optional<ListenAddress> server_is_at_;
     std::filesystem::path report_folder_;
     std::filesystem::path look_file_;
     std::optional<std::filesystem::path> report_;

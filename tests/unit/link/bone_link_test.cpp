@@ -155,6 +155,18 @@ TEST(BoneLink, WaitsForAServerThatIsNotThereYetAndReturnsAfterARestart) {
     EXPECT_EQ(link.poll().connections, 2U);
 }
 
+TEST(BoneLink, MovesToAnotherServer) {
+    ServedBone here;
+    ServedBone there(0, true);
+    BoneLink link("127.0.0.1", here.port());
+    ASSERT_TRUE(reaches(link, LinkStatus::live));
+    EXPECT_FALSE(link.session()->accepts_operator);
+    link.connect_to("127.0.0.1", there.port());
+    ASSERT_TRUE(eventually([&] { return link.poll().connections == 2; }));
+    ASSERT_TRUE(reaches(link, LinkStatus::live));
+    EXPECT_TRUE(link.session()->accepts_operator);
+}
+
 TEST(BoneLink, CarriesTheOperatorsWishes) {
     ServedBone served(0, true);
     auto link = std::make_unique<BoneLink>("127.0.0.1", served.port());

@@ -29,9 +29,10 @@ TEST(CaseShelf, HasTheBuiltInCasesAndWhatWasImported) {
 TEST(CaseShelf, RefusesNamesThatWouldBeNoFolderOrAreTaken) {
     const testing::TemporaryFolder folder;
     std::filesystem::create_directories(folder / "taken");
-    EXPECT_EQ(wrong_with_name("jaw of A-1_b.2", folder / "."), "");
-    for (const char* bad : {"", ".hidden", "a/b", "..", " blank", "blank ", "new\nline"})
-        EXPECT_THAT(wrong_with_name(bad, folder / "."), HasSubstr("letters")) << bad;
+    for (const char* good : {"jaw of A-1_b.2", "Kieferknochen für Übung", "下颌骨"})
+        EXPECT_EQ(wrong_with_name(good, folder / "."), "");
+    for (const char* bad : {"", ".hidden", "a/b", "..", " blank", "blank ", "new\nline", "Z\xe4hne"})
+        EXPECT_THAT(wrong_with_name(bad, folder / "."), HasSubstr("characters")) << bad;
     EXPECT_THAT(wrong_with_name(std::string(61, 'x'), folder / "."), HasSubstr("60"));
     EXPECT_THAT(wrong_with_name("taken", folder / "."), HasSubstr("already"));
     EXPECT_THAT(wrong_with_name("tooth", folder / "."), HasSubstr("built in"));
@@ -51,8 +52,19 @@ TEST(CaseShelf, KnowsTheSessionsThatWereRecorded) {
 TEST(CaseShelf, NamesAReportByCaseTraineeAndTime) {
     ::setenv("TZ", "UTC", 1);
     EXPECT_EQ(report_folder("/r", "a jaw", "Anna O'Hara/../x", 0),
-              "/r/a_jaw-Anna_O_Hara_.._x-19700101-000000");
+              "/r/a jaw-Anna O'Hara_.._x-19700101-000000");
+    EXPECT_EQ(report_folder("/r", "Zähne", "Jürgen Öz", 0), "/r/Zähne-Jürgen Öz-19700101-000000");
     EXPECT_EQ(report_folder("/r", "tooth", "", 86400), "/r/tooth-nobody-19700102-000000");
+}
+
+TEST(CaseShelf, SaysInOneLineThatNothingCanBeKeptAndWhatToDo) {
+    const testing::TemporaryFolder folder;
+    EXPECT_EQ(make_folder_at_home(folder / "home/reports"), "");
+    EXPECT_TRUE(std::filesystem::is_directory(folder / "home/reports"));
+    std::ofstream(folder / "file") << "x";
+    const std::string line = make_folder_at_home(folder / "file/reports");
+    EXPECT_THAT(line, HasSubstr("--home DIR"));
+    EXPECT_EQ(line.find('\n'), std::string::npos);
 }
 
 }  // namespace
