@@ -70,7 +70,7 @@ const std::vector<KeyBinding>& table() {
          Action::move_bone,
          "B, then drag, B",
          "turn the bone under the tool (shift: move it)"},
-        {session, live, {GLFW_KEY_U}, Action::undo, "U", "undo the last stroke, from pedal down to up"},
+        {session, live, {GLFW_KEY_U}, Action::undo, "U", "undo the last stroke, also the one under way"},
         {session, live, {GLFW_KEY_R}, Action::redo, "R", "redo it"},
         {session, live, {GLFW_KEY_H}, Action::hold, "H", "pause: force and spindle off; go on"},
         {session, live, {GLFW_KEY_M}, Action::mark, "M", "mark this moment, with a note"},
@@ -129,6 +129,9 @@ const std::vector<KeyBinding>& table() {
 }  // namespace
 
 bool holds(const KeyBinding& binding, Situation situation) {
+    // There is nothing yet to look at.
+    if (situation == Situation::starting)
+        return binding.situation == Situation::always && binding.topic == Topic::panels;
     return binding.situation == Situation::always || binding.situation == situation ||
            (binding.situation == Situation::live && situation != Situation::playing);
 }
@@ -159,6 +162,16 @@ std::vector<Action> actions_of(std::span<const int> pressed_keys, Situation situ
 
 std::vector<HelpLine> help_lines(Situation situation) {
     std::vector<HelpLine> lines;
+    if (situation == Situation::starting)
+        lines = {{"", "This page", true},
+                 {"list of cases", "built in, or imported by you: choose one"},
+                 {"trainee", "whose session it will be: named in its folder and its report"},
+                 {"Start", "the session begins on this machine, and this window joins it"},
+                 {"Import a scan ...", "make a case of a CT: choose its files, a region, a threshold"},
+                 {"Import labels ...", "make a case of a segmentation, without a CT"},
+                 {"Compare all sessions", "learning curves of the sessions that were kept here"},
+                 {"Hide this", "look at the bone of the last session until the next begins"},
+                 {"", "Mouse and keys of a session: F1, once it runs."}};
     std::optional<Topic> topic;
     for (const KeyBinding& binding : table()) {
         if (!holds(binding, situation)) continue;

@@ -59,6 +59,7 @@ enum class Situation {
     drilling,    ///< the mouse moves the hand
     playing,     ///< a recording is shown
     looking_on,  ///< neither
+    starting,    ///< the start page is shown
     live,        ///< drilling or looking on: there is a session that may be controlled
 };
 

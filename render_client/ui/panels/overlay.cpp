@@ -177,8 +177,10 @@ void draw_overlay(const OverlayContent& content, const glm::ivec2& size_px) {
         glm::clamp(0.45f * picture.x, 200.0f * painter.scale(), 360.0f * painter.scale());
     PanelList panels;
     if (content.view->help_shown) {
+        const bool starts = content.start != nullptr && content.start->is_due(content.link.status);
         const Situation situation =
-            situation_of(content.operator_command.has_value(), content.player != nullptr);
+            starts ? Situation::starting
+                   : situation_of(content.operator_command.has_value(), content.player != nullptr);
         panels.add_page(
             Anchor::middle, help_size(painter, situation, picture - 2.0f * margin),
             [&painter, situation](const PanelPlace& place) { draw_help(painter, situation, place); });

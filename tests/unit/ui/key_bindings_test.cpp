@@ -11,7 +11,8 @@ namespace {
 using testing::ElementsAre;
 using testing::IsEmpty;
 
-constexpr std::array<Situation, 3> situations{Situation::drilling, Situation::playing, Situation::looking_on};
+constexpr std::array situations{Situation::drilling, Situation::playing, Situation::looking_on,
+                                Situation::starting};
 
 std::string text_of(const KeyBinding& binding) {
     return std::string(binding.name) + ": " + binding.meaning;
@@ -36,6 +37,15 @@ TEST(KeyBindings, HelpShowsEachThatHoldsAndNoOther) {
         for (const KeyBinding& binding : key_bindings())
             EXPECT_EQ(shown.count(text_of(binding)), expected.count(text_of(binding))) << text_of(binding);
     }
+}
+
+TEST(KeyBindings, HelpOfTheStartPageExplainsThatPage) {
+    std::set<std::string> names;
+    for (const HelpLine& line : help_lines(Situation::starting)) names.insert(line.name);
+    for (const char* button :
+         {"Start", "Import a scan ...", "Import labels ...", "Compare all sessions", "F1"})
+        EXPECT_TRUE(names.contains(button)) << button;
+    EXPECT_FALSE(names.contains("right drag")) << "there is nothing to look at yet";
 }
 
 TEST(KeyBindings, ReachEveryAction) {
