@@ -57,7 +57,7 @@ std::string card(const std::string& kind, const std::string& value, const std::s
 
 std::string cards(const SessionMetrics& metrics) {
     std::string html = "<div class='cards'>";
-    html += card("", fmt::format("{} s", number_text(std::round(metrics.motion.time_s))), "time");
+    html += card("", fmt::format("{} s", number_text(metrics.motion.time_s)), "time");
     html += card("", fmt::format("{} mm³", number_text(metrics.removal.removed_mm3)), "bone removed");
     if (metrics.plan) {
         html += card("", fmt::format("{:.0f} %", 100.0 * metrics.plan->removed_share), "of the plan removed");

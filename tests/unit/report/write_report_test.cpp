@@ -48,6 +48,21 @@ TEST(WriteReport, ShowsHostileNamesAsTextInOnePage) {
     EXPECT_THAT(testing::bytes_of(folder / "report/metrics.csv"), HasSubstr("\"\"\"'><script"));
 }
 
+TEST(WriteReport, ItsTilesSayWhatItsTablesSay) {
+    const testing::TemporaryFolder folder;
+    const Bone bone = testing::labelled_cube(1, 0.5, [](const glm::dvec3&) { return std::uint8_t{1}; });
+    testing::WrittenSession written(folder / "a.pcap", {.scene_name = "cube", .burrs = {Burr{}}}, bone);
+    written.frame({.time_s = 0.0});
+    written.frame({.time_s = 155.74, .force_n = {0.0, 3.0, 4.123}});
+    written.finish();
+    EXPECT_EQ(write_report(folder / "a.pcap", folder / "report", [] {}), "");
+    const std::string page = testing::bytes_of(folder / "report/report.html");
+    EXPECT_THAT(page, HasSubstr("<b>155.7 s</b>"));
+    EXPECT_THAT(page, HasSubstr("<td class='n'>155.7</td><td class='u'>s</td>"));
+    EXPECT_THAT(page, HasSubstr("<b>5.10 N</b>"));
+    EXPECT_THAT(page, HasSubstr("<td class='n'>5.10</td><td class='u'>N</td>"));
+}
+
 TEST(WriteReport, OfATornRecordingIsOfWhatCanBeRead) {
     const testing::TemporaryFolder folder;
     testing::make_recording(folder / "a.pcap");
