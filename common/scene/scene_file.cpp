@@ -6,6 +6,7 @@
 #include <cmath>
 #include <glm/matrix.hpp>
 
+#include "common/scene/apply_change.h"
 #include "common/scene/plan_table.h"
 #include "common/scene/shallow_toml.h"
 #include "common/scene/tissue_tables.h"
@@ -219,24 +220,39 @@ Scene read_all(TomlReader reader, const std::filesystem::path& folder) {
     return scene;
 }
 
+/// The file is known to be right.
+Scene read_changed(toml::table root, const SceneChanges& changes, const std::filesystem::path& folder) {
+    constexpr const char* no_file = "changed";
+    try {
+        for (const SceneChange& change : changes.changes) apply(change, root);
+        return read_all(TomlReader(root, no_file, "the scene"), folder);
+    } catch (const SceneError& error) {
+        // What was changed has no line.
+        const std::string line = error.what();
+        const bool has_place = line.starts_with(std::string(no_file) + ":");
+        throw SceneError(changes.option + ": " + (has_place ? line.substr(line.find(": ") + 2) : line));
+    }
+}
+
 }  // namespace
 
 SceneError::SceneError(const std::string& message) : std::runtime_error(printable(message)) {}
 
 Scene parse_scene(std::string_view text, const std::string& name_for_messages,
-                  const std::filesystem::path& folder) {
+                  const std::filesystem::path& folder, const SceneChanges& changes) {
     try {
         require_shallow_toml(text, name_for_messages);
         const toml::table root = toml::parse(text, name_for_messages);
-        return read_all(TomlReader(root, name_for_messages, "the scene"), folder);
+        Scene scene = read_all(TomlReader(root, name_for_messages, "the scene"), folder);
+        return changes.changes.empty() ? scene : read_changed(root, changes, folder);
     } catch (const toml::parse_error& error) {
         throw SceneError(fmt::format("{}:{}: not TOML: {}", name_for_messages, error.source().begin.line,
                                      error.description()));
     }
 }
 
-Scene read_scene(const std::filesystem::path& path) {
-    return parse_scene(read_toml_text(path, "a scene file"), path.string(), path.parent_path());
+Scene read_scene(const std::filesystem::path& path, const SceneChanges& changes) {
+    return parse_scene(read_toml_text(path, "a scene file"), path.string(), path.parent_path(), changes);
 }
 
 }  // namespace osteomill

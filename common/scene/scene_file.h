@@ -30,6 +30,7 @@
 #include <string_view>
 
 #include "common/scene/scene.h"
+#include "common/scene/scene_change.h"
 
 namespace osteomill {
 
@@ -39,13 +40,14 @@ class SceneError : public std::runtime_error {
     explicit SceneError(const std::string& message);
 };
 
-/// Throws SceneError for an unreadable file or a bad scene.
-Scene read_scene(const std::filesystem::path& path);
+/// Throws SceneError for an unreadable file or a bad scene; where a change is to blame, "OPTION: what is
+/// wrong".
+Scene read_scene(const std::filesystem::path& path, const SceneChanges& changes = {});
 
 /// As read_scene, from text. `name_for_messages` stands in messages; relative paths are resolved against
 /// `folder`.
 Scene parse_scene(std::string_view text, const std::string& name_for_messages,
-                  const std::filesystem::path& folder = {});
+                  const std::filesystem::path& folder = {}, const SceneChanges& changes = {});
 
 /// The scene as TOML for people: what differs from the defaults, a line of comment before each block, every
 /// number in the fewest digits that are it. parse_scene gives the same scene back.

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "common/files/distinct_files.h"
+#include "common/scene/session_control.h"
 #include "haptic_server/program/report_folder.h"
 #include "imaging/case/case_folder.h"
 #include "imaging/phantoms/phantom.h"
@@ -23,6 +24,9 @@ struct Typed {
     std::string scene;
     std::string case_name;
     std::string bone;
+    std::vector<std::string> changes;
+    std::string burr;
+    double spindle_rpm = 0.0;
     DeviceOptions device;
     std::string grip = "firm";
     std::string trajectory;
@@ -99,6 +103,14 @@ void declare(CLI::App& app, Typed& typed) {
         ->excludes("--scene");
     app.add_option("--bone", typed.bone, "Bone from a file that bone_import wrote, instead of the scene's")
         ->type_name("FILE.nrrd");
+    add_texts(app, "--set", typed.changes,
+              "A key of the scene, whatever its file says, such as wall_friction=0.3, device.scale=0.5 or "
+              "tissues.enamel.cuttable=false (docs/scenes.md); again for each further one")
+        ->type_name("KEY=VALUE");
+    app.add_option("--burr", typed.burr, "The burr to start with, by its name in the scene")
+        ->type_name("NAME");
+    app.add_option("--rpm", typed.spindle_rpm, "Spindle speed of every burr, in place of the scene's")
+        ->check(within(least_spindle_rpm, most_spindle_rpm));
     typed.device.declare(app);
     app.add_option("--grip", typed.grip, "How the simulated hand holds the arm")
         ->check(one_of({"light", "firm"}))
@@ -191,6 +203,18 @@ std::string checked_coupling(const Typed& typed, const DeviceEntry& device) {
                         typed.coupling, typed.force_model, default_coupling(has_cutting_law, device)));
     }
     return typed.coupling;
+}
+
+SceneChanges scene_changes(const Typed& typed) {
+    SceneChanges changes{.option = typed.changes.empty() ? "--burr" : "--set"};
+    try {
+        for (const std::string& text : typed.changes) changes.changes.push_back(parse_scene_change(text));
+    } catch (const std::invalid_argument& error) {
+        throw std::invalid_argument(fmt::format("--set: {}", error.what()));
+    }
+    if (!typed.burr.empty())
+        changes.changes.push_back({.key = "start_burr", .value = typed.burr, .is_text = true});
+    return changes;
 }
 
 bool checked_vibration(const Typed& typed) {
@@ -286,6 +310,11 @@ ServerOptions checked(const Typed& typed, const AccessOptions& access) {
             options.scene.case_folder = options.outputs.case_folder = typed.case_name;
     }
     options.scene.bone = path_if_given(typed.bone);
+    options.scene.changes = scene_changes(typed);
+    if (options.scene.bone && !options.scene.name && !options.scene.changes.changes.empty())
+        throw std::invalid_argument(fmt::format(
+            "{}: of a scene; --bone alone has none, name one with --scene", options.scene.changes.option));
+    if (typed.spindle_rpm > 0.0) options.scene.spindle_rpm = typed.spindle_rpm;
     options.grip = typed.grip == "light" ? Grip::light : Grip::firm;
     options.scene.trajectory = path_if_given(typed.trajectory);
     options.session.clock = is_virtual ? ClockKind::virtual_time : ClockKind::real;

@@ -27,7 +27,7 @@ Scene load_scene(const SceneChoice& choice) {
         const std::vector<std::string> phantoms = phantom_names();
         const std::string name = choice.name.value_or(phantoms.front());
         const bool is_phantom = std::ranges::find(phantoms, name) != phantoms.end();
-        scene = is_phantom ? phantom_scene(name) : read_scene(name);
+        scene = is_phantom ? phantom_scene(name, choice.changes) : read_scene(name, choice.changes);
         if (choice.case_folder) require_own_files(scene, *choice.case_folder);
         if (choice.bone) {
             const auto* before = std::get_if<FileSource>(&scene.bone);
@@ -36,8 +36,13 @@ Scene load_scene(const SceneChoice& choice) {
                                     .segmentation = before != nullptr ? before->segmentation : ""};
         }
     }
+    if (choice.spindle_rpm)
+        for (Burr& burr : scene.burrs) burr.spindle_rev_per_s = *choice.spindle_rpm / 60.0;
     if (choice.trajectory) scene.trajectory.source = *choice.trajectory;
-    if (choice.case_folder)
+    const bool is_pose_chosen = std::ranges::any_of(choice.changes.changes, [](const SceneChange& change) {
+        return change.key.starts_with("start_pose");
+    });
+    if (choice.case_folder && !is_pose_chosen)
         scene.start_pose = placement_of_case(*choice.case_folder).value_or(scene.start_pose);
     return scene;
 }

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "common/scene/scene_change.h"
 #include "imaging/case/bone_source.h"
 
 namespace osteomill {
@@ -13,6 +14,8 @@ namespace osteomill {
 /// What of a scene is chosen; nothing: the tooth.
 struct SceneChoice {
     std::optional<std::string> name{};            ///< a phantom's or a TOML file's; absent: the bone's own
+    SceneChanges changes{};                       ///< of the scene's keys
+    std::optional<double> spindle_rpm{};          ///< of every burr, in place of the scene's
     std::optional<std::filesystem::path> bone{};  ///< in place of the scene's
     std::optional<std::filesystem::path> trajectory{};   ///< likewise
     std::optional<std::filesystem::path> case_folder{};  ///< of a case that is not built in

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "common/scene/scene.h"
+#include "common/scene/scene_change.h"
 #include "imaging/hu_volume.h"
 
 namespace osteomill {
@@ -41,8 +42,9 @@ std::vector<std::string> phantom_names();
 /// The scene that goes with a phantom: tissues, six burrs (1, 1.5, 2, 3, 4, 5 mm), start pose and trajectory.
 /// The tooth's trajectory is the cavity that drills out the lesion with the 1.5 mm burr to a hole of 4.5 mm;
 /// the cube's is the polishing slide with the 5 mm burr; the head's (see head_phantom.h) thins the vault at
-/// its top with the 3 mm burr. Throws std::invalid_argument for an unknown name, listing the known ones.
-Scene phantom_scene(const std::string& name);
+/// its top with the 3 mm burr. Throws std::invalid_argument for an unknown name, listing the known ones, and
+/// SceneError for a change that cannot be (scene_file.h).
+Scene phantom_scene(const std::string& name, const SceneChanges& changes = {});
 
 /// A phantom: CT numbers to make bone from, or, where making them would take too long, the bone itself.
 /// Throws like phantom_scene.

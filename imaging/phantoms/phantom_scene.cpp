@@ -19,8 +19,10 @@ std::vector<std::string> phantom_names() {
     return {"tooth", "cube", "head"};
 }
 
-Scene phantom_scene(const std::string& name) {
-    const auto shipped = [&](std::string_view text) { return parse_scene(text, "scenes/" + name + ".toml"); };
+Scene phantom_scene(const std::string& name, const SceneChanges& changes) {
+    const auto shipped = [&](std::string_view text) {
+        return parse_scene(text, "scenes/" + name + ".toml", {}, changes);
+    };
     if (name == "tooth") return shipped(tooth_scene_text);
     if (name == "cube") return shipped(cube_scene_text);
     if (name == "head") return shipped(head_scene_text);

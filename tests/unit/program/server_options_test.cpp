@@ -44,6 +44,22 @@ TEST(ServerOptions, NeedNoneToServeTheToothOnThisMachine) {
                  options.scene.bone);
 }
 
+TEST(ServerOptions, SetKeysOfTheScene) {
+    const ServerOptions options =
+        *parse({"--set", "wall_friction=0.3", "--set", "plan.sphere={ radius_mm = 2 }", "--burr", "2 mm",
+                "--rpm", "30000"})
+             .options;
+    ASSERT_EQ(options.scene.changes.changes.size(), 3U);
+    EXPECT_EQ(options.scene.changes.changes[0], (SceneChange{"wall_friction", "0.3"}));
+    EXPECT_EQ(options.scene.changes.changes[1], (SceneChange{"plan.sphere", "{ radius_mm = 2 }"}));
+    EXPECT_EQ(options.scene.changes.changes[2], (SceneChange{"start_burr", "2 mm", true}));
+    EXPECT_EQ(options.scene.spindle_rpm, 30'000.0);
+    EXPECT_FALSE(parse({}).options->scene.spindle_rpm);
+    EXPECT_THAT(error_of({"--set", "wall_friction"}), AllOf(HasSubstr("--set"), HasSubstr("KEY=VALUE")));
+    EXPECT_THAT(error_of({"--rpm", "20"}), HasSubstr("--rpm"));
+    EXPECT_THAT(error_of({"--bone", "b.nrrd", "--set", "wall_friction=0.3"}), HasSubstr("--scene"));
+}
+
 TEST(ServerOptions, DriveAHapticArmInRealTime) {
     const ServerOptions usual = *parse({"--device", "hid"}).options;
     EXPECT_STREQ(usual.device.entry->name, "hid");

@@ -1,0 +1,32 @@
+// Keys of a scene that are set from outside its file, such as by `haptic_server --set wall_friction=0.3`.
+//
+//     wall_friction=0.3                a key of the scene
+//     device.scale=0.5                 of a table, which is made if it is not there
+//     tissues.enamel.cuttable=false    of a list of tables: of the one with that name
+//     start_burr=2 mm                  a value that is no TOML is a text
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace osteomill {
+
+struct SceneChange {
+    std::string key;       ///< dotted
+    std::string value;     ///< as typed
+    bool is_text = false;  ///< whatever it looks like
+
+    bool operator==(const SceneChange&) const = default;
+};
+
+/// One after the other.
+struct SceneChanges {
+    std::vector<SceneChange> changes{};
+    std::string option{};  ///< that they come from, for messages: "--set"
+};
+
+/// "KEY=VALUE". Throws std::invalid_argument with one line where it is none.
+SceneChange parse_scene_change(std::string_view text);
+
+}  // namespace osteomill
