@@ -4,8 +4,7 @@
 #include <filesystem>
 #include <optional>
 
-#include "simulation/loop/force_log.h"
-#include "simulation/loop/milling_log.h"
+#include "analysis/logs/force_log.h"
 
 namespace osteomill {
 

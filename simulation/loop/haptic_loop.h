@@ -23,10 +23,11 @@
 #include "simulation/device/fading_force.h"
 #include "simulation/device/haptic_device.h"
 #include "simulation/exchange/milling_step.h"
+#include "simulation/exchange/sample_log.h"
 #include "simulation/exchange/session_gate.h"
 #include "simulation/exchange/triple_buffer.h"
 #include "simulation/loop/burr_change.h"
-#include "simulation/loop/force_log.h"
+#include "simulation/loop/force_sample.h"
 #include "simulation/loop/spindle_speed.h"
 #include "simulation/safety/energy_meter.h"
 #include "simulation/safety/safety_monitor.h"
@@ -41,7 +42,7 @@ struct HapticLoopParts {
     TripleBuffer<BurrCommand>& commands;            ///< written
     TripleBuffer<ToolState>& tool;                  ///< written, for the streaming loop
     TripleBuffer<ToolState>& status;                ///< written, for whoever shows progress
-    ForceLog* log = nullptr;                        ///< written; null: no log
+    SampleLog<ForceSample>* log = nullptr;          ///< written; null: no log
     HandpieceVibration* vibration = nullptr;        ///< added to the coupling's force; null: none
     SessionGate* gate = nullptr;                    ///< read and written; null: the session never holds still
     TripleBuffer<Placement>* placements = nullptr;  ///< read, with `gate`

@@ -14,23 +14,24 @@
 #include "simulation/contact_models/force_model.h"
 #include "simulation/exchange/change_queue.h"
 #include "simulation/exchange/milling_step.h"
+#include "simulation/exchange/sample_log.h"
 #include "simulation/exchange/session_gate.h"
 #include "simulation/exchange/triple_buffer.h"
 #include "simulation/loop/burr_hull.h"
 #include "simulation/loop/cut_report.h"
-#include "simulation/loop/milling_log.h"
+#include "simulation/loop/milling_sample.h"
 
 namespace osteomill {
 
 struct MillingLoopParts {
     ForceModel& model;
-    TripleBuffer<BurrCommand>& commands;   ///< read
-    TripleBuffer<MillingResult>& results;  ///< written
-    ChangeQueue& changes;                  ///< written
-    MillingLog* log = nullptr;             ///< written; null: no log
-    std::span<const Burr> burrs{};         ///< of the scene: what may be put in the burr's place
-    ChangeQueue* restored = nullptr;       ///< read: bone to be given back by undo; null: none ever is
-    SessionGate* gate = nullptr;           ///< written, with `restored`
+    TripleBuffer<BurrCommand>& commands;      ///< read
+    TripleBuffer<MillingResult>& results;     ///< written
+    ChangeQueue& changes;                     ///< written
+    SampleLog<MillingSample>* log = nullptr;  ///< written; null: no log
+    std::span<const Burr> burrs{};            ///< of the scene: what may be put in the burr's place
+    ChangeQueue* restored = nullptr;          ///< read: bone to be given back by undo; null: none ever is
+    SessionGate* gate = nullptr;              ///< written, with `restored`
     TripleBuffer<std::optional<CutState>>* cuts = nullptr;  ///< written; null: nobody wants to hear
     std::optional<Motor> motor{};                           ///< of the scene, for `cuts`
 };

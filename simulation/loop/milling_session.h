@@ -22,7 +22,8 @@
 #include "simulation/coupling/couplings.h"
 #include "simulation/device/haptic_device.h"
 #include "simulation/exchange/change_queue.h"
-#include "simulation/loop/force_log.h"
+#include "simulation/exchange/sample_log.h"
+#include "simulation/loop/force_sample.h"
 #include "simulation/loop/haptic_loop.h"
 #include "simulation/loop/milling_loop.h"
 #include "simulation/loop/periodic_loop.h"
@@ -89,7 +90,7 @@ class MillingSession {
     /// rate out of range, a processor that this process may not use, an unknown coupling or force model, a
     /// coupling that the force model has no law for, or a scene that the parts refuse.
     MillingSession(const Scene& scene, Bone bone, HapticDevice& device, const MillingSessionOptions& options,
-                   ForceLog* log = nullptr, MillingLog* milling_log = nullptr);
+                   SampleLog<ForceSample>* log = nullptr, SampleLog<MillingSample>* milling_log = nullptr);
 
     /// For the streaming server: the tool's newest state (the start pose before the first tick), and the
     /// changes in order (each one reader).
@@ -145,8 +146,8 @@ class MillingSession {
 
     MillingSessionOptions options_;
     HapticDevice& device_;
-    ForceLog* log_;
-    MillingLog* milling_log_;
+    SampleLog<ForceSample>* log_;
+    SampleLog<MillingSample>* milling_log_;
     std::unique_ptr<ForceModel> model_;
     std::unique_ptr<Coupling> coupling_;
     ChangeQueue changes_;

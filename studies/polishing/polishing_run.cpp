@@ -7,6 +7,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "analysis/logs/force_log.h"
 #include "devices/simulated/simulated_device.h"
 #include "simulation/loop/milling_session.h"
 #include "studies/polishing/guided_device.h"

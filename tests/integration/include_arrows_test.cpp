@@ -23,9 +23,6 @@ const std::vector<Room>& rooms() {
     static const std::vector<Room> all{
         {"common/", {}},
         {"bridge/", {}},
-        // The loops' logs are files, written by threads of their own.
-        {"simulation/loop/",
-         {"common/bone/", "common/scene/", "common/log/", "common/files/", "simulation/"}},
         {"simulation/", {"common/bone/", "common/scene/"}},
         {"devices/", {"common/", "bridge/", "simulation/device/", "simulation/exchange/"}},
         {"imaging/case/", {"common/", "imaging/", "simulation/contact_models/"}},

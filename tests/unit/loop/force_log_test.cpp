@@ -1,4 +1,4 @@
-#include "simulation/loop/force_log.h"
+#include "analysis/logs/force_log.h"
 
 #include <fcntl.h>
 #include <gmock/gmock.h>

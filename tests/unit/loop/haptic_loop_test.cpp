@@ -6,6 +6,7 @@
 #include <glm/geometric.hpp>
 #include <memory>
 
+#include "analysis/logs/force_log.h"
 #include "tests/unit/loop/scripted_parts.h"
 
 namespace osteomill {

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "analysis/logs/force_log.h"
 #include "simulation/contact_models/milling_model.h"
 #include "tests/support/block.h"
 

@@ -7,10 +7,12 @@
 // patient axes.
 #pragma once
 
+#include <fmt/format.h>
+
+#include <cstddef>
 #include <glm/vec3.hpp>
 #include <optional>
 
-#include "simulation/loop/csv_log.h"
 #include "simulation/safety/fault.h"
 
 namespace osteomill {
@@ -36,7 +38,5 @@ struct ForceSample {
     static constexpr std::size_t capacity = 8192;
     void append_to(fmt::memory_buffer& text) const;
 };
-
-using ForceLog = CsvLog<ForceSample>;
 
 }  // namespace osteomill

@@ -1,4 +1,4 @@
-#include "simulation/loop/milling_log.h"
+#include "simulation/loop/milling_sample.h"
 
 #include <iterator>
 

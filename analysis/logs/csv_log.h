@@ -13,6 +13,7 @@
 
 #include "common/files/session_file.h"
 #include "common/log/background_writer.h"
+#include "simulation/exchange/sample_log.h"
 
 namespace osteomill {
 
@@ -55,7 +56,7 @@ class CsvFile {
 /// `Sample` has a static `header_line` that ends in a line feed, a static `capacity` (samples that may wait
 /// between two drains) and `void append_to(fmt::memory_buffer&) const`, which writes its line.
 template <typename Sample>
-class CsvLog {
+class CsvLog final : public SampleLog<Sample> {
   public:
     static constexpr std::size_t capacity = Sample::capacity;
 
@@ -64,16 +65,16 @@ class CsvLog {
         : file_(file, header_line), queue_(capacity) {}
 
     /// One loop only. When the queue is full the sample is dropped and counted. Real-time safe.
-    void push(const Sample& sample) noexcept {
+    void push(const Sample& sample) noexcept override {
         if (!queue_.push(sample)) dropped_.fetch_add(1, std::memory_order_relaxed);
     }
     /// Any one other thread: hands on what is queued, unless the disk still has the last to write; then the
     /// queue has to last.
-    void drain() {
+    void drain() override {
         if (file_.is_idle()) hand_on();
     }
     /// Likewise, but waits for the disk: for sessions that run on a clock of their own.
-    void drain_all() {
+    void drain_all() override {
         file_.wait_until_idle();
         hand_on();
     }

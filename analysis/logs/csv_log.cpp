@@ -1,4 +1,4 @@
-#include "simulation/loop/csv_log.h"
+#include "analysis/logs/csv_log.h"
 
 #include <fcntl.h>
 #include <unistd.h>

@@ -5,9 +5,10 @@
 // removed_mm3 by the step; spindle 0 or 1.
 #pragma once
 
-#include <glm/vec3.hpp>
+#include <fmt/format.h>
 
-#include "simulation/loop/csv_log.h"
+#include <cstddef>
+#include <glm/vec3.hpp>
 
 namespace osteomill {
 
@@ -24,7 +25,5 @@ struct MillingSample {
     static constexpr std::size_t capacity = 16384;
     void append_to(fmt::memory_buffer& text) const;
 };
-
-using MillingLog = CsvLog<MillingSample>;
 
 }  // namespace osteomill

@@ -1,4 +1,4 @@
-#include "simulation/loop/force_log.h"
+#include "simulation/loop/force_sample.h"
 
 #include <iterator>
 

@@ -1,0 +1,13 @@
+// Logs of a session as CSV: of its haptic ticks, and of its milling steps.
+#pragma once
+
+#include "analysis/logs/csv_log.h"
+#include "simulation/loop/force_sample.h"
+#include "simulation/loop/milling_sample.h"
+
+namespace osteomill {
+
+using ForceLog = CsvLog<ForceSample>;
+using MillingLog = CsvLog<MillingSample>;
+
+}  // namespace osteomill

@@ -1,0 +1,22 @@
+// A log that a loop pushes samples to. What becomes of them, such as lines of a file, is its maker's.
+#pragma once
+
+namespace osteomill {
+
+template <typename Sample>
+class SampleLog {
+  public:
+    virtual ~SampleLog() = default;
+
+    /// From one loop only. Real-time safe.
+    virtual void push(const Sample& sample) noexcept = 0;
+
+    // From one other thread.
+
+    /// Hands on what was pushed, where that does not make it wait.
+    virtual void drain() = 0;
+    /// Likewise, however long it takes: for sessions that run on a clock of their own.
+    virtual void drain_all() = 0;
+};
+
+}  // namespace osteomill
