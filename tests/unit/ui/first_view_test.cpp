@@ -7,14 +7,14 @@
 #include <glm/geometric.hpp>
 #include <glm/vector_relational.hpp>
 
+#include "studies/render/made_bone.h"
 #include "tests/support/block.h"
-#include "tests/unit/volume/made_bone.h"
 
 namespace osteomill {
 namespace {
 
 const glm::dvec3 up(0.0, 0.0, 1.0);
-constexpr glm::ivec2 size_px(1280, 800);
+constexpr glm::ivec2 picture_px(1280, 800);
 
 /// 60 x 60 x 20 mm, its top at z = 0.
 const Bone& slab() {
@@ -24,11 +24,11 @@ const Bone& slab() {
 const BallInView all{{0.0, 0.0, -10.0}, 0.5 * std::sqrt(60.0 * 60.0 + 60.0 * 60.0 + 20.0 * 20.0)};
 
 void expect_in_picture(const Camera& camera, const glm::dvec3& place_mm) {
-    const glm::dvec2 pixel = pixel_of(camera, place_mm, size_px);
-    EXPECT_GT(pixel.x, 0.1 * size_px.x);
-    EXPECT_LT(pixel.x, 0.9 * size_px.x);
-    EXPECT_GT(pixel.y, 0.1 * size_px.y);
-    EXPECT_LT(pixel.y, 0.9 * size_px.y);
+    const glm::dvec2 pixel = pixel_of(camera, place_mm, picture_px);
+    EXPECT_GT(pixel.x, 0.1 * picture_px.x);
+    EXPECT_LT(pixel.x, 0.9 * picture_px.x);
+    EXPECT_GT(pixel.y, 0.1 * picture_px.y);
+    EXPECT_LT(pixel.y, 0.9 * picture_px.y);
 }
 
 TEST(FirstView, IsOfAllTheBoneWithoutATool) {

@@ -8,8 +8,8 @@
 namespace osteomill::key_bindings_test {
 namespace {
 
-using testing::ElementsAre;
-using testing::IsEmpty;
+using ::testing::ElementsAre;
+using ::testing::IsEmpty;
 
 constexpr std::array situations{Situation::drilling, Situation::playing, Situation::looking_on,
                                 Situation::starting};

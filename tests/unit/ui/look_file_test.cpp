@@ -58,7 +58,7 @@ TEST(LookFile, RefusesInOneLineThatNamesFileAndKey) {
 }
 
 TEST(LookFile, IsKeptWithTheCaseAndNotWrittenOverWhereItIsBad) {
-    const auto folder = std::filesystem::path(testing::TempDir()) / "look_file_test";
+    const auto folder = std::filesystem::path(::testing::TempDir()) / "look_file_test";
     std::filesystem::remove_all(folder);
     const auto file = folder / "case" / "look.toml";
     LookKeeper keeper({}, std::nullopt);

@@ -9,7 +9,7 @@
 namespace osteomill::offscreen_run_test {
 namespace {
 
-class OffscreenRunTest : public testing::Test {
+class OffscreenRunTest : public ::testing::Test {
   protected:
     void SetUp() override {
         try {
@@ -17,8 +17,8 @@ class OffscreenRunTest : public testing::Test {
         } catch (const gl::NoOpenGl& error) {
             GTEST_SKIP() << "needs OpenGL without a display: " << error.what();
         }
-        folder_ = std::filesystem::path(testing::TempDir()) /
-                  testing::UnitTest::GetInstance()->current_test_info()->name();
+        folder_ = std::filesystem::path(::testing::TempDir()) /
+                  ::testing::UnitTest::GetInstance()->current_test_info()->name();
         std::filesystem::remove_all(folder_);
         options_.offscreen = true;
         options_.screenshots = folder_;
