@@ -19,6 +19,7 @@ phantom = "tooth"
 [[tissues]]
 label = 1
 name = "enamel"
+colour = "#ffffff"
 [[burrs]]
 name = "1"
 diameter_mm = 1.0
@@ -66,7 +67,7 @@ TEST(SceneChange, ThatIsNoneIsRefusedWithTheNearestKey) {
         AllOf(HasSubstr("--set: "), HasSubstr("did you mean 'wall_friction'?"), Not(HasSubstr("jaw.toml"))));
     EXPECT_THAT(refusal_of({"devic.scale=0.3"}), HasSubstr("did you mean 'device'?"));
     EXPECT_THAT(refusal_of({"device.scle=0.3"}), HasSubstr("did you mean 'scale'?"));
-    EXPECT_THAT(refusal_of({"burrs.1.6 mm.edges=4"}), HasSubstr("did you mean '1.5 mm'?"));
+    EXPECT_THAT(refusal_of({"burrs.2.5 mm.edges=4"}), HasSubstr("did you mean '1.5 mm'?"));
     EXPECT_THAT(refusal_of({"name.x=1"}), HasSubstr("'name' is no table"));
     EXPECT_THAT(refusal_of({"wall_friction=2"}),
                 HasSubstr("'wall_friction' is 2; it must lie within 0 to 1"));

@@ -231,23 +231,6 @@ TEST(CarvedBoneOf01, IsRefusedByThatName) {
 
 INSTANTIATE_TEST_SUITE_P(UnlabelledAndLabelled, CarvedBone, ::testing::Bool());
 
-TEST(CarvedBoneOf0_1, IsRefusedInOneLineThatSaysSo) {
-    const testing::TemporaryFolder folder;
-    const HuVolume volume = ball(false);
-    BoneFileWriter writer(folder / "old.nrrd", volume.grid,
-                          {{"osteomill_fraction_file", "old.fraction.nrrd"}}, 0);
-    writer.add(volume.hu);
-    writer.commit();
-    const BoneFile file(folder / "old.nrrd");
-    ASSERT_TRUE(is_carved(file));
-    try {
-        restore_carved_bone(file);
-        FAIL() << "it was read";
-    } catch (const ImagingError& error) {
-        EXPECT_THAT(error.what(), HasSubstr("old.nrrd: a carved bone that Osteomill 0.1 saved"));
-    }
-}
-
 TEST(CarvedBoneHomogeneous, KeepsItsStiffness) {
     const testing::TemporaryFolder folder;
     HuVolume volume{
