@@ -16,7 +16,7 @@ bool is_as_drawn(const std::optional<OperatorCommand>& drawn, const std::optiona
 
 }  // namespace
 
-SessionNews news_since(const ShownSession& drawn, const LinkUpdate& link,
+SessionNews news_since(const DrawnSession& drawn, const LinkUpdate& link,
                        const std::optional<ToolState>& tool,
                        const std::optional<OperatorCommand>& operator_command,
                        const std::optional<int>& preparation_percent) {

@@ -9,8 +9,8 @@
 
 namespace osteomill {
 
-/// A session as a frame shows it, beside its bone.
-struct ShownSession {
+/// A session as the last frame showed it, beside its bone.
+struct DrawnSession {
     LinkUpdate link{};
     std::optional<ToolState> tool{};
     std::optional<OperatorCommand> operator_command{};
@@ -24,7 +24,7 @@ enum class SessionNews {
 };
 
 /// What a poll brought, beside the session as it was drawn.
-SessionNews news_since(const ShownSession& drawn, const LinkUpdate& link,
+SessionNews news_since(const DrawnSession& drawn, const LinkUpdate& link,
                        const std::optional<ToolState>& tool,
                        const std::optional<OperatorCommand>& operator_command,
                        const std::optional<int>& preparation_percent);

@@ -125,7 +125,7 @@ class SessionPicture {
     Grid grid_;
     LinkUpdate link_;
     ShownTool tool_;
-    ShownSession drawn_;  ///< as the last frame showed it
+    DrawnSession drawn_;  ///< as the last frame showed it
     bool has_undrawn_bone_ = true;
     ToolHistory history_;
     std::optional<OperatorCommand> operator_command_;
