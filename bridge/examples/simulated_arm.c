@@ -26,7 +26,7 @@ int main(int argc, char** argv) {
     const double mass_kg = 0.05, pull_n_per_mm = 0.5, damping_n_s_per_mm = 0.005, tick_s = 0.001;
     const double seconds = argc > 3 ? atof(argv[3]) : 1e9;
     const char* key_file = argc > 2 && argv[2][0] != 0 ? argv[2] : NULL;
-    double hand_mm[3] = {0.0, 0.0, 0.0}, before_n[3] = {0.0, 0.0, 0.0}, peak_n = 0.0, jump_n = 0.0, fade_n = 0.0;
+    double hand_mm[3] = {0.0, 0.0, 0.0}, before_n[3] = {0.0, 0.0, 0.0}, peak_n = 0.0, jump_n = 0.0, fade_n = 0.0, trust = 0.0;
     uint64_t next_ns, running = 0, tick;
     omb_arm arm = {"simulated arm", 3.3, 0.0, 1.5, 0.05, 0.0, {-80, -60, -35}, {80, 60, 35}, {0, 0, 0}, 0};
     omb_pose pose;
@@ -48,7 +48,8 @@ int main(int argc, char** argv) {
         if (omb_length(force.force_n) > peak_n) peak_n = omb_length(force.force_n);
         for (axis = 0; axis < 3; ++axis) before_n[axis] = force.force_n[axis] - before_n[axis];
         if (omb_length(before_n) > jump_n) jump_n = omb_length(before_n);
-        if (link.trust < 1.0 && omb_length(before_n) > fade_n) fade_n = omb_length(before_n);
+        if (link.trust < 1.0 && link.trust <= trust && omb_length(before_n) > fade_n) fade_n = omb_length(before_n);
+        trust = link.trust;
         memcpy(before_n, force.force_n, sizeof before_n);
         /* The hand wants to go to and fro by 2 mm, and every 10 s slowly 4 mm down and up to where it began: after
          * a fault the server gives no force before the burr was out of the bone, nor a spindle before the pedal was
@@ -68,7 +69,7 @@ int main(int argc, char** argv) {
         wait_until(next_ns);
     }
     printf("%lu exchanges, %lu of them while the server answered; largest force %.3f N, largest jump %.3f N, "
-           "while it comes or goes %.3f N; refused %lu, out of order %lu\n",
+           "while it goes %.3f N; refused %lu, out of order %lu\n",
            (unsigned long)tick, (unsigned long)running, peak_n, jump_n, fade_n, (unsigned long)link.refused,
            (unsigned long)link.out_of_order);
     omb_close(&link);
