@@ -292,7 +292,7 @@ TEST_F(WindowTest, ImportsAScanAndStartsASessionOfItByMouse) {
     const auto lower_left_button = [&](int y) { click(262, y); };
     click(350, 643);  // Import a scan
     second_file();    // a torn one: nothing but a line
-    click(330, 129);  // Back
+    click(316, 152);  // Back
     first_file();
     // A button that the page has not got yet is pressed again, much later.
     const auto press_until = [&](int y, const std::function<bool()>& happened) {
