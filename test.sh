@@ -2,15 +2,17 @@
 # Installs, builds and runs the tests: optimised, then under AddressSanitizer and UBSan; those of code with threads under
 # ThreadSanitizer, too. Last, a minute of hostile input under libFuzzer.
 #   ./test.sh             what continuous integration runs: all of these, without the tests of the label `nightly`
-#   ./test.sh all         those, too
+#   ./test.sh all         those, too, and the benchmarks are built
 #   ./test.sh release     one (or several) of: release debug asan tsan fuzz; `all` before them as above
 set -euo pipefail
 cd "$(dirname "$0")"
 source scripts/prepare.sh
 
 left_out=(-LE nightly)
+more=()
 if [ "${1:-}" = all ]; then
     left_out=()
+    more=(all benchmarks)
     shift
 fi
 presets=("$@")
@@ -26,7 +28,10 @@ install_packages scripts/packages.txt scripts/test_packages.txt
 # For the tests in a virtual machine, which are skipped without it.
 scripts/fetch_vm_kernel.sh || echo "the tests in a virtual machine will be skipped" >&2
 for preset in "${presets[@]}"; do
-    build "$preset"
+    case $preset in
+        release | debug) build "$preset" "${more[@]}" ;;
+        *) build "$preset" ;;
+    esac
     say "testing: $preset"
     if [ "$preset" = fuzz ]; then
         tests/fuzz/run.sh 8  # seconds for each of the eleven targets
