@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Drills the carious lesion out of the built-in tooth: the server with a simulated hand and arm, the client in a window if
-# there is a display, else offscreen. Ends by itself; leaves everything in out/demo/.
+# there is a display, else offscreen. Ends by itself; leaves everything in out/demo/, and the other programs in build/release/bin.
 set -euo pipefail
 cd "$(dirname "$0")"
 source scripts/prepare.sh
@@ -40,5 +40,7 @@ gnuplot -e "forces='$out/forces.csv'; plot_file='$out/forces.png'" scripts/plot_
 printf '{"server": %s,\n"client": %s}\n' "$(cat "$out/server.json")" "$(cat "$out/client.json")" >"$out/summary.json"
 rm "$out/server.json" "$out/client.json"
 
-say "done: look into $out/"
+build release packet_replay bone_import bone_export osteomill_study
+
+say "done: look into $out/; the programs are in $bin/"
 ls "$out"
