@@ -20,6 +20,13 @@ double drive_mj(const glm::dvec3& cutting_force_n, const glm::dvec3& step_mm,
     return std::min(glm::dot(cutting_force_n, step_mm), glm::dot(cutting_force_n, step_mm - hand_step_mm));
 }
 
+/// What the hidden damper ties the burr to: the hand's step, less as it goes where the spring pulls the hand.
+glm::dvec3 followed_mm(const glm::dvec3& hand_step_mm, const glm::dvec3& on_hand_n) {
+    const double lengths = glm::length(hand_step_mm) * glm::length(on_hand_n);
+    if (lengths == 0.0) return hand_step_mm;
+    return hand_step_mm * (1.0 - std::clamp(glm::dot(hand_step_mm, on_hand_n) / lengths, 0.0, 1.0));
+}
+
 /// The step of a burr that a wall holds back by friction, too: `solved` without it. What the pull would move
 /// it along the wall is shortened by what friction takes, or does not happen. Exact for a flat wall, since
 /// the pull is alike in every direction.
@@ -41,7 +48,7 @@ glm::dvec3 no_longer_than(const glm::dvec3& step_mm, double longest_mm) {
 
 void BurrProxy::place(const glm::dvec3& position_mm) noexcept {
     position_mm_ = carving_mm_ = target_mm_ = position_mm;
-    apart_mj_ = to_hand_mj_ = 0.0;
+    apart_mj_ = 0.0;
     map_step_ = 0;
     walls_ = {};
     correction_.reset();
@@ -138,13 +145,22 @@ ContactStep BurrProxy::balance_with_bone(const LinearPull& pull, const glm::dvec
                                          const Engagement& engagement) noexcept {
     glm::dmat3 damping_n_per_mm(0.0);
     LinearPull damped = pull;
-    const auto solve = [&] {
-        damped.offset_n = pull.offset_n + damping_n_per_mm * hand_step_mm;
-        damped.damping_n_per_mm = damping_n_per_mm;
-        const ContactStep step =
-            balance(damped, contacts, engagement.has_edge_force ? glm::dvec3(0.0) : damped.free_step_mm());
+    const glm::dvec3 damper_follows_mm = followed_mm(hand_step_mm, -pull.offset_n);
+    const auto add_up = [&](const ContactStep& step) {
         iterations_ += step.iterations;
         return step;
+    };
+    const auto solve = [&] {
+        damped.offset_n = pull.offset_n + damping_n_per_mm * damper_follows_mm;
+        damped.damping_n_per_mm = damping_n_per_mm;
+        // From rest where edges rub, which finds the balance nearby. From where a contact begins Newton may
+        // not get away; then the other start does.
+        const glm::dvec3 free_mm = damped.free_step_mm();
+        const glm::dvec3 rest_mm(0.0);
+        const ContactStep first =
+            add_up(balance(damped, contacts, engagement.has_edge_force ? rest_mm : free_mm));
+        if (first.residual_n <= balance_tolerance_n) return first;
+        return add_up(balance(damped, contacts, engagement.has_edge_force ? free_mm : rest_mm));
     };
     ContactStep solved = solve();
     const auto is_balanced = [&] { return solved.residual_n <= balance_tolerance_n; };
@@ -157,14 +173,14 @@ ContactStep BurrProxy::balance_with_bone(const LinearPull& pull, const glm::dvec
         ++counts_.damped;
     else
         ++counts_.fallbacks;
-    const double for_each_drive = drive_to_damping * (1.0 + to_hand_mj_ / scale_.energy_mj(much_to_hand_mj));
     double without_balance_n_per_mm = least_damping_n_s_per_mm / tick_s;
     for (int attempt = 0; attempt < most_attempts; ++attempt) {
         // What the damping does not make up for yet.
-        const glm::dmat3 drive = driving_part(solved.resistance_n_per_mm + damping_n_per_mm / for_each_drive);
+        const glm::dmat3 drive =
+            driving_part(solved.resistance_n_per_mm + damping_n_per_mm / drive_to_damping);
         const double sum_n_per_mm = drive[0][0] + drive[1][1] + drive[2][2];
         if (is_balanced() && sum_n_per_mm < negligible_drive_n_per_mm) return solved;
-        damping_n_per_mm += for_each_drive * drive;
+        damping_n_per_mm += drive_to_damping * drive;
         if (!is_balanced()) {
             damping_n_per_mm += glm::dmat3(without_balance_n_per_mm);
             without_balance_n_per_mm *= 4.0;
@@ -193,7 +209,6 @@ void BurrProxy::cut_toward(const glm::dvec3& target_mm, const LinearPull& pull, 
     const glm::dvec3 pull_mm = target_mm - position_mm_;
     const glm::dvec3 hand_step_mm = target_mm - target_mm_;
     apart_mj_ *= std::max(0.0, 1.0 - tick_s / apart_memory_s);
-    to_hand_mj_ *= std::max(0.0, 1.0 - tick_s / to_hand_memory_s);
     // The force may turn the step sideways, but hardly makes it longer than the pull (K_r, K_a >= 0).
     const double longest_mm = glm::length(pull_mm) + 2.0 * engagement.spacing_mm;
     const auto contacts = gather_contacts(longest_mm, tick_s, Meets::chips, engagement);
@@ -208,8 +223,6 @@ void BurrProxy::cut_toward(const glm::dvec3& target_mm, const LinearPull& pull, 
     const glm::dvec3 cutting_n = solved.bone_force_n - walls_.force_n;
     apart_mj_ = std::clamp(apart_mj_ + drive_mj(cutting_n, solved.step_mm, hand_step_mm), 0.0,
                            scale_.energy_mj(most_apart_mj));
-    if (!contacts.empty())
-        to_hand_mj_ = std::max(0.0, to_hand_mj_ - glm::dot(pull.force_n(solved.step_mm), hand_step_mm));
 
     move(solved.step_mm, target_mm, tick_s);
     correction_.add_prediction(cutting_n, tick_s);
@@ -223,7 +236,7 @@ void BurrProxy::press_toward(const glm::dvec3& target_mm, const LinearPull& pull
     const double longest_mm = glm::length(pull_mm) + 2.0 * engagement.spacing_mm;
     const auto contacts = gather_contacts(longest_mm, 0.0, meets, engagement);
     correction_.reset();
-    apart_mj_ = to_hand_mj_ = 0.0;
+    apart_mj_ = 0.0;
     if (contacts.empty()) {
         walls_ = {};
         move(pull_mm, target_mm, tick_s);

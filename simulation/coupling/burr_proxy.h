@@ -43,12 +43,14 @@
 // balance at all. There the tick is solved again with a damper between burr and hand that the hand does not
 // feel: a matrix, a small multiple of the part of that resistance that is negative, so it damps only the ways
 // in which bone drives. A multiple over 1 makes the law monotone again: it has one balance, and the burr
-// stays with the hand. In the other ways the spring lets go of bone that has gone as it always does. Whether
-// the burr runs away is found by the energy with which bone drives it, F . d, and sets it apart from the
-// hand, F . (d - the hand's step), the smaller of them: up to allowed_apart_mj, in a store that forgets with
-// apart_memory_s, nothing is damped that has a balance. The multiple grows with the energy that the hand has
-// got of late. Should a tick have no balance with the damper either (counted; not seen), it keeps the
-// contacts' normal forces alone: these always have one, and only take energy out.
+// stays with the hand. In the other ways the spring lets go of bone that has gone as it always does. But a
+// hand that goes where the spring pulls it comes to a burr that the damper holds still: dragged along, the
+// burr would keep the spring stretched, and the damper would give the hand energy. Whether the burr runs away
+// is found by the energy with which bone drives it, F . d, and sets it apart from the hand, F . (d - the
+// hand's step), the smaller of them: up to allowed_apart_mj, in a store that forgets with apart_memory_s,
+// nothing is damped that has a balance. Should a tick have no balance with the damper either (counted; rare,
+// where a shank jams), it keeps the contacts' normal forces alone: these always have one, and only take
+// energy out.
 #pragma once
 
 #include <algorithm>
@@ -116,15 +118,11 @@ class BurrProxy {
     static constexpr double apart_memory_s = 0.05;
     static constexpr double allowed_apart_mj = 0.1;
     static constexpr double most_apart_mj = 1.0;
-    /// With so much in the hand the damping is twice as strong; the safety monitor lets go at 15 mJ.
-    static constexpr double much_to_hand_mj = 0.3;
-    static constexpr double to_hand_memory_s = 0.1;
-    /// Hidden damping for what drives the burr, both in N s/mm, while the hand has got nothing; 1 would only
-    /// just do.
+    /// Hidden damping for what drives the burr, both in N s/mm; 1 would only just do.
     static constexpr double drive_to_damping = 2.0;
     /// Where a tick has no balance although nothing seems to drive the burr.
     static constexpr double least_damping_n_s_per_mm = 0.02;
-    static constexpr int most_attempts = 4;
+    static constexpr int most_attempts = 6;
     /// Far below any spring's stiffness.
     static constexpr double negligible_drive_n_per_mm = 1e-3;
 
@@ -167,7 +165,6 @@ class BurrProxy {
     glm::dvec3 carving_mm_{0.0};
     glm::dvec3 target_mm_{0.0};  // of the last tick
     double apart_mj_ = 0.0;      // that bone lately spent on setting burr and hand apart
-    double to_hand_mj_ = 0.0;    // that the hand lately got
     std::uint64_t map_step_ = 0;
     ForceCorrection correction_;
     SolveCounts counts_;
