@@ -6,6 +6,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <numbers>
+#include <stdexcept>
 #include <variant>
 
 #include "analysis/output/progress.h"
@@ -45,6 +46,16 @@ class HighPass {
     bool is_first_ = true;
     glm::dvec3 before_{0.0}, before_that_{0.0}, out_{0.0}, out_before_{0.0};
 };
+
+/// The tooth, each tissue of which cuts like that one.
+Scene tooth_of(const std::string& tissue) {
+    Scene scene = phantom_scene("tooth");
+    const auto found = std::ranges::find(scene.tissues, tissue, &Tissue::name);
+    if (found == scene.tissues.end()) throw std::invalid_argument("the tooth has no tissue " + tissue);
+    const std::optional<TissueStrength> strength = found->strength;
+    for (Tissue& each : scene.tissues) each.strength = strength;
+    return scene;
+}
 
 /// A simulated arm that keeps the forces written to it.
 class NotingDevice final : public HapticDevice {
@@ -104,8 +115,8 @@ EncoderNoise noise_of(const std::vector<glm::dvec3>& forces_n) {
 }
 
 EncoderNoise drill_tooth(const ArmModel& arm, const std::string& coupling,
-                         std::optional<double> stiffness_n_per_mm) {
-    const Scene scene = phantom_scene("tooth");
+                         std::optional<double> stiffness_n_per_mm, const std::string& all_of) {
+    const Scene scene = all_of.empty() ? phantom_scene("tooth") : tooth_of(all_of);
     NotingDevice device(scene, arm, stiffness_n_per_mm);
     MillingSession session(
         scene,

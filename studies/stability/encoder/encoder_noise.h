@@ -21,10 +21,11 @@ struct EncoderNoise {
 };
 
 /// The lesion of the tooth phantom drilled out by a firm hand on `arm` with the coupling of that name,
-/// virtual clock. `stiffness_n_per_mm`: of the spring, in place of what the arm gets. Throws
-/// std::invalid_argument for an unknown coupling.
+/// virtual clock. `stiffness_n_per_mm`: of the spring, in place of what the arm gets. `all_of`: a tissue of
+/// the scene that the whole tooth is made of. Throws std::invalid_argument for an unknown coupling or tissue.
 EncoderNoise drill_tooth(const ArmModel& arm, const std::string& coupling,
-                         std::optional<double> stiffness_n_per_mm = std::nullopt);
+                         std::optional<double> stiffness_n_per_mm = std::nullopt,
+                         const std::string& all_of = {});
 
 /// Noise and jumps of a record of forces, a tick a millisecond, patient axes; without a force all 0.
 EncoderNoise noise_of(const std::vector<glm::dvec3>& forces_n);

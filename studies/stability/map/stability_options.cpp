@@ -13,6 +13,7 @@
 #include "imaging/progress.h"
 #include "studies/stability/encoder/encoder_noise.h"
 #include "studies/stability/encoder/spring_choice.h"
+#include "studies/stability/encoder/tissue_forces.h"
 #include "studies/stability/map/map_text.h"
 #include "studies/stability/map/stability_study.h"
 #include "studies/stability/rails/force_response.h"
@@ -32,6 +33,7 @@ struct StabilityCommand {
     int motions_on_rails = 0;
     bool varies_encoders = false;
     bool varies_springs = false;
+    bool varies_tissues = false;
     bool varies_frequency = false;
     SiteStudyOptions sites{};  ///< without what the map's options say
 };
@@ -92,6 +94,12 @@ void add_sites(CLI::App& stability, StabilityCommand& command, CLI::Option* merg
         ->excludes(sites)
         ->excludes(merge)
         ->excludes(encoders);
+    stability
+        .add_flag("--tissues", command.varies_tissues,
+                  "instead of the map: what a hand feels of each tissue of the tooth with each shipped arm")
+        ->excludes(sites)
+        ->excludes(merge)
+        ->excludes(encoders);
     stability.add_option("--seed", command.sites.seed, "of the random walks or motions")
         ->capture_default_str();
     stability
@@ -130,6 +138,7 @@ void perform(const StabilityCommand& command, const StudySurroundings& surroundi
                                  surroundings);
     }
     if (command.varies_springs) return run_spring_study(command.run.out, surroundings);
+    if (command.varies_tissues) return run_tissue_study(command.run.out, surroundings);
     if (command.varies_frequency) return run_response_study(command.run.out, surroundings);
     if (command.runs_sites) {
         SiteStudyOptions sites = command.sites;
