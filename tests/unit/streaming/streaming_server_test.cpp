@@ -12,6 +12,7 @@
 #include "common/recording/playhead.h"
 #include "common/wire/frame.h"
 #include "common/wire/scene_messages.h"
+#include "haptic_server/streaming/answered_states.h"
 #include "render_client/link/bone_link.h"
 #include "tests/support/replica.h"
 #include "tests/support/served_bone.h"
@@ -220,6 +221,10 @@ TEST(StreamingServer, MovesTheToolOnlyForWhoAnswersWhatIsNow) {
         return seen.states() > 20;
     }));
     const std::uint64_t old_state = seen.sequence();
+    ASSERT_TRUE(eventually([&] {
+        client.read_into(seen);
+        return seen.sequence() > old_state;
+    }));
     std::this_thread::sleep_for(2 * AnsweredStates::longest_age);
     client.read_into(seen);
     client.send(input_frame(4, {.burr = 0}, first_state));  // old news
