@@ -62,26 +62,26 @@ TEST(ImportForm, BecomesACommand) {
         {.name = "Dura", .is_protected = true}, {.name = "Tumour", .is_target = true}, {.name = "x"}};
     const std::vector<std::string> expected{"bone_import",
                                             "/s/head",
+                                            "--segmentation=/s/a b.seg.nrrd",
                                             "--case",
                                             "/c/head 1",
                                             "--region=-60.00,10.00,730.00,-20.00,50.00,770.00",
                                             "--spacing-mm=0.1",
                                             "--threshold-hu=300",
                                             "--keep-soft-tissue",
-                                            "--segmentation=/s/a b.seg.nrrd",
                                             "--protect=Dura",
                                             "--target=Tumour"};
     EXPECT_EQ(import_command("bone_import", form, "/c/head 1"), expected);
     EXPECT_NEAR(voxels_of(form), 401.0 * 401.0 * 401.0, 1.0);
     EXPECT_EQ(look_command("bone_import", form, "/t/look.png", false),
-              (std::vector<std::string>{"bone_import", "/s/head", "--preview", "/t/look.png",
-                                        "--segmentation=/s/a b.seg.nrrd"}));
-    EXPECT_EQ(look_command("bone_import", form, "/t/look.png", true).at(4), expected.at(4));
+              (std::vector<std::string>{"bone_import", "/s/head", "--segmentation=/s/a b.seg.nrrd", "--preview",
+                                        "/t/look.png"}));
+    EXPECT_EQ(look_command("bone_import", form, "/t/look.png", true).at(5), expected.at(5));
     form.are_labels = true;  // which have no HU
     form.segmentations.clear();
     form.segments.clear();
     EXPECT_EQ(import_command("bone_import", form, "/c/head 1"),
-              (std::vector<std::string>{"bone_import", "--labels=/s/head", "--case", "/c/head 1", expected[4],
+              (std::vector<std::string>{"bone_import", "--labels=/s/head", "--case", "/c/head 1", expected[5],
                                         "--spacing-mm=0.1"}));
 }
 
