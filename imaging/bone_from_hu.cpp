@@ -1,3 +1,5 @@
+#include "imaging/bone_from_hu.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -10,7 +12,6 @@
 #include <utility>
 
 #include "common/bone/bone_builder.h"
-#include "imaging/hu_volume.h"
 
 namespace osteomill {
 
@@ -253,19 +254,6 @@ class BrickCollector {
 
 }  // namespace
 
-HuSlices slices_of(const HuVolume& volume) {
-    return {.grid = volume.grid,
-            .labelled = !volume.tissue.empty(),
-            .read = [&volume, at = std::size_t{0}](std::span<std::int16_t> hu,
-                                                   std::span<std::uint8_t> tissue) mutable {
-                std::copy_n(volume.hu.begin() + static_cast<std::ptrdiff_t>(at), hu.size(), hu.begin());
-                if (!tissue.empty())
-                    std::copy_n(volume.tissue.begin() + static_cast<std::ptrdiff_t>(at), tissue.size(),
-                                tissue.begin());
-                at += hu.size();
-            }};
-}
-
 Bone bone_from_hu(const HuSlices& slices, double threshold_hu, const StiffnessRelation& relation) {
     require_valid(slices.grid);
     require_valid(relation);
@@ -287,15 +275,6 @@ Bone bone_from_hu(const HuSlices& slices, double threshold_hu, const StiffnessRe
         }
     }
     return std::move(collector).build();
-}
-
-Bone bone_from_hu(const HuVolume& volume, double threshold_hu, const StiffnessRelation& relation) {
-    require_valid(volume.grid);
-    const glm::ivec3 size = volume.grid.size_voxels;
-    const std::size_t voxels = static_cast<std::size_t>(size.x) * size.y * size.z;
-    if (volume.hu.size() != voxels || (!volume.tissue.empty() && volume.tissue.size() != voxels))
-        throw std::invalid_argument("the HU volume's channels do not fit its grid");
-    return bone_from_hu(slices_of(volume), threshold_hu, relation);
 }
 
 }  // namespace osteomill

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <charconv>
 #include <cmath>
@@ -71,6 +72,22 @@ inline std::optional<double> real_number(const std::string& text) {
     const double number = std::strtod(text.c_str(), &end);
     if (text.empty() || *end != '\0') return std::nullopt;
     return number;
+}
+
+/// "1,2.5,-3" as exactly so many finite numbers; nothing for anything else.
+template <std::size_t count>
+std::optional<std::array<double, count>> listed_numbers(const std::string& text) {
+    std::array<double, count> numbers{};
+    std::size_t at = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+        const std::size_t end = i + 1 < count ? text.find(',', at) : text.size();
+        if (end == std::string::npos) return std::nullopt;
+        const std::optional<double> number = real_number(text.substr(at, end - at));
+        if (!number || !std::isfinite(*number)) return std::nullopt;
+        numbers[i] = *number;
+        at = end + 1;
+    }
+    return numbers;
 }
 
 }  // namespace osteomill

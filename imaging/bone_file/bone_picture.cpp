@@ -6,7 +6,7 @@
 #include <cstring>
 
 #include "imaging/bone_file/nrrd_form.h"
-#include "imaging/hu_volume.h"
+#include "imaging/bone_from_hu.h"
 
 namespace osteomill {
 

@@ -22,8 +22,8 @@
 
 #include "common/bone/bone.h"
 #include "imaging/bone_file/hu_file.h"
+#include "imaging/bone_from_hu.h"
 #include "imaging/hu_slices.h"
-#include "imaging/hu_volume.h"
 #include "imaging/progress.h"
 
 namespace osteomill {

@@ -10,8 +10,8 @@
 #include "common/scene/scene.h"
 #include "imaging/bone_file/hu_file.h"
 #include "imaging/bone_file/removed_volumes.h"
+#include "imaging/bone_from_hu.h"
 #include "imaging/case/structures.h"
-#include "imaging/hu_volume.h"
 #include "imaging/progress.h"
 
 namespace osteomill {

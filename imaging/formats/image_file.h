@@ -14,7 +14,7 @@
 namespace osteomill {
 
 struct ImageHeader {
-    SourceImage image{};     ///< without values; its notes say what had to be assumed
+    SourceImage image{};     ///< its notes say what had to be assumed
     bool is_placed = false;  ///< of a NRRD: it says how it lies in the patient
     int layers = 1;          ///< values of a voxel, side by side
     VoxelLayout voxels{};

@@ -18,7 +18,7 @@ using TakeSlice = std::function<void(int k, std::span<float> values)>;
 
 /// What is known before the voxels are read.
 struct OpenedImage {
-    SourceImage image{};  ///< without values
+    SourceImage image{};
     /// Values of a voxel, side by side in the slices: several of a label map in layers that overlap, as 3D
     /// Slicer writes them.
     int layers = 1;
@@ -31,16 +31,6 @@ struct OpenedImage {
     std::function<void(const TakeSlice&, const ReportProgress&)> read_slices{};
     /// What that takes of memory at most.
     std::uint64_t reading_bytes = 0;
-
-    /// All of them, as image.values has them.
-    std::vector<float> read_values(const ReportProgress& report) const {
-        std::vector<float> values;
-        values.reserve(voxel_count(image) * static_cast<std::size_t>(layers));
-        read_slices(
-            [&](int, std::span<float> slice) { values.insert(values.end(), slice.begin(), slice.end()); },
-            report);
-        return values;
-    }
 };
 
 }  // namespace osteomill

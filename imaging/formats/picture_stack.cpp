@@ -93,18 +93,11 @@ SlicePicture read(const Page& page) {
 }  // namespace
 
 glm::dvec3 parse_stack_spacing(const std::string& text) {
-    glm::dvec3 spacing_mm{0.0};
-    const char* at = text.c_str();
-    for (int axis = 0; axis < 3; ++axis) {
-        char* end = nullptr;
-        spacing_mm[axis] = std::strtod(at, &end);
-        if (end == at || *end != (axis < 2 ? ',' : '\0') || !(spacing_mm[axis] > 0.0) ||
-            std::isinf(spacing_mm[axis]))
-            throw std::invalid_argument(
-                fmt::format("--stack-spacing '{}': is not x,y,z, three lengths in mm", text));
-        at = end + 1;
-    }
-    return spacing_mm;
+    const auto mm = listed_numbers<3>(text);
+    if (!mm || !std::ranges::all_of(*mm, [](double length) { return length > 0.0; }))
+        throw std::invalid_argument(
+            fmt::format("--stack-spacing '{}': is not x,y,z, three lengths in mm", text));
+    return {(*mm)[0], (*mm)[1], (*mm)[2]};
 }
 
 bool is_picture_folder(const std::filesystem::path& folder, bool has_spacing) {

@@ -14,8 +14,7 @@ struct SourceImage {
     glm::ivec3 size_voxels{0};
     glm::dvec3 spacing_mm{1.0};
     glm::dvec3 origin_mm{0.0};
-    glm::dmat3 direction{1.0};    ///< columns: unit vectors of the axes i, j, k; perpendicular, either hand
-    std::vector<float> values{};  ///< i fastest; HU, or what a rescale or an intensity window makes HU of
+    glm::dmat3 direction{1.0};  ///< columns: unit vectors of the axes i, j, k; perpendicular, either hand
     std::vector<std::string> notes{};  ///< what had to be assumed, one line each
 };
 

@@ -8,7 +8,7 @@
 
 #include "common/scene/scene.h"
 #include "common/scene/scene_change.h"
-#include "imaging/hu_volume.h"
+#include "imaging/bone_from_hu.h"
 
 namespace osteomill {
 

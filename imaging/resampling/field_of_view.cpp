@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "imaging/hu_volume.h"
+#include "imaging/bone_from_hu.h"
 #include "imaging/resampling/refine.h"
 
 namespace osteomill {
@@ -55,11 +55,7 @@ float mean_around(std::size_t place, const glm::ivec3& size, std::span<const flo
 
 FieldOfView::FieldOfView(const SourceImage& part, std::span<float> values, std::span<std::byte> room,
                          const std::function<void()>& pause)
-    : part_{.size_voxels = part.size_voxels,
-            .spacing_mm = part.spacing_mm,
-            .origin_mm = part.origin_mm,
-            .direction = part.direction},
-      is_outside_(room) {
+    : part_(part), is_outside_(room) {
     const glm::ivec3& size = part_.size_voxels;
     const auto slice = static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y);
     std::vector<std::pair<std::size_t, float>> layer;

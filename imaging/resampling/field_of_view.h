@@ -29,7 +29,7 @@ class FieldOfView {
     void clear_outside(const Grid& grid, int z, std::span<std::int16_t> hu) const;
 
   private:
-    SourceImage part_;  ///< without values
+    SourceImage part_;
     std::span<std::byte> is_outside_;
     std::uint64_t voxels_outside_ = 0;
 };

@@ -101,15 +101,4 @@ void put_slice(const SourceImage& image, const ImageBox& box, int k, std::span<c
     }
 }
 
-SourceImage cut(const SourceImage& image, const ImageBox& box) {
-    SourceImage part = part_of(image, box);
-    part.values.resize(voxel_count(part));
-    const auto slice =
-        static_cast<std::size_t>(image.size_voxels.x) * static_cast<std::size_t>(image.size_voxels.y);
-    for (int k = box.first.z; k <= box.last.z; ++k)
-        put_slice(image, box, k, std::span(image.values).subspan(static_cast<std::size_t>(k) * slice, slice),
-                  part.values);
-    return part;
-}
-
 }  // namespace osteomill

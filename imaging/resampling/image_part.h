@@ -24,7 +24,7 @@ std::uint64_t voxel_count(const ImageBox& box);
 /// Whether every axis of the image runs along one of patient LPS, to or fro.
 bool is_axis_aligned(const SourceImage& image);
 
-/// The part that a box becomes, without values. Where the image is axis-aligned the part's direction is the
+/// The part that a box becomes. Where the image is axis-aligned the part's direction is the
 /// identity: its voxels run left, posterior, superior.
 SourceImage part_of(const SourceImage& image, const ImageBox& box);
 
@@ -32,8 +32,5 @@ SourceImage part_of(const SourceImage& image, const ImageBox& box);
 /// part that part_of gives; nothing for a slice outside.
 void put_slice(const SourceImage& image, const ImageBox& box, int k, std::span<const float> slice,
                std::span<float> part_values);
-
-/// The part with the voxels of the box, of an image that has values.
-SourceImage cut(const SourceImage& image, const ImageBox& box);
 
 }  // namespace osteomill

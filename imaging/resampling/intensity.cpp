@@ -3,27 +3,22 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <cstdlib>
 #include <limits>
 #include <stdexcept>
-#include <utility>
+
+#include "imaging/formats/header_text.h"
 
 namespace osteomill {
 
 namespace {
 
-std::pair<double, double> two_numbers(const char* option, const char* form, const std::string& text) {
-    const auto refuse = [&] {
+std::array<double, 2> two_numbers(const char* option, const char* form, const std::string& text) {
+    const auto numbers = listed_numbers<2>(text);
+    if (!numbers)
         throw std::invalid_argument(fmt::format("{} '{}': it is {}, two numbers", option, text, form));
-    };
-    char* end = nullptr;
-    const double first = std::strtod(text.c_str(), &end);
-    if (end == text.c_str() || *end != ',') refuse();
-    const char* rest = end + 1;
-    const double second = std::strtod(rest, &end);
-    if (end == rest || *end != '\0' || !std::isfinite(first) || !std::isfinite(second)) refuse();
-    return {first, second};
+    return *numbers;
 }
 
 }  // namespace

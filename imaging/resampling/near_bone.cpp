@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "imaging/hu_volume.h"
+#include "imaging/bone_from_hu.h"
 
 namespace osteomill {
 

@@ -7,7 +7,7 @@
 #include <limits>
 #include <vector>
 
-#include "imaging/hu_volume.h"
+#include "imaging/bone_from_hu.h"
 #include "imaging/resampling/cubic_spline.h"
 
 namespace osteomill {
@@ -108,7 +108,7 @@ class SplineField {
 };
 
 struct Field {
-    SourceImage part{};  ///< without values
+    SourceImage part{};
     std::span<const float> coefficients{};
     Grid grid{};
     HuRange range{};
@@ -208,14 +208,7 @@ Refiner::Refiner(const SourceImage& part, std::span<float> values, const Grid& g
         .size_voxels = part.size_voxels, .spacing_mm = part.spacing_mm, .values = values, .pause = pause};
     smooth_for_spacing(lattice, grid.spacing_mm);
     values_to_coefficients(lattice);
-    const Field field{.part = {.size_voxels = part.size_voxels,
-                               .spacing_mm = part.spacing_mm,
-                               .origin_mm = part.origin_mm,
-                               .direction = part.direction},
-                      .coefficients = values,
-                      .grid = grid,
-                      .range = range,
-                      .shapes = shapes};
+    const Field field{.part = part, .coefficients = values, .grid = grid, .range = range, .shapes = shapes};
     if (part.direction == glm::dmat3(1.0))
         sampler_ = std::make_unique<AlignedSampler>(field);
     else

@@ -25,7 +25,7 @@ inline constexpr int refine_margin_voxels = 8;
 class Refiner {
   public:
     /// Turns `values`, the part's, into the spline's coefficients, on all cores; they must outlive it.
-    /// `part.values` are not looked at. `shapes`: those of the same part, or nullptr; they must outlive it.
+    /// `shapes`: those of the same part, or nullptr; they must outlive it.
     /// `pause`: see filter_lines. Throws std::invalid_argument for a bad grid.
     Refiner(
         const SourceImage& part, std::span<float> values, const Grid& grid,

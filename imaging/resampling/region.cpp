@@ -2,13 +2,11 @@
 
 #include <fmt/format.h>
 
-#include <array>
-#include <cmath>
-#include <cstdlib>
 #include <glm/common.hpp>
 #include <glm/vector_relational.hpp>
-#include <sstream>
 #include <stdexcept>
+
+#include "imaging/formats/header_text.h"
 
 namespace osteomill {
 
@@ -29,20 +27,10 @@ Region parse_region(const std::string& text) {
         throw std::invalid_argument(
             fmt::format("--region '{}': {}; it is x0,y0,z0,x1,y1,z1 in mm of patient LPS", text, why));
     };
-    std::array<double, 6> numbers{};
-    std::istringstream parts(text);
-    std::string part;
-    std::size_t count = 0;
-    while (std::getline(parts, part, ',')) {
-        char* end = nullptr;
-        const double number = std::strtod(part.c_str(), &end);
-        if (part.empty() || *end != '\0' || !std::isfinite(number)) refuse("not a number");
-        if (count < numbers.size()) numbers[count] = number;
-        ++count;
-    }
-    if (count != numbers.size()) refuse("not six numbers");
-    const Region region{.low_mm = {numbers[0], numbers[1], numbers[2]},
-                        .high_mm = {numbers[3], numbers[4], numbers[5]}};
+    const auto numbers = listed_numbers<6>(text);
+    if (!numbers) refuse("not six numbers");
+    const auto& [x0, y0, z0, x1, y1, z1] = *numbers;
+    const Region region{.low_mm = {x0, y0, z0}, .high_mm = {x1, y1, z1}};
     if (!glm::all(glm::lessThan(region.low_mm, region.high_mm)))
         refuse("its second corner must be above its first");
     return region;

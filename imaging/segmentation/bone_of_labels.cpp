@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "common/scene/stiffness_relation.h"
-#include "imaging/hu_volume.h"
+#include "imaging/bone_from_hu.h"
 #include "imaging/imaging_error.h"
 
 namespace osteomill {

@@ -28,7 +28,7 @@ struct Segment {
 
 struct Segmentation {
     std::filesystem::path path;
-    SourceImage image;  ///< without values
+    SourceImage image;
     std::vector<Segment> segments;
     bool is_plain_map = false;  ///< its segments have no names of their own
     bool is_by_colour = false;  ///< a plain map of coloured pictures

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "imaging/bone_file/hu_file.h"
-#include "imaging/hu_volume.h"
+#include "tests/support/hu_volume.h"
 
 namespace osteomill::testing {
 

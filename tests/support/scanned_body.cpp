@@ -108,10 +108,10 @@ BodyDepth trabeculae(double period_mm) {
     };
 }
 
-SourceImage scan_of(const BodyDepth& body, const ScanOfBody& scan) {
-    SourceImage image{.size_voxels = glm::ivec3(2.0 * scan.half_mm / scan.spacing_mm) + 1,
+WholeImage scan_of(const BodyDepth& body, const ScanOfBody& scan) {
+    WholeImage image{{.size_voxels = glm::ivec3(2.0 * scan.half_mm / scan.spacing_mm) + 1,
                       .spacing_mm = scan.spacing_mm,
-                      .origin_mm = -scan.half_mm};
+                      .origin_mm = -scan.half_mm}};
     const std::array<double, taps> gaussian = gaussian_places();
     const double sigma_mm = scan.blur_fwhm_mm / 2.3548200450309493;
     const int nx = image.size_voxels.x;

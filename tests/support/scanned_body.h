@@ -6,7 +6,8 @@
 #include <glm/vec3.hpp>
 
 #include "imaging/formats/source_image.h"
-#include "imaging/hu_volume.h"
+#include "tests/support/hu_volume.h"
+#include "tests/support/whole_image.h"
 
 namespace osteomill {
 
@@ -36,7 +37,7 @@ struct ScanOfBody {
 };
 
 /// 0 HU around bone; axes along the patient's, slices along z.
-SourceImage scan_of(const BodyDepth& body, const ScanOfBody& scan);
+WholeImage scan_of(const BodyDepth& body, const ScanOfBody& scan);
 
 struct Agreement {
     double median_mm = 0.0;  ///< of the distance between the surfaces

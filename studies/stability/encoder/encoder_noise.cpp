@@ -12,7 +12,7 @@
 #include "analysis/output/progress.h"
 #include "analysis/output/study_run.h"
 #include "devices/simulated/simulated_device.h"
-#include "imaging/hu_volume.h"
+#include "imaging/bone_from_hu.h"
 #include "imaging/phantoms/phantom.h"
 #include "simulation/loop/milling_session.h"
 

@@ -5,7 +5,7 @@
 #include <glm/geometric.hpp>
 #include <stdexcept>
 
-#include "imaging/hu_volume.h"
+#include "tests/support/hu_volume.h"
 
 namespace osteomill {
 namespace {

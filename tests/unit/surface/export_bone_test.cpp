@@ -8,7 +8,9 @@
 #include "imaging/bone_file/carved_bone.h"
 #include "imaging/bone_file/hu_file.h"
 #include "imaging/formats/image_reader.h"
+#include "tests/support/hu_volume.h"
 #include "tests/support/temporary_folder.h"
+#include "tests/support/whole_image.h"
 
 namespace osteomill {
 namespace {
@@ -96,7 +98,7 @@ TEST_F(Export, OfACarvedBoneGivesWhatIsGoneOfEachVoxel) {
                 HasSubstr("mm^3 removed"));
     const OpenedImage file = open_image(folder_ / "gone.nrrd");
     EXPECT_EQ(file.image.origin_mm, grid_.origin_mm);
-    const std::vector<float> gone = file.read_values([](double) {});
+    const std::vector<float> gone = values_of(file);
     ASSERT_EQ(gone.size(), voxel_count(grid_));
     std::size_t i = 0;
     for (int z = 0; z < grid_.size_voxels.z; ++z)

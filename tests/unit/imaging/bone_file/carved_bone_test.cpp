@@ -13,6 +13,7 @@
 #include "tests/support/dense_bone_file.h"
 #include "tests/support/file_size_limit.h"
 #include "tests/support/temporary_folder.h"
+#include "tests/support/whole_image.h"
 
 namespace osteomill {
 namespace {
@@ -101,7 +102,7 @@ TEST_P(CarvedBone, IsOneFileThatBoneImportReads) {
     save_carved_bone(path_, slices_of(volume), carved(volume));
     EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder_.path()), {}), 1);
     const OpenedImage opened = open_image(path_);
-    const std::vector<float> values = opened.read_values([](double) {});
+    const std::vector<float> values = values_of(opened);
     const std::vector<std::int16_t> hu = testing::read_bone_file(path_).volume.hu;
     ASSERT_EQ(values.size(), hu.size());
     EXPECT_TRUE(std::equal(values.begin(), values.end(), hu.begin())) << "behind the bytes to be skipped";

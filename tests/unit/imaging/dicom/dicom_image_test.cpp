@@ -13,6 +13,7 @@
 #include "tests/support/raw_images.h"
 #include "tests/support/synthetic_dicom.h"
 #include "tests/support/temporary_folder.h"
+#include "tests/support/whole_image.h"
 
 namespace osteomill::dicom_image_test {
 namespace {
@@ -41,12 +42,10 @@ class DicomImage : public ::testing::Test {
         }
     }
     OpenedImage open() const { return open_image(series_); }
-    std::vector<float> values() const {
-        return open().read_values([](double) {});
-    }
+    std::vector<float> values() const { return values_of(open()); }
     std::string refusal(const std::filesystem::path& path) const {
         try {
-            open_image(path).read_values([](double) {});
+            values_of(open_image(path));
         } catch (const ImagingError& error) {
             return error.what();
         }
@@ -180,7 +179,7 @@ TEST_F(DicomImage, StacksFramesWithoutGroups) {
     write_bytes(folder_ / "x.dcm", bytes);
     const OpenedImage opened = open_image(folder_ / "x.dcm");
     EXPECT_EQ(opened.image.spacing_mm.z, 2.0);
-    EXPECT_EQ(opened.read_values([](double) {})[24], 5.0F);
+    EXPECT_EQ(values_of(opened)[24], 5.0F);
     EXPECT_THAT(opened.image.notes, Contains(HasSubstr("stacked 2 mm apart (Spacing Between Slices)")));
     bytes = with(with(bytes, dicom_element(0x0020, 0x0032, "DS", "0\\0\\0"), ""),
                  dicom_element(0x0020, 0x0037, "DS", "1\\0\\0\\0\\1\\0"), "");

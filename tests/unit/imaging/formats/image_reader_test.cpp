@@ -12,6 +12,7 @@
 #include "imaging/imaging_error.h"
 #include "tests/support/synthetic_dicom.h"
 #include "tests/support/temporary_folder.h"
+#include "tests/support/whole_image.h"
 
 namespace osteomill {
 namespace {
@@ -64,7 +65,7 @@ class ImageReader : public ::testing::Test {
     std::string refusal(const std::filesystem::path& path,
                         const std::optional<std::string>& uid = std::nullopt) {
         try {
-            open_image(path, {.series_uid = uid}).read_values(silent);
+            values_of(open_image(path, {.series_uid = uid}));
         } catch (const ImagingError& error) {
             const std::string line = error.what();
             EXPECT_THAT(line, Not(HasSubstr("\n")));
@@ -93,7 +94,7 @@ TEST_F(ImageReader, PlacesADicomSeriesAndAppliesEachSlicesOwnRescale) {
     testing::write_series(folder_ / "series", slices);
     OpenedImage opened = open_image(folder_ / "series");
     EXPECT_EQ(opened.image.size_voxels, glm::ivec3(12, 10, 4));
-    const std::vector<float> values = opened.read_values(silent);
+    const std::vector<float> values = values_of(opened);
     EXPECT_FLOAT_EQ(values[0], 0.0F);
     EXPECT_FLOAT_EQ(values[120 + 3 + 12 * 2], 1976.0F);
     EXPECT_EQ(position_mm(opened.image, {3.0, 2.0, 1.0}), glm::dvec3(-2.0, -2.0, 2.0));

@@ -8,6 +8,7 @@
 #include "imaging/segmentation/segmentation.h"
 #include "tests/support/picture_files.h"
 #include "tests/support/temporary_folder.h"
+#include "tests/support/whole_image.h"
 
 namespace osteomill {
 namespace {
@@ -21,15 +22,13 @@ class PictureStackFolder : public ::testing::Test {
   protected:
     std::string refusal() const {
         try {
-            open_picture_stack(folder_.path(), spacing_mm).read_values([](double) {});
+            values_of(open_picture_stack(folder_.path(), spacing_mm));
         } catch (const ImagingError& error) {
             return error.what();
         }
         return "";
     }
-    std::vector<float> values() const {
-        return open_picture_stack(folder_.path(), spacing_mm).read_values([](double) {});
-    }
+    std::vector<float> values() const { return values_of(open_picture_stack(folder_.path(), spacing_mm)); }
     testing::TemporaryFolder folder_;
 };
 

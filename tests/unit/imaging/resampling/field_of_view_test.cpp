@@ -6,7 +6,7 @@
 #include <limits>
 #include <vector>
 
-#include "imaging/hu_volume.h"
+#include "imaging/bone_from_hu.h"
 #include "imaging/resampling/refine.h"
 
 namespace osteomill {

@@ -4,7 +4,7 @@
 
 #include <cstdlib>
 
-#include "imaging/hu_volume.h"
+#include "tests/support/hu_volume.h"
 
 namespace osteomill {
 namespace {

@@ -6,8 +6,9 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "imaging/hu_volume.h"
 #include "imaging/resampling/image_part.h"
+#include "tests/support/hu_volume.h"
+#include "tests/support/whole_image.h"
 
 namespace osteomill {
 namespace {
@@ -21,8 +22,8 @@ glm::dmat3 turned(double angle) {
 }
 
 /// A scan of 24 mm around the origin with a smooth blob of 2 mm at marker_mm, whichever way its axes run.
-SourceImage scan_of_marker(const glm::dmat3& direction) {
-    SourceImage image{.size_voxels = {48, 30, 24}, .spacing_mm = {0.5, 0.8, 1.0}, .direction = direction};
+WholeImage scan_of_marker(const glm::dmat3& direction) {
+    WholeImage image{{.size_voxels = {48, 30, 24}, .spacing_mm = {0.5, 0.8, 1.0}, .direction = direction}};
     image.origin_mm = -direction * (0.5 * image.spacing_mm * glm::dvec3(image.size_voxels - 1));
     for (int z = 0; z < image.size_voxels.z; ++z)
         for (int y = 0; y < image.size_voxels.y; ++y)
@@ -49,7 +50,7 @@ glm::dvec3 found_marker(const HuVolume& volume) {
     return sum / weight;
 }
 
-HuVolume refine(SourceImage part, const Grid& grid) {
+HuVolume refine(WholeImage part, const Grid& grid) {
     const Refiner refiner(part, part.values, grid);
     HuVolume volume{.grid = grid, .hu = {}, .tissue = {}};
     const auto slice =
@@ -60,7 +61,7 @@ HuVolume refine(SourceImage part, const Grid& grid) {
     return volume;
 }
 
-HuVolume refined(const SourceImage& image, double spacing_mm) {
+HuVolume refined(const WholeImage& image, double spacing_mm) {
     const Region extent = extent_of(image);
     const ImageBox all{.first = {0, 0, 0}, .last = image.size_voxels - 1};
     return refine(cut(image, all), grid_over(extent, spacing_mm));
@@ -100,7 +101,7 @@ TEST(Refine, LeavesAirAroundATurnedScan) {
 }
 
 TEST(Refine, GivesTheScanBackAtItsOwnSpacing) {
-    SourceImage image{.size_voxels = {9, 8, 7}, .spacing_mm = {0.5, 0.5, 0.5}};
+    WholeImage image{{.size_voxels = {9, 8, 7}, .spacing_mm = {0.5, 0.5, 0.5}}};
     for (std::size_t i = 0; i < voxel_count(image); ++i)
         image.values.push_back(static_cast<float>((i * 7919) % 3000) - 1000.0F);
     const HuVolume volume = refined(image, 0.5);
@@ -109,7 +110,7 @@ TEST(Refine, GivesTheScanBackAtItsOwnSpacing) {
 }
 
 TEST(Refine, NeverLeavesTheRangeOfTheScan) {
-    SourceImage image{.size_voxels = {12, 12, 12}, .spacing_mm = {1.0, 1.0, 1.0}};
+    WholeImage image{{.size_voxels = {12, 12, 12}, .spacing_mm = {1.0, 1.0, 1.0}}};
     for (std::size_t i = 0; i < voxel_count(image); ++i) image.values.push_back(i % 12 < 6 ? 0.0F : 2000.0F);
     const HuVolume volume = refined(image, 0.2);
     const auto [low, high] = std::minmax_element(volume.hu.begin(), volume.hu.end());
@@ -118,7 +119,7 @@ TEST(Refine, NeverLeavesTheRangeOfTheScan) {
 }
 
 TEST(Refine, SmoothsACheckerboardAwayWhenCoarsening) {
-    SourceImage image{.size_voxels = {40, 40, 40}, .spacing_mm = {0.25, 0.25, 0.25}};
+    WholeImage image{{.size_voxels = {40, 40, 40}, .spacing_mm = {0.25, 0.25, 0.25}}};
     for (int z = 0; z < 40; ++z)
         for (int y = 0; y < 40; ++y)
             for (int x = 0; x < 40; ++x) image.values.push_back((x + y + z) % 2 == 0 ? 0.0F : 1000.0F);
@@ -132,7 +133,7 @@ TEST(Refine, SmoothsACheckerboardAwayWhenCoarsening) {
 }
 
 TEST(Refine, AgreesWithTheWholeWhereOnlyARegionIsCut) {
-    const SourceImage image = scan_of_marker(glm::dmat3(1.0));
+    const WholeImage image = scan_of_marker(glm::dmat3(1.0));
     const Region region{.low_mm = {1.0, -3.0, 0.5}, .high_mm = {5.0, 1.0, 4.0}};
     const Grid grid = grid_over(region, 0.25);
     const ImageBox all{.first = {0, 0, 0}, .last = image.size_voxels - 1};

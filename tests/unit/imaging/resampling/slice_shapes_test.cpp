@@ -14,6 +14,7 @@
 #include "imaging/resampling/refine.h"
 #include "imaging/resampling/region.h"
 #include "tests/support/scanned_body.h"
+#include "tests/support/whole_image.h"
 
 namespace osteomill::slice_shapes_test {
 namespace {
@@ -21,8 +22,8 @@ namespace {
 const Region middle{.low_mm = glm::dvec3(-7.0), .high_mm = glm::dvec3(7.0)};
 constexpr double border_mm = 1.0;
 
-HuVolume refined(const SourceImage& scan, bool follows, double spacing_mm = 0.25) {
-    SourceImage part = cut(scan, {.first = glm::ivec3(0), .last = scan.size_voxels - 1});
+HuVolume refined(const WholeImage& scan, bool follows, double spacing_mm = 0.25) {
+    WholeImage part = cut(scan, {.first = glm::ivec3(0), .last = scan.size_voxels - 1});
     HuVolume volume{.grid = grid_over(middle, spacing_mm), .hu = {}, .tissue = {}};
     std::vector<float> room(part.values.size() * SliceShapes::floats_per_voxel);
     std::optional<SliceShapes> shapes;
@@ -43,7 +44,7 @@ struct Compared {
 };
 
 /// The figures are printed, too.
-Compared compare(const std::string& name, const SourceImage& scan, const BodyDepth& body) {
+Compared compare(const std::string& name, const WholeImage& scan, const BodyDepth& body) {
     const Compared both{.blended = agreement_of(refined(scan, false), body, border_mm),
                         .followed = agreement_of(refined(scan, true), body, border_mm)};
     const auto row = [&](const char* how, const Agreement& of) {
@@ -108,7 +109,7 @@ TEST(SliceShapes, WhereAVaultsLastContourEndsTheStepIsNoHigher) {
 
 TEST(SliceShapes, WhatIsNoSurfaceFromSliceToSliceStaysAsItWas) {
     const auto expect_same = [](const BodyDepth& body) {
-        const SourceImage scan = scan_of(body, {});
+        const WholeImage scan = scan_of(body, {});
         EXPECT_EQ(refined(scan, true).hu, refined(scan, false).hu);
     };
     expect_same(plane(90.0));
@@ -134,7 +135,7 @@ TEST(SliceShapes, ThinBonesAndHolesAreNoWorse) {
 
 TEST(SliceShapes, HuInTheSlicesStayTheScans) {
     const BodyDepth body = shell(30.0, 6.0, 7.3);
-    const SourceImage scan = scan_of(body, {});
+    const WholeImage scan = scan_of(body, {});
     const HuVolume followed = refined(scan, true, 0.5);
     const HuVolume blended = refined(scan, false, 0.5);
     const glm::ivec3 size = followed.grid.size_voxels;
@@ -154,13 +155,13 @@ TEST(SliceShapes, HuInTheSlicesStayTheScans) {
 
 TEST(SliceShapes, FollowContoursWhicheverWayTheScanIsTurned) {
     const BodyDepth body = plane(30.0);
-    const SourceImage scan = scan_of(body, {});
+    const WholeImage scan = scan_of(body, {});
     const glm::dmat3 sagittal(glm::dvec3(0.0, 1.0, 0.0), glm::dvec3(0.0, 0.0, -1.0),
                               glm::dvec3(1.0, 0.0, 0.0));
     const glm::dmat3 oblique(glm::dvec3(std::cos(0.3), std::sin(0.3), 0.0),
                              glm::dvec3(-std::sin(0.3), std::cos(0.3), 0.0), glm::dvec3(0.0, 0.0, 1.0));
     for (const glm::dmat3& direction : {sagittal, oblique}) {
-        SourceImage turned = scan;
+        WholeImage turned = scan;
         turned.direction = direction;
         turned.origin_mm = direction * scan.origin_mm;
         const Compared of = compare("turned plane", turned, [&](const glm::dvec3& at_mm) {

@@ -1,9 +1,7 @@
-// CT numbers on the bone's own grid, with an optional label per voxel, and the bone that is built from them.
-// Dense where that is small; else slice by slice (hu_slices.h).
+// The bone that is built from CT numbers on its own grid, which come slice by slice.
 #pragma once
 
 #include <cstdint>
-#include <vector>
 
 #include "common/bone/bone.h"
 #include "common/scene/stiffness_relation.h"
@@ -13,15 +11,6 @@ namespace osteomill {
 
 /// What a voxel of nothing holds.
 inline constexpr std::int16_t air_hu = -1000;
-
-struct HuVolume {
-    Grid grid;
-    std::vector<std::int16_t> hu;      ///< x fastest, then y, then z
-    std::vector<std::uint8_t> tissue;  ///< labels in the same order, or empty
-};
-
-/// The volume's slices; it must outlive them.
-HuSlices slices_of(const HuVolume& volume);
 
 /// Bone is where HU reaches the threshold. A voxel that the surface HU = threshold passes through is filled
 /// in part: fraction = clamp(1/2 + (HU - threshold) / (|grad HU| h), 0, 1), the same cover as the burr's, so
@@ -34,8 +23,5 @@ HuSlices slices_of(const HuVolume& volume);
 /// the slices are. Holds 18 slices at a time beside the bone. Throws std::invalid_argument for a bad grid,
 /// threshold or relation, and what reading the slices throws.
 Bone bone_from_hu(const HuSlices& slices, double threshold_hu, const StiffnessRelation& relation);
-
-/// The same; std::invalid_argument, too, where the volume's channels do not fit its grid.
-Bone bone_from_hu(const HuVolume& volume, double threshold_hu, const StiffnessRelation& relation);
 
 }  // namespace osteomill
