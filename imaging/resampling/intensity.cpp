@@ -8,7 +8,7 @@
 #include <limits>
 #include <stdexcept>
 
-#include "imaging/formats/header_text.h"
+#include "common/text/words.h"
 
 namespace osteomill {
 

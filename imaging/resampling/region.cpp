@@ -6,7 +6,7 @@
 #include <glm/vector_relational.hpp>
 #include <stdexcept>
 
-#include "imaging/formats/header_text.h"
+#include "common/text/words.h"
 
 namespace osteomill {
 
