@@ -45,6 +45,7 @@ inline void parse_arguments(CLI::App& app, int argc, const char* const* argv) {
             arguments.back() += whole_mark;
     }
     take_marks_off(app);
+    if (app.get_name().empty() && argc > 0) app.name(argv[0]);
     app.parse(std::move(arguments));
 }
 
