@@ -15,7 +15,7 @@
 #include "render_client/sound/quiet_sound_libraries.h"
 #include "render_client/ui/offscreen_run.h"
 #include "render_client/ui/options.h"
-#include "render_client/ui/view/look_file.h"
+#include "render_client/ui/view/transfer_file.h"
 #include "render_client/ui/windowed_run.h"
 
 namespace {

@@ -16,14 +16,14 @@
 #include "common/scene/scene_file.h"
 #include "render_client/sound/session_sound.h"
 #include "render_client/ui/input/commands.h"
+#include "render_client/ui/input/hand_input.h"
 #include "render_client/ui/input/input_mailbox.h"
-#include "render_client/ui/input/operator_desk.h"
 #include "render_client/ui/panels/start_panel.h"
-#include "render_client/ui/view/look_file.h"
 #include "render_client/ui/view/picture_options.h"
 #include "render_client/ui/view/redraw.h"
 #include "render_client/ui/view/screenshots.h"
 #include "render_client/ui/view/session_picture.h"
+#include "render_client/ui/view/transfer_file.h"
 #include "render_client/ui/view/window.h"
 
 namespace osteomill {
@@ -78,7 +78,7 @@ bool can_start_here(const RenderOptions& options) {
 /// What the two threads of a window share.
 struct Shared {
     InputMailbox mailbox{};
-    OperatorDesk desk;
+    HandInput desk;
     std::atomic<bool> is_over{false};      ///< asked for by either thread
     std::atomic<bool> close_asked{false};  ///< somebody wants to close the window
 };
@@ -218,7 +218,7 @@ class Drawing {
         if (session_.view().click_places && ImGui::IsMouseClicked(ImGuiMouseButton_Left) &&
             !ImGui::GetIO().WantCaptureMouse)
             commands_.place_at({ImGui::GetIO().MousePos.x, ImGui::GetIO().MousePos.y});
-        commands_.take(session_.take_wishes());
+        commands_.take(session_.take_requests());
         commands_.work_clutch();
         input_.forget_events();
         const std::string notice = session_.view().notice;
@@ -252,7 +252,7 @@ class Drawing {
     Panels panels_;
     std::optional<StartScreen> start_;
     std::optional<gl::StorageThread> storage_;
-    LookKeeper look_{options_.look_file, options_.look.transfer};
+    TransferFile look_{options_.look_file, options_.look.transfer};
     SessionPicture session_;
     Commands commands_;
     SessionSound sound_;
@@ -318,7 +318,7 @@ RenderReport run_in_window(const RenderOptions& options, SessionSource& source,
                            const std::function<bool()>& stop_asked) {
     Window window(options.window_size_px.value_or(default_size_px), "Osteomill",
                   options.stereo.layout == StereoLayout::quad_buffer);
-    Shared shared{.desk = OperatorDesk(source)};
+    Shared shared{.desk = HandInput(source)};
     shared.mailbox.post(window.take_input());
     RenderReport report;
     DrawingThread drawing(shared.is_over, [&] {

@@ -10,9 +10,9 @@ namespace osteomill {
 
 namespace {
 
-LookTable by_stiffness(const BoneContent& content, const TransferFunction& transfer) {
+TransferTable by_stiffness(const BoneContent& content, const TransferFunction& transfer) {
     require_valid(transfer);
-    LookTable table{.mode = transfer.mode};
+    TransferTable table{.mode = transfer.mode};
     if (content.stiffness.empty()) {
         table.by_code.fill(look_of(transfer, content.homogeneous_stiffness));
         return table;
@@ -23,15 +23,15 @@ LookTable by_stiffness(const BoneContent& content, const TransferFunction& trans
     return table;
 }
 
-LookTable opaque(std::optional<BoneChannel> channel, const ColourTable& colours) {
-    LookTable table{.codes = {.channel = channel}};
+TransferTable opaque(std::optional<BoneChannel> channel, const ColourTable& colours) {
+    TransferTable table{.codes = {.channel = channel}};
     for (std::size_t code = 0; code < colours.size(); ++code)
         table.by_code[code] = glm::vec4(colours[code], 1.0f);
     return table;
 }
 
-LookTable by_tissue(const BoneContent& content, std::span<const TissueColour> tissues) {
-    LookTable table = opaque(BoneChannel::tissue, colours_by_tissue(tissues));
+TransferTable by_tissue(const BoneContent& content, std::span<const TissueColour> tissues) {
+    TransferTable table = opaque(BoneChannel::tissue, colours_by_tissue(tissues));
     std::array<std::uint8_t, 256> label_by_code{};
     std::iota(label_by_code.begin(), label_by_code.end(), std::uint8_t{0});
     if (const std::optional<TissueShades> shades = tissue_shades(content, tissues)) {
@@ -50,8 +50,8 @@ LookTable by_tissue(const BoneContent& content, std::span<const TissueColour> ti
 
 }  // namespace
 
-LookTable look_table(const BoneContent& content, std::span<const TissueColour> tissues,
-                     const ShadingSettings& look) {
+TransferTable transfer_table(const BoneContent& content, std::span<const TissueColour> tissues,
+                             const ShadingSettings& look) {
     if (look.transfer) return by_stiffness(content, *look.transfer);
     if (!content.tissue.empty()) return by_tissue(content, tissues);
     if (!content.stiffness.empty())
@@ -61,11 +61,11 @@ LookTable look_table(const BoneContent& content, std::span<const TissueColour> t
     return opaque(std::nullopt, plain);
 }
 
-double colour_depth_voxels(const LookTable& table) {
+double colour_depth_voxels(const TransferTable& table) {
     return table.codes.channel == BoneChannel::stiffness || table.codes.are_of_both() ? 2.5 : 1.0;
 }
 
-std::array<std::uint8_t, 256> shown_part_by_code(const LookTable& table) {
+std::array<std::uint8_t, 256> shown_part_by_code(const TransferTable& table) {
     std::array<std::uint8_t, 256> parts{};
     for (std::size_t code = 0; code < parts.size(); ++code) {
         const float opacity = table.by_code[code].a;

@@ -27,23 +27,23 @@ struct ShadingSettings {
 };
 
 /// A look, worked out for one bone's codes.
-struct LookTable {
-    VoxelCodes codes{};  ///< without any all bone looks like code 0
+struct TransferTable {
+    VoxelCodes codes{};                    ///< without any all bone looks like code 0
     std::array<glm::vec4, 256> by_code{};  ///< linear RGB and opacity
     TransferMode mode = TransferMode::surface;
 };
 
 /// Throws std::invalid_argument like require_valid where the look's transfer function is none.
-LookTable look_table(const BoneContent& content, std::span<const TissueColour> tissues,
-                     const ShadingSettings& look);
+TransferTable transfer_table(const BoneContent& content, std::span<const TissueColour> tissues,
+                             const ShadingSettings& look);
 
 /// How far below bone's surface its colour is taken, voxels: one, which is below the steps of labels. What
 /// goes by stiffness is taken deeper, because CT blurs a surface over several voxels, and the mixture with
 /// air in the outermost ones would be seen as rings wherever the surface passes from one layer to the next.
-double colour_depth_voxels(const LookTable& table);
+double colour_depth_voxels(const TransferTable& table);
 
 /// How much of a voxel of each code counts, 0 to 255: its opacity where bone is a solid surface, all or
 /// nothing where one sees through it.
-std::array<std::uint8_t, 256> shown_part_by_code(const LookTable& table);
+std::array<std::uint8_t, 256> shown_part_by_code(const TransferTable& table);
 
 }  // namespace osteomill

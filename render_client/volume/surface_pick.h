@@ -6,7 +6,7 @@
 
 #include "common/bone/bone.h"
 #include "render_client/volume/camera.h"
-#include "render_client/volume/scene_look.h"
+#include "render_client/volume/scene_appearance.h"
 
 namespace osteomill {
 

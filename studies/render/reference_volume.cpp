@@ -44,7 +44,7 @@ ReferenceVolume::ReferenceVolume(const Bone& whole, std::span<const TissueColour
                                  const ShadingSettings& look)
     : grid_(whole.grid()),
       box_(stored_box(whole.content())),
-      table_(look_table(whole.content(), tissues, look)) {
+      table_(transfer_table(whole.content(), tissues, look)) {
     if (box_.count() == 0) throw std::runtime_error("the bone has no voxel to draw");
     const VisibleBone visible(whole, table_);
     const Bone& bone = visible.bone();

@@ -60,7 +60,7 @@ class ReferenceVolume {
 
     Grid grid_;
     VoxelBox box_;
-    LookTable table_;
+    TransferTable table_;
     glm::ivec3 mean_size_{0};
     std::vector<std::uint8_t> fraction_{};
     std::vector<std::uint8_t> smoothed_{};  ///< the shaders' own bytes

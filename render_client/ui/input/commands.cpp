@@ -48,7 +48,7 @@ const char* words_for(SessionAction done) {
 
 }  // namespace
 
-Commands::Commands(SessionPicture& session, OperatorDesk& desk, SessionSource& source,
+Commands::Commands(SessionPicture& session, HandInput& desk, SessionSource& source,
                    const std::filesystem::path& pictures_folder)
     : session_(session),
       desk_(desk),
@@ -187,11 +187,11 @@ void Commands::ask_to_end() {
         end_wanted_ = true;
 }
 
-void Commands::take(const SessionWishes& wishes) {
-    for (const SessionControl& control : wishes.controls) source_.send_control(control);
-    if (wishes.burr) desk_.choose_burr(*wishes.burr);
-    if (wishes.switches_pedal) desk_.switch_pedal();
-    end_wanted_ = end_wanted_ || wishes.ends_program;
+void Commands::take(const SessionRequests& requests) {
+    for (const SessionControl& control : requests.controls) source_.send_control(control);
+    if (requests.burr) desk_.choose_burr(*requests.burr);
+    if (requests.switches_pedal) desk_.switch_pedal();
+    end_wanted_ = end_wanted_ || requests.ends_program;
 }
 
 void Commands::place_at(const glm::dvec2& pixel) {

@@ -4,8 +4,8 @@
 #include <filesystem>
 #include <string>
 
+#include "render_client/ui/input/hand_input.h"
 #include "render_client/ui/input/key_bindings.h"
-#include "render_client/ui/input/operator_desk.h"
 #include "render_client/ui/view/bone_clutch.h"
 #include "render_client/ui/view/picture_export.h"
 #include "render_client/ui/view/session_picture.h"
@@ -15,12 +15,12 @@ namespace osteomill {
 class Commands {
   public:
     /// Pictures go into `pictures_folder`; an empty one is the current folder.
-    Commands(SessionPicture& session, OperatorDesk& desk, SessionSource& source,
+    Commands(SessionPicture& session, HandInput& desk, SessionSource& source,
              const std::filesystem::path& pictures_folder);
 
     void take(Action action);
     /// Passes on what was asked for with buttons.
-    void take(const SessionWishes& wishes);
+    void take(const SessionRequests& requests);
     /// Puts the tool on the bone that is seen at a pixel, the handpiece upright on it; a click beside the
     /// bone does nothing.
     void place_at(const glm::dvec2& pixel);
@@ -51,7 +51,7 @@ class Commands {
     void change_speed(double factor);
 
     SessionPicture& session_;
-    OperatorDesk& desk_;
+    HandInput& desk_;
     SessionSource& source_;
     RecordingPlayer* player_;  // null where no recording is shown
     PictureExport pictures_;

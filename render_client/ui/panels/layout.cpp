@@ -46,18 +46,18 @@ PanelPlace free_middle(const glm::vec2& picture) {
     return {0.5f * (1.0f - free_middle_part) * picture, free_middle_part * picture, 0};
 }
 
-std::optional<PanelPlace> find_place(const Places& taken, const PanelWish& wish, const glm::vec2& size,
+std::optional<PanelPlace> find_place(const Places& taken, const PanelRequest& request, const glm::vec2& size,
                                      const glm::vec2& picture, float margin) {
     const glm::vec2 room = picture - size - 2.0f * margin;
     if (room.x < 0.0f || room.y < 0.0f) return std::nullopt;
-    const glm::vec2 part = part_of(wish.anchor);
+    const glm::vec2 part = part_of(request.anchor);
     PanelPlace place{glm::vec2(margin) + part * room, size, 0};
     const bool upwards = part.y == 1.0f;
     // Every move goes past a panel that it never meets again.
     for (std::size_t moves = 0; moves <= taken.size(); ++moves) {
         const PanelPlace* other = first_met(taken, place, margin);
         if (!other) {
-            if (!wish.may_cover_middle && meet(place, free_middle(picture), 0.0f)) return std::nullopt;
+            if (!request.may_cover_middle && meet(place, free_middle(picture), 0.0f)) return std::nullopt;
             return place;
         }
         place.first.y = upwards ? other->first.y - margin - size.y : other->first.y + other->size.y + margin;
@@ -67,23 +67,23 @@ std::optional<PanelPlace> find_place(const Places& taken, const PanelWish& wish,
 }
 
 /// With the first so many sizes of each left out.
-Places lay_out_from(std::span<const std::size_t> first_choices, std::span<const PanelWish> wishes,
+Places lay_out_from(std::span<const std::size_t> first_choices, std::span<const PanelRequest> requests,
                     const glm::vec2& picture, float margin, const std::optional<PanelPlace>& burr) {
     // Last the burr, for those that give way to it. Where it is not there, its place is empty.
-    Places taken(wishes.size() + 1);
-    const auto find = [&](const PanelWish& wish, std::size_t choice) {
-        taken.back() = wish.gives_way ? burr : std::nullopt;
-        auto found = find_place(taken, wish, wish.sizes[choice], picture, margin);
+    Places taken(requests.size() + 1);
+    const auto find = [&](const PanelRequest& request, std::size_t choice) {
+        taken.back() = request.gives_way ? burr : std::nullopt;
+        auto found = find_place(taken, request, request.sizes[choice], picture, margin);
         if (found) found->choice = choice;
         return found;
     };
-    for (std::size_t i = 0; i < wishes.size(); ++i)
-        if (wishes[i].is_kept && !wishes[i].sizes.empty())
-            taken[i] = find(wishes[i], wishes[i].sizes.size() - 1);
-    for (std::size_t i = 0; i < wishes.size(); ++i) {
+    for (std::size_t i = 0; i < requests.size(); ++i)
+        if (requests[i].is_kept && !requests[i].sizes.empty())
+            taken[i] = find(requests[i], requests[i].sizes.size() - 1);
+    for (std::size_t i = 0; i < requests.size(); ++i) {
         const std::optional<PanelPlace> kept = std::exchange(taken[i], std::nullopt);
-        for (std::size_t choice = first_choices[i]; choice < wishes[i].sizes.size() && !taken[i]; ++choice)
-            taken[i] = find(wishes[i], choice);
+        for (std::size_t choice = first_choices[i]; choice < requests[i].sizes.size() && !taken[i]; ++choice)
+            taken[i] = find(requests[i], choice);
         if (!taken[i]) taken[i] = kept;
     }
     taken.pop_back();
@@ -92,19 +92,19 @@ Places lay_out_from(std::span<const std::size_t> first_choices, std::span<const 
 
 }  // namespace
 
-Places lay_out(std::span<const PanelWish> wishes, const glm::vec2& picture, float margin,
+Places lay_out(std::span<const PanelRequest> requests, const glm::vec2& picture, float margin,
                const std::optional<PanelPlace>& burr) {
-    std::vector<std::size_t> first_choices(wishes.size(), 0);
+    std::vector<std::size_t> first_choices(requests.size(), 0);
     for (;;) {
-        Places places = lay_out_from(first_choices, wishes, picture, margin, burr);
+        Places places = lay_out_from(first_choices, requests, picture, margin, burr);
         // The largest of those that were opened shrinks for one that has no place, until none can.
         const bool all_are_there = std::none_of(places.begin(), places.end(), [&](const auto& place) {
-            return !place && wishes[static_cast<std::size_t>(&place - places.data())].is_asked_for;
+            return !place && requests[static_cast<std::size_t>(&place - places.data())].is_asked_for;
         });
         std::optional<std::size_t> largest;
         const auto area = [&](std::size_t i) { return places[i]->size.x * places[i]->size.y; };
         for (std::size_t i = 0; i < places.size() && !all_are_there; ++i)
-            if (places[i] && wishes[i].is_asked_for && places[i]->choice + 1 < wishes[i].sizes.size() &&
+            if (places[i] && requests[i].is_asked_for && places[i]->choice + 1 < requests[i].sizes.size() &&
                 (!largest || area(i) > area(*largest)))
                 largest = i;
         if (!largest) return places;

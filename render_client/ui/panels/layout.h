@@ -11,7 +11,7 @@ namespace osteomill {
 enum class Anchor { upper_left, upper_right, lower_left, lower_right, top, bottom, middle };
 
 /// A panel asks for a place: the sizes it can take, best first, pixels.
-struct PanelWish {
+struct PanelRequest {
     Anchor anchor = Anchor::upper_left;
     std::vector<glm::vec2> sizes;
     bool may_cover_middle = false;  ///< a page or a question: it wants to be read and answered
@@ -23,18 +23,18 @@ struct PanelWish {
 struct PanelPlace {
     glm::vec2 first{0.0f};  ///< upper left corner, pixels from the picture's upper left corner
     glm::vec2 size{0.0f};
-    std::size_t choice = 0;  ///< which of the wish's sizes it is
+    std::size_t choice = 0;  ///< which of the request's sizes it is
 };
 
-/// Places for `wishes`, the most important first, in a picture of `picture` pixels with `margin` round each
+/// Places for `requests`, the most important first, in a picture of `picture` pixels with `margin` round each
 /// panel. A panel goes to its anchor; where others are, it moves past them: down from an upper anchor, up
 /// from a lower one. One whose first size fits nowhere there gets its next, and none if none fits: a small
 /// window shows fewer panels.
 /// The middle of the picture, where one works, stays free of all that may not cover it; and so does `burr`,
 /// what the burr takes of the picture, of all that give way. Of those that the user opened the largest
 /// shrinks until all have a place, or none can.
-std::vector<std::optional<PanelPlace>> lay_out(std::span<const PanelWish> wishes, const glm::vec2& picture,
-                                               float margin,
+std::vector<std::optional<PanelPlace>> lay_out(std::span<const PanelRequest> requests,
+                                               const glm::vec2& picture, float margin,
                                                const std::optional<PanelPlace>& burr = std::nullopt);
 
 /// Sizes for a panel of controls: whole, then lower, then as narrow as fits beside the free middle, last its

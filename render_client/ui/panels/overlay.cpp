@@ -28,24 +28,24 @@ constexpr float margin_px = 12.0f;  // at scale 1
 
 using Draw = std::function<void(const PanelPlace&)>;
 
-/// Wishes for places, and what to draw there: the most important first.
+/// Requests for places, and what to draw there: the most important first.
 class PanelList {
   public:
     void add(Anchor anchor, std::vector<glm::vec2> sizes, Draw draw) {
-        wishes_.push_back({.anchor = anchor, .sizes = std::move(sizes)});
+        requests_.push_back({.anchor = anchor, .sizes = std::move(sizes)});
         draws_.push_back(std::move(draw));
     }
     /// A page or a question, which the user opened.
     void add_page(Anchor anchor, const glm::vec2& size, Draw draw) {
         add(anchor, {size}, std::move(draw));
-        wishes_.back().may_cover_middle = true;
+        requests_.back().may_cover_middle = true;
     }
     void add_asked_for(Anchor anchor, std::vector<glm::vec2> sizes, Draw draw) {
         add(anchor, std::move(sizes), std::move(draw));
-        wishes_.back().is_asked_for = true;
+        requests_.back().is_asked_for = true;
     }
-    void keep_last() { wishes_.back().is_kept = true; }
-    void let_last_give_way() { wishes_.back().gives_way = true; }
+    void keep_last() { requests_.back().is_kept = true; }
+    void let_last_give_way() { requests_.back().gives_way = true; }
     void add_text(const PanelPainter& painter, Anchor anchor, const PanelText& text, float widest) {
         add(anchor, {painter.size_of(text, widest)},
             [&painter, text](const PanelPlace& place) { painter.draw(text, place); });
@@ -53,14 +53,14 @@ class PanelList {
     /// Returns where they are.
     std::vector<std::optional<PanelPlace>> draw_in(const glm::vec2& picture, float margin,
                                                    const std::optional<PanelPlace>& burr) const {
-        auto places = lay_out(wishes_, picture, margin, burr);
+        auto places = lay_out(requests_, picture, margin, burr);
         for (std::size_t i = 0; i < places.size(); ++i)
             if (places[i]) draws_[i](*places[i]);
         return places;
     }
 
   private:
-    std::vector<PanelWish> wishes_;
+    std::vector<PanelRequest> requests_;
     std::vector<Draw> draws_;
 };
 
@@ -191,7 +191,7 @@ void draw_overlay(const OverlayContent& content, const glm::ivec2& size_px) {
                    [&](const PanelPlace& place) { draw_tool_bar(content, place); });
     if (const PanelText warnings = warning_text(content); !warnings.empty())
         panels.add_text(painter, Anchor::top, warnings, picture.x - 2.0f * margin);
-    if (content.view->question != SessionQuestion::none && content.wishes != nullptr)
+    if (content.view->question != SessionQuestion::none && content.requests != nullptr)
         panels.add_page(Anchor::middle, session_dialog_size(content, painter),
                         [&](const PanelPlace& place) { draw_session_dialog(content, place); });
     if (content.start != nullptr && content.link.status == LinkStatus::finished)

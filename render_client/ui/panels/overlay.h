@@ -6,7 +6,7 @@
 #include <optional>
 #include <string>
 
-#include "render_client/ui/input/session_wishes.h"
+#include "render_client/ui/input/session_requests.h"
 #include "render_client/ui/panels/tool_history.h"
 #include "render_client/ui/session_source.h"
 #include "render_client/ui/view/slices_view.h"
@@ -37,7 +37,7 @@ struct OverlayContent {
     std::uint64_t bone_version = 0;
     /// Takes what is asked for with buttons; null where there is nobody to press them, as in offscreen
     /// pictures.
-    SessionWishes* wishes = nullptr;
+    SessionRequests* requests = nullptr;
     /// Null where no session is started from here.
     StartScreen* start = nullptr;
     /// Null unless a recording is shown.

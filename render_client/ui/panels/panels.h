@@ -2,7 +2,7 @@
 // lengths are pixels of the picture, also where a window counts in larger units.
 //
 // Takes the window's input as data instead of by Dear ImGui's own back end for GLFW, which reads it where it
-// draws: reading is another thread's business, see operator_desk.h.
+// draws: reading is another thread's business, see hand_input.h.
 #pragma once
 
 #include <glm/vec2.hpp>

@@ -37,23 +37,23 @@ Question question_of(const OverlayContent& content) {
 }
 
 void answer(const OverlayContent& content) {
-    SessionWishes& wishes = *content.wishes;
+    SessionRequests& requests = *content.requests;
     ViewSettings& view = *content.view;
     switch (view.question) {
         case SessionQuestion::mark:
-            wishes.controls.push_back({SessionAction::mark, view.note.data()});
+            requests.controls.push_back({SessionAction::mark, view.note.data()});
             break;
         case SessionQuestion::reset:
-            wishes.controls.push_back({SessionAction::reset});
+            requests.controls.push_back({SessionAction::reset});
             break;
         case SessionQuestion::finish:
-            wishes.controls.push_back({SessionAction::finish});
+            requests.controls.push_back({SessionAction::finish});
             break;
         case SessionQuestion::surface:
-            wishes.controls.push_back({SessionAction::save, ".stl"});
+            requests.controls.push_back({SessionAction::save, ".stl"});
             break;
         case SessionQuestion::end:
-            wishes.ends_program = true;
+            requests.ends_program = true;
             break;
         case SessionQuestion::none:
             break;
@@ -89,7 +89,7 @@ void draw_session_dialog(const OverlayContent& content, const PanelPlace& place)
     if (content.view->question == SessionQuestion::surface)
         for (const auto& [kind, ending] : {std::pair("PLY", ".ply"), {"OBJ", ".obj"}}) {
             if (ImGui::Button(kind)) {
-                content.wishes->controls.push_back({SessionAction::save, ending});
+                content.requests->controls.push_back({SessionAction::save, ending});
                 content.view->question = SessionQuestion::none;
             }
             ImGui::SameLine();

@@ -9,7 +9,7 @@ namespace osteomill {
 
 /// Of content.view->question, which is one.
 glm::vec2 session_dialog_size(const OverlayContent& content, const PanelPainter& painter);
-/// An answer goes into content.wishes and ends the question.
+/// An answer goes into content.requests and ends the question.
 void draw_session_dialog(const OverlayContent& content, const PanelPlace& place);
 
 }  // namespace osteomill

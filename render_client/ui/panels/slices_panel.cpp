@@ -119,12 +119,12 @@ void draw_settings(const OverlayContent& content) {
                            ImGuiSliderFlags_NoInput))
         slices.window().window_hu = width;
     ImGui::SameLine();
-    const bool may = content.wishes != nullptr && content.link.controls.may_control && content.tool;
+    const bool may = content.requests != nullptr && content.link.controls.may_control && content.tool;
     ImGui::BeginDisabled(!may);
     if (ImGui::Button("Place the tool here") && may)
-        content.wishes->controls.push_back({.action = SessionAction::place,
-                                            .text = {},
-                                            .pose = {*slices.cross_mm(), content.tool->spindle_axis}});
+        content.requests->controls.push_back({.action = SessionAction::place,
+                                              .text = {},
+                                              .pose = {*slices.cross_mm(), content.tool->spindle_axis}});
     ImGui::EndDisabled();
 }
 

@@ -8,7 +8,7 @@
 #include <array>
 #include <cstdint>
 
-#include "render_client/volume/scene_look.h"
+#include "render_client/volume/scene_appearance.h"
 
 namespace osteomill {
 
@@ -29,7 +29,7 @@ struct Theme {
     Rgba grid;                                  ///< of plots
     Rgba on_picture;                            ///< lines and letters over the picture, without a panel
     Rgba behind_letter;                         ///< round what stands on the picture
-    glm::vec3 background_low, background_high;  ///< linear RGB, see SceneLook
+    glm::vec3 background_low, background_high;  ///< linear RGB, see SceneAppearance
 
     const Rgba& operator[](Tone tone) const { return tones[static_cast<std::size_t>(tone)]; }
 };

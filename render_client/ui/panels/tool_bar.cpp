@@ -174,10 +174,10 @@ glm::vec2 size_of(const std::vector<ToolButton>& buttons, bool has_words) {
 }
 
 void press(Tool tool, const OverlayContent& content) {
-    SessionWishes& wishes = *content.wishes;
+    SessionRequests& requests = *content.requests;
     switch (tool) {
         case Tool::pedal:
-            wishes.switches_pedal = true;
+            requests.switches_pedal = true;
             break;
         case Tool::burr:
             ImGui::OpenPopup("burrs");
@@ -195,23 +195,23 @@ void press(Tool tool, const OverlayContent& content) {
             content.view->slices_shown = !content.view->slices_shown;
             break;
         case Tool::undo:
-            wishes.controls.push_back({SessionAction::undo});
+            requests.controls.push_back({SessionAction::undo});
             break;
         case Tool::redo:
-            wishes.controls.push_back({SessionAction::redo});
+            requests.controls.push_back({SessionAction::redo});
             break;
         case Tool::reset:
             content.view->question = SessionQuestion::reset;
             break;
         case Tool::pause:
-            wishes.controls.push_back(
+            requests.controls.push_back(
                 {content.link.controls.is_paused ? SessionAction::resume : SessionAction::pause});
             break;
         case Tool::mark:
             content.view->question = SessionQuestion::mark;
             break;
         case Tool::save:
-            wishes.controls.push_back({SessionAction::save});
+            requests.controls.push_back({SessionAction::save});
             break;
         case Tool::surface:
             content.view->question = SessionQuestion::surface;
@@ -294,7 +294,7 @@ void draw_speed(const OverlayContent& content) {
                        ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp);
     storage.SetFloat(dragged, ImGui::IsItemActive() ? rpm : 0.0f);
     const auto choose = [&](double chosen_rpm) {
-        content.wishes->controls.push_back({.action = SessionAction::speed, .spindle_rpm = chosen_rpm});
+        content.requests->controls.push_back({.action = SessionAction::speed, .spindle_rpm = chosen_rpm});
     };
     if (ImGui::IsItemDeactivatedAfterEdit())
         choose(std::clamp(100.0 * std::round(rpm / 100.0), least_spindle_rpm, most_spindle_rpm));
@@ -315,7 +315,7 @@ void draw_burr_list(const OverlayContent& content) {
         const auto flags =
             content.operator_command ? ImGuiSelectableFlags_None : ImGuiSelectableFlags_Disabled;
         if (ImGui::Selectable(text.c_str(), burr_in_use(content) == i, flags, {0.0f, height}))
-            content.wishes->burr = i;
+            content.requests->burr = i;
         ImGui::PopStyleVar();
         draw_burr(burr, {place.x, place.y + 1.0f}, {height, height - 2.0f}, mm_per_px);
     }
@@ -326,7 +326,7 @@ void draw_burr_list(const OverlayContent& content) {
 }  // namespace
 
 bool has_tool_bar(const OverlayContent& content) {
-    return content.wishes != nullptr && content.player == nullptr && content.session != nullptr &&
+    return content.requests != nullptr && content.player == nullptr && content.session != nullptr &&
            content.session->accepts_controls && content.link.status == LinkStatus::live;
 }
 

@@ -5,7 +5,7 @@
 #include <glm/vec2.hpp>
 #include <vector>
 
-#include "render_client/ui/input/session_wishes.h"
+#include "render_client/ui/input/session_requests.h"
 #include "render_client/ui/panels/overlay.h"
 #include "render_client/ui/panels/panel_painter.h"
 
@@ -16,7 +16,7 @@ bool has_tool_bar(const OverlayContent& content);
 
 /// With words, with signs alone, and of those only the most used.
 std::vector<glm::vec2> tool_bar_sizes(const OverlayContent& content, const PanelPainter& painter);
-/// What is pressed goes into content.wishes and content.view.
+/// What is pressed goes into content.requests and content.view.
 void draw_tool_bar(const OverlayContent& content, const PanelPlace& place);
 
 }  // namespace osteomill

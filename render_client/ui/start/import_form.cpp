@@ -56,7 +56,7 @@ std::vector<std::string> import_command(const std::string& bone_import, const Im
     return command;
 }
 
-void take_look(ImportForm& form, const ScanLook& look, bool is_another_scan) {
+void take_look(ImportForm& form, const ScanPreview& look, bool is_another_scan) {
     if (is_another_scan) form.region = look.covers;
     std::vector<SegmentChoice> segments;
     for (const std::string& name : look.segments) {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "render_client/ui/start/scan_look.h"
+#include "render_client/ui/start/scan_preview.h"
 
 namespace osteomill {
 
@@ -48,6 +48,6 @@ std::vector<std::string> import_command(const std::string& bone_import, const Im
 
 /// Takes what a look brought: its segments, of which those that were there keep what was chosen; and, where
 /// the scan is another, the region: all of it.
-void take_look(ImportForm& form, const ScanLook& look, bool is_another_scan);
+void take_look(ImportForm& form, const ScanPreview& look, bool is_another_scan);
 
 }  // namespace osteomill

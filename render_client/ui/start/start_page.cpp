@@ -218,7 +218,7 @@ void StartPage::end_of_work() {
     } else if (work_ == Work::compare && is_good) {
         open_page(places_.home / "comparison" / "sessions.html");
     } else if (work_ == Work::look && is_good) {
-        look_ = read_scan_look(said);
+        look_ = read_scan_preview(said);
         try {
             picture_ = read_png(scratch_ / "look.png");
             ++picture_number_;

@@ -13,7 +13,7 @@
 
 #include "common/net/listen_address.h"
 #include "common/program/child_program.h"
-#include "render_client/ui/start/case_shelf.h"
+#include "render_client/ui/start/case_library.h"
 #include "render_client/ui/start/folder_listing.h"
 #include "render_client/ui/start/import_form.h"
 #include "render_client/volume/picture.h"
@@ -71,7 +71,7 @@ class StartPage {
 
     ImportForm form{};
     /// Of the scan, once it was looked at.
-    const std::optional<ScanLook>& look() const { return look_; }
+    const std::optional<ScanPreview>& look() const { return look_; }
     const std::optional<Picture>& picture() const { return picture_; }
     std::uint64_t picture_number() const { return picture_number_; }  ///< another for each picture
     bool is_working() const { return worker_ != nullptr; }            ///< looks or imports
@@ -103,7 +103,7 @@ class StartPage {
     ImportForm form_before_{};  // whose files could be read
     std::unique_ptr<ChildProgram> worker_;
     std::filesystem::path scratch_;  // of the look that is under way
-    std::optional<ScanLook> look_;
+    std::optional<ScanPreview> look_;
     std::optional<Picture> picture_;
     std::uint64_t picture_number_ = 0;
 

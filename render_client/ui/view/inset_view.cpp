@@ -56,7 +56,7 @@ InsetView::InsetView(RendererChoice renderer)
     : renderer_(make_renderer(renderer)), picture_(*renderer_, {1, 1}) {}
 
 const gl::Framebuffer& InsetView::draw(InsetKind kind, const BoneTextures& bone, const DrawnTool& tool,
-                                       SceneLook look, int edge_px) {
+                                       SceneAppearance look, int edge_px) {
     const glm::dvec3& burr_mm = tool.state.burr_position_mm;
     const bool is_axial = kind == InsetKind::axial;
     look.light_field = false;

@@ -32,7 +32,7 @@ class InsetView {
     }
     /// `look` is that of the large view. `kind` must not be off.
     const gl::Framebuffer& draw(InsetKind kind, const BoneTextures& bone, const DrawnTool& tool,
-                                SceneLook look, int edge_px);
+                                SceneAppearance look, int edge_px);
 
   private:
     std::unique_ptr<BoneRenderer> renderer_;

@@ -186,14 +186,14 @@ const gl::Framebuffer& SessionPicture::draw(double elapsed_s) {
     if (view_.transfer.take_change())
         set_shading({.shading = bone_.look().shading, .transfer = view_.transfer.function()});
     const Theme& theme = theme_of(view_.theme);
-    const SceneLook look{.cuts = view_.cuts.planes(),
-                         .ct = view_.slices_shown ? slices_.ct() : nullptr,
-                         .ct_window = slices_.window(),
-                         .background_low = theme.background_low,
-                         .background_high = theme.background_high,
-                         .ambient_occlusion = view_.ambient_occlusion,
-                         .specular = view_.specular,
-                         .light_field = view_.light_field};
+    const SceneAppearance look{.cuts = view_.cuts.planes(),
+                               .ct = view_.slices_shown ? slices_.ct() : nullptr,
+                               .ct_window = slices_.window(),
+                               .background_low = theme.background_low,
+                               .background_high = theme.background_high,
+                               .ambient_occlusion = view_.ambient_occlusion,
+                               .specular = view_.specular,
+                               .light_field = view_.light_field};
     picture_.set_look(look);
     std::optional<DrawnTool> tool;
     const std::optional<ToolState> shown = tool_.shown();
@@ -215,7 +215,7 @@ const gl::Framebuffer& SessionPicture::draw(double elapsed_s) {
                   .inset = inset,
                   .bone = source_.bone(),
                   .bone_version = bone_version_,
-                  .wishes = takes_wishes_ ? &wishes_ : nullptr,
+                  .requests = takes_requests_ ? &requests_ : nullptr,
                   .start = start_,
                   .player = source_.player(),
                   .bone_problem = bone_.problem(),
@@ -229,7 +229,7 @@ const gl::Framebuffer& SessionPicture::draw(double elapsed_s) {
 }
 
 const gl::Framebuffer* SessionPicture::draw_inset(const std::optional<DrawnTool>& tool,
-                                                  const SceneLook& look) {
+                                                  const SceneAppearance& look) {
     if (view_.inset == InsetKind::off) {
         inset_.reset();
         return nullptr;

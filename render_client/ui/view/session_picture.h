@@ -68,11 +68,11 @@ class SessionPicture {
     void set_shading(const ShadingSettings& look);
     ViewSettings& view() { return view_; }
     /// Panels take what a person asks of the session, from now on.
-    void offer_controls() { takes_wishes_ = true; }
+    void offer_controls() { takes_requests_ = true; }
     /// Where there is no session, one can be started with this, which outlives the picture.
     void offer_start(StartScreen& start) { start_ = &start; }
     /// What was asked for since the last call.
-    SessionWishes take_wishes() { return std::exchange(wishes_, {}); }
+    SessionRequests take_requests() { return std::exchange(requests_, {}); }
     void show_operator(const std::optional<OperatorCommand>& command) { operator_command_ = command; }
 
     /// Shows the tool there instead of where the session has it; nothing: no longer.
@@ -104,7 +104,7 @@ class SessionPicture {
     SessionNews news() const;
     void ask_for_ct();
     /// Null where none is wanted, or there is nothing to see in it.
-    const gl::Framebuffer* draw_inset(const std::optional<DrawnTool>& tool, const SceneLook& look);
+    const gl::Framebuffer* draw_inset(const std::optional<DrawnTool>& tool, const SceneAppearance& look);
 
     SessionSource& source_;
     Panels& panels_;
@@ -133,8 +133,8 @@ class SessionPicture {
     SlicesView slices_;
     std::uint64_t bone_version_ = 0;
     std::uint64_t ct_asked_in_ = 0;  // which connection; 0: none
-    SessionWishes wishes_;
-    bool takes_wishes_ = false;
+    SessionRequests requests_;
+    bool takes_requests_ = false;
     StartScreen* start_ = nullptr;
     double frame_s_ = 0.0;  ///< between frames, in the mean over the last ten or so
     std::uint64_t dirty_bricks_uploaded_ = 0;

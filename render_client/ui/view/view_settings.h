@@ -35,7 +35,7 @@ struct ViewSettings {
     bool look_save_wanted = false;  ///< and somebody pressed the button
     bool slices_shown = false;
     bool ambient_occlusion = true;
-    float specular = 0.0f;     ///< highlights on bone, see SceneLook
+    float specular = 0.0f;     ///< highlights on bone, see SceneAppearance
     bool sound = false;        ///< the burr is to be heard
     bool light_field = false;  ///< a microscope's round field
     InsetKind inset = InsetKind::off;

@@ -33,21 +33,21 @@ EGLDisplay surfaceless_display() {
 
 EGLContext make_context(EGLDisplay display, EGLContext shares_with = EGL_NO_CONTEXT) {
     // Left out, the surface type would be a window's, which no surfaceless configuration has.
-    constexpr std::array<EGLint, 5> config_wish{EGL_SURFACE_TYPE, 0, EGL_RENDERABLE_TYPE, EGL_OPENGL_BIT,
-                                                EGL_NONE};
-    constexpr std::array<EGLint, 7> context_wish{EGL_CONTEXT_MAJOR_VERSION,
-                                                 3,
-                                                 EGL_CONTEXT_MINOR_VERSION,
-                                                 3,
-                                                 EGL_CONTEXT_OPENGL_PROFILE_MASK,
-                                                 EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT,
-                                                 EGL_NONE};
+    constexpr std::array<EGLint, 5> config_attributes{EGL_SURFACE_TYPE, 0, EGL_RENDERABLE_TYPE,
+                                                      EGL_OPENGL_BIT, EGL_NONE};
+    constexpr std::array<EGLint, 7> context_attributes{EGL_CONTEXT_MAJOR_VERSION,
+                                                       3,
+                                                       EGL_CONTEXT_MINOR_VERSION,
+                                                       3,
+                                                       EGL_CONTEXT_OPENGL_PROFILE_MASK,
+                                                       EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT,
+                                                       EGL_NONE};
     EGLConfig config = nullptr;
     EGLint configs = 0;
     if (!eglBindAPI(EGL_OPENGL_API)) return EGL_NO_CONTEXT;
-    if (!eglChooseConfig(display, config_wish.data(), &config, 1, &configs) || configs < 1)
+    if (!eglChooseConfig(display, config_attributes.data(), &config, 1, &configs) || configs < 1)
         return EGL_NO_CONTEXT;
-    return eglCreateContext(display, config, shares_with, context_wish.data());
+    return eglCreateContext(display, config, shares_with, context_attributes.data());
 }
 
 class SecondEglContext final : public SecondContext {
@@ -70,10 +70,10 @@ class SecondEglContext final : public SecondContext {
 
 /// What EGL offers where it is not OpenGL 3.3, in words.
 std::string offered_opengl(EGLDisplay display) {
-    constexpr std::array<EGLint, 3> config_wish{EGL_SURFACE_TYPE, 0, EGL_NONE};
+    constexpr std::array<EGLint, 3> config_attributes{EGL_SURFACE_TYPE, 0, EGL_NONE};
     EGLConfig config = nullptr;
     EGLint configs = 0;
-    if (!eglChooseConfig(display, config_wish.data(), &config, 1, &configs) || configs < 1)
+    if (!eglChooseConfig(display, config_attributes.data(), &config, 1, &configs) || configs < 1)
         return "EGL offers no OpenGL at all";
     EGLContext context = eglCreateContext(display, config, EGL_NO_CONTEXT, nullptr);
     if (context == EGL_NO_CONTEXT) return "EGL offers no OpenGL at all";

@@ -6,7 +6,7 @@
 
 #include "render_client/volume/gl/full_screen.h"
 #include "render_client/volume/gl/program.h"
-#include "render_client/volume/scene_look.h"
+#include "render_client/volume/scene_appearance.h"
 
 namespace osteomill {
 
@@ -14,7 +14,7 @@ class Background {
   public:
     Background();
     /// Colour, and depth 1, over the viewport of `size_px` or what glScissor leaves of it.
-    void draw(const SceneLook& look, const glm::ivec2& size_px);
+    void draw(const SceneAppearance& look, const glm::ivec2& size_px);
 
   private:
     gl::Program program_;

@@ -4,7 +4,7 @@
 #include <glm/vec2.hpp>
 
 #include "render_client/volume/camera.h"
-#include "render_client/volume/scene_look.h"
+#include "render_client/volume/scene_appearance.h"
 #include "render_client/volume/textures/bone_textures.h"
 
 namespace osteomill {
@@ -17,11 +17,11 @@ class BoneRenderer {
     virtual void draw(const BoneTextures& bone, const Camera& camera, const glm::ivec2& size_px) = 0;
 
     /// From the next draw on.
-    void set_look(const SceneLook& look) { look_ = look; }
-    const SceneLook& look() const { return look_; }
+    void set_look(const SceneAppearance& look) { look_ = look; }
+    const SceneAppearance& look() const { return look_; }
 
   private:
-    SceneLook look_;
+    SceneAppearance look_;
 };
 
 }  // namespace osteomill

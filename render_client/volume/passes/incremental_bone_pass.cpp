@@ -56,7 +56,7 @@ void IncrementalBonePass::resize(const glm::ivec2& size_px) {
     camera_.reset();
 }
 
-void IncrementalBonePass::set_look(const SceneLook& look) {
+void IncrementalBonePass::set_look(const SceneAppearance& look) {
     if (look == renderer_.look()) return;
     renderer_.set_look(look);
     forget();

@@ -32,8 +32,8 @@ class IncrementalBonePass {
 
     void resize(const glm::ivec2& size_px);
     /// Cuts and background; another look than before makes all of it stale.
-    void set_look(const SceneLook& look);
-    const SceneLook& look() const { return renderer_.look(); }
+    void set_look(const SceneAppearance& look);
+    const SceneAppearance& look() const { return renderer_.look(); }
     /// Another bone: all of it is stale.
     void forget(DrawingCost cost = DrawingCost::as_before);
     /// These voxels of `bone` changed since the last update: what its own update returned.

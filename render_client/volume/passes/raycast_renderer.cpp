@@ -1,6 +1,6 @@
 #include "render_client/volume/passes/raycast_renderer.h"
 
-#include "render_client/volume/shaders/look_uniforms.h"
+#include "render_client/volume/shaders/appearance_uniforms.h"
 
 namespace osteomill {
 

@@ -3,7 +3,7 @@
 #include <glm/ext/matrix_transform.hpp>
 
 #include "render_client/volume/passes/view_slices.h"
-#include "render_client/volume/shaders/look_uniforms.h"
+#include "render_client/volume/shaders/appearance_uniforms.h"
 #include "render_client/volume/shaders/shader_files.h"
 
 namespace osteomill {

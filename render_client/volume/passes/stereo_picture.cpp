@@ -57,7 +57,7 @@ void StereoPicture::resize(const glm::ivec2& size_px) {
     note_pictures();
 }
 
-void StereoPicture::set_look(const SceneLook& look) {
+void StereoPicture::set_look(const SceneAppearance& look) {
     // The renderer is both eyes': the second would find the new look there and see no change.
     const bool is_new = !(look == renderer_.look());
     left_.set_look(look);

@@ -7,7 +7,7 @@
 #include <string>
 #include <string_view>
 
-#include "render_client/volume/shaders/look_uniforms.h"
+#include "render_client/volume/shaders/appearance_uniforms.h"
 #include "render_client/volume/shaders/shader_files.h"
 
 namespace osteomill {
@@ -25,7 +25,7 @@ enum TextureUnit {
     smoothed_unit
 };
 
-bool shows_ct(const SceneLook& look) {
+bool shows_ct(const SceneAppearance& look) {
     return look.ct != nullptr && !look.cuts.empty();
 }
 
@@ -68,7 +68,7 @@ const gl::Program& BoneProgram::program_for(const Variant& variant) {
     return programs_.emplace_back(variant, make(variant)).second;
 }
 
-const gl::Program& BoneProgram::use(const BoneTextures& bone, const SceneLook& look) {
+const gl::Program& BoneProgram::use(const BoneTextures& bone, const SceneAppearance& look) {
     const gl::Program& program = program_for({.layout = bone.plan().layout,
                                               .has_colour_code = bone.colour_code().has_value(),
                                               .codes_are_mostly_alike = bone.codes_are_mostly_alike(),
@@ -104,7 +104,7 @@ const gl::Program& BoneProgram::use(const BoneTextures& bone, const SceneLook& l
     return program;
 }
 
-void BoneProgram::bind_ct(const gl::Program& program, const BoneTextures& bone, const SceneLook& look) {
+void BoneProgram::bind_ct(const gl::Program& program, const BoneTextures& bone, const SceneAppearance& look) {
     const Grid& grid = look.ct->grid;
     if (!ct_ || ct_->ct != look.ct)
         ct_ = std::make_unique<CtTexture>(

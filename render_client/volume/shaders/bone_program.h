@@ -8,7 +8,7 @@
 
 #include "render_client/volume/gl/program.h"
 #include "render_client/volume/gl/texture3d.h"
-#include "render_client/volume/scene_look.h"
+#include "render_client/volume/scene_appearance.h"
 #include "render_client/volume/shaders/shader_programs.h"
 #include "render_client/volume/textures/bone_textures.h"
 
@@ -25,7 +25,7 @@ class BoneProgram {
     /// first_free_unit - 1. The program that comes back is for the renderer's own uniforms: set them all
     /// after every call, it may be another one next time. Throws std::runtime_error with the compiler's log
     /// where the shaders do not compile.
-    const gl::Program& use(const BoneTextures& bone, const SceneLook& look);
+    const gl::Program& use(const BoneTextures& bone, const SceneAppearance& look);
 
   private:
     /// What is fixed when a program is compiled. A software rasteriser computes both sides of a branch on a
@@ -46,7 +46,7 @@ class BoneProgram {
     };
     gl::Program make(const Variant& variant) const;
     const gl::Program& program_for(const Variant& variant);
-    void bind_ct(const gl::Program& program, const BoneTextures& bone, const SceneLook& look);
+    void bind_ct(const gl::Program& program, const BoneTextures& bone, const SceneAppearance& look);
 
     ProgramFiles own_;
     /// The CT of the look, as grey; made when a cut is first to show it.

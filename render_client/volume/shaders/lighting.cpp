@@ -5,7 +5,7 @@
 #include <glm/exponential.hpp>
 #include <glm/geometric.hpp>
 
-#include "render_client/volume/scene_look.h"
+#include "render_client/volume/scene_appearance.h"
 
 namespace osteomill {
 
@@ -25,7 +25,7 @@ glm::dvec3 display(const glm::dvec3& linear) {
 }
 
 glm::dvec3 background_at(const glm::dvec2& place) {
-    const SceneLook look;
+    const SceneAppearance look;
     const glm::dvec3 shade = glm::mix(glm::dvec3(look.background_low), glm::dvec3(look.background_high),
                                       glm::smoothstep(0.0, 1.0, place.y));
     return shade * (1.0 - 0.35 * glm::dot(place - 0.5, place - 0.5));

@@ -16,8 +16,8 @@ glm::dvec3 lit(const glm::dvec3& colour, const glm::dvec3& normal, double openne
 /// Linear RGB, clamped to 0 to 1, as the display takes it, 0 to 1.
 glm::dvec3 display(const glm::dvec3& linear);
 
-/// What is behind the bone in a SceneLook's own colours, linear RGB; `place` is 0 to 1 from the picture's
-/// lower left corner. Its GLSL is in background.glsl.
+/// What is behind the bone in a SceneAppearance's own colours, linear RGB; `place` is 0 to 1 from the
+/// picture's lower left corner. Its GLSL is in background.glsl.
 glm::dvec3 background_at(const glm::dvec2& place);
 
 }  // namespace osteomill

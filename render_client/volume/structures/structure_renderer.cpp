@@ -21,7 +21,7 @@ void StructureRenderer::add(const StructureSurface& surface, double opacity) {
 
 // First the depth of what is nearest, then its colour: what is seen through is not seen through twice, in
 // whatever order the triangles come.
-void StructureRenderer::draw(const Camera& camera, const SceneLook& look, TileMask& covered) {
+void StructureRenderer::draw(const Camera& camera, const SceneAppearance& look, TileMask& covered) {
     if (drawn_.empty()) return;
     const glm::dmat4 view_projection = camera.projection(covered.size_px()) * camera.view();
     program_->use();

@@ -10,7 +10,7 @@
 #include "render_client/volume/gl/mesh.h"
 #include "render_client/volume/gl/program.h"
 #include "render_client/volume/passes/tile_mask.h"
-#include "render_client/volume/scene_look.h"
+#include "render_client/volume/scene_appearance.h"
 #include "render_client/volume/structures/structure_surface.h"
 
 namespace osteomill {
@@ -23,7 +23,7 @@ class StructureRenderer {
 
     /// Draws over the bound framebuffer, whose depth is that of Camera::projection and whose size that of the
     /// mask; marks the tiles that it may have drawn into.
-    void draw(const Camera& camera, const SceneLook& look, TileMask& covered);
+    void draw(const Camera& camera, const SceneAppearance& look, TileMask& covered);
 
   private:
     struct Drawn {

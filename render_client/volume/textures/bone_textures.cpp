@@ -36,7 +36,7 @@ BoneTextures::BoneTextures(const Bone& bone, std::span<const TissueColour> tissu
                            const ShadingSettings& look, const TextureLimits& limits)
     : BoneTextures(TextureBuild(bone, {tissues.begin(), tissues.end()}, look, limits).all_at_once()) {}
 
-BoneTextures::BoneTextures(const Bone& bone, std::optional<CoarseBone> copy, const LookTable& table,
+BoneTextures::BoneTextures(const Bone& bone, std::optional<CoarseBone> copy, const TransferTable& table,
                            Shading shading, const TexturePlan& plan, int longest_edge_texels)
     : plan_(plan),
       table_(table),

@@ -77,8 +77,8 @@ class BoneTextures {
     friend class TextureBuild;
 
     /// Of nothing as yet: to be filled. `copy` is filled already.
-    BoneTextures(const Bone& bone, std::optional<CoarseBone> copy, const LookTable& table, Shading shading,
-                 const TexturePlan& plan, int longest_edge_texels);
+    BoneTextures(const Bone& bone, std::optional<CoarseBone> copy, const TransferTable& table,
+                 Shading shading, const TexturePlan& plan, int longest_edge_texels);
     /// Makes the textures, by `storage` where it is not null, and uploads all of the bone. Throws
     /// gl::NoTextureMemory.
     Steps fill(const Bone& bone, gl::StorageThread* storage);
@@ -89,7 +89,7 @@ class BoneTextures {
     void upload_blocks(const VoxelBox& blocks);
 
     TexturePlan plan_;
-    LookTable table_;
+    TransferTable table_;
     Shading shading_;
     std::optional<CoarseBone> copy_;      ///< only where the bone itself exceeds the memory
     std::optional<VisibleBone> visible_;  ///< of the copy, if any; only where the look hides bone

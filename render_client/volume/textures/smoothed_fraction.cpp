@@ -30,7 +30,7 @@ void sum_neighbours(const From* from, To* to, std::size_t count, std::size_t str
 
 }  // namespace
 
-FractionSmoother::FractionSmoother(const LookTable& table) : voxel_codes_(table.codes) {
+FractionSmoother::FractionSmoother(const TransferTable& table) : voxel_codes_(table.codes) {
     if (table.mode != TransferMode::translucent) return;
     for (const glm::vec4& look : table.by_code)
         share_by_code_.push_back(
@@ -71,7 +71,7 @@ std::span<const std::uint8_t> FractionSmoother::smooth(const Bone& bone, const V
     return smoothed_;
 }
 
-SmoothedTexture::SmoothedTexture(const Bone& bone, const LookTable& table, const AtlasLayout& places)
+SmoothedTexture::SmoothedTexture(const Bone& bone, const TransferTable& table, const AtlasLayout& places)
     : SmoothedTexture(table, gl::Texture3D(gl::VoxelFormat::interpolated_byte, places.texture_size())) {
     finish(fill(bone, places));
 }

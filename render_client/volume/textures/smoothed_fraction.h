@@ -27,7 +27,7 @@ inline constexpr int smoothing_reach_voxels = 3;
 /// The smoothing, and its memory for what lies between the passes.
 class FractionSmoother {
   public:
-    explicit FractionSmoother(const LookTable& table);
+    explicit FractionSmoother(const TransferTable& table);
 
     /// Smoothed fractions of a box of the bone's grid, 0 to 255, x fastest; there is no bone outside the
     /// stored bricks. Valid until the next call.
@@ -49,9 +49,9 @@ class FractionSmoother {
 class SmoothedTexture {
   public:
     /// Smooths all of the bone. Throws gl::NoTextureMemory where the driver has none for a byte a voxel.
-    SmoothedTexture(const Bone& bone, const LookTable& table, const AtlasLayout& places);
+    SmoothedTexture(const Bone& bone, const TransferTable& table, const AtlasLayout& places);
     /// Takes a texture of the size that the places have, of VoxelFormat::interpolated_byte; see fill.
-    SmoothedTexture(const LookTable& table, gl::Texture3D texture)
+    SmoothedTexture(const TransferTable& table, gl::Texture3D texture)
         : smoother_(table), texture_(std::move(texture)) {}
 
     /// Smooths all of the bone. What changes meanwhile is to be told to update afterwards.

@@ -4,7 +4,7 @@
 
 namespace osteomill {
 
-SurfaceTexture::SurfaceTexture(const Bone& bone, const LookTable& table, const AtlasLayout& places)
+SurfaceTexture::SurfaceTexture(const Bone& bone, const TransferTable& table, const AtlasLayout& places)
     : SurfaceTexture(table, gl::Texture3D(gl::VoxelFormat::interpolated_rgba, places.texture_size())) {
     finish(fill(bone, places));
 }

@@ -14,9 +14,9 @@ namespace osteomill {
 class SurfaceTexture {
   public:
     /// Shades all of the bone. Throws gl::NoTextureMemory where the driver has none for four bytes a voxel.
-    SurfaceTexture(const Bone& bone, const LookTable& table, const AtlasLayout& places);
+    SurfaceTexture(const Bone& bone, const TransferTable& table, const AtlasLayout& places);
     /// Takes a texture of the size that the places have, of VoxelFormat::interpolated_rgba; see fill.
-    SurfaceTexture(const LookTable& table, gl::Texture3D texture)
+    SurfaceTexture(const TransferTable& table, gl::Texture3D texture)
         : shader_(table), texture_(std::move(texture)) {}
 
     /// Shades all of the bone. What changes meanwhile is to be told to update afterwards.

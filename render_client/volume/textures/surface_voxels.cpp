@@ -55,7 +55,7 @@ std::uint64_t outside_of_row(const std::uint8_t* fractions, std::size_t count) {
 
 }  // namespace
 
-SurfaceShader::SurfaceShader(const LookTable& table) : voxel_codes_(table.codes), smoother_(table) {
+SurfaceShader::SurfaceShader(const TransferTable& table) : voxel_codes_(table.codes), smoother_(table) {
     for (std::size_t code = 0; code < table.by_code.size(); ++code)
         display_by_code_[code] = glm::vec3(255.0 * display(glm::dvec3(table.by_code[code])));
 }

@@ -37,7 +37,7 @@ struct SurfaceTexel {
 
 class SurfaceShader {
   public:
-    explicit SurfaceShader(const LookTable& table);
+    explicit SurfaceShader(const TransferTable& table);
 
     /// Texels of a box of the bone's grid, x fastest. Valid until the next call.
     const std::vector<SurfaceTexel>& shade(const Bone& bone, const VoxelBox& box);

@@ -11,7 +11,7 @@ namespace osteomill {
 
 namespace {
 
-VoxelBytes bytes_per_voxel(const LookTable& table, Shading shading) {
+VoxelBytes bytes_per_voxel(const TransferTable& table, Shading shading) {
     const bool published = shading == Shading::surface_voxels;
     return {.needed = std::size_t{1} + (table.codes.exist() ? 1 : 0) + (published ? sizeof(SurfaceTexel) : 0),
             .smoothed = published ? std::size_t{0} : std::size_t{1}};
@@ -34,7 +34,7 @@ BoneTextures TextureBuild::all_at_once() {
 Steps TextureBuild::build(const Bone& bone) {
     if (bone.stored_bricks() == 0) throw std::runtime_error("the bone has no voxel to draw");
     for (Steps part = make_absent_opaque(bone); part.step();) co_yield 0.0;
-    const LookTable table = look_table(bone.content(), tissues_, look_);
+    const TransferTable table = transfer_table(bone.content(), tissues_, look_);
     if (!limits_.longest_edge_texels) limits_.longest_edge_texels = gl::max_texture3d_edge();
     std::string refusal = fmt::format("the limit is {} MiB of textures of at most {} texels an edge",
                                       limits_.budget_bytes >> 20U, *limits_.longest_edge_texels);

@@ -7,10 +7,10 @@
 
 namespace osteomill {
 
-VisibleBone::VisibleBone(const LookTable& table)
+VisibleBone::VisibleBone(const TransferTable& table)
     : voxel_codes_(table.codes), shown_part_(shown_part_by_code(table)) {}
 
-VisibleBone::VisibleBone(const Bone& bone, const LookTable& table) : VisibleBone(table) {
+VisibleBone::VisibleBone(const Bone& bone, const TransferTable& table) : VisibleBone(table) {
     finish(fill(bone));
 }
 
@@ -43,7 +43,7 @@ void VisibleBone::take_over(const Bone& bone, std::int32_t slot,
         shown[offset] = static_cast<std::uint8_t>((whole[offset] * shown_part_[codes_[offset]] + 127) / 255);
 }
 
-bool hides_bone(const LookTable& table) {
+bool hides_bone(const TransferTable& table) {
     const auto parts = shown_part_by_code(table);
     return std::any_of(parts.begin(), parts.end(), [](std::uint8_t part) { return part < 255; });
 }

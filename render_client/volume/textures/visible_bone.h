@@ -17,9 +17,9 @@ namespace osteomill {
 
 class VisibleBone {
   public:
-    VisibleBone(const Bone& bone, const LookTable& table);
+    VisibleBone(const Bone& bone, const TransferTable& table);
     /// Of a bone that is yet to be taken over: see fill.
-    explicit VisibleBone(const LookTable& table);
+    explicit VisibleBone(const TransferTable& table);
 
     /// Takes all of the bone over, once. Bricks that change meanwhile are to be followed afterwards.
     Steps fill(const Bone& bone);
@@ -41,6 +41,6 @@ class VisibleBone {
 };
 
 /// Whether this look hides any bone at all; where not, the bone itself can be drawn.
-bool hides_bone(const LookTable& table);
+bool hides_bone(const TransferTable& table);
 
 }  // namespace osteomill

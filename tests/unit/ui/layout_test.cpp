@@ -8,7 +8,7 @@ namespace {
 constexpr float margin = 10.0f;
 
 /// What the client asks for with everything open, at scale 1.
-std::vector<PanelWish> many_panels(float scale) {
+std::vector<PanelRequest> many_panels(float scale) {
     return {{Anchor::top, {scale * glm::vec2(300, 40)}},
             {Anchor::lower_left, {scale * glm::vec2(320, 70)}},
             {Anchor::upper_left, {scale * glm::vec2(300, 220)}},
@@ -56,9 +56,9 @@ TEST(Layout, ShowsEveryPanelInALargeWindowAtItsAnchor) {
 }
 
 TEST(Layout, KeepsTheMiddleFree) {
-    const std::vector<PanelWish> wishes{{Anchor::lower_right, {{300, 250}, {300, 100}}},
-                                        {Anchor::middle, {{50, 50}}, true}};
-    const auto places = lay_out(wishes, {400, 300}, margin);
+    const std::vector<PanelRequest> requests{{Anchor::lower_right, {{300, 250}, {300, 100}}},
+                                             {Anchor::middle, {{50, 50}}, true}};
+    const auto places = lay_out(requests, {400, 300}, margin);
     ASSERT_TRUE(places[0]);
     EXPECT_EQ(places[0]->choice, 1u) << "the first size would hide the burr";
     EXPECT_TRUE(places[1]) << "help may";
@@ -72,23 +72,23 @@ TEST(Layout, KeepsScaleBarAndForceWhateverIsOpen) {
             for (unsigned open = 0; open < 8; ++open) {
                 const float scale = scale_that_fits(wanted, picture);
                 const float gap = 12.0f * scale;
-                std::vector<PanelWish> wishes{{Anchor::top, {scale * glm::vec2(440, 36)}}};
+                std::vector<PanelRequest> requests{{Anchor::top, {scale * glm::vec2(440, 36)}}};
                 for (unsigned i = 0; i < 3; ++i)
                     if ((open >> i & 1U) != 0)
-                        wishes.push_back(
+                        requests.push_back(
                             {i < 2 ? Anchor::upper_left : Anchor::lower_left,
                              shrinking_sizes(scale * controls[i][0], picture, gap, 36.0f * scale)});
-                for (std::size_t i = 1; i < wishes.size(); ++i) wishes[i].is_asked_for = true;
-                const std::size_t bar = wishes.size();
-                wishes.push_back(
+                for (std::size_t i = 1; i < requests.size(); ++i) requests[i].is_asked_for = true;
+                const std::size_t bar = requests.size();
+                requests.push_back(
                     {.anchor = Anchor::bottom, .sizes = {scale * glm::vec2(110, 32)}, .is_kept = true});
-                wishes.push_back({.anchor = Anchor::lower_right,
-                                  .sizes = {scale * glm::vec2(296, 310), scale * glm::vec2(296, 60)},
-                                  .is_kept = true,
-                                  .gives_way = true});
+                requests.push_back({.anchor = Anchor::lower_right,
+                                    .sizes = {scale * glm::vec2(296, 310), scale * glm::vec2(296, 60)},
+                                    .is_kept = true,
+                                    .gives_way = true});
                 // A burr off the middle.
                 const PanelPlace burr{0.55f * picture, glm::vec2(30.0f), 0};
-                const auto places = lay_out(wishes, picture, gap, burr);
+                const auto places = lay_out(requests, picture, gap, burr);
                 ASSERT_TRUE(places[bar]) << picture.x << " x " << picture.y << ", " << scale << ", " << open;
                 ASSERT_TRUE(places[bar + 1])
                     << picture.x << " x " << picture.y << ", " << scale << ", " << open;
@@ -122,10 +122,10 @@ TEST(Layout, DrawsLargeOnlyWhereThereIsRoom) {
 }
 
 TEST(Layout, GivesALessImportantPanelItsSmallerSizeAndThenNone) {
-    const std::vector<PanelWish> wishes{{Anchor::upper_left, {{90, 50}}},
-                                        {Anchor::lower_left, {{90, 80}, {90, 30}}},
-                                        {Anchor::upper_left, {{90, 20}}}};
-    const auto places = lay_out(wishes, {260, 115}, margin);
+    const std::vector<PanelRequest> requests{{Anchor::upper_left, {{90, 50}}},
+                                             {Anchor::lower_left, {{90, 80}, {90, 30}}},
+                                             {Anchor::upper_left, {{90, 20}}}};
+    const auto places = lay_out(requests, {260, 115}, margin);
     ASSERT_TRUE(places[0]);
     ASSERT_TRUE(places[1]);
     EXPECT_EQ(places[1]->choice, 1u);

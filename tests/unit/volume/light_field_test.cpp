@@ -26,7 +26,7 @@ TEST_F(LightFieldTest, IsRoundAsItIsShownAndGoesWithoutATrace) {
         ScenePicture picture(renderer, size_px);
         picture.set_look({});
         const Picture plain = picture.draw(&textures, nullptr, camera).read_back();
-        SceneLook look;
+        SceneAppearance look;
         look.light_field = true;
         picture.set_look(look);
         for (int frame = 0; frame < 3; ++frame) {  // it must not darken what it darkened

@@ -67,7 +67,7 @@ TEST(SmoothedFraction, CountsByOpacityWhereOneSeesThrough) {
         grid, [](const glm::dvec3&) { return 1.0; },
         [](const glm::dvec3& p) { return static_cast<std::uint8_t>(p.x < 1.55 ? 1 : 2); });
     const std::vector<TissueColour> tissues{{1, {200, 180, 160}, 1.0}, {2, {200, 180, 160}, 0.2}};
-    FractionSmoother smoother(look_table(bone.content(), tissues, {}));
+    FractionSmoother smoother(transfer_table(bone.content(), tissues, {}));
     EXPECT_EQ(smoother.smooth(bone, {{8, 16, 16}, glm::ivec3(1)})[0], 255);
     // Three tenths, and a fifth of the rest.
     EXPECT_NEAR(smoother.smooth(bone, {{24, 16, 16}, glm::ivec3(1)})[0], 255 * 0.44, 1.0);

@@ -210,7 +210,7 @@ TEST_F(StereoTest, DrawsBothEyesAnewAfterAnotherLookOrSize) {
     RaycastRenderer renderer, other;
     const Camera middle = camera_on({0.0, 0.0, 0.0}, 3.0);
     const StereoSettings stereo{StereoLayout::side_by_side, 1.0, 20.0};
-    const SceneLook look{.cuts = {CutPlane{.normal = {1.0, 0.0, 0.0}}}};
+    const SceneAppearance look{.cuts = {CutPlane{.normal = {1.0, 0.0, 0.0}}}};
     StereoPicture kept(renderer, {64, 48}, false, stereo);
     kept.draw(&textures, nullptr, middle);
     kept.set_look(look);

@@ -38,7 +38,7 @@ bool is_on_surface(const Bone& bone, const glm::ivec3& voxel) {
 
 TEST(SurfaceVoxels, AreThoseInsideWithANeighbourOutside) {
     const Bone bone = ball();
-    const auto texels = SurfaceShader(look_table(bone.content(), {}, {})).shade(bone, whole());
+    const auto texels = SurfaceShader(transfer_table(bone.content(), {}, {})).shade(bone, whole());
     int surface = 0;
     for (int z = 0; z < 48; ++z)
         for (int y = 0; y < 48; ++y)
@@ -55,7 +55,7 @@ TEST(SurfaceVoxels, AreThoseInsideWithANeighbourOutside) {
 
 TEST(SurfaceVoxels, AreLitByTheNormalOfTheBall) {
     const Bone bone = ball();
-    const LookTable table = look_table(bone.content(), {}, {});
+    const TransferTable table = transfer_table(bone.content(), {}, {});
     const auto texels = SurfaceShader(table).shade(bone, whole());
     double sum = 0.0;
     int count = 0;
@@ -74,7 +74,7 @@ TEST(SurfaceVoxels, AreLitByTheNormalOfTheBall) {
 }
 
 /// The definition in double precision; alpha 0 where it is no surface voxel.
-glm::dvec4 defined_texel(const Bone& bone, const LookTable& table, const glm::ivec3& voxel) {
+glm::dvec4 defined_texel(const Bone& bone, const TransferTable& table, const glm::ivec3& voxel) {
     if (!is_on_surface(bone, voxel)) return glm::dvec4(0.0);
     FractionSmoother smoother(table);
     const std::span<const std::uint8_t> smoothed = smoother.smooth(bone, {voxel - 1, glm::ivec3(3)});
@@ -104,7 +104,7 @@ TEST(SurfaceVoxels, HaveTheColourOfTheirDefinitionInRowsOfAnyLength) {
             fraction = static_cast<std::uint8_t>(state >> 28U < 2U ? state >> 20U : 255U);
         }
     const std::vector<TissueColour> tissues{{1, {200, 120, 80}}, {2, {90, 160, 240}}};
-    const LookTable table = look_table(bone.content(), tissues, {});
+    const TransferTable table = transfer_table(bone.content(), tissues, {});
     const VoxelBox box{{-1, 0, 2}, {146, 16, 15}};
     const auto texels = SurfaceShader(table).shade(bone, box);
     ASSERT_EQ(texels.size(), box.count());
@@ -129,7 +129,7 @@ TEST(SurfaceVoxels, HaveTheColourOfTheirDefinitionInRowsOfAnyLength) {
 TEST_F(SurfaceTextureTest, IsShadedAgainOnlyRoundTheChangeAndEqualsAFreshOne) {
     for (const BoneLayout layout : {BoneLayout::dense, BoneLayout::atlas}) {
         Bone bone = ball();
-        const LookTable table = look_table(bone.content(), {}, {});
+        const TransferTable table = transfer_table(bone.content(), {}, {});
         AtlasLayout places(bone.content(), layout, gl::max_texture3d_edge());
         SurfaceTexture updated(bone, table, places);
         // At the corner of bricks, so that neighbours' voxels become surface, too.

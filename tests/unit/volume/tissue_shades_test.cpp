@@ -98,7 +98,7 @@ TEST(TissueShades, HaveRoomForManyTissues) {
 
 TEST(TissueShades, KeepTheOpacityOfTheirTissue) {
     const Bone bone = segmented_tooth();
-    const LookTable table = look_table(bone.content(), tissues, {});
+    const TransferTable table = transfer_table(bone.content(), tissues, {});
     EXPECT_TRUE(table.codes.are_of_both());
     EXPECT_EQ(table.mode, TransferMode::translucent);
     for (const std::uint8_t stiffness : std::initializer_list<std::uint8_t>{40, 50, 110}) {

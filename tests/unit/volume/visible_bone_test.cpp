@@ -20,7 +20,7 @@ Bone labelled() {
 TEST(VisibleBone, LacksWhatIsHiddenAndFollowsCarving) {
     Bone bone = labelled();
     const std::array<TissueColour, 2> tissues{{{1, {255, 0, 0}, 0.0}, {2, {0, 255, 0}}}};
-    const LookTable table = look_table(bone.content(), tissues, {});
+    const TransferTable table = transfer_table(bone.content(), tissues, {});
     ASSERT_TRUE(hides_bone(table));
     VisibleBone visible(bone, table);
     const auto expect_no_hidden = [&] {
@@ -41,7 +41,7 @@ TEST(VisibleBone, IsPeeledSmoothlyByARampOfOpacity) {
     const Bone bone = made_bone(grid, [](const glm::dvec3& p) { return 2.55 - p.z; });
     const ShadingSettings half{.transfer =
                                    TransferFunction{.name = "half", .points = {{1.0, {9, 9, 9}, 0.5}}}};
-    const VisibleBone visible(bone, look_table(bone.content(), {}, half));
+    const VisibleBone visible(bone, transfer_table(bone.content(), {}, half));
     EXPECT_EQ(visible.bone().fraction_at({5, 5, 5}), 128);
 }
 
@@ -58,7 +58,7 @@ TEST(VisibleBone, KeepsTheSoftRimOfHardBoneAcrossBricks) {
             }
     const Bone bone = std::move(builder).build();
     const ShadingSettings hard{.transfer = ct_window(1600.0, 1500.0)};
-    const VisibleBone visible(bone, look_table(bone.content(), {}, hard));
+    const VisibleBone visible(bone, transfer_table(bone.content(), {}, hard));
     EXPECT_EQ(visible.bone().fraction_at({5, 5, 15}), 255);
     EXPECT_EQ(visible.bone().fraction_at({5, 5, 16}), 255) << "beside hard bone";
     EXPECT_EQ(visible.bone().fraction_at({5, 5, 17}), 0);
@@ -66,19 +66,19 @@ TEST(VisibleBone, KeepsTheSoftRimOfHardBoneAcrossBricks) {
 
 TEST(ShadingSettings, TakesTissuesUnlessATransferFunctionIsGiven) {
     const Bone bone = labelled();
-    EXPECT_EQ(look_table(bone.content(), {}, {}).codes.channel, BoneChannel::tissue);
-    EXPECT_FALSE(hides_bone(look_table(bone.content(), {}, {})));
+    EXPECT_EQ(transfer_table(bone.content(), {}, {}).codes.channel, BoneChannel::tissue);
+    EXPECT_FALSE(hides_bone(transfer_table(bone.content(), {}, {})));
     // Homogeneous: all bone has one stiffness, so one look.
-    const LookTable table = look_table(bone.content(), {}, {.transfer = transfer_presets()[0]});
+    const TransferTable table = transfer_table(bone.content(), {}, {.transfer = transfer_presets()[0]});
     EXPECT_FALSE(table.codes.exist());
     EXPECT_EQ(table.by_code[0], look_of(transfer_presets()[0], 1.0));
-    EXPECT_THROW(look_table(bone.content(), {}, {.transfer = TransferFunction{.name = "empty"}}),
+    EXPECT_THROW(transfer_table(bone.content(), {}, {.transfer = TransferFunction{.name = "empty"}}),
                  std::invalid_argument);
 }
 
 TEST(ShadingSettings, SeesThroughATissueThatLetsSomeLightPass) {
     const std::array<TissueColour, 2> tissues{{{1, {255, 0, 0}, 0.4}, {2, {0, 255, 0}, 0.0}}};
-    const LookTable table = look_table(labelled().content(), tissues, {});
+    const TransferTable table = transfer_table(labelled().content(), tissues, {});
     EXPECT_EQ(table.mode, TransferMode::translucent);
     const auto parts = shown_part_by_code(table);
     EXPECT_EQ(parts[1], 255) << "seen through, but there";

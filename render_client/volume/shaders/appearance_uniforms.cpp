@@ -1,4 +1,4 @@
-#include "render_client/volume/shaders/look_uniforms.h"
+#include "render_client/volume/shaders/appearance_uniforms.h"
 
 #include <fmt/format.h>
 
@@ -7,16 +7,16 @@
 
 namespace osteomill {
 
-int cut_count(const SceneLook& look) {
+int cut_count(const SceneAppearance& look) {
     return static_cast<int>(std::min(look.cuts.size(), most_cut_planes));
 }
 
-void set_background_uniforms(const gl::Program& program, const SceneLook& look) {
+void set_background_uniforms(const gl::Program& program, const SceneAppearance& look) {
     program.set("background_low", look.background_low);
     program.set("background_high", look.background_high);
 }
 
-void set_cut_uniforms(const gl::Program& program, const SceneLook& look, const BoneTextures& bone) {
+void set_cut_uniforms(const gl::Program& program, const SceneAppearance& look, const BoneTextures& bone) {
     for (int i = 0; i < cut_count(look); ++i) {
         const CutPlane& cut = look.cuts[static_cast<std::size_t>(i)];
         const glm::dvec3 on_plane = bone.to_box_voxels(cut.offset_mm * cut.normal);

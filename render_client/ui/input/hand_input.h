@@ -1,5 +1,5 @@
-// The operator's controls, on the thread that reads mouse and keyboard: turns what they do into wishes of the
-// hand and sends them, at a rate of its own.
+// The operator's controls, on the thread that reads mouse and keyboard: turns what they do into requests of
+// the hand and sends them, at a rate of its own.
 //
 // Why a thread of its own: the server gives an operator who is silent 0.2 s
 // (simulation/device/permission.h) before the spindle stops. A picture that takes half a second must not
@@ -22,7 +22,7 @@
 namespace osteomill {
 
 /// What the hand needs to know of the picture.
-struct DeskPicture {
+struct HandInputPicture {
     bool drills = false;  ///< there is a session that an operator may drill in
     std::size_t burr_count = 0;
     double reach_mm = longest_reach_mm;  ///< of the hand, from the burr
@@ -37,10 +37,10 @@ struct DeskPicture {
     bool holds_still = false;           ///< the session is paused: a pedal that was left down comes up
 };
 
-class OperatorDesk {
+class HandInput {
   public:
     /// The source outlives the desk.
-    explicit OperatorDesk(SessionSource& source) : source_(source) {}
+    explicit HandInput(SessionSource& source) : source_(source) {}
 
     /// Thread of the window, 50 times a second or more while is_driving(): takes what happened since the last
     /// step, and sends what the hand wants.
@@ -49,7 +49,7 @@ class OperatorDesk {
     bool is_driving() const { return had_tool_; }
 
     /// These: any thread.
-    void show(const DeskPicture& picture);
+    void show(const HandInputPicture& picture);
     /// The pedal of whoever has only a mouse: down until it is switched up.
     void switch_pedal();
     void choose_burr(std::size_t burr);
@@ -67,7 +67,7 @@ class OperatorDesk {
 
     SessionSource& source_;
     mutable std::mutex mutex_;  // of those below; held for microseconds
-    DeskPicture picture_;
+    HandInputPicture picture_;
     OperatorHand hand_;
     bool pedal_switched_down_ = false;
     bool drags_hand_ = false;

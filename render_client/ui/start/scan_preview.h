@@ -1,4 +1,4 @@
-// A look at a scan before it is imported: what bone_import --preview said of it, and where in its picture of
+// Preview of a scan before it is imported: what bone_import --preview said of it, and where in its picture of
 // three slices something lies in the patient.
 #pragma once
 
@@ -19,7 +19,7 @@ struct ScanBox {
     bool operator==(const ScanBox&) const = default;
 };
 
-struct ScanLook {
+struct ScanPreview {
     ScanBox covers;  ///< centres of the outermost voxels
     double least_hu = 0.0;
     double most_hu = 0.0;
@@ -27,7 +27,7 @@ struct ScanLook {
 };
 
 /// Nothing where the text does not say what a scan covers.
-std::optional<ScanLook> read_scan_look(const std::string& preview_output);
+std::optional<ScanPreview> read_scan_preview(const std::string& preview_output);
 
 /// One of the picture's slices: axial, coronal, sagittal.
 struct PreviewSlice {

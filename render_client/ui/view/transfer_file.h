@@ -1,5 +1,5 @@
-// The look of bone as a file: its curve of colour and opacity (transfer_function.h), as TOML. A case keeps
-// its own in `look.toml`.
+// Transfer function of bone as a file: its curve of colour and opacity (transfer_function.h), as TOML. A case
+// keeps its own in `look.toml`.
 #pragma once
 
 #include <filesystem>
@@ -19,10 +19,10 @@ std::optional<TransferFunction> parse_look(std::string_view text, const std::str
 std::string look_text(const std::optional<TransferFunction>& look);
 
 /// Which file the look is read from and saved to, as sessions come and go.
-class LookKeeper {
+class TransferFile {
   public:
     /// `file` is the user's and stays; empty: that of each case. `otherwise`: of a case that has none.
-    LookKeeper(std::filesystem::path file, std::optional<TransferFunction> otherwise)
+    TransferFile(std::filesystem::path file, std::optional<TransferFunction> otherwise)
         : file_(std::move(file)), is_users_(!file_.empty()), otherwise_(std::move(otherwise)) {}
 
     /// A session begins for which the look is in this file, if there is one. Returns its look where that is

@@ -1,4 +1,4 @@
-#include "render_client/ui/input/operator_desk.h"
+#include "render_client/ui/input/hand_input.h"
 
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
@@ -8,7 +8,7 @@
 #include <glm/geometric.hpp>
 #include <vector>
 
-namespace osteomill::operator_desk_test {
+namespace osteomill::hand_input_test {
 namespace {
 
 /// A link without a server: tells of a tool, and keeps what is sent.
@@ -32,12 +32,12 @@ struct Desk {
     }
 
     DeskSource source;
-    OperatorDesk desk{source};
-    DeskPicture picture{.drills = true, .burr_count = 3, .size_px = {640, 480}};
+    HandInput desk{source};
+    HandInputPicture picture{.drills = true, .burr_count = 3, .size_px = {640, 480}};
     WindowInput input{.is_focused = true, .size = {640.0, 480.0}, .framebuffer_size_px = {640, 480}};
 };
 
-TEST(OperatorDesk, LeavesTheToolToOthersUntilItIsUsed) {
+TEST(HandInput, LeavesTheToolToOthersUntilItIsUsed) {
     Desk desk;
     desk.step();
     desk.input.cursor = {50.0, 50.0};
@@ -46,7 +46,7 @@ TEST(OperatorDesk, LeavesTheToolToOthersUntilItIsUsed) {
     EXPECT_FALSE(desk.desk.is_driving());
 }
 
-TEST(OperatorDesk, SendsAtEveryStepWhileThePedalIsDownAndOnceThatItIsUp) {
+TEST(HandInput, SendsAtEveryStepWhileThePedalIsDownAndOnceThatItIsUp) {
     Desk desk;
     desk.input.keys_down[GLFW_KEY_SPACE] = true;
     for (int i = 0; i < 5; ++i) desk.step();
@@ -59,7 +59,7 @@ TEST(OperatorDesk, SendsAtEveryStepWhileThePedalIsDownAndOnceThatItIsUp) {
     EXPECT_FALSE(desk.source.sent.back().pedal);
 }
 
-TEST(OperatorDesk, SaysThatThePedalIsUpBeforeItIsDownButNotOfAKeyThatWasHeldBefore) {
+TEST(HandInput, SaysThatThePedalIsUpBeforeItIsDownButNotOfAKeyThatWasHeldBefore) {
     Desk desk;
     desk.step();
     desk.input.keys_down[GLFW_KEY_SPACE] = true;
@@ -80,7 +80,7 @@ TEST(OperatorDesk, SaysThatThePedalIsUpBeforeItIsDownButNotOfAKeyThatWasHeldBefo
     EXPECT_TRUE(desk.source.sent.front().pedal) << "the server keeps the spindle off";
 }
 
-TEST(OperatorDesk, LiftsThePedalWhenTheWindowLosesTheKeyboard) {
+TEST(HandInput, LiftsThePedalWhenTheWindowLosesTheKeyboard) {
     Desk desk;
     desk.input.keys_down[GLFW_KEY_SPACE] = true;
     desk.step();
@@ -90,7 +90,7 @@ TEST(OperatorDesk, LiftsThePedalWhenTheWindowLosesTheKeyboard) {
     EXPECT_FALSE(desk.source.sent.back().pedal);
 }
 
-TEST(OperatorDesk, DragsTheHandButNotWithAMouseThatAPanelHas) {
+TEST(HandInput, DragsTheHandButNotWithAMouseThatAPanelHas) {
     Desk desk;
     desk.step();
     desk.input.is_down[WindowInput::left] = desk.input.went_down[WindowInput::left] = true;
@@ -111,7 +111,7 @@ TEST(OperatorDesk, DragsTheHandButNotWithAMouseThatAPanelHas) {
     EXPECT_TRUE(other.source.sent.empty());
 }
 
-TEST(OperatorDesk, AsksForAToolThatAnotherHasButDoesNotHoldOnToIt) {
+TEST(HandInput, AsksForAToolThatAnotherHasButDoesNotHoldOnToIt) {
     Desk desk;
     desk.source.tool->driver = ToolDriver::another;
     desk.input.presses = {GLFW_KEY_2};
@@ -121,7 +121,7 @@ TEST(OperatorDesk, AsksForAToolThatAnotherHasButDoesNotHoldOnToIt) {
     EXPECT_FALSE(desk.desk.is_driving());
 }
 
-TEST(OperatorDesk, FallsSilentWhereThereIsNoSessionToDrillIn) {
+TEST(HandInput, FallsSilentWhereThereIsNoSessionToDrillIn) {
     Desk desk;
     desk.input.keys_down[GLFW_KEY_SPACE] = true;
     desk.step();
@@ -137,7 +137,7 @@ TEST(OperatorDesk, FallsSilentWhereThereIsNoSessionToDrillIn) {
     EXPECT_FALSE(desk.desk.command());
 }
 
-TEST(OperatorDesk, MovesNoHandByAClickOnAPanelThatKnowsNothingOfThePointerYet) {
+TEST(HandInput, MovesNoHandByAClickOnAPanelThatKnowsNothingOfThePointerYet) {
     Desk desk;
     desk.picture.panels = {{{100, 0}, {200, 40}}};
     desk.desk.show(desk.picture);
@@ -151,7 +151,7 @@ TEST(OperatorDesk, MovesNoHandByAClickOnAPanelThatKnowsNothingOfThePointerYet) {
     EXPECT_TRUE(desk.source.sent.empty());
 }
 
-TEST(OperatorDesk, HasAPedalForWhoeverHasOnlyAMouse) {
+TEST(HandInput, HasAPedalForWhoeverHasOnlyAMouse) {
     Desk desk;
     desk.desk.switch_pedal();
     desk.step();
@@ -184,7 +184,7 @@ TEST(OperatorDesk, HasAPedalForWhoeverHasOnlyAMouse) {
     EXPECT_FALSE(desk.source.sent.back().pedal) << "likewise a window that was left";
 }
 
-TEST(OperatorDesk, TiltsTheHandpieceWithoutMovingItsTip) {
+TEST(HandInput, TiltsTheHandpieceWithoutMovingItsTip) {
     Desk desk;
     desk.picture.drag_tilts = true;
     desk.desk.show(desk.picture);
@@ -205,7 +205,7 @@ TEST(OperatorDesk, TiltsTheHandpieceWithoutMovingItsTip) {
     EXPECT_EQ(desk.source.sent.back().spindle_axis, axis);
 }
 
-TEST(OperatorDesk, TakesNoLettersForCommandsWhileATextIsWritten) {
+TEST(HandInput, TakesNoLettersForCommandsWhileATextIsWritten) {
     Desk desk;
     desk.picture.panels_have_keyboard = true;
     desk.desk.show(desk.picture);
@@ -216,4 +216,4 @@ TEST(OperatorDesk, TakesNoLettersForCommandsWhileATextIsWritten) {
 }
 
 }  // namespace
-}  // namespace osteomill::operator_desk_test
+}  // namespace osteomill::hand_input_test

@@ -1,4 +1,4 @@
-#include "render_client/ui/view/look_file.h"
+#include "render_client/ui/view/transfer_file.h"
 
 #include <gmock/gmock.h>
 
@@ -8,7 +8,7 @@
 #include "common/scene/stiffness_relation.h"
 #include "render_client/ui/view/hu_axis.h"
 
-namespace osteomill::look_file_test {
+namespace osteomill::transfer_file_test {
 namespace {
 
 using ::testing::AllOf;
@@ -58,25 +58,25 @@ TEST(LookFile, RefusesInOneLineThatNamesFileAndKey) {
 }
 
 TEST(LookFile, IsKeptWithTheCaseAndNotWrittenOverWhereItIsBad) {
-    const auto folder = std::filesystem::path(::testing::TempDir()) / "look_file_test";
+    const auto folder = std::filesystem::path(::testing::TempDir()) / "transfer_file_test";
     std::filesystem::remove_all(folder);
     const auto file = folder / "case" / "look.toml";
-    LookKeeper keeper({}, std::nullopt);
+    TransferFile keeper({}, std::nullopt);
     EXPECT_FALSE(keeper.has_file());
     const auto first = keeper.open(file);
     ASSERT_TRUE(first);
     EXPECT_EQ(*first, std::nullopt);
     EXPECT_FALSE(keeper.open(file)) << "it is open already";
     EXPECT_THAT(keeper.save(transfer_presets()[1]), HasSubstr(file.string()));
-    LookKeeper next({}, std::nullopt);
+    TransferFile next({}, std::nullopt);
     const auto again = next.open(file);
     ASSERT_TRUE(again);
     EXPECT_EQ(*again, transfer_presets()[1]);
     std::ofstream(file) << "mode = 7\n";
-    LookKeeper bad({}, std::nullopt);
+    TransferFile bad({}, std::nullopt);
     EXPECT_THROW(bad.open(file), SceneError);
     EXPECT_THAT(bad.save(std::nullopt), HasSubstr("not saved"));
-    LookKeeper users(folder / "mine.toml", std::nullopt);
+    TransferFile users(folder / "mine.toml", std::nullopt);
     EXPECT_FALSE(users.open(file)) << "the user's goes before the case's";
     std::filesystem::remove_all(folder);
 }
@@ -93,4 +93,4 @@ TEST(HuAxis, GoesThereAndBack) {
 }
 
 }  // namespace
-}  // namespace osteomill::look_file_test
+}  // namespace osteomill::transfer_file_test

@@ -1,4 +1,4 @@
-#include "render_client/volume/scene_look.h"
+#include "render_client/volume/scene_appearance.h"
 
 #include <cmath>
 #include <memory>
@@ -9,10 +9,10 @@
 #include "studies/render/made_bone.h"
 #include "tests/unit/volume/offscreen_test.h"
 
-namespace osteomill::scene_look_test {
+namespace osteomill::scene_appearance_test {
 namespace {
 
-using SceneLookTest = OffscreenTest;
+using SceneAppearanceTest = OffscreenTest;
 
 const glm::ivec2 size_px(240, 180);
 const glm::ivec2 middle = size_px / 2;
@@ -32,7 +32,7 @@ double distance_of(const Camera& camera, float window_depth) {
     return projection[3][2] / (2.0 * static_cast<double>(window_depth) - 1.0 + projection[2][2]);
 }
 
-TEST_F(SceneLookTest, CutShowsTheTissuesInsideAsAFlatFaceWhereTheCutIs) {
+TEST_F(SceneAppearanceTest, CutShowsTheTissuesInsideAsAFlatFaceWhereTheCutIs) {
     const BoneTextures textures(peach(), colours);
     Camera camera = camera_on({0.0, 0.0, 0.0}, 6.0);
     camera.azimuth_rad = camera.elevation_rad = 0.0;
@@ -61,13 +61,13 @@ TEST_F(SceneLookTest, CutShowsTheTissuesInsideAsAFlatFaceWhereTheCutIs) {
 }
 
 // HU rise by 100 a mm to the patient's left, on a grid of its own.
-TEST_F(SceneLookTest, CutShowsTheCtWhereThatIsWanted) {
+TEST_F(SceneAppearanceTest, CutShowsTheCtWhereThatIsWanted) {
     const BoneTextures textures(peach(), colours);
     Camera camera = camera_on({0.0, 0.0, 0.0}, 6.0);
     camera.azimuth_rad = camera.elevation_rad = 0.0;
     RaycastRenderer renderer;
     ScenePicture picture(renderer, size_px);
-    const SceneLook plain{.cuts = {{{0.0, -1.0, 0.0}, 0.5}}};
+    const SceneAppearance plain{.cuts = {{{0.0, -1.0, 0.0}, 0.5}}};
     picture.set_look(plain);
     const Picture coloured = picture.draw(&textures, nullptr, camera).read_back();
 
@@ -75,7 +75,7 @@ TEST_F(SceneLookTest, CutShowsTheCtWhereThatIsWanted) {
                 .hu = {}};
     for (int place = 0; place < 41 * 31 * 31; ++place)
         ct.hu.push_back(static_cast<std::int16_t>(std::lround(100.0 * (-10.0 + 0.5 * (place % 41)))));
-    SceneLook look = plain;
+    SceneAppearance look = plain;
     look.ct = std::make_shared<const CtVolume>(ct);
     look.ct_window = {.level_hu = 0.0, .window_hu = 600.0};
     picture.set_look(look);
@@ -96,7 +96,7 @@ TEST_F(SceneLookTest, CutShowsTheCtWhereThatIsWanted) {
     EXPECT_EQ(picture.draw(&textures, nullptr, camera).read_back(), coloured);
 }
 
-TEST_F(SceneLookTest, SeveralCutsLeaveWhatNoneTakesAway) {
+TEST_F(SceneAppearanceTest, SeveralCutsLeaveWhatNoneTakesAway) {
     const BoneTextures textures(peach(), colours);
     Camera camera = camera_on({0.0, 0.0, 0.0}, 6.0);
     camera.azimuth_rad = camera.elevation_rad = 0.0;
@@ -111,7 +111,7 @@ TEST_F(SceneLookTest, SeveralCutsLeaveWhatNoneTakesAway) {
     EXPECT_EQ(drawn.depth_at({middle.x - 40, middle.y - 40}), 1.0f);
 }
 
-TEST_F(SceneLookTest, BackgroundIsTheLooks) {
+TEST_F(SceneAppearanceTest, BackgroundIsTheLooks) {
     const BoneTextures textures(peach(), colours);
     RaycastRenderer renderer;
     ScenePicture picture(renderer, size_px);
@@ -123,7 +123,7 @@ TEST_F(SceneLookTest, BackgroundIsTheLooks) {
     EXPECT_GT(light, 190);
 }
 
-TEST_F(SceneLookTest, WetBoneHasHighlightsWhereALampIsMirroredAndElsewhereIsAsItWas) {
+TEST_F(SceneAppearanceTest, WetBoneHasHighlightsWhereALampIsMirroredAndElsewhereIsAsItWas) {
     const Bone ball = made_bone(grid, [](const glm::dvec3& p) { return 3.0 - glm::length(p); });
     Camera camera = camera_on({0.0, 0.0, 0.0}, 4.0);
     for (const RendererChoice choice : {RendererChoice::raycast, RendererChoice::slices}) {
@@ -152,4 +152,4 @@ TEST_F(SceneLookTest, WetBoneHasHighlightsWhereALampIsMirroredAndElsewhereIsAsIt
 }
 
 }  // namespace
-}  // namespace osteomill::scene_look_test
+}  // namespace osteomill::scene_appearance_test

@@ -1,4 +1,4 @@
-#include "render_client/ui/view/look_file.h"
+#include "render_client/ui/view/transfer_file.h"
 
 #include <fmt/format.h>
 
@@ -90,7 +90,7 @@ std::string look_text(const std::optional<TransferFunction>& look) {
     return text.str();
 }
 
-std::optional<std::optional<TransferFunction>> LookKeeper::open(const std::filesystem::path& file) {
+std::optional<std::optional<TransferFunction>> TransferFile::open(const std::filesystem::path& file) {
     if (is_users_ || file == file_) return std::nullopt;
     file_ = file;
     is_bad_ = false;
@@ -107,7 +107,7 @@ std::optional<std::optional<TransferFunction>> LookKeeper::open(const std::files
     }
 }
 
-std::string LookKeeper::save(const std::optional<TransferFunction>& look) const {
+std::string TransferFile::save(const std::optional<TransferFunction>& look) const {
     if (is_bad_) return fmt::format("not saved: {} is no look; mend or remove it first", file_.string());
     try {
         if (file_.has_parent_path()) std::filesystem::create_directories(file_.parent_path());

@@ -1,4 +1,4 @@
-#include "render_client/ui/start/scan_look.h"
+#include "render_client/ui/start/scan_preview.h"
 
 #include <gtest/gtest.h>
 
@@ -11,8 +11,8 @@ namespace {
 
 const ScanBox covers{{-10.0, 20.0, 700.0}, {9.5, 39.5, 729.5}};
 
-TEST(ScanLook, ReadsWhatAPreviewSays) {
-    const auto look = read_scan_look(
+TEST(ScanPreview, ReadsWhatAPreviewSays) {
+    const auto look = read_scan_preview(
         "reading slices\ncovers -10,20,700,9.5,39.5,729.5 (mm, patient LPS: x0,y0,z0,x1,y1,z1)\n"
         "HU from -1024 to 3071\nsegment Facial nerve\nsegment Dura\npreview: x.png\n");
     ASSERT_TRUE(look);
@@ -20,11 +20,11 @@ TEST(ScanLook, ReadsWhatAPreviewSays) {
     EXPECT_EQ(look->least_hu, -1024.0);
     EXPECT_EQ(look->most_hu, 3071.0);
     EXPECT_EQ(look->segments, (std::vector<std::string>{"Facial nerve", "Dura"}));
-    EXPECT_FALSE(read_scan_look("bone_import: cannot be read\n"));
-    EXPECT_FALSE(read_scan_look("covers 1,2,3 (mm)\n"));
+    EXPECT_FALSE(read_scan_preview("bone_import: cannot be read\n"));
+    EXPECT_FALSE(read_scan_preview("covers 1,2,3 (mm)\n"));
 }
 
-TEST(ScanLook, KnowsWhereTheSlicesAreInThePicture) {
+TEST(ScanPreview, KnowsWhereTheSlicesAreInThePicture) {
     const auto slices = preview_slices(covers, 0.5);
     EXPECT_EQ(slices[0].size_px, glm::dvec2(40, 40));
     EXPECT_EQ(slices[1].size_px, glm::dvec2(40, 60));
@@ -32,7 +32,7 @@ TEST(ScanLook, KnowsWhereTheSlicesAreInThePicture) {
     EXPECT_EQ(slices[2].first_px, glm::dvec2(88, 0));
 }
 
-TEST(ScanLook, ADragSetsTheTwoSidesThatItsSliceShows) {
+TEST(ScanPreview, ADragSetsTheTwoSidesThatItsSliceShows) {
     // Axial: x to the right, y down, half a millimetre a pixel, from the middle of the first.
     auto box = dragged_box(covers, covers, 0.5, {10.5, 4.5}, {20.5, 14.5});
     ASSERT_TRUE(box);
@@ -46,7 +46,7 @@ TEST(ScanLook, ADragSetsTheTwoSidesThatItsSliceShows) {
     EXPECT_FALSE(dragged_box(covers, *box, 0.5, {5.0, 55.0}, {6.0, 56.0})) << "below the first";
 }
 
-TEST(ScanLook, ABoxIsShownWhereItWasDragged) {
+TEST(ScanPreview, ABoxIsShownWhereItWasDragged) {
     const glm::dvec2 from(50.5, 12.5), to(70.5, 42.5);
     const auto box = dragged_box(covers, covers, 0.5, from, to);
     const auto corners = box_in_slice(covers, *box, 0.5, preview_slices(covers, 0.5)[1]);

@@ -1,4 +1,4 @@
-#include "render_client/ui/start/case_shelf.h"
+#include "render_client/ui/start/case_library.h"
 
 #include <fmt/chrono.h>
 #include <fmt/format.h>

@@ -9,7 +9,7 @@
 
 namespace osteomill {
 
-struct SessionWishes {
+struct SessionRequests {
     std::vector<SessionControl> controls;  ///< for the server
     std::optional<std::size_t> burr;
     bool switches_pedal = false;

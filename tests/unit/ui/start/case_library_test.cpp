@@ -1,4 +1,4 @@
-#include "render_client/ui/start/case_shelf.h"
+#include "render_client/ui/start/case_library.h"
 
 #include <gmock/gmock.h>
 
@@ -11,7 +11,7 @@ namespace {
 
 using ::testing::HasSubstr;
 
-TEST(CaseShelf, HasTheBuiltInCasesAndWhatWasImported) {
+TEST(CaseLibrary, HasTheBuiltInCasesAndWhatWasImported) {
     const testing::TemporaryFolder folder;
     for (const char* name : {"zygoma", "a jaw", "no case"})
         std::filesystem::create_directories(folder / name);
@@ -26,7 +26,7 @@ TEST(CaseShelf, HasTheBuiltInCasesAndWhatWasImported) {
     EXPECT_EQ(cases_in(folder / "not there").size(), 3U);
 }
 
-TEST(CaseShelf, RefusesNamesThatWouldBeNoFolderOrAreTaken) {
+TEST(CaseLibrary, RefusesNamesThatWouldBeNoFolderOrAreTaken) {
     const testing::TemporaryFolder folder;
     std::filesystem::create_directories(folder / "taken");
     for (const char* good : {"jaw of A-1_b.2", "Kieferknochen für Übung", "下颌骨"})
@@ -38,7 +38,7 @@ TEST(CaseShelf, RefusesNamesThatWouldBeNoFolderOrAreTaken) {
     EXPECT_THAT(wrong_with_name("tooth", folder / "."), HasSubstr("built in"));
 }
 
-TEST(CaseShelf, KnowsTheSessionsThatWereRecorded) {
+TEST(CaseLibrary, KnowsTheSessionsThatWereRecorded) {
     const testing::TemporaryFolder folder;
     for (const char* name : {"b", "a", "torn"}) std::filesystem::create_directories(folder / name);
     for (const char* file : {"a/session.pcap", "b/session.pcap", "torn/session.part.pcap"})
@@ -49,7 +49,7 @@ TEST(CaseShelf, KnowsTheSessionsThatWereRecorded) {
     EXPECT_TRUE(sessions_in(folder / "nowhere").empty());
 }
 
-TEST(CaseShelf, NamesAReportByCaseTraineeAndTime) {
+TEST(CaseLibrary, NamesAReportByCaseTraineeAndTime) {
     ::setenv("TZ", "UTC", 1);
     EXPECT_EQ(report_folder("/r", "a jaw", "Anna O'Hara/../x", 0),
               "/r/a jaw-Anna O'Hara_.._x-19700101-000000");
@@ -57,7 +57,7 @@ TEST(CaseShelf, NamesAReportByCaseTraineeAndTime) {
     EXPECT_EQ(report_folder("/r", "tooth", "", 86400), "/r/tooth-nobody-19700102-000000");
 }
 
-TEST(CaseShelf, SaysInOneLineThatNothingCanBeKeptAndWhatToDo) {
+TEST(CaseLibrary, SaysInOneLineThatNothingCanBeKeptAndWhatToDo) {
     const testing::TemporaryFolder folder;
     EXPECT_EQ(make_folder_at_home(folder / "home/reports"), "");
     EXPECT_TRUE(std::filesystem::is_directory(folder / "home/reports"));

@@ -1,4 +1,4 @@
-// Cuts and background: the look of the scene apart from bone and camera.
+// Cuts and background: the appearance of the scene apart from bone and camera.
 #pragma once
 
 #include <cstddef>
@@ -22,7 +22,7 @@ struct CutPlane {
 /// A renderer heeds the first so many.
 inline constexpr std::size_t most_cut_planes = 4;
 
-struct SceneLook {
+struct SceneAppearance {
     std::vector<CutPlane> cuts{};
     std::shared_ptr<const CtVolume>
         ct{};  ///< shown in grey in the cuts' faces; null: they have the bone's colours
@@ -36,7 +36,7 @@ struct SceneLook {
     float specular = 0.0f;
     bool light_field = false;  ///< only what is in a microscope's round field is lit
 
-    bool operator==(const SceneLook&) const = default;
+    bool operator==(const SceneAppearance&) const = default;
 };
 
 }  // namespace osteomill

@@ -1,4 +1,4 @@
-#include "render_client/ui/start/scan_look.h"
+#include "render_client/ui/start/scan_preview.h"
 
 #include <algorithm>
 #include <cmath>
@@ -27,8 +27,8 @@ double row_px(const ScanBox& covers, double mm_per_px, const PreviewSlice& slice
 
 }  // namespace
 
-std::optional<ScanLook> read_scan_look(const std::string& preview_output) {
-    ScanLook look;
+std::optional<ScanPreview> read_scan_preview(const std::string& preview_output) {
+    ScanPreview look;
     bool has_box = false;
     std::istringstream lines(preview_output);
     for (std::string line; std::getline(lines, line);) {

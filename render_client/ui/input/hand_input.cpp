@@ -1,4 +1,4 @@
-#include "render_client/ui/input/operator_desk.h"
+#include "render_client/ui/input/hand_input.h"
 
 // GLFW's names of keys.
 #define GLFW_INCLUDE_NONE
@@ -20,10 +20,10 @@ constexpr double longest_step_s = 0.1;
 
 }  // namespace
 
-void OperatorDesk::step(const WindowInput& input, double elapsed_s) {
-    // Without a session of this kind there is nobody who could be sent an operator's wishes.
+void HandInput::step(const WindowInput& input, double elapsed_s) {
+    // Without a session of this kind there is nobody who could be sent an operator's requests.
     const std::optional<ToolState> tool = source_.newest_tool();
-    std::optional<OperatorCommand> wish;
+    std::optional<OperatorCommand> request;
     {
         const std::scoped_lock lock(mutex_);
         if (tool && picture_.drills) {
@@ -36,11 +36,11 @@ void OperatorDesk::step(const WindowInput& input, double elapsed_s) {
                 let_go();
             hand_.follow(*tool, picture_.burr_count, picture_.reach_mm);
             // What is sent last lifts the pedal; then the tool is free for others.
-            if (hand_.wants_tool() || had_tool_) wish = hand_.command();
+            if (hand_.wants_tool() || had_tool_) request = hand_.command();
             // The server believes no pedal that it has not seen up. Nothing is sent before the hand wants the
             // tool, so that the first message says it, unless the key was held before, as through a loss of
             // the connection.
-            if (wish && !had_tool_ && !space_was_down_) wish->pedal = false;
+            if (request && !had_tool_ && !space_was_down_) request->pedal = false;
             // It may be asked for, but must not jump to where this hand has gone meanwhile.
             if (tool->driver == ToolDriver::another) let_go();
         } else {
@@ -50,15 +50,15 @@ void OperatorDesk::step(const WindowInput& input, double elapsed_s) {
     }
     cursor_ = input.cursor;
     space_was_down_ = input.keys_down[GLFW_KEY_SPACE];
-    if (wish) source_.send_operator(*wish);
+    if (request) source_.send_operator(*request);
 }
 
-void OperatorDesk::let_go() {
+void HandInput::let_go() {
     hand_.let_go();
     pedal_switched_down_ = false;
 }
 
-bool OperatorDesk::panels_have(const WindowInput& input) const {
+bool HandInput::panels_have(const WindowInput& input) const {
     const glm::ivec2 at(input.cursor * input.px_per_unit());
     return picture_.panels_have_mouse || std::ranges::any_of(picture_.panels, [&](const PixelBox& box) {
                const glm::ivec2 inside = at - box.first;
@@ -66,7 +66,7 @@ bool OperatorDesk::panels_have(const WindowInput& input) const {
            });
 }
 
-void OperatorDesk::move_hand(const WindowInput& input, double elapsed_s) {
+void HandInput::move_hand(const WindowInput& input, double elapsed_s) {
     if (picture_.holds_still) pedal_switched_down_ = false;
     if (input.went_down[WindowInput::left]) drags_hand_ = !panels_have(input);
     const glm::dvec2 moved_px = (input.cursor - cursor_) * input.px_per_unit();
@@ -91,38 +91,38 @@ void OperatorDesk::move_hand(const WindowInput& input, double elapsed_s) {
     hand_.set_pedal(is_down(GLFW_KEY_SPACE) || pedal_switched_down_);
 }
 
-void OperatorDesk::show(const DeskPicture& picture) {
+void HandInput::show(const HandInputPicture& picture) {
     const std::scoped_lock lock(mutex_);
     picture_ = picture;
 }
 
-void OperatorDesk::switch_pedal() {
+void HandInput::switch_pedal() {
     const std::scoped_lock lock(mutex_);
     pedal_switched_down_ = !pedal_switched_down_;
 }
 
-void OperatorDesk::choose_burr(std::size_t burr) {
+void HandInput::choose_burr(std::size_t burr) {
     const std::scoped_lock lock(mutex_);
     hand_.choose_burr(burr);
 }
 
-void OperatorDesk::release() {
+void HandInput::release() {
     const std::scoped_lock lock(mutex_);
     let_go();
     drags_hand_ = false;
 }
 
-void OperatorDesk::choose_next_burr() {
+void HandInput::choose_next_burr() {
     const std::scoped_lock lock(mutex_);
     hand_.choose_next_burr();
 }
 
-void OperatorDesk::choose_previous_burr() {
+void HandInput::choose_previous_burr() {
     const std::scoped_lock lock(mutex_);
     hand_.choose_previous_burr();
 }
 
-std::optional<OperatorCommand> OperatorDesk::command() const {
+std::optional<OperatorCommand> HandInput::command() const {
     const std::scoped_lock lock(mutex_);
     return picture_.drills ? std::optional(hand_.command()) : std::nullopt;
 }
