@@ -2,7 +2,7 @@
 
 #include <stdexcept>
 
-#include "common/files/whole_file.h"
+#include "common/files/atomic_file.h"
 
 namespace osteomill::study {
 
@@ -13,7 +13,7 @@ void make_folder(const std::filesystem::path& folder) {
 }
 
 void write_text(const std::string& text, const std::filesystem::path& file) {
-    write_whole_file(file, text, Link::replace);
+    write_atomic_file(file, text, Link::replace);
 }
 
 void write_json(const nlohmann::ordered_json& json, const std::filesystem::path& file) {

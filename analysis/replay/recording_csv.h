@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "common/files/whole_file.h"
+#include "common/files/atomic_file.h"
 #include "common/recording/playhead.h"
 
 namespace osteomill {
@@ -24,7 +24,7 @@ class RecordingCsv {
     void close();
 
   private:
-    WholeFile file_;
+    AtomicFile file_;
     std::ofstream out_;
 };
 

@@ -7,7 +7,7 @@
 #include <filesystem>
 #include <memory>
 
-#include "common/files/whole_file.h"
+#include "common/files/atomic_file.h"
 #include "common/recording/playhead.h"
 #include "common/sound/burr_sound.h"
 
@@ -33,7 +33,7 @@ class RecordingSound {
     void render_until(double time_s);
     [[noreturn]] void fail(const std::string& why) const;
 
-    WholeFile file_;
+    AtomicFile file_;
     std::unique_ptr<SNDFILE, Closing> out_;
     BurrSound sound_;
     std::int64_t written_ = 0;  // samples

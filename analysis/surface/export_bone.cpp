@@ -66,8 +66,8 @@ void export_surface(const ExportOptions& options, const Bone& bone,
 
 }  // namespace
 
-Asked<ExportOptions> parse_export_command_line(int argc, const char* const* argv,
-                                               const std::string& version) {
+ParseResult<ExportOptions> parse_export_command_line(int argc, const char* const* argv,
+                                                     const std::string& version) {
     ExportOptions options;
     std::string original;
     double threshold_hu = 0.0;

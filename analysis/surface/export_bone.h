@@ -19,7 +19,8 @@ struct ExportOptions {
 };
 
 /// Throws std::invalid_argument with one line for wrong usage.
-Asked<ExportOptions> parse_export_command_line(int argc, const char* const* argv, const std::string& version);
+ParseResult<ExportOptions> parse_export_command_line(int argc, const char* const* argv,
+                                                     const std::string& version);
 
 /// Writes the file and tells `say` in a line what is in it. Throws std::exception with one line for a file
 /// that holds no bone, bones of two grids, a bone that was not carved from the original, an output that

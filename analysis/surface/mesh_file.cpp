@@ -46,7 +46,7 @@ class Output {
         bytes_.clear();
     }
 
-    WholeFile file_;
+    AtomicFile file_;
     std::string bytes_;
 };
 

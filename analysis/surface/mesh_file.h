@@ -13,7 +13,7 @@
 #include <string_view>
 
 #include "analysis/surface/surface_mesh.h"
-#include "common/files/whole_file.h"
+#include "common/files/atomic_file.h"
 
 namespace osteomill {
 

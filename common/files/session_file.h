@@ -1,5 +1,5 @@
 // A file that is written over a whole session: what has come so far lies in a part beside it, NAME.part.EXT,
-// which becomes the file when the session ends (whole_file.h).
+// which becomes the file when the session ends (atomic_file.h).
 //
 // Its name is known, since what a killed session left is worth keeping, a torn recording above all: the next
 // session of that name moves it to NAME.torn-N.EXT. Two sessions at a time cannot write the same file.
@@ -9,7 +9,7 @@
 #include <optional>
 #include <string>
 
-#include "common/files/whole_file.h"
+#include "common/files/atomic_file.h"
 
 namespace osteomill {
 
@@ -31,12 +31,12 @@ class SessionFile {
     /// Where the part of a session that was killed is now, if there was one.
     const std::optional<std::filesystem::path>& torn() const { return torn_; }
 
-    /// As WholeFile's.
+    /// As AtomicFile's.
     void commit() { file_->commit(); }
     void keep_part() noexcept { file_->keep_part(); }
 
   private:
-    std::optional<WholeFile> file_;  // from the moment that the part is this session's
+    std::optional<AtomicFile> file_;  // from the moment that the part is this session's
     std::optional<std::filesystem::path> torn_;
     int lock_ = -1;  // a descriptor of the part, for as long as it is this session's; -1 where there is none
 };

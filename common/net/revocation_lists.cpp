@@ -68,7 +68,7 @@ RevocationLists::RevocationLists(std::filesystem::path file, const std::filesyst
 
 RevocationLists::~RevocationLists() = default;
 
-RevocationLists::Look RevocationLists::refresh(Time now) {
+RevocationLists::Check RevocationLists::refresh(Time now) {
     if (now - last_look_ < look_period) return {};
     last_look_ = now;
     const struct stat found = look_at(file_);

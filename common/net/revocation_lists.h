@@ -32,11 +32,11 @@ class RevocationLists {
     RevocationLists(const RevocationLists&) = delete;
     RevocationLists& operator=(const RevocationLists&) = delete;
 
-    struct Look {
+    struct Check {
         bool has_news = false;  ///< other lists hold than before
         std::string failure{};  ///< one line; once for each change of the file
     };
-    Look refresh(Time now);
+    Check refresh(Time now);
 
     /// Whether the certificate itself is named.
     bool revokes(X509& certificate) const;

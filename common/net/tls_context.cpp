@@ -64,8 +64,8 @@ TlsContext::TlsContext(const TlsFiles& files, Role role)
         throw std::runtime_error(files.certificate.string() + ": is revoked by " + files.crl.string());
 }
 
-RevocationLists::Look TlsContext::refresh(RevocationLists::Time now) {
-    return revoked_ ? revoked_->refresh(now) : RevocationLists::Look{};
+RevocationLists::Check TlsContext::refresh(RevocationLists::Time now) {
+    return revoked_ ? revoked_->refresh(now) : RevocationLists::Check{};
 }
 
 }  // namespace osteomill

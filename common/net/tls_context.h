@@ -25,7 +25,7 @@ class TlsContext {
     boost::asio::ssl::context& context() { return context_; }
 
     /// Looks whether the list of revoked certificates has changed. On the thread of the connections.
-    RevocationLists::Look refresh(RevocationLists::Time now);
+    RevocationLists::Check refresh(RevocationLists::Time now);
     /// Whether that list names the certificate.
     bool revokes(X509& certificate) const { return revoked_ && revoked_->revokes(certificate); }
 

@@ -11,7 +11,7 @@ namespace osteomill {
 
 /// Options to run with, or a text (help, version) to print and be done.
 template <typename Options>
-struct Asked {
+struct ParseResult {
     std::optional<Options> options;
     std::string text;
 };

@@ -18,7 +18,7 @@ inline constexpr int exit_success = 0;
 inline constexpr int exit_failure = 1;
 inline constexpr int exit_wrong_usage = 2;
 
-/// Returns the exit code. `parse()` gives an Asked (command_line.h) and throws std::invalid_argument for
+/// Returns the exit code. `parse()` gives a ParseResult (command_line.h) and throws std::invalid_argument for
 /// wrong usage; `run(options, output)` throws for a failure. Ends also where a terminal holds up what is
 /// said, at most a moment later.
 template <typename Parse, typename Run>

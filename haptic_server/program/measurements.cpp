@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <numeric>
 
-#include "common/files/whole_file.h"
+#include "common/files/atomic_file.h"
 
 namespace osteomill {
 
@@ -132,7 +132,8 @@ nlohmann::ordered_json recorded(const RecordingReport& recording) {
 }
 
 void write_json(const nlohmann::ordered_json& json, const std::filesystem::path& file) {
-    write_whole_file(file, json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n");
+    write_atomic_file(file,
+                      json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n");
 }
 
 }  // namespace osteomill

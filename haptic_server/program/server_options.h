@@ -30,7 +30,7 @@ struct ServerOptions {
     std::string case_name;  ///< for people; empty: of no case
 };
 
-using CommandLine = Asked<ServerOptions>;
+using CommandLine = ParseResult<ServerOptions>;
 
 /// Throws std::invalid_argument with one line for wrong usage.
 CommandLine parse_command_line(int argc, const char* const* argv, const std::string& version);

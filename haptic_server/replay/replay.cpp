@@ -8,15 +8,15 @@
 #include <thread>
 
 #include "analysis/replay/recorded_bones.h"
-#include "haptic_server/replay/recorded_session.h"
 #include "analysis/replay/recording_csv.h"
 #include "analysis/replay/recording_sound.h"
 #include "analysis/replay/recording_summary.h"
 #include "analysis/report/write_report.h"
 #include "analysis/surface/mesh_file.h"
 #include "analysis/surface/surface_mesh.h"
-#include "common/files/whole_file.h"
+#include "common/files/atomic_file.h"
 #include "common/program/stop_signals.h"
+#include "haptic_server/replay/recorded_session.h"
 #include "haptic_server/streaming/streaming_server.h"
 #include "imaging/bone_file/removed_bone.h"
 
@@ -58,7 +58,7 @@ void read(const ReplayOptions& options, const std::atomic<bool>& stop) {
     if (sound) sound->close();
     // Names may be what a hostile file holds: bytes that are no UTF-8 must not cost the whole report.
     if (options.json)
-        write_whole_file(
+        write_atomic_file(
             *options.json,
             to_json(summary).dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n");
     // Whoever asks for the text waits for it, and ends the program where nobody takes it.

@@ -28,7 +28,7 @@ struct ReplayOptions {
     bool only_reads() const { return info || json || csv || surface || difference || sound || report; }
 };
 
-using ReplayCommandLine = Asked<ReplayOptions>;
+using ReplayCommandLine = ParseResult<ReplayOptions>;
 
 /// Throws std::invalid_argument with one line for wrong usage.
 ReplayCommandLine parse_replay_command_line(int argc, const char* const* argv, const std::string& version);

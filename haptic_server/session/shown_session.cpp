@@ -4,7 +4,7 @@
 
 #include "analysis/surface/mesh_file.h"
 #include "analysis/surface/surface_mesh.h"
-#include "common/files/whole_file.h"
+#include "common/files/atomic_file.h"
 #include "common/wire/ct_pieces.h"
 #include "haptic_server/session/tool_place.h"
 #include "imaging/case/structures.h"

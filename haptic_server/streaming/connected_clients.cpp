@@ -202,7 +202,7 @@ void ConnectedClients::dismiss(Id id, const std::string& peer, const std::string
 
 void ConnectedClients::drop_revoked(Time now) {
     if (!options_.tls) return;
-    const RevocationLists::Look look = options_.tls->refresh(now);
+    const RevocationLists::Check look = options_.tls->refresh(now);
     if (!look.failure.empty()) spdlog::warn("{}", look.failure);
     if (!look.has_news) return;
     for (const auto& [id, connection] : std::map(connections_))

@@ -57,11 +57,11 @@ std::string header_of(const NrrdForm& form) {
     return text + "\n";
 }
 
-WholeFile begun(const std::filesystem::path& path, const NrrdForm& form) {
+AtomicFile begun(const std::filesystem::path& path, const NrrdForm& form) {
     require_valid(form.grid);
     if (path.extension() != ".nrrd") throw ImagingError(path, "the name of a bone file ends in .nrrd");
     remove_abandoned_parts(path);
-    return WholeFile(path);
+    return AtomicFile(path);
 }
 
 }  // namespace

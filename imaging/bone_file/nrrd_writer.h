@@ -7,7 +7,7 @@
 #include <optional>
 #include <span>
 
-#include "common/files/whole_file.h"
+#include "common/files/atomic_file.h"
 #include "imaging/bone_file/digest.h"
 #include "imaging/bone_file/gzip_writer.h"
 #include "imaging/bone_file/nrrd_form.h"
@@ -33,7 +33,7 @@ class NrrdWriter {
 
   private:
     NrrdForm form_;
-    WholeFile file_;
+    AtomicFile file_;
     std::optional<GzipWriter> gzip_{};
     std::uint64_t header_bytes_ = 0;
     std::uint64_t added_ = 0;

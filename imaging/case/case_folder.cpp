@@ -12,8 +12,8 @@
 #include <utility>
 #include <vector>
 
+#include "common/files/atomic_file.h"
 #include "common/files/inside_folder.h"
-#include "common/files/whole_file.h"
 #include "common/scene/material.h"
 #include "common/scene/nearest_name.h"
 #include "common/scene/scene_file.h"
@@ -296,7 +296,7 @@ void finish_case(const std::filesystem::path& folder, const BegunCase& begun, st
     place_on_bone(scene, load_bone(loaded).bone);
     scene.bone =
         FileSource{.path = bone_of_case("").filename(), .threshold_hu = {}, .segmentation = segmentation};
-    write_whole_file(folder / scene_name, with_digest(preface + write_scene(scene)), Link::replace);
+    write_atomic_file(folder / scene_name, with_digest(preface + write_scene(scene)), Link::replace);
 }
 
 }  // namespace osteomill

@@ -2,8 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "common/files/atomic_file.h"
 #include "common/files/inside_folder.h"
-#include "common/files/whole_file.h"
 #include "common/scene/scene_file.h"
 #include "common/scene/shallow_toml.h"
 #include "common/scene/toml_reader.h"
@@ -46,7 +46,7 @@ std::optional<ToolPose> placement_of_case(const std::filesystem::path& folder) {
 void remember_placement(const std::filesystem::path& folder, const ToolPose& pose) {
     const glm::dvec3& p = pose.position_mm;
     const glm::dvec3& a = pose.spindle_axis;
-    write_whole_file(
+    write_atomic_file(
         file_of(folder),
         with_digest(fmt::format(
             "# Where the tool was put last, patient LPS. Without this file: [start_pose] of case.toml.\n"

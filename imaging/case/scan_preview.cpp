@@ -10,7 +10,7 @@
 #include <stdexcept>
 #include <vector>
 
-#include "common/files/whole_file.h"
+#include "common/files/atomic_file.h"
 #include "imaging/bone_file/hu_file.h"
 
 namespace osteomill {
@@ -84,7 +84,7 @@ void write_png(const Canvas& canvas, const std::filesystem::path& path) {
     image.format = PNG_FORMAT_RGB;
     image.width = static_cast<png_uint_32>(canvas.size_px.x);
     image.height = static_cast<png_uint_32>(canvas.size_px.y);
-    WholeFile file(path);
+    AtomicFile file(path);
     if (!png_image_write_to_file(&image, file.part().c_str(), 0, canvas.rgb.data(), 0, nullptr))
         throw std::runtime_error(fmt::format("{}: cannot be written: {}", path.string(), image.message));
     file.commit();

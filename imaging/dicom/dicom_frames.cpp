@@ -55,9 +55,9 @@ class DicomFrames::Source {
     virtual gdcm::PixelFormat format() const = 0;
 };
 
-class DicomFrames::WholeFile : public Source {
+class DicomFrames::AtomicFile : public Source {
   public:
-    explicit WholeFile(const DicomFile& file) {
+    explicit AtomicFile(const DicomFile& file) {
         gdcm::ImageReader reader;
         reader.SetFileName(file.path.c_str());
         require(file, [&] {
@@ -149,7 +149,7 @@ DicomFrames::DicomFrames(const DicomFile& file) : file_(file), values_(pixels_of
     if (is_read_frame_by_frame(file))
         source_ = std::make_unique<FrameByFrame>(file);
     else
-        source_ = std::make_unique<WholeFile>(file);
+        source_ = std::make_unique<AtomicFile>(file);
 }
 
 DicomFrames::~DicomFrames() = default;

@@ -28,7 +28,7 @@ class DicomFrames {
 
   private:
     class Source;
-    class WholeFile;
+    class AtomicFile;
     class FrameByFrame;
     DicomFile file_;
     std::unique_ptr<Source> source_;

@@ -167,7 +167,7 @@ void ServerConnection::connect() {
 
 void ServerConnection::shake_hands() {
     if (tls_) {
-        const RevocationLists::Look look = tls_->refresh(std::chrono::steady_clock::now());
+        const RevocationLists::Check look = tls_->refresh(std::chrono::steady_clock::now());
         if (!look.failure.empty()) spdlog::warn("{}", look.failure);
     }
     stream_ = connecting_stream(std::move(socket_), tls_.get(), host_, read_bytes);

@@ -4,7 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "common/files/whole_file.h"
+#include "common/files/atomic_file.h"
 
 namespace osteomill {
 
@@ -37,7 +37,7 @@ std::string to_json(const RenderReport& report) {
 }
 
 void write_report(const RenderReport& report, const std::filesystem::path& file) {
-    write_whole_file(file, to_json(report));
+    write_atomic_file(file, to_json(report));
 }
 
 }  // namespace osteomill

@@ -5,7 +5,7 @@
 #include <cstring>
 #include <stdexcept>
 
-#include "common/files/whole_file.h"
+#include "common/files/atomic_file.h"
 
 namespace osteomill {
 
@@ -27,7 +27,7 @@ void write_png(const Picture& picture, const std::filesystem::path& file) {
     image.height = static_cast<png_uint_32>(picture.size_px.y);
     // A frame is written between two drawn ones: speed counts for more than size.
     image.flags = PNG_IMAGE_FLAG_FAST;
-    WholeFile whole(file, Link::replace);  // its name is ours
+    AtomicFile whole(file, Link::replace);  // its name is ours
     if (!png_image_write_to_file(&image, whole.part().c_str(), 0, picture.rgb.data(), 0, nullptr))
         throw std::runtime_error("cannot write the picture " + file.string() + ": " + image.message);
     whole.commit_unsynced();

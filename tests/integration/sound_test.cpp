@@ -11,8 +11,8 @@
 #include <string>
 #include <vector>
 
+#include "common/files/atomic_file.h"
 #include "common/files/session_file.h"
-#include "common/files/whole_file.h"
 #include "tests/support/block_file.h"
 #include "tests/support/child_process.h"
 #include "tests/support/strongest_note.h"

@@ -11,8 +11,8 @@
 #include <utility>
 #include <vector>
 
+#include "common/files/atomic_file.h"
 #include "common/files/session_file.h"
-#include "common/files/whole_file.h"
 #include "common/recording/packet_reader.h"
 #include "common/wire/scene_messages.h"
 #include "common/wire/structure_messages.h"

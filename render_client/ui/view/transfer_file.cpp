@@ -6,8 +6,8 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "common/files/atomic_file.h"
 #include "common/files/inside_folder.h"
-#include "common/files/whole_file.h"
 #include "common/scene/scene_file.h"
 #include "common/scene/shallow_toml.h"
 #include "common/scene/stiffness_relation.h"
@@ -111,7 +111,7 @@ std::string TransferFile::save(const std::optional<TransferFunction>& look) cons
     if (is_bad_) return fmt::format("not saved: {} is no look; mend or remove it first", file_.string());
     try {
         if (file_.has_parent_path()) std::filesystem::create_directories(file_.parent_path());
-        write_whole_file(file_, look_text(look), Link::replace);
+        write_atomic_file(file_, look_text(look), Link::replace);
     } catch (const std::exception& error) {
         return error.what();
     }

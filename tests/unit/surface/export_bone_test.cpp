@@ -17,7 +17,7 @@ namespace {
 
 using ::testing::HasSubstr;
 
-Asked<ExportOptions> parse(std::vector<const char*> arguments) {
+ParseResult<ExportOptions> parse(std::vector<const char*> arguments) {
     arguments.insert(arguments.begin(), "bone_export");
     return parse_export_command_line(static_cast<int>(arguments.size()), arguments.data(), "0.0.test");
 }

@@ -10,7 +10,7 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "common/files/whole_file.h"
+#include "common/files/atomic_file.h"
 #include "tests/support/temporary_folder.h"
 
 namespace osteomill {
@@ -99,7 +99,7 @@ TEST(MeshFile, ObjReadsBackAsTheSamePointsAndTriangles) {
 
 TEST(MeshFile, ReplacesALinkOfANameThatNobodyGave) {
     const testing::TemporaryFolder folder;
-    write_whole_file(folder / "elsewhere", "old");
+    write_atomic_file(folder / "elsewhere", "old");
     std::filesystem::create_symlink("elsewhere", folder / "a.stl");
     write_mesh(folder / "a.stl", tetrahedron(), Link::replace);
     EXPECT_FALSE(std::filesystem::is_symlink(folder / "a.stl"));
@@ -117,7 +117,7 @@ TEST(MeshFile, LeavesTheOldFileWhereItCannotBeWritten) {
     } catch (const std::runtime_error& error) {
         EXPECT_THAT(error.what(), HasSubstr("a.stl: cannot be written: No such file"));
     }
-    write_whole_file(folder / "a.stl", "old");
+    write_atomic_file(folder / "a.stl", "old");
     EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path()), {}), 1) << "and no part";
 }
 

@@ -1,4 +1,4 @@
-#include "common/files/whole_file.h"
+#include "common/files/atomic_file.h"
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -78,10 +78,10 @@ int open_new(const fs::path& path) {
     return ::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
 }
 
-WholeFile::WholeFile(const fs::path& path, WriteTarget target, const fs::path& part)
+AtomicFile::AtomicFile(const fs::path& path, WriteTarget target, const fs::path& part)
     : path_(path), target_(std::move(target)), part_(part), owns_part_(!target_.is_direct) {}
 
-WholeFile::WholeFile(const fs::path& path, Link link)
+AtomicFile::AtomicFile(const fs::path& path, Link link)
     : path_(path), target_(write_target(path, link)), part_(target_.path), owns_part_(!target_.is_direct) {
     if (target_.is_direct) return;
     std::random_device random;
@@ -99,13 +99,13 @@ WholeFile::WholeFile(const fs::path& path, Link link)
     }
 }
 
-WholeFile::~WholeFile() {
+AtomicFile::~AtomicFile() {
     std::error_code ignored;
     if (owns_part_) fs::remove(part_, ignored);
     if (descriptor_ >= 0) ::close(descriptor_);
 }
 
-void WholeFile::write(std::span<const std::byte> bytes) {
+void AtomicFile::write(std::span<const std::byte> bytes) {
     if (descriptor_ < 0) descriptor_ = ::open(part_.c_str(), O_WRONLY | O_CLOEXEC);
     while (!bytes.empty()) {
         const ssize_t written = ::write(descriptor_, bytes.data(), bytes.size());
@@ -115,18 +115,18 @@ void WholeFile::write(std::span<const std::byte> bytes) {
     }
 }
 
-void WholeFile::rewind() {
+void AtomicFile::rewind() {
     if (::lseek(descriptor_, 0, SEEK_SET) != 0) fail(path_, errno);
 }
 
-void WholeFile::commit() {
+void AtomicFile::commit() {
     if (!owns_part_) return;
     if (const int reason = sync(part_, O_RDONLY)) fail(path_, reason);
     commit_unsynced();
     if (const int reason = sync(folder_of(target_.path), O_RDONLY | O_DIRECTORY)) fail(path_, reason);
 }
 
-void WholeFile::commit_unsynced() {
+void AtomicFile::commit_unsynced() {
     if (!owns_part_) return;
     std::error_code failed;
     fs::rename(part_, target_.path, failed);
@@ -151,8 +151,8 @@ void remove_abandoned_parts(const fs::path& path, Link link) {
     }
 }
 
-void write_whole_file(const fs::path& path, std::string_view text, Link link) {
-    WholeFile file(path, link);
+void write_atomic_file(const fs::path& path, std::string_view text, Link link) {
+    AtomicFile file(path, link);
     file.write(std::as_bytes(std::span(text)));
     file.commit();
 }

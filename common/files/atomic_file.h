@@ -28,16 +28,16 @@ struct WriteTarget {
 };
 WriteTarget write_target(const std::filesystem::path& path, Link link);
 
-class WholeFile {
+class AtomicFile {
   public:
     /// Makes an empty part. Throws std::runtime_error with one line where that cannot be.
-    explicit WholeFile(const std::filesystem::path& path, Link link = Link::follow);
+    explicit AtomicFile(const std::filesystem::path& path, Link link = Link::follow);
     /// Takes over a part that is there.
-    WholeFile(const std::filesystem::path& path, WriteTarget target, const std::filesystem::path& part);
+    AtomicFile(const std::filesystem::path& path, WriteTarget target, const std::filesystem::path& part);
     /// Removes the part unless it was committed or kept.
-    ~WholeFile();
-    WholeFile(const WholeFile&) = delete;
-    WholeFile& operator=(const WholeFile&) = delete;
+    ~AtomicFile();
+    AtomicFile(const AtomicFile&) = delete;
+    AtomicFile& operator=(const AtomicFile&) = delete;
 
     /// Where to write, by whatever means; to be closed before commit().
     const std::filesystem::path& part() const { return part_; }
@@ -70,8 +70,8 @@ class WholeFile {
 /// nobody. What cannot be removed stays.
 void remove_abandoned_parts(const std::filesystem::path& path, Link link = Link::follow);
 
-/// Replaces the file by `text` as a whole. Throws std::runtime_error as WholeFile does.
-void write_whole_file(const std::filesystem::path& path, std::string_view text, Link link = Link::follow);
+/// Replaces the file by `text` as a whole. Throws std::runtime_error as AtomicFile does.
+void write_atomic_file(const std::filesystem::path& path, std::string_view text, Link link = Link::follow);
 
 /// Opens a file to write that nothing bears the name of yet; -1 and errno where that cannot be, EEXIST for
 /// whatever is there, a link, too.

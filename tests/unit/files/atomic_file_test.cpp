@@ -1,4 +1,4 @@
-#include "common/files/whole_file.h"
+#include "common/files/atomic_file.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -37,11 +37,11 @@ void write(const fs::path& path, const std::string& text) {
     std::ofstream(path) << text;
 }
 
-TEST(WholeFile, ReplacesTheOldFileOnlyWhenCommitted) {
+TEST(AtomicFile, ReplacesTheOldFileOnlyWhenCommitted) {
     const TemporaryFolder folder;
     const fs::path path = folder / "bone.nrrd";
     write(path, "old");
-    WholeFile file(path);
+    AtomicFile file(path);
     write(file.part(), "new");
     EXPECT_EQ(content(path), "old");
     file.commit();
@@ -49,24 +49,24 @@ TEST(WholeFile, ReplacesTheOldFileOnlyWhenCommitted) {
     EXPECT_FALSE(fs::exists(file.part()));
 }
 
-TEST(WholeFile, LeavesTheOldFileAndNoPartWhereItIsGivenUp) {
+TEST(AtomicFile, LeavesTheOldFileAndNoPartWhereItIsGivenUp) {
     const TemporaryFolder folder;
     const fs::path path = folder / "bone.nrrd";
     write(path, "old");
     {
-        const WholeFile file(path);
+        const AtomicFile file(path);
         write(file.part(), "half of the n");
     }
     EXPECT_EQ(content(path), "old");
     EXPECT_EQ(files_in(folder), 1);
 }
 
-TEST(WholeFile, KeepsAPartThatIsWorthSomething) {
+TEST(AtomicFile, KeepsAPartThatIsWorthSomething) {
     const TemporaryFolder folder;
     const fs::path path = folder / "session.pcap";
     fs::path part;
     {
-        WholeFile file(path);
+        AtomicFile file(path);
         part = file.part();
         write(part, "torn");
         file.keep_part();
@@ -75,33 +75,33 @@ TEST(WholeFile, KeepsAPartThatIsWorthSomething) {
     EXPECT_EQ(content(part), "torn");
 }
 
-TEST(WholeFile, SaysWhichFileCannotBeWritten) {
+TEST(AtomicFile, SaysWhichFileCannotBeWritten) {
     const TemporaryFolder folder;
     const fs::path path = folder / "no_folder" / "bone.nrrd";
-    EXPECT_THAT([&] { WholeFile(path).commit(); },
+    EXPECT_THAT([&] { AtomicFile(path).commit(); },
                 ThrowsMessage<std::runtime_error>(HasSubstr(path.string() + ": cannot be written: No such")));
-    EXPECT_THAT([&] { write_whole_file(path, "text"); },
+    EXPECT_THAT([&] { write_atomic_file(path, "text"); },
                 ThrowsMessage<std::runtime_error>(HasSubstr(path.string() + ": cannot be written: No such")));
 }
 
-TEST(WholeFile, ReplacesWhatALinkPointsTo) {
+TEST(AtomicFile, ReplacesWhatALinkPointsTo) {
     const TemporaryFolder folder;
     const fs::path real = folder / "real.json";
     const fs::path link = folder / "link.json";
     write(real, "old");
     fs::create_symlink("real.json", link);
-    write_whole_file(link, "new");
+    write_atomic_file(link, "new");
     EXPECT_TRUE(fs::is_symlink(link));
     EXPECT_EQ(content(real), "new");
 }
 
-TEST(WholeFile, IsWrittenThroughNoLinkInAFolderFromElsewhere) {
+TEST(AtomicFile, IsWrittenThroughNoLinkInAFolderFromElsewhere) {
     const TemporaryFolder folder;
     const fs::path precious = folder / "precious.txt";
     write(precious, "precious");
     for (const char* name : {"placement.part.toml", "placement.toml"})
         fs::create_symlink("precious.txt", folder / name);
-    write_whole_file(folder / "placement.toml", "new", Link::replace);
+    write_atomic_file(folder / "placement.toml", "new", Link::replace);
     EXPECT_EQ(content(precious), "precious");
     EXPECT_FALSE(fs::is_symlink(folder / "placement.toml"));
     EXPECT_EQ(content(folder / "placement.toml"), "new");
@@ -109,18 +109,18 @@ TEST(WholeFile, IsWrittenThroughNoLinkInAFolderFromElsewhere) {
     EXPECT_EQ(errno, EEXIST);
 }
 
-TEST(WholeFile, HasAPartOfANameThatNobodyKnowsBefore) {
+TEST(AtomicFile, HasAPartOfANameThatNobodyKnowsBefore) {
     const TemporaryFolder folder;
-    const WholeFile one(folder / "a.toml");
-    const WholeFile other(folder / "a.toml");
+    const AtomicFile one(folder / "a.toml");
+    const AtomicFile other(folder / "a.toml");
     EXPECT_NE(one.part(), other.part());
     EXPECT_EQ(one.part().extension(), ".toml");
     EXPECT_EQ(one.part().parent_path(), folder.path());
 }
 
-TEST(WholeFile, LosesThePartsOfProgramsThatWereKilledAndNoOthers) {
+TEST(AtomicFile, LosesThePartsOfProgramsThatWereKilledAndNoOthers) {
     const TemporaryFolder folder;
-    const WholeFile being_written(folder / "bone.nrrd");
+    const AtomicFile being_written(folder / "bone.nrrd");
     for (const char* name : {"bone.part-0123abcd.nrrd", "bone.part-kept.nrrd", "other.part-0123abcd.nrrd",
                              "bone.part-0123abcd.json", "bone.nrrd"})
         write(folder / name, "x");
@@ -131,18 +131,18 @@ TEST(WholeFile, LosesThePartsOfProgramsThatWereKilledAndNoOthers) {
     EXPECT_EQ(files_in(folder), 6) << "nothing else goes";
 }
 
-TEST(WholeFile, WritesToADeviceWithoutReplacingIt) {
-    write_whole_file("/dev/null", "text");
+TEST(AtomicFile, WritesToADeviceWithoutReplacingIt) {
+    write_atomic_file("/dev/null", "text");
     EXPECT_TRUE(fs::is_character_file("/dev/null"));
 }
 
-TEST(WriteWholeFile, LeavesTheOldFileOnAFullDisk) {
+TEST(WriteAtomicFile, LeavesTheOldFileOnAFullDisk) {
     const TemporaryFolder folder;
     const fs::path path = folder / "measurements.json";
     write(path, "old");
     {
         const FileSizeLimit limit(1000);
-        EXPECT_THAT([&] { write_whole_file(path, std::string(5000, 'x')); },
+        EXPECT_THAT([&] { write_atomic_file(path, std::string(5000, 'x')); },
                     ThrowsMessage<std::runtime_error>(HasSubstr("File too large")));
     }
     EXPECT_EQ(content(path), "old");
