@@ -3,6 +3,10 @@
 // grow in number, and are let go one by one as the bone is put together.
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
+#include <utility>
+
 #include "common/bone/bone.h"
 
 namespace osteomill {
@@ -62,5 +66,32 @@ class BoneBuilder {
     BrickPieces stiffness_;
     BrickPieces tissue_;
 };
+
+/// What one voxel holds; stiffness and tissue count where the bone has such a channel.
+struct VoxelValues {
+    std::uint8_t fraction = 0;
+    std::uint8_t stiffness = 0;  ///< its code
+    std::uint8_t tissue = 0;
+};
+
+/// The bone of which `values_of(voxel)` says each voxel of the builder's grid: a VoxelValues.
+template <typename ValuesOf>
+Bone filled(BoneBuilder builder, const Grid& grid, ValuesOf&& values_of) {
+    const glm::ivec3 size = size_in_bricks(grid);
+    for (BrickIndex index = 0; index < static_cast<BrickIndex>(size.x * size.y * size.z); ++index) {
+        const glm::ivec3 brick = brick_position(size, index);
+        ByteBrick fraction{}, stiffness{}, tissue{};
+        for (std::size_t offset = 0; offset < brick_voxel_count; ++offset) {
+            const glm::ivec3 voxel = brick_edge_voxels * brick + voxel_in_brick(offset);
+            if (!contains(grid, voxel)) continue;
+            const VoxelValues values = values_of(voxel);
+            fraction[offset] = values.fraction;
+            stiffness[offset] = values.stiffness;
+            tissue[offset] = values.tissue;
+        }
+        builder.add_brick(brick, fraction, &stiffness, &tissue);
+    }
+    return std::move(builder).build();
+}
 
 }  // namespace osteomill

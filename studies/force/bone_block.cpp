@@ -49,26 +49,11 @@ Bone voxelised(const BoneBlock& block, double spacing_mm) {
     };
     BoneBuilder builder = block.layer ? BoneBuilder::heterogeneous(grid, stiffness_per_code, false)
                                       : BoneBuilder::homogeneous(grid, 1.0, false);
-    const glm::ivec3 bricks = size_in_bricks(grid);
-    for (int z = 0; z < bricks.z; ++z)
-        for (int y = 0; y < bricks.y; ++y)
-            for (int x = 0; x < bricks.x; ++x) {
-                ByteBrick fraction{};
-                ByteBrick stiffness{};
-                for (int k = 0; k < brick_edge_voxels; ++k)
-                    for (int j = 0; j < brick_edge_voxels; ++j)
-                        for (int i = 0; i < brick_edge_voxels; ++i) {
-                            const glm::ivec3 voxel =
-                                glm::ivec3(x, y, z) * brick_edge_voxels + glm::ivec3(i, j, k);
-                            if (!contains(grid, voxel)) continue;
-                            const glm::dvec3 centre_mm = centre_of_voxel_mm(grid, voxel);
-                            const std::size_t offset = offset_in_brick(voxel);
-                            fraction[offset] = fraction_below(centre_mm, block.up, spacing_mm);
-                            if (block.layer) stiffness[offset] = code_of(centre_mm);
-                        }
-                builder.add_brick({x, y, z}, fraction, &stiffness, nullptr);
-            }
-    return std::move(builder).build();
+    return filled(std::move(builder), grid, [&](const glm::ivec3& voxel) {
+        const glm::dvec3 centre_mm = centre_of_voxel_mm(grid, voxel);
+        return VoxelValues{.fraction = fraction_below(centre_mm, block.up, spacing_mm),
+                           .stiffness = code_of(centre_mm)};
+    });
 }
 
 }  // namespace osteomill::study

@@ -22,21 +22,12 @@ inline std::uint8_t fraction_of_depth(double depth_mm, double spacing_mm) {
 
 /// A bone labelled by `label`, or homogeneous without labels where it is empty.
 inline Bone made_bone(const Grid& grid, const Depth& depth, const Label& label = {}) {
-    BoneBuilder builder = BoneBuilder::homogeneous(grid, 1.0, static_cast<bool>(label));
-    const glm::ivec3 size = size_in_bricks(grid);
-    for (int index = 0; index < size.x * size.y * size.z; ++index) {
-        const glm::ivec3 brick = brick_position(size, static_cast<BrickIndex>(index));
-        ByteBrick fraction{}, tissue{};
-        for (std::size_t offset = 0; offset < brick_voxel_count; ++offset) {
-            const glm::ivec3 voxel = brick * brick_edge_voxels + voxel_in_brick(offset);
-            if (!contains(grid, voxel)) continue;
-            const glm::dvec3 place = centre_of_voxel_mm(grid, voxel);
-            fraction[offset] = fraction_of_depth(depth(place), grid.spacing_mm);
-            if (label) tissue[offset] = label(place);
-        }
-        builder.add_brick(brick, fraction, nullptr, label ? &tissue : nullptr);
-    }
-    return std::move(builder).build();
+    return filled(BoneBuilder::homogeneous(grid, 1.0, static_cast<bool>(label)), grid,
+                  [&](const glm::ivec3& voxel) {
+                      const glm::dvec3 place = centre_of_voxel_mm(grid, voxel);
+                      return VoxelValues{.fraction = fraction_of_depth(depth(place), grid.spacing_mm),
+                                         .tissue = label ? label(place) : std::uint8_t{0}};
+                  });
 }
 
 /// Lowers the bone to what lies outside a sphere; returns what changed.

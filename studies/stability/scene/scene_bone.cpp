@@ -22,22 +22,8 @@ Bone full_block(const glm::dvec3& low_mm, const glm::dvec3& high_mm, double rela
     const Grid grid{.size_voxels = glm::ivec3(last - first),
                     .spacing_mm = scene_voxel_mm,
                     .origin_mm = (first + 0.5) * scene_voxel_mm};
-    BoneBuilder builder = BoneBuilder::homogeneous(grid, relative_stiffness, false);
-    const glm::ivec3 bricks = size_in_bricks(grid);
-    for (int z = 0; z < bricks.z; ++z)
-        for (int y = 0; y < bricks.y; ++y)
-            for (int x = 0; x < bricks.x; ++x) {
-                ByteBrick fraction{};
-                for (int k = 0; k < brick_edge_voxels; ++k)
-                    for (int j = 0; j < brick_edge_voxels; ++j)
-                        for (int i = 0; i < brick_edge_voxels; ++i) {
-                            const glm::ivec3 voxel =
-                                glm::ivec3(x, y, z) * brick_edge_voxels + glm::ivec3(i, j, k);
-                            if (contains(grid, voxel)) fraction[offset_in_brick(voxel)] = 255;
-                        }
-                builder.add_brick({x, y, z}, fraction, nullptr, nullptr);
-            }
-    return std::move(builder).build();
+    return filled(BoneBuilder::homogeneous(grid, relative_stiffness, false), grid,
+                  [](const glm::ivec3&) { return VoxelValues{.fraction = 255}; });
 }
 
 }  // namespace

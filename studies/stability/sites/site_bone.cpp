@@ -26,27 +26,14 @@ Bone site_bone(const SiteShape& shape) {
     const bool is_heterogeneous = static_cast<bool>(shape.relative_stiffness);
     BoneBuilder builder = is_heterogeneous ? BoneBuilder::heterogeneous(grid, stiffness_per_code, false)
                                            : BoneBuilder::homogeneous(grid, 1.0, false);
-    const glm::ivec3 bricks = size_in_bricks(grid);
-    for (int z = 0; z < bricks.z; ++z)
-        for (int y = 0; y < bricks.y; ++y)
-            for (int x = 0; x < bricks.x; ++x) {
-                ByteBrick fraction{};
-                ByteBrick stiffness{};
-                for (int i = 0; i < brick_edge_voxels * brick_edge_voxels * brick_edge_voxels; ++i) {
-                    const glm::ivec3 within(i % brick_edge_voxels, i / brick_edge_voxels % brick_edge_voxels,
-                                            i / (brick_edge_voxels * brick_edge_voxels));
-                    const glm::ivec3 voxel = glm::ivec3(x, y, z) * brick_edge_voxels + within;
-                    if (!contains(grid, voxel)) continue;
-                    const glm::dvec3 at_mm = grid.origin_mm + site_voxel_mm * glm::dvec3(voxel);
-                    const std::size_t offset = offset_in_brick(voxel);
-                    fraction[offset] = level(255.0 * (0.5 - shape.distance_mm(at_mm) / site_voxel_mm), 255.0);
-                    if (is_heterogeneous)
-                        stiffness[offset] =
-                            level(shape.relative_stiffness(at_mm) / stiffness_per_code, 255.0);
-                }
-                builder.add_brick({x, y, z}, fraction, is_heterogeneous ? &stiffness : nullptr, nullptr);
-            }
-    return std::move(builder).build();
+    return filled(std::move(builder), grid, [&](const glm::ivec3& voxel) {
+        const glm::dvec3 at_mm = grid.origin_mm + site_voxel_mm * glm::dvec3(voxel);
+        VoxelValues values{.fraction =
+                               level(255.0 * (0.5 - shape.distance_mm(at_mm) / site_voxel_mm), 255.0)};
+        if (is_heterogeneous)
+            values.stiffness = level(shape.relative_stiffness(at_mm) / stiffness_per_code, 255.0);
+        return values;
+    });
 }
 
 }  // namespace osteomill::study

@@ -20,21 +20,10 @@ constexpr double implant_top_mm = -1.0;
 /// 8 x 8 mm, its top at z = 0; from 1 mm down an implant.
 Bone bone_on_implant() {
     const Grid grid{.size_voxels = {80, 80, 32}, .spacing_mm = 0.1, .origin_mm = {-3.95, -3.95, -3.15}};
-    auto builder = BoneBuilder::homogeneous(grid, 1.0, true);
-    for (int z = 0; z < 2; ++z)
-        for (int y = 0; y < 5; ++y)
-            for (int x = 0; x < 5; ++x) {
-                ByteBrick full;
-                full.fill(255);
-                ByteBrick label;
-                for (std::size_t i = 0; i < brick_voxel_count; ++i) {
-                    const glm::ivec3 voxel = 16 * glm::ivec3(x, y, z) + voxel_in_brick(i);
-                    label[i] =
-                        centre_of_voxel_mm(grid, voxel).z < implant_top_mm ? implant_label : bone_label;
-                }
-                builder.add_brick({x, y, z}, full, nullptr, &label);
-            }
-    return std::move(builder).build();
+    return filled(BoneBuilder::homogeneous(grid, 1.0, true), grid, [&](const glm::ivec3& voxel) {
+        const bool is_implant = centre_of_voxel_mm(grid, voxel).z < implant_top_mm;
+        return VoxelValues{.fraction = 255, .tissue = is_implant ? implant_label : bone_label};
+    });
 }
 
 Scene implant_scene(const Burr& burr) {

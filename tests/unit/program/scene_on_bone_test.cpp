@@ -27,23 +27,13 @@ TEST(SceneOnBone, StartsOutsideTheBoneWhereItIsThinnestAndDrillsThere) {
 
 /// A box of bone with a ball of label 1 in it.
 Bone with_target(const Grid& grid, const glm::dvec3& target_mm) {
-    auto builder = BoneBuilder::homogeneous(grid, 1.0, true);
-    glm::ivec3 brick;
-    for (brick.z = 0; brick.z < size_in_bricks(grid).z; ++brick.z)
-        for (brick.y = 0; brick.y < size_in_bricks(grid).y; ++brick.y)
-            for (brick.x = 0; brick.x < size_in_bricks(grid).x; ++brick.x) {
-                ByteBrick fraction{}, tissue{};
-                for (std::size_t offset = 0; offset < brick_voxel_count; ++offset) {
-                    const glm::ivec3 v = brick_edge_voxels * brick + voxel_in_brick(offset);
-                    if (glm::any(glm::greaterThanEqual(v, grid.size_voxels))) continue;
-                    const glm::dvec3 at_mm = centre_of_voxel_mm(grid, v);
-                    const glm::dvec3 off_mm = glm::abs(at_mm);
-                    if (off_mm.x < 8.0 && off_mm.y < 8.0 && off_mm.z < 8.0) fraction[offset] = 255;
-                    tissue[offset] = glm::distance(at_mm, target_mm) < 1.5 ? 1 : 0;
-                }
-                builder.add_brick(brick, fraction, nullptr, &tissue);
-            }
-    return std::move(builder).build();
+    return filled(BoneBuilder::homogeneous(grid, 1.0, true), grid, [&](const glm::ivec3& voxel) {
+        const glm::dvec3 at_mm = centre_of_voxel_mm(grid, voxel);
+        const bool is_bone = glm::all(glm::lessThan(glm::abs(at_mm), glm::dvec3(8.0)));
+        const bool is_target = glm::distance(at_mm, target_mm) < 1.5;
+        return VoxelValues{.fraction = static_cast<std::uint8_t>(is_bone ? 255 : 0),
+                           .tissue = static_cast<std::uint8_t>(is_target ? 1 : 0)};
+    });
 }
 
 TEST(SceneOnBone, LooksAtItsTargetFromTheNearestFreeSide) {

@@ -16,19 +16,9 @@ namespace {
 constexpr glm::dvec3 far_origin_mm{-161.37, 1024.43, 1873.91};
 
 Bone bone_of(const Grid& grid, const std::function<int(const glm::ivec3&)>& fraction) {
-    auto builder = BoneBuilder::homogeneous(grid, 1.0, false);
-    const glm::ivec3 bricks = size_in_bricks(grid);
-    for (int z = 0; z < bricks.z; ++z)
-        for (int y = 0; y < bricks.y; ++y)
-            for (int x = 0; x < bricks.x; ++x) {
-                ByteBrick brick{};
-                for (std::size_t offset = 0; offset < brick_voxel_count; ++offset) {
-                    const glm::ivec3 voxel = brick_edge_voxels * glm::ivec3(x, y, z) + voxel_in_brick(offset);
-                    if (contains(grid, voxel)) brick[offset] = static_cast<std::uint8_t>(fraction(voxel));
-                }
-                builder.add_brick({x, y, z}, brick, nullptr, nullptr);
-            }
-    return std::move(builder).build();
+    return filled(BoneBuilder::homogeneous(grid, 1.0, false), grid, [&](const glm::ivec3& voxel) {
+        return VoxelValues{.fraction = static_cast<std::uint8_t>(fraction(voxel))};
+    });
 }
 
 void expect_closed(const SurfaceMesh& mesh) {
