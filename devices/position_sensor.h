@@ -1,4 +1,4 @@
-// What a driver knows of the arm's motion: position in whole encoder steps and, from those, a velocity.
+// An arm's motion as its driver knows it: position in whole encoder steps and, from those, a velocity.
 //
 //     v <- v + dt / (tau + dt) ((x_k - x_{k-1}) / dt - v),   x quantised, tau = 5 ms
 //

@@ -1,4 +1,4 @@
-// What every reader and writer of images throws: one line that names the file and the reason.
+// Error that every reader and writer of images throws: one line that names the file and the reason.
 #pragma once
 
 #include <filesystem>

@@ -1,4 +1,4 @@
-// How much memory an import takes, known before it starts.
+// Estimate of the memory that an import takes, known before it starts.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// How far a long piece of work has come, on standard error: a bar on a terminal, else a line every 10 %.
+// Progress of a long piece of work, on standard error: a bar on a terminal, else a line every 10 %.
 #pragma once
 
 #include <functional>

@@ -1,4 +1,4 @@
-// What a calibration leaves behind: its numbers, its residuals, a scene fragment.
+// Report of a calibration: its numbers, its residuals, a scene fragment.
 #pragma once
 
 #include <nlohmann/json.hpp>

@@ -1,4 +1,4 @@
-// What a recording sounds like, as a WAV file: mono, 48 kHz, 16 bits; the same recording makes the same
+// Sound of a recording, as a WAV file: mono, 48 kHz, 16 bits; the same recording makes the same
 // bytes.
 #pragma once
 

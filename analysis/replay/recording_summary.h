@@ -1,4 +1,4 @@
-// What a recording holds, in numbers: what packet_replay --info says.
+// Contents of a recording in numbers, as packet_replay --info says them.
 #pragma once
 
 #include <cstdint>

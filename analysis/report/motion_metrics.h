@@ -1,4 +1,4 @@
-// How the hand moved: time, idle time, path, smoothness. Definitions: docs/metrics.md.
+// Metrics of the hand's motion: time, idle time, path, smoothness. Definitions: docs/metrics.md.
 #pragma once
 
 #include <optional>

@@ -1,4 +1,4 @@
-// How far a place is from the nearest of many (Boost.Geometry's R-tree).
+// Distance of a place from the nearest of many (Boost.Geometry's R-tree).
 #pragma once
 
 #include <glm/vec3.hpp>

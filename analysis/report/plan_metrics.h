@@ -1,4 +1,4 @@
-// What was removed against what was planned.
+// Metrics of a plan: bone removed against bone planned.
 //
 // The planned region is the bone at the start of the plan's tissue, or with its voxel's centre in the plan's
 // sphere or cylinder; the cavity is the bone of which more than half a voxel went. Their

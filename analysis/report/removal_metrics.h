@@ -1,4 +1,4 @@
-// What was removed, of which tissue and by which burr; what was undone is not counted as removed.
+// Bone removed, of which tissue and by which burr; what was undone is not counted as removed.
 #pragma once
 
 #include <span>

@@ -1,4 +1,4 @@
-// What a recording tells of a session, sample by sample: tool, force, and what each frame took of which
+// Trace of a session, sample by sample, from its recording: tool, force, and what each frame took of which
 // tissue.
 //
 // Sample i stands for the interval from sample i - 1 to itself, dt = t_i - t_(i-1); the first has none. Times

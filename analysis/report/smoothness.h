@@ -1,4 +1,4 @@
-// How smooth a motion is: its log dimensionless jerk, of positions at a rate of 30 Hz or so.
+// Smoothness of a motion: its log dimensionless jerk, of positions at a rate of 30 Hz or so.
 //
 //     LDLJ = -ln( T^3 / v_peak^2 * integral over T of |d^3 x / dt^3|^2 dt )
 //

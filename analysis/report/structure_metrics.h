@@ -1,7 +1,7 @@
-// How near the burr came to each protected structure, when it touched it, for how long, and how much of it
+// Nearness of the burr to each protected structure, when it touched it, for how long, and how much of it
 // went.
 //
-// A structure is where the recording says it is, or else where the bone bears its tissue's label. Distances
+// A structure is where the recording says it is, or else where the bone has its tissue's label. Distances
 // are from the burr's head, whatever its shape, to the structure, at the states of the recording
 // (structure_watch.h): the very numbers of the live session.
 #pragma once

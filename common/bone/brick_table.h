@@ -1,5 +1,5 @@
-// Which slot holds a brick: a hash table that costs memory for bricks that are stored, not for the grid round
-// them.
+// Slot of each stored brick: a hash table that costs memory for bricks that are stored, not for the grid
+// round them.
 //
 // Open addressing with linear probing, at most half full, so a look-up touches one cache line nearly always.
 // Hash: Fibonacci's multiply-shift (Knuth, The Art of Computer Programming 3, 6.4), which spreads neighbours

@@ -1,4 +1,4 @@
-// How far any point is from a structure, looked up in a table: in bricks near the structure only.
+// Distance of any point from a structure, looked up in a table: in bricks near the structure only.
 //
 // The structure is the union of its voxels' cubes: zero inside them, and distances are to their faces. At
 // every voxel centre within reach the squared distance is exact, by a transform along one axis after the

@@ -1,4 +1,4 @@
-// Whether a vector holds numbers.
+// Check that a vector holds finite numbers.
 #pragma once
 
 #include <cmath>

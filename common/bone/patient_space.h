@@ -1,4 +1,4 @@
-// What a place and a direction in patient space may be, whoever says it: a file, a peer or an option.
+// Bounds of positions and directions in patient space, whatever they come from: a file, a peer or an option.
 #pragma once
 
 #include <glm/geometric.hpp>

@@ -1,4 +1,4 @@
-// The structure that bears a tissue's label in a bone: where nothing else says where it is.
+// The structure that has a tissue's label in a bone: where nothing else says where it is.
 #pragma once
 
 #include <cstdint>

@@ -73,7 +73,7 @@ void remove_abandoned_parts(const std::filesystem::path& path, Link link = Link:
 /// Replaces the file by `text` as a whole. Throws std::runtime_error as AtomicFile does.
 void write_atomic_file(const std::filesystem::path& path, std::string_view text, Link link = Link::follow);
 
-/// Opens a file to write that nothing bears the name of yet; -1 and errno where that cannot be, EEXIST for
+/// Opens a file to write whose name nothing has yet; -1 and errno where that cannot be, EEXIST for
 /// whatever is there, a link, too.
 int open_new(const std::filesystem::path& path);
 

@@ -1,4 +1,4 @@
-// Whether a file lies within a folder, wherever links lead.
+// Check that a file lies within a folder, wherever links lead.
 #pragma once
 
 #include <filesystem>

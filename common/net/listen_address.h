@@ -1,4 +1,4 @@
-// Where a server listens, as typed on the command line.
+// Address at which a server listens, as typed on the command line.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// Whether a program may show itself with its certificate and key, asked before anybody connects: what is
+// Check of a program's own certificate and key, made before anybody connects: what is
 // wrong here would else come up as a refusal at the other end, or never.
 #pragma once
 

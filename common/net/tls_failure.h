@@ -1,4 +1,4 @@
-// What went wrong with a connection, in words about the other end ("it shows no certificate").
+// Reason why a TLS connection failed, in words about the other end ("it shows no certificate").
 #pragma once
 
 #include <openssl/ssl.h>

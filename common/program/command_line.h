@@ -1,4 +1,4 @@
-// What a command line asks for.
+// Outcome of parsing a command line.
 #pragma once
 
 #include <CLI/CLI.hpp>

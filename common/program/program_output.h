@@ -1,4 +1,4 @@
-// What a program says on its standard output and standard error while it runs. Neither can hold it up.
+// Lines of a program on its standard output and standard error while it runs. Neither can hold it up.
 #pragma once
 
 #include <unistd.h>

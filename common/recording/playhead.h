@@ -41,7 +41,7 @@ class Playhead {
     /// What the last state frame said; before the first it says nothing.
     const SessionState& state() const { return state_; }
     /// The protected structures of the session of which the recording says where they are; the others are
-    /// where the bone bears their label. All that follow the bone at once are there with it.
+    /// where the bone has their label. All that follow the bone at once are there with it.
     const std::vector<Structure>& structures() const { return structures_; }
     /// What the state frame that was applied last changed; the one that would come next, if one would.
     const std::vector<ChangedBrick>& changes() const { return changes_; }

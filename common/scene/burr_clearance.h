@@ -1,4 +1,4 @@
-// How far a burr is from a structure: from its head's surface to the structure's, at a pose.
+// Clearance of a burr from a structure: from its head's surface to the structure's, at a pose.
 //
 // Of a ball, the distance of its centre less its radius. Of any other head, the least over balls that fill
 // it, in layers from its surface inwards, a tenth of its diameter apart there and at most 0.25 mm: off by no

@@ -1,5 +1,5 @@
-// How much stronger edges rub in each tissue than its stiffness says: what the edge forces of a scene whose
-// tissues differ in it are weighed by.
+// Factors by which edges rub stronger in a tissue than its stiffness says: by them the edge forces of a scene
+// whose tissues differ in it are weighed by.
 #pragma once
 
 #include <algorithm>

@@ -1,5 +1,5 @@
-// What an operator's hand may ask of a tool. The server holds everybody to it, in its haptic tick; a client
-// keeps its own target within reach, too, so that a mouse that comes back moves the tool at once.
+// Limits of what an operator's hand may ask of a tool. The server holds everybody to it, in its haptic tick;
+// a client keeps its own target within reach, too, so that a mouse that comes back moves the tool at once.
 #pragma once
 
 namespace osteomill {

@@ -1,4 +1,4 @@
-// What an operator without an arm wants, the one type for it from the mouse to the device.
+// Command of an operator without an arm, the one type for it from the mouse to the device.
 #pragma once
 
 #include <cstddef>

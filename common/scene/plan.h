@@ -8,7 +8,7 @@
 
 namespace osteomill {
 
-/// Every voxel that bears this tissue.
+/// Every voxel of this tissue.
 struct TissueRegion {
     std::string tissue{};
 

@@ -1,4 +1,4 @@
-// What can be done to a session besides moving the tool, what came of it, and what can be done now. Plain
+// Controls of a session besides moving the tool, what came of it, and what can be done now. Plain
 // data; on the wire these are the messages SessionControl, SessionEvent and SessionStatus.
 #pragma once
 

@@ -1,4 +1,4 @@
-// What is looked at before a TOML file is parsed: toml++ makes a table within a table for every dot of a key,
+// Check of a TOML file before it is parsed: toml++ makes a table within a table for every dot of a key,
 // and calls itself to take them down again, which a key of many dots turns into a crash.
 #pragma once
 

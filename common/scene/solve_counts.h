@@ -1,4 +1,4 @@
-// How a coupling's contact solves ended since the start of a session: what was left over, and how often the
+// Outcomes of a coupling's contact solves since the start of a session: what was left over, and how often the
 // plain one did not do.
 #pragma once
 

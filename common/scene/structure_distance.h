@@ -1,5 +1,5 @@
-// Where the burr is to a protected structure, and what came of it so far. Plain data; on the wire it is the
-// message of that name.
+// Distance of the burr from a protected structure, and what came of it so far. Plain data; on the wire it is
+// the message of that name.
 #pragma once
 
 #include <algorithm>

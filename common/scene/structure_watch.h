@@ -5,7 +5,7 @@
 // (burr_clearance.h): within half a voxel for a ball. A touch is where they overlap, or bone of the structure
 // was milled since the state before. State i stands for the time since state i - 1. What the head has entered
 // are the structure's voxels whose centre lay inside it at a state. Bone of the structure is what lies in its
-// mask and what bears its tissue's label, such as the voxels of its surface that are bone by less than half.
+// mask and what has its tissue's label, such as the voxels of its surface that are bone by less than half.
 //
 // Costs a distance field for each structure, and a mask of what was entered once it is touched. Not for the
 // haptic loop: it allocates.

@@ -1,4 +1,4 @@
-// What there is to hear of a tool: which notes its spindle makes, and how hard it works.
+// Cues for the sound of a tool: which notes its spindle makes, and how hard it works.
 #pragma once
 
 #include "common/scene/tool_state.h"

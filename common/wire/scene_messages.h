@@ -1,4 +1,4 @@
-// What a scene and its tool look like to a client, in and out of messages.
+// Scene and tool as a client sees them, in and out of messages.
 #pragma once
 
 #include <optional>

@@ -1,4 +1,4 @@
-// What a server says of itself and its scene when a client joins. Plain data.
+// Description of a server and its scene, as a joining client gets it. Plain data.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// Whether two states of a tool look the same to whoever is shown them.
+// Check that two states of a tool look the same to whoever is shown them.
 #pragma once
 
 #include "common/scene/tool_state.h"

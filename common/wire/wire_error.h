@@ -1,4 +1,4 @@
-// Why something that came over the wire was refused: one line for people, fit for a log.
+// Reason why something that came over the wire was refused: one line for people, fit for a log.
 #pragma once
 
 #include <string>

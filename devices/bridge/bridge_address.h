@@ -1,4 +1,4 @@
-// Where the server meets an arm that lives in a process of its own.
+// Address at which the server meets an arm that lives in a process of its own.
 #pragma once
 
 #include <filesystem>

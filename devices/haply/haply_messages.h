@@ -1,4 +1,4 @@
-// What Haply's local service and a program say to each other: JSON in WebSocket messages (docs.haply.co,
+// Messages between Haply's local service and a program: JSON in WebSocket messages (docs.haply.co,
 // Inverse SDK, "WebSocket Protocol", versions 3.1 to 3.5). The service states all devices at once when a
 // program connects, and then once for each message of the program:
 //

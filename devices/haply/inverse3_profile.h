@@ -1,4 +1,4 @@
-// What is particular to Haply's Inverse3, of what coupling and mapping want to know of an arm.
+// Figures of Haply's Inverse3, of what coupling and mapping want to know of an arm.
 //
 // Axes, as the service has them by default: right-handed, x to the right, y away from the user, z up, the
 // origin at the base (docs.haply.co, Inverse SDK 3.5, "Basis Permutation"). Device space is the same in mm.

@@ -1,4 +1,4 @@
-// What is particular to one haptic arm: its geometry, motors, encoders, limits. Read from TOML by
+// Profile of one haptic arm: its geometry, motors, encoders, limits. Read from TOML by
 // profile_file.h; shipped ones are in devices/.
 #pragma once
 

@@ -1,4 +1,4 @@
-// What `haptic_server --list-devices` prints.
+// List of devices that `haptic_server --list-devices` prints.
 #pragma once
 
 #include <string>

@@ -1,4 +1,4 @@
-// What the one switch on a stylus asks for: the pedal, or, where the profile lets it, the clutch. Pressed it
+// Meaning of the one switch on a stylus: the pedal, or, where the profile lets it, the clutch. Pressed it
 // is the pedal. Pressed twice within double_press_s and held it is the clutch, until it is let go.
 #pragma once
 

@@ -1,4 +1,4 @@
-// What an OpenIGTLink stream says of one tracked tool: its TRANSFORM messages and the STRING messages of a
+// Reader of one tracked tool from an OpenIGTLink stream: its TRANSFORM messages and the STRING messages of a
 // pedal, out of the bytes as they come. Headers, byte order and CRC are libopenigtlink's (openigtlink.org,
 // protocol versions 1 to 3: of the later ones the extended header and the metadata are passed over). Messages
 // of other types and names are skipped without being kept, whatever they hold.

@@ -1,4 +1,4 @@
-// What the command line of haptic_server says of the device that moves the tool.
+// Options of haptic_server for the device that moves the tool.
 #pragma once
 
 #include <CLI/CLI.hpp>

@@ -1,4 +1,4 @@
-// What a session measured, as JSON. The keys are fixed by the design; others may join them.
+// Measurements of a session, as JSON. The keys are fixed by the design; others may join them.
 #pragma once
 
 #include <filesystem>

@@ -1,4 +1,4 @@
-// How much memory the system has given this program.
+// Memory that the system has given this program.
 #pragma once
 
 #include <cstdint>

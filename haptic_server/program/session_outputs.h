@@ -1,4 +1,4 @@
-// What a session leaves behind: the bone, logs, the recording, measurements and a report.
+// Outputs of a session: the bone, logs, the recording, measurements and a report.
 #pragma once
 
 #include <chrono>

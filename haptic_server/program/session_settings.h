@@ -1,4 +1,4 @@
-// What a session was run with, by name: in --json under "settings", and in the hello of every client and
+// Settings of a session, by name: in --json under "settings", and in the hello of every client and
 // recording.
 #pragma once
 

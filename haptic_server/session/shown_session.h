@@ -1,4 +1,4 @@
-// What shows a session to clients and records it, and lets them control it.
+// Part of a session that shows it to clients, records it, and lets them control it.
 #pragma once
 
 #include <cstdint>

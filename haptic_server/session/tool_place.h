@@ -1,4 +1,4 @@
-// Where a tool can stand that somebody wants at a place of the bone.
+// Nearest pose at which a tool can stand when it is wanted at a place of the bone.
 #pragma once
 
 #include <optional>

@@ -1,4 +1,4 @@
-// Who may connect to a server, as typed on the command line: the same for all programs that serve.
+// Options of who may connect to a server, as typed on the command line: the same for all programs that serve.
 #pragma once
 
 #include <memory>

@@ -1,4 +1,4 @@
-// How old the news is that a client's operator acts on: each input names the newest state frame that its
+// Age of the news that a client's operator acts on: each input names the newest state frame that its
 // client had seen, and this remembers when what those frames said was last true. So both directions of the
 // link are measured by the server's clock alone: an input that was long under way and a client whose picture
 // is old look alike, and neither may move the tool.

@@ -1,4 +1,4 @@
-// What the log says of who moves the tool.
+// Log lines about who moves the tool.
 #pragma once
 
 #include <fmt/format.h>

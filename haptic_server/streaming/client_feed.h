@@ -1,4 +1,4 @@
-// What one client is sent, frame by frame: hello, a snapshot, state frames, goodbye. No sockets, no clock.
+// Feed of one client, frame by frame: hello, a snapshot, state frames, goodbye. No sockets, no clock.
 //
 // The snapshot is taken from the mirror piece by piece, only as fast as the client reads, while milling goes
 // on. A change to a brick that has not been sent yet needs no mention: it will be sent as it then is. A

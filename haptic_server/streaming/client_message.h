@@ -1,4 +1,4 @@
-// What a server does with what a client sends. No sockets, no clock.
+// Handling of the messages that a client sends. No sockets, no clock.
 #pragma once
 
 #include <functional>

@@ -1,4 +1,4 @@
-// Who of several clients may control a session whose tool none of them moves, such as one with an arm: the
+// Lease on the controls of a session whose tool none of them moves, such as one with an arm: the
 // first who does something, until it leaves or has rested for half a minute. Where a client moves the tool
 // the lease on that decides instead (control_lease.h).
 #pragma once

@@ -1,4 +1,4 @@
-// How much a state frame may say to one client, so that its link has taken it after a quarter of a second:
+// Budget of a state frame for one client, so that its link has taken it after a quarter of a second:
 // over a slow one the tool is sent often, and the bone piece by piece, rather than all of it late.
 #pragma once
 

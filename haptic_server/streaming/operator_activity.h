@@ -1,4 +1,4 @@
-// Whether the one who moves the tool does anything with it, or only keeps its lease.
+// Activity of the one who moves the tool: whether anything is done with it, or only keeps its lease.
 #pragma once
 
 #include <chrono>

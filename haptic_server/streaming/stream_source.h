@@ -1,4 +1,4 @@
-// What a streaming server shows: a session that is going on, or a recording of one.
+// Source that a streaming server shows: a session that is going on, or a recording of one.
 #pragma once
 
 #include <cstddef>

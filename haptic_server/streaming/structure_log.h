@@ -1,4 +1,4 @@
-// What a log says of protected structures: a line where the burr comes within the distance at which a
+// Log lines about protected structures: a line where the burr comes within the distance at which a
 // structure is to be warned of, and one where it begins to touch it.
 //
 // Who hovers at the limit is named once: a structure that was warned of has to be left by half as much again

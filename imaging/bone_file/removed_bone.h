@@ -1,4 +1,4 @@
-// What was removed of a bone, as a picture: for each voxel how much of it is gone.
+// Removed part of a bone, as an image: for each voxel how much of it is gone.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// How much bone was removed by tissue, as a saved bone says of all sessions before: what is gone can no
+// Volumes of bone removed by tissue, as a saved bone says of all sessions before: what is gone can no
 // longer be counted.
 #pragma once
 

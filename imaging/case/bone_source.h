@@ -36,7 +36,7 @@ struct LoadedBone {
 /// Makes the phantom or reads the file, slice by slice. For a file the threshold is the scene's, or the
 /// file's own, or the default of 300 HU. Throws std::runtime_error with one line naming the file, also where
 /// it holds no bone at all, or more than fits in `available_memory_bytes`, where known; naming the tissue,
-/// where the scene has one that no voxel bears.
+/// where the scene has one that no voxel has.
 LoadedBone load_bone(const Scene& scene, std::optional<std::uint64_t> available_memory_bytes = std::nullopt);
 
 /// Saves what is left of a bone together with the CT numbers of its source (carved_bone.h), which may be the

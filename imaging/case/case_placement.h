@@ -1,5 +1,5 @@
-// Where the tool was put last in a case (the window's Place): placement.toml in its folder. The next session
-// of the case begins there, instead of at the scene's start pose.
+// Position of the tool that was chosen last in a case (the window's Place): placement.toml in its folder. The
+// next session of the case begins there, instead of at the scene's start pose.
 #pragma once
 
 #include <filesystem>

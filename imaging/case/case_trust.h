@@ -1,4 +1,4 @@
-// What of a case is believed, which may be from elsewhere: it reads no file outside its folder, and what of
+// Trust in a case, which may be from elsewhere: it reads no file outside its folder, and what of
 // it has no digest is said.
 #pragma once
 

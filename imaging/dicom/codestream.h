@@ -1,4 +1,4 @@
-// What JPEG 2000, JPEG and JPEG-LS say of an image in their own header, beside what the DICOM around them
+// An image as JPEG 2000, JPEG and JPEG-LS describe it in their own header, beside what the DICOM around them
 // says.
 #pragma once
 

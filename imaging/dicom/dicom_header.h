@@ -1,4 +1,4 @@
-// What one DICOM file's header says about its image. GDCM stays behind this.
+// Header of one DICOM file, as far as it is about its image. GDCM stays behind this.
 #pragma once
 
 #include <filesystem>

@@ -1,4 +1,4 @@
-// Whether the image that a DICOM file describes is one that can be decoded, and is of CT numbers.
+// Check that the image that a DICOM file describes is one that can be decoded, and is of CT numbers.
 #pragma once
 
 #include <string>

@@ -1,4 +1,4 @@
-// Which DICOM series a folder holds, and which one to take.
+// DICOM series that a folder holds, and the one to take.
 #pragma once
 
 #include <filesystem>

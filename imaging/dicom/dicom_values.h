@@ -1,4 +1,4 @@
-// What the stored pixels of a DICOM image mean: a rescale or a table to HU, and which of them were not
+// Meaning of the stored pixels of a DICOM image: a rescale or a table to HU, and which of them were not
 // measured.
 #pragma once
 

@@ -1,5 +1,5 @@
-// Where the slices of a DICOM series lie, and whether together they make a volume. Pure functions of what the
-// headers say: no files.
+// Positions of the slices of a DICOM series, and whether together they make a volume. Pure functions of what
+// the headers say: no files.
 #pragma once
 
 #include <glm/mat3x3.hpp>

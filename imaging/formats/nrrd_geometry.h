@@ -1,4 +1,4 @@
-// How a NRRD lies in the patient: its space, axes, units and origin, turned to patient LPS and mm.
+// Geometry of a NRRD in the patient: its space, axes, units and origin, turned to patient LPS and mm.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// What the bytes of a voxel mean.
+// Meaning of the bytes of a voxel.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// How deep in bone each pixel of one slice of a scan lies, measured within the slice: the distance from the
+// Depth in bone of each pixel of one slice of a scan, measured within the slice: the distance from the
 // contour HU = threshold, mm, positive in bone, negative outside. Right to a small part of a pixel, since the
 // contour runs between the pixels as their HU say.
 #pragma once

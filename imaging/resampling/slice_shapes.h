@@ -1,4 +1,4 @@
-// How bone's contour moves from slice to slice, where a scan's slices lie further apart than its pixels.
+// Motion of bone's contour from slice to slice, where a scan's slices lie further apart than its pixels.
 // There a surface that leans towards the slices moves on, from one slice to the next, by more than its edge
 // is blurred, and HU blended between the two would make a stair of each slice. So between slices the depth in
 // bone is blended instead, and HU are taken from where the slices have that depth. S. P. Raya and J. K.

@@ -1,4 +1,4 @@
-// How old what a client shows is, from the server's stamps.
+// Age of what a client shows, from the server's stamps.
 //
 // A stamp is the server's wall clock. On one machine the delay is what it says; between two it is off by as
 // much as their clocks are, and may be negative. What it lies over the least of this session is right

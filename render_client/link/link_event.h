@@ -1,4 +1,4 @@
-// What the receiving thread hands to the UI thread, in the order in which it came.
+// Events that the receiving thread hands to the UI thread, in the order in which it came.
 #pragma once
 
 #include <cstdint>

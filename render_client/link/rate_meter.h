@@ -1,4 +1,4 @@
-// How fast a counter grows, over windows of one second.
+// Rate at which a counter grows, over windows of one second.
 #pragma once
 
 #include <chrono>

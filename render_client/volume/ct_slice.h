@@ -50,7 +50,7 @@ struct HuWindow {
     bool operator==(const HuWindow&) const = default;
 };
 
-/// A tissue whose border is drawn: where its mask is, or where the bone bears its label.
+/// A tissue whose border is drawn: where its mask is, or where the bone has its label.
 struct SliceTissue {
     std::uint8_t label = 0;
     std::array<std::uint8_t, 3> colour_rgb{};

@@ -1,4 +1,4 @@
-// Which point of the bone's surface a person has clicked on.
+// Point of the bone's surface under a click.
 #pragma once
 
 #include <optional>

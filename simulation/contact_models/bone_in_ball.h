@@ -1,4 +1,4 @@
-// Whether bone lies in a ball: in a burr, or in one that would like to be in its place.
+// Check for bone in a ball: in a burr, or in one that would like to be in its place.
 #pragma once
 
 #include "common/bone/bone.h"

@@ -1,5 +1,5 @@
-// What an arm can do, in its own space and in the patient's: two types, so that one is not taken for the
-// other. arm_scale.h says how a figure converts.
+// Limits of what an arm can do, in its own space and in the patient's: two types, so that one is not taken
+// for the other. arm_scale.h says how a figure converts.
 #pragma once
 
 #include "common/scene/arm_scale.h"

@@ -1,4 +1,4 @@
-// Where bone begins in front of each of a burr's patches: the inner loop of an engagement map, eight patches
+// Bone's surface in front of each of a burr's patches: the inner loop of an engagement map, eight patches
 // at a time.
 #pragma once
 

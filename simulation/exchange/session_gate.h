@@ -1,4 +1,4 @@
-// What whoever looks after a session tells the haptic loop: how fast the spindle turns, and whether to hold
+// Instructions of a session's keeper to the haptic loop: how fast the spindle turns, and whether to hold
 // still. While it does, there is neither force nor spindle, and nothing but undo changes the bone.
 #pragma once
 

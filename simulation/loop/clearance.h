@@ -1,4 +1,4 @@
-// Whether a burr and its shank stand clear of the bone, as the milling loop last saw it.
+// Check that a burr and its shank stand clear of the bone, as the milling loop last saw it.
 #pragma once
 
 #include <glm/vec3.hpp>

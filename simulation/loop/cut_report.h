@@ -1,6 +1,6 @@
-// What the edges cut, told fifty times a second for people to hear: force, ripple within the tooth period,
-// stiffness of the bone, and what the load leaves of the motor's speed. Made by the milling loop from the
-// results that it publishes anyway; nothing that is felt comes of it.
+// Report of what the edges cut, fifty times a second for people to hear: force, ripple within the tooth
+// period, stiffness of the bone, and what the load leaves of the motor's speed. Made by the milling loop from
+// the results that it publishes anyway; nothing that is felt comes of it.
 //
 // A patch p of the burr's surface that touches bone and moves toward it cuts f_p, as an edge rubs there and
 // takes its chip (Engagement). An edge passes its azimuth psi_p once a tooth period, so that the force within

@@ -1,4 +1,4 @@
-// What a thread needs of the system to be in time: memory that is there, and a processor.
+// Means of the system for a thread to be in time: memory that is there, and a processor.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// How the system schedules the threads of the loops.
+// Scheduling of the threads of the loops.
 #pragma once
 
 namespace osteomill {

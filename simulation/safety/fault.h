@@ -1,4 +1,4 @@
-// What turns the force off.
+// Faults that turn the force off.
 #pragma once
 
 #include <array>

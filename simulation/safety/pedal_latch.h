@@ -1,5 +1,5 @@
-// Whether the spindle may turn, by what the device says of its pedal: the one place that believes a pedal,
-// for every device.
+// Latch that says whether the spindle may turn, by what the device says of its pedal: the one place that
+// believes a pedal, for every device.
 //
 //             the statement has lapsed, or permission is withdrawn
 //   free ---------------------------------------------------------> locked

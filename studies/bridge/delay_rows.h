@@ -1,5 +1,5 @@
-// Where the default coupling holds with an arm behind the bridge, by what the way takes: with all of the
-// arm's own stiffness, and with what the server chooses for the delay.
+// Range in which the default coupling holds with an arm behind the bridge, by what the way takes: with all of
+// the arm's own stiffness, and with what the server chooses for the delay.
 #pragma once
 
 #include <functional>

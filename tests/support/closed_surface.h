@@ -1,5 +1,5 @@
-// Whether triangles close a volume, for tests: by their points' numbers, or by where the points are, which is
-// all that a reader of STL has.
+// Check that triangles close a volume, for tests: by their points' numbers, or by where the points are, which
+// is all that a reader of STL has.
 #pragma once
 
 #include <array>

@@ -1,4 +1,4 @@
-// What can be wrong with a document without anybody noticing: links that lead nowhere, paths that are no
+// Checks for faults of a document that nobody notices: links that lead nowhere, paths that are no
 // more, commands whose options no program has.
 #pragma once
 

@@ -1,4 +1,4 @@
-// What a server wrote with --log-csv, and other files of numbers.
+// Files that a server wrote with --log-csv, and other files of numbers.
 #pragma once
 
 #include <cstdlib>

@@ -1,4 +1,4 @@
-// What the loop makes of a device's pedal: the latch of safety/pedal_latch.h on a device that a test reads by
+// A device's pedal as the loop takes it: the latch of safety/pedal_latch.h on a device that a test reads by
 // itself.
 #pragma once
 

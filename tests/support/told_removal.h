@@ -1,4 +1,5 @@
-// What a server that runs has told: how often it has said something in its log, and the bone that it removed.
+// Log of a running server, as a test follows it: how often it has said something in its log, and the bone
+// that it removed.
 #pragma once
 
 #include <filesystem>

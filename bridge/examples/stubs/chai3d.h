@@ -1,4 +1,4 @@
-// What chai3d_arm.cpp uses of CHAI3D, so that it is compiled without it. No code of its authors.
+// The part of CHAI3D that chai3d_arm.cpp uses, so that it is compiled without it. No code of its authors.
 #pragma once
 
 #include <memory>

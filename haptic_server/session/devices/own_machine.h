@@ -1,4 +1,4 @@
-// What a device's server must be that proves nothing of itself: on this machine.
+// Check that a device's server that proves nothing of itself is on this machine.
 #pragma once
 
 #include <fmt/format.h>

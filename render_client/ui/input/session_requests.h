@@ -1,4 +1,4 @@
-// What a person asked for with buttons on the panels, for the window to pass on once a frame is drawn.
+// Requests that a person made with buttons on the panels, for the window to pass on once a frame is drawn.
 #pragma once
 
 #include <cstddef>

@@ -1,4 +1,4 @@
-// What a person reads of protected structures: how near the nearest is, and what was touched.
+// Texts about protected structures: how near the nearest is, and what was touched.
 #pragma once
 
 #include "render_client/ui/panels/panel_text.h"

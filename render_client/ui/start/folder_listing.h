@@ -1,4 +1,4 @@
-// What lies in a folder, for a person who looks for a scan.
+// Listing of a folder, for a person who looks for a scan.
 #pragma once
 
 #include <filesystem>

@@ -1,4 +1,4 @@
-// What a person fills in to make a case of a scan, and the commands that follow from it.
+// Form that a person fills in to make a case of a scan, and the commands that follow from it.
 #pragma once
 
 #include <filesystem>

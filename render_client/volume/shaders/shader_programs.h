@@ -1,4 +1,4 @@
-// Which files each shader program is made of: one table.
+// Table of the files that each shader program is made of.
 #pragma once
 
 #include <array>

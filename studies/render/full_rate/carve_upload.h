@@ -1,4 +1,4 @@
-// What a bone's textures hold and what it costs to take a carve over into them.
+// Contents of a bone's textures, and what it costs to take a carve over into them.
 #pragma once
 
 #include <string>

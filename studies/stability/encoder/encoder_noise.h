@@ -1,4 +1,4 @@
-// What the steps of an arm's encoders do to the force that its hand feels: the tooth scene, milled with one
+// Effect of the steps of an arm's encoders on the force that its hand feels: the tooth scene, milled with one
 // arm after another.
 #pragma once
 

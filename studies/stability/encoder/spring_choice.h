@@ -1,4 +1,4 @@
-// What a stiffer spring brings and costs each shipped arm, beside the spring that it gets: bandwidth of the
+// Gain and cost of a stiffer spring for each shipped arm, beside the spring that it gets: bandwidth of the
 // force on the hand, and what is felt of encoder steps in the tooth scene.
 #pragma once
 

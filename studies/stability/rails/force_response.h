@@ -1,4 +1,5 @@
-// How the force on the hand follows the feed, by frequency: what spring and damper of a coupling take away.
+// Response of the force on the hand to the feed, by frequency: what spring and damper of a coupling take
+// away.
 #pragma once
 
 #include <complex>
