@@ -10,9 +10,11 @@ namespace osteomill {
 
 std::optional<WireError> check_greeting(const v2::ClientFrame& frame) {
     if (!frame.has_hello()) return WireError{"it did not begin with a hello"};
-    if (frame.hello().protocol_major() == protocol_major) return std::nullopt;
-    return WireError{fmt::format("it speaks protocol {}, this server {}: update the older of the two",
-                                 frame.hello().protocol_major(), protocol_major)};
+    // One that states none has read the server's, and goes by that.
+    const std::uint32_t major = frame.hello().protocol_major();
+    if (major == 0 || major == protocol_major) return std::nullopt;
+    return WireError{fmt::format("it speaks protocol {}, this server {}: update the older of the two", major,
+                                 protocol_major)};
 }
 
 std::variant<std::optional<Answer>, WireError> take_client_message(const v2::ClientFrame& frame,
