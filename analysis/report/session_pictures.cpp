@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <future>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <limits>
@@ -44,7 +45,7 @@ void hold_brick(Box& box, const Bone& bone, std::int32_t slot, auto&& is_wanted)
         if (is_wanted(offset)) box.hold(centre_of_voxel_mm(bone.grid(), first + voxel_in_brick(offset)));
 }
 
-/// What was planned and what was removed; the whole bone where there is neither.
+/// What was planned and what was removed; all bricks of the bone where there is neither.
 Box place_of_work(const SessionTrace& trace) {
     Box box;
     std::optional<PlannedRegion> region;
@@ -62,7 +63,7 @@ Box place_of_work(const SessionTrace& trace) {
     if (!box.is_empty()) return box;
     for (std::int32_t slot = 0; slot < slots; ++slot)
         hold_brick(box, trace.at_start, slot,
-                   [&](std::size_t offset) { return trace.at_start.fractions(slot)[offset] > 0; });
+                   [](std::size_t offset) { return offset == 0 || offset == brick_voxel_count - 1; });
     return box;
 }
 
@@ -135,10 +136,20 @@ SessionPictures session_pictures(const std::filesystem::path& file, const Sessio
     SessionPictures pictures;
     const std::vector<NamedView> views = views_of(trace);
     if (views.empty()) return pictures;
+    on_frame();
+    // At once: a session's end waits for them.
+    const auto begin = [&trace](const Bone& bone, const NamedView& view) {
+        return std::async(std::launch::async, [&] { return picture(bone, trace, view.view); });
+    };
+    std::vector<std::future<std::string>> before;
+    std::vector<std::future<std::string>> after;
     for (const NamedView& view : views) {
-        on_frame();
-        pictures.before.push_back({view.title, picture(trace.at_start, trace, view.view)});
-        pictures.after.push_back({view.title, picture(trace.at_end, trace, view.view)});
+        before.push_back(begin(trace.at_start, view));
+        after.push_back(begin(trace.at_end, view));
+    }
+    for (std::size_t i = 0; i < views.size(); ++i) {
+        pictures.before.push_back({views[i].title, before[i].get()});
+        pictures.after.push_back({views[i].title, after[i].get()});
     }
     const bool has_marks = std::ranges::any_of(trace.events, [](const ControlEvent& event) {
         return event.action == SessionAction::mark && !event.is_refused;
