@@ -64,8 +64,9 @@ void run_spring_study(const std::filesystem::path& out, const StudySurroundings&
     run.chapter("springs", [&](const Progress& progress) {
         for (std::size_t a = 0; a < arms.size(); ++a) {
             const auto& [name, arm] = arms[a];
-            const auto add = [&](const char* coupling, double spring_n_per_mm, bool is_chosen, double hz,
-                                 const std::string& limited_by) {
+            const auto add = [&, &name = name, &arm = arm](const char* coupling, double spring_n_per_mm,
+                                                           bool is_chosen, double hz,
+                                                           const std::string& limited_by) {
                 const EncoderNoise noise = drill_tooth(arm, coupling, spring_n_per_mm);
                 table.add({name, coupling, spring_n_per_mm, is_chosen, hz, noise.noise_n,
                            noise.largest_jump_n, limited_by});
