@@ -1,4 +1,4 @@
-// A device whose hand is where it is told to be, whatever pushes back: for sessions that are stepped from
+// A device whose hand is at a prescribed pose, whatever the force on it: for sessions that are stepped from
 // outside. No hardware, no thread; deterministic.
 #pragma once
 

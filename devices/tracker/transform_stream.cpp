@@ -16,6 +16,7 @@
 #include <utility>
 
 #include "common/bone/patient_space.h"
+#include "common/text/words.h"
 
 namespace osteomill {
 
@@ -61,11 +62,8 @@ std::optional<Parts> parts_of(std::span<const std::uint8_t> body, std::uint16_t 
                  behind.subspan(header_bytes)};
 }
 
-std::string lower_case(std::span<const std::uint8_t> text) {
-    std::string result(text.begin(), text.end());
-    std::transform(result.begin(), result.end(), result.begin(),
-                   [](char c) { return static_cast<char>(std::tolower(static_cast<unsigned char>(c))); });
-    return result;
+std::string text_of(std::span<const std::uint8_t> bytes) {
+    return {bytes.begin(), bytes.end()};
 }
 
 /// Whether the metadata leaves the marker seen: PlusServer writes "TransformStatus" and "TransformValid", its
@@ -80,8 +78,8 @@ bool says_seen(const Parts& parts) {
         const std::uint64_t key_bytes = number_at(entries, 0, 2);
         const std::uint64_t value_bytes = number_at(entries, 4, 4);
         if (key_bytes + value_bytes > rest.size()) return true;
-        const std::string key = lower_case(rest.first(key_bytes));
-        const std::string value = lower_case(rest.subspan(key_bytes, value_bytes));
+        const std::string key = lower_case(text_of(rest.first(key_bytes)));
+        const std::string value = lower_case(text_of(rest.subspan(key_bytes, value_bytes)));
         if ((key == "status" || key == "transformstatus") && value != "ok") return false;
         if (key == "transformvalid" && value != "true" && value != "1") return false;
         rest = rest.subspan(key_bytes + value_bytes);
@@ -106,7 +104,7 @@ bool is_rotation(const glm::dmat3& turn) {
 }
 
 bool means_down(std::span<const std::uint8_t> said) {
-    std::string text = lower_case(said);
+    std::string text = lower_case(text_of(said));
     while (!text.empty() &&
            (std::isspace(static_cast<unsigned char>(text.back())) != 0 || text.back() == '\0'))
         text.pop_back();

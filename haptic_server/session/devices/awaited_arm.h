@@ -1,4 +1,4 @@
-// The wait for an arm that is not there yet, while people are told what is missing.
+// The wait for an arm that is not there yet, with messages about what is missing.
 #pragma once
 
 #include <string>
