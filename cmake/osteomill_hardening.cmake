@@ -10,11 +10,11 @@ if(NOT OSTEOMILL_SANITIZER STREQUAL "none")
 endif()
 include(CheckCXXCompilerFlag)
 
-# -fPIE and not CMake's -fPIC: no target is a shared library, and the loops are not to pay for names that none can replace.
-add_compile_options(-fstack-protector-strong -fPIE
+# -fPIC, for the module of Python takes the same libraries as the programs; the loops do not pay for names that none can replace.
+add_compile_options(-fstack-protector-strong -fPIC -fno-semantic-interposition
                     $<$<CONFIG:Release,RelWithDebInfo,MinSizeRel>:-U_FORTIFY_SOURCE>
                     $<$<CONFIG:Release,RelWithDebInfo,MinSizeRel>:-D_FORTIFY_SOURCE=2>)
-add_link_options(-pie -Wl,-z,relro,-z,now,-z,noexecstack)
+add_link_options($<$<STREQUAL:$<TARGET_PROPERTY:TYPE>,EXECUTABLE>:-pie> -Wl,-z,relro,-z,now,-z,noexecstack)
 # Only x86 has it.
 check_cxx_compiler_flag(-fcf-protection OSTEOMILL_HAS_CF_PROTECTION)
 if(OSTEOMILL_HAS_CF_PROTECTION)
