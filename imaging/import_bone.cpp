@@ -12,6 +12,7 @@
 #include <stdexcept>
 #include <vector>
 
+#include "common/program/progress.h"
 #include "common/text/plain_text.h"
 #include "imaging/bone_file/hu_file.h"
 #include "imaging/formats/image_reader.h"
@@ -19,7 +20,6 @@
 #include "imaging/imaging_error.h"
 #include "imaging/in_parallel.h"
 #include "imaging/memory_estimate.h"
-#include "imaging/progress.h"
 #include "imaging/resampling/field_of_view.h"
 #include "imaging/resampling/hu_histogram.h"
 #include "imaging/resampling/image_part.h"

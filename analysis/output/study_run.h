@@ -10,10 +10,9 @@
 #include <ostream>
 #include <string>
 
-#include "analysis/output/progress.h"
 #include "analysis/output/surroundings.h"
 #include "analysis/output/table.h"
-#include "imaging/progress.h"
+#include "common/program/progress.h"
 
 namespace osteomill::study {
 
@@ -26,8 +25,8 @@ class StudyRun {
 
     const std::filesystem::path& out() const { return out_; }
 
-    /// Does a part of the work with a bar of its own, which `work` moves by its one argument, a Progress; the
-    /// bar ends full.
+    /// Does a part of the work with a bar of its own, which `work` moves by its one argument, a
+    /// ReportProgress; the bar ends full.
     template <typename Work>
     auto chapter(const std::string& title, Work&& work) const {
         ProgressLine line(surroundings_.progress, surroundings_.is_terminal, title);

@@ -8,9 +8,9 @@
 
 #include "analysis/report/write_report.h"
 #include "common/log/line_stream.h"
+#include "common/program/progress.h"
 #include "haptic_server/program/report_folder.h"
 #include "imaging/case/case_placement.h"
-#include "imaging/progress.h"
 
 namespace osteomill {
 

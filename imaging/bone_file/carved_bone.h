@@ -21,10 +21,10 @@
 #include <string>
 
 #include "common/bone/bone.h"
+#include "common/program/progress.h"
 #include "imaging/bone_file/hu_file.h"
 #include "imaging/bone_from_hu.h"
 #include "imaging/hu_slices.h"
-#include "imaging/progress.h"
 
 namespace osteomill {
 

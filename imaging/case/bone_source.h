@@ -7,12 +7,12 @@
 #include <string>
 
 #include "common/bone/ct_volume.h"
+#include "common/program/progress.h"
 #include "common/scene/scene.h"
 #include "imaging/bone_file/hu_file.h"
 #include "imaging/bone_file/removed_volumes.h"
 #include "imaging/bone_from_hu.h"
 #include "imaging/case/structures.h"
-#include "imaging/progress.h"
 
 namespace osteomill {
 

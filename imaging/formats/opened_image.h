@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "common/program/progress.h"
 #include "imaging/formats/source_image.h"
-#include "imaging/progress.h"
 
 namespace osteomill {
 

@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
-#include "analysis/output/progress.h"
+#include "common/program/progress.h"
 #include "studies/force/steady_run.h"
 
 namespace osteomill::study {
@@ -18,6 +18,6 @@ nlohmann::ordered_json report_of(const SteadyCase& c, const SteadyRun& run, cons
 
 /// report_of() of every case, an array.
 nlohmann::ordered_json report_of(const std::vector<SteadyCase>& cases, const SteadyRun& run,
-                                 const MakeModel& make_model, const Progress& progress);
+                                 const MakeModel& make_model, const ReportProgress& progress);
 
 }  // namespace osteomill::study

@@ -73,7 +73,7 @@ double milling_force_n(double depth_mm, double feed_mm_per_s) {
 
 }  // namespace
 
-ContactCurves measure_contact(bool quick, const Progress& progress) {
+ContactCurves measure_contact(bool quick, const ReportProgress& progress) {
     ContactCurves curves{.feeds_mm_per_s = {2.0, 6.0}};
     for (const ForceModelEntry& model : force_models())
         if (!model.has_cutting_law) curves.models.push_back(model.name);

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "analysis/output/progress.h"
 #include "analysis/output/table.h"
+#include "common/program/progress.h"
 
 namespace osteomill::study {
 
@@ -25,7 +25,7 @@ struct ContactCurves {
 };
 
 /// A 5 mm burr, upright, spindle off, over 0.1 mm voxels; the milling force at 10 000 rpm.
-ContactCurves measure_contact(bool quick, const Progress& progress);
+ContactCurves measure_contact(bool quick, const ReportProgress& progress);
 
 /// depth_mm, a column a model, a column a feed ("milling 6 mm/s").
 Table table_of(const ContactCurves& curves);

@@ -19,7 +19,7 @@ CurvePoint point_of(double at, const SteadyCase& c, const SteadyRun& run) {
 
 }  // namespace
 
-ForceCurves measure_curves(bool quick, const Progress& progress) {
+ForceCurves measure_curves(bool quick, const ReportProgress& progress) {
     const SteadyRun run{.travel_mm = quick ? 0.6 : 2.0, .min_steps = 10};
     const std::vector depths_mm{0.05, 0.1, 0.2, 0.35, 0.5, 0.75, 1.0, 1.5, 2.0, 2.5, 3.0, 3.5, 4.0, 4.5, 5.0};
     const std::vector feeds_mm_per_s{0.5, 1.0, 2.0, 4.0, 6.0, 10.0, 15.0, 20.0, 30.0, 40.0, 50.0};

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "analysis/output/progress.h"
 #include "analysis/output/table.h"
+#include "common/program/progress.h"
 #include "studies/force/steady_run.h"
 
 namespace osteomill::study {
@@ -24,7 +24,7 @@ struct ForceCurves {
     std::vector<CurvePoint> rpm;
 };
 
-ForceCurves measure_curves(bool quick, const Progress& progress);
+ForceCurves measure_curves(bool quick, const ReportProgress& progress);
 
 /// The first column is called `variable`.
 Table table_of(const std::vector<CurvePoint>& curve, const std::string& variable);

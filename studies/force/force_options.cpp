@@ -7,7 +7,7 @@
 #include "analysis/output/chart.h"
 #include "analysis/output/output_files.h"
 #include "common/program/option_checks.h"
-#include "imaging/progress.h"
+#include "common/program/progress.h"
 #include "studies/force/case_report.h"
 #include "studies/force/force_study.h"
 #include "studies/loads/loads_study.h"

@@ -21,7 +21,7 @@ ordered_json measure_random(const RandomStudyOptions& options, const StudyRun& r
     if (options.has_edge_forces) draw_edge_forces(motions, options.seed);
     if (options.has_heads) draw_heads(motions, options.seed);
     std::vector<RandomResult> results;
-    run.chapter("random", [&](const Progress& progress) {
+    run.chapter("random", [&](const ReportProgress& progress) {
         for (const RandomMotion& motion : motions) {
             results.push_back(measure(motion, voxel_model()));
             progress(static_cast<double>(results.size()) / options.count);
@@ -63,13 +63,13 @@ void run_force_study(const ForceStudyOptions& options, const StudySurroundings& 
     found["random"] = measure_random({.out = options.out, .count = options.quick ? 60 : 500}, run);
 
     const ForceCurves curves = run.chapter(
-        "curves", [&](const Progress& progress) { return measure_curves(options.quick, progress); });
+        "curves", [&](const ReportProgress& progress) { return measure_curves(options.quick, progress); });
     run.write(table_of(curves.depth, "depth_mm"), "curve_depth");
     run.write(table_of(curves.feed, "feed_mm_per_s"), "curve_feed");
     run.write(table_of(curves.rpm, "thousand_rpm"), "curve_rpm");
 
     const ContactCurves contact = run.chapter(
-        "contact", [&](const Progress& progress) { return measure_contact(options.quick, progress); });
+        "contact", [&](const ReportProgress& progress) { return measure_contact(options.quick, progress); });
     run.write(table_of(contact), "contact");
     for (std::size_t i = 0; i < contact.models.size(); ++i)
         found["contact"].push_back({{"model", contact.models[i]}, {"step_us_p50", contact.step_us[i]}});

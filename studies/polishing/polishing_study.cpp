@@ -72,10 +72,10 @@ class PolishingStudy {
   private:
     /// A chapter with a bar of its own.
     template <typename Found>
-    Found chapter(const std::string& title,
-                  Found (*work)(const Specimen&, bool, const std::filesystem::path&, const Progress&)) const {
-        return run_.chapter(title,
-                            [&](const Progress& progress) { return work(cube_, quick_, logs_, progress); });
+    Found chapter(const std::string& title, Found (*work)(const Specimen&, bool, const std::filesystem::path&,
+                                                          const ReportProgress&)) const {
+        return run_.chapter(
+            title, [&](const ReportProgress& progress) { return work(cube_, quick_, logs_, progress); });
     }
 
     static void add(std::vector<Claim>& claims, std::vector<Claim> more) {

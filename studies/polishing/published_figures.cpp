@@ -40,7 +40,7 @@ FigureRun judged(PolishingSetup setup, PolishingRun run) {
 }
 
 std::vector<FigureRun> run_figures(const Specimen& cube, bool quick, const std::filesystem::path& folder,
-                                   const Progress& progress) {
+                                   const ReportProgress& progress) {
     const std::vector<PolishingSetup> setups = setups_of_figures(quick);
     std::vector<FigureRun> figures;
     for (const PolishingSetup& setup : setups) {

@@ -59,7 +59,8 @@ ToothPeriodForce measure(const Specimen& cube, const PolishingSetup& setup,
 }  // namespace
 
 std::vector<ToothPeriodForce> vary_edges(const Specimen& cube, bool quick,
-                                         const std::filesystem::path& folder, const Progress& progress) {
+                                         const std::filesystem::path& folder,
+                                         const ReportProgress& progress) {
     const std::vector<int> edges = quick ? std::vector{1, 3, 6} : std::vector{1, 2, 3, 4, 6, 8, 12};
     std::vector<ToothPeriodForce> forces;
     for (const int count : edges) {
@@ -75,7 +76,8 @@ std::vector<ToothPeriodForce> vary_edges(const Specimen& cube, bool quick,
 }
 
 std::vector<ToothPeriodForce> vary_speed(const Specimen& cube, bool quick,
-                                         const std::filesystem::path& folder, const Progress& progress) {
+                                         const std::filesystem::path& folder,
+                                         const ReportProgress& progress) {
     const std::vector<double> speeds_rpm =
         quick ? std::vector{10'000.0, 40'000.0} : std::vector{10'000.0, 20'000.0, 40'000.0, 80'000.0};
     std::vector<ToothPeriodForce> forces;

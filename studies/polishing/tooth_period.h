@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "analysis/output/progress.h"
 #include "analysis/output/table.h"
 #include "common/bone/bone.h"
+#include "common/program/progress.h"
 #include "studies/polishing/force_record.h"
 #include "studies/polishing/polishing_setup.h"
 
@@ -26,11 +26,11 @@ struct ToothPeriodForce {
 
 /// Edges of a slow burr, milled at 10 kHz: time-resolved.
 std::vector<ToothPeriodForce> vary_edges(const Specimen& cube, bool quick,
-                                         const std::filesystem::path& folder, const Progress& progress);
+                                         const std::filesystem::path& folder, const ReportProgress& progress);
 
 /// Spindle speeds with six edges, milled at 1 kHz: the mean only.
 std::vector<ToothPeriodForce> vary_speed(const Specimen& cube, bool quick,
-                                         const std::filesystem::path& folder, const Progress& progress);
+                                         const std::filesystem::path& folder, const ReportProgress& progress);
 
 Table table_of(const std::vector<ToothPeriodForce>& forces);
 /// The clip: time from its beginning and length of the force.

@@ -10,9 +10,9 @@
 #include <string>
 
 #include "analysis/output/output_files.h"
-#include "analysis/output/progress.h"
 #include "analysis/output/study_run.h"
 #include "common/program/child_program.h"
+#include "common/program/progress.h"
 #include "studies/realtime/installed_program.h"
 #include "studies/realtime/slices.h"
 
@@ -143,7 +143,7 @@ class RealtimeStudy {
         const std::filesystem::path work = options_.out / "slices";
         make_folder(work);
         Measured measured{.load = load, .served = {}, .cyclictest = {}};
-        run_.chapter(load, [&](const Progress& progress) {
+        run_.chapter(load, [&](const ReportProgress& progress) {
             for (int slice = 0; slice < slices_; ++slice) {
                 measured.served.add(serve(haptic_server_, slice_s_, work));
                 if (cyclictest_)

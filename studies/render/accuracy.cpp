@@ -101,7 +101,7 @@ std::vector<DrawingSetting> drawing_settings(bool quick) {
 }
 
 std::vector<DrawingPoint> measure(const TrialBone& trial, const std::vector<DrawingSetting>& settings,
-                                  const glm::ivec2& size_px, bool quick, const Progress& progress) {
+                                  const glm::ivec2& size_px, bool quick, const ReportProgress& progress) {
     std::vector<std::pair<std::string, Camera>> views{{"overview", trial.overview}};
     if (!quick) views.emplace_back("close-up", trial.close_up);
     const double all = static_cast<double>(3 * views.size() + views.size() * settings.size());

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "analysis/output/progress.h"
 #include "analysis/output/table.h"
+#include "common/program/progress.h"
 #include "render_client/volume/passes/raycast_renderer.h"
 #include "render_client/volume/passes/renderer_choice.h"
 #include "studies/render/reference_image.h"
@@ -41,7 +41,7 @@ struct DrawingPoint {
 
 /// Draws a bone's views in all settings.
 std::vector<DrawingPoint> measure(const TrialBone& trial, const std::vector<DrawingSetting>& settings,
-                                  const glm::ivec2& size_px, bool quick, const Progress& progress);
+                                  const glm::ivec2& size_px, bool quick, const ReportProgress& progress);
 
 Table table_of(const std::vector<DrawingPoint>& points);
 

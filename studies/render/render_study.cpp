@@ -34,7 +34,7 @@ ordered_json measure_cut_wall(const StudyRun& run) {
 
 void measure_accuracy(const TrialBone& trial, const glm::ivec2& size_px, bool quick, const StudyRun& run,
                       std::vector<DrawingPoint>& points) {
-    const auto found = run.chapter("accuracy, " + trial.name, [&](const Progress& progress) {
+    const auto found = run.chapter("accuracy, " + trial.name, [&](const ReportProgress& progress) {
         return measure(trial, drawing_settings(quick), size_px, quick, progress);
     });
     for (const DrawingPoint& p : found)
@@ -48,8 +48,9 @@ void measure_accuracy(const TrialBone& trial, const glm::ivec2& size_px, bool qu
 void draw_zooms(const RenderStudyOptions& options, const glm::ivec2& size_px, const StudyRun& run) {
     const std::filesystem::path folder = options.out / "zooms";
     make_folder(folder);
-    run.chapter("zooms",
-                [&](const Progress& progress) { write_zooms(size_px, folder, options.scans, progress); });
+    run.chapter("zooms", [&](const ReportProgress& progress) {
+        write_zooms(size_px, folder, options.scans, progress);
+    });
     run.say(
         "pictures (PNG) of every bone at three zooms are in {}{}", folder.string(),
         options.scans ? "" : "; real CT skipped: OSTEOMILL_SCANS does not name the folder of trial scans");

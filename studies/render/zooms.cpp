@@ -64,7 +64,7 @@ class ZoomPictures {
 }  // namespace
 
 void write_zooms(const glm::ivec2& size_px, const std::filesystem::path& folder,
-                 const std::optional<std::filesystem::path>& scans, const Progress& progress) {
+                 const std::optional<std::filesystem::path>& scans, const ReportProgress& progress) {
     ZoomPictures pictures(size_px, folder);
     const std::vector<NamedLook> all{{"", {}},
                                      {"_surface-voxels", {.shading = Shading::surface_voxels}},

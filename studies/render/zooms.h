@@ -6,7 +6,7 @@
 #include <functional>
 #include <optional>
 
-#include "analysis/output/progress.h"
+#include "common/program/progress.h"
 #include "studies/render/trial_bone.h"
 
 namespace osteomill::study {
@@ -16,6 +16,6 @@ namespace osteomill::study {
 /// names the folder of trial scans, a skull; of the tooth and the skull in other looks, too. `folder` is
 /// there. Throws std::runtime_error naming a file that cannot be written.
 void write_zooms(const glm::ivec2& size_px, const std::filesystem::path& folder,
-                 const std::optional<std::filesystem::path>& scans, const Progress& progress);
+                 const std::optional<std::filesystem::path>& scans, const ReportProgress& progress);
 
 }  // namespace osteomill::study

@@ -22,7 +22,7 @@ std::vector<TissueColour> colours_of(const SessionInfo& session) {
 
 }  // namespace
 
-CarveUpload upload_carves(const std::string& phantom, int times, const Progress& progress) {
+CarveUpload upload_carves(const std::string& phantom, int times, const ReportProgress& progress) {
     PhantomSession session(phantom);
     const Bone& bone = *session.bone();
     BoneTextures textures(bone, colours_of(*session.session()));

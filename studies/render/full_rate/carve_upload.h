@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "analysis/output/progress.h"
+#include "common/program/progress.h"
 #include "render_client/volume/textures/texture_plan.h"
 #include "studies/render/full_rate/finished_frames.h"
 
@@ -20,6 +20,6 @@ struct CarveUpload {
 
 /// Of a phantom, by render_client's default look and limits, `times` carves of either kind, each until OpenGL
 /// has finished. Needs a current context. Throws std::runtime_error where the burr meets no bone.
-CarveUpload upload_carves(const std::string& phantom, int times, const Progress& progress);
+CarveUpload upload_carves(const std::string& phantom, int times, const ReportProgress& progress);
 
 }  // namespace osteomill::study

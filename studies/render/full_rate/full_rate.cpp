@@ -98,7 +98,7 @@ class FullRate {
     }
 
     ordered_json upload(const std::string& phantom) const {
-        const CarveUpload found = run_.chapter(phantom + ", uploads", [&](const Progress& progress) {
+        const CarveUpload found = run_.chapter(phantom + ", uploads", [&](const ReportProgress& progress) {
             return upload_carves(phantom, is_software_ ? frames_ : uploads, progress);
         });
         ordered_json textures;
@@ -126,7 +126,7 @@ class FullRate {
     }
 
     void draw(const std::string& phantom) {
-        const WindowFrames drawn = run_.chapter(phantom + ", window", [&](const Progress& progress) {
+        const WindowFrames drawn = run_.chapter(phantom + ", window", [&](const ReportProgress& progress) {
             return draw_window(phantom, size_px_, frames_, options_.out / ("window_" + phantom + ".png"),
                                progress);
         });

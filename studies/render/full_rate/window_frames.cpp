@@ -66,7 +66,7 @@ class Window {
 }  // namespace
 
 WindowFrames draw_window(const std::string& phantom, const glm::ivec2& size_px, int frames,
-                         const std::filesystem::path& picture, const Progress& progress) {
+                         const std::filesystem::path& picture, const ReportProgress& progress) {
     WindowFrames drawn;
     PhantomSession session(phantom);
     progress(0.2);

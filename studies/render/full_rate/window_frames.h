@@ -6,7 +6,7 @@
 #include <glm/vec2.hpp>
 #include <string>
 
-#include "analysis/output/progress.h"
+#include "common/program/progress.h"
 #include "studies/render/full_rate/finished_frames.h"
 
 namespace osteomill::study {
@@ -21,6 +21,6 @@ struct WindowFrames {
 /// Of a phantom: `frames` of each motion. Writes `picture`, a PNG of the last frame before the first cut.
 /// Needs a current OpenGL context. Throws std::runtime_error where the bone cannot be drawn.
 WindowFrames draw_window(const std::string& phantom, const glm::ivec2& size_px, int frames,
-                         const std::filesystem::path& picture, const Progress& progress);
+                         const std::filesystem::path& picture, const ReportProgress& progress);
 
 }  // namespace osteomill::study

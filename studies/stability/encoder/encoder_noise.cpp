@@ -9,8 +9,8 @@
 #include <stdexcept>
 #include <variant>
 
-#include "analysis/output/progress.h"
 #include "analysis/output/study_run.h"
+#include "common/program/progress.h"
 #include "devices/simulated/simulated_device.h"
 #include "imaging/bone_from_hu.h"
 #include "imaging/phantoms/phantom.h"
@@ -133,7 +133,7 @@ void run_encoder_study(const std::string& coupling, const std::filesystem::path&
                        const StudySurroundings& surroundings) {
     const StudyRun run(out, surroundings);
     Table table({"step_mm", "mean_force_n", "noise_n", "noise_percent", "largest_jump_n", "jumps_per_s"});
-    run.chapter("encoders", [&](const Progress& progress) {
+    run.chapter("encoders", [&](const ReportProgress& progress) {
         for (std::size_t i = 0; i < steps_mm.size(); ++i) {
             const EncoderNoise a = drill_tooth({.resolution_mm = steps_mm[i]}, coupling);
             table.add({steps_mm[i], a.mean_force_n, a.noise_n,

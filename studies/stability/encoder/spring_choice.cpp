@@ -5,8 +5,8 @@
 #include <map>
 #include <utility>
 
-#include "analysis/output/progress.h"
 #include "analysis/output/study_run.h"
+#include "common/program/progress.h"
 #include "devices/haply/inverse3_profile.h"
 #include "devices/hid/arm_kinematics.h"
 #include "devices/hid/profile_file.h"
@@ -61,7 +61,7 @@ void run_spring_study(const std::filesystem::path& out, const StudySurroundings&
                    : bandwidths_hz.emplace(spring_n_per_mm, bandwidth_hz(spring_n_per_mm)).first->second;
     };
     const auto arms = shipped_arms();
-    run.chapter("springs", [&](const Progress& progress) {
+    run.chapter("springs", [&](const ReportProgress& progress) {
         for (std::size_t a = 0; a < arms.size(); ++a) {
             const auto& [name, arm] = arms[a];
             const auto add = [&, &name = name, &arm = arm](const char* coupling, double spring_n_per_mm,

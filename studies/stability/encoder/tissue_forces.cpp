@@ -4,9 +4,9 @@
 #include <cmath>
 #include <string>
 
-#include "analysis/output/progress.h"
 #include "analysis/output/study_run.h"
 #include "analysis/output/table.h"
+#include "common/program/progress.h"
 #include "imaging/phantoms/phantom.h"
 #include "studies/stability/encoder/encoder_noise.h"
 #include "studies/stability/encoder/spring_choice.h"
@@ -34,7 +34,7 @@ void run_tissue_study(const std::filesystem::path& out, const StudySurroundings&
     const auto arms = shipped_arms();
     const Scene scene = phantom_scene("tooth");
     Table table({"tissue", "arm", "friction_n", "mean_force_n", "noticeable_differences"});
-    run.chapter("tissues", [&](const Progress& progress) {
+    run.chapter("tissues", [&](const ReportProgress& progress) {
         for (std::size_t i = 0; i < scene.tissues.size(); ++i) {
             const std::string& tissue = scene.tissues[i].name;
             for (const auto& [name, arm] : arms) {

@@ -1,7 +1,6 @@
 #include "studies/stability/map/stability_options.h"
 
 #include <algorithm>
-#include <chrono>
 #include <memory>
 #include <ostream>
 #include <stdexcept>
@@ -10,7 +9,7 @@
 
 #include "analysis/output/chart.h"
 #include "analysis/output/output_files.h"
-#include "imaging/progress.h"
+#include "common/program/progress.h"
 #include "studies/stability/encoder/encoder_noise.h"
 #include "studies/stability/encoder/spring_choice.h"
 #include "studies/stability/encoder/tissue_forces.h"
@@ -120,7 +119,7 @@ void run_on_rails(const StabilityCommand& command, const StudySurroundings& surr
             for (SteadyCase& motion : motions) motion.burr.edge_coefficients_n_per_mm = {0.3, 0.3, 0.0};
         for (const SteadyCase& motion : motions) {
             results.push_back({motion.name, run_on_rails(motion, method)});
-            line.report(static_cast<double>(results.size()) / static_cast<double>(motions.size()), "");
+            line.report(static_cast<double>(results.size()) / static_cast<double>(motions.size()));
         }
         summary[method] = summary_of(results);
     }
@@ -154,12 +153,9 @@ void perform(const StabilityCommand& command, const StudySurroundings& surroundi
         merge_stability_study(command.merge, command.run.out, surroundings);
         return;
     }
-    const auto now_s = [] {
-        return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-    };
     SceneCache cache;
     run_stability_study(
-        command.run, [&](const MapCase& c) { return run_map_case(c, cache); }, now_s, surroundings);
+        command.run, [&](const MapCase& c) { return run_map_case(c, cache); }, surroundings);
 }
 
 }  // namespace

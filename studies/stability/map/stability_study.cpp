@@ -8,8 +8,7 @@
 
 #include "analysis/output/study_run.h"
 #include "analysis/output/sweep.h"
-#include "analysis/output/time_left.h"
-#include "imaging/progress.h"
+#include "common/program/progress.h"
 #include "studies/stability/map/case_file.h"
 #include "studies/stability/map/map_summary.h"
 #include "studies/stability/map/map_table.h"
@@ -49,7 +48,7 @@ void write_results(const WholeMap& map, const std::filesystem::path& out,
 
 }  // namespace
 
-void run_stability_study(const StabilityStudyOptions& options, const RunCase& run, const StudyClock& now_s,
+void run_stability_study(const StabilityStudyOptions& options, const RunCase& run,
                          const StudySurroundings& surroundings) {
     const std::vector<MapPoint> points = map_points(options.selection);
     if (points.empty()) throw std::runtime_error("nothing of the map is selected");
@@ -64,15 +63,16 @@ void run_stability_study(const StabilityStudyOptions& options, const RunCase& ru
             surroundings.said << fmt::format("{} of {} cases are done in {}\n", done_before, all,
                                              file.string());
         ProgressLine line(surroundings.progress, surroundings.is_terminal, "cases");
-        const double start_s = now_s();
-        std::size_t done = 0;
+        const auto report = [&](std::size_t done) {
+            line.report(static_cast<double>(done) / static_cast<double>(all));
+        };
+        report(done_before);
+        std::size_t done = done_before;
         sweep(
             to_do.size(), options.jobs, [&](std::size_t i) { return run_named(points[to_do[i]].run, run); },
             [&](std::size_t i, const MapOutcome& outcome) {
                 writer.append(to_do[i], outcome);
-                ++done;
-                line.report(static_cast<double>(done_before + done) / static_cast<double>(all),
-                            time_left(done, to_do.size(), now_s() - start_s));
+                report(++done);
             });
     }
     if (options.shard.of == 1)

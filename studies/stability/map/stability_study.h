@@ -22,13 +22,10 @@ struct StabilityStudyOptions {
 /// Runs one case. Thread-safe, and the same case always gives the same outcome.
 using RunCase = std::function<MapOutcome(const MapCase&)>;
 
-/// Seconds since any fixed time; for how long the rest will take.
-using StudyClock = std::function<double()>;
-
 /// Runs the cases of a part that `options.out`, a folder that is there, does not hold yet; where the part is
 /// the whole, writes its results as well. Throws std::runtime_error in one line naming what cannot be written
 /// or read, or the case that failed.
-void run_stability_study(const StabilityStudyOptions& options, const RunCase& run, const StudyClock& now_s,
+void run_stability_study(const StabilityStudyOptions& options, const RunCase& run,
                          const StudySurroundings& surroundings);
 
 /// Writes map.csv, map.json, the tables of the charts and the charts (SVG) of parts that ran before into the

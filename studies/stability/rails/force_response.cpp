@@ -9,8 +9,8 @@
 #include <numbers>
 #include <stdexcept>
 
-#include "analysis/output/progress.h"
 #include "analysis/output/study_run.h"
+#include "common/program/progress.h"
 #include "simulation/contact_models/milling_model.h"
 #include "simulation/coupling/couplings.h"
 #include "studies/force/bone_block.h"
@@ -129,7 +129,7 @@ ForceResponse respond(const std::string& coupling_name, double stiffness_n_per_m
 void run_response_study(const std::filesystem::path& out, const StudySurroundings& surroundings) {
     const StudyRun run(out, surroundings);
     Table table({"coupling", "stiffness_n_per_mm", "hz", "gain", "phase_deg", "rigid_n_s_per_m"});
-    run.chapter("frequencies", [&](const Progress& progress) {
+    run.chapter("frequencies", [&](const ReportProgress& progress) {
         double done = 0.0;
         for (const Choice& choice : choices)
             for (const double hz : frequencies_hz) {

@@ -64,7 +64,7 @@ Table trace_of(const SiteRun& run) {
 }
 
 /// The results in the order of the cases, from several threads.
-std::vector<SiteResult> run_all(const std::vector<SiteCase>& cases, int jobs, const Progress& progress,
+std::vector<SiteResult> run_all(const std::vector<SiteCase>& cases, int jobs, const ReportProgress& progress,
                                 std::vector<SiteRun>* runs) {
     std::vector<SiteResult> results(cases.size());
     std::size_t done = 0;
@@ -191,7 +191,7 @@ void run_site_study(const SiteStudyOptions& options, const StudySurroundings& su
     if (cases.empty()) throw std::runtime_error("no site is called '" + options.only + "'");
     const StudyRun run(options.out, surroundings);
     std::vector<SiteRun> runs;
-    const std::vector<SiteResult> results = run.chapter("sites", [&](const Progress& progress) {
+    const std::vector<SiteResult> results = run.chapter("sites", [&](const ReportProgress& progress) {
         return run_all(cases, options.jobs, progress, cases.size() == 1 ? &runs : nullptr);
     });
     run.write(site_table_of(results), "sites");
