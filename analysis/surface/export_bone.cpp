@@ -17,6 +17,10 @@ namespace osteomill {
 
 namespace {
 
+/// What is done of an export before its parts, as they take for a large bone.
+constexpr double done_before_surface = 0.4;
+constexpr double done_before_writing = 0.8;
+
 BoneOfFile read(const std::filesystem::path& path, std::optional<double> threshold_hu) {
     return bone_of_file(path, threshold_hu, default_stiffness_relation());
 }
@@ -43,23 +47,25 @@ void require_carved_from(const ExportOptions& options, const Bone& before, const
 }
 
 void export_removed(const ExportOptions& options, const BoneOfFile& carved,
-                    const std::function<void(const std::string&)>& say) {
+                    const std::function<void(const std::string&)>& say, const ReportProgress& progress) {
     // The threshold that the carved bone was built with is the one that its original has to be.
     const BoneOfFile original =
         read(*options.original, options.threshold_hu ? options.threshold_hu : carved.threshold_hu);
     require_carved_from(options, original.bone, carved.bone);
+    progress(done_before_writing);
     save_removed(options.output, original.bone, carved.bone);
     say(fmt::format("{}: {:.3f} mm^3 removed", options.output.string(),
                     bone_volume_mm3(original.bone) - bone_volume_mm3(carved.bone)));
 }
 
 void export_surface(const ExportOptions& options, const Bone& bone,
-                    const std::function<void(const std::string&)>& say) {
+                    const std::function<void(const std::string&)>& say, const ReportProgress& progress) {
     const double spacing_mm = bone.grid().spacing_mm;
     const double cells = options.cell_mm.value_or(spacing_mm) / spacing_mm;
     const SurfaceMesh mesh = surface_of(bone, std::max(1, static_cast<int>(std::lround(cells))));
     if (mesh.triangles.empty())
         throw ImagingError(options.bone, "has no surface: no voxel is more than half full");
+    progress(done_before_writing);
     write_mesh(options.output, mesh);
     say(fmt::format("{}: {} triangles, mm in patient LPS", options.output.string(), mesh.triangles.size()));
 }
@@ -110,13 +116,16 @@ ParseResult<ExportOptions> parse_export_command_line(int argc, const char* const
     return {options, {}};
 }
 
-void export_bone(const ExportOptions& options, const std::function<void(const std::string&)>& say) {
+void export_bone(const ExportOptions& options, const std::function<void(const std::string&)>& say,
+                 const ReportProgress& progress) {
+    progress(0.0);
     const BoneOfFile read_bone = read(options.bone, options.threshold_hu);
     if (!read_bone.doubt.empty()) say(fmt::format("{}: warning: {}", options.bone.string(), read_bone.doubt));
+    progress(done_before_surface);
     if (options.original)
-        export_removed(options, read_bone, say);
+        export_removed(options, read_bone, say, progress);
     else
-        export_surface(options, read_bone.bone, say);
+        export_surface(options, read_bone.bone, say, progress);
 }
 
 }  // namespace osteomill

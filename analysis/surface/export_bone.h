@@ -7,6 +7,7 @@
 #include <string>
 
 #include "common/program/command_line.h"
+#include "common/program/progress.h"
 
 namespace osteomill {
 
@@ -22,9 +23,11 @@ struct ExportOptions {
 ParseResult<ExportOptions> parse_export_command_line(int argc, const char* const* argv,
                                                      const std::string& version);
 
-/// Writes the file and tells `say` in a line what is in it. Throws std::exception with one line for a file
-/// that holds no bone, bones of two grids, a bone that was not carved from the original, an output that
-/// cannot be written.
-void export_bone(const ExportOptions& options, const std::function<void(const std::string&)>& say);
+/// Writes the file and tells `say` in a line what is in it. `progress` is told before each part of the work;
+/// what it throws ends the work, and nothing was written. Throws std::exception with one line for a file that
+/// holds no bone, bones of two grids, a bone that was not carved from the original, an output that cannot be
+/// written.
+void export_bone(const ExportOptions& options, const std::function<void(const std::string&)>& say,
+                 const ReportProgress& progress);
 
 }  // namespace osteomill

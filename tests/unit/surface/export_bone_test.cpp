@@ -72,13 +72,32 @@ class Export : public ::testing::Test {
     }
     std::string said(const ExportOptions& options) {
         std::string all;
-        export_bone(options, [&](const std::string& line) { all += line; });
+        export_bone(
+            options, [&](const std::string& line) { all += line; }, [](double) {});
         return all;
     }
 
     const testing::TemporaryFolder folder_;
     const Grid grid_{.size_voxels = {24, 24, 37}, .spacing_mm = 0.2, .origin_mm = {1.0, -2.0, 700.0}};
 };
+
+TEST_F(Export, ThatIsStoppedAnywhereWritesNothing) {
+    write_original("original.nrrd", grid_);
+    const ExportOptions options{.bone = folder_ / "original.nrrd", .output = folder_ / "surface.stl"};
+    constexpr int parts = 3;
+    for (int stopped_at = 0; stopped_at < parts; ++stopped_at) {
+        int part = 0;
+        const auto stop = [&](double) {
+            if (part++ == stopped_at) throw std::runtime_error("stopped");
+        };
+        EXPECT_THROW(export_bone(
+                         options, [](const std::string&) {}, stop),
+                     std::runtime_error);
+        EXPECT_EQ(part, stopped_at + 1);
+        EXPECT_FALSE(std::filesystem::exists(options.output));
+    }
+    EXPECT_THAT(said(options), ::testing::HasSubstr("triangles"));
+}
 
 TEST_F(Export, OfACarvedBoneGivesWhatIsGoneOfEachVoxel) {
     write_original("original.nrrd", grid_);
