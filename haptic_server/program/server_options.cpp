@@ -12,6 +12,7 @@
 #include "common/files/distinct_files.h"
 #include "common/scene/session_control.h"
 #include "haptic_server/program/report_folder.h"
+#include "haptic_server/session/session_defaults.h"
 #include "imaging/case/case_folder.h"
 #include "imaging/phantoms/phantom.h"
 
@@ -63,12 +64,6 @@ CLI::Validator a_coupling() {
         "");
 }
 
-/// The default coupling solves the cutting law; what has none is interpolated.
-std::string default_coupling(bool has_cutting_law, const DeviceEntry& device) {
-    if (device.coupling != nullptr) return device.coupling;
-    return has_cutting_law ? coupling_names().front() : "interpolate";
-}
-
 /// A line for each.
 std::string force_model_help() {
     std::string text = "How bone pushes back:";
@@ -80,7 +75,7 @@ std::string force_model_help() {
 std::string coupling_help() {
     std::string text = fmt::format(
         "What stands between the model and the hand ({}; {} with a force model that has no cutting law",
-        default_coupling(true, devices().front()), default_coupling(false, devices().front()));
+        usual_coupling(true, devices().front()), usual_coupling(false, devices().front()));
     for (const DeviceEntry& device : devices())
         if (device.coupling != nullptr)
             text += fmt::format("; {} with --device {}", device.coupling, device.name);
@@ -195,12 +190,12 @@ std::optional<ListenAddress> listen_address(const Typed& typed) {
 
 std::string checked_coupling(const Typed& typed, const DeviceEntry& device) {
     const bool has_cutting_law = find_force_model(typed.force_model).has_cutting_law;
-    if (typed.coupling.empty()) return default_coupling(has_cutting_law, device);
+    if (typed.coupling.empty()) return usual_coupling(has_cutting_law, device);
     if (find_coupling(typed.coupling).needs_cutting_law && !has_cutting_law) {
         throw std::invalid_argument(
             fmt::format("--coupling {}: solves the cutting law, and --force-model {} has none; take "
                         "--coupling {}",
-                        typed.coupling, typed.force_model, default_coupling(has_cutting_law, device)));
+                        typed.coupling, typed.force_model, usual_coupling(has_cutting_law, device)));
     }
     return typed.coupling;
 }
@@ -252,15 +247,6 @@ std::string checked_trainee(const std::string& name) {
     return name;
 }
 
-/// What is published is 100 Hz for the milling force. A force that is a wall, too, needs all that there is:
-/// an arm in a light hand holds 0.2 N/mm at 100 Hz, 1.4 N/mm at 1 kHz.
-double default_milling_rate_hz(const MillingSessionOptions& session) {
-    const double published_rate_hz = 100.0;
-    const bool is_as_published = find_coupling(session.coupling).is_interpolated &&
-                                 find_force_model(session.force_model).has_cutting_law;
-    return is_as_published ? published_rate_hz : 1.0 / MillingSession::tick_s;
-}
-
 /// A bone may be saved over the one that was loaded: it is replaced when all of the new one is there.
 void require_distinct_files(const ServerOptions& options, const AccessOptions& access) {
     const OutputFiles& outputs = options.outputs;
@@ -304,10 +290,9 @@ ServerOptions checked(const Typed& typed, const AccessOptions& access) {
     }
     if (!typed.scene.empty()) options.scene.name = typed.scene;
     if (!typed.case_name.empty()) {
-        options.scene.name = scene_of_case(typed.case_name);
+        options.scene = case_chosen(typed.case_name);
         options.case_name = name_of_case(typed.case_name);
-        if (options.scene.name != typed.case_name)
-            options.scene.case_folder = options.outputs.case_folder = typed.case_name;
+        options.outputs.case_folder = options.scene.case_folder;
     }
     options.scene.bone = path_if_given(typed.bone);
     options.scene.changes = scene_changes(typed);
@@ -325,7 +310,9 @@ ServerOptions checked(const Typed& typed, const AccessOptions& access) {
     if (typed.haptic_cpu >= 0) options.session.haptic_cpu = typed.haptic_cpu;
     if (typed.milling_cpu >= 0) options.session.milling_cpu = typed.milling_cpu;
     options.session.milling_rate_hz =
-        typed.milling_rate_hz > 0.0 ? typed.milling_rate_hz : default_milling_rate_hz(options.session);
+        typed.milling_rate_hz > 0.0
+            ? typed.milling_rate_hz
+            : usual_milling_rate_hz(options.session.coupling, options.session.force_model);
     try {
         options.listen = listen_address(typed);
     } catch (const std::invalid_argument& error) {

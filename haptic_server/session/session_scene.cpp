@@ -8,6 +8,7 @@
 #include <variant>
 
 #include "common/scene/scene_file.h"
+#include "imaging/case/case_folder.h"
 #include "imaging/case/case_placement.h"
 #include "imaging/case/case_trust.h"
 #include "imaging/case/scene_on_bone.h"
@@ -48,6 +49,12 @@ Scene load_scene(const SceneChoice& choice) {
 }
 
 }  // namespace
+
+SceneChoice case_chosen(const std::string& name) {
+    SceneChoice choice{.name = scene_of_case(name)};
+    if (choice.name != name) choice.case_folder = name;
+    return choice;
+}
 
 SessionScene load_session_scene(const SceneChoice& choice) {
     Scene scene = load_scene(choice);

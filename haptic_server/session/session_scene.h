@@ -21,6 +21,10 @@ struct SceneChoice {
     std::optional<std::filesystem::path> case_folder{};  ///< of a case that is not built in
 };
 
+/// Of a case: a folder, or the name of one that is built in. Throws std::invalid_argument as scene_of_case
+/// does.
+SceneChoice case_chosen(const std::string& name);
+
 struct SessionScene {
     Scene scene;
     Bone bone;

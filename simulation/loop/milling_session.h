@@ -131,6 +131,15 @@ class MillingSession {
         return haptic_loop_.fault_counts();
     }
     const Bone& bone() const { return model_->bone(); }
+    /// By this session so far.
+    RemovedByTissue removed_mm3() const { return model_->removed_mm3(); }
+    // For who steps it, on the virtual clock between two calls of advance(): what the last tick said, and
+    // what it knew of the milling loop.
+    const ToolState& told() {
+        status_.refresh();
+        return status_.front();
+    }
+    const MillingResult& known_result() const { return results_.front(); }
 
   private:
     /// What the system gave the thread of a loop, on the real clock.

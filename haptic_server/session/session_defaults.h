@@ -1,0 +1,19 @@
+// What a session takes where nobody chooses: its coupling and the rate of its milling loop.
+#pragma once
+
+#include <string>
+
+#include "haptic_server/session/device_entry.h"
+
+namespace osteomill {
+
+/// The coupling that the device asks for; else the default one, which solves the cutting law, and
+/// "interpolate" with a force model that has none.
+std::string usual_coupling(bool has_cutting_law, const DeviceEntry& device);
+
+/// What is published is 100 Hz for the milling force. A force that is a wall, too, needs all that there is:
+/// an arm in a light hand holds 0.2 N/mm at 100 Hz, 1.4 N/mm at 1 kHz. Throws std::invalid_argument for a
+/// name that is none.
+double usual_milling_rate_hz(const std::string& coupling, const std::string& force_model);
+
+}  // namespace osteomill
