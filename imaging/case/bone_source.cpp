@@ -2,9 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <stdexcept>
 #include <utility>
 #include <variant>
+#include <vector>
 
 #include "imaging/bone_file/bone_of_file.h"
 #include "imaging/bone_file/carved_bone.h"
@@ -98,6 +100,14 @@ void require_every_tissue(const Scene& scene, const LoadedBone& loaded) {
     }
 }
 
+/// Calls `use` with the slices that the bone was built from, made or read once more.
+template <typename Use>
+auto with_slices(const BoneSource& source, const Use& use) {
+    if (!source.phantom.empty()) return use(std::get<HuSlices>(make_phantom(source.phantom)));
+    HuReader reader(*source.file);
+    return use(slices_again(source, reader));
+}
+
 }  // namespace
 
 LoadedBone load_bone(const Scene& scene, std::optional<std::uint64_t> available_memory_bytes) {
@@ -135,10 +145,20 @@ bool has_ct(const BoneSource& source, const Grid& grid) {
 }
 
 CtVolume ct_of(const BoneSource& source, std::size_t most_voxels) {
-    if (!source.phantom.empty())
-        return ct_overview(std::get<HuSlices>(make_phantom(source.phantom)), most_voxels);
-    HuReader reader(*source.file);
-    return ct_overview(slices_again(source, reader), most_voxels);
+    return with_slices(source, [&](const HuSlices& slices) { return ct_overview(slices, most_voxels); });
+}
+
+void read_ct(const BoneSource& source, int count,
+             const std::function<void(int z, std::span<const std::int16_t> hu)>& take) {
+    with_slices(source, [&](const HuSlices& slices) {
+        const glm::ivec3& size = slices.grid.size_voxels;
+        std::vector<std::int16_t> hu(static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y));
+        std::vector<std::uint8_t> tissue(slices.labelled ? hu.size() : 0);
+        for (int z = 0; z < std::min(count, size.z); ++z) {
+            slices.read(hu, tissue);
+            take(z, hu);
+        }
+    });
 }
 
 }  // namespace osteomill

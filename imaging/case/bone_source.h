@@ -1,9 +1,12 @@
 // The bone that a scene names, and saving what a session has left of it.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 
 #include "common/bone/ct_volume.h"
@@ -52,5 +55,8 @@ bool has_ct(const BoneSource& source, const Grid& grid);
 /// The CT for people to look at, of at most so many voxels: reads or makes all CT numbers once more. Call
 /// only where there are some. Throws std::runtime_error where the source can no longer be read.
 CtVolume ct_of(const BoneSource& source, std::size_t most_voxels);
+/// The same at full resolution: gives the first `slices` of them, z ascending, x fastest in each.
+void read_ct(const BoneSource& source, int slices,
+             const std::function<void(int z, std::span<const std::int16_t> hu)>& take);
 
 }  // namespace osteomill
