@@ -8,7 +8,7 @@ cd "$(dirname "$0")/.."
 
 sources=("$@")
 [ ${#sources[@]} -gt 0 ] || mapfile -t sources < <(git ls-files 'common/*.cpp' 'simulation/*.cpp' 'devices/*.cpp' 'imaging/*.cpp' \
-    'analysis/*.cpp' 'haptic_server/*.cpp' 'render_client/*.cpp' 'studies/*.cpp')
+    'analysis/*.cpp' 'haptic_server/*.cpp' 'render_client/*.cpp' 'python/*.cpp' 'studies/*.cpp')
 
 cmake --preset debug >/dev/null
 cmake --build --preset debug --target osteomill_proto >/dev/null

@@ -30,6 +30,8 @@ const std::vector<Room>& rooms() {
         {"analysis/", {"common/", "simulation/", "imaging/"}},
         {"haptic_server/", {"common/", "bridge/", "simulation/", "devices/", "imaging/", "analysis/"}},
         {"render_client/", {"common/"}},
+        {"python/",
+         {"common/", "simulation/", "devices/simulated/", "imaging/", "analysis/", "haptic_server/"}},
         {"studies/",
          {"common/", "bridge/", "simulation/", "devices/", "imaging/", "analysis/", "haptic_server/",
           "render_client/"}},

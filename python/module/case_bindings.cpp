@@ -1,0 +1,138 @@
+// Cases and burrs in Python.
+#include <fmt/format.h>
+#include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "python/module/arrays.h"
+#include "python/module/bindings.h"
+#include "python/module/bone_view.h"
+
+namespace osteomill::python {
+
+namespace {
+
+std::shared_ptr<LoadedCase> load(const std::string& name, const std::vector<std::string>& set,
+                                 const std::optional<std::string>& burr, const std::optional<double>& rpm,
+                                 const std::optional<std::filesystem::path>& bone,
+                                 const std::optional<std::filesystem::path>& trajectory) {
+    const py::gil_scoped_release released;
+    SceneChoice choice = name.ends_with(".toml") ? SceneChoice{.name = name} : case_chosen(name);
+    choice.changes.option = "set";
+    for (const std::string& change : set) choice.changes.changes.push_back(parse_scene_change(change));
+    if (burr) choice.changes.changes.push_back({.key = "start_burr", .value = *burr, .is_text = true});
+    choice.spindle_rpm = rpm;
+    choice.bone = bone;
+    choice.trajectory = trajectory;
+    return std::make_shared<LoadedCase>(name, choice);
+}
+
+Burr make_burr(double diameter_mm, int edges, double rpm, const py::handle& cutting, const py::handle& edge,
+               bool clockwise) {
+    if (!(diameter_mm > 0.0) || edges < 1 || !(rpm > 0.0))
+        throw std::invalid_argument(
+            fmt::format("a burr has diameter_mm > 0, edges >= 1 and rpm > 0, not {} mm, {} and {} rpm",
+                        diameter_mm, edges, rpm));
+    return {.name = fmt::format("{:g} mm", diameter_mm),
+            .diameter_mm = diameter_mm,
+            .edges = edges,
+            .spindle_rev_per_s = rpm / 60.0,
+            .cutting_coefficients_n_per_mm2 = vector_of(cutting, "cutting_coefficients_n_per_mm2"),
+            .edge_coefficients_n_per_mm = vector_of(edge, "edge_coefficients_n_per_mm"),
+            .sense = clockwise ? SpindleSense::clockwise : SpindleSense::counter_clockwise};
+}
+
+void bind_burr(py::module_& module) {
+    py::class_<Burr>(module, "Burr",
+                     "A burr: its head and its cutting coefficients. Those of a case are in Case.burrs.")
+        .def(py::init(&make_burr), py::kw_only(), py::arg("diameter_mm"), py::arg("edges") = 6,
+             py::arg("rpm") = default_spindle_rpm,
+             py::arg("cutting_coefficients_n_per_mm2") = py::make_tuple(230.0, 40.0, 20.0),
+             py::arg("edge_coefficients_n_per_mm") = py::make_tuple(0.0, 0.0, 0.0),
+             py::arg("clockwise") = true,
+             "A ball. The coefficients are K_t, K_r, K_a (N/mm^2) and K_te, K_re, K_ae (N/mm) of bone of "
+             "relative stiffness 1; "
+             "`clockwise` is seen from the handpiece.")
+        .def_property_readonly("name", [](const Burr& burr) { return burr.name; })
+        .def_property_readonly(
+            "diameter_mm", [](const Burr& burr) { return burr.diameter_mm; }, "The largest of the head.")
+        .def_property_readonly("edges", [](const Burr& burr) { return burr.edges; })
+        .def_property_readonly(
+            "rpm", [](const Burr& burr) { return 60.0 * burr.spindle_rev_per_s; }, "Of the spindle, rev/min.")
+        .def_property_readonly(
+            "cutting_coefficients_n_per_mm2",
+            [](const Burr& burr) { return array_of(burr.cutting_coefficients_n_per_mm2); },
+            "K_t, K_r, K_a for bone of relative stiffness 1: (3,).")
+        .def_property_readonly(
+            "edge_coefficients_n_per_mm",
+            [](const Burr& burr) { return array_of(burr.edge_coefficients_n_per_mm); },
+            "K_te, K_re, K_ae: force of each mm of edge that cuts: (3,).")
+        .def("__repr__", [](const Burr& burr) {
+            return fmt::format("<Burr \"{}\": {:g} mm, {} edges, {:g} rpm>", burr.name, burr.diameter_mm,
+                               burr.edges, 60.0 * burr.spindle_rev_per_s);
+        });
+}
+
+}  // namespace
+
+void bind_case(py::module_& module) {
+    bind_burr(module);
+    py::class_<LoadedCase, std::shared_ptr<LoadedCase>>(
+        module, "Case",
+        R"(What a session is made of: the bone, its tissues, the burrs, and where the tool starts.
+
+It is loaded once and never changes; any number of sessions, in any number of threads, are made of one. Positions are in
+patient LPS, mm.)")
+        .def(py::init(&load), py::arg("name"), py::kw_only(), py::arg("set") = std::vector<std::string>(),
+             py::arg("burr") = py::none(), py::arg("rpm") = py::none(), py::arg("bone") = py::none(),
+             py::arg("trajectory") = py::none(),
+             R"(Loads a case.
+
+name: a folder that bone_import --case made, one built in ("tooth", "cube", "head"), or a scene's TOML file.
+set: changes of the scene's keys, as haptic_server --set takes them: ["wall_friction=0.3"].
+burr: the one to start with, by its name in the scene. rpm: of every burr. bone: a file that bone_import wrote, instead of the
+case's. trajectory: a CSV file that the simulated hand follows, instead of the case's.
+ValueError, RuntimeError: in one line, what is wrong and what would be right.)")
+        .def_property_readonly("name", &LoadedCase::name)
+        .def_property_readonly(
+            "bone",
+            [](const std::shared_ptr<LoadedCase>& loaded) {
+                return BoneView(std::shared_ptr<const LoadedCase>(loaded));
+            },
+            "The bone before anything is milled.")
+        .def_property_readonly(
+            "tissues",
+            [](const LoadedCase& loaded) {
+                py::dict labels;
+                for (const Tissue& tissue : loaded.settings().tissues)
+                    labels[py::str(tissue.name)] = tissue.label;
+                return labels;
+            },
+            "The label of each tissue, by name.")
+        .def_property_readonly(
+            "structures", [](const LoadedCase& loaded) { return loaded.structures(); },
+            "Names of the protected tissues, whose distance is told.")
+        .def_property_readonly(
+            "burrs", [](const LoadedCase& loaded) { return loaded.settings().burrs; },
+            "The set that a session may take from.")
+        .def_property_readonly(
+            "start_burr", [](const LoadedCase& loaded) { return loaded.settings().start_burr; },
+            "Number of the burr that a session starts with.")
+        .def_property_readonly(
+            "start_mm",
+            [](const LoadedCase& loaded) { return array_of(loaded.settings().start_pose.position_mm); },
+            "Where the burr's centre starts, patient LPS: (3,).")
+        .def_property_readonly(
+            "start_axis",
+            [](const LoadedCase& loaded) { return array_of(loaded.settings().start_pose.spindle_axis); },
+            "How the spindle points at the start, from tip to shank: (3,), unit.")
+        .def("__repr__",
+             [](const LoadedCase& loaded) { return fmt::format("<Case \"{}\">", loaded.name()); });
+}
+
+}  // namespace osteomill::python

@@ -1,0 +1,48 @@
+#include "python/module/loaded_case.h"
+
+#include <algorithm>
+#include <limits>
+#include <optional>
+#include <utility>
+
+#include "common/scene/structure_distance.h"
+
+namespace osteomill::python {
+
+namespace {
+
+std::vector<LoadedCase::NamedLabel> labels_of(const SessionScene& scene) {
+    std::vector<LoadedCase::NamedLabel> labels;
+    for (const Tissue& tissue : scene.scene.tissues) labels.push_back({tissue.name, tissue.label});
+    if (!labels.empty() && scene.source.loaded_mm3.front() > 0.0) labels.push_back({"unlabelled", 0});
+    return labels;
+}
+
+}  // namespace
+
+LoadedCase::LoadedCase(std::string name, const SceneChoice& choice)
+    : name_(std::move(name)),
+      scene_(load_session_scene(choice)),
+      bone_checksum_(checksum(scene_.bone)),
+      labels_(labels_of(scene_)) {
+    double largest_radius_mm = 0.0;
+    for (const Burr& burr : settings().burrs) {
+        heads_.emplace_back(burr);
+        largest_radius_mm = std::max(largest_radius_mm, heads_.back().largest_radius_mm());
+    }
+    for (const Structure& structure : scene_.structures) {
+        const Tissue& tissue = settings().tissues[structure.tissue];
+        structure_names_.push_back(tissue.name);
+        reach_mm_.push_back(watched_mm(tissue));
+        fields_.emplace_back(structure.mask, reach_mm_.back() + largest_radius_mm);
+    }
+}
+
+double LoadedCase::distance_mm(std::size_t i, const ToolState& tool) const noexcept {
+    const std::optional<double> distance_mm =
+        heads_[tool.burr].clearance_mm(fields_[i], {tool.burr_position_mm, tool.spindle_axis});
+    return distance_mm && *distance_mm <= reach_mm_[i] ? *distance_mm
+                                                       : std::numeric_limits<double>::infinity();
+}
+
+}  // namespace osteomill::python

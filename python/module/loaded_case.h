@@ -1,0 +1,53 @@
+// A case that sessions are made of: its scene, its bone, and where its protected structures are. Loaded once,
+// never changed, and shared by any number of sessions in any number of threads.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "common/bone/distance_field.h"
+#include "common/scene/burr_clearance.h"
+#include "common/scene/tool_state.h"
+#include "haptic_server/session/session_scene.h"
+
+namespace osteomill::python {
+
+class LoadedCase {
+  public:
+    /// Loads it, for as long as that takes. Throws in one line as load_session_scene does.
+    LoadedCase(std::string name, const SceneChoice& choice);
+
+    const std::string& name() const { return name_; }
+    /// A session takes a copy, whose bone shares all but what is left of its voxels.
+    const SessionScene& scene() const { return scene_; }
+    const Scene& settings() const { return scene_.scene; }
+    std::uint64_t bone_checksum() const { return bone_checksum_; }
+
+    /// The tissues that removed bone is told by, and the label of each; "unlabelled" is one of them where the
+    /// bone has such voxels.
+    struct NamedLabel {
+        std::string name;
+        std::size_t label;
+    };
+    const std::vector<NamedLabel>& labels() const { return labels_; }
+
+    /// Names of the protected structures.
+    const std::vector<std::string>& structures() const { return structure_names_; }
+    /// From the burr's head to structure number `i`, mm; 0 and below: they overlap, so deep; infinite:
+    /// further than reach.
+    double distance_mm(std::size_t i, const ToolState& tool) const noexcept;
+
+  private:
+    std::string name_;
+    SessionScene scene_;
+    std::uint64_t bone_checksum_;
+    std::vector<NamedLabel> labels_;
+    std::vector<std::string> structure_names_;
+    std::vector<DistanceField> fields_;
+    std::vector<double> reach_mm_;
+    std::vector<BurrClearance> heads_;
+};
+
+}  // namespace osteomill::python

@@ -1,0 +1,11 @@
+// The module osteomill._core: thin bindings over a session's assembly, the bone, recordings and the reference
+// force.
+#include "python/module/bindings.h"
+
+PYBIND11_MODULE(_core, module) {
+    module.doc() = "Osteomill's core; use it through the package osteomill.";
+    module.attr("__version__") = OSTEOMILL_VERSION;
+    osteomill::python::bind_bone(module);
+    osteomill::python::bind_case(module);
+    osteomill::python::bind_session(module);
+}

@@ -1,0 +1,298 @@
+// Sessions in Python: step, rollout, run, and going back to a state.
+#include <fmt/format.h>
+#include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
+
+#include <bit>
+#include <cstring>
+#include <memory>
+#include <numeric>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "python/module/arrays.h"
+#include "python/module/bindings.h"
+#include "python/module/bone_view.h"
+#include "python/module/tick_bindings.h"
+#include "python/module/tick_columns.h"
+
+namespace osteomill::python {
+
+namespace {
+
+using Doubles = py::array_t<double, py::array::c_style | py::array::forcecast>;
+using Flags = py::array_t<bool, py::array::c_style | py::array::forcecast>;
+using SharedSession = std::shared_ptr<SteppedSession>;
+
+std::optional<Grip> grip_of(const std::string& hand) {
+    if (hand == "prescribed") return std::nullopt;
+    if (hand == "light") return Grip::light;
+    if (hand == "firm") return Grip::firm;
+    throw std::invalid_argument(
+        fmt::format("hand: \"{}\" is none; choose \"prescribed\", \"light\" or \"firm\"", hand));
+}
+
+SharedSession make_session(const std::shared_ptr<LoadedCase>& loaded, const std::string& hand,
+                           const std::optional<std::string>& coupling,
+                           const std::optional<std::string>& force_model,
+                           const std::optional<double>& milling_rate_hz, bool vibration,
+                           const py::object& start_mm, const py::object& start_axis,
+                           const std::optional<std::filesystem::path>& record) {
+    SteppedOptions options{.grip = grip_of(hand),
+                           .coupling = coupling.value_or(""),
+                           .milling_rate_hz = milling_rate_hz,
+                           .vibration = vibration,
+                           .record = record};
+    if (force_model) options.force_model = *force_model;
+    if (!start_mm.is_none() || !start_axis.is_none()) {
+        options.start = loaded->settings().start_pose;
+        if (!start_mm.is_none()) options.start->position_mm = vector_of(start_mm, "start_mm");
+        if (!start_axis.is_none())
+            options.start->spindle_axis = unit(vector_of(start_axis, "start_axis"), "start_axis");
+    }
+    const py::gil_scoped_release released;
+    return std::make_shared<SteppedSession>(loaded, std::move(options));
+}
+
+std::int32_t burr_number(const SteppedSession& session, const py::object& burr) {
+    if (burr.is_none()) return -1;
+    const std::vector<Burr>& burrs = session.loaded().settings().burrs;
+    if (py::isinstance<py::str>(burr)) {
+        const auto name = burr.cast<std::string>();
+        for (std::size_t i = 0; i < burrs.size(); ++i)
+            if (burrs[i].name == name) return static_cast<std::int32_t>(i);
+        throw std::invalid_argument(fmt::format("burr: \"{}\" is none of Case.burrs", name));
+    }
+    const auto number = burr.cast<std::int64_t>();
+    if (number < 0 || number >= static_cast<std::int64_t>(burrs.size()))
+        throw std::invalid_argument(fmt::format("burr: {} is none of the case's {}", number, burrs.size()));
+    return static_cast<std::int32_t>(number);
+}
+
+void require_prescribed(const SteppedSession& session, const char* what) {
+    if (session.has_simulated_hand())
+        throw std::invalid_argument(fmt::format(
+            "{}: the simulated hand goes its own way; make the session with hand=\"prescribed\"", what));
+}
+
+Tick step(const SharedSession& session, const py::object& hand_mm, const py::object& axis, bool pedal,
+          const py::object& burr, std::int64_t ms) {
+    if (ms < 1)
+        throw std::invalid_argument(fmt::format("ms: takes whole milliseconds from 1 on, not {}", ms));
+    const std::unique_lock<std::mutex> held = taken(session->busy());
+    HandInput input{.pose = session->hand(),
+                    .pedal = pedal,
+                    .burr = burr_number(*session, burr),
+                    .ticks = static_cast<std::uint64_t>(ms)};
+    if (!hand_mm.is_none() || !axis.is_none() || pedal || input.burr >= 0)
+        require_prescribed(*session, "hand_mm, axis, pedal, burr");
+    if (!hand_mm.is_none()) input.pose.position_mm = vector_of(hand_mm, "hand_mm");
+    if (!axis.is_none()) input.pose.spindle_axis = unit(vector_of(axis, "axis"), "axis");
+    {
+        const py::gil_scoped_release released;
+        session->step(input);
+    }
+    return {session->state(), session->shared_case()};
+}
+
+/// Rows of three, N of them. Throws std::invalid_argument for another shape and for what is not finite.
+void require_rows(const Doubles& rows, py::ssize_t n, const char* argument) {
+    if (rows.ndim() != 2 || rows.shape(0) != n || rows.shape(1) != 3)
+        throw std::invalid_argument(fmt::format("{}: takes an array ({}, 3), not {}", argument, n,
+                                                std::string(py::str(rows.attr("shape")))));
+    for (py::ssize_t i = 0; i < rows.size(); ++i)
+        if (!std::isfinite(rows.data()[i]))
+            throw std::invalid_argument(fmt::format("{}: row {} is not finite", argument, i / 3));
+}
+
+glm::dvec3 row(const Doubles& rows, py::ssize_t i) {
+    const double* at = rows.data() + 3 * i;
+    return {at[0], at[1], at[2]};
+}
+
+std::vector<HandInput> inputs_of(const SteppedSession& session, const Doubles& hands,
+                                 const std::optional<Doubles>& axes, const std::optional<Flags>& pedals,
+                                 std::int32_t burr) {
+    const py::ssize_t n = hands.ndim() > 0 ? hands.shape(0) : 0;
+    require_rows(hands, n, "hands");
+    const bool one_axis = axes && axes->ndim() == 1;
+    if (axes && !one_axis) require_rows(*axes, n, "axes");
+    if (pedals && pedals->ndim() != 0 && (pedals->ndim() != 1 || pedals->shape(0) != n))
+        throw std::invalid_argument(fmt::format("pedals: takes one flag, or an array ({},)", n));
+    HandInput input{.pose = session.hand(), .burr = burr};
+    if (one_axis) input.pose.spindle_axis = unit(vector_of(*axes, "axes"), "axes");
+    std::vector<HandInput> inputs(static_cast<std::size_t>(n), input);
+    for (py::ssize_t i = 0; i < n; ++i) {
+        HandInput& at = inputs[static_cast<std::size_t>(i)];
+        at.pose.position_mm = row(hands, i);
+        if (axes && !one_axis) at.pose.spindle_axis = unit(row(*axes, i), "axes");
+        if (pedals) at.pedal = pedals->data()[pedals->ndim() == 0 ? 0 : i];
+    }
+    return inputs;
+}
+
+py::dict rollout(const SharedSession& session, const Doubles& hands, const std::optional<Doubles>& axes,
+                 const std::optional<Flags>& pedals, const py::object& burr) {
+    const std::unique_lock<std::mutex> held = taken(session->busy());
+    require_prescribed(*session, "rollout");
+    const std::vector<HandInput> inputs =
+        inputs_of(*session, hands, axes, pedals, burr_number(*session, burr));
+    TickColumns columns(session->loaded(), inputs.size());
+    {
+        const py::gil_scoped_release released;
+        for (const HandInput& input : inputs) {
+            session->step(input);
+            columns.add(*session);
+        }
+    }
+    return dict_of(std::move(columns), session->loaded());
+}
+
+py::dict run(const SharedSession& session, std::int64_t ms) {
+    if (ms < 0) throw std::invalid_argument(fmt::format("ms: takes whole milliseconds, not {}", ms));
+    const std::unique_lock<std::mutex> held = taken(session->busy());
+    HandInput input{.pose = session->hand()};
+    TickColumns columns(session->loaded(), static_cast<std::size_t>(ms));
+    {
+        const py::gil_scoped_release released;
+        for (std::int64_t tick = 0; tick < ms && !session->is_finished(); ++tick) {
+            session->step(input);
+            columns.add(*session);
+        }
+    }
+    return dict_of(std::move(columns), session->loaded());
+}
+
+py::bytes bytes_of(const FedMotion& motion) {
+    std::string bytes(motion.inputs.size() * sizeof(HandInput), '\0');
+    std::memcpy(bytes.data(), motion.inputs.data(), bytes.size());
+    return bytes;
+}
+
+FedMotion motion_of(const std::string& session, const std::string& bytes) {
+    if (bytes.size() % sizeof(HandInput) != 0)
+        throw std::invalid_argument("the bytes are no state of a session");
+    FedMotion motion{.session = session, .inputs = std::vector<HandInput>(bytes.size() / sizeof(HandInput))};
+    std::memcpy(static_cast<void*>(motion.inputs.data()), bytes.data(), bytes.size());
+    return motion;
+}
+
+void bind_state(py::module_& module) {
+    py::class_<FedMotion>(module, "State", R"(A state of a session, to go back to: the motion that led there.
+
+A session is a pure function of its case, its settings and its hand, so its motion is its state. 80 bytes a millisecond that
+differs from the one before; no bone. It can be pickled and sent to other processes.)")
+        .def_property_readonly(
+            "ticks",
+            [](const FedMotion& motion) {
+                return std::accumulate(
+                    motion.inputs.begin(), motion.inputs.end(), std::uint64_t{0},
+                    [](std::uint64_t sum, const HandInput& one) { return sum + one.ticks; });
+            },
+            "Milliseconds since the session began: load_state computes so many again.")
+        .def(py::pickle(
+            [](const FedMotion& motion) { return py::make_tuple(motion.session, bytes_of(motion)); },
+            [](const py::tuple& kept) {
+                return motion_of(kept[0].cast<std::string>(), kept[1].cast<std::string>());
+            }));
+}
+
+}  // namespace
+
+void bind_session(py::module_& module) {
+    bind_tick(module);
+    bind_state(module);
+    py::class_<SteppedSession, SharedSession>(module, "Session",
+                                              R"(A session on the virtual clock, stepped from outside.
+
+A tick is a millisecond of session time, and takes what it takes to compute. Same case, same settings, same motion: the same
+to the bit, and the same as `haptic_server --clock virtual`. The tick of time 0 is made with the session: the hand at its start,
+the pedal up. Many sessions may be at work at once, each in a thread of its own: the interpreter's lock is released meanwhile.
+
+The hand must move as a hand can: a jump of over 3 mm within a millisecond turns the force off (Step.fault), and the tool takes
+hold again once it is clear of bone.)")
+        .def(py::init(&make_session), py::arg("case"), py::kw_only(), py::arg("hand") = "prescribed",
+             py::arg("coupling") = py::none(), py::arg("force_model") = py::none(),
+             py::arg("milling_rate_hz") = py::none(), py::arg("vibration") = false,
+             py::arg("start_mm") = py::none(), py::arg("start_axis") = py::none(),
+             py::arg("record") = py::none(),
+             R"(Makes a session of a case.
+
+hand: "prescribed" (its pose is what step and rollout say), or "light" or "firm": a simulated hand of that grip holds a simulated
+arm and follows the case's trajectory. coupling, force_model, milling_rate_hz, vibration: as the options of haptic_server; None:
+what is usual. start_mm (3,), start_axis (3,): where the tool starts, patient LPS, instead of the case's. record: a file (.pcap)
+to record the session into; it is whole once the session is closed.
+ValueError, RuntimeError: in one line, what is wrong and what would be right.)")
+        .def("step", &step, py::kw_only(), py::arg("hand_mm") = py::none(), py::arg("axis") = py::none(),
+             py::arg("pedal") = false, py::arg("burr") = py::none(), py::arg("ms") = 1,
+             R"(Holds the hand at a pose for `ms` milliseconds; returns what the last of them knew, as a Step.
+
+hand_mm (3,): patient LPS, mm. axis (3,): of the spindle, from tip to shank; of any length. Where None: as it was. pedal: down, so
+that the spindle turns. burr: name or number of one to change to, away from bone with the spindle off.
+A simulated hand takes ms alone. ValueError: an argument is wrong. RuntimeError: another thread steps the session, or it is closed.)")
+        .def(
+            "rollout", &rollout, py::arg("hands"), py::arg("axes") = py::none(),
+            py::arg("pedals") = py::none(), py::kw_only(), py::arg("burr") = py::none(),
+            R"(Moves the hand along a motion, a row a millisecond, without the interpreter's lock; returns what each tick knew.
+
+hands (N, 3): patient LPS, mm. axes (N, 3), or (3,) for all; None: as it was. pedals (N,) of bool, or one for all; None: up.
+Returns a dict of arrays: time_s, depth_mm (N,); hand_mm, burr_mm, axis, force_n, torque_nmm, milling_force_n (N, 3); spindle_on
+(N,) of bool; fault (N,), numbers in osteomill.FAULTS, 0 while all is well; removed_mm3, a dict of (N,) by tissue and "total";
+distance_mm, a dict of (N,) by protected structure. They are what Step has under these names. Errors as step.)")
+        .def(
+            "run", &run, py::arg("ms"),
+            R"(Goes on for `ms` milliseconds, or until the simulated hand is at its trajectory's end; returns what rollout does.
+
+A prescribed hand stays where it is, with the pedal up.)")
+        .def(
+            "save_state",
+            [](const SharedSession& session) {
+                const std::unique_lock<std::mutex> held = taken(session->busy());
+                return session->fed();
+            },
+            "The state, to go back to: a State. Costs a copy of the motion so far, and no bone.")
+        .def(
+            "load_state",
+            [](const SharedSession& session, const FedMotion& motion) {
+                const py::gil_scoped_release released;
+                const std::unique_lock<std::mutex> held = taken(session->busy());
+                session->replay(motion);
+            },
+            py::arg("state"),
+            "Goes (back) to a state, exactly: begins with the case's bone and computes State.ticks "
+            "milliseconds again, which takes as "
+            "long as they took. ValueError: the state is of another case or of other settings, or the "
+            "session is recorded.")
+        .def_property_readonly(
+            "bone", [](const SharedSession& session) { return BoneView(session); },
+            "The bone as it is whenever it is asked.")
+        .def_property_readonly("case",
+                               [](const SharedSession& session) {
+                                   return std::const_pointer_cast<LoadedCase>(session->shared_case());
+                               })
+        .def_property_readonly("coupling",
+                               [](const SharedSession& session) { return session->settings().coupling; })
+        .def_property_readonly("force_model",
+                               [](const SharedSession& session) { return session->settings().force_model; })
+        .def_property_readonly(
+            "milling_rate_hz",
+            [](const SharedSession& session) { return session->settings().milling_rate_hz; })
+        .def_property_readonly(
+            "is_finished", [](const SharedSession& session) { return session->is_finished(); },
+            "The simulated hand is at its trajectory's end.")
+        .def(
+            "close",
+            [](const SharedSession& session) {
+                const py::gil_scoped_release released;
+                const std::unique_lock<std::mutex> held = taken(session->busy());
+                session->end();
+            },
+            "Ends the session; its recording is whole then. RuntimeError: that could not be written.")
+        .def("__enter__", [](const SharedSession& session) { return session; })
+        .def("__exit__", [](const py::object& session, const py::args&) { session.attr("close")(); });
+}
+
+}  // namespace osteomill::python

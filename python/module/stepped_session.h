@@ -1,0 +1,120 @@
+// A session on the virtual clock that is stepped from outside, a millisecond a tick: by a hand at prescribed
+// poses, or by the simulated arm in a hand that follows the scene's trajectory. A thin layer over
+// SessionAssembly: it feeds the hand, keeps what was fed, and notes what each tick knew. The tick of time 0,
+// with the hand at the start and the pedal up, is made at once.
+//
+// What is saved of a session is what it was fed: the session is a pure function of that. To load it is to
+// play it again from the bone as it was loaded, which takes as long as the session took to compute, and holds
+// no second bone.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <limits>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "devices/simulated/prescribed_device.h"
+#include "haptic_server/session/session_assembly.h"
+#include "python/module/loaded_case.h"
+
+namespace osteomill::python {
+
+struct SteppedOptions {
+    std::optional<Grip> grip{};  ///< of the simulated hand; nothing: the hand is at prescribed poses
+    std::string coupling{};      ///< empty: the usual one
+    std::string force_model = force_model_names().front();
+    std::optional<double> milling_rate_hz{};  ///< nothing: the usual one
+    bool vibration = false;
+    std::optional<ToolPose> start{};  ///< in place of the scene's
+    std::optional<std::filesystem::path> record{};
+};
+
+/// The hand from one tick on, for so many. Patient LPS; the axis is a unit vector from tip to shank.
+struct HandInput {
+    ToolPose pose{};
+    bool pedal = false;
+    std::int32_t burr = -1;  ///< number in the scene's set that is asked for; -1: none
+    std::uint64_t ticks = 1;
+
+    bool is_as(const HandInput& other) const {
+        return pose == other.pose && pedal == other.pedal && burr == other.burr;
+    }
+};
+
+/// What a tick knew.
+struct TickState {
+    ToolState tool{};
+    glm::dvec3 milling_force_n{
+        0.0};  ///< of the bone on the burr, mean over the newest milling step, as the tick knew it
+    std::vector<double> removed_mm3{};  ///< so far, by LoadedCase::labels()
+    double removed_in_all_mm3 = 0.0;
+};
+
+/// What was fed to a session since it began.
+struct FedMotion {
+    std::string session;  ///< which case and which settings: only such a session takes it
+    std::vector<HandInput> inputs{};
+};
+
+class SteppedSession {
+  public:
+    /// Throws std::invalid_argument or std::runtime_error in one line for what a part refuses.
+    SteppedSession(std::shared_ptr<const LoadedCase> loaded, SteppedOptions options);
+    ~SteppedSession();
+    SteppedSession(const SteppedSession&) = delete;
+    SteppedSession& operator=(const SteppedSession&) = delete;
+
+    // One thread at a time: whoever calls these holds `busy`.
+    std::mutex& busy() { return busy_; }
+
+    /// Makes the ticks of `input`. Throws std::logic_error once it has ended.
+    void step(const HandInput& input);
+    /// As it was after the last tick.
+    TickState state() const;
+    const ToolState& tool() const { return tool_; }
+    const glm::dvec3& milling_force_n() const { return assembly_->session().known_result().force_n; }
+    RemovedByTissue removed_mm3() const { return assembly_->session().removed_mm3(); }
+
+    /// The hand that was prescribed last, or where the session starts.
+    const ToolPose& hand() const { return hand_; }
+    bool has_simulated_hand() const { return options_.grip.has_value(); }
+    /// The simulated hand is at its trajectory's end.
+    bool is_finished() const { return simulated_ != nullptr && simulated_->is_finished(); }
+    bool has_ended() const { return has_ended_; }
+    bool is_recorded() const { return options_.record.has_value(); }
+
+    const LoadedCase& loaded() const { return *loaded_; }
+    std::shared_ptr<const LoadedCase> shared_case() const { return loaded_; }
+    const Bone& bone() const { return assembly_->session().bone(); }
+    const MillingSessionOptions& settings() const { return assembly_->options(); }
+
+    FedMotion fed() const { return {.session = fingerprint_, .inputs = fed_}; }
+    /// Throws std::invalid_argument for a motion of another case or other settings, and for a session that is
+    /// recorded.
+    void replay(const FedMotion& motion);
+
+    /// Ends it; a recording is whole then. Throws std::runtime_error where that could not be written.
+    void end();
+
+  private:
+    void begin();
+    void make_ticks(const HandInput& input);
+
+    std::shared_ptr<const LoadedCase> loaded_;
+    SteppedOptions options_;
+    std::string fingerprint_;
+    std::mutex busy_;
+    PrescribedDevice* prescribed_ = nullptr;      // the assembly's
+    const SimulatedDevice* simulated_ = nullptr;  // likewise
+    std::unique_ptr<SessionAssembly> assembly_;
+    ToolState tool_;
+    ToolPose hand_;
+    std::vector<HandInput> fed_;
+    bool has_ended_ = false;
+};
+
+}  // namespace osteomill::python

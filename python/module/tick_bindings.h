@@ -1,0 +1,24 @@
+// What ticks of a session knew, in Python: of one, a Step; of many, a dict of arrays.
+#pragma once
+
+#include <pybind11/pybind11.h>
+
+#include <memory>
+
+#include "python/module/stepped_session.h"
+#include "python/module/tick_columns.h"
+
+namespace osteomill::python {
+
+/// What a step returns: what its last tick knew.
+struct Tick {
+    TickState state;
+    std::shared_ptr<const LoadedCase> loaded;
+};
+
+void bind_tick(pybind11::module_& module);
+
+/// Takes the columns over.
+pybind11::dict dict_of(TickColumns&& columns, const LoadedCase& loaded);
+
+}  // namespace osteomill::python
