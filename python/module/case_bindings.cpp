@@ -115,6 +115,14 @@ ValueError, RuntimeError: in one line, what is wrong and what would be right.)")
             },
             "The label of each tissue, by name.")
         .def_property_readonly(
+            "removal_names",
+            [](const LoadedCase& loaded) {
+                std::vector<std::string> names{"total"};
+                for (const LoadedCase::NamedLabel& one : loaded.labels()) names.push_back(one.name);
+                return names;
+            },
+            "Keys of removed_mm3, in order.")
+        .def_property_readonly(
             "structures", [](const LoadedCase& loaded) { return loaded.structures(); },
             "Names of the protected tissues, whose distance is told.")
         .def_property_readonly(

@@ -8,4 +8,6 @@ PYBIND11_MODULE(_core, module) {
     osteomill::python::bind_bone(module);
     osteomill::python::bind_case(module);
     osteomill::python::bind_session(module);
+    osteomill::python::bind_recording(module);
+    osteomill::python::bind_reference_force(module);
 }

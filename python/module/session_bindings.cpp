@@ -247,6 +247,13 @@ distance_mm, a dict of (N,) by protected structure. They are what Step has under
             R"(Goes on for `ms` milliseconds, or until the simulated hand is at its trajectory's end; returns what rollout does.
 
 A prescribed hand stays where it is, with the pedal up.)")
+        .def_property_readonly(
+            "now",
+            [](const SharedSession& session) {
+                const std::unique_lock<std::mutex> held = taken(session->busy());
+                return Tick{session->state(), session->shared_case()};
+            },
+            "What the last tick knew: a Step.")
         .def(
             "save_state",
             [](const SharedSession& session) {

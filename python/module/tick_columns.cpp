@@ -3,17 +3,10 @@
 #include <numeric>
 #include <string_view>
 
+#include "python/module/vector_column.h"
 #include "simulation/safety/fault.h"
 
 namespace osteomill::python {
-
-namespace {
-
-void push(std::vector<double>& column, const glm::dvec3& v) {
-    column.insert(column.end(), {v.x, v.y, v.z});
-}
-
-}  // namespace
 
 TickColumns::TickColumns(const LoadedCase& loaded, std::size_t ticks)
     : removed_mm3(loaded.labels().size()), distance_mm(loaded.structures().size()), loaded_(loaded) {

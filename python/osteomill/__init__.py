@@ -3,6 +3,33 @@
 Units are mm, s, N, N mm; positions are in patient LPS (x to the patient's left, y to the back, z up).
 """
 
-from osteomill._core import FAULTS, Bone, Burr, Case, Session, State, Step, __version__
+from osteomill._core import (
+    FAULTS,
+    Bone,
+    Burr,
+    Case,
+    Motion,
+    Recording,
+    Session,
+    State,
+    Step,
+    __version__,
+    reference_force,
+)
+from osteomill.env import Box, Env
 
-__all__ = ["FAULTS", "Bone", "Burr", "Case", "Session", "State", "Step", "__version__"]
+__all__ = [
+    "FAULTS",
+    "Bone",
+    "Box",
+    "Burr",
+    "Case",
+    "Env",
+    "Motion",
+    "Recording",
+    "Session",
+    "State",
+    "Step",
+    "__version__",
+    "reference_force",
+]
