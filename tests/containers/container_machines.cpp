@@ -53,7 +53,7 @@ class Containers final : public TwoMachines {
     Command run(Machine where, const std::string& program, const Command& arguments) const override {
         Command command{"/usr/bin/env", "docker",       "run",      "--rm",
                         "--name",       name_of(where), "--volume", folder_.string() + ":/out"};
-        // As docker/compose.yaml has them, but for the limits: not every machine lets them be raised.
+        // As docker/compose.yaml has them.
         append(command, {"--cap-drop", "ALL", "--security-opt", "no-new-privileges", "--read-only", "--tmpfs",
                          "/tmp", "--tmpfs", "/home/osteomill:uid=10001,mode=0700"});
         if (where == Machine::beside_server)

@@ -85,8 +85,11 @@ TEST(Confinement, OfTheContainersLeavesNoCapabilityAndNothingToWriteOn) {
     for (const char* line :
          {"  cap_drop: [ALL]", "  read_only: true", "  security_opt: [\"no-new-privileges:true\"]"})
         EXPECT_EQ(count(compose, line), 1U) << line;
-    EXPECT_EQ(count(compose, "cap_add:"), 0U);
-    EXPECT_EQ(count(compose, "privileged"), 0U);
+    EXPECT_THAT(compose, HasSubstr("compose.realtime.yaml"));
+    for (const char* refused : {"cap_add:", "privileged:", "ulimits:", "devices:", "network_mode:", "cpu_rt_"})
+        EXPECT_EQ(count(compose, refused), 0U) << refused << " is what a host may refuse";
+    const std::string realtime = bytes_of(std::string(DOCKER_FOLDER) + "/compose.realtime.yaml");
+    EXPECT_EQ(count(realtime, "\n  server:\n    ulimits: {rtprio: 50, memlock: -1}\n"), 1U);
     const std::string image = bytes_of(std::string(DOCKER_FOLDER) + "/server.Dockerfile");
     std::smatch command;
     ASSERT_TRUE(std::regex_search(image, command, std::regex("\nCMD (.*)\n")));
