@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "devices/hid/hid_transport.h"
 
@@ -10,5 +11,12 @@ namespace osteomill {
 /// A line for each haptic arm and 3D mouse: where it is, what it is, and whether it can be opened or what
 /// would help. Tries to open each. One line where there is none.
 std::string device_list(HidTransport& transport);
+
+/// The same devices, by whether they can be opened: each where it is, and what would help.
+struct HidReadiness {
+    std::vector<std::string> ready{};
+    std::vector<std::string> closed{};
+};
+HidReadiness readiness_of_devices(HidTransport& transport);
 
 }  // namespace osteomill

@@ -12,6 +12,8 @@
 
 #include "devices/hid/device_list.h"
 #include "devices/hid/hidapi_transport.h"
+#include "haptic_server/check/machine_check.h"
+#include "haptic_server/check/session_check.h"
 #include "haptic_server/program/report_folder.h"
 #include "haptic_server/program/resident_memory.h"
 #include "haptic_server/program/session_settings.h"
@@ -30,6 +32,21 @@ void require_folder_of(const std::optional<std::filesystem::path>& file) {
     if (!file || !file->has_parent_path() || std::filesystem::is_directory(file->parent_path())) return;
     throw std::runtime_error(
         fmt::format("{}: there is no folder {}", file->string(), file->parent_path().string()));
+}
+
+/// Throws where something is wrong, once all of it was said.
+void check(const ServerOptions& options, const ProgramOutput& output) {
+    std::filesystem::path records_in = options.record.value_or("").parent_path();
+    while (!records_in.empty() && !std::filesystem::exists(records_in)) records_in = records_in.parent_path();
+    HidapiTransport transport;
+    std::vector<CheckRow> rows = check_machine(this_machine());
+    rows.push_back(check_devices(transport));
+    for (CheckRow& row : check_session({.listen = options.listen,
+                                        .tls = options.access.tls,
+                                        .records_in = records_in.empty() ? "." : records_in}))
+        rows.push_back(std::move(row));
+    output.out->write(text_of(rows));
+    if (must_be_mended(rows)) throw std::runtime_error("the machine is not ready for a session: see above");
 }
 
 /// Nothing where nobody looks on and nothing is recorded. Reads the files of TLS and the list of operators.
@@ -103,6 +120,7 @@ void run_server(const ServerOptions& options, const std::string& version, StopFl
         output.out->write(device_list(transport));
         return;
     }
+    if (options.checks_machine) return check(options, output);
     const auto began = std::chrono::steady_clock::now();
     if (options.outputs.report) prepare_report_folder(*options.outputs.report);
     for (const auto& file : {options.outputs.save_bone, options.outputs.json, options.outputs.json_histograms,

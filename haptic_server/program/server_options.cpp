@@ -49,6 +49,7 @@ struct Typed {
     std::string trainee;
     std::string log_csv;
     std::string log_milling_csv;
+    bool check = false;
 };
 
 CLI::Validator a_coupling() {
@@ -175,6 +176,9 @@ void declare(CLI::App& app, Typed& typed) {
            "Write the milling force of every milling step; with --force-model milling-instants at 10 kHz, "
            "the force within the tooth period")
         ->type_name("FILE");
+    app.add_flag("--check", typed.check,
+                 "Look whether the machine is ready for a session with these options, say for all that is not "
+                 "what it costs and what mends it, and end: 0 where nothing is wrong, else 1");
 }
 
 std::optional<std::filesystem::path> path_if_given(const std::string& text) {
@@ -344,6 +348,7 @@ ServerOptions checked(const Typed& typed, const AccessOptions& access) {
     if (options.outputs.json) options.outputs.json_histograms = histograms_beside(*options.outputs.json);
     options.logs.force = path_if_given(typed.log_csv);
     options.logs.milling = path_if_given(typed.log_milling_csv);
+    options.checks_machine = typed.check;
     require_distinct_files(options, access);
     return options;
 }

@@ -28,6 +28,7 @@ struct ServerOptions {
     OutputFiles outputs;
     std::string trainee;
     std::string case_name;  ///< for people; empty: of no case
+    bool checks_machine = false;  ///< and does nothing else
 };
 
 using CommandLine = ParseResult<ServerOptions>;
