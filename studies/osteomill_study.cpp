@@ -5,6 +5,8 @@
 #include <CLI/CLI.hpp>
 #include <exception>
 #include <iostream>
+#include <stdexcept>
+#include <string>
 #include <vector>
 
 #include "analysis/calibration/calibration_options.h"
@@ -28,8 +30,13 @@ int main(int argc, char** argv) {
     const std::vector<StudyCommand> studies{
         add_force(app),    add_stability(app), add_polishing(app),   add_render(app),
         add_realtime(app), add_bridge(app),    add_calibration(app), add_sessions(app, OSTEOMILL_VERSION)};
+    StudyParts parts;
+    for (const StudyCommand& study : studies) add_parts(*study.subcommand, parts, study.jobs);
     try {
-        parse_arguments(app, argc, argv);
+        const std::vector<std::string> words = command_line({argv + 1, argv + argc}, parts);
+        std::vector<const char*> arguments{argv[0]};
+        for (const std::string& word : words) arguments.push_back(word.c_str());
+        parse_arguments(app, static_cast<int>(arguments.size()), arguments.data());
         if (app.get_subcommands().empty())
             throw CLI::RequiredError(
                 "a study to run: force, stability, polishing, render, realtime, bridge, calibrate or "
@@ -38,12 +45,22 @@ int main(int argc, char** argv) {
         if (error.get_exit_code() == 0) return app.exit(error);
         std::cerr << "osteomill_study: " << printable(error.what()) << " (see --help)\n";
         return exit_usage;
+    } catch (const std::invalid_argument& error) {
+        std::cerr << "osteomill_study: " << printable(error.what()) << " (see --help)\n";
+        return exit_usage;
+    } catch (const std::exception& error) {
+        std::cerr << "osteomill_study: " << printable(error.what()) << '\n';
+        return exit_failure;
     }
     try {
-        for (const StudyCommand& study : studies)
-            if (study.subcommand->parsed())
-                study.run(
-                    {.said = std::cout, .progress = std::cerr, .is_terminal = ::isatty(STDERR_FILENO) != 0});
+        for (const StudyCommand& study : studies) {
+            if (!study.subcommand->parsed()) continue;
+            if (study.runs_one_by_one || study.subcommand->count("--jobs") == 0) parts.jobs = study.jobs;
+            study.run({.said = std::cout,
+                       .progress = std::cerr,
+                       .is_terminal = ::isatty(STDERR_FILENO) != 0,
+                       .parts = parts});
+        }
         return 0;
     } catch (const std::exception& error) {
         std::cerr << "osteomill_study: " << printable(error.what()) << '\n';

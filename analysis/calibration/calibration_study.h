@@ -16,9 +16,9 @@ struct CalibrationOptions {
 };
 
 /// Fits each material of the table and writes calibration.json, residuals.csv, scene.toml,
-/// calibration_fit.svg and calibration_residuals.svg into `options.out`, a folder that is there. Throws
-/// std::runtime_error in one line where the table is wrong, a material's runs do not give its coefficients
-/// (nothing is written then), or something cannot be written.
+/// calibration_fit.svg and calibration_residuals.svg into `options.out`. Throws std::runtime_error in
+/// one line where the table is wrong, a material's runs do not give its coefficients (none of these is
+/// written then), or something cannot be written.
 void calibrate(const CalibrationOptions& options, const StudySurroundings& surroundings);
 
 struct DesignOptions {

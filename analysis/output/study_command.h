@@ -2,9 +2,11 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <filesystem>
 #include <functional>
 #include <string>
+#include <thread>
 
 #include "analysis/output/surroundings.h"
 
@@ -14,7 +16,15 @@ struct StudyCommand {
     CLI::App* subcommand;
     /// Does what the subcommand's options say, once they are parsed. Throws std::exception in one line.
     std::function<void(const StudySurroundings&)> run;
+    /// Cases that run at a time unless --jobs says otherwise; one where times are measured.
+    int jobs = 1;
+    bool runs_one_by_one = false;  ///< whatever --jobs says: it draws, or measures this machine
 };
+
+/// For cases that measure no times: as many as there are processors.
+inline int jobs_of_processors() {
+    return static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+}
 
 /// The folder that every study writes into.
 inline CLI::Option* add_out(CLI::App& subcommand, std::filesystem::path& out) {

@@ -1,7 +1,6 @@
 // A sweep of many independent cases over several threads.
 #pragma once
 
-#include <algorithm>
 #include <atomic>
 #include <cstddef>
 #include <exception>
@@ -12,9 +11,9 @@
 
 namespace osteomill::study {
 
-/// Runs the cases 0 to `count` - 1, begun in that order, on `jobs` threads (at least one): `run(i)` by any of
-/// them, and `done(i, outcome)` by one at a time, as cases end. What either throws stops the sweep after the
-/// cases that are under way, and is thrown here.
+/// Runs the cases 0 to `count` - 1, begun in that order, on `jobs` threads, or on the caller's where they are
+/// none or one: `run(i)` by any of them, and `done(i, outcome)` by one at a time, as cases end. What either
+/// throws stops the sweep after the cases that are under way, and is thrown here.
 template <typename Run, typename Done>
 void sweep(std::size_t count, int jobs, Run&& run, Done&& done) {
     std::atomic<std::size_t> next{0};
@@ -34,9 +33,11 @@ void sweep(std::size_t count, int jobs, Run&& run, Done&& done) {
             }
         }
     };
-    {
+    if (jobs <= 1) {
+        work();
+    } else {
         std::vector<std::jthread> workers;
-        for (int i = 0; i < std::max(1, jobs); ++i) workers.emplace_back(work);
+        for (int i = 0; i < jobs; ++i) workers.emplace_back(work);
     }
     if (failure) std::rethrow_exception(failure);
 }

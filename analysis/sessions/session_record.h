@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "analysis/output/cases/json_values.h"
+
 namespace osteomill::study {
 
 struct KeptMetric {
@@ -16,6 +18,7 @@ struct KeptMetric {
     std::string unit;
     std::string text;  ///< for people
 };
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(KeptMetric, key, of, value, unit, text)
 
 struct SessionRecord {
     std::string digest;  ///< of the recording's bytes: 32 hexadecimal digits
@@ -30,6 +33,7 @@ struct SessionRecord {
     /// Added up over tissues, burrs or structures; nothing where there is none.
     std::optional<double> sum(const std::string& key) const;
 };
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(SessionRecord, digest, file, trainee, case_name, began_unix_ns, metrics)
 
 /// Of the bytes of a file. Throws std::runtime_error where it cannot be read.
 std::string digest_of_file(const std::filesystem::path& file);

@@ -19,7 +19,8 @@ StudyCommand add_sessions(CLI::App& app, const std::string& version) {
         ->required();
     add_out(*sessions, options.out);
     return {sessions,
-            [shared](const StudySurroundings& surroundings) { run_sessions_study(*shared, surroundings); }};
+            [shared](const StudySurroundings& surroundings) { run_sessions_study(*shared, surroundings); },
+            jobs_of_processors()};
 }
 
 }  // namespace osteomill::study

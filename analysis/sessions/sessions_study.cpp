@@ -3,11 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <optional>
 #include <ostream>
 #include <set>
 #include <stdexcept>
 
 #include "analysis/output/output_files.h"
+#include "analysis/output/study_run.h"
 #include "analysis/sessions/overview.h"
 #include "analysis/sessions/session_store.h"
 #include "common/text/plain_text.h"
@@ -27,6 +29,26 @@ std::vector<std::filesystem::path> recordings_of_folder(const std::filesystem::p
         throw std::runtime_error(folder.string() +
                                  ": holds no recording (*.pcap), and no folder that holds a session.pcap");
     return found;
+}
+
+struct Recording {
+    std::filesystem::path file;
+    std::string digest;
+    std::optional<SessionRecord> kept;  ///< of an earlier study
+};
+
+struct Read {
+    SessionRecord record{};
+    std::string why_not{};  ///< it cannot be read
+};
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Read, record, why_not)
+
+Read read(const Recording& recording) {
+    try {
+        return {recording.kept ? *recording.kept : record_of(recording.file, recording.digest), ""};
+    } catch (const std::runtime_error& error) {
+        return {{}, error.what()};
+    }
 }
 
 }  // namespace
@@ -55,36 +77,47 @@ void run_sessions_study(const SessionsStudyOptions& options, const StudySurround
     const auto files = recordings_in(options.from);
     make_folder(options.out);
     SessionStore store(options.out / "sessions.sqlite", options.version);
-    std::vector<SessionRecord> sessions;
+    StudyRun run(options.out, surroundings);
     std::vector<std::string> skipped;
+    const auto skip = [&](const std::string& why) {
+        skipped.push_back(why);
+        surroundings.progress << "left out: " << printable(why) << '\n';
+    };
+    std::vector<Recording> recordings;
     std::set<std::string> digests;
-    std::vector<SessionRecord> fresh;
     for (const std::filesystem::path& file : files) {
         try {
             const std::string digest = digest_of_file(file);
             if (!digests.insert(digest).second) continue;  // a copy
-            std::optional<SessionRecord> record = store.find(digest);
-            if (!record) {
-                record = record_of(file, digest);
-                fresh.push_back(*record);
-            }
-            record->file = printable(file.string());
-            sessions.push_back(*std::move(record));
+            recordings.push_back({file, digest, store.find(digest)});
         } catch (const std::runtime_error& error) {
-            skipped.push_back(error.what());
-            surroundings.progress << "left out: " << printable(error.what()) << '\n';
+            skip(error.what());
         }
     }
-    for (const SessionRecord& record : fresh) store.keep(record);
+    const auto planned = run.plan(
+        recordings, [](const Recording& recording) { return recording.digest; }, &read);
+    if (!run.perform()) return;
+    std::vector<SessionRecord> sessions;
+    auto recording = recordings.begin();
+    for (const Read& outcome : planned.outcomes()) {
+        if (!outcome.why_not.empty()) {
+            skip(outcome.why_not);
+        } else {
+            if (!recording->kept) store.keep(outcome.record);
+            sessions.push_back(outcome.record);
+            sessions.back().file = printable(recording->file.string());
+        }
+        ++recording;
+    }
     if (sessions.empty()) throw std::runtime_error("no recording can be read to its end");
     std::ranges::stable_sort(sessions, {}, &SessionRecord::began_unix_ns);
     write_text(sessions_csv(sessions), options.out / "sessions.csv");
     for (const LearningCurve& curve : learning_curves(sessions))
         write_text(curve.svg + "\n", options.out / (curve.key + ".svg"));
     write_text(overview_html(sessions, skipped), options.out / "sessions.html");
-    surroundings.said << fmt::format("{} sessions{} in {}\n", sessions.size(),
-                                     skipped.empty() ? "" : fmt::format(", {} left out,", skipped.size()),
-                                     (options.out / "sessions.html").string());
+    run.say("{} sessions{} in {}", sessions.size(),
+            skipped.empty() ? "" : fmt::format(", {} left out,", skipped.size()),
+            (options.out / "sessions.html").string());
 }
 
 }  // namespace osteomill::study

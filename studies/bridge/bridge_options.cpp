@@ -16,8 +16,10 @@ StudyCommand add_bridge(CLI::App& app) {
         ->check(CLI::Range(1.0, 3600.0))
         ->capture_default_str();
     bridge->add_flag("--quick", options.quick, "two seconds each");
-    return {bridge,
-            [shared](const StudySurroundings& surroundings) { run_bridge_study(*shared, surroundings); }};
+    return {
+        .subcommand = bridge,
+        .run = [shared](const StudySurroundings& surroundings) { run_bridge_study(*shared, surroundings); },
+        .runs_one_by_one = true};
 }
 
 }  // namespace osteomill::study

@@ -4,15 +4,16 @@
 #include <unistd.h>
 
 #include <nlohmann/json.hpp>
-#include <optional>
-#include <ostream>
 #include <string>
+#include <vector>
 
 #include "analysis/output/output_files.h"
+#include "analysis/output/study_run.h"
 #include "common/statistics/percentile.h"
 #include "studies/bridge/delay_rows.h"
 #include "studies/bridge/private_network.h"
 #include "studies/bridge/round_trips.h"
+#include "studies/stability/map/map_text.h"
 
 namespace osteomill::study {
 
@@ -25,57 +26,87 @@ nlohmann::ordered_json in_numbers(const std::vector<double>& trips_us) {
             {"p999_us", percentile(trips_us, 0.999)}};
 }
 
+/// A way to the arm.
+struct Way {
+    std::string name;
+    Ends ends{};
+    bool is_between_namespaces = false;
+
+    static std::string name_of(const Way& way) { return way.name; }
+};
+
+std::vector<Way> ways() {
+    const BridgePath path{fmt::format("/tmp/osteomill_study_{}", getpid())};
+    const BridgeAddress udp = ListenAddress{.port = 17020};
+    std::vector<Way> all{{"Unix socket", {.where = path}},
+                         {"Unix socket, key", {.where = path, .has_key = true}},
+                         {"UDP, loopback", {.where = udp}},
+                         {"UDP, loopback, key", {.where = udp, .has_key = true}}};
+    if (PrivateNetwork::why_not().empty())
+        all.push_back({.name = "UDP, two namespaces, key", .is_between_namespaces = true});
+    return all;
+}
+
+RoundTrips trips_over(const Way& way, double seconds) {
+    if (!way.is_between_namespaces) return measure_round_trips(way.ends, seconds);
+    const PrivateNetwork network;
+    return measure_round_trips(
+        {.where = ListenAddress{.address = PrivateNetwork::server_address, .port = 17020},
+         .server_namespace = network.server(),
+         .arm_namespace = network.client(),
+         .has_key = true},
+        seconds);
+}
+
 }  // namespace
 
 void run_bridge_study(const BridgeStudyOptions& options, const StudySurroundings& surroundings) {
     make_folder(options.out);
-    const double seconds = options.quick ? 2.0 : options.seconds;
+    StudyRun run(options.out, surroundings);
+    const std::vector<Way> all_ways = ways();
+    const auto trips = run.plan(all_ways, &Way::name_of,
+                                [seconds = options.quick ? 2.0 : options.seconds](const Way& way) {
+                                    return trips_over(way, seconds);
+                                });
+    const std::vector<DelayCase> cases = delay_cases(options.quick);
+    SceneCache cache;
+    const auto delays = run.plan(
+        cases,
+        [](const DelayCase& c) { return fmt::format("{} ms there and back: {}", c.bridge_ms, text_of(c.run)); },
+        [&](const DelayCase& c) { return study::run(c, cache); });
+    if (!run.perform()) return;
+
     nlohmann::ordered_json found;
-    surroundings.said << fmt::format("{:<34}{:>28}{:>28}{:>12}\n", "", "bridge p50/p99/p99.9, us",
-                                     "bare echo", "p99, times");
-    const auto measure = [&](const std::string& name, const Ends& ends) {
-        const RoundTrips trips = measure_round_trips(ends, seconds);
+    run.say("{:<34}{:>28}{:>28}{:>12}", "", "bridge p50/p99/p99.9, us", "bare echo", "p99, times");
+    auto way = all_ways.begin();
+    for (const RoundTrips& measured : trips.outcomes()) {
         const auto row = [](const std::vector<double>& us) {
             return fmt::format("{:.0f} / {:.0f} / {:.0f}", percentile(us, 0.5), percentile(us, 0.99),
                                percentile(us, 0.999));
         };
-        const double times = percentile(trips.bridge_us, 0.99) / percentile(trips.echo_us, 0.99);
-        surroundings.said << fmt::format("{:<34}{:>28}{:>28}{:>12.2f}\n", name, row(trips.bridge_us),
-                                         row(trips.echo_us), times);
-        found[name] = {{"bridge", in_numbers(trips.bridge_us)},
-                       {"echo", in_numbers(trips.echo_us)},
-                       {"p99_ratio", times}};
-    };
-    const BridgePath path{fmt::format("/tmp/osteomill_study_{}", getpid())};
-    const BridgeAddress udp = ListenAddress{.port = 17020};
-    measure("Unix socket", {.where = path});
-    measure("Unix socket, key", {.where = path, .has_key = true});
-    measure("UDP, loopback", {.where = udp});
-    measure("UDP, loopback, key", {.where = udp, .has_key = true});
-    if (const std::string why_not = PrivateNetwork::why_not(); why_not.empty()) {
-        const PrivateNetwork network;
-        measure("UDP, two namespaces, key",
-                {.where = ListenAddress{.address = PrivateNetwork::server_address, .port = 17020},
-                 .server_namespace = network.server(),
-                 .arm_namespace = network.client(),
-                 .has_key = true});
-    } else {
-        surroundings.said << "two namespaces: left out; " << why_not << '\n';
+        const double times = percentile(measured.bridge_us, 0.99) / percentile(measured.echo_us, 0.99);
+        run.say("{:<34}{:>28}{:>28}{:>12.2f}", way->name, row(measured.bridge_us), row(measured.echo_us),
+                times);
+        found[way->name] = {{"bridge", in_numbers(measured.bridge_us)},
+                            {"echo", in_numbers(measured.echo_us)},
+                            {"p99_ratio", times}};
+        ++way;
     }
-    surroundings.said << fmt::format("\n{:<34}{:>28}{:>28}{:>12}\n", "there and back, +- 25 %",
-                                     "stable, all of the stiffness", "what the server takes", "share");
-    for (const DelayRow& row : delay_rows(options.quick, [](double) {})) {
-        surroundings.said << fmt::format("{:<34}{:>28}{:>28}{:>12.2f}\n", fmt::format("{} ms", row.bridge_ms),
-                                         fmt::format("{} of {}", row.stable_with_all, row.cases),
-                                         fmt::format("{} of {}", row.stable_with_share, row.cases),
-                                         row.share);
+    if (const std::string why_not = PrivateNetwork::why_not(); !why_not.empty())
+        run.say("two namespaces: left out; {}", why_not);
+    run.say("\n{:<34}{:>28}{:>28}{:>12}", "there and back, +- 25 %", "stable, all of the stiffness",
+            "what the server takes", "share");
+    for (const DelayRow& row : delay_rows(cases, delays.outcomes())) {
+        run.say("{:<34}{:>28}{:>28}{:>12.2f}", fmt::format("{} ms", row.bridge_ms),
+                fmt::format("{} of {}", row.stable_with_all, row.cases),
+                fmt::format("{} of {}", row.stable_with_share, row.cases), row.share);
         found["delays"].push_back({{"bridge_ms", row.bridge_ms},
                                    {"cases", row.cases},
                                    {"stable_with_all", row.stable_with_all},
                                    {"stable_with_share", row.stable_with_share},
                                    {"share", row.share}});
     }
-    write_json(found, options.out / "bridge.json");
+    run.write(found, "bridge");
 }
 
 }  // namespace osteomill::study

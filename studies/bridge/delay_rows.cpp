@@ -30,27 +30,36 @@ bool is_stable(MapCase c, double bridge_ms, double share, SceneCache& cache) {
     return run_map_case(c, cache).is_stable;
 }
 
+double share_taken(double bridge_ms) {
+    // As the server measures it, with the arm's own millisecond.
+    const double measured_s = 0.001 * (1.0 + bridge_ms);
+    return stiffest_spring({.delay_s = measured_s}).stiffness_n_per_mm / ArmModel{}.max_stiffness_n_per_mm;
+}
+
 }  // namespace
 
-std::vector<DelayRow> delay_rows(bool quick, const std::function<void(double)>& report) {
-    // As the server measures it, with the arm's own millisecond.
-    const auto measured_s = [](double bridge_ms) { return 0.001 * (1.0 + bridge_ms); };
+std::vector<DelayCase> delay_cases(bool quick) {
+    std::vector<DelayCase> found;
+    for (const double bridge_ms : {0.0, 0.2, 0.5, 1.0, 2.0})
+        for (const MapCase& c : cases(quick)) found.push_back({bridge_ms, c});
+    return found;
+}
+
+DelayOutcome run(const DelayCase& c, SceneCache& cache) {
+    return {is_stable(c.run, c.bridge_ms, 1.0, cache),
+            is_stable(c.run, c.bridge_ms, share_taken(c.bridge_ms), cache)};
+}
+
+std::vector<DelayRow> delay_rows(const std::vector<DelayCase>& cases,
+                                 const std::vector<DelayOutcome>& outcomes) {
     std::vector<DelayRow> rows;
-    SceneCache cache;
-    const std::vector<double> ways_ms{0.0, 0.2, 0.5, 1.0, 2.0};
-    const std::vector<MapCase> all = cases(quick);
-    std::size_t done = 0;
-    for (const double bridge_ms : ways_ms) {
-        DelayRow row{.bridge_ms = bridge_ms,
-                     .share = stiffest_spring({.delay_s = measured_s(bridge_ms)}).stiffness_n_per_mm /
-                              ArmModel{}.max_stiffness_n_per_mm};
-        for (const MapCase& c : all) {
-            ++row.cases;
-            if (is_stable(c, bridge_ms, 1.0, cache)) ++row.stable_with_all;
-            if (is_stable(c, bridge_ms, row.share, cache)) ++row.stable_with_share;
-            report(static_cast<double>(++done) / static_cast<double>(ways_ms.size() * all.size()));
-        }
-        rows.push_back(row);
+    for (std::size_t i = 0; i < cases.size(); ++i) {
+        const double bridge_ms = cases[i].bridge_ms;
+        if (rows.empty() || rows.back().bridge_ms != bridge_ms)
+            rows.push_back({.bridge_ms = bridge_ms, .share = share_taken(bridge_ms)});
+        ++rows.back().cases;
+        rows.back().stable_with_all += outcomes[i].with_all ? 1 : 0;
+        rows.back().stable_with_share += outcomes[i].with_share ? 1 : 0;
     }
     return rows;
 }

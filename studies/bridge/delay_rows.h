@@ -2,9 +2,11 @@
 // the arm's own stiffness, and with what the server chooses for the delay.
 #pragma once
 
-#include <functional>
-#include <string>
+#include <nlohmann/json.hpp>
 #include <vector>
+
+#include "studies/stability/map/map_case.h"
+#include "studies/stability/scene/scene_cache.h"
 
 namespace osteomill::study {
 
@@ -16,8 +18,24 @@ struct DelayRow {
     int stable_with_share = 0;
 };
 
+/// A case with an arm behind the bridge.
+struct DelayCase {
+    double bridge_ms = 0.0;
+    MapCase run;
+};
 /// 0, 0.2, 0.5, 1 and 2 ms; cutting conditions of the stability map and a wall, with each grip; `quick`:
-/// fewer. `report` is told how much is done, 0 to 1.
-std::vector<DelayRow> delay_rows(bool quick, const std::function<void(double)>& report);
+/// fewer.
+std::vector<DelayCase> delay_cases(bool quick);
+
+/// Whether it is stable.
+struct DelayOutcome {
+    bool with_all = false;    ///< of the arm's stiffness
+    bool with_share = false;  ///< that the server takes
+};
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(DelayOutcome, with_all, with_share)
+DelayOutcome run(const DelayCase& c, SceneCache& cache);
+
+/// A row for each way, of outcomes in the order of the cases.
+std::vector<DelayRow> delay_rows(const std::vector<DelayCase>& cases, const std::vector<DelayOutcome>& outcomes);
 
 }  // namespace osteomill::study

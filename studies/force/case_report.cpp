@@ -52,14 +52,4 @@ ordered_json report_of(const SteadyCase& c, const SteadyRun& run, const MakeMode
     };
 }
 
-ordered_json report_of(const std::vector<SteadyCase>& cases, const SteadyRun& run,
-                       const MakeModel& make_model, const ReportProgress& progress) {
-    ordered_json reports = ordered_json::array();
-    for (const SteadyCase& c : cases) {
-        reports.push_back(report_of(c, run, make_model));
-        progress(static_cast<double>(reports.size()) / static_cast<double>(cases.size()));
-    }
-    return reports;
-}
-
 }  // namespace osteomill::study

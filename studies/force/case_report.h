@@ -4,7 +4,6 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
-#include "common/program/progress.h"
 #include "studies/force/steady_run.h"
 
 namespace osteomill::study {
@@ -15,9 +14,5 @@ namespace osteomill::study {
 /// (ripple() of force_series.h); step_us {p50, p99}; steps and travel_mm. An error against a force of zero
 /// that is not met is null.
 nlohmann::ordered_json report_of(const SteadyCase& c, const SteadyRun& run, const MakeModel& make_model);
-
-/// report_of() of every case, an array.
-nlohmann::ordered_json report_of(const std::vector<SteadyCase>& cases, const SteadyRun& run,
-                                 const MakeModel& make_model, const ReportProgress& progress);
 
 }  // namespace osteomill::study

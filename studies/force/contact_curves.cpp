@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <glm/geometric.hpp>
 
 #include "common/statistics/percentile.h"
@@ -16,6 +17,7 @@ namespace {
 
 constexpr double block_voxel_mm = 0.1;
 constexpr double curve_travel_mm = 1.0;
+constexpr std::array feeds_mm_per_s{2.0, 6.0};
 
 Burr five_millimetres() {
     return {.diameter_mm = 5.0, .sense = SpindleSense::counter_clockwise};
@@ -73,33 +75,39 @@ double milling_force_n(double depth_mm, double feed_mm_per_s) {
 
 }  // namespace
 
-ContactCurves measure_contact(bool quick, const ReportProgress& progress) {
-    ContactCurves curves{.feeds_mm_per_s = {2.0, 6.0}};
+std::vector<std::string> contact_models() {
+    std::vector<std::string> names;
     for (const ForceModelEntry& model : force_models())
-        if (!model.has_cutting_law) curves.models.push_back(model.name);
-    const Bone bone = flat_block();
-    const double step_mm = quick ? 0.5 : 0.1;
-    const int steps = static_cast<int>(2.5 / step_mm + 0.5);
-    for (int i = 1; i <= steps; ++i) {
-        ContactRow row{.depth_mm = i * step_mm};
-        for (const std::string& name : curves.models)
-            row.force_n.push_back(resting_force_n(name, bone, row.depth_mm));
-        for (const double feed : curves.feeds_mm_per_s)
-            row.milling_force_n.push_back(milling_force_n(row.depth_mm, feed));
-        curves.rows.push_back(row);
-        progress(static_cast<double>(i) / steps);
-    }
-    for (const std::string& name : curves.models)
-        curves.step_us.push_back(sliding_step_us(name, bone, quick));
-    return curves;
+        if (!model.has_cutting_law) names.push_back(model.name);
+    return names;
 }
 
-Table table_of(const ContactCurves& curves) {
+std::vector<double> contact_depths_mm(bool quick) {
+    const double step_mm = quick ? 0.5 : 0.1;
+    std::vector<double> depths_mm;
+    for (int i = 1; i <= static_cast<int>(2.5 / step_mm + 0.5); ++i) depths_mm.push_back(i * step_mm);
+    return depths_mm;
+}
+
+ContactRow measure_contact(double depth_mm) {
+    const Bone bone = flat_block();
+    ContactRow row{.depth_mm = depth_mm};
+    for (const std::string& name : contact_models())
+        row.force_n.push_back(resting_force_n(name, bone, depth_mm));
+    for (const double feed : feeds_mm_per_s) row.milling_force_n.push_back(milling_force_n(depth_mm, feed));
+    return row;
+}
+
+double contact_step_us(const std::string& model, bool quick) {
+    return sliding_step_us(model, flat_block(), quick);
+}
+
+Table table_of(const std::vector<ContactRow>& rows) {
     std::vector<std::string> columns{"depth_mm"};
-    columns.insert(columns.end(), curves.models.begin(), curves.models.end());
-    for (const double feed : curves.feeds_mm_per_s) columns.push_back(fmt::format("milling {} mm/s", feed));
+    for (const std::string& model : contact_models()) columns.push_back(model);
+    for (const double feed : feeds_mm_per_s) columns.push_back(fmt::format("milling {} mm/s", feed));
     Table table(columns);
-    for (const ContactRow& row : curves.rows) {
+    for (const ContactRow& row : rows) {
         std::vector<nlohmann::ordered_json> cells{row.depth_mm};
         cells.insert(cells.end(), row.force_n.begin(), row.force_n.end());
         cells.insert(cells.end(), row.milling_force_n.begin(), row.milling_force_n.end());

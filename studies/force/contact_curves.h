@@ -1,11 +1,11 @@
 // The older contact models beside the milling force: what each feels of a burr that rests in flat bone.
 #pragma once
 
+#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
 #include "analysis/output/table.h"
-#include "common/program/progress.h"
 
 namespace osteomill::study {
 
@@ -15,19 +15,19 @@ struct ContactRow {
     std::vector<double>
         milling_force_n{};  ///< by feed, the analytical reference of a fresh slot of that depth
 };
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(ContactRow, depth_mm, force_n, milling_force_n)
 
-struct ContactCurves {
-    std::vector<std::string> models{};  ///< of force_models.h, those that know no cutting law
-    std::vector<double> feeds_mm_per_s{};
-    std::vector<ContactRow> rows{};
-    std::vector<double>
-        step_us{};  ///< by model, median of a burr that slides 1 mm deep with the spindle on, 1 kHz
-};
+/// Of force_models.h, those that know no cutting law.
+std::vector<std::string> contact_models();
+std::vector<double> contact_depths_mm(bool quick);
 
 /// A 5 mm burr, upright, spindle off, over 0.1 mm voxels; the milling force at 10 000 rpm.
-ContactCurves measure_contact(bool quick, const ReportProgress& progress);
+ContactRow measure_contact(double depth_mm);
+
+/// Median of a step of a burr that slides 1 mm deep with the spindle on, 1 kHz.
+double contact_step_us(const std::string& model, bool quick);
 
 /// depth_mm, a column a model, a column a feed ("milling 6 mm/s").
-Table table_of(const ContactCurves& curves);
+Table table_of(const std::vector<ContactRow>& rows);
 
 }  // namespace osteomill::study

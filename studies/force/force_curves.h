@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "analysis/output/cases/json_values.h"
 #include "analysis/output/table.h"
-#include "common/program/progress.h"
 #include "studies/force/steady_run.h"
 
 namespace osteomill::study {
@@ -16,15 +16,20 @@ struct CurvePoint {
     glm::dvec3 voxels_n{0.0};
     glm::dvec3 bins_n{0.0};
 };
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(CurvePoint, at, reference_n, voxels_n, bins_n)
 
-/// An upright 5 mm burr, 1 mm deep at 6 mm/s and 10 000 rpm but for what varies.
-struct ForceCurves {
-    std::vector<CurvePoint> depth;
-    std::vector<CurvePoint> feed;
-    std::vector<CurvePoint> rpm;
+/// A point to measure: a motion, named by what varies.
+struct CurveCase {
+    double at = 0.0;
+    SteadyCase motion;
 };
 
-ForceCurves measure_curves(bool quick, const ReportProgress& progress);
+/// An upright 5 mm burr, 1 mm deep at 6 mm/s and 10 000 rpm but for what varies.
+std::vector<CurveCase> depth_curve();
+std::vector<CurveCase> feed_curve();
+std::vector<CurveCase> rpm_curve();
+
+CurvePoint measure(const CurveCase& c, bool quick);
 
 /// The first column is called `variable`.
 Table table_of(const std::vector<CurvePoint>& curve, const std::string& variable);

@@ -2,12 +2,10 @@
 
 #include <memory>
 #include <optional>
-#include <ostream>
 
-#include "analysis/output/chart.h"
 #include "analysis/output/output_files.h"
+#include "analysis/output/study_run.h"
 #include "common/program/option_checks.h"
-#include "common/program/progress.h"
 #include "studies/force/case_report.h"
 #include "studies/force/force_study.h"
 #include "studies/loads/loads_study.h"
@@ -31,17 +29,21 @@ struct ForceOptions {
 
 void run_cases(const ForceOptions& options, const StudySurroundings& surroundings) {
     const auto cases = read_steady_cases(options.cases);
-    const std::filesystem::path file = options.out / "cases.json";
-    {
-        ProgressLine line(surroundings.progress, surroundings.is_terminal, "cases");
-        write_json(report_of(cases, options.run, voxel_model(), line.reporter()), file);
-    }
-    surroundings.said << cases.size() << " cases in " << file.string() << '\n';
+    StudyRun run(options.out, surroundings);
+    const auto planned = run.plan(
+        cases, [](const SteadyCase& c) { return c.name; },
+        [&](const SteadyCase& c) { return report_of(c, options.run, voxel_model()).dump(); });
+    if (!run.perform()) return;
+    nlohmann::ordered_json reports = nlohmann::ordered_json::array();
+    for (const std::string& report : planned.outcomes())
+        reports.push_back(nlohmann::ordered_json::parse(report));
+    run.write(reports, "cases");
+    run.say("{} cases in {}", cases.size(), (options.out / "cases.json").string());
 }
 
 void perform(const ForceOptions& options, const StudySurroundings& surroundings) {
     const bool has_charts = !options.loads && options.cases.empty() && !options.random;
-    if (has_charts) require_charts();
+    if (has_charts) require_charts_of(surroundings);
     make_folder(options.out);
     if (options.loads)
         run_loads_study(options.out, surroundings);

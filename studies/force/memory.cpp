@@ -25,15 +25,10 @@ MemoryRow row_of(const std::string& name, const Grid& grid, double bone_mm3, std
 
 }  // namespace
 
-std::vector<MemoryRow> weigh_scenes() {
-    std::vector<MemoryRow> rows;
-    for (const std::string& name : phantom_names()) {
-        const auto began = std::chrono::steady_clock::now();
-        const Bone bone = load_bone(phantom_scene(name)).bone;
-        rows.push_back(
-            row_of(name + " phantom", bone.grid(), bone_volume_mm3(bone), memory_bytes(bone), began));
-    }
-    return rows;
+MemoryRow weigh_scene(const std::string& phantom) {
+    const auto began = std::chrono::steady_clock::now();
+    const Bone bone = load_bone(phantom_scene(phantom)).bone;
+    return row_of(phantom + " phantom", bone.grid(), bone_volume_mm3(bone), memory_bytes(bone), began);
 }
 
 MemoryRow weigh_structures() {

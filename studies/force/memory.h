@@ -1,6 +1,7 @@
 // Cost of a bone in memory and at start: it must follow the bone, not the box around it.
 #pragma once
 
+#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
@@ -16,9 +17,10 @@ struct MemoryRow {
     double bytes_per_mm3 = 0.0;  ///< of bone
     double start_s = 0.0;        ///< until the bone can be milled
 };
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(MemoryRow, name, bone_mm3, box_mm3, mebibytes, bytes_per_mm3, start_s)
 
-/// The phantoms that haptic_server starts with.
-std::vector<MemoryRow> weigh_scenes();
+/// A phantom that haptic_server starts with.
+MemoryRow weigh_scene(const std::string& phantom);
 
 /// The watch of the tooth's protected structures (structure_watch.h). `bone_mm3` is the structures' volume,
 /// `box_mm3` the bone's box.

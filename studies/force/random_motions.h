@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "analysis/output/cases/json_values.h"
 #include "analysis/output/table.h"
 #include "studies/force/steady_run.h"
 
@@ -48,6 +49,9 @@ struct RandomResult {
     double largest_step = 0.0;         ///< a share of the mean
     double step_us = 0.0;              ///< median
 };
+/// What was measured, without the motion.
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(RandomResult, reference_n, force_n, error, ripple, deviations,
+                                   largest_step, step_us)
 
 RandomResult measure(const RandomMotion& motion, const MakeModel& make_model);
 

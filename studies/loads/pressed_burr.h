@@ -2,6 +2,8 @@
 // sinks. So hand loads and removal rates that were published can be set beside the simulator's.
 #pragma once
 
+#include <nlohmann/json.hpp>
+
 #include "common/scene/burr.h"
 #include "common/scene/material.h"
 
@@ -23,6 +25,7 @@ struct PressedResult {
     /// The burr sank to its equator, which no stroke of a hand does: the rate means nothing.
     bool sinks = false;
 };
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(PressedResult, removal_mm3_per_s, depth_mm, sinks)
 
 /// With the milling model and the proxy of the coupling `implicit` (burr_proxy.h), at 1 kHz.
 PressedResult press(const PressedStroke& stroke);

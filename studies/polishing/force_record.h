@@ -5,6 +5,8 @@
 #include <glm/vec3.hpp>
 #include <vector>
 
+#include "analysis/output/cases/json_values.h"
+
 namespace osteomill::study {
 
 struct RecordedForce {
@@ -14,6 +16,8 @@ struct RecordedForce {
     double removed_mm3 = 0.0;
     double depth_mm = 0.0;  ///< of the burr's lowest point below the surface; the logs do not say, 0
 };
+
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(RecordedForce, time_s, burr_mm, force_n, removed_mm3, depth_mm)
 
 using ForceRecord = std::vector<RecordedForce>;
 

@@ -2,8 +2,8 @@
 
 #include <memory>
 
-#include "analysis/output/chart.h"
 #include "analysis/output/output_files.h"
+#include "analysis/output/study_run.h"
 #include "studies/polishing/polishing_study.h"
 
 namespace osteomill::study {
@@ -19,10 +19,11 @@ StudyCommand add_polishing(CLI::App& app) {
                         "burrs whose edges rub, as in cortical bone; without, the published law");
     polishing->add_flag("--quick", options.quick, "fewer runs: under half a minute");
     return {polishing, [shared](const StudySurroundings& surroundings) {
-                require_charts();
+                require_charts_of(surroundings);
                 make_folder(shared->out);
                 run_polishing_study(*shared, surroundings);
-            }};
+            },
+            jobs_of_processors()};
 }
 
 }  // namespace osteomill::study

@@ -20,6 +20,7 @@ struct PolishingRun {
     double stray_mm = 0.0;     ///< largest distance of the burr from the line of the slide, along the surface
     std::uint64_t faults = 0;  ///< how often a fault turned the force off
 };
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(PolishingRun, record, slide_s, reached_end, depth_mm, stray_mm, faults)
 
 /// The simulated hand slides over `cube`, the scene's. Recorded is the force that it feels, a sample a
 /// millisecond; the session's own log is left in `log`. Throws std::runtime_error where that cannot be

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <functional>
 #include <stdexcept>
 #include <utility>
 #include <variant>
@@ -45,21 +46,41 @@ class PolishingStudy {
     }
 
     void run() {
-        const auto figures = chapter("figures 6, 7 and 8", &run_figures);
+        const std::vector<PolishingSetup> of_figures = setups_of_figures(quick_);
+        const std::vector<PolishingSetup> by_edges_of = setups_by_edges(quick_);
+        const std::vector<PolishingSetup> by_speed_of = setups_by_speed(quick_);
+        const PolishingSetup one_stroke{.stroke_mm = single_stroke_mm};
+        const auto runs_of_figures = run_.plan(of_figures, name_of, by_hand());
+        const auto forces_by_edges = run_.plan(by_edges_of, name_of, tooth_period());
+        const auto forces_by_speed = run_.plan(by_speed_of, name_of, tooth_period());
+        const auto on_rails = run_.plan(std::vector{PolishingSetup{}, one_stroke}, name_of, this->on_rails());
+        const auto one_by_hand = run_.plan(std::vector{one_stroke}, name_of, by_hand());
+        const auto slow_and_fast =
+            run_.plan(std::vector{by_speed_of.front(), by_speed_of.back()}, name_of, by_hand());
+        if (!run_.perform()) return;
+
+        std::vector<FigureRun> figures;
+        for (PolishingRun& run : runs_of_figures.outcomes())
+            figures.push_back(judged(of_figures[figures.size()], std::move(run)));
         run_.write(table_of(figures), "figures");
         for (const FigureRun& figure : figures)
             run_.write(series_of(figure.run.record), figure.setup.force_model + "_" + figure.setup.coupling);
-        const auto by_edges = chapter("edges", &vary_edges);
+        const auto by_edges = with_setups(forces_by_edges.outcomes(), by_edges_of);
         run_.write(table_of(by_edges), "edges");
         for (const ToothPeriodForce& force : by_edges)
             run_.write(clip_of(force), fmt::format("tooth_period_{}", force.setup.edges));
-        const auto by_speed = chapter("spindle speeds", &vary_speed);
+        const auto by_speed = with_setups(forces_by_speed.outcomes(), by_speed_of);
         run_.write(table_of(by_speed), "speeds");
 
-        std::vector<Claim> claims = claims_of_shape(figures);
+        const std::vector<PolishingRun> as_meant = on_rails.outcomes();
+        run_.write(series_of(as_meant[0].record), "as_meant");
+        const std::vector<PolishingRun> at_speeds = slow_and_fast.outcomes();
+        std::vector<Claim> claims = claims_of_shape(figures, as_meant[0].record, as_meant[1].record,
+                                                    one_by_hand.outcomes().front().record);
         add(claims, claims_of_contact(figures));
         add(claims, edges_claims(by_edges));
-        add(claims, speed_claims(by_speed));
+        add(claims,
+            speed_claims(by_speed, mean_force_n(at_speeds[0].record), mean_force_n(at_speeds[1].record)));
         const Table table = table_of(claims);
         run_.write(table, "claims");
         run_.write(table.json(), "claims");
@@ -70,12 +91,32 @@ class PolishingStudy {
     }
 
   private:
-    /// A chapter with a bar of its own.
-    template <typename Found>
-    Found chapter(const std::string& title, Found (*work)(const Specimen&, bool, const std::filesystem::path&,
-                                                          const ReportProgress&)) const {
-        return run_.chapter(
-            title, [&](const ReportProgress& progress) { return work(cube_, quick_, logs_, progress); });
+    /// What tells a run from the others, and names its log.
+    static std::string name_of(const PolishingSetup& setup) {
+        return fmt::format("{}_{}_{:.0f}hz_{:.0f}rpm_{}edges_{:.0f}mm", setup.force_model, setup.coupling,
+                           setup.milling_rate_hz, setup.spindle_rpm, setup.edges, setup.stroke_mm);
+    }
+    std::filesystem::path log_of(const char* how, const PolishingSetup& setup) const {
+        return logs_ / fmt::format("{}_{}.csv", how, name_of(setup));
+    }
+
+    std::function<PolishingRun(const PolishingSetup&)> by_hand() const {
+        return
+            [this](const PolishingSetup& setup) { return run_by_hand(cube_, setup, log_of("hand", setup)); };
+    }
+    std::function<PolishingRun(const PolishingSetup&)> on_rails() const {
+        return [this](const PolishingSetup& setup) {
+            return run_on_rails(cube_, setup, log_of("rails", setup));
+        };
+    }
+    std::function<ToothPeriodForce(const PolishingSetup&)> tooth_period() const {
+        return [this](const PolishingSetup& setup) { return measure(cube_, setup, log_of("teeth", setup)); };
+    }
+
+    static std::vector<ToothPeriodForce> with_setups(std::vector<ToothPeriodForce> forces,
+                                                     const std::vector<PolishingSetup>& setups) {
+        for (std::size_t i = 0; i < forces.size(); ++i) forces[i].setup = setups[i];
+        return forces;
     }
 
     static void add(std::vector<Claim>& claims, std::vector<Claim> more) {
@@ -84,17 +125,15 @@ class PolishingStudy {
 
     /// Which of the paper's claims hold depends on how the slide lies on the bone: asked of strokes to and
     /// fro and of a single one, of the model alone and of what the hand feels.
-    std::vector<Claim> claims_of_shape(const std::vector<FigureRun>& figures) const {
-        const PolishingSetup one_stroke{.stroke_mm = single_stroke_mm};
+    static std::vector<Claim> claims_of_shape(const std::vector<FigureRun>& figures,
+                                              const ForceRecord& on_rails, const ForceRecord& slot_on_rails,
+                                              const ForceRecord& slot_by_hand) {
         const FigureRun& implicit = figure_of(figures, "milling", "implicit");
-        const ForceRecord on_rails = run_on_rails(cube_, {}, logs_ / "rails.csv").record;
-        run_.write(series_of(on_rails), "as_meant");
         const std::vector<std::pair<std::string, ForceRecord>> records{
             {"milling, on rails", on_rails},
-            {"milling, on rails, one stroke",
-             run_on_rails(cube_, one_stroke, logs_ / "slot_rails.csv").record},
+            {"milling, on rails, one stroke", slot_on_rails},
             {implicit.name(), implicit.run.record},
-            {implicit.name() + ", one stroke", run_by_hand(cube_, one_stroke, logs_ / "slot.csv").record},
+            {implicit.name() + ", one stroke", slot_by_hand},
             {"point-spring, interpolate", figure_of(figures, "point-spring", "interpolate").run.record}};
         std::vector<Claim> claims;
         for (const auto& [where, record] : records) add(claims, rising_claims(where, record));
@@ -117,18 +156,15 @@ class PolishingStudy {
         return claims;
     }
 
-    std::vector<Claim> speed_claims(const std::vector<ToothPeriodForce>& by_speed) const {
-        const auto claim = [](const std::string& where, const PolishingSetup& slow, double slow_n,
-                              const PolishingSetup& fast, double fast_n) {
-            return speed_claim(where, slow.spindle_rpm, slow_n, fast.spindle_rpm, fast_n);
+    static std::vector<Claim> speed_claims(const std::vector<ToothPeriodForce>& by_speed,
+                                           double slow_by_hand_n, double fast_by_hand_n) {
+        const ToothPeriodForce& slow = by_speed.front();
+        const ToothPeriodForce& fast = by_speed.back();
+        const auto claim = [&](const std::string& where, double slow_n, double fast_n) {
+            return speed_claim(where, slow.setup.spindle_rpm, slow_n, fast.setup.spindle_rpm, fast_n);
         };
-        const PolishingSetup slow = by_speed.front().setup;
-        const PolishingSetup fast = by_speed.back().setup;
-        const auto by_hand_n = [&](const PolishingSetup& setup) {
-            return mean_force_n(run_by_hand(cube_, setup, logs_ / "by_hand.csv").record);
-        };
-        return {claim("milling, on rails", slow, by_speed.front().mean_n, fast, by_speed.back().mean_n),
-                claim("milling, implicit", slow, by_hand_n(slow), fast, by_hand_n(fast))};
+        return {claim("milling, on rails", slow.mean_n, fast.mean_n),
+                claim("milling, implicit", slow_by_hand_n, fast_by_hand_n)};
     }
 
     bool quick_;

@@ -1,7 +1,5 @@
 #include "studies/polishing/published_figures.h"
 
-#include <fmt/format.h>
-
 #include <utility>
 
 namespace osteomill::study {
@@ -12,6 +10,8 @@ namespace {
 constexpr double window_s = 0.1;
 /// Of the charts' tables: six points in a cycle of 20 Hz.
 constexpr std::size_t ticks_a_line = 8;
+
+}  // namespace
 
 std::vector<PolishingSetup> setups_of_figures(bool quick) {
     const auto published = [](const char* force_model, const char* coupling) {
@@ -28,8 +28,6 @@ std::vector<PolishingSetup> setups_of_figures(bool quick) {
     return setups;
 }
 
-}  // namespace
-
 FigureRun judged(PolishingSetup setup, PolishingRun run) {
     FigureRun figure{.setup = std::move(setup), .run = std::move(run)};
     figure.windows = windows_of(figure.run.record, window_s);
@@ -37,18 +35,6 @@ FigureRun judged(PolishingSetup setup, PolishingRun run) {
     figure.limit_cycle_n = limit_cycle_n(figure.windows);
     figure.onset_mm = onset_of_chatter_mm(figure.windows);
     return figure;
-}
-
-std::vector<FigureRun> run_figures(const Specimen& cube, bool quick, const std::filesystem::path& folder,
-                                   const ReportProgress& progress) {
-    const std::vector<PolishingSetup> setups = setups_of_figures(quick);
-    std::vector<FigureRun> figures;
-    for (const PolishingSetup& setup : setups) {
-        const std::string log = fmt::format("{}_{}.csv", setup.force_model, setup.coupling);
-        figures.push_back(judged(setup, run_by_hand(cube, setup, folder / log)));
-        progress(static_cast<double>(figures.size()) / static_cast<double>(setups.size()));
-    }
-    return figures;
 }
 
 Table series_of(const ForceRecord& record) {

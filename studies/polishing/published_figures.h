@@ -2,14 +2,11 @@
 // the point spring against time, each through several couplings.
 #pragma once
 
-#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "analysis/output/table.h"
-#include "common/bone/bone.h"
-#include "common/program/progress.h"
 #include "studies/polishing/force_measures.h"
 #include "studies/polishing/polishing_run.h"
 
@@ -30,10 +27,9 @@ struct FigureRun {
 
 FigureRun judged(PolishingSetup setup, PolishingRun run);
 
-/// Runs of the simulated hand: the milling model through the published couplings at 100 Hz and through
-/// `implicit` at 1 kHz, and the point spring through the published ones. `quick` leaves `hold` out.
-std::vector<FigureRun> run_figures(const Specimen& cube, bool quick, const std::filesystem::path& folder,
-                                   const ReportProgress& progress);
+/// For the simulated hand: the milling model through the published couplings at 100 Hz and through `implicit`
+/// at 1 kHz, and the point spring through the published ones. `quick` leaves `hold` out.
+std::vector<PolishingSetup> setups_of_figures(bool quick);
 
 /// Time from first contact, depth and force, a line every few milliseconds of a record of one a millisecond.
 Table series_of(const ForceRecord& record);

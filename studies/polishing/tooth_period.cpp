@@ -1,7 +1,5 @@
 #include "studies/polishing/tooth_period.h"
 
-#include <fmt/format.h>
-
 #include <glm/geometric.hpp>
 
 #include "studies/polishing/force_measures.h"
@@ -44,6 +42,8 @@ ForceRecord clip_of(const ForceRecord& record) {
     return clip;
 }
 
+}  // namespace
+
 ToothPeriodForce measure(const Specimen& cube, const PolishingSetup& setup,
                          const std::filesystem::path& log) {
     const PolishingRun run = run_on_rails(cube, setup, log);
@@ -56,37 +56,24 @@ ToothPeriodForce measure(const Specimen& cube, const PolishingSetup& setup,
             .chip_um = 1000.0 * feed_mm_per_s / (setup.edges * setup.spindle_rpm / 60.0)};
 }
 
-}  // namespace
-
-std::vector<ToothPeriodForce> vary_edges(const Specimen& cube, bool quick,
-                                         const std::filesystem::path& folder,
-                                         const ReportProgress& progress) {
-    const std::vector<int> edges = quick ? std::vector{1, 3, 6} : std::vector{1, 2, 3, 4, 6, 8, 12};
-    std::vector<ToothPeriodForce> forces;
-    for (const int count : edges) {
-        PolishingSetup setup{.force_model = "milling-instants",
-                             .milling_rate_hz = 10'000.0,
-                             .spindle_rpm = resolved_rpm,
-                             .edges = count};
-        if (quick) setup.longest_s = 2.5;
-        forces.push_back(measure(cube, setup, folder / fmt::format("edges_{}.csv", count)));
-        progress(static_cast<double>(forces.size()) / static_cast<double>(edges.size()));
+std::vector<PolishingSetup> setups_by_edges(bool quick) {
+    std::vector<PolishingSetup> setups;
+    for (const int edges : quick ? std::vector{1, 3, 6} : std::vector{1, 2, 3, 4, 6, 8, 12}) {
+        setups.push_back({.force_model = "milling-instants",
+                          .milling_rate_hz = 10'000.0,
+                          .spindle_rpm = resolved_rpm,
+                          .edges = edges});
+        if (quick) setups.back().longest_s = 2.5;
     }
-    return forces;
+    return setups;
 }
 
-std::vector<ToothPeriodForce> vary_speed(const Specimen& cube, bool quick,
-                                         const std::filesystem::path& folder,
-                                         const ReportProgress& progress) {
-    const std::vector<double> speeds_rpm =
-        quick ? std::vector{10'000.0, 40'000.0} : std::vector{10'000.0, 20'000.0, 40'000.0, 80'000.0};
-    std::vector<ToothPeriodForce> forces;
-    for (const double rpm : speeds_rpm) {
-        const std::string log = fmt::format("rails_{:.0f}rpm.csv", rpm);
-        forces.push_back(measure(cube, {.spindle_rpm = rpm}, folder / log));
-        progress(static_cast<double>(forces.size()) / static_cast<double>(speeds_rpm.size()));
-    }
-    return forces;
+std::vector<PolishingSetup> setups_by_speed(bool quick) {
+    std::vector<PolishingSetup> setups;
+    for (const double rpm : quick ? std::vector{10'000.0, 40'000.0}
+                                  : std::vector{10'000.0, 20'000.0, 40'000.0, 80'000.0})
+        setups.push_back({.spindle_rpm = rpm});
+    return setups;
 }
 
 Table table_of(const std::vector<ToothPeriodForce>& forces) {

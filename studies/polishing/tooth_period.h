@@ -8,8 +8,6 @@
 #include <vector>
 
 #include "analysis/output/table.h"
-#include "common/bone/bone.h"
-#include "common/program/progress.h"
 #include "studies/polishing/force_record.h"
 #include "studies/polishing/polishing_setup.h"
 
@@ -23,14 +21,17 @@ struct ToothPeriodForce {
     ForceRecord clip{};           ///< some tooth periods, halfway through the slide
     double chip_um = 0.0;         ///< a tooth's feed, |v| / (edges n): the thickest chip it can cut
 };
+/// What was measured, without the set-up.
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(ToothPeriodForce, mean_n, one_tooth_n, peak_over_mean, clip, chip_um)
 
 /// Edges of a slow burr, milled at 10 kHz: time-resolved.
-std::vector<ToothPeriodForce> vary_edges(const Specimen& cube, bool quick,
-                                         const std::filesystem::path& folder, const ReportProgress& progress);
+std::vector<PolishingSetup> setups_by_edges(bool quick);
 
 /// Spindle speeds with six edges, milled at 1 kHz: the mean only.
-std::vector<ToothPeriodForce> vary_speed(const Specimen& cube, bool quick,
-                                         const std::filesystem::path& folder, const ReportProgress& progress);
+std::vector<PolishingSetup> setups_by_speed(bool quick);
+
+/// On rails; the session's log goes to `log`. Throws as run_on_rails() does.
+ToothPeriodForce measure(const Specimen& cube, const PolishingSetup& setup, const std::filesystem::path& log);
 
 Table table_of(const std::vector<ToothPeriodForce>& forces);
 /// The clip: time from its beginning and length of the force.

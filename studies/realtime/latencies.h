@@ -26,6 +26,8 @@ class Latencies {
 
     const std::map<double, std::uint64_t>& by_edge_us() const { return by_edge_us_; }
 
+    NLOHMANN_DEFINE_TYPE_INTRUSIVE(Latencies, by_edge_us_, count_)
+
   private:
     std::map<double, std::uint64_t> by_edge_us_;
     std::uint64_t count_ = 0;

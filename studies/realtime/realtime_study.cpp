@@ -12,7 +12,6 @@
 #include "analysis/output/output_files.h"
 #include "analysis/output/study_run.h"
 #include "common/program/child_program.h"
-#include "common/program/progress.h"
 #include "studies/realtime/installed_program.h"
 #include "studies/realtime/slices.h"
 
@@ -46,9 +45,16 @@ class Stress {
 
 /// What was measured without load, or under it.
 struct Measured {
+    std::string load{};
+    Served served{};
+    Latencies cyclictest{};  ///< none where that is not installed
+};
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Measured, load, served, cyclictest)
+
+/// One in turn with the other.
+struct Slice {
+    int number;
     std::string load;
-    Served served;
-    Latencies cyclictest;  ///< none where that is not installed
 };
 
 ordered_json json_of(const Latencies& latencies) {
@@ -112,6 +118,18 @@ class RealtimeStudy {
         if (!cyclictest_) say("cyclictest is not installed (package rt-tests): nothing to compare with");
         Table table({"load", "what", "from_us", "up_to_us", "share", "share_above"});
         ordered_json found = ordered_json::array();
+        std::vector<std::string> loads{"no load"};
+        if (stress_ng_)
+            loads.emplace_back("stress-ng");
+        else
+            say("stress-ng is not installed (package stress-ng): not measured under load");
+        std::vector<Slice> slices;
+        for (const std::string& load : loads)
+            for (int number = 1; number <= slices_; ++number) slices.push_back({number, load});
+        const auto planned = run_.plan(
+            slices, [](const Slice& slice) { return fmt::format("{}, slice {}", slice.load, slice.number); },
+            [this](const Slice& slice) { return measure(slice); });
+        if (!run_.perform()) return;
         const auto take = [&](const Measured& measured) {
             report(measured);
             found.push_back(json_of(measured));
@@ -120,12 +138,15 @@ class RealtimeStudy {
             add_bins(table, measured.served.milling_step, measured.load, "milling step");
             add_bins(table, measured.cyclictest, measured.load, "cyclictest");
         };
-        take(measure("no load", nullptr));
-        if (stress_ng_) {
-            Stress stress(*stress_ng_, 2.0 * slices_ * (slice_s_ + 60.0));
-            take(measure("stress-ng", &stress));
-        } else {
-            say("stress-ng is not installed (package stress-ng): not measured under load");
+        const std::vector<Measured> outcomes = planned.outcomes();
+        for (const std::string& load : loads) {
+            Measured all{.load = load};
+            for (const Measured& slice : outcomes) {
+                if (slice.load != load) continue;
+                all.served.add(slice.served);
+                all.cyclictest.add(slice.cyclictest);
+            }
+            take(all);
         }
         run_.write(table, "latencies");
         run_.write(found, "realtime");
@@ -139,21 +160,16 @@ class RealtimeStudy {
         run_.say(format, std::forward<Arguments>(arguments)...);
     }
 
-    Measured measure(const std::string& load, Stress* stress) const {
-        const std::filesystem::path work = options_.out / "slices";
+    Measured measure(const Slice& slice) const {
+        const std::filesystem::path work = options_.out / fmt::format("{}-{}", slice.load, slice.number);
         make_folder(work);
-        Measured measured{.load = load, .served = {}, .cyclictest = {}};
-        run_.chapter(load, [&](const ReportProgress& progress) {
-            for (int slice = 0; slice < slices_; ++slice) {
-                measured.served.add(serve(haptic_server_, slice_s_, work));
-                if (cyclictest_)
-                    measured.cyclictest.add(
-                        cycle(*cyclictest_, slice_s_, measured.served.has_priority, work));
-                if (stress != nullptr && !stress->is_running())
-                    throw std::runtime_error("stress-ng ended by itself: the load was not there");
-                progress(static_cast<double>(slice + 1) / slices_);
-            }
-        });
+        std::optional<Stress> stress;
+        if (slice.load == "stress-ng") stress.emplace(*stress_ng_, 2.0 * (slice_s_ + 60.0));
+        Measured measured{.load = slice.load, .served = serve(haptic_server_, slice_s_, work)};
+        if (cyclictest_)
+            measured.cyclictest = cycle(*cyclictest_, slice_s_, measured.served.has_priority, work);
+        if (stress && !stress->is_running())
+            throw std::runtime_error("stress-ng ended by itself: the load was not there");
         std::filesystem::remove_all(work);
         return measured;
     }

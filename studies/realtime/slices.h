@@ -26,6 +26,9 @@ struct Served {
 
     void add(const Served& other);
 };
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Served, wakeup, haptic_tick, milling_step, ticks, late_ticks, missed_deadlines,
+                                   missed_milling_steps, page_faults, overruns, client_frames, removed_mm3,
+                                   has_priority, has_locked_memory)
 
 /// Runs `haptic_server` for `duration_s`: the tooth phantom on the real clock, both loops at 1 kHz, a
 /// recording and two clients that keep up. Works in the folder `work`. Throws std::runtime_error in one line

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <memory>
 #include <set>
 #include <thread>
@@ -100,39 +99,37 @@ std::vector<DrawingSetting> drawing_settings(bool quick) {
     return settings;
 }
 
-std::vector<DrawingPoint> measure(const TrialBone& trial, const std::vector<DrawingSetting>& settings,
-                                  const glm::ivec2& size_px, bool quick, const ReportProgress& progress) {
-    std::vector<std::pair<std::string, Camera>> views{{"overview", trial.overview}};
-    if (!quick) views.emplace_back("close-up", trial.close_up);
-    const double all = static_cast<double>(3 * views.size() + views.size() * settings.size());
-    double done = 0.0;
-    std::vector<DrawingPoint> points;
-    const std::array looks{by_gradient, by_surface_voxels, see_through()};
-    for (const ShadingSettings& look : looks) {
-        const BoneTextures textures(trial.bone, trial.tissues, look);
-        for (const auto& [view, camera] : views) {
-            const Picture reference = reference_of(trial, camera, look, size_px);
-            progress(++done / all);
-            for (const DrawingSetting& setting : settings) {
-                if (!(setting.look == look)) continue;
-                // What takes seconds a frame is steady enough.
-                const bool is_slow = setting.renderer == RendererChoice::slices || !setting.skips;
-                const auto renderer = renderer_of(setting);
-                const TimedPicture drawn =
-                    timed_drawing(*renderer, textures, camera, glm::max(size_px / setting.divisor, 1),
-                                  is_slow ? 0 : (quick ? 3 : 7));
-                const Picture shown = setting.divisor == 1 ? drawn.picture : scaled(drawn.picture, size_px);
-                points.push_back({.bone = trial.name,
-                                  .view = view,
-                                  .setting = setting,
-                                  .frame = drawn.cost,
-                                  .psnr_db = psnr_db(shown, reference),
-                                  .ssim = ssim(shown, reference)});
-                progress(++done / all);
-            }
-        }
+std::vector<std::vector<DrawingSetting>> by_look(const std::vector<DrawingSetting>& settings) {
+    std::vector<std::vector<DrawingSetting>> groups;
+    for (const DrawingSetting& setting : settings) {
+        auto group = std::ranges::find_if(
+            groups, [&](const auto& others) { return others.front().look == setting.look; });
+        if (group == groups.end()) group = groups.insert(groups.end(), std::vector<DrawingSetting>{});
+        group->push_back(setting);
     }
-    return points;
+    return groups;
+}
+
+std::vector<Drawn> measure(const TrialBone& trial, const Camera& camera,
+                           const std::vector<DrawingSetting>& settings, const glm::ivec2& size_px,
+                           bool quick) {
+    const ShadingSettings& look = settings.front().look;
+    const BoneTextures textures(trial.bone, trial.tissues, look);
+    const Picture reference = reference_of(trial, camera, look, size_px);
+    std::vector<Drawn> all;
+    for (const DrawingSetting& setting : settings) {
+        // What takes seconds a frame is steady enough.
+        const bool is_slow = setting.renderer == RendererChoice::slices || !setting.skips;
+        const auto renderer = renderer_of(setting);
+        const TimedPicture drawn =
+            timed_drawing(*renderer, textures, camera, glm::max(size_px / setting.divisor, 1),
+                          is_slow ? 0 : (quick ? 3 : 7));
+        const Picture shown = setting.divisor == 1 ? drawn.picture : scaled(drawn.picture, size_px);
+        all.push_back({.frame = drawn.cost,
+                       .psnr_db = psnr_db(shown, reference),
+                       .ssim = ssim(shown, reference)});
+    }
+    return all;
 }
 
 Table table_of(const std::vector<DrawingPoint>& points) {
@@ -144,8 +141,8 @@ Table table_of(const std::vector<DrawingPoint>& points) {
         if (panel != p.bone + " " + p.view) ++panel_number;
         panel = p.bone + " " + p.view;
         table.add({panel_number, panel, p.bone, p.view, p.setting.family, p.setting.label,
-                   p.setting.step_voxels, p.setting.skips, p.setting.divisor, p.frame.wall_ms, p.frame.cpu_ms,
-                   p.psnr_db, p.ssim, p.setting.is_default});
+                   p.setting.step_voxels, p.setting.skips, p.setting.divisor, p.drawn.frame.wall_ms,
+                   p.drawn.frame.cpu_ms, p.drawn.psnr_db, p.drawn.ssim, p.setting.is_default});
     }
     return table;
 }

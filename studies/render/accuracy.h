@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "analysis/output/table.h"
-#include "common/program/progress.h"
 #include "render_client/volume/passes/raycast_renderer.h"
 #include "render_client/volume/passes/renderer_choice.h"
 #include "studies/render/reference_image.h"
@@ -30,18 +29,27 @@ struct DrawingSetting {
 /// Every axis of choice by itself, from the default; fewer where `quick`.
 std::vector<DrawingSetting> drawing_settings(bool quick);
 
-struct DrawingPoint {
-    std::string bone{};
-    std::string view{};  ///< "overview" or "close-up"
-    DrawingSetting setting{};
+/// How fast a setting draws, and how near to the reference.
+struct Drawn {
     Cost frame{};
     double psnr_db = 0.0;
     double ssim = 0.0;
 };
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Drawn, frame, psnr_db, ssim)
 
-/// Draws a bone's views in all settings.
-std::vector<DrawingPoint> measure(const TrialBone& trial, const std::vector<DrawingSetting>& settings,
-                                  const glm::ivec2& size_px, bool quick, const ReportProgress& progress);
+struct DrawingPoint {
+    std::string bone{};
+    std::string view{};  ///< "overview" or "close-up"
+    DrawingSetting setting{};
+    Drawn drawn{};
+};
+
+/// Settings of one look, which have a reference together.
+std::vector<std::vector<DrawingSetting>> by_look(const std::vector<DrawingSetting>& settings);
+
+/// Draws a view of a bone in settings of one look. Needs a current OpenGL context.
+std::vector<Drawn> measure(const TrialBone& trial, const Camera& camera,
+                           const std::vector<DrawingSetting>& settings, const glm::ivec2& size_px, bool quick);
 
 Table table_of(const std::vector<DrawingPoint>& points);
 

@@ -3,8 +3,8 @@
 #include <cstdlib>
 #include <memory>
 
-#include "analysis/output/chart.h"
 #include "analysis/output/output_files.h"
+#include "analysis/output/study_run.h"
 #include "render_client/ui/options.h"
 #include "studies/render/render_study.h"
 
@@ -53,11 +53,12 @@ StudyCommand add_render(CLI::App& app) {
     render->add_flag("--quick", options.quick, "fewer settings, smaller pictures: under a minute");
     render->add_flag("--zooms", options.zooms_only,
                      "only the pictures of every bone at three zooms, into OUT/zooms");
-    return {render, [shared](const StudySurroundings& surroundings) {
-                require_charts();
+    return {.subcommand = render, .run = [shared](const StudySurroundings& surroundings) {
+                require_charts_of(surroundings);
                 make_folder(shared->out);
                 run_render_study(*shared, surroundings);
-            }};
+            },
+            .runs_one_by_one = true};
 }
 
 }  // namespace osteomill::study

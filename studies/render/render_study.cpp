@@ -1,6 +1,10 @@
 #include "studies/render/render_study.h"
 
+#include <fmt/format.h>
+
 #include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
 
 #include "analysis/output/output_files.h"
 #include "analysis/output/study_run.h"
@@ -17,43 +21,49 @@ namespace {
 using nlohmann::ordered_json;
 
 constexpr double full_quality_goal_db = 40.0;
+const std::vector<double> px_per_voxel{4.0, 10.0, 20.0};
+
+/// Settings of one look, to be drawn in a view of a bone.
+struct DrawingCase {
+    std::string bone;
+    std::string view;
+    std::vector<DrawingSetting> settings;
+};
+
+std::vector<DrawingCase> drawing_cases(const std::string& bone, bool quick) {
+    std::vector<DrawingCase> cases;
+    for (const auto& settings : by_look(drawing_settings(quick)))
+        for (const char* const view : {"overview", "close-up"})
+            if (!quick || view == std::string("overview")) cases.push_back({bone, view, settings});
+    return cases;
+}
+
+std::string name_of(const DrawingCase& c) {
+    return c.bone + ", " + c.view + ", " + c.settings.front().family;
+}
 
 /// How smooth a cut looks.
-ordered_json measure_cut_wall(const StudyRun& run) {
-    const double p95_deg = carved_sphere_normals_p95_deg();
+ordered_json told_of_cut_wall(double p95_deg, const std::vector<double>& found_db, const StudyRun& run) {
     run.say("wall cut by a sphere: normals {:.2f} degrees at the 95th percentile (goal: within 1)", p95_deg);
     ordered_json pictures = ordered_json::array();
-    for (const double px_per_voxel : {4.0, 10.0, 20.0}) {
-        const double found_db = carved_sphere_psnr_db(px_per_voxel);
+    for (std::size_t i = 0; i < found_db.size(); ++i) {
         run.say("wall cut by a sphere, {} pixels a voxel: {:.1f} dB against the analytic picture (goal: 42)",
-                px_per_voxel, found_db);
-        pictures.push_back({{"px_per_voxel", px_per_voxel}, {"psnr_db", found_db}});
+                px_per_voxel[i], found_db[i]);
+        pictures.push_back({{"px_per_voxel", px_per_voxel[i]}, {"psnr_db", found_db[i]}});
     }
     return {{"p95_deg", p95_deg}, {"pictures", pictures}};
 }
 
-void measure_accuracy(const TrialBone& trial, const glm::ivec2& size_px, bool quick, const StudyRun& run,
-                      std::vector<DrawingPoint>& points) {
-    const auto found = run.chapter("accuracy, " + trial.name, [&](const ReportProgress& progress) {
-        return measure(trial, drawing_settings(quick), size_px, quick, progress);
-    });
-    for (const DrawingPoint& p : found)
-        if (p.setting.is_default)
-            run.say("{}, {}: full quality {:.1f} dB (goal {:.0f}), SSIM {:.4f}, {:.0f} ms a frame of {} x {}",
-                    p.bone, p.view, p.psnr_db, full_quality_goal_db, p.ssim, p.frame.wall_ms, size_px.x,
-                    size_px.y);
-    points.insert(points.end(), found.begin(), found.end());
-}
-
-void draw_zooms(const RenderStudyOptions& options, const glm::ivec2& size_px, const StudyRun& run) {
-    const std::filesystem::path folder = options.out / "zooms";
+void draw_zooms(TrialBones& bones, const glm::ivec2& size_px, StudyRun& run) {
+    const std::filesystem::path folder = run.out() / "zooms";
     make_folder(folder);
-    run.chapter("zooms", [&](const ReportProgress& progress) {
-        write_zooms(size_px, folder, options.scans, progress);
-    });
-    run.say(
-        "pictures (PNG) of every bone at three zooms are in {}{}", folder.string(),
-        options.scans ? "" : "; real CT skipped: OSTEOMILL_SCANS does not name the folder of trial scans");
+    const auto planned =
+        run.plan(zoom_cases(bones.has_scans()), [](const ZoomCase& c) { return c.bone + ", look" + c.suffix; },
+                 [&](const ZoomCase& c) { return write_zooms(c, bones, size_px, folder).string(); });
+    if (!run.perform()) return;
+    for (const std::string& picture : planned.outcomes()) run.say("{}", picture);
+    if (!bones.has_scans())
+        run.say("real CT skipped: OSTEOMILL_SCANS does not name the folder of trial scans");
 }
 
 }  // namespace
@@ -63,21 +73,49 @@ void run_render_study(const RenderStudyOptions& options, const StudySurroundings
         return measure_full_rate(
             {.out = options.out, .size_px = options.size_px, .frames = options.frames, .gpu = options.gpu},
             surroundings);
-    const StudyRun run(options.out, surroundings);
+    StudyRun run(options.out, surroundings);
     const gl::OffscreenContext context(options.gpu);
     const glm::ivec2 size_px =
         options.size_px.value_or(options.quick ? glm::ivec2(240, 180) : glm::ivec2(640, 480));
     run.say("drawn by {}", gl::renderer_name());
     // For the chart's title.
     write_text(gl::renderer_name() + "\n", options.out / "gl_renderer.txt");
-    if (options.zooms_only) return draw_zooms(options, size_px, run);
+    TrialBones bones(options.scans, options.out);
+    if (options.zooms_only) return draw_zooms(bones, size_px, run);
 
-    ordered_json found{{"gl_renderer", gl::renderer_name()}, {"cut_wall", measure_cut_wall(run)}};
+    std::vector<DrawingCase> cases = drawing_cases(tooth_trial, options.quick);
+    const bool has_skull = options.scans && !options.quick;
+    if (has_skull)
+        for (DrawingCase& c : drawing_cases(skull_trial, options.quick)) cases.push_back(std::move(c));
+    const auto wall_normals =
+        run.plan(std::vector{0}, [](int) { return "normals of a cut wall"; },
+                 [](int) { return carved_sphere_normals_p95_deg(); });
+    const auto wall_pictures = run.plan(
+        px_per_voxel, [](double px) { return fmt::format("cut wall at {} pixels a voxel", px); },
+        carved_sphere_psnr_db);
+    const auto planned = run.plan(cases, name_of, [&](const DrawingCase& c) {
+        const TrialBone& trial = bones[c.bone];
+        const Camera& camera = c.view == "overview" ? trial.overview : trial.close_up;
+        return measure(trial, camera, c.settings, size_px, options.quick);
+    });
+    if (!run.perform()) return;
+
+    ordered_json found{
+        {"gl_renderer", gl::renderer_name()},
+        {"cut_wall", told_of_cut_wall(wall_normals.outcomes().front(), wall_pictures.outcomes(), run)}};
     std::vector<DrawingPoint> points;
-    measure_accuracy(tooth_trial(), size_px, options.quick, run, points);
-    if (options.scans && !options.quick)
-        measure_accuracy(skull_trial(*options.scans, options.out), size_px, options.quick, run, points);
-    else
+    auto c = cases.begin();
+    for (const std::vector<Drawn>& drawn : planned.outcomes()) {
+        for (std::size_t i = 0; i < drawn.size(); ++i)
+            points.push_back({c->bone, c->view, c->settings[i], drawn[i]});
+        ++c;
+    }
+    for (const DrawingPoint& p : points)
+        if (p.setting.is_default)
+            run.say("{}, {}: full quality {:.1f} dB (goal {:.0f}), SSIM {:.4f}, {:.0f} ms a frame of {} x {}",
+                    p.bone, p.view, p.drawn.psnr_db, full_quality_goal_db, p.drawn.ssim, p.drawn.frame.wall_ms,
+                    size_px.x, size_px.y);
+    if (!has_skull)
         run.say("real CT skipped: {}",
                 options.quick ? "--quick" : "OSTEOMILL_SCANS does not name the folder of trial scans");
     const Table table = table_of(points);

@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <glm/vec2.hpp>
+#include <nlohmann/json.hpp>
 
 #include "render_client/volume/gl/framebuffer.h"
 #include "render_client/volume/passes/bone_renderer.h"
@@ -14,6 +15,7 @@ struct Cost {
     double wall_ms = 0.0;
     double cpu_ms = 0.0;
 };
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Cost, wall_ms, cpu_ms)
 
 /// Does it once unmeasured, then `times` times; the median of each (the smallest would hide what a driver
 /// does now and then, the mean what else runs on the machine). With `times` 0 the first time is what

@@ -56,34 +56,36 @@ TrialBone scan_trial(const std::string& name, ImportOptions options, const std::
     return with_views(name, std::move(bone), {}, 9.0);
 }
 
-}  // namespace
-
-TrialBone tooth_trial() {
-    TrialBone trial = phantom_trial("tooth");
-    trial.name = "tooth phantom";
-    return trial;
-}
-
-TrialBone phantom_trial(const std::string& name) {
+TrialBone phantom(const std::string& name, const std::string& trial_name) {
     const Scene scene = phantom_scene(name);
     std::vector<TissueColour> tissues;
     for (const Tissue& tissue : scene.tissues) tissues.push_back({tissue.label, tissue.colour_rgb});
-    return with_views(name, load_bone(scene).bone, tissues, 7.0);
+    return with_views(trial_name, load_bone(scene).bone, tissues, 7.0);
 }
 
-TrialBone skull_trial(const std::filesystem::path& scans, const std::filesystem::path& folder) {
-    return scan_trial(
-        "skull CT",
-        {.input = scans / "head_ct", .output = {}, .region = parse_region("-60,10,730,-20,50,770")}, folder);
+TrialBone make(const std::string& name, const std::filesystem::path& scans,
+               const std::filesystem::path& folder) {
+    if (name == skull_trial)
+        return scan_trial(
+            name,
+            {.input = scans / "head_ct", .output = {}, .region = parse_region("-60,10,730,-20,50,770")},
+            folder);
+    if (name == vault_trial)
+        return scan_trial(name,
+                          {.input = scans / "cadaver_head" / "cthead.nrrd",
+                           .output = {},
+                           .region = parse_region("108,110,-40,148,150,0"),
+                           .to_hu = parse_rescale("1,-1000")},
+                          folder);
+    return phantom(name == tooth_trial ? "tooth" : name, name);
 }
 
-TrialBone vault_trial(const std::filesystem::path& scans, const std::filesystem::path& folder) {
-    return scan_trial("vault CT",
-                      {.input = scans / "cadaver_head" / "cthead.nrrd",
-                       .output = {},
-                       .region = parse_region("108,110,-40,148,150,0"),
-                       .to_hu = parse_rescale("1,-1000")},
-                      folder);
+}  // namespace
+
+const TrialBone& TrialBones::operator[](const std::string& name) {
+    auto found = made_.find(name);
+    if (found == made_.end()) found = made_.emplace(name, make(name, scans_.value_or(""), folder_)).first;
+    return found->second;
 }
 
 glm::dvec3 seen_point_mm(const Bone& bone, const Camera& camera) {

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -20,18 +22,30 @@ struct TrialBone {
     Camera close_up{};
 };
 
-/// The phantom of the default scene, 512 x 512 x 128 voxels.
-TrialBone tooth_trial();
+// Names of trial bones.
+inline constexpr const char* tooth_trial = "tooth phantom";  ///< of the default scene, 512 x 512 x 128 voxels
+inline constexpr const char* cube_trial = "cube";
+inline constexpr const char* head_trial = "head";
+inline constexpr const char* skull_trial = "skull CT";  ///< 40 mm of the skull of the trial scans, 400^3 voxels
+inline constexpr const char* vault_trial = "vault CT";  ///< of the head of which the slices are 2 mm apart
 
-/// The phantom of another scene (see phantom_names), of which the close-up shows 7 mm round.
-TrialBone phantom_trial(const std::string& name);
+/// The trial bones, each made when it is first asked for. One thread at a time.
+class TrialBones {
+  public:
+    /// Scans are imported from the folder `scans`, by way of a file in `folder` which is removed again.
+    TrialBones(std::optional<std::filesystem::path> scans, std::filesystem::path folder)
+        : scans_(std::move(scans)), folder_(std::move(folder)) {}
 
-/// 40 mm of the skull in the folder of trial scans, 400^3 voxels, imported by way of a file in `folder` which
-/// is removed again. Throws std::runtime_error where the scan is not there.
-TrialBone skull_trial(const std::filesystem::path& scans, const std::filesystem::path& folder);
+    bool has_scans() const { return scans_.has_value(); }
+    /// Close-ups of phantoms show 7 mm round, of scans 9. Throws std::runtime_error where a scan is not
+    /// there.
+    const TrialBone& operator[](const std::string& name);
 
-/// 40 mm of the top of the head of which the slices are 2 mm apart, as above.
-TrialBone vault_trial(const std::filesystem::path& scans, const std::filesystem::path& folder);
+  private:
+    std::optional<std::filesystem::path> scans_;
+    std::filesystem::path folder_;
+    std::map<std::string, TrialBone> made_{};
+};
 
 /// Where the camera's axis first meets bone; throws std::runtime_error where it meets none.
 glm::dvec3 seen_point_mm(const Bone& bone, const Camera& camera);

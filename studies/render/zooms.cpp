@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <vector>
 
 #include "render_client/volume/gl/framebuffer.h"
 #include "render_client/volume/passes/renderer_choice.h"
@@ -14,11 +13,6 @@ namespace {
 
 constexpr double hole_mm = 5.0;
 constexpr double from_above_rad = 1.1;
-
-struct NamedLook {
-    std::string suffix{};
-    ShadingSettings look{};
-};
 
 const TransferFunction& preset(std::string_view name) {
     return *std::ranges::find(transfer_presets(), name, &TransferFunction::name);
@@ -32,54 +26,45 @@ Camera at_zoom(Camera camera, const TrialBone& trial, double px_per_voxel, const
     return camera;
 }
 
-class ZoomPictures {
-  public:
-    ZoomPictures(const glm::ivec2& size_px, const std::filesystem::path& folder)
-        : size_px_(size_px), folder_(folder), framebuffer_(size_px) {}
-
-    void write(TrialBone trial, const NamedLook& named) {
-        BoneTextures textures(trial.bone, trial.tissues, named.look);
-        Camera above = trial.close_up;
-        above.elevation_rad = from_above_rad;
-        write(textures, trial.overview, trial.name + named.suffix + "_whole");
-        write(textures, at_zoom(above, trial, 10.0, size_px_), trial.name + named.suffix + "_10");
-        textures.update(trial.bone, carve_in_view(trial, hole_mm));
-        write(textures, at_zoom(above, trial, 20.0, size_px_), trial.name + named.suffix + "_20");
-    }
-
-  private:
-    void write(const BoneTextures& textures, const Camera& camera, const std::string& name) {
-        framebuffer_.bind();
-        make_renderer(RendererChoice::raycast)->draw(textures, camera, size_px_);
-        std::string file = name + ".png";
-        std::ranges::replace(file, ' ', '_');
-        write_png(framebuffer_.read_back(), folder_ / file);
-    }
-
-    glm::ivec2 size_px_;
-    std::filesystem::path folder_;
-    gl::Framebuffer framebuffer_;
-};
-
 }  // namespace
 
-void write_zooms(const glm::ivec2& size_px, const std::filesystem::path& folder,
-                 const std::optional<std::filesystem::path>& scans, const ReportProgress& progress) {
-    ZoomPictures pictures(size_px, folder);
-    const std::vector<NamedLook> all{{"", {}},
-                                     {"_surface-voxels", {.shading = Shading::surface_voxels}},
-                                     {"_tooth-look", {.transfer = preset("tooth")}},
-                                     {"_ct-window", {.transfer = preset("ct-window")}}};
-    const TrialBone tooth = tooth_trial();
-    for (const NamedLook& look : all) pictures.write(tooth, look);
-    progress(0.4);
-    for (const char* const name : {"cube", "head"}) pictures.write(phantom_trial(name), all.front());
-    progress(0.6);
-    if (!scans) return;
-    const TrialBone skull = skull_trial(*scans, folder);
-    for (const NamedLook& look : all) pictures.write(skull, look);
-    pictures.write(vault_trial(*scans, folder), all.front());
-    progress(1.0);
+std::vector<ZoomCase> zoom_cases(bool with_scans) {
+    std::vector<ZoomCase> cases;
+    const auto add_all_looks = [&](const char* bone) {
+        cases.push_back({bone});
+        cases.push_back({bone, "_surface-voxels", {.shading = Shading::surface_voxels}});
+        cases.push_back({bone, "_tooth-look", {.transfer = preset("tooth")}});
+        cases.push_back({bone, "_ct-window", {.transfer = preset("ct-window")}});
+    };
+    add_all_looks(tooth_trial);
+    cases.push_back({cube_trial});
+    cases.push_back({head_trial});
+    if (!with_scans) return cases;
+    add_all_looks(skull_trial);
+    cases.push_back({vault_trial});
+    return cases;
+}
+
+std::filesystem::path write_zooms(const ZoomCase& c, TrialBones& bones, const glm::ivec2& size_px,
+                                  const std::filesystem::path& folder) {
+    TrialBone trial = bones[c.bone];
+    BoneTextures textures(trial.bone, trial.tissues, c.look);
+    gl::Framebuffer framebuffer(size_px);
+    const auto write = [&](const Camera& camera, const char* zoom) {
+        framebuffer.bind();
+        make_renderer(RendererChoice::raycast)->draw(textures, camera, size_px);
+        std::string file = c.bone + c.suffix + zoom;
+        std::ranges::replace(file, ' ', '_');
+        write_png(framebuffer.read_back(), folder / file);
+        return folder / file;
+    };
+    Camera above = trial.close_up;
+    above.elevation_rad = from_above_rad;
+    const std::filesystem::path whole = write(trial.overview, "_whole.png");
+    write(at_zoom(above, trial, 10.0, size_px), "_10.png");
+    textures.update(trial.bone, carve_in_view(trial, hole_mm));
+    write(at_zoom(above, trial, 20.0, size_px), "_20.png");
+    return whole;
 }
 
 }  // namespace osteomill::study

@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <nlohmann/json.hpp>
 #include <sstream>
 #include <string>
@@ -17,6 +18,7 @@ namespace {
 
 using ::testing::HasSubstr;
 using ::testing::StartsWith;
+using namespace std::string_literals;
 
 constexpr const char* case_file = OSTEOMILL_TEST_DATA "/milling_forces.json";
 
@@ -104,7 +106,7 @@ TEST_F(StudyProgram, DrawsItsChartsQuickly) {
     const Outcome outcome = run("force --quick --out " + out_);
     ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
     EXPECT_THAT(outcome.out, HasSubstr(out_)) << "says where the files are";
-    EXPECT_THAT(outcome.err, HasSubstr("random 100 %\n"));
+    EXPECT_THAT(outcome.err, HasSubstr("cases 100 %\n"));
     const auto found = nlohmann::json::parse(text_of(out_ + "/force.json"));
     EXPECT_LT(found.at("random").at("median_error_percent"), 1.0);
     EXPECT_EQ(found.at("memory").at(0).at("name"), "tooth phantom");
@@ -119,7 +121,7 @@ TEST_F(StudyProgram, PolishesQuickly) {
     const Outcome outcome = run("polishing --quick --out " + out_);
     ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
     EXPECT_THAT(outcome.out, HasSubstr(out_)) << "says where the files are";
-    EXPECT_THAT(outcome.err, HasSubstr("spindle speeds 100 %\n"));
+    EXPECT_THAT(outcome.err, HasSubstr("cases 100 %\n"));
     const auto claims = nlohmann::json::parse(text_of(out_ + "/claims.json"));
     const auto measured = [&](const std::string& claim, const std::string& where) {
         for (const auto& c : claims)
@@ -218,6 +220,28 @@ TEST_F(StudyProgram, ChoosesRunsForACalibrationThatCannotBeFittedEmpty) {
     expect_refused("calibrate --out " + out_, 2, "a table of runs, or --design");
     expect_refused("calibrate nowhere.csv --out " + out_, 1, "nowhere.csv: cannot be read");
     expect_refused("calibrate nowhere.csv --seed 2", 2, "--design");
+}
+
+// Studies that measure no times.
+TEST_F(StudyProgram, JoinsTheBytesOfOneProcessFromParts) {
+    for (const std::string& study :
+         {"stability --rails 5 --seed 3"s, "stability --sites --quick --only 'plate of 1 mm'"s,
+          "calibrate " OSTEOMILL_TEST_DATA "/calibration_runs.csv"s, "calibrate --design --runs 6"s}) {
+        const std::string name = std::to_string(std::hash<std::string>()(study));
+        const std::string whole = (folder_ / ("whole" + name)).string();
+        const std::string parts = (folder_ / ("parts" + name)).string();
+        const std::string joined = (folder_ / ("joined" + name)).string();
+        const Outcome of_one = run(study + " --out " + whole);
+        ASSERT_EQ(of_one.exit_code, 0) << study << of_one.err;
+        for (const char* const part : {"1/2", "2/2"})
+            ASSERT_EQ(run(study + " --shard " + part + " --out " + parts).exit_code, 0) << study;
+        const std::string first_word = study.substr(0, study.find(' '));
+        const Outcome of_parts = run(first_word + " --merge " + parts + " --out " + joined);
+        ASSERT_EQ(of_parts.exit_code, 0) << study << of_parts.err;
+        for (const auto& entry : std::filesystem::directory_iterator(whole))
+            EXPECT_EQ(text_of(joined / entry.path().filename()), text_of(entry.path()))
+                << study << ": " << entry.path();
+    }
 }
 
 TEST_F(StudyProgram, SaysInOneLineWhatIsWrong) {

@@ -22,12 +22,11 @@ std::vector<TissueColour> colours_of(const SessionInfo& session) {
 
 }  // namespace
 
-CarveUpload upload_carves(const std::string& phantom, int times, const ReportProgress& progress) {
+CarveUpload upload_carves(const std::string& phantom, int times) {
     PhantomSession session(phantom);
     const Bone& bone = *session.bone();
     BoneTextures textures(bone, colours_of(*session.session()));
     CarveUpload found{.plan = textures.plan(), .textures = textures.sizes()};
-    progress(0.5);
 
     Bone with_ball = bone;
     const auto ball = carve_sphere(with_ball, session.poll().tool->burr_position_mm, ball_radius_mm);
@@ -52,7 +51,6 @@ CarveUpload upload_carves(const std::string& phantom, int times, const ReportPro
         by_frame.time([&] { take_over(bone, update.changes); });
     }
     found.by_frame = by_frame.frames();
-    progress(1.0);
     return found;
 }
 

@@ -3,7 +3,7 @@
 #pragma once
 
 #include <functional>
-#include <nlohmann/json_fwd.hpp>
+#include <nlohmann/json.hpp>
 #include <vector>
 
 #include "render_client/volume/gl/draw_timer.h"
@@ -17,6 +17,7 @@ struct FrameMilliseconds {
         gpu{};  ///< the driver's own work (GL_TIME_ELAPSED); of a software rasteriser wall time
     std::vector<double> cpu{};  ///< of all threads of the process
 };
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(FrameMilliseconds, wall, gpu, cpu)
 
 /// Frames a second, over all of them.
 double frames_per_s(const FrameMilliseconds& frames);

@@ -50,9 +50,23 @@ class FullRate {
                            {"is_software_renderer", is_software_},
                            {"size_px", {size_px_.x, size_px_.y}},
                            {"frames_of_a_row", frames_}};
-        for (const char* const phantom : {"tooth", "head"}) {
-            found["bones"][phantom] = upload(phantom);
-            draw(phantom);
+        const std::vector<std::string> phantoms{"tooth", "head"};
+        const auto uploaded = run_.plan(
+            phantoms, [](const std::string& phantom) { return phantom + ", uploads"; },
+            [this](const std::string& phantom) {
+                return upload_carves(phantom, is_software_ ? frames_ : uploads);
+            });
+        const auto drawn = run_.plan(
+            phantoms, [](const std::string& phantom) { return phantom + ", window"; },
+            [this](const std::string& phantom) {
+                return draw_window(phantom, size_px_, frames_, options_.out / ("window_" + phantom + ".png"));
+            });
+        if (!run_.perform()) return;
+        const std::vector<CarveUpload> uploads_of = uploaded.outcomes();
+        const std::vector<WindowFrames> frames_of = drawn.outcomes();
+        for (std::size_t i = 0; i < phantoms.size(); ++i) {
+            found["bones"][phantoms[i]] = told_of_upload(phantoms[i], uploads_of[i]);
+            add_rows(phantoms[i], frames_of[i]);
         }
         say("");
         say("{:<7}{:<21}{:>10}{:>9}{:>9}{:>9}{:>9}  {}", "bone", "motion", "frames/s", "p50 ms", "p99 ms",
@@ -97,10 +111,7 @@ class FullRate {
                 full_size_px.x, full_size_px.y, full_frames, full_size_px.x, full_size_px.y, full_frames);
     }
 
-    ordered_json upload(const std::string& phantom) const {
-        const CarveUpload found = run_.chapter(phantom + ", uploads", [&](const ReportProgress& progress) {
-            return upload_carves(phantom, is_software_ ? frames_ : uploads, progress);
-        });
+    ordered_json told_of_upload(const std::string& phantom, const CarveUpload& found) const {
         ordered_json textures;
         std::string parts;
         for (const TextureSize& each : found.textures) {
@@ -125,11 +136,7 @@ class FullRate {
                 {"bricks_of_5_mm_ball", found.bricks_of_ball}};
     }
 
-    void draw(const std::string& phantom) {
-        const WindowFrames drawn = run_.chapter(phantom + ", window", [&](const ReportProgress& progress) {
-            return draw_window(phantom, size_px_, frames_, options_.out / ("window_" + phantom + ".png"),
-                               progress);
-        });
+    void add_rows(const std::string& phantom, const WindowFrames& drawn) {
         for (const auto& [motion, frames] :
              {std::pair{"orbit", &drawn.orbit}, std::pair{"carve", &drawn.carve},
               std::pair{"orbit side by side", &drawn.orbit_side_by_side},

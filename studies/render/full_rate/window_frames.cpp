@@ -66,23 +66,19 @@ class Window {
 }  // namespace
 
 WindowFrames draw_window(const std::string& phantom, const glm::ivec2& size_px, int frames,
-                         const std::filesystem::path& picture, const ReportProgress& progress) {
+                         const std::filesystem::path& picture) {
     WindowFrames drawn;
     PhantomSession session(phantom);
-    progress(0.2);
     for (const auto& [layout, orbit] : {std::pair{StereoLayout::side_by_side, &drawn.orbit_side_by_side},
                                         std::pair{StereoLayout::quad_buffer, &drawn.orbit_both_whole}}) {
         session.begin_anew();
         *orbit = Window(session, size_px, layout).orbited(frames);
     }
-    progress(0.6);
     session.begin_anew();
     Window window(session, size_px, StereoLayout::off);
     drawn.orbit = window.orbited(frames);
     write_png(window.picture(), picture);
-    progress(0.8);
     drawn.carve = window.carved(frames);
-    progress(1.0);
     return drawn;
 }
 

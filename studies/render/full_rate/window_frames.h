@@ -6,7 +6,6 @@
 #include <glm/vec2.hpp>
 #include <string>
 
-#include "common/program/progress.h"
 #include "studies/render/full_rate/finished_frames.h"
 
 namespace osteomill::study {
@@ -17,10 +16,11 @@ struct WindowFrames {
     FrameMilliseconds orbit_both_whole{};    ///< for two eyes, all pixels each, as with a buffer for each
     FrameMilliseconds carve{};               ///< and takes over what was cut
 };
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(WindowFrames, orbit, orbit_side_by_side, orbit_both_whole, carve)
 
 /// Of a phantom: `frames` of each motion. Writes `picture`, a PNG of the last frame before the first cut.
 /// Needs a current OpenGL context. Throws std::runtime_error where the bone cannot be drawn.
 WindowFrames draw_window(const std::string& phantom, const glm::ivec2& size_px, int frames,
-                         const std::filesystem::path& picture, const ReportProgress& progress);
+                         const std::filesystem::path& picture);
 
 }  // namespace osteomill::study

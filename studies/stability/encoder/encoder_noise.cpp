@@ -10,7 +10,6 @@
 #include <variant>
 
 #include "analysis/output/study_run.h"
-#include "common/program/progress.h"
 #include "devices/simulated/simulated_device.h"
 #include "imaging/bone_from_hu.h"
 #include "imaging/phantoms/phantom.h"
@@ -131,17 +130,18 @@ EncoderNoise drill_tooth(const ArmModel& arm, const std::string& coupling,
 
 void run_encoder_study(const std::string& coupling, const std::filesystem::path& out,
                        const StudySurroundings& surroundings) {
-    const StudyRun run(out, surroundings);
+    StudyRun run(out, surroundings);
+    const auto planned = run.plan(
+        std::vector(steps_mm.begin(), steps_mm.end()),
+        [](double step_mm) { return fmt::format("steps of {} mm", step_mm); },
+        [&](double step_mm) { return drill_tooth({.resolution_mm = step_mm}, coupling); });
+    if (!run.perform()) return;
     Table table({"step_mm", "mean_force_n", "noise_n", "noise_percent", "largest_jump_n", "jumps_per_s"});
-    run.chapter("encoders", [&](const ReportProgress& progress) {
-        for (std::size_t i = 0; i < steps_mm.size(); ++i) {
-            const EncoderNoise a = drill_tooth({.resolution_mm = steps_mm[i]}, coupling);
-            table.add({steps_mm[i], a.mean_force_n, a.noise_n,
-                       a.mean_force_n > 0.0 ? 100.0 * a.noise_n / a.mean_force_n : 0.0, a.largest_jump_n,
-                       a.jumps_per_s});
-            progress(static_cast<double>(i + 1) / steps_mm.size());
-        }
-    });
+    auto step_mm = steps_mm.begin();
+    for (const EncoderNoise& a : planned.outcomes())
+        table.add({*step_mm++, a.mean_force_n, a.noise_n,
+                   a.mean_force_n > 0.0 ? 100.0 * a.noise_n / a.mean_force_n : 0.0, a.largest_jump_n,
+                   a.jumps_per_s});
     run.write(table, "encoder");
     run.draw({"encoder"});
     run.say("{}", table.csv());

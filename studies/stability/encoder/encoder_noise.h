@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <glm/vec3.hpp>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -19,6 +20,7 @@ struct EncoderNoise {
     double largest_jump_n = 0.0;  ///< between two ticks
     double jumps_per_s = 0.0;     ///< of over 0.03 N, a second with a force
 };
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(EncoderNoise, mean_force_n, noise_n, largest_jump_n, jumps_per_s)
 
 /// The lesion of the tooth phantom drilled out by a firm hand on `arm` with the coupling of that name,
 /// virtual clock. `stiffness_n_per_mm`: of the spring, in place of what the arm gets. `all_of`: a tissue of

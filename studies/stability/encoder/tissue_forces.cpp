@@ -6,7 +6,6 @@
 
 #include "analysis/output/study_run.h"
 #include "analysis/output/table.h"
-#include "common/program/progress.h"
 #include "imaging/phantoms/phantom.h"
 #include "studies/stability/encoder/encoder_noise.h"
 #include "studies/stability/encoder/spring_choice.h"
@@ -30,22 +29,29 @@ double noticeable_differences(double from_n, double to_n) {
 }
 
 void run_tissue_study(const std::filesystem::path& out, const StudySurroundings& surroundings) {
-    const StudyRun run(out, surroundings);
-    const auto arms = shipped_arms();
-    const Scene scene = phantom_scene("tooth");
+    struct Drilling {
+        std::string tissue;
+        std::string arm_name;
+        ArmModel arm;
+    };
+    std::vector<Drilling> drillings;
+    for (const Tissue& tissue : phantom_scene("tooth").tissues)
+        for (const auto& [name, arm] : shipped_arms()) drillings.push_back({tissue.name, name, arm});
+    StudyRun run(out, surroundings);
+    const auto planned = run.plan(
+        drillings, [](const Drilling& d) { return d.tissue + ", " + d.arm_name; },
+        [](const Drilling& d) {
+            return drill_tooth(d.arm, "implicit", std::nullopt, d.tissue).mean_force_n;
+        });
+    if (!run.perform()) return;
     Table table({"tissue", "arm", "friction_n", "mean_force_n", "noticeable_differences"});
-    run.chapter("tissues", [&](const ReportProgress& progress) {
-        for (std::size_t i = 0; i < scene.tissues.size(); ++i) {
-            const std::string& tissue = scene.tissues[i].name;
-            for (const auto& [name, arm] : arms) {
-                const double force_n = drill_tooth(arm, "implicit", std::nullopt, tissue).mean_force_n;
-                const double friction_n = arm.coulomb_friction_n;
-                table.add({tissue, name, friction_n, force_n,
-                           noticeable_differences(friction_n, friction_n + force_n)});
-            }
-            progress(static_cast<double>(i + 1) / static_cast<double>(scene.tissues.size()));
-        }
-    });
+    auto drilling = drillings.begin();
+    for (const double force_n : planned.outcomes()) {
+        const double friction_n = drilling->arm.coulomb_friction_n;
+        table.add({drilling->tissue, drilling->arm_name, friction_n, force_n,
+                   noticeable_differences(friction_n, friction_n + force_n)});
+        ++drilling;
+    }
     run.write(table, "tissues");
     run.say("{}", table.csv());
 }

@@ -9,7 +9,6 @@
 #include "studies/stability/map/map_text.h"
 #include "studies/stability/map/map_view.h"
 #include "studies/stability/map/method_score.h"
-#include "studies/stability/map/shard.h"
 
 namespace osteomill::study {
 
@@ -99,7 +98,6 @@ ordered_json summary_of(const WholeMap& map) {
                         {"is_met", bar.is_met()},
                         {"where", bar.where}});
     return {{"cases", map.points.size()},
-            {"fingerprint", fingerprint_of(map.points)},
             {"selection", study::json_of(map.selection)},
             {"methods", methods},
             {"bars", bars}};

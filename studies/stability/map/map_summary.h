@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "studies/stability/map/merge.h"
+#include "studies/stability/map/whole_map.h"
 
 namespace osteomill::study {
 

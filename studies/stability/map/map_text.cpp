@@ -2,13 +2,9 @@
 
 #include <fmt/format.h>
 
-#include <limits>
 #include <stdexcept>
 
 namespace osteomill::study {
-
-using nlohmann::json;
-using nlohmann::ordered_json;
 
 const std::array<OutcomeNumber, 13> outcome_numbers{{
     {"resistance_n_s_per_m", &MapOutcome::resistance_n_s_per_m},
@@ -69,25 +65,14 @@ std::string text_of(const MapCase& c) {
                        c.milling_rate_hz, c.delay_ticks, c.is_ideal_device ? "ideal" : "real");
 }
 
-ordered_json json_of(const MapPoint& point) {
-    const MapCase& c = point.run;
-    ordered_json row{{"part", name_of(point.part)},
-                     {"method", c.method},
-                     {"scene", name_of(c.scene)},
-                     {"grip", name_of(c.grip)},
-                     {"milling_rate_hz", c.milling_rate_hz},
-                     {"delay_ticks", c.delay_ticks},
-                     {"is_ideal_device", c.is_ideal_device},
-                     {"spindle_rpm", c.spindle_rpm},
-                     {"depth_mm", c.depth_mm},
-                     {"relative_stiffness", c.relative_stiffness},
-                     {"wall_n_per_mm", c.wall_n_per_mm}};
-    if (c.edge_n_per_mm != 0.0) row["edge_n_per_mm"] = c.edge_n_per_mm;
-    return row;
+std::string text_of(const MapPoint& point) {
+    const std::string rubs =
+        point.run.edge_n_per_mm > 0.0 ? fmt::format(", edges of {} N/mm", point.run.edge_n_per_mm) : "";
+    return name_of(point.part) + ": " + text_of(point.run) + rubs;
 }
 
-ordered_json json_of(const MapSelection& selection) {
-    ordered_json grips = ordered_json::array();
+nlohmann::ordered_json json_of(const MapSelection& selection) {
+    nlohmann::ordered_json grips = nlohmann::ordered_json::array();
     for (const MapGrip grip : selection.grips) grips.push_back(name_of(grip));
     return {{"quick", selection.quick},
             {"methods", selection.methods},
@@ -97,30 +82,16 @@ ordered_json json_of(const MapSelection& selection) {
             {"edge_forces", selection.has_edge_forces}};
 }
 
-MapSelection selection_of(const json& from) {
-    MapSelection selection{.quick = from.at("quick").get<bool>(),
-                           .has_edge_forces = from.value("edge_forces", false),
-                           .methods = from.at("methods").get<std::vector<std::string>>(),
-                           .milling_rates_hz = from.at("milling_rates_hz").get<std::vector<double>>(),
-                           .delays_ticks = from.at("delays_ticks").get<std::vector<int>>()};
-    for (const auto& grip : from.at("grips")) selection.grips.push_back(grip_named(grip.get<std::string>()));
-    return selection;
+void to_json(nlohmann::json& json, const MapOutcome& outcome) {
+    json["is_stable"] = outcome.is_stable;
+    for (const OutcomeNumber& number : outcome_numbers)
+        json[std::string(number.name)] = outcome.*number.value;
 }
 
-ordered_json json_of(const MapOutcome& outcome) {
-    ordered_json out{{"is_stable", outcome.is_stable}};
-    for (const OutcomeNumber& number : outcome_numbers) out[std::string(number.name)] = outcome.*number.value;
-    return out;
-}
-
-MapOutcome outcome_of(const json& from) {
-    MapOutcome outcome{.is_stable = from.at("is_stable").get<bool>()};
-    for (const OutcomeNumber& number : outcome_numbers) {
-        const auto& value = from.at(std::string(number.name));
-        outcome.*number.value =
-            value.is_null() ? std::numeric_limits<double>::quiet_NaN() : value.get<double>();
-    }
-    return outcome;
+void from_json(const nlohmann::json& json, MapOutcome& outcome) {
+    outcome.is_stable = json.at("is_stable").get<bool>();
+    for (const OutcomeNumber& number : outcome_numbers)
+        outcome.*number.value = json.at(std::string(number.name)).get<double>();
 }
 
 }  // namespace osteomill::study

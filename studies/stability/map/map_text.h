@@ -20,12 +20,10 @@ MapGrip grip_named(const std::string& name);
 /// "hold, cutting 1 mm deep at 10000 rpm in bone of 1, light, 1000 Hz, 0 ticks late".
 std::string text_of(const MapCase& c);
 
-/// Part and case, every value: what tells two points apart.
-nlohmann::ordered_json json_of(const MapPoint& point);
+/// The same with the part of the map, and of what rubs how much.
+std::string text_of(const MapPoint& point);
 
 nlohmann::ordered_json json_of(const MapSelection& selection);
-/// Throws nlohmann::json::exception or std::invalid_argument for what json_of() has not made.
-MapSelection selection_of(const nlohmann::json& json);
 
 /// The numbers of an outcome, by name.
 struct OutcomeNumber {
@@ -34,9 +32,7 @@ struct OutcomeNumber {
 };
 extern const std::array<OutcomeNumber, 13> outcome_numbers;
 
-/// To the last bit; a number that is not finite is null, and comes back as NaN.
-nlohmann::ordered_json json_of(const MapOutcome& outcome);
-/// Throws nlohmann::json::exception for what json_of() has not made.
-MapOutcome outcome_of(const nlohmann::json& json);
+void to_json(nlohmann::json& json, const MapOutcome& outcome);
+void from_json(const nlohmann::json& json, MapOutcome& outcome);
 
 }  // namespace osteomill::study

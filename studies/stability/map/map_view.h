@@ -5,7 +5,7 @@
 #include <limits>
 #include <vector>
 
-#include "studies/stability/map/merge.h"
+#include "studies/stability/map/whole_map.h"
 
 namespace osteomill::study {
 

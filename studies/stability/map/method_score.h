@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "analysis/output/table.h"
-#include "studies/stability/map/merge.h"
+#include "studies/stability/map/whole_map.h"
 
 namespace osteomill::study {
 

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "analysis/output/table.h"
-#include "studies/stability/map/merge.h"
+#include "studies/stability/map/whole_map.h"
 
 namespace osteomill::study {
 

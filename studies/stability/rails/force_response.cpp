@@ -8,9 +8,9 @@
 #include <memory>
 #include <numbers>
 #include <stdexcept>
+#include <vector>
 
 #include "analysis/output/study_run.h"
-#include "common/program/progress.h"
 #include "simulation/contact_models/milling_model.h"
 #include "simulation/coupling/couplings.h"
 #include "studies/force/bone_block.h"
@@ -127,18 +127,31 @@ ForceResponse respond(const std::string& coupling_name, double stiffness_n_per_m
 }
 
 void run_response_study(const std::filesystem::path& out, const StudySurroundings& surroundings) {
-    const StudyRun run(out, surroundings);
+    struct Point {
+        Choice choice;
+        double hz;
+    };
+    std::vector<Point> points;
+    for (const Choice& choice : choices)
+        for (const double hz : frequencies_hz) points.push_back({choice, hz});
+    StudyRun run(out, surroundings);
+    const auto planned = run.plan(
+        points,
+        [](const Point& p) {
+            return fmt::format("{}, {} N/mm, {} Hz", p.choice.coupling, p.choice.stiffness_n_per_mm, p.hz);
+        },
+        [](const Point& p) -> std::array<double, 3> {
+            const ForceResponse r = respond(p.choice.coupling, p.choice.stiffness_n_per_mm, p.hz);
+            return {std::abs(r.response), 180.0 / std::numbers::pi * std::arg(r.response), r.rigid_n_s_per_m};
+        });
+    if (!run.perform()) return;
     Table table({"coupling", "stiffness_n_per_mm", "hz", "gain", "phase_deg", "rigid_n_s_per_m"});
-    run.chapter("frequencies", [&](const ReportProgress& progress) {
-        double done = 0.0;
-        for (const Choice& choice : choices)
-            for (const double hz : frequencies_hz) {
-                const ForceResponse r = respond(choice.coupling, choice.stiffness_n_per_mm, hz);
-                table.add({choice.coupling, choice.stiffness_n_per_mm, hz, std::abs(r.response),
-                           180.0 / std::numbers::pi * std::arg(r.response), r.rigid_n_s_per_m});
-                progress(++done / (choices.size() * frequencies_hz.size()));
-            }
-    });
+    auto point = points.begin();
+    for (const auto& [gain, phase_deg, rigid_n_s_per_m] : planned.outcomes()) {
+        table.add({point->choice.coupling, point->choice.stiffness_n_per_mm, point->hz, gain, phase_deg,
+                   rigid_n_s_per_m});
+        ++point;
+    }
     run.write(table, "response");
     run.draw({"response"});
     run.say("{}", table.csv());

@@ -4,6 +4,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
+#include "analysis/output/study_run.h"
 #include "common/statistics/percentile.h"
 #include "simulation/contact_models/milling_model.h"
 #include "simulation/coupling/couplings.h"
@@ -101,6 +102,29 @@ nlohmann::ordered_json summary_of(const std::vector<RailsResult>& results) {
             {"p95_error_percent", percentile(errors_percent, 0.95)},
             {"max_error_percent", percentile(errors_percent, 1.0)},
             {"worst", worst == nullptr ? "" : worst->name}};
+}
+
+void run_rails_study(const RailsStudyOptions& options, const std::filesystem::path& out,
+                     const StudySurroundings& surroundings) {
+    StudyRun run(out, surroundings);
+    auto motions = motions_on_rails(options.count, options.seed);
+    if (options.has_edge_forces)
+        for (SteadyCase& motion : motions) motion.burr.edge_coefficients_n_per_mm = {0.3, 0.3, 0.0};
+    std::vector<PlannedCases<OnRails>> planned;
+    for (const std::string& method : options.methods)
+        planned.push_back(run.plan(
+            motions, [&](const SteadyCase& motion) { return method + ", " + motion.name; },
+            [&method](const SteadyCase& motion) { return run_on_rails(motion, method); }));
+    if (!run.perform()) return;
+    nlohmann::ordered_json summary;
+    for (std::size_t m = 0; m < planned.size(); ++m) {
+        std::vector<RailsResult> results;
+        for (const OnRails& outcome : planned[m].outcomes())
+            results.push_back({motions[results.size()].name, outcome});
+        summary[options.methods[m]] = summary_of(results);
+    }
+    run.write(summary, "rails");
+    run.say("{}", summary.dump(2));
 }
 
 }  // namespace osteomill::study

@@ -7,16 +7,31 @@
 #include <stdexcept>
 
 #include "analysis/output/study_run.h"
-#include "analysis/output/sweep.h"
 #include "studies/stability/sites/named_sites.h"
 #include "studies/stability/sites/random_walk.h"
 
-namespace osteomill::study {
+namespace osteomill {
+
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(SolveCounts, max_residual_n, fallbacks, relaxed, damped)
+
+namespace study {
+
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(SiteVerdict, energy_over_rigid_mj, energy_mj, stuck_ms, error_percent,
+                                   error_while_driven_percent, largest_jump_n, peak_n, noise_n)
+
 namespace {
 
 using nlohmann::ordered_json;
 
 constexpr std::size_t named_worst = 10;
+
+/// What is kept of a run.
+struct SiteOutcome {
+    SiteVerdict verdict{};
+    SolveCounts solve{};
+    std::uint64_t faults = 0;
+};
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(SiteOutcome, verdict, solve, faults)
 
 std::vector<SiteHand> hands(const SiteStudyOptions& options) {
     std::vector<SiteHand> found;
@@ -39,14 +54,6 @@ std::vector<Burr> burrs(bool quick) {
     return found;
 }
 
-SiteResult result_of(const SiteCase& c, const SiteRun& run) {
-    return {.kind = c.site.kind,
-            .name = name_of(c),
-            .verdict = verdict_on(run),
-            .solve = run.solve,
-            .faults = run.faults};
-}
-
 Table trace_of(const SiteRun& run) {
     Table table({"t_s", "hand_x_mm", "hand_y_mm", "hand_z_mm", "burr_x_mm", "burr_y_mm", "burr_z_mm",
                  "force_x_n", "force_y_n", "force_z_n", "model_x_n", "model_y_n", "model_z_n", "rigid_x_n",
@@ -61,21 +68,6 @@ Table trace_of(const SiteRun& run) {
         time_s += 0.001;
     }
     return table;
-}
-
-/// The results in the order of the cases, from several threads.
-std::vector<SiteResult> run_all(const std::vector<SiteCase>& cases, int jobs, const ReportProgress& progress,
-                                std::vector<SiteRun>* runs) {
-    std::vector<SiteResult> results(cases.size());
-    std::size_t done = 0;
-    sweep(
-        cases.size(), jobs, [&](std::size_t i) { return run_site(cases[i].site, cases[i].hand); },
-        [&](std::size_t i, SiteRun run) {
-            results[i] = result_of(cases[i], run);
-            if (runs != nullptr) runs->push_back(std::move(run));
-            progress(static_cast<double>(++done) / static_cast<double>(cases.size()));
-        });
-    return results;
 }
 
 /// In the order of the cases.
@@ -189,16 +181,23 @@ ordered_json site_summary(const std::vector<SiteResult>& results, const SiteStud
 void run_site_study(const SiteStudyOptions& options, const StudySurroundings& surroundings) {
     const std::vector<SiteCase> cases = site_cases(options);
     if (cases.empty()) throw std::runtime_error("no site is called '" + options.only + "'");
-    const StudyRun run(options.out, surroundings);
-    std::vector<SiteRun> runs;
-    const std::vector<SiteResult> results = run.chapter("sites", [&](const ReportProgress& progress) {
-        return run_all(cases, options.jobs, progress, cases.size() == 1 ? &runs : nullptr);
+    StudyRun run(options.out, surroundings);
+    const bool has_trace = cases.size() == 1;
+    const auto planned = run.plan(cases, name_of, [&](const SiteCase& c) {
+        const SiteRun at_site = run_site(c.site, c.hand);
+        if (has_trace) run.write(trace_of(at_site), "trace");
+        return SiteOutcome{verdict_on(at_site), at_site.solve, at_site.faults};
     });
+    if (!run.perform()) return;
+    std::vector<SiteResult> results;
+    for (const SiteOutcome& outcome : planned.outcomes()) {
+        const SiteCase& c = cases[results.size()];
+        results.push_back({c.site.kind, name_of(c), outcome.verdict, outcome.solve, outcome.faults});
+    }
     run.write(site_table_of(results), "sites");
     run.write(site_points_of(results), "site_points");
     const ordered_json summary = site_summary(results, options);
     run.write(summary, "sites");
-    if (!runs.empty()) run.write(trace_of(runs.front()), "trace");
     run.draw({"sites"});
     for (const auto& [kind, of_kind] : summary.at("kinds").items())
         run.say("{:22} {:4} of {:4} meet the bars", kind, of_kind.at("met").get<int>(),
@@ -207,4 +206,5 @@ void run_site_study(const SiteStudyOptions& options, const StudySurroundings& su
     run.say("sites.json, tables (CSV) and a chart (SVG) are in {}", options.out.string());
 }
 
-}  // namespace osteomill::study
+}  // namespace study
+}  // namespace osteomill

@@ -23,7 +23,6 @@ struct SiteStudyOptions {
     std::uint64_t seed = 1;
     bool has_edge_forces = false;  ///< burrs whose edges rub with 0.3 N/mm, as the tooth scene's
     std::string only{};            ///< cases whose name holds this; one alone writes trace.csv, too
-    int jobs = 1;
 };
 
 struct SiteCase {

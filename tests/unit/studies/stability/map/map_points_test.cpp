@@ -40,7 +40,7 @@ TEST(MapPoints, SpanTheResistanceThatASurgeonMeetsInEvenSteps) {
 TEST(MapPoints, AreEachOnTheListOnce) {
     const auto points = map_points({});
     std::set<std::string> seen;
-    for (const MapPoint& point : points) EXPECT_TRUE(seen.insert(json_of(point).dump()).second);
+    for (const MapPoint& point : points) EXPECT_TRUE(seen.insert(text_of(point)).second);
     EXPECT_EQ(std::count_if(points.begin(), points.end(),
                             [](const MapPoint& p) { return p.part == MapPart::bars; }),
               5 * 4 * 3 * 3 * 2);
@@ -56,7 +56,6 @@ TEST(MapPoints, AreThoseThatAreSelected) {
         return p.run.method == "hold" && p.run.grip == MapGrip::firm && p.run.delay_ticks == 1;
     });
     EXPECT_EQ(points.size(), static_cast<std::size_t>(wanted));
-    EXPECT_EQ(selection_of(nlohmann::json::parse(json_of(selection).dump())), selection);
 }
 
 TEST(MapPoints, WithEdgesThatRubCutWhereAHandGetsOn) {

@@ -3,7 +3,7 @@
 
 #include <functional>
 
-#include "studies/stability/map/merge.h"
+#include "studies/stability/map/whole_map.h"
 
 namespace osteomill::study {
 

@@ -1,15 +1,16 @@
-#include "studies/stability/map/shard.h"
+#include "analysis/output/cases/shard.h"
 
 #include <fmt/format.h>
 #include <xxhash.h>
 
 #include <algorithm>
+#include <fstream>
 #include <numeric>
+#include <sstream>
 #include <stdexcept>
 #include <string_view>
 
 #include "common/text/words.h"
-#include "studies/stability/map/map_text.h"
 
 namespace osteomill::study {
 
@@ -33,10 +34,10 @@ Shard shard_named(const std::string& text) {
     return shard;
 }
 
-std::vector<std::size_t> cases_of(const Shard& shard, const std::vector<MapPoint>& points) {
+std::vector<std::size_t> cases_of(const Shard& shard, const std::vector<std::string>& names) {
     std::vector<XXH64_hash_t> lots;
-    for (const MapPoint& point : points) lots.push_back(hash_of(json_of(point).dump()));
-    std::vector<std::size_t> drawn(points.size());
+    for (const std::string& name : names) lots.push_back(hash_of(name));
+    std::vector<std::size_t> drawn(names.size());
     std::iota(drawn.begin(), drawn.end(), std::size_t{0});
     std::stable_sort(drawn.begin(), drawn.end(),
                      [&](std::size_t a, std::size_t b) { return lots[a] < lots[b]; });
@@ -45,10 +46,20 @@ std::vector<std::size_t> cases_of(const Shard& shard, const std::vector<MapPoint
     return mine;
 }
 
-std::string fingerprint_of(const std::vector<MapPoint>& points) {
-    std::string all = json_of(MapOutcome{}).dump();
-    for (const MapPoint& point : points) all += json_of(point).dump();
+std::string fingerprint_of(const std::vector<std::string>& names) {
+    std::string all;
+    for (const std::string& name : names) all += name + '\n';
     return fmt::format("{:016x}", hash_of(all));
+}
+
+std::string fingerprint_of_program() {
+    static const std::string fingerprint = [] {
+        std::ifstream program("/proc/self/exe", std::ios::binary);
+        std::ostringstream bytes;
+        bytes << program.rdbuf();
+        return fmt::format("{:016x}", hash_of(bytes.str()));
+    }();
+    return fingerprint;
 }
 
 }  // namespace osteomill::study
