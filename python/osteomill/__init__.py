@@ -17,6 +17,7 @@ from osteomill._core import (
     reference_force,
 )
 from osteomill.env import Box, Env
+from osteomill.sweep import sweep
 
 __all__ = [
     "FAULTS",
@@ -32,4 +33,5 @@ __all__ = [
     "Step",
     "__version__",
     "reference_force",
+    "sweep",
 ]
