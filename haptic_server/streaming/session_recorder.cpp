@@ -22,10 +22,9 @@ std::string packet_of(const std::string& frame, Stamp stamp) {
 }  // namespace
 
 SessionRecorder::SessionRecorder(const std::filesystem::path& file, Stamp began, v2::Hello hello,
-                                 const BoneReplica& mirror, FeedPackers& packers,
-                                 std::span<const v2::StructureBricks> structures)
+                                 const BoneReplica& mirror, std::span<const v2::StructureBricks> structures)
     : began_(began),
-      feed_(std::move(hello), mirror, packers, structures),
+      feed_(std::move(hello), mirror, packers_, structures),
       writer_(
           file,
           [this](RecordingNews news, const std::string& line) {

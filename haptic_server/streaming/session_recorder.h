@@ -19,11 +19,10 @@ namespace osteomill {
 class SessionRecorder {
   public:
     /// Writes hello, snapshot and `structures` before it returns, and throws RecordingError where that much
-    /// cannot be written. `began`: when the session's time is zero. `mirror`, `packers` and `structures`
-    /// outlive the recorder.
+    /// cannot be written. `began`: when the session's time is zero. `mirror` and `structures` outlive
+    /// the recorder.
     SessionRecorder(const std::filesystem::path& file, Stamp began, v2::Hello hello,
-                    const BoneReplica& mirror, FeedPackers& packers,
-                    std::span<const v2::StructureBricks> structures = {});
+                    const BoneReplica& mirror, std::span<const v2::StructureBricks> structures = {});
 
     /// As for a client: see ClientFeed.
     void note(std::span<const BrickChange> changes) { feed_.note(changes); }
@@ -42,6 +41,8 @@ class SessionRecorder {
 
     const Stamp began_;
     std::atomic<bool> is_under_way_{false};
+    // Of its own: the recording ends on another thread while clients are still told the end.
+    FeedPackers packers_{};
     ClientFeed feed_;
     RecordingWriter writer_;
     double time_s_ = 0.0;

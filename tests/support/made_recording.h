@@ -58,12 +58,11 @@ inline MadeRecording make_recording(const std::filesystem::path& file,
     MadeRecording made{bone, bone, {}};
     BoneReplica mirror(bone);
     ReplicaSink to_mirror(mirror);
-    FeedPackers packers;
     SessionInfo session = recorded_session_info();
     session.protocol_major = options.protocol_major;
     const Stamp began{std::chrono::seconds(1'700'000'000) + std::chrono::nanoseconds(7)};
     const std::vector<v2::StructureBricks> structures = structure_pieces(options.structures);
-    std::optional<SessionRecorder> recorder(std::in_place, file, began, to_message(session), mirror, packers,
+    std::optional<SessionRecorder> recorder(std::in_place, file, began, to_message(session), mirror,
                                             structures);
     SessionState state;
     ToolState& tool = state.tool;

@@ -35,11 +35,9 @@ class SessionRecorderTest : public ::testing::Test {
     std::mt19937 random_{4};
     Bone bone_ = testing::make_speckled_bone(random_, {.grid = {.size_voxels = {64, 48, 32}}});
     BoneReplica mirror_{bone_};
-    FeedPackers packers_;
     ToolState tool_;
-    std::optional<SessionRecorder> recorder_{
-        std::in_place, file_,   Stamp{std::chrono::hours(24)}, to_message(testing::recorded_session_info()),
-        mirror_,       packers_};
+    std::optional<SessionRecorder> recorder_{std::in_place, file_, Stamp{std::chrono::hours(24)},
+                                             to_message(testing::recorded_session_info()), mirror_};
 };
 
 TEST_F(SessionRecorderTest, GoesOnWithTheWholeBoneAfterTheDiskWasFull) {
