@@ -41,6 +41,15 @@ ListenAddress parse_listen_address(const std::string& text) {
     return result;
 }
 
+ServerAddress parse_server_address(const std::string& text) {
+    const AddressParts parts = parts_of_address(text);
+    const auto port = parse_number<std::uint16_t>(parts.port);
+    if (parts.host.empty() || port.value_or(0) == 0)
+        throw std::invalid_argument(
+            fmt::format("is '{}', not HOST:PORT with a port from 1 to 65535, such as 127.0.0.1:7010", text));
+    return {parts.host, static_cast<std::uint16_t>(*port)};
+}
+
 std::string to_text(const ListenAddress& where) {
     const bool is_v6 = where.address.find(':') != std::string::npos;
     return fmt::format(fmt::runtime(is_v6 ? "[{}]:{}" : "{}:{}"), where.address, where.port);

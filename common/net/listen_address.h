@@ -23,6 +23,15 @@ AddressParts parts_of_address(const std::string& text);
 /// std::invalid_argument with one line that says what would be right.
 ListenAddress parse_listen_address(const std::string& text);
 
+/// Where a server is to be reached.
+struct ServerAddress {
+    std::string host = "127.0.0.1";
+    std::uint16_t port = 7010;
+};
+/// Reads HOST:PORT, where the host is a name or a numeric address. Throws std::invalid_argument with one line
+/// that says what would be right.
+ServerAddress parse_server_address(const std::string& text);
+
 /// As it is typed.
 std::string to_text(const ListenAddress& where);
 

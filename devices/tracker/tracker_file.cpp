@@ -43,9 +43,9 @@ std::string read_pedal(TomlReader reader) {
     if (string.has_value() == always.value_or(false))
         reader.fail("string",
                     "[pedal] takes one of 'string', the name of a STRING message, and 'always = true'");
-    if (string && (string->empty() || string->size() > TransformStream::longest_name))
+    if (string && (string->empty() || string->size() > IgtlStream::longest_name))
         reader.fail("string", fmt::format("'string' is a device name of 1 to {} characters",
-                                          TransformStream::longest_name));
+                                          IgtlStream::longest_name));
     return string.value_or("");
 }
 

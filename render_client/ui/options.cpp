@@ -32,17 +32,6 @@ std::optional<int> whole_number(std::string_view text, int low, int high) {
     return value && *value >= low && *value <= high ? value : std::nullopt;
 }
 
-/// Returns what is wrong, or nothing.
-std::string take_address(const std::string& text, RenderOptions& options) {
-    const AddressParts parts = parts_of_address(text);
-    const auto port = whole_number(parts.port, 1, 65535);
-    if (parts.host.empty() || !port)
-        return "is '" + text + "', not HOST:PORT with a port from 1 to 65535, such as 127.0.0.1:7010";
-    options.host = parts.host;
-    options.port = static_cast<std::uint16_t>(*port);
-    return {};
-}
-
 /// A side of the patient that a cut can take away.
 struct Side {
     const char* name;
@@ -215,8 +204,13 @@ ParsedOptions parse_options(int argument_count, const char* const* arguments, co
     auto* connect = app.add_option_function<std::string>(
                            "--connect",
                            [&](const std::string& text) {
-                               if (const std::string wrong = take_address(text, options); !wrong.empty())
-                                   throw CLI::ValidationError("--connect", wrong);
+                               try {
+                                   const ServerAddress server = parse_server_address(text);
+                                   options.host = server.host;
+                                   options.port = server.port;
+                               } catch (const std::invalid_argument& error) {
+                                   throw CLI::ValidationError("--connect", error.what());
+                               }
                            },
                            "The server's HOST:PORT (127.0.0.1:7010)")
                         ->type_name("HOST:PORT");

@@ -30,6 +30,7 @@ const std::vector<Room>& rooms() {
         {"analysis/", {"common/", "simulation/", "imaging/"}},
         {"haptic_server/", {"common/", "bridge/", "simulation/", "devices/", "imaging/", "analysis/"}},
         {"render_client/", {"common/"}},
+        {"slicer/", {"common/", "render_client/link/"}},
         {"python/",
          {"common/", "simulation/", "devices/simulated/", "imaging/", "analysis/", "haptic_server/"}},
         {"studies/",

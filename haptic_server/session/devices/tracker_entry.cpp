@@ -48,9 +48,9 @@ PrepareDevice checked_tracker(const TypedOptions& typed) {
                          .name = typed.given(name_flag).value_or(""),
                          .registration = typed.given(registration_flag).value_or("")};
     require_own_machine(server_flag, "OpenIGTLink does not say who sends", choice.server, usual_server.port);
-    if (choice.name.size() > TransformStream::longest_name)
+    if (choice.name.size() > IgtlStream::longest_name)
         throw std::invalid_argument(fmt::format("{}: a name of OpenIGTLink has at most {} characters",
-                                                name_flag, TransformStream::longest_name));
+                                                name_flag, IgtlStream::longest_name));
     if (choice.registration.empty())
         throw std::invalid_argument(
             "--device tracker: needs --tracker-registration FILE.toml, which places the tracker on the "

@@ -1,0 +1,45 @@
+// OpenIGTLink messages (protocol 2, header version 1: Debian's libopenigtlink) as 3D Slicer takes them.
+//
+// Osteomill's patient LPS becomes RAS here and nowhere else, x and y negated: OpenIGTLinkIF does not look at
+// the header's own flag of the space. Names are at most 20 bytes; a longer one is cut.
+#pragma once
+
+#include <cstdint>
+#include <glm/mat3x3.hpp>
+#include <glm/vec3.hpp>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "slicer/reduced_bone.h"
+
+namespace osteomill {
+
+using IgtlMessage = std::vector<std::uint8_t>;
+
+inline glm::dvec3 lps_to_ras(const glm::dvec3& v) {
+    return {-v.x, -v.y, v.z};
+}
+/// The same: it is its own inverse.
+inline glm::dvec3 ras_to_lps(const glm::dvec3& v) {
+    return lps_to_ras(v);
+}
+
+/// A tool's pose: its origin and axes (columns, unit vectors) in patient LPS, mm.
+IgtlMessage transform_message(const std::string& name, const glm::dvec3& origin_mm, const glm::dmat3& axes);
+
+/// Axes (columns) of a tool that has only one: z is `axis`, patient LPS, of unit length; x and y are any two
+/// square to it and to each other.
+glm::dmat3 axes_about(const glm::dvec3& axis);
+
+/// Part of an image of bytes on `grid`: `values` of the voxels of `box`, x fastest.
+IgtlMessage image_message(const std::string& name, const Grid& grid, const VoxelBox& box,
+                          std::span<const std::uint8_t> values);
+
+/// Text of at most 65 535 bytes; a longer one is cut.
+IgtlMessage string_message(const std::string& name, const std::string& text);
+
+/// Whether all is well, and words.
+IgtlMessage status_message(const std::string& name, bool is_well, const std::string& text);
+
+}  // namespace osteomill

@@ -1,0 +1,46 @@
+// Choice of which part of an image to send when, to a receiver that drops messages without a word.
+//
+// OpenIGTLinkIF of 3D Slicer keeps only the newest message of a type and name between two imports, and
+// imports when its window has time. So a part covers all that has changed since 5 s, is sent 5 times a second
+// at most, and the whole is sent in the first 5 s, at rest, and every 10 s while something changes: a
+// receiver that imports every 3 s ends with the same image as one that imports each message.
+#pragma once
+
+#include <deque>
+#include <optional>
+
+#include "slicer/reduced_bone.h"
+
+namespace osteomill {
+
+class ImageSchedule {
+  public:
+    static constexpr double covered_s = 5.0;        ///< how far back a part reaches
+    static constexpr double between_parts_s = 0.2;  ///< at least
+    static constexpr double rests_after_s = 1.0;    ///< without a change
+    static constexpr double between_wholes_s = 10.0;
+
+    /// Somebody else receives, or the image is another one: what was sent is forgotten.
+    void restart(const VoxelBox& whole);
+    void changed(const VoxelBox& box, double now_s);
+
+    /// What to send now; nothing where nothing is due. It counts as sent. Times ascend.
+    std::optional<VoxelBox> next(double now_s);
+
+  private:
+    struct Change {
+        VoxelBox box;
+        std::optional<double> first_sent_s{};
+    };
+    VoxelBox send_whole(double now_s);
+
+    std::optional<VoxelBox> whole_{};  // nothing: there is no image yet
+    std::optional<double> whole_sent_s_{};
+    double begun_s_ = 0.0;  // the first whole was sent
+    double last_sent_s_ = 0.0;
+    double last_change_s_ = 0.0;
+    bool has_changed_since_whole_ = false;
+    std::deque<Change> changes_{};
+};
+
+}  // namespace osteomill

@@ -1,0 +1,57 @@
+// A copy of the bone in 256^3 voxels at most, as programs take it that upload a whole volume at each change.
+//
+// A voxel of it is the mean of n^3 voxels of the bone, n the same along each axis and as small as can be; the
+// bone itself where n is 1.
+#pragma once
+
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "common/bone/bone.h"
+#include "common/bone/brick_change.h"
+
+namespace osteomill {
+
+/// Voxels `first` to `end`, without `end`.
+struct VoxelBox {
+    glm::ivec3 first{0};
+    glm::ivec3 end{0};
+
+    glm::ivec3 size() const { return end - first; }
+    bool operator==(const VoxelBox&) const = default;
+};
+
+/// The smallest box around both.
+VoxelBox around(const VoxelBox& a, const VoxelBox& b);
+
+class ReducedBone {
+  public:
+    static constexpr int most_voxels = 256;  ///< along an axis
+
+    explicit ReducedBone(const Bone& bone);
+
+    /// Of the reduced voxels.
+    const Grid& grid() const { return grid_; }
+    int voxels_a_voxel() const { return factor_; }
+    VoxelBox whole() const { return {glm::ivec3(0), grid_.size_voxels}; }
+    /// What is left, 0 to 255; x runs fastest, then y, then z.
+    std::span<const std::uint8_t> values() const { return values_; }
+    /// Those of a box within the grid, in the same order.
+    std::vector<std::uint8_t> values(const VoxelBox& box) const;
+
+    /// Takes over what has changed of the same bone, and returns where; nothing where `changes` is empty.
+    std::optional<VoxelBox> update(const Bone& bone, std::span<const BrickChange> changes);
+
+  private:
+    VoxelBox voxels_of(const glm::ivec3& brick) const;
+    void fill(const Bone& bone, const VoxelBox& box);
+
+    int factor_;
+    Grid grid_;
+    std::vector<std::uint8_t> values_;
+};
+
+}  // namespace osteomill

@@ -1,0 +1,59 @@
+// The port that 3D Slicer connects to: a TCP server on loopback for one receiver. OpenIGTLink has no
+// authentication and no encryption, so that no other machine can reach it.
+//
+// A newer connection takes the place of the older one: Slicer's that was closed, or hangs. A receiver that
+// takes nothing for 10 s is dropped.
+#pragma once
+
+#include <boost/asio/io_context.hpp>
+#include <boost/asio/ip/tcp.hpp>
+#include <chrono>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "slicer/igtl_messages.h"
+
+namespace osteomill {
+
+class SlicerPort {
+  public:
+    static constexpr std::chrono::seconds longest_held_up{10};
+
+    struct Sinks {
+        std::function<void()> connected;  ///< somebody receives, and has nothing yet
+        std::function<void(const std::string& name, const std::string& text)> said;  ///< a STRING message
+    };
+
+    /// Listens on 127.0.0.1; 0: a free port. Throws std::runtime_error in one line where it cannot.
+    SlicerPort(std::uint16_t port, Sinks sinks);
+    ~SlicerPort();
+    SlicerPort(const SlicerPort&) = delete;
+    SlicerPort& operator=(const SlicerPort&) = delete;
+
+    std::uint16_t port() const;
+
+    /// Takes connections, reads and writes, for at most `time`; calls the sinks.
+    void run_for(std::chrono::milliseconds time);
+
+    /// Whether somebody receives and all that was sent is on its way: what is sent now is not late.
+    bool takes_more() const;
+    /// Dropped where nobody receives.
+    void send(IgtlMessage message);
+
+  private:
+    struct Receiver;
+    void accept();
+    void read(const std::shared_ptr<Receiver>& receiver);
+    void write(const std::shared_ptr<Receiver>& receiver);
+    void drop(const std::shared_ptr<Receiver>& receiver, const char* why);
+
+    Sinks sinks_;
+    boost::asio::io_context io_{1};
+    boost::asio::ip::tcp::acceptor acceptor_{io_};
+    std::shared_ptr<Receiver> receiver_{};  // null: nobody
+};
+
+}  // namespace osteomill

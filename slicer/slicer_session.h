@@ -1,0 +1,60 @@
+// What 3D Slicer is told of a session, and what it may ask: the bone as an image, burr and patient as
+// transforms, figures as text; marks, pauses and places of the tool as text in return.
+//
+// Out, by name: IMAGE "Bone"; TRANSFORM "Burr" (origin: its centre; z: along the spindle, tip to shank) and
+// "Patient" (the identity: all is in the patient's space); STRING "Session", a JSON object; STATUS
+// "BurrStatus", the fault that keeps the force off. Transforms, text and status 10 times a second, also at
+// rest. In: STRING "Mark" (a note), "Pause" ("1" or "0"), "Place" ("x y z" or "x y z ax ay az" in RAS, mm).
+// What the server does not take from this client is said in the log.
+#pragma once
+
+#include <chrono>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "common/scene/structure_distance.h"
+#include "common/scene/tool_state.h"
+#include "render_client/link/bone_link.h"
+#include "slicer/image_schedule.h"
+#include "slicer/slicer_port.h"
+
+namespace osteomill {
+
+/// The text "Session" as JSON; positions and force in RAS.
+std::string session_text(const SessionInfo& session, const ToolState& tool, const SessionStatus& status,
+                         const std::vector<StructureDistance>& distances);
+
+/// What a STRING asks for; a place without an axis keeps `axis` (patient LPS). std::invalid_argument says in
+/// one line what would be right.
+SessionControl control_of(const std::string& name, const std::string& text, const glm::dvec3& axis);
+
+class SlicerSession {
+  public:
+    static constexpr double between_transforms_s = 0.1;
+
+    /// `link` outlives it. Throws as SlicerPort.
+    SlicerSession(BoneLink& link, std::uint16_t port);
+
+    std::uint16_t port() const { return port_.port(); }
+    /// Takes in what the server sent, then sends and receives for `time`.
+    void run_for(std::chrono::milliseconds time);
+
+  private:
+    void take_in(double now_s);
+    void send_what_is_due(double now_s);
+    void obey(const std::string& name, const std::string& text);
+    void begin_image();
+
+    BoneLink& link_;
+    std::string status_line_{};
+    std::optional<ReducedBone> bone_{};
+    std::optional<ToolState> tool_{};
+    SessionStatus controls_{};
+    std::vector<StructureDistance> distances_{};
+    ImageSchedule schedule_{};
+    double transforms_sent_s_ = -between_transforms_s;
+    SlicerPort port_;
+};
+
+}  // namespace osteomill
