@@ -40,7 +40,7 @@ gnuplot -e "forces='$out/forces.csv'; plot_file='$out/forces.png'" scripts/plot_
 printf '{"server": %s,\n"client": %s}\n' "$(cat "$out/server.json")" "$(cat "$out/client.json")" >"$out/summary.json"
 rm "$out/server.json" "$out/client.json"
 
-build release packet_replay bone_import bone_export osteomill_study
+build release packet_replay bone_import bone_export osteomill_slicer osteomill_study
 
 say "done: look into $out/; the programs are in $bin/"
 ls "$out"

@@ -114,7 +114,7 @@ void SlicerPort::write(const std::shared_ptr<Receiver>& receiver) {
                       });
 }
 
-void SlicerPort::drop(const std::shared_ptr<Receiver>& receiver, const char* why) {
+void SlicerPort::drop(std::shared_ptr<Receiver> receiver, const char* why) {
     if (receiver != receiver_) return;
     spdlog::info("the connection to 3D Slicer ends: {}", why);
     receiver_.reset();

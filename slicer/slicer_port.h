@@ -48,7 +48,7 @@ class SlicerPort {
     void accept();
     void read(const std::shared_ptr<Receiver>& receiver);
     void write(const std::shared_ptr<Receiver>& receiver);
-    void drop(const std::shared_ptr<Receiver>& receiver, const char* why);
+    void drop(std::shared_ptr<Receiver> receiver, const char* why);
 
     Sinks sinks_;
     boost::asio::io_context io_{1};
