@@ -48,7 +48,7 @@ class WrittenSession {
         : mirror_(bone),
           structures_(structure_pieces(structures)),
           recorder_(std::in_place, file, Stamp{std::chrono::seconds(1'700'000'000)}, to_message(session),
-                    mirror_, packers_, structures_) {}
+                    mirror_, structures_) {}
 
     /// Takes all of every voxel whose centre `is_in`, before the next frame. Returns how many there were.
     std::size_t cut(const std::function<bool(const glm::dvec3&)>& is_in) {
@@ -102,7 +102,6 @@ class WrittenSession {
     }
 
     BoneReplica mirror_;
-    FeedPackers packers_;
     std::vector<v2::StructureBricks> structures_;
     std::optional<SessionRecorder> recorder_;
     std::vector<ControlEvent> events_;
