@@ -1,0 +1,24 @@
+#!/usr/bin/env bash
+# Builds the Debian packages of what is committed and looks at them with lintian, which is to be silent.
+#   scripts/package.sh [FOLDER]      into FOLDER, out/packages unless said otherwise
+# Needs scripts/packages.txt and scripts/package_packages.txt. What to build with is theirs to say: CMAKE_CXX_COMPILER_LAUNCHER=ccache.
+set -euo pipefail
+cd "$(dirname "$0")/.."
+out=$(realpath -m "${1:-out/packages}")
+
+version=$(sed -n 's/^project(osteomill VERSION \([0-9.]*\).*/\1/p' CMakeLists.txt)
+in_changelog=$(dpkg-parsechangelog -S Version)
+[ "$version" = "$in_changelog" ] ||
+    { echo "CMakeLists.txt says version $version, debian/changelog $in_changelog: bring them together" >&2; exit 1; }
+
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+mkdir "$work/osteomill-$version"
+git archive HEAD | tar -x -C "$work/osteomill-$version"
+(cd "$work/osteomill-$version" && dpkg-buildpackage --no-sign --build=full --jobs="${JOBS:-$(nproc)}" >"$work/build.log" 2>&1) ||
+    { tail -40 "$work/build.log" >&2; exit 1; }
+lintian --allow-root --fail-on error,warning --tag-display-limit 0 "$work"/*.changes
+mkdir -p "$out"
+rm -f "$out"/*osteomill*
+mv "$work"/*.deb "$work"/*.dsc "$work"/*.tar.* "$work"/*.changes "$work"/*.buildinfo "$out"
+(cd "$out" && ls -sh --block-size=1k ./*.deb)
