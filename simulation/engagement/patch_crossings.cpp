@@ -29,8 +29,8 @@ constexpr float half = 127.5f;
     const Ints in_brick = (x & 15) | (y & 15) << 4 | (z & 15) << 8;
     const unsigned across = simd::bits_of(((x & 15) == 15) | ((y & 15) == 15) | ((z & 15) == 15));
     // The low and the high four corners of each.
-    std::array<std::int32_t, simd::width> low;
-    std::array<std::int32_t, simd::width> high;
+    Ints low;
+    Ints high;
     std::uint64_t any = 0;
     for (std::size_t lane = 0; lane < simd::width; ++lane) {
         const std::uint64_t corners = (across >> lane & 1u) != 0
@@ -41,12 +41,10 @@ constexpr float half = 127.5f;
         any |= corners;
     }
     if (any == 0) return Floats{};
-    const Ints lows = simd::load<Ints>(low.data());
-    const Ints highs = simd::load<Ints>(high.data());
     std::array<Floats, 8> c;
     for (int corner = 0; corner < 4; ++corner) {
-        c[static_cast<std::size_t>(corner)] = simd::to_floats(lows >> (8 * corner) & 255);
-        c[static_cast<std::size_t>(corner) + 4] = simd::to_floats(highs >> (8 * corner) & 255);
+        c[static_cast<std::size_t>(corner)] = simd::to_floats(low >> (8 * corner) & 255);
+        c[static_cast<std::size_t>(corner) + 4] = simd::to_floats(high >> (8 * corner) & 255);
     }
     return detail::trilinear<Floats>(c, position.x - simd::to_floats(x), position.y - simd::to_floats(y),
                                      position.z - simd::to_floats(z));
@@ -97,7 +95,8 @@ struct PatchCrossings::Loops {
             const Floats3 beside = along_axes(look.frame, load3(to.beside_voxels_, first));
             surface = {surface.x + beside.x, surface.y + beside.y, surface.z + beside.z};
         }
-        std::array<Floats, 4> fractions{};
+        std::array<Floats, 4> fractions;
+        fractions.fill(Floats{});
         constexpr unsigned all = 0xff;
         unsigned in_bone = 0;
         if (look.inside == InsideBurr::carved) {
