@@ -34,16 +34,19 @@ class RandomPart {
         summary.update(summary_of(results));
         const auto found = [&](const char* key) { return summary[key].get<double>(); };
         run.say(
-            "{} motions of seed {}: error median {:.2f} %, 90 % within {:.2f}, 95 % within {:.2f}, 99 % within "
+            "{} motions of seed {}: error median {:.2f} %, 90 % within {:.2f}, 95 % within {:.2f}, 99 % "
+            "within "
             "{:.2f}, "
             "worst {:.2f} %; along the surface error median {:.2f} %, 90 % within {:.2f}, ripple 90 % within "
-            "{:.2f}, "
-            "worst {:.2f} %; means over 10 ms there 95 % within {:.2f} %, largest step at 1 kHz {:.2f} times the "
+            "{:.2f} (from 5 mm/s on {:.2f}), "
+            "worst {:.2f} %; means over 10 ms there 95 % within {:.2f} %, largest step at 1 kHz {:.2f} times "
+            "the "
             "mean "
             "(99 % under {:.2f})",
             results.size(), options_.seed, found("median_error_percent"), found("p90_error_percent"),
             found("p95_error_percent"), found("p99_error_percent"), found("max_error_percent"),
-            found("along_median_error_percent"), found("along_p90_error_percent"), found("ripple_p90_percent"),
+            found("along_median_error_percent"), found("along_p90_error_percent"),
+            found("ripple_p90_percent"), found("ripple_p90_from_5_mm_per_s_percent"),
             found("ripple_max_percent"), found("window_p95_percent"), found("largest_step_max"),
             found("largest_step_p99"));
         return summary;

@@ -214,13 +214,15 @@ Table table_of(const std::vector<RandomResult>& results) {
 }
 
 nlohmann::ordered_json summary_of(const std::vector<RandomResult>& results) {
-    std::vector<double> errors, errors_along, ripples, windows, largest, steps_us;
+    std::vector<double> errors, errors_along, ripples, brisk_ripples, windows, largest, steps_us;
     std::vector<const RandomResult*> worst;
     for (const RandomResult& r : results) {
         errors.push_back(100.0 * r.error);
         if (!r.motion.dives) {
             errors_along.push_back(100.0 * r.error);
             ripples.push_back(100.0 * r.ripple);
+            if (glm::length(r.motion.motion.velocity_mm_per_s) >= 5.0)
+                brisk_ripples.push_back(100.0 * r.ripple);
             for (const double share : r.deviations) windows.push_back(100.0 * share);
             if (r.motion.run.milling_rate_hz >= 1000.0) largest.push_back(r.largest_step);
         }
@@ -240,6 +242,7 @@ nlohmann::ordered_json summary_of(const std::vector<RandomResult>& results) {
                                    {"along_median_error_percent", percentile(errors_along, 0.5)},
                                    {"along_p90_error_percent", percentile(errors_along, 0.9)},
                                    {"ripple_p90_percent", percentile(ripples, 0.9)},
+                                   {"ripple_p90_from_5_mm_per_s_percent", percentile(brisk_ripples, 0.9)},
                                    {"ripple_max_percent", percentile(ripples, 1.0)},
                                    {"window_p95_percent", percentile(windows, 0.95)},
                                    {"largest_step_p99", percentile(largest, 0.99)},

@@ -59,9 +59,10 @@ RandomResult measure(const RandomMotion& motion, const MakeModel& make_model);
 Table table_of(const std::vector<RandomResult>& results);
 
 /// cases, median_error_percent, p90_error_percent and so on to max_error_percent; of motions along the
-/// surface along_median_error_percent, along_p90_error_percent, ripple_p90_percent, ripple_max_percent,
-/// window_p95_percent (of all means over 10 ms, from their motion's), largest_step_p99 and _max (of steps at
-/// 1 kHz, times the mean); step_us_p50; worst: the motions farthest off, by name.
+/// surface along_median_error_percent, along_p90_error_percent, ripple_p90_percent (also of feeds from 5 mm/s
+/// on: ripple_p90_from_5_mm_per_s_percent), ripple_max_percent, window_p95_percent (of all means over 10 ms,
+/// from their motion's), largest_step_p99 and _max (of steps at 1 kHz, times the mean); step_us_p50; worst:
+/// the motions farthest off, by name.
 nlohmann::ordered_json summary_of(const std::vector<RandomResult>& results);
 
 }  // namespace osteomill::study

@@ -81,7 +81,8 @@ TEST(Vibration, IsALineAtTheSpindlesFrequencyAndNothingElse) {
                       << " Hz: " << 1000.0 * amplitude_between(without, hz + 1.0, hz + 51.0) << "  "
                       << 1000.0 * amplitude_between(with, hz + 1.0, hz + 51.0) << '\n';
         const double line_n = amplitude_between(with, spindle_hz - 2.0, spindle_hz + 2.0);
-        EXPECT_GT(line_n, 0.08) << grip;
+        // A light hand's cut takes 0.04 mW, and half of that is all that its hum may give.
+        EXPECT_GT(line_n, grip == "light" ? 0.08 : 0.4) << grip;
         EXPECT_LT(amplitude_between(without, spindle_hz - 2.0, spindle_hz + 2.0), 0.1 * line_n) << grip;
         EXPECT_LT(amplitude_between(with, 200.0, 500.0),
                   amplitude_between(without, 200.0, 500.0) + 0.05 * line_n)

@@ -74,6 +74,7 @@ TEST(RandomMotions, AreSummedUpByTheKeysThatScriptsRelyOn) {
         results[i].error = 0.0001 * static_cast<double>(i + 1);
         results[i].ripple = 0.001 * static_cast<double>(i + 1);
         results[i].motion.dives = i >= 50;
+        results[i].motion.motion.velocity_mm_per_s = {0.0, i < 10 ? 5.0 : 4.9, 0.0};
         results[i].motion.motion.name = "motion " + std::to_string(i);
     }
     const auto summary = summary_of(results);
@@ -82,6 +83,8 @@ TEST(RandomMotions, AreSummedUpByTheKeysThatScriptsRelyOn) {
     EXPECT_NEAR(summary.at("p95_error_percent").get<double>(), 0.95, 0.011);
     EXPECT_NEAR(summary.at("max_error_percent").get<double>(), 1.0, 1e-9);
     EXPECT_NEAR(summary.at("ripple_p90_percent").get<double>(), 4.5, 0.11) << "of the first fifty";
+    EXPECT_NEAR(summary.at("ripple_p90_from_5_mm_per_s_percent").get<double>(), 0.91, 0.001)
+        << "of the first ten";
     EXPECT_NEAR(summary.at("ripple_max_percent").get<double>(), 5.0, 1e-9);
     EXPECT_EQ(summary.at("worst").at(0).at("name"), "motion 99");
 }
