@@ -14,7 +14,7 @@ unset key
 plot table using 'stiffness_n_per_mm':(of('simulated', 'implicit', 0, column('bandwidth_hz'))) with linespoints pt 6 lw 2 lc rgb blue, \
      for [i=1:words(arms)] table using 'stiffness_n_per_mm':(of(word(arms, i), 'implicit', 1, column('bandwidth_hz'))) with points pt 7 ps 1.4 lc i
 set ylabel 'force above 5 Hz, N rms'
-set key top left noenhanced
+set key right center noenhanced
 plot for [i=1:words(arms)] table using 'stiffness_n_per_mm':(of(word(arms, i), 'implicit', 0, column('noise_n'))) with linespoints pt 6 lw 2 lc i title word(arms, i), \
      for [i=1:words(arms)] table using 'stiffness_n_per_mm':(of(word(arms, i), 'implicit', 1, column('noise_n'))) with points pt 7 ps 1.4 lc i notitle, \
      for [i=1:words(arms)] table using 'stiffness_n_per_mm':(of(word(arms, i), 'interpolate', 0, column('noise_n'))) with points pt 2 lc i notitle
