@@ -8,6 +8,7 @@
 // spare; docs/coupling.md has the table of walls that hold, and what encoder steps and friction change.
 #pragma once
 
+#include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
 
 #include "simulation/coupling/contact_solve.h"
@@ -26,7 +27,10 @@ class CouplingSpring {
           burr_filter_s_(burr_filter_s) {}
 
     /// Slack and at rest, both ends at `position_mm`.
-    void place(const glm::dvec3& position_mm) noexcept { hand_ = burr_ = {position_mm, glm::dvec3(0.0)}; }
+    void place(const glm::dvec3& position_mm) noexcept {
+        hand_ = burr_ = {position_mm, glm::dvec3(0.0)};
+        on_hand_n_ = glm::dvec3(0.0);
+    }
 
     /// Takes where the hand is after a tick of `tick_s` > 0, and returns how spring and damper will pull on
     /// the burr, by the step that it makes in this tick. Real-time safe.
@@ -41,10 +45,15 @@ class CouplingSpring {
     /// Takes where the burr is after the same tick, and returns the force on the hand. Real-time safe.
     glm::dvec3 follow_burr(const glm::dvec3& burr_mm, double tick_s) noexcept {
         burr_.follow(burr_mm, tick_s, burr_filter_s_);
-        // Out of contact the spring is slack at once; what the filters remember must not be felt in air.
-        if (hand_.position_mm == burr_mm) burr_ = hand_;
-        return -stiffness_n_per_mm_ * (hand_.position_mm - burr_mm) -
-               damping_n_s_per_mm_ * (hand_.velocity_mm_per_s - burr_.velocity_mm_per_s);
+        if (hand_.position_mm == burr_mm) {
+            // Out of contact nothing is felt of what the filters remember, but no force ends in one tick.
+            burr_ = hand_;
+            const double before_n = glm::length(on_hand_n_);
+            return on_hand_n_ *=
+                   before_n > ArmSpring::felt_jump_n ? 1.0 - ArmSpring::felt_jump_n / before_n : 0.0;
+        }
+        return on_hand_n_ = -stiffness_n_per_mm_ * (hand_.position_mm - burr_mm) -
+                            damping_n_s_per_mm_ * (hand_.velocity_mm_per_s - burr_.velocity_mm_per_s);
     }
 
   private:
@@ -66,6 +75,7 @@ class CouplingSpring {
     double burr_filter_s_;
     End hand_;
     End burr_;
+    glm::dvec3 on_hand_n_{0.0};  // in the last tick
 };
 
 }  // namespace osteomill

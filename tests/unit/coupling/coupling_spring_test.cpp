@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 
@@ -25,13 +26,24 @@ TEST(CouplingSpring, PullsOnTheBurrAsItPushesOnTheHand) {
     }
 }
 
-TEST(CouplingSpring, IsSlackAtOnceWhereBurrAndHandMeet) {
+TEST(CouplingSpring, GoesSlackByWhatIsNotFeltAsAJumpWhereBurrAndHandMeet) {
     CouplingSpring spring({.max_stiffness_n_per_mm = 1.5}, 0.01);
     spring.place(glm::dvec3(0.0));
-    spring.follow_hand({1.0, 0.0, 0.0}, tick_s);
-    EXPECT_LT(spring.follow_burr(glm::dvec3(0.0), tick_s).x, -1.5) << "spring and damper";
-    spring.follow_hand({1.1, 0.0, 0.0}, tick_s);
-    EXPECT_EQ(spring.follow_burr({1.1, 0.0, 0.0}, tick_s), glm::dvec3(0.0));
+    // The burr follows, then stays behind, then is with the hand.
+    for (int i = 1; i <= 10; ++i) {
+        spring.follow_hand({0.1 * i, 0.0, 0.0}, tick_s);
+        spring.follow_burr({0.1 * i - 0.01, 0.0, 0.0}, tick_s);
+    }
+    spring.follow_hand({1.2, 0.0, 0.0}, tick_s);
+    double before_n = spring.follow_burr({1.0, 0.0, 0.0}, tick_s).x;
+    ASSERT_LT(before_n, -0.4);
+    for (double hand_mm = 1.3; before_n != 0.0; hand_mm += 0.1) {
+        spring.follow_hand({hand_mm, 0.0, 0.0}, tick_s);
+        const glm::dvec3 on_hand_n = spring.follow_burr({hand_mm, 0.0, 0.0}, tick_s);
+        ASSERT_NEAR(on_hand_n.x, std::min(0.0, before_n + 0.15), 1e-12);
+        ASSERT_EQ(on_hand_n.y, 0.0);
+        before_n = on_hand_n.x;
+    }
 }
 
 }  // namespace
