@@ -20,12 +20,12 @@ std::vector<std::size_t> doubled_ranks(std::span<const double> first, std::span<
     std::vector<double> all(first.begin(), first.end());
     all.insert(all.end(), second.begin(), second.end());
     std::vector<double> sorted = all;
-    std::ranges::sort(sorted);
+    std::sort(sorted.begin(), sorted.end());
     std::vector<std::size_t> ranks;
     for (const double value : all) {
-        const auto equal = std::ranges::equal_range(sorted, value);
-        const auto below = static_cast<std::size_t>(equal.begin() - sorted.begin());
-        ranks.push_back(2 * below + equal.size() + 1);
+        const auto [first_equal, behind] = std::equal_range(sorted.begin(), sorted.end(), value);
+        const auto below = static_cast<std::size_t>(first_equal - sorted.begin());
+        ranks.push_back(2 * below + static_cast<std::size_t>(behind - first_equal) + 1);
     }
     return ranks;
 }
