@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <glm/geometric.hpp>
 
 namespace osteomill {
@@ -56,6 +57,20 @@ Plan read_plan(TomlReader reader, std::span<const Tissue> tissues) {
     if (sphere) plan.region = read_sphere(*sphere);
     if (cylinder) plan.region = read_cylinder(*cylinder);
     return plan;
+}
+
+PassMarks read_pass_marks(TomlReader reader, const Scene& scene) {
+    PassMarks marks;
+    for (const PassMarkKind& kind : pass_mark_kinds)
+        if (const auto mark = reader.number(kind.metric, {kind.low, kind.high})) marks[kind.metric] = *mark;
+    reader.refuse_other_keys();
+    for (const auto& [metric, mark] : marks) {
+        if (metric.starts_with("plan_") && !scene.plan)
+            reader.fail(metric, fmt::format("'{}' needs a [plan] to measure against", metric));
+        if (metric == "structure_touches" && std::ranges::none_of(scene.tissues, &Tissue::is_protected))
+            reader.fail(metric, fmt::format("'{}' needs a tissue with protected = true", metric));
+    }
+    return marks;
 }
 
 }  // namespace osteomill

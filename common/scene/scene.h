@@ -14,6 +14,7 @@
 
 #include "common/scene/burr.h"
 #include "common/scene/motor.h"
+#include "common/scene/pass_marks.h"
 #include "common/scene/plan.h"
 #include "common/scene/stiffness_relation.h"
 
@@ -109,6 +110,7 @@ struct Scene {
     ToolPose start_pose;
     TrajectorySpec trajectory;
     std::optional<Plan> plan{};  ///< what a session is measured against
+    PassMarks pass{};            ///< what it has to reach
 
     bool operator==(const Scene&) const = default;
 };

@@ -216,6 +216,7 @@ Scene read_all(TomlReader reader, const std::filesystem::path& folder) {
     if (auto table = reader.table("trajectory"))
         scene.trajectory = read_trajectory(*table, folder, scene.burrs[scene.start_burr]);
     if (auto table = reader.table("plan")) scene.plan = read_plan(*table, scene.tissues);
+    if (auto table = reader.table("pass")) scene.pass = read_pass_marks(*table, scene);
     reader.refuse_other_keys();
     return scene;
 }

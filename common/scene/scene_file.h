@@ -19,6 +19,7 @@
 //                      start_mm, travel_direction, speed_mm_per_s, depth_mm, width_mm
 //     [plan]           tissue = "carious lesion"   or   sphere = { centre_mm, radius_mm }   or
 //                      cylinder = { from_mm, to_mm, radius_mm }; margin_mm
+//     [pass]           time_s, plan_removed_share, plan_excess_mm3, structure_touches, peak_force_n
 //
 // Paths are relative to the scene file. Only name and [bone] are required; what is left out takes the
 // defaults of scene.h and the usual burr set at 10 000 rpm.

@@ -227,6 +227,9 @@ std::string write_scene(const Scene& scene) {
                     .below("\n# How the spindle slows under load, as it is heard.\n[motor]\n");
     text += device_text(scene.device) + pose_text(scene.start_pose) + trajectory_text(scene.trajectory);
     if (scene.plan) text += plan_text(*scene.plan);
+    Keys pass;
+    for (const auto& [metric, mark] : scene.pass) pass.add(metric.c_str(), mark);
+    text += pass.below("\n# What a session has to reach.\n[pass]\n");
     return text;
 }
 

@@ -172,6 +172,7 @@ v2::Hello to_message(const SessionInfo& session) {
     hello.set_trainee(session.trainee);
     hello.set_case_(session.case_name);
     for (const auto& [name, value] : session.settings) (*hello.mutable_settings())[name] = value;
+    for (const auto& [metric, mark] : session.pass) (*hello.mutable_pass())[metric] = mark;
     return hello;
 }
 
@@ -238,6 +239,16 @@ std::map<std::string, std::string> settings_from(const v2::Hello& hello) {
     return settings;
 }
 
+/// Marks that a later version may set for other metrics are left out.
+PassMarks pass_from(const v2::Hello& hello) {
+    PassMarks marks;
+    for (const auto& [metric, mark] : hello.pass())
+        if (const PassMarkKind* kind = pass_mark_kind(metric);
+            kind != nullptr && mark >= kind->low && mark <= kind->high)
+            marks.emplace(metric, mark);
+    return marks;
+}
+
 std::variant<SessionInfo, WireError> session_info_from(const v2::Hello& hello) {
     auto burrs = burrs_from(hello.burrs());
     if (auto* error = std::get_if<WireError>(&burrs)) return *error;
@@ -265,6 +276,7 @@ std::variant<SessionInfo, WireError> session_info_from(const v2::Hello& hello) {
                        .has_ct = hello.has_ct(),
                        .accepts_controls = hello.accepts_controls(),
                        .plan = std::move(plan),
+                       .pass = pass_from(hello),
                        .trainee = printable(hello.trainee()),
                        .case_name = printable(hello.case_()),
                        .settings = settings_from(hello)};

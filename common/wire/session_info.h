@@ -26,6 +26,7 @@ struct SessionInfo {
     bool has_ct = false;                 ///< the server has a CT for people to look at
     bool accepts_controls = false;       ///< the server takes a SessionControl
     std::optional<Plan> plan{};
+    PassMarks pass{};
     std::string trainee{};
     std::string case_name{};
     std::map<std::string, std::string> settings{};  ///< as haptic_server --json names them

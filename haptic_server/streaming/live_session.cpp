@@ -18,7 +18,8 @@ SessionInfo session_info(const Scene& scene, bool accepts_operator, double force
             .accepts_operator = accepts_operator,
             .force_limit_n = force_limit_n,
             .reach_mm = ArmScale(scene.device.scale).length_mm(longest_reach_mm),
-            .plan = scene.plan};
+            .plan = scene.plan,
+            .pass = scene.pass};
 }
 
 void LiveSession::watch(StructureWatch structures, std::vector<Tissue> tissues) {

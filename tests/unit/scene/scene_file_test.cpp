@@ -346,6 +346,30 @@ TEST(SceneFile, ReadsAPlanAndWritesItBack) {
     EXPECT_THAT(error_of(tissues + "tissue = \"lesion\"\nmargin = 1\n"), HasSubstr("margin"));
 }
 
+TEST(SceneFile, SetsPassMarksForWhatItCanMeasure) {
+    const std::string measured = smallest +
+                                 "[plan]\nsphere = { centre_mm = [1, 2, 3], radius_mm = 4 }\n"
+                                 "[[tissues]]\nlabel = 7\nname = \"nerve\"\ncolour = \"#543622\"\n"
+                                 "protected = true\n[pass]\n";
+    const Scene scene = parse_scene(measured +
+                                        "time_s = 300\nplan_removed_share = 0.9\nplan_excess_mm3 = 2.5\n"
+                                        "structure_touches = 0\npeak_force_n = 4\n",
+                                    "my.toml");
+    EXPECT_EQ(scene.pass, (PassMarks{{"time_s", 300.0},
+                                     {"plan_removed_share", 0.9},
+                                     {"plan_excess_mm3", 2.5},
+                                     {"structure_touches", 0.0},
+                                     {"peak_force_n", 4.0}}));
+    EXPECT_EQ(parse_scene(write_scene(scene), "again.toml"), scene);
+    EXPECT_TRUE(parse_scene(smallest, "my.toml").pass.empty());
+
+    EXPECT_THAT(error_of(measured + "time = 300\n"),
+                AllOf(HasSubstr("'time'"), HasSubstr("time_s"), HasSubstr("peak_force_n")));
+    EXPECT_THAT(error_of(measured + "plan_removed_share = 90\n"), HasSubstr("plan_removed_share"));
+    EXPECT_THAT(error_of(smallest + "[pass]\nplan_excess_mm3 = 1\n"), HasSubstr("needs a [plan]"));
+    EXPECT_THAT(error_of(smallest + "[pass]\nstructure_touches = 0\n"), HasSubstr("protected = true"));
+}
+
 TEST(SceneFile, HasAMotorWhoseSpeedFallsToAStall) {
     EXPECT_FALSE(parse_scene(smallest, "my.toml").motor);
     const Scene scene =

@@ -154,6 +154,7 @@ TEST(SceneMessages, RefuseAnOperatorWhoAsksTheImpossible) {
 TEST(SceneMessages, BringBackPlanTraineeAndSettings) {
     SessionInfo session{.burrs = {Burr{.name = "round"}},
                         .plan = Plan{.region = CylinderRegion{{1, 2, 3}, {4, 5, 6}, 2.0}, .margin_mm = 0.25},
+                        .pass = {{"time_s", 300.0}, {"structure_touches", 0.0}},
                         .trainee = "Anna",
                         .case_name = "molar",
                         .settings = {{"grip", "firm"}, {"rpm", "40000"}}};
@@ -165,8 +166,12 @@ TEST(SceneMessages, BringBackPlanTraineeAndSettings) {
         EXPECT_EQ(read.trainee, "Anna");
         EXPECT_EQ(read.case_name, "molar");
         EXPECT_EQ(read.settings, session.settings);
+        EXPECT_EQ(read.pass, session.pass);
     }
     v2::Hello hello = to_message(session);
+    (*hello.mutable_pass())["a_later_metric"] = 1.0;
+    (*hello.mutable_pass())["time_s"] = std::nan("");
+    EXPECT_EQ(std::get<SessionInfo>(session_info_from(hello)).pass, (PassMarks{{"structure_touches", 0.0}}));
     hello.mutable_plan()->clear_region();
     EXPECT_TRUE(std::holds_alternative<WireError>(session_info_from(hello)));
     hello.mutable_plan()->mutable_sphere()->set_radius_mm(-1.0);
