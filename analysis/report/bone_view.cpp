@@ -4,7 +4,9 @@
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <optional>
 
+#include "analysis/report/voxel_share.h"
 #include "common/bone/bone_ray.h"
 
 namespace osteomill {
@@ -17,8 +19,8 @@ const glm::dvec3 bone_colour(226.0, 216.0, 198.0);
 
 class View {
   public:
-    View(const Bone& bone, std::span<const Tissue> tissues, const BoneView& view)
-        : bone_(bone), view_(view), probe_(bone) {
+    View(const Bone& bone, std::span<const Tissue> tissues, const BoneView& view, const SectionMarks& marks)
+        : bone_(bone), tissues_(tissues), view_(view), marks_(marks), probe_(bone) {
         colours_.fill(bone_colour);
         for (const Tissue& tissue : tissues)
             colours_[tissue.label] =
@@ -30,6 +32,8 @@ class View {
 
     glm::dvec3 colour(const glm::dvec3& place_mm) {
         const BoneRay ray{to_voxel_coordinates(bone_.grid(), place_mm), view_.direction};
+        if (view_.is_section)
+            if (const auto structure = structure_colour(ray.origin)) return *structure;
         RaySpan span = span_within(ray, bone_.grid());
         if (view_.is_section) span.from = std::max(span.from, 0.0);
         if (span.is_empty()) return paper;
@@ -43,56 +47,119 @@ class View {
   private:
     glm::dvec3 lit(const BoneRay& ray, double t) {
         const glm::dvec3 place = ray.at(t);
-        glm::dvec3 gradient(0.0);
-        for (int axis = 0; axis < 3; ++axis) {
-            glm::dvec3 step(0.0);
-            step[axis] = 1.0;
-            // Over four voxels: a voxel alone shows as a terrace.
-            gradient[axis] = probe_.between(place - step) - probe_.between(place + step) +
-                             probe_.between(place - 2.0 * step) - probe_.between(place + 2.0 * step);
-        }
+        const glm::dvec3 gradient = smoothed_gradient(place);
         const double length = glm::length(gradient);
-        const glm::dvec3 normal = length > 0.0 ? gradient / length : -view_.direction;
+        const glm::dvec3 normal = length > 0.0 ? -gradient / length : -view_.direction;
         const double diffuse = std::max(0.0, glm::dot(normal, light_));
         return (0.28 + 0.72 * diffuse) * tissue_colour(place + 0.6 * view_.direction);
     }
 
-    glm::dvec3 tissue_colour(const glm::dvec3& place) const {
-        const glm::ivec3 voxel =
-            glm::clamp(glm::ivec3(glm::floor(place + 0.5)), glm::ivec3(0), bone_.grid().size_voxels - 1);
-        return colours_[bone_.tissue_at(voxel)];
+    /// The window's, which shows no rings where a surface crosses the voxels' layers: 4^3 trilinear samples a
+    /// voxel apart (gradient_by_samples in bone_sampling.glsl), here as weights of the 5^3 voxels about them.
+    glm::dvec3 smoothed_gradient(const glm::dvec3& place) {
+        const glm::dvec3 first = glm::floor(place - 1.5);
+        const glm::dvec3 part = place - 1.5 - first;
+        using Weights = std::array<glm::dvec3, 5>;
+        const auto spread = [&](const std::array<double, 4>& samples) {
+            Weights weights{};
+            for (std::size_t i = 0; i < samples.size(); ++i) {
+                weights[i] += samples[i] * (1.0 - part);
+                weights[i + 1] += samples[i] * part;
+            }
+            return weights;
+        };
+        const Weights along = spread({-1.5, -1.0, 1.0, 1.5});
+        const Weights across = spread({1.0, 3.5, 3.5, 1.0});
+        glm::dvec3 gradient(0.0);
+        for (std::size_t z = 0; z < 5; ++z)
+            for (std::size_t y = 0; y < 5; ++y)
+                for (std::size_t x = 0; x < 5; ++x)
+                    gradient += probe_.at(glm::ivec3(first) + glm::ivec3(x, y, z)) *
+                                glm::dvec3(along[x].x * across[y].y * across[z].z,
+                                           across[x].x * along[y].y * across[z].z,
+                                           across[x].x * across[y].y * along[z].z);
+        return gradient;
+    }
+
+    std::optional<glm::dvec3> structure_colour(const glm::dvec3& place) const {
+        for (const Structure& structure : marks_.structures)
+            if (is_mostly(place, [&](const glm::ivec3& voxel) { return structure.mask.contains(voxel); }))
+                return colours_[tissues_[structure.tissue].label];
+        return std::nullopt;
+    }
+
+    /// Blended between voxels with bone, as the window does, so that tissues meet without steps.
+    glm::dvec3 tissue_colour(const glm::dvec3& place) {
+        glm::dvec3 sum(0.0);
+        double known = 0.0;
+        for_voxels_about(place, [&](const glm::ivec3& voxel, double weight) {
+            if (!contains(bone_.grid(), voxel) || probe_.at(voxel) == 0.0) return;
+            sum += weight * colours_[bone_.tissue_at(voxel)];
+            known += weight;
+        });
+        return known > 0.0 ? sum / known : bone_colour;
     }
 
     const Bone& bone_;
+    std::span<const Tissue> tissues_;
     const BoneView& view_;
+    const SectionMarks& marks_;
     BoneSampler probe_;
     std::array<glm::dvec3, 256> colours_;
     glm::dvec3 light_{0.0};
 };
 
+/// From the picture's left to its right, or from its bottom to its top.
+double offset_mm(const BoneView& view, double pixel, int size_px) {
+    return view.half_width_mm * (2.0 * pixel / size_px - 1.0);
+}
+
+/// Pixels of the region beside one outside of it.
+void draw_outline(RgbPicture& picture, const BoneView& view, const glm::dvec3& right,
+                  const SectionMarks& marks) {
+    constexpr std::array<std::uint8_t, 3> colour{0, 90, 200};
+    const int size = picture.size_px;
+    std::vector<char> is_in;
+    for (int row = 0; row < size; ++row)
+        for (int column = 0; column < size; ++column)
+            is_in.push_back(marks.is_outlined(view.centre_mm + offset_mm(view, column + 0.5, size) * right -
+                                              offset_mm(view, row + 0.5, size) * view.up));
+    const auto at = [&](int row, int column) {
+        return is_in[static_cast<std::size_t>(std::clamp(row, 0, size - 1) * size +
+                                              std::clamp(column, 0, size - 1))];
+    };
+    const int reach = std::max(1, size / 320);
+    for (int row = 0; row < size; ++row)
+        for (int column = 0; column < size; ++column)
+            if (at(row, column) && !(at(row - reach, column) && at(row + reach, column) &&
+                                     at(row, column - reach) && at(row, column + reach)))
+                std::ranges::copy(colour, picture.rgb.begin() + 3 * (row * size + column));
+}
+
 }  // namespace
 
-RgbPicture picture_of(const Bone& bone, std::span<const Tissue> tissues, const BoneView& view, int size_px) {
-    View seen(bone, tissues, view);
+RgbPicture picture_of(const Bone& bone, std::span<const Tissue> tissues, const BoneView& view, int size_px,
+                      const SectionMarks& marks) {
+    View seen(bone, tissues, view, marks);
     RgbPicture picture{.size_px = size_px, .rgb = {}};
     picture.rgb.reserve(static_cast<std::size_t>(size_px) * static_cast<std::size_t>(size_px) * 3);
-    const int rays = size_px * rays_per_pixel_edge;
-    const auto offset_mm = [&](int ray) {
-        return view.half_width_mm * ((2.0 * ray + 1.0) / static_cast<double>(rays) - 1.0);
+    const int rays = rays_per_pixel_edge;
+    const auto offset = [&](int pixel, int ray) {
+        return offset_mm(view, pixel + (ray + 0.5) / rays, size_px);
     };
     for (int row = 0; row < size_px; ++row)
         for (int column = 0; column < size_px; ++column) {
             glm::dvec3 sum(0.0);
-            for (int j = 0; j < rays_per_pixel_edge; ++j)
-                for (int i = 0; i < rays_per_pixel_edge; ++i)
-                    sum += seen.colour(view.centre_mm +
-                                       offset_mm(column * rays_per_pixel_edge + i) * seen.right() -
-                                       offset_mm(row * rays_per_pixel_edge + j) * view.up);
-            sum /= rays_per_pixel_edge * rays_per_pixel_edge;
+            for (int j = 0; j < rays; ++j)
+                for (int i = 0; i < rays; ++i)
+                    sum += seen.colour(view.centre_mm + offset(column, i) * seen.right() -
+                                       offset(row, j) * view.up);
+            sum /= rays * rays;
             for (int channel = 0; channel < 3; ++channel)
                 picture.rgb.push_back(
                     static_cast<std::uint8_t>(std::lround(std::clamp(sum[channel], 0.0, 255.0))));
         }
+    if (view.is_section && marks.is_outlined) draw_outline(picture, view, seen.right(), marks);
     return picture;
 }
 

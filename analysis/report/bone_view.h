@@ -1,18 +1,20 @@
 // A picture of a bone by the CPU: parallel rays through its bricks to where half a voxel is left.
 //
-// Lit by the gradient of the fractions from the viewer's upper left, coloured by tissue; where the near side
-// is cut away, the cut face is flat and bears the tissues' colours. A server has no OpenGL, and a page of a
-// report needs some pictures, not thirty a second.
+// Surface and normals are those of the window (bone_sampling.glsl). Lit from the viewer's upper left,
+// coloured by tissue; where the near side is cut away, the cut face is flat and bears the tissues' colours. A
+// server has no OpenGL, and a page of a report needs some pictures, not thirty a second.
 #pragma once
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <glm/vec3.hpp>
 #include <span>
 #include <vector>
 
 #include "common/bone/bone.h"
 #include "common/scene/scene.h"
+#include "common/scene/structure.h"
 
 namespace osteomill {
 
@@ -30,6 +32,13 @@ struct RgbPicture {
     std::vector<std::uint8_t> rgb{};
 };
 
-RgbPicture picture_of(const Bone& bone, std::span<const Tissue> tissues, const BoneView& view, int size_px);
+/// What a section shows besides bone.
+struct SectionMarks {
+    std::span<const Structure> structures{};                        ///< in their tissue's colour
+    std::function<bool(const glm::dvec3& place_mm)> is_outlined{};  ///< a region whose border is drawn
+};
+
+RgbPicture picture_of(const Bone& bone, std::span<const Tissue> tissues, const BoneView& view, int size_px,
+                      const SectionMarks& marks = {});
 
 }  // namespace osteomill

@@ -17,13 +17,12 @@ class ForceSum {
         time_s_ += dt_s;
         impulse_n_s_ += force_n * dt_s;
     }
-    ForceOfTissue of(std::string name) const {
-        if (forces_n_.empty()) return {.tissue = std::move(name)};
-        return {.tissue = std::move(name),
+    ForceOf of(std::string name) const {
+        if (forces_n_.empty()) return {.name = std::move(name)};
+        return {.name = std::move(name),
                 .time_s = time_s_,
                 .mean_n = time_s_ > 0.0 ? impulse_n_s_ / time_s_ : forces_n_.front(),
                 .p95_n = percentile(forces_n_, 0.95),
-                .peak_n = *std::ranges::max_element(forces_n_),
                 .impulse_n_s = impulse_n_s_};
     }
 
@@ -39,6 +38,7 @@ ForceMetrics force_metrics(const SessionTrace& trace) {
     ForceMetrics metrics;
     ForceSum cutting;
     std::map<std::uint8_t, ForceSum> by_tissue;
+    std::map<std::size_t, ForceSum> by_burr;
     for (std::size_t i = 0; i < trace.samples.size(); ++i) {
         const TraceSample& now = trace.samples[i];
         metrics.peak_n = std::max(metrics.peak_n, now.force_n);
@@ -46,11 +46,13 @@ ForceMetrics force_metrics(const SessionTrace& trace) {
         const auto most = std::ranges::max_element(now.levels, {}, &TissueLevels::milled);
         cutting.add(now.force_n, trace.dt_s(i));
         by_tissue[most->tissue].add(now.force_n, trace.dt_s(i));
+        by_burr[now.burr].add(now.force_n, trace.dt_s(i));
     }
     metrics.peak_n = std::max(metrics.peak_n, trace.peak_force_n.value_or(0.0));
     metrics.cutting = cutting.of("all");
     for (const auto& [label, sum] : by_tissue)
         metrics.by_tissue.push_back(sum.of(tissue_name(trace.session, label)));
+    for (const auto& [burr, sum] : by_burr) metrics.by_burr.push_back(sum.of(trace.session.burrs[burr].name));
     return metrics;
 }
 

@@ -1,4 +1,4 @@
-// The force on the hand, over the session and while each tissue is cut.
+// The force on the hand, over the session, while each tissue is cut and while each burr cuts.
 //
 // A frame that takes bone is a frame of the tissue of which it takes most (the lower label of two equals).
 #pragma once
@@ -10,19 +10,20 @@
 
 namespace osteomill {
 
-struct ForceOfTissue {
-    std::string tissue;
+/// While one tissue was cut, or one burr cut.
+struct ForceOf {
+    std::string name;
     double time_s = 0.0;
     double mean_n = 0.0;       ///< over time
     double p95_n = 0.0;        ///< of the samples
-    double peak_n = 0.0;       ///< of the samples
     double impulse_n_s = 0.0;  ///< of the magnitude
 };
 
 struct ForceMetrics {
-    double peak_n = 0.0;      ///< of every haptic tick, where the recording says it; else of the samples
-    ForceOfTissue cutting{};  ///< all frames that take bone
-    std::vector<ForceOfTissue> by_tissue{};  ///< only of those cut; ascending labels
+    double peak_n = 0.0;  ///< of every haptic tick, where the recording says it; else of the samples
+    ForceOf cutting{};    ///< all frames that take bone
+    std::vector<ForceOf> by_tissue{};  ///< only of those cut; ascending labels
+    std::vector<ForceOf> by_burr{};    ///< only of those that cut; as the scene lists them
 };
 
 ForceMetrics force_metrics(const SessionTrace& trace);

@@ -15,13 +15,14 @@ struct MotionMetrics {
     double idle_s = 0.0;
     double paused_s = 0.0;
     double spindle_s = 0.0;
-    double path_mm = 0.0;                     ///< of the hand, pauses left out
-    std::optional<double> smoothness{};       ///< log dimensionless jerk of the hand, the whole session
-    double cutting_s = 0.0;                   ///< in which bone was taken
-    double cutting_speed_mm_per_s = 0.0;      ///< of the burr, mean while it takes bone
-    double cutting_speed_p95_mm_per_s = 0.0;  ///< likewise, 95th percentile
-    double depth_mm = 0.0;                    ///< largest while the spindle turns
-    double cutting_depth_mm = 0.0;            ///< mean while bone is taken
+    double path_mm = 0.0;                       ///< of the hand, pauses left out
+    std::optional<double> smoothness{};         ///< log dimensionless jerk of the hand, the whole session
+    double cutting_s = 0.0;                     ///< in which bone was taken
+    double cutting_speed_mm_per_s = 0.0;        ///< of the burr, mean while it takes bone
+    double cutting_speed_p95_mm_per_s = 0.0;    ///< likewise, 95th percentile
+    double depth_mm = 0.0;                      ///< largest while the spindle turns
+    double cutting_depth_mm = 0.0;              ///< mean while bone is taken
+    std::optional<double> cutting_angle_deg{};  ///< of the spindle to the surface, mean while bone is taken
 };
 
 MotionMetrics motion_metrics(const SessionTrace& trace);

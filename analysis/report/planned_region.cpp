@@ -5,6 +5,8 @@
 #include <glm/geometric.hpp>
 #include <limits>
 
+#include "analysis/report/voxel_share.h"
+
 namespace osteomill {
 
 namespace {
@@ -53,6 +55,14 @@ bool PlannedRegion::holds(std::int32_t slot, std::size_t offset, const glm::ivec
     if (std::holds_alternative<TissueRegion>(plan_.region))
         return label_ >= 0 && bone_.content().tissue_in(slot, offset) == label_;
     return distance_mm(centre_of_voxel_mm(bone_.grid(), voxel)) <= 0.0;
+}
+
+bool PlannedRegion::holds(const glm::dvec3& place_mm) const {
+    if (!std::holds_alternative<TissueRegion>(plan_.region)) return distance_mm(place_mm) <= 0.0;
+    return is_mostly(to_voxel_coordinates(bone_.grid(), place_mm), [&](const glm::ivec3& voxel) {
+        return contains(bone_.grid(), voxel) && bone_.fraction_at(voxel) > 0 &&
+               bone_.tissue_at(voxel) == label_;
+    });
 }
 
 double PlannedRegion::distance_mm(const glm::dvec3& place_mm) const {

@@ -17,6 +17,8 @@ class PlannedRegion {
     const VoxelSet& voxels() const { return voxels_; }
     /// Of the region itself, whether or not it is bone there.
     bool holds(std::int32_t slot, std::size_t offset, const glm::ivec3& voxel) const;
+    /// Likewise of a place in patient LPS, of a tissue between its voxels.
+    bool holds(const glm::dvec3& place_mm) const;
     /// From a place outside of it: to the sphere or cylinder, or to the centre of the tissue's nearest voxel.
     /// Infinite where the bone has none of the tissue.
     double distance_mm(const glm::dvec3& place_mm) const;

@@ -1,5 +1,6 @@
 #include "analysis/report/removal_metrics.h"
 
+#include <algorithm>
 #include <array>
 #include <map>
 
@@ -8,7 +9,9 @@ namespace osteomill {
 std::string tissue_name(const SessionInfo& session, std::uint8_t label) {
     for (const Tissue& tissue : session.tissues)
         if (tissue.label == label) return tissue.name;
-    return label == 0 ? "unlabelled" : "tissue " + std::to_string(label);
+    if (label != 0) return "tissue " + std::to_string(label);
+    return std::ranges::find(session.tissues, "bone", &Tissue::name) == session.tissues.end() ? "bone"
+                                                                                              : "other bone";
 }
 
 RemovalMetrics removal_metrics(const SessionTrace& trace, std::span<const Stroke> strokes) {

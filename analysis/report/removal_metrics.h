@@ -18,13 +18,13 @@ struct NamedVolume {
 struct RemovalMetrics {
     double removed_mm3 = 0.0;              ///< of the bone as it was, at the end
     double undone_mm3 = 0.0;               ///< milled and given back
-    std::vector<NamedVolume> by_tissue{};  ///< every tissue of the scene; "unlabelled", if there is any
+    std::vector<NamedVolume> by_tissue{};  ///< every tissue of the scene; what has no label, if there is any
     std::vector<NamedVolume> by_burr{};    ///< the burrs that took any
 };
 
 RemovalMetrics removal_metrics(const SessionTrace& trace, std::span<const Stroke> strokes);
 
-/// "unlabelled" for 0, "tissue 7" for what the scene has no name for.
+/// "bone" for 0 ("other bone" where a tissue has that name), "tissue 7" for what the scene has no name for.
 std::string tissue_name(const SessionInfo& session, std::uint8_t label);
 
 }  // namespace osteomill

@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include "analysis/report/verdict.h"
+
 namespace osteomill {
 
 namespace {
@@ -29,14 +31,17 @@ void add_motion(Rows& rows, const MotionMetrics& motion, const StrokeMetrics& st
     rows.add("spindle_s", "spindle on", motion.spindle_s, "s");
     rows.add("cutting_s", "cutting bone", motion.cutting_s, "s");
     rows.add("path_mm", "path of the hand", motion.path_mm, "mm");
-    rows.add("smoothness_ldlj", "smoothness (log dimensionless jerk)", motion.smoothness);
+    rows.add("smoothness_ldlj", "smoothness (LDLJ)", motion.smoothness);
     rows.begin("Strokes");
     rows.add("strokes", "strokes", static_cast<double>(strokes.strokes));
     rows.add("strokes_undone", "of these undone", static_cast<double>(strokes.undone));
     rows.add("stroke_duration_mean_s", "mean duration", strokes.mean_duration_s, "s");
     rows.add("stroke_duration_max_s", "longest", strokes.longest_s, "s");
     rows.add("stroke_length_mean_mm", "mean length", strokes.mean_length_mm, "mm");
-    rows.add("stroke_smoothness_ldlj", "median smoothness of a stroke", strokes.median_smoothness);
+    rows.add("stroke_smoothness_ldlj", "median smoothness (LDLJ)", strokes.median_smoothness);
+    rows.add("stroke_reaches_per_s", "as so many reaches", strokes.median_reaches_per_s, "1/s");
+    rows.add("stroke_length_variation", "variation of their length", strokes.length_variation);
+    rows.add("stroke_force_variation", "variation of their mean force", strokes.force_variation);
     rows.begin("Cutting");
     rows.add("cutting_speed_mean_mm_per_s", "mean speed while cutting", motion.cutting_speed_mm_per_s,
              "mm/s");
@@ -44,24 +49,44 @@ void add_motion(Rows& rows, const MotionMetrics& motion, const StrokeMetrics& st
              "mm/s");
     rows.add("depth_max_mm", "greatest depth", motion.depth_mm, "mm");
     rows.add("cutting_depth_mean_mm", "mean depth while cutting", motion.cutting_depth_mm, "mm");
+    rows.add("cutting_angle_mean_deg", "mean angle of spindle to surface", motion.cutting_angle_deg, "deg");
 }
 
 void add_removal(Rows& rows, const RemovalMetrics& removal) {
     rows.begin("Removed bone");
     rows.add("removed_mm3", "removed", removal.removed_mm3, "mm^3");
-    for (const NamedVolume& tissue : removal.by_tissue)
-        rows.add("removed_of_tissue_mm3", "removed", tissue.mm3, "mm^3", tissue.name);
-    for (const NamedVolume& burr : removal.by_burr)
-        rows.add("removed_by_burr_mm3", "removed", burr.mm3, "mm^3", burr.name);
     rows.add("undone_mm3", "milled and undone", removal.undone_mm3, "mm^3");
 }
 
-void add_force_of(Rows& rows, const ForceOfTissue& force, const std::string& of) {
-    rows.add("force_mean_n", "mean", force.mean_n, "N", of);
-    rows.add("force_p95_n", "95th percentile", force.p95_n, "N", of);
-    rows.add("force_peak_n", "peak", force.peak_n, "N", of);
-    rows.add("force_impulse_n_s", "impulse", force.impulse_n_s, "N s", of);
-    rows.add("force_time_s", "time", force.time_s, "s", of);
+void add_burrs(Rows& rows, const SessionMetrics& metrics) {
+    rows.begin("What each burr did");
+    for (const NamedVolume& burr : metrics.removal.by_burr)
+        rows.add("removed_by_burr_mm3", "removed", burr.mm3, "mm^3", burr.name);
+    for (const ForceOf& burr : metrics.force.by_burr) {
+        rows.add("burr_cutting_s", "cutting bone", burr.time_s, "s", burr.name);
+        rows.add("burr_force_mean_n", "mean force", burr.mean_n, "N", burr.name);
+    }
+}
+
+/// Its peak is that of every haptic tick; those of frames would be others.
+void add_force(Rows& rows, const ForceMetrics& force) {
+    rows.begin("Force on the hand");
+    rows.add("peak_force_n", "peak", force.peak_n, "N");
+    rows.add("force_mean_n", "mean while cutting", force.cutting.mean_n, "N");
+    rows.add("force_p95_n", "95th percentile of it", force.cutting.p95_n, "N");
+    rows.add("force_impulse_n_s", "impulse", force.cutting.impulse_n_s, "N s");
+}
+
+void add_tissues(Rows& rows, const SessionMetrics& metrics) {
+    rows.begin("By tissue");
+    for (const NamedVolume& tissue : metrics.removal.by_tissue)
+        rows.add("removed_of_tissue_mm3", "removed", tissue.mm3, "mm^3", tissue.name);
+    for (const ForceOf& tissue : metrics.force.by_tissue) {
+        rows.add("force_time_s", "cut for", tissue.time_s, "s", tissue.name);
+        rows.add("force_mean_n", "mean force", tissue.mean_n, "N", tissue.name);
+        rows.add("force_p95_n", "95th percentile", tissue.p95_n, "N", tissue.name);
+        rows.add("force_impulse_n_s", "impulse", tissue.impulse_n_s, "N s", tissue.name);
+    }
 }
 
 void add_structures(Rows& rows, const std::vector<StructureMetrics>& structures) {
@@ -104,7 +129,8 @@ SessionMetrics session_metrics(const SessionTrace& trace) {
             .removal = removal_metrics(trace, strokes),
             .force = force_metrics(trace),
             .structures = structure_metrics(trace),
-            .plan = plan_metrics(trace)};
+            .plan = plan_metrics(trace),
+            .pass = trace.ends && trace.error.empty() ? trace.session.pass : PassMarks{}};
 }
 
 std::vector<MetricRow> metric_rows(const SessionMetrics& metrics) {
@@ -112,13 +138,23 @@ std::vector<MetricRow> metric_rows(const SessionMetrics& metrics) {
     Rows rows(all);
     add_motion(rows, metrics.motion, metrics.strokes);
     add_removal(rows, metrics.removal);
-    rows.begin("Force on the hand");
-    rows.add("peak_force_n", "largest of the session", metrics.force.peak_n, "N");
-    add_force_of(rows, metrics.force.cutting, "");
-    for (const ForceOfTissue& force : metrics.force.by_tissue) add_force_of(rows, force, force.tissue);
+    add_force(rows, metrics.force);
+    add_burrs(rows, metrics);
+    add_tissues(rows, metrics);
     add_structures(rows, metrics.structures);
     if (metrics.plan) add_plan(rows, *metrics.plan);
+    if (const auto passed = has_passed(judged_marks(metrics.pass, all))) {
+        rows.begin("Verdict");
+        rows.add("passed", "passed (1) or not (0)", *passed ? 1.0 : 0.0);
+    }
     return all;
+}
+
+std::optional<double> sum_of(std::span<const MetricRow> rows, std::string_view key) {
+    std::optional<double> sum;
+    for (const MetricRow& row : rows)
+        if (row.key == key && row.value) sum = sum.value_or(0.0) + *row.value;
+    return sum;
 }
 
 }  // namespace osteomill

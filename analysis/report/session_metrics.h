@@ -2,7 +2,9 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "analysis/report/force_metrics.h"
@@ -20,6 +22,7 @@ struct SessionMetrics {
     ForceMetrics force;
     std::vector<StructureMetrics> structures;
     std::optional<PlanMetrics> plan;
+    PassMarks pass;  ///< empty where the recording is incomplete: half a session reaches no mark
 };
 
 SessionMetrics session_metrics(const SessionTrace& trace);
@@ -35,5 +38,8 @@ struct MetricRow {
 };
 
 std::vector<MetricRow> metric_rows(const SessionMetrics& metrics);
+
+/// Of the metric with this key, added up over tissues, burrs or structures; nothing where none has a value.
+std::optional<double> sum_of(std::span<const MetricRow> rows, std::string_view key);
 
 }  // namespace osteomill

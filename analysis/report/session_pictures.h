@@ -1,4 +1,5 @@
-// The pictures of a report: the place of work before and after, and at each mark, always from the same views.
+// The pictures of a report: sections through target and nearest approach; the place of work before and after,
+// and at each mark, always from the same views.
 #pragma once
 
 #include <filesystem>
@@ -13,9 +14,11 @@ namespace osteomill {
 struct SessionPicture {
     std::string title{};
     std::string png_uri{};
+    std::string overlay{};  ///< SVG, to lie over it
 };
 
 struct SessionPictures {
+    std::vector<SessionPicture> first{};   ///< two, at the end, larger than the others
     std::vector<SessionPicture> before{};  ///< from each view
     std::vector<SessionPicture> after{};   ///< from the same
     std::vector<SessionPicture> marks{};   ///< from the first view

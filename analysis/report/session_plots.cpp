@@ -12,15 +12,13 @@ namespace osteomill {
 
 namespace {
 
-/// Those worth a line of its own over every plot; the list of events has them all.
+/// Those worth a line of its own over every plot, by their number in the list of events, which has them all.
 std::vector<PlotMoment> moments_of(const SessionTrace& trace) {
     std::vector<PlotMoment> moments;
-    for (const ControlEvent& event : trace.events) {
-        if (event.is_refused || event.action == SessionAction::finish) continue;
-        moments.push_back({event.time_s, event.action == SessionAction::mark && !event.text.empty()
-                                             ? event.text.substr(0, 40)
-                                             : name_of(event.action)});
-    }
+    for (std::size_t i = 0; i < trace.events.size(); ++i)
+        if (const ControlEvent& event = trace.events[i];
+            !event.is_refused && event.action != SessionAction::finish)
+            moments.push_back({event.time_s, std::to_string(i + 1)});
     return moments;
 }
 

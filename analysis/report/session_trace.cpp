@@ -3,10 +3,13 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
+#include <cmath>
 #include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
 #include <limits>
 #include <numeric>
 
+#include "analysis/report/surface_normal.h"
 #include "common/bone/structure_in_bone.h"
 #include "common/recording/packet_reader.h"
 #include "common/recording/playhead.h"
@@ -44,6 +47,15 @@ std::vector<TissueLevels> take_over(const std::vector<BrickChange>& changes, con
     return changed;
 }
 
+/// By the bone on a sphere of twice the burr's radius.
+std::optional<double> spindle_to_surface_deg(const Bone& bone, const SessionTrace& trace,
+                                             const ToolState& tool) {
+    const auto normal = normal_about(bone, tool.burr_position_mm, trace.session.burrs[tool.burr].diameter_mm);
+    const double length = glm::length(tool.spindle_axis);
+    if (!normal || !(length > 0.0)) return std::nullopt;
+    return glm::degrees(std::asin(std::clamp(glm::dot(*normal, tool.spindle_axis) / length, -1.0, 1.0)));
+}
+
 /// The trace's bone at the end is that of the frame before until then.
 void add_sample(SessionTrace& trace, Playhead& playhead, StructureWatch& structures) {
     const ToolState& tool = *playhead.tool();
@@ -63,6 +75,8 @@ void add_sample(SessionTrace& trace, Playhead& playhead, StructureWatch& structu
          .is_paused = playhead.state().status.is_paused,
          .is_placed = is_placed,
          .levels = take_over(playhead.take_changes(), playhead.bone(), trace.at_end, structures)});
+    if (trace.samples.back().cuts())
+        trace.samples.back().spindle_to_surface_deg = spindle_to_surface_deg(playhead.bone(), trace, tool);
     structures.update(tool);
     trace.samples.back().distances = structures.distances();
     if (tool.peak_force_n) trace.peak_force_n = tool.peak_force_n;
@@ -76,7 +90,7 @@ std::int64_t recorded_unix_ns(const std::filesystem::path& file) {
 }
 
 /// Of all protected tissues: where the recording says nothing, they are where the bone bears their label.
-StructureWatch watch(const SessionTrace& trace, std::vector<Structure> structures) {
+StructureWatch watch(SessionTrace& trace, std::vector<Structure> structures) {
     const SessionInfo& session = trace.session;
     for (std::size_t tissue = 0; tissue < session.tissues.size(); ++tissue) {
         const bool is_told = std::ranges::find(structures, tissue, &Structure::tissue) != structures.end();
@@ -85,6 +99,7 @@ StructureWatch watch(const SessionTrace& trace, std::vector<Structure> structure
         if (!mask.empty()) structures.push_back({tissue, std::move(mask)});
     }
     std::ranges::sort(structures, {}, &Structure::tissue);
+    trace.where = structures;
     return {std::move(structures), session.tissues, session.burrs};
 }
 

@@ -15,6 +15,7 @@
 
 #include "common/bone/bone.h"
 #include "common/scene/session_control.h"
+#include "common/scene/structure.h"
 #include "common/scene/structure_watch.h"
 #include "common/wire/session_info.h"
 
@@ -40,6 +41,7 @@ struct TraceSample {
     bool is_placed = false;  ///< the tool was put elsewhere, in the interval before this sample or after it
     std::vector<TissueLevels> levels{};          ///< only of tissues that changed; ascending labels
     std::vector<StructureDistance> distances{};  ///< to protected structures that are near or were touched
+    std::optional<double> spindle_to_surface_deg{};  ///< where it cuts: 90 is square to it, 0 along it
 
     std::int64_t milled() const;
     std::int64_t restored() const;
@@ -53,6 +55,7 @@ struct SessionTrace {
     std::vector<TraceSample> samples{};
     std::vector<ControlEvent> events{};
     std::vector<StructureAccount> structures{};  ///< of each protected tissue that is somewhere
+    std::vector<Structure> where{};              ///< they are
     std::optional<double> peak_force_n{};        ///< of all ticks, where the recording says it
     std::int64_t began_unix_ns = 0;              ///< 0: not said
     std::uint64_t bone_checksum = 0;             ///< at the end

@@ -52,4 +52,14 @@ std::optional<double> log_dimensionless_jerk(std::span<const TimedPosition> moti
     return -std::log(jerk);
 }
 
+double reaches_in_a_row(double log_dimensionless_jerk) {
+    return std::pow(std::exp(-log_dimensionless_jerk) / 204.8, 0.25);
+}
+
+const char* smoothness_word(double reaches_per_s) {
+    if (reaches_per_s <= 1.5) return "flowing";
+    if (reaches_per_s <= 3.0) return "smooth";
+    return reaches_per_s <= 6.0 ? "uneven" : "jerky";
+}
+
 }  // namespace osteomill

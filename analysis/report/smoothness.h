@@ -28,4 +28,12 @@ struct TimedPosition {
 /// or nothing changes the acceleration.
 std::optional<double> log_dimensionless_jerk(std::span<const TimedPosition> motion);
 
+/// The same as a person sees it: of how many equal reaches, each from rest to rest, a motion as jerky is
+/// made. N of them in a row have N^4 times the dimensionless jerk of one: N = (exp(-LDLJ) / 204.8)^(1/4).
+double reaches_in_a_row(double log_dimensionless_jerk);
+
+/// "flowing" up to 1.5 of them a second, "smooth" up to 3, "uneven" up to 6, "jerky": hands correct a motion
+/// once or twice a second, and tremble at 8 to 12 Hz.
+const char* smoothness_word(double reaches_per_s);
+
 }  // namespace osteomill

@@ -1,10 +1,12 @@
 #include "analysis/report/strokes.h"
 
 #include <algorithm>
+#include <cmath>
 #include <glm/geometric.hpp>
 #include <utility>
 
 #include "analysis/report/smoothness.h"
+#include "analysis/statistics/mean_interval.h"
 #include "common/scene/stroke_span.h"
 #include "common/statistics/percentile.h"
 
@@ -43,6 +45,11 @@ class UndoneStrokes {
     std::vector<std::size_t> undone_;
 };
 
+std::optional<double> variation(const std::vector<double>& values) {
+    if (values.size() < 3 || !(mean_of(values) > 0.0)) return std::nullopt;
+    return std::sqrt(sample_variance(values)) / mean_of(values);
+}
+
 }  // namespace
 
 std::vector<Stroke> strokes_of(const SessionTrace& trace) {
@@ -77,6 +84,7 @@ std::vector<Stroke> strokes_of(const SessionTrace& trace) {
         if (goes_on && now.spindle_on && i > 0) {
             so_far.duration_s += trace.dt_s(i);
             so_far.length_mm += glm::length(now.burr_mm - samples[i - 1].burr_mm);
+            so_far.force_n_s += now.force_n * trace.dt_s(i);
             hand.push_back({now.time_s, now.hand_mm});
         }
         if (cuts) so_far.levels_by_burr[now.burr] += now.milled();
@@ -98,16 +106,30 @@ StrokeMetrics stroke_metrics(const std::vector<Stroke>& strokes) {
     StrokeMetrics metrics{.strokes = strokes.size()};
     if (strokes.empty()) return metrics;
     std::vector<double> smoothness;
+    std::vector<double> reaches_per_s;
+    std::vector<double> lengths_mm;
+    std::vector<double> forces_n;
     for (const Stroke& stroke : strokes) {
         metrics.undone += stroke.is_undone ? 1 : 0;
         metrics.mean_duration_s += stroke.duration_s;
         metrics.mean_length_mm += stroke.length_mm;
         metrics.longest_s = std::max(metrics.longest_s, stroke.duration_s);
-        if (stroke.smoothness) smoothness.push_back(*stroke.smoothness);
+        if (stroke.smoothness) {
+            smoothness.push_back(*stroke.smoothness);
+            reaches_per_s.push_back(reaches_in_a_row(*stroke.smoothness) / stroke.duration_s);
+        }
+        if (!(stroke.duration_s > 0.0)) continue;
+        lengths_mm.push_back(stroke.length_mm);
+        forces_n.push_back(stroke.force_n_s / stroke.duration_s);
     }
     metrics.mean_duration_s /= static_cast<double>(strokes.size());
     metrics.mean_length_mm /= static_cast<double>(strokes.size());
-    if (!smoothness.empty()) metrics.median_smoothness = percentile(std::move(smoothness), 0.5);
+    metrics.length_variation = variation(lengths_mm);
+    metrics.force_variation = variation(forces_n);
+    if (!smoothness.empty()) {
+        metrics.median_smoothness = percentile(smoothness, 0.5);
+        metrics.median_reaches_per_s = percentile(reaches_per_s, 0.5);
+    }
     return metrics;
 }
 

@@ -16,6 +16,7 @@ struct Stroke {
     double begins_s = 0.0;
     double duration_s = 0.0;  ///< in which the spindle turns
     double length_mm = 0.0;   ///< of the burr's path in that time
+    double force_n_s = 0.0;   ///< integral of the force on the hand over it
     std::optional<double> smoothness{};
     std::map<std::size_t, std::int64_t> levels_by_burr{};  ///< that it took
     bool is_undone = false;
@@ -31,7 +32,12 @@ struct StrokeMetrics {
     double mean_duration_s = 0.0;
     double mean_length_mm = 0.0;
     double longest_s = 0.0;
-    std::optional<double> median_smoothness{};  ///< of the hand in strokes of half a second and more
+    std::optional<double> median_smoothness{};     ///< of the hand in strokes of half a second and more
+    std::optional<double> median_reaches_per_s{};  ///< of the same strokes (smoothness.h)
+    /// Standard deviation over mean, of the strokes' lengths and mean forces: nearer to 0 is more consistent.
+    /// Nothing for fewer than three strokes, or where all are zero.
+    std::optional<double> length_variation{};
+    std::optional<double> force_variation{};
 };
 
 StrokeMetrics stroke_metrics(const std::vector<Stroke>& strokes);

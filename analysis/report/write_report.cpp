@@ -20,7 +20,9 @@ std::string write_report(const std::filesystem::path& recording, const std::file
     std::error_code error;
     std::filesystem::create_directories(folder, error);
     if (error) throw std::runtime_error(fmt::format("{}: {}", folder.string(), error.message()));
-    write_atomic_file(folder / "report.html", report_html(trace, metrics, rows, pictures), Link::replace);
+    write_atomic_file(folder / "report.html",
+                      report_html(trace, metrics, rows, pictures, reference_sessions(folder, trace)),
+                      Link::replace);
     write_atomic_file(folder / "metrics.csv", metrics_csv(rows), Link::replace);
     write_atomic_file(folder / "metrics.json", metrics_json(trace, rows), Link::replace);
     return trace.error;

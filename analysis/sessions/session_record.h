@@ -21,12 +21,15 @@ struct KeptMetric {
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(KeptMetric, key, of, value, unit, text)
 
 struct SessionRecord {
-    std::string digest;  ///< of the recording's bytes: 32 hexadecimal digits
-    std::string file;    ///< as it was named
-    std::string trainee;
-    std::string case_name;  ///< or the scene's
+    std::string digest{};  ///< of the recording's bytes: 32 hexadecimal digits
+    std::string file{};    ///< as it was named
+    std::string trainee{};
+    std::string case_name{};  ///< or the scene's
     std::int64_t began_unix_ns = 0;
     std::vector<KeptMetric> metrics{};
+    // Of this study, not of the recording.
+    std::string group{};   ///< of the trainee (trainee_groups.h); empty: none
+    std::string report{};  ///< address of its report from the overview; empty: there is none
 
     /// Of the whole session.
     std::optional<double> value(const std::string& key) const;

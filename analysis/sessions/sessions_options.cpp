@@ -17,6 +17,13 @@ StudyCommand add_sessions(CLI::App& app, const std::string& version) {
         ->add_option("DIR", options.from,
                      "recordings, folders of recordings, or folders of folders of haptic_server --report")
         ->required();
+    sessions
+        ->add_option("--groups", options.groups,
+                     "which group each trainee is in: a CSV of lines TRAINEE,GROUP (default: groups.csv in "
+                     "DIR); \"expert\" is the group that others are shown against")
+        ->check(CLI::ExistingFile);
+    sessions->add_option("--compare", options.compare, "two groups to compare, if there are more")
+        ->expected(2);
     add_out(*sessions, options.out);
     return {sessions,
             [shared](const StudySurroundings& surroundings) { run_sessions_study(*shared, surroundings); },

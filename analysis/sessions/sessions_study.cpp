@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
+#include <map>
 #include <optional>
 #include <ostream>
 #include <set>
@@ -10,6 +12,7 @@
 
 #include "analysis/output/output_files.h"
 #include "analysis/output/study_run.h"
+#include "analysis/report/trainee_groups.h"
 #include "analysis/sessions/overview.h"
 #include "analysis/sessions/session_store.h"
 #include "common/text/plain_text.h"
@@ -51,7 +54,32 @@ Read read(const Recording& recording) {
     }
 }
 
+/// As an address in a page that lies in `out`; empty where there is no report beside the recording.
+std::string report_address(const std::filesystem::path& recording, const std::filesystem::path& out) {
+    const auto report = recording.parent_path() / "report.html";
+    if (!std::filesystem::is_regular_file(report)) return {};
+    std::string address;
+    for (const char letter : std::filesystem::proximate(report, out).generic_string()) {
+        const bool is_plain = std::isalnum(static_cast<unsigned char>(letter)) != 0 ||
+                              std::string_view("/._-~").find(letter) != std::string_view::npos;
+        address +=
+            is_plain ? std::string(1, letter) : fmt::format("%{:02X}", static_cast<unsigned char>(letter));
+    }
+    return address;
+}
+
+std::map<std::string, std::string> groups_of(const SessionsStudyOptions& options) {
+    const auto file = options.groups.empty() ? groups_file(options.from) : options.groups;
+    return file.empty() ? std::map<std::string, std::string>() : trainee_groups(file);
+}
+
 }  // namespace
+
+std::filesystem::path groups_file(const std::vector<std::filesystem::path>& from) {
+    for (const std::filesystem::path& folder : from)
+        if (const auto file = folder / groups_file_name; std::filesystem::is_regular_file(file)) return file;
+    return {};
+}
 
 std::vector<std::filesystem::path> recordings_in(const std::vector<std::filesystem::path>& from) {
     std::vector<std::filesystem::path> all;
@@ -75,6 +103,7 @@ std::vector<std::filesystem::path> recordings_in(const std::vector<std::filesyst
 
 void run_sessions_study(const SessionsStudyOptions& options, const StudySurroundings& surroundings) {
     const auto files = recordings_in(options.from);
+    const auto groups = groups_of(options);
     make_folder(options.out);
     SessionStore store(options.out / "sessions.sqlite", options.version);
     StudyRun run(options.out, surroundings);
@@ -105,16 +134,21 @@ void run_sessions_study(const SessionsStudyOptions& options, const StudySurround
         } else {
             if (!recording->kept) store.keep(outcome.record);
             sessions.push_back(outcome.record);
-            sessions.back().file = printable(recording->file.string());
+            SessionRecord& record = sessions.back();
+            record.file = printable(recording->file.string());
+            record.report = report_address(recording->file, options.out);
+            if (const auto group = groups.find(record.trainee); group != groups.end())
+                record.group = group->second;
         }
         ++recording;
     }
     if (sessions.empty()) throw std::runtime_error("no recording can be read to its end");
     std::ranges::stable_sort(sessions, {}, &SessionRecord::began_unix_ns);
     write_text(sessions_csv(sessions), options.out / "sessions.csv");
-    for (const LearningCurve& curve : learning_curves(sessions))
-        write_text(curve.svg + "\n", options.out / (curve.key + ".svg"));
-    write_text(overview_html(sessions, skipped), options.out / "sessions.html");
+    const Overview overview(sessions, options.compare);
+    for (const LearningCurve& curve : overview.learning_curves())
+        write_text(curve.svg + "\n", options.out / (curve.name + ".svg"));
+    write_text(overview.html(skipped), options.out / "sessions.html");
     run.say("{} sessions{} in {}", sessions.size(),
             skipped.empty() ? "" : fmt::format(", {} left out,", skipped.size()),
             (options.out / "sessions.html").string());

@@ -148,18 +148,19 @@ TEST_F(ReportedSession, GivesEachTissueItsForceAndVolume) {
     const SessionMetrics metrics = session_metrics(trace());
     EXPECT_EQ(metrics.force.peak_n, 3.25);
     ASSERT_EQ(metrics.force.by_tissue.size(), 2u);
-    const auto expect = [](const ForceOfTissue& force, const char* name, double n, double s) {
-        EXPECT_EQ(force.tissue, name);
+    const auto expect = [](const ForceOf& force, const char* name, double n, double s) {
+        EXPECT_EQ(force.name, name);
         EXPECT_NEAR(force.mean_n, n, 1e-12);
         EXPECT_NEAR(force.p95_n, n, 1e-12);
-        EXPECT_NEAR(force.peak_n, n, 1e-12);
         EXPECT_NEAR(force.time_s, s, 1e-9);
         EXPECT_NEAR(force.impulse_n_s, n * s, 1e-9);
     };
     expect(metrics.force.by_tissue[0], "soft", 0.5, 0.5);
     expect(metrics.force.by_tissue[1], "hard", 2.0, 1.0);
+    ASSERT_EQ(metrics.force.by_burr.size(), 2u);
+    expect(metrics.force.by_burr[0], "small", 0.5, 0.5);
+    expect(metrics.force.by_burr[1], "large", 2.0, 1.0);
     EXPECT_NEAR(metrics.force.cutting.mean_n, 1.5, 1e-9);
-    EXPECT_EQ(metrics.force.cutting.peak_n, 2.0);
 
     EXPECT_NEAR(metrics.removal.removed_mm3, 30 * layer_mm3, 1e-9);
     ASSERT_EQ(metrics.removal.by_tissue.size(), 3u);
@@ -170,6 +171,42 @@ TEST_F(ReportedSession, GivesEachTissueItsForceAndVolume) {
     EXPECT_EQ(metrics.removal.by_burr[0].name, "small");
     EXPECT_NEAR(metrics.removal.by_burr[0].mm3, 10 * layer_mm3, 1e-9);
     EXPECT_NEAR(metrics.removal.by_burr[1].mm3, 20 * layer_mm3, 1e-9);
+}
+
+TEST_F(ReportedSession, MeasuresTheAngleOfTheSpindleToTheSurface) {
+    // The cube's top, at z = 3.2, under a spindle that leans by 30 degrees: 60 to the surface.
+    tool_.burr_position_mm = {0.0, 0.0, 3.0};
+    tool_.spindle_axis = {0.5, 0.0, std::sqrt(0.75)};
+    frame();
+    EXPECT_GT(
+        written_->cut([](const glm::dvec3& at) { return glm::length(at - glm::dvec3(0, 0, 3.0)) < 0.5; }),
+        0u);
+    tool_.spindle_on = true;
+    frame();
+    const SessionMetrics metrics = session_metrics(trace());
+    ASSERT_TRUE(metrics.motion.cutting_angle_deg);
+    EXPECT_NEAR(*metrics.motion.cutting_angle_deg, 60.0, 2.0);
+}
+
+TEST(StrokeMetricsTest, TellsHowMuchStrokesVary) {
+    const auto stroke = [](double length_mm, double force_n_s) {
+        return Stroke{.duration_s = 2.0,
+                      .length_mm = length_mm,
+                      .force_n_s = force_n_s,
+                      .smoothness = -std::log(204.8 * 16.0)};
+    };
+    const StrokeMetrics metrics = stroke_metrics({stroke(1.0, 4.0), stroke(2.0, 4.0), stroke(3.0, 4.0)});
+    EXPECT_NEAR(*metrics.length_variation, 0.5, 1e-12) << "standard deviation 1, mean 2";
+    EXPECT_NEAR(*metrics.force_variation, 0.0, 1e-12);
+    EXPECT_NEAR(*metrics.median_reaches_per_s, 1.0, 1e-12) << "as two reaches in 2 s";
+    EXPECT_FALSE(stroke_metrics({stroke(1.0, 4.0), stroke(2.0, 4.0)}).length_variation);
+}
+
+TEST_F(ReportedSession, CallsWhatHasNoLabelBone) {
+    EXPECT_EQ(tissue_name(session_, 0), "bone");
+    session_.tissues.push_back({.label = 4, .name = "bone"});
+    EXPECT_EQ(tissue_name(session_, 0), "other bone");
+    EXPECT_EQ(tissue_name(session_, 9), "tissue 9");
 }
 
 TEST_F(ReportedSession, DoesNotCountWhatWasUndone) {

@@ -36,6 +36,22 @@ TEST(Smoothness, OfAReachOfLeastJerkIsWhatTheFormulaGives) {
         << "its size does not count";
 }
 
+TEST(Smoothness, IsThatOfSoManyReachesInARow) {
+    EXPECT_NEAR(reaches_in_a_row(-std::log(204.8)), 1.0, 1e-12);
+    std::vector<TimedPosition> three;
+    for (int i = 0; i <= 3 * 3 * rate_hz; ++i) {
+        const double reaches = i / rate_hz / 3.0;
+        three.push_back(
+            {i / rate_hz, {20.0 * (std::floor(reaches) + least_jerk(reaches - std::floor(reaches))), 0, 0}});
+    }
+    const double ldlj = *log_dimensionless_jerk(three);
+    EXPECT_NEAR(reaches_in_a_row(ldlj), 3.0, 0.1);
+    EXPECT_STREQ(smoothness_word(1.4), "flowing");
+    EXPECT_STREQ(smoothness_word(2.9), "smooth");
+    EXPECT_STREQ(smoothness_word(5.9), "uneven");
+    EXPECT_STREQ(smoothness_word(6.1), "jerky");
+}
+
 TEST(Smoothness, OfACircleIsWhatTheFormulaGives) {
     // Jerk r w^3 and speed r w throughout: T^3 / (r w)^2 * (r w^3)^2 T = (w T)^4.
     std::vector<TimedPosition> motion;

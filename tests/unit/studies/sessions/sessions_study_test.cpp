@@ -28,6 +28,7 @@ void write_session(const std::filesystem::path& file, const std::string& trainee
                                                {.scene_name = "cube",
                                                 .burrs = {Burr{.name = "small"}},
                                                 .tissues = {{.label = 1, .name = "bone"}},
+                                                .pass = {{"time_s", 3.0}},
                                                 .trainee = trainee},
                                                bone);
     written.frame({.time_s = 0.0, .taken_unix_ns = began_s * 1'000'000'000});
@@ -71,6 +72,74 @@ TEST_F(SessionsStudy, WritesALineForEachSessionAndMetric) {
     EXPECT_THAT(page, Not(HasSubstr("<script")));
     EXPECT_THAT(page, HasSubstr("&lt;script&gt;Bo"));
     EXPECT_THAT(text("removed_mm3.svg"), HasSubstr("<svg"));
+}
+
+TEST_F(SessionsStudy, LinksEachReportAndJudgesEachSession) {
+    std::filesystem::create_directories(folder_ / "term/it's c");
+    std::filesystem::rename(folder_ / "term/a2/session.pcap", folder_ / "term/it's c/session.pcap");
+    std::ofstream(folder_ / "term/it's c/report.html") << "a report";
+    run();
+    const std::string page = text("sessions.html");
+    EXPECT_THAT(page, HasSubstr("<a href='../term/it%27s%20c/report.html'>"));
+    EXPECT_EQ(page.find("<a href", page.find("<a href") + 1), std::string::npos) << "the others have none";
+    // Within 3 s: Anna's with 2 and 3 s, not Bo's with 5.
+    EXPECT_THAT(text("sessions.csv"), HasSubstr("Anna,cube,2,2000,passed,,1,\n"));
+    EXPECT_THAT(text("sessions.csv"), HasSubstr("Bo,cube,1,1500,passed,,0,\n"));
+    EXPECT_THAT(page, HasSubstr("✗ no"));
+    EXPECT_THAT(page, HasSubstr("cumulative sum"));
+}
+
+TEST_F(SessionsStudy, TakesTheGroupsThatLieBesideTheSessions) {
+    std::ofstream(folder_ / "term/groups.csv") << "Anna,novice\n<script>Bo,expert\n";
+    run();
+    EXPECT_THAT(text("sessions.html"), HasSubstr("Anna (novice)"));
+    EXPECT_THAT(text("sessions.html"), HasSubstr(">novice (n)<"));
+    std::ofstream(folder_ / "term/groups.csv") << "Anna\n";
+    EXPECT_THROW(run(), std::runtime_error);
+}
+
+/// Of ten trainees with a time each, those of session_statistics_test.cpp.
+std::vector<SessionRecord> two_groups() {
+    std::vector<SessionRecord> sessions;
+    const auto add = [&](const char* group, double time_s) {
+        sessions.push_back({.trainee = std::string(group) + std::to_string(sessions.size()),
+                            .case_name = "molar",
+                            .metrics = {{"time_s", "", time_s, "s", "time"}},
+                            .group = group});
+    };
+    for (const double time_s : {155.7, 162.3, 149.0, 171.2, 158.8}) add("expert", time_s);
+    for (const double time_s : {201.4, 188.9, 240.2, 195.0, 222.6, 210.7}) add("student", time_s);
+    return sessions;
+}
+
+TEST(OverviewTest, ComparesTwoGroups) {
+    const auto sessions = two_groups();
+    const std::string page = Overview(sessions, {}).html({});
+    // As scipy has it, see session_statistics_test.cpp.
+    EXPECT_THAT(page, HasSubstr("<td>time (s)</td><td>lower is better</td><td class='n'>11</td>"));
+    EXPECT_THAT(page, HasSubstr("<td class='n'>159.4 (5)</td><td class='n'>209.8 (6)</td>"
+                                "<td class='n'>-50.4 [-70.7 to -30.1]</td><td class='n'>g -3.03</td>"
+                                "<td class='n'>&lt; 0.001</td><td>Welch</td>"));
+    EXPECT_THAT(page, HasSubstr("<td class='n'>155.7 to 162.3</td>")) << "the experts' quartiles";
+    EXPECT_THROW(Overview(sessions, {"expert", "nobody"}), std::runtime_error);
+}
+
+TEST(OverviewTest, CountsATraineeOnceAndDrawsTheTrend) {
+    std::vector<SessionRecord> sessions;
+    for (const double time_s : {300.0, 251.0, 230.0, 222.0, 210.0})
+        sessions.push_back(
+            {.trainee = "Anna", .case_name = "molar", .metrics = {{"time_s", "", time_s, "s", "time"}}});
+    sessions.push_back({.trainee = "Bo", .case_name = "molar", .metrics = {{"time_s", "", 200.0, "s", ""}}});
+    const std::string page = Overview(sessions, {}).html({});
+    // Anna's mean is 242.6; of hers and Bo's 200 it is 221.3.
+    EXPECT_THAT(page, HasSubstr("<td class='n'>2</td><td class='n'>221.3 ["));
+    // Slope -55.1198 per factor e (scipy's linregress, see session_statistics_test.cpp), times ln 2.
+    EXPECT_THAT(page, HasSubstr("<td class='n'>-38.2 ["));
+    EXPECT_THAT(page, HasSubstr(">trend</text>"));
+    const std::vector<CaseSessions> cases = cases_of(sessions);
+    ASSERT_EQ(cases.size(), 1u);
+    EXPECT_EQ(cases[0].attempts[4].number, 5);
+    EXPECT_EQ(cases[0].attempts[5].number, 1);
 }
 
 TEST_F(SessionsStudy, NamesATornRecordingAndDoesTheRest) {

@@ -1,0 +1,165 @@
+#include "analysis/report/first_page.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "analysis/report/headlines.h"
+#include "analysis/report/html_text.h"
+#include "analysis/report/metric_tables.h"
+#include "analysis/report/page_style.h"
+#include "analysis/report/smoothness.h"
+#include "analysis/report/verdict.h"
+
+namespace osteomill {
+
+namespace {
+
+constexpr std::size_t tile_count = 6;
+
+std::string heading(const SessionTrace& trace) {
+    const SessionInfo& session = trace.session;
+    std::string html = fmt::format(
+        "<h1>{}</h1>", session.trainee.empty() ? "A session" : "Session of " + html_text(session.trainee));
+    std::string about = html_text(session.case_name.empty() ? session.scene_name : session.case_name);
+    if (const std::string began = local_time_text(trace.began_unix_ns); !began.empty())
+        about += " · " + html_text(began);
+    html += fmt::format("<p class='about'>{}</p>", about);
+    if (session.plan)
+        html += fmt::format("<p class='about'>To be removed: {}, with a margin of {:g} mm</p>",
+                            html_text(describe(*session.plan)), session.plan->margin_mm);
+    if (!trace.error.empty())
+        html += fmt::format(
+            "<p class='wrong'>The recording could not be read to its end; this is of what comes before: "
+            "{}</p>",
+            html_text(trace.error));
+    else if (!trace.ends)
+        html += "<p class='wrong'>The recording ends before the session does; this is of what it holds.</p>";
+    return html;
+}
+
+std::string mark_text(const JudgedMark& mark) {
+    return fmt::format("{} {}", mark.kind->is_least ? "at least" : "at most",
+                       shown_value(mark.kind->metric, mark.mark).text());
+}
+
+std::string verdict(const SessionTrace& trace, const std::vector<JudgedMark>& marks) {
+    if (trace.session.pass.empty()) return "<div class='verdict'>No pass marks are set for this case.</div>";
+    if (marks.empty()) return "<div class='verdict'><b>Not judged</b>The recording is not complete.</div>";
+    std::string missed;
+    for (const JudgedMark& mark : marks)
+        if (!mark.is_reached())
+            missed += fmt::format(
+                "{}{}: {}, {}", missed.empty() ? "" : "; ", headline(mark.kind->metric)->text,
+                mark.value ? shown_value(mark.kind->metric, *mark.value).text() : "–", mark_text(mark));
+    if (missed.empty())
+        return fmt::format("<div class='verdict passed'><b>Passed</b>All {} marks are reached.</div>",
+                           marks.size());
+    return fmt::format("<div class='verdict failed'><b>Not passed</b>{}</div>", missed);
+}
+
+/// Value, reference band and pass mark on one line, from zero (or the least of them) to the greatest.
+std::string gauge(double value, const std::optional<Interval>& band, const JudgedMark* mark) {
+    double low = std::min(0.0, value);
+    double high = std::max(0.0, value);
+    const auto hold = [&](double other) { low = std::min(low, other), high = std::max(high, other); };
+    if (band) hold(band->low), hold(band->high);
+    if (mark != nullptr) hold(mark->mark);
+    const double length = high > low ? 1.06 * (high - low) : 1.0;
+    const auto x = [&](double at) { return 4.0 + 232.0 * (at - low) / length; };
+    std::string svg =
+        "<svg viewBox='0 0 240 14' role='img'><path d='M4 7H236' stroke='#b8c2cb' stroke-width='2'/>";
+    if (band)
+        svg +=
+            fmt::format("<rect x='{:.1f}' y='2' width='{:.1f}' height='10' fill='#56b4e9' opacity='0.55'/>",
+                        x(band->low), std::max(2.0, x(band->high) - x(band->low)));
+    if (mark != nullptr)
+        svg += fmt::format("<path d='M{:.1f} 0v14' stroke='#b00' stroke-width='2' stroke-dasharray='3 2'/>",
+                           x(mark->mark));
+    return svg + fmt::format("<circle cx='{:.1f}' cy='7' r='4' fill='#222'/></svg>", x(value));
+}
+
+std::string tile(const Headline& what, double value, const std::string& words,
+                 const std::vector<JudgedMark>& marks, const ReferenceSessions& references) {
+    const auto mark = std::ranges::find_if(
+        marks, [&](const JudgedMark& judged) { return judged.kind->metric == std::string_view(what.key); });
+    const bool is_judged = mark != marks.end();
+    std::optional<Interval> band;
+    if (const auto others = references.values.find(what.key); others != references.values.end())
+        band = middle_half(others->second);
+    std::string html = fmt::format("<div class='tile {}'><span>{}</span><b>{}</b>{}",
+                                   !is_judged           ? ""
+                                   : mark->is_reached() ? "reached"
+                                                        : "missed",
+                                   html_text(what.text), shown_value(what.key, value).text(), words);
+    if (is_judged || band) html += gauge(value, band, is_judged ? &*mark : nullptr);
+    if (is_judged)
+        html +=
+            fmt::format("<span>{} pass mark: {}</span>", mark->is_reached() ? "✓" : "✗", mark_text(*mark));
+    else if (what.better != Better::neither)
+        html += fmt::format("<span>{}</span>", text_of(what.better));
+    if (band)
+        html +=
+            fmt::format("<span>middle half of {} sessions{}: {} to {}</span>",
+                        references.values.at(what.key).size(), references.are_experts ? " of experts" : "",
+                        shown_value(what.key, band->low).number, shown_value(what.key, band->high).text());
+    return html + "</div>";
+}
+
+std::string words_of_smoothness(const std::vector<MetricRow>& rows) {
+    const auto reaches_per_s = sum_of(rows, "stroke_reaches_per_s");
+    if (!reaches_per_s) return {};
+    return fmt::format(" LDLJ: {}<span>as {} reaches a second</span>", smoothness_word(*reaches_per_s),
+                       number_text(*reaches_per_s));
+}
+
+/// The first six headlines of which the session has a value.
+std::string tiles(const std::vector<MetricRow>& rows, const std::vector<JudgedMark>& marks,
+                  const ReferenceSessions& references) {
+    std::string html = "<div class='tiles'>";
+    std::size_t count = 0;
+    for (const Headline& what : headlines)
+        if (const auto value = sum_of(rows, what.key); value && count < tile_count) {
+            const bool is_smoothness = std::string_view(what.key) == "stroke_smoothness_ldlj";
+            html += tile(what, *value, is_smoothness ? words_of_smoothness(rows) : "", marks, references);
+            ++count;
+        }
+    return html + "</div>";
+}
+
+std::string legend(const SessionTrace& trace) {
+    std::string html = "<p class='about'>";
+    for (const Tissue& tissue : trace.session.tissues)
+        html += fmt::format("<span class='entry'>{}{}{}</span> ", swatch(tissue), html_text(tissue.name),
+                            tissue.is_protected ? " (protected)" : "");
+    if (trace.session.plan)
+        html +=
+            "<span class='entry'><span class='swatch' style='background:#fff;border:2px solid "
+            "#005ac8'></span>"
+            "to be removed</span>";
+    return html + "</p>";
+}
+
+}  // namespace
+
+std::string figures(const std::vector<SessionPicture>& pictures, const char* kind) {
+    std::string html = fmt::format("<div class='pictures {}'>", kind);
+    for (const SessionPicture& picture : pictures)
+        html += fmt::format(
+            "<figure><div class='seen'><img alt='{0}' "
+            "src='{1}'>{2}</div><figcaption>{0}</figcaption></figure>",
+            html_text(picture.title), picture.png_uri, picture.overlay);
+    return html + "</div>";
+}
+
+std::string first_page(const SessionTrace& trace, const SessionMetrics& metrics,
+                       const std::vector<MetricRow>& rows, const SessionPictures& pictures,
+                       const ReferenceSessions& references) {
+    const std::vector<JudgedMark> marks = judged_marks(metrics.pass, rows);
+    return "<div class='first'>" + heading(trace) + verdict(trace, marks) + tiles(rows, marks, references) +
+           figures(pictures.first, "two") + legend(trace) +
+           "<div class='comment'>Comment</div><div class='signatures'><div>Date</div><div>Teacher</div>"
+           "<div>Trainee</div></div></div>";
+}
+
+}  // namespace osteomill

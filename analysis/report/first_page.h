@@ -1,0 +1,21 @@
+// The first page of a report, which stands alone on paper: whose session, the verdict, six numbers, two
+// pictures, room for comment and signature.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "analysis/report/reference_sessions.h"
+#include "analysis/report/session_metrics.h"
+#include "analysis/report/session_pictures.h"
+
+namespace osteomill {
+
+std::string first_page(const SessionTrace& trace, const SessionMetrics& metrics,
+                       const std::vector<MetricRow>& rows, const SessionPictures& pictures,
+                       const ReferenceSessions& references);
+
+/// Pictures with their overlays, side by side. `kind`: of .pictures in page_style.
+std::string figures(const std::vector<SessionPicture>& pictures, const char* kind = "");
+
+}  // namespace osteomill

@@ -1,0 +1,85 @@
+#include "analysis/report/metric_tables.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <span>
+
+#include "analysis/report/html_text.h"
+#include "analysis/report/page_style.h"
+
+namespace osteomill {
+
+namespace {
+
+ShownValue shown(const MetricRow& row) {
+    ShownValue value = shown_value(row.key, row.value.value_or(0.0), row.unit);
+    if (!row.value) value.number = "–";
+    return value;
+}
+
+std::string table(std::span<const MetricRow> rows) {
+    std::string html = "<table>";
+    for (const MetricRow& row : rows) {
+        const ShownValue value = shown(row);
+        html += fmt::format("<tr><td>{}</td><td class='n'>{}</td><td class='u'>{}</td></tr>",
+                            html_text(row.text), value.number, html_text(value.unit));
+    }
+    return html + "</table>";
+}
+
+/// A line for each thing, a column a metric.
+std::string table_of_several(std::span<const MetricRow> rows, const SessionInfo& session) {
+    std::vector<std::string> names;
+    std::vector<const MetricRow*> columns;
+    for (const MetricRow& row : rows) {
+        if (std::ranges::find(names, row.of) == names.end()) names.push_back(row.of);
+        const auto is_same = [&](const MetricRow* column) { return column->key == row.key; };
+        if (std::ranges::none_of(columns, is_same)) columns.push_back(&row);
+    }
+    std::string html = "<table><tr><th></th>";
+    for (const MetricRow* column : columns) {
+        const std::string unit = shown(*column).unit;
+        html += fmt::format("<th class='n'>{}{}</th>", html_text(column->text),
+                            unit.empty() ? "" : " (" + html_text(unit) + ")");
+    }
+    html += "</tr>";
+    for (const std::string& name : names) {
+        const auto tissue = std::ranges::find(session.tissues, name, &Tissue::name);
+        html += fmt::format("<tr><td>{}{}</td>", tissue == session.tissues.end() ? "" : swatch(*tissue),
+                            html_text(name));
+        for (const MetricRow* column : columns) {
+            const auto found = std::ranges::find_if(
+                rows, [&](const MetricRow& row) { return row.key == column->key && row.of == name; });
+            html += fmt::format("<td class='n'>{}</td>", found == rows.end() ? "–" : shown(*found).number);
+        }
+        html += "</tr>";
+    }
+    return html + "</table>";
+}
+
+}  // namespace
+
+std::string metric_tables(const std::vector<MetricRow>& rows, const SessionInfo& session) {
+    std::string narrow;
+    std::string wide;
+    for (auto begin = rows.begin(); begin != rows.end();) {
+        const auto end =
+            std::find_if(begin, rows.end(), [&](const MetricRow& row) { return row.group != begin->group; });
+        const std::span<const MetricRow> group(begin, end);
+        const std::string heading = fmt::format("<h3>{}</h3>", html_text(begin->group));
+        if (begin->of.empty())
+            narrow += "<section>" + heading + table(group) + "</section>";
+        else
+            wide += "<section>" + heading + table_of_several(group, session) + "</section>";
+        begin = end;
+    }
+    return "<div class='columns'>" + narrow + "</div>" + wide;
+}
+
+std::string swatch(const Tissue& tissue) {
+    return fmt::format("<span class='swatch' style='background:#{:02x}{:02x}{:02x}'></span>",
+                       tissue.colour_rgb[0], tissue.colour_rgb[1], tissue.colour_rgb[2]);
+}
+
+}  // namespace osteomill

@@ -1,0 +1,70 @@
+#include "analysis/report/page_style.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+#include <ctime>
+
+#include "analysis/report/headlines.h"
+#include "analysis/report/metric_files.h"
+
+namespace osteomill {
+
+const char* const page_style = R"(
+@page{margin:12mm}
+*{box-sizing:border-box}
+body{font:14px/1.4 "Helvetica Neue",Arial,"Liberation Sans",sans-serif;color:#222;max-width:1000px;margin:0 auto;padding:20px}
+h1{font-size:24px;margin:0 0 2px}h2{font-size:17px;margin:26px 0 8px;border-bottom:2px solid #0072b2;padding-bottom:3px}
+p.about{color:#555;margin:2px 0}p.wrong{background:#fdecea;border-left:4px solid #b00;padding:8px 12px}
+.verdict{border-left:6px solid #888;background:#f3f6f9;padding:8px 14px;margin:12px 0}.verdict b{font-size:19px;margin-right:10px}
+.verdict.passed{border-color:#007a4d;background:#e8f5ee}.verdict.failed{border-color:#b00;background:#fdecea}
+.tiles{display:grid;grid-template-columns:repeat(3,1fr);gap:8px;margin:12px 0}
+.tile{background:#f3f6f9;border-radius:4px;padding:7px 12px;border-left:4px solid #c9d3dc}
+.tile.reached{border-color:#007a4d}.tile.missed{border-color:#b00;background:#fdecea}
+.tile b{font-size:21px}.tile span{display:block;color:#555;font-size:12.5px}.tile svg{margin:3px 0 0;display:block}
+table{border-collapse:collapse;margin:6px 0 12px;width:100%}td,th{padding:2px 8px;text-align:left;border-bottom:1px solid #e6e6e6}
+td.n,th.n{text-align:right;font-variant-numeric:tabular-nums}td.u{color:#777;padding-left:0}th{color:#555;font-weight:600}
+th{vertical-align:bottom}td.yes{color:#007a4d}td.no{color:#b00}
+.columns{columns:2;column-gap:36px}.columns section{break-inside:avoid}h3{font-size:15px;margin:14px 0 2px}
+.pictures{display:grid;grid-template-columns:repeat(3,1fr);gap:12px}.pictures.two{grid-template-columns:repeat(2,1fr)}
+figure{margin:0}figure img{width:100%;display:block;border:1px solid #ddd}figcaption{font-size:12.5px;color:#555}
+.seen{position:relative}.seen svg{position:absolute;left:0;top:0;height:100%;margin:0}
+svg{width:100%;height:auto;margin:4px 0}svg .title{font-weight:600}
+.swatch{display:inline-block;width:11px;height:11px;border-radius:2px;border:1px solid #999;margin:0 5px 0 0}
+.entry{white-space:nowrap;margin-right:14px}
+.comment{border:1px solid #999;min-height:110px;padding:4px 10px;margin:10px 0 0;color:#555;font-size:12.5px;flex:1}
+.signatures{display:grid;grid-template-columns:repeat(3,1fr);gap:24px;margin-top:34px}
+.signatures div{border-top:1px solid #444;color:#555;font-size:12.5px;padding-top:2px}
+footer{color:#777;font-size:12.5px;margin-top:30px}
+@media print{body{max-width:none;padding:0;font-size:11px;print-color-adjust:exact;-webkit-print-color-adjust:exact}
+.first{display:flex;flex-direction:column;height:252mm;break-after:page}
+h2,h3{break-after:avoid}figure,svg,tr,section{break-inside:avoid}figcaption,.tile span,.comment,.signatures div,footer{font-size:9.5px}
+.wide{font-size:9px}.wide td,.wide th{padding:2px 4px}}
+)";
+
+std::string number_text(double value) {
+    if (!std::isfinite(value)) return "–";
+    const double size = std::abs(value);
+    if (size >= 1000.0) return fmt::format("{:.0f}", value);
+    if (size >= 100.0) return fmt::format("{:.1f}", value);
+    if (size == 0.0 || size == std::round(size)) return fmt::format("{:g}", value);
+    if (size >= 0.01) return fmt::format("{:.{}f}", value, size >= 10.0 ? 1 : size >= 1.0 ? 2 : 3);
+    return fmt::format("{:.2g}", value);
+}
+
+ShownValue shown_value(std::string_view key, double value, std::string_view unit) {
+    if (const Headline* known = headline(key)) return {number_text(known->scale * value), known->unit};
+    return {number_text(value), unit == "mm^3" ? "mm³" : unit == "deg" ? "°" : std::string(unit)};
+}
+
+std::string local_time_text(std::int64_t unix_ns) {
+    if (began_text(unix_ns).empty()) return {};
+    const auto unix_s = static_cast<std::time_t>(unix_ns / 1'000'000'000);
+    std::tm local{};
+    std::array<char, 64> text{};
+    if (localtime_r(&unix_s, &local) == nullptr) return {};
+    return {text.data(), std::strftime(text.data(), text.size(), "%Y-%m-%d %H:%M %Z", &local)};
+}
+
+}  // namespace osteomill

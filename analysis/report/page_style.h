@@ -1,0 +1,29 @@
+// What all pages of the project look like, and how numbers and times stand on them.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+namespace osteomill {
+
+/// For a <style> element. On paper, A4 or Letter, whichever the printer has.
+extern const char* const page_style;
+
+/// At most four digits that count.
+std::string number_text(double value);
+
+/// A metric's value as every page shows it, in its headline's unit if it is one: "87.4", "%". `unit` is the
+/// metric's own.
+struct ShownValue {
+    std::string number;
+    std::string unit;
+
+    std::string text() const { return unit.empty() ? number : number + " " + unit; }
+};
+ShownValue shown_value(std::string_view key, double value, std::string_view unit = {});
+
+/// By the clock of this machine: "2026-11-23 22:40 CET"; empty where the recording does not say.
+std::string local_time_text(std::int64_t unix_ns);
+
+}  // namespace osteomill

@@ -1,0 +1,36 @@
+// Other sessions of the same case that a report's numbers are shown against: those whose reports lie in
+// folders beside its own.
+//
+// Of experts, where at least four sessions are of trainees that groups.csv beside them puts into the group
+// "expert"; else of all, where there are at least four. Read from their metrics.json; incomplete ones are
+// left out, and so is the same session, reported elsewhere. What cannot be read is no reference.
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "analysis/report/session_trace.h"
+#include "analysis/statistics/mean_interval.h"
+
+namespace osteomill {
+
+inline constexpr std::size_t fewest_references = 4;
+
+/// Where the middle half of some values lies: from the first quartile to the third (percentile.h). Nothing
+/// for fewer than fewest_references.
+std::optional<Interval> middle_half(std::span<const double> values);
+
+struct ReferenceSessions {
+    bool are_experts = false;
+    std::map<std::string, std::vector<double>> values{};  ///< by headline's key
+};
+
+/// `folder`: of the report.
+ReferenceSessions reference_sessions(const std::filesystem::path& folder, const SessionTrace& trace);
+
+}  // namespace osteomill

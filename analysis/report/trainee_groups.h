@@ -1,0 +1,19 @@
+// Which group a trainee belongs to, as a teacher wrote it down: groups.csv, a line TRAINEE,GROUP each.
+//
+// The group "expert" is the one that others are shown against. A first line "trainee,group" is a heading.
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <string>
+
+namespace osteomill {
+
+inline constexpr const char* expert_group = "expert";
+inline constexpr const char* groups_file_name = "groups.csv";
+
+/// By the trainee's name. Throws std::runtime_error, with file and line, where it cannot be read, a line is
+/// not of two names, or a trainee is in two groups.
+std::map<std::string, std::string> trainee_groups(const std::filesystem::path& file);
+
+}  // namespace osteomill
