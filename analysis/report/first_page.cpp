@@ -100,8 +100,8 @@ std::string tile(const Headline& what, double value, const std::string& words,
         html += fmt::format("<span>{}</span>", text_of(what.better));
     if (band)
         html +=
-            fmt::format("<span>middle half of {} sessions{}: {} to {}</span>",
-                        references.values.at(what.key).size(), references.are_experts ? " of experts" : "",
+            fmt::format("<span>{}' middle half ({}): {} to {}</span>",
+                        references.are_experts ? "experts" : "others", references.values.at(what.key).size(),
                         shown_value(what.key, band->low).number, shown_value(what.key, band->high).text());
     return html + "</div>";
 }

@@ -39,7 +39,7 @@ void add_motion(Rows& rows, const MotionMetrics& motion, const StrokeMetrics& st
     rows.add("stroke_duration_max_s", "longest", strokes.longest_s, "s");
     rows.add("stroke_length_mean_mm", "mean length", strokes.mean_length_mm, "mm");
     rows.add("stroke_smoothness_ldlj", "median smoothness (LDLJ)", strokes.median_smoothness);
-    rows.add("stroke_reaches_per_s", "as so many reaches", strokes.median_reaches_per_s, "1/s");
+    rows.add("stroke_reaches_per_s", "as reaches a second", strokes.median_reaches_per_s, "1/s");
     rows.add("stroke_length_variation", "variation of their length", strokes.length_variation);
     rows.add("stroke_force_variation", "variation of their mean force", strokes.force_variation);
     rows.begin("Cutting");

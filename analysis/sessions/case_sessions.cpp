@@ -20,6 +20,12 @@ std::vector<CaseSessions> cases_of(const std::vector<SessionRecord>& sessions) {
     return cases;
 }
 
+CaseSessions learners(const CaseSessions& sessions) {
+    CaseSessions some{sessions.name, sessions.attempts};
+    std::erase_if(some.attempts, [](const Attempt& one) { return one.session->group == expert_group; });
+    return some.attempts.empty() ? sessions : some;
+}
+
 std::optional<double> value_of(const SessionRecord& session, const Headline& what) {
     return session.sum(what.key);
 }

@@ -26,6 +26,9 @@ struct CaseSessions {
 /// In the order in which the cases first come. The sessions outlive it.
 std::vector<CaseSessions> cases_of(const std::vector<SessionRecord>& sessions);
 
+/// Without those of experts, whose level and trend are others; all where all are of experts.
+CaseSessions learners(const CaseSessions& sessions);
+
 /// In the metric's own unit; nothing where the session has none.
 std::optional<double> value_of(const SessionRecord& session, const Headline& what);
 

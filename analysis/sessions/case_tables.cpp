@@ -40,7 +40,7 @@ std::string heading_of(const Headline& what) {
 }
 
 std::string mean_cells(const CaseSessions& sessions, const Headline& what) {
-    const auto mean = mean_interval(trainee_means(sessions, what));
+    const auto mean = mean_interval(trainee_means(learners(sessions), what));
     if (!mean) return cell("0") + cell(none);
     return cell(std::to_string(mean->n)) +
            cell(mean->interval ? with_interval(what, mean->mean, *mean->interval) : number(what, mean->mean));
@@ -48,7 +48,7 @@ std::string mean_cells(const CaseSessions& sessions, const Headline& what) {
 
 /// Of a doubling of attempts.
 std::string trend_cells(const CaseSessions& sessions, const Headline& what) {
-    const auto trend = practice_trend(practice_of(sessions, what));
+    const auto trend = practice_trend(practice_of(learners(sessions), what));
     if (!trend) return cell(none) + cell(none);
     const double doubling = std::log(2.0);
     const Interval slope = trend->slope_interval();
@@ -99,7 +99,7 @@ std::string session_table(const CaseSessions& sessions) {
         std::string began = local_time_text(session.began_unix_ns);
         if (!session.report.empty())
             began = fmt::format("<a href='{}'>{}</a>", session.report, began.empty() ? "report" : began);
-        html += fmt::format("<tr><td title='{}'>{}{}</td><td class='n'>{}</td><td>{}</td>",
+        html += fmt::format("<tr><td title='{}'>{}{}</td><td class='n'>{}</td><td class='w'>{}</td>",
                             html_text(session.file), html_text(session.trainee),
                             session.group.empty() ? "" : " (" + html_text(session.group) + ")",
                             attempt.number, began);

@@ -52,7 +52,8 @@ SvgPlot curve_of(const CaseSessions& sessions, const Headline& what,
                               .low = {what.scale * band->low, what.scale * band->low},
                               .high = {what.scale * band->high, what.scale * band->high},
                               .colour = "#56b4e9"});
-    if (const auto trend = practice_trend(values)) add_trend(plot, *trend, what.scale, attempts);
+    if (const auto trend = practice_trend(practice_of(learners(sessions), what)))
+        add_trend(plot, *trend, what.scale, attempts);
     return plot;
 }
 

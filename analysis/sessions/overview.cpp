@@ -28,7 +28,8 @@ constexpr const char* methods =
     "are "
     "of 95 %. The trend is y = a<sub>trainee</sub> + b ln(attempt), by least squares: a level for each "
     "trainee, one slope for all; the black line is that of the trainees at their mean level, grey its "
-    "interval. Groups: Welch's t and Hedges' g for measures, Mann and Whitney's exact test and Cliff's δ for "
+    "interval. Experts count in neither. Groups: Welch's t and Hedges' g for measures, Mann and Whitney's "
+    "exact test and Cliff's δ for "
     "counts; p is not corrected for the number of lines.</p>";
 
 constexpr const char* pass_method =
@@ -82,7 +83,7 @@ std::string Overview::html(const std::vector<std::string>& skipped) const {
         "<!DOCTYPE html>\n<html lang='en'><head><meta charset='utf-8'><meta "
         "http-equiv='Content-Security-Policy' "
         "content=\"default-src 'none'; style-src 'unsafe-inline'\"><title>Osteomill: sessions</title>"
-        "<style>{}body{{max-width:1300px}}</style></head><body><h1>{} sessions</h1>",
+        "<style>{}body{{max-width:1300px}}@page{{size:landscape}}</style></head><body><h1>{} sessions</h1>",
         page_style, count_);
     for (const std::string& line : skipped)
         html += fmt::format("<p class='wrong'>Left out: {}</p>", html_text(line));

@@ -18,10 +18,10 @@ struct SessionsStudyOptions {
     std::string version;
 };
 
-/// Writes OUT/sessions.sqlite, sessions.csv, sessions.html and a learning curve OUT/KEY.svg for each metric
-/// that is drawn (KEY_2.svg for the second case, ...). A recording that cannot be read to its end is named
-/// and left out. Throws std::runtime_error where none is left, a file cannot be read or written, or a group
-/// to compare has no session.
+/// Writes OUT/kept_sessions.json, sessions.csv, sessions.html and a learning curve OUT/KEY.svg for each
+/// metric that is drawn (KEY_2.svg for the second case, ...). A recording that cannot be read to its end is
+/// named and left out. Throws std::runtime_error where none is left, a file cannot be read or written, or a
+/// group to compare has no session.
 void run_sessions_study(const SessionsStudyOptions& options, const StudySurroundings& surroundings);
 
 /// The groups.csv in the first of the folders that holds one; empty where none does.

@@ -83,13 +83,13 @@ TEST_F(Judged, IsShownAgainstTheSessionsBesideIt) {
     for (int i = 0; i < 4; ++i) report("peer" + std::to_string(i), "Bo", 20.0 + 10.0 * i);
     report("own", "Anna", 50.0);
     // Quartiles of 20, 30, 40, 50 by definition 7: 27.5 and 42.5.
-    EXPECT_THAT(page_, HasSubstr("middle half of 4 sessions: 27.5 to 42.5 s"));
+    EXPECT_THAT(page_, HasSubstr("others' middle half (4): 27.5 to 42.5 s"));
     report("again", "Anna", 50.0);
-    EXPECT_THAT(page_, HasSubstr("middle half of 4 sessions:")) << "it is no peer of its own";
+    EXPECT_THAT(page_, HasSubstr("others' middle half (4):")) << "it is no peer of its own";
     std::ofstream(folder_ / "all/groups.csv") << "trainee,group\nEva,expert\nBo,student\n";
     for (int i = 0; i < 4; ++i) report("expert" + std::to_string(i), "Eva", 10.0 + i);
     report("own", "Anna", 50.0);
-    EXPECT_THAT(page_, HasSubstr("middle half of 4 sessions of experts: 10.8 to 12.2 s"));
+    EXPECT_THAT(page_, HasSubstr("experts' middle half (4): 10.8 to 12.2 s"));
     std::ofstream(folder_ / "all/groups.csv") << "no group\n";
     report("own", "Anna", 50.0);
     EXPECT_THAT(page_, Not(HasSubstr("middle half"))) << "nobody knows who the experts are";
