@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
-#include <cstring>
 #include <glm/common.hpp>
 #include <glm/vector_relational.hpp>
 #include <limits>
@@ -94,49 +93,47 @@ void look(const BoneView& view, const Look& look_at) {
     look_at(view.bone());
 }
 
-py::array fraction(const BoneView& view, const BoxArgument& argument) {
+/// A copy of a channel: `copy(bone, slot, offset in the brick, count, out)` for each row, 0 where no bone is
+/// stored.
+template <typename Value, typename Copy>
+py::array channel(const BoneView& view, const BoxArgument& argument, const Copy& copy) {
     const Box box = box_of(argument, view.bone().grid());
-    auto array = empty_array<std::uint8_t>(box);
-    std::uint8_t* out = array.mutable_data();
+    auto array = empty_array<Value>(box);
+    Value* out = array.mutable_data();
     look(view, [&](const Bone& bone) {
-        std::fill_n(out, box.voxels(), std::uint8_t{0});
+        std::fill_n(out, box.voxels(), Value{0});
         for_each_row(bone, box,
                      [&](std::int32_t slot, std::size_t offset, const glm::ivec3& voxel, std::size_t count) {
-                         std::memcpy(out + box.index(voxel), bone.fractions(slot).data() + offset, count);
+                         copy(bone, slot, offset, count, out + box.index(voxel));
                      });
     });
     return array;
 }
 
-py::array tissue(const BoneView& view, const BoxArgument& argument) {
-    const Box box = box_of(argument, view.bone().grid());
-    auto array = empty_array<std::uint8_t>(box);
-    std::uint8_t* out = array.mutable_data();
-    look(view, [&](const Bone& bone) {
-        std::fill_n(out, box.voxels(), std::uint8_t{0});
-        for_each_row(bone, box,
-                     [&](std::int32_t slot, std::size_t offset, const glm::ivec3& voxel, std::size_t count) {
-                         if (const ByteBrick* labels = bone.content().tissues_of(slot))
-                             std::memcpy(out + box.index(voxel), labels->data() + offset, count);
-                     });
-    });
-    return array;
+py::array fraction(const BoneView& view, const BoxArgument& box) {
+    return channel<std::uint8_t>(
+        view, box,
+        [](const Bone& bone, std::int32_t slot, std::size_t offset, std::size_t count, std::uint8_t* out) {
+            std::copy_n(bone.fractions(slot).data() + offset, count, out);
+        });
 }
 
-py::array stiffness(const BoneView& view, const BoxArgument& argument) {
-    const Box box = box_of(argument, view.bone().grid());
-    auto array = empty_array<float>(box);
-    float* out = array.mutable_data();
-    look(view, [&](const Bone& bone) {
-        std::fill_n(out, box.voxels(), 0.0f);
-        for_each_row(bone, box,
-                     [&](std::int32_t slot, std::size_t offset, const glm::ivec3& voxel, std::size_t count) {
-                         for (std::size_t i = 0; i < count; ++i)
-                             out[box.index(voxel) + i] =
-                                 static_cast<float>(bone.content().stiffness_in(slot, offset + i));
-                     });
-    });
-    return array;
+py::array tissue(const BoneView& view, const BoxArgument& box) {
+    return channel<std::uint8_t>(
+        view, box,
+        [](const Bone& bone, std::int32_t slot, std::size_t offset, std::size_t count, std::uint8_t* out) {
+            if (const ByteBrick* labels = bone.content().tissues_of(slot))
+                std::copy_n(labels->data() + offset, count, out);
+        });
+}
+
+py::array stiffness(const BoneView& view, const BoxArgument& box) {
+    return channel<float>(
+        view, box,
+        [](const Bone& bone, std::int32_t slot, std::size_t offset, std::size_t count, float* out) {
+            for (std::size_t i = 0; i < count; ++i)
+                out[i] = static_cast<float>(bone.content().stiffness_in(slot, offset + i));
+        });
 }
 
 py::array hu(const BoneView& view, const BoxArgument& argument) {

@@ -25,6 +25,9 @@ LoadedCase::LoadedCase(std::string name, const SceneChoice& choice)
       scene_(load_session_scene(choice)),
       bone_checksum_(checksum(scene_.bone)),
       labels_(labels_of(scene_)) {
+    const std::vector<double>& loaded_mm3 = scene_.source.loaded_mm3;
+    for (std::size_t label = 0; label < loaded_mm3.size(); ++label)
+        if (loaded_mm3[label] > 0.0) labels_of_bone_.push_back(label);
     double largest_radius_mm = 0.0;
     for (const Burr& burr : settings().burrs) {
         heads_.emplace_back(burr);
@@ -36,6 +39,12 @@ LoadedCase::LoadedCase(std::string name, const SceneChoice& choice)
         reach_mm_.push_back(watched_mm(tissue));
         fields_.emplace_back(structure.mask, reach_mm_.back() + largest_radius_mm);
     }
+}
+
+double LoadedCase::in_all_mm3(const RemovedByTissue& removed_mm3) const noexcept {
+    double sum_mm3 = 0.0;
+    for (const std::size_t label : labels_of_bone_) sum_mm3 += removed_mm3[label];
+    return sum_mm3;
 }
 
 double LoadedCase::distance_mm(std::size_t i, const ToolState& tool) const noexcept {

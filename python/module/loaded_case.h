@@ -11,6 +11,7 @@
 #include "common/scene/burr_clearance.h"
 #include "common/scene/tool_state.h"
 #include "haptic_server/session/session_scene.h"
+#include "simulation/exchange/milling_step.h"
 
 namespace osteomill::python {
 
@@ -32,6 +33,8 @@ class LoadedCase {
         std::size_t label;
     };
     const std::vector<NamedLabel>& labels() const { return labels_; }
+    /// Of all tissues that the bone had.
+    double in_all_mm3(const RemovedByTissue& removed_mm3) const noexcept;
 
     /// Names of the protected structures.
     const std::vector<std::string>& structures() const { return structure_names_; }
@@ -44,6 +47,7 @@ class LoadedCase {
     SessionScene scene_;
     std::uint64_t bone_checksum_;
     std::vector<NamedLabel> labels_;
+    std::vector<std::size_t> labels_of_bone_;
     std::vector<std::string> structure_names_;
     std::vector<DistanceField> fields_;
     std::vector<double> reach_mm_;

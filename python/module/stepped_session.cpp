@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <chrono>
-#include <numeric>
 #include <stdexcept>
 #include <utility>
 
@@ -115,7 +114,7 @@ TickState SteppedSession::state() const {
     const RemovedByTissue removed_mm3 = this->removed_mm3();
     TickState state{.tool = tool_,
                     .milling_force_n = milling_force_n(),
-                    .removed_in_all_mm3 = std::accumulate(removed_mm3.begin(), removed_mm3.end(), 0.0)};
+                    .removed_in_all_mm3 = loaded_->in_all_mm3(removed_mm3)};
     state.removed_mm3.reserve(loaded_->labels().size());
     for (const LoadedCase::NamedLabel& one : loaded_->labels())
         state.removed_mm3.push_back(removed_mm3[one.label]);

@@ -1,6 +1,5 @@
 #include "python/module/tick_columns.h"
 
-#include <numeric>
 #include <string_view>
 
 #include "python/module/vector_column.h"
@@ -31,7 +30,7 @@ void TickColumns::add(const SteppedSession& session) {
     spindle_on.push_back(tool.spindle_on ? 1 : 0);
     fault.push_back(fault_number(tool));
     const RemovedByTissue removed = session.removed_mm3();
-    removed_in_all_mm3.push_back(std::accumulate(removed.begin(), removed.end(), 0.0));
+    removed_in_all_mm3.push_back(loaded_.in_all_mm3(removed));
     for (std::size_t i = 0; i < removed_mm3.size(); ++i)
         removed_mm3[i].push_back(removed[loaded_.labels()[i].label]);
     for (std::size_t i = 0; i < distance_mm.size(); ++i)

@@ -1,0 +1,36 @@
+"""Wheel of the module: CMake builds the core where the programs are built, setuptools packs it.
+
+OSTEOMILL_BUILD names the build's folder; otherwise it is build/release of the repository, configured by its preset if need be."""
+
+import os
+import pathlib
+import re
+import shutil
+import subprocess
+
+from setuptools import Extension, setup
+from setuptools.command.build_ext import build_ext
+
+REPOSITORY = pathlib.Path(__file__).resolve().parent.parent
+BUILD = pathlib.Path(os.environ.get("OSTEOMILL_BUILD", REPOSITORY / "build" / "release")).resolve()
+SCRATCH = BUILD / "wheel"  # nothing is left among the sources
+
+
+class BuildWithCMake(build_ext):
+    def build_extension(self, extension):
+        if not (BUILD / "CMakeCache.txt").exists():
+            subprocess.run(["cmake", "--preset", "release", "-B", BUILD, "-DOSTEOMILL_TESTS=OFF"], cwd=REPOSITORY, check=True)
+        subprocess.run(["cmake", "--build", BUILD, "--target", "osteomill_python"], check=True)
+        to = pathlib.Path(self.get_ext_fullpath(extension.name))
+        to.parent.mkdir(parents=True, exist_ok=True)
+        [core] = (BUILD / "python" / "osteomill").glob("_core.*.so")
+        shutil.copy(core, to)
+
+
+SCRATCH.mkdir(parents=True, exist_ok=True)
+setup(
+    version=re.search(r"project\(osteomill VERSION ([\d.]+)", (REPOSITORY / "CMakeLists.txt").read_text())[1],
+    ext_modules=[Extension("osteomill._core", sources=[])],
+    cmdclass={"build_ext": BuildWithCMake},
+    options={"build": {"build_base": str(SCRATCH)}, "egg_info": {"egg_base": str(SCRATCH)}},
+)

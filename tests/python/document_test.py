@@ -1,0 +1,38 @@
+"""Every line of Python in docs/python.md runs, from the first to the last; and the reference is what the docstrings say."""
+
+import contextlib
+import io
+import os
+import pathlib
+import re
+import subprocess
+import sys
+import tempfile
+import unittest
+
+REPOSITORY = pathlib.Path(__file__).parents[2]
+
+
+class DocumentTest(unittest.TestCase):
+    def test_every_line_of_the_tutorial_runs(self):
+        page = REPOSITORY / "docs" / "python.md"
+        text = page.read_text()
+        blocks = [(text.count("\n", 0, match.start(1)), match[1]) for match in re.finditer(r"^```python\n(.*?)^```", text, re.M | re.S)]
+        self.assertGreater(len(blocks), 9)
+        printed, names = io.StringIO(), {}
+        with tempfile.TemporaryDirectory() as folder, contextlib.chdir(folder), contextlib.redirect_stdout(printed):
+            for line, block in blocks:
+                exec(compile("\n" * line + block, page, "exec"), names)
+        self.assertIn("'carious lesion': 7", printed.getvalue())
+        self.assertGreater(names["removed"], 0.5)
+        self.assertGreater(names["force_n"].max(), 0.1)
+
+    def test_the_reference_is_what_the_docstrings_say(self):
+        made = subprocess.run([sys.executable, REPOSITORY / "scripts" / "python_reference.py"], check=True, capture_output=True,
+                              text=True, env=os.environ).stdout
+        self.assertEqual((REPOSITORY / "docs" / "python_reference.md").read_text(), made,
+                         "make it anew: scripts/python_reference.py > docs/python_reference.md")
+
+
+if __name__ == "__main__":
+    unittest.main()
