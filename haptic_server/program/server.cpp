@@ -16,9 +16,9 @@
 #include "haptic_server/check/session_check.h"
 #include "haptic_server/program/report_folder.h"
 #include "haptic_server/program/resident_memory.h"
-#include "haptic_server/program/session_settings.h"
 #include "haptic_server/program/status_line.h"
 #include "haptic_server/session/session_assembly.h"
+#include "haptic_server/session/session_settings.h"
 #include "simulation/coupling/handpiece_vibration.h"
 #include "simulation/loop/real_time.h"
 #include "simulation/loop/thread_priority.h"
@@ -42,8 +42,8 @@ void check(const ServerOptions& options, const ProgramOutput& output) {
     std::vector<CheckRow> rows = check_machine(this_machine());
     rows.push_back(check_devices(transport));
     for (CheckRow& row : check_session({.listen = options.listen,
-                                        .tls = options.access.tls,
-                                        .records_in = records_in.empty() ? "." : records_in}))
+                         .tls = options.access.tls,
+                         .records_in = records_in.empty() ? "." : records_in}))
         rows.push_back(std::move(row));
     output.out->write(text_of(rows));
     if (must_be_mended(rows)) throw std::runtime_error("the machine is not ready for a session: see above");
@@ -139,7 +139,9 @@ void run_server(const ServerOptions& options, const std::string& version, StopFl
          }});
     if (device.device == nullptr) return;  // stopped before an arm came
     say_what_is_felt(device.device->limits(), scene.scene, *output.out);
-    const nlohmann::ordered_json settings = session_settings(options, scene.scene, version);
+    nlohmann::ordered_json settings = session_settings(options.session, options.scene, scene.scene,
+                                                       options.device.entry->name, options.grip, version);
+    if (options.controls) settings["controls"] = options.controls->filename().string();
     if (shown) shown->settings = as_texts(settings);
     if (options.record)
         shown->streaming.record =

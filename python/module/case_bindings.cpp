@@ -7,6 +7,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "python/module/arrays.h"
@@ -29,7 +30,7 @@ std::shared_ptr<LoadedCase> load(const std::string& name, const std::vector<std:
     choice.spindle_rpm = rpm;
     choice.bone = bone;
     choice.trajectory = trajectory;
-    return std::make_shared<LoadedCase>(name, choice);
+    return std::make_shared<LoadedCase>(name, std::move(choice));
 }
 
 Burr make_burr(double diameter_mm, int edges, double rpm, const py::handle& cutting, const py::handle& edge,

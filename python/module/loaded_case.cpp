@@ -20,9 +20,10 @@ std::vector<LoadedCase::NamedLabel> labels_of(const SessionScene& scene) {
 
 }  // namespace
 
-LoadedCase::LoadedCase(std::string name, const SceneChoice& choice)
+LoadedCase::LoadedCase(std::string name, SceneChoice choice)
     : name_(std::move(name)),
-      scene_(load_session_scene(choice)),
+      choice_(std::move(choice)),
+      scene_(load_session_scene(choice_)),
       bone_checksum_(checksum(scene_.bone)),
       labels_(labels_of(scene_)) {
     const std::vector<double>& loaded_mm3 = scene_.source.loaded_mm3;

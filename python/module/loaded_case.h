@@ -18,9 +18,10 @@ namespace osteomill::python {
 class LoadedCase {
   public:
     /// Loads it, for as long as that takes. Throws in one line as load_session_scene does.
-    LoadedCase(std::string name, const SceneChoice& choice);
+    LoadedCase(std::string name, SceneChoice choice);
 
     const std::string& name() const { return name_; }
+    const SceneChoice& choice() const { return choice_; }
     /// A session takes a copy, whose bone shares all but what is left of its voxels.
     const SessionScene& scene() const { return scene_; }
     const Scene& settings() const { return scene_.scene; }
@@ -44,6 +45,7 @@ class LoadedCase {
 
   private:
     std::string name_;
+    SceneChoice choice_;
     SessionScene scene_;
     std::uint64_t bone_checksum_;
     std::vector<NamedLabel> labels_;

@@ -8,6 +8,7 @@
 
 #include "haptic_server/session/device_table.h"
 #include "haptic_server/session/session_defaults.h"
+#include "haptic_server/session/session_settings.h"
 
 namespace osteomill::python {
 
@@ -81,6 +82,9 @@ void SteppedSession::begin() {
         session.shown->accepts_controls = false;
         session.shown->case_name = loaded_->name();
         session.shown->version = OSTEOMILL_VERSION;
+        session.shown->settings = as_texts(session_settings(
+            session.milling, loaded_->choice(), scene.scene, options_.grip ? "simulated" : "prescribed",
+            options_.grip.value_or(Grip::firm), OSTEOMILL_VERSION));
     }
     // The one before, if any, goes only once there is another.
     assembly_ = std::make_unique<SessionAssembly>(std::move(scene), std::move(parts), std::move(session));

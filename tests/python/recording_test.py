@@ -60,6 +60,8 @@ class RecordingTest(unittest.TestCase):
                            check=True, capture_output=True)
             report = json.loads((pathlib.Path(folder) / "metrics.json").read_text())
             self.assertEqual(recording.metrics(), report["metrics"])
+            settings = report["session"]["settings"]
+            self.assertEqual((settings["coupling"], settings["device"], settings["clock"]), ("implicit", "prescribed", "virtual"))
             self.assertEqual(recording.info(), json.loads((pathlib.Path(folder) / "info.json").read_text()))
             self.assertAlmostEqual(recording.metrics()["peak_force_n"], np.linalg.norm(self.ticks["force_n"], axis=1).max(), delta=1e-4)
             self.assertEqual(recording.info()["bone_checksum"], self.checksum)

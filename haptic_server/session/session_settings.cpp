@@ -1,31 +1,31 @@
-#include "haptic_server/program/session_settings.h"
+#include "haptic_server/session/session_settings.h"
 
 #include <fmt/format.h>
 
 namespace osteomill {
 
-nlohmann::ordered_json session_settings(const ServerOptions& options, const Scene& scene,
+nlohmann::ordered_json session_settings(const MillingSessionOptions& milling, const SceneChoice& choice,
+                                        const Scene& scene, const std::string& device, Grip grip,
                                         const std::string& version) {
     const Burr& burr = scene.burrs.at(scene.start_burr);
     nlohmann::ordered_json json{{"version", version},
                                 {"scene", scene.name},
-                                {"force_model", options.session.force_model},
-                                {"coupling", options.session.coupling},
-                                {"device", options.device.entry->name},
-                                {"grip", options.grip == Grip::light ? "light" : "firm"},
+                                {"force_model", milling.force_model},
+                                {"coupling", milling.coupling},
+                                {"device", device},
+                                {"grip", grip == Grip::light ? "light" : "firm"},
                                 {"burr", burr.name},
                                 {"rpm", 60.0 * burr.spindle_rev_per_s},
                                 {"haptic_rate_hz", 1.0 / MillingSession::tick_s},
-                                {"milling_rate_hz", options.session.milling_rate_hz},
-                                {"clock", options.session.clock == ClockKind::real ? "real" : "virtual"},
-                                {"vibration", options.session.vibration}};
+                                {"milling_rate_hz", milling.milling_rate_hz},
+                                {"clock", milling.clock == ClockKind::real ? "real" : "virtual"},
+                                {"vibration", milling.vibration}};
     if (scene.force_scale != 1.0) json["force_scale"] = scene.force_scale;
     const auto add_file = [&](const char* key, const std::optional<std::filesystem::path>& file) {
         if (file) json[key] = file->filename().string();
     };
-    add_file("bone", options.scene.bone);
-    add_file("trajectory", options.scene.trajectory);
-    add_file("controls", options.controls);
+    add_file("bone", choice.bone);
+    add_file("trajectory", choice.trajectory);
     return json;
 }
 
