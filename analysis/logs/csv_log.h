@@ -4,8 +4,6 @@
 
 #include <fmt/format.h>
 
-#include <atomic>
-#include <boost/lockfree/spsc_queue.hpp>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
@@ -13,7 +11,7 @@
 
 #include "common/files/session_file.h"
 #include "common/log/background_writer.h"
-#include "simulation/exchange/sample_log.h"
+#include "simulation/exchange/sample_queue.h"
 
 namespace osteomill {
 
@@ -53,7 +51,7 @@ class CsvFile {
     std::string error_;
 };
 
-/// `Sample` has a static `header_line` that ends in a line feed, a static `capacity` (samples that may wait
+/// `Sample` has a static `header_line()` that ends in a line feed, a static `capacity` (samples that may wait
 /// between two drains) and `void append_to(fmt::memory_buffer&) const`, which writes its line.
 template <typename Sample>
 class CsvLog final : public SampleLog<Sample> {
@@ -61,13 +59,11 @@ class CsvLog final : public SampleLog<Sample> {
     static constexpr std::size_t capacity = Sample::capacity;
 
     /// Throws what CsvFile throws.
-    explicit CsvLog(const std::filesystem::path& file, const char* header_line = Sample::header_line)
-        : file_(file, header_line), queue_(capacity) {}
+    explicit CsvLog(const std::filesystem::path& file, const std::string& header_line = Sample::header_line())
+        : file_(file, header_line) {}
 
-    /// One loop only. When the queue is full the sample is dropped and counted. Real-time safe.
-    void push(const Sample& sample) noexcept override {
-        if (!queue_.push(sample)) dropped_.fetch_add(1, std::memory_order_relaxed);
-    }
+    /// See SampleQueue.
+    void push(const Sample& sample) noexcept override { queue_.push(sample); }
     /// Any one other thread: hands on what is queued, unless the disk still has the last to write; then the
     /// queue has to last.
     void drain() override {
@@ -84,7 +80,7 @@ class CsvLog final : public SampleLog<Sample> {
         file_.close();
     }
 
-    std::uint64_t dropped() const noexcept { return dropped_.load(std::memory_order_relaxed); }
+    std::uint64_t dropped() const noexcept { return queue_.dropped(); }
     const std::string& error() const { return file_.error(); }
     const std::filesystem::path& path() const { return file_.path(); }
     /// Where the log is now that an earlier session, which was killed, left under the part's name.
@@ -98,8 +94,7 @@ class CsvLog final : public SampleLog<Sample> {
     }
 
     CsvFile file_;
-    boost::lockfree::spsc_queue<Sample> queue_;
-    std::atomic<std::uint64_t> dropped_{0};
+    SampleQueue<Sample> queue_;
 };
 
 }  // namespace osteomill

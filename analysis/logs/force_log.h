@@ -2,12 +2,12 @@
 #pragma once
 
 #include "analysis/logs/csv_log.h"
-#include "simulation/loop/force_sample.h"
+#include "common/scene/tick_sample.h"
 #include "simulation/loop/milling_sample.h"
 
 namespace osteomill {
 
-using ForceLog = CsvLog<ForceSample>;
+using ForceLog = CsvLog<TickSample>;
 using MillingLog = CsvLog<MillingSample>;
 
 }  // namespace osteomill

@@ -13,7 +13,7 @@ namespace {
 
 template <typename Log>
 void begin_log(std::optional<Log>& log, const std::optional<std::filesystem::path>& file,
-               const char* header_line) {
+               const std::string& header_line) {
     if (!file) return;
     log.emplace(*file, header_line);
     if (log->torn()) spdlog::warn("{}", torn_line(*file, *log->torn()));
@@ -32,9 +32,8 @@ void close_log(std::optional<Log>& log) {
 }  // namespace
 
 SessionLogs::SessionLogs(const LogFiles& files, bool has_shank) {
-    begin_log(force_, files.force,
-              has_shank ? ForceSample::header_line_with_shank : ForceSample::header_line);
-    begin_log(milling_, files.milling, MillingSample::header_line);
+    begin_log(force_, files.force, TickSample::header_line(has_shank));
+    begin_log(milling_, files.milling, MillingSample::header_line());
 }
 
 void SessionLogs::close_force() {

@@ -180,7 +180,9 @@ void HapticLoop::log(const ToolState& tool) noexcept {
                       .depth_mm = tool.depth_mm.value_or(0.0),
                       .removed_mm3 = tool.removed_mm3,
                       .spindle_on = tool.spindle_on,
-                      .fault = safety_.fault(),
+                      .fault = static_cast<std::uint8_t>(safety_.fault()),
+                      .spindle_axis = tool.spindle_axis,
+                      .burr = tool.burr,
                       .shank_torque_n_mm = tool.shank_torque_n_mm});
 }
 

@@ -17,6 +17,7 @@
 #include <cstdint>
 
 #include "common/scene/scene.h"
+#include "common/scene/tick_sample.h"
 #include "common/scene/tool_state.h"
 #include "simulation/coupling/coupling.h"
 #include "simulation/coupling/handpiece_vibration.h"
@@ -27,7 +28,6 @@
 #include "simulation/exchange/session_gate.h"
 #include "simulation/exchange/triple_buffer.h"
 #include "simulation/loop/burr_change.h"
-#include "simulation/loop/force_sample.h"
 #include "simulation/loop/spindle_speed.h"
 #include "simulation/safety/energy_meter.h"
 #include "simulation/safety/safety_monitor.h"
@@ -42,7 +42,7 @@ struct HapticLoopParts {
     TripleBuffer<BurrCommand>& commands;            ///< written
     TripleBuffer<ToolState>& tool;                  ///< written, for the streaming loop
     TripleBuffer<ToolState>& status;                ///< written, for whoever shows progress
-    SampleLog<ForceSample>* log = nullptr;          ///< written; null: no log
+    SampleLog<TickSample>* log = nullptr;           ///< written; null: no log
     HandpieceVibration* vibration = nullptr;        ///< added to the coupling's force; null: none
     SessionGate* gate = nullptr;                    ///< read and written; null: the session never holds still
     TripleBuffer<Placement>* placements = nullptr;  ///< read, with `gate`

@@ -9,6 +9,7 @@
 
 #include <cstddef>
 #include <glm/vec3.hpp>
+#include <string>
 
 namespace osteomill {
 
@@ -19,8 +20,7 @@ struct MillingSample {
     double removed_mm3 = 0.0;
     bool spindle_on = false;
 
-    static constexpr const char* header_line =
-        "t_s,burr_x_mm,burr_y_mm,burr_z_mm,force_x_n,force_y_n,force_z_n,removed_mm3,spindle\n";
+    static std::string header_line();
     /// 1.6 s of steps at 10 kHz.
     static constexpr std::size_t capacity = 16384;
     void append_to(fmt::memory_buffer& text) const;

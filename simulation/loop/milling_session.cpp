@@ -104,7 +104,7 @@ void wait_for_consumer(const std::atomic<bool>* stop, IsDone&& is_done) {
 }  // namespace
 
 MillingSession::MillingSession(const Scene& scene, Bone bone, HapticDevice& device,
-                               const MillingSessionOptions& options, SampleLog<ForceSample>* log,
+                               const MillingSessionOptions& options, SampleLog<TickSample>* log,
                                SampleLog<MillingSample>* milling_log)
     : options_(validated(options)),
       device_(device),

@@ -17,13 +17,13 @@
 
 #include "common/bone/bone.h"
 #include "common/scene/scene.h"
+#include "common/scene/tick_sample.h"
 #include "simulation/contact_models/force_model.h"
 #include "simulation/contact_models/force_models.h"
 #include "simulation/coupling/couplings.h"
 #include "simulation/device/haptic_device.h"
 #include "simulation/exchange/change_queue.h"
 #include "simulation/exchange/sample_log.h"
-#include "simulation/loop/force_sample.h"
 #include "simulation/loop/haptic_loop.h"
 #include "simulation/loop/milling_loop.h"
 #include "simulation/loop/periodic_loop.h"
@@ -90,7 +90,7 @@ class MillingSession {
     /// rate out of range, a processor that this process may not use, an unknown coupling or force model, a
     /// coupling that the force model has no law for, or a scene that the parts refuse.
     MillingSession(const Scene& scene, Bone bone, HapticDevice& device, const MillingSessionOptions& options,
-                   SampleLog<ForceSample>* log = nullptr, SampleLog<MillingSample>* milling_log = nullptr);
+                   SampleLog<TickSample>* log = nullptr, SampleLog<MillingSample>* milling_log = nullptr);
 
     /// For the streaming server: the tool's newest state (the start pose before the first tick), and the
     /// changes in order (each one reader).
@@ -155,7 +155,7 @@ class MillingSession {
 
     MillingSessionOptions options_;
     HapticDevice& device_;
-    SampleLog<ForceSample>* log_;
+    SampleLog<TickSample>* log_;
     SampleLog<MillingSample>* milling_log_;
     std::unique_ptr<ForceModel> model_;
     std::unique_ptr<Coupling> coupling_;

@@ -11,6 +11,7 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "simulation/safety/fault.h"
 #include "tests/support/file_size_limit.h"
 
 namespace osteomill {
@@ -36,7 +37,10 @@ TEST(ForceLog, WritesALineForEachSampleInOrder) {
     ForceLog log(file);
     log.push({.time_s = 0.001, .hand_mm = {1, 2, 3}, .force_n = {0.5, 0, 0}, .spindle_on = true});
     log.drain();
-    log.push({.time_s = 0.002, .depth_mm = 0.25, .removed_mm3 = 1.5, .fault = Fault::overrun});
+    log.push({.time_s = 0.002,
+              .depth_mm = 0.25,
+              .removed_mm3 = 1.5,
+              .fault = static_cast<std::uint8_t>(Fault::overrun)});
     log.close();
     EXPECT_TRUE(log.error().empty());
     std::istringstream lines(text_of(file));
@@ -55,7 +59,7 @@ TEST(ForceLog, WritesALineForEachSampleInOrder) {
 
 TEST(ForceLog, HasTheTorqueOfAShankWhereThereIsOne) {
     const auto file = scratch_file();
-    ForceLog log(file, ForceSample::header_line_with_shank);
+    ForceLog log(file, TickSample::header_line(true));
     log.push({.time_s = 0.001, .shank_torque_n_mm = glm::dvec3(1.5, -2.0, 0.25)});
     log.close();
     std::istringstream lines(text_of(file));
