@@ -84,6 +84,9 @@ RecordingSummary summarise(const std::filesystem::path& file,
     summary.states = playhead.states();
     summary.bytes = playhead.bytes();
     summary.state_bytes = playhead.state_bytes();
+    summary.ticks = playhead.tick_count();
+    summary.missed_ticks = playhead.missed_ticks();
+    summary.tick_bytes = playhead.tick_bytes();
     summary.checksums_verified = playhead.checksums_verified();
     summary.bone_checksum = playhead.bone_checksum();
     summary.is_truncated = playhead.is_truncated();
@@ -117,6 +120,10 @@ nlohmann::ordered_json to_json(const RecordingSummary& summary) {
             {"bytes", summary.bytes},
             {"state_bytes", summary.state_bytes},
             {"bytes_per_s", per_s(summary.state_bytes, summary.duration_s)},
+            {"ticks", summary.ticks},
+            {"missed_ticks", summary.missed_ticks},
+            {"tick_bytes", summary.tick_bytes},
+            {"tick_bytes_per_s", per_s(summary.tick_bytes, summary.duration_s)},
             {"checksums_verified", summary.checksums_verified},
             {"grid", {{"size_voxels", {size.x, size.y, size.z}}, {"spacing_mm", summary.grid.spacing_mm}}},
             {"burrs", burrs},
@@ -140,6 +147,13 @@ std::string to_text(const RecordingSummary& summary) {
                                summary.frames, 1e-3 * static_cast<double>(summary.bytes), summary.states,
                                per_s(summary.states, summary.duration_s),
                                1e-3 * per_s(summary.state_bytes, summary.duration_s)));
+    if (summary.session.holds_ticks)
+        line("ticks",
+             fmt::format(
+                 "{} in {:.0f} kB of these: {:.1f} kB/s{}", summary.ticks,
+                 1e-3 * static_cast<double>(summary.tick_bytes),
+                 1e-3 * per_s(summary.tick_bytes, summary.duration_s),
+                 summary.missed_ticks > 0 ? fmt::format("; {} are missing", summary.missed_ticks) : ""));
     for (const auto& [name, milled_s] : summary.milled_s)
         line("burr", fmt::format("{}, spindle on for {:.1f} s", name, milled_s));
     line("removed", fmt::format("{:.3f} mm^3", summary.removed_mm3));

@@ -85,6 +85,7 @@ Playhead::Step Playhead::take(RecordedEvent event) {
         replica_.emplace(std::move(arrived->bone), std::move(arrived->checksum));
         state_ = {};
         has_state_ = false;
+        ticks_ = {};
         structures_.clear();
         return Step::new_bone;
     } else if (auto* state = std::get_if<StateArrived>(&event.event)) {
@@ -100,6 +101,10 @@ Playhead::Step Playhead::take(RecordedEvent event) {
         state_ = std::move(state->state);
         has_state_ = true;
         changes_ = std::move(state->changes);
+        ticks_ = std::move(state->ticks);
+        tick_count_ += ticks_.ticks.size();
+        missed_ticks_ += ticks_.missed;
+        tick_bytes_ += ticks_.bytes;
         return Step::state;
     } else if (auto* of_structure = std::get_if<StructureArrived>(&event.event)) {
         if (of_structure->structure) structures_.push_back(*std::move(of_structure->structure));

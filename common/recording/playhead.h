@@ -43,6 +43,9 @@ class Playhead {
     /// The protected structures of the session of which the recording says where they are; the others are
     /// where the bone has their label. All that follow the bone at once are there with it.
     const std::vector<Structure>& structures() const { return structures_; }
+    /// Of the haptic loop, up to the last state frame and behind the one before; none in a recording that
+    /// does not hold them.
+    const std::vector<TickSample>& ticks() const { return ticks_.ticks; }
     /// What the state frame that was applied last changed; the one that would come next, if one would.
     const std::vector<ChangedBrick>& changes() const { return changes_; }
     const StateArrived* next_state() const;
@@ -54,6 +57,9 @@ class Playhead {
     std::uint64_t bytes() const { return bytes_; }
     std::uint64_t states() const { return states_; }
     std::uint64_t state_bytes() const { return state_bytes_; }
+    std::uint64_t tick_count() const { return tick_count_; }
+    std::uint64_t missed_ticks() const { return missed_ticks_; }
+    std::uint64_t tick_bytes() const { return tick_bytes_; }  ///< among the state_bytes()
     std::uint64_t checksums_verified() const { return checksums_verified_; }
     /// At the end: whether the file ends within a packet.
     bool is_truncated() const { return reader_.is_truncated(); }
@@ -91,6 +97,7 @@ class Playhead {
     std::optional<BoneReplica> replica_;
     SessionState state_;
     bool has_state_ = false;
+    TickBlock ticks_;
     std::vector<ChangedBrick> changes_;
     std::vector<Structure> structures_;
 
@@ -98,6 +105,9 @@ class Playhead {
     std::uint64_t bytes_ = 0;
     std::uint64_t states_ = 0;
     std::uint64_t state_bytes_ = 0;
+    std::uint64_t tick_count_ = 0;
+    std::uint64_t missed_ticks_ = 0;
+    std::uint64_t tick_bytes_ = 0;
     std::uint64_t checksums_verified_ = 0;
 };
 

@@ -33,8 +33,9 @@ struct RecordingReport {
     std::filesystem::path file;  ///< where it lies by now
     std::uint64_t frames = 0;
     std::uint64_t bytes = 0;
-    std::uint64_t pauses = 0;  ///< for which it stood still, and after which it went on
-    std::string error{};       ///< one line; empty where all frames are in the file
+    std::uint64_t missed_ticks = 0;  ///< that should be in it; the disk could not keep up
+    std::uint64_t pauses = 0;        ///< for which it stood still, and after which it went on
+    std::string error{};             ///< one line; empty where all frames are in the file
 };
 
 /// What there is to tell of a recording under way.

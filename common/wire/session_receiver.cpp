@@ -100,6 +100,11 @@ SessionReceiver::Outcome SessionReceiver::take_state(v2::StateFrame message, boo
         if (auto error = unpack(message.restored(), ChangeKind::restored, size_bricks_, arrived.changes))
             return *std::move(error);
     if (message.bone_checksum() != 0) arrived.bone_checksum = message.bone_checksum();
+    if (message.has_ticks()) {
+        auto ticks = unpack(message.ticks(), burr_count_);
+        if (auto* error = std::get_if<WireError>(&ticks)) return std::move(*error);
+        arrived.ticks = std::get<TickBlock>(std::move(ticks));
+    }
     if (message.has_comparison()) arrived.comparison = std::move(*message.mutable_comparison());
     return SessionEvent(std::move(arrived));
 }

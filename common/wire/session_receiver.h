@@ -11,6 +11,7 @@
 #include "common/bone/bone.h"
 #include "common/bone/brick_change.h"
 #include "common/scene/session_state.h"
+#include "common/wire/packed_ticks.h"
 #include "common/wire/running_checksum.h"
 #include "common/wire/session_info.h"
 #include "common/wire/snapshot.h"
@@ -35,6 +36,7 @@ struct StateArrived {
     std::vector<ChangedBrick> changes{};           ///< in the order in which they are to be applied
     std::optional<std::uint64_t> bone_checksum{};  ///< after them
     std::optional<v2::Comparison> comparison{};    ///< the answer to what was asked
+    TickBlock ticks{};                             ///< since the state before; only in recordings
     bool follows_gap = false;  ///< frames before it are missing, and with them what they said of the bone
 };
 

@@ -125,6 +125,7 @@ nlohmann::ordered_json recorded(const RecordingReport& recording) {
     nlohmann::ordered_json json{{"file", recording.file.string()},
                                 {"frames", recording.frames},
                                 {"bytes", recording.bytes},
+                                {"missed_ticks", recording.missed_ticks},
                                 {"pauses", recording.pauses}};
     json["error"] = nullptr;
     if (!recording.error.empty()) json["error"] = recording.error;

@@ -144,8 +144,9 @@ void run_server(const ServerOptions& options, const std::string& version, StopFl
     if (options.controls) settings["controls"] = options.controls->filename().string();
     if (shown) shown->settings = as_texts(settings);
     if (options.record)
-        shown->streaming.record =
-            RecordTo{.file = *options.record, .began = std::chrono::system_clock::now()};
+        shown->streaming.record = RecordTo{.file = *options.record,
+                                           .began = std::chrono::system_clock::now(),
+                                           .with_ticks = options.records_ticks};
 
     SessionAssembly assembly(std::move(scene), std::move(device),
                              {.milling = options.session, .logs = options.logs, .shown = std::move(shown)});

@@ -43,6 +43,7 @@ struct Typed {
     std::string operators;
     std::string controls;
     std::string record;
+    std::string record_rate_hz = "1000";
     std::string save_bone;
     std::string json;
     std::string report;
@@ -153,6 +154,11 @@ void declare(CLI::App& app, Typed& typed) {
     app.add_option("--record", typed.record,
                    "Write what a client is sent, for packet_replay and render_client --replay; a pcap file")
         ->type_name("FILE");
+    app.add_option("--record-rate-hz", typed.record_rate_hz,
+                   "What a recording holds: 1000, every tick of the haptic loop (packet_replay --csv is then "
+                   "the log of --log-csv), or 30, only the states that clients are sent")
+        ->check(one_of({"1000", "30"}))
+        ->capture_default_str();
     app.add_option("--save-bone", typed.save_bone,
                    "Write what is left of the bone, at the end or on a signal; a large CT takes a minute and "
                    "says how "
@@ -339,6 +345,7 @@ ServerOptions checked(const Typed& typed, const AccessOptions& access) {
     if (options.outputs.report && options.record)
         throw std::invalid_argument("--record: --report records already, as DIR/session.pcap");
     if (options.outputs.report) options.record = recording_in(*options.outputs.report);
+    options.records_ticks = typed.record_rate_hz == "1000";
     options.trainee = checked_trainee(typed.trainee);
     options.outputs.save_bone = path_if_given(typed.save_bone);
     if (options.outputs.save_bone && options.outputs.save_bone->extension() != ".nrrd") {

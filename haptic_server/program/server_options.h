@@ -25,6 +25,7 @@ struct ServerOptions {
     std::optional<std::filesystem::path> operators;  ///< who of the clients may move the tool; nullopt: any
     std::optional<std::filesystem::path> controls;   ///< a script of them
     std::optional<std::filesystem::path> record;     ///< of a report, too: recording_in() its folder
+    bool records_ticks = true;                       ///< not only states
     OutputFiles outputs;
     std::string trainee;
     std::string case_name;  ///< for people; empty: of no case

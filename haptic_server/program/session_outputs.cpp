@@ -1,6 +1,7 @@
 #include "haptic_server/program/session_outputs.h"
 
 #include <fmt/format.h>
+#include <spdlog/spdlog.h>
 
 #include <ostream>
 #include <stdexcept>
@@ -70,6 +71,9 @@ void write_outputs(SessionAssembly& assembly, const OutputFiles& files, const Bo
     failure.of([&] { assembly.logs().close_milling(); });
     if (shown) shown->server().finish_recording();
     const auto recording = shown ? shown->server().recording() : std::nullopt;
+    if (recording && recording->missed_ticks > 0)
+        spdlog::warn("{}: {} ticks are missing: the disk could not keep up", recording->file.string(),
+                     recording->missed_ticks);
     failure.of([&] {
         if (!files.json) return;
         auto json = measurements(report, cost, peak_bytes, assembly.scene(), assembly.options());

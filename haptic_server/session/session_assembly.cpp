@@ -32,6 +32,12 @@ MillingSessionOptions milling_options(const SessionOptions& options, const Sessi
     return milling;
 }
 
+/// Null: nothing is recorded.
+RecordTo* record_to(SessionOptions& options) {
+    if (!options.shown || !options.shown->streaming.record) return nullptr;
+    return &*options.shown->streaming.record;
+}
+
 }  // namespace
 
 SessionAssembly::SessionAssembly(SessionScene scene, DeviceParts device, SessionOptions options)
@@ -41,8 +47,11 @@ SessionAssembly::SessionAssembly(SessionScene scene, DeviceParts device, Session
       logs_(options.logs, has_shank(scene_.scene.burrs)) {
     std::optional<Bone> mirror;
     if (options.shown) mirror = scene_.bone;
+    if (RecordTo* record = record_to(options); record != nullptr && record->with_ticks)
+        tick_logs_.add(record->ticks = &recorded_ticks_.emplace());
+    tick_logs_.add(logs_.force());
     session_ = std::make_unique<MillingSession>(scene_.scene, std::move(scene_.bone), *device_.device,
-                                                options_, logs_.force(), logs_.milling());
+                                                options_, &tick_logs_, logs_.milling());
     if (!options.shown) return;
     options.shown->streaming.paced_by_session = is_virtual();
     shown_.emplace(*std::move(options.shown), scene_, *std::move(mirror), *session_, device_);

@@ -124,8 +124,10 @@ void ClientFeed::fill_state(v2::StateFrame& state, std::size_t most_bytes) {
     for (const StructureDistance& distance : state_.distances) *state.add_distances() = to_message(distance);
     add_events(state, most_bytes);
     add_changes(state, most_bytes);
+    add_ticks(state);
     sent_ = state_;
-    if (!pending_.empty() || !events_.empty()) return;  // the rest goes into the next frame
+    if (!pending_.empty() || !events_.empty() || !ticks_.empty())
+        return;  // the rest goes into the next frame
     wants_state_ = false;
     if (std::exchange(wants_checksum_, false)) state.set_bone_checksum(mirror_.checksum());
 }
@@ -133,6 +135,13 @@ void ClientFeed::fill_state(v2::StateFrame& state, std::size_t most_bytes) {
 void ClientFeed::add_events(v2::StateFrame& state, std::size_t most_bytes) {
     for (; !events_.empty() && state.ByteSizeLong() < most_bytes; events_.pop_front())
         *state.add_events() = to_message(events_.front());
+}
+
+void ClientFeed::add_ticks(v2::StateFrame& state) {
+    if (ticks_.empty() && missed_ticks_ == 0) return;
+    const auto now = std::span(ticks_).first(std::min(ticks_.size(), most_ticks_of_message));
+    *state.mutable_ticks() = packers_.ticks.pack(std::exchange(missed_ticks_, 0), now);
+    ticks_.erase(ticks_.begin(), ticks_.begin() + static_cast<std::ptrdiff_t>(now.size()));
 }
 
 void ClientFeed::add_changes(v2::StateFrame& state, std::size_t most_bytes) {

@@ -20,6 +20,7 @@
 #include "common/wire/bone_replica.h"
 #include "common/wire/ct_pieces.h"
 #include "common/wire/packed_changes.h"
+#include "common/wire/packed_ticks.h"
 #include "common/wire/snapshot.h"
 #include "haptic_server/streaming/frame_pace.h"
 #include "haptic_server/streaming/pending_changes.h"
@@ -31,6 +32,7 @@ namespace osteomill {
 struct FeedPackers {
     SnapshotPacker snapshot;
     ChangePacker changes;
+    TickPacker ticks;
 };
 
 class ClientFeed {
@@ -49,6 +51,13 @@ class ClientFeed {
     /// after which the client knows all. Events wait until they are sent; of a client that does not
     /// read, the oldest are forgotten beyond most_waiting_events.
     void request_state(SessionState state, bool with_checksum);
+
+    /// Of a recording: they go with the next state, or the next few.
+    void note_tick(const TickSample& tick) { ticks_.push_back(tick); }
+    /// So many should be behind those noted so far, which have been sent.
+    void note_missed_ticks(std::uint64_t missed) { missed_ticks_ += missed; }
+    /// Those that are yet to be sent.
+    std::size_t waiting_ticks() const { return ticks_.size(); }
 
     /// Something that this client alone is told, with its next state.
     void tell(const ControlEvent& event) { events_.push_back(event); }
@@ -95,6 +104,7 @@ class ClientFeed {
     void fill_state(v2::StateFrame& state, std::size_t most_bytes);
     void add_changes(v2::StateFrame& state, std::size_t most_bytes);
     void add_events(v2::StateFrame& state, std::size_t most_bytes);
+    void add_ticks(v2::StateFrame& state);
 
     v2::Hello hello_;
     const BoneReplica& mirror_;
@@ -116,6 +126,9 @@ class ClientFeed {
     std::optional<CtPacker> ct_packer_;
 
     std::deque<ControlEvent> events_;  // that have yet to be sent
+
+    std::vector<TickSample> ticks_;  // that have yet to be sent
+    std::uint64_t missed_ticks_ = 0;
 
     std::span<const v2::StructureBricks> structure_pieces_;  // that have yet to be sent
 

@@ -19,14 +19,20 @@ std::string packet_of(const std::string& frame, Stamp stamp) {
     return with_recorded_time(*decoder.next(), stamp.time_since_epoch().count());
 }
 
+v2::Hello of_recording(v2::Hello hello, const RecordTo& to) {
+    hello.set_holds_ticks(to.ticks != nullptr);
+    return hello;
+}
+
 }  // namespace
 
-SessionRecorder::SessionRecorder(const std::filesystem::path& file, Stamp began, v2::Hello hello,
-                                 const BoneReplica& mirror, std::span<const v2::StructureBricks> structures)
-    : began_(began),
-      feed_(std::move(hello), mirror, packers_, structures),
+SessionRecorder::SessionRecorder(const RecordTo& to, v2::Hello hello, const BoneReplica& mirror,
+                                 std::span<const v2::StructureBricks> structures)
+    : began_(to.began),
+      ticks_(to.ticks),
+      feed_(of_recording(std::move(hello), to), mirror, packers_, structures),
       writer_(
-          file,
+          to.file,
           [this](RecordingNews news, const std::string& line) {
               if (!is_under_way_) return;
               if (news == RecordingNews::goes_on)
@@ -42,17 +48,23 @@ SessionRecorder::SessionRecorder(const std::filesystem::path& file, Stamp began,
         throw RecordingError(writer_.report().error);
     }
     is_under_way_ = true;
-    if (writer_.torn()) spdlog::warn("{}", torn_line(file, *writer_.torn()));
+    if (writer_.torn()) spdlog::warn("{}", torn_line(to.file, *writer_.torn()));
 }
 
 void SessionRecorder::record(SessionState state, bool with_checksum, bool may_wait) {
+    const Wait wait = may_wait ? Wait::for_the_disk : Wait::never;
     time_s_ = state.tool.time_s;
+    take_ticks(wait);
     feed_.request_state(std::move(state), with_checksum);
-    hand_over(may_wait ? Wait::for_the_disk : Wait::never);
+    hand_over(wait);
 }
 
 void SessionRecorder::finish(SessionState state, const std::string& reason) {
     time_s_ = state.tool.time_s;
+    for (take_ticks(Wait::a_moment); has_untaken_ticks() && writer_.has_room(); take_ticks(Wait::a_moment)) {
+        feed_.request_state(state, true);
+        hand_over(Wait::a_moment);
+    }
     feed_.request_state(std::move(state), true);
     feed_.finish(reason);
     hand_over(Wait::a_moment);
@@ -64,15 +76,38 @@ RecordingReport SessionRecorder::report() const {
     RecordingReport report = writer_.report();
     const bool lacks_end = report.error.empty() && feed_.has_been_asked_to_finish() && !feed_.is_finished();
     if (lacks_end) report.error = report.file.string() + ": lacks the end: the disk was full until then";
+    if (ticks_ != nullptr) report.missed_ticks = ticks_->dropped();
     return report;
+}
+
+void SessionRecorder::take_ticks(Wait wait) {
+    if (ticks_ == nullptr || feed_.waiting_ticks() >= most_ticks_of_message) return;
+    wait_for_room(wait);
+    if (!writer_.has_room()) return;
+    if (missed_ticks_ > 0) {
+        if (feed_.waiting_ticks() > 0) return;
+        feed_.note_missed_ticks(std::exchange(missed_ticks_, 0));
+    }
+    // What was dropped found the queue full: it comes behind all that is in there.
+    const std::uint64_t dropped = ticks_->dropped();
+    ticks_->consume_all([this](const TickSample& tick) { feed_.note_tick(tick); });
+    missed_ticks_ = dropped - std::exchange(dropped_ticks_, dropped);
+}
+
+bool SessionRecorder::has_untaken_ticks() const {
+    return ticks_ != nullptr && (missed_ticks_ > 0 || !ticks_->empty());
+}
+
+void SessionRecorder::wait_for_room(Wait wait) {
+    if (wait == Wait::for_the_disk) writer_.wait_for_room();
+    if (wait == Wait::a_moment) writer_.wait_for_room(RecordingWriter::longest_standstill);
 }
 
 void SessionRecorder::hand_over(Wait wait) {
     const Stamp stamp =
         began_ + std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::duration<double>(time_s_));
     for (;;) {
-        if (wait == Wait::for_the_disk) writer_.wait_for_room();
-        if (wait == Wait::a_moment) writer_.wait_for_room(RecordingWriter::longest_standstill);
+        wait_for_room(wait);
         if (!writer_.has_room()) return;
         const std::optional<std::string> frame = feed_.next();
         if (!frame) return;

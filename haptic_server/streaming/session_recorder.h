@@ -3,6 +3,7 @@
 // Its feed is that of any client, so what the disk is too slow for collapses into what is sent later, and the
 // streaming thread never waits. A disk that is full is one that is slow: the session goes on, and once there
 // is room the next frame tells all that has changed meanwhile. Poses of that time are missing, bone is not.
+// Ticks wait in their queue as long as it has room, and are counted where they are missing.
 #pragma once
 
 #include <atomic>
@@ -13,16 +14,16 @@
 
 #include "common/recording/recording_writer.h"
 #include "haptic_server/streaming/client_feed.h"
+#include "haptic_server/streaming/streaming_options.h"
 
 namespace osteomill {
 
 class SessionRecorder {
   public:
     /// Writes hello, snapshot and `structures` before it returns, and throws RecordingError where that much
-    /// cannot be written. `began`: when the session's time is zero. `mirror` and `structures` outlive
-    /// the recorder.
-    SessionRecorder(const std::filesystem::path& file, Stamp began, v2::Hello hello,
-                    const BoneReplica& mirror, std::span<const v2::StructureBricks> structures = {});
+    /// cannot be written. `mirror`, `structures` and the queue of ticks outlive the recorder.
+    SessionRecorder(const RecordTo& to, v2::Hello hello, const BoneReplica& mirror,
+                    std::span<const v2::StructureBricks> structures = {});
 
     /// As for a client: see ClientFeed.
     void note(std::span<const BrickChange> changes) { feed_.note(changes); }
@@ -37,9 +38,15 @@ class SessionRecorder {
 
   private:
     enum class Wait { never, a_moment, for_the_disk };
+    void take_ticks(Wait wait);
+    bool has_untaken_ticks() const;
+    void wait_for_room(Wait wait);
     void hand_over(Wait wait);
 
     const Stamp began_;
+    SampleQueue<TickSample>* const ticks_;
+    std::uint64_t missed_ticks_ = 0;  // that ticks_ dropped and the recording has yet to tell of
+    std::uint64_t dropped_ticks_ = 0;
     std::atomic<bool> is_under_way_{false};
     // Of its own: the recording ends on another thread while clients are still told the end.
     FeedPackers packers_{};

@@ -11,8 +11,10 @@
 
 #include "common/net/tls_context.h"
 #include "common/recording/packet.h"
+#include "common/scene/tick_sample.h"
 #include "haptic_server/streaming/fair_places.h"
 #include "haptic_server/streaming/operator_list.h"
+#include "simulation/exchange/sample_queue.h"
 
 namespace osteomill {
 
@@ -20,6 +22,9 @@ namespace osteomill {
 struct RecordTo {
     std::filesystem::path file;
     Stamp began;  ///< when the session's time is zero
+    bool with_ticks = true;
+    /// Where the haptic loop leaves them, for the recording alone; null: nowhere.
+    SampleQueue<TickSample>* ticks = nullptr;
 };
 
 struct StreamingOptions {

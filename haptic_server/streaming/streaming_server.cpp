@@ -80,8 +80,7 @@ class StreamingServer::Impl {
     void start() {
         if (options_.listens) acceptor_.emplace(listen(io_, options_));
         // Only now: a server that cannot listen must not have overwritten an earlier recording.
-        if (options_.record)
-            recorder_.emplace(options_.record->file, options_.record->began, hello_, mirror_, structures_);
+        if (options_.record) recorder_.emplace(*options_.record, hello_, mirror_, structures_);
         if (acceptor_) {
             port_ = acceptor_->local_endpoint().port();
             spdlog::info("listening on {}:{}{}", options_.address, port_, options_.tls ? " with TLS" : "");

@@ -32,10 +32,12 @@ std::string message_of(const std::string& stream) {
 }
 
 /// The frames of a session in which a run of voxels is milled, each behind its length.
-std::vector<std::string> session_frames(const Bone& bone) {
+std::vector<std::string> session_frames(const Bone& bone, bool with_ticks = false) {
     BoneReplica mirror(bone);
     FeedPackers packers;
-    ClientFeed feed(to_message(small_session_info()), mirror, packers);
+    SessionInfo info = small_session_info();
+    info.holds_ticks = with_ticks;
+    ClientFeed feed(to_message(info), mirror, packers);
     std::vector<std::string> frames;
     const auto drain = [&] {
         while (auto frame = feed.next()) frames.push_back(*std::move(frame));
@@ -46,6 +48,15 @@ std::vector<std::string> session_frames(const Bone& bone) {
         ByteBrick left{};
         for (std::size_t k = 0; k < 9; ++k) left[first + k] = static_cast<std::uint8_t>(90 - 10 * k);
         if (mirror.apply({0, VoxelMask().set_run(first, 9)}, left)) feed.note(mirror.take_changes());
+        for (int k = 0; k < 40 && with_ticks; ++k)
+            feed.note_tick({.time_s = 0.04 * i + 0.001 * k,
+                            .hand_mm = {0.1 * i, 0.01 * k, 0.0},
+                            .force_n = {0.1 * i, 0.0, -0.001 * k},
+                            .spindle_on = k > 20,
+                            .fault = static_cast<std::uint8_t>(i),
+                            .burr = static_cast<std::size_t>(i % 2),
+                            .shank_torque_n_mm = glm::dvec3(0.0, -0.1 * i, 0.001 * k)});
+        if (i == 2 && with_ticks) feed.note_missed_ticks(3);
         feed.request_state({.tool = {.time_s = 0.04 * i,
                                      .burr_position_mm = {0.1 * i, 0.0, 0.0},
                                      .force_n = {0.1 * i, 0.0, -0.2},
@@ -181,6 +192,7 @@ void write_seeds(const std::filesystem::path& folder) {
     const Bone bone = small_bone();
     const auto frames = session_frames(bone);
     const auto varied = session_frames(varied_bone());
+    const auto ticks = session_frames(bone, true);
 
     write_file(folder / "frame_decoder/session", '\x07' + joined(frames));
     write_file(folder / "frame_decoder/client", '\x40' + numbered({operator_input(1.0, 0), goodbye()}));
@@ -201,6 +213,7 @@ void write_seeds(const std::filesystem::path& folder) {
 
     write_file(folder / "client_session/session", '\0' + joined(frames));
     write_file(folder / "client_session/varied", '\0' + joined(varied));
+    write_file(folder / "client_session/ticks", '\0' + joined(ticks));
     write_file(folder / "client_session/changes", '\x01' + state_of(5, changed(0, 3, "\x05\x04\x03")) +
                                                       state_of(6, changed(5, 16, "\x05\x04\x03")));
     write_file(folder / "client_session/bone_regained", '\x01' + state_of(5, changed(0, 0, "\xff")));
@@ -214,6 +227,7 @@ void write_seeds(const std::filesystem::path& folder) {
 
     write_recording(folder / "recording/session.pcap", {frames});
     write_recording(folder / "recording/varied.pcap", {varied});
+    write_recording(folder / "recording/ticks.pcap", {ticks});
     write_recording(folder / "recording/joined.pcap", {frames, varied});
 
     write_image_seeds(folder);

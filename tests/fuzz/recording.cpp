@@ -3,6 +3,7 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <cmath>
 #include <limits>
 #include <system_error>
 
@@ -33,6 +34,13 @@ class MemoryFile {
 
 constexpr double for_ever_s = std::numeric_limits<double>::infinity();
 
+/// A tool makes of a tick what it likes: its numbers are finite and its burr is there.
+void require_sound(const TickSample& tick, std::size_t burrs) {
+    require(tick.burr < burrs, "a burr that the session has not");
+    for (const TickQuantity& quantity : tick_quantities())
+        require(std::isfinite(quantity.of(tick)), "a number of a tick that is not finite");
+}
+
 void play(const std::filesystem::path& file) {
     Playhead playhead(file);
     const Playhead::Mark start = playhead.mark();
@@ -43,6 +51,8 @@ void play(const std::filesystem::path& file) {
             require(playhead.time_s() >= time_s, "time goes back");
             require(checksum(playhead.bone()) == playhead.bone_checksum(),
                     "the running checksum is not that of the voxels");
+            for (const TickSample& tick : playhead.ticks())
+                require_sound(tick, playhead.session().burrs.size());
             if (step == Playhead::Step::end || step == Playhead::Step::new_bone) return step;
         }
     };

@@ -62,8 +62,8 @@ inline MadeRecording make_recording(const std::filesystem::path& file,
     session.protocol_major = options.protocol_major;
     const Stamp began{std::chrono::seconds(1'700'000'000) + std::chrono::nanoseconds(7)};
     const std::vector<v2::StructureBricks> structures = structure_pieces(options.structures);
-    std::optional<SessionRecorder> recorder(std::in_place, file, began, to_message(session), mirror,
-                                            structures);
+    std::optional<SessionRecorder> recorder(std::in_place, RecordTo{.file = file, .began = began},
+                                            to_message(session), mirror, structures);
     SessionState state;
     ToolState& tool = state.tool;
     for (int i = 0; i < options.states; ++i) {

@@ -44,11 +44,14 @@ inline Bone labelled_cube(int bricks_per_edge, double spacing_mm,
 class WrittenSession {
   public:
     WrittenSession(const std::filesystem::path& file, const SessionInfo& session, const Bone& bone,
-                   const std::vector<Structure>& structures = {})
+                   const std::vector<Structure>& structures = {}, bool with_ticks = false)
         : mirror_(bone),
           structures_(structure_pieces(structures)),
-          recorder_(std::in_place, file, Stamp{std::chrono::seconds(1'700'000'000)}, to_message(session),
-                    mirror_, structures_) {}
+          recorder_(std::in_place,
+                    RecordTo{.file = file,
+                             .began = Stamp{std::chrono::seconds(1'700'000'000)},
+                             .ticks = with_ticks ? &ticks_ : nullptr},
+                    to_message(session), mirror_, structures_) {}
 
     /// Takes all of every voxel whose centre `is_in`, before the next frame. Returns how many there were.
     std::size_t cut(const std::function<bool(const glm::dvec3&)>& is_in) {
@@ -62,6 +65,8 @@ class WrittenSession {
     std::size_t redo(const std::function<bool(const glm::dvec3&)>& is_in) {
         return set(is_in, 0, ChangeKind::restored);
     }
+    /// Before the frame that is to hold it.
+    void tick(const TickSample& tick) { ticks_.push(tick); }
     void event(const ControlEvent& event) { events_.push_back(event); }
     void frame(const ToolState& tool, const SessionStatus& status = {}) {
         recorder_->note(mirror_.take_changes());
@@ -103,6 +108,7 @@ class WrittenSession {
 
     BoneReplica mirror_;
     std::vector<v2::StructureBricks> structures_;
+    SampleQueue<TickSample> ticks_;
     std::optional<SessionRecorder> recorder_;
     std::vector<ControlEvent> events_;
     SessionState last_;

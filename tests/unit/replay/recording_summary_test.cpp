@@ -39,7 +39,7 @@ TEST(RecordingSummary, CountsWhatWasRemovedByTissue) {
 
     const nlohmann::ordered_json json = to_json(summary);
     EXPECT_EQ(json.at("frames"), summary.frames);
-    EXPECT_EQ(json.at("protocol"), "2.0");
+    EXPECT_EQ(json.at("protocol"), "2.1");
     EXPECT_EQ(json.at("bone_checksum").get<std::string>().size(), 16U);
     EXPECT_EQ(json.at("removed_mm3").at("total"), summary.removed_mm3);
     EXPECT_EQ(json.at("removed_mm3").at("nerve"), summary.by_tissue_mm3.at("nerve"));
@@ -83,7 +83,7 @@ TEST(RecordingSummary, HoldsWhatCameBeforeWhatCannotBeRead) {
 TEST(RecordingCsv, HasALineForEachStateUnderItsHeader) {
     const testing::TemporaryFolder folder;
     testing::make_recording(folder / "a.pcap", {.states = 20});
-    RecordingCsv csv(folder / "a.csv");
+    RecordingCsv csv(folder / "a.csv", CsvLines::states);
     summarise(folder / "a.pcap", [&](const Playhead& playhead) { csv.add(playhead); });
     csv.close();
     std::istringstream lines(testing::bytes_of(folder / "a.csv"));
@@ -98,7 +98,7 @@ TEST(RecordingCsv, HasALineForEachStateUnderItsHeader) {
         EXPECT_THAT(line, HasSubstr(",round 5,"));
     }
     EXPECT_EQ(count, 21);
-    EXPECT_THROW(RecordingCsv("/nowhere/a.csv"), std::runtime_error);
+    EXPECT_THROW(RecordingCsv("/nowhere/a.csv", CsvLines::ticks), std::runtime_error);
 }
 
 }  // namespace

@@ -36,8 +36,10 @@ class SessionRecorderTest : public ::testing::Test {
     Bone bone_ = testing::make_speckled_bone(random_, {.grid = {.size_voxels = {64, 48, 32}}});
     BoneReplica mirror_{bone_};
     ToolState tool_;
-    std::optional<SessionRecorder> recorder_{std::in_place, file_, Stamp{std::chrono::hours(24)},
-                                             to_message(testing::recorded_session_info()), mirror_};
+    SampleQueue<TickSample> ticks_{300};
+    std::optional<SessionRecorder> recorder_{
+        std::in_place, RecordTo{.file = file_, .began = Stamp{std::chrono::hours(24)}, .ticks = &ticks_},
+        to_message(testing::recorded_session_info()), mirror_};
 };
 
 TEST_F(SessionRecorderTest, GoesOnWithTheWholeBoneAfterTheDiskWasFull) {
@@ -72,6 +74,41 @@ TEST_F(SessionRecorderTest, SaysThatTheEndIsMissingWhereTheDiskStaysFull) {
     EXPECT_EQ(recorder_->report().pauses, 0U);
     EXPECT_EQ(recorder_->report().file, part_);
     EXPECT_FALSE(std::filesystem::exists(file_));
+}
+
+TEST_F(SessionRecorderTest, HoldsEveryTickAndCountsThoseThatWereDropped) {
+    int pushed = 0;
+    const auto push = [&](int count) {
+        for (int i = 0; i < count; ++i) ticks_.push({.time_s = 0.001 * pushed++});
+    };
+    push(310);  // 10 too many, which belong behind the first 300
+    carve_and_record(1);
+    push(20);
+    carve_and_record(1);
+    push(301);
+    recorder_->finish({.tool = tool_}, "the end");
+    EXPECT_EQ(recorder_->report().missed_ticks, 11U);
+
+    Playhead playhead(file_);
+    std::vector<int> ticks;
+    std::vector<std::pair<std::uint64_t, std::size_t>> missed_behind;
+    for (std::uint64_t missed = 0;;) {
+        const auto step = playhead.step(std::numeric_limits<double>::infinity());
+        if (step == Playhead::Step::end) break;
+        if (step != Playhead::Step::state) continue;
+        if (playhead.missed_ticks() > missed)
+            missed_behind.emplace_back(playhead.missed_ticks() - missed, ticks.size());
+        missed = playhead.missed_ticks();
+        for (const TickSample& tick : playhead.ticks())
+            ticks.push_back(static_cast<int>(std::lround(1000.0 * tick.time_s)));
+    }
+    std::vector<int> expected;
+    for (int i = 0; i < 630; ++i)
+        if (i < 300 || i >= 310) expected.push_back(i);
+    EXPECT_EQ(ticks, expected);
+    using Missed = std::pair<std::uint64_t, std::size_t>;
+    EXPECT_THAT(missed_behind, ::testing::ElementsAre(Missed(10, 300), Missed(1, 620)));
+    EXPECT_TRUE(playhead.session().holds_ticks);
 }
 
 }  // namespace

@@ -1,0 +1,50 @@
+// Ticks of the haptic loop in one message, compressed: how a recording holds every tick. Exact to the
+// decimals of a log: unpacked, they make the same line.
+//
+// Packed: zstd of a TickQuantities, which has for each number of tick_quantities() the whole numbers of its
+// last decimal, each less that of the tick before. Minus zero is a number of its own, -1, and -1 is -2, for a
+// log tells it from zero. Each message stands alone, so that one may be lost.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <variant>
+#include <vector>
+
+#include "common/scene/tick_sample.h"
+#include "common/wire/wire_error.h"
+#include "common/wire/zstd_compressor.h"
+#include "osteomill/v2/session.pb.h"
+
+namespace osteomill {
+
+/// What the longest pause between two states of a tool at rest holds. Even where nothing compresses so many
+/// fit a frame beside the largest changes.
+inline constexpr std::size_t most_ticks_of_message = 128;
+
+/// Ticks of a state frame.
+struct TickBlock {
+    std::uint64_t missed = 0;  ///< that should be before them: whoever recorded them had no room
+    std::vector<TickSample> ticks{};
+    std::size_t bytes = 0;  ///< that they take in the frame
+};
+
+/// The whole number of a value's last decimal, as packed: rounded as fmt::format rounds it, half to even.
+/// What is beyond 1e15 is 1e15, and so is what is no number.
+std::int64_t to_code(double value, int decimals);
+double from_code(std::int64_t code, int decimals);
+
+class TickPacker {
+  public:
+    TickPacker();
+    /// At most most_ticks_of_message, all with a torque or none.
+    v2::Ticks pack(std::uint64_t missed, std::span<const TickSample> ticks);
+
+  private:
+    ZstdCompressor compressor_;
+};
+
+/// The ticks that were packed, of a session with so many burrs. An error says what does not add up.
+std::variant<TickBlock, WireError> unpack(const v2::Ticks& message, std::size_t burr_count);
+
+}  // namespace osteomill
