@@ -4,6 +4,7 @@
 
 #include <cerrno>
 #include <cstring>
+#include <iterator>
 #include <stdexcept>
 
 #include "common/text/csv_cell.h"
@@ -23,23 +24,49 @@ std::string nearest_of(const Playhead& playhead) {
                        *nearest->distance_mm);
 }
 
+constexpr const char* state_columns =
+    "time_s,session_time_s,burr_x_mm,burr_y_mm,burr_z_mm,axis_x,axis_y,axis_z,hand_x_mm,hand_y_mm,"
+    "hand_z_mm,force_x_n,force_y_n,force_z_n,burr,spindle,removed_mm3,nearest_structure,"
+    "nearest_structure_mm\n";
+
+void append_state(fmt::memory_buffer& text, const Playhead& playhead) {
+    const ToolState& tool = *playhead.tool();
+    fmt::format_to(std::back_inserter(text), "{:.4f},{:.4f},{},{},{},{},{},{},{:.5f},{}\n", playhead.time_s(),
+                   tool.time_s, xyz(tool.burr_position_mm, 4), xyz(tool.spindle_axis, 6),
+                   xyz(tool.hand_position_mm, 4), xyz(tool.force_n, 5),
+                   csv_cell(playhead.session().burrs[tool.burr].name), tool.spindle_on ? 1 : 0,
+                   tool.removed_mm3, nearest_of(playhead));
+}
+
 }  // namespace
 
-RecordingCsv::RecordingCsv(const std::filesystem::path& file) : file_(file), out_(file_.part()) {
+RecordingCsv::RecordingCsv(const std::filesystem::path& file, CsvLines lines)
+    : file_(file), lines_(lines), out_(file_.part()) {
     if (!out_)
         throw std::runtime_error(fmt::format("{}: cannot write: {}", file.string(), std::strerror(errno)));
-    out_ << "time_s,session_time_s,burr_x_mm,burr_y_mm,burr_z_mm,axis_x,axis_y,axis_z,hand_x_mm,hand_y_mm,"
-            "hand_z_mm,force_x_n,force_y_n,force_z_n,burr,spindle,removed_mm3,nearest_structure,"
-            "nearest_structure_mm\n";
 }
 
 void RecordingCsv::add(const Playhead& playhead) {
-    const ToolState& tool = *playhead.tool();
-    out_ << fmt::format("{:.4f},{:.4f},{},{},{},{},{},{},{:.5f},{}\n", playhead.time_s(), tool.time_s,
-                        xyz(tool.burr_position_mm, 4), xyz(tool.spindle_axis, 6),
-                        xyz(tool.hand_position_mm, 4), xyz(tool.force_n, 5),
-                        csv_cell(playhead.session().burrs[tool.burr].name), tool.spindle_on ? 1 : 0,
-                        tool.removed_mm3, nearest_of(playhead));
+    fmt::memory_buffer text;
+    if (lines_ == CsvLines::ticks && playhead.session().holds_ticks) {
+        if (playhead.ticks().empty()) return;
+        begin_columns(TickSample::header_line(playhead.ticks().front().shank_torque_n_mm.has_value()));
+        for (const TickSample& tick : playhead.ticks()) tick.append_to(text);
+    } else {
+        begin_columns(state_columns);
+        append_state(text, playhead);
+    }
+    out_.write(text.data(), static_cast<std::streamsize>(text.size()));
+}
+
+void RecordingCsv::begin_columns(const std::string& header_line) {
+    if (header_line == header_line_) return;
+    if (!header_line_.empty())
+        throw std::runtime_error(
+            fmt::format("{}: the sessions that were joined in the recording have not the "
+                        "same columns: cut them apart, with editcap for instance",
+                        file_.path().string()));
+    out_ << (header_line_ = header_line);
 }
 
 void RecordingCsv::close() {

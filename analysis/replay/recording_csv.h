@@ -1,15 +1,23 @@
-// The tool of a recording as a table: time, pose, force, burr, spindle, removed bone.
+// The tool of a recording as a table: a line a tick, as the session's own log has it, or a line a state
+// frame.
 #pragma once
 
 #include <filesystem>
 #include <fstream>
+#include <string>
 
 #include "common/files/atomic_file.h"
 #include "common/recording/playhead.h"
 
 namespace osteomill {
 
-/// A line a state frame. Columns: time_s (since the recording began), session_time_s, burr_x_mm, burr_y_mm,
+enum class CsvLines {
+    ticks,  ///< of a recording that holds none: states
+    states,
+};
+
+/// Ticks: as haptic_server --log-csv writes them, to the digit (tick_sample.h).
+/// States, columns: time_s (since the recording began), session_time_s, burr_x_mm, burr_y_mm,
 /// burr_z_mm, axis_x, axis_y, axis_z (unit, tip to shank), hand_x_mm, hand_y_mm, hand_z_mm, force_x_n,
 /// force_y_n, force_z_n (on the hand), burr (its name, quoted), spindle (1: on), removed_mm3 (as the server
 /// counted), nearest_structure (quoted name of the protected one; empty: none is near), nearest_structure_mm
@@ -17,14 +25,19 @@ namespace osteomill {
 class RecordingCsv {
   public:
     /// Throws std::runtime_error where the file cannot be written.
-    explicit RecordingCsv(const std::filesystem::path& file);
+    RecordingCsv(const std::filesystem::path& file, CsvLines lines);
+    /// Throws std::runtime_error where a session that was joined to another has other columns.
     void add(const Playhead& playhead);
     /// Makes it the file, which is as it was until then. Throws std::runtime_error where a line could not be
     /// written.
     void close();
 
   private:
+    void begin_columns(const std::string& header_line);
+
     AtomicFile file_;
+    const CsvLines lines_;
+    std::string header_line_;  // empty before the first line
     std::ofstream out_;
 };
 

@@ -19,9 +19,24 @@ RecordingSound::RecordingSound(const std::filesystem::path& file) : file_(file) 
 }
 
 void RecordingSound::add(const Playhead& playhead) {
+    const ToolState& state = *playhead.tool();
+    // Ticks tell when within the frame the spindle was switched; what it cuts only states say.
+    for (const TickSample& tick : playhead.ticks()) {
+        if (tick.spindle_on == heard_.spindle_on && tick.burr == heard_.burr) continue;
+        ToolState then = heard_;
+        then.spindle_on = tick.spindle_on;
+        then.burr = tick.burr;
+        if (!then.spindle_on) then.cut.reset();
+        render_until(playhead.time_s() - state.time_s + tick.time_s);
+        hear(then, playhead);
+    }
     render_until(playhead.time_s());
-    const ToolState& tool = *playhead.tool();
+    hear(state, playhead);
+}
+
+void RecordingSound::hear(const ToolState& tool, const Playhead& playhead) {
     sound_.hear(cue_of(tool, playhead.session().burrs[tool.burr]));
+    heard_ = tool;
 }
 
 void RecordingSound::render_until(double time_s) {

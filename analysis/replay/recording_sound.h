@@ -31,11 +31,13 @@ class RecordingSound {
         void operator()(SNDFILE* file) const { sf_close(file); }
     };
     void render_until(double time_s);
+    void hear(const ToolState& tool, const Playhead& playhead);
     [[noreturn]] void fail(const std::string& why) const;
 
     AtomicFile file_;
     std::unique_ptr<SNDFILE, Closing> out_;
     BurrSound sound_;
+    ToolState heard_;
     std::int64_t written_ = 0;  // samples
 };
 

@@ -44,9 +44,11 @@ ForceMetrics force_metrics(const SessionTrace& trace) {
         metrics.peak_n = std::max(metrics.peak_n, now.force_n);
         if (!now.cuts()) continue;
         const auto most = std::ranges::max_element(now.levels, {}, &TissueLevels::milled);
-        cutting.add(now.force_n, trace.dt_s(i));
-        by_tissue[most->tissue].add(now.force_n, trace.dt_s(i));
-        by_burr[now.burr].add(now.force_n, trace.dt_s(i));
+        for (const TraceMoment& moment : now.moments) {
+            cutting.add(moment.force_n, moment.dt_s);
+            by_tissue[most->tissue].add(moment.force_n, moment.dt_s);
+            by_burr[now.burr].add(moment.force_n, moment.dt_s);
+        }
     }
     metrics.peak_n = std::max(metrics.peak_n, trace.peak_force_n.value_or(0.0));
     metrics.cutting = cutting.of("all");

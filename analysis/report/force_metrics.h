@@ -15,7 +15,7 @@ struct ForceOf {
     std::string name;
     double time_s = 0.0;
     double mean_n = 0.0;       ///< over time
-    double p95_n = 0.0;        ///< of the samples
+    double p95_n = 0.0;        ///< of ticks, where the recording holds them; else of the frames
     double impulse_n_s = 0.0;  ///< of the magnitude
 };
 

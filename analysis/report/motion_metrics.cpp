@@ -30,7 +30,8 @@ MotionMetrics motion_metrics(const SessionTrace& trace) {
         else if (dt_s > 0.0)
             hand_mm_per_s = (now.hand_mm - samples[i - 1].hand_mm) / dt_s;
         if (!now.is_paused) hand.push_back({now.time_s, now.hand_mm - leaps_mm});
-        if (now.spindle_on) metrics.depth_mm = std::max(metrics.depth_mm, now.depth_mm);
+        for (const TraceMoment& moment : now.moments)
+            if (moment.spindle_on) metrics.depth_mm = std::max(metrics.depth_mm, moment.depth_mm);
         if (i == 0 || dt_s <= 0.0) continue;
         metrics.time_s += dt_s;
         if (now.is_paused) {
@@ -39,15 +40,14 @@ MotionMetrics motion_metrics(const SessionTrace& trace) {
         }
         const double hand_mm = trace.leaps(i) ? 0.0 : glm::length(now.hand_mm - samples[i - 1].hand_mm);
         metrics.path_mm += hand_mm;
-        if (now.spindle_on)
-            metrics.spindle_s += dt_s;
-        else if (hand_mm < idle_below_mm_per_s * dt_s)
-            metrics.idle_s += dt_s;
+        for (const TraceMoment& moment : now.moments)
+            if (moment.spindle_on) metrics.spindle_s += moment.dt_s;
+        if (!now.spindle_on && hand_mm < idle_below_mm_per_s * dt_s) metrics.idle_s += dt_s;
         if (!now.cuts()) continue;
         const double burr_mm = glm::length(now.burr_mm - samples[i - 1].burr_mm);
         metrics.cutting_s += dt_s;
         cutting_path_mm += burr_mm;
-        depth_integral += now.depth_mm * dt_s;
+        for (const TraceMoment& moment : now.moments) depth_integral += moment.depth_mm * moment.dt_s;
         if (now.spindle_to_surface_deg) {
             angle_integral += *now.spindle_to_surface_deg * dt_s;
             angle_s += dt_s;

@@ -56,6 +56,23 @@ std::optional<double> spindle_to_surface_deg(const Bone& bone, const SessionTrac
     return glm::degrees(std::asin(std::clamp(glm::dot(*normal, tool.spindle_axis) / length, -1.0, 1.0)));
 }
 
+/// Of the frame that is to follow the trace's samples.
+std::vector<TraceMoment> moments_of(const Playhead& playhead, const SessionTrace& trace) {
+    const ToolState& tool = *playhead.tool();
+    std::vector<TraceMoment> moments;
+    double before_s = trace.samples.empty() ? tool.time_s : trace.samples.back().moments.back().time_s;
+    const auto add = [&](double time_s, double force_n, double depth_mm, bool spindle_on) {
+        time_s = std::max(time_s, before_s);
+        moments.push_back({time_s, time_s - before_s, force_n, depth_mm, spindle_on});
+        before_s = time_s;
+    };
+    for (const TickSample& tick : playhead.ticks())
+        add(tick.time_s, glm::length(tick.force_n), tick.depth_mm, tick.spindle_on);
+    if (moments.empty())
+        add(tool.time_s, glm::length(tool.force_n), tool.depth_mm.value_or(0.0), tool.spindle_on);
+    return moments;
+}
+
 /// The trace's bone at the end is that of the frame before until then.
 void add_sample(SessionTrace& trace, Playhead& playhead, StructureWatch& structures) {
     const ToolState& tool = *playhead.tool();
@@ -74,6 +91,7 @@ void add_sample(SessionTrace& trace, Playhead& playhead, StructureWatch& structu
          .spindle_on = tool.spindle_on,
          .is_paused = playhead.state().status.is_paused,
          .is_placed = is_placed,
+         .moments = moments_of(playhead, trace),
          .levels = take_over(playhead.take_changes(), playhead.bone(), trace.at_end, structures)});
     if (trace.samples.back().cuts())
         trace.samples.back().spindle_to_surface_deg = spindle_to_surface_deg(playhead.bone(), trace, tool);

@@ -28,6 +28,15 @@ struct TissueLevels {
     std::int64_t restored = 0;  ///< given back by undo and reset, less what redo took again
 };
 
+/// A tick within a frame, or, where the recording holds no ticks, the frame itself.
+struct TraceMoment {
+    double time_s = 0.0;
+    double dt_s = 0.0;     ///< since the one before
+    double force_n = 0.0;  ///< magnitude, on the hand
+    double depth_mm = 0.0;
+    bool spindle_on = false;
+};
+
 struct TraceSample {
     double time_s = 0.0;
     glm::dvec3 hand_mm{0.0};
@@ -39,6 +48,7 @@ struct TraceSample {
     bool spindle_on = false;
     bool is_paused = false;
     bool is_placed = false;  ///< the tool was put elsewhere, in the interval before this sample or after it
+    std::vector<TraceMoment> moments{};          ///< of the interval
     std::vector<TissueLevels> levels{};          ///< only of tissues that changed; ascending labels
     std::vector<StructureDistance> distances{};  ///< to protected structures that are near or were touched
     std::optional<double> spindle_to_surface_deg{};  ///< where it cuts: 90 is square to it, 0 along it
@@ -62,6 +72,7 @@ struct SessionTrace {
     bool ends = false;                           ///< with a goodbye, in the recording
     std::string error{};                         ///< why it is not read further; empty at the end
 
+    /// Of the frame as a whole.
     double dt_s(std::size_t i) const {
         return i == 0 ? 0.0 : std::max(0.0, samples[i].time_s - samples[i - 1].time_s);
     }

@@ -46,15 +46,19 @@ std::string write_bones(const ReplayOptions& options, const std::atomic<bool>& s
 
 void read(const ReplayOptions& options, const std::atomic<bool>& stop) {
     std::optional<RecordingCsv> csv;
-    if (options.csv) csv.emplace(*options.csv);
+    if (options.csv) csv.emplace(*options.csv, CsvLines::ticks);
+    std::optional<RecordingCsv> states_csv;
+    if (options.states_csv) states_csv.emplace(*options.states_csv, CsvLines::states);
     std::optional<RecordingSound> sound;
     if (options.sound) sound.emplace(*options.sound);
     const RecordingSummary summary = summarise(options.recording, [&](const Playhead& playhead) {
         require_going_on(stop);
         if (csv) csv->add(playhead);
+        if (states_csv) states_csv->add(playhead);
         if (sound) sound->add(playhead);
     });
     if (csv) csv->close();
+    if (states_csv) states_csv->close();
     if (sound) sound->close();
     // Names may be what a hostile file holds: bytes that are no UTF-8 must not cost the whole report.
     if (options.json)
@@ -74,6 +78,7 @@ void show_session(Playhead& playhead, double speed, StreamingOptions& where, con
     session.protocol_major = protocol_major;
     session.protocol_minor = protocol_minor;
     session.accepts_operator = false;
+    session.holds_ticks = false;
     RecordedSession shown(playhead, speed, [] { return RecordedSession::Clock::now(); });
     StreamingServer server(where, std::move(session), playhead.bone(), shown, nullptr, playhead.structures());
     server.start();
@@ -109,7 +114,8 @@ void run_replay(const ReplayOptions& options, const std::atomic<bool>& stop, con
         if (options.surface || options.difference) error = write_bones(options, stop);
         if (options.report)
             error = write_report(options.recording, *options.report, [&] { require_going_on(stop); });
-        if (options.info || options.json || options.csv || options.sound) read(options, stop);
+        if (options.info || options.json || options.csv || options.states_csv || options.sound)
+            read(options, stop);
         if (!error.empty()) throw std::runtime_error(error);
         return;
     }

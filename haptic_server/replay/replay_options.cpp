@@ -23,6 +23,7 @@ ReplayCommandLine parse_replay_command_line(int argc, const char* const* argv, c
     std::string listen = "127.0.0.1:7010";
     std::string json;
     std::string csv;
+    std::string states_csv;
     std::string surface;
     std::string difference;
     std::string sound;
@@ -46,7 +47,12 @@ ReplayCommandLine parse_replay_command_line(int argc, const char* const* argv, c
                  "Print duration, rates, burrs, removed volume by tissue, checksum; serve nobody");
     app.add_option("--json", json, "Write the same to this file; serve nobody")->type_name("FILE");
     app.add_option("--csv", csv,
-                   "Write time, pose, force, burr, spindle and removed volume, a line a frame; serve nobody")
+                   "Write force and depth, a line a tick, as haptic_server --log-csv does; of a recording "
+                   "that holds no ticks, as --states-csv; serve nobody")
+        ->type_name("FILE");
+    app.add_option("--states-csv", states_csv,
+                   "Write time, pose, force, burr, spindle, removed volume and the nearest structure, a line "
+                   "a frame; serve nobody")
         ->type_name("FILE");
     app.add_option("--surface", surface,
                    "Write the surface of the bone as it is at the end, closed, in mm of patient LPS, to this "
@@ -65,6 +71,7 @@ ReplayCommandLine parse_replay_command_line(int argc, const char* const* argv, c
     if (auto text = parse_or_text(app, argc, argv)) return {std::nullopt, *std::move(text)};
     if (!json.empty()) options.json = json;
     if (!csv.empty()) options.csv = csv;
+    if (!states_csv.empty()) options.states_csv = states_csv;
     if (!surface.empty()) options.surface = surface;
     if (!difference.empty()) options.difference = difference;
     if (!sound.empty()) options.sound = sound;
@@ -79,6 +86,7 @@ ReplayCommandLine parse_replay_command_line(int argc, const char* const* argv, c
     files.push_back({"FILE", options.recording, false});
     if (options.json) files.push_back({"--json", *options.json});
     if (options.csv) files.push_back({"--csv", *options.csv});
+    if (options.states_csv) files.push_back({"--states-csv", *options.states_csv});
     if (options.surface) files.push_back({"--surface", *options.surface});
     if (options.difference) files.push_back({"--difference", *options.difference});
     if (options.sound) files.push_back({"--sound", *options.sound});
@@ -89,7 +97,8 @@ ReplayCommandLine parse_replay_command_line(int argc, const char* const* argv, c
     for (const CLI::Option* serving : {where, speed, from})
         if (options.only_reads() && serving->count() > 0)
             throw std::invalid_argument(
-                fmt::format("{} is for showing a recording; --info, --json, --csv, --surface, --difference, "
+                fmt::format("{} is for showing a recording; --info, --json, --csv, --states-csv, --surface, "
+                            "--difference, "
                             "--sound and --report read all of it",
                             serving->get_name()));
     try {

@@ -18,14 +18,17 @@ struct ReplayOptions {
     double from_s = 0.0;
     bool info = false;  ///< print what is in the recording
     std::optional<std::filesystem::path> json;
-    std::optional<std::filesystem::path> csv;
+    std::optional<std::filesystem::path> csv;  ///< of ticks, where the recording holds them
+    std::optional<std::filesystem::path> states_csv;
     std::optional<std::filesystem::path> surface;     ///< of the bone that is left
     std::optional<std::filesystem::path> difference;  ///< what was removed since the recording began
     std::optional<std::filesystem::path> sound;       ///< of the burr, as WAV
     std::optional<std::filesystem::path> report;      ///< folder for the session's report
 
     /// Whether it is only looked into, and shown to nobody.
-    bool only_reads() const { return info || json || csv || surface || difference || sound || report; }
+    bool only_reads() const {
+        return info || json || csv || states_csv || surface || difference || sound || report;
+    }
 };
 
 using ReplayCommandLine = ParseResult<ReplayOptions>;

@@ -145,7 +145,8 @@ TEST_F(FromElsewhere, ACellThatASpreadsheetWouldComputeIsText) {
     write_segmentation("=HYPERLINK(1)");
     ASSERT_EQ(import_case({"--protect", "=HYPERLINK(1)"}).status, 0);
     ASSERT_EQ(session({"--case", file("made"), "--report", file("report")}).status, 0);
-    const Finished csv = run_program({PACKET_REPLAY, file("report/session.pcap"), "--csv", file("s.csv")});
+    const Finished csv =
+        run_program({PACKET_REPLAY, file("report/session.pcap"), "--states-csv", file("s.csv")});
     ASSERT_EQ(csv.status, 0) << csv.err;
     for (const std::string& table : {text_of(folder_ / "s.csv"), text_of(folder_ / "report/metrics.csv")}) {
         EXPECT_THAT(table, HasSubstr(",\"'=HYPERLINK(1)\","));

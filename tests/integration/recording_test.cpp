@@ -7,7 +7,10 @@
 #include <csignal>
 #include <filesystem>
 #include <fstream>
+#include <limits>
 #include <nlohmann/json.hpp>
+#include <optional>
+#include <sstream>
 #include <string>
 #include <tuple>
 #include <vector>
@@ -42,6 +45,10 @@ class Recording : public ::testing::Test {
 
     std::string file(const std::string& name) const { return (folder_ / name).string(); }
 
+    std::string text_of(const std::string& name) const {
+        std::ifstream in(file(name));
+        return {std::istreambuf_iterator<char>(in), {}};
+    }
     nlohmann::json json(const std::string& name) const {
         std::ifstream in(file(name));
         return nlohmann::json::parse(in);
@@ -93,7 +100,7 @@ TEST_F(Recording, LeavesEveryoneWithTheServersBone) {
 
     const auto read = info("a.pcap");
     EXPECT_EQ(read.at("bone_checksum"), served.at("bone_checksum"));
-    EXPECT_EQ(read.at("protocol"), "2.0");
+    EXPECT_EQ(read.at("protocol"), "2.1");
     EXPECT_EQ(read.at("frames"), served.at("recording").at("frames"));
     EXPECT_NEAR(read.at("duration_s").get<double>(), served.at("duration_s").get<double>(), 1e-6);
     EXPECT_GT(read.at("removed_mm3").at("total"), 0.1);
@@ -126,8 +133,118 @@ TEST_F(Recording, OfTheSameSessionIsTheSameButForItsDate) {
     }
     std::ifstream a(file("a.csv")), b(file("b.csv"));
     const std::string table{std::istreambuf_iterator<char>(a), {}};
-    EXPECT_GT(std::count(table.begin(), table.end(), '\n'), 60) << "a tool at rest is sent less often";
+    EXPECT_GT(std::count(table.begin(), table.end(), '\n'), 2400) << "a line a tick";
     EXPECT_EQ(table, std::string(std::istreambuf_iterator<char>(b), {}));
+}
+
+TEST_F(Recording, HoldsEveryTickAsTheLogHasIt) {
+    // Two burrs with shanks that are wider than they: deep in the bone a shank rubs. Paused, there is a
+    // fault.
+    std::ofstream(file("shanks.toml")) << R"(name = "shanks"
+start_burr = "small"
+[bone]
+file = "block.nrrd"
+[[burrs]]
+name = "small"
+diameter_mm = 2.0
+shank = [[0.8, 0.4], [1.2, 1.6], [20.0, 1.6]]
+[[burrs]]
+name = "large"
+diameter_mm = 3.0
+shank = [[1.0, 0.6], [1.8, 2.4], [20.0, 2.4]]
+[start_pose]
+position_mm = [0.0, 0.0, 4.5]
+)";
+    std::ofstream(file("shanks.csv"))
+        << "t_s,x_mm,y_mm,z_mm,axis_x,axis_y,axis_z,pedal,burr\n"
+           "0.0,0,0,4.5,0,0,1,0,0\n0.3,0,0,3.5,0,0,1,1,0\n"
+           "1.3,0.5,0,0.2,0.2,0.1,1,1,0\n1.6,0,0,4.5,0,0,1,0,0\n"
+           "2.2,0,0,5.5,0,0,1,0,1\n2.5,0,1,3.5,0,0,1,1,1\n3.4,0,1,0.5,0,0,1,1,1\n";
+    std::ofstream(file("pause.csv")) << "t_s,action,text\n2.8,pause,\n3.0,resume,\n";
+    struct Session {
+        std::string name;
+        std::vector<std::string> options;
+    };
+    for (const Session& session :
+         {Session{"shanks",
+                  {"--scene", file("shanks.toml"), "--trajectory", file("shanks.csv"), "--controls",
+                   file("pause.csv")}},
+          Session{"block", {"--bone", file("block.nrrd"), "--trajectory", file("block.csv")}},
+          Session{"tooth", {"--trajectory", file("tooth.csv"), "--grip", "light", "--vibration"}}}) {
+        const std::string log = file(session.name + ".log.csv");
+        const std::string recording = file(session.name + ".pcap");
+        std::vector<std::string> command{HAPTIC_SERVER, "--clock",   "virtual", "--record",
+                                         recording,     "--log-csv", log};
+        command.insert(command.end(), session.options.begin(), session.options.end());
+        const Finished served = run_program(command);
+        ASSERT_EQ(served.status, 0) << served.err;
+        const Finished read = run_program({PACKET_REPLAY, recording, "--csv", file("read.csv")});
+        ASSERT_EQ(read.status, 0) << read.err;
+        EXPECT_EQ(text_of("read.csv"), text_of(session.name + ".log.csv")) << session.name;
+        EXPECT_GT(info(session.name + ".pcap").at("ticks"), 1500);
+        EXPECT_EQ(info(session.name + ".pcap").at("missed_ticks"), 0);
+    }
+    // There was something to get wrong.
+    const std::string shanks = text_of("shanks.log.csv");
+    EXPECT_THAT(shanks, HasSubstr("shank_torque_z_n_mm\n"));
+    EXPECT_THAT(shanks, HasSubstr(",8,")) << "no fault";
+    std::size_t rubbing = 0;
+    std::istringstream lines(shanks);
+    for (std::string line; std::getline(lines, line);)
+        if (!line.ends_with("0.0000,0.0000,0.0000")) ++rubbing;
+    EXPECT_GT(rubbing, 100U);
+    std::size_t ticks_of_large = 0;
+    Playhead playhead(file("shanks.pcap"));
+    while (playhead.step(std::numeric_limits<double>::infinity()) != Playhead::Step::end)
+        for (const TickSample& tick : playhead.ticks()) ticks_of_large += tick.burr;
+    EXPECT_GT(ticks_of_large, 500U);
+}
+
+TEST_F(Recording, ThatIsTornLosesTheTicksOfItsLastSecondAtMost) {
+    record("a.pcap");
+    ASSERT_EQ(run_program({PACKET_REPLAY, file("a.pcap"), "--csv", file("a.csv")}).status, 0);
+    const std::string whole = text_of("a.csv");
+    std::vector<std::pair<std::uint64_t, double>> packets;  // end, time since the recording began
+    PacketReader reader(file("a.pcap"));
+    std::optional<Stamp> began;
+    while (const auto packet = reader.next()) {
+        if (!began) began = packet->stamp;
+        packets.emplace_back(reader.place().offset_bytes,
+                             std::chrono::duration<double>(packet->stamp - *began).count());
+    }
+    for (const double share : {0.4, 0.7, 0.95}) {
+        const auto& [end, time_s] =
+            packets[static_cast<std::size_t>(share * static_cast<double>(packets.size()))];
+        std::filesystem::copy_file(file("a.pcap"), file("torn.pcap"),
+                                   std::filesystem::copy_options::overwrite_existing);
+        std::filesystem::resize_file(file("torn.pcap"), end + 11);
+        ASSERT_EQ(run_program({PACKET_REPLAY, file("torn.pcap"), "--csv", file("torn.csv")}).status, 0);
+        const std::string torn = text_of("torn.csv");
+        EXPECT_EQ(torn, whole.substr(0, torn.size()));
+        EXPECT_TRUE(torn.ends_with('\n'));
+        const std::size_t last_line = torn.rfind('\n', torn.size() - 2) + 1;
+        EXPECT_GT(std::stod(torn.substr(last_line)), time_s - 0.2);
+    }
+}
+
+TEST_F(Recording, HoldsOnlyStatesWhereNoTicksAreAskedFor) {
+    std::vector<std::string> command = server("block", "server.json");
+    command.insert(command.end(), {"--record", file("a.pcap"), "--record-rate-hz", "30"});
+    ASSERT_EQ(run_program(command).status, 0);
+    EXPECT_EQ(info("a.pcap").at("ticks"), 0);
+    record("b.pcap");
+    for (const auto& [recording, option] :
+         {std::pair{"a", "--csv"}, std::pair{"a", "--states-csv"}, std::pair{"b", "--states-csv"}}) {
+        ASSERT_EQ(run_program({PACKET_REPLAY, file(std::string(recording) + ".pcap"), option,
+                               file(std::string(recording) + option)})
+                      .status,
+                  0);
+        EXPECT_THAT(text_of(std::string(recording) + option),
+                    ::testing::StartsWith("time_s,session_time_s,burr_x_mm,"));
+    }
+    EXPECT_EQ(text_of("a--csv"), text_of("a--states-csv"));
+    command.back() = "100";
+    EXPECT_EQ(run_program(command).status, 2);
 }
 
 TEST_F(Recording, OfAServerThatWasKilledIsReadableToItsLastWholeFrame) {

@@ -177,7 +177,8 @@ TEST_F(StructuresProgram, TellHowFarTheBurrIsFromASoftStructure) {
     EXPECT_GT(of_nerve("structure_entered_mm3"), 0.0);
     EXPECT_EQ(of_nerve("structure_dose_mm3"), 0.0) << "no bone was in it";
 
-    const Finished csv = run_program({PACKET_REPLAY, file("report/session.pcap"), "--csv", file("tool.csv")});
+    const Finished csv =
+        run_program({PACKET_REPLAY, file("report/session.pcap"), "--states-csv", file("tool.csv")});
     ASSERT_EQ(csv.status, 0) << csv.err;
     EXPECT_THAT(text("tool.csv"), HasSubstr(",nearest_structure,nearest_structure_mm\n"));
     EXPECT_THAT(text("tool.csv"), HasSubstr(",nerve,0."));

@@ -26,6 +26,7 @@ TEST(ReplayOptions, ServeAtAnySpeedFromAnyTime) {
     EXPECT_EQ(other->listen.port, 0);
     EXPECT_TRUE(parse({"a.pcap", "--info"}).options->only_reads());
     EXPECT_TRUE(parse({"a.pcap", "--csv", "a.csv"}).options->only_reads());
+    EXPECT_TRUE(parse({"a.pcap", "--states-csv", "a.csv"}).options->only_reads());
     EXPECT_TRUE(parse({"a.pcap", "--surface", "a.ply"}).options->only_reads());
     EXPECT_TRUE(parse({"a.pcap", "--difference", "a.nrrd"}).options->only_reads());
     EXPECT_TRUE(parse({"a.pcap", "--sound", "a.wav"}).options->only_reads());
@@ -40,6 +41,7 @@ TEST(ReplayOptions, AreRefusedWhereTheyMakeNoSense) {
                                                   {"a.pcap", "--info", "--speed", "2"},
                                                   {"a.pcap", "--surface", "a.step"},
                                                   {"a.pcap", "--surface", "a.stl", "--csv", "a.stl"},
+                                                  {"a.pcap", "--states-csv", "a.csv", "--csv", "a.csv"},
                                                   {"a.pcap", "--difference", "a.stl"},
                                                   {"a.pcap", "--sound", "a.mp3"},
                                                   {"a.pcap", "--sound", "a.wav", "--from-s", "1"},

@@ -209,6 +209,34 @@ TEST_F(ReportedSession, CallsWhatHasNoLabelBone) {
     EXPECT_EQ(tissue_name(session_, 9), "tissue 9");
 }
 
+TEST_F(ReportedSession, WithTicksKnowsWhatWasBetweenItsFrames) {
+    written_.emplace(file(), session_, bone_, std::vector<Structure>{}, true);
+    frame();
+    tool_.force_n = {1.0, 0.0, 0.0};  // that of the frames, which say less
+    for (int i = 0; i < 20; ++i) {
+        // 50 ticks a frame, of 0, 1, ... 49 N; the spindle turns and the burr is deep in the last 10.
+        for (int k = 0; k < 50; ++k)
+            written_->tick({.time_s = tool_.time_s - 0.001 * (49 - k),
+                            .force_n = {0.0, 0.0, static_cast<double>(k)},
+                            .depth_mm = k < 40    ? 9.0
+                                        : k == 45 ? 0.5
+                                                  : 0.25,
+                            .spindle_on = k >= 40});
+        tool_.spindle_on = true;
+        tool_.depth_mm = 0.25;
+        if (i % 2 == 0) written_->cut(layer(-3.1 + 0.2 * i, true));
+        frame();
+    }
+    const SessionMetrics metrics = session_metrics(trace());
+    EXPECT_NEAR(metrics.force.cutting.mean_n, 24.5, 1e-6);
+    EXPECT_NEAR(metrics.force.cutting.time_s, 0.5, 1e-6);
+    EXPECT_NEAR(metrics.force.cutting.impulse_n_s, 0.5 * 24.5, 1e-6);
+    EXPECT_NEAR(metrics.force.cutting.p95_n, 47.0, 0.5);
+    EXPECT_NEAR(metrics.motion.spindle_s, 20 * 0.010, 1e-6);
+    EXPECT_EQ(metrics.motion.depth_mm, 0.5);
+    EXPECT_NEAR(metrics.motion.time_s, 1.0, 1e-9);
+}
+
 TEST_F(ReportedSession, DoesNotCountWhatWasUndone) {
     const auto stroke = [&](double z_mm) {
         tool_.spindle_on = true;
