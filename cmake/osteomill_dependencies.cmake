@@ -22,6 +22,7 @@ pkg_check_modules(pcap REQUIRED IMPORTED_TARGET libpcap)
 pkg_check_modules(alsa REQUIRED IMPORTED_TARGET alsa)
 pkg_check_modules(openal REQUIRED IMPORTED_TARGET openal)
 pkg_check_modules(sndfile REQUIRED IMPORTED_TARGET sndfile)
+pkg_check_modules(hdf5 REQUIRED IMPORTED_TARGET hdf5)
 pkg_check_modules(imgui REQUIRED IMPORTED_TARGET imgui)
 pkg_check_modules(hidapi REQUIRED IMPORTED_TARGET hidapi-hidraw)
 # The configuration that libopenigtlink-dev brings sets its own build's flags for everybody.

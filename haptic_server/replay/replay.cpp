@@ -114,6 +114,9 @@ void run_replay(const ReplayOptions& options, const std::atomic<bool>& stop, con
         if (options.surface || options.difference) error = write_bones(options, stop);
         if (options.report)
             error = write_report(options.recording, *options.report, [&] { require_going_on(stop); });
+        if (options.hdf5)
+            error =
+                write_hdf5(options.recording, *options.hdf5, options.layout, [&] { require_going_on(stop); });
         if (options.info || options.json || options.csv || options.states_csv || options.sound)
             read(options, stop);
         if (!error.empty()) throw std::runtime_error(error);

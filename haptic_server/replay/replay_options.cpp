@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <stdexcept>
 #include <vector>
 
@@ -16,6 +17,21 @@ namespace {
 constexpr double slowest = 0.01;
 constexpr double fastest = 1000.0;
 
+/// FIVRS's programs read every .hdf5 of a folder and nothing else.
+void require_hdf5_name(const ReplayOptions& options, bool has_layout) {
+    if (!options.hdf5) {
+        if (has_layout) throw std::invalid_argument("--layout: goes with --hdf5");
+        return;
+    }
+    const std::string ending = options.hdf5->extension().string();
+    const bool is_ours = options.layout == Hdf5Layout::osteomill;
+    if (ending != ".hdf5" && !(is_ours && ending == ".h5"))
+        throw std::invalid_argument(fmt::format("--hdf5: '{}' must end in {}", options.hdf5->string(),
+                                                is_ours ? ".h5 or .hdf5"
+                                                        : ".hdf5, which FIVRS's programs "
+                                                          "look for"));
+}
+
 }  // namespace
 
 ReplayCommandLine parse_replay_command_line(int argc, const char* const* argv, const std::string& version) {
@@ -27,6 +43,8 @@ ReplayCommandLine parse_replay_command_line(int argc, const char* const* argv, c
     std::string surface;
     std::string difference;
     std::string sound;
+    std::string hdf5;
+    std::string layout = hdf5_layout_names.front();
     std::string report;
     CLI::App app(
         "Shows a recording of haptic_server --record to render clients, from the moment that the first one "
@@ -63,6 +81,16 @@ ReplayCommandLine parse_replay_command_line(int argc, const char* const* argv, c
         ->type_name("FILE");
     app.add_option("--sound", sound, "Write what the burr sounds like to this .wav; serve nobody")
         ->type_name("FILE");
+    app.add_option("--hdf5", hdf5,
+                   "Write all that is in it, in units, to this .h5 or .hdf5 (docs/hdf5.md); serve nobody")
+        ->type_name("FILE");
+    auto* of_hdf5 =
+        app.add_option(
+               "--layout", layout,
+               "Of --hdf5: our own, or that of FIVRS's recordings for its analysis programs; fivrs-v3 "
+               "writes a second file beside it, in the folder v3")
+            ->check(one_of({hdf5_layout_names.begin(), hdf5_layout_names.end()}))
+            ->capture_default_str();
     app.add_option(
            "--report", report,
            "Write the session's report (report.html, metrics.csv, metrics.json: docs/metrics.md) into "
@@ -75,6 +103,9 @@ ReplayCommandLine parse_replay_command_line(int argc, const char* const* argv, c
     if (!surface.empty()) options.surface = surface;
     if (!difference.empty()) options.difference = difference;
     if (!sound.empty()) options.sound = sound;
+    if (!hdf5.empty()) options.hdf5 = hdf5;
+    options.layout =
+        static_cast<Hdf5Layout>(std::ranges::find(hdf5_layout_names, layout) - hdf5_layout_names.begin());
     if (!report.empty()) options.report = report;
     if (options.surface && !is_mesh_name(*options.surface))
         throw std::invalid_argument(fmt::format("--surface: '{}' must end in {}", surface, mesh_endings));
@@ -82,6 +113,7 @@ ReplayCommandLine parse_replay_command_line(int argc, const char* const* argv, c
         throw std::invalid_argument(fmt::format("--difference: '{}' must end in .nrrd", difference));
     if (options.sound && options.sound->extension() != ".wav")
         throw std::invalid_argument(fmt::format("--sound: '{}' must end in .wav", sound));
+    require_hdf5_name(options, of_hdf5->count() > 0);
     std::vector<NamedFile> files = access.files_read();
     files.push_back({"FILE", options.recording, false});
     if (options.json) files.push_back({"--json", *options.json});
@@ -90,6 +122,9 @@ ReplayCommandLine parse_replay_command_line(int argc, const char* const* argv, c
     if (options.surface) files.push_back({"--surface", *options.surface});
     if (options.difference) files.push_back({"--difference", *options.difference});
     if (options.sound) files.push_back({"--sound", *options.sound});
+    if (options.hdf5) files.push_back({"--hdf5", *options.hdf5});
+    if (options.hdf5 && options.layout == Hdf5Layout::fivrs_v3)
+        files.push_back({"--layout", fivrs_v3_file(*options.hdf5)});
     if (options.report)
         for (const char* name : {"report.html", "metrics.csv", "metrics.json"})
             files.push_back({"--report", *options.report / name});
@@ -99,7 +134,7 @@ ReplayCommandLine parse_replay_command_line(int argc, const char* const* argv, c
             throw std::invalid_argument(
                 fmt::format("{} is for showing a recording; --info, --json, --csv, --states-csv, --surface, "
                             "--difference, "
-                            "--sound and --report read all of it",
+                            "--sound, --hdf5 and --report read all of it",
                             serving->get_name()));
     try {
         options.listen = parse_listen_address(listen);

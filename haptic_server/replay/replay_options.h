@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 
+#include "analysis/hdf5/recording_hdf5.h"
 #include "common/program/command_line.h"
 #include "haptic_server/streaming/access_options.h"
 
@@ -23,11 +24,13 @@ struct ReplayOptions {
     std::optional<std::filesystem::path> surface;     ///< of the bone that is left
     std::optional<std::filesystem::path> difference;  ///< what was removed since the recording began
     std::optional<std::filesystem::path> sound;       ///< of the burr, as WAV
+    std::optional<std::filesystem::path> hdf5;        ///< for Python and MATLAB
+    Hdf5Layout layout = Hdf5Layout::osteomill;        ///< of that
     std::optional<std::filesystem::path> report;      ///< folder for the session's report
 
     /// Whether it is only looked into, and shown to nobody.
     bool only_reads() const {
-        return info || json || csv || states_csv || surface || difference || sound || report;
+        return info || json || csv || states_csv || surface || difference || sound || hdf5 || report;
     }
 };
 

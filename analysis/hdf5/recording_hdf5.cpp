@@ -1,0 +1,58 @@
+#include "analysis/hdf5/recording_hdf5.h"
+
+#include <chrono>
+#include <limits>
+#include <stdexcept>
+
+#include "analysis/hdf5/all_of_recording.h"
+#include "analysis/hdf5/fivrs_recording.h"
+#include "common/recording/packet_reader.h"
+
+namespace osteomill {
+
+namespace {
+
+double began_unix_s(const std::filesystem::path& recording) {
+    const auto first = PacketReader(recording).next();
+    return first ? std::chrono::duration<double>(first->stamp.time_since_epoch()).count() : 0.0;
+}
+
+template <typename Layout>
+std::string write(const std::filesystem::path& recording, Layout layout, Playhead& playhead,
+                  const std::function<void()>& on_frame) {
+    std::string error;
+    try {
+        for (;;) {
+            on_frame();
+            const Playhead::Step step = playhead.step(std::numeric_limits<double>::infinity());
+            if (step == Playhead::Step::end) break;
+            if (step == Playhead::Step::new_bone)
+                throw std::runtime_error(recording.string() +
+                                         ": several sessions were joined in it, and an HDF5 file holds one: "
+                                         "cut them apart, with editcap for instance");
+            if (step == Playhead::Step::state) layout.add(playhead);
+        }
+    } catch (const RecordingError& failure) {
+        error = failure.what();
+    }
+    layout.close(playhead, error.empty() && !playhead.is_truncated());
+    return error;
+}
+
+}  // namespace
+
+std::filesystem::path fivrs_v3_file(const std::filesystem::path& file) {
+    return file.parent_path() / "v3" / file.filename();
+}
+
+std::string write_hdf5(const std::filesystem::path& recording, const std::filesystem::path& file,
+                       Hdf5Layout layout, const std::function<void()>& on_frame) {
+    Playhead playhead(recording);
+    const double began_s = began_unix_s(recording);
+    if (layout == Hdf5Layout::osteomill)
+        return write(recording, AllOfRecording(file, playhead, began_s), playhead, on_frame);
+    return write(recording, FivrsRecording(file, playhead, began_s, layout == Hdf5Layout::fivrs_v3), playhead,
+                 on_frame);
+}
+
+}  // namespace osteomill

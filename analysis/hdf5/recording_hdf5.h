@@ -1,0 +1,28 @@
+// A recording as an HDF5 file, for Python, MATLAB and whatever else reads HDF5. Layouts: docs/hdf5.md.
+#pragma once
+
+#include <array>
+#include <filesystem>
+#include <functional>
+#include <string>
+
+namespace osteomill {
+
+enum class Hdf5Layout {
+    osteomill,  ///< all that the recording holds
+    fivrs,      ///< the old layout of FIVRS's recordings, which its analysis programs read
+    fivrs_v3,   ///< the same, and a second file in the folder v3/ beside it, which links into it
+};
+inline constexpr std::array hdf5_layout_names{"osteomill", "fivrs", "fivrs-v3"};
+
+/// Where fivrs_v3 has its second file; the folder is its own, since readers take every file of a folder.
+std::filesystem::path fivrs_v3_file(const std::filesystem::path& file);
+
+/// Replaces `file` once all is written; `on_frame` is called before each frame. Returns why the recording is
+/// not read further, in one line, empty at its end: what could be read is then in the file. Throws
+/// RecordingError where there is no bone in it, and std::runtime_error in one line where the file cannot be
+/// written or several sessions were joined.
+std::string write_hdf5(const std::filesystem::path& recording, const std::filesystem::path& file,
+                       Hdf5Layout layout, const std::function<void()>& on_frame);
+
+}  // namespace osteomill
