@@ -1,13 +1,16 @@
 // Recordings in Python.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
 #include <pybind11/stl/filesystem.h>
 
+#include <algorithm>
 #include <memory>
 #include <string>
 #include <vector>
 
+#include "analysis/hdf5/recording_hdf5.h"
 #include "analysis/report/metric_files.h"
 #include "analysis/report/session_metrics.h"
 #include "python/module/arrays.h"
@@ -71,6 +74,17 @@ py::object info(const SharedRecording& recording) {
     return from_json(text);
 }
 
+void to_hdf5(const SharedRecording& recording, const std::filesystem::path& file, const std::string& layout) {
+    const auto* const name = std::ranges::find(hdf5_layout_names, layout);
+    if (name == hdf5_layout_names.end())
+        throw std::invalid_argument(
+            fmt::format("layout: takes {}, not '{}'", fmt::join(hdf5_layout_names, ", "), layout));
+    const py::gil_scoped_release released;
+    const std::string error =
+        write_hdf5(recording->file(), file, static_cast<Hdf5Layout>(name - hdf5_layout_names.begin()), [] {});
+    if (!error.empty()) throw std::runtime_error(error);
+}
+
 }  // namespace
 
 void bind_recording(py::module_& module) {
@@ -112,6 +126,10 @@ patient LPS.)")
              "The metrics of docs/metrics.md, by key, as metrics.json has them: a number or None; those of "
              "tissues, burrs or structures "
              "under KEY_of, by name.")
+        .def("to_hdf5", &to_hdf5, py::arg("file"), py::arg("layout") = "osteomill",
+             "Writes all of it into an HDF5 file (docs/hdf5.md); layout: \"osteomill\", \"fivrs\" or "
+             "\"fivrs-v3\". Of a torn recording, what can be read. RuntimeError: it cannot be written, or is "
+             "damaged; ValueError: no such layout.")
         .def("info", &info,
              "What packet_replay --json says: duration_s, frames, removed_mm3 by tissue, bone_checksum, "
              "error and more.")
