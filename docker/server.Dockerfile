@@ -8,7 +8,7 @@ FROM ${PROGRAMS} AS programs
 FROM ${BASE}
 RUN apt-get update -qq \
     && DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends \
-        libcap2-bin libfmt9 libgdcm3.0 libhidapi-hidraw0 libimath-3-1-29 libopenigtlink1.11 libopenvdb10.0 libpcap0.8 libpng16-16 libprotobuf32 libsndfile1 libspdlog1.10 libssl3 libtiff6 \
+        libcap2-bin libfmt9 libgdcm3.0 libhdf5-103-1 libhidapi-hidraw0 libimath-3-1-29 libopenigtlink1.11 libopenvdb10.0 libpcap0.8 libpng16-16 libprotobuf32 libsndfile1 libspdlog1.10 libssl3 libtiff6 \
         libtbb12 libtomlplusplus3 libxxhash0 libzstd1 \
     && rm -rf /var/lib/apt/lists/* \
     && useradd --uid 10001 --create-home osteomill \
