@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Drills the carious lesion out of the built-in tooth: the server with a simulated hand and arm, the client in a window if
+# Drills the caries out of the built-in jaw: the server with a simulated hand and arm, the client in a window if
 # there is a display, else offscreen. Ends by itself; leaves everything in out/demo/, and the other programs in build/release/bin.
 set -euo pipefail
 cd "$(dirname "$0")"
@@ -15,7 +15,7 @@ bin=build/release/bin
 
 say "drilling: forces at 1 kHz, the bone at 30 Hz"
 # Port 0: the system picks a free one and the server says which.
-"$bin/haptic_server" --listen 127.0.0.1:0 --log-csv "$out/forces.csv" --save-bone "$out/carved.nrrd" \
+"$bin/haptic_server" --case jaw --listen 127.0.0.1:0 --log-csv "$out/forces.csv" --save-bone "$out/carved.nrrd" \
     --json "$out/server.json" >"$out/server.log" 2>"$out/server.err" &
 server=$!
 trap 'kill "$server" 2>/dev/null || true' EXIT

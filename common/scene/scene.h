@@ -20,7 +20,7 @@
 
 namespace osteomill {
 
-/// A bone made by code: "tooth", "cube" or "head".
+/// A bone made by code: one of phantom_names.h.
 struct PhantomSource {
     std::string name = "tooth";
 
@@ -98,6 +98,7 @@ struct TrajectorySpec {
 
 struct Scene {
     std::string name{};
+    std::string description{};  ///< a sentence for people, as on the start page; may be empty
     std::variant<PhantomSource, FileSource> bone = PhantomSource{};
     StiffnessRelation stiffness = default_stiffness_relation();
     std::vector<Tissue> tissues;

@@ -1,12 +1,14 @@
 #include "common/scene/scene_file.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
 #include <glm/matrix.hpp>
 
 #include "common/scene/apply_change.h"
+#include "common/scene/phantom_names.h"
 #include "common/scene/plan_table.h"
 #include "common/scene/shallow_toml.h"
 #include "common/scene/tissue_tables.h"
@@ -20,7 +22,7 @@ namespace {
 constexpr double seconds_per_minute = 60.0;
 
 const std::vector<std::string> motion_names(trajectory_names.begin(), trajectory_names.end());
-const std::vector<std::string> phantom_choices{"tooth", "cube", "head"};
+const std::vector<std::string> phantom_choices(phantom_names.begin(), phantom_names.end());
 const std::vector<std::string> sense_names(spindle_sense_names.begin(), spindle_sense_names.end());
 
 std::filesystem::path resolved(const std::string& path, const std::filesystem::path& folder) {
@@ -35,8 +37,8 @@ std::variant<PhantomSource, FileSource> read_bone(TomlReader reader, const std::
     const std::optional<std::string> segmentation = reader.text("segmentation");
     reader.refuse_other_keys();
     if (phantom.has_value() == file.has_value())
-        reader.fail("phantom",
-                    "[bone] takes either phantom = \"tooth\", \"cube\" or \"head\", or file = \"bone.nrrd\"");
+        reader.fail("phantom", fmt::format("[bone] takes either phantom = \"{}\", or file = \"bone.nrrd\"",
+                                           fmt::join(phantom_choices, "\", \"")));
     if (phantom && threshold_hu)
         reader.fail("threshold_hu", "'threshold_hu' goes with file, not with phantom");
     if (phantom && segmentation)
@@ -195,6 +197,7 @@ TrajectorySpec read_trajectory(TomlReader reader, const std::filesystem::path& f
 Scene read_all(TomlReader reader, const std::filesystem::path& folder) {
     Scene scene;
     scene.name = required(reader, "name", reader.text("name"));
+    scene.description = reader.text("description").value_or("");
     scene.bone = read_bone(required(reader, "bone", reader.table("bone")), folder);
     if (auto table = reader.table("stiffness")) scene.stiffness = read_stiffness(*table);
     const auto* file = std::get_if<FileSource>(&scene.bone);

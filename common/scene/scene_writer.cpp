@@ -209,6 +209,7 @@ std::string plan_text(const Plan& plan) {
 std::string write_scene(const Scene& scene) {
     std::string text = Keys()
                            .add("name", scene.name)
+                           .add("description", scene.description, {})
                            .add("start_burr", scene.burrs.at(scene.start_burr).name, scene.burrs.at(0).name)
                            .add("wall_friction", scene.wall_friction, Scene().wall_friction)
                            .add("force_scale", scene.force_scale, Scene().force_scale)

@@ -1,6 +1,7 @@
 #include "haptic_server/program/server_options.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -10,6 +11,7 @@
 #include <vector>
 
 #include "common/files/distinct_files.h"
+#include "common/scene/phantom_names.h"
 #include "common/scene/session_control.h"
 #include "haptic_server/program/report_folder.h"
 #include "haptic_server/session/session_defaults.h"
@@ -91,11 +93,14 @@ std::string coupling_help() {
 void declare(CLI::App& app, Typed& typed) {
     app.add_option(
            "--scene", typed.scene,
-           "Scene: a TOML file, or a phantom: tooth, cube, head (tooth; with --bone alone: a cavity on top "
-           "of that bone)")
+           fmt::format(
+               "Scene: a TOML file, or a phantom: {} (tooth; with --bone alone: a cavity on top of that "
+               "bone)",
+               fmt::join(phantom_names, ", ")))
         ->capture_default_str();
     app.add_option("--case", typed.case_name,
-                   "Case: a folder that bone_import --case made, or one built in: tooth, cube, head")
+                   fmt::format("Case: a folder that bone_import --case made, or one built in: {}",
+                               fmt::join(phantom_names, ", ")))
         ->type_name("DIR|NAME")
         ->excludes("--scene");
     app.add_option("--bone", typed.bone, "Bone from a file that bone_import wrote, instead of the scene's")

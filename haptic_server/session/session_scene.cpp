@@ -7,6 +7,7 @@
 #include <utility>
 #include <variant>
 
+#include "common/scene/phantom_names.h"
 #include "common/scene/scene_file.h"
 #include "imaging/case/case_folder.h"
 #include "imaging/case/case_placement.h"
@@ -25,9 +26,8 @@ Scene load_scene(const SceneChoice& choice) {
     if (choice.bone && !choice.name) {
         scene = scene_of_bone_file(*choice.bone);
     } else {
-        const std::vector<std::string> phantoms = phantom_names();
-        const std::string name = choice.name.value_or(phantoms.front());
-        const bool is_phantom = std::ranges::find(phantoms, name) != phantoms.end();
+        const std::string name = choice.name.value_or(PhantomSource{}.name);
+        const bool is_phantom = std::ranges::find(phantom_names, name) != phantom_names.end();
         scene = is_phantom ? phantom_scene(name, choice.changes) : read_scene(name, choice.changes);
         if (choice.case_folder) require_own_files(scene, *choice.case_folder);
         if (choice.bone) {

@@ -16,6 +16,7 @@
 #include "common/files/inside_folder.h"
 #include "common/scene/material.h"
 #include "common/scene/nearest_name.h"
+#include "common/scene/phantom_names.h"
 #include "common/scene/scene_file.h"
 #include "common/text/plain_text.h"
 #include "imaging/case/bone_source.h"
@@ -185,7 +186,7 @@ std::vector<Tissue> tissues_of(const std::vector<CaseStructure>& structures, con
 }  // namespace
 
 std::string scene_of_case(const std::string& name) {
-    const std::vector<std::string> built_in = phantom_names();
+    const std::vector<std::string> built_in(phantom_names.begin(), phantom_names.end());
     for (const std::string& one : built_in)
         if (one == name) return name;
     const std::filesystem::path scene = std::filesystem::path(name) / scene_name;

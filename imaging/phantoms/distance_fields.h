@@ -9,6 +9,15 @@
 
 namespace osteomill::distance_field {
 
+inline double squared(double a) {
+    return a * a;
+}
+
+/// 1 at t = 0, falling smoothly to 0 at t = 1; t is a squared distance over a squared radius.
+inline double bump(double t) {
+    return squared(std::max(0.0, 1.0 - t));
+}
+
 /// A box of half extents `half_mm` around the origin, its edges rounded with `rounding_mm`.
 inline double rounded_box(const glm::dvec3& p, const glm::dvec3& half_mm, double rounding_mm) {
     const glm::dvec3 q = glm::abs(p) - half_mm + rounding_mm;

@@ -4,7 +4,10 @@
 #include <glm/geometric.hpp>
 #include <span>
 
+#include "imaging/phantoms/anatomy_slices.h"
+#include "imaging/phantoms/dental_hu.h"
 #include "imaging/phantoms/distance_fields.h"
+#include "imaging/phantoms/noise.h"
 #include "imaging/phantoms/phantom.h"
 
 namespace osteomill {
@@ -13,16 +16,6 @@ namespace {
 
 namespace df = distance_field;
 
-// CT numbers: enamel, dentine and pulp as measured in children's teeth (2071 to 2955, 1323 to 1899, 184 to
-// 420 HU); the lesion lies well below dentine; canal contents just above the threshold, so that they are
-// there to be hurt.
-constexpr double ligament_hu = 60.0;
-constexpr double enamel_hu = 2500.0;
-constexpr double dentine_hu = 1600.0;
-constexpr double pulp_hu = 300.0;
-constexpr double lesion_hu = 650.0;
-constexpr double nerve_hu = 190.0;
-constexpr double cortical_hu = 1600.0;
 constexpr double trabecular_hu = 450.0;
 constexpr double trabecular_variation_hu = 120.0;
 
@@ -30,22 +23,16 @@ constexpr double cervix_z_mm = -1.6;  // where enamel ends
 constexpr double ligament_mm = 0.2;
 constexpr double cortical_mm = 1.8;
 
-/// 1 at t = 0, falling smoothly to 0 at t = 1; t is a squared distance over a squared radius.
-double bump(double t) {
-    const double rest = std::max(0.0, 1.0 - t);
-    return rest * rest;
-}
-
 double occlusal_height_mm(double x, double y) {
     double height = 3.0;
     for (const double cusp_x : {-2.5, 2.5})
         for (const double cusp_y : {-2.2, 2.2}) {
             const double dx = x - cusp_x;
             const double dy = y - cusp_y;
-            height += 1.0 * bump((dx * dx + dy * dy) / 9.0);
+            height += 1.0 * df::bump((dx * dx + dy * dy) / 9.0);
         }
     // Fissures: a groove along the row of teeth and one across.
-    return height - 0.45 * bump(y * y / 0.49) - 0.3 * bump(x * x / 0.36);
+    return height - 0.45 * df::bump(y * y / 0.49) - 0.3 * df::bump(x * x / 0.36);
 }
 
 double crown_mm(const glm::dvec3& p) {
@@ -90,59 +77,24 @@ double nerve_canal_mm(const glm::dvec3& p) {
     return std::sqrt(dy * dy + dz * dz) - 0.8;
 }
 
-/// A whole number from a lattice point, well mixed (splitmix64), as a share of 1 between -1 and 1.
-double lattice_noise(const glm::ivec3& point) {
-    auto bits = static_cast<std::uint64_t>(point.x + 4096) +
-                (static_cast<std::uint64_t>(point.y + 4096) << 16U) +
-                (static_cast<std::uint64_t>(point.z + 4096) << 32U);
-    bits += 0x9e3779b97f4a7c15U;
-    bits = (bits ^ (bits >> 30U)) * 0xbf58476d1ce4e5b9U;
-    bits = (bits ^ (bits >> 27U)) * 0x94d049bb133111ebU;
-    bits ^= bits >> 31U;
-    return static_cast<double>(bits >> 11U) / static_cast<double>(1ULL << 52U) - 1.0;
-}
-
-/// Gently varying density of the spongy bone: noise on a lattice of 0.8 mm, trilinear in between.
-double trabecular_texture(const glm::dvec3& p) {
-    const glm::dvec3 at = p / 0.8;
-    const glm::dvec3 base = glm::floor(at);
-    const glm::dvec3 w = at - base;
-    const glm::ivec3 first(base);
-    double sum = 0.0;
-    for (int corner = 0; corner < 8; ++corner) {
-        const glm::ivec3 step(corner & 1, (corner >> 1) & 1, corner >> 2);
-        const glm::dvec3 share = glm::mix(1.0 - w, w, glm::dvec3(step));
-        sum += share.x * share.y * share.z * lattice_noise(first + step);
-    }
-    return sum;
-}
-
 struct Material {
-    ToothTissue tissue;
+    DentalTissue tissue;
     double hu;
 };
 
 Material material_of_tooth(const glm::dvec3& p, double tooth) {
-    if (lesion_mm(p) < 0.0) return {ToothTissue::carious_lesion, lesion_hu};
-    if (pulp_mm(p) < 0.0) return {ToothTissue::pulp, pulp_hu};
+    if (lesion_mm(p) < 0.0) return {DentalTissue::carious_lesion, lesion_hu};
+    if (pulp_mm(p) < 0.0) return {DentalTissue::pulp, pulp_hu};
     const double enamel_thickness_mm = 1.7 * std::clamp((p.z - cervix_z_mm) / 3.0, 0.0, 1.0);
-    if (-tooth < enamel_thickness_mm) return {ToothTissue::enamel, enamel_hu};
-    return {ToothTissue::dentine, dentine_hu};
+    if (-tooth < enamel_thickness_mm) return {DentalTissue::enamel, enamel_hu};
+    return {DentalTissue::dentine, dentine_hu};
 }
 
 Material material_of_jaw(const glm::dvec3& p, double jaw, double tooth) {
-    if (nerve_canal_mm(p) < 0.0) return {ToothTissue::nerve_canal, nerve_hu};
+    if (nerve_canal_mm(p) < 0.0) return {DentalTissue::nerve_canal, nerve_hu};
     // The socket is lined with cortical bone too (lamina dura), thinner than the shell.
-    if (-jaw < cortical_mm || tooth < ligament_mm + 0.4) return {ToothTissue::cortical_bone, cortical_hu};
-    return {ToothTissue::trabecular_bone, trabecular_hu + trabecular_variation_hu * trabecular_texture(p)};
-}
-
-/// HU that passes the threshold exactly on the surface and reaches the material one voxel inside, air one
-/// voxel outside.
-double across_surface(double material_hu, double outside_hu, double distance_voxels) {
-    return distance_voxels < 0.0
-               ? phantom_threshold_hu + (material_hu - phantom_threshold_hu) * std::min(1.0, -distance_voxels)
-               : phantom_threshold_hu + (outside_hu - phantom_threshold_hu) * std::min(1.0, distance_voxels);
+    if (-jaw < cortical_mm || tooth < ligament_mm + 0.4) return {DentalTissue::cortical_bone, cortical_hu};
+    return {DentalTissue::trabecular_bone, trabecular_hu + trabecular_variation_hu * linear_noise(p / 0.8)};
 }
 
 struct Distances {
@@ -195,8 +147,8 @@ void fill_slice(const Grid& grid, int z, std::span<std::int16_t> hu, std::span<s
                                           ? material_of_tooth(p, distances.tooth_mm)
                                           : material_of_jaw(p, jaw_mm(p), distances.tooth_mm);
             const double outside_hu = jaw_mm(p) < 0.0 ? ligament_hu : air_hu;
-            hu[index] =
-                static_cast<std::int16_t>(std::lround(across_surface(material.hu, outside_hu, nearest / h)));
+            hu[index] = static_cast<std::int16_t>(
+                std::lround(hu_across_surface(material.hu, outside_hu, nearest / h)));
             tissue[index] = static_cast<std::uint8_t>(material.tissue);
         }
 }

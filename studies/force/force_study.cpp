@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "analysis/output/study_run.h"
-#include "imaging/phantoms/phantom.h"
+#include "common/scene/phantom_names.h"
 #include "studies/force/contact_curves.h"
 #include "studies/force/force_curves.h"
 #include "studies/force/memory.h"
@@ -96,7 +96,8 @@ void run_force_study(const ForceStudyOptions& options, const StudySurroundings& 
         models, [](const std::string& model) { return "a step of " + model; },
         [&](const std::string& model) { return contact_step_us(model, options.quick); });
     const auto scenes = run.plan(
-        phantom_names(), [](const std::string& phantom) { return "memory of the " + phantom; }, weigh_scene);
+        std::vector<std::string>(phantom_names.begin(), phantom_names.end()),
+        [](const std::string& phantom) { return "memory of the " + phantom; }, weigh_scene);
     const auto watch = run.plan(
         std::vector{"memory of the watch"}, [](const char* name) { return name; },
         [](const char*) { return weigh_structures(); });

@@ -154,6 +154,20 @@ TEST_F(HapticServerProgram, TakesUpACarvedBoneWhereItWasLeft) {
     EXPECT_EQ(measured("b.json").at("removed_before_mm3"), measured("b.json").at("removed_mm3"));
 }
 
+TEST_F(HapticServerProgram, DrillsTheCariesOutOfTheJawAndLeavesThePulpClosed) {
+    if (!is_optimised) GTEST_SKIP() << "half a minute of drilling takes its time unless optimised";
+    const Outcome outcome = run("--case jaw --clock virtual --duration-s 40 --json " + file("a.json") +
+                                " --report " + file("report"));
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+    const nlohmann::json removed = measured("a.json").at("removed_mm3");
+    EXPECT_EQ(removed.at("pulp"), 0.0);
+    EXPECT_EQ(removed.at("nerve canal"), 0.0);
+    EXPECT_EQ(removed.at("gum"), 0.0);
+    const nlohmann::json metrics = measured("report/metrics.json").at("metrics");
+    EXPECT_GT(metrics.at("plan_removed_share").get<double>(), 0.8);
+    EXPECT_LT(metrics.at("plan_excess_mm3").get<double>(), 0.5) << "sound tissue beyond the margin of 0.5 mm";
+}
+
 TEST_F(HapticServerProgram, MillsAHeadInMemoryThatFollowsItsBone) {
     if (!is_optimised) GTEST_SKIP() << "the head takes its time unless optimised";
     constexpr double gibibyte = 1024.0 * 1024.0 * 1024.0;

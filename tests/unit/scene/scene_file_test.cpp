@@ -35,6 +35,7 @@ TEST(SceneFile, NeedsOnlyANameAndABone) {
 TEST(SceneFile, ReadsEveryKey) {
     const Scene scene = parse_scene(R"(
 name = "jaw"
+description = "A jaw"
 start_burr = "round"
 [bone]
 file = "jaw.nrrd"
@@ -76,6 +77,7 @@ file = "path.csv"
     EXPECT_EQ(scene.stiffness.knots.size(), 2U);
     EXPECT_EQ(scene.tissues[0].colour_rgb, (std::array<std::uint8_t, 3>{0x0a, 0x0b, 0xff}));
     EXPECT_TRUE(scene.tissues[0].is_protected);
+    EXPECT_EQ(scene.description, "A jaw");
     EXPECT_EQ(scene.start_burr, 1U);
     EXPECT_DOUBLE_EQ(scene.burrs[1].spindle_rev_per_s, 1000.0);
     EXPECT_EQ(scene.burrs[1].sigma(), 1.0);
@@ -225,7 +227,7 @@ TEST(SceneFile, ValuesOutOfRangeOrOfTheWrongTypeAreRefused) {
     EXPECT_THAT(error_of("name = 3\n[bone]\nphantom = \"tooth\"\n"),
                 HasSubstr("my.toml:1: 'name' must be a text"));
     EXPECT_THAT(error_of("name = \"a\"\n[bone]\nphantom = \"skull\"\n"),
-                HasSubstr("my.toml:3: 'phantom' is \"skull\"; choose one of: tooth, cube, head"));
+                HasSubstr("my.toml:3: 'phantom' is \"skull\"; choose one of: jaw, mastoid, tooth, cube, head"));
     const std::string burr = smallest + "[[burrs]]\nname = \"b\"\ndiameter_mm = ";
     EXPECT_THAT(error_of(burr + "0.0\n"), HasSubstr("my.toml:6: 'diameter_mm' is 0"));
     EXPECT_THAT(error_of(burr + "nan\n"), HasSubstr("must be a finite number"));

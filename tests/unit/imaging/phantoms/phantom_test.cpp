@@ -8,6 +8,7 @@
 #include <stdexcept>
 #include <vector>
 
+#include "common/scene/phantom_names.h"
 #include "common/scene/scene_file.h"
 #include "imaging/phantoms/distance_fields.h"
 
@@ -26,13 +27,13 @@ TEST(ToothPhantom, IsTheSameBoneEverywhere) {
 TEST(ToothPhantom, HasEveryTissueInPlausibleAmounts) {
     const auto volume = bone_volume_by_tissue_mm3(tooth_bone());
     EXPECT_EQ(volume[0], 0.0) << "all bone is labelled";
-    const auto of = [&](ToothTissue tissue) { return volume[static_cast<std::size_t>(tissue)]; };
-    EXPECT_GT(of(ToothTissue::cortical_bone), of(ToothTissue::trabecular_bone));
-    EXPECT_NEAR(of(ToothTissue::dentine) + of(ToothTissue::enamel), 470.0, 100.0)
+    const auto of = [&](DentalTissue tissue) { return volume[static_cast<std::size_t>(tissue)]; };
+    EXPECT_GT(of(DentalTissue::cortical_bone), of(DentalTissue::trabecular_bone));
+    EXPECT_NEAR(of(DentalTissue::dentine) + of(DentalTissue::enamel), 470.0, 100.0)
         << "a molar is about half a millilitre";
-    EXPECT_NEAR(of(ToothTissue::pulp), 30.0, 15.0);
-    EXPECT_NEAR(of(ToothTissue::nerve_canal), 3.14159 * 0.64 * 46.0, 10.0);
-    EXPECT_NEAR(of(ToothTissue::carious_lesion), 19.0, 6.0);
+    EXPECT_NEAR(of(DentalTissue::pulp), 30.0, 15.0);
+    EXPECT_NEAR(of(DentalTissue::nerve_canal), 3.14159 * 0.64 * 46.0, 10.0);
+    EXPECT_NEAR(of(DentalTissue::carious_lesion), 19.0, 6.0);
 }
 
 TEST(ToothPhantom, FillsSurfaceVoxelsByTheirDistanceFromIt) {
@@ -73,7 +74,7 @@ TEST(ToothPhantom, LesionOpensAtTheTopAndLiesWithinTheHoleThatTheSceneDrills) {
     for (int z = 0; z < 128; ++z)
         for (int y = 200; y < 312; ++y)
             for (int x = 200; x < 312; ++x) {
-                if (bone.tissue_at({x, y, z}) != static_cast<std::uint8_t>(ToothTissue::carious_lesion))
+                if (bone.tissue_at({x, y, z}) != static_cast<std::uint8_t>(DentalTissue::carious_lesion))
                     continue;
                 if (bone.fraction_at({x, y, z}) == 0) continue;
                 const glm::dvec3 p = centre_of_voxel_mm(bone.grid(), {x, y, z});
@@ -127,7 +128,7 @@ TEST(PhantomScenes, GiveTissuesColoursThatDifferInLightness) {
 }
 
 TEST(PhantomScenes, AreTheOnesThatAreShippedAsFiles) {
-    for (const std::string& name : phantom_names())
+    for (const std::string name : phantom_names)
         EXPECT_EQ(read_scene(OSTEOMILL_SCENES "/" + name + ".toml"), phantom_scene(name)) << name;
     EXPECT_THROW((void)phantom_scene("skull"), std::invalid_argument);
     EXPECT_THROW((void)make_phantom("skull"), std::invalid_argument);
