@@ -81,6 +81,7 @@ struct Shared {
     HandInput desk;
     std::atomic<bool> is_over{false};      ///< asked for by either thread
     std::atomic<bool> close_asked{false};  ///< somebody wants to close the window
+    std::atomic<bool> is_fullscreen{false};
 };
 
 /// The thread that draws: takes in what the source brings, and shows it where it has changed.
@@ -219,6 +220,7 @@ class Drawing {
             !ImGui::GetIO().WantCaptureMouse)
             commands_.place_at({ImGui::GetIO().MousePos.x, ImGui::GetIO().MousePos.y});
         commands_.take(session_.take_requests());
+        shared_.is_fullscreen = session_.view().is_fullscreen;
         commands_.work_clutch();
         input_.forget_events();
         const std::string notice = session_.view().notice;
@@ -334,6 +336,7 @@ RenderReport run_in_window(const RenderOptions& options, SessionSource& source,
             window.read_events(longest_wait_s);
             std::this_thread::sleep_until(previous + shortest_period);
         }
+        window.fill_screen(shared.is_fullscreen);
         const Clock::time_point now = Clock::now();
         WindowInput input = window.take_input();
         // Pointed at is the left eye's picture, which is the left, or the upper, half of the window.

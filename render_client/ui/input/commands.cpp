@@ -108,6 +108,12 @@ void Commands::take(Action action) {
         case Action::export_frames:
             export_wanted_ = !export_wanted_;
             break;
+        case Action::details:
+            view.details_shown = !view.details_shown;
+            break;
+        case Action::fullscreen:
+            view.is_fullscreen = !view.is_fullscreen;
+            break;
         case Action::end:
             view.question == SessionQuestion::none ? ask_to_end()
                                                    : void(view.question = SessionQuestion::none);
@@ -263,7 +269,7 @@ void Commands::write_pictures(const gl::Framebuffer& picture, double now_s) {
         if (std::exchange(picture_wanted_, false))
             say("written: " + pictures_.write(picture.read_back()).string(), now_s);
         if (export_wanted_ && !pictures_.is_exporting())
-            say("writing every frame into " + pictures_.begin_frames().string() + " until F11", now_s);
+            say("writing every frame into " + pictures_.begin_frames().string() + " until O", now_s);
         if (!export_wanted_ && pictures_.is_exporting()) {
             pictures_.end_frames();
             say("no more frames are written", now_s);

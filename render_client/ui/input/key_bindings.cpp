@@ -109,18 +109,10 @@ const std::vector<KeyBinding>& table() {
         {panels, always, {GLFW_KEY_F5}, Action::transfer_panel, "F5", "panel of colours and opacity"},
         {panels, always, {GLFW_KEY_F7}, Action::slices, "F7", "slices of the CT"},
         {panels, always, {GLFW_KEY_F9}, Action::sound, "F9", "the burr's sound: on, off"},
-        {panels,
-         always,
-         {GLFW_KEY_F11},
-         Action::export_frames,
-         "F11",
-         "write every frame as PNG: begin, end"},
-        {panels,
-         always,
-         {GLFW_KEY_F12, GLFW_KEY_P},
-         Action::screenshot,
-         "F12, P",
-         "write this picture as PNG"},
+        {panels, always, {GLFW_KEY_F11}, Action::fullscreen, "F11", "the whole screen: on, off"},
+        {panels, always, {GLFW_KEY_F12}, Action::details, "F12", "figures of picture, link and solver"},
+        {panels, always, {GLFW_KEY_P}, Action::screenshot, "P", "write this picture as PNG"},
+        {panels, always, {GLFW_KEY_O}, Action::export_frames, "O", "write every frame as PNG: begin, end"},
         {panels, always, {GLFW_KEY_ESCAPE}, Action::end, "ESC", "end; asks first where a session goes on"},
     };
     return bindings;
@@ -164,11 +156,13 @@ std::vector<HelpLine> help_lines(Situation situation) {
     std::vector<HelpLine> lines;
     if (situation == Situation::starting)
         lines = {{"", "This page", true},
-                 {"list of cases", "built in, or imported by you: choose one"},
+                 {"a card", "a case, built in or imported by you: choose one; twice: start it"},
+                 {"TAB, arrows, RETURN", "the same by keyboard"},
                  {"trainee", "whose session it will be: named in its folder and its report"},
                  {"Start", "the session begins on this machine, and this window joins it"},
                  {"Import a scan ...", "make a case of a CT: choose its files, a region, a threshold"},
                  {"Import labels ...", "make a case of a segmentation, without a CT"},
+                 {"Open a recording ...", "see a session again, in a window of its own"},
                  {"Compare all sessions", "learning curves of the sessions that were kept here"},
                  {"Hide this", "look at the bone of the last session until the next begins"},
                  {"", "Mouse and keys of a session: F1, once it runs."}};

@@ -33,6 +33,8 @@ enum class Action {
     sound,
     screenshot,
     export_frames,
+    details,
+    fullscreen,
     end,
     next_burr,
     previous_burr,

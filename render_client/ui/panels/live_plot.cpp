@@ -148,6 +148,11 @@ TextLine force_line(const ToolState& tool) {
                                       glm::length(*tool.shank_torque_n_mm))}};
 }
 
+std::string depth_text(const ToolState& tool) {
+    if (!tool.depth_mm) return "depth: this server does not say";
+    return *tool.depth_mm > 0.0 ? fmt::format("depth {:.2f} mm", *tool.depth_mm) : "depth: not in bone";
+}
+
 TextLine solve_line(const ToolState& tool) {
     if (!tool.solve) return {{Tone::dim, "solve: this server does not say"}};
     const SolveCounts& solve = *tool.solve;
@@ -159,17 +164,18 @@ TextLine solve_line(const ToolState& tool) {
 
 }  // namespace
 
-glm::vec2 live_plot_size(const PanelPainter& painter, PlotDetail detail) {
+glm::vec2 live_plot_size(const PanelPainter& painter, PlotDetail detail, bool shows_solve) {
     const float font = ImGui::GetFontSize();
     glm::vec2 size(20.0f * font, 2.0f * painter.line_height());
     if (detail != PlotDetail::numbers) size.y += force_plot_height(detail) + 1.3f * font;
     if (detail == PlotDetail::all)
-        size.y += painter.line_height() + 2.0f * (painter.line_height() + small_plot_height() + 0.3f * font);
+        size.y += (shows_solve ? painter.line_height() : 0.0f) +
+                  2.0f * (painter.line_height() + small_plot_height() + 0.3f * font);
     return glm::ceil(size + 2.0f * painter.padding());
 }
 
 void draw_live_plot(const PanelPainter& painter, const ToolHistory& history, const ToolState& tool,
-                    PlotDetail detail, const PanelPlace& place) {
+                    PlotDetail detail, bool shows_solve, const PanelPlace& place) {
     painter.draw_background(place);
     PlotColumn column(painter, place);
     column.write(force_line(tool));
@@ -185,8 +191,7 @@ void draw_live_plot(const PanelPainter& painter, const ToolHistory& history, con
     const std::vector<Line> forces = force_lines(history);
     column.plot(forces, range_of(forces, smallest_force_n), force_plot_height(detail));
     if (detail == PlotDetail::all) {
-        column.write({{Tone::depth, tool.depth_mm ? fmt::format("depth {:.2f} mm", *tool.depth_mm)
-                                                  : "depth: this server does not say"}});
+        column.write({{Tone::depth, depth_text(tool)}});
         const std::vector<Line> depth{
             line_of(history, Tone::depth, [](const auto& sample) { return sample.depth_mm; })};
         column.plot(depth, range_of(depth, smallest_depth_mm), small_plot_height());
@@ -196,7 +201,7 @@ void draw_live_plot(const PanelPainter& painter, const ToolHistory& history, con
         column.plot(removed, range_of(removed, smallest_volume_mm3), small_plot_height());
     }
     column.write_times();
-    if (detail == PlotDetail::all) column.write(solve_line(tool));
+    if (detail == PlotDetail::all && shows_solve) column.write(solve_line(tool));
 }
 
 }  // namespace osteomill

@@ -10,8 +10,9 @@ namespace osteomill {
 /// All three plots, or the forces alone, or only the numbers.
 enum class PlotDetail { all, forces, numbers };
 
-glm::vec2 live_plot_size(const PanelPainter& painter, PlotDetail detail);
+/// `shows_solve`: of all three plots, a line below them says how well the coupling was solved.
+glm::vec2 live_plot_size(const PanelPainter& painter, PlotDetail detail, bool shows_solve);
 void draw_live_plot(const PanelPainter& painter, const ToolHistory& history, const ToolState& tool,
-                    PlotDetail detail, const PanelPlace& place);
+                    PlotDetail detail, bool shows_solve, const PanelPlace& place);
 
 }  // namespace osteomill

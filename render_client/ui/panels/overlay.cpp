@@ -25,6 +25,7 @@ namespace osteomill {
 namespace {
 
 constexpr float margin_px = 12.0f;  // at scale 1
+constexpr float banner_letters = 1.6f;
 
 using Draw = std::function<void(const PanelPlace&)>;
 
@@ -46,9 +47,12 @@ class PanelList {
     }
     void keep_last() { requests_.back().is_kept = true; }
     void let_last_give_way() { requests_.back().gives_way = true; }
-    void add_text(const PanelPainter& painter, Anchor anchor, const PanelText& text, float widest) {
-        add(anchor, {painter.size_of(text, widest)},
-            [&painter, text](const PanelPlace& place) { painter.draw(text, place); });
+    void add_text(const PanelPainter& painter, Anchor anchor, const PanelText& text, float widest,
+                  float font_factor = 1.0f) {
+        add(anchor, {painter.size_of(text, widest, font_factor)},
+            [&painter, text, font_factor](const PanelPlace& place) {
+                painter.draw(text, place, font_factor);
+            });
     }
     /// Returns where they are.
     std::vector<std::optional<PanelPlace>> draw_in(const glm::vec2& picture, float margin,
@@ -67,10 +71,10 @@ class PanelList {
 void add_plot(PanelList& panels, const OverlayContent& content, const PanelPainter& painter) {
     std::vector<glm::vec2> sizes;
     for (const PlotDetail detail : {PlotDetail::all, PlotDetail::forces, PlotDetail::numbers})
-        sizes.push_back(live_plot_size(painter, detail));
+        sizes.push_back(live_plot_size(painter, detail, content.view->details_shown));
     panels.add(Anchor::lower_right, sizes, [&](const PanelPlace& place) {
         draw_live_plot(painter, *content.history, *content.tool, static_cast<PlotDetail>(place.choice),
-                       place);
+                       content.view->details_shown, place);
     });
 }
 
@@ -152,6 +156,11 @@ void add_readings(PanelList& panels, const OverlayContent& content, const PanelP
     }
 }
 
+double burr_radius_mm(const OverlayContent& content) {
+    const bool is_known = content.session != nullptr && content.tool->burr < content.session->burrs.size();
+    return is_known ? content.session->burrs[content.tool->burr].radius_mm() : 0.0;
+}
+
 /// What the burr takes of the picture; none where it is not in it.
 std::optional<PanelPlace> burr_in(const OverlayContent& content, const glm::ivec2& size_px) {
     if (!content.tool || !content.has_bone || content.session == nullptr ||
@@ -189,8 +198,10 @@ void draw_overlay(const OverlayContent& content, const glm::ivec2& size_px) {
     if (content.view->panels_shown && has_tool_bar(content))
         panels.add(Anchor::top, tool_bar_sizes(content, painter),
                    [&](const PanelPlace& place) { draw_tool_bar(content, place); });
+    if (is_alarm(content)) draw_alarm_frame(painter, size_px);
     if (const PanelText warnings = warning_text(content); !warnings.empty())
-        panels.add_text(painter, Anchor::top, warnings, picture.x - 2.0f * margin);
+        panels.add_text(painter, Anchor::top, warnings, picture.x - 2.0f * margin,
+                        is_alarm(content) ? banner_letters : 1.0f);
     if (content.view->question != SessionQuestion::none && content.requests != nullptr)
         panels.add_page(Anchor::middle, session_dialog_size(content, painter),
                         [&](const PanelPlace& place) { draw_session_dialog(content, place); });
@@ -208,7 +219,7 @@ void draw_overlay(const OverlayContent& content, const glm::ivec2& size_px) {
     }
     const auto places = panels.draw_in(picture, margin, burr_in(content, size_px));
     if (content.tool && content.has_bone && content.view->panels_shown)
-        draw_force_label(painter, *content.tool, *content.camera, size_px, places);
+        draw_force_label(painter, *content.tool, burr_radius_mm(content), *content.camera, size_px, places);
 }
 
 }  // namespace osteomill

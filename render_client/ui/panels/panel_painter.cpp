@@ -6,16 +6,17 @@ namespace osteomill {
 
 namespace {
 
-glm::vec2 wrapped_size(const std::string& text, float wrap_width) {
-    const ImVec2 size = ImGui::GetFont()->CalcTextSizeA(ImGui::GetFontSize(), 1e6f, wrap_width, text.c_str());
+glm::vec2 wrapped_size(const std::string& text, float wrap_width, float font_factor = 1.0f) {
+    const ImVec2 size =
+        ImGui::GetFont()->CalcTextSizeA(font_factor * ImGui::GetFontSize(), 1e6f, wrap_width, text.c_str());
     return {size.x, size.y};
 }
 
 /// Only a line of one piece is ever wrapped; the others are short.
-glm::vec2 size_of_line(const TextLine& line, float widest) {
-    if (line.size() == 1) return wrapped_size(line.front().text, widest);
-    glm::vec2 size(0.0f, ImGui::GetFontSize());
-    for (const TextPiece& piece : line) size.x += wrapped_size(piece.text, 0.0f).x;
+glm::vec2 size_of_line(const TextLine& line, float widest, float font_factor) {
+    if (line.size() == 1) return wrapped_size(line.front().text, widest, font_factor);
+    glm::vec2 size(0.0f, font_factor * ImGui::GetFontSize());
+    for (const TextPiece& piece : line) size.x += wrapped_size(piece.text, 0.0f, font_factor).x;
     return size;
 }
 
@@ -33,18 +34,18 @@ float PanelPainter::width_of(const std::string& text) const {
     return wrapped_size(text, 0.0f).x;
 }
 
-glm::vec2 PanelPainter::size_of(const PanelText& text, float widest) const {
+glm::vec2 PanelPainter::size_of(const PanelText& text, float widest, float font_factor) const {
     glm::vec2 size(0.0f);
     const float gap = line_height() - ImGui::GetFontSize();
     for (const TextLine& line : text) {
-        const glm::vec2 line_size = size_of_line(line, widest - 2.0f * padding());
+        const glm::vec2 line_size = size_of_line(line, widest - 2.0f * padding(), font_factor);
         size.x = std::max(size.x, line_size.x);
         size.y += line_size.y + gap;
     }
     return glm::ceil(size + glm::vec2(2.0f * padding(), 2.0f * padding() - gap));
 }
 
-void PanelPainter::draw(const PanelText& text, const PanelPlace& place) const {
+void PanelPainter::draw(const PanelText& text, const PanelPlace& place, float font_factor) const {
     draw_background(place);
     const float gap = line_height() - ImGui::GetFontSize();
     const float widest = place.size.x - 2.0f * padding();
@@ -52,11 +53,11 @@ void PanelPainter::draw(const PanelText& text, const PanelPlace& place) const {
     for (const TextLine& line : text) {
         float right = pen.x;
         for (const TextPiece& piece : line) {
-            draw_text({right, pen.y}, theme_[piece.tone], piece.text, 1.0f,
+            draw_text({right, pen.y}, theme_[piece.tone], piece.text, font_factor,
                       line.size() == 1 ? widest + 1.0f : 0.0f);
-            right += width_of(piece.text);
+            right += font_factor * width_of(piece.text);
         }
-        pen.y += size_of_line(line, widest + 1.0f).y + gap;
+        pen.y += size_of_line(line, widest + 1.0f, font_factor).y + gap;
     }
 }
 

@@ -27,9 +27,10 @@ class PanelPainter {
     float padding() const { return 8.0f * scale_; }
     float width_of(const std::string& text) const;
 
-    /// The panel that holds the text, its lines wrapped to at most `widest`.
-    glm::vec2 size_of(const PanelText& text, float widest) const;
-    void draw(const PanelText& text, const PanelPlace& place) const;
+    /// The panel that holds the text, its lines wrapped to at most `widest`; letters `font_factor` times as
+    /// large as usual.
+    glm::vec2 size_of(const PanelText& text, float widest, float font_factor = 1.0f) const;
+    void draw(const PanelText& text, const PanelPlace& place, float font_factor = 1.0f) const;
     /// A panel with nothing in it.
     void draw_background(const PanelPlace& place) const;
     void draw_text(const glm::vec2& place, const Rgba& colour, const std::string& text,

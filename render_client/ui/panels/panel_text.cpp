@@ -28,6 +28,17 @@ std::string received_part(const LinkUpdate& link) {
     return fmt::format(": {} %", std::uint64_t{100} * link.snapshot_bricks / link.snapshot_bricks_total);
 }
 
+void add_details(const OverlayContent& content, PanelText& text) {
+    text.push_back(line(Tone::dim, fmt::format("picture {:.0f} frames/s, {}", content.render_frames_per_s,
+                                               quality_in_words(content.quality))));
+    text.push_back(
+        line(Tone::dim, fmt::format("{} {:.0f} frames/s, {:.1f} kB/s", content.player ? "file" : "link",
+                                    content.link.frames_per_s, 1e-3 * content.link.bytes_per_s)));
+    if (const auto& delay = content.link.delay)
+        text.push_back(line(Tone::dim, fmt::format("delay {:.0f} ms by the clocks, {:.0f} over the least",
+                                                   1e3 * delay->by_clocks_s, 1e3 * delay->over_least_s)));
+}
+
 }  // namespace
 
 PanelText session_text(const OverlayContent& content) {
@@ -43,14 +54,7 @@ PanelText session_text(const OverlayContent& content) {
     if (content.preparation_percent)
         text.push_back(
             line(Tone::plain, fmt::format("preparing the bone: {} %", *content.preparation_percent)));
-    text.push_back(line(Tone::dim, fmt::format("picture {:.0f} frames/s, {}", content.render_frames_per_s,
-                                               quality_in_words(content.quality))));
-    text.push_back(
-        line(Tone::dim, fmt::format("{} {:.0f} frames/s, {:.1f} kB/s", content.player ? "file" : "link",
-                                    content.link.frames_per_s, 1e-3 * content.link.bytes_per_s)));
-    if (const auto& delay = content.link.delay)
-        text.push_back(line(Tone::dim, fmt::format("delay {:.0f} ms by the clocks, {:.0f} over the least",
-                                                   1e3 * delay->by_clocks_s, 1e3 * delay->over_least_s)));
+    if (content.view->details_shown) add_details(content, text);
     if (const std::uint64_t bad = content.link.checksum_mismatches + content.link.rejected_frames; bad > 0)
         text.push_back(line(Tone::warning, fmt::format("{} bad frames; {} bricks were repaired", bad,
                                                        content.link.bricks_repaired)));
@@ -95,13 +99,25 @@ PanelText warning_text(const OverlayContent& content) {
     return text;
 }
 
+bool is_alarm(const OverlayContent& content) {
+    const bool has_fault = content.tool && !content.tool->fault.empty() && !content.link.controls.is_paused;
+    return has_fault || !structure_warnings(content).empty();
+}
+
 PanelText operator_text(const OverlayContent& content) {
     PanelText text;
     if (content.tool && content.tool->driver == ToolDriver::another)
         text.push_back(line(Tone::warning, "another client moves the tool; ask again when it has let go"));
     text.push_back(content.operator_command->pedal ? line(Tone::good, "pedal down")
                                                    : line(Tone::dim, "pedal up (SPACE)"));
-    text.push_back(line(Tone::dim, "left drag: hand   W/S: in/out   1-9 [ ]: burr"));
+    if (content.tool && content.tool->removed_mm3 == 0.0) {
+        text.push_back(line(Tone::plain, "1. Drag with the left mouse button: the burr goes with it."));
+        text.push_back(line(Tone::plain, "2. Hold SPACE: the burr turns."));
+        text.push_back(line(Tone::plain, "3. W, or ctrl + wheel, pushes it into the bone; S pulls it out."));
+        text.push_back(line(Tone::plain, "Right drag turns the view, the wheel zooms. F1: all keys."));
+    } else {
+        text.push_back(line(Tone::dim, "left drag: hand   W/S: in/out   1-9 [ ]: burr"));
+    }
     return text;
 }
 

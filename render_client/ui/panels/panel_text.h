@@ -21,6 +21,9 @@ PanelText session_text(const OverlayContent& content);
 PanelText tool_text(const OverlayContent& content);
 /// What must not be overlooked, and the notice; empty while there is nothing.
 PanelText warning_text(const OverlayContent& content);
+/// Whether there is a fault, or the burr is near a protected structure: a banner with a frame round the
+/// picture says so.
+bool is_alarm(const OverlayContent& content);
 /// Pedal, and who has the tool; needs content.operator_command.
 PanelText operator_text(const OverlayContent& content);
 

@@ -40,13 +40,13 @@ void draw_scale_bar(const PanelPainter& painter, const ScaleBar& bar, const Pane
         painter.theme().on_picture, bar.label);
 }
 
-void draw_force_label(const PanelPainter& painter, const ToolState& tool, const Camera& camera,
-                      const glm::ivec2& size_px, std::span<const std::optional<PanelPlace>> panels) {
+void draw_force_label(const PanelPainter& painter, const ToolState& tool, double burr_radius_mm,
+                      const Camera& camera, const glm::ivec2& size_px,
+                      std::span<const std::optional<PanelPlace>> panels) {
+    const auto arrow = force_arrow(tool, burr_radius_mm, camera, size_px);
+    if (!arrow || glm::dot(arrow->head_mm - camera.eye_mm(), camera.forward()) < camera.near_mm) return;
     const double force_n = glm::length(tool.force_n);
-    if (!std::isfinite(force_n) || force_n < shortest_arrow_n) return;
-    const glm::dvec3 head_mm = tool.burr_position_mm + arrow_mm_per_n * tool.force_n;
-    if (glm::dot(head_mm - camera.eye_mm(), camera.forward()) < camera.near_mm) return;
-    const glm::vec2 head(pixel_of(camera, head_mm, size_px));
+    const glm::vec2 head(pixel_of(camera, arrow->head_mm, size_px));
     const float beside = 8.0f * painter.scale();
     const std::string text = fmt::format("{:.2f} N", force_n);
     const glm::vec2 size(painter.width_of(text), ImGui::GetFontSize());
@@ -56,6 +56,14 @@ void draw_force_label(const PanelPainter& painter, const ToolState& tool, const 
                             middle + along,          middle + across - along, middle + across + along,
                             middle - across - along, middle - across + along};
     if (const auto place = free_place(places, size, panels, size_px)) painter.draw_on_picture(*place, text);
+}
+
+void draw_alarm_frame(const PanelPainter& painter, const glm::ivec2& size_px) {
+    const float thickness = 6.0f * painter.scale();
+    painter.canvas().AddDrawCmd();
+    painter.canvas().AddRect(to_imgui(glm::vec2(0.5f * thickness)),
+                             to_imgui(glm::vec2(size_px) - 0.5f * thickness),
+                             colour_of(painter.theme()[Tone::warning]), 0.0f, ImDrawFlags_None, thickness);
 }
 
 }  // namespace osteomill

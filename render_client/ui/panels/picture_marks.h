@@ -13,7 +13,11 @@ void draw_scale_bar(const PanelPainter& painter, const ScaleBar& bar, const Pane
 
 /// Beside the arrow's head, or where the panels leave it free near there. Nothing where there is no arrow;
 /// the plot has the force as well.
-void draw_force_label(const PanelPainter& painter, const ToolState& tool, const Camera& camera,
-                      const glm::ivec2& size_px, std::span<const std::optional<PanelPlace>> panels);
+void draw_force_label(const PanelPainter& painter, const ToolState& tool, double burr_radius_mm,
+                      const Camera& camera, const glm::ivec2& size_px,
+                      std::span<const std::optional<PanelPlace>> panels);
+
+/// Round the picture, in the colour of warnings.
+void draw_alarm_frame(const PanelPainter& painter, const glm::ivec2& size_px);
 
 }  // namespace osteomill

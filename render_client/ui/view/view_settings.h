@@ -27,6 +27,8 @@ struct ViewSettings {
     float scale = 1.0f;  ///< of panels and letters: 2 on a display twice as dense
     bool panels_shown = true;
     bool help_shown = false;
+    bool details_shown = false;  ///< of link, delay, picture and solver
+    bool is_fullscreen = false;
     bool cuts_panel_shown = false;
     bool transfer_panel_shown = false;
     CutSettings cuts;

@@ -167,6 +167,21 @@ WindowInput Window::take_input() {
     return taken;
 }
 
+void Window::fill_screen(bool wanted) {
+    if (wanted == (glfwGetWindowMonitor(window_) != nullptr)) return;
+    if (!wanted) {
+        glfwSetWindowMonitor(window_, nullptr, place_before_.x, place_before_.y, size_before_.x,
+                             size_before_.y, GLFW_DONT_CARE);
+        return;
+    }
+    GLFWmonitor* const monitor = glfwGetPrimaryMonitor();
+    const GLFWvidmode* const mode = monitor != nullptr ? glfwGetVideoMode(monitor) : nullptr;
+    if (mode == nullptr) return;
+    glfwGetWindowPos(window_, &place_before_.x, &place_before_.y);
+    glfwGetWindowSize(window_, &size_before_.x, &size_before_.y);
+    glfwSetWindowMonitor(window_, monitor, 0, 0, mode->width, mode->height, mode->refreshRate);
+}
+
 bool Window::take_close_asked() {
     const bool is_asked = glfwWindowShouldClose(window_) != 0;
     glfwSetWindowShouldClose(window_, GLFW_FALSE);

@@ -32,6 +32,8 @@ class Window {
     /// The window as it is, and all that happened since the last call. Throws std::runtime_error where the
     /// display has gone (its server ended or shut this program out): nothing more can be shown.
     WindowInput take_input();
+    /// The whole screen, or the place and size that it had before.
+    void fill_screen(bool wanted);
     /// Whether somebody has tried to close it since the last call.
     bool take_close_asked();
 
@@ -52,6 +54,7 @@ class Window {
     GLFWwindow* window_ = nullptr;
     GLFWwindow* unseen_ = nullptr;  ///< has the second context
     WindowInput input_;
+    glm::ivec2 place_before_{0}, size_before_{0};  ///< it filled the screen
     HeldKeys keys_;
     std::atomic<bool> is_display_gone_{false};
 };

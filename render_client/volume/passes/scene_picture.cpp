@@ -39,7 +39,10 @@ const gl::Framebuffer& ScenePicture::draw(const BoneTextures* bone, const DrawnT
         tool_renderer_.draw(*tool, camera, covered_);
     }
     if (bone) structures_.draw(camera, layer_.look(), covered_);
-    if (bone && tool) tool_renderer_.draw_seen_through(*tool, camera, picture_.size_px());
+    if (bone && tool) {
+        tool_renderer_.draw_seen_through(*tool, camera, picture_.size_px());
+        tool_renderer_.draw_force(*tool, camera, covered_);
+    }
     if (layer_.look().light_field) {
         if (!light_field_) light_field_.emplace();
         light_field_->draw(picture_.size_px(), camera.pixel_aspect);

@@ -56,10 +56,29 @@ HiddenField field_of(const DrawnTool& tool, const Camera& camera, const glm::ive
 
 }  // namespace
 
+std::optional<ForceArrow> force_arrow(const ToolState& tool, double burr_radius_mm, const Camera& camera,
+                                      const glm::ivec2& size_px) {
+    constexpr double mm_per_n = 4.0, shortest_px = 40.0, least_force_n = 0.02;
+    const double force_n = glm::length(tool.force_n);
+    const glm::dvec3& burr_mm = tool.burr_position_mm;
+    if (!std::isfinite(force_n) || force_n < least_force_n ||
+        glm::dot(burr_mm - camera.eye_mm(), camera.forward()) < camera.near_mm)
+        return std::nullopt;
+    const glm::dvec3 along = tool.force_n / force_n;
+    // Seen from its end it would have to be endless.
+    constexpr double least_part_across = 0.25;
+    const double part_across = std::max(glm::length(glm::cross(along, camera.forward())), least_part_across);
+    const double length_mm =
+        std::max(mm_per_n * force_n, shortest_px * mm_per_px_at(camera, burr_mm, size_px) / part_across);
+    const glm::dvec3 from_mm = burr_mm + burr_radius_mm * along;
+    return ForceArrow{from_mm, from_mm + length_mm * along};
+}
+
 ToolRenderer::ToolRenderer()
     : program_(make_program(tool_files)),
       // Orange and sky blue of Okabe and Ito's palette: told apart by every kind of colour vision.
       arrow_(unit_arrow(linear_from_srgb({230, 159, 0}))),
+      arrow_outline_(unit_arrow(glm::vec3(0.0f))),
       ghost_(unit_sphere(linear_from_srgb({86, 180, 233}))),
       head_(burr_head(burr_shape_)),
       shank_(burr_shank(burr_shape_)) {}
@@ -88,21 +107,6 @@ void ToolRenderer::draw(const DrawnTool& tool, const Camera& camera, TileMask& c
               {.polish = 1.0f, .sees_through = field.is_before_eye ? leave_out : 0.0f}, covered);
     glDisable(GL_CULL_FACE);
 
-    const double force_n = glm::length(tool.state.force_n);
-    if (std::isfinite(force_n) && force_n > shortest_arrow_n) {
-        const double length_mm = arrow_mm_per_n * force_n;
-        const glm::dmat4 at_force =
-            glm::translate(glm::dmat4(1.0), tool.state.burr_position_mm) * z_to(tool.state.force_n);
-        // The arrow starts within the burr and may end in bone: it is information, not a thing, so it is
-        // always seen. Back faces must not show through it.
-        glDisable(GL_DEPTH_TEST);
-        glEnable(GL_CULL_FACE);
-        const double thickness_mm = std::min(length_mm, 10.0);
-        draw_mesh(arrow_, glm::scale(at_force, glm::dvec3(thickness_mm, thickness_mm, length_mm)),
-                  view_projection, {}, covered);
-        glDisable(GL_CULL_FACE);
-        glEnable(GL_DEPTH_TEST);
-    }
     if (tool.hand_target_mm) {
         const glm::dmat4 at_hand = glm::translate(glm::dmat4(1.0), *tool.hand_target_mm);
         glEnable(GL_BLEND);
@@ -115,6 +119,33 @@ void ToolRenderer::draw(const DrawnTool& tool, const Camera& camera, TileMask& c
         glDisable(GL_CULL_FACE);
         glDisable(GL_BLEND);
     }
+}
+
+void ToolRenderer::draw_force(const DrawnTool& tool, const Camera& camera, TileMask& covered) const {
+    const auto arrow = force_arrow(tool.state, 0.5 * tool.burr.diameter_mm, camera, covered.size_px());
+    if (!arrow) return;
+    constexpr double thickest_mm = 10.0, thinnest_px = 70.0, outline_px = 1.5;
+    constexpr double shaft_radius = 0.03;  // of unit_arrow
+    const double mm_per_px = mm_per_px_at(camera, arrow->from_mm, covered.size_px());
+    const double length_mm = glm::distance(arrow->from_mm, arrow->head_mm);
+    const double thickness_mm = std::max(std::min(length_mm, thickest_mm), thinnest_px * mm_per_px);
+    const double outline_mm = outline_px * mm_per_px;
+    const glm::dvec3 along = (arrow->head_mm - arrow->from_mm) / length_mm;
+    const auto placed = [&](double grown_mm) {
+        const double thick_mm = thickness_mm + grown_mm / shaft_radius;
+        return glm::scale(
+            glm::translate(glm::dmat4(1.0), arrow->from_mm - grown_mm * along) * z_to(tool.state.force_n),
+            glm::dvec3(thick_mm, thick_mm, length_mm + 3.0 * grown_mm));
+    };
+    const glm::dmat4 view_projection = camera.projection(covered.size_px()) * camera.view();
+    program_.use();
+    // Back faces must not show through it.
+    glDisable(GL_DEPTH_TEST);
+    glEnable(GL_CULL_FACE);
+    draw_mesh(arrow_outline_, placed(outline_mm), view_projection, {}, covered);
+    draw_mesh(arrow_, placed(0.0), view_projection, {}, covered);
+    glDisable(GL_CULL_FACE);
+    glEnable(GL_DEPTH_TEST);
 }
 
 // First the depth of what is nearest, then its colour: the shank is seen through once, not twice.

@@ -23,10 +23,17 @@ struct DrawnTool {
     std::optional<glm::dvec3> hand_target_mm{};  ///< drawn as a translucent burr where it is given
 };
 
-/// Length of the force arrow.
-inline constexpr double arrow_mm_per_n = 4.0;
-/// Less force than this shows no arrow.
-inline constexpr double shortest_arrow_n = 0.02;
+/// Patient LPS.
+struct ForceArrow {
+    glm::dvec3 from_mm{0.0};
+    glm::dvec3 head_mm{0.0};
+};
+
+/// The force on the hand, from the burr's surface outwards: 4 mm a newton, but at least 40 pixels as it is
+/// seen, but for an arrow that points at the eye or from it. Nothing
+/// below 0.02 N, or where the burr is not before the eye.
+std::optional<ForceArrow> force_arrow(const ToolState& tool, double burr_radius_mm, const Camera& camera,
+                                      const glm::ivec2& size_px);
 
 class ToolRenderer {
   public:
@@ -37,6 +44,9 @@ class ToolRenderer {
     /// The part of the shank that is seen through: over all that draw and others have drawn behind it. Right
     /// after draw, of the same tool and camera.
     void draw_seen_through(const DrawnTool& tool, const Camera& camera, const glm::ivec2& size_px) const;
+
+    /// The force, outlined, over all that was drawn before: it is information, not a thing.
+    void draw_force(const DrawnTool& tool, const Camera& camera, TileMask& covered) const;
 
   private:
     struct Finish {
@@ -51,6 +61,7 @@ class ToolRenderer {
 
     gl::Program program_;
     gl::Mesh arrow_;
+    gl::Mesh arrow_outline_;
     gl::Mesh ghost_;
     BurrShape burr_shape_;
     gl::Mesh head_;

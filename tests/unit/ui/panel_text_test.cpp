@@ -5,6 +5,7 @@
 namespace osteomill::panel_text_test {
 namespace {
 
+using ::testing::AllOf;
 using ::testing::HasSubstr;
 
 /// All lines, one after the other.
@@ -91,6 +92,35 @@ TEST_F(PanelTexts, TellHowFarABoneHasComeAndIsPrepared) {
     content_.preparation_percent = 43;
     EXPECT_THAT(plain(session_text(content_)), HasSubstr("preparing the bone: 43 %\n"));
     EXPECT_FALSE(has_tone(session_text(content_), Tone::warning)) << "nothing is wrong";
+}
+
+TEST_F(PanelTexts, SayTheFirstStepsUntilBoneIsRemoved) {
+    content_.operator_command = OperatorCommand{};
+    content_.tool->removed_mm3 = 0.0;
+    EXPECT_THAT(plain(operator_text(content_)), HasSubstr("Hold SPACE: the burr turns."));
+    content_.tool->removed_mm3 = 0.01;
+    EXPECT_THAT(plain(operator_text(content_)), ::testing::Not(HasSubstr("Hold SPACE")));
+}
+
+TEST_F(PanelTexts, KeepFiguresOfTheLinkForWhoAsks) {
+    content_.link.delay.emplace();
+    EXPECT_THAT(plain(session_text(content_)), ::testing::Not(HasSubstr("frames/s")));
+    view_.details_shown = true;
+    EXPECT_THAT(plain(session_text(content_)), AllOf(HasSubstr("frames/s"), HasSubstr("delay")));
+}
+
+TEST_F(PanelTexts, AlarmForAFaultAndAProtectedStructureOnly) {
+    EXPECT_FALSE(is_alarm(content_));
+    content_.bone_problem = "too large";
+    view_.notice = "written: a.png";
+    EXPECT_FALSE(is_alarm(content_));
+    content_.tool->touches_protected = true;
+    EXPECT_TRUE(is_alarm(content_));
+    content_.tool->touches_protected = false;
+    content_.tool->fault = "the device is lost";
+    EXPECT_TRUE(is_alarm(content_));
+    content_.link.controls.is_paused = true;
+    EXPECT_FALSE(is_alarm(content_)) << "it waits for the person";
 }
 
 TEST_F(PanelTexts, TellTheToolAndTheSession) {

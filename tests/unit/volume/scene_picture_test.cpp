@@ -44,6 +44,29 @@ TEST_F(ScenePictureTest, HidesTheToolBehindBoneAndShowsItInFront) {
     EXPECT_NE(middle(picture.draw(&textures, &in_front, camera).read_back()), middle(bone_alone));
 }
 
+TEST(ForceArrow, BeginsAtTheBurrsSurfaceAndIsLongEnoughToBeSeen) {
+    Camera camera = camera_on({0.0, 0.0, 0.0}, 50.0);
+    const glm::dvec3 along = glm::normalize(glm::dvec3(1.0, 0.0, 1.0));
+    ToolState tool;
+    const auto length_mm = [&](double force_n) {
+        tool.force_n = force_n * along;
+        const auto arrow = force_arrow(tool, 1.5, camera, size_px);
+        if (!arrow) return 0.0;
+        EXPECT_NEAR(glm::distance(arrow->from_mm, 1.5 * along), 0.0, 1e-9);
+        return glm::dot(arrow->head_mm - arrow->from_mm, along);
+    };
+    EXPECT_EQ(length_mm(0.01), 0.0) << "no arrow";
+    EXPECT_NEAR(length_mm(100.0), 400.0, 1e-9) << "4 mm a newton";
+    ASSERT_GT(length_mm(0.05), 0.0);
+    const auto weak = force_arrow(tool, 1.5, camera, size_px);
+    EXPECT_NEAR(
+        glm::distance(pixel_of(camera, weak->from_mm, size_px), pixel_of(camera, weak->head_mm, size_px)),
+        40.0, 3.0)
+        << "as it is seen";
+    tool.burr_position_mm = 2.0 * camera.eye_mm();
+    EXPECT_EQ(length_mm(1.0), 0.0) << "behind the eye";
+}
+
 TEST_F(ScenePictureTest, ShowsTheBurrThroughAShankBeforeIt) {
     Camera camera = camera_on({0.0, 0.0, 3.2}, 15.0);
     camera.elevation_rad = 1.5;
