@@ -19,6 +19,15 @@ png_image rgb_image() {
     return image;
 }
 
+/// Of an image that has been begun to be read.
+Picture finish_reading(png_image& image, bool has_begun, const std::string& name) {
+    Picture picture({static_cast<int>(image.width), static_cast<int>(image.height)});
+    image.format = PNG_FORMAT_RGB;
+    if (!has_begun || !png_image_finish_read(&image, nullptr, picture.rgb.data(), 0, nullptr))
+        throw std::runtime_error("cannot read the picture " + name + ": " + image.message);
+    return picture;
+}
+
 }  // namespace
 
 void write_png(const Picture& picture, const std::filesystem::path& file) {
@@ -35,13 +44,14 @@ void write_png(const Picture& picture, const std::filesystem::path& file) {
 
 Picture read_png(const std::filesystem::path& file) {
     png_image image = rgb_image();
-    if (!png_image_begin_read_from_file(&image, file.c_str()))
-        throw std::runtime_error("cannot read the picture " + file.string() + ": " + image.message);
-    image.format = PNG_FORMAT_RGB;
-    Picture picture({static_cast<int>(image.width), static_cast<int>(image.height)});
-    if (!png_image_finish_read(&image, nullptr, picture.rgb.data(), 0, nullptr))
-        throw std::runtime_error("cannot read the picture " + file.string() + ": " + image.message);
-    return picture;
+    const bool has_begun = png_image_begin_read_from_file(&image, file.c_str()) != 0;
+    return finish_reading(image, has_begun, file.string());
+}
+
+Picture read_png(std::span<const std::uint8_t> bytes) {
+    png_image image = rgb_image();
+    const bool has_begun = png_image_begin_read_from_memory(&image, bytes.data(), bytes.size()) != 0;
+    return finish_reading(image, has_begun, "in memory");
 }
 
 }  // namespace osteomill

@@ -75,6 +75,11 @@ class WindowTest : public ::testing::Test {
             << window_->err();
         ASSERT_TRUE(comes_true([&] { return shows_bone(display_->screen()); })) << window_->err();
     }
+    /// By the dark margin at the left of its panel, in a window of 1280 x 800.
+    static bool shows_start_page(const Picture& screen) {
+        const auto* pixel = screen.at(237, 400);
+        return std::max({pixel[0], pixel[1], pixel[2]}) < 45;
+    }
     /// By its warm colours, wherever they are: a panel or the pointer may cover any one place.
     static bool shows_bone(const Picture& screen) {
         std::size_t warm = 0;
@@ -191,7 +196,7 @@ TEST_F(WindowTest, AnswersMouseAndKeysAndShowsWhatAnOffscreenRunDraws) {
     press("Home");
     EXPECT_TRUE(shows(first));
 
-    press("F12");
+    press("p");
     const std::filesystem::path file = folder("pictures") + "/screenshot_0001.png";
     EXPECT_TRUE(comes_true([&] { return std::filesystem::exists(file); }));
     EXPECT_TRUE(comes_true([&] {  // it may be there and not yet be written
@@ -299,7 +304,7 @@ TEST_F(WindowTest, ImportsAScanAndStartsASessionOfItByMouse) {
     const auto first_file = [&] { click(300, 170); };
     const auto second_file = [&] { click(300, 188); };
     const auto lower_left_button = [&](int y) { click(262, y); };
-    click(350, 643);  // Import a scan
+    click(295, 643);  // Import a scan
     second_file();    // a torn one: nothing but a line
     click(316, 152);  // Back
     first_file();
@@ -314,7 +319,12 @@ TEST_F(WindowTest, ImportsAScanAndStartsASessionOfItByMouse) {
         return std::filesystem::exists(folder("home/osteomill/cases/scan/case.toml"));
     })) << window_->err();
     ASSERT_TRUE(is_there("cases/scan/bone.nrrd"));
-    ASSERT_TRUE(press_until(643, [&] { return shows_bone(display_->screen()); })) << window_->err();  // Start
+    // The page's cards show bones, too.
+    const auto shows_session = [&] {
+        const Picture screen = display_->screen();
+        return !shows_start_page(screen) && shows_bone(screen);
+    };
+    ASSERT_TRUE(press_until(619, shows_session)) << window_->err();  // Start
     ASSERT_TRUE(is_there("reports"));
     press_and_see("F10");
     press("Return");
@@ -325,6 +335,33 @@ TEST_F(WindowTest, ImportsAScanAndStartsASessionOfItByMouse) {
     }));
     press("Escape");
     EXPECT_EQ(window_->wait(), 0) << window_->err();
+}
+
+TEST_F(WindowTest, StartsASessionByKeyboardAlone) {
+    server_->send_signal(SIGINT);
+    ASSERT_TRUE(server_->wait());
+    display_.emplace(glm::ivec2(1280, 800));
+    window_.emplace(
+        display_->shown_here({"/usr/bin/env", "HOME=" + folder("home"), "USER=anna", RENDER_CLIENT,
+                              "--connect", address_, "--window-size", "1280x800"}));
+    ASSERT_TRUE(
+        display_->xdotool({"search", "--sync", "--onlyvisible", "--name", "^Osteomill$", "windowfocus"}));
+    ASSERT_TRUE(comes_true([&] { return shows_start_page(display_->screen()); }));
+    // Down from the jaw is the tooth, beside it the cube, which is chosen, then started.
+    for (const char* key : {"Down", "Right", "Return", "Return"}) {
+        ASSERT_TRUE(stands_still());
+        const Picture before = display_->screen();
+        press(key);
+        ASSERT_TRUE(shows_otherwise_than(before, 0.0005)) << key << ": the focus is shown";
+    }
+    EXPECT_TRUE(comes_true([&] {
+        std::error_code ignored;
+        for (std::filesystem::directory_iterator report(folder("home/osteomill/reports"), ignored), end;
+             report != end; report.increment(ignored))
+            if (report->path().filename().string().starts_with("cube-anna-")) return true;
+        return false;
+    })) << window_->err();
+    press("Escape");
 }
 
 TEST_F(WindowTest, DrawsOnlyWhatChanges) {

@@ -15,8 +15,11 @@ class InputPanel {
     /// In a place smaller than it wants to be it scrolls.
     enum class Size { whole, scrolls };
 
+    /// A page has the keyboard: Tab and arrows go from widget to widget, Return presses one.
+    enum class Keys { none, reach_it };
+
     InputPanel(const char* name, const PanelPlace& place, Background background = Background::filled,
-               Size size = Size::whole) {
+               Size size = Size::whole, Keys keys = Keys::none) {
         ImGui::SetNextWindowPos({place.first.x, place.first.y}, ImGuiCond_Always);
         ImGui::SetNextWindowSize({place.size.x, place.size.y}, ImGuiCond_Always);
         ImGui::Begin(
@@ -25,7 +28,7 @@ class InputPanel {
                                  : ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize |
                                        ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_HorizontalScrollbar) |
                 ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
-                ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_NoNav |
+                (keys == Keys::none ? ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_NoNav : 0) |
                 (background == Background::none ? ImGuiWindowFlags_NoBackground : 0));
     }
     ~InputPanel() { ImGui::End(); }

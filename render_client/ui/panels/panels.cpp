@@ -26,12 +26,14 @@ constexpr const char* font_file = "/usr/share/fonts/truetype/dejavu/DejaVuSans.t
 constexpr float letter_px = 14.0f;
 constexpr float built_in_letter_px = 13.0f;
 
-/// Keys that a text is edited with, of GLFW and of Dear ImGui.
-constexpr std::array text_keys{
+/// Keys that texts are edited with and pages are gone through, of GLFW and of Dear ImGui.
+constexpr std::array panel_keys{
     std::pair{GLFW_KEY_BACKSPACE, ImGuiKey_Backspace}, std::pair{GLFW_KEY_DELETE, ImGuiKey_Delete},
     std::pair{GLFW_KEY_LEFT, ImGuiKey_LeftArrow},      std::pair{GLFW_KEY_RIGHT, ImGuiKey_RightArrow},
     std::pair{GLFW_KEY_HOME, ImGuiKey_Home},           std::pair{GLFW_KEY_END, ImGuiKey_End},
-    std::pair{GLFW_KEY_ENTER, ImGuiKey_Enter}};
+    std::pair{GLFW_KEY_ENTER, ImGuiKey_Enter},         std::pair{GLFW_KEY_UP, ImGuiKey_UpArrow},
+    std::pair{GLFW_KEY_DOWN, ImGuiKey_DownArrow},      std::pair{GLFW_KEY_TAB, ImGuiKey_Tab},
+    std::pair{GLFW_KEY_SPACE, ImGuiKey_Space}};
 
 /// Latin letters, and the signs on the tool bar.
 constexpr std::array<ImWchar, 11> letters{0x20,   0x17F,  0x2190, 0x21FF, 0x2300, 0x231F,
@@ -46,6 +48,7 @@ void set_colours(const Theme& theme, ImGuiStyle& style) {
         for (const ImGuiCol place : places) style.Colors[place] = imgui_colour(colour);
     };
     set({ImGuiCol_Text, ImGuiCol_CheckMark}, theme[Tone::plain]);
+    set({ImGuiCol_NavHighlight}, theme[Tone::warning]);
     set({ImGuiCol_TextDisabled, ImGuiCol_SliderGrab}, theme[Tone::dim]);
     set({ImGuiCol_WindowBg, ImGuiCol_PopupBg}, theme.panel);
     set({ImGuiCol_Button, ImGuiCol_FrameBg, ImGuiCol_Header}, theme.control);
@@ -88,7 +91,8 @@ Panels::Panels() {
     ImGui::CreateContext();
     // No file is written beside the program.
     ImGui::GetIO().IniFilename = nullptr;
-    for (const auto& [key, in_imgui] : text_keys) ImGui::GetIO().KeyMap[in_imgui] = in_imgui;
+    ImGui::GetIO().ConfigFlags |= ImGuiConfigFlags_NavEnableKeyboard;
+    for (const auto& [key, in_imgui] : panel_keys) ImGui::GetIO().KeyMap[in_imgui] = in_imgui;
     if (ImGui_ImplOpenGL3_Init("#version 330 core")) return;
     ImGui::DestroyContext();
     throw std::runtime_error("Dear ImGui finds no OpenGL 3 (libGL.so.1); install it: apt-get install libgl1");
@@ -146,11 +150,13 @@ void Panels::feed(const WindowInput& input) {
     io.MouseWheel += static_cast<float>(input.wheel.y);
     io.MouseWheelH += static_cast<float>(input.wheel.x);
     for (const char32_t character : input.typed) io.AddInputCharacter(character);
-    for (const auto& [key, in_imgui] : text_keys) {
+    for (const auto& [key, in_imgui] : panel_keys) {
         const bool was_pressed =
             std::find(input.presses.begin(), input.presses.end(), key) != input.presses.end();
         io.KeysDown[in_imgui] = was_pressed || input.keys_down[static_cast<std::size_t>(key)];
     }
+    // Dear ImGui presses what has the focus by SPACE alone.
+    if (io.KeysDown[ImGuiKey_Enter] && !io.WantTextInput) io.NavInputs[ImGuiNavInput_Activate] = 1.0f;
     io.KeyShift = input.shift;
     io.KeyCtrl = input.ctrl;
     io.KeyAlt = input.alt;

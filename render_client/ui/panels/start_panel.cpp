@@ -10,6 +10,7 @@
 #include <glm/vector_relational.hpp>
 
 #include "common/scene/material.h"
+#include "render_client/ui/panels/case_card.h"
 #include "render_client/ui/panels/input_panel.h"
 
 namespace osteomill {
@@ -49,36 +50,58 @@ void draw_message(const StartPage& page) {
     ImGui::PopTextWrapPos();
 }
 
-void draw_cases(StartPage& page) {
-    ImGui::TextUnformatted("Start a session on this machine");
-    ImGui::BeginChild("cases", list_size(page.report() ? 5.0f : 4.0f), true);
+void draw_sessions(StartPage& page) {
+    constexpr std::size_t most_shown = 20;
+    for (std::size_t i = 0; i < std::min(page.sessions().size(), most_shown); ++i) {
+        const std::filesystem::path session = page.sessions()[i];
+        ImGui::PushID(static_cast<int>(i));
+        std::error_code ignored;
+        if (button("Report", std::filesystem::exists(session / "report.html", ignored)))
+            page.open_report_of(session);
+        ImGui::SameLine();
+        if (ImGui::Button("Replay")) page.replay(session / "session.pcap");
+        ImGui::SameLine();
+        ImGui::TextUnformatted(session.filename().c_str());
+        ImGui::PopID();
+    }
+}
+
+void draw_cases(StartPage& page, StartPicture& pictures) {
+    const float letter = ImGui::GetFontSize();
+    ImGui::TextUnformatted("Choose a case: drill it with the mouse, for as long as you like.");
+    ImGui::TextDisabled("Forces are those of milling bone; at the end there is a report.");
+    ImGui::BeginChild("cases", list_size(page.sessions().empty() ? 4.0f : 8.0f), true,
+                      ImGuiWindowFlags_NavFlattened);
+    const float room = ImGui::GetContentRegionAvail().x;
+    const int columns = room > 44.0f * letter ? 2 : 1;
+    const float between = ImGui::GetStyle().ItemSpacing.x;
+    const ImVec2 card{(room - static_cast<float>(columns - 1) * between) / static_cast<float>(columns),
+                      7.6f * letter};
     for (std::size_t i = 0; i < page.cases().size(); ++i) {
-        const ShelvedCase& each = page.cases()[i];
-        const bool is_built_in = i < built_in_cases.size();
-        if (ImGui::Selectable(
-                fmt::format("{}{}##{}", each.name, is_built_in ? "  (built in)" : "", i).c_str(),
-                page.chosen == i))
-            page.chosen = i;
+        if (i % static_cast<std::size_t>(columns) != 0) ImGui::SameLine();
+        draw_case_card(page, pictures.of_cases, i, card);
     }
     ImGui::EndChild();
-    text_field("trainee", page.trainee, 14.0f * ImGui::GetFontSize());
+    if (!page.sessions().empty()) {
+        ImGui::TextUnformatted("Sessions so far");
+        ImGui::BeginChild("sessions", list_size(4.0f), true, ImGuiWindowFlags_NavFlattened);
+        draw_sessions(page);
+        ImGui::EndChild();
+    }
     if (button("Start", !page.is_session_running())) page.start();
     ImGui::SameLine();
+    text_field("trainee", page.trainee, 14.0f * letter);
     if (button("Import a scan ...", !page.is_session_running())) page.show(StartPage::View::scan_browser);
     ImGui::SameLine();
     if (button("Import labels ...", !page.is_session_running())) page.show(StartPage::View::labels_browser);
     ImGui::SameLine();
-    if (button("Compare all sessions", !page.is_working())) page.compare_sessions();
+    if (ImGui::Button("Open a recording ...")) page.show(StartPage::View::recording_browser);
+    if (button("Compare all sessions", !page.is_working() && !page.sessions().empty()))
+        page.compare_sessions();
+    ImGui::SameLine();
+    if (button("Open its report", page.report().has_value())) page.open_report();
     ImGui::SameLine();
     if (ImGui::Button("Hide this")) page.is_hidden = true;
-    if (page.report()) {
-        ImGui::AlignTextToFramePadding();
-        ImGui::TextUnformatted("The last session:");
-        ImGui::SameLine();
-        if (ImGui::Button("Open its report")) page.open_report();
-        ImGui::SameLine();
-        ImGui::TextUnformatted(page.report()->string().c_str());
-    }
     draw_message(page);
 }
 
@@ -89,6 +112,8 @@ void draw_browser(StartPage& page) {
         is_for_scan ? "A DICOM folder, a NRRD, NIfTI or MetaImage file, or a folder of PNG or TIFF pictures"
         : page.view() == StartPage::View::colours_browser
             ? "Names and colours of labels: a table of 3D Slicer (.ctbl, .csv) or ITK-SNAP"
+        : page.view() == StartPage::View::recording_browser
+            ? "A recording of a session (.pcap)"
             : "A segmentation (.seg.nrrd, DICOM), or a label map");
     ImGui::TextDisabled("%s", page.listing().folder.c_str());
     const FolderListing listing = page.listing();  // a click replaces it
@@ -105,21 +130,14 @@ void draw_browser(StartPage& page) {
         if (button("This folder", !listing.files.empty())) page.take(listing.folder);
         ImGui::SameLine();
     }
-    if (ImGui::Button("Back")) page.show(is_for_scan ? StartPage::View::cases : StartPage::View::import);
+    const bool was_on_import = !is_for_scan && page.view() != StartPage::View::recording_browser;
+    if (ImGui::Button("Back")) page.show(was_on_import ? StartPage::View::import : StartPage::View::cases);
 }
 
 void upload(const StartPage& page, StartPicture& picture) {
     if (picture.number == page.picture_number() && picture.texture) return;
-    const Picture& from = *page.picture();
-    std::vector<std::uint8_t> rgba;
-    rgba.reserve(from.rgb.size() / 3 * 4);
-    for (std::size_t i = 0; i < from.rgb.size(); i += 3) {
-        rgba.insert(rgba.end(), from.rgb.begin() + static_cast<std::ptrdiff_t>(i),
-                    from.rgb.begin() + static_cast<std::ptrdiff_t>(i + 3));
-        rgba.push_back(255);
-    }
     if (!picture.texture) picture.texture.emplace();
-    picture.texture->upload(from.size_px, rgba);
+    picture.texture->upload(*page.picture());
     picture.number = page.picture_number();
 }
 
@@ -265,10 +283,11 @@ glm::vec2 start_panel_size(const glm::vec2& available) {
 }
 
 void draw_start_panel(StartPage& page, StartPicture& picture, const PanelPlace& place) {
-    const InputPanel window("start", place);
+    const InputPanel window("start", place, InputPanel::Background::filled, InputPanel::Size::whole,
+                            InputPanel::Keys::reach_it);
     switch (page.view()) {
         case StartPage::View::cases:
-            draw_cases(page);
+            draw_cases(page, picture);
             break;
         case StartPage::View::import:
             draw_import(page, picture);
@@ -277,6 +296,7 @@ void draw_start_panel(StartPage& page, StartPicture& picture, const PanelPlace& 
         case StartPage::View::labels_browser:
         case StartPage::View::segmentation_browser:
         case StartPage::View::colours_browser:
+        case StartPage::View::recording_browser:
             draw_browser(page);
             break;
     }

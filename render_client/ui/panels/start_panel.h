@@ -5,6 +5,7 @@
 #include <glm/vec2.hpp>
 
 #include "render_client/link/bone_link.h"
+#include "render_client/ui/panels/case_card.h"
 #include "render_client/ui/panels/layout.h"
 #include "render_client/ui/panels/panel_painter.h"
 #include "render_client/ui/start/start_page.h"
@@ -12,11 +13,13 @@
 
 namespace osteomill {
 
-/// The picture of the scan that is looked at, on the GPU. Needs the OpenGL context, as a PictureTexture does.
+/// Pictures on the GPU: of the scan that is looked at, and of the cases. Needs the OpenGL context, as a
+/// PictureTexture does.
 struct StartPicture {
     std::optional<gl::PictureTexture> texture{};
     std::uint64_t number = 0;          ///< of the page's picture that it has
     std::optional<glm::dvec2> drag{};  ///< where a drag began, pixels of the picture
+    CardPictures of_cases{};
 };
 
 struct StartScreen {

@@ -2,13 +2,18 @@
 
 #include <fmt/chrono.h>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
 #include <cstdlib>
+#include <functional>
 #include <system_error>
 
+#include "common/scene/phantom_names.h"
+#include "common/scene/scene_file.h"
+#include "common/scene/shipped_scenes.h"
 #include "common/text/file_name.h"
 
 namespace osteomill {
@@ -28,6 +33,20 @@ std::vector<std::filesystem::path> folders_with(const std::filesystem::path& fol
     return found;
 }
 
+template <typename Read>
+void describe(ShelvedCase& shelved, const Read& read) {
+    try {
+        const Scene scene = read();
+        shelved.description = scene.description;
+        std::vector<std::string> names;
+        for (const Tissue& tissue : scene.tissues)
+            if (tissue.is_protected) names.push_back(tissue.name);
+        shelved.protected_names = fmt::format("{}", fmt::join(names, ", "));
+    } catch (const SceneError& error) {
+        shelved.description = error.what();
+    }
+}
+
 }  // namespace
 
 std::filesystem::path home_of_cases() {
@@ -38,14 +57,26 @@ std::filesystem::path home_of_cases() {
 
 std::vector<ShelvedCase> cases_in(const std::filesystem::path& folder) {
     std::vector<ShelvedCase> cases;
-    for (const char* name : built_in_cases) cases.push_back({name, name});
-    for (const auto& path : folders_with(folder, "case.toml"))
-        cases.push_back({path.filename().string(), path.string()});
+    for (const ShippedScene& shipped : shipped_scenes) {
+        const std::string name(shipped.name);
+        cases.push_back({.name = name, .argument = name, .is_built_in = true});
+        describe(cases.back(), [&] { return parse_scene(shipped.text, name); });
+    }
+    for (const auto& path : folders_with(folder, "case.toml")) {
+        cases.push_back({.name = path.filename().string(), .argument = path.string()});
+        describe(cases.back(), [&] { return read_scene(path / "case.toml"); });
+    }
     return cases;
 }
 
 std::vector<std::filesystem::path> sessions_in(const std::filesystem::path& reports) {
-    return folders_with(reports, "session.pcap");
+    const auto written = [](const std::filesystem::path& folder) {
+        std::error_code ignored;
+        return std::filesystem::last_write_time(folder / "session.pcap", ignored);
+    };
+    std::vector<std::filesystem::path> sessions = folders_with(reports, "session.pcap");
+    std::ranges::stable_sort(sessions, std::greater(), written);
+    return sessions;
 }
 
 std::string wrong_with_name(const std::string& name, const std::filesystem::path& folder) {
@@ -55,7 +86,7 @@ std::string wrong_with_name(const std::string& name, const std::filesystem::path
         return fmt::format(
             "a case's name has 1 to {} characters, no / or \\, no dot first, no blank at its ends",
             longest_file_name_characters);
-    if (std::find(built_in_cases.begin(), built_in_cases.end(), name) != built_in_cases.end())
+    if (std::ranges::find(phantom_names, name) != phantom_names.end())
         return fmt::format("'{}' is built in; choose another name", name);
     std::error_code error;
     if (std::filesystem::exists(folder / name, error))

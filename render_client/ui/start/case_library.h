@@ -1,7 +1,6 @@
 // The cases that can be started on this machine: those built in, and the folders that a person has imported.
 #pragma once
 
-#include <array>
 #include <ctime>
 #include <filesystem>
 #include <string>
@@ -9,11 +8,12 @@
 
 namespace osteomill {
 
-inline constexpr std::array<const char*, 3> built_in_cases{"tooth", "cube", "head"};
-
 struct ShelvedCase {
     std::string name;
     std::string argument;  ///< of haptic_server --case
+    bool is_built_in = false;
+    std::string description{};      ///< a sentence, or what is wrong with its scene
+    std::string protected_names{};  ///< of its tissues, "pulp, nerve canal"; empty: none
 
     bool operator==(const ShelvedCase&) const = default;
 };
@@ -30,7 +30,7 @@ std::vector<ShelvedCase> cases_in(const std::filesystem::path& folder);
 /// dot first, no blank at its ends, none like it in `folder`.
 std::string wrong_with_name(const std::string& name, const std::filesystem::path& folder);
 
-/// The folders of `reports` that hold a recorded session, by name.
+/// The folders of `reports` that hold a recorded session, the newest first.
 std::vector<std::filesystem::path> sessions_in(const std::filesystem::path& reports);
 
 /// Where a session that begins at `began` has its report: case, trainee and the local time, in `reports`.

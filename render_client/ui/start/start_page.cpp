@@ -67,12 +67,18 @@ std::filesystem::path folder_of_this_program() {
     return std::filesystem::read_symlink("/proc/self/exe", error).parent_path();
 }
 
-StartPage::StartPage(StartPlaces places) : places_(std::move(places)), cases_(cases_in(cases_of(places_))) {
+StartPage::StartPage(StartPlaces places) : places_(std::move(places)) {
+    look_at_home();
     if (const char* user = std::getenv("USER"); user != nullptr) trainee = user;
 }
 
+void StartPage::look_at_home() {
+    cases_ = cases_in(cases_of(places_));
+    sessions_ = sessions_in(places_.home / "reports");
+}
+
 void StartPage::show(View view) {
-    if (view == View::cases) cases_ = cases_in(cases_of(places_));
+    if (view == View::cases) look_at_home();
     const bool browses = view != View::cases && view != View::import;
     if (browses && listing_.folder.empty()) {
         const char* home = std::getenv("HOME");
@@ -125,6 +131,16 @@ void StartPage::open_page(const std::filesystem::path& page) {
     }
 }
 
+void StartPage::replay(const std::filesystem::path& recording) {
+    try {
+        players_.push_back(std::make_unique<ChildProgram>(
+            std::vector<std::string>{program("render_client"), "--replay=" + recording.string()}));
+        message_ = recording.string() + " opens in a window of its own";
+    } catch (const std::exception& error) {
+        message_ = error.what();
+    }
+}
+
 void StartPage::compare_sessions() {
     if (is_working()) return;
     const auto sessions = sessions_in(places_.home / "reports");
@@ -151,6 +167,9 @@ void StartPage::take(const std::filesystem::path& path) {
         picture_.reset();
         show(View::import);
         look_at_scan(true);
+    } else if (view_ == View::recording_browser) {
+        show(View::cases);
+        replay(path);
     } else if (view_ == View::segmentation_browser || view_ == View::colours_browser) {
         form_before_ = form;
         if (view_ == View::colours_browser)
@@ -266,12 +285,19 @@ bool StartPage::poll() {
             if (std::filesystem::exists(page, ignored)) report_ = page;
             message_ = end_in_words(*server_, report_folder_);
             server_.reset();
+            look_at_home();
             // Its port may soon be somebody else's.
             server_is_at_ = places_.connects_to;
         } else if (!has_address_) {
             look_for_address();
         }
     }
+    std::erase_if(players_, [&](const std::unique_ptr<ChildProgram>& player) {
+        if (!player->poll() || player->is_running()) return false;
+        has_news = true;
+        if (player->status() != 0) message_ = without_program(player->last_line());
+        return true;
+    });
     if (opener_ && opener_->poll() && !opener_->is_running()) {
         has_news = true;
         if (opener_->status() != 0) message_ = "no browser is known here; open it by hand: " + message_;

@@ -31,7 +31,15 @@ std::filesystem::path folder_of_this_program();
 
 class StartPage {
   public:
-    enum class View { cases, import, scan_browser, labels_browser, segmentation_browser, colours_browser };
+    enum class View {
+        cases,
+        import,
+        scan_browser,
+        labels_browser,
+        segmentation_browser,
+        colours_browser,
+        recording_browser
+    };
 
     explicit StartPage(StartPlaces places);
     /// Ends what it started: a session's server writes its report first.
@@ -46,6 +54,11 @@ class StartPage {
     const std::string& message() const { return message_; }
 
     const std::vector<ShelvedCase>& cases() const { return cases_; }
+    /// The sessions that were kept here, the newest first.
+    const std::vector<std::filesystem::path>& sessions() const { return sessions_; }
+    /// Its report in the user's browser; a recording in a window of its own.
+    void open_report_of(const std::filesystem::path& session) { open_page(session / "report.html"); }
+    void replay(const std::filesystem::path& recording);
     std::size_t chosen = 0;  ///< of cases()
     std::string trainee{};   ///< whose session it will be
     void start();
@@ -89,12 +102,15 @@ class StartPage {
     std::string program(const char* name) const { return (places_.programs / name).string(); }
     void open_page(const std::filesystem::path& page);
     void look_at_scan(bool is_another_scan);
+    void look_at_home();
     void end_of_work();
 
     StartPlaces places_;
     View view_ = View::cases;
     std::string message_;
     std::vector<ShelvedCase> cases_;
+    std::vector<std::filesystem::path> sessions_;
+    std::vector<std::unique_ptr<ChildProgram>> players_;  // close with this window
     FolderListing listing_;
 
     enum class Work { look, import, compare };

@@ -1,4 +1,4 @@
-// A picture of four bytes a pixel in a texture, to be shown as it is. A move-only value. Every call needs the
+// A picture in a texture, to be shown as it is. A move-only value. Every call needs the
 // OpenGL context in which it was made to be current.
 #pragma once
 
@@ -7,6 +7,8 @@
 #include <cstdint>
 #include <glm/vec2.hpp>
 #include <span>
+
+#include "render_client/volume/picture.h"
 
 namespace osteomill::gl {
 
@@ -19,9 +21,12 @@ class PictureTexture {
 
     /// Rows from the top; 4 bytes a pixel.
     void upload(const glm::ivec2& size_px, std::span<const std::uint8_t> rgba);
+    void upload(const Picture& picture);
     GLuint id() const { return id_; }
 
   private:
+    void store(const glm::ivec2& size_px, GLenum format, const std::uint8_t* bytes);
+
     GLuint id_ = 0;
 };
 

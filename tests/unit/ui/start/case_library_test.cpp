@@ -2,13 +2,18 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
+#include <chrono>
 #include <fstream>
 
+#include "render_client/ui/start/case_pictures.h"
+#include "render_client/volume/png_file.h"
 #include "tests/support/temporary_folder.h"
 
 namespace osteomill {
 namespace {
 
+using ::testing::AllOf;
 using ::testing::HasSubstr;
 
 TEST(CaseLibrary, HasTheBuiltInCasesAndWhatWasImported) {
@@ -16,14 +21,27 @@ TEST(CaseLibrary, HasTheBuiltInCasesAndWhatWasImported) {
     for (const char* name : {"zygoma", "a jaw", "no case"})
         std::filesystem::create_directories(folder / name);
     std::ofstream(folder / "zygoma/case.toml") << "name = \"z\"\n";
-    std::ofstream(folder / "a jaw/case.toml") << "name = \"j\"\n";
+    std::ofstream(folder / "a jaw/case.toml") << "name = \"j\"\ndescription = \"An imported "
+                                                 "jaw\"\n[bone]\nphantom = \"cube\"\n[[tissues]]\nlabel = 1\n"
+                                                 "name = \"nerve\"\ncolour = \"#ffffff\"\nprotected = true\n";
     std::ofstream(folder / "a file") << "nothing";
     const auto cases = cases_in(folder / ".");
-    ASSERT_EQ(cases.size(), 5U);
-    EXPECT_EQ(cases[0], (ShelvedCase{"tooth", "tooth"}));
-    EXPECT_EQ(cases[3].name, "a jaw");
-    EXPECT_EQ(std::filesystem::path(cases[4].argument), folder / "./zygoma");
-    EXPECT_EQ(cases_in(folder / "not there").size(), 3U);
+    ASSERT_EQ(cases.size(), 7U);
+    EXPECT_EQ(cases[0].name, "jaw");
+    EXPECT_EQ(cases[1].name, "mastoid");
+    for (std::size_t i = 0; i < 5; ++i) {
+        EXPECT_TRUE(cases[i].is_built_in);
+        EXPECT_EQ(cases[i].argument, cases[i].name);
+        EXPECT_FALSE(cases[i].description.empty()) << cases[i].name;
+    }
+    EXPECT_EQ(cases[0].protected_names, "pulp, nerve canal");
+    EXPECT_THAT(cases[1].protected_names, AllOf(HasSubstr("Facial_Nerve"), HasSubstr("Sinus_+_Dura")));
+    EXPECT_EQ(cases[5].name, "a jaw");
+    EXPECT_EQ(cases[5].description, "An imported jaw");
+    EXPECT_EQ(cases[5].protected_names, "nerve");
+    EXPECT_EQ(std::filesystem::path(cases[6].argument), folder / "./zygoma");
+    EXPECT_THAT(cases[6].description, HasSubstr("'bone'")) << "what is wrong with it";
+    EXPECT_EQ(cases_in(folder / "not there").size(), 5U);
 }
 
 TEST(CaseLibrary, RefusesNamesThatWouldBeNoFolderOrAreTaken) {
@@ -38,14 +56,26 @@ TEST(CaseLibrary, RefusesNamesThatWouldBeNoFolderOrAreTaken) {
     EXPECT_THAT(wrong_with_name("tooth", folder / "."), HasSubstr("built in"));
 }
 
-TEST(CaseLibrary, KnowsTheSessionsThatWereRecorded) {
+TEST(CaseLibrary, HasAPictureOfEveryBuiltInCase) {
+    for (const ShelvedCase& shelved : cases_in("nowhere")) {
+        const auto picture = std::ranges::find(case_pictures(), shelved.name, &CasePicture::name);
+        ASSERT_NE(picture, case_pictures().end()) << shelved.name;
+        EXPECT_EQ(read_png(picture->png).size_px, glm::ivec2(240, 160)) << shelved.name;
+    }
+    EXPECT_THROW((void)read_png(std::span<const std::uint8_t>()), std::runtime_error);
+}
+
+TEST(CaseLibrary, KnowsTheSessionsThatWereRecordedTheNewestFirst) {
     const testing::TemporaryFolder folder;
     for (const char* name : {"b", "a", "torn"}) std::filesystem::create_directories(folder / name);
     for (const char* file : {"a/session.pcap", "b/session.pcap", "torn/session.part.pcap"})
         std::ofstream(folder / file) << "x";
     const auto sessions = sessions_in(folder / ".");
     ASSERT_EQ(sessions.size(), 2U);
-    EXPECT_EQ(sessions[0].filename(), "a");
+    std::filesystem::last_write_time(
+        folder / "a/session.pcap",
+        std::filesystem::last_write_time(folder / "b/session.pcap") - std::chrono::hours(1));
+    EXPECT_EQ(sessions_in(folder / ".").front().filename(), "b");
     EXPECT_TRUE(sessions_in(folder / "nowhere").empty());
 }
 
