@@ -1,32 +1,42 @@
-// A file of sessions and their metrics that an earlier study has read. It only saves time: whatever it holds
-// is in the recordings, and it is made again from them when it is missing, damaged or of another version.
+// A small SQLite file of sessions and their metrics. It only saves time: whatever it holds is in the
+// recordings, and it is made again from them when it is missing, damaged or of another version.
+//
+//     session(digest PRIMARY KEY, file, trainee, case_name, began_unix_ns)
+//     metric(digest, place, key, of, value, unit, text)
 #pragma once
 
 #include <filesystem>
-#include <map>
+#include <memory>
 #include <optional>
 #include <string>
 
 #include "analysis/sessions/session_record.h"
 
+struct sqlite3;
+
 namespace osteomill::study {
 
 class SessionStore {
   public:
-    /// `version`: of the programs that filled it; others may measure otherwise.
-    SessionStore(std::filesystem::path file, std::string version);
+    /// Of the programs that filled it: other versions may measure otherwise. Throws std::runtime_error naming
+    /// the file where it can be neither read nor made.
+    SessionStore(const std::filesystem::path& file, const std::string& version);
 
     /// What is kept of the recording with this digest.
     std::optional<SessionRecord> find(const std::string& digest) const;
     /// Replaces what is kept of it.
-    void keep(const SessionRecord& record) { kept_[record.digest] = record; }
-    /// Throws std::runtime_error naming the file where it cannot be written.
-    void write() const;
+    void keep(const SessionRecord& record);
 
   private:
+    struct Close {
+        void operator()(sqlite3* database) const;
+    };
+    bool open(const std::string& version);
+    void execute(const std::string& sql) const;
+    [[noreturn]] void fail(const std::string& what) const;
+
     std::filesystem::path file_;
-    std::string version_;
-    std::map<std::string, SessionRecord> kept_;
+    std::unique_ptr<sqlite3, Close> database_;
 };
 
 }  // namespace osteomill::study

@@ -105,7 +105,7 @@ void run_sessions_study(const SessionsStudyOptions& options, const StudySurround
     const auto files = recordings_in(options.from);
     const auto groups = groups_of(options);
     make_folder(options.out);
-    SessionStore store(options.out / "kept_sessions.json", options.version);
+    SessionStore store(options.out / "sessions.sqlite", options.version);
     StudyRun run(options.out, surroundings);
     std::vector<std::string> skipped;
     const auto skip = [&](const std::string& why) {
@@ -142,7 +142,6 @@ void run_sessions_study(const SessionsStudyOptions& options, const StudySurround
         }
         ++recording;
     }
-    store.write();
     if (sessions.empty()) throw std::runtime_error("no recording can be read to its end");
     std::ranges::stable_sort(sessions, {}, &SessionRecord::began_unix_ns);
     write_text(sessions_csv(sessions), options.out / "sessions.csv");

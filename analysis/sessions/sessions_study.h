@@ -18,7 +18,7 @@ struct SessionsStudyOptions {
     std::string version;
 };
 
-/// Writes OUT/kept_sessions.json, sessions.csv, sessions.html and a learning curve OUT/KEY.svg for each
+/// Writes OUT/sessions.sqlite, sessions.csv, sessions.html and a learning curve OUT/KEY.svg for each
 /// metric that is drawn (KEY_2.svg for the second case, ...). A recording that cannot be read to its end is
 /// named and left out. Throws std::runtime_error where none is left, a file cannot be read or written, or a
 /// group to compare has no session.

@@ -161,10 +161,10 @@ TEST_F(SessionsStudy, GivesTheSameFromTheStoreAndWithoutIt) {
     run();
     EXPECT_EQ(text("sessions.csv"), csv);
     EXPECT_EQ(text("sessions.html"), page);
-    std::filesystem::remove(folder_ / "out/kept_sessions.json");
+    std::filesystem::remove(folder_ / "out/sessions.sqlite");
     run();
     EXPECT_EQ(text("sessions.csv"), csv);
-    std::ofstream(folder_ / "out/kept_sessions.json") << std::string(5000, 'x');
+    std::ofstream(folder_ / "out/sessions.sqlite") << std::string(5000, 'x');
     run();
     EXPECT_EQ(text("sessions.csv"), csv);
 }
@@ -196,14 +196,16 @@ TEST(SessionStoreTest, KeepsARecordAsItIs) {
         EXPECT_EQ(kept->metrics[1].of, "pulp");
         EXPECT_FALSE(kept->metrics[1].value);
     };
-    SessionStore store(folder / "s.json", "1");
-    EXPECT_FALSE(store.find("d1"));
-    store.keep(record);
-    same(store.find("d1"));
-    store.write();
-    same(SessionStore(folder / "s.json", "1").find("d1"));
-    EXPECT_FALSE(SessionStore(folder / "s.json", "2").find("d1")) << "another version measures otherwise";
-    EXPECT_THROW(SessionStore(folder / "no/folder/s.json", "1").write(), std::runtime_error);
+    {
+        SessionStore store(folder / "s.sqlite", "1");
+        EXPECT_FALSE(store.find("d1"));
+        store.keep(record);
+        store.keep(record);
+        same(store.find("d1"));
+    }
+    same(SessionStore(folder / "s.sqlite", "1").find("d1"));
+    EXPECT_FALSE(SessionStore(folder / "s.sqlite", "2").find("d1")) << "another version measures otherwise";
+    EXPECT_THROW(SessionStore(folder / "no/folder/s.sqlite", "1"), std::runtime_error);
 }
 
 }  // namespace
