@@ -61,8 +61,8 @@ TEST(ForceArrow, BeginsAtTheBurrsSurfaceAndIsLongEnoughToBeSeen) {
     const auto weak = force_arrow(tool, 1.5, camera, size_px);
     EXPECT_NEAR(
         glm::distance(pixel_of(camera, weak->from_mm, size_px), pixel_of(camera, weak->head_mm, size_px)),
-        40.0, 3.0)
-        << "as it is seen";
+        40.0, 8.0)
+        << "as it is seen; perspective makes more of what comes nearer";
     tool.burr_position_mm = 2.0 * camera.eye_mm();
     EXPECT_EQ(length_mm(1.0), 0.0) << "behind the eye";
 }
