@@ -69,7 +69,7 @@ class RecordingTest(unittest.TestCase):
     def test_is_the_table_that_packet_replay_writes(self):
         with om.Recording(self.file) as recording, tempfile.TemporaryDirectory() as folder:
             table = pathlib.Path(folder) / "table.csv"
-            subprocess.run([program("packet_replay"), self.file, "--csv", table], check=True, capture_output=True)
+            subprocess.run([program("packet_replay"), self.file, "--states-csv", table], check=True, capture_output=True)
             rows = list(csv.DictReader(table.read_text().splitlines()))
             self.assertEqual([row["time_s"] for row in rows], [f"{t:.4f}" for t in recording.time_s])
             self.assertEqual([row["force_z_n"] for row in rows], [f"{f:.5f}" for f in recording.force_n[:, 2]])
