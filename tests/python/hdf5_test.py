@@ -256,7 +256,8 @@ class FivrsTest(Converted):
         with self.open() as ours:
             rgb = {0: (255, 249, 219)}
             rgb.update(zip(ours["tissues/label"][:], map(tuple, ours["tissues/colour_rgb"][:])))
-        self.assertGreater(len(set(tissue)), 1)
+        self.assertEqual(set(tissue), {7}, "all of it is carious lesion")
+        self.assertEqual(len(set(rgb.values())), len(rgb), "each tissue has a colour of its own")
         np.testing.assert_array_equal(colours[:, 1:4], [rgb[label] for label in tissue])
         self.assertTrue(np.all(colours[:, 4] == 255))
 
