@@ -139,6 +139,25 @@ class WindowTest : public ::testing::Test {
         return server_->err().find(text) != std::string::npos;
     }
     void press(const std::string& key) const { ASSERT_TRUE(display_->xdotool({"key", key})) << key; }
+    /// The page's cards show bones, too.
+    bool shows_session() const {
+        const Picture screen = display_->screen();
+        return !shows_start_page(screen) && shows_bone(screen);
+    }
+    /// Ends the session that the window started, sees its report and closes the window.
+    void finish_with_report(const std::string& begins_with) {
+        press_and_see("F10");
+        press("Return");
+        EXPECT_TRUE(comes_true([&] {
+            for (const auto& report : std::filesystem::directory_iterator(folder("home/osteomill/reports")))
+                if (report.path().filename().string().starts_with(begins_with) &&
+                    std::filesystem::exists(report.path() / "report.html"))
+                    return true;
+            return false;
+        })) << window_->err();
+        press("Escape");
+        EXPECT_EQ(window_->wait(), 0) << window_->err();
+    }
 
     TemporaryFolder folder_;
     std::optional<ChildProcess> server_;
@@ -319,22 +338,9 @@ TEST_F(WindowTest, ImportsAScanAndStartsASessionOfItByMouse) {
         return std::filesystem::exists(folder("home/osteomill/cases/scan/case.toml"));
     })) << window_->err();
     ASSERT_TRUE(is_there("cases/scan/bone.nrrd"));
-    // The page's cards show bones, too.
-    const auto shows_session = [&] {
-        const Picture screen = display_->screen();
-        return !shows_start_page(screen) && shows_bone(screen);
-    };
-    ASSERT_TRUE(press_until(619, shows_session)) << window_->err();  // Start
+    ASSERT_TRUE(press_until(619, [&] { return shows_session(); })) << window_->err();  // Start
     ASSERT_TRUE(is_there("reports"));
-    press_and_see("F10");
-    press("Return");
-    EXPECT_TRUE(comes_true([&] {
-        for (const auto& report : std::filesystem::directory_iterator(folder("home/osteomill/reports")))
-            if (std::filesystem::exists(report.path() / "report.html")) return true;
-        return false;
-    }));
-    press("Escape");
-    EXPECT_EQ(window_->wait(), 0) << window_->err();
+    finish_with_report("scan-");
 }
 
 TEST_F(WindowTest, StartsASessionByKeyboardAlone) {
@@ -354,14 +360,8 @@ TEST_F(WindowTest, StartsASessionByKeyboardAlone) {
         press(key);
         ASSERT_TRUE(shows_otherwise_than(before, 0.0005)) << key << ": the focus is shown";
     }
-    EXPECT_TRUE(comes_true([&] {
-        std::error_code ignored;
-        for (std::filesystem::directory_iterator report(folder("home/osteomill/reports"), ignored), end;
-             report != end; report.increment(ignored))
-            if (report->path().filename().string().starts_with("cube-anna-")) return true;
-        return false;
-    })) << window_->err();
-    press("Escape");
+    ASSERT_TRUE(comes_true([&] { return shows_session(); })) << window_->err();
+    finish_with_report("cube-anna-");
 }
 
 TEST_F(WindowTest, DrawsOnlyWhatChanges) {
