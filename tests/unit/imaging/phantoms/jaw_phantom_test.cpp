@@ -143,7 +143,8 @@ TEST(JawPhantom, TheNerveLiesWithinBoneFromEndToEnd) {
 }
 
 TEST(JawPhantom, CariesIsSoftestInTheMiddleAndFarFromThePulp) {
-    const Tissue& lesion = phantom_scene("jaw").tissues.at(6);
+    const Scene scene = phantom_scene("jaw");
+    const Tissue& lesion = scene.tissues.at(6);
     ASSERT_EQ(lesion.name, "carious lesion");
     std::vector<glm::dvec3> lesions, pulps;
     double softest = 10.0, hardest = 0.0;
