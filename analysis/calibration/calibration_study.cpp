@@ -90,7 +90,7 @@ std::string text_of(const char* name, const RunDesign& design, double spread_n) 
     return said;
 }
 
-/// What a choice of runs comes to: the table to fill in and what is told of it.
+/// What a choice of runs comes to: the table to fill in, and a summary.
 std::array<std::string, 2> designed(const DesignOptions& options) {
     const std::vector<Candidate> candidates = candidates_of(options.lattice);
     const RunDesign design = optimal_design(candidates, options.runs, options.seed);
@@ -138,10 +138,10 @@ void design_runs(const DesignOptions& options, const StudySurroundings& surround
     const auto planned =
         run.plan(std::vector{options}, [](const DesignOptions&) { return "design"; }, designed);
     if (!run.perform()) return;
-    const auto [table, told] = planned.outcomes().front();
+    const auto [table, summary] = planned.outcomes().front();
     write_text(table, options.out / "design.csv");
     surroundings.said << table;
-    run.say("{}", told);
+    run.say("{}", summary);
     run.say("the table to fill in is {}", (options.out / "design.csv").string());
 }
 

@@ -77,7 +77,8 @@ void StudyRun::write(const nlohmann::ordered_json& json, const std::string& name
 }
 
 void StudyRun::draw(std::initializer_list<const char*> charts) const {
-    for (const char* chart : charts) draw_chart(chart_scripts(), chart, out_);
+    const std::filesystem::path scripts = chart_scripts();
+    for (const char* const chart : charts) draw_chart(scripts, chart, out_);
 }
 
 void require_charts_of(const StudySurroundings& surroundings) {

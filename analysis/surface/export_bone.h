@@ -23,10 +23,10 @@ struct ExportOptions {
 ParseResult<ExportOptions> parse_export_command_line(int argc, const char* const* argv,
                                                      const std::string& version);
 
-/// Writes the file and tells `say` in a line what is in it. `progress` is told before each part of the work;
-/// what it throws ends the work, and nothing was written. Throws std::exception with one line for a file that
-/// holds no bone, bones of two grids, a bone that was not carved from the original, an output that cannot be
-/// written.
+/// Writes the file and says in a line (`say`) what is in it. `progress` is called before each part of the
+/// work; what it throws ends the work, and nothing was written. Throws std::exception with one line for a
+/// file that holds no bone, bones of two grids, a bone that was not carved from the original, an output that
+/// cannot be written.
 void export_bone(const ExportOptions& options, const std::function<void(const std::string&)>& say,
                  const ReportProgress& progress);
 

@@ -125,7 +125,7 @@ ValueError, RuntimeError: in one line, what is wrong and what would be right.)")
             "Keys of removed_mm3, in order.")
         .def_property_readonly(
             "structures", [](const LoadedCase& loaded) { return loaded.structures(); },
-            "Names of the protected tissues, whose distance is told.")
+            "Names of the protected tissues, whose distance is measured.")
         .def_property_readonly(
             "burrs", [](const LoadedCase& loaded) { return loaded.settings().burrs; },
             "The set that a session may take from.")
