@@ -12,6 +12,7 @@
 #include <cmath>
 #include <csignal>
 #include <memory>
+#include <optional>
 #include <string>
 #include <thread>
 #include <vector>
@@ -123,10 +124,16 @@ class Permissions : public ::testing::Test {
     /// What it did so far.
     std::vector<ForceLogLine> log_so_far() const { return read_force_log(folder_ / "log.part.csv"); }
 
+    /// The newest tool, with which the session's clock is set.
+    std::optional<ToolState> seen(BoneLink& link) {
+        link.poll();
+        const auto tool = link.newest_tool();
+        if (tool) clock_.note(*tool);
+        return tool;
+    }
     /// An operator where the tool is, whose pedal is down.
     void drive(BoneLink& link, bool pedal = true) {
-        if (const auto update = link.poll(); update.tool) clock_.note(*update.tool);
-        const auto tool = link.newest_tool();
+        const auto tool = seen(link);
         if (!tool) return;
         link.send_operator(
             {.hand_target_mm = tool->hand_position_mm, .pedal = pedal_.is_down(tool->spindle_on) && pedal});
@@ -148,8 +155,11 @@ class Permissions : public ::testing::Test {
             link, [] { return false; }, time);
     }
     bool gets_spindle(BoneLink& link, std::chrono::milliseconds at_most = far_too_long) {
-        return drive_until(
-            link, [&] { return link.newest_tool() && link.newest_tool()->spindle_on; }, at_most);
+        const auto turns = [&] {
+            const auto tool = seen(link);
+            return tool && tool->spindle_on;
+        };
+        return drive_until(link, turns, at_most);
     }
 
     TemporaryFolder folder_;
@@ -185,10 +195,10 @@ TEST_F(Permissions, IsHadAgainOnlyByThePedalPressedAnew) {
     const auto say_for = [&](double time_s, bool pedal) {
         const double began_s = clock_.now_s();
         EXPECT_TRUE(eventually([&] {
-            if (const auto update = link.poll(); update.tool) clock_.note(*update.tool);
-            link.send_operator({.hand_target_mm = link.newest_tool()->hand_position_mm, .pedal = pedal});
+            const auto tool = seen(link);
+            link.send_operator({.hand_target_mm = tool->hand_position_mm, .pedal = pedal});
             std::this_thread::sleep_for(10ms);
-            return link.newest_tool()->time_s > began_s + time_s;
+            return tool->time_s > began_s + time_s;
         }));
         return began_s;
     };
