@@ -26,7 +26,8 @@ glm::dvec3 Camera::eye_mm() const {
 }
 
 glm::dvec3 Camera::right() const {
-    return {std::cos(azimuth_rad), std::sin(azimuth_rad), 0.0};
+    const glm::dvec3 level{std::cos(azimuth_rad), std::sin(azimuth_rad), 0.0};
+    return std::cos(roll_rad) * level + std::sin(roll_rad) * glm::cross(level, forward());
 }
 
 glm::dvec3 Camera::up() const {
@@ -43,13 +44,14 @@ glm::dvec2 Camera::half_extent(const glm::ivec2& size_px) const {
 }
 
 glm::dvec3 Camera::middle_ray() const {
-    return forward() + middle_slope * right();
+    return forward() + middle_slope * right() + middle_rise * up();
 }
 
 glm::dmat4 Camera::projection(const glm::ivec2& size_px) const {
     const double aspect = pixel_aspect * size_px.x / std::max(size_px.y, 1);
     glm::dmat4 projection = glm::perspective(field_of_view_rad, aspect, near_mm, far_mm);
     projection[2][0] = middle_slope / half_extent(size_px).x;
+    projection[2][1] = middle_rise / half_extent(size_px).y;
     return projection;
 }
 
@@ -89,10 +91,11 @@ double mm_per_px_at(const Camera& camera, const glm::dvec3& position_mm, const g
 glm::dvec2 pixel_of(const Camera& camera, const glm::dvec3& position_mm, const glm::ivec2& size_px) {
     const double mm_per_px = mm_per_px_at(camera, position_mm, size_px);
     const glm::dvec3 from_eye = position_mm - camera.eye_mm();
-    const double from_middle_mm =
-        glm::dot(from_eye, camera.right()) - camera.middle_slope * glm::dot(from_eye, camera.forward());
-    return {0.5 * size_px.x + from_middle_mm / (camera.pixel_aspect * mm_per_px),
-            0.5 * size_px.y - glm::dot(from_eye, camera.up()) / mm_per_px};
+    const double depth_mm = glm::dot(from_eye, camera.forward());
+    const double right_mm = glm::dot(from_eye, camera.right()) - camera.middle_slope * depth_mm;
+    const double up_mm = glm::dot(from_eye, camera.up()) - camera.middle_rise * depth_mm;
+    return {0.5 * size_px.x + right_mm / (camera.pixel_aspect * mm_per_px),
+            0.5 * size_px.y - up_mm / mm_per_px};
 }
 
 glm::dvec3 direction_through(const Camera& camera, const glm::dvec2& pixel, const glm::ivec2& size_px) {

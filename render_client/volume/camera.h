@@ -1,4 +1,4 @@
-// The camera: orbits a target, always upright (patient z is up in the picture), perspective.
+// The camera: orbits a target, upright unless it is rolled (patient z is up in the picture), perspective.
 #pragma once
 
 #include <glm/mat4x4.hpp>
@@ -19,8 +19,10 @@ struct Camera {
     double field_of_view_rad = 0.6;  ///< vertical
     double near_mm = 1.0;
     double far_mm = 1000.0;
+    double roll_rad = 0.0;      ///< turns the picture's axes about forward(); positive: its right side rises
     double eye_right_mm = 0.0;  ///< how far the eye is to the right of the middle: one of a pair (stereo.h)
     double middle_slope = 0.0;  ///< of the ray through the picture's middle: mm to the right a mm forward
+    double middle_rise = 0.0;   ///< the same upwards
     double pixel_aspect = 1.0;  ///< width of a pixel, as it is shown, over its height
 
     bool operator==(const Camera&) const = default;
