@@ -19,6 +19,16 @@ png_image rgb_image() {
     return image;
 }
 
+void write(png_image& image, const glm::ivec2& size_px, const void* pixels, const void* colours,
+           const std::filesystem::path& file) {
+    image.width = static_cast<png_uint_32>(size_px.x);
+    image.height = static_cast<png_uint_32>(size_px.y);
+    AtomicFile whole(file, Link::replace);  // its name is ours
+    if (!png_image_write_to_file(&image, whole.part().c_str(), 0, pixels, 0, colours))
+        throw std::runtime_error("cannot write the picture " + file.string() + ": " + image.message);
+    whole.commit_unsynced();
+}
+
 /// Of an image that has been begun to be read.
 Picture finish_reading(png_image& image, bool has_begun, const std::string& name) {
     Picture picture({static_cast<int>(image.width), static_cast<int>(image.height)});
@@ -32,14 +42,18 @@ Picture finish_reading(png_image& image, bool has_begun, const std::string& name
 
 void write_png(const Picture& picture, const std::filesystem::path& file) {
     png_image image = rgb_image();
-    image.width = static_cast<png_uint_32>(picture.size_px.x);
-    image.height = static_cast<png_uint_32>(picture.size_px.y);
     // A frame is written between two drawn ones: speed counts for more than size.
     image.flags = PNG_IMAGE_FLAG_FAST;
-    AtomicFile whole(file, Link::replace);  // its name is ours
-    if (!png_image_write_to_file(&image, whole.part().c_str(), 0, picture.rgb.data(), 0, nullptr))
-        throw std::runtime_error("cannot write the picture " + file.string() + ": " + image.message);
-    whole.commit_unsynced();
+    write(image, picture.size_px, picture.rgb.data(), nullptr, file);
+}
+
+void write_indexed_png(const glm::ivec2& size_px, std::span<const std::uint8_t> indices,
+                       std::span<const std::array<std::uint8_t, 3>> colours_rgb,
+                       const std::filesystem::path& file) {
+    png_image image = rgb_image();
+    image.format = PNG_FORMAT_RGB_COLORMAP;
+    image.colormap_entries = static_cast<png_uint_32>(colours_rgb.size());
+    write(image, size_px, indices.data(), colours_rgb.data(), file);
 }
 
 Picture read_png(const std::filesystem::path& file) {

@@ -1,6 +1,7 @@
-// Pictures as PNG files (libpng, 8-bit RGB).
+// Pictures as PNG files (libpng): of 8-bit RGB, or of indices into a table of colours.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <span>
@@ -11,6 +12,11 @@ namespace osteomill {
 
 /// Replaces the file as a whole. Throws std::runtime_error naming the file where it cannot be written.
 void write_png(const Picture& picture, const std::filesystem::path& file);
+
+/// `indices` a pixel into `colours_rgb`, at most 256; otherwise the same.
+void write_indexed_png(const glm::ivec2& size_px, std::span<const std::uint8_t> indices,
+                       std::span<const std::array<std::uint8_t, 3>> colours_rgb,
+                       const std::filesystem::path& file);
 
 /// Throws std::runtime_error naming the file where it cannot be read.
 Picture read_png(const std::filesystem::path& file);

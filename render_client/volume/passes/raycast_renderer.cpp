@@ -14,23 +14,28 @@ glm::vec2 depth_terms(const Camera& camera, double spacing_mm, const glm::ivec2&
 
 }  // namespace
 
-RaycastRenderer::RaycastRenderer(const RaycastSettings& settings)
-    : bone_program_(raycast_files), settings_(settings) {}
-
-void RaycastRenderer::draw(const BoneTextures& bone, const Camera& camera, const glm::ivec2& size_px) {
-    background_.draw(look(), size_px);
+void set_ray_uniforms(const gl::Program& program, const BoneTextures& bone, const Camera& camera,
+                      const glm::ivec2& size_px, const RaycastSettings& settings) {
     const glm::dvec2 half_extent = camera.half_extent(size_px);
-    const gl::Program& program = bone_program_.use(bone, look());
-    program.set("step_length", settings_.step_voxels);
-    program.set("skips", settings_.skipping == EmptySpaceSkipping::distance_map ? 1 : 0);
+    program.set("step_length", settings.step_voxels);
+    program.set("skips", settings.skipping == EmptySpaceSkipping::distance_map ? 1 : 0);
     program.set("forward", glm::vec3(camera.forward()));
     program.set("middle_ray", glm::vec3(camera.middle_ray()));
     program.set("right", glm::vec3(half_extent.x * camera.right()));
     program.set("up", glm::vec3(half_extent.y * camera.up()));
     program.set("eye", glm::vec3(bone.to_box_voxels(camera.eye_mm())));
+    program.set("depth_terms", depth_terms(camera, bone.grid().spacing_mm, size_px));
+}
+
+RaycastRenderer::RaycastRenderer(const RaycastSettings& settings)
+    : bone_program_(raycast_files), settings_(settings) {}
+
+void RaycastRenderer::draw(const BoneTextures& bone, const Camera& camera, const glm::ivec2& size_px) {
+    background_.draw(look(), size_px);
+    const gl::Program& program = bone_program_.use(bone, look());
+    set_ray_uniforms(program, bone, camera, size_px, settings_);
     program.set("picture_size", glm::vec2(size_px));
     set_background_uniforms(program, look());
-    program.set("depth_terms", depth_terms(camera, bone.grid().spacing_mm, size_px));
 
     // What one sees through has no depth, that is, the background's.
     glDepthFunc(GL_LEQUAL);

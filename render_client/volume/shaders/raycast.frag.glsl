@@ -1,53 +1,9 @@
-// Ray casting; follows cut_shading.glsl, behind camera_rays.vert.glsl. Lengths are in voxels, in texture coordinates of the
-// bone's box (the first voxel spans 0 to 1), axes are the patient's.
+// Ray casting; follows cut_shading.glsl and bone_rays.glsl.
 
-uniform vec3 eye;
-uniform vec3 forward;
-uniform vec2 depth_terms;      // window depth = x + y / distance along forward
-uniform float step_length;
-uniform bool skips;
 uniform vec2 picture_size;
-in vec3 ray;
 out vec4 pixel;
 
 const float darkest_seen = 0.004;  // of light that comes through: less changes no displayed level by one
-
-vec3 direction;
-float enter, leave;
-
-float depth_of(float distance_along) {
-    return depth_terms.x + depth_terms.y / (distance_along * dot(direction, forward));
-}
-
-// Samples stand on one lattice along the ray, skipped or not, so skipping cannot change the picture. False
-// where no sample from `index` on meets bone; else index is the first that does.
-bool find_bone(inout float index) {
-    for (int visit = 0; visit < 16384; ++visit) {
-        float distance_along = enter + index * step_length;
-        if (distance_along > leave) return false;
-        vec3 p = eye + distance_along * direction;
-        float skip = skips ? skip_distance(p, direction) : 0.0;
-        if (skip > 0.0) {
-            index += max(ceil(skip / step_length), 1.0);
-            continue;
-        }
-        if (fraction_at(p) >= bone_surface) return true;
-        index += 1.0;
-    }
-    return false;
-}
-
-// How far along the ray the surface before a sample within bone is.
-float surface_before(float index) {
-    float outside = enter + max(index - 1.0, 0.0) * step_length;
-    float inside = enter + index * step_length;
-    for (int halving = 0; halving < 6; ++halving) {
-        float middle = 0.5 * (outside + inside);
-        if (fraction_at(eye + middle * direction) >= bone_surface) inside = middle;
-        else outside = middle;
-    }
-    return inside;
-}
 
 void draw_surface(float index) {
     float inside = surface_before(index);
@@ -81,17 +37,7 @@ void draw_translucent(float index) {
 }
 
 void main() {
-    direction = normalize(ray);
-    direction = mix(direction, vec3(1e-6), lessThan(abs(direction), vec3(1e-6)));
-    // One voxel beyond the box on every side the fraction has fallen to zero.
-    vec3 to_low = (vec3(-1.0) - eye) / direction;
-    vec3 to_high = (bone_size + 1.0 - eye) / direction;
-    vec3 enter3 = min(to_low, to_high);
-    vec3 leave3 = max(to_low, to_high);
-    enter = max(max(enter3.x, enter3.y), max(enter3.z, 0.0));
-    leave = min(leave3.x, min(leave3.y, leave3.z));
-    clip_by_cuts(eye, direction, enter, leave);
-
+    begin_ray();
     float index = 0.0;
     // A software rasteriser goes no further where all of a group of pixels are discarded; the two sides of a
     // branch it would both compute.

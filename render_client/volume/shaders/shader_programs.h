@@ -23,11 +23,16 @@ inline constexpr ProgramFiles interleave_rows_files{"upscale.vert.glsl", {"inter
 inline constexpr ProgramFiles structure_files{"structure.vert.glsl",
                                               {"cuts.glsl", "lighting.glsl", "structure.frag.glsl"}};
 inline constexpr ProgramFiles tool_files{"tool.vert.glsl", {"lighting.glsl", "tool.frag.glsl"}};
+inline constexpr ProgramFiles mesh_surface_files{"tool.vert.glsl", {"mesh_surface.frag.glsl"}};
 
 /// Those of BoneProgram, which puts what samples the bone ahead of them.
 inline constexpr ProgramFiles raycast_files{
     "camera_rays.vert.glsl",
-    {"lighting.glsl", "background.glsl", "bone_shading.glsl", "cut_shading.glsl", "raycast.frag.glsl"}};
+    {"lighting.glsl", "background.glsl", "bone_shading.glsl", "cut_shading.glsl", "bone_rays.glsl",
+     "raycast.frag.glsl"}};
+inline constexpr ProgramFiles bone_surface_files{
+    "camera_rays.vert.glsl",
+    {"lighting.glsl", "bone_shading.glsl", "bone_rays.glsl", "bone_surface.frag.glsl"}};
 inline constexpr ProgramFiles slice_files{
     "slice.vert.glsl", {"lighting.glsl", "bone_shading.glsl", "cut_shading.glsl", "slice.frag.glsl"}};
 inline constexpr std::array<std::string_view, 2> bone_sampling_files{"bone_sampling.glsl", "cuts.glsl"};

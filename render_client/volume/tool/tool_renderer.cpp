@@ -23,12 +23,6 @@ glm::dmat4 z_to(const glm::dvec3& axis) {
     return {glm::dvec4(x, 0.0), glm::dvec4(y, 0.0), glm::dvec4(z, 0.0), glm::dvec4(0.0, 0.0, 0.0, 1.0)};
 }
 
-glm::dmat4 pose_of(const DrawnTool& tool) {
-    const glm::dmat4 at_burr =
-        glm::translate(glm::dmat4(1.0), tool.state.burr_position_mm) * z_to(tool.state.spindle_axis);
-    return glm::rotate(at_burr, tool.spin_rad, glm::dvec3(0, 0, 1));
-}
-
 // Values of sees_through in tool.frag.glsl.
 constexpr float leave_out = 1.0f;
 constexpr float leave_only = 2.0f;
@@ -47,7 +41,8 @@ constexpr double edge_radii = 2.5;  // as in tool.frag.glsl
 
 HiddenField field_of(const DrawnTool& tool, const Camera& camera, const glm::ivec2& size_px) {
     const glm::dvec3& burr_mm = tool.state.burr_position_mm;
-    if (glm::dot(burr_mm - camera.eye_mm(), camera.forward()) < camera.near_mm) return {};
+    if (tool.is_only_a_thing || glm::dot(burr_mm - camera.eye_mm(), camera.forward()) < camera.near_mm)
+        return {};
     const double mm_per_px = mm_per_px_at(camera, burr_mm, size_px);
     const double radius_px = std::max(0.5 * tool.burr.diameter_mm / mm_per_px, least_radius_px);
     const glm::dvec2 down = pixel_of(camera, burr_mm, size_px);
@@ -55,6 +50,12 @@ HiddenField field_of(const DrawnTool& tool, const Camera& camera, const glm::ive
 }
 
 }  // namespace
+
+glm::dmat4 pose_of(const DrawnTool& tool) {
+    const glm::dmat4 at_burr =
+        glm::translate(glm::dmat4(1.0), tool.state.burr_position_mm) * z_to(tool.state.spindle_axis);
+    return glm::rotate(at_burr, tool.spin_rad, glm::dvec3(0, 0, 1));
+}
 
 std::optional<ForceArrow> force_arrow(const ToolState& tool, double burr_radius_mm, const Camera& camera,
                                       const glm::ivec2& size_px) {
@@ -122,6 +123,7 @@ void ToolRenderer::draw(const DrawnTool& tool, const Camera& camera, TileMask& c
 }
 
 void ToolRenderer::draw_force(const DrawnTool& tool, const Camera& camera, TileMask& covered) const {
+    if (tool.is_only_a_thing) return;
     const auto arrow = force_arrow(tool.state, 0.5 * tool.burr.diameter_mm, camera, covered.size_px());
     if (!arrow) return;
     constexpr double thickest_mm = 10.0, thinnest_px = 70.0, outline_px = 1.5;

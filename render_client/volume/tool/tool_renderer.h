@@ -21,7 +21,11 @@ struct DrawnTool {
     BurrShape burr{};  ///< of that state
     double spin_rad = 0.0;
     std::optional<glm::dvec3> hand_target_mm{};  ///< drawn as a translucent burr where it is given
+    bool is_only_a_thing = false;                ///< no part of it is seen through, no force is drawn
 };
+
+/// Of the tool's own axes (the shapes of tool_shape.h) in patient LPS, mm.
+glm::dmat4 pose_of(const DrawnTool& tool);
 
 /// Patient LPS.
 struct ForceArrow {

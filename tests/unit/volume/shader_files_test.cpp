@@ -20,9 +20,9 @@ class ShaderFilesTest : public OffscreenTest {};
 /// The constants of a variant of BoneProgram.
 std::string variant_constants(int bits) {
     std::string text;
-    for (const char* name :
-         {"bone_has_colour_code", "bone_codes_are_mostly_alike", "bone_has_smoothed",
-          "bone_has_surface_colours", "bone_is_translucent", "bone_is_occluded", "bone_shines", "cuts_show_ct"}) {
+    for (const char* name : {"bone_has_colour_code", "bone_codes_are_mostly_alike", "bone_has_smoothed",
+                             "bone_has_surface_colours", "bone_is_translucent", "bone_is_occluded",
+                             "bone_shines", "cuts_show_ct"}) {
         text += std::string("const bool ") + name + (bits % 2 == 1 ? " = true;\n" : " = false;\n");
         bits /= 2;
     }
@@ -38,8 +38,9 @@ std::vector<std::string_view> behind_bone_sampling(std::string_view places, cons
 
 TEST_F(ShaderFilesTest, AllCompileInAllTheirPrograms) {
     std::set<std::string_view> used;
-    for (const ProgramFiles& files : {background_files, gathered_light_files, contact_shadow_files,
-                                      upscale_files, interleave_rows_files, light_field_files, tool_files}) {
+    for (const ProgramFiles& files :
+         {background_files, gathered_light_files, contact_shadow_files, upscale_files, interleave_rows_files,
+          light_field_files, tool_files, mesh_surface_files}) {
         EXPECT_NO_THROW(make_program(files)) << files.vertex;
         used.insert(files.vertex);
         used.insert(files.fragment.begin(), files.fragment.end());
@@ -48,7 +49,7 @@ TEST_F(ShaderFilesTest, AllCompileInAllTheirPrograms) {
                                  shader_text(structure_files.fragment, "const int cut_count = 4;\n")));
     used.insert(structure_files.vertex);
     used.insert(structure_files.fragment.begin(), structure_files.fragment.end());
-    for (const ProgramFiles& files : {raycast_files, slice_files})
+    for (const ProgramFiles& files : {raycast_files, slice_files, bone_surface_files})
         for (const char* places : {"dense_places.glsl", "atlas_places.glsl"}) {
             const auto names = behind_bone_sampling(places, files);
             for (const int bits : {0, 1, 2 + 1, 4, 8, 16, 32, 64 + 32, 127})

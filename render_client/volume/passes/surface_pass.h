@@ -1,0 +1,76 @@
+// The surfaces of one moment as numbers: for every pixel the depth, the normal and the thing that its ray
+// meets first.
+//
+// Each pixel has a ray of its own through its middle, and nothing is blended: at a silhouette a pixel is of
+// one thing, with that thing's depth. Bone is found by the very steps that RaycastRenderer finds it by, tool
+// and structures are the meshes that the picture shows, so that picture and numbers are of the same things.
+// All is solid: what one may see through in a picture is where it begins.
+#pragma once
+
+#include <epoxy/gl.h>
+
+#include <cstdint>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <limits>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "render_client/volume/gl/full_screen.h"
+#include "render_client/volume/gl/mesh.h"
+#include "render_client/volume/passes/raycast_renderer.h"
+#include "render_client/volume/structures/structure_surface.h"
+#include "render_client/volume/tool/tool_renderer.h"
+
+namespace osteomill {
+
+/// Rows from the top, pixels from the left.
+struct SurfaceImage {
+    static constexpr std::uint8_t nothing = 0, burr = 1, shank = 2, bone = 3;
+    static constexpr float no_depth = std::numeric_limits<float>::infinity();
+
+    glm::ivec2 size_px{0};
+    std::vector<float> depth_mm;      ///< along the camera's axis; no_depth where there is nothing
+    std::vector<glm::vec3> normal;    ///< unit, out of the thing; the camera's axes right, down, forward
+    std::vector<std::uint8_t> thing;  ///< one of those above, or a structure's own number
+};
+
+class SurfacePass {
+  public:
+    /// Throws std::runtime_error where the driver cannot draw into such a picture.
+    explicit SurfacePass(const glm::ivec2& size_px);
+    ~SurfacePass();
+    SurfacePass(const SurfacePass&) = delete;
+    SurfacePass& operator=(const SurfacePass&) = delete;
+
+    /// Another soft structure, with the number that it has in pictures, above those of SurfaceImage.
+    void add_structure(const StructureSurface& surface, std::uint8_t thing);
+
+    /// `tool` null: there is none yet. Rays end at the camera's near and far planes.
+    SurfaceImage draw(const BoneTextures& bone, const DrawnTool* tool, const Camera& camera);
+
+  private:
+    struct Structure {
+        gl::Mesh mesh;
+        glm::dvec3 origin_mm;
+        std::uint8_t thing;
+    };
+    void draw_meshes(const DrawnTool* tool, const Camera& camera);
+    SurfaceImage read_back() const;
+
+    glm::ivec2 size_px_;
+    GLuint framebuffer_ = 0;
+    GLuint surface_ = 0;
+    GLuint thing_ = 0;
+    GLuint depth_ = 0;
+    BoneProgram bone_program_;
+    gl::Program mesh_program_;
+    gl::FullScreen full_screen_;
+    BurrShape burr_shape_;
+    gl::Mesh head_;
+    gl::Mesh shank_;
+    std::vector<Structure> structures_;
+};
+
+}  // namespace osteomill
